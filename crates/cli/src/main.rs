@@ -1,0 +1,3 @@
+//! The hexbench command.
+
+fn main() {}

@@ -1,0 +1,76 @@
+//! Measurements: what was commanded, what was applied, what was read.
+
+use crate::{Pose, Wrench};
+
+/// What the six measured numbers of an observation are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Measurand {
+    /// Loaded minus reference; rotation as differences of the Euler angles.
+    DeflectionEuler,
+    /// Loaded minus reference; rotation as a rotation vector in fixed axes.
+    DeflectionRotationVector,
+    /// The pose itself, in an unknown constant metrology frame, of an unknown constant target frame.
+    AbsolutePose,
+}
+
+/// One reading. SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observation {
+    /// Number of the pose as the file gives it.
+    pub pose_id: i64,
+    /// Number of the repeat as the file gives it.
+    pub repeat: i64,
+    /// Line of the file, from 1, header included.
+    pub line: u64,
+    /// Commanded pose.
+    pub pose: Pose,
+    /// Wrench in the loaded state.
+    pub wrench: Wrench,
+    /// Wrench in the reference state; zero when the file has no such columns.
+    pub reference: Wrench,
+    /// +1: loaded from below; -1: the load was first exceeded and reached coming back.
+    pub approach: f64,
+    /// Structure temperature at the loaded reading minus at the reference reading, K.
+    pub delta_t: f64,
+    /// Time from the reference reading to the loaded reading, s.
+    pub elapsed: f64,
+    /// Measured values: translation (m), rotation (rad), meaning as in [`Measurand`].
+    pub measured: [f64; 6],
+    /// Standard deviation of each measured value when the row states it, m and rad.
+    pub sigma: Option<[f64; 6]>,
+}
+
+/// Which optional columns the file had; a term whose column is missing cannot be tested.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Columns {
+    /// All six `ref_*` columns.
+    pub reference: bool,
+    /// `approach`.
+    pub approach: bool,
+    /// `delta_T_*`.
+    pub delta_t: bool,
+    /// `elapsed_*`.
+    pub elapsed: bool,
+    /// All six `sigma_*` columns.
+    pub sigma: bool,
+}
+
+/// A measurement file as read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dataset {
+    /// Name of the file, for messages.
+    pub source: String,
+    /// Meaning of the measured values.
+    pub measurand: Measurand,
+    /// Optional columns present.
+    pub columns: Columns,
+    /// The rows in file order.
+    pub observations: Vec<Observation>,
+}
+
+impl Dataset {
+    /// True in absolute mode.
+    pub fn is_absolute(&self) -> bool {
+        self.measurand == Measurand::AbsolutePose
+    }
+}

@@ -1,0 +1,27 @@
+//! Nouns and units of hexapod elastostatics, and the files that carry them. No physics.
+//!
+//! Conventions (every public item follows them unless it says otherwise):
+//!
+//! - The fixed (base) frame and the mobile (platform) frame coincide at the zero pose.
+//! - A pose is `[a, b, c, alpha, beta, gamma]` with extrinsic X-Y-Z angles, `R = Rz(gamma) Ry(beta) Rx(alpha)`.
+//! - A wrench `[F; M]` is applied *to the platform*, at the mobile origin, in fixed axes.
+//! - SI units inside (m, rad, N, N m, K, s); units appear in names only where a value crosses a border.
+
+pub mod dataset;
+pub mod hexapod;
+pub mod pose;
+pub mod wrench;
+
+pub use dataset::{Columns, Dataset, Measurand, Observation};
+pub use hexapod::{Hexapod, Metrology};
+pub use pose::Pose;
+pub use wrench::Wrench;
+
+/// A point or direction, metres or unit length.
+pub type Vector3 = nalgebra::Vector3<f64>;
+/// Six numbers in the order translation, rotation (or one per leg).
+pub type Vector6 = nalgebra::Vector6<f64>;
+/// A rotation matrix or other 3x3 block.
+pub type Matrix3 = nalgebra::Matrix3<f64>;
+/// A 6x6 matrix such as a Jacobian, stiffness or compliance.
+pub type Matrix6 = nalgebra::Matrix6<f64>;
