@@ -1,1 +1,22 @@
 //! The identification model.
+//!
+//! One spring per leg, identified from loaded poses, plus named terms for what the springs leave unexplained.
+
+mod body;
+pub mod campaign;
+pub mod candidates;
+pub mod chain;
+pub mod diagnosis;
+pub mod error;
+pub mod evidence;
+pub mod fit;
+pub mod kinematics;
+pub mod linearization;
+pub mod lsq;
+pub mod machine;
+pub mod noise;
+pub mod pattern;
+mod period;
+pub mod search;
+pub mod term;
+pub mod terms;

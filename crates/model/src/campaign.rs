@@ -1,0 +1,277 @@
+//! A measurement campaign as the model sees it: readings under equal conditions averaged, with their legs.
+//!
+//! Averaging readings that share every input is exact for least squares: the mean carries all the information on
+//! the model, the scatter about it (pure error) only on the noise.
+
+use std::collections::HashMap;
+
+use hexbench_core::{
+    Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, Vector3, Vector6, Wrench,
+};
+use rayon::prelude::*;
+
+use crate::chain::Action;
+use crate::error::ModelError;
+use crate::kinematics::{Legs, cross_matrix, euler_rate_matrix};
+use crate::machine::Machine;
+use crate::noise::{Noise, NoiseSource, stated_or_repeated};
+
+/// Factor by which the load is exceeded before a reading with approach -1.
+const OVERLOAD: f64 = 1.4;
+
+/// Readings that share pose, loads, approach, temperature and time, averaged.
+#[derive(Debug, Clone)]
+pub struct Group {
+    /// Inputs, as of the first reading; `measured` is the weighted mean.
+    pub mean: Observation,
+    /// Standard deviation of each mean value.
+    pub sigma: [f64; 6],
+    /// Indices of the readings in the dataset.
+    pub rows: Vec<u32>,
+}
+
+/// One group with the legs and forces of its pose. Fixed frame, SI.
+#[derive(Debug, Clone)]
+pub struct Condition {
+    /// Pose at which the legs stand: commanded (deflections) or measured, brought back to the platform (absolute).
+    pub pose: Pose,
+    /// Legs of the calibrated machine at that pose.
+    pub legs: Legs,
+    /// Lengths the controller commanded, m.
+    pub commanded_lengths: Vector6,
+    /// Commanded lengths minus those of the zero pose, m.
+    pub extension: Vector6,
+    /// Wrench in the loaded state.
+    pub wrench: Wrench,
+    /// Wrench in the reference state.
+    pub reference: Wrench,
+    /// Leg forces under the load, N, tension positive.
+    pub force: Vector6,
+    /// Leg forces in the reference state, N.
+    pub reference_force: Vector6,
+    /// Largest load on the way to the reading, as leg forces, N: the load itself or the overshoot.
+    pub extreme_force: Vector6,
+    /// +1 or -1, see the file format.
+    pub approach: f64,
+    /// Temperature difference, K.
+    pub delta_t: f64,
+    /// Time since the reference reading, s.
+    pub elapsed: f64,
+    /// Measured values minus what an unloaded perfect machine would show, in measured coordinates.
+    pub reading: Vector6,
+    /// Measured coordinates from the platform's geometric twist at the mobile origin (6x6).
+    pub observer: Matrix6,
+    /// 1 / sigma of each averaged value.
+    pub weight: Vector6,
+}
+
+/// A dataset prepared for one hexapod.
+#[derive(Debug, Clone)]
+pub struct Campaign {
+    /// The machine as drawn.
+    pub hexapod: Hexapod,
+    /// What was measured.
+    pub measurand: Measurand,
+    /// Optional columns present.
+    pub columns: Columns,
+    /// Averaged readings in order of first appearance.
+    pub groups: Vec<Group>,
+    /// Number of readings.
+    pub readings: usize,
+    /// Noise of one reading.
+    pub noise: Noise,
+    /// Sum of squared whitened differences between readings and their mean.
+    pub pure_error: f64,
+    /// Degrees of freedom of the pure error.
+    pub pure_error_dof: f64,
+}
+
+impl Condition {
+    /// Change of leg force between reference and load, N.
+    pub fn force_change(&self) -> Vector6 {
+        self.force - self.reference_force
+    }
+
+    /// The leg forces that an extra force and moment at the mobile origin add. Fixed axes, N and N m.
+    pub fn wrench_action(&self, force: &Vector3, moment: &Vector3) -> Action {
+        let wrench = Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
+        Action::Force(self.legs.forces(&wrench))
+    }
+}
+
+impl Campaign {
+    /// Prepare a dataset with the noise the files state or the repeats show; without either, `sigma` is a guess
+    /// that [`Campaign::with_noise`] replaces after a first fit.
+    ///
+    /// # Errors
+    /// [`ModelError::TooFewEquations`] for an empty dataset.
+    pub fn new(hexapod: &Hexapod, dataset: &Dataset) -> Result<Self, ModelError> {
+        let noise = stated_or_repeated(hexapod, dataset).unwrap_or_else(|| Noise {
+            translation: 1e-6,
+            rotation: 1e-6 / hexapod.platform_radius().max(1e-6),
+            source: NoiseSource::Residuals,
+            dof: 0.0,
+        });
+        Self::with_noise(hexapod, dataset, noise)
+    }
+
+    /// Prepare a dataset with a given noise level; `sigma_*` columns still win where the noise comes from them.
+    ///
+    /// # Errors
+    /// [`ModelError::TooFewEquations`] for an empty dataset.
+    pub fn with_noise(hexapod: &Hexapod, dataset: &Dataset, noise: Noise) -> Result<Self, ModelError> {
+        if dataset.observations.is_empty() {
+            return Err(ModelError::TooFewEquations { equations: 0, unknowns: 6 });
+        }
+        let groups = group(&dataset.observations, &noise);
+        let mut pure_error = 0.0;
+        for g in &groups {
+            for &row in &g.rows {
+                let reading = &dataset.observations[row as usize];
+                pure_error += whitened_square(reading, &g.mean.measured, &noise);
+            }
+        }
+        let extra = dataset.observations.len() - groups.len();
+        Ok(Self {
+            hexapod: hexapod.clone(),
+            measurand: dataset.measurand,
+            columns: dataset.columns,
+            readings: dataset.observations.len(),
+            groups,
+            noise,
+            pure_error,
+            pure_error_dof: 6.0 * extra as f64,
+        })
+    }
+
+    /// True in absolute mode.
+    pub fn is_absolute(&self) -> bool {
+        self.measurand == Measurand::AbsolutePose
+    }
+
+    /// Conditions of this campaign on a machine.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`] for the first pose in file order that is singular.
+    pub fn conditions(&self, machine: &Machine) -> Result<Vec<Condition>, ModelError> {
+        self.groups.par_iter().map(|g| self.condition(machine, g)).collect()
+    }
+
+    fn condition(&self, machine: &Machine, group: &Group) -> Result<Condition, ModelError> {
+        let o = &group.mean;
+        let commanded_lengths = machine.commanded_lengths(&o.pose);
+        let pose =
+            if self.is_absolute() { machine.platform_pose(&Pose::from_array(o.measured)) } else { o.pose };
+        let legs = machine.legs(&pose)?;
+        let observer = self.observer(machine, &pose, &o.measured);
+        let reading = if self.is_absolute() {
+            // Exact closure at the measured pose: no forward kinematics is needed.
+            observer * legs.platform_jacobian * (legs.lengths - commanded_lengths)
+        } else {
+            Vector6::from_column_slice(&o.measured)
+        };
+        let overshoot = o.reference.to_vector() + OVERLOAD * (o.wrench.to_vector() - o.reference.to_vector());
+        let extreme = if o.approach < 0.0 { overshoot } else { o.wrench.to_vector() };
+        Ok(Condition {
+            pose,
+            commanded_lengths,
+            extension: commanded_lengths - machine.home_lengths,
+            wrench: o.wrench,
+            reference: o.reference,
+            force: legs.forces(&o.wrench.to_vector()),
+            reference_force: legs.forces(&o.reference.to_vector()),
+            extreme_force: legs.forces(&extreme),
+            approach: o.approach,
+            delta_t: o.delta_t,
+            elapsed: o.elapsed,
+            reading,
+            observer,
+            weight: Vector6::from_fn(|k, _| 1.0 / group.sigma[k]),
+            legs,
+        })
+    }
+
+    /// Measured coordinates from the geometric twist: Euler differences for Euler readings, and the lever arm of
+    /// the target in absolute mode.
+    fn observer(&self, machine: &Machine, pose: &Pose, measured: &[f64; 6]) -> Matrix6 {
+        let angles = match self.measurand {
+            Measurand::DeflectionRotationVector => return Matrix6::identity(),
+            Measurand::DeflectionEuler => {
+                return observer_matrix(&Matrix3::identity(), &Vector3::zeros(), &pose.angles);
+            }
+            Measurand::AbsolutePose => Vector3::new(measured[3], measured[4], measured[5]),
+        };
+        let lever = pose.rotation() * machine.target_frame.translation.vector;
+        let axes = *machine.metrology_frame.rotation.to_rotation_matrix().matrix();
+        observer_matrix(&axes, &lever, &angles)
+    }
+}
+
+/// `diag(I, M^-1) diag(axes, axes) [I, -[lever]x; 0, I]`.
+fn observer_matrix(axes: &Matrix3, lever: &Vector3, angles: &Vector3) -> Matrix6 {
+    // M is singular only at beta = +-90 deg, where Euler differences mean nothing either.
+    let rates = euler_rate_matrix(angles).try_inverse().unwrap_or_else(Matrix3::identity);
+    let mut h = Matrix6::zeros();
+    h.fixed_view_mut::<3, 3>(0, 0).copy_from(axes);
+    h.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-axes * cross_matrix(lever)));
+    h.fixed_view_mut::<3, 3>(3, 3).copy_from(&(rates * axes));
+    h
+}
+
+fn group(rows: &[Observation], noise: &Noise) -> Vec<Group> {
+    let mut index: HashMap<[u64; 21], usize> = HashMap::new();
+    let mut groups: Vec<Group> = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        let slot = *index.entry(key(row)).or_insert(groups.len());
+        if slot == groups.len() {
+            groups.push(Group { mean: *row, sigma: [0.0; 6], rows: Vec::with_capacity(1) });
+        }
+        groups[slot].rows.push(u32::try_from(i).unwrap_or(u32::MAX));
+    }
+    for g in &mut groups {
+        average(g, rows, noise);
+    }
+    groups
+}
+
+fn average(group: &mut Group, rows: &[Observation], noise: &Noise) {
+    let (mut weights, mut sums) = ([0.0; 6], [0.0; 6]);
+    // Differences from the first reading keep the digits of absolute poses.
+    let first = rows[group.rows[0] as usize].measured;
+    for &i in &group.rows {
+        let row = &rows[i as usize];
+        let sigma = row_sigma(row, noise);
+        for k in 0..6 {
+            let w = sigma[k].powi(-2);
+            weights[k] += w;
+            sums[k] += w * (row.measured[k] - first[k]);
+        }
+    }
+    for k in 0..6 {
+        group.mean.measured[k] = first[k] + sums[k] / weights[k];
+        group.sigma[k] = weights[k].sqrt().recip();
+    }
+}
+
+/// Standard deviation of the six values of one reading.
+pub fn row_sigma(row: &Observation, noise: &Noise) -> [f64; 6] {
+    match (noise.source, row.sigma) {
+        (NoiseSource::Columns, Some(sigma)) => sigma,
+        _ => noise.sigma(),
+    }
+}
+
+fn whitened_square(row: &Observation, mean: &[f64; 6], noise: &Noise) -> f64 {
+    let sigma = row_sigma(row, noise);
+    (0..6).map(|k| ((row.measured[k] - mean[k]) / sigma[k]).powi(2)).sum()
+}
+
+fn key(row: &Observation) -> [u64; 21] {
+    let mut key = [0; 21];
+    let parts = [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array()];
+    let rest = [row.approach, row.delta_t, row.elapsed];
+    for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain(&rest)) {
+        *k = (x + 0.0).to_bits();
+    }
+    key
+}

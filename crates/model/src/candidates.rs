@@ -1,0 +1,240 @@
+//! What competes: the terms this file can test, and patterns outside the catalogue; as one projected Gram matrix.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::campaign::Campaign;
+use crate::evidence::{Block, Gram, NOTICEABLE, WIDEST, widths};
+use crate::linearization::{Linearization, Point, parameter_count};
+use crate::pattern::{Pattern, spread};
+use crate::term::{Natural, Need, Rich, Term};
+
+/// Prior share of the ideal form where there is a richer one.
+const IDEAL_SHARE: f64 = 0.8;
+/// Width of the deviations of a richer form relative to the ideal sizes.
+const RICH_WIDTH: f64 = 0.5;
+
+/// One competitor.
+#[derive(Clone)]
+pub struct Candidate {
+    /// What it is.
+    pub kind: Kind,
+    /// Its blocks in the Gram matrix.
+    pub blocks: Vec<usize>,
+    /// Logarithm of its prior weight relative to a term of the catalogue.
+    pub log_weight: f64,
+}
+
+/// Term or pattern.
+#[derive(Clone)]
+pub enum Kind {
+    /// An effect with a name.
+    Term(Arc<dyn Term>),
+    /// A pattern without one.
+    Pattern(Pattern),
+}
+
+impl Candidate {
+    /// Id of the term, when it is one.
+    pub fn id(&self) -> Option<&'static str> {
+        match &self.kind {
+            Kind::Term(t) => Some(t.info().id),
+            Kind::Pattern(_) => None,
+        }
+    }
+}
+
+/// A term the file cannot test, and why.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Untestable {
+    /// Id of the term.
+    pub term: &'static str,
+    /// The reason.
+    pub why: String,
+}
+
+/// Why a term cannot be tested with a campaign, or `None` when it can.
+pub fn why_untestable(term: &dyn Term, campaign: &Campaign, lin: &Linearization) -> Option<String> {
+    let c = &lin.conditions;
+    let any = |f: &dyn Fn(usize) -> bool| (0..c.len()).any(f);
+    if campaign.is_absolute() && term.info().id == "target-offset" {
+        return Some("it is part of the target frame, which absolute poses estimate anyway".to_owned());
+    }
+    term.info().needs.iter().find_map(|need| match need {
+        Need::Absolute if !campaign.is_absolute() => {
+            Some("it needs absolute poses (measured_a_mm ...)".to_owned())
+        }
+        Need::Approach if !campaign.columns.approach => Some("no approach column".to_owned()),
+        Need::Approach if !any(&|i| c[i].approach < 0.0) => Some("approach is +1 in every row".to_owned()),
+        Need::Approach if !any(&|i| c[i].approach > 0.0) => Some("approach is -1 in every row".to_owned()),
+        Need::DeltaT if !campaign.columns.delta_t => Some("no delta_T_K column".to_owned()),
+        Need::DeltaT if !any(&|i| c[i].delta_t != 0.0) => Some("delta_T_K is zero in every row".to_owned()),
+        Need::Elapsed if !campaign.columns.elapsed => Some("no elapsed_s column".to_owned()),
+        Need::Elapsed if !any(&|i| c[i].elapsed != 0.0) => Some("elapsed_s is zero in every row".to_owned()),
+        Need::Brackets if lin.machine.bracket_pairs.is_empty() => {
+            Some("no legs share a bracket: state [legs] brackets".to_owned())
+        }
+        Need::Loads if !several_loads(lin) => Some("every row has the same load".to_owned()),
+        _ => None,
+    })
+}
+
+fn several_loads(lin: &Linearization) -> bool {
+    let first = lin.conditions.first().map(|c| c.wrench);
+    lin.conditions.iter().any(|c| Some(c.wrench) != first)
+}
+
+/// Natural sizes of the parameters of a term in one of its forms, SI.
+pub fn sizes(term: &dyn Term, rich: bool, natural: &Natural) -> Vec<f64> {
+    let mut sizes: Vec<f64> = term.info().parameters.iter().map(|p| natural.size(p.scale)).collect();
+    let ideal = sizes.len();
+    if rich {
+        match term.info().rich {
+            Rich::PerLeg => sizes.extend([RICH_WIDTH * sizes[0]; 6]),
+            Rich::Full => sizes.extend(cross_sizes(&sizes[..ideal])),
+            Rich::None => {}
+        }
+    }
+    sizes
+}
+
+fn cross_sizes(direct: &[f64]) -> Vec<f64> {
+    let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
+    pairs.map(|(i, j)| RICH_WIDTH * (direct[i] * direct[j]).sqrt()).collect()
+}
+
+/// Collects blocks of whitened columns that are projected and multiplied together at the end.
+pub struct Collector<'a> {
+    lin: &'a Linearization,
+    natural: Natural,
+    columns: Vec<DMatrix<f64>>,
+    width: usize,
+    blocks: Vec<Block>,
+    candidates: Vec<Candidate>,
+}
+
+impl<'a> Collector<'a> {
+    /// Nothing collected yet.
+    pub fn new(lin: &'a Linearization, natural: Natural) -> Self {
+        Self { lin, natural, columns: Vec::new(), width: 0, blocks: Vec::new(), candidates: Vec::new() }
+    }
+
+    /// Add a term with the given shapes out of `trials`; also its richer form at the shape `rich`.
+    pub fn add_term(&mut self, term: &Arc<dyn Term>, shapes: &[f64], trials: usize, rich: Option<f64>) {
+        let rich = rich.filter(|_| term.info().rich != Rich::None);
+        let ideal_share = if rich.is_some() { IDEAL_SHARE } else { 1.0 };
+        let ideal = shapes.iter().map(|&s| (false, s, ideal_share / trials.max(1) as f64));
+        let forms = ideal.chain(rich.map(|s| (true, s, 1.0 - IDEAL_SHARE)));
+        let blocks =
+            forms.map(|(form, shape, share)| self.push_term(term.as_ref(), form, shape, share)).collect();
+        self.candidates.push(Candidate { kind: Kind::Term(Arc::clone(term)), blocks, log_weight: 0.0 });
+    }
+
+    fn push_term(&mut self, term: &dyn Term, rich: bool, shape: f64, share: f64) -> usize {
+        let mut positive: Vec<bool> = term.info().parameters.iter().map(|p| p.positive).collect();
+        positive.resize(parameter_count(term, rich), false);
+        let block = Block {
+            first: 0,
+            sizes: sizes(term, rich, &self.natural),
+            positive,
+            shape,
+            rich,
+            log_share: share.ln(),
+            widths: Vec::new(),
+            noticeable: false,
+        };
+        self.push(self.lin.term_block(term, rich, shape), block)
+    }
+
+    /// Add a pattern with its prior weight relative to a term.
+    pub fn add_pattern(&mut self, pattern: Pattern, log_weight: f64) {
+        let range = spread(pattern.variable, &self.lin.conditions);
+        if range <= 0.0 {
+            return;
+        }
+        let n = pattern.width();
+        let columns = self.lin.block_of(n, |c, out| pattern.actions(c, range, out));
+        let block = Block {
+            first: 0,
+            sizes: vec![pattern.size(&self.natural); n],
+            positive: vec![false; n],
+            shape: 1.0,
+            rich: false,
+            log_share: 0.0,
+            widths: Vec::new(),
+            noticeable: false,
+        };
+        let blocks = vec![self.push(columns, block)];
+        self.candidates.push(Candidate { kind: Kind::Pattern(pattern), blocks, log_weight });
+    }
+
+    fn push(&mut self, columns: DMatrix<f64>, mut block: Block) -> usize {
+        block.first = self.width;
+        self.width += columns.ncols();
+        self.columns.push(columns);
+        self.blocks.push(block);
+        self.blocks.len() - 1
+    }
+
+    /// Project everything off the common columns and multiply.
+    pub fn finish(self, campaign: &Campaign, point: &Point) -> (Gram, Vec<Candidate>) {
+        let basis = orthonormal(&self.lin.common_block());
+        let mut y = target(self.lin, point);
+        project(&basis, &mut y);
+        let mut z = DMatrix::zeros(self.lin.equations(), self.width);
+        for (block, columns) in self.blocks.iter().zip(&self.columns) {
+            z.columns_mut(block.first, columns.ncols()).copy_from(columns);
+        }
+        let overlap = basis.transpose() * &z;
+        z.gemm(-1.0, &basis, &overlap, 1.0);
+        let g = z.transpose() * &z;
+        let mut blocks = self.blocks;
+        for block in &mut blocks {
+            let square = |k: usize| g[(block.first + k, block.first + k)] * block.sizes[k].powi(2);
+            let signature = (0..block.width()).map(square).sum::<f64>().sqrt();
+            block.widths = widths(signature);
+            block.noticeable = WIDEST * signature >= NOTICEABLE;
+        }
+        let gram = Gram {
+            g,
+            b: z.tr_mul(&y),
+            yy: y.norm_squared(),
+            equations: (self.lin.equations() - basis.ncols()) as f64,
+            pure_error: (campaign.pure_error, campaign.pure_error_dof),
+            noise_dof: campaign.noise.dof,
+            blocks,
+        };
+        (gram, self.candidates)
+    }
+}
+
+/// What springs, frames and the terms together must explain: the residual plus what active terms explain now.
+pub fn target(lin: &Linearization, point: &Point) -> DVector<f64> {
+    let mut y = lin.residuals();
+    for a in &point.active {
+        y += lin.term_block(a.term.as_ref(), a.rich, a.shape) * DVector::from_column_slice(&a.values);
+    }
+    y
+}
+
+/// Orthonormal basis of the columns.
+pub fn orthonormal(columns: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut scaled = columns.clone();
+    for mut c in scaled.column_iter_mut() {
+        let norm = c.norm();
+        if norm > 0.0 {
+            c /= norm;
+        }
+    }
+    let qr = scaled.col_piv_qr();
+    let r = qr.r();
+    let rank = (0..r.nrows().min(r.ncols())).filter(|&k| r[(k, k)].abs() > 1e-9).count();
+    qr.q().columns(0, rank).into_owned()
+}
+
+/// Remove from `y` what lies in the span of an orthonormal basis.
+pub fn project(basis: &DMatrix<f64>, y: &mut DVector<f64>) {
+    let overlap = basis.tr_mul(y);
+    y.gemv(-1.0, basis, &overlap, 1.0);
+}

@@ -1,0 +1,82 @@
+//! What can make a computation impossible.
+
+use hexbench_core::Pose;
+use thiserror::Error;
+
+/// A physical or numerical situation in which no result exists.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ModelError {
+    /// The legs do not hold the platform at this pose.
+    #[error(
+        "the pose {} is singular: the six legs do not determine the motion of the platform",
+        describe(pose)
+    )]
+    SingularPose {
+        /// The pose.
+        pose: Pose,
+    },
+    /// Fewer equations than unknowns.
+    #[error("{equations} equations cannot determine {unknowns} unknowns")]
+    TooFewEquations {
+        /// Scalar measurements.
+        equations: usize,
+        /// Parameters.
+        unknowns: usize,
+    },
+    /// Something not finite reached the algebra.
+    #[error("a number that is not finite appeared in {what}")]
+    NotFinite {
+        /// Where.
+        what: &'static str,
+    },
+    /// The loads do not move the legs.
+    #[error("no leg changes its force between reference and load in any row: there is nothing to identify")]
+    NoLoad,
+    /// The term is unknown.
+    #[error("there is no term `{id}`{}", nearest.as_ref().map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default())]
+    UnknownTerm {
+        /// As asked for.
+        id: String,
+        /// The closest known id.
+        nearest: Option<String>,
+    },
+    /// The term cannot be tested with this file.
+    #[error("`{id}` cannot be fitted to this file: {why}")]
+    Untestable {
+        /// The term.
+        id: String,
+        /// The reason.
+        why: String,
+    },
+    /// A parameter combination is not determined by the data.
+    #[error("the data do not determine every parameter: {what}")]
+    NotDetermined {
+        /// The combination in words.
+        what: String,
+    },
+    /// The fit does not settle.
+    #[error("the fit did not settle after {iterations} iterations (last relative step {last_step:.1e})")]
+    NotConverged {
+        /// Iterations made.
+        iterations: usize,
+        /// Size of the last step relative to the parameters.
+        last_step: f64,
+    },
+    /// Two things that do not belong together.
+    #[error("{0}")]
+    Mismatch(String),
+}
+
+fn describe(pose: &Pose) -> String {
+    let x = pose.to_array();
+    let deg = |r: f64| r.to_degrees();
+    format!(
+        "[{:.3}, {:.3}, {:.3}] mm, [{:.3}, {:.3}, {:.3}] deg",
+        x[0] * 1e3,
+        x[1] * 1e3,
+        x[2] * 1e3,
+        deg(x[3]),
+        deg(x[4]),
+        deg(x[5])
+    )
+}

@@ -1,0 +1,355 @@
+//! Generalised least squares of springs, frames, terms and shapes by Gauss-Newton.
+//!
+//! Minimises `chi2 = |W (y - f(theta))|^2 + sum (p / prior)^2`; the prior widths of term parameters are physical and
+//! wide, so they only speak where the data are silent. Springs and frames have no prior.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::campaign::Campaign;
+use crate::error::ModelError;
+use crate::linearization::{Active, Linearization, Point};
+use crate::lsq::{Solution, Triangle};
+use crate::term::{Natural, Term};
+
+/// Iterations after which a fit counts as not settled.
+const MOST_ITERATIONS: usize = 40;
+/// A fit has settled when a step changes chi-square by less than this.
+const SETTLED_CHI2: f64 = 1e-4;
+/// Prior standard deviation of the logarithm of a shape about its start.
+const SHAPE_PRIOR: f64 = 0.7;
+/// A parameter whose standard error exceeds this share of its prior width is not determined by the data.
+const DETERMINED_SHARE: f64 = 0.5;
+
+/// A term asked of a fit.
+#[derive(Clone)]
+pub struct Wanted {
+    /// The effect.
+    pub term: Arc<dyn Term>,
+    /// Richer form.
+    pub rich: bool,
+    /// Start value of the shape.
+    pub shape: f64,
+    /// Prior standard deviation of every parameter, SI.
+    pub prior: Vec<f64>,
+}
+
+/// A fitted model.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// Values of springs, terms, shapes and frames.
+    pub point: Point,
+    /// Covariance of `[springs, frames, parameters and shape of each term in turn]`; a shape enters by its logarithm.
+    pub covariance: DMatrix<f64>,
+    /// Column of the first parameter of each term.
+    pub offsets: Vec<usize>,
+    /// Prior width of each column, infinite without prior.
+    pub prior: DVector<f64>,
+    /// Sum of squared whitened residuals over single readings (lack of fit plus pure error).
+    pub chi2: f64,
+    /// Equations of single readings minus rank.
+    pub dof: f64,
+    /// Sum of squared whitened residuals of the averaged readings.
+    pub lack_of_fit: f64,
+    /// Its degrees of freedom.
+    pub lack_of_fit_dof: f64,
+    /// The last linear solution, for rank and unobservable combinations.
+    pub solution: Solution,
+    /// Gauss-Newton iterations made.
+    pub iterations: usize,
+}
+
+impl Fit {
+    /// Chi-square per degree of freedom of single readings.
+    pub fn chi2_reduced(&self) -> f64 {
+        self.chi2 / self.dof.max(1.0)
+    }
+
+    /// Standard error of a column.
+    pub fn std(&self, column: usize) -> f64 {
+        self.covariance[(column, column)].max(0.0).sqrt()
+    }
+
+    /// True when the data, and not the prior or nothing at all, determine a column.
+    pub fn is_determined(&self, column: usize) -> bool {
+        let by_prior =
+            self.prior[column].is_finite() && self.std(column) > DETERMINED_SHARE * self.prior[column];
+        !by_prior && self.solution.undetermined_share(column) < 1e-3
+    }
+
+    /// Sizes natural to the machine and campaign, from the fitted springs.
+    pub fn natural(&self, linearization: &Linearization) -> Natural {
+        natural(&self.point, linearization)
+    }
+}
+
+/// Sizes natural to a machine and campaign.
+pub fn natural(point: &Point, lin: &Linearization) -> Natural {
+    let mut c: Vec<f64> = point.springs.iter().map(|c| c.abs()).collect();
+    c.sort_by(f64::total_cmp);
+    let n = (6 * lin.conditions.len()).max(1) as f64;
+    let force = lin.conditions.iter().map(|c| c.force_change().norm_squared()).sum::<f64>() / n;
+    let hexapod = &lin.machine.nominal;
+    Natural {
+        compliance: f64::midpoint(c[2], c[3]).max(1e-12),
+        force: force.sqrt().max(1e-6),
+        radius: hexapod.platform_radius().max(1e-6),
+        length: lin.machine.home_lengths.mean().max(1e-6),
+        elapsed: lin.conditions.iter().map(|c| c.elapsed.abs()).fold(0.0, f64::max),
+    }
+}
+
+/// Fit springs (and frames in absolute mode) alone.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_baseline(campaign: &Campaign) -> Result<Fit, ModelError> {
+    fit(campaign, &[], None)
+}
+
+/// Fit springs, frames and the wanted terms, starting from `start` when given.
+///
+/// # Errors
+/// [`ModelError::SingularPose`], [`ModelError::NoLoad`], [`ModelError::NotFinite`], [`ModelError::NotConverged`].
+pub fn fit(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Result<Fit, ModelError> {
+    let mut point = start_point(campaign, wanted, start);
+    let prior = prior_widths(campaign, wanted);
+    let mut state = Linearization::at(campaign, &point)?;
+    if state.conditions.iter().all(|c| c.force_change().amax() < 1e-9) {
+        return Err(ModelError::NoLoad);
+    }
+    let mut objective = state.residuals().norm_squared() + penalty(&point, wanted);
+    let mut last_step = f64::INFINITY;
+    for iteration in 1..=MOST_ITERATIONS {
+        let solution = step(&state, &point, wanted, &prior)?;
+        let (next, next_state, next_objective) = search(campaign, &point, &solution.x, wanted, objective)?;
+        last_step = (objective - next_objective).abs();
+        point = next;
+        state = next_state;
+        objective = next_objective;
+        if last_step < SETTLED_CHI2 {
+            let solution = step(&state, &point, wanted, &prior)?;
+            return Ok(finish(campaign, point, &state, solution, prior, wanted, iteration));
+        }
+    }
+    Err(ModelError::NotConverged { iterations: MOST_ITERATIONS, last_step })
+}
+
+fn start_point(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Point {
+    let mut point = start.cloned().unwrap_or_else(|| Point::start(campaign));
+    let known = std::mem::take(&mut point.active);
+    point.active = wanted
+        .iter()
+        .map(|w| {
+            let fresh = Active::new(Arc::clone(&w.term), w.rich, w.shape);
+            let same = |a: &&Active| a.id() == fresh.id() && a.values.len() == fresh.values.len();
+            known.iter().find(same).map_or(fresh.clone(), |a| Active { values: a.values.clone(), ..fresh })
+        })
+        .collect();
+    point
+}
+
+/// True when the shape of a term is a column of its own.
+fn has_shape_column(term: &dyn Term) -> bool {
+    term.info().shape.is_some() && !term.shape_is_parameter()
+}
+
+fn common(campaign: &Campaign) -> usize {
+    if campaign.is_absolute() { 18 } else { 6 }
+}
+
+fn prior_widths(campaign: &Campaign, wanted: &[Wanted]) -> DVector<f64> {
+    let mut widths = vec![f64::INFINITY; common(campaign)];
+    for w in wanted {
+        widths.extend(&w.prior);
+        if has_shape_column(w.term.as_ref()) {
+            widths.push(SHAPE_PRIOR);
+        }
+    }
+    DVector::from_vec(widths)
+}
+
+fn penalty(point: &Point, wanted: &[Wanted]) -> f64 {
+    let of = |a: &Active, w: &Wanted| {
+        let values: f64 = a.values.iter().zip(&w.prior).map(|(p, s)| (p / s).powi(2)).sum();
+        values
+            + if has_shape_column(a.term.as_ref()) {
+                ((a.shape / w.shape).ln() / SHAPE_PRIOR).powi(2)
+            } else {
+                0.0
+            }
+    };
+    point.active.iter().zip(wanted).map(|(a, w)| of(a, w)).sum()
+}
+
+/// One linear solve for the increments of all columns, priors included as equations.
+fn step(
+    state: &Linearization,
+    point: &Point,
+    wanted: &[Wanted],
+    prior: &DVector<f64>,
+) -> Result<Solution, ModelError> {
+    let a = columns(state, point);
+    let mut triangle = Triangle::new(a.ncols());
+    triangle.push(&a, &state.residuals())?;
+    let offset = prior_offsets(point, wanted, prior.len());
+    let with_prior: Vec<usize> = (0..prior.len()).filter(|&k| prior[k].is_finite()).collect();
+    if !with_prior.is_empty() {
+        let rows = DMatrix::from_fn(with_prior.len(), prior.len(), |i, j| {
+            if with_prior[i] == j { 1.0 / prior[j] } else { 0.0 }
+        });
+        let target = DVector::from_fn(with_prior.len(), |i, _| -offset[with_prior[i]] / prior[with_prior[i]]);
+        triangle.push(&rows, &target)?;
+    }
+    triangle.solve()
+}
+
+/// Current distance of every column from the centre of its prior.
+fn prior_offsets(point: &Point, wanted: &[Wanted], columns: usize) -> Vec<f64> {
+    let used: usize =
+        point.active.iter().map(|a| a.values.len() + usize::from(has_shape_column(a.term.as_ref()))).sum();
+    let mut offsets = vec![0.0; columns - used];
+    for (a, w) in point.active.iter().zip(wanted) {
+        offsets.extend(&a.values);
+        if has_shape_column(a.term.as_ref()) {
+            offsets.push((a.shape / w.shape).ln());
+        }
+    }
+    offsets
+}
+
+/// Whitened columns of springs, frames, term parameters and shapes at a point.
+pub fn columns(state: &Linearization, point: &Point) -> DMatrix<f64> {
+    let mut blocks = vec![state.common_block()];
+    for a in &point.active {
+        let mut block = state.term_block(a.term.as_ref(), a.rich, a.shape);
+        if a.term.info().shape.is_some() {
+            let by_log_shape = shape_column(state, a);
+            if a.term.shape_is_parameter() {
+                // shape = value, so d/dvalue gains (d/dlog shape) / value.
+                let tied = block.column(0) + by_log_shape / a.values[0].abs().max(a.shape);
+                block.set_column(0, &tied);
+            } else {
+                let width = block.ncols();
+                block = block.insert_column(width, 0.0);
+                block.set_column(width, &by_log_shape);
+            }
+        }
+        blocks.push(block);
+    }
+    let mut all = DMatrix::zeros(state.equations(), blocks.iter().map(DMatrix::ncols).sum());
+    let mut at = 0;
+    for block in &blocks {
+        all.columns_mut(at, block.ncols()).copy_from(block);
+        at += block.ncols();
+    }
+    all
+}
+
+/// Derivative of the whitened reading by the logarithm of a shape, by central differences.
+fn shape_column(state: &Linearization, a: &Active) -> DVector<f64> {
+    const STEP: f64 = 1e-4;
+    let values = DVector::from_column_slice(&a.values);
+    let at = |s: f64| state.term_block(a.term.as_ref(), a.rich, s) * &values;
+    (at(a.shape * STEP.exp()) - at(a.shape * (-STEP).exp())) / (2.0 * STEP)
+}
+
+/// The best of the full step and its halves.
+fn search(
+    campaign: &Campaign,
+    point: &Point,
+    x: &DVector<f64>,
+    wanted: &[Wanted],
+    objective: f64,
+) -> Result<(Point, Linearization, f64), ModelError> {
+    let mut factor = 1.0;
+    loop {
+        let next = moved(campaign, point, x, factor);
+        let outcome = Linearization::at(campaign, &next);
+        let small = factor < 1e-3;
+        match outcome {
+            Ok(state) => {
+                let value = state.residuals().norm_squared() + penalty(&next, wanted);
+                if value <= objective + SETTLED_CHI2 * 0.5 {
+                    return Ok((next, state, value));
+                }
+                if small {
+                    let state = Linearization::at(campaign, point)?;
+                    return Ok((point.clone(), state, objective));
+                }
+            }
+            Err(e) if small => return Err(e),
+            Err(_) => {}
+        }
+        factor *= 0.4;
+    }
+}
+
+fn moved(campaign: &Campaign, point: &Point, x: &DVector<f64>, factor: f64) -> Point {
+    let mut next = point.clone();
+    for leg in 0..6 {
+        next.springs[leg] += factor * x[leg];
+    }
+    if campaign.is_absolute() {
+        let motion: Vec<f64> = (6..18).map(|k| factor * x[k]).collect();
+        next.move_frames(&motion);
+    }
+    let mut at = common(campaign);
+    for a in &mut next.active {
+        for value in &mut a.values {
+            *value += factor * x[at];
+            at += 1;
+        }
+        let Some(shape) = a.term.info().shape else { continue };
+        if a.term.shape_is_parameter() {
+            a.shape = a.values[0].clamp(shape.bounds[0], shape.bounds[1]);
+        } else {
+            // A shape moves by at most a third per step: its columns are far from linear in it.
+            a.shape =
+                (a.shape * (factor * x[at]).clamp(-0.3, 0.3).exp()).clamp(shape.bounds[0], shape.bounds[1]);
+            at += 1;
+        }
+    }
+    next
+}
+
+fn finish(
+    campaign: &Campaign,
+    point: Point,
+    state: &Linearization,
+    solution: Solution,
+    prior: DVector<f64>,
+    wanted: &[Wanted],
+    iterations: usize,
+) -> Fit {
+    let mut offsets = Vec::new();
+    let mut at = common(campaign);
+    for w in wanted {
+        offsets.push(at);
+        at += w.prior.len() + usize::from(has_shape_column(w.term.as_ref()));
+    }
+    let lack_of_fit = state.residuals().norm_squared();
+    let unknowns = effective_parameters(&solution, &prior);
+    Fit {
+        point,
+        covariance: solution.covariance.clone(),
+        offsets,
+        chi2: lack_of_fit + campaign.pure_error,
+        dof: (6 * campaign.readings) as f64 - unknowns,
+        lack_of_fit,
+        lack_of_fit_dof: state.equations() as f64 - unknowns,
+        prior,
+        solution,
+        iterations,
+    }
+}
+
+/// Number of parameters the data determine: rank minus what the priors hold, `sum (1 - var / prior^2)`.
+fn effective_parameters(solution: &Solution, prior: &DVector<f64>) -> f64 {
+    let held: f64 = (0..prior.len())
+        .filter(|&k| prior[k].is_finite())
+        .map(|k| (solution.covariance[(k, k)] / prior[k].powi(2)).clamp(0.0, 1.0))
+        .sum();
+    solution.rank as f64 - held
+}

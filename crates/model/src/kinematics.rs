@@ -1,0 +1,99 @@
+//! Leg kinematics: lengths, directions and Jacobians of a pose.
+
+use hexbench_core::{Matrix3, Matrix6, Pose, Vector3, Vector6};
+
+use crate::error::ModelError;
+
+/// Condition number of the scaled leg Jacobian beyond which a pose counts as singular.
+const SINGULAR_CONDITION: f64 = 1e8;
+
+/// Legs at one pose. Fixed frame, SI.
+#[derive(Debug, Clone, Copy)]
+pub struct Legs {
+    /// `q_i`: leg lengths, m.
+    pub lengths: Vector6,
+    /// `n_i`: unit vectors from base joint to platform joint, fixed axes.
+    pub directions: [Vector3; 6],
+    /// `R B_i`: platform joints seen from the mobile origin, fixed axes, m.
+    pub arms: [Vector3; 6],
+    /// Geometric leg Jacobian L (6x6): leg rates = L `[v; omega]`, row `[n_i', (R B_i x n_i)']`.
+    pub leg_jacobian: Matrix6,
+    /// Geometric platform Jacobian: inverse of the leg Jacobian, twist per leg elongation.
+    pub platform_jacobian: Matrix6,
+}
+
+impl Legs {
+    /// Legs of a machine with base joints `A_i` (fixed frame) and platform joints `B_i` (mobile frame) at a pose.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`] when leg rates do not determine the twist, or a leg has no length.
+    pub fn at(base: &[Vector3; 6], platform: &[Vector3; 6], pose: &Pose) -> Result<Self, ModelError> {
+        let rotation = pose.rotation();
+        let arms = platform.map(|b| rotation * b);
+        let spans: [Vector3; 6] = std::array::from_fn(|i| pose.translation + arms[i] - base[i]);
+        let lengths = Vector6::from_fn(|i, _| spans[i].norm());
+        let directions = std::array::from_fn(|i| spans[i] / lengths[i]);
+        let leg_jacobian = leg_jacobian(&directions, &arms);
+        let platform_jacobian = inverse(&leg_jacobian).ok_or(ModelError::SingularPose { pose: *pose })?;
+        Ok(Self { lengths, directions, arms, leg_jacobian, platform_jacobian })
+    }
+
+    /// Leg forces (N, tension positive) that balance a wrench `[F; M]` at the mobile origin: `f = L^-T W`.
+    pub fn forces(&self, wrench: &Vector6) -> Vector6 {
+        self.platform_jacobian.tr_mul(wrench)
+    }
+}
+
+/// Leg lengths only, m: `q_i = |t + R B_i - A_i|`.
+pub fn leg_lengths(base: &[Vector3; 6], platform: &[Vector3; 6], pose: &Pose) -> Vector6 {
+    let rotation = pose.rotation();
+    Vector6::from_fn(|i, _| (pose.translation + rotation * platform[i] - base[i]).norm())
+}
+
+fn leg_jacobian(directions: &[Vector3; 6], arms: &[Vector3; 6]) -> Matrix6 {
+    Matrix6::from_fn(|i, j| if j < 3 { directions[i][j] } else { arms[i].cross(&directions[i])[j - 3] })
+}
+
+/// Inverse with the moment columns scaled to the size of the force columns, so that the test for singularity
+/// does not depend on the unit of length.
+fn inverse(l: &Matrix6) -> Option<Matrix6> {
+    if !l.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let moment = l.fixed_columns::<3>(3).norm();
+    if moment <= 0.0 {
+        return None;
+    }
+    let scale = l.fixed_columns::<3>(0).norm() / moment;
+    let mut scaled = *l;
+    scaled.fixed_columns_mut::<3>(3).scale_mut(scale);
+    let mut inverse = scaled.try_inverse()?;
+    let condition = scaled.norm() * inverse.norm();
+    if !condition.is_finite() || condition > SINGULAR_CONDITION {
+        return None;
+    }
+    inverse.fixed_rows_mut::<3>(3).scale_mut(scale);
+    Some(inverse)
+}
+
+/// `M` (3x3) with `omega = M [alpha', beta', gamma']`: fixed-axes angular velocity from Euler rates
+/// (extrinsic X-Y-Z). Source: Kalas et al. 2018, eq. 6.
+pub fn euler_rate_matrix(angles: &Vector3) -> Matrix3 {
+    let (sb, cb) = angles.y.sin_cos();
+    let (sg, cg) = angles.z.sin_cos();
+    Matrix3::new(cg * cb, -sg, 0.0, sg * cb, cg, 0.0, -sb, 0.0, 1.0)
+}
+
+/// Analytic leg Jacobian: leg rates from `[a', b', c', alpha', beta', gamma']`, `L diag(I, M)`.
+/// Source: Kalas et al. 2018, eq. 5.
+pub fn analytic_leg_jacobian(legs: &Legs, angles: &Vector3) -> Matrix6 {
+    let mut jacobian = legs.leg_jacobian;
+    let moment = jacobian.fixed_columns::<3>(3) * euler_rate_matrix(angles);
+    jacobian.fixed_columns_mut::<3>(3).copy_from(&moment);
+    jacobian
+}
+
+/// `[v]x` with `[v]x w = v x w`.
+pub fn cross_matrix(v: &Vector3) -> Matrix3 {
+    v.cross_matrix()
+}

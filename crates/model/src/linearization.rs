@@ -1,0 +1,242 @@
+//! The model linearised at one point: whitened residuals and columns for springs, frames and terms.
+
+use std::sync::Arc;
+
+use hexbench_core::{Vector3, Vector6};
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::campaign::{Campaign, Condition};
+use crate::chain::{Action, Link, Load};
+use crate::error::ModelError;
+use crate::machine::{Machine, exponential};
+use crate::term::{Rich, Term};
+
+/// A term in a model, with its values. SI.
+#[derive(Clone)]
+pub struct Active {
+    /// The effect.
+    pub term: Arc<dyn Term>,
+    /// True when the richer form is used.
+    pub rich: bool,
+    /// Shape value; 1 when the term has none.
+    pub shape: f64,
+    /// Values of the parameters, ideal ones first.
+    pub values: Vec<f64>,
+}
+
+impl Active {
+    /// A term with all values zero.
+    pub fn new(term: Arc<dyn Term>, rich: bool, shape: f64) -> Self {
+        let count = parameter_count(term.as_ref(), rich);
+        Self { term, rich, shape, values: vec![0.0; count] }
+    }
+
+    /// Id of the term.
+    pub fn id(&self) -> &'static str {
+        self.term.info().id
+    }
+}
+
+impl std::fmt::Debug for Active {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}{}({:.3e}) {:?}", self.id(), if self.rich { "+" } else { "" }, self.shape, self.values)
+    }
+}
+
+/// Number of linear parameters of a term in one of its forms.
+pub fn parameter_count(term: &dyn Term, rich: bool) -> usize {
+    let ideal = term.info().parameters.len();
+    match (rich, term.info().rich) {
+        (true, Rich::PerLeg) => ideal + 6,
+        (true, Rich::Full) => ideal + 15,
+        _ => ideal,
+    }
+}
+
+/// Actions of a term in one of its forms at a condition.
+pub fn actions(
+    term: &dyn Term,
+    rich: bool,
+    shape: f64,
+    machine: &Machine,
+    at: &Condition,
+    out: &mut Vec<Action>,
+) {
+    out.clear();
+    term.actions(machine, at, shape, out);
+    if rich {
+        term.rich_actions(machine, at, shape, out);
+    }
+}
+
+/// Values of everything the model contains. SI.
+#[derive(Debug, Clone)]
+pub struct Point {
+    /// Compliance of each leg, m/N.
+    pub springs: Vector6,
+    /// Terms with their values.
+    pub active: Vec<Active>,
+    /// Metrology and target frame motions found so far live in the machine.
+    pub machine: Machine,
+}
+
+impl Point {
+    /// No springs, no terms, machine as drawn.
+    pub fn start(campaign: &Campaign) -> Self {
+        Self { springs: Vector6::zeros(), active: Vec::new(), machine: Machine::nominal(&campaign.hexapod) }
+    }
+
+    /// The machine with the geometry that calibrating terms have found.
+    pub fn calibrated_machine(&self) -> Machine {
+        let mut machine = self.machine.clone();
+        for a in self.active.iter().filter(|a| a.term.calibrates()) {
+            a.term.calibrate(&a.values, &mut machine);
+        }
+        machine
+    }
+
+    /// Move the metrology and target frames by small motions `[metrology; target]`.
+    pub fn move_frames(&mut self, motion: &[f64]) {
+        let (m, t) = (Vector6::from_column_slice(&motion[..6]), Vector6::from_column_slice(&motion[6..12]));
+        self.machine.metrology_frame *= exponential(&m);
+        self.machine.target_frame = exponential(&t) * self.machine.target_frame;
+    }
+}
+
+/// Whitened model at a point.
+pub struct Linearization {
+    /// Machine with calibrated geometry.
+    pub machine: Machine,
+    /// Conditions on that machine.
+    pub conditions: Vec<Condition>,
+    links: Vec<Link>,
+    absolute: bool,
+}
+
+impl Linearization {
+    /// Linearise a campaign at a point.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn at(campaign: &Campaign, point: &Point) -> Result<Self, ModelError> {
+        let machine = point.calibrated_machine();
+        let conditions = campaign.conditions(&machine)?;
+        let links = conditions.par_iter().map(|c| link(&machine, c, point)).collect();
+        Ok(Self { machine, conditions, links, absolute: campaign.is_absolute() })
+    }
+
+    /// Number of whitened equations.
+    pub fn equations(&self) -> usize {
+        6 * self.conditions.len()
+    }
+
+    /// Number of columns every model has: six springs, in absolute mode also two frames.
+    pub fn common_columns(&self) -> usize {
+        if self.absolute { 18 } else { 6 }
+    }
+
+    /// Whitened residual of one condition.
+    pub fn residual(&self, condition: usize) -> Vector6 {
+        let c = &self.conditions[condition];
+        c.reading.component_mul(&c.weight) - self.links[condition].prediction()
+    }
+
+    /// Whitened residuals, six per condition.
+    pub fn residuals(&self) -> DVector<f64> {
+        let mut out = DVector::zeros(self.equations());
+        for i in 0..self.conditions.len() {
+            out.fixed_rows_mut::<6>(6 * i).copy_from(&self.residual(i));
+        }
+        out
+    }
+
+    /// Whitened predictions, six per condition.
+    pub fn predictions(&self) -> DVector<f64> {
+        let mut out = DVector::zeros(self.equations());
+        for i in 0..self.conditions.len() {
+            out.fixed_rows_mut::<6>(6 * i).copy_from(&self.links[i].prediction());
+        }
+        out
+    }
+
+    /// Columns of springs and frames.
+    pub fn common_block(&self) -> DMatrix<f64> {
+        let mut block = DMatrix::zeros(self.equations(), self.common_columns());
+        let mut actions = Vec::new();
+        for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
+            for leg in 0..6 {
+                block.fixed_view_mut::<6, 1>(6 * i, leg).copy_from(&link.by_spring(leg));
+            }
+            if self.absolute {
+                frame_actions(c, &mut actions);
+                write_actions(&mut block, i, 6, c, link, &actions);
+            }
+        }
+        block
+    }
+
+    /// Columns of a term.
+    pub fn term_block(&self, term: &dyn Term, rich: bool, shape: f64) -> DMatrix<f64> {
+        let mut block = DMatrix::zeros(self.equations(), parameter_count(term, rich));
+        let mut out = Vec::new();
+        for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
+            actions(term, rich, shape, &self.machine, c, &mut out);
+            write_actions(&mut block, i, 0, c, link, &out);
+        }
+        block
+    }
+
+    /// Columns of any actions, one per element of what `actions_of` pushes.
+    pub fn block_of(
+        &self,
+        columns: usize,
+        actions_of: impl Fn(&Condition, &mut Vec<Action>),
+    ) -> DMatrix<f64> {
+        let mut block = DMatrix::zeros(self.equations(), columns);
+        let mut out = Vec::with_capacity(columns);
+        for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
+            out.clear();
+            actions_of(c, &mut out);
+            write_actions(&mut block, i, 0, c, link, &out);
+        }
+        block
+    }
+}
+
+fn write_actions(
+    block: &mut DMatrix<f64>,
+    i: usize,
+    first: usize,
+    c: &Condition,
+    link: &Link,
+    actions: &[Action],
+) {
+    for (k, action) in actions.iter().enumerate() {
+        block.fixed_view_mut::<6, 1>(6 * i, first + k).copy_from(&link.by_action(c, action));
+    }
+}
+
+fn link(machine: &Machine, at: &Condition, point: &Point) -> Link {
+    let mut load = Load::default();
+    let mut out = Vec::new();
+    for a in point.active.iter().filter(|a| !a.term.calibrates()) {
+        actions(a.term.as_ref(), a.rich, a.shape, machine, at, &mut out);
+        for (action, value) in out.iter().zip(&a.values) {
+            load.add(action, *value);
+        }
+    }
+    Link::at(at, &point.springs, &load)
+}
+
+/// Small motions of the metrology frame (fixed axes, fixed origin) and of the target frame (mobile axes).
+fn frame_actions(c: &Condition, out: &mut Vec<Action>) {
+    out.clear();
+    let twist = |v: Vector3, w: Vector3| Action::Twist(Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z));
+    let axis = |k: usize| Vector3::ith(k, 1.0);
+    let rotation = c.pose.rotation();
+    out.extend((0..3).map(|k| twist(axis(k), Vector3::zeros())));
+    out.extend((0..3).map(|k| twist(axis(k).cross(&c.pose.translation), axis(k))));
+    out.extend((0..3).map(|k| twist(rotation * axis(k), Vector3::zeros())));
+    out.extend((0..3).map(|k| twist(Vector3::zeros(), rotation * axis(k))));
+}

@@ -1,0 +1,194 @@
+//! Linear least squares in whitened units: streaming QR, rank, minimum norm, covariance.
+//!
+//! Minimises `|y - A x|^2` for tall `A` given in pieces: `[A y]` is folded into an upper triangle (Golub and
+//! Van Loan, Matrix Computations, 4th ed., 5.3 and 12.2). Columns are scaled to unit length before the singular
+//! value decomposition of the triangle, so rank does not depend on the units of the parameters.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::error::ModelError;
+
+/// Singular values below this fraction of the largest, after scaling the columns, count as zero.
+pub const RANK_TOLERANCE: f64 = 1e-10;
+
+/// Upper triangle `R` and `Q'y` of all rows seen so far.
+#[derive(Debug, Clone)]
+pub struct Triangle {
+    columns: usize,
+    r: DMatrix<f64>,
+    rows: usize,
+}
+
+impl Triangle {
+    /// No rows yet; `columns` unknowns.
+    pub fn new(columns: usize) -> Self {
+        Self { columns, r: DMatrix::zeros(0, columns + 1), rows: 0 }
+    }
+
+    /// Fold in rows: `a` (n x columns) and `y` (n).
+    ///
+    /// # Errors
+    /// [`ModelError::NotFinite`], checked before any linear algebra.
+    pub fn push(&mut self, a: &DMatrix<f64>, y: &DVector<f64>) -> Result<(), ModelError> {
+        if !(a.iter().all(|x| x.is_finite()) && y.iter().all(|x| x.is_finite())) {
+            return Err(ModelError::NotFinite { what: "the regressor" });
+        }
+        let (old, new) = (self.r.nrows(), a.nrows());
+        let mut stack = DMatrix::zeros(old + new, self.columns + 1);
+        stack.rows_mut(0, old).copy_from(&self.r);
+        stack.view_mut((old, 0), (new, self.columns)).copy_from(a);
+        stack.view_mut((old, self.columns), (new, 1)).copy_from(y);
+        self.r = if stack.nrows() > stack.ncols() { stack.qr().unpack_r() } else { stack };
+        self.rows += new;
+        Ok(())
+    }
+
+    /// Number of rows folded in.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Solve, with the minimum-norm solution (in scaled columns) where the rows do not determine the unknowns.
+    ///
+    /// # Errors
+    /// [`ModelError::TooFewEquations`] without any row, [`ModelError::NotFinite`] when the decomposition fails.
+    pub fn solve(&self) -> Result<Solution, ModelError> {
+        let n = self.columns;
+        if self.rows == 0 || n == 0 {
+            return Err(ModelError::TooFewEquations { equations: self.rows, unknowns: n });
+        }
+        let r = self.r.columns(0, n).into_owned();
+        let z = self.r.column(n).into_owned();
+        let scale =
+            DVector::from_fn(n, |j, _| if r.column(j).norm() > 0.0 { r.column(j).norm() } else { 1.0 });
+        let scaled = DMatrix::from_fn(r.nrows(), n, |i, j| r[(i, j)] / scale[j]);
+        let svd = scaled
+            .clone()
+            .try_svd(true, true, f64::EPSILON, 10_000)
+            .ok_or(ModelError::NotFinite { what: "the singular value decomposition" })?;
+        let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else {
+            return Err(ModelError::NotFinite { what: "the singular value decomposition" });
+        };
+        Ok(assemble(&scale, &scaled, &z, &u, &svd.singular_values, &v_t))
+    }
+}
+
+/// Solution of a least-squares problem with everything needed to judge it.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// Parameters.
+    pub x: DVector<f64>,
+    /// Inverse of `A'A` on the determined subspace: the covariance in whitened units.
+    pub covariance: DMatrix<f64>,
+    /// Sum of squared residuals.
+    pub rss: f64,
+    /// Number of determined combinations.
+    pub rank: usize,
+    /// Singular values of the column-scaled matrix, largest first.
+    pub singular_values: DVector<f64>,
+    /// Undetermined combinations: orthonormal columns in scaled parameters (unit-norm columns of `A`).
+    pub null_space: DMatrix<f64>,
+    /// Norms of the columns of `A`.
+    pub column_norms: DVector<f64>,
+}
+
+impl Solution {
+    /// Condition number of the column-scaled matrix; infinite when rank-deficient.
+    pub fn condition(&self) -> f64 {
+        let s = &self.singular_values;
+        if self.rank < s.len() { f64::INFINITY } else { s[0] / s[s.len() - 1] }
+    }
+
+    /// Share of a parameter that lies in the undetermined combinations, 0 to 1.
+    pub fn undetermined_share(&self, parameter: usize) -> f64 {
+        self.null_space.row(parameter).norm()
+    }
+}
+
+fn assemble(
+    scale: &DVector<f64>,
+    scaled: &DMatrix<f64>,
+    z: &DVector<f64>,
+    u: &DMatrix<f64>,
+    s: &DVector<f64>,
+    v_t: &DMatrix<f64>,
+) -> Solution {
+    let n = scale.len();
+    let mut order: Vec<usize> = (0..s.len()).collect();
+    order.sort_by(|&i, &j| s[j].total_cmp(&s[i]));
+    let cut = RANK_TOLERANCE * s.max();
+    let determined: Vec<usize> = order.iter().copied().filter(|&k| s[k] > cut).collect();
+    let (mut x, mut covariance) = (DVector::zeros(n), DMatrix::zeros(n, n));
+    for &k in &determined {
+        let v = v_t.row(k).transpose();
+        x += &v * (u.column(k).dot(z) / s[k]);
+        covariance += &v * v.transpose() / (s[k] * s[k]);
+    }
+    let rss = (z - scaled * &x).norm_squared();
+    let null_space = null_space(v_t, &determined, n);
+    let unscale = |i: usize| 1.0 / scale[i];
+    Solution {
+        x: DVector::from_fn(n, |i, _| x[i] * unscale(i)),
+        covariance: DMatrix::from_fn(n, n, |i, j| covariance[(i, j)] * unscale(i) * unscale(j)),
+        rss,
+        rank: determined.len(),
+        singular_values: DVector::from_fn(n, |i, _| order.get(i).map_or(0.0, |&k| s[k])),
+        null_space,
+        column_norms: scale.clone(),
+    }
+}
+
+/// Orthonormal complement of the determined right singular vectors (also when there are fewer rows than columns).
+fn null_space(v_t: &DMatrix<f64>, determined: &[usize], n: usize) -> DMatrix<f64> {
+    let mut basis: Vec<DVector<f64>> = determined.iter().map(|&k| v_t.row(k).transpose()).collect();
+    let known = basis.len();
+    for axis in 0..n {
+        if basis.len() == n {
+            break;
+        }
+        let mut e = DVector::zeros(n);
+        e[axis] = 1.0;
+        for _ in 0..2 {
+            for b in &basis {
+                e -= b * b.dot(&e);
+            }
+        }
+        if e.norm() > 1e-6 {
+            basis.push(e.normalize());
+        }
+    }
+    DMatrix::from_fn(n, basis.len() - known, |i, j| basis[known + j][i])
+}
+
+/// Solve `min |y - A x|` for a matrix in memory, with one step of refinement on a compensated residual.
+///
+/// # Errors
+/// As [`Triangle::push`] and [`Triangle::solve`].
+pub fn solve(a: &DMatrix<f64>, y: &DVector<f64>) -> Result<Solution, ModelError> {
+    let mut triangle = Triangle::new(a.ncols());
+    triangle.push(a, y)?;
+    let mut solution = triangle.solve()?;
+    let residual = compensated_residual(a, y, &solution.x);
+    let mut correction = Triangle::new(a.ncols());
+    correction.push(a, &residual)?;
+    let step = correction.solve()?;
+    solution.x += step.x;
+    solution.rss = compensated_residual(a, y, &solution.x).norm_squared();
+    Ok(solution)
+}
+
+/// `y - A x`, every element accumulated in twice the working precision (Ogita, Rump and Oishi 2005, Dot2).
+fn compensated_residual(a: &DMatrix<f64>, y: &DVector<f64>, x: &DVector<f64>) -> DVector<f64> {
+    DVector::from_fn(y.len(), |i, _| {
+        let (mut sum, mut error) = (y[i], 0.0);
+        for j in 0..x.len() {
+            let product = -a[(i, j)] * x[j];
+            let product_error = (-a[(i, j)]).mul_add(x[j], -product);
+            let next = sum + product;
+            let back = next - sum;
+            error += (sum - (next - back)) + (product - back) + product_error;
+            sum = next;
+        }
+        sum + error
+    })
+}

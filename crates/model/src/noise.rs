@@ -1,0 +1,158 @@
+//! How large the measurement noise is, and how well that is known.
+
+use std::collections::HashMap;
+
+use hexbench_core::{Dataset, Hexapod, Observation};
+
+/// Where the noise level comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NoiseSource {
+    /// `sigma_*` columns of the file.
+    Columns,
+    /// `[metrology]` of the hexapod file.
+    Metrology,
+    /// Scatter of repeated readings.
+    Repeats,
+    /// Residuals of the model itself: no absolute verdict is possible.
+    Residuals,
+}
+
+impl NoiseSource {
+    /// One word for files and tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Columns => "sigma columns",
+            Self::Metrology => "metrology",
+            Self::Repeats => "repeats",
+            Self::Residuals => "residuals",
+        }
+    }
+}
+
+/// Standard deviation of one reading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noise {
+    /// Of a translation, m.
+    pub translation: f64,
+    /// Of a rotation, rad.
+    pub rotation: f64,
+    /// Where it comes from.
+    pub source: NoiseSource,
+    /// Degrees of freedom behind the level; infinite when stated, zero when taken from residuals.
+    pub dof: f64,
+}
+
+impl Noise {
+    /// Standard deviations of the six measured values.
+    pub fn sigma(&self) -> [f64; 6] {
+        let (t, r) = (self.translation, self.rotation);
+        [t, t, t, r, r, r]
+    }
+
+    /// True when the level is known well enough to say that a model is adequate.
+    pub fn allows_verdict(&self) -> bool {
+        self.source != NoiseSource::Residuals
+    }
+}
+
+/// Scatter of readings repeated under the same pose, loads and approach.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Scatter {
+    /// Pooled variance of the translations, m^2.
+    pub variance_translation: f64,
+    /// Pooled variance of the rotations, rad^2.
+    pub variance_rotation: f64,
+    /// Degrees of freedom of each (three directions per extra reading).
+    pub dof: f64,
+}
+
+/// Smallest number of degrees of freedom from which repeats give a usable noise level.
+const ENOUGH_REPEATS: f64 = 9.0;
+
+/// Noise by the rule of the file format: columns, then metrology, then repeats. `None` leaves the residuals.
+pub fn stated_or_repeated(hexapod: &Hexapod, dataset: &Dataset) -> Option<Noise> {
+    if dataset.columns.sigma {
+        return Some(from_columns(&dataset.observations));
+    }
+    if let Some(m) = hexapod.metrology {
+        return Some(Noise {
+            translation: m.sigma_translation,
+            rotation: m.sigma_rotation,
+            source: NoiseSource::Metrology,
+            dof: f64::INFINITY,
+        });
+    }
+    let scatter = scatter(&dataset.observations);
+    let usable = scatter.dof >= ENOUGH_REPEATS
+        && scatter.variance_translation > 0.0
+        && scatter.variance_rotation > 0.0;
+    usable.then(|| Noise {
+        translation: scatter.variance_translation.sqrt(),
+        rotation: scatter.variance_rotation.sqrt(),
+        source: NoiseSource::Repeats,
+        dof: 2.0 * scatter.dof,
+    })
+}
+
+fn from_columns(rows: &[Observation]) -> Noise {
+    let mean_square = |range: std::ops::Range<usize>| {
+        let n = (rows.len() * range.len()).max(1) as f64;
+        let row_sum = |r: &Observation| r.sigma.map_or(0.0, |s| s[range.clone()].iter().map(|x| x * x).sum());
+        rows.iter().map(row_sum).sum::<f64>() / n
+    };
+    Noise {
+        translation: mean_square(0..3).sqrt(),
+        rotation: mean_square(3..6).sqrt(),
+        source: NoiseSource::Columns,
+        dof: f64::INFINITY,
+    }
+}
+
+/// Pooled scatter of readings that share pose, loads and approach; temperature and time are ignored.
+pub fn scatter(rows: &[Observation]) -> Scatter {
+    let mut groups: HashMap<[u64; 19], Moments> = HashMap::new();
+    for row in rows {
+        groups.entry(key(row)).or_default().add(&row.measured);
+    }
+    let mut sums = [0.0; 6];
+    let mut dof = 0.0;
+    // The order of a hash map is not fixed: sort so that sums are the same in every run.
+    let mut moments: Vec<Moments> = groups.into_values().filter(|m| m.n > 1.0).collect();
+    moments.sort_by(|a, b| a.squares[0].total_cmp(&b.squares[0]).then(a.mean[0].total_cmp(&b.mean[0])));
+    for m in moments {
+        dof += m.n - 1.0;
+        for k in 0..6 {
+            sums[k] += m.squares[k];
+        }
+    }
+    let pooled = |range: std::ops::Range<usize>| sums[range].iter().sum::<f64>() / (3.0 * dof).max(1.0);
+    Scatter { variance_translation: pooled(0..3), variance_rotation: pooled(3..6), dof: 3.0 * dof }
+}
+
+/// Running mean and sum of squares (Welford).
+#[derive(Default)]
+struct Moments {
+    n: f64,
+    mean: [f64; 6],
+    squares: [f64; 6],
+}
+
+impl Moments {
+    fn add(&mut self, x: &[f64; 6]) {
+        self.n += 1.0;
+        for k in 0..6 {
+            let d = x[k] - self.mean[k];
+            self.mean[k] += d / self.n;
+            self.squares[k] += d * (x[k] - self.mean[k]);
+        }
+    }
+}
+
+fn key(row: &Observation) -> [u64; 19] {
+    let mut key = [0; 19];
+    let parts = [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array()];
+    for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain([&row.approach])) {
+        *k = (x + 0.0).to_bits();
+    }
+    key
+}

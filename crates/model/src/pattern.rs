@@ -1,0 +1,155 @@
+//! Patterns outside the catalogue: what the residual elongation of one leg, or of all, follows.
+
+use std::f64::consts::TAU;
+
+use hexbench_core::Vector6;
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::term::Natural;
+
+/// What a pattern follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Variable {
+    /// Time from the reference to the loaded reading.
+    Elapsed,
+    /// Temperature difference.
+    DeltaT,
+    /// Commanded leg length.
+    LegLength,
+    /// Leg force under the load.
+    LegForce,
+    /// Approach direction.
+    Approach,
+    /// Platform coordinates `a`, `b`, `c`, `alpha`, `beta`, `gamma`, from zero.
+    Pose(usize),
+}
+
+impl Variable {
+    /// Name as in the files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Elapsed => "elapsed_s",
+            Self::DeltaT => "delta_T_K",
+            Self::LegLength => "leg_length",
+            Self::LegForce => "leg_force",
+            Self::Approach => "approach",
+            Self::Pose(k) => ["a_mm", "b_mm", "c_mm", "alpha_deg", "beta_deg", "gamma_deg"][k.min(5)],
+        }
+    }
+
+    /// Value for one leg at a condition, SI.
+    pub fn value(self, at: &Condition, leg: usize) -> f64 {
+        match self {
+            Self::Elapsed => at.elapsed,
+            Self::DeltaT => at.delta_t,
+            Self::LegLength => at.extension[leg],
+            Self::LegForce => at.force[leg],
+            Self::Approach => at.approach,
+            Self::Pose(k) => at.pose.to_array()[k.min(5)],
+        }
+    }
+}
+
+/// How the elongation follows the variable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Course {
+    /// In proportion.
+    Linear,
+    /// With its square.
+    Quadratic,
+    /// A jump at this value, SI.
+    Step(f64),
+    /// A wave with this period, SI.
+    Periodic(f64),
+}
+
+impl Course {
+    /// One word for files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Quadratic => "quadratic",
+            Self::Step(_) => "step",
+            Self::Periodic(_) => "periodic",
+        }
+    }
+}
+
+/// An unexplained pattern: leg elongation = size * course(variable), times the force change when it is a compliance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pattern {
+    /// The leg (from zero), or all six alike.
+    pub leg: Option<usize>,
+    /// What it follows.
+    pub variable: Variable,
+    /// How.
+    pub course: Course,
+    /// True when it is a change of compliance (grows with the load), false when a change of length.
+    pub compliance: bool,
+}
+
+impl Pattern {
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        if matches!(self.course, Course::Periodic(_)) { 2 } else { 1 }
+    }
+
+    /// Actions at a condition; `range` is the spread of the variable, so that sizes are elongations or compliances.
+    pub fn actions(&self, at: &Condition, range: f64, out: &mut Vec<Action>) {
+        for wave in 0..self.width() {
+            out.push(Action::Elongation(Vector6::from_fn(|leg, _| {
+                if self.leg.is_some_and(|l| l != leg) {
+                    return 0.0;
+                }
+                let carrier = if self.compliance { at.force_change()[leg] } else { 1.0 };
+                carrier * self.course_value(self.variable.value(at, leg), range, wave)
+            })));
+        }
+    }
+
+    fn course_value(&self, v: f64, range: f64, wave: usize) -> f64 {
+        match self.course {
+            Course::Linear => v / range,
+            Course::Quadratic => (v / range).powi(2),
+            Course::Step(at) => f64::from(v > at),
+            Course::Periodic(period) if wave == 0 => (TAU * v / period).sin(),
+            Course::Periodic(period) => (TAU * v / period).cos(),
+        }
+    }
+
+    /// Natural size of its parameters, SI.
+    pub fn size(&self, natural: &Natural) -> f64 {
+        if self.compliance { natural.compliance } else { natural.compliance * natural.force }
+    }
+
+    /// A sentence for people.
+    pub fn text(&self) -> String {
+        let who = self.leg.map_or("all legs alike".to_owned(), |l| format!("leg {}", l + 1));
+        let what = if self.compliance { "the compliance" } else { "the length" };
+        let how = match self.course {
+            Course::Linear => format!("changes in proportion to {}", self.variable.name()),
+            Course::Quadratic => format!("changes with the square of {}", self.variable.name()),
+            Course::Step(at) => format!("jumps at {} = {:.4}", self.variable.name(), self.shown(at)),
+            Course::Periodic(p) => format!("repeats with {} every {:.3} mm", self.variable.name(), p * 1e3),
+        };
+        format!("{what} of {who} {how}")
+    }
+
+    /// A value of the variable in the unit of the files.
+    pub fn shown(&self, v: f64) -> f64 {
+        match self.variable {
+            Variable::LegLength | Variable::Pose(0..=2) => v * 1e3,
+            Variable::Pose(_) => v.to_degrees(),
+            _ => v,
+        }
+    }
+}
+
+/// Spread of a variable over conditions and legs: half its range, never zero.
+pub fn spread(variable: Variable, conditions: &[Condition]) -> f64 {
+    let values = conditions.iter().flat_map(|c| (0..6).map(move |leg| variable.value(c, leg)));
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+    let half = (high - low) / 2.0;
+    if half.is_finite() && half > 0.0 { half } else { 0.0 }
+}

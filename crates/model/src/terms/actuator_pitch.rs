@@ -1,0 +1,69 @@
+//! Periodic error of the leads.
+//!
+//! Each screw has an error that repeats with its pitch; amplitude and phase belong to the leg, the pitch is common.
+//!
+//! ```text
+//! e_i = a_i sin(2 pi q_i / pitch) + b_i cos(2 pi q_i / pitch)
+//! ```
+//!
+//! Source: ISO 230-2:2014; ISO 3408-3:2006 (ball screws, periodic lead deviation). It stays invisible unless poses are measured absolutely at many leg lengths.
+
+use std::f64::consts::TAU;
+
+use hexbench_core::Vector6;
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::period::period_grid;
+use crate::term::{Need, Rich, Scale, Shape, Term, TermInfo, each};
+
+const WAVES: [&str; 12] = [
+    "leg-1-sine",
+    "leg-1-cosine",
+    "leg-2-sine",
+    "leg-2-cosine",
+    "leg-3-sine",
+    "leg-3-cosine",
+    "leg-4-sine",
+    "leg-4-cosine",
+    "leg-5-sine",
+    "leg-5-cosine",
+    "leg-6-sine",
+    "leg-6-cosine",
+];
+
+/// Periodic error of the leads.
+pub(super) struct ActuatorPitch;
+
+static INFO: TermInfo = TermInfo {
+    id: "actuator-pitch",
+    title: "Periodic error of the leads",
+    physics: "Each screw has an error that repeats with its pitch; amplitude and phase belong to the leg, the pitch is common.",
+    equation: "e_i = a_i sin(2 pi q_i / pitch) + b_i cos(2 pi q_i / pitch)",
+    source: "ISO 230-2:2014; ISO 3408-3:2006 (ball screws, periodic lead deviation)",
+    shows: "poses are measured absolutely at many leg lengths",
+    breaker: "measure absolute poses in small steps of leg length, finer than half a pitch",
+    parameters: &each(&WAVES, "um", 1e6, Scale::Fixed(20e-6), false),
+    shape: Some(Shape { name: "pitch", unit: "mm", per_si: 1e3, bounds: [1e-4, 1.0] }),
+    needs: &[Need::Absolute],
+    rich: Rich::None,
+};
+
+impl Term for ActuatorPitch {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
+        for leg in 0..6 {
+            let (sine, cosine) = (TAU * at.commanded_lengths[leg] / shape).sin_cos();
+            out.push(Action::Elongation(Vector6::ith(leg, sine)));
+            out.push(Action::Elongation(Vector6::ith(leg, cosine)));
+        }
+    }
+
+    fn shape_grid(&self, conditions: &[Condition]) -> Vec<f64> {
+        period_grid(conditions)
+    }
+}

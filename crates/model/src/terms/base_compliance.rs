@@ -1,0 +1,61 @@
+//! The foundation yields.
+//!
+//! The base with all six base joints moves as a rigid body on six springs at the centre of the base-joint plane.
+//!
+//! ```text
+//! [v_P; w] = C [F; M_P], M_P = M + (t - P) x F; the platform follows
+//! ```
+//!
+//! Source: Kalas et al. 2018, list of suspects; Wallace, TPOINT (mount and pier flexure). It stays invisible unless moments and lateral loads are measured.
+
+use hexbench_core::Matrix3;
+
+use crate::body::YieldingBody;
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+
+/// The foundation yields.
+pub(super) struct BaseCompliance;
+
+static INFO: TermInfo = TermInfo {
+    id: "base-compliance",
+    title: "The foundation yields",
+    physics: "The base with all six base joints moves as a rigid body on six springs at the centre of the base-joint plane.",
+    equation: "[v_P; w] = C [F; M_P], M_P = M + (t - P) x F; the platform follows",
+    source: "Kalas et al. 2018, list of suspects; Wallace, TPOINT (mount and pier flexure)",
+    shows: "moments and lateral loads are measured",
+    breaker: "load sideways and with moments at poses high above the base",
+    parameters: &[
+        Parameter::new("translation-x", "nm/N", 1e9, Scale::Compliance, true),
+        Parameter::new("translation-y", "nm/N", 1e9, Scale::Compliance, true),
+        Parameter::new("translation-z", "nm/N", 1e9, Scale::Compliance, true),
+        Parameter::new("rotation-x", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+        Parameter::new("rotation-y", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+        Parameter::new("rotation-z", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+    ],
+    shape: None,
+    needs: &[],
+    rich: Rich::Full,
+};
+
+impl Term for BaseCompliance {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, machine: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        let body = body(machine, at);
+        out.extend((0..6).map(|k| body.direct(k)));
+    }
+
+    fn rich_actions(&self, machine: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        out.extend(body(machine, at).cross_actions());
+    }
+}
+
+fn body(machine: &Machine, at: &Condition) -> YieldingBody {
+    let lever = at.pose.translation - machine.base_centre;
+    YieldingBody::new(at, Matrix3::identity(), lever)
+}

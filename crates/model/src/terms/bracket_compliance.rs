@@ -1,0 +1,44 @@
+//! Joint mounts yield sideways.
+//!
+//! The mounts of the base joints are softer along the base plane than along its normal.
+//!
+//! ```text
+//! e = c_lat (n_x^2 + n_y^2) (f - f0)
+//! ```
+//!
+//! Source: Kalas et al. 2018, list of suspects: incomplete stiffness model. It stays invisible unless the inclination of the legs varies.
+
+use hexbench_core::Vector6;
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+
+/// Joint mounts yield sideways.
+pub(super) struct BracketCompliance;
+
+static INFO: TermInfo = TermInfo {
+    id: "bracket-compliance",
+    title: "Joint mounts yield sideways",
+    physics: "The mounts of the base joints are softer along the base plane than along its normal.",
+    equation: "e = c_lat (n_x^2 + n_y^2) (f - f0)",
+    source: "Kalas et al. 2018, list of suspects: incomplete stiffness model",
+    shows: "the inclination of the legs varies",
+    breaker: "measure at poses far from the centre, where the legs stand steeper and flatter",
+    parameters: &[Parameter::new("lateral-compliance", "nm/N", 1e9, Scale::Compliance, true)],
+    shape: None,
+    needs: &[],
+    rich: Rich::PerLeg,
+};
+
+impl Term for BracketCompliance {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        let lateral = |leg: usize| 1.0 - at.legs.directions[leg].z.powi(2);
+        out.push(Action::Elongation(Vector6::from_fn(|leg, _| lateral(leg) * at.force_change()[leg])));
+    }
+}

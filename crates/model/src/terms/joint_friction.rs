@@ -1,0 +1,70 @@
+//! Dry friction in legs and joints.
+//!
+//! A slider beside each leg spring holds up to f_c against the last motion, so the spring force lags behind the leg force and depends on the way the load was reached.
+//!
+//! ```text
+//! e = c (play(f) - play(f0)), play(f) kept within f -+ f_c along the path 0, f0, (overshoot), f
+//! ```
+//!
+//! Source: Visintin, Differential Models of Hysteresis, 1994 (play operator); Armstrong-Helouvry et al., Automatica 30, 1994. It stays invisible unless both approach directions are measured.
+
+use hexbench_core::Vector6;
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Need, Parameter, Rich, Scale, Shape, Term, TermInfo};
+
+/// Dry friction in legs and joints.
+pub(super) struct JointFriction;
+
+static INFO: TermInfo = TermInfo {
+    id: "joint-friction",
+    title: "Dry friction in legs and joints",
+    physics: "A slider beside each leg spring holds up to f_c against the last motion, so the spring force lags behind the leg force and depends on the way the load was reached.",
+    equation: "e = c (play(f) - play(f0)), play(f) kept within f -+ f_c along the path 0, f0, (overshoot), f",
+    source: "Visintin, Differential Models of Hysteresis, 1994 (play operator); Armstrong-Helouvry et al., Automatica 30, 1994",
+    shows: "both approach directions are measured",
+    breaker: "read the same load once from below and once coming back from a higher load",
+    parameters: &[Parameter::new("force", "N", 1.0, Scale::Force, true)],
+    shape: Some(Shape { name: "limit", unit: "N", per_si: 1.0, bounds: [1e-3, 1e6] }),
+    needs: &[Need::Approach],
+    rich: Rich::PerLeg,
+};
+
+impl Term for JointFriction {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
+        let lag = |leg: usize| {
+            let (f0, f) = (at.reference_force[leg], at.force[leg]);
+            let rest = play(0.0, f0, shape);
+            let loaded = play(play(rest, at.extreme_force[leg], shape), f, shape);
+            (loaded - rest - (f - f0)) / shape
+        };
+        out.push(Action::Force(Vector6::from_fn(|leg, _| lag(leg))));
+    }
+
+    fn shape_grid(&self, conditions: &[Condition]) -> Vec<f64> {
+        // The limit decides which legs slide at all: from nearly all of them to the strongest only.
+        let typical = typical_force(conditions);
+        (0..7).map(|k| typical * 0.003 * 2f64.powi(k)).collect()
+    }
+
+    fn shape_is_parameter(&self) -> bool {
+        true
+    }
+}
+
+/// Play operator: the spring force follows the leg force `f` but lags by at most `limit`.
+fn play(previous: f64, f: f64, limit: f64) -> f64 {
+    previous.max(f - limit).min(f + limit)
+}
+
+/// Root mean square leg force change over all conditions, N.
+fn typical_force(conditions: &[Condition]) -> f64 {
+    let sum: f64 = conditions.iter().map(|c| c.force_change().norm_squared()).sum();
+    (sum / (6 * conditions.len().max(1)) as f64).sqrt().max(1e-3)
+}

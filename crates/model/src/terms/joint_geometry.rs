@@ -1,0 +1,100 @@
+//! Joints are not where the drawing says.
+//!
+//! Base and platform joints deviate from their nominal places (36 coordinates). Twelve combinations are the same as moving the metrology and the target frame and cannot be told from them.
+//!
+//! ```text
+//! e = n . dA - (R' n) . dB
+//! ```
+//!
+//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 7; Daney 2003, Mech. Mach. Theory 38 (calibration of a Gough platform). It stays invisible unless poses are measured absolutely.
+
+use hexbench_core::{Vector3, Vector6};
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Need, Rich, Scale, Term, TermInfo, each};
+
+const JOINTS: [&str; 36] = [
+    "base-1-x",
+    "base-1-y",
+    "base-1-z",
+    "base-2-x",
+    "base-2-y",
+    "base-2-z",
+    "base-3-x",
+    "base-3-y",
+    "base-3-z",
+    "base-4-x",
+    "base-4-y",
+    "base-4-z",
+    "base-5-x",
+    "base-5-y",
+    "base-5-z",
+    "base-6-x",
+    "base-6-y",
+    "base-6-z",
+    "platform-1-x",
+    "platform-1-y",
+    "platform-1-z",
+    "platform-2-x",
+    "platform-2-y",
+    "platform-2-z",
+    "platform-3-x",
+    "platform-3-y",
+    "platform-3-z",
+    "platform-4-x",
+    "platform-4-y",
+    "platform-4-z",
+    "platform-5-x",
+    "platform-5-y",
+    "platform-5-z",
+    "platform-6-x",
+    "platform-6-y",
+    "platform-6-z",
+];
+
+/// Joints are not where the drawing says.
+pub(super) struct JointGeometry;
+
+static INFO: TermInfo = TermInfo {
+    id: "joint-geometry",
+    title: "Joints are not where the drawing says",
+    physics: "Base and platform joints deviate from their nominal places (36 coordinates). Twelve combinations are the same as moving the metrology and the target frame and cannot be told from them.",
+    equation: "e = n . dA - (R' n) . dB",
+    source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 7; Daney 2003, Mech. Mach. Theory 38 (calibration of a Gough platform)",
+    shows: "poses are measured absolutely",
+    breaker: "measure absolute poses over the whole workspace",
+    parameters: &each(&JOINTS, "um", 1e6, Scale::Fixed(1e-3), false),
+    shape: None,
+    needs: &[Need::Absolute],
+    rich: Rich::None,
+};
+
+impl Term for JointGeometry {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        let rotation = at.pose.rotation();
+        for leg in 0..6 {
+            out.extend((0..3).map(|k| Action::Elongation(Vector6::ith(leg, at.legs.directions[leg][k]))));
+        }
+        for leg in 0..6 {
+            let along = rotation.tr_mul(&at.legs.directions[leg]);
+            out.extend((0..3).map(|k| Action::Elongation(Vector6::ith(leg, -along[k]))));
+        }
+    }
+
+    fn calibrate(&self, values: &[f64], machine: &mut Machine) {
+        for leg in 0..6 {
+            machine.base_joints[leg] += Vector3::from_column_slice(&values[3 * leg..3 * leg + 3]);
+            machine.platform_joints[leg] += Vector3::from_column_slice(&values[18 + 3 * leg..21 + 3 * leg]);
+        }
+    }
+
+    fn calibrates(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,41 @@
+//! Tension differs from compression.
+//!
+//! A leg is more compliant when it is pulled than when it is pushed.
+//!
+//! ```text
+//! e = c_t (max(f, 0) - max(f0, 0))
+//! ```
+//!
+//! Source: Kalas et al. 2018, future work: legs in tension. It stays invisible unless some legs are pulled.
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+
+/// Tension differs from compression.
+pub(super) struct LegAsymmetry;
+
+static INFO: TermInfo = TermInfo {
+    id: "leg-asymmetry",
+    title: "Tension differs from compression",
+    physics: "A leg is more compliant when it is pulled than when it is pushed.",
+    equation: "e = c_t (max(f, 0) - max(f0, 0))",
+    source: "Kalas et al. 2018, future work: legs in tension",
+    shows: "some legs are pulled",
+    breaker: "choose loads that pull on legs that are otherwise pushed",
+    parameters: &[Parameter::new("tension-compliance", "nm/N", 1e9, Scale::Compliance, false)],
+    shape: None,
+    needs: &[],
+    rich: Rich::PerLeg,
+};
+
+impl Term for LegAsymmetry {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        out.push(Action::Elongation(at.force.map(|f| f.max(0.0)) - at.reference_force.map(|f| f.max(0.0))));
+    }
+}

@@ -1,0 +1,41 @@
+//! Leg compliance grows with leg length.
+//!
+//! The screw or rod of a leg yields more the further the leg is extended.
+//!
+//! ```text
+//! e = s (q - q_home) (f - f0)
+//! ```
+//!
+//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (stiffness of actuated links). It stays invisible unless the poses use a long stroke.
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+
+/// Leg compliance grows with leg length.
+pub(super) struct LegLengthCompliance;
+
+static INFO: TermInfo = TermInfo {
+    id: "leg-length-compliance",
+    title: "Leg compliance grows with leg length",
+    physics: "The screw or rod of a leg yields more the further the leg is extended.",
+    equation: "e = s (q - q_home) (f - f0)",
+    source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (stiffness of actuated links)",
+    shows: "the poses use a long stroke",
+    breaker: "repeat the loads at poses with short and with long legs",
+    parameters: &[Parameter::new("slope", "nm/(N mm)", 1e6, Scale::CompliancePerLength, false)],
+    shape: None,
+    needs: &[],
+    rich: Rich::PerLeg,
+};
+
+impl Term for LegLengthCompliance {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        out.push(Action::Elongation(at.extension.component_mul(&at.force_change())));
+    }
+}

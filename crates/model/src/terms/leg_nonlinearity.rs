@@ -1,0 +1,47 @@
+//! Nonlinear leg spring.
+//!
+//! Rolling contacts stiffen under load (Hertz, p = 2/3); other parts soften. The size is the extra elongation at 100 N.
+//!
+//! ```text
+//! e = e100 (sgn(f) |f / 100 N|^p - the same at f0)
+//! ```
+//!
+//! Source: Johnson, Contact Mechanics, 1985, ch. 4; Harris and Kotzalas, Rolling Bearing Analysis, 2006. It stays invisible unless three or more load levels are measured.
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Parameter, Rich, Scale, Shape, Term, TermInfo};
+
+/// Nonlinear leg spring.
+pub(super) struct LegNonlinearity;
+
+static INFO: TermInfo = TermInfo {
+    id: "leg-nonlinearity",
+    title: "Nonlinear leg spring",
+    physics: "Rolling contacts stiffen under load (Hertz, p = 2/3); other parts soften. The size is the extra elongation at 100 N.",
+    equation: "e = e100 (sgn(f) |f / 100 N|^p - the same at f0)",
+    source: "Johnson, Contact Mechanics, 1985, ch. 4; Harris and Kotzalas, Rolling Bearing Analysis, 2006",
+    shows: "three or more load levels are measured",
+    breaker: "apply the same direction of load at five levels, small ones included",
+    parameters: &[Parameter::new("elongation-at-100-N", "um", 1e6, Scale::Elongation, false)],
+    shape: Some(Shape { name: "exponent", unit: "1", per_si: 1.0, bounds: [0.4, 3.0] }),
+    needs: &[],
+    rich: Rich::PerLeg,
+};
+
+impl Term for LegNonlinearity {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
+        let power = |f: f64| f.signum() * (f.abs() / 100.0).powf(shape);
+        out.push(Action::Elongation(at.force.map(power) - at.reference_force.map(power)));
+    }
+
+    fn shape_grid(&self, _: &[Condition]) -> Vec<f64> {
+        // Near 1 it is the spring itself.
+        vec![0.4, 0.5, 0.6, 2.0 / 3.0, 0.75, 0.85, 1.2, 1.5, 1.75, 2.0, 2.5, 3.0]
+    }
+}

@@ -1,0 +1,43 @@
+//! Zero lengths of the legs are off.
+//!
+//! Each leg is longer or shorter than its encoder says by a constant.
+//!
+//! ```text
+//! e_i = offset_i
+//! ```
+//!
+//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 7 (calibration). It stays invisible unless poses are measured absolutely.
+
+use hexbench_core::Vector6;
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{LEGS, Need, Rich, Scale, Term, TermInfo, each};
+
+/// Zero lengths of the legs are off.
+pub(super) struct LegOffset;
+
+static INFO: TermInfo = TermInfo {
+    id: "leg-offset",
+    title: "Zero lengths of the legs are off",
+    physics: "Each leg is longer or shorter than its encoder says by a constant.",
+    equation: "e_i = offset_i",
+    source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 7 (calibration)",
+    shows: "poses are measured absolutely",
+    breaker: "measure absolute poses over the whole workspace",
+    parameters: &each(&LEGS, "um", 1e6, Scale::Fixed(1e-3), false),
+    shape: None,
+    needs: &[Need::Absolute],
+    rich: Rich::None,
+};
+
+impl Term for LegOffset {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, _: &Condition, _: f64, out: &mut Vec<Action>) {
+        out.extend((0..6).map(|leg| Action::Elongation(Vector6::ith(leg, 1.0))));
+    }
+}

@@ -1,0 +1,45 @@
+//! The legs are not massless.
+//!
+//! Half the weight of each uniform leg rests on its platform joint and half on its base joint; gravity points along -z.
+//!
+//! ```text
+//! dF at every platform joint = -w/2 z
+//! ```
+//!
+//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (gravity of the links). It stays invisible unless poses are measured absolutely under two loads.
+
+use hexbench_core::Vector3;
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Need, Parameter, Rich, Scale, Term, TermInfo};
+
+/// The legs are not massless.
+pub(super) struct LegWeight;
+
+static INFO: TermInfo = TermInfo {
+    id: "leg-weight",
+    title: "The legs are not massless",
+    physics: "Half the weight of each uniform leg rests on its platform joint and half on its base joint; gravity points along -z.",
+    equation: "dF at every platform joint = -w/2 z",
+    source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (gravity of the links)",
+    shows: "poses are measured absolutely under two loads",
+    breaker: "measure absolute poses over the workspace under two loads",
+    parameters: &[Parameter::new("weight-per-leg", "N", 1.0, Scale::Fixed(100.0), true)],
+    shape: None,
+    needs: &[Need::Absolute, Need::Loads],
+    rich: Rich::None,
+};
+
+impl Term for LegWeight {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        let share = -0.5 * Vector3::z();
+        let moment = at.legs.arms.iter().map(|arm| arm.cross(&share)).sum();
+        out.push(at.wrench_action(&(6.0 * share), &moment));
+    }
+}

@@ -1,0 +1,51 @@
+//! The load acts beside the mobile origin.
+//!
+//! The load acts at a point of the platform other than the mobile origin.
+//!
+//! ```text
+//! dM = (R r') x F, in both states
+//! ```
+//!
+//! Source: Kalas et al. 2018, experimental setup (stacked masses). It stays invisible unless lateral loads or tilts are measured.
+
+use hexbench_core::Vector3;
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+
+/// The load acts beside the mobile origin.
+pub(super) struct LoadOffset;
+
+static INFO: TermInfo = TermInfo {
+    id: "load-offset",
+    title: "The load acts beside the mobile origin",
+    physics: "The load acts at a point of the platform other than the mobile origin.",
+    equation: "dM = (R r') x F, in both states",
+    source: "Kalas et al. 2018, experimental setup (stacked masses)",
+    shows: "lateral loads or tilts are measured",
+    breaker: "tilt the platform under the load, or pull sideways",
+    parameters: &[
+        Parameter::new("x", "mm", 1e3, Scale::Radius, false),
+        Parameter::new("y", "mm", 1e3, Scale::Radius, false),
+        Parameter::new("z", "mm", 1e3, Scale::Radius, false),
+    ],
+    shape: None,
+    needs: &[],
+    rich: Rich::None,
+};
+
+impl Term for LoadOffset {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        let (rotation, force) = (at.pose.rotation(), at.wrench.force - at.reference.force);
+        for k in 0..3 {
+            let moment = rotation.column(k).cross(&force);
+            out.push(at.wrench_action(&Vector3::zeros(), &moment));
+        }
+    }
+}

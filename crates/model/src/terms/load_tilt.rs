@@ -1,0 +1,49 @@
+//! The load is not quite aligned.
+//!
+//! All loads are turned by two small angles, about the x and the y axis of the fixed frame.
+//!
+//! ```text
+//! dF = [theta_x, theta_y, 0] x F, in both states
+//! ```
+//!
+//! Source: JCGM 100:2008 (GUM), F.2.4 (misalignment of a quantity). It stays invisible unless the leg forces react to the tilt more than to their own size.
+
+use hexbench_core::Vector3;
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+
+/// The load is not quite aligned.
+pub(super) struct LoadTilt;
+
+static INFO: TermInfo = TermInfo {
+    id: "load-tilt",
+    title: "The load is not quite aligned",
+    physics: "All loads are turned by two small angles, about the x and the y axis of the fixed frame.",
+    equation: "dF = [theta_x, theta_y, 0] x F, in both states",
+    source: "JCGM 100:2008 (GUM), F.2.4 (misalignment of a quantity)",
+    shows: "the leg forces react to the tilt more than to their own size",
+    breaker: "load along several directions",
+    parameters: &[
+        Parameter::new("about-x", "mrad", 1e3, Scale::Fixed(0.1), false),
+        Parameter::new("about-y", "mrad", 1e3, Scale::Fixed(0.1), false),
+    ],
+    shape: None,
+    needs: &[],
+    rich: Rich::None,
+};
+
+impl Term for LoadTilt {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        let force = at.wrench.force - at.reference.force;
+        for axis in [Vector3::x(), Vector3::y()] {
+            out.push(at.wrench_action(&axis.cross(&force), &Vector3::zeros()));
+        }
+    }
+}

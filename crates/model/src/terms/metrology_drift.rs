@@ -1,0 +1,50 @@
+//! The measurement drifts with time.
+//!
+//! The frame of the measuring machine moves steadily between the reference and the loaded reading.
+//!
+//! ```text
+//! dX = rates * elapsed
+//! ```
+//!
+//! Source: Wallace, TPOINT; JCGM 100:2008 (GUM), F.1.1.2 (drift between observations). It stays invisible unless elapsed_s varies.
+
+use hexbench_core::Vector6;
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Need, Parameter, Rich, Scale, Term, TermInfo};
+
+/// The measurement drifts with time.
+pub(super) struct MetrologyDrift;
+
+static INFO: TermInfo = TermInfo {
+    id: "metrology-drift",
+    title: "The measurement drifts with time",
+    physics: "The frame of the measuring machine moves steadily between the reference and the loaded reading.",
+    equation: "dX = rates * elapsed",
+    source: "Wallace, TPOINT; JCGM 100:2008 (GUM), F.1.1.2 (drift between observations)",
+    shows: "elapsed_s varies",
+    breaker: "repeat one load after a short and after a long wait",
+    parameters: &[
+        Parameter::new("translation-rate-x", "nm/s", 1e9, Scale::PerElapsed(20e-6), false),
+        Parameter::new("translation-rate-y", "nm/s", 1e9, Scale::PerElapsed(20e-6), false),
+        Parameter::new("translation-rate-z", "nm/s", 1e9, Scale::PerElapsed(20e-6), false),
+        Parameter::new("rotation-rate-x", "nrad/s", 1e9, Scale::PerElapsed(200e-6), false),
+        Parameter::new("rotation-rate-y", "nrad/s", 1e9, Scale::PerElapsed(200e-6), false),
+        Parameter::new("rotation-rate-z", "nrad/s", 1e9, Scale::PerElapsed(200e-6), false),
+    ],
+    shape: None,
+    needs: &[Need::Elapsed],
+    rich: Rich::None,
+};
+
+impl Term for MetrologyDrift {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        out.extend((0..6).map(|k| Action::Twist(Vector6::ith(k, at.elapsed))));
+    }
+}

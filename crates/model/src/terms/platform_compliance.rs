@@ -1,0 +1,60 @@
+//! The platform plate yields.
+//!
+//! The plate between the legs and the measured targets moves as a rigid body on six springs at the mobile origin, mobile axes.
+//!
+//! ```text
+//! [v; w] = R C R' [F; M]
+//! ```
+//!
+//! Source: Dasgupta and Mruthyunjaya 2000, Mech. Mach. Theory 35 (platform flexibility). It stays invisible unless the direction of the load varies against the platform.
+
+use hexbench_core::Vector3;
+
+use crate::body::YieldingBody;
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+
+/// The platform plate yields.
+pub(super) struct PlatformCompliance;
+
+static INFO: TermInfo = TermInfo {
+    id: "platform-compliance",
+    title: "The platform plate yields",
+    physics: "The plate between the legs and the measured targets moves as a rigid body on six springs at the mobile origin, mobile axes.",
+    equation: "[v; w] = R C R' [F; M]",
+    source: "Dasgupta and Mruthyunjaya 2000, Mech. Mach. Theory 35 (platform flexibility)",
+    shows: "the direction of the load varies against the platform",
+    breaker: "turn the platform under the same load: the plate turns with it, the base does not",
+    parameters: &[
+        Parameter::new("translation-x", "nm/N", 1e9, Scale::Compliance, true),
+        Parameter::new("translation-y", "nm/N", 1e9, Scale::Compliance, true),
+        Parameter::new("translation-z", "nm/N", 1e9, Scale::Compliance, true),
+        Parameter::new("rotation-x", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+        Parameter::new("rotation-y", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+        Parameter::new("rotation-z", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+    ],
+    shape: None,
+    needs: &[],
+    rich: Rich::Full,
+};
+
+impl Term for PlatformCompliance {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        let body = body(at);
+        out.extend((0..6).map(|k| body.direct(k)));
+    }
+
+    fn rich_actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        out.extend(body(at).cross_actions());
+    }
+}
+
+fn body(at: &Condition) -> YieldingBody {
+    YieldingBody::new(at, at.pose.rotation(), Vector3::zeros())
+}

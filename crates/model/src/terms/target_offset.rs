@@ -1,0 +1,52 @@
+//! The measured point is not the mobile origin.
+//!
+//! The targets are registered to a point beside the mobile origin, so rotations show as translations.
+//!
+//! ```text
+//! dt = (R_loaded - R_ref) r'
+//! ```
+//!
+//! Source: Kalas et al. 2018, fig. 5 (balls registered against reference holes). It stays invisible unless the deflection has rotations.
+
+use hexbench_core::{Matrix6, Vector3};
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+
+/// The measured point is not the mobile origin.
+pub(super) struct TargetOffset;
+
+static INFO: TermInfo = TermInfo {
+    id: "target-offset",
+    title: "The measured point is not the mobile origin",
+    physics: "The targets are registered to a point beside the mobile origin, so rotations show as translations.",
+    equation: "dt = (R_loaded - R_ref) r'",
+    source: "Kalas et al. 2018, fig. 5 (balls registered against reference holes)",
+    shows: "the deflection has rotations",
+    breaker: "load with moments, which turn the platform more than they shift it",
+    parameters: &[
+        Parameter::new("x", "mm", 1e3, Scale::Radius, false),
+        Parameter::new("y", "mm", 1e3, Scale::Radius, false),
+        Parameter::new("z", "mm", 1e3, Scale::Radius, false),
+    ],
+    shape: None,
+    needs: &[],
+    rich: Rich::None,
+};
+
+impl Term for TargetOffset {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        for k in 0..3 {
+            let lever: Vector3 = at.pose.rotation().column(k).into_owned();
+            let mut shift = Matrix6::zeros();
+            shift.fixed_view_mut::<3, 3>(0, 3).copy_from(&-lever.cross_matrix());
+            out.push(Action::Target(shift));
+        }
+    }
+}

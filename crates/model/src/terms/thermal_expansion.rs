@@ -1,0 +1,41 @@
+//! The legs grow with temperature.
+//!
+//! Every leg grows in proportion to its length and to the change of temperature.
+//!
+//! ```text
+//! e = alpha q delta_T
+//! ```
+//!
+//! Source: Mayr et al. 2012, CIRP Annals 61 (thermal issues in machine tools). It stays invisible unless delta_T_K varies.
+
+use crate::campaign::Condition;
+use crate::chain::Action;
+use crate::machine::Machine;
+use crate::term::{Need, Parameter, Rich, Scale, Term, TermInfo};
+
+/// The legs grow with temperature.
+pub(super) struct ThermalExpansion;
+
+static INFO: TermInfo = TermInfo {
+    id: "thermal-expansion",
+    title: "The legs grow with temperature",
+    physics: "Every leg grows in proportion to its length and to the change of temperature.",
+    equation: "e = alpha q delta_T",
+    source: "Mayr et al. 2012, CIRP Annals 61 (thermal issues in machine tools)",
+    shows: "delta_T_K varies",
+    breaker: "repeat one load while the temperature changes by a kelvin or more",
+    parameters: &[Parameter::new("coefficient", "um/(m K)", 1e6, Scale::Fixed(50e-6), false)],
+    shape: None,
+    needs: &[Need::DeltaT],
+    rich: Rich::PerLeg,
+};
+
+impl Term for ThermalExpansion {
+    fn info(&self) -> &TermInfo {
+        &INFO
+    }
+
+    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        out.push(Action::Elongation(at.commanded_lengths * at.delta_t));
+    }
+}
