@@ -149,38 +149,46 @@ impl Campaign {
         self.measurand == Measurand::AbsolutePose
     }
 
-    /// Conditions of this campaign on a machine.
+    /// Conditions of this campaign on a machine whose legs have these compliances (m/N).
     ///
     /// # Errors
     /// [`ModelError::SingularPose`] for the first pose in file order that is singular.
-    pub fn conditions(&self, machine: &Machine) -> Result<Vec<Condition>, ModelError> {
-        self.groups.par_iter().map(|g| self.condition(machine, g)).collect()
+    pub fn conditions(&self, machine: &Machine, springs: &Vector6) -> Result<Vec<Condition>, ModelError> {
+        self.groups.par_iter().map(|g| self.condition(machine, springs, g)).collect()
     }
 
-    fn condition(&self, machine: &Machine, group: &Group) -> Result<Condition, ModelError> {
+    fn condition(
+        &self,
+        machine: &Machine,
+        springs: &Vector6,
+        group: &Group,
+    ) -> Result<Condition, ModelError> {
         let o = &group.mean;
+        let stance = if self.is_absolute() {
+            Stance::measured(machine, o)?
+        } else {
+            Stance::deflected(machine, springs, o, self.measurand)?
+        };
         let commanded_lengths = machine.commanded_lengths(&o.pose);
-        let pose =
-            if self.is_absolute() { machine.platform_pose(&Pose::from_array(o.measured)) } else { o.pose };
-        let legs = machine.legs(&pose)?;
-        let observer = self.observer(machine, &pose, &o.measured);
+        let legs = stance.legs;
+        let observer = self.observer(machine, &stance.pose, &o.measured);
         let reading = if self.is_absolute() {
             // Exact closure at the measured pose: no forward kinematics is needed.
             observer * legs.platform_jacobian * (legs.lengths - commanded_lengths)
         } else {
             Vector6::from_column_slice(&o.measured)
         };
-        let overshoot = o.reference.to_vector() + OVERLOAD * (o.wrench.to_vector() - o.reference.to_vector());
-        let extreme = if o.approach < 0.0 { overshoot } else { o.wrench.to_vector() };
+        let overshoot = stance.reference_force + OVERLOAD * (stance.force - stance.reference_force);
+        let extreme_force = if o.approach < 0.0 { overshoot } else { stance.force };
         Ok(Condition {
-            pose,
+            pose: stance.pose,
             commanded_lengths,
             extension: commanded_lengths - machine.home_lengths,
             wrench: o.wrench,
             reference: o.reference,
-            force: legs.forces(&o.wrench.to_vector()),
-            reference_force: legs.forces(&o.reference.to_vector()),
-            extreme_force: legs.forces(&extreme),
+            force: stance.force,
+            reference_force: stance.reference_force,
+            extreme_force,
             approach: o.approach,
             delta_t: o.delta_t,
             elapsed: o.elapsed,
@@ -204,6 +212,61 @@ impl Campaign {
         let lever = pose.rotation() * machine.target_frame.translation.vector;
         let axes = *machine.metrology_frame.rotation.to_rotation_matrix().matrix();
         observer_matrix(&axes, &lever, &angles)
+    }
+}
+
+/// Where the legs stand and what they carry.
+struct Stance {
+    pose: Pose,
+    legs: Legs,
+    force: Vector6,
+    reference_force: Vector6,
+}
+
+impl Stance {
+    /// Absolute mode: the measured pose, brought back to the platform, is the loaded pose.
+    fn measured(machine: &Machine, o: &Observation) -> Result<Self, ModelError> {
+        let pose = machine.platform_pose(&Pose::from_array(o.measured));
+        let legs = machine.legs(&pose)?;
+        let force = |w: &Wrench| legs.forces(&machine.effective_wrench(w, &pose));
+        Ok(Self { pose, legs, force: force(&o.wrench), reference_force: force(&o.reference) })
+    }
+
+    /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
+    /// the finite deflection is of third order. The reference pose is the commanded one plus the small deflection that
+    /// the springs give it; the loaded pose lies a measured deflection further.
+    fn deflected(
+        machine: &Machine,
+        springs: &Vector6,
+        o: &Observation,
+        measurand: Measurand,
+    ) -> Result<Self, ModelError> {
+        let commanded = machine.legs(&o.pose)?;
+        let reference_wrench = machine.effective_wrench(&o.reference, &o.pose);
+        let sag = commanded.platform_jacobian * springs.component_mul(&commanded.forces(&reference_wrench));
+        let reference = moved(&o.pose, &sag, 1.0);
+        let mut motion = Vector6::from_column_slice(&o.measured);
+        if measurand == Measurand::DeflectionEuler {
+            let rotation = euler_rate_matrix(&o.pose.angles) * motion.fixed_rows::<3>(3);
+            motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
+        }
+        let pose = moved(&reference, &motion, 0.5);
+        let loaded = machine.legs(&moved(&reference, &motion, 1.0))?;
+        Ok(Self {
+            legs: machine.legs(&pose)?,
+            pose,
+            force: loaded.forces(&machine.effective_wrench(&o.wrench, &o.pose)),
+            reference_force: machine.legs(&reference)?.forces(&reference_wrench),
+        })
+    }
+}
+
+/// A pose after a share of a small geometric twist.
+fn moved(pose: &Pose, twist: &Vector6, share: f64) -> Pose {
+    let rates = euler_rate_matrix(&pose.angles).try_inverse().unwrap_or_else(Matrix3::identity);
+    Pose {
+        translation: pose.translation + share * twist.fixed_rows::<3>(0),
+        angles: pose.angles + share * (rates * twist.fixed_rows::<3>(3)),
     }
 }
 

@@ -127,15 +127,17 @@ fn collect(
     rich: bool,
 ) -> (Gram, Vec<Candidate>) {
     let mut collector = Collector::new(lin, natural);
-    let scanner = Scanner::new(lin, point);
+    let scanner = Scanner::new(lin, point, None);
     for term in terms {
         let grid = term.shape_grid(&lin.conditions);
-        let shapes = match point.active.iter().find(|a| a.id() == term.info().id) {
-            _ if term.info().shape.is_none() => vec![1.0],
-            _ if grid.is_empty() => continue,
-            Some(a) if grid.len() > LONG_GRID => vec![a.shape],
-            _ if grid.len() > LONG_GRID => vec![scanner.best_shape(term.as_ref(), &grid)],
-            _ => grid.clone(),
+        let shapes = if term.info().shape.is_none() {
+            vec![1.0]
+        } else if grid.len() > LONG_GRID {
+            vec![Scanner::new(lin, point, Some(term.info().id)).best_shape(term.as_ref(), &grid)]
+        } else if grid.is_empty() {
+            continue;
+        } else {
+            grid.clone()
         };
         let active = point.active.iter().find(|a| a.id() == term.info().id);
         collector.add_term(term, &shapes, grid.len(), active.filter(|_| rich).map(|a| a.shape));
@@ -179,9 +181,16 @@ struct Scanner<'a> {
 }
 
 impl<'a> Scanner<'a> {
-    fn new(lin: &'a Linearization, point: &Point) -> Self {
+    /// `point`: the terms at which `lin` was made; `except`: one that is to be explained anew.
+    fn new(lin: &'a Linearization, point: &Point, except: Option<&str>) -> Self {
         let mut columns = vec![lin.common_block()];
-        columns.extend(point.active.iter().map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)));
+        columns.extend(
+            point
+                .active
+                .iter()
+                .filter(|a| Some(a.id()) != except)
+                .map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)),
+        );
         let width = columns.iter().map(DMatrix::ncols).sum();
         let mut all = DMatrix::zeros(lin.equations(), width);
         let mut at = 0;

@@ -58,6 +58,10 @@ pub struct Fit {
     pub solution: Solution,
     /// Gauss-Newton iterations made.
     pub iterations: usize,
+    /// False when the iterations ran out first.
+    pub settled: bool,
+    /// Change of chi-square in the last iteration.
+    pub last_step: f64,
 }
 
 impl Fit {
@@ -120,20 +124,22 @@ pub fn fit(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Res
         return Err(ModelError::NoLoad);
     }
     let mut objective = state.residuals().norm_squared() + penalty(&point, wanted);
-    let mut last_step = f64::INFINITY;
     for iteration in 1..=MOST_ITERATIONS {
         let solution = step(&state, &point, wanted, &prior)?;
         let (next, next_state, next_objective) = search(campaign, &point, &solution.x, wanted, objective)?;
-        last_step = (objective - next_objective).abs();
+        let last_step = (objective - next_objective).abs();
         point = next;
         state = next_state;
         objective = next_objective;
-        if last_step < SETTLED_CHI2 {
+        // Relative to the misfit: a wrong model need not be settled to the last digit.
+        let settled = last_step < SETTLED_CHI2 * (objective / state.equations() as f64).max(1.0);
+        if settled || iteration == MOST_ITERATIONS {
             let solution = step(&state, &point, wanted, &prior)?;
-            return Ok(finish(campaign, point, &state, solution, prior, wanted, iteration));
+            let fit = finish(campaign, point, &state, solution, prior, wanted, iteration);
+            return Ok(Fit { settled, last_step, ..fit });
         }
     }
-    Err(ModelError::NotConverged { iterations: MOST_ITERATIONS, last_step })
+    Err(ModelError::NotConverged { iterations: MOST_ITERATIONS, last_step: objective })
 }
 
 fn start_point(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Point {
@@ -342,6 +348,8 @@ fn finish(
         prior,
         solution,
         iterations,
+        settled: true,
+        last_step: 0.0,
     }
 }
 

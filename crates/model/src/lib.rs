@@ -17,6 +17,8 @@ pub mod machine;
 pub mod noise;
 pub mod pattern;
 mod period;
+pub mod residuals;
 pub mod search;
 pub mod term;
 pub mod terms;
+pub mod verdict;

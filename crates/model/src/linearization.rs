@@ -121,7 +121,7 @@ impl Linearization {
     /// [`ModelError::SingularPose`].
     pub fn at(campaign: &Campaign, point: &Point) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
-        let conditions = campaign.conditions(&machine)?;
+        let conditions = campaign.conditions(&machine, &point.springs)?;
         let links = conditions.par_iter().map(|c| link(&machine, c, point)).collect();
         Ok(Self { machine, conditions, links, absolute: campaign.is_absolute() })
     }

@@ -1,6 +1,6 @@
 //! The machine as the model currently believes it: nominal joints plus what calibration added.
 
-use hexbench_core::{Hexapod, Pose, Vector3, Vector6};
+use hexbench_core::{Hexapod, Pose, Vector3, Vector6, Wrench};
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 
 use crate::error::ModelError;
@@ -25,6 +25,10 @@ pub struct Machine {
     pub bracket_pairs: Vec<[usize; 2]>,
     /// Centre of the base-joint plane, fixed frame, m.
     pub base_centre: Vector3,
+    /// Where the load acts, mobile frame, m; the mobile origin unless found otherwise.
+    pub load_point: Vector3,
+    /// Small rotation of all loads, fixed axes, rad.
+    pub load_tilt: Vector3,
 }
 
 impl Machine {
@@ -39,6 +43,8 @@ impl Machine {
             home_lengths: leg_lengths(&hexapod.base_joints, &hexapod.platform_joints, &Pose::default()),
             bracket_pairs: hexapod.bracket_pairs(),
             base_centre: hexapod.base_centre(),
+            load_point: Vector3::zeros(),
+            load_tilt: Vector3::zeros(),
         }
     }
 
@@ -53,6 +59,13 @@ impl Machine {
     /// Lengths the controller commands: inverse kinematics of the nominal machine, m.
     pub fn commanded_lengths(&self, pose: &Pose) -> Vector6 {
         leg_lengths(&self.nominal.base_joints, &self.nominal.platform_joints, pose)
+    }
+
+    /// The wrench that acts at the mobile origin when the load is offset and tilted.
+    pub fn effective_wrench(&self, wrench: &Wrench, pose: &Pose) -> Vector6 {
+        let force = wrench.force + self.load_tilt.cross(&wrench.force);
+        let moment = wrench.moment + (pose.rotation() * self.load_point).cross(&force);
+        Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
     }
 
     /// The platform pose behind a reading of the target: `M^-1 X T^-1`.

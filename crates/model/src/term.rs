@@ -22,8 +22,8 @@ pub trait Term: Send + Sync {
         }
     }
 
-    /// Move the geometry of the machine by the parameter values (SI) when the term does so exactly; such a term is
-    /// part of the machine at the point of linearisation.
+    /// Change the machine or its load by the parameter values (SI) when the term can do so exactly; such a term is part
+    /// of the machine at the point of linearisation, and other terms see what it does.
     fn calibrate(&self, _values: &[f64], _machine: &mut Machine) {}
 
     /// True when [`Term::calibrate`] does something.
@@ -34,6 +34,11 @@ pub trait Term: Send + Sync {
     /// True when the shape is the value of the first parameter: the fit makes the two agree.
     fn shape_is_parameter(&self) -> bool {
         false
+    }
+
+    /// Shape values a fit may reach from a start value.
+    fn shape_bounds(&self, _start: f64) -> [f64; 2] {
+        self.info().shape.map_or([0.0, f64::INFINITY], |s| s.bounds)
     }
 
     /// Grid of shape values worth trying for these conditions; empty when the term has no shape.

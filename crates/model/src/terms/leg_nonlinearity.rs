@@ -40,8 +40,12 @@ impl Term for LegNonlinearity {
         out.push(Action::Elongation(at.force.map(power) - at.reference_force.map(power)));
     }
 
+    fn shape_bounds(&self, start: f64) -> [f64; 2] {
+        // Around 1 it is the spring itself.
+        if start < 1.0 { [0.4, 0.9] } else { [1.15, 3.0] }
+    }
+
     fn shape_grid(&self, _: &[Condition]) -> Vec<f64> {
-        // Near 1 it is the spring itself.
         vec![0.4, 0.5, 0.6, 2.0 / 3.0, 0.75, 0.85, 1.2, 1.5, 1.75, 2.0, 2.5, 3.0]
     }
 }

@@ -48,4 +48,12 @@ impl Term for LoadOffset {
             out.push(at.wrench_action(&Vector3::zeros(), &moment));
         }
     }
+
+    fn calibrate(&self, values: &[f64], machine: &mut Machine) {
+        machine.load_point += Vector3::from_column_slice(values);
+    }
+
+    fn calibrates(&self) -> bool {
+        true
+    }
 }

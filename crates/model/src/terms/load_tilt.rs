@@ -46,4 +46,12 @@ impl Term for LoadTilt {
             out.push(at.wrench_action(&axis.cross(&force), &Vector3::zeros()));
         }
     }
+
+    fn calibrate(&self, values: &[f64], machine: &mut Machine) {
+        machine.load_tilt += Vector3::new(values[0], values[1], 0.0);
+    }
+
+    fn calibrates(&self) -> bool {
+        true
+    }
 }

@@ -1,0 +1,150 @@
+//! Residuals of single readings, error summaries, and errors on held-out poses.
+
+use hexbench_core::{Dataset, Hexapod, Observation, Vector6};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::campaign::{Campaign, row_sigma};
+use crate::error::ModelError;
+use crate::fit::{Wanted, fit};
+use crate::linearization::{Linearization, Point};
+use crate::noise::Noise;
+
+/// Most folds of a leave-poses-out validation.
+const MOST_FOLDS: usize = 12;
+
+/// Residual of one reading: measured minus predicted, in measured coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residual {
+    /// Index of the reading in the dataset.
+    pub row: usize,
+    /// Index of its condition.
+    pub condition: usize,
+    /// m and rad.
+    pub value: Vector6,
+    /// Divided by the standard deviation of one reading.
+    pub whitened: Vector6,
+}
+
+/// Size of a set of residuals.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ErrorSummary {
+    /// Sum of squared whitened residuals per degree of freedom (per number for held-out data).
+    pub chi2_reduced: f64,
+    /// Root mean square of the residuals.
+    pub rms: Rms,
+    /// Root mean square of each coordinate: um for translations, urad for rotations.
+    pub per_coordinate: [f64; 6],
+    /// Scalar residuals behind it.
+    pub count: usize,
+}
+
+/// Root mean square in the units people read.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Rms {
+    /// Over the three translations, um.
+    pub translation_um: f64,
+    /// Over the three rotations, urad.
+    pub rotation_urad: f64,
+}
+
+/// Residuals of every reading behind a linearisation, in file order.
+pub fn residuals(campaign: &Campaign, rows: &[Observation], lin: &Linearization) -> Vec<Residual> {
+    let mut all: Vec<Residual> = Vec::with_capacity(rows.len());
+    for (condition, group) in campaign.groups.iter().enumerate() {
+        let mean = lin.residual(condition);
+        for &row in &group.rows {
+            let reading = &rows[row as usize];
+            let sigma = row_sigma(reading, &campaign.noise);
+            let value = Vector6::from_fn(|k, _| {
+                mean[k] * group.sigma[k] + reading.measured[k] - group.mean.measured[k]
+            });
+            let whitened = Vector6::from_fn(|k, _| value[k] / sigma[k]);
+            all.push(Residual { row: row as usize, condition, value, whitened });
+        }
+    }
+    all.sort_by_key(|r| r.row);
+    all
+}
+
+/// Summarise residuals; `dof` of the chi-square, or their number when `None`.
+pub fn summarise(residuals: &[Residual], dof: Option<f64>) -> ErrorSummary {
+    let n = residuals.len().max(1) as f64;
+    let square = |k: usize| residuals.iter().map(|r| r.value[k] * r.value[k]).sum::<f64>() / n;
+    let mean_square: [f64; 6] = std::array::from_fn(square);
+    let chi2: f64 = residuals.iter().map(|r| r.whitened.norm_squared()).sum();
+    let root = |from: usize| (mean_square[from..from + 3].iter().sum::<f64>() / 3.0).sqrt() * 1e6;
+    ErrorSummary {
+        chi2_reduced: chi2 / dof.unwrap_or(6.0 * n).max(1.0),
+        rms: Rms { translation_um: root(0), rotation_urad: root(3) },
+        per_coordinate: mean_square.map(|s| s.sqrt() * 1e6),
+        count: 6 * residuals.len(),
+    }
+}
+
+/// Prediction errors of a fitted model on other readings.
+///
+/// # Errors
+/// [`ModelError::Mismatch`] when the readings are of another kind than those fitted, [`ModelError::SingularPose`].
+pub fn prediction_errors(
+    hexapod: &Hexapod,
+    holdout: &Dataset,
+    noise: Noise,
+    point: &Point,
+) -> Result<Vec<Residual>, ModelError> {
+    let campaign = Campaign::with_noise(hexapod, holdout, noise)?;
+    let lin = Linearization::at(&campaign, point)?;
+    Ok(residuals(&campaign, &holdout.observations, &lin))
+}
+
+/// Prediction errors when poses are left out in turn and the model is fitted to the others.
+///
+/// # Errors
+/// As [`fit`]; [`ModelError::TooFewEquations`] with fewer than two poses.
+pub fn leave_poses_out(
+    hexapod: &Hexapod,
+    dataset: &Dataset,
+    noise: Noise,
+    wanted: &[Wanted],
+    start: &Point,
+) -> Result<Vec<Residual>, ModelError> {
+    let folds = folds(&dataset.observations);
+    if folds.len() < 2 {
+        return Err(ModelError::TooFewEquations { equations: 6, unknowns: 12 });
+    }
+    let errors: Vec<Vec<Residual>> = folds
+        .par_iter()
+        .map(|held| {
+            let part = |inside: bool| {
+                let rows = dataset.observations.iter().enumerate();
+                let kept = rows.filter(|(i, _)| held.contains(i) == inside).map(|(_, o)| *o).collect();
+                Dataset { observations: kept, ..dataset.clone() }
+            };
+            let campaign = Campaign::with_noise(hexapod, &part(false), noise)?;
+            let fitted = fit(&campaign, wanted, Some(start))?;
+            prediction_errors(hexapod, &part(true), noise, &fitted.point)
+        })
+        .collect::<Result<_, ModelError>>()?;
+    Ok(errors.into_iter().flatten().collect())
+}
+
+/// Rows of equal pose belong to one fold; poses are dealt out in order of appearance.
+fn folds(rows: &[Observation]) -> Vec<std::collections::BTreeSet<usize>> {
+    let mut poses: Vec<[u64; 6]> = Vec::new();
+    let mut pose_of_row = Vec::with_capacity(rows.len());
+    let mut known = std::collections::HashMap::new();
+    for row in rows {
+        let key = row.pose.to_array().map(|x| (x + 0.0).to_bits());
+        let index = *known.entry(key).or_insert_with(|| {
+            poses.push(key);
+            poses.len() - 1
+        });
+        pose_of_row.push(index);
+    }
+    let count = poses.len().min(MOST_FOLDS);
+    let mut folds = vec![std::collections::BTreeSet::new(); count];
+    for (row, pose) in pose_of_row.into_iter().enumerate() {
+        folds[pose % count].insert(row);
+    }
+    folds
+}
