@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use crate::campaign::Campaign;
-use crate::evidence::{Block, Gram, NOTICEABLE, WIDEST, widths};
+use crate::evidence::{Block, Gram};
 use crate::linearization::{Linearization, Point, parameter_count};
 use crate::pattern::{Pattern, spread};
 use crate::term::{Natural, Need, Rich, Term};
@@ -66,8 +66,6 @@ pub fn why_untestable(term: &dyn Term, campaign: &Campaign, lin: &Linearization)
             Some("it needs absolute poses (measured_a_mm ...)".to_owned())
         }
         Need::Approach if !campaign.columns.approach => Some("no approach column".to_owned()),
-        Need::Approach if !any(&|i| c[i].approach < 0.0) => Some("approach is +1 in every row".to_owned()),
-        Need::Approach if !any(&|i| c[i].approach > 0.0) => Some("approach is -1 in every row".to_owned()),
         Need::DeltaT if !campaign.columns.delta_t => Some("no delta_T_K column".to_owned()),
         Need::DeltaT if !any(&|i| c[i].delta_t != 0.0) => Some("delta_T_K is zero in every row".to_owned()),
         Need::Elapsed if !campaign.columns.elapsed => Some("no elapsed_s column".to_owned()),
@@ -134,16 +132,7 @@ impl<'a> Collector<'a> {
     fn push_term(&mut self, term: &dyn Term, rich: bool, shape: f64, share: f64) -> usize {
         let mut positive: Vec<bool> = term.info().parameters.iter().map(|p| p.positive).collect();
         positive.resize(parameter_count(term, rich), false);
-        let block = Block {
-            first: 0,
-            sizes: sizes(term, rich, &self.natural),
-            positive,
-            shape,
-            rich,
-            log_share: share.ln(),
-            widths: Vec::new(),
-            noticeable: false,
-        };
+        let block = Block::new(&sizes(term, rich, &self.natural), positive, shape, rich, share);
         self.push(self.lin.term_block(term, rich, shape), block)
     }
 
@@ -155,16 +144,7 @@ impl<'a> Collector<'a> {
         }
         let n = pattern.width();
         let columns = self.lin.block_of(n, |c, out| pattern.actions(c, range, out));
-        let block = Block {
-            first: 0,
-            sizes: vec![pattern.size(&self.natural); n],
-            positive: vec![false; n],
-            shape: 1.0,
-            rich: false,
-            log_share: 0.0,
-            widths: Vec::new(),
-            noticeable: false,
-        };
+        let block = Block::new(&vec![pattern.size(&self.natural); n], vec![false; n], 1.0, false, 1.0);
         let blocks = vec![self.push(columns, block)];
         self.candidates.push(Candidate { kind: Kind::Pattern(pattern), blocks, log_weight });
     }
@@ -172,7 +152,7 @@ impl<'a> Collector<'a> {
     fn push(&mut self, columns: DMatrix<f64>, mut block: Block) -> usize {
         block.first = self.width;
         self.width += columns.ncols();
-        self.columns.push(columns);
+        self.columns.push(columns * &block.transform);
         self.blocks.push(block);
         self.blocks.len() - 1
     }
@@ -191,10 +171,8 @@ impl<'a> Collector<'a> {
         let g = z.transpose() * &z;
         let mut blocks = self.blocks;
         for block in &mut blocks {
-            let square = |k: usize| g[(block.first + k, block.first + k)] * block.sizes[k].powi(2);
-            let signature = (0..block.width()).map(square).sum::<f64>().sqrt();
-            block.widths = widths(signature);
-            block.noticeable = WIDEST * signature >= NOTICEABLE;
+            let trace = (0..block.width()).map(|k| g[(block.first + k, block.first + k)]).sum::<f64>();
+            block.set_widths(trace.sqrt());
         }
         let gram = Gram {
             g,

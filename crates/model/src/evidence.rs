@@ -20,7 +20,7 @@ pub const WIDEST: f64 = 2.0;
 const MOST_WIDTHS: i32 = 16;
 /// An effect is noticeable when its expected signature is this many standard deviations long. Smaller effects leave no
 /// trace in these data and count as absent: whether they exist is not a question these data can answer.
-pub const NOTICEABLE: f64 = 4.0;
+pub const NOTICEABLE: f64 = 5.0;
 
 /// Prior widths of a block, widest first, down to where the effect would no longer be noticeable; `signature` is the
 /// expected length of its whitened signature at the natural sizes.
@@ -30,13 +30,14 @@ pub fn widths(signature: f64) -> Vec<f64> {
     if kept.is_empty() { vec![WIDEST] } else { kept }
 }
 
-/// Columns of one form and shape of one effect inside the Gram matrix.
+/// Columns of one form and shape of one effect inside the Gram matrix, in units of the prior: `theta = T u` with
+/// `u ~ N(0, g^2 I)`.
 #[derive(Debug, Clone)]
 pub struct Block {
     /// First column.
     pub first: usize,
-    /// Natural size of each parameter, SI.
-    pub sizes: Vec<f64>,
+    /// `T`: natural sizes times the square root of the prior correlation.
+    pub transform: DMatrix<f64>,
     /// Which parameters cannot be negative.
     pub positive: Vec<bool>,
     /// Shape value.
@@ -49,16 +50,51 @@ pub struct Block {
     pub widths: Vec<f64>,
     /// True when the effect would be noticeable at its largest width.
     pub noticeable: bool,
+    /// Logarithm of the prior probability that the signs are right.
+    log_signs: f64,
 }
 
+/// Correlation between the parameters of one effect that cannot be negative: the six springs of a foundation are soft or
+/// stiff together.
+const CORRELATION: f64 = 0.5;
+
 impl Block {
-    /// Number of columns.
-    pub fn width(&self) -> usize {
-        self.sizes.len()
+    /// A block with natural sizes (SI) and signs; widths are set once its Gram matrix is known.
+    pub fn new(sizes: &[f64], positive: Vec<bool>, shape: f64, rich: bool, share: f64) -> Self {
+        let n = sizes.len();
+        let related = |i: usize, j: usize| f64::from(positive[i] && positive[j]) * CORRELATION;
+        let correlation = DMatrix::from_fn(n, n, |i, j| if i == j { 1.0 } else { related(i, j) });
+        let log_signs = log_orthant(&DVector::zeros(n), &correlation, &positive);
+        let root = correlation.cholesky().map_or_else(|| DMatrix::identity(n, n), |c| c.l());
+        let transform = DMatrix::from_diagonal(&DVector::from_column_slice(sizes)) * root;
+        let log_share = share.ln();
+        Self {
+            first: 0,
+            transform,
+            positive,
+            shape,
+            rich,
+            log_share,
+            widths: Vec::new(),
+            noticeable: false,
+            log_signs,
+        }
     }
 
-    fn precision(&self, k: usize, g: f64) -> f64 {
-        (g * self.sizes[k]).powi(-2)
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        self.positive.len()
+    }
+
+    /// Choose the prior widths from the expected length of the whitened signature at natural size.
+    pub fn set_widths(&mut self, signature: f64) {
+        self.widths = widths(signature);
+        self.noticeable = WIDEST * signature >= NOTICEABLE;
+    }
+
+    /// `u` from parameter values, SI.
+    fn in_prior_units(&self, values: &DVector<f64>) -> DVector<f64> {
+        self.transform.solve_lower_triangular(values).unwrap_or_else(|| values.clone())
     }
 }
 
@@ -108,37 +144,43 @@ impl Gram {
     ///
     /// `None` when the normal equations are not positive definite.
     pub fn posterior(&self, set: &[Variant], inflation: f64) -> Option<Posterior> {
-        let columns: Vec<(usize, f64, bool)> = set
-            .iter()
-            .flat_map(|v| {
-                let block = &self.blocks[v.block];
-                (0..block.width()).map(move |k| {
-                    (block.first + k, block.precision(k, block.widths[v.width]), block.positive[k])
-                })
-            })
-            .collect();
+        let (columns, scale) = self.columns(set);
         let n = columns.len();
-        // Scaled by the prior widths: M = I + D G D has eigenvalues of at least one.
-        let d: Vec<f64> = columns.iter().map(|c| c.1.sqrt().recip()).collect();
-        let mut m =
-            DMatrix::from_fn(n, n, |i, j| d[i] * d[j] * self.g[(columns[i].0, columns[j].0)] / inflation);
-        for i in 0..n {
-            m[(i, i)] += 1.0;
-        }
-        let b = DVector::from_fn(n, |i, _| d[i] * self.b[columns[i].0] / inflation);
+        // M = I + D G D has eigenvalues of at least one.
+        let m = DMatrix::from_fn(n, n, |i, j| {
+            scale[i] * scale[j] * self.g[(columns[i], columns[j])] / inflation + f64::from(i == j)
+        });
+        let b = DVector::from_fn(n, |i, _| scale[i] * self.b[columns[i]] / inflation);
         let factor = m.cholesky()?;
         let mean = factor.solve(&b);
-        let inverse = factor.inverse();
+        let covariance = factor.inverse();
         let drop = b.dot(&mean);
         let log_det: f64 = 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
-        let signs: f64 = (0..n).filter(|&i| columns[i].2).map(|i| log_sign(mean[i], inverse[(i, i)])).sum();
+        let (mut signs, mut at) = (0.0, 0);
+        let (mut values, mut variance) = (DVector::zeros(n), DVector::zeros(n));
+        for v in set {
+            let block = &self.blocks[v.block];
+            let (d, t) = (block.width(), &block.transform * block.widths[v.width]);
+            let theta = &t * mean.rows(at, d);
+            let spread = &t * covariance.view((at, at), (d, d)) * t.transpose();
+            signs += log_orthant(&theta, &spread, &block.positive) - block.log_signs;
+            values.rows_mut(at, d).copy_from(&theta);
+            variance.rows_mut(at, d).copy_from(&spread.diagonal());
+            at += d;
+        }
         let log_evidence = self.gain(drop, inflation) - 0.5 * log_det + signs;
-        Some(Posterior {
-            log_evidence,
-            drop: drop * inflation,
-            mean: DVector::from_fn(n, |i, _| mean[i] * d[i]),
-            variance: DVector::from_fn(n, |i, _| inverse[(i, i)] * d[i] * d[i]),
-        })
+        Some(Posterior { log_evidence, drop: drop * inflation, mean: values, variance })
+    }
+
+    /// Columns of a set of variants and their prior widths.
+    fn columns(&self, set: &[Variant]) -> (Vec<usize>, DVector<f64>) {
+        let (mut columns, mut scale) = (Vec::new(), Vec::new());
+        for v in set {
+            let block = &self.blocks[v.block];
+            columns.extend(block.first..block.first + block.width());
+            scale.extend(std::iter::repeat_n(block.widths[v.width], block.width()));
+        }
+        (columns, DVector::from_vec(scale))
     }
 
     /// Logarithm of the likelihood gained by a drop of (inflated) chi-square, and lost by the inflation itself.
@@ -156,6 +198,34 @@ impl Gram {
         }
         let lost = 0.5 * self.yy * (1.0 - 1.0 / inflation) - 0.5 * self.equations * inflation.ln();
         0.5 * drop + lost
+    }
+
+    /// Length of the whitened signature of one unit (SI) of every parameter of a block, less what springs, frames and
+    /// the fixed others can imitate.
+    pub fn signature_lengths(&self, others: &[Variant], block: usize) -> Vec<f64> {
+        let Some(rest) = Rest::new(self, others) else { return Vec::new() };
+        let block = &self.blocks[block];
+        let (e, _) = rest.complement(self, block);
+        let unit =
+            |k: usize| block.in_prior_units(&DVector::from_fn(block.width(), |i, _| f64::from(i == k)));
+        let length = |u: DVector<f64>| u.dot(&(&e * &u)).max(0.0).sqrt();
+        (0..block.width()).map(|k| length(unit(k))).collect()
+    }
+
+    /// Share of the signature of one set of values (SI) that another block can imitate: the cosine between the
+    /// signature and its best imitation, both less what springs, frames and the fixed others take.
+    pub fn imitation(&self, others: &[Variant], block: usize, values: &[f64], imitator: usize) -> f64 {
+        let Some(rest) = Rest::new(self, others) else { return 0.0 };
+        let (a, b) = (&self.blocks[block], &self.blocks[imitator]);
+        let v = a.in_prior_units(&DVector::from_column_slice(values));
+        let (e, _) = rest.complement(self, a);
+        let (g, _) = rest.complement(self, b);
+        let cross = rest.cross(self, a, b).tr_mul(&v);
+        let length = v.dot(&(&e * &v));
+        let ridge = 1e-9 * g.diagonal().max().max(f64::MIN_POSITIVE);
+        let g = g + DMatrix::identity(b.width(), b.width()) * ridge;
+        let explained = g.cholesky().map_or(0.0, |c| cross.dot(&c.solve(&cross)));
+        if length > 0.0 { (explained / length).clamp(0.0, 1.0).sqrt() } else { 0.0 }
     }
 
     /// Log-evidence of each variant of an effect beside fixed others, largest first. The signs of the others are left
@@ -180,13 +250,7 @@ struct Rest {
 
 impl Rest {
     fn new(gram: &Gram, others: &[Variant]) -> Option<Self> {
-        let mut columns = Vec::new();
-        let mut scale = Vec::new();
-        for v in others {
-            let block = &gram.blocks[v.block];
-            columns.extend(block.first..block.first + block.width());
-            scale.extend(block.sizes.iter().map(|s| s * block.widths[v.width]));
-        }
+        let (columns, scale) = gram.columns(others);
         let n = columns.len();
         let m = DMatrix::from_fn(n, n, |i, j| {
             scale[i] * scale[j] * gram.g[(columns[i], columns[j])] + f64::from(i == j)
@@ -196,7 +260,7 @@ impl Rest {
         let forward = factor.solve_lower_triangular(&b)?;
         let drop = forward.norm_squared();
         let log_det = 2.0 * factor.diagonal().iter().map(|x| x.ln()).sum::<f64>();
-        Some(Self { columns, scale: DVector::from_vec(scale), factor, forward, drop, log_det })
+        Some(Self { columns, scale, factor, forward, drop, log_det })
     }
 
     fn profile(&self, gram: &Gram, index: usize) -> Vec<(Variant, f64)> {
@@ -213,21 +277,36 @@ impl Rest {
         }
         let eigen = e.symmetric_eigen();
         let along = eigen.eigenvectors.tr_mul(&b);
-        let score = |g: f64| several(&eigen.eigenvectors, &eigen.eigenvalues, &along, g, &block.positive);
+        let score = |g: f64| several(&eigen.eigenvectors, &eigen.eigenvalues, &along, g, block);
         let scored = block.widths.iter().map(|&g| score(g)).enumerate();
         scored.map(|(w, (d, rest))| (variant(w), gram.gain(self.drop + d, 1.0) + rest + offset)).collect()
     }
 
+    /// `Z_a' Z_b` at natural sizes, less what the fixed blocks take.
+    fn cross(&self, gram: &Gram, a: &Block, b: &Block) -> DMatrix<f64> {
+        let mut cross = DMatrix::from_fn(a.width(), b.width(), |i, j| gram.g[(a.first + i, b.first + j)]);
+        if !self.columns.is_empty() {
+            cross -= self.reduced(gram, a).tr_mul(&self.reduced(gram, b));
+        }
+        cross
+    }
+
+    /// Forward-substituted cross block with the fixed columns.
+    fn reduced(&self, gram: &Gram, block: &Block) -> DMatrix<f64> {
+        let mut x = DMatrix::from_fn(self.columns.len(), block.width(), |i, j| {
+            self.scale[i] * gram.g[(self.columns[i], block.first + j)]
+        });
+        self.factor.solve_lower_triangular_mut(&mut x);
+        x
+    }
+
     /// Normal equations of a block at its natural sizes, less what the fixed blocks take.
     fn complement(&self, gram: &Gram, block: &Block) -> (DMatrix<f64>, DVector<f64>) {
-        let (d, n, s) = (block.width(), self.columns.len(), &block.sizes);
-        let mut e = DMatrix::from_fn(d, d, |i, j| s[i] * s[j] * gram.g[(block.first + i, block.first + j)]);
-        let mut b = DVector::from_fn(d, |i, _| s[i] * gram.b[block.first + i]);
-        if n > 0 {
-            let mut x = DMatrix::from_fn(n, d, |i, j| {
-                self.scale[i] * s[j] * gram.g[(self.columns[i], block.first + j)]
-            });
-            self.factor.solve_lower_triangular_mut(&mut x);
+        let d = block.width();
+        let mut e = gram.g.view((block.first, block.first), (d, d)).into_owned();
+        let mut b = gram.b.rows(block.first, d).into_owned();
+        if !self.columns.is_empty() {
+            let x = self.reduced(gram, block);
             e -= x.tr_mul(&x);
             b -= x.tr_mul(&self.forward);
         }
@@ -248,30 +327,62 @@ fn several(
     values: &DVector<f64>,
     along: &DVector<f64>,
     g: f64,
-    positive: &[bool],
+    block: &Block,
 ) -> (f64, f64) {
     let m = values.map(|v| 1.0 + g * g * v.max(0.0));
     let drop = (0..m.len()).map(|k| (g * along[k]).powi(2) / m[k]).sum();
     let log_det: f64 = m.iter().map(|x| x.ln()).sum();
-    let sign = |i: usize| {
-        let mean: f64 = (0..m.len()).map(|k| vectors[(i, k)] * g * along[k] / m[k]).sum();
-        let variance: f64 = (0..m.len()).map(|k| vectors[(i, k)].powi(2) / m[k]).sum();
-        log_sign(mean, variance)
-    };
-    let signs: f64 = (0..m.len()).filter(|&i| positive[i]).map(sign).sum();
-    (drop, signs - 0.5 * log_det)
+    if !block.positive.contains(&true) {
+        return (drop, -0.5 * log_det);
+    }
+    let to_values = &block.transform * vectors;
+    let mean = &to_values * DVector::from_fn(m.len(), |k, _| g * along[k] / m[k]);
+    let spread = &to_values * DMatrix::from_diagonal(&m.map(|x| 1.0 / x)) * to_values.transpose();
+    (drop, log_orthant(&mean, &spread, &block.positive) - block.log_signs - 0.5 * log_det)
+}
+
+/// Logarithm of the probability that all `positive` components of a Gaussian are positive, by conditioning on one sign
+/// after the other and matching moments. Source: Mendell and Elston 1974, Biometrics 30.
+fn log_orthant(mean: &DVector<f64>, covariance: &DMatrix<f64>, positive: &[bool]) -> f64 {
+    let signed: Vec<usize> = (0..positive.len()).filter(|&i| positive[i]).collect();
+    let mut mean: Vec<f64> = signed.iter().map(|&i| mean[i]).collect();
+    let n = signed.len();
+    let mut c = DMatrix::from_fn(n, n, |i, j| covariance[(signed[i], signed[j])]);
+    let mut log_p = 0.0;
+    for k in 0..n {
+        let s = c[(k, k)].max(1e-300).sqrt();
+        let z = mean[k] / s;
+        let log_tail = log_normal_cdf(z);
+        log_p += log_tail;
+        // Mean and variance of a unit Gaussian beyond -z.
+        let hazard = (-0.5 * z * z - 0.5 * std::f64::consts::TAU.ln() - log_tail).exp();
+        let shrink = (hazard * (hazard + z)).clamp(0.0, 1.0);
+        for i in k + 1..n {
+            let a = c[(i, k)] / s;
+            mean[i] += a * hazard;
+            for j in k + 1..n {
+                let b = c[(j, k)] / s;
+                c[(i, j)] -= a * b * shrink;
+            }
+        }
+    }
+    log_p
 }
 
 /// `ln P(x > 0)` under the posterior minus the same under the prior (one half).
 fn log_sign(mean: f64, variance: f64) -> f64 {
-    let z = mean / variance.max(1e-300).sqrt();
+    log_normal_cdf(mean / variance.max(1e-300).sqrt()) + std::f64::consts::LN_2
+}
+
+/// Logarithm of the standard normal distribution function, also far in the tail.
+fn log_normal_cdf(z: f64) -> f64 {
     if z > 6.0 {
-        return std::f64::consts::LN_2;
+        return 0.0;
     }
     if z < -30.0 {
-        return -0.5 * z * z;
+        return -0.5 * z * z - (-z).ln() - 0.5 * std::f64::consts::TAU.ln();
     }
-    (2.0 * Normal::standard().cdf(z)).max(1e-300).ln()
+    Normal::standard().cdf(z).max(1e-300).ln()
 }
 
 /// `ln sum exp`.

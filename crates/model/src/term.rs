@@ -198,7 +198,7 @@ impl Natural {
 pub enum Need {
     /// Absolute poses.
     Absolute,
-    /// `approach` with both values.
+    /// `approach`.
     Approach,
     /// `delta_T_K` that is not all zero.
     DeltaT,
