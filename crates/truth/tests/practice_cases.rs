@@ -1,0 +1,85 @@
+//! Measurements made by independent programs (a finite-deflection Newton solver, and a MuJoCo model brought to rest), with the
+//! truth they were made from: predicted without noise they must agree within it. See tests/data/README.md.
+
+mod common;
+
+use common::{chi2_by_direction, hexapod, numbers, rows, stiffness, truth};
+use hexbench_truth::{
+    Mechanism, World,
+    mechanisms::{BaseCompliance, JointFriction, LegNonlinearity, LoadOffset, PeriodicCompliance},
+};
+
+fn world(case: &str) -> World {
+    let truth = truth(case);
+    let p = &truth["parameters"];
+    let mut mechanisms: Vec<Box<dyn Mechanism>> = Vec::new();
+    if p["base"].is_array() {
+        mechanisms.push(Box::new(BaseCompliance { stiffness: numbers(&p["base"]) }));
+    }
+    if p["cog"].is_array() {
+        mechanisms.push(Box::new(LoadOffset { point: numbers(&p["cog"]) }));
+    }
+    if let Some(slider_force) = p["friction"].as_f64() {
+        mechanisms.push(Box::new(JointFriction { slider_force }));
+    }
+    if p["power"].is_array() {
+        let [kappa, power] = numbers(&p["power"]);
+        mechanisms.push(Box::new(LegNonlinearity { kappa, power }));
+    }
+    if p["periodic_compliance"].is_array() {
+        let [amplitude, pitch] = numbers(&p["periodic_compliance"]);
+        mechanisms.push(Box::new(PeriodicCompliance { amplitude, pitch }));
+    }
+    let mut world = World::new(hexapod(case), &stiffness(&truth));
+    world.mechanisms = mechanisms;
+    world
+}
+
+/// Reduced chi-square over both files lies within five standard deviations of one, and would not without the effects.
+fn agrees(case: &str) {
+    for file in ["measurements.csv", "holdout.csv"] {
+        let (world, rows) = (world(case), rows(case, file));
+        let by_direction = chi2_by_direction(&world, &rows);
+        let chi2 = by_direction.iter().sum::<f64>() / 6.0;
+        let bare = chi2_by_direction(&world.without_effects(), &rows).iter().sum::<f64>() / 6.0;
+        let bound = 5.0 * (2.0 / (6.0 * rows.len() as f64)).sqrt();
+        println!("{case} {file}: chi2 {chi2:.4} (+-{bound:.3}), without effects {bare:.3}; {by_direction:.2?}");
+        assert!((chi2 - 1.0).abs() < bound, "{case} {file}: {chi2} {by_direction:?}");
+        assert!(world.mechanisms.is_empty() || bare > 1.2, "{case} {file} shows nothing: {bare}");
+    }
+}
+
+#[test]
+fn a_clean_machine_in_mujoco_agrees() {
+    agrees("mujoco-clean");
+}
+
+#[test]
+fn a_yielding_foundation_in_mujoco_agrees() {
+    agrees("mujoco-foundation");
+}
+
+#[test]
+fn joint_friction_agrees() {
+    agrees("friction");
+}
+
+#[test]
+fn hertzian_contacts_agree() {
+    agrees("contact");
+}
+
+#[test]
+fn foundation_and_load_offset_agree() {
+    agrees("two-effects");
+}
+
+#[test]
+fn a_periodic_compliance_agrees() {
+    agrees("not-in-catalogue");
+}
+
+#[test]
+fn a_yielding_foundation_under_the_paper_protocol_agrees() {
+    agrees("paper-protocol");
+}
