@@ -3,10 +3,12 @@
 
 mod common;
 
-use common::{chi2_by_direction, hexapod, numbers, rows, stiffness, truth};
+use common::{chi2_by_direction, hexapod, numbers, plan_rows, rows, stiffness, truth};
 use hexbench_truth::{
     Mechanism, World,
+    campaign::{Campaign, PlanKind, Yardstick, rms},
     mechanisms::{BaseCompliance, JointFriction, LegNonlinearity, LoadOffset, PeriodicCompliance},
+    metrology::{Frames, Noise},
 };
 
 fn world(case: &str) -> World {
@@ -43,7 +45,9 @@ fn agrees(case: &str) {
         let chi2 = by_direction.iter().sum::<f64>() / 6.0;
         let bare = chi2_by_direction(&world.without_effects(), &rows).iter().sum::<f64>() / 6.0;
         let bound = 5.0 * (2.0 / (6.0 * rows.len() as f64)).sqrt();
-        println!("{case} {file}: chi2 {chi2:.4} (+-{bound:.3}), without effects {bare:.3}; {by_direction:.2?}");
+        println!(
+            "{case} {file}: chi2 {chi2:.4} (+-{bound:.3}), without effects {bare:.3}; {by_direction:.2?}"
+        );
         assert!((chi2 - 1.0).abs() < bound, "{case} {file}: {chi2} {by_direction:?}");
         assert!(world.mechanisms.is_empty() || bare > 1.2, "{case} {file} shows nothing: {bare}");
     }
@@ -82,4 +86,30 @@ fn a_periodic_compliance_agrees() {
 #[test]
 fn a_yielding_foundation_under_the_paper_protocol_agrees() {
     agrees("paper-protocol");
+}
+
+/// The distance and the size of the effect that the truth files state are those found here.
+#[test]
+fn sizes_of_effects_agree() {
+    for case in ["contact", "friction", "not-in-catalogue", "paper-protocol", "two-effects"] {
+        let (world, truth) = (world(case), truth(case));
+        let bare =
+            Campaign { world: world.without_effects(), frames: Frames::default(), noise: Noise::default() };
+        let plan = plan_rows(case, "measurements.csv");
+        let yardstick = Yardstick::new(&bare, &plan, PlanKind::Rich).unwrap();
+        let all = || world.mechanisms.iter().map(|m| m.scaled(1.0)).collect();
+        let (translation, rotation) = rms(&yardstick.signature(all()).unwrap());
+        let raw: [f64; 2] = numbers(&truth["raw_effect_rms"]);
+        let distance = yardstick.distance(all()).unwrap();
+        let stated = truth["distance"].as_f64().unwrap();
+        let each: Vec<f64> =
+            world.mechanisms.iter().map(|m| yardstick.distance(vec![m.scaled(1.0)]).unwrap()).collect();
+        println!(
+            "{case}: distance {distance:.6} of {stated:.6} each {each:.4?}; {:.6} of {:.6} um, {:.6} of {:.6} urad",
+            translation * 1e6,
+            raw[0],
+            rotation * 1e6,
+            raw[1]
+        );
+    }
 }

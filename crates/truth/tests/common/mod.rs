@@ -4,31 +4,31 @@
 use std::{collections::HashMap, fs, path::PathBuf};
 
 use hexbench_core::{Hexapod, Metrology, Pose, Vector3, Vector6, Wrench};
-use hexbench_truth::{Situation, World};
+use hexbench_truth::{Situation, World, campaign};
 use serde_json::Value;
 
-pub struct Row {
-    pub situation: Situation,
-    pub measured: Vector6,
+pub(crate) struct Row {
+    pub(crate) situation: Situation,
+    pub(crate) measured: Vector6,
 }
 
-pub fn folder(case: &str) -> PathBuf {
+pub(crate) fn folder(case: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(case)
 }
 
-pub fn truth(case: &str) -> Value {
+pub(crate) fn truth(case: &str) -> Value {
     serde_json::from_str(&fs::read_to_string(folder(case).join("truth.json")).unwrap()).unwrap()
 }
 
-pub fn stiffness(truth: &Value) -> [f64; 6] {
+pub(crate) fn stiffness(truth: &Value) -> [f64; 6] {
     numbers(&truth["leg_stiffness_N_per_um"]).map(|k| k * 1e6)
 }
 
-pub fn numbers<const N: usize>(value: &Value) -> [f64; N] {
+pub(crate) fn numbers<const N: usize>(value: &Value) -> [f64; N] {
     std::array::from_fn(|i| value[i].as_f64().unwrap())
 }
 
-pub fn hexapod(case: &str) -> Hexapod {
+pub(crate) fn hexapod(case: &str) -> Hexapod {
     let text = fs::read_to_string(folder(case).join("hexapod.toml")).unwrap();
     let table: toml::Table = text.parse().unwrap();
     let joints = |key: &str| {
@@ -54,16 +54,20 @@ pub fn hexapod(case: &str) -> Hexapod {
     }
 }
 
-pub fn rows(case: &str, file: &str) -> Vec<Row> {
+pub(crate) fn rows(case: &str, file: &str) -> Vec<Row> {
     let text = fs::read_to_string(folder(case).join(file)).unwrap();
     let mut lines = text.lines();
     let head: Vec<&str> = lines.next().unwrap().split(',').collect();
-    lines.map(|line| row(&head.iter().copied().zip(line.split(',').map(|x| x.parse().unwrap())).collect())).collect()
+    lines
+        .map(|line| row(&head.iter().copied().zip(line.split(',').map(|x| x.parse().unwrap())).collect()))
+        .collect()
 }
 
 fn row(cell: &HashMap<&str, f64>) -> Row {
     let six = |prefix: &str, names: [&str; 6], units: [f64; 6]| {
-        std::array::from_fn(|k| cell.get(&*format!("{prefix}{}", names[k])).copied().unwrap_or(0.0) * units[k])
+        std::array::from_fn(|k| {
+            cell.get(&*format!("{prefix}{}", names[k])).copied().unwrap_or(0.0) * units[k]
+        })
     };
     let (mm, deg, um) = (1e-3, 1_f64.to_radians(), 1e-6);
     let pose = ["a_mm", "b_mm", "c_mm", "alpha_deg", "beta_deg", "gamma_deg"];
@@ -88,7 +92,7 @@ fn row(cell: &HashMap<&str, f64>) -> Row {
 }
 
 /// Sum of squared whitened errors over number of readings, in each of the six directions.
-pub fn chi2_by_direction(world: &World, rows: &[Row]) -> [f64; 6] {
+pub(crate) fn chi2_by_direction(world: &World, rows: &[Row]) -> [f64; 6] {
     let mut sum = [0.0; 6];
     for row in rows {
         let error = row.measured - world.deflection(&row.situation).unwrap();
@@ -97,4 +101,10 @@ pub fn chi2_by_direction(world: &World, rows: &[Row]) -> [f64; 6] {
         }
     }
     sum
+}
+
+/// The plan behind a measurement file.
+pub(crate) fn plan_rows(case: &str, file: &str) -> Vec<campaign::Row> {
+    let rows = rows(case, file).into_iter();
+    rows.map(|row| campaign::Row { pose_id: 0, repeat: 0, situation: row.situation }).collect()
 }
