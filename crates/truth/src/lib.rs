@@ -34,7 +34,7 @@ pub mod so3;
 pub mod world;
 
 pub use error::TruthError;
-pub use law::LegLaw;
+pub use law::{LegLaw, LegMemory};
 pub use mechanisms::Mechanism;
 pub use setup::Setup;
 pub use situation::{Moment, Phase, Situation};

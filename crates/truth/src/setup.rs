@@ -81,7 +81,10 @@ impl Setup {
             base_joints: *base_joints,
             platform_joints: *platform_joints,
             leg_lengths: moment.nominal_lengths,
-            laws: leg_compliance.map(LegLaw::spring),
+            laws: std::array::from_fn(|i| LegLaw {
+                length: moment.nominal_lengths[i],
+                ..LegLaw::spring(leg_compliance[i])
+            }),
             wrench,
             forces: Vec::new(),
             cables: Vec::new(),

@@ -3,7 +3,7 @@
 use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
 
 use crate::{
-    Mechanism, Moment, Phase, Setup, Situation, TruthError,
+    LegMemory, Mechanism, Moment, Phase, Setup, Situation, TruthError,
     equilibrium::{self, Equilibrium},
 };
 
@@ -54,10 +54,10 @@ impl World {
     /// As [`World::reading`].
     pub fn deflection(&self, situation: &Situation) -> Result<Vector6, TruthError> {
         let mut moment = self.moment(situation)?;
-        let reference = self.state(&moment, situation.reference, &[0.0; 6])?;
+        let reference = self.state(&moment, situation.reference, &[LegMemory::default(); 6])?;
         let before = self.read(&moment, &reference);
         moment.reference_forces = reference.forces;
-        let loaded = self.load(&mut moment, reference.spring_forces)?;
+        let loaded = self.load(&mut moment, reference.memory)?;
         Ok(difference(&loaded.pose, &before))
     }
 
@@ -76,18 +76,22 @@ impl World {
     /// [`TruthError::NotFinite`]: never a number that is not a solution.
     pub fn reading(&self, situation: &Situation) -> Result<Reading, TruthError> {
         let mut moment = self.moment(situation)?;
-        self.load(&mut moment, [0.0; 6])
+        self.load(&mut moment, [LegMemory::default(); 6])
     }
 
-    fn load<'a>(&'a self, moment: &mut Moment<'a>, remembered: [f64; 6]) -> Result<Reading, TruthError> {
+    fn load<'a>(
+        &'a self,
+        moment: &mut Moment<'a>,
+        remembered: [LegMemory; 6],
+    ) -> Result<Reading, TruthError> {
         let situation = moment.situation;
-        let mut spring_forces = remembered;
+        let mut memory = remembered;
         if situation.approach < 0.0 {
             moment.phase = Phase::Overload;
-            spring_forces = self.state(moment, situation.overload(), &spring_forces)?.spring_forces;
+            memory = self.state(moment, situation.overload(), &memory)?.memory;
         }
         moment.phase = Phase::Loaded;
-        let equilibrium = self.state(moment, situation.wrench, &spring_forces)?;
+        let equilibrium = self.state(moment, situation.wrench, &memory)?;
         Ok(Reading { pose: self.read(moment, &equilibrium), equilibrium })
     }
 
@@ -133,7 +137,7 @@ impl World {
         &self,
         moment: &Moment<'_>,
         wrench: Wrench,
-        remembered: &[f64; 6],
+        remembered: &[LegMemory; 6],
     ) -> Result<Equilibrium, TruthError> {
         equilibrium::solve(&self.setup(moment, wrench), remembered)
     }

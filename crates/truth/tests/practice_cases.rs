@@ -22,7 +22,7 @@ fn world(case: &str) -> World {
         mechanisms.push(Box::new(LoadOffset { point: numbers(&p["cog"]) }));
     }
     if let Some(slider_force) = p["friction"].as_f64() {
-        mechanisms.push(Box::new(JointFriction { slider_force }));
+        mechanisms.push(Box::new(JointFriction { slider_force, stick_ratio: Some(20.0) }));
     }
     if p["power"].is_array() {
         let [kappa, power] = numbers(&p["power"]);

@@ -8,7 +8,7 @@ use super::{
     leg::{Leg, legs},
 };
 use crate::{
-    Setup, TruthError,
+    LegMemory, Setup, TruthError,
     law::LawPoint,
     linear::{self, MOST},
 };
@@ -37,8 +37,8 @@ pub struct Equilibrium {
     pub forces: [f64; 6],
     /// Leg elongations against the commanded lengths, m.
     pub elongations: [f64; 6],
-    /// Forces in the leg springs beside their sliders, N: what the next state must remember.
-    pub spring_forces: [f64; 6],
+    /// What the legs remember of this state.
+    pub memory: [LegMemory; 6],
     /// Newton steps taken.
     pub iterations: usize,
 }
@@ -51,11 +51,11 @@ struct Iterate {
     norm: f64,
 }
 
-/// State of rest of a structure, given the spring forces (N) its sliders remember.
+/// State of rest of a structure, given what its legs remember.
 ///
 /// # Errors
 /// [`TruthError::Singular`], [`TruthError::GaveWay`], [`TruthError::NotConverged`], [`TruthError::NotFinite`].
-pub fn solve(setup: &Setup, remembered: &[f64; 6]) -> Result<Equilibrium, TruthError> {
+pub fn solve(setup: &Setup, remembered: &[LegMemory; 6]) -> Result<Equilibrium, TruthError> {
     let layout = Layout::of(setup);
     let mut now = start(setup, &layout, remembered)?;
     for iteration in 1..=MOST_ITERATIONS {
@@ -76,7 +76,7 @@ pub fn solve(setup: &Setup, remembered: &[f64; 6]) -> Result<Equilibrium, TruthE
 }
 
 /// The commanded pose with the leg forces that hold the wrench there.
-fn start(setup: &Setup, layout: &Layout, remembered: &[f64; 6]) -> Result<Iterate, TruthError> {
+fn start(setup: &Setup, layout: &Layout, remembered: &[LegMemory; 6]) -> Result<Iterate, TruthError> {
     let place = Body::at(&setup.pose);
     let bodies = Bodies { plate: place, base: Body::upright(setup.base_centre), loaded: place };
     let slack =
@@ -108,7 +108,7 @@ fn start(setup: &Setup, layout: &Layout, remembered: &[f64; 6]) -> Result<Iterat
 fn evaluate(
     setup: &Setup,
     layout: &Layout,
-    remembered: &[f64; 6],
+    remembered: &[LegMemory; 6],
     parameters: [f64; 6],
     bodies: Bodies,
 ) -> Iterate {
@@ -125,7 +125,7 @@ fn evaluate(
 fn damped(
     setup: &Setup,
     layout: &Layout,
-    remembered: &[f64; 6],
+    remembered: &[LegMemory; 6],
     from: &Iterate,
     step: &[f64; MOST],
 ) -> Iterate {
@@ -166,7 +166,7 @@ fn check_place(setup: &Setup, layout: &Layout, bodies: &Bodies) -> Result<(), Tr
     Err(TruthError::GaveWay { translation_mm: distance * 1e3, rotation_deg: angle.to_degrees() })
 }
 
-fn finished(setup: &Setup, remembered: &[f64; 6], at: &Iterate, iterations: usize) -> Equilibrium {
+fn finished(setup: &Setup, remembered: &[LegMemory; 6], at: &Iterate, iterations: usize) -> Equilibrium {
     let forces = at.legs.map(|leg| leg.point.force);
     Equilibrium {
         platform: at.bodies.loaded,
@@ -174,7 +174,10 @@ fn finished(setup: &Setup, remembered: &[f64; 6], at: &Iterate, iterations: usiz
         base: at.bodies.base,
         forces,
         elongations: at.legs.map(|leg| leg.point.elongation),
-        spring_forces: std::array::from_fn(|i| setup.laws[i].spring_force(forces[i], remembered[i])),
+        memory: std::array::from_fn(|i| LegMemory {
+            force: forces[i],
+            spring_force: setup.laws[i].spring_force(forces[i], remembered[i]),
+        }),
         iterations,
     }
 }

@@ -3,6 +3,9 @@
 //! The leg force is the spring's plus the slider's. The slider gives way at +-f_c, so the spring force lags behind the leg
 //! force by at most f_c, on the side from which it came (play operator). The unloaded machine starts with all sliders
 //! free of force; each row is its own path from there.
+//!
+//! Before it gives way a slider is an elastic bristle; the independent program behind the practice cases has it twenty
+//! times as stiff as the leg spring, which its stated sizes of the effect confirm to ten digits (tests/practice_cases.rs).
 
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
@@ -28,6 +31,8 @@ pub(super) const EFFECT: Effect = Effect {
 pub struct JointFriction {
     /// Force `f_c` at which a slider gives way, N.
     pub slider_force: f64,
+    /// Stiffness of the slider while it holds, over that of the leg spring; none: rigid.
+    pub stick_ratio: Option<f64>,
 }
 
 impl Mechanism for JointFriction {
@@ -38,18 +43,22 @@ impl Mechanism for JointFriction {
     fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
         for law in &mut setup.laws {
             law.slider_force += self.slider_force;
+            law.slider_ratio = self.stick_ratio.unwrap_or(f64::INFINITY);
         }
     }
 
     fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
-        Box::new(Self { slider_force: self.slider_force * factor })
+        Box::new(Self { slider_force: self.slider_force * factor, ..*self })
     }
 
     fn parameters(&self) -> Map<String, Value> {
-        Map::from_iter([("friction".to_owned(), json!(self.slider_force))])
+        Map::from_iter([
+            ("friction".to_owned(), json!(self.slider_force)),
+            ("friction_stick_ratio".to_owned(), json!(self.stick_ratio)),
+        ])
     }
 }
 
 fn draw(_: &Hexapod, _: &mut Pcg64) -> Box<dyn Mechanism> {
-    Box::new(JointFriction { slider_force: 1.0 })
+    Box::new(JointFriction { slider_force: 1.0, stick_ratio: Some(20.0) })
 }

@@ -1,7 +1,7 @@
 //! Leg compliance grows with free length: `leg-length-compliance`.
 //!
 //! The free part of a lead screw is a bar in series with the rest of the leg: its compliance is proportional to its
-//! length. `q` is the commanded length, `q_home` that of the zero pose.
+//! length. `q` is the present length, `q_home` that of the zero pose.
 
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use super::{Effect, Mechanism, Shows, parsed};
-use crate::{Moment, Setup};
+use crate::{Moment, Setup, law::LengthCompliance};
 
 /// Its entry in the registry.
 pub(super) const EFFECT: Effect = Effect {
@@ -36,7 +36,8 @@ impl Mechanism for LegLengthCompliance {
 
     fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
         for (i, law) in setup.laws.iter_mut().enumerate() {
-            law.compliance += self.slope * (moment.nominal_lengths[i] - moment.home_lengths[i]);
+            law.along_length
+                .push(LengthCompliance::Growing { slope: self.slope, home: moment.home_lengths[i] });
         }
     }
 

@@ -1,6 +1,6 @@
 //! Leg compliance periodic in leg length: `out:periodic-compliance`.
 //!
-//! Balls entering and leaving a recirculating nut, or a screw supported at intervals. `q` is the commanded length.
+//! Balls entering and leaving a recirculating nut, or a screw supported at intervals. `q` is the present length.
 
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use super::{Effect, Mechanism, Shows, one_of, parsed};
-use crate::{Moment, Setup};
+use crate::{Moment, Setup, law::LengthCompliance};
 
 /// Its entry in the registry.
 pub(super) const EFFECT: Effect = Effect {
@@ -35,10 +35,10 @@ impl Mechanism for PeriodicCompliance {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
-        for (i, law) in setup.laws.iter_mut().enumerate() {
-            let turn = std::f64::consts::TAU * moment.nominal_lengths[i] / self.pitch;
-            law.compliance += self.amplitude * turn.sin();
+    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+        for law in &mut setup.laws {
+            law.along_length
+                .push(LengthCompliance::Periodic { amplitude: self.amplitude, pitch: self.pitch });
         }
     }
 
