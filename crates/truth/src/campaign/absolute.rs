@@ -17,13 +17,13 @@ pub(super) fn shifted(frames: &Frames, k: usize, step: f64) -> Frames {
     Frames { metrology: Pose::from_array(metrology), target: Pose::from_array(target) }
 }
 
-/// Frames as they are after a careful alignment: some tenths of a millimetre and of a milliradian off.
+/// Frames as they are after a careful alignment: a tenth of a millimetre and some tenths of a milliradian off.
 pub(super) fn aligned(rng: &mut Pcg64) -> Frames {
-    const MISALIGNED: f64 = 3e-4;
+    const MISALIGNED: [f64; 6] = [1e-4, 1e-4, 1e-4, 2e-4, 2e-4, 2e-4];
     let mut pose = || {
-        Pose::from_array(std::array::from_fn(|_| {
+        Pose::from_array(MISALIGNED.map(|size| {
             let x: f64 = StandardNormal.sample(rng);
-            MISALIGNED * x
+            size * x
         }))
     };
     Frames { metrology: pose(), target: pose() }

@@ -146,7 +146,7 @@ impl CaseSpec {
         hexapod.metrology = Some(self.noise.metrology());
         let stiffness = machines::leg_stiffness(self.family, &mut of_machine);
         let plan = self.plan.draw(&hexapod, &mut of_plan);
-        let frames = if self.plan == PlanKind::Absolute && of_frames.random_bool(0.5) {
+        let frames = if self.plan == PlanKind::Absolute {
             absolute::aligned(&mut of_frames)
         } else {
             Frames::default()

@@ -108,3 +108,8 @@ pub(crate) fn plan_rows(case: &str, file: &str) -> Vec<campaign::Row> {
     let rows = rows(case, file).into_iter();
     rows.map(|row| campaign::Row { pose_id: 0, repeat: 0, situation: row.situation }).collect()
 }
+
+/// Six points of a truth file.
+pub(crate) fn points(value: &Value) -> [[f64; 3]; 6] {
+    std::array::from_fn(|i| numbers(&value[i]))
+}
