@@ -162,14 +162,14 @@ impl LegLaw {
             let (g, slope) = self.smooth(f, before);
             let excess = f + k * g - target;
             if excess > 0.0 {
-                high = f
+                high = f;
             } else {
-                low = f
+                low = f;
             }
             let step = excess / (1.0 + k * slope);
             let newton = f - step;
             let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-            if (next - f).abs() <= f64::EPSILON * target.abs() || next == f {
+            if (next - f).abs() <= 2.0 * f64::EPSILON * target.abs() {
                 return next;
             }
             f = next;

@@ -1,4 +1,5 @@
 //! Campaigns are reproducible, and their effects as visible as asked for.
+#![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
 use hexbench_truth::{
     World,

@@ -1,4 +1,5 @@
 //! Laws that any equilibrium obeys, checked by routes of their own.
+#![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
 use hexbench_core::{Hexapod, Matrix3, Matrix6, Pose, Vector3, Vector6, Wrench};
 use hexbench_truth::{

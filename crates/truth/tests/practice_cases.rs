@@ -1,5 +1,6 @@
-//! Measurements made by independent programs (a finite-deflection Newton solver, and a MuJoCo model brought to rest), with the
+//! Measurements made by independent programs (a finite-deflection Newton solver, and a `MuJoCo` model brought to rest), with the
 //! truth they were made from: predicted without noise they must agree within it. See tests/data/README.md.
+#![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
 mod common;
 

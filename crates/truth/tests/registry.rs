@@ -1,4 +1,5 @@
 //! The registry is complete and well formed.
+#![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
 use std::{collections::BTreeSet, fs, path::Path};
 

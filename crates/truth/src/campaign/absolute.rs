@@ -10,9 +10,9 @@ use crate::metrology::Frames;
 pub(super) fn shifted(frames: &Frames, k: usize, step: f64) -> Frames {
     let (mut metrology, mut target) = (frames.metrology.to_array(), frames.target.to_array());
     if k < 6 {
-        metrology[k] += step
+        metrology[k] += step;
     } else {
-        target[k - 6] += step
+        target[k - 6] += step;
     }
     Frames { metrology: Pose::from_array(metrology), target: Pose::from_array(target) }
 }

@@ -49,12 +49,12 @@ impl Ring {
     pub fn hexapod(&self, name: &str) -> Hexapod {
         let base = std::array::from_fn(|i| {
             let side = if i % 2 == 0 { -1.0 } else { 1.0 };
-            let turn = 120.0 * f64::from(i as u32 / 2) + side * self.base_half_angle_deg;
+            let turn = 120.0 * (i / 2) as f64 + side * self.base_half_angle_deg;
             on_circle(self.base_radius_mm, turn, -self.height_mm)
         });
         let platform = std::array::from_fn(|i| {
             let side = if i % 2 == 0 { -1.0 } else { 1.0 };
-            let turn = 120.0 * f64::from(i as u32 / 2) + side * (60.0 - self.platform_half_angle_deg);
+            let turn = 120.0 * (i / 2) as f64 + side * (60.0 - self.platform_half_angle_deg);
             on_circle(self.platform_radius_mm, turn, 0.0)
         });
         hexapod(name, base, platform)
@@ -94,7 +94,7 @@ pub fn cubic(edge_mm: f64) -> Hexapod {
     let rise = edge_mm / 3.0_f64.sqrt();
     let ends = |i: usize| {
         let side = if i.is_multiple_of(2) { -60.0 } else { 60.0 };
-        let turn = 120.0 * f64::from(i as u32 / 2);
+        let turn = 120.0 * (i / 2) as f64;
         (on_circle(radius, turn, 0.0), on_circle(radius, turn + side, rise))
     };
     let drop = Vector3::new(0.0, 0.0, rise * (1.0 - END));
@@ -163,7 +163,7 @@ mod tests {
         for i in 0..6 {
             for j in 0..i {
                 let cosine = n[i].dot(&n[j]).abs();
-                assert!(cosine < 1e-7 || cosine > 1.0 - 1e-7, "legs {i} {j}: {cosine}");
+                assert!(!(1e-7..=1.0 - 1e-7).contains(&cosine), "legs {i} {j}: {cosine}");
             }
         }
     }

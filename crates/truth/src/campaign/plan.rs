@@ -180,8 +180,8 @@ fn paper_training(rng: &mut Pcg64) -> Vec<Row> {
         pose([10.017, -3.434, -0.764], [0.0, 0.0, -11.007]),
         pose([-7.784, -3.21, 1.76], [0.0, 0.0, -11.266]),
     ];
-    let triple = poses.iter().flat_map(|&p| [p; 3]).enumerate();
-    triple.map(|(i, p)| paper_row(i as i64 / 3 + 1, i as i64 % 3 + 1, p, rng)).collect()
+    let numbered = (1..).zip(poses).flat_map(|(id, p)| [1, 2, 3].map(|repeat| (id, repeat, p)));
+    numbered.map(|(id, repeat, p)| paper_row(id, repeat, p, rng)).collect()
 }
 
 /// Table 3 of the paper.
@@ -189,8 +189,8 @@ fn paper_holdout(rng: &mut Pcg64) -> Vec<Row> {
     let steps = [-30.0, -15.0, 0.0, 15.0, 30.0];
     let along_a = steps.map(|x| pose([x, 0.0, 0.0], [0.0; 3]));
     let along_b = steps.map(|y| pose([0.0, y, 0.0], [0.0; 3]));
-    let all = along_a.into_iter().chain(along_b).enumerate();
-    all.map(|(i, p)| paper_row(i as i64 + 1, 1, p, rng)).collect()
+    let all = (1..).zip(along_a.into_iter().chain(along_b));
+    all.map(|(id, p)| paper_row(id, 1, p, rng)).collect()
 }
 
 fn paper_row(pose_id: i64, repeat: i64, pose: Pose, rng: &mut Pcg64) -> Row {

@@ -75,9 +75,9 @@ impl<'a> Yardstick<'a> {
                 break;
             }
             if distance > wanted {
-                bracket.1 = factor
+                bracket.1 = factor;
             } else {
-                bracket.0 = factor
+                bracket.0 = factor;
             }
             factor = next_factor(factor, distance, wanted, bracket);
         }
@@ -136,7 +136,9 @@ impl<'a> Yardstick<'a> {
         self.remove_explained(&mut v);
         let after = norm(&v);
         if after > DEPENDENT * before {
-            v.iter_mut().for_each(|x| *x /= after);
+            for x in &mut v {
+                *x /= after;
+            }
             self.explained.push(v);
         }
     }

@@ -86,9 +86,7 @@ fn start(setup: &Setup, layout: &Layout, remembered: &[LegMemory; 6]) -> Result<
         return Err(TruthError::NotFinite { what: "pose, wrench or a parameter of the machine" });
     }
     let (mut matrix, mut forces) = ([[0.0; MOST]; MOST], [0.0; MOST]);
-    for axis in 0..6 {
-        forces[axis] = residual[6 + axis];
-    }
+    forces[..6].copy_from_slice(&residual[6..12]);
     for (i, leg) in slack.iter().enumerate() {
         let moment = leg.upper_arm.cross(&leg.direction) / layout.radius;
         for axis in 0..3 {
@@ -102,7 +100,7 @@ fn start(setup: &Setup, layout: &Layout, remembered: &[LegMemory; 6]) -> Result<
     }
     let parameters =
         std::array::from_fn(|i| setup.laws[i].parameter(forces[i], layout.stiffness, remembered[i]));
-    Ok(evaluate(setup, layout, remembered, parameters, bodies))
+    Ok(evaluate(setup, layout, remembered, parameters, &bodies))
 }
 
 fn evaluate(
@@ -110,14 +108,14 @@ fn evaluate(
     layout: &Layout,
     remembered: &[LegMemory; 6],
     parameters: [f64; 6],
-    bodies: Bodies,
+    bodies: &Bodies,
 ) -> Iterate {
     let points: [LawPoint; 6] =
         std::array::from_fn(|i| setup.laws[i].at(parameters[i], layout.stiffness, remembered[i]));
     let legs = legs(setup, &bodies.plate, &bodies.base, &points);
-    let residual = imbalance(setup, layout, &bodies, &legs);
+    let residual = imbalance(setup, layout, bodies, &legs);
     let norm = largest(&residual[..layout.unknowns]);
-    Iterate { parameters, bodies, legs, residual, norm }
+    Iterate { parameters, bodies: *bodies, legs, residual, norm }
 }
 
 /// The full step, or a part of it where the full one makes the imbalance worse; the last part is taken as it is, so that
@@ -134,7 +132,7 @@ fn damped(
     loop {
         let parameters = std::array::from_fn(|i| from.parameters[i] + share * step[i]);
         let bodies = moved(layout, &from.bodies, step, share);
-        let next = evaluate(setup, layout, remembered, parameters, bodies);
+        let next = evaluate(setup, layout, remembered, parameters, &bodies);
         if next.norm <= from.norm || share < SHORTEST || from.norm < ACCEPTED_IMBALANCE {
             return next;
         }

@@ -1,11 +1,11 @@
 //! Dry friction along the legs: `joint-friction`.
 //!
-//! The leg force is the spring's plus the slider's. The slider gives way at +-f_c, so the spring force lags behind the leg
-//! force by at most f_c, on the side from which it came (play operator). The unloaded machine starts with all sliders
+//! The leg force is the spring's plus the slider's. The slider gives way at +-`f_c`, so the spring force lags behind the leg
+//! force by at most `f_c`, on the side from which it came (play operator). The unloaded machine starts with all sliders
 //! free of force; each row is its own path from there.
 //!
 //! Before it gives way a slider is an elastic bristle; the independent program behind the practice cases has it twenty
-//! times as stiff as the leg spring, which its stated sizes of the effect confirm to ten digits (tests/practice_cases.rs).
+//! times as stiff as the leg spring, which its stated sizes of the effect confirm to ten digits (`tests/practice_cases.rs`).
 
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;

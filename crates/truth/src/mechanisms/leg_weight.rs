@@ -1,7 +1,7 @@
 //! Legs have weight: `leg-weight`.
 //!
 //! A uniform leg pinned at both ends puts half its weight on either joint, whatever its inclination; its axial force then runs
-//! from f - m g n_z / 2 below to f + m g n_z / 2 above, with mean f, and stretches it by c f. Gravity along -z.
+//! from f - m g `n_z` / 2 below to f + m g `n_z` / 2 above, with mean f, and stretches it by c f. Gravity along -z.
 
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;

@@ -1,5 +1,5 @@
 //! Reads a case folder plainly, independent of the workspace's own readers.
-#![allow(dead_code)]
+#![allow(dead_code, clippy::unwrap_used, reason = "each test uses its share; helpers of a test may fail it")]
 
 use std::{collections::HashMap, fs, path::PathBuf};
 
