@@ -3,7 +3,7 @@
 
 use hexbench_core::{Hexapod, Matrix3, Matrix6, Pose, Vector3, Vector6, Wrench};
 use hexbench_truth::{
-    Mechanism, Situation, TruthError, World,
+    LegMemory, Mechanism, Situation, TruthError, World,
     campaign::machines,
     mechanisms::{
         BaseCompliance, JointFriction, LegBacklash, LegNonlinearity, PlatformCompliance, REGISTRY, Shows,
@@ -117,6 +117,34 @@ fn work_of_the_load_is_the_energy_of_the_legs() {
     assert!((work / energy - 1.0).abs() < 1e-5, "work {work:e} J, energy {energy:e} J");
 }
 
+/// Maxwell and Betti: the deflection at one place by a unit load at another is that with places exchanged.
+#[test]
+fn structures_that_store_energy_have_a_symmetric_compliance() {
+    const NOT_LINEAR: [&str; 4] = ["leg-nonlinearity", "leg-asymmetry", "leg-backlash", "joint-friction"];
+    const LOAD_IS_ELSEWHERE: [&str; 2] = ["load-offset", "load-tilt"];
+    for effect in
+        REGISTRY.iter().filter(|e| !NOT_LINEAR.contains(&e.id) && !LOAD_IS_ELSEWHERE.contains(&e.id))
+    {
+        let world = ring().with((effect.draw)(&ring().hexapod, &mut Pcg64::new(5, 9)).scaled(3.0));
+        let at = |wrench: [f64; 6]| {
+            let rest = Situation::new(pose(), Wrench::from_array(wrench));
+            world.reading(&rest).unwrap().equilibrium.platform
+        };
+        // Small loads, so that dead moments turn no further than the tolerance; radius for one unit throughout.
+        let unit = [1.0, 1.0, 1.0, 0.12, 0.12, 0.12].map(|u| 5.0 * u);
+        let columns: [Vector6; 6] = std::array::from_fn(|k| {
+            let load = |sign: f64| std::array::from_fn(|j| if j == k { sign * unit[k] } else { 0.0 });
+            let (plus, minus) = (at(load(1.0)), at(load(-1.0)));
+            let turn = minus.axes * plus.relative_to(&minus).fixed_rows::<3>(3);
+            let shift = plus.origin - minus.origin;
+            Vector6::from_fn(|j, _| unit[j] * if j < 3 { shift[j] } else { turn[j - 3] })
+        });
+        let compliance = Matrix6::from_columns(&columns);
+        let asymmetry = (compliance - compliance.transpose()).amax() / compliance.amax();
+        assert!(asymmetry < 3e-4, "{}: {asymmetry:e}", effect.id);
+    }
+}
+
 #[test]
 fn a_yielding_base_or_plate_moves_by_force_over_stiffness() {
     let load = Wrench::from_array([0.0, 0.0, -300.0, 0.0, 0.0, 0.0]);
@@ -177,7 +205,9 @@ fn coming_back_leaves_the_springs_behind_by_twice_the_friction() {
         let load = Situation { approach, ..Situation::new(pose(), scaled(&wrench(), 3.0)) };
         world.reading(&load).unwrap().equilibrium.memory
     };
-    for (up, down) in springs(1.0).iter().zip(springs(-1.0)) {
+    // The overshoot is 0.4 of the leg force; below 10 N it does not push a slider all the way to the other side.
+    let reversed = |up: &LegMemory| up.force.abs() > 10.0;
+    for (up, down) in springs(1.0).iter().zip(springs(-1.0)).filter(|(up, _)| reversed(up)) {
         let (lag_up, lag_down) = (up.force - up.spring_force, down.force - down.spring_force);
         assert!(((lag_up - lag_down).abs() - 2.0 * slider_force).abs() < 1e-9, "{up:?} {down:?}");
     }

@@ -9,6 +9,7 @@ use super::{Body, leg::Leg};
 use crate::{
     Setup,
     linear::{MOST, Square},
+    setup::Cable,
     so3,
 };
 
@@ -125,6 +126,9 @@ pub(super) fn derivatives(setup: &Setup, layout: &Layout, bodies: &Bodies, legs:
         let along = moved.direction.dot(&(bracket.compliance * pulled.direction));
         a[bracket.displaced][bracket.pulled] -= layout.stiffness * along * pulled.point.force_slope;
     }
+    for cable in &setup.cables {
+        cable_block(&mut a, layout, cable, &bodies.loaded);
+    }
     if let (Some(start), Some(compliance)) = (layout.base, &setup.base_compliance) {
         base_rows(&mut a, layout, start, compliance, legs);
     }
@@ -175,6 +179,20 @@ fn plate_block(a: &mut Square, setup: &Setup, layout: &Layout, leg: &Leg) {
     add_block(a, start, start + 3, &force_by_turn, 1.0 / (k * r));
     add_block(a, start + 3, start, &moment_by_shift, 1.0 / (k * r));
     add_block(a, start + 3, start + 3, &moment_by_turn, 1.0 / (k * r * r));
+}
+
+/// Derivative of the balance of the plate by the twist of the body that the cable holds: its stretch, not its turning.
+fn cable_block(a: &mut Square, layout: &Layout, cable: &Cable, body: &Body) {
+    let arm = body.axes * cable.attachment;
+    let along = (cable.anchor - body.origin - arm).normalize();
+    let force_by_shift = along * along.transpose() * -cable.stiffness;
+    let lever = so3::skew(&arm);
+    let (k, r) = (layout.stiffness, layout.radius);
+    let (row, column) = (layout.plate, layout.loaded.unwrap_or(layout.plate));
+    add_block(a, row, column, &force_by_shift, 1.0 / k);
+    add_block(a, row, column + 3, &(-force_by_shift * lever), 1.0 / (k * r));
+    add_block(a, row + 3, column, &(lever * force_by_shift), 1.0 / (k * r));
+    add_block(a, row + 3, column + 3, &(-lever * force_by_shift * lever), 1.0 / (k * r * r));
 }
 
 fn base_rows(a: &mut Square, layout: &Layout, start: usize, compliance: &Matrix6, legs: &[Leg; 6]) {

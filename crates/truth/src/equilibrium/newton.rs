@@ -183,3 +183,61 @@ fn finished(setup: &Setup, remembered: &[LegMemory; 6], at: &Iterate, iterations
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, v| if m.is_nan() || v.is_nan() { f64::NAN } else { m.max(v.abs()) })
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::{Pose, Wrench};
+    use rand_pcg::Pcg64;
+
+    use super::*;
+    use crate::{Moment, Phase, Situation, World, campaign::machines::RING_B, mechanisms::REGISTRY};
+
+    /// Central differences of the imbalance, by the scaled unknowns, about a state.
+    fn differences(setup: &Setup, layout: &Layout, at: &Iterate) -> Vec<[f64; MOST]> {
+        const STEP: f64 = 0.05;
+        let memory = [LegMemory::default(); 6];
+        let shifted = |k: usize, size: f64| {
+            let mut step = [0.0; MOST];
+            step[k] = size;
+            let parameters = std::array::from_fn(|i| at.parameters[i] + step[i]);
+            evaluate(setup, layout, &memory, parameters, &moved(layout, &at.bodies, &step, 1.0)).residual
+        };
+        let column = |k| {
+            let (plus, minus) = (shifted(k, STEP), shifted(k, -STEP));
+            std::array::from_fn(|i| (plus[i] - minus[i]) / (2.0 * STEP))
+        };
+        (0..layout.unknowns).map(column).collect()
+    }
+
+    #[test]
+    fn derivatives_agree_with_differences_but_for_the_terms_left_out() {
+        let hexapod = RING_B.hexapod("ring_b");
+        let pose = Pose::from_array([0.02, -0.01, 0.005, 0.08, -0.05, 0.1]);
+        let wrench = Wrench::from_array([60.0, -30.0, -330.0, 4.0, 2.0, -1.0]);
+        let situation = Situation::new(pose, wrench);
+        for effect in REGISTRY {
+            let world = World::new(hexapod.clone(), &[4e6; 6])
+                .with((effect.draw)(&hexapod, &mut Pcg64::new(1, 1)).scaled(3.0));
+            let lengths = world.reading(&situation).unwrap().equilibrium.elongations;
+            let moment = Moment {
+                hexapod: &hexapod,
+                situation: &situation,
+                phase: Phase::Loaded,
+                nominal_lengths: lengths.map(|e| 0.2 + e),
+                home_lengths: [0.2; 6],
+                reference_forces: [-40.0; 6],
+            };
+            let setup = world.setup(&moment, wrench);
+            let layout = Layout::of(&setup);
+            let at = start(&setup, &layout, &[LegMemory::default(); 6]).unwrap();
+            let exact = differences(&setup, &layout, &at);
+            let used = derivatives(&setup, &layout, &at.bodies, &at.legs);
+            for (k, column) in exact.iter().enumerate() {
+                for i in 0..layout.unknowns {
+                    let error = (used[i][k] - column[i]).abs();
+                    assert!(error < 2e-3, "{} d{i}/d{k}: {} for {}", effect.id, used[i][k], column[i]);
+                }
+            }
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! A cable pulls at the platform: `out:cable`.
 //!
-//! Drag chain, hose or safety rope: a spring under tension whose pull turns as the platform moves. It pulls in both states, so
-//! only its change of length between them shows.
+//! A stay, hose or safety rope that is tightened anew at each pose: a spring that holds the platform against the load and pulls at
+//! it in both states alike.
 
 use hexbench_core::{Hexapod, Vector3};
 use rand_pcg::Pcg64;
@@ -31,8 +31,8 @@ pub struct CablePull {
     pub attachment: [f64; 3],
     /// Stiffness, N/m.
     pub stiffness: f64,
-    /// Length without force, m.
-    pub free_length: f64,
+    /// Stretch to which it is tightened at each commanded pose, m.
+    pub stretch: f64,
 }
 
 impl Mechanism for CablePull {
@@ -40,13 +40,12 @@ impl Mechanism for CablePull {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
-        setup.cables.push(Cable {
-            anchor: self.anchor.into(),
-            attachment: self.attachment.into(),
-            stiffness: self.stiffness,
-            free_length: self.free_length,
-        });
+    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+        let (anchor, attachment) = (Vector3::from(self.anchor), Vector3::from(self.attachment));
+        let pose = &moment.situation.pose;
+        let reach = anchor - pose.translation - pose.rotation() * attachment;
+        let free_length = reach.norm() - self.stretch;
+        setup.cables.push(Cable { anchor, attachment, stiffness: self.stiffness, free_length });
     }
 
     fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
@@ -56,17 +55,20 @@ impl Mechanism for CablePull {
     fn parameters(&self) -> Map<String, Value> {
         Map::from_iter([(
             "cable".to_owned(),
-            json!((self.anchor, self.attachment, self.stiffness, self.free_length)),
+            json!((self.anchor, self.attachment, self.stiffness, self.stretch)),
         )])
     }
 }
 
 fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
-    const STRETCH: f64 = 1e-4;
     let r = hexapod.platform_radius();
     let turn = uniform(rng, 0.0, std::f64::consts::TAU);
     let anchor = Vector3::new(3.0 * r * turn.cos(), 3.0 * r * turn.sin(), uniform(rng, -0.5, 1.5) * r);
     let attachment = Vector3::new(r * turn.cos(), r * turn.sin(), 0.2 * r);
-    let free_length = (anchor - attachment).norm() * (1.0 - STRETCH);
-    Box::new(CablePull { anchor: anchor.into(), attachment: attachment.into(), stiffness: 2e5, free_length })
+    Box::new(CablePull {
+        anchor: anchor.into(),
+        attachment: attachment.into(),
+        stiffness: 2e5,
+        stretch: 1e-4,
+    })
 }
