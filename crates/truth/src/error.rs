@@ -47,6 +47,16 @@ pub enum TruthError {
         /// Which quantity.
         what: &'static str,
     },
+    /// Balls do not determine a pose.
+    #[error(
+        "{found} balls measured, {expected} expected, and at least three that are not on one line are needed"
+    )]
+    Balls {
+        /// Balls measured.
+        found: usize,
+        /// Balls expected.
+        expected: usize,
+    },
     /// An effect cannot be made as visible as asked for.
     #[error(
         "{id}: distance {wanted} is out of reach, at most {reached:.3} at {scale:.3e} times the usual size"
