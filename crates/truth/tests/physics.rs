@@ -6,8 +6,8 @@ use hexbench_truth::{
     LegMemory, Mechanism, Situation, TruthError, World,
     campaign::machines,
     mechanisms::{
-        BaseCompliance, JointFriction, LegBacklash, LegNonlinearity, PlatformCompliance, REGISTRY, Shows,
-        TargetOffset,
+        BaseCompliance, JointFriction, JointRotationStiffness, LegBacklash, LegNonlinearity,
+        PlatformCompliance, REGISTRY, Shows, TargetOffset,
     },
 };
 use rand_pcg::Pcg64;
@@ -115,6 +115,44 @@ fn work_of_the_load_is_the_energy_of_the_legs() {
         last = now;
     }
     assert!((work / energy - 1.0).abs() < 1e-5, "work {work:e} J, energy {energy:e} J");
+}
+
+/// To first order stiff joints add `k G'G`, `G` the change of direction of the leg in the axes of the body at that end.
+#[test]
+fn stiff_joints_add_the_stiffness_of_their_bending() {
+    let world = ring();
+    let l = leg_jacobian(&world.hexapod, &pose());
+    let spring = l.transpose() * Matrix6::from_diagonal(&Vector6::from(STIFFNESS)) * l;
+    let load = scaled(&wrench(), 0.01);
+    let bare = world.reading(&Situation::new(pose(), load)).unwrap().equilibrium.platform;
+    for (base, platform) in [(50.0, 0.0), (0.0, 50.0)] {
+        let joints = JointRotationStiffness { base, platform };
+        let at = ring()
+            .with(Box::new(joints))
+            .reading(&Situation::new(pose(), load))
+            .unwrap()
+            .equilibrium
+            .platform;
+        let mut added = Matrix6::zeros();
+        for leg in 0..6 {
+            let arm = pose().rotation() * world.hexapod.platform_joints[leg];
+            let vector = pose().translation + arm - world.hexapod.base_joints[leg];
+            let (q, n) = (vector.norm(), vector.normalize());
+            let across = (Matrix3::identity() - n * n.transpose()) / q;
+            let mut g = nalgebra::Matrix3x6::zeros();
+            g.fixed_columns_mut::<3>(0).copy_from(&across);
+            let turned = if platform > 0.0 { n.cross_matrix() } else { Matrix3::zeros() };
+            g.fixed_columns_mut::<3>(3).copy_from(&(turned - across * arm.cross_matrix()));
+            added += g.transpose() * g * (base + platform);
+        }
+        let expected = (spring + added).try_inverse().unwrap() * load.to_vector()
+            - spring.try_inverse().unwrap() * load.to_vector();
+        let shift = at.origin - bare.origin;
+        let turn = bare.axes * at.relative_to(&bare).fixed_rows::<3>(3);
+        let error = (shift - expected.fixed_rows::<3>(0)).norm() / expected.fixed_rows::<3>(0).norm()
+            + (turn - expected.fixed_rows::<3>(3)).norm() / expected.fixed_rows::<3>(3).norm();
+        assert!(error < 1e-2, "base {base}, platform {platform}: {error:e}");
+    }
 }
 
 /// Maxwell and Betti: the deflection at one place by a unit load at another is that with places exchanged.

@@ -8,7 +8,7 @@ use hexbench_truth::{
     mechanisms::{REGISTRY, Shows, build},
 };
 
-/// Ids of the catalogue, of `DESIGN`'s table.
+/// Ids of the catalogue, in its order.
 const CATALOGUE: [&str; 21] = [
     "leg-length-compliance",
     "leg-nonlinearity",

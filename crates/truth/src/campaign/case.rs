@@ -129,7 +129,7 @@ impl CaseSpec {
                 None => kind.usual_distance(),
             }),
             noise: Noise::default(),
-            seed: rng.random(),
+            seed: u64::from(rng.random::<u32>()),
         }
     }
 

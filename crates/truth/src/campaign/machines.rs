@@ -1,4 +1,4 @@
-//! Machines: the three rings of the practice cases, and others.
+//! Machines: the three rings of the reference cases in tests/data, and others.
 
 use hexbench_core::{Hexapod, Vector3};
 use rand::RngExt;
@@ -26,7 +26,7 @@ pub struct Ring {
     pub height_mm: f64,
 }
 
-/// The rings of the practice cases.
+/// Joint rings as the paper's published numbers suggest them.
 pub const RING_A: Ring = ring_of(160.0, 10.0, 120.0, 10.0, 165.0);
 /// Small platform on a wide base.
 pub const RING_B: Ring = ring_of(150.0, 12.0, 85.0, 12.0, 200.0);
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn ring_b_is_the_machine_of_the_practice_cases() {
+    fn ring_b_is_the_machine_of_the_reference_cases() {
         let machine = RING_B.hexapod("ring_b");
         let expected = Vector3::new(0.100_369_591, 0.111_471_724, 0.2) * -1.0;
         assert!((machine.base_joints[4] - expected).amax() < 1e-9);

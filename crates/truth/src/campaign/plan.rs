@@ -97,7 +97,7 @@ fn along_z(newtons: f64) -> Wrench {
     Wrench::from_array([0.0, 0.0, newtons, 0.0, 0.0, 0.0])
 }
 
-/// Loads of the practice cases: two along z, two sideways, one about x, one lifting.
+/// Loads of the reference cases: two along z, two sideways, one about x, one lifting.
 fn usual_loads() -> Vec<Wrench> {
     vec![
         along_z(FULL_LOAD_N),

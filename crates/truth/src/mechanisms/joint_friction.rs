@@ -4,8 +4,8 @@
 //! force by at most `f_c`, on the side from which it came (play operator). The unloaded machine starts with all sliders
 //! free of force; each row is its own path from there.
 //!
-//! Before it gives way a slider is an elastic bristle; the independent program behind the practice cases has it twenty
-//! times as stiff as the leg spring, which its stated sizes of the effect confirm to ten digits (`tests/practice_cases.rs`).
+//! Before it gives way a slider is an elastic bristle; the independent program behind the reference cases has it twenty
+//! times as stiff as the leg spring, which its stated sizes of the effect confirm to ten digits (`tests/reference_cases.rs`).
 
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
