@@ -22,6 +22,7 @@ pub mod pattern;
 mod period;
 pub mod power;
 pub mod residuals;
+mod scan;
 pub mod search;
 pub mod term;
 pub mod terms;
