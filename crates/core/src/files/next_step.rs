@@ -26,6 +26,7 @@ impl Problem {
             Self::LineTooLong { .. } => {
                 "Check that this is a table of text with one row per line, not a binary file."
             }
+            Self::FileTooLong { .. } => "Check the name; a hexapod.toml has some thousand bytes.",
             Self::CarriageReturnLines => "Save the file with line feed or carriage return + line feed ends.",
             _ => return None,
         })

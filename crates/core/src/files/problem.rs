@@ -45,6 +45,12 @@ pub enum Problem {
         /// The limit.
         limit_bytes: usize,
     },
+    /// A file beyond every description of a machine.
+    #[error("the file is longer than {limit_bytes} bytes")]
+    FileTooLong {
+        /// The limit.
+        limit_bytes: usize,
+    },
     /// Lines end with a bare carriage return.
     #[error("lines end with a bare carriage return (old Macintosh style)")]
     CarriageReturnLines,
@@ -63,7 +69,7 @@ pub enum Problem {
     #[error("the column has no name")]
     NamelessColumn,
     /// A quantity with a unit is named without one.
-    #[error("the column name states no unit; {quantity} is a {}", kind.name())]
+    #[error("the name states no unit; {quantity} is a {}", kind.name())]
     NoUnit {
         /// The quantity.
         quantity: String,
