@@ -70,12 +70,9 @@ fn with_unit(column: &'static Column, unit: Option<&str>) -> Result<Named, Probl
         None => Err(Problem::NoUnit { quantity, kind }),
         Some(text) => match unit_named(text, kind) {
             Some(unit) if unit.kind == kind => Ok(Named::Known(column, unit)),
-            Some(unit) => Err(Problem::WrongKindOfUnit {
-                unit: unit.name.into(),
-                unit_kind: unit.kind,
-                quantity,
-                kind,
-            }),
+            Some(unit) => {
+                Err(Problem::WrongKindOfUnit { unit: unit.name.into(), unit_kind: unit.kind, quantity, kind })
+            }
             None => Err(Problem::UnknownUnit { unit: text.into(), quantity, kind }),
         },
     }

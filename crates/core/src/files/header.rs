@@ -6,7 +6,7 @@ use super::error::Fault;
 use super::line::Line;
 use super::units::Unit;
 use super::warning::Notice;
-use super::{Place, Problem, Warning};
+use super::{Problem, Warning};
 use crate::{Columns, Measurand};
 
 /// One column of a file that is read.

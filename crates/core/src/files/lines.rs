@@ -106,6 +106,9 @@ mod tests {
             seen.push((line.text.to_owned(), line.number, line.start, line.ended));
         }
         let expected = [("ab", 1, 3, true), ("cd", 2, 7, true), ("", 3, 10, true), ("last", 4, 11, false)];
-        assert_eq!(seen, expected.map(|(text, number, start, ended)| (text.to_owned(), number, start, ended)));
+        assert_eq!(
+            seen,
+            expected.map(|(text, number, start, ended)| (text.to_owned(), number, start, ended))
+        );
     }
 }

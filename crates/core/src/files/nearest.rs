@@ -42,7 +42,8 @@ mod tests {
 
     #[test]
     fn edits_are_counted() {
-        let table = [("", "abc", 3), ("dalpha", "dalpha", 0), ("dapha", "dalpha", 1), ("dlapha", "dalpha", 1)];
+        let table =
+            [("", "abc", 3), ("dalpha", "dalpha", 0), ("dapha", "dalpha", 1), ("dlapha", "dalpha", 1)];
         for (a, b, expected) in table {
             assert_eq!(edit_distance(a, b), expected, "{a} -> {b}");
         }

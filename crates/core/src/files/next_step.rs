@@ -68,7 +68,9 @@ impl Problem {
                 "Write a decimal point, or export with semicolons between the columns and commas in the numbers."
             }
             Self::NotWhole => "Number the poses and repeats 1, 2, 3, ...; put names into a column note_pose.",
-            Self::Approach => "Write 1 where the load was approached from below and -1 where it was exceeded first.",
+            Self::Approach => {
+                "Write 1 where the load was approached from below and -1 where it was exceeded first."
+            }
             Self::Sigma => "Give the standard deviation of the reading, or remove all sigma_ columns.",
             Self::AngleTooLarge { .. } => "Check the unit in the column name, for example deg, mrad or urad.",
             _ => return None,

@@ -69,7 +69,7 @@ pub enum Problem {
     #[error("the column has no name")]
     NamelessColumn,
     /// A quantity with a unit is named without one.
-    #[error("the name states no unit; {quantity} is a {}", kind.name())]
+    #[error("the name states no unit; {quantity} is {}", kind.with_article())]
     NoUnit {
         /// The quantity.
         quantity: String,
@@ -77,7 +77,7 @@ pub enum Problem {
         kind: Kind,
     },
     /// Text in the place of the unit that is no unit.
-    #[error("\"{unit}\" is not a known unit; {quantity} is a {}", kind.name())]
+    #[error("\"{unit}\" is not a known unit; {quantity} is {}", kind.with_article())]
     UnknownUnit {
         /// What stands in the place of the unit.
         unit: String,
@@ -87,7 +87,7 @@ pub enum Problem {
         kind: Kind,
     },
     /// A unit of another kind.
-    #[error("{unit} is a unit of {}, but {quantity} is a {}", unit_kind.name(), kind.name())]
+    #[error("{unit} is a unit of {}, but {quantity} is {}", unit_kind.name(), kind.with_article())]
     WrongKindOfUnit {
         /// The unit in the file.
         unit: String,
@@ -177,7 +177,9 @@ pub enum Problem {
     #[error("the number is written with a comma; it needs a decimal point")]
     DecimalComma,
     /// Commas and points in the numbers of one table.
-    #[error("numbers with a decimal comma and numbers with a point are mixed; line {other_line} has the other kind")]
+    #[error(
+        "numbers with a decimal comma and numbers with a point are mixed; line {other_line} has the other kind"
+    )]
     MixedDecimals {
         /// A line of the other kind.
         other_line: u64,

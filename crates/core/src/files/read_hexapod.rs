@@ -85,8 +85,9 @@ fn hexapod_of(text: &str) -> Result<Hexapod, Fault> {
         let place = wrong.span().map_or_else(Place::file, |span| place_of(text, &span));
         Fault::new(place, Problem::Toml(wrong.message().replace('\n', " ")))
     })?;
+    // The format first: a file of another format may have other keys.
+    check_format(&Section::peek(text, root.get_ref(), TOP)?)?;
     let top = Section::open(text, "", root.get_ref(), TOP)?;
-    check_format(&top)?;
     let name = top.get("name").map(Item::string).transpose()?.unwrap_or("hexapod").to_owned();
     with_sections(name, &top)
 }
@@ -156,9 +157,7 @@ fn check_meeting(joints: &[Vector3; 6], rows: &[Item<'_>; 6], side: &'static str
     }
     match meeting.first() {
         None => Ok(()),
-        Some([i, j]) => {
-            Err(rows[*j].fault(Problem::CoincidingJoints { side, first: i + 1, second: j + 1 }))
-        }
+        Some([i, j]) => Err(rows[*j].fault(Problem::CoincidingJoints { side, first: i + 1, second: j + 1 })),
     }
 }
 

@@ -34,7 +34,9 @@ fn check(source: &Source, si: f64) -> Result<(), Problem> {
     use super::Kind;
     match source.column.group {
         Group::Number if si.fract() != 0.0 || si.abs() > LARGEST_WHOLE => Err(Problem::NotWhole),
-        Group::Covariate if source.column.places.first == APPROACH && si.abs() != 1.0 => Err(Problem::Approach),
+        Group::Covariate if source.column.places.first == APPROACH && si.abs() != 1.0 => {
+            Err(Problem::Approach)
+        }
         Group::Sigma if si <= 0.0 => Err(Problem::Sigma),
         Group::Sigma | Group::Number | Group::Covariate => Ok(()),
         _ if source.column.kind == Kind::Angle && si.abs() > LARGEST_ANGLE => {
@@ -62,7 +64,10 @@ pub(crate) fn observation(row: &Row, plan: &Plan, line: u64, running: i64) -> Ob
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "checked to be whole and below 2^53 when it was filled in")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "checked to be whole and below 2^53 when it was filled in"
+)]
 fn whole(value: f64) -> i64 {
     value as i64
 }

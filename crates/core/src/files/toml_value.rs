@@ -62,8 +62,19 @@ impl<'t> Section<'t> {
         keys: &'static [Key],
     ) -> Result<Self, Fault> {
         let mut section = Self { text, title, keys, items: Vec::new() };
-        for (name, value) in table {
+        for (name, value) in in_file_order(table) {
             section.add(name, value)?;
+        }
+        Ok(section)
+    }
+
+    /// The known keys of a table, whatever else it holds.
+    pub(crate) fn peek(text: &'t str, table: &'t DeTable<'t>, keys: &'static [Key]) -> Result<Self, Fault> {
+        let mut section = Self { text, title: "", keys, items: Vec::new() };
+        for (name, value) in in_file_order(table) {
+            if known_key(name.get_ref(), keys).is_ok() {
+                section.add(name, value)?;
+            }
         }
         Ok(section)
     }
@@ -89,7 +100,8 @@ impl<'t> Section<'t> {
         self.get(name).ok_or_else(|| {
             let usual = self.keys.iter().find(|key| key.name == name).map(Key::usual_name);
             let key = usual.unwrap_or_else(|| name.to_owned());
-            let place = if self.title.is_empty() { Place::file() } else { Place::file().with_name(self.title) };
+            let place =
+                if self.title.is_empty() { Place::file() } else { Place::file().with_name(self.title) };
             Fault::new(place, Problem::MissingKey { key })
         })
     }
@@ -109,6 +121,12 @@ impl<'t> Section<'t> {
             },
         }
     }
+}
+
+fn in_file_order<'t>(table: &'t DeTable<'t>) -> Vec<(&'t Spanned<DeString<'t>>, &'t Value<'t>)> {
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(name, _)| name.span().start);
+    entries
 }
 
 /// The key that is meant and its unit.
@@ -167,7 +185,10 @@ impl<'t> Item<'t> {
 
     /// A string.
     pub(crate) fn string(&self) -> Result<&str, Fault> {
-        self.value.get_ref().as_str().ok_or_else(|| self.wrong_type("a string in quotation marks", self.value))
+        self.value
+            .get_ref()
+            .as_str()
+            .ok_or_else(|| self.wrong_type("a string in quotation marks", self.value))
     }
 
     /// A finite number in SI.
@@ -192,8 +213,7 @@ impl<'t> Item<'t> {
         let DeValue::Array(array) = self.value.get_ref() else {
             return Err(self.wrong_type("a list in square brackets", self.value));
         };
-        let member =
-            |value| Item { text: self.text, key: self.key.clone(), unit: self.unit, value };
+        let member = |value| Item { text: self.text, key: self.key.clone(), unit: self.unit, value };
         Ok(array.iter().map(member).collect())
     }
 

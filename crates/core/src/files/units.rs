@@ -38,6 +38,12 @@ impl Kind {
         }
     }
 
+    /// The kind with its article: `a length`, `an angle`.
+    pub fn with_article(self) -> String {
+        let article = if self == Self::Angle { "an" } else { "a" };
+        format!("{article} {}", self.name())
+    }
+
     /// Every unit of this kind, in the order of [`UNITS`].
     pub fn units(self) -> impl Iterator<Item = &'static Unit> {
         UNITS.iter().filter(move |unit| unit.kind == self)
@@ -81,7 +87,7 @@ impl Unit {
 }
 
 /// The unit of a plain number.
-pub const PLAIN: Unit = Unit::new("", Kind::Number, 1.0, 1.0);
+pub(crate) const PLAIN: Unit = Unit::new("", Kind::Number, 1.0, 1.0);
 
 /// Every unit known to the files. The first of a kind is its SI unit.
 pub const UNITS: &[Unit] = &[
@@ -200,7 +206,10 @@ mod tests {
         ];
         for (text, kind, expected) in table {
             let value = si(text, kind);
-            assert!((value - expected).abs() <= 4.0 * f64::EPSILON * expected, "{text}: {value} not {expected}");
+            assert!(
+                (value - expected).abs() <= 4.0 * f64::EPSILON * expected,
+                "{text}: {value} not {expected}"
+            );
         }
     }
 

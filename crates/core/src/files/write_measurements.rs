@@ -105,5 +105,9 @@ fn not_finite(column: &Column, observation: &Observation) -> io::Error {
 /// Plain decimals in the ordinary range, an exponent beyond it; every digit that is needed and no more.
 fn write_number(out: &mut dyn Write, value: f64) -> io::Result<()> {
     let size = value.abs();
-    if size == 0.0 || (1e-5..1e15).contains(&size) { write!(out, "{value}") } else { write!(out, "{value:e}") }
+    if size == 0.0 || (1e-5..1e15).contains(&size) {
+        write!(out, "{value}")
+    } else {
+        write!(out, "{value:e}")
+    }
 }
