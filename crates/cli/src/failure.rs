@@ -117,7 +117,9 @@ fn next_step_of(cause: &ModelError, data: &str) -> String {
         ModelError::NoLoad => format!("Check fx_N ... mz_Nm and ref_fx_N ... ref_mz_Nm in {data}."),
         ModelError::UnknownTerm { .. } => "`hexbench terms` lists the effects.".into(),
         ModelError::Untestable { .. } => "`hexbench terms TERM` says what the data must contain.".into(),
-        ModelError::NotDetermined { .. } => "Measure other poses or load directions, or leave the term out.".into(),
+        ModelError::NotDetermined { .. } => {
+            "Measure other poses or load directions, or leave the term out.".into()
+        }
         ModelError::NotFinite { .. } | ModelError::NotConverged { .. } => {
             format!("Look in {data} for readings of the wrong size or unit.")
         }
