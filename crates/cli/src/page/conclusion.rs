@@ -97,7 +97,8 @@ pub(crate) fn error_statement(steps: &[StepReport]) -> String {
         ", still above the noise"
     };
     format!(
-        "Adding what is missing brings the error on held-out poses from {} to {} times the noise{where_to}.",
+        "Adding {} brings the error on held-out poses from {} to {} times the noise{where_to}.",
+        if steps.len() > 2 { "them" } else { "it" },
         multiple(before.chi2_reduced),
         multiple(after.chi2_reduced)
     )

@@ -1,6 +1,6 @@
 //! How sure: probabilities, and what looks alike.
 
-use hexbench_model::diagnose::Diagnosis;
+use hexbench_model::diagnose::{CandidateReport, Diagnosis};
 use hexbench_model::verdict::{NONE, OUTSIDE};
 
 use super::conclusion::{in_words, joined};
@@ -9,6 +9,8 @@ use crate::output::number::percent;
 
 /// Least probability that gets a line.
 const WORTH_A_LINE: f64 = 0.03;
+/// Least probability of a candidate whose look-alikes are listed.
+const WORTH_SAYING: f64 = 0.01;
 /// Most lines.
 const MOST_LINES: usize = 7;
 /// Columns of a bar of probability one.
@@ -43,12 +45,22 @@ fn probabilities(d: &Diagnosis) -> Vec<(String, f64)> {
 
 /// Groups that leave the same trace, among the candidates that matter.
 fn look_alikes(paper: &mut Paper, d: &Diagnosis) {
-    for candidate in d.candidates.iter().filter(|c| c.probability > 0.01 && !c.indistinguishable.is_empty()) {
-        let text = format!(
-            "In these data {} leaves the same trace as {} (to 95 % or more).",
-            candidate.term,
-            joined(&candidate.indistinguishable, "and")
-        );
-        paper.paragraph(2, &text);
+    let alike = |c: &&CandidateReport| c.probability > WORTH_SAYING && !c.indistinguishable.is_empty();
+    for candidate in d.candidates.iter().filter(alike) {
+        paper.paragraph(2, &likeness(d, candidate));
     }
+}
+
+fn likeness(d: &Diagnosis, candidate: &CandidateReport) -> String {
+    let others = joined(&candidate.indistinguishable, "and");
+    let (leave, explain) =
+        if candidate.indistinguishable.len() == 1 { ("leaves", "explains") } else { ("leave", "explain") };
+    if d.added.contains(&candidate.term) {
+        return format!(
+            "In these data {others} {leave} nearly the same trace as {} (alike to 95 % or more), but {explain} the \
+             readings less well.",
+            candidate.term
+        );
+    }
+    format!("In these data {others} {leave} the same trace as {} (alike to 95 % or more).", candidate.term)
 }

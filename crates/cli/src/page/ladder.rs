@@ -13,7 +13,8 @@ const NAME: usize = 26;
 
 /// One line per step of the model, then the noise.
 pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
-    paper.heading("The error falls", how_held_out(d));
+    let heading = if d.steps.len() > 1 { "The error falls" } else { "The error" };
+    paper.heading(heading, how_held_out(d));
     paper.line(&format!("  {:<NAME$}{:>8}{:>8}{:>9}", "", "um", "urad", "x noise"));
     let errors: Vec<(&StepReport, ErrorSummary)> =
         d.steps.iter().map(|s| (s, s.holdout.unwrap_or(s.fitted))).collect();

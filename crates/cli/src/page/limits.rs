@@ -5,9 +5,11 @@ use std::collections::BTreeMap;
 use hexbench_model::diagnose::Diagnosis;
 use hexbench_model::power::Detectable;
 
-use super::conclusion::joined;
 use crate::output::number::significant;
 use crate::output::{Paper, Table};
+
+/// A blank at which no line is broken.
+const NO_BREAK: &str = "\u{a0}";
 
 /// Both lists.
 pub(crate) fn section(paper: &mut Paper, d: &Diagnosis, verbose: bool) {
@@ -27,38 +29,26 @@ fn untestable(paper: &mut Paper, d: &Diagnosis) {
     }
     paper.heading("Could not be tested", "");
     for (why, terms) in reasons {
-        paper.hanging("  -", 4, &format!("{}: {why}", joined(&terms, "and")));
+        let why = why.strip_prefix("it ").filter(|w| w.starts_with("needs")).unwrap_or(why);
+        paper.hanging("  -", 4, &format!("{why}: {}", terms.join(", ")));
     }
 }
 
-/// One parameter of every effect, the most visible of its first kind.
+/// One size per effect: that of its most visible parameter.
 fn short_sizes(paper: &mut Paper, d: &Diagnosis) {
-    let mut parts: Vec<String> = Vec::new();
-    let mut last = "";
-    for first in d.detectable.iter() {
-        if first.term == last {
-            continue;
-        }
-        last = &first.term;
-        if let Some((size, parameter)) = smallest(&d.detectable, first) {
-            // Non-breaking: term, size and unit stay on one line.
-            parts.push(format!("{} {size}\u{a0}{} ({parameter})", first.term, unit(&first.unit)));
-        }
-    }
-    let text = parts.join("; ").replace(" (", "\u{a0}(");
-    paper.paragraph(2, &text);
+    let mut terms: Vec<&str> = d.detectable.iter().map(|row| row.term.as_str()).collect();
+    terms.dedup();
+    let parts: Vec<String> = terms.iter().filter_map(|term| short_size(&d.detectable, term)).collect();
+    paper.paragraph(2, &format!("{}. Every parameter: --verbose.", parts.join("; ")));
 }
 
-fn unit(unit: &str) -> String {
-    unit.replace(' ', "\u{a0}")
-}
-
-/// Smallest size among the parameters of a term that have the unit of `first`.
-fn smallest(all: &[Detectable], first: &Detectable) -> Option<(String, String)> {
-    let same = all.iter().filter(|d| d.term == first.term && d.unit == first.unit);
-    let sized = same.filter_map(|d| Some((d.size_at_90_percent_power?, &d.parameter)));
-    let (size, parameter) = sized.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some((significant(size, 2), parameter.clone()))
+/// `term size unit` kept on one line; the smallest size among the parameters in the unit of the first.
+fn short_size(all: &[Detectable], term: &str) -> Option<String> {
+    let own = || all.iter().filter(|row| row.term == term);
+    let unit = own().find(|row| row.size_at_90_percent_power.is_some())?.unit.as_str();
+    let sizes = own().filter(|row| row.unit == unit).filter_map(|row| row.size_at_90_percent_power);
+    let size = sizes.min_by(f64::total_cmp)?;
+    Some(format!("{term} {} {unit}", significant(size, 2)).replace(' ', NO_BREAK))
 }
 
 fn every_size(paper: &mut Paper, d: &Diagnosis) {

@@ -10,6 +10,7 @@ mod leg_space;
 mod limits;
 mod next;
 mod notes;
+mod pattern;
 mod size;
 mod stiffness;
 mod subject;
@@ -31,7 +32,9 @@ pub(crate) fn diagnosis(subject: &Subject<'_>, verbose: bool, ink: Ink) -> Strin
     size::section(&mut paper, d, verbose);
     stiffness::section(&mut paper, subject.hexapod, d, verbose);
     next::section(&mut paper, d);
+    pattern::section(&mut paper, d);
     limits::section(&mut paper, d, verbose);
     notes::section(&mut paper, d);
+    notes::conventions(&mut paper);
     paper.into_text()
 }

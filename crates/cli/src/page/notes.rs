@@ -22,6 +22,14 @@ pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
     }
 }
 
+/// Frames and signs, the same on every page.
+pub(crate) fn conventions(paper: &mut Paper) {
+    paper.heading("Conventions", "");
+    let text = "Fixed axes of the base unless a term says mobile; wrenches act on the platform at the mobile origin; \
+                deflection = loaded minus reference; tension is positive.";
+    paper.paragraph(2, text);
+}
+
 fn suspects(d: &Diagnosis) -> String {
     let mut worst: Vec<_> = d.suspects.iter().collect();
     worst.sort_by(|a, b| b.z.total_cmp(&a.z));

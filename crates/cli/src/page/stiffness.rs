@@ -20,8 +20,11 @@ pub(crate) fn section(paper: &mut Paper, hexapod: &Hexapod, d: &Diagnosis, verbo
     }
     table.lines().iter().for_each(|line| paper.line(line));
     if !reports.is_empty() {
-        let text = "% rows: how far the springs alone miss when that effect is at work but left out; the springs \
-                    absorb it and the fit still looks fair.";
+        let text = "% rows: change of k when that effect is left out of the model: the springs absorb what they can.";
+        paper.paragraph(2, text);
+    }
+    if d.verdict == Verdict::Outside {
+        let text = "Biased by what is missing: the uncertainties do not cover an effect without a name.";
         paper.paragraph(2, text);
     }
 }

@@ -36,7 +36,7 @@ const LABEL: usize = 12;
 
 /// File, kind and number of readings.
 pub(crate) fn describe(data: &Dataset) -> String {
-    let kind = if data.is_absolute() { "absolute poses" } else { "deflections (loaded minus reference)" };
+    let kind = if data.is_absolute() { "absolute poses" } else { "deflections" };
     format!("{}: {} {kind} at {} poses", data.source, data.observations.len(), poses(data))
 }
 
@@ -48,14 +48,14 @@ pub(crate) fn poses(data: &Dataset) -> usize {
 
 fn noise(noise: &NoiseReport) -> String {
     let (t, r) = (significant(noise.translation_um, 2), significant(noise.rotation_urad, 2));
-    format!("{t} um and {r} urad per reading, from {}", origin(noise.source))
+    format!("{t} um and {r} urad per reading, {}", origin(noise.source))
 }
 
 fn origin(source: &str) -> &str {
     match source {
-        "metrology" => "[metrology] of the hexapod file",
-        "sigma columns" => "the sigma_* columns",
-        "repeats" => "repeated readings",
-        _ => "the residuals themselves",
+        "metrology" => "stated in [metrology]",
+        "sigma columns" => "stated in the sigma_* columns",
+        "repeats" => "from repeated readings",
+        _ => "taken from the residuals themselves",
     }
 }
