@@ -275,12 +275,12 @@ impl Stance {
             motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
         }
         let pose = moved(&reference, &motion, 0.5);
-        let loaded = machine.legs(&moved(&reference, &motion, 1.0))?;
+        let legs = machine.legs(&pose)?;
         Ok(Self {
-            legs: machine.legs(&pose)?,
+            force: machine.forces_near(&legs, &moved(&reference, &motion, 1.0), &o.wrench),
+            reference_force: machine.forces_near(&legs, &reference, &o.reference),
             pose,
-            force: loaded.forces(&machine.effective_wrench(&o.wrench, &o.pose)),
-            reference_force: machine.legs(&reference)?.forces(&reference_wrench),
+            legs,
         })
     }
 }

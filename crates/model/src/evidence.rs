@@ -16,8 +16,10 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Largest prior width as a multiple of the natural size of a parameter.
 pub const WIDEST: f64 = 2.0;
-/// Most widths tried per block, in octaves from the widest down.
-const MOST_WIDTHS: i32 = 16;
+/// Most widths tried per block, from the widest down.
+const MOST_WIDTHS: i32 = 11;
+/// Ratio between neighbouring widths.
+const WIDTH_RATIO: f64 = 0.4;
 /// An effect is noticeable when its expected signature is this many standard deviations long. Smaller effects leave no
 /// trace in these data and count as absent: whether they exist is not a question these data can answer.
 pub const NOTICEABLE: f64 = 5.0;
@@ -25,8 +27,8 @@ pub const NOTICEABLE: f64 = 5.0;
 /// Prior widths of a block, widest first, down to where the effect would no longer be noticeable; `signature` is the
 /// expected length of its whitened signature at the natural sizes.
 pub fn widths(signature: f64) -> Vec<f64> {
-    let octaves = (0..MOST_WIDTHS).map(|k| WIDEST * 0.5f64.powi(k));
-    let kept: Vec<f64> = octaves.take_while(|g| g * signature >= NOTICEABLE).collect();
+    let steps = (0..MOST_WIDTHS).map(|k| WIDEST * WIDTH_RATIO.powi(k));
+    let kept: Vec<f64> = steps.take_while(|g| g * signature >= NOTICEABLE).collect();
     if kept.is_empty() { vec![WIDEST] } else { kept }
 }
 

@@ -17,10 +17,12 @@ const PRIOR_OF_DISCREPANCY: f64 = 0.03;
 const INFLATIONS: [f64; 9] = [1.05, 1.1, 1.2, 1.4, 2.0, 4.0, 10.0, 100.0, 1e4];
 /// Sets grown further in each round.
 const BEAM: usize = 4;
+/// Sets stop growing once the best of the next size is this many nats below the best.
+const GIVEN_UP: f64 = 2.0;
 /// Best sets that are also weighed with a discrepancy.
 const DISCREPANT_SETS: usize = 24;
-/// A set this many nats below the best is not refined.
-const CUT: f64 = 14.0;
+/// A set roughly this many nats below the best is not refined.
+const CUT: f64 = 10.0;
 
 /// A set of candidates with its evidence.
 #[derive(Debug, Clone)]
@@ -35,6 +37,8 @@ pub struct Set {
     pub log_weight_discrepant: f64,
     /// Drop of chi-square.
     pub drop: f64,
+    /// False for sets far below the best, whose weight is only rough.
+    exact: bool,
 }
 
 /// All sets looked at, best first.
@@ -87,7 +91,9 @@ impl<'a> Search<'a> {
             for parent in parents {
                 self.grow(&parent);
             }
-            if size >= 1 && self.best_of_size(size + 1).first().is_none_or(|s| s.log_weight < before - CUT) {
+            if size >= 1
+                && self.best_of_size(size + 1).first().is_none_or(|s| s.log_weight < before - GIVEN_UP)
+            {
                 break;
             }
         }
@@ -108,8 +114,7 @@ impl<'a> Search<'a> {
             }
         }
         scored.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let Some(&(best, ..)) = scored.first() else { return };
-        for (weight, index, variant) in scored {
+        for (evidence, index, variant) in scored {
             let mut members = parent.members.clone();
             let place = members.partition_point(|&m| m < index);
             members.insert(place, index);
@@ -118,12 +123,26 @@ impl<'a> Search<'a> {
             }
             let mut variants = parent.variants.clone();
             variants.insert(place, variant);
-            if parent.members.is_empty() || weight < best - CUT {
-                self.evaluate(&members, &variants);
+            let rough = evidence + self.log_prior(&members) - self.candidates[index].log_weight;
+            if rough < self.best_weight() - CUT {
+                self.record_roughly(members, variants, rough);
             } else {
                 self.polish(&members, variants);
             }
         }
+    }
+
+    /// Note a set far below the best, so that it is not looked at again.
+    fn record_roughly(&mut self, members: Vec<usize>, variants: Vec<Variant>, log_weight: f64) {
+        let set = Set {
+            members: members.clone(),
+            variants,
+            log_weight,
+            log_weight_discrepant: f64::NEG_INFINITY,
+            drop: 0.0,
+            exact: false,
+        };
+        self.done.insert(members, set);
     }
 
     /// Best variants of a set from scratch.
@@ -138,7 +157,7 @@ impl<'a> Search<'a> {
         self.polish(members, variants);
     }
 
-    /// Coordinate ascent over the variants of each member.
+    /// One round of coordinate ascent over the variants of each member.
     fn polish(&mut self, members: &[usize], mut variants: Vec<Variant>) {
         for _ in 0..2 {
             let before = variants.clone();
@@ -167,6 +186,7 @@ impl<'a> Search<'a> {
             log_weight: posterior.log_evidence + offset,
             log_weight_discrepant: f64::NEG_INFINITY,
             drop: posterior.drop,
+            exact: true,
         };
         self.done.insert(members.to_vec(), set);
     }
@@ -220,7 +240,7 @@ impl<'a> Search<'a> {
         let mut sets: Vec<Set> = self.done.values().cloned().collect();
         sort(&mut sets);
         if self.discrepancy {
-            for set in sets.iter_mut().take(DISCREPANT_SETS) {
+            for set in sets.iter_mut().filter(|s| s.exact).take(DISCREPANT_SETS) {
                 set.log_weight_discrepant = self.discrepant(set);
             }
         }
