@@ -8,13 +8,13 @@ use std::collections::HashMap;
 use hexbench_core::{
     Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, Vector3, Vector6, Wrench,
 };
-use rayon::prelude::*;
 
 use crate::chain::Action;
 use crate::error::ModelError;
 use crate::kinematics::{Legs, cross_matrix, euler_rate_matrix};
 use crate::machine::Machine;
 use crate::noise::{Noise, NoiseSource, stated_or_repeated};
+use crate::parallel::try_map;
 
 /// Factor by which the load is exceeded before a reading with approach -1.
 const OVERLOAD: f64 = 1.4;
@@ -175,7 +175,7 @@ impl Campaign {
     /// # Errors
     /// [`ModelError::SingularPose`] for the first pose in file order that is singular.
     pub fn conditions(&self, machine: &Machine, springs: &Vector6) -> Result<Vec<Condition>, ModelError> {
-        self.groups.par_iter().map(|g| self.condition(machine, springs, g)).collect()
+        try_map(&self.groups, |g| self.condition(machine, springs, g))
     }
 
     fn condition(
