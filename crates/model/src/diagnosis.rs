@@ -66,7 +66,7 @@ pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Outcome, 
         let (gram, candidates) = collect(campaign, &best.point, &lin, &testable, natural, effort);
         let (candidates, faint) = noticeable(candidates, &gram);
         untestable.extend(faint);
-        let sets = Search::new(&gram, &candidates, campaign.noise.allows_verdict()).run(MOST_EFFECTS, &[]);
+        let sets = Search::new(&gram, &candidates, campaign.noise.allows_verdict()).run(MOST_EFFECTS);
         let top = sets.sets.first().cloned();
         let wanted = top.as_ref().map(|s| wanted(s, &gram, &candidates, &natural)).unwrap_or_default();
         let next = fit(campaign, &wanted, Some(&best.point)).or_else(|_| fit(campaign, &wanted, None))?;

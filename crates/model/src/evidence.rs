@@ -279,7 +279,9 @@ impl Rest {
         }
         let eigen = e.symmetric_eigen();
         let along = eigen.eigenvectors.tr_mul(&b);
-        let score = |g: f64| several(&eigen.eigenvectors, &eigen.eigenvalues, &along, g, block);
+        let rows: Vec<usize> = (0..block.width()).filter(|&k| block.positive[k]).collect();
+        let signed = block.transform.select_rows(&rows) * &eigen.eigenvectors;
+        let score = |g: f64| several(&signed, &eigen.eigenvalues, &along, g, block);
         let scored = block.widths.iter().map(|&g| score(g)).enumerate();
         scored.map(|(w, (d, rest))| (variant(w), gram.gain(self.drop + d, 1.0) + rest + offset)).collect()
     }
@@ -323,9 +325,10 @@ fn single(e: f64, b: f64, g: f64, positive: bool) -> (f64, f64) {
     (g * g * b * b / m, sign - 0.5 * m.ln())
 }
 
-/// The same for several parameters, on the eigenvectors of their normal equations.
+/// The same for several parameters, on the eigenvectors of their normal equations; `signed` holds the rows of the
+/// parameters that cannot be negative, in values per eigenvector.
 fn several(
-    vectors: &DMatrix<f64>,
+    signed: &DMatrix<f64>,
     values: &DVector<f64>,
     along: &DVector<f64>,
     g: f64,
@@ -337,10 +340,14 @@ fn several(
     if !block.positive.contains(&true) {
         return (drop, -0.5 * log_det);
     }
-    let to_values = &block.transform * vectors;
-    let mean = &to_values * DVector::from_fn(m.len(), |k, _| g * along[k] / m[k]);
-    let spread = &to_values * DMatrix::from_diagonal(&m.map(|x| 1.0 / x)) * to_values.transpose();
-    (drop, log_orthant(&mean, &spread, &block.positive) - block.log_signs - 0.5 * log_det)
+    let mean = signed * DVector::from_fn(m.len(), |k, _| g * along[k] / m[k]);
+    let mut scaled = signed.clone();
+    for (k, mut column) in scaled.column_iter_mut().enumerate() {
+        column /= m[k];
+    }
+    let spread = scaled * signed.transpose();
+    let all = vec![true; signed.nrows()];
+    (drop, log_orthant(&mean, &spread, &all) - block.log_signs - 0.5 * log_det)
 }
 
 /// Logarithm of the probability that all `positive` components of a Gaussian are positive, by conditioning on one sign
