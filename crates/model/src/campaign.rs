@@ -252,12 +252,14 @@ impl Stance {
             motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
         }
         let pose = moved(&reference, &motion, 0.5);
-        let loaded = machine.legs(&moved(&reference, &motion, 1.0))?;
+        let loaded = moved(&reference, &motion, 1.0);
         Ok(Self {
             legs: machine.legs(&pose)?,
             pose,
-            force: loaded.forces(&machine.effective_wrench(&o.wrench, &o.pose)),
-            reference_force: machine.legs(&reference)?.forces(&reference_wrench),
+            force: machine.legs(&loaded)?.forces(&machine.effective_wrench(&o.wrench, &loaded)),
+            reference_force: machine
+                .legs(&reference)?
+                .forces(&machine.effective_wrench(&o.reference, &reference)),
         })
     }
 }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use common::plan::{noisy, paper_plan, rich_plan};
 use common::world::World;
 use common::{PAPER_STIFFNESS, measured_machine, paper_machine};
-use hexbench_core::{Dataset, Measurand, Observation, Vector3};
+use hexbench_core::{Dataset, Measurand, Observation, Vector3, Wrench};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::estimate::estimates;
 use hexbench_model::fit::{Fit, Wanted, fit, fit_baseline};
@@ -133,7 +133,7 @@ fn the_normal_force_of_the_paper_gives_its_stiffnesses_the_uncertainty_of_its_re
 }
 
 #[test]
-fn a_soft_bracket_is_recovered_to_second_order_in_the_deflection() {
+fn a_soft_bracket_is_recovered_to_first_order_in_the_deflection() {
     const BRACKET: f64 = 40e-9;
     let mut world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
     world.bracket = BRACKET;
@@ -145,9 +145,9 @@ fn a_soft_bracket_is_recovered_to_second_order_in_the_deflection() {
     };
     let ((c, k), (c10, k10)) = (error(1.0), error(10.0));
     println!("bracket {c:.1e} {c10:.1e}, stiffness {k:.1e} {k10:.1e}");
-    // The bracket's sideways motion turns the leg: of first order in the deflection unless the model follows it.
-    let power = (c10 / c).log10();
-    assert!(c < 1e-3 && k < 1e-3, "bracket {c:.1e} {c10:.1e}, stiffness {k:.1e} {k10:.1e}, power {power:.2}");
+    // The bracket's sideways motion turns the leg, which the model does not follow: one order less than for springs.
+    assert!(c < smallness(1.0) && c10 < smallness(10.0), "bracket {c:.1e} {c10:.1e}");
+    assert!(k < smallness(1.0) && k10 < smallness(10.0), "stiffness {k:.1e} {k10:.1e}");
 }
 
 #[test]
@@ -169,7 +169,12 @@ fn an_offset_load_is_recovered_to_second_order_in_the_deflection() {
     let power = (tenfold / once).log10();
     let limit = 50.0 * smallness(1.0).powi(2);
     println!("offset {once:.1e} {tenfold:.1e}");
-    assert!(once < limit && power > 1.0, "{once:.1e}, {tenfold:.1e} of the radius: power {power:.2}");
+    assert!(once < limit && (1.8..2.3).contains(&power), "{once:.1e}, {tenfold:.1e} of the radius: power {power:.2}");
+}
+
+/// Absolute poses have no reference state.
+fn without_reference(plan: Vec<Observation>) -> Vec<Observation> {
+    plan.into_iter().map(|o| Observation { reference: Wrench::default(), ..o }).collect()
 }
 
 fn displaced() -> World {
@@ -182,7 +187,7 @@ fn displaced() -> World {
 #[test]
 fn stiffnesses_and_frames_are_recovered_from_absolute_poses() {
     let world = displaced();
-    let fit = noiseless(&world, Measurand::AbsolutePose, &rich_plan(24, 1.0, 5), &[]);
+    let fit = noiseless(&world, Measurand::AbsolutePose, &without_reference(rich_plan(24, 1.0, 5)), &[]);
     let error = stiffness_error(&fit, &PAPER_STIFFNESS);
     let machine = &fit.point.machine;
     let off = |a: &Isometry3<f64>, b: &Isometry3<f64>| {
@@ -192,8 +197,9 @@ fn stiffnesses_and_frames_are_recovered_from_absolute_poses() {
     let frames = off(&machine.metrology_frame, &world.metrology_frame)
         + off(&machine.target_frame, &world.target_frame);
     println!("absolute: stiffness {error:.1e}, frames {frames:.1e}");
-    assert!(error < 100.0 * smallness(1.0), "{error:.1e}");
-    assert!(frames < 1e-6, "{frames:.1e} m and rad");
+    // The closure of the legs is exact at a measured pose: what remains is rounding over the deflection, 1e-16 / 1e-5.
+    assert!(error < 1e-9, "{error:.1e}");
+    assert!(frames < 1e-12, "{frames:.1e} m and rad");
 }
 
 /// What a noisy recovery found: estimates over their standard errors, and chi-squares with their degrees of freedom.
@@ -298,7 +304,7 @@ fn an_offset_load_is_recovered_from_noisy_readings_with_honest_uncertainty() {
 
 #[test]
 fn springs_are_recovered_from_noisy_absolute_poses_with_honest_uncertainty() {
-    let clean = displaced().measure(Measurand::AbsolutePose, &rich_plan(20, 1.0, 9));
+    let clean = displaced().measure(Measurand::AbsolutePose, &without_reference(rich_plan(20, 1.0, 9)));
     assert_honest("absolute poses", &clean, &[], &compliances(), &[0, 1, 2, 3, 4, 5]);
 }
 

@@ -85,21 +85,17 @@ impl World {
     /// Tension (N) and direction of a leg whose platform joint is at `end`; its bracket gives way sideways.
     fn pull(&self, leg: usize, end: &Vector3, length: f64) -> (f64, Vector3) {
         let mut foot = self.built.base_joints[leg];
-        loop {
-            let span = end - foot;
-            let force = (span.norm() - length) / self.compliance[leg];
-            let along = span.normalize();
-            let next =
-                self.built.base_joints[leg] + self.bracket * force * Vector3::new(along.x, along.y, 0.0);
-            if (next - foot).amax() < 1e-18 {
-                return (force, along);
-            }
-            // Half steps: the bracket may be as soft as the leg.
-            foot += 0.5 * (next - foot);
-            if (next - foot).amax() < 1e-17 {
-                return (force, along);
-            }
+        // Each round gains the ratio of bracket to leg compliance, at most a fifth.
+        let rounds = if self.bracket > 0.0 { 25 } else { 0 };
+        for _ in 0..rounds {
+            let (force, along) = self.tension(leg, &(end - foot), length);
+            foot = self.built.base_joints[leg] + self.bracket * force * Vector3::new(along.x, along.y, 0.0);
         }
+        self.tension(leg, &(end - foot), length)
+    }
+
+    fn tension(&self, leg: usize, span: &Vector3, length: f64) -> (f64, Vector3) {
+        ((span.norm() - length) / self.compliance[leg], span.normalize())
     }
 
     /// What the metrology reads: a deflection or an absolute pose.
