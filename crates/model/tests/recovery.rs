@@ -169,7 +169,10 @@ fn an_offset_load_is_recovered_to_second_order_in_the_deflection() {
     let power = (tenfold / once).log10();
     let limit = 50.0 * smallness(1.0).powi(2);
     println!("offset {once:.1e} {tenfold:.1e}");
-    assert!(once < limit && (1.8..2.3).contains(&power), "{once:.1e}, {tenfold:.1e} of the radius: power {power:.2}");
+    assert!(
+        once < limit && (1.8..2.3).contains(&power),
+        "{once:.1e}, {tenfold:.1e} of the radius: power {power:.2}"
+    );
 }
 
 /// Absolute poses have no reference state.
