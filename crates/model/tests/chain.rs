@@ -5,7 +5,7 @@ mod common;
 
 use common::random::Random;
 use common::{paper_machine, plan};
-use hexbench_core::{Columns, Dataset, Matrix6, Measurand, Observation, Vector6};
+use hexbench_core::{Matrix6, Measurand, Vector6};
 use hexbench_model::campaign::{Campaign, Condition};
 use hexbench_model::chain::{Action, Link, Load};
 use hexbench_model::machine::Machine;
@@ -36,15 +36,11 @@ fn condition(random: &mut Random, measurand: Measurand) -> Condition {
         let x = pose.to_array();
         o.measured = std::array::from_fn(|k| x[k] + random.within(2e-5));
     }
-    let data = data(measurand, o);
+    let data = plan::dataset(measurand, vec![o]);
     let hexapod = common::measured_machine(0.5e-6, 3e-6);
     let campaign = Campaign::new(&hexapod, &data).unwrap();
     let springs = Vector6::repeat(COMPLIANCE);
     campaign.conditions(&Machine::nominal(&paper_machine()), &springs).unwrap().remove(0)
-}
-
-fn data(measurand: Measurand, o: Observation) -> Dataset {
-    Dataset { source: "test".into(), measurand, columns: Columns::default(), observations: vec![o] }
 }
 
 fn vector(random: &mut Random, size: f64) -> Vector6 {

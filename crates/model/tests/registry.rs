@@ -61,9 +61,9 @@ const NATURAL: Natural =
 
 fn plan(count: usize, seed: u64) -> Vec<Observation> {
     let mut random = Random::new(seed);
-    let row = |id: usize| Observation {
-        pose_id: id as i64,
-        approach: if id.is_multiple_of(2) { 1.0 } else { -1.0 },
+    let row = |id: i64| Observation {
+        pose_id: id,
+        approach: if id % 2 == 0 { 1.0 } else { -1.0 },
         delta_t: random.within(3.0),
         elapsed: 300.0 * random.unit(),
         measured: std::array::from_fn(|_| random.within(2e-5)),
@@ -73,7 +73,7 @@ fn plan(count: usize, seed: u64) -> Vec<Observation> {
             random_wrench(&mut random, 60.0, 5.0),
         )
     };
-    (0..count).map(row).collect()
+    (0..).take(count).map(row).collect()
 }
 
 fn conditions_on(hexapod: &Hexapod, data: &Dataset) -> Vec<Condition> {
@@ -196,7 +196,9 @@ fn actions_are_finite_also_where_nothing_acts() {
     for measurand in [Measurand::DeflectionEuler, Measurand::AbsolutePose] {
         let mut rows = plan.clone();
         if measurand == Measurand::AbsolutePose {
-            rows.iter_mut().for_each(|o| o.measured = o.pose.to_array());
+            for o in &mut rows {
+                o.measured = o.pose.to_array();
+            }
         }
         let all = conditions_on(&paper_machine(), &dataset(measurand, rows));
         for term in catalogue() {
@@ -548,6 +550,8 @@ fn joints_moved_recalibrate_the_closure_as_their_columns_say() {
 
 #[test]
 fn frames_moved_change_the_residual_as_their_columns_say() {
+    // m and rad; the curvature of a frame's motion is of size one.
+    const STEP: f64 = 1e-6;
     let errors = joint_errors(14);
     let world = displaced_world(&errors);
     let data = world.measure(Measurand::AbsolutePose, &unloaded(plan(6, 15)));
@@ -557,7 +561,6 @@ fn frames_moved_change_the_residual_as_their_columns_say() {
     here.machine.target_frame = world.target_frame;
     here.active = vec![Active { values: errors, ..Active::new(by_id("joint-geometry"), false, 1.0) }];
     let block = Linearization::at(&campaign, &here).unwrap().common_block();
-    const STEP: f64 = 1e-6;
     for k in 0..12 {
         let beside = |h: f64| {
             let mut moved = here.clone();

@@ -45,14 +45,14 @@ pub fn random_wrench(random: &mut Random, newtons: f64, newton_metres: f64) -> W
 pub fn rich_plan(count: usize, load: f64, seed: u64) -> Vec<Observation> {
     let mut random = Random::new(seed);
     let preload = Wrench::from_array([0.0, 0.0, -120.0 * load, 0.0, 0.0, 0.0]);
-    let row = |id: usize| {
+    let row = |id: i64| {
         let pose = random_pose(&mut random, 15.0, 6.0);
         let extra = random_wrench(&mut random, 250.0 * load, 12.0 * load);
         let sum = preload.to_vector() + extra.to_vector();
         let wrench = Wrench::from_array(std::array::from_fn(|k| sum[k]));
-        Observation { pose_id: id as i64, ..reading(pose, wrench, preload) }
+        Observation { pose_id: id, ..reading(pose, wrench, preload) }
     };
-    (0..count).map(row).collect()
+    (0..).take(count).map(row).collect()
 }
 
 /// The three poses of Kalas et al. 2018, table 1, with their vertical loads (12.2 kg and 34.5 kg), repeated.
