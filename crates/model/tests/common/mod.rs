@@ -7,6 +7,7 @@
 
 pub mod plan;
 pub mod random;
+pub mod terms;
 pub mod world;
 
 use hexbench_core::{Hexapod, Matrix6, Metrology, Vector3, Vector6};
