@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use hexbench_core::{
     Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, Vector3, Vector6, Wrench,
 };
+use nalgebra::Rotation3;
 
 use crate::chain::Action;
 use crate::error::ModelError;
@@ -285,13 +286,11 @@ impl Stance {
     }
 }
 
-/// A pose after a share of a small geometric twist.
+/// A pose after a share of a small geometric twist; the same motion in whatever axes it is written.
 fn moved(pose: &Pose, twist: &Vector6, share: f64) -> Pose {
-    let rates = euler_rate_matrix(&pose.angles).try_inverse().unwrap_or_else(Matrix3::identity);
-    Pose {
-        translation: pose.translation + share * twist.fixed_rows::<3>(0),
-        angles: pose.angles + share * (rates * twist.fixed_rows::<3>(3)),
-    }
+    let turn = Rotation3::new(share * twist.fixed_rows::<3>(3));
+    let translation = pose.translation + share * twist.fixed_rows::<3>(0);
+    Pose::from_rotation(translation, &(turn.matrix() * pose.rotation()))
 }
 
 /// `diag(I, M^-1) diag(axes, axes) [I, -[lever]x; 0, I]`.

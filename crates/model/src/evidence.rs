@@ -352,7 +352,7 @@ fn several(
 
 /// Logarithm of the probability that all `positive` components of a Gaussian are positive, by conditioning on one sign
 /// after the other and matching moments. Source: Mendell and Elston 1974, Biometrics 30.
-fn log_orthant(mean: &DVector<f64>, covariance: &DMatrix<f64>, positive: &[bool]) -> f64 {
+pub fn log_orthant(mean: &DVector<f64>, covariance: &DMatrix<f64>, positive: &[bool]) -> f64 {
     let signed: Vec<usize> = (0..positive.len()).filter(|&i| positive[i]).collect();
     let mut mean: Vec<f64> = signed.iter().map(|&i| mean[i]).collect();
     let n = signed.len();
