@@ -12,7 +12,7 @@ use crate::candidates::{Candidate, Kind};
 use crate::diagnosis::{Outcome, explain, wanted};
 use crate::error::ModelError;
 use crate::estimate::{Estimate, estimates};
-use crate::fit::{Fit, Wanted, fit};
+use crate::fit::{Fit, Wanted, average_over_shapes, fit};
 use crate::linearization::Linearization;
 use crate::next::separate;
 use crate::noise::{Noise, NoiseSource, scatter};
@@ -328,7 +328,9 @@ impl Context<'_> {
             let fitted = if n == 0 {
                 self.outcome.baseline.clone()
             } else {
-                fit(self.campaign, &order[..n], Some(&self.outcome.best.point))?
+                let mut fitted = fit(self.campaign, &order[..n], Some(&self.outcome.best.point))?;
+                average_over_shapes(self.campaign, &order[..n], &mut fitted)?;
+                fitted
             };
             let rows = residuals(
                 self.campaign,

@@ -2,6 +2,7 @@
 //!
 //! One spring per leg, identified from loaded poses, plus named terms for what the springs leave unexplained.
 
+pub mod batch;
 mod body;
 pub mod campaign;
 pub mod candidates;
@@ -18,6 +19,7 @@ pub mod lsq;
 pub mod machine;
 pub mod next;
 pub mod noise;
+mod parallel;
 pub mod pattern;
 mod period;
 pub mod power;

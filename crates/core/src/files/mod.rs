@@ -27,6 +27,7 @@ mod problem;
 mod read_hexapod;
 mod read_measurements;
 mod row;
+mod stated_unit;
 mod toml_value;
 mod units;
 mod warning;
