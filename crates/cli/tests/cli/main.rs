@@ -1,0 +1,10 @@
+//! The command as a user runs it, and the rules of the workspace around it.
+
+mod documents;
+mod exits;
+mod json;
+mod pages;
+mod score;
+mod separation;
+mod streams;
+mod support;
