@@ -1,5 +1,7 @@
 //! The command as a user runs it, and the rules of the workspace around it.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
+
 mod documents;
 mod exits;
 mod json;
