@@ -1,4 +1,5 @@
 //! Deflections, one fit, one diagnosis: per core (one thread).
+#![allow(clippy::expect_used, missing_docs)] // a benchmark without its data has nothing to measure
 
 use std::hint::black_box;
 use std::path::Path;
