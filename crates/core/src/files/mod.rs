@@ -37,6 +37,7 @@ mod write_measurements;
 pub use atomic::atomic_write;
 pub use digest::content_hash;
 pub use error::FileError;
+pub use nearest::nearest;
 pub use place::Place;
 pub use problem::Problem;
 pub use read_hexapod::{parse_hexapod, read_hexapod};
