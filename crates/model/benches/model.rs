@@ -39,7 +39,7 @@ fn deflection(c: &mut Criterion) {
     let mut group = c.benchmark_group("deflection");
     group.throughput(Throughput::Elements(u64::from(POSES)));
     group.bench_function("batch of 100000 poses", |b| {
-        b.iter(|| deflections(&hexapod, &[4e6; 6], black_box(&cases)))
+        b.iter(|| deflections(&hexapod, &[4e6; 6], black_box(&cases)));
     });
     group.finish();
 }
