@@ -210,7 +210,7 @@ impl Campaign {
             commanded_lengths,
             extension: commanded_lengths - machine.home_lengths,
             wrench: o.wrench,
-            reference: o.reference,
+            reference: if self.is_absolute() { Wrench::default() } else { o.reference },
             force: Vector6::from_fn(|leg, _| springs_at[leg][1]),
             reference_force: Vector6::from_fn(|leg, _| springs_at[leg][0]),
             path,
@@ -253,8 +253,9 @@ impl Stance {
     fn measured(machine: &Machine, o: &Observation) -> Result<Self, ModelError> {
         let pose = machine.platform_pose(&Pose::from_array(o.measured));
         let legs = machine.legs(&pose)?;
-        let force = |w: &Wrench| legs.forces(&machine.effective_wrench(w, &pose));
-        Ok(Self { pose, legs, force: force(&o.wrench), reference_force: force(&o.reference) })
+        let force = legs.forces(&machine.effective_wrench(&o.wrench, &pose));
+        // A pose is measured against nothing: its reference is the unloaded machine.
+        Ok(Self { pose, legs, force, reference_force: Vector6::zeros() })
     }
 
     /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of

@@ -588,7 +588,7 @@ fn contradiction(campaign: &Campaign, data: &Dataset) -> Option<String> {
     let chi2 = ChiSquared::new(s.dof).ok()?;
     let check = |variance: f64, stated: f64, what: &str, unit: &str| {
         let p = chi2.cdf(s.dof * variance / (stated * stated));
-        let off = p < CONTRADICTION_CHANCE || p > 1.0 - CONTRADICTION_CHANCE;
+        let off = !(CONTRADICTION_CHANCE..=1.0 - CONTRADICTION_CHANCE).contains(&p);
         off.then(|| {
             format!(
                 "repeats scatter by {:.3} {unit} in {what}, but [metrology] states {:.3} {unit}: every probability here \

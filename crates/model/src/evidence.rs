@@ -7,7 +7,7 @@
 //! ln Z = (b' M^-1 b) / 2 - ln|M| / 2 + sum ln(lambda) / 2 + ln P(signs),   M = G + diag(lambda)
 //! ```
 //!
-//! relative to the model without any block. Source: MacKay 1992, Neural Computation 4 (evidence framework). The
+//! relative to the model without any block. Source: `MacKay` 1992, Neural Computation 4 (evidence framework). The
 //! width of the prior of each effect is not known: it is averaged over a grid that is uniform in its logarithm.
 //! Where the noise level itself comes from the data, `ln Z` is the Student form of the same integral.
 

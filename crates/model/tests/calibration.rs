@@ -14,7 +14,7 @@ use hexbench_model::campaign::Campaign;
 use hexbench_model::linearization::{Active, Linearization, Point};
 use hexbench_model::machine::Machine;
 use hexbench_model::term::Term;
-use nalgebra::{DMatrix, Isometry3};
+use nalgebra::{DMatrix, Isometry3, Rotation3};
 
 /// Central differences with steps of 1e-7 m or 1e-6 rad on legs of 0.2 m closed to 1e-16 m: 1e-9 by rounding.
 const DIFFERENCE: f64 = 1e-8;
@@ -157,7 +157,7 @@ fn the_effective_wrench_is_the_moved_and_tilted_one() {
     moved.load_tilt = Vector3::new(1e-3, -2e-3, 0.0);
     let pose = Pose::from_array([0.0, 0.0, 0.0, 0.2, -0.1, 0.4]);
     let wrench = Wrench::from_array([10.0, -20.0, -300.0, 1.0, 2.0, 3.0]);
-    let force = wrench.force + moved.load_tilt.cross(&wrench.force);
+    let force = Rotation3::new(moved.load_tilt) * wrench.force;
     let arm = rigid(&pose).rotation * moved.load_point;
     let expected = six(&force, &(wrench.moment + arm.cross(&force)));
     let error = (moved.effective_wrench(&wrench, &pose) - expected).amax();
