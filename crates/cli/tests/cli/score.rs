@@ -11,8 +11,8 @@ use crate::support::{cases, root};
 const LEAST_RIGHT: usize = 7;
 /// Reduced chi-square on held-out poses that counts as noise, for 180 numbers at three standard deviations.
 const AT_THE_NOISE: f64 = 1.35;
-/// Standard uncertainties between a fitted and a true leg stiffness.
-const STIFFNESS_SIGMAS: f64 = 4.0;
+/// Standard uncertainties allowed between a fitted and a true value.
+const SIGMAS: f64 = 4.0;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Score {
@@ -81,7 +81,7 @@ fn leg_stiffnesses_are_true_within_their_uncertainty() {
         if judge(&truth, &d) == Score::Right && d["verdict"] != "outside" {
             for leg in 0..6 {
                 let z = stiffness_error(&truth, &d, leg);
-                assert!(z < STIFFNESS_SIGMAS, "{case}: leg {} is {z} sigma off", leg + 1);
+                assert!(z < SIGMAS, "{case}: leg {} is {z} sigma off", leg + 1);
             }
         }
     }
@@ -103,4 +103,14 @@ fn the_plan_that_cannot_tell_says_so_and_proposes_a_reading_that_can() {
     let next = d["next"].as_array().unwrap();
     assert!(!next.is_empty());
     assert!(next[0]["gain"].as_f64().unwrap() > 1.0, "{next:?}");
+}
+
+#[test]
+fn the_pitch_of_the_screws_is_determined_and_true() {
+    const TRUE_PITCH_MM: f64 = 3.0;
+    let d = diagnosis("absolute-pitch");
+    let pitch =
+        d["parameters"].as_array().unwrap().iter().find(|p| p["name"] == "actuator-pitch.pitch").unwrap();
+    let (value, std) = (pitch["value"].as_f64().unwrap(), pitch["std"].as_f64().unwrap());
+    assert!(std < 0.01 && (value - TRUE_PITCH_MM).abs() < SIGMAS * std, "{value} +- {std} mm");
 }
