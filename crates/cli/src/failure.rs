@@ -47,14 +47,6 @@ pub(crate) enum Failure {
         /// The data it was about.
         data: String,
     },
-    /// Wrong usage that only shows after parsing.
-    #[error("{message}")]
-    Usage {
-        /// What is wrong.
-        message: String,
-        /// What to do.
-        next: String,
-    },
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
@@ -75,7 +67,6 @@ impl Failure {
             Self::File(error) if error.is_input_output() => Exit::InputOutput,
             Self::File(_) => Exit::BadInput,
             Self::Model { cause, .. } => exit_of(cause),
-            Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::Output { .. } => Exit::InputOutput,
         }
@@ -86,7 +77,6 @@ impl Failure {
         match self {
             Self::File(error) => Some(error.next_step()),
             Self::Model { cause, data } => Some(next_step_of(cause, data)),
-            Self::Usage { next, .. } => Some(next.clone()),
             Self::Check(_) => None,
             Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
         }

@@ -308,7 +308,11 @@ fn at_shape(
     let solution = triangle.solve()?;
     let mut x = solution.x;
     x[held] = (shape / a.shape).ln();
-    Ok((solution.rss, x, solution.covariance))
+    // Held, the shape varies only from one of these fits to the next; its prior is not part of any of them.
+    let mut covariance = solution.covariance;
+    covariance.column_mut(held).fill(0.0);
+    covariance.row_mut(held).fill(0.0);
+    Ok((solution.rss, x, covariance))
 }
 
 /// Whitened columns of springs, frames, term parameters and shapes at a point.
