@@ -45,12 +45,12 @@ pub struct Condition {
     pub wrench: Wrench,
     /// Wrench in the reference state.
     pub reference: Wrench,
-    /// Leg forces under the load, N, tension positive.
+    /// Forces in the leg springs under the load, N, tension positive: the leg forces less what friction holds.
     pub force: Vector6,
-    /// Leg forces in the reference state, N.
+    /// Forces in the leg springs in the reference state, N.
     pub reference_force: Vector6,
-    /// Largest load on the way to the reading, as leg forces, N: the load itself or the overshoot.
-    pub extreme_force: Vector6,
+    /// Leg forces along the way to the reading.
+    pub path: LoadPath,
     /// +1 or -1, see the file format.
     pub approach: f64,
     /// Temperature difference, K.
@@ -63,6 +63,27 @@ pub struct Condition {
     pub observer: Matrix6,
     /// 1 / sigma of each averaged value.
     pub weight: Vector6,
+}
+
+/// Leg forces (N, tension positive) along the way from the unloaded machine to the reading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadPath {
+    /// In the reference state.
+    pub reference: Vector6,
+    /// At the largest load on the way: the load itself, or the overshoot.
+    pub extreme: Vector6,
+    /// Under the load.
+    pub load: Vector6,
+}
+
+impl LoadPath {
+    /// Spring force of one leg in the reference state and under the load when a slider beside the spring holds up to
+    /// `limit` against the last motion.
+    pub fn spring_forces(&self, leg: usize, limit: f64) -> [f64; 2] {
+        let play = |previous: f64, f: f64| previous.max(f - limit).min(f + limit);
+        let rest = play(0.0, self.reference[leg]);
+        [rest, play(play(rest, self.extreme[leg]), self.load[leg])]
+    }
 }
 
 /// A dataset prepared for one hexapod.
@@ -179,16 +200,19 @@ impl Campaign {
             Vector6::from_column_slice(&o.measured)
         };
         let overshoot = stance.reference_force + OVERLOAD * (stance.force - stance.reference_force);
-        let extreme_force = if o.approach < 0.0 { overshoot } else { stance.force };
+        let extreme = if o.approach < 0.0 { overshoot } else { stance.force };
+        let path = LoadPath { reference: stance.reference_force, extreme, load: stance.force };
+        let springs_at: [[f64; 2]; 6] =
+            std::array::from_fn(|leg| path.spring_forces(leg, machine.friction_limits[leg].max(0.0)));
         Ok(Condition {
             pose: stance.pose,
             commanded_lengths,
             extension: commanded_lengths - machine.home_lengths,
             wrench: o.wrench,
             reference: o.reference,
-            force: stance.force,
-            reference_force: stance.reference_force,
-            extreme_force,
+            force: Vector6::from_fn(|leg, _| springs_at[leg][1]),
+            reference_force: Vector6::from_fn(|leg, _| springs_at[leg][0]),
+            path,
             approach: o.approach,
             delta_t: o.delta_t,
             elapsed: o.elapsed,

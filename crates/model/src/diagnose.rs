@@ -18,7 +18,9 @@ use crate::next::separate;
 use crate::noise::{Noise, NoiseSource, scatter};
 use crate::pattern::Course;
 use crate::power::{Detectable, detectable};
-use crate::residuals::{ErrorSummary, Residual, leave_poses_out, prediction_errors, residuals, summarise};
+use crate::residuals::{
+    ErrorSummary, Residual, leave_poses_out, prediction_errors, residuals, summarise, survival,
+};
 use crate::search::Set;
 use crate::term::Term;
 use crate::verdict::{Judgement, NONE, OUTSIDE, Verdict, judge};
@@ -29,6 +31,12 @@ const LOOK_ALIKE: f64 = 0.95;
 const SUSPECT_CHANCE: f64 = 0.01;
 /// Chance that repeats contradict a true noise statement.
 const CONTRADICTION_CHANCE: f64 = 1e-4;
+/// A model that predicts the holdout file worse than this chance allows is refuted.
+const REFUTED_CHANCE: f64 = 1e-5;
+/// A rival that predicts the holdout file at least this well is credible.
+const SURVIVAL_CHANCE: f64 = 1e-3;
+/// Sets faced with the holdout file once the best one is refuted.
+const SETS_FACED: usize = 40;
 /// Candidates whose absorbed bias is worth a fit of their own.
 const CANDIDATES_FITTED: usize = 4;
 
@@ -210,6 +218,7 @@ pub fn diagnose(
     let (fits, steps) = context.steps(&order)?;
     demote_what_does_not_survive(&mut judgement, &steps);
     let last = fits.last().unwrap_or(&outcome.baseline);
+    context.face_holdout(&mut judgement, last);
     let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &last.point)?);
     let added: Vec<String> = match judgement.verdict {
         Verdict::Named | Verdict::Ambiguous => order
@@ -250,7 +259,7 @@ pub fn diagnose(
         absorbed: context.absorbed(&order, &judgement),
         suspects: suspects(&rows, data),
         outside: outside(&judgement, &outcome),
-        warnings: warnings(&campaign, data, last),
+        warnings: warnings(&campaign, data, last, &judgement),
     };
     Ok(Study { diagnosis, outcome, campaign, fits })
 }
@@ -334,6 +343,34 @@ impl Context<'_> {
             fits.push(fitted);
         }
         Ok((fits, steps))
+    }
+
+    /// A sure answer whose predictions fail on the holdout file is not sure: everything that does survive there becomes
+    /// credible.
+    fn face_holdout(&self, judgement: &mut Judgement, last: &Fit) {
+        let Some(holdout) = self.holdout.filter(|_| judgement.verdict != Verdict::Outside) else { return };
+        let noise = self.campaign.noise;
+        if !noise.allows_verdict() {
+            return;
+        }
+        let survives =
+            |fit: &Fit, chance: f64| survival(self.hexapod, holdout, noise, fit).is_ok_and(|p| p > chance);
+        if survives(last, REFUTED_CHANCE) {
+            return;
+        }
+        judgement.verdict = Verdict::Ambiguous;
+        judgement.refuted = true;
+        let start = &self.outcome.baseline.point;
+        for set in self.outcome.sets.sets.iter().take(SETS_FACED) {
+            let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
+            if fit(self.campaign, &terms, Some(start)).is_ok_and(|f| survives(&f, SURVIVAL_CHANCE)) {
+                for id in terms.iter().map(|w| w.term.info().id) {
+                    if !judgement.credible.iter().any(|c| c == id) {
+                        judgement.credible.push(id.to_owned());
+                    }
+                }
+            }
+        }
     }
 
     fn held_out(&self, terms: &[Wanted], fitted: &Fit) -> Option<Vec<Residual>> {
@@ -517,8 +554,15 @@ fn unknown_pattern() -> OutsideReport {
     OutsideReport { leg: None, variable: None, pattern: None, period: None, text: text.to_owned() }
 }
 
-fn warnings(campaign: &Campaign, data: &Dataset, fit: &Fit) -> Vec<String> {
+fn warnings(campaign: &Campaign, data: &Dataset, fit: &Fit, judgement: &Judgement) -> Vec<String> {
     let mut all = Vec::new();
+    if judgement.refuted {
+        all.push(
+            "the best explanation of the fitted data does not predict the held-out poses to within noise and uncertainty: \
+             the credible set also lists what does"
+                .to_owned(),
+        );
+    }
     if !fit.settled {
         all.push("the fit did not settle; treat its numbers as provisional".to_owned());
     }

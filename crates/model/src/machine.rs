@@ -29,6 +29,8 @@ pub struct Machine {
     pub load_point: Vector3,
     /// Small rotation of all loads, fixed axes, rad.
     pub load_tilt: Vector3,
+    /// Dry friction beside each leg spring, N.
+    pub friction_limits: Vector6,
 }
 
 impl Machine {
@@ -45,6 +47,7 @@ impl Machine {
             base_centre: hexapod.base_centre(),
             load_point: Vector3::zeros(),
             load_tilt: Vector3::zeros(),
+            friction_limits: Vector6::zeros(),
         }
     }
 

@@ -1,12 +1,13 @@
 //! Residuals of single readings, error summaries, and errors on held-out poses.
 
-use hexbench_core::{Dataset, Hexapod, Observation, Vector6};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Observation, Vector6};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::campaign::{Campaign, row_sigma};
 use crate::error::ModelError;
-use crate::fit::{Wanted, fit};
+use crate::fit::{Fit, Wanted, columns, fit};
 use crate::linearization::{Linearization, Point};
 use crate::noise::Noise;
 
@@ -95,6 +96,29 @@ pub fn prediction_errors(
     let campaign = Campaign::with_noise(hexapod, holdout, noise)?;
     let lin = Linearization::at(&campaign, point)?;
     Ok(residuals(&campaign, &holdout.observations, &lin))
+}
+
+/// Chance that held-out readings are as far from a fitted model as they are, if the model is right: chi-square of the
+/// prediction errors over noise plus uncertainty of the prediction, pure error left out.
+///
+/// # Errors
+/// As [`prediction_errors`].
+pub fn survival(hexapod: &Hexapod, holdout: &Dataset, noise: Noise, fit: &Fit) -> Result<f64, ModelError> {
+    let campaign = Campaign::with_noise(hexapod, holdout, noise)?;
+    let lin = Linearization::at(&campaign, &fit.point)?;
+    let jacobian = columns(&lin, &fit.point);
+    let n = lin.conditions.len();
+    let distance = |i: usize| {
+        let j = jacobian.rows(6 * i, 6);
+        let spread = j * &fit.covariance * j.transpose();
+        let total = Matrix6::identity() + spread.fixed_view::<6, 6>(0, 0);
+        let d = lin.residual(i);
+        total.cholesky().map_or(0.0, |c| d.dot(&c.solve(&d)))
+    };
+    let chi2: f64 = (0..n).map(distance).sum();
+    let law =
+        ChiSquared::new(6.0 * n as f64).map_err(|_| ModelError::NotFinite { what: "the held-out data" })?;
+    Ok(1.0 - law.cdf(chi2))
 }
 
 /// Prediction errors when poses are left out in turn and the model is fitted to the others.

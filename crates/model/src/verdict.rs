@@ -41,6 +41,8 @@ pub struct Judgement {
     pub sure: Vec<String>,
     /// Probability that something outside the catalogue is at work.
     pub outside: f64,
+    /// True when the best explanation failed on held-out data.
+    pub refuted: bool,
 }
 
 /// Name of what is not a term.
@@ -81,7 +83,7 @@ pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
     } else {
         Verdict::Named
     };
-    Judgement { verdict, first, present, credible: credible(sets, candidates), sure, outside }
+    Judgement { verdict, first, present, credible: credible(sets, candidates), sure, outside, refuted: false }
 }
 
 /// The member of a set that explains most when it stands alone.

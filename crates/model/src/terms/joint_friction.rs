@@ -39,10 +39,8 @@ impl Term for JointFriction {
 
     fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
         let lag = |leg: usize| {
-            let (f0, f) = (at.reference_force[leg], at.force[leg]);
-            let rest = play(0.0, f0, shape);
-            let loaded = play(play(rest, at.extreme_force[leg], shape), f, shape);
-            (loaded - rest - (f - f0)) / shape
+            let [rest, loaded] = at.path.spring_forces(leg, shape);
+            (loaded - rest - (at.path.load[leg] - at.path.reference[leg])) / shape
         };
         out.push(Action::Force(Vector6::from_fn(|leg, _| lag(leg))));
     }
@@ -56,11 +54,15 @@ impl Term for JointFriction {
     fn shape_is_parameter(&self) -> bool {
         true
     }
-}
 
-/// Play operator: the spring force follows the leg force `f` but lags by at most `limit`.
-fn play(previous: f64, f: f64, limit: f64) -> f64 {
-    previous.max(f - limit).min(f + limit)
+    fn calibrate(&self, values: &[f64], machine: &mut Machine) {
+        let own = |leg: usize| values.get(1 + leg).copied().unwrap_or(0.0);
+        machine.friction_limits += Vector6::from_fn(|leg, _| values[0] + own(leg));
+    }
+
+    fn calibrates(&self) -> bool {
+        true
+    }
 }
 
 /// Root mean square leg force change over all conditions, N.

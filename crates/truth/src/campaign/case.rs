@@ -1,0 +1,299 @@
+//! One case: a hidden truth and the measurements made of it.
+
+use hexbench_core::{Dataset, Hexapod, Vector6};
+use rand::RngExt;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+use serde_json::{Map, Value, json};
+
+use super::{Campaign, Plan, PlanKind, Row, Yardstick, absolute, machines, measure, pick, rms};
+use crate::{
+    Mechanism, TruthError, World,
+    mechanisms::{self, REGISTRY, Shows},
+    metrology::{Frames, Noise},
+};
+
+/// Kinds of cases, named as in the truth files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// One effect of the catalogue.
+    Single,
+    /// Two effects of the catalogue.
+    Pair,
+    /// One effect outside the catalogue.
+    Outside,
+    /// No effect.
+    Clean,
+    /// One effect, measured by the paper's protocol.
+    SeedProtocol,
+    /// Absolute poses: joint geometry, alone or with one effect more.
+    Absolute,
+    /// A base or plate that yields as a full 6x6 compliance: in the catalogue, of a form richer than its own.
+    RichForm,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 7] = [
+        Self::Single,
+        Self::Pair,
+        Self::Outside,
+        Self::Clean,
+        Self::SeedProtocol,
+        Self::Absolute,
+        Self::RichForm,
+    ];
+
+    /// Name in the truth file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Single => "single",
+            Self::Pair => "pair",
+            Self::Outside => "outside",
+            Self::Clean => "clean",
+            Self::SeedProtocol => "seed-protocol",
+            Self::Absolute => "absolute",
+            Self::RichForm => "rich-form",
+        }
+    }
+
+    /// Usual distance of each effect.
+    pub fn usual_distance(self) -> f64 {
+        match self {
+            Self::Outside => 45.0,
+            Self::SeedProtocol => 12.0,
+            _ => 22.0,
+        }
+    }
+}
+
+/// Everything that decides a case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CaseSpec {
+    /// Name of its folder.
+    pub id: String,
+    /// Its kind.
+    pub kind: Kind,
+    /// Family of the machine, one of [`machines::FAMILIES`].
+    pub family: &'static str,
+    /// Make of the plan.
+    pub plan: PlanKind,
+    /// Ids of the effects in [`REGISTRY`].
+    pub effects: Vec<&'static str>,
+    /// Distance to which each effect is scaled; none: usual size.
+    pub distance: Option<f64>,
+    /// Noise of the instrument.
+    pub noise: Noise,
+    /// Decides all that is drawn: machine, plan, shape of the effects, noise.
+    pub seed: u64,
+}
+
+/// A case ready to be written.
+#[derive(Debug)]
+pub struct Case {
+    /// What was asked for.
+    pub spec: CaseSpec,
+    /// The world with its effects, and the instrument.
+    pub campaign: Campaign,
+    /// Nominal machine as the file describes it.
+    pub hexapod: Hexapod,
+    /// Measurements to learn from.
+    pub measurements: Dataset,
+    /// Measurements to judge by.
+    pub holdout: Dataset,
+    /// The sealed truth.
+    pub truth: Value,
+}
+
+impl CaseSpec {
+    /// The `index`-th case of a kind, drawn from a seed; another `attempt` keeps the effect and changes the rest.
+    pub fn draw(kind: Kind, index: usize, seed: u64, attempt: u64, distance: Option<[f64; 2]>) -> Self {
+        const PATIENCE: u64 = 4;
+        let stream = 1000 * (index as u64) + 10 * kind as u64;
+        let mut fixed = Pcg64::new(u128::from(seed), u128::from(stream));
+        let easy = attempt >= PATIENCE;
+        // Legs neither pull nor reverse under the paper's loads: what needs that gives way to the next effect.
+        let hopeless = usize::from(kind == Kind::SeedProtocol && easy) * 2;
+        let effects = draw_effects(kind, index + hopeless, &mut fixed);
+        let mut rng =
+            Pcg64::new(u128::from(seed).wrapping_add(u128::from(attempt) << 64), u128::from(stream + 1));
+        Self {
+            id: format!("{}-{index:04}", kind.name()),
+            kind,
+            family: draw_family(kind, easy, &mut rng),
+            plan: draw_plan(kind, easy, &mut rng),
+            effects,
+            distance: (kind != Kind::Absolute && kind != Kind::Clean).then(|| match distance {
+                Some([low, high]) if low < high => rng.random_range(low.ln()..high.ln()).exp(),
+                Some([low, _]) => low,
+                None => kind.usual_distance(),
+            }),
+            noise: Noise::default(),
+            seed: u64::from(rng.random::<u32>()),
+        }
+    }
+
+    /// Builds and measures the case.
+    ///
+    /// # Errors
+    /// [`TruthError::NotVisible`] when an effect does not show in this plan; else as [`World::reading`].
+    pub fn build(&self) -> Result<Case, TruthError> {
+        let mut streams = (1..=5).map(|stream| Pcg64::new(u128::from(self.seed), stream));
+        let mut next = || streams.next().unwrap_or_else(|| Pcg64::new(u128::from(self.seed), 0));
+        let (mut of_machine, mut of_plan, mut of_effects, mut of_noise, mut of_frames) =
+            (next(), next(), next(), next(), next());
+        let mut hexapod = machines::draw(self.family, &mut of_machine);
+        hexapod.metrology = Some(self.noise.metrology());
+        let stiffness = machines::leg_stiffness(self.family, &mut of_machine);
+        let plan = self.plan.draw(&hexapod, &mut of_plan);
+        let frames = if self.plan == PlanKind::Absolute {
+            absolute::aligned(&mut of_frames)
+        } else {
+            Frames::default()
+        };
+        let bare = Campaign { world: World::new(hexapod.clone(), &stiffness), frames, noise: self.noise };
+        let sized = self.sized_effects(&bare, &plan, &mut of_effects)?;
+        let truth = self.truth(&bare, &plan, &sized)?;
+        let mut world = bare.world.without_effects();
+        world.mechanisms = sized.mechanisms;
+        let campaign = Campaign { world, ..bare };
+        let measurements = measure(&campaign, &plan.training, self.plan, "measurements.csv", &mut of_noise)?;
+        let holdout = measure(&campaign, &plan.holdout, self.plan, "holdout.csv", &mut of_noise)?;
+        Ok(Case { spec: self.clone(), campaign, hexapod, measurements, holdout, truth })
+    }
+
+    fn sized_effects(
+        &self,
+        bare: &Campaign,
+        plan: &Plan,
+        rng: &mut Pcg64,
+    ) -> Result<SizedEffects, TruthError> {
+        const SPREAD_OF_SIZE: f64 = 0.4;
+        let yardstick = Yardstick::new(bare, &plan.training, self.plan)?;
+        let mut sized = SizedEffects { mechanisms: Vec::new(), scales: Vec::new(), distance: 0.0 };
+        for (i, id) in self.effects.iter().enumerate() {
+            let usual = (mechanisms::effect(id)?.draw)(&bare.world.hexapod, rng);
+            let scale = match self.distance {
+                Some(wanted) => yardstick.scale_to(&*usual, wanted)?.0,
+                None if i == 0 => 1.0,
+                None => (SPREAD_OF_SIZE * normal(rng)).exp(),
+            };
+            sized.scales.push(scale);
+            sized.mechanisms.push(usual.scaled(scale));
+        }
+        if !sized.mechanisms.is_empty() {
+            sized.distance = yardstick.distance(sized.mechanisms.iter().map(|m| m.scaled(1.0)).collect())?;
+        }
+        Ok(sized)
+    }
+
+    fn truth(&self, bare: &Campaign, plan: &Plan, sized: &SizedEffects) -> Result<Value, TruthError> {
+        let mut parameters = Map::new();
+        for mechanism in &sized.mechanisms {
+            parameters.extend(mechanism.parameters());
+        }
+        let added = |rows: &[Row]| -> Result<[f64; 2], TruthError> {
+            let yardstick = Yardstick::new(bare, rows, self.plan)?;
+            let all = sized.mechanisms.iter().map(|m| m.scaled(1.0)).collect();
+            let signature: Vec<Vector6> = yardstick.signature(all)?;
+            let (translation, rotation) = rms(&signature);
+            Ok([translation * 1e6, rotation * 1e6])
+        };
+        Ok(json!({
+            "id": self.id,
+            "kind": self.kind.name(),
+            "effects": self.effects.iter().map(|id| self.catalogue_id(id)).collect::<Vec<_>>(),
+            "scale": sized.scales,
+            "parameters": parameters,
+            "distance": sized.distance,
+            "geometry": self.family,
+            "plan": self.plan.name(),
+            "seed": self.seed,
+            "leg_stiffness_N_per_um": bare.world.leg_compliance.map(|c| 1e-6 / c),
+            "noise": [self.noise.sigma_translation * 1e6, self.noise.sigma_rotation * 1e6],
+            "repeats": plan.training.iter().map(|r| r.repeat).max(),
+            "raw_effect_rms": added(&plan.training)?,
+            "holdout_effect_rms": added(&plan.holdout)?,
+            "metrology_frame": bare.frames.metrology.to_array(),
+            "target_frame": bare.frames.target.to_array(),
+        }))
+    }
+
+    fn catalogue_id(&self, id: &'static str) -> &'static str {
+        match (self.kind, id) {
+            (Kind::RichForm, "out:base-bending") => "base-compliance",
+            (Kind::RichForm, "out:plate-bending") => "platform-compliance",
+            _ => id,
+        }
+    }
+}
+
+struct SizedEffects {
+    mechanisms: Vec<Box<dyn Mechanism>>,
+    scales: Vec<f64>,
+    distance: f64,
+}
+
+fn normal(rng: &mut Pcg64) -> f64 {
+    StandardNormal.sample(rng)
+}
+
+/// Ids that show in a mode, in the order of the catalogue.
+fn showing(shows: Shows) -> Vec<&'static str> {
+    REGISTRY.iter().filter(|e| e.shows == shows).map(|e| e.id).collect()
+}
+
+const BENDING: [&str; 2] = ["out:base-bending", "out:plate-bending"];
+
+fn draw_effects(kind: Kind, index: usize, rng: &mut Pcg64) -> Vec<&'static str> {
+    let deflection = showing(Shows::Deflection);
+    match kind {
+        Kind::Clean => Vec::new(),
+        Kind::Single | Kind::SeedProtocol => vec![deflection[index % deflection.len()]],
+        Kind::Pair => {
+            let first = rng.random_range(0..deflection.len());
+            let second = (first + rng.random_range(1..deflection.len())) % deflection.len();
+            vec![deflection[first.min(second)], deflection[first.max(second)]]
+        }
+        Kind::Outside => {
+            let outside: Vec<_> =
+                showing(Shows::Outside).into_iter().filter(|id| !BENDING.contains(id)).collect();
+            vec![outside[index % outside.len()]]
+        }
+        Kind::RichForm => vec![BENDING[index % 2]],
+        Kind::Absolute => absolute_effects(index),
+    }
+}
+
+fn absolute_effects(index: usize) -> Vec<&'static str> {
+    let second = [
+        None,
+        Some("leg-offset"),
+        Some("actuator-scale"),
+        Some("actuator-pitch"),
+        Some("leg-weight"),
+        Some("base-compliance"),
+    ];
+    std::iter::once("joint-geometry").chain(second[index % second.len()]).collect()
+}
+
+fn draw_family(kind: Kind, easy: bool, rng: &mut Pcg64) -> &'static str {
+    let (rings, others) = machines::FAMILIES.split_at(3);
+    match kind {
+        _ if easy => "ring_a",
+        Kind::SeedProtocol => pick(rng, rings),
+        _ if rng.random_bool(0.5) => pick(rng, rings),
+        _ => pick(rng, others),
+    }
+}
+
+fn draw_plan(kind: Kind, easy: bool, rng: &mut Pcg64) -> PlanKind {
+    const VARIANTS: [PlanKind; 4] =
+        [PlanKind::OtherLoads, PlanKind::FewPoses, PlanKind::VerticalOnly, PlanKind::NoReference];
+    match kind {
+        Kind::Absolute => PlanKind::Absolute,
+        Kind::SeedProtocol => PlanKind::Paper,
+        _ if easy || rng.random_bool(0.6) => PlanKind::Rich,
+        _ => pick(rng, &VARIANTS),
+    }
+}

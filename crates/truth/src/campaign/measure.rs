@@ -1,0 +1,94 @@
+//! Running a plan on a world.
+
+use hexbench_core::{Columns, Dataset, Measurand, Observation, Vector6};
+use rand_pcg::Pcg64;
+
+use super::{PlanKind, Row};
+use crate::{
+    TruthError, World,
+    metrology::{Frames, Noise},
+};
+
+/// A world with its instrument.
+#[derive(Debug)]
+pub struct Campaign {
+    /// The machine.
+    pub world: World,
+    /// Frames of the instrument; they matter for absolute poses only.
+    pub frames: Frames,
+    /// Noise of the instrument.
+    pub noise: Noise,
+}
+
+impl Campaign {
+    /// What an ideal instrument reads, row by row: deflections, or absolute poses; m and rad.
+    ///
+    /// # Errors
+    /// As [`World::reading`].
+    pub fn ideal(&self, rows: &[Row], plan: PlanKind) -> Result<Vec<Vector6>, TruthError> {
+        let mut readings: Vec<Vector6> = Vec::with_capacity(rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            let again = i > 0 && rows[i - 1].situation == row.situation;
+            let reading = if again { readings[i - 1] } else { self.one(row, plan)? };
+            readings.push(reading);
+        }
+        Ok(readings)
+    }
+
+    fn one(&self, row: &Row, plan: PlanKind) -> Result<Vector6, TruthError> {
+        if plan == PlanKind::Absolute {
+            self.world.pose(&row.situation).map(|pose| self.frames.seen(&pose).to_vector())
+        } else {
+            self.world.deflection(&row.situation)
+        }
+    }
+}
+
+/// Measures the rows; the same generator gives the same noise whatever the world.
+///
+/// # Errors
+/// As [`World::reading`].
+pub fn measure(
+    campaign: &Campaign,
+    rows: &[Row],
+    plan: PlanKind,
+    source: &str,
+    rng: &mut Pcg64,
+) -> Result<Dataset, TruthError> {
+    let readings = campaign.ideal(rows, plan)?;
+    let observations = rows
+        .iter()
+        .zip(readings)
+        .enumerate()
+        .map(|(i, (row, r))| observation(i, row, r, &campaign.noise, rng));
+    let deflections = plan != PlanKind::Absolute;
+    Ok(Dataset {
+        source: source.to_owned(),
+        measurand: if deflections { Measurand::DeflectionEuler } else { Measurand::AbsolutePose },
+        columns: Columns {
+            reference: deflections,
+            approach: deflections,
+            delta_t: true,
+            elapsed: true,
+            sigma: false,
+        },
+        observations: observations.collect(),
+    })
+}
+
+fn observation(index: usize, row: &Row, reading: Vector6, noise: &Noise, rng: &mut Pcg64) -> Observation {
+    let s = &row.situation;
+    Observation {
+        pose_id: row.pose_id,
+        repeat: row.repeat,
+        line: index as u64 + 2,
+        pose: s.pose,
+        wrench: s.wrench,
+        reference: s.reference,
+        approach: s.approach,
+        delta_t: s.delta_t,
+        elapsed: s.elapsed,
+        measured: (reading + noise.draw(rng)).into(),
+        sigma: None,
+    }
+}

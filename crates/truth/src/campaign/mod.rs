@@ -1,0 +1,28 @@
+//! Campaigns: a machine, a plan, effects of a chosen visibility, and the files of it.
+
+mod absolute;
+mod case;
+mod files;
+pub mod machines;
+mod measure;
+mod plan;
+mod signature;
+
+pub use case::{Case, CaseSpec, Kind};
+pub use measure::{Campaign, measure};
+pub use plan::{Plan, PlanKind, Row};
+pub use signature::{Yardstick, rms};
+
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+/// One of several, at random.
+fn pick<T: Copy>(rng: &mut Pcg64, choices: &[T]) -> T {
+    choices[rng.random_range(0..choices.len())]
+}
+
+/// A value with as many decimals as the files carry, so that what is written is what was simulated.
+fn rounded(value: f64) -> f64 {
+    const DECIMALS: f64 = 1e6;
+    (value * DECIMALS).round() / DECIMALS
+}

@@ -1,0 +1,41 @@
+//! The simulated world of the bench: a hexapod with real imperfections, loaded and measured.
+//!
+//! A static equilibrium at finite deflection is solved for every state of the machine. Legs run between the *true*
+//! joints; their free lengths are those commanded from the *nominal* geometry; each leg carries the force its law gives
+//! at its elongation. With `l_i = t + R B_i - A_i`, `q_i = |l_i|`, `n_i = l_i / q_i`:
+//!
+//! ```text
+//! F - sum f_i n_i = 0
+//! M - sum (R B_i) x f_i n_i = 0
+//! q_i - q_i(commanded) = e_i(f_i)        one monotone law per leg, possibly with memory
+//! ```
+//!
+//! A yielding base or plate adds a body with its own equilibrium. A deflection is the pose in the loaded state minus the
+//! pose in the reference state, each reached along its own path from the unloaded machine.
+//!
+//! Nothing is linearised for the answer: derivatives only steer Newton's method. A solution that is not reached is an
+//! error, never a number.
+//!
+//! - [`World`]: a machine with its imperfections; [`World::deflection`], [`World::pose`].
+//! - [`mechanisms`]: one file for each physical effect, all of them in [`mechanisms::REGISTRY`].
+//! - [`metrology`]: what the instrument adds.
+//! - [`campaign`]: machines, plans, sizes and the case folders made of them.
+
+pub mod campaign;
+pub mod equilibrium;
+pub mod error;
+pub mod law;
+mod linear;
+pub mod mechanisms;
+pub mod metrology;
+pub mod setup;
+pub mod situation;
+pub mod so3;
+pub mod world;
+
+pub use error::TruthError;
+pub use law::{LegLaw, LegMemory};
+pub use mechanisms::Mechanism;
+pub use setup::Setup;
+pub use situation::{Moment, Phase, Situation};
+pub use world::World;

@@ -1,0 +1,58 @@
+//! Load directions are tilted: `load-tilt`.
+//!
+//! The frame in which the load directions were set up (plumb line, pulleys) is turned against the fixed frame by two small
+//! angles. Moments stay.
+
+use hexbench_core::{Hexapod, Vector3};
+use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use super::{Effect, Mechanism, Shows, normal3, parsed};
+use crate::{Moment, Setup, so3};
+
+/// Its entry in the registry.
+pub(super) const EFFECT: Effect = Effect {
+    id: "load-tilt",
+    title: "Load directions are tilted",
+    physics: "F -> rotation(alpha_x, alpha_y, 0) F in both states",
+    shows: Shows::Deflection,
+    draw,
+    parse: parsed::<LoadTilt>,
+};
+
+/// Load directions are tilted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoadTilt {
+    /// Rotation vector about x and y, rad.
+    pub angles: [f64; 2],
+}
+
+impl Mechanism for LoadTilt {
+    fn id(&self) -> &'static str {
+        EFFECT.id
+    }
+
+    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+        let tilt = so3::exp(&Vector3::new(self.angles[0], self.angles[1], 0.0));
+        setup.wrench.force = tilt * setup.wrench.force;
+        for force in &mut setup.forces {
+            force.force = tilt * force.force;
+        }
+    }
+
+    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
+        Box::new(Self { angles: self.angles.map(|x| x * factor) })
+    }
+
+    fn parameters(&self) -> Map<String, Value> {
+        Map::from_iter([("tilt".to_owned(), json!(self.angles))])
+    }
+}
+
+fn draw(_: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
+    const USUAL_RAD: f64 = 0.02;
+    let [x, y, _] = normal3(rng, USUAL_RAD);
+    Box::new(LoadTilt { angles: [x, y] })
+}

@@ -1,0 +1,198 @@
+//! What a real machine does beyond six plain leg springs: one file for each effect.
+//!
+//! Adding one: a file with its physics, a struct, [`Mechanism`] for it and an `EFFECT`; its `mod` and `pub use` lines here, and a line in
+//! [`REGISTRY`].
+
+mod actuator_pitch;
+mod actuator_scale;
+mod base_bending;
+mod base_compliance;
+mod bracket_compliance;
+mod cable;
+mod creep;
+mod cubic_compliance;
+mod joint_friction;
+mod joint_geometry;
+mod joint_rotation_stiffness;
+mod leg_asymmetry;
+mod leg_backlash;
+mod leg_coupling;
+mod leg_drift;
+mod leg_length_compliance;
+mod leg_nonlinearity;
+mod leg_offset;
+mod leg_step;
+mod leg_weight;
+mod load_mass_error;
+mod load_offset;
+mod load_tilt;
+mod metrology_drift;
+mod periodic_compliance;
+mod plate_bending;
+mod platform_compliance;
+mod target_offset;
+mod thermal_compliance;
+mod thermal_expansion;
+
+pub use actuator_pitch::ActuatorPitch;
+pub use actuator_scale::ActuatorScale;
+pub use base_bending::BaseBending;
+pub use base_compliance::BaseCompliance;
+pub use bracket_compliance::BracketCompliance;
+pub use cable::CablePull;
+pub use creep::Creep;
+pub use cubic_compliance::CubicCompliance;
+pub use joint_friction::JointFriction;
+pub use joint_geometry::JointGeometry;
+pub use joint_rotation_stiffness::JointRotationStiffness;
+pub use leg_asymmetry::LegAsymmetry;
+pub use leg_backlash::LegBacklash;
+pub use leg_coupling::LegCoupling;
+pub use leg_drift::LegDrift;
+pub use leg_length_compliance::LegLengthCompliance;
+pub use leg_nonlinearity::LegNonlinearity;
+pub use leg_offset::LegOffset;
+pub use leg_step::LegStep;
+pub use leg_weight::LegWeight;
+pub use load_mass_error::LoadMassError;
+pub use load_offset::LoadOffset;
+pub use load_tilt::LoadTilt;
+pub use metrology_drift::MetrologyDrift;
+pub use periodic_compliance::PeriodicCompliance;
+pub use plate_bending::PlateBending;
+pub use platform_compliance::PlatformCompliance;
+pub use target_offset::TargetOffset;
+pub use thermal_compliance::ThermalCompliance;
+pub use thermal_expansion::ThermalExpansion;
+
+use std::fmt::Debug;
+
+use hexbench_core::{Hexapod, Pose, Vector6};
+use rand::RngExt;
+use rand_distr::{Distribution, Normal};
+use rand_pcg::Pcg64;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
+use crate::{Moment, Setup, TruthError, equilibrium::Body};
+
+/// One physical effect of a given size. It may act on the structure, on what is seen of it, or on what is read.
+pub trait Mechanism: Debug + Send + Sync {
+    /// Its id in the catalogue (kebab-case; `out:` in front of those outside it).
+    fn id(&self) -> &'static str;
+
+    /// Changes the structure at a moment.
+    fn act(&self, _moment: &Moment<'_>, _setup: &mut Setup) {}
+
+    /// Changes which body the instrument sees.
+    fn see(&self, _moment: &Moment<'_>, _body: &mut Body) {}
+
+    /// Changes the numbers the instrument gives.
+    fn read(&self, _moment: &Moment<'_>, _pose: &mut Pose) {}
+
+    /// The same effect `factor` times as large; 0 makes it vanish.
+    fn scaled(&self, factor: f64) -> Box<dyn Mechanism>;
+
+    /// Parameters under the names of the truth file, SI units.
+    fn parameters(&self) -> Map<String, Value>;
+}
+
+/// Where an effect can be seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shows {
+    /// In deflections, and it is in the catalogue.
+    Deflection,
+    /// In absolute poses only, and it is in the catalogue.
+    Absolute,
+    /// In deflections, but no term of the catalogue describes it.
+    Outside,
+}
+
+/// Entry of the registry.
+#[derive(Debug, Clone, Copy)]
+pub struct Effect {
+    /// Id in the catalogue.
+    pub id: &'static str,
+    /// One line in plain words.
+    pub title: &'static str,
+    /// Equation or rule.
+    pub physics: &'static str,
+    /// Where it can be seen.
+    pub shows: Shows,
+    /// An example of usual size for a machine, its shape drawn at random.
+    pub draw: fn(&Hexapod, &mut Pcg64) -> Box<dyn Mechanism>,
+    /// The effect with given parameters (SI units).
+    pub parse: fn(Value) -> Result<Box<dyn Mechanism>, String>,
+}
+
+/// All effects, in the order of the catalogue; those outside it at the end.
+pub const REGISTRY: &[Effect] = &[
+    leg_length_compliance::EFFECT,
+    leg_nonlinearity::EFFECT,
+    leg_asymmetry::EFFECT,
+    leg_backlash::EFFECT,
+    joint_friction::EFFECT,
+    joint_rotation_stiffness::EFFECT,
+    bracket_compliance::EFFECT,
+    leg_coupling::EFFECT,
+    base_compliance::EFFECT,
+    platform_compliance::EFFECT,
+    load_offset::EFFECT,
+    load_tilt::EFFECT,
+    thermal_expansion::EFFECT,
+    metrology_drift::EFFECT,
+    target_offset::EFFECT,
+    creep::EFFECT,
+    joint_geometry::EFFECT,
+    leg_offset::EFFECT,
+    actuator_scale::EFFECT,
+    actuator_pitch::EFFECT,
+    leg_weight::EFFECT,
+    periodic_compliance::EFFECT,
+    leg_drift::EFFECT,
+    leg_step::EFFECT,
+    cable::EFFECT,
+    plate_bending::EFFECT,
+    base_bending::EFFECT,
+    load_mass_error::EFFECT,
+    thermal_compliance::EFFECT,
+    cubic_compliance::EFFECT,
+];
+
+/// Entry of an id.
+///
+/// # Errors
+/// [`TruthError::UnknownMechanism`].
+pub fn effect(id: &str) -> Result<&'static Effect, TruthError> {
+    REGISTRY.iter().find(|e| e.id == id).ok_or_else(|| TruthError::UnknownMechanism { id: id.to_owned() })
+}
+
+/// The mechanism of an id with given parameters (SI units, fields of its struct).
+///
+/// # Errors
+/// [`TruthError::UnknownMechanism`], [`TruthError::BadParameters`].
+pub fn build(id: &str, parameters: Value) -> Result<Box<dyn Mechanism>, TruthError> {
+    (effect(id)?.parse)(parameters).map_err(|why| TruthError::BadParameters { id: id.to_owned(), why })
+}
+
+fn parsed<M: Mechanism + DeserializeOwned + 'static>(value: Value) -> Result<Box<dyn Mechanism>, String> {
+    serde_json::from_value::<M>(value).map(|m| Box::new(m) as Box<dyn Mechanism>).map_err(|e| e.to_string())
+}
+
+fn vector(values: &[f64; 6]) -> Vector6 {
+    Vector6::from_column_slice(values)
+}
+
+fn uniform(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
+    rng.random_range(low..high)
+}
+
+fn one_of<T: Copy>(rng: &mut Pcg64, choices: &[T]) -> T {
+    choices[rng.random_range(0..choices.len())]
+}
+
+/// Three independent normal values of the given standard deviation.
+fn normal3(rng: &mut Pcg64, sigma: f64) -> [f64; 3] {
+    // A standard normal distribution always exists; only a NaN sigma would not.
+    Normal::new(0.0, sigma).map_or([0.0; 3], |n| std::array::from_fn(|_| n.sample(rng)))
+}

@@ -1,0 +1,59 @@
+//! The plate bends as a full 6x6 compliance: `out:plate-bending`.
+//!
+//! A real structure couples translation with rotation: its compliance is a full symmetric positive matrix at the mobile origin, mobile axes.
+//! The same physics as `platform-compliance`, in the form that six diagonal springs cannot take.
+
+use hexbench_core::{Hexapod, Matrix6};
+use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use super::{Effect, Mechanism, Shows, parsed, uniform};
+use crate::{Moment, Setup};
+
+/// Its entry in the registry.
+pub(super) const EFFECT: Effect = Effect {
+    id: "out:plate-bending",
+    title: "The plate bends as a full 6x6 compliance",
+    physics: "six springs along and about six skew axes instead of the frame's own",
+    shows: Shows::Outside,
+    draw,
+    parse: parsed::<PlateBending>,
+};
+
+/// The plate bends as a full 6x6 compliance.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlateBending {
+    /// Symmetric, at the mobile origin, mobile axes; m/N, rad/N, rad/(N m).
+    pub compliance: [[f64; 6]; 6],
+}
+
+impl Mechanism for PlateBending {
+    fn id(&self) -> &'static str {
+        EFFECT.id
+    }
+
+    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+        setup.yield_plate(&Matrix6::from_fn(|i, j| self.compliance[i][j]));
+    }
+
+    fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
+        Box::new(Self { compliance: self.compliance.map(|row| row.map(|x| x * factor)) })
+    }
+
+    fn parameters(&self) -> Map<String, Value> {
+        Map::from_iter([("platform_compliance".to_owned(), json!(self.compliance))])
+    }
+}
+
+fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
+    const USUAL_N_PER_M: f64 = 3e8;
+    let radius = hexapod.platform_radius();
+    let mix = Matrix6::from_fn(|i, j| if i == j { 1.0 } else { uniform(rng, -0.45, 0.45) });
+    let full = mix * mix.transpose() / USUAL_N_PER_M;
+    let per = |k: usize| if k < 3 { 1.0 } else { 1.0 / radius };
+    Box::new(PlateBending {
+        compliance: std::array::from_fn(|i| std::array::from_fn(|j| full[(i, j)] * per(i) * per(j))),
+    })
+}

@@ -1,0 +1,81 @@
+//! What is done to the machine, and the moment at which a state of it is wanted.
+
+use hexbench_core::{Hexapod, Pose, Wrench};
+
+/// One row of a plan: commands, loads and surroundings. SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Situation {
+    /// Commanded pose.
+    pub pose: Pose,
+    /// Wrench in the loaded state.
+    pub wrench: Wrench,
+    /// Wrench in the reference state.
+    pub reference: Wrench,
+    /// +1: loaded from below; -1: the load is first exceeded and reached coming back.
+    pub approach: f64,
+    /// Structure temperature at the loaded reading minus at the reference reading, K.
+    pub delta_t: f64,
+    /// Time from the reference reading to the loaded reading, s.
+    pub elapsed: f64,
+}
+
+impl Situation {
+    /// A pose under a load, without reference load, temperature change or waiting.
+    pub fn new(pose: Pose, wrench: Wrench) -> Self {
+        Self { pose, wrench, reference: Wrench::default(), approach: 1.0, delta_t: 0.0, elapsed: 0.0 }
+    }
+
+    /// The overshooting wrench of approach -1: `W0 + 1.4 (W - W0)`.
+    pub fn overload(&self) -> Wrench {
+        const OVERSHOOT: f64 = 1.4;
+        Wrench {
+            force: self.reference.force + (self.wrench.force - self.reference.force) * OVERSHOOT,
+            moment: self.reference.moment + (self.wrench.moment - self.reference.moment) * OVERSHOOT,
+        }
+    }
+}
+
+/// A state on the path of one row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// Reference wrench, read.
+    Reference,
+    /// Load exceeded, on the way to the load; not read.
+    Overload,
+    /// Load, read.
+    Loaded,
+}
+
+/// The moment at which the mechanisms act: the row, where on its path, and what is known of the nominal machine there.
+#[derive(Debug, Clone, Copy)]
+pub struct Moment<'a> {
+    /// Nominal machine.
+    pub hexapod: &'a Hexapod,
+    /// The row.
+    pub situation: &'a Situation,
+    /// Where on the path.
+    pub phase: Phase,
+    /// Nominal leg lengths at the commanded pose, m.
+    pub nominal_lengths: [f64; 6],
+    /// Nominal leg lengths at the zero pose, m.
+    pub home_lengths: [f64; 6],
+    /// Leg forces found in the reference state, N; zero until it was solved.
+    pub reference_forces: [f64; 6],
+}
+
+impl Moment<'_> {
+    /// Seconds since the reference reading.
+    pub fn elapsed(&self) -> f64 {
+        if self.phase == Phase::Loaded { self.situation.elapsed } else { 0.0 }
+    }
+
+    /// Temperature above the reference reading, K.
+    pub fn delta_t(&self) -> f64 {
+        if self.phase == Phase::Loaded { self.situation.delta_t } else { 0.0 }
+    }
+
+    /// True once the load of the row is on (or exceeded).
+    pub fn is_loaded(&self) -> bool {
+        self.phase != Phase::Reference
+    }
+}

@@ -1,0 +1,173 @@
+//! A machine with its imperfections, loaded and read.
+
+use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
+
+use crate::{
+    LegMemory, Mechanism, Moment, Phase, Setup, Situation, TruthError,
+    equilibrium::{self, Equilibrium},
+};
+
+/// The true machine: nominal drawings, true leg springs, and what the drawings do not say.
+#[derive(Debug)]
+pub struct World {
+    /// Nominal machine, from which leg lengths are commanded.
+    pub hexapod: Hexapod,
+    /// Compliance of each leg spring, m/N.
+    pub leg_compliance: [f64; 6],
+    /// Effects at work, in the order in which they act.
+    pub mechanisms: Vec<Box<dyn Mechanism>>,
+}
+
+/// What the instrument sees at one moment: pose of the measured point, m and rad (Euler angles X-Y-Z extrinsic).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// Pose read.
+    pub pose: Pose,
+    /// State of rest behind it.
+    pub equilibrium: Equilibrium,
+}
+
+impl World {
+    /// A machine with plain leg springs of the given stiffness (N/m).
+    pub fn new(hexapod: Hexapod, leg_stiffness: &[f64; 6]) -> Self {
+        Self { hexapod, leg_compliance: leg_stiffness.map(|k| 1.0 / k), mechanisms: Vec::new() }
+    }
+
+    /// The machine with one effect more.
+    #[must_use]
+    pub fn with(mut self, mechanism: Box<dyn Mechanism>) -> Self {
+        self.mechanisms.push(mechanism);
+        self
+    }
+
+    /// The same machine without any effect: leg springs alone.
+    #[must_use]
+    pub fn without_effects(&self) -> Self {
+        Self { hexapod: self.hexapod.clone(), leg_compliance: self.leg_compliance, mechanisms: Vec::new() }
+    }
+
+    /// Deflection that an ideal instrument reads: loaded minus reference, m and rad, rotation as Euler differences.
+    ///
+    /// Path: unloaded machine, reference wrench (read), for approach -1 the exceeded load, load (read).
+    ///
+    /// # Errors
+    /// As [`World::reading`].
+    pub fn deflection(&self, situation: &Situation) -> Result<Vector6, TruthError> {
+        let mut moment = self.moment(situation)?;
+        let reference = self.state(&moment, situation.reference, &[LegMemory::default(); 6])?;
+        let before = self.read(&moment, &reference);
+        moment.reference_forces = reference.forces;
+        let loaded = self.load(&mut moment, reference.memory)?;
+        Ok(difference(&loaded.pose, &before))
+    }
+
+    /// Pose that an ideal instrument reads under the load, reached from the unloaded machine.
+    ///
+    /// # Errors
+    /// As [`World::reading`].
+    pub fn pose(&self, situation: &Situation) -> Result<Pose, TruthError> {
+        self.reading(situation).map(|reading| reading.pose)
+    }
+
+    /// Pose under the load, reached from the unloaded machine, and the state of rest behind it.
+    ///
+    /// # Errors
+    /// [`TruthError::Unreachable`], [`TruthError::Singular`], [`TruthError::GaveWay`], [`TruthError::NotConverged`],
+    /// [`TruthError::NotFinite`]: never a number that is not a solution.
+    pub fn reading(&self, situation: &Situation) -> Result<Reading, TruthError> {
+        let mut moment = self.moment(situation)?;
+        self.load(&mut moment, [LegMemory::default(); 6])
+    }
+
+    fn load<'a>(
+        &'a self,
+        moment: &mut Moment<'a>,
+        remembered: [LegMemory; 6],
+    ) -> Result<Reading, TruthError> {
+        let situation = moment.situation;
+        let mut memory = remembered;
+        if situation.approach < 0.0 {
+            moment.phase = Phase::Overload;
+            memory = self.state(moment, situation.overload(), &memory)?.memory;
+        }
+        moment.phase = Phase::Loaded;
+        let equilibrium = self.state(moment, situation.wrench, &memory)?;
+        Ok(Reading { pose: self.read(moment, &equilibrium), equilibrium })
+    }
+
+    fn moment<'a>(&'a self, situation: &'a Situation) -> Result<Moment<'a>, TruthError> {
+        let nominal_lengths = self.commanded_lengths(&situation.pose)?;
+        Ok(Moment {
+            hexapod: &self.hexapod,
+            situation,
+            phase: Phase::Reference,
+            nominal_lengths,
+            home_lengths: leg_lengths(&self.hexapod, &Pose::default()),
+            reference_forces: [0.0; 6],
+        })
+    }
+
+    fn commanded_lengths(&self, pose: &Pose) -> Result<[f64; 6], TruthError> {
+        let lengths = leg_lengths(&self.hexapod, pose);
+        if !lengths.iter().all(|q| q.is_finite()) {
+            return Err(TruthError::NotFinite { what: "commanded pose" });
+        }
+        let [shortest, longest] = self.hexapod.stroke.unwrap_or([f64::MIN_POSITIVE, f64::INFINITY]);
+        match lengths.iter().position(|&q| q < shortest || q > longest) {
+            None => Ok(lengths),
+            Some(i) => Err(TruthError::Unreachable {
+                leg: i + 1,
+                length_mm: lengths[i] * 1e3,
+                shortest_mm: shortest * 1e3,
+                longest_mm: longest * 1e3,
+            }),
+        }
+    }
+
+    /// The structure as the mechanisms make it at a moment.
+    pub fn setup(&self, moment: &Moment<'_>, wrench: Wrench) -> Setup {
+        let mut setup = Setup::nominal(moment, &self.leg_compliance, wrench);
+        for mechanism in &self.mechanisms {
+            mechanism.act(moment, &mut setup);
+        }
+        setup
+    }
+
+    fn state(
+        &self,
+        moment: &Moment<'_>,
+        wrench: Wrench,
+        remembered: &[LegMemory; 6],
+    ) -> Result<Equilibrium, TruthError> {
+        equilibrium::solve(&self.setup(moment, wrench), remembered)
+    }
+
+    fn read(&self, moment: &Moment<'_>, equilibrium: &Equilibrium) -> Pose {
+        let mut body = equilibrium.platform;
+        for mechanism in &self.mechanisms {
+            mechanism.see(moment, &mut body);
+        }
+        let mut pose = Pose::from_rotation(body.origin, &body.axes);
+        for mechanism in &self.mechanisms {
+            mechanism.read(moment, &mut pose);
+        }
+        pose
+    }
+}
+
+/// Nominal leg lengths at a pose, m.
+fn leg_lengths(hexapod: &Hexapod, pose: &Pose) -> [f64; 6] {
+    let r = pose.rotation();
+    std::array::from_fn(|i| {
+        (pose.translation + r * hexapod.platform_joints[i] - hexapod.base_joints[i]).norm()
+    })
+}
+
+/// Difference of two poses parameter by parameter, angles taken the short way round.
+pub(crate) fn difference(after: &Pose, before: &Pose) -> Vector6 {
+    let mut d = after.to_vector() - before.to_vector();
+    for k in 3..6 {
+        d[k] = d[k].sin().atan2(d[k].cos());
+    }
+    d
+}
