@@ -8,6 +8,7 @@
 //! - SI units inside (m, rad, N, N m, K, s); units appear in names only where a value crosses a border.
 
 pub mod dataset;
+pub mod files;
 pub mod hexapod;
 pub mod pose;
 pub mod wrench;

@@ -1,0 +1,138 @@
+//! Reading one name of a table's header: which quantity, in which unit.
+
+use super::columns::{COLUMNS, Column};
+use super::nearest::nearest;
+use super::units::{PLAIN, Unit, unit_named};
+use super::{Kind, Problem};
+
+/// What a header cell turns out to be.
+#[derive(Debug)]
+pub(crate) enum Named {
+    /// A known quantity in a known unit.
+    Known(&'static Column, &'static Unit),
+    /// Named so as to be ignored (`x_...`, `note...`, `comment...`).
+    Private,
+    /// Far from every known name.
+    Unknown,
+}
+
+/// Reads `fz_N`, `fz [N]`, `fz (N)`, `Fz N`.
+pub(crate) fn read_column_name(text: &str) -> Result<Named, Problem> {
+    let (base, bracketed) = without_brackets(text.trim());
+    let base = base.trim().replace([' ', '-'], "_");
+    let lower = base.to_lowercase();
+    if base.is_empty() {
+        return Err(Problem::NamelessColumn);
+    }
+    if is_private(&lower) {
+        return Ok(Named::Private);
+    }
+    if let Some(column) = column_named(&lower) {
+        return with_unit(column, bracketed);
+    }
+    match split_at_unit(&base) {
+        Some((column, unit)) if bracketed.is_none() => with_unit(column, Some(unit)),
+        _ => misspelt(&base, bracketed),
+    }
+}
+
+fn is_private(lower: &str) -> bool {
+    ["x_", "note", "comment"].iter().any(|beginning| lower.starts_with(beginning))
+}
+
+/// `da [um]` into `da ` and `um`.
+fn without_brackets(text: &str) -> (&str, Option<&str>) {
+    let inside = |open: char, close: char| {
+        let (base, rest) = text.split_once(open)?;
+        Some((base, rest.strip_suffix(close)?))
+    };
+    match inside('[', ']').or_else(|| inside('(', ')')) {
+        Some((base, unit)) => (base, Some(unit)),
+        None => (text, None),
+    }
+}
+
+fn column_named(lower: &str) -> Option<&'static Column> {
+    COLUMNS.iter().find(|column| column.name.eq_ignore_ascii_case(lower))
+}
+
+/// The longest known name that `base` continues with `_unit`.
+fn split_at_unit(base: &str) -> Option<(&'static Column, &str)> {
+    let cuts = base.char_indices().filter(|(_, symbol)| *symbol == '_').map(|(at, _)| at);
+    cuts.filter_map(|at| Some((column_named(&base[..at].to_lowercase())?, &base[at + 1..]))).last()
+}
+
+fn with_unit(column: &'static Column, unit: Option<&str>) -> Result<Named, Problem> {
+    let quantity = column.name.to_owned();
+    let kind = column.kind;
+    match unit.map(str::trim).filter(|text| !text.is_empty()) {
+        None if kind == Kind::Number => Ok(Named::Known(column, &PLAIN)),
+        None => Err(Problem::NoUnit { quantity, kind }),
+        Some(text) => match unit_named(text, kind) {
+            Some(unit) if unit.kind == kind => Ok(Named::Known(column, unit)),
+            Some(unit) => {
+                Err(Problem::WrongKindOfUnit { unit: unit.name.into(), unit_kind: unit.kind, quantity, kind })
+            }
+            None => Err(Problem::UnknownUnit { unit: text.into(), quantity, kind }),
+        },
+    }
+}
+
+/// A slip of the pen is an error: a silently ignored column would be believed to be in use.
+fn misspelt(base: &str, bracketed: Option<&str>) -> Result<Named, Problem> {
+    let names = || COLUMNS.iter().map(|column| column.name);
+    let (stem, suffix) = base.rsplit_once('_').map_or((base, None), |(stem, unit)| (stem, Some(unit)));
+    let unit = bracketed.or(suffix);
+    let near = nearest(stem, names()).or_else(|| nearest(base, names()));
+    let Some(column) = near.and_then(|name| column_named(&name.to_lowercase())) else {
+        return Ok(Named::Unknown);
+    };
+    let unit = unit.and_then(|text| unit_named(text, column.kind)).filter(|unit| unit.kind == column.kind);
+    let suggestion =
+        unit.map_or_else(|| column.usual_name(), |unit| format!("{}_{}", column.name, unit.name));
+    Err(Problem::MisspeltColumn { suggestion })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn known(text: &str) -> String {
+        match read_column_name(text) {
+            Ok(Named::Known(column, unit)) => format!("{} {}", column.name, unit.name).trim().to_owned(),
+            other => panic!("{text}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_unit_stands_after_an_underscore_a_blank_or_in_brackets() {
+        for text in ["da_um", "da [um]", "da[um]", "da (µm)", "da um", "DA_UM", "da-um", "da_μm"] {
+            assert_eq!(known(text), "da um", "{text}");
+        }
+    }
+
+    #[test]
+    fn names_with_underscores_keep_them() {
+        assert_eq!(known("delta_T_K"), "delta_T K");
+        assert_eq!(known("delta T [°C]"), "delta_T degC");
+        assert_eq!(known("sigma_a_um"), "sigma_a um");
+        assert_eq!(known("ref_mx [N·m]"), "ref_mx Nm");
+        assert_eq!(known("measured_alpha_deg"), "measured_alpha deg");
+        assert_eq!(known("Pose"), "pose");
+    }
+
+    #[test]
+    fn a_suggestion_keeps_the_unit_of_the_file() {
+        let Err(Problem::MisspeltColumn { suggestion }) = read_column_name("dapha_mrad") else {
+            panic!("a slip of the pen is an error")
+        };
+        assert_eq!(suggestion, "dalpha_mrad");
+    }
+
+    #[test]
+    fn other_columns_are_ignored() {
+        assert!(matches!(read_column_name("note_1"), Ok(Named::Private)));
+        assert!(matches!(read_column_name("x_fz_N"), Ok(Named::Private)));
+        assert!(matches!(read_column_name("humidity_%"), Ok(Named::Unknown)));
+    }
+}

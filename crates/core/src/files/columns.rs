@@ -1,0 +1,188 @@
+//! The columns a table of measurements may have.
+
+use super::Kind;
+use std::ops::Range;
+
+/// What a column belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Group {
+    /// `pose`, `repeat`.
+    Number,
+    /// Commanded pose.
+    Pose,
+    /// Wrench in the loaded state.
+    Wrench,
+    /// Wrench in the reference state.
+    Reference,
+    /// `approach`, `delta_T`, `elapsed`.
+    Covariate,
+    /// Translation, loaded minus reference.
+    Deflection,
+    /// Rotation, loaded minus reference, as differences of the Euler angles.
+    Euler,
+    /// Rotation, loaded minus reference, as a rotation vector.
+    RotationVector,
+    /// Measured absolute pose.
+    Absolute,
+    /// Standard deviations.
+    Sigma,
+}
+
+/// A column this program understands, and where its number goes in a [`Row`].
+#[derive(Debug)]
+pub(crate) struct Column {
+    pub(crate) name: &'static str,
+    pub(crate) kind: Kind,
+    pub(crate) group: Group,
+    /// Places in the row that this column fills (three for the shorthand `sigma_translation`).
+    pub(crate) places: Places,
+}
+
+/// First place and number of places.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Places {
+    pub(crate) first: usize,
+    pub(crate) count: usize,
+}
+
+impl Places {
+    pub(crate) fn range(self) -> Range<usize> {
+        self.first..self.first + self.count
+    }
+}
+
+/// The numbers of one row in SI, at the places named below.
+pub(crate) type Row = [f64; PLACES];
+
+pub(crate) const POSE: usize = 0;
+pub(crate) const WRENCH: usize = 6;
+pub(crate) const REFERENCE: usize = 12;
+pub(crate) const MEASURED: usize = 18;
+pub(crate) const SIGMA: usize = 24;
+pub(crate) const APPROACH: usize = 30;
+pub(crate) const DELTA_T: usize = 31;
+pub(crate) const ELAPSED: usize = 32;
+pub(crate) const POSE_ID: usize = 33;
+pub(crate) const REPEAT: usize = 34;
+pub(crate) const PLACES: usize = 35;
+
+const fn column(name: &'static str, kind: Kind, group: Group, first: usize) -> Column {
+    Column { name, kind, group, places: Places { first, count: 1 } }
+}
+
+const fn three(name: &'static str, kind: Kind, first: usize) -> Column {
+    Column { name, kind, group: Group::Sigma, places: Places { first, count: 3 } }
+}
+
+/// Every column, in the order files are written. Where two names fill one place, the first is the usual one.
+pub(crate) static COLUMNS: &[Column] = &[
+    column("pose", Kind::Number, Group::Number, POSE_ID),
+    column("repeat", Kind::Number, Group::Number, REPEAT),
+    column("a", Kind::Length, Group::Pose, POSE),
+    column("b", Kind::Length, Group::Pose, POSE + 1),
+    column("c", Kind::Length, Group::Pose, POSE + 2),
+    column("alpha", Kind::Angle, Group::Pose, POSE + 3),
+    column("beta", Kind::Angle, Group::Pose, POSE + 4),
+    column("gamma", Kind::Angle, Group::Pose, POSE + 5),
+    column("fx", Kind::Force, Group::Wrench, WRENCH),
+    column("fy", Kind::Force, Group::Wrench, WRENCH + 1),
+    column("fz", Kind::Force, Group::Wrench, WRENCH + 2),
+    column("mx", Kind::Moment, Group::Wrench, WRENCH + 3),
+    column("my", Kind::Moment, Group::Wrench, WRENCH + 4),
+    column("mz", Kind::Moment, Group::Wrench, WRENCH + 5),
+    column("ref_fx", Kind::Force, Group::Reference, REFERENCE),
+    column("ref_fy", Kind::Force, Group::Reference, REFERENCE + 1),
+    column("ref_fz", Kind::Force, Group::Reference, REFERENCE + 2),
+    column("ref_mx", Kind::Moment, Group::Reference, REFERENCE + 3),
+    column("ref_my", Kind::Moment, Group::Reference, REFERENCE + 4),
+    column("ref_mz", Kind::Moment, Group::Reference, REFERENCE + 5),
+    column("approach", Kind::Number, Group::Covariate, APPROACH),
+    column("delta_T", Kind::TemperatureDifference, Group::Covariate, DELTA_T),
+    column("elapsed", Kind::Time, Group::Covariate, ELAPSED),
+    column("da", Kind::Length, Group::Deflection, MEASURED),
+    column("db", Kind::Length, Group::Deflection, MEASURED + 1),
+    column("dc", Kind::Length, Group::Deflection, MEASURED + 2),
+    column("dalpha", Kind::Angle, Group::Euler, MEASURED + 3),
+    column("dbeta", Kind::Angle, Group::Euler, MEASURED + 4),
+    column("dgamma", Kind::Angle, Group::Euler, MEASURED + 5),
+    column("drx", Kind::Angle, Group::RotationVector, MEASURED + 3),
+    column("dry", Kind::Angle, Group::RotationVector, MEASURED + 4),
+    column("drz", Kind::Angle, Group::RotationVector, MEASURED + 5),
+    column("measured_a", Kind::Length, Group::Absolute, MEASURED),
+    column("measured_b", Kind::Length, Group::Absolute, MEASURED + 1),
+    column("measured_c", Kind::Length, Group::Absolute, MEASURED + 2),
+    column("measured_alpha", Kind::Angle, Group::Absolute, MEASURED + 3),
+    column("measured_beta", Kind::Angle, Group::Absolute, MEASURED + 4),
+    column("measured_gamma", Kind::Angle, Group::Absolute, MEASURED + 5),
+    column("sigma_a", Kind::Length, Group::Sigma, SIGMA),
+    column("sigma_b", Kind::Length, Group::Sigma, SIGMA + 1),
+    column("sigma_c", Kind::Length, Group::Sigma, SIGMA + 2),
+    column("sigma_alpha", Kind::Angle, Group::Sigma, SIGMA + 3),
+    column("sigma_beta", Kind::Angle, Group::Sigma, SIGMA + 4),
+    column("sigma_gamma", Kind::Angle, Group::Sigma, SIGMA + 5),
+    column("sigma_da", Kind::Length, Group::Sigma, SIGMA),
+    column("sigma_db", Kind::Length, Group::Sigma, SIGMA + 1),
+    column("sigma_dc", Kind::Length, Group::Sigma, SIGMA + 2),
+    column("sigma_dalpha", Kind::Angle, Group::Sigma, SIGMA + 3),
+    column("sigma_dbeta", Kind::Angle, Group::Sigma, SIGMA + 4),
+    column("sigma_dgamma", Kind::Angle, Group::Sigma, SIGMA + 5),
+    column("sigma_drx", Kind::Angle, Group::Sigma, SIGMA + 3),
+    column("sigma_dry", Kind::Angle, Group::Sigma, SIGMA + 4),
+    column("sigma_drz", Kind::Angle, Group::Sigma, SIGMA + 5),
+    three("sigma_translation", Kind::Length, SIGMA),
+    three("sigma_rotation", Kind::Angle, SIGMA + 3),
+];
+
+impl Column {
+    /// The unit files are written in: those of the format's definition.
+    pub(crate) fn usual_unit(&self) -> &'static str {
+        let absolute = matches!(self.group, Group::Pose | Group::Absolute);
+        match self.kind {
+            Kind::Number | Kind::Stiffness => "",
+            Kind::Length if absolute => "mm",
+            Kind::Length => "um",
+            Kind::Angle if absolute => "deg",
+            Kind::Angle => "urad",
+            Kind::Force => "N",
+            Kind::Moment => "Nm",
+            Kind::TemperatureDifference => "K",
+            Kind::Time => "s",
+        }
+    }
+
+    /// True when this is the first of the names that fill its place: the one that is written.
+    pub(crate) fn is_usual_name(&self) -> bool {
+        let rivals = COLUMNS.iter().filter(|other| other.group == self.group && other.places == self.places);
+        self.places.count == 1 && rivals.map(|other| other.name).next() == Some(self.name)
+    }
+
+    /// Name with the usual unit, for example `fz_N`.
+    pub(crate) fn usual_name(&self) -> String {
+        match self.usual_unit() {
+            "" => self.name.to_owned(),
+            unit => format!("{}_{unit}", self.name),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_columns_fill_every_place_of_a_row() {
+        let mut filled = [false; PLACES];
+        for column in COLUMNS {
+            column.places.range().for_each(|place| filled[place] = true);
+        }
+        assert_eq!(filled, [true; PLACES]);
+    }
+
+    #[test]
+    fn no_name_is_listed_twice() {
+        let mut names: Vec<_> = COLUMNS.iter().map(|column| column.name).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), COLUMNS.len());
+    }
+}

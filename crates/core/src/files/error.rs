@@ -1,0 +1,95 @@
+//! Why a file cannot be used.
+
+use super::{Place, Problem};
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A file that cannot be read or written: which, where, why, and what to do next.
+///
+/// `Display` is one line, `FILE: line L, column C (NAME): "VALUE": what is wrong`, without the next step.
+#[derive(Debug)]
+pub struct FileError {
+    /// The file, as the caller named it.
+    pub path: PathBuf,
+    /// Where in the file.
+    pub place: Box<Place>,
+    /// What is wrong there.
+    pub problem: Box<Problem>,
+}
+
+impl FileError {
+    /// What to do next, one sentence.
+    pub fn next_step(&self) -> String {
+        self.problem.next_step()
+    }
+
+    /// True when the trouble is with the disk or the name of the file rather than with what the file says.
+    pub fn is_input_output(&self) -> bool {
+        matches!(*self.problem, Problem::NoSuchFile | Problem::Folder | Problem::Read(_) | Problem::Write(_))
+    }
+
+    /// The message without the name of the file.
+    pub fn message(&self) -> String {
+        located(&self.place, &self.problem)
+    }
+
+    pub(crate) fn reading(path: &Path, cause: io::Error) -> Self {
+        Fault::from(cause).in_file(path)
+    }
+
+    pub(crate) fn writing(path: &Path, cause: io::Error) -> Self {
+        Fault::new(Place::file(), Problem::Write(cause)).in_file(path)
+    }
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}: {}", self.path.display(), self.message())
+    }
+}
+
+impl std::error::Error for FileError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match &*self.problem {
+            Problem::Read(cause) | Problem::Write(cause) => Some(cause),
+            _ => None,
+        }
+    }
+}
+
+/// `place: "value": message`, each part when there is one.
+pub(crate) fn located(place: &Place, message: &dyn fmt::Display) -> String {
+    let at = place.to_string();
+    let value = place.value.as_ref().map(|value| format!("\"{value}\"")).unwrap_or_default();
+    let parts = [at, value, message.to_string()];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ")
+}
+
+/// A problem at a place, before the name of the file is known.
+#[derive(Debug)]
+pub(crate) struct Fault {
+    pub(crate) place: Box<Place>,
+    pub(crate) problem: Box<Problem>,
+}
+
+impl Fault {
+    pub(crate) fn new(place: Place, problem: Problem) -> Self {
+        Self { place: Box::new(place), problem: Box::new(problem) }
+    }
+
+    pub(crate) fn in_file(self, path: &Path) -> FileError {
+        FileError { path: path.to_owned(), place: self.place, problem: self.problem }
+    }
+}
+
+impl From<io::Error> for Fault {
+    fn from(cause: io::Error) -> Self {
+        let problem = match cause.kind() {
+            io::ErrorKind::NotFound => Problem::NoSuchFile,
+            io::ErrorKind::IsADirectory => Problem::Folder,
+            _ => Problem::Read(cause),
+        };
+        Self::new(Place::file(), problem)
+    }
+}

@@ -1,0 +1,160 @@
+//! From the names of the columns to a plan for reading rows.
+
+use super::column_name::{Named, read_column_name};
+use super::columns::{COLUMNS, Column, Group};
+use super::error::Fault;
+use super::line::Line;
+use super::units::Unit;
+use super::warning::Notice;
+use super::{Problem, Warning};
+use crate::{Columns, Measurand};
+
+/// One column of a file that is read.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Source {
+    pub(crate) column: &'static Column,
+    pub(crate) unit: &'static Unit,
+}
+
+/// How the rows of a file are read.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    /// For every cell: what it is, or none when it is ignored.
+    pub(crate) sources: Vec<Option<Source>>,
+    /// Names as the file spells them, for messages.
+    pub(crate) names: Vec<String>,
+    pub(crate) measurand: Measurand,
+    pub(crate) columns: Columns,
+    pub(crate) has_pose: bool,
+}
+
+/// Reads the header line.
+pub(crate) fn read_header(line: &Line<'_>, warnings: &mut Vec<Warning>) -> Result<Plan, Fault> {
+    refuse_numbers(line)?;
+    let mut sources = Vec::with_capacity(line.len());
+    for cell in 0..line.len() {
+        let text = line.text(cell);
+        let place = line.place(cell).with_name(text);
+        match read_column_name(text) {
+            Ok(Named::Known(column, unit)) => sources.push(Some(Source { column, unit })),
+            Ok(Named::Private) => sources.push(None),
+            Ok(Named::Unknown) => {
+                warnings.push(Warning::new(place, Notice::IgnoredColumn));
+                sources.push(None);
+            }
+            Err(problem) => return Err(Fault::new(place, problem)),
+        }
+    }
+    let names = (0..line.len()).map(|cell| line.text(cell).to_owned()).collect();
+    refuse_duplicates(&sources, line)?;
+    plan(sources, names).map_err(|problem| Fault::new(line.whole_place(), problem))
+}
+
+fn refuse_numbers(line: &Line<'_>) -> Result<(), Fault> {
+    let all_numbers = (0..line.len()).all(|cell| line.text(cell).parse::<f64>().is_ok());
+    let problem = match line.len() {
+        _ if all_numbers => Problem::NoHeader,
+        1 => Problem::NoSeparator,
+        _ => return Ok(()),
+    };
+    Err(Fault::new(line.whole_place(), problem))
+}
+
+fn refuse_duplicates(sources: &[Option<Source>], line: &Line<'_>) -> Result<(), Fault> {
+    for (later, source) in sources.iter().enumerate() {
+        let Some(Source { column, .. }) = source else { continue };
+        let same = |other: &Option<Source>| other.as_ref().is_some_and(|other| collide(other.column, column));
+        if let Some(first) = sources[..later].iter().position(same) {
+            let problem = Problem::DuplicateColumn {
+                quantity: column.name.into(),
+                first: first + 1,
+                first_name: line.text(first).into(),
+            };
+            return Err(Fault::new(line.place(later).with_name(line.text(later)), problem));
+        }
+    }
+    Ok(())
+}
+
+/// True when two columns state one quantity; the rival measured groups are told apart later, as whole groups.
+fn collide(one: &Column, other: &Column) -> bool {
+    one.group == other.group && one.places.range().any(|place| other.places.range().contains(&place))
+}
+
+/// Which groups a file has, and which of their columns.
+struct Present<'a>(&'a [Option<Source>]);
+
+impl Present<'_> {
+    fn any(&self, group: Group) -> bool {
+        self.0.iter().flatten().any(|source| source.column.group == group)
+    }
+
+    fn fills(&self, group: Group, place: usize) -> bool {
+        let fills = |column: &Column| column.group == group && column.places.range().contains(&place);
+        self.0.iter().flatten().any(|source| fills(source.column))
+    }
+
+    /// Usual names of the columns of a group that are not there.
+    fn missing(&self, group: Group) -> Vec<String> {
+        let columns = COLUMNS.iter().filter(|column| column.group == group && column.is_usual_name());
+        columns.filter(|column| !self.fills(group, column.places.first)).map(Column::usual_name).collect()
+    }
+
+    fn complete_or_absent(&self, group: Group, beginning: &'static str) -> Result<bool, Problem> {
+        let missing = self.missing(group);
+        match self.any(group) {
+            true if !missing.is_empty() => Err(Problem::IncompleteGroup { group: beginning, names: missing }),
+            present => Ok(present),
+        }
+    }
+}
+
+fn plan(sources: Vec<Option<Source>>, names: Vec<String>) -> Result<Plan, Problem> {
+    let present = Present(&sources);
+    let measurand = measurand(&present)?;
+    let groups = [Group::Pose, Group::Wrench].into_iter().chain(measured_groups(measurand).iter().copied());
+    let missing: Vec<String> = groups.flat_map(|group| present.missing(group)).collect();
+    if !missing.is_empty() {
+        return Err(Problem::MissingColumns { names: missing });
+    }
+    let columns = optional_columns(&present)?;
+    if columns.reference && measurand == Measurand::AbsolutePose {
+        return Err(Problem::ReferenceOfAbsolutePose);
+    }
+    let has_pose = present.fills(Group::Number, super::columns::POSE_ID);
+    Ok(Plan { sources, names, measurand, columns, has_pose })
+}
+
+fn optional_columns(present: &Present<'_>) -> Result<Columns, Problem> {
+    use super::columns::{APPROACH, DELTA_T, ELAPSED};
+    Ok(Columns {
+        reference: present.complete_or_absent(Group::Reference, "ref_")?,
+        sigma: present.complete_or_absent(Group::Sigma, "sigma_")?,
+        approach: present.fills(Group::Covariate, APPROACH),
+        delta_t: present.fills(Group::Covariate, DELTA_T),
+        elapsed: present.fills(Group::Covariate, ELAPSED),
+    })
+}
+
+fn measurand(present: &Present<'_>) -> Result<Measurand, Problem> {
+    let euler = present.any(Group::Euler);
+    let vector = present.any(Group::RotationVector);
+    let deflection = present.any(Group::Deflection) || euler || vector;
+    match (deflection, present.any(Group::Absolute)) {
+        (true, true) => Err(Problem::TwoModes),
+        (false, false) => Err(Problem::NothingMeasured),
+        (false, true) => Ok(Measurand::AbsolutePose),
+        (true, false) if euler && vector => Err(Problem::TwoRotations),
+        (true, false) if vector => Ok(Measurand::DeflectionRotationVector),
+        (true, false) => Ok(Measurand::DeflectionEuler),
+    }
+}
+
+/// The groups that hold the six measured values.
+pub(crate) fn measured_groups(measurand: Measurand) -> &'static [Group] {
+    match measurand {
+        Measurand::DeflectionEuler => &[Group::Deflection, Group::Euler],
+        Measurand::DeflectionRotationVector => &[Group::Deflection, Group::RotationVector],
+        Measurand::AbsolutePose => &[Group::Absolute],
+    }
+}

@@ -1,0 +1,46 @@
+//! The files of the bench: reading with exact messages, writing whole or not at all.
+//!
+//! | file | read | write |
+//! |---|---|---|
+//! | `measurements.csv` | [`read_measurements`] | [`write_measurements`] |
+//! | `hexapod.toml` | [`read_hexapod`] | [`hexapod_to_toml`], [`write_hexapod`] |
+//! | any other | [`content_hash`] | [`atomic_write`] |
+//!
+//! A file is checked completely before anyone sees it: what a reader returns is finite, in SI units, and of the
+//! right shape. What cannot be read is a [`FileError`] with place, value, rule and next step; what was read but
+//! should be looked at is a [`Warning`]. `docs/bad-input.md` lists the messages.
+
+mod atomic;
+mod column_name;
+mod columns;
+mod digest;
+mod duplicates;
+mod error;
+mod header;
+mod line;
+mod lines;
+mod nearest;
+mod next_step;
+mod number;
+mod place;
+mod problem;
+mod read_hexapod;
+mod read_measurements;
+mod row;
+mod toml_value;
+mod units;
+mod warning;
+mod write_hexapod;
+mod write_measurements;
+
+pub use atomic::atomic_write;
+pub use digest::content_hash;
+pub use error::FileError;
+pub use place::Place;
+pub use problem::Problem;
+pub use read_hexapod::{parse_hexapod, read_hexapod};
+pub use read_measurements::{Reading, read_measurements, read_measurements_from};
+pub use units::{Kind, UNITS, Unit, unit_named};
+pub use warning::{Notice, Warning};
+pub use write_hexapod::{hexapod_to_toml, write_hexapod};
+pub use write_measurements::{measurements_to_csv, write_measurements};

@@ -1,0 +1,142 @@
+//! What the user does about a problem.
+
+use super::{Kind, Problem};
+
+impl Problem {
+    /// What to do next, one sentence.
+    pub fn next_step(&self) -> String {
+        self.fixed_step().map_or_else(|| self.particular_step(), str::to_owned)
+    }
+
+    fn fixed_step(&self) -> Option<&'static str> {
+        self.step_for_file().or_else(|| self.step_for_table()).or_else(|| self.step_for_hexapod())
+    }
+
+    fn step_for_file(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::NoSuchFile => "Check the spelling and the folder.",
+            Self::Folder => "Name a file inside the folder.",
+            Self::Read(_) => "Check that the file may be read and is not in use by another program.",
+            Self::Write(_) => "Check the free space and that the folder exists and may be written to.",
+            Self::Empty => "Export the measurements again; the first line names the columns.",
+            Self::Utf16 | Self::NotUtf8 { .. } => {
+                "Save the file as UTF-8 (in a spreadsheet: \"CSV UTF-8\"); um may be written for µm."
+            }
+            Self::NulByte { .. } => "Export the file again as plain text (UTF-8).",
+            Self::LineTooLong { .. } => {
+                "Check that this is a table of text with one row per line, not a binary file."
+            }
+            Self::FileTooLong { .. } => "Check the name; a hexapod.toml has some thousand bytes.",
+            Self::CarriageReturnLines => "Save the file with line feed or carriage return + line feed ends.",
+            _ => return None,
+        })
+    }
+
+    fn step_for_table(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::NoRows => "Add one line per reading below the header.",
+            Self::NoHeader => "Add a first line with the column names, for example pose,repeat,a_mm,b_mm,...",
+            Self::NoSeparator => "Separate the columns with commas (semicolons and tabs are understood too).",
+            Self::NamelessColumn => "Name the column, or remove it; note_1 is a name that is always ignored.",
+            Self::NothingMeasured => {
+                "Add da_um, db_um, dc_um, dalpha_urad, dbeta_urad, dgamma_urad, or measured_a_mm ... measured_gamma_deg."
+            }
+            Self::TwoModes => "Split the table into two files, one for each kind of measurement.",
+            Self::TwoRotations => "Keep one of the two sets of rotation columns.",
+            Self::ReferenceOfAbsolutePose => {
+                "Remove the ref_ columns and give the reference state rows of its own."
+            }
+            Self::CellCount { .. } => {
+                "Compare the row with the header; a decimal comma or a comma in a note splits one cell into two."
+            }
+            Self::Truncated { .. } => "Copy or export the file again, or remove the unfinished line.",
+            Self::OpenQuote => "Close the quotation mark, and keep each row on one line.",
+            Self::MixedDecimals { .. } => {
+                "Write all numbers with a decimal point and without thousands separators."
+            }
+            _ => return self.step_for_cell(),
+        })
+    }
+
+    fn step_for_cell(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::EmptyCell => "Fill in the number, or remove the whole row if the reading failed.",
+            Self::NotANumber => "Write a number such as -12.5 or 3e-6; units belong in the column name.",
+            Self::NotFinite => "Remove the reading, or put in the number that was measured.",
+            Self::TooLarge => "Correct the exponent.",
+            Self::DecimalComma => {
+                "Write a decimal point, or export with semicolons between the columns and commas in the numbers."
+            }
+            Self::NotWhole => "Number the poses and repeats 1, 2, 3, ...; put names into a column note_pose.",
+            Self::Approach => {
+                "Write 1 where the load was approached from below and -1 where it was exceeded first."
+            }
+            Self::Sigma => "Give the standard deviation of the reading, or remove all sigma_ columns.",
+            Self::AngleTooLarge { .. } => "Check the unit in the column name, for example deg, mrad or urad.",
+            _ => return None,
+        })
+    }
+
+    fn step_for_hexapod(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::Toml(_) => "Correct the line; docs/file-formats.md shows a complete file.",
+            Self::DuplicateKey { .. } => "Keep one of the two keys.",
+            Self::WrongType { .. } | Self::Count { .. } => {
+                "Correct the value; docs/file-formats.md shows a complete file."
+            }
+            Self::NotPositive { .. } => "Give the positive value, or remove the key if it is not known.",
+            Self::CoincidingJoints { .. } => {
+                "Correct the copied line; legs may meet only if all six joints of this side meet in three pairs."
+            }
+            Self::NoLegLength { .. } => {
+                "Give both joints in their frames at the zero pose, where the two frames coincide."
+            }
+            Self::MachineSize { .. } => "Check the unit in the name of the key.",
+            Self::Stroke => "Exchange the two limits, or check their units.",
+            Self::Bracket => "Write pairs such as [[1, 2], [3, 4], [5, 6]].",
+            _ => return None,
+        })
+    }
+
+    fn particular_step(&self) -> String {
+        match self {
+            Self::NoUnit { quantity, kind } => named_with_unit(quantity, *kind),
+            Self::UnknownUnit { quantity, kind, .. } | Self::WrongKindOfUnit { quantity, kind, .. } => {
+                named_with_unit(quantity, *kind)
+            }
+            Self::MisspeltColumn { suggestion } => {
+                format!("Write {suggestion}, or begin the name with x_ to have the column ignored.")
+            }
+            Self::DuplicateColumn { first_name, .. } => {
+                format!("Keep this column or {first_name}; begin the other name with x_ to have it ignored.")
+            }
+            Self::MissingColumns { names } => missing_columns(names),
+            Self::IncompleteGroup { group, names } => {
+                format!("Add {}, or remove all {group} columns.", names.join(", "))
+            }
+            Self::Format { expected } => format!("Write format = \"{expected}\" as the first line."),
+            Self::UnknownKey { suggestion: Some(name), .. } => format!("Write {name}."),
+            Self::UnknownKey { known, .. } => format!("Remove it; known here: {}.", known.join(", ")),
+            Self::MissingKey { key } => format!("Add {key}."),
+            _ => String::from("Correct the file; docs/file-formats.md shows a complete one."),
+        }
+    }
+}
+
+fn named_with_unit(quantity: &str, kind: Kind) -> String {
+    match kind.units().nth(1).or_else(|| kind.units().next()) {
+        Some(usual) => {
+            format!("Write {quantity}_{}; units of {}: {}.", usual.name, kind.name(), kind.unit_names())
+        }
+        None => format!("Write {quantity} without a unit."),
+    }
+}
+
+fn missing_columns(names: &[String]) -> String {
+    let is_load = |name: &String| name.starts_with('f') || name.starts_with('m') && !name.starts_with("me");
+    if names.iter().all(is_load) {
+        "Add them; write zeros where no such force or moment acts.".into()
+    } else {
+        "Add them with a unit in the name, for example a_mm or a [mm].".into()
+    }
+}

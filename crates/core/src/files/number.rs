@@ -1,0 +1,80 @@
+//! Numbers in cells.
+
+use super::Problem;
+
+/// A number and whether it was written with a decimal comma.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Parsed {
+    pub(crate) value: f64,
+    pub(crate) comma: bool,
+}
+
+/// A finite number. A decimal comma is read as a point; the caller knows whether the file may have them.
+pub(crate) fn parse_number(text: &str) -> Result<Parsed, Problem> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(Parsed { value, comma: false }),
+        Ok(_) if text.bytes().any(|byte| byte.is_ascii_digit()) => Err(Problem::TooLarge),
+        Ok(_) => Err(Problem::NotFinite),
+        Err(_) if text.is_empty() => Err(Problem::EmptyCell),
+        Err(_) => with_comma(text),
+    }
+}
+
+fn with_comma(text: &str) -> Result<Parsed, Problem> {
+    let single = text.matches(',').count() == 1 && !text.contains('.');
+    match text.replace(',', ".").parse::<f64>() {
+        Ok(value) if single && value.is_finite() => Ok(Parsed { value, comma: true }),
+        _ => Err(Problem::NotANumber),
+    }
+}
+
+/// Which decimal signs a file has used so far; a file must keep to one.
+#[derive(Debug, Default)]
+pub(crate) struct Decimals {
+    comma_line: Option<u64>,
+    point_line: Option<u64>,
+}
+
+impl Decimals {
+    /// Notes the sign of one number.
+    pub(crate) fn note(&mut self, text: &str, parsed: Parsed, line: u64) -> Result<(), Problem> {
+        let other_line = if parsed.comma {
+            self.comma_line.get_or_insert(line);
+            self.point_line
+        } else if text.contains('.') {
+            self.point_line.get_or_insert(line);
+            self.comma_line
+        } else {
+            None
+        };
+        other_line.map_or(Ok(()), |other_line| Err(Problem::MixedDecimals { other_line }))
+    }
+
+    /// True when numbers were written with commas.
+    pub(crate) fn has_comma(&self) -> bool {
+        self.comma_line.is_some()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_to_the_last_bit() {
+        for value in [0.1, -1e-300, 5e-324, f64::MAX, -0.0, 123_456.789] {
+            assert_eq!(parse_number(&value.to_string()).unwrap().value.to_bits(), f64::to_bits(value));
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_has_its_own_reason() {
+        assert!(matches!(parse_number("nan"), Err(Problem::NotFinite)));
+        assert!(matches!(parse_number("-Infinity"), Err(Problem::NotFinite)));
+        assert!(matches!(parse_number("1e400"), Err(Problem::TooLarge)));
+        assert!(matches!(parse_number(""), Err(Problem::EmptyCell)));
+        assert!(matches!(parse_number("1,234.5"), Err(Problem::NotANumber)));
+        assert!(matches!(parse_number("12 N"), Err(Problem::NotANumber)));
+        assert_eq!(parse_number("-1,5e-3").unwrap(), Parsed { value: -1.5e-3, comma: true });
+    }
+}

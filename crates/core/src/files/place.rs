@@ -1,0 +1,71 @@
+//! Where in a file something is.
+
+use std::fmt;
+use std::ops::Range;
+
+/// Where in a file: as much as is known, all of it counted from 1 except the bytes.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Place {
+    /// Line, the first is 1, header and comments included.
+    pub line: Option<u64>,
+    /// Column: the number of the cell in a CSV file, of the character in a TOML file.
+    pub column: Option<usize>,
+    /// Name of the CSV column, or the TOML key, as the file spells it.
+    pub name: Option<String>,
+    /// The offending text, as the file spells it (long text is shortened).
+    pub value: Option<String>,
+    /// Byte offsets of the offending text in the file, for a caret.
+    pub span: Option<Range<usize>>,
+}
+
+/// Longest value quoted in a message, in characters.
+const SHOWN_CHARACTERS: usize = 40;
+
+impl Place {
+    /// The whole file.
+    pub fn file() -> Self {
+        Self::default()
+    }
+
+    /// A line.
+    pub fn line(line: u64, span: Range<usize>) -> Self {
+        Self { line: Some(line), span: Some(span), ..Self::default() }
+    }
+
+    /// The same place with the offending text.
+    #[must_use]
+    pub fn with_value(self, value: &str) -> Self {
+        Self { value: Some(shortened(value)), ..self }
+    }
+
+    /// The same place with the name of the column or key.
+    #[must_use]
+    pub fn with_name(self, name: &str) -> Self {
+        Self { name: Some(shortened(name)), ..self }
+    }
+}
+
+/// `line 3, column 9 (fz_N)`; nothing for the whole file.
+impl fmt::Display for Place {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(line) = self.line {
+            write!(out, "line {line}")?;
+        }
+        if let Some(column) = self.column {
+            write!(out, ", column {column}")?;
+        }
+        match &self.name {
+            Some(name) if self.line.is_some() => write!(out, " ({name})"),
+            Some(name) => out.write_str(name),
+            None => Ok(()),
+        }
+    }
+}
+
+fn shortened(text: &str) -> String {
+    let text = text.trim().replace(char::is_control, "\u{fffd}");
+    match text.char_indices().nth(SHOWN_CHARACTERS) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text,
+    }
+}

@@ -1,0 +1,218 @@
+//! Reading `hexapod.toml`.
+
+use super::error::Fault;
+use super::lines::utf8_text;
+use super::toml_value::{Item, Key, Section, place_of};
+use super::{FileError, Kind, Place, Problem};
+use crate::{Hexapod, Metrology, Vector3};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use toml::de::DeTable;
+
+/// The format this program reads and writes.
+pub(crate) const FORMAT: &str = "hexapod/1";
+
+const MAX_FILE_BYTES: usize = 1 << 20;
+
+/// Joints nearer than this are one point, m.
+const SAME_POINT_M: f64 = 1e-9;
+
+/// Smallest and largest distance between two joints of one side, m.
+const MACHINE_SIZE_M: [f64; 2] = [1e-3, 1e3];
+
+const TOP: &[Key] = &[
+    Key::plain("format"),
+    Key::plain("name"),
+    Key::plain("geometry"),
+    Key::plain("metrology"),
+    Key::plain("legs"),
+    Key::plain("base"),
+    Key::plain("payload"),
+];
+const GEOMETRY: &[Key] = &[
+    Key::with_unit("base_joints", Kind::Length, "mm"),
+    Key::with_unit("platform_joints", Kind::Length, "mm"),
+];
+const METROLOGY: &[Key] = &[
+    Key::with_unit("sigma_translation", Kind::Length, "um"),
+    Key::with_unit("sigma_rotation", Kind::Angle, "urad"),
+];
+const LEGS: &[Key] = &[
+    Key::with_unit("nominal_stiffness", Kind::Stiffness, "N_per_um"),
+    Key::with_unit("min_length", Kind::Length, "mm"),
+    Key::with_unit("max_length", Kind::Length, "mm"),
+    Key::plain("brackets"),
+];
+const BASE: &[Key] = &[Key::with_unit("mounting_plane_z", Kind::Length, "mm")];
+const PAYLOAD: &[Key] = &[Key::with_unit("center_of_gravity", Kind::Length, "mm")];
+
+/// Reads `hexapod.toml`; `docs/file-formats.md` defines the keys.
+///
+/// # Errors
+/// The first thing that is wrong, with line, column, value and next step: an unknown key, a missing joint, a number
+/// that is not finite, joints at one point, a standard deviation of zero.
+///
+/// # Example
+/// ```no_run
+/// let hexapod = hexbench_core::files::read_hexapod("hexapod.toml".as_ref())?;
+/// println!("{}", hexapod.name);
+/// # Ok::<(), hexbench_core::files::FileError>(())
+/// ```
+pub fn read_hexapod(path: &Path) -> Result<Hexapod, FileError> {
+    read_file(path).and_then(|bytes| hexapod_of(utf8_text(&bytes)?)).map_err(|fault| fault.in_file(path))
+}
+
+/// The same from text; `name` stands for the file in messages.
+///
+/// # Errors
+/// As [`read_hexapod`].
+pub fn parse_hexapod(text: &str, name: &str) -> Result<Hexapod, FileError> {
+    hexapod_of(text).map_err(|fault| fault.in_file(Path::new(name)))
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > MAX_FILE_BYTES {
+        return Err(Fault::new(Place::file(), Problem::FileTooLong { limit_bytes: MAX_FILE_BYTES }));
+    }
+    Ok(bytes)
+}
+
+fn hexapod_of(text: &str) -> Result<Hexapod, Fault> {
+    let root = DeTable::parse(text).map_err(|wrong| {
+        let place = wrong.span().map_or_else(Place::file, |span| place_of(text, &span));
+        Fault::new(place, Problem::Toml(wrong.message().replace('\n', " ")))
+    })?;
+    // The format first: a file of another format may have other keys.
+    check_format(&Section::peek(text, root.get_ref(), TOP)?)?;
+    let top = Section::open(text, "", root.get_ref(), TOP)?;
+    let name = top.get("name").map(Item::string).transpose()?.unwrap_or("hexapod").to_owned();
+    with_sections(name, &top)
+}
+
+fn check_format(top: &Section<'_>) -> Result<(), Fault> {
+    let format = top.require("format")?;
+    match format.string()? {
+        FORMAT => Ok(()),
+        _ => Err(format.fault(Problem::Format { expected: FORMAT })),
+    }
+}
+
+fn with_sections(name: String, top: &Section<'_>) -> Result<Hexapod, Fault> {
+    let geometry = top.section("geometry", "[geometry]", GEOMETRY)?;
+    let metrology = top.section("metrology", "[metrology]", METROLOGY)?;
+    let legs = top.section("legs", "[legs]", LEGS)?;
+    let base = top.section("base", "[base]", BASE)?;
+    let payload = top.section("payload", "[payload]", PAYLOAD)?;
+    let [base_joints, platform_joints] = all_joints(&geometry)?;
+    Ok(Hexapod {
+        name,
+        base_joints,
+        platform_joints,
+        metrology: top.get("metrology").map(|_| stated_noise(&metrology)).transpose()?,
+        nominal_stiffness: legs.get("nominal_stiffness").map(stiffness).transpose()?,
+        stroke: stroke(&legs)?,
+        brackets: legs.get("brackets").map(brackets).transpose()?,
+        mounting_plane_z: base.get("mounting_plane_z").map(Item::number).transpose()?,
+        payload_centre: payload.get("center_of_gravity").map(point).transpose()?,
+    })
+}
+
+fn all_joints(geometry: &Section<'_>) -> Result<[[Vector3; 6]; 2], Fault> {
+    let base = geometry.require("base_joints")?;
+    let platform = geometry.require("platform_joints")?;
+    let joints = [joints(base, "base")?, joints(platform, "platform")?];
+    let length = |leg: usize| (joints[0][leg] - joints[1][leg]).norm();
+    match (0..6).find(|leg| length(*leg) < SAME_POINT_M) {
+        Some(leg) => Err(platform.fault(Problem::NoLegLength { leg: leg + 1 })),
+        None => Ok(joints),
+    }
+}
+
+fn joints(item: &Item<'_>, side: &'static str) -> Result<[Vector3; 6], Fault> {
+    let mut joints = [Vector3::zeros(); 6];
+    let rows = item.exactly::<6>("six joints")?;
+    for (joint, row) in joints.iter_mut().zip(&rows) {
+        *joint = point(row)?;
+    }
+    check_meeting(&joints, &rows, side)?;
+    check_size(&joints, item, side)?;
+    Ok(joints)
+}
+
+fn point(item: &Item<'_>) -> Result<Vector3, Fault> {
+    item.numbers::<3>("three coordinates [x, y, z]").map(Vector3::from)
+}
+
+/// Joints may meet only as in a machine with three double joints; anything else is a copied line.
+fn check_meeting(joints: &[Vector3; 6], rows: &[Item<'_>; 6], side: &'static str) -> Result<(), Fault> {
+    let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| [i, j]));
+    let meeting: Vec<_> = pairs.filter(|[i, j]| (joints[*i] - joints[*j]).norm() < SAME_POINT_M).collect();
+    let mut legs: Vec<usize> = meeting.iter().flatten().copied().collect();
+    legs.sort_unstable();
+    if meeting.len() == 3 && legs == [0, 1, 2, 3, 4, 5] {
+        return Ok(());
+    }
+    match meeting.first() {
+        None => Ok(()),
+        Some([i, j]) => Err(rows[*j].fault(Problem::CoincidingJoints { side, first: i + 1, second: j + 1 })),
+    }
+}
+
+fn check_size(joints: &[Vector3; 6], item: &Item<'_>, side: &'static str) -> Result<(), Fault> {
+    let distances = joints.iter().flat_map(|one| joints.iter().map(move |other| (one - other).norm()));
+    let size = distances.fold(0.0, f64::max);
+    if (MACHINE_SIZE_M[0]..=MACHINE_SIZE_M[1]).contains(&size) {
+        return Ok(());
+    }
+    let size_mm = format!("{:.3e}", size * 1e3).parse().unwrap_or(size * 1e3);
+    Err(item.fault(Problem::MachineSize { side, size_mm }))
+}
+
+fn stated_noise(metrology: &Section<'_>) -> Result<Metrology, Fault> {
+    Ok(Metrology {
+        sigma_translation: metrology.require("sigma_translation")?.positive("a standard deviation")?,
+        sigma_rotation: metrology.require("sigma_rotation")?.positive("a standard deviation")?,
+    })
+}
+
+/// One stiffness for all legs, or six.
+fn stiffness(item: &Item<'_>) -> Result<[f64; 6], Fault> {
+    const QUANTITY: &str = "a stiffness";
+    if !item.is_list() {
+        return Ok([item.positive(QUANTITY)?; 6]);
+    }
+    let mut stiffness = [0.0; 6];
+    for (value, item) in stiffness.iter_mut().zip(item.exactly::<6>("one stiffness or six")?) {
+        *value = item.positive(QUANTITY)?;
+    }
+    Ok(stiffness)
+}
+
+fn stroke(legs: &Section<'_>) -> Result<Option<[f64; 2]>, Fault> {
+    if legs.get("min_length").is_none() && legs.get("max_length").is_none() {
+        return Ok(None);
+    }
+    let shortest = legs.require("min_length")?.positive("a leg length")?;
+    let longest = legs.require("max_length")?;
+    match longest.positive("a leg length")? {
+        length if length > shortest => Ok(Some([shortest, length])),
+        _ => Err(longest.fault(Problem::Stroke)),
+    }
+}
+
+/// Pairs counted from 1 in the file, from 0 inside.
+fn brackets(item: &Item<'_>) -> Result<Vec<[usize; 2]>, Fault> {
+    item.list()?.iter().map(bracket).collect()
+}
+
+fn bracket(item: &Item<'_>) -> Result<[usize; 2], Fault> {
+    let pair = item.numbers::<2>("two legs")?;
+    let leg = |number: f64| (1..=6_u8).find(|leg| f64::from(*leg) == number).map(|leg| usize::from(leg) - 1);
+    match pair.map(leg) {
+        [Some(one), Some(other)] if one != other => Ok([one, other]),
+        _ => Err(item.fault(Problem::Bracket)),
+    }
+}

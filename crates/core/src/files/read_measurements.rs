@@ -1,0 +1,221 @@
+//! Reading a table of measurements in one pass.
+
+use super::duplicates::{Fingerprints, drop_copies};
+use super::error::Fault;
+use super::header::{Plan, read_header};
+use super::line::{Line, whole_place};
+use super::lines::{Lines, RawLine};
+use super::number::{Decimals, parse_number};
+use super::row::{defaults, fill, observation};
+use super::warning::Notice;
+use super::{FileError, Place, Problem, Warning};
+use crate::{Dataset, Measurand, Observation};
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::ops::Range;
+use std::path::Path;
+
+/// A table as read, and what the reader noticed on the way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// The measurements, SI.
+    pub dataset: Dataset,
+    /// What was accepted but should be looked at.
+    pub warnings: Vec<Warning>,
+}
+
+const BUFFER_BYTES: usize = 1 << 18;
+
+/// Reads `measurements.csv`, deflections or absolute poses; `docs/file-formats.md` defines the columns.
+///
+/// Units are taken from the column names. Values are SI afterwards. Rows that are copies of earlier rows are dropped
+/// with a warning.
+///
+/// # Errors
+/// The first thing that is wrong, with line, column, value and next step.
+///
+/// # Example
+/// ```no_run
+/// let reading = hexbench_core::files::read_measurements("measurements.csv".as_ref())?;
+/// println!("{} rows", reading.dataset.observations.len());
+/// # Ok::<(), hexbench_core::files::FileError>(())
+/// ```
+pub fn read_measurements(path: &Path) -> Result<Reading, FileError> {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    let read = || read_table(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?), &name);
+    read().map_err(|fault| fault.in_file(path))
+}
+
+/// The same from memory or a stream; `name` stands for the file in messages.
+///
+/// # Errors
+/// As [`read_measurements`].
+pub fn read_measurements_from(input: impl BufRead, name: &str) -> Result<Reading, FileError> {
+    read_table(input, name).map_err(|fault| fault.in_file(Path::new(name)))
+}
+
+fn read_table(input: impl BufRead, name: &str) -> Result<Reading, Fault> {
+    let mut lines = Lines::new(input);
+    let mut table = start(&mut lines)?;
+    let mut cells = Vec::new();
+    while let Some(raw) = lines.next_line()? {
+        if !is_skipped(raw.text, table.separator) {
+            table.add(raw, &mut cells)?;
+        }
+    }
+    table.finish(name)
+}
+
+fn start<R: BufRead>(lines: &mut Lines<R>) -> Result<Table, Fault> {
+    while let Some(raw) = lines.next_line()? {
+        if raw.text.trim().is_empty() || raw.text.starts_with('#') {
+            continue;
+        }
+        if raw.text.contains('\r') {
+            return Err(Fault::new(Place::file(), Problem::CarriageReturnLines));
+        }
+        return Table::new(raw);
+    }
+    Err(Fault::new(Place::file(), Problem::Empty))
+}
+
+/// Blank lines, comments, and the rows of empty cells that spreadsheets leave below a table.
+fn is_skipped(text: &str, separator: u8) -> bool {
+    match text.bytes().next() {
+        None | Some(b'#') => true,
+        Some(byte) if byte == separator || byte.is_ascii_whitespace() => {
+            text.bytes().all(|byte| byte == separator || byte.is_ascii_whitespace())
+        }
+        Some(_) => false,
+    }
+}
+
+/// A table while it is read.
+struct Table {
+    separator: u8,
+    plan: Plan,
+    observations: Vec<Observation>,
+    fingerprints: Fingerprints,
+    decimals: Decimals,
+    no_load_difference: Vec<u64>,
+    warnings: Vec<Warning>,
+}
+
+impl Table {
+    fn new(header: RawLine<'_>) -> Result<Self, Fault> {
+        let (separator, name) = separator_of(header.text);
+        let mut warnings = Vec::new();
+        if let Some(name) = name {
+            warnings.push(Warning::new(whole_place(&header), Notice::Separator(name)));
+        }
+        let plan = read_header(&Line::cut(header, separator, &mut Vec::new())?, &mut warnings)?;
+        Ok(Self {
+            separator,
+            plan,
+            warnings,
+            observations: Vec::new(),
+            fingerprints: Fingerprints::default(),
+            decimals: Decimals::default(),
+            no_load_difference: Vec::new(),
+        })
+    }
+
+    fn add(&mut self, raw: RawLine<'_>, cells: &mut Vec<Range<usize>>) -> Result<(), Fault> {
+        let line = Line::cut(raw, self.separator, cells).map_err(|fault| self.cut_off(&raw, fault))?;
+        self.refuse_other_length(&line, raw.ended)?;
+        let observation = self.observation(&line)?;
+        if self.compares_loads() && observation.wrench == observation.reference {
+            self.no_load_difference.push(raw.number);
+        }
+        self.observations.push(observation);
+        self.fingerprints.note(raw.text);
+        if !raw.ended {
+            self.warnings.push(Warning::new(whole_place(&raw), Notice::NoFinalNewline));
+        }
+        Ok(())
+    }
+
+    /// An open quotation mark in a last line without newline is a file that was cut.
+    fn cut_off(&self, raw: &RawLine<'_>, fault: Fault) -> Fault {
+        if raw.ended {
+            return fault;
+        }
+        let found = 1 + memchr::memchr_iter(self.separator, raw.text.as_bytes()).count();
+        Fault::new(whole_place(raw), Problem::Truncated { found, expected: self.plan.sources.len() })
+    }
+
+    fn refuse_other_length(&self, line: &Line<'_>, ended: bool) -> Result<(), Fault> {
+        let (found, expected) = (line.len(), self.plan.sources.len());
+        let problem = match found {
+            _ if found == expected => return Ok(()),
+            _ if !ended && found < expected => Problem::Truncated { found, expected },
+            _ => Problem::CellCount { found, expected },
+        };
+        Err(Fault::new(line.whole_place(), problem))
+    }
+
+    fn observation(&mut self, line: &Line<'_>) -> Result<Observation, Fault> {
+        let mut row = defaults();
+        for (cell, source) in self.plan.sources.iter().enumerate() {
+            let Some(source) = source else { continue };
+            let text = line.text(cell);
+            let filled = number_of(text, self.separator, &mut self.decimals, line.number())
+                .and_then(|value| fill(&mut row, source, value));
+            filled.map_err(|problem| self.plan.fault(line, cell, problem))?;
+        }
+        let running = i64::try_from(self.observations.len() + 1).unwrap_or(i64::MAX);
+        Ok(observation(&row, &self.plan, line.number(), running))
+    }
+
+    fn compares_loads(&self) -> bool {
+        self.plan.measurand != Measurand::AbsolutePose
+    }
+
+    fn finish(mut self, name: &str) -> Result<Reading, Fault> {
+        if self.observations.is_empty() {
+            return Err(Fault::new(Place::file(), Problem::NoRows));
+        }
+        self.warnings.extend(drop_copies(&mut self.observations, self.fingerprints, self.plan.has_pose));
+        if self.decimals.has_comma() {
+            self.warnings.push(Warning::new(Place::file(), Notice::DecimalComma));
+        }
+        if !self.no_load_difference.is_empty() {
+            let notice = Notice::NoLoadDifference { lines: self.no_load_difference };
+            self.warnings.push(Warning::new(Place::file(), notice));
+        }
+        let Plan { measurand, columns, .. } = self.plan;
+        let dataset =
+            Dataset { source: name.to_owned(), measurand, columns, observations: self.observations };
+        Ok(Reading { dataset, warnings: self.warnings })
+    }
+}
+
+impl Plan {
+    fn fault(&self, line: &Line<'_>, cell: usize, problem: Problem) -> Fault {
+        let place = line.place(cell).with_name(&self.names[cell]).with_value(line.text(cell));
+        Fault::new(place, problem)
+    }
+}
+
+fn number_of(text: &str, separator: u8, decimals: &mut Decimals, line: u64) -> Result<f64, Problem> {
+    let parsed = parse_number(text)?;
+    if separator != b',' {
+        decimals.note(text, parsed, line)?;
+    } else if parsed.comma {
+        return Err(Problem::DecimalComma);
+    }
+    Ok(parsed.value)
+}
+
+/// The most frequent of comma, semicolon and tab in the header, and its name unless it is the comma.
+fn separator_of(header: &str) -> (u8, Option<&'static str>) {
+    let count = |separator: u8| memchr::memchr_iter(separator, header.as_bytes()).count();
+    let (commas, semicolons, tabs) = (count(b','), count(b';'), count(b'\t'));
+    if semicolons > commas && semicolons >= tabs {
+        (b';', Some("semicolons"))
+    } else if tabs > commas {
+        (b'\t', Some("tabs"))
+    } else {
+        (b',', None)
+    }
+}

@@ -1,0 +1,253 @@
+//! TOML values with their places, and keys that carry units.
+
+use super::error::Fault;
+use super::nearest::nearest;
+use super::number::parse_number;
+use super::units::{PLAIN, Unit, unit_named};
+use super::{Kind, Place, Problem};
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+type Value<'t> = Spanned<DeValue<'t>>;
+
+/// A key a section may have, without its unit, and the unit it is usually written in.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Key {
+    pub(crate) name: &'static str,
+    pub(crate) kind: Kind,
+    pub(crate) unit: &'static str,
+}
+
+impl Key {
+    /// A key without unit.
+    pub(crate) const fn plain(name: &'static str) -> Self {
+        Self { name, kind: Kind::Number, unit: "" }
+    }
+
+    /// A key with a unit.
+    pub(crate) const fn with_unit(name: &'static str, kind: Kind, unit: &'static str) -> Self {
+        Self { name, kind, unit }
+    }
+
+    fn usual_name(&self) -> String {
+        if self.unit.is_empty() { self.name.to_owned() } else { format!("{}_{}", self.name, self.unit) }
+    }
+}
+
+/// A table whose keys are all known.
+#[derive(Debug)]
+pub(crate) struct Section<'t> {
+    text: &'t str,
+    title: &'static str,
+    keys: &'static [Key],
+    items: Vec<(&'static Key, Item<'t>)>,
+}
+
+/// A value with the unit its key states.
+#[derive(Debug, Clone)]
+pub(crate) struct Item<'t> {
+    text: &'t str,
+    key: String,
+    unit: &'static Unit,
+    value: &'t Value<'t>,
+}
+
+impl<'t> Section<'t> {
+    /// Reads the keys of a table; an unknown or repeated one is a fault.
+    pub(crate) fn open(
+        text: &'t str,
+        title: &'static str,
+        table: &'t DeTable<'t>,
+        keys: &'static [Key],
+    ) -> Result<Self, Fault> {
+        let mut section = Self { text, title, keys, items: Vec::new() };
+        for (name, value) in in_file_order(table) {
+            section.add(name, value)?;
+        }
+        Ok(section)
+    }
+
+    /// The known keys of a table, whatever else it holds.
+    pub(crate) fn peek(text: &'t str, table: &'t DeTable<'t>, keys: &'static [Key]) -> Result<Self, Fault> {
+        let mut section = Self { text, title: "", keys, items: Vec::new() };
+        for (name, value) in in_file_order(table) {
+            if known_key(name.get_ref(), keys).is_ok() {
+                section.add(name, value)?;
+            }
+        }
+        Ok(section)
+    }
+
+    fn add(&mut self, name: &Spanned<DeString<'t>>, value: &'t Value<'t>) -> Result<(), Fault> {
+        let spelled = name.get_ref().as_ref();
+        let place = || place_of(self.text, &name.span()).with_name(spelled);
+        let (key, unit) = known_key(spelled, self.keys).map_err(|problem| Fault::new(place(), problem))?;
+        if self.items.iter().any(|(other, _)| other.name == key.name) {
+            return Err(Fault::new(place(), Problem::DuplicateKey { quantity: key.name.into() }));
+        }
+        self.items.push((key, Item { text: self.text, key: spelled.to_owned(), unit, value }));
+        Ok(())
+    }
+
+    /// The value of a key that may be absent.
+    pub(crate) fn get(&self, name: &str) -> Option<&Item<'t>> {
+        self.items.iter().find(|(key, _)| key.name == name).map(|(_, item)| item)
+    }
+
+    /// The value of a key that must be there.
+    pub(crate) fn require(&self, name: &str) -> Result<&Item<'t>, Fault> {
+        self.get(name).ok_or_else(|| {
+            let usual = self.keys.iter().find(|key| key.name == name).map(Key::usual_name);
+            let key = usual.unwrap_or_else(|| name.to_owned());
+            let place =
+                if self.title.is_empty() { Place::file() } else { Place::file().with_name(self.title) };
+            Fault::new(place, Problem::MissingKey { key })
+        })
+    }
+
+    /// A table inside this one; absent means empty.
+    pub(crate) fn section(
+        &self,
+        name: &'static str,
+        title: &'static str,
+        keys: &'static [Key],
+    ) -> Result<Section<'t>, Fault> {
+        match self.get(name) {
+            None => Ok(Section { text: self.text, title, keys, items: Vec::new() }),
+            Some(item) => match item.value.get_ref() {
+                DeValue::Table(table) => Section::open(self.text, title, table, keys),
+                _ => Err(item.wrong_type("a table", item.value)),
+            },
+        }
+    }
+}
+
+fn in_file_order<'t>(table: &'t DeTable<'t>) -> Vec<(&'t Spanned<DeString<'t>>, &'t Value<'t>)> {
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(name, _)| name.span().start);
+    entries
+}
+
+/// The key that is meant and its unit.
+fn known_key(spelled: &str, keys: &'static [Key]) -> Result<(&'static Key, &'static Unit), Problem> {
+    if let Some(key) = keys.iter().find(|key| key.name == spelled) {
+        let quantity = key.name.to_owned();
+        return if key.kind == Kind::Number {
+            Ok((key, &PLAIN))
+        } else {
+            Err(Problem::NoUnit { quantity, kind: key.kind })
+        };
+    }
+    let with_unit = |key: &'static Key| Some((key, spelled.strip_prefix(key.name)?.strip_prefix('_')?));
+    match keys.iter().filter(|key| key.kind != Kind::Number).find_map(with_unit) {
+        Some((key, unit)) => Ok((key, unit_of(key, unit)?)),
+        None => Err(unknown_key(spelled, keys)),
+    }
+}
+
+fn unit_of(key: &Key, text: &str) -> Result<&'static Unit, Problem> {
+    let quantity = key.name.to_owned();
+    match unit_named(text, key.kind) {
+        Some(unit) if unit.kind == key.kind => Ok(unit),
+        Some(unit) => Err(Problem::WrongKindOfUnit {
+            unit: unit.name.into(),
+            unit_kind: unit.kind,
+            quantity,
+            kind: key.kind,
+        }),
+        None => Err(Problem::UnknownUnit { unit: text.into(), quantity, kind: key.kind }),
+    }
+}
+
+fn unknown_key(spelled: &str, keys: &[Key]) -> Problem {
+    let known: Vec<String> = keys.iter().map(Key::usual_name).collect();
+    let suggestion = nearest(spelled, known.iter().map(String::as_str)).map(str::to_owned);
+    Problem::UnknownKey { suggestion, known }
+}
+
+impl<'t> Item<'t> {
+    /// A fault at this value.
+    pub(crate) fn fault(&self, problem: Problem) -> Fault {
+        self.fault_at(self.value, problem)
+    }
+
+    fn fault_at(&self, value: &Value<'_>, problem: Problem) -> Fault {
+        let span = value.span();
+        let place = place_of(self.text, &span).with_name(&self.key);
+        let text = self.text.get(span).unwrap_or_default();
+        Fault::new(if text.contains('\n') { place } else { place.with_value(text) }, problem)
+    }
+
+    fn wrong_type(&self, expected: &'static str, value: &Value<'_>) -> Fault {
+        self.fault_at(value, Problem::WrongType { expected, found: value.get_ref().type_str() })
+    }
+
+    /// A string.
+    pub(crate) fn string(&self) -> Result<&str, Fault> {
+        self.value
+            .get_ref()
+            .as_str()
+            .ok_or_else(|| self.wrong_type("a string in quotation marks", self.value))
+    }
+
+    /// A finite number in SI.
+    pub(crate) fn number(&self) -> Result<f64, Fault> {
+        let digits = match self.value.get_ref() {
+            DeValue::Float(float) => float.as_str(),
+            DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str(),
+            _ => return Err(self.wrong_type("a number", self.value)),
+        };
+        let parsed = parse_number(&digits.replace('_', "")).map_err(|problem| self.fault(problem))?;
+        let si = self.unit.to_si(parsed.value);
+        if si.is_finite() { Ok(si) } else { Err(self.fault(Problem::TooLarge)) }
+    }
+
+    /// True for a list, false for a single value.
+    pub(crate) fn is_list(&self) -> bool {
+        self.value.get_ref().is_array()
+    }
+
+    /// The members of a list, each with the key and unit of the list.
+    pub(crate) fn list(&self) -> Result<Vec<Item<'t>>, Fault> {
+        let DeValue::Array(array) = self.value.get_ref() else {
+            return Err(self.wrong_type("a list in square brackets", self.value));
+        };
+        let member = |value| Item { text: self.text, key: self.key.clone(), unit: self.unit, value };
+        Ok(array.iter().map(member).collect())
+    }
+
+    /// Exactly `N` members; `expected` says what they are, for example `six joints`.
+    pub(crate) fn exactly<const N: usize>(&self, expected: &'static str) -> Result<[Item<'t>; N], Fault> {
+        let count = |found: Vec<Item<'t>>| self.fault(Problem::Count { expected, found: found.len() });
+        self.list()?.try_into().map_err(count)
+    }
+
+    /// Exactly `N` numbers in SI.
+    pub(crate) fn numbers<const N: usize>(&self, expected: &'static str) -> Result<[f64; N], Fault> {
+        let mut numbers = [0.0; N];
+        for (number, item) in numbers.iter_mut().zip(self.exactly::<N>(expected)?) {
+            *number = item.number()?;
+        }
+        Ok(numbers)
+    }
+
+    /// A positive number in SI.
+    pub(crate) fn positive(&self, quantity: &'static str) -> Result<f64, Fault> {
+        let number = self.number()?;
+        if number > 0.0 { Ok(number) } else { Err(self.fault(Problem::NotPositive { quantity })) }
+    }
+}
+
+/// Line and character of a byte range.
+pub(crate) fn place_of(text: &str, span: &Range<usize>) -> Place {
+    let before = text.get(..span.start).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = 1 + before.bytes().filter(|byte| *byte == b'\n').count();
+    Place {
+        line: u64::try_from(line).ok(),
+        column: Some(before[line_start..].chars().count() + 1),
+        span: Some(span.clone()),
+        ..Place::file()
+    }
+}

@@ -1,0 +1,88 @@
+//! Writing `hexapod.toml`.
+
+use super::read_hexapod::FORMAT;
+use super::units::{PLAIN, unit_named};
+use super::{FileError, Kind, atomic_write};
+use crate::{Hexapod, Vector3};
+use std::fmt::Write;
+use std::path::Path;
+
+/// The text of `hexapod.toml`, in the units of the format. Reading it gives the same hexapod (within one rounding where
+/// the change of unit leaves no shorter decimal).
+pub fn hexapod_to_toml(hexapod: &Hexapod) -> String {
+    let name = toml::Value::String(hexapod.name.clone());
+    let mut text = format!("format = \"{FORMAT}\"\nname = {name}\n\n[geometry]\n");
+    add_joints(&mut text, "base_joints_mm", &hexapod.base_joints);
+    add_joints(&mut text, "platform_joints_mm", &hexapod.platform_joints);
+    if let Some(metrology) = hexapod.metrology {
+        text.push_str("\n[metrology]\n");
+        add(&mut text, "sigma_translation_um", &in_unit(metrology.sigma_translation, "um", Kind::Length));
+        add(&mut text, "sigma_rotation_urad", &in_unit(metrology.sigma_rotation, "urad", Kind::Angle));
+    }
+    add_legs(&mut text, hexapod);
+    if let Some(z) = hexapod.mounting_plane_z {
+        text.push_str("\n[base]\n");
+        add(&mut text, "mounting_plane_z_mm", &millimetres(z));
+    }
+    if let Some(centre) = hexapod.payload_centre {
+        text.push_str("\n[payload]\n");
+        add(&mut text, "center_of_gravity_mm", &point(&centre));
+    }
+    text
+}
+
+/// Writes `hexapod.toml` whole or not at all.
+///
+/// # Errors
+/// A full disk, or a folder that cannot be written to.
+pub fn write_hexapod(path: &Path, hexapod: &Hexapod) -> Result<(), FileError> {
+    atomic_write(path, |out| out.write_all(hexapod_to_toml(hexapod).as_bytes()))
+        .map_err(|cause| FileError::writing(path, cause))
+}
+
+fn add(text: &mut String, key: &str, value: &str) {
+    // Writing into a String cannot fail.
+    let _ = writeln!(text, "{key} = {value}");
+}
+
+fn add_joints(text: &mut String, key: &str, joints: &[Vector3; 6]) {
+    let rows: String = joints.iter().map(|joint| format!("  {},\n", point(joint))).collect();
+    add(text, key, &format!("[\n{rows}]"));
+}
+
+fn add_legs(text: &mut String, hexapod: &Hexapod) {
+    let Hexapod { nominal_stiffness, stroke, brackets, .. } = hexapod;
+    if nominal_stiffness.is_none() && stroke.is_none() && brackets.is_none() {
+        return;
+    }
+    text.push_str("\n[legs]\n");
+    if let Some(stiffness) = nominal_stiffness {
+        let values = stiffness.map(|value| in_unit(value, "N_per_um", Kind::Stiffness));
+        add(text, "nominal_stiffness_N_per_um", &list(&values));
+    }
+    if let Some([shortest, longest]) = *stroke {
+        add(text, "min_length_mm", &millimetres(shortest));
+        add(text, "max_length_mm", &millimetres(longest));
+    }
+    if let Some(pairs) = brackets {
+        let pairs: Vec<String> = pairs.iter().map(|[i, j]| format!("[{}, {}]", i + 1, j + 1)).collect();
+        add(text, "brackets", &list(&pairs));
+    }
+}
+
+fn point(point: &Vector3) -> String {
+    list(&[millimetres(point.x), millimetres(point.y), millimetres(point.z)])
+}
+
+fn list(values: &[String]) -> String {
+    format!("[{}]", values.join(", "))
+}
+
+fn millimetres(metres: f64) -> String {
+    in_unit(metres, "mm", Kind::Length)
+}
+
+/// `{:?}` keeps a point or exponent in every float, as TOML wants it.
+fn in_unit(si: f64, unit: &str, kind: Kind) -> String {
+    format!("{:?}", unit_named(unit, kind).unwrap_or(&PLAIN).from_si(si))
+}

@@ -1,0 +1,113 @@
+//! Writing a table of measurements in the units of the format.
+
+use super::columns::{
+    APPROACH, COLUMNS, Column, DELTA_T, ELAPSED, Group, MEASURED, PLACES, POSE, POSE_ID, REFERENCE, REPEAT,
+    Row, SIGMA, WRENCH,
+};
+use super::header::measured_groups;
+use super::units::{PLAIN, Unit, unit_named};
+use super::{FileError, atomic_write};
+use crate::{Dataset, Observation};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Writes `measurements.csv` whole or not at all, in the units of the format.
+///
+/// Numbers are the shortest decimals that read back as the same number; where the change of unit leaves none, they
+/// read back within one rounding.
+///
+/// # Errors
+/// A full disk, a folder that cannot be written to, or a dataset that could not be read again (a number that is not
+/// finite, a row without `sigma` in a dataset that has them).
+pub fn write_measurements(path: &Path, dataset: &Dataset) -> Result<(), FileError> {
+    atomic_write(path, |out| measurements_to_csv(out, dataset))
+        .map_err(|cause| FileError::writing(path, cause))
+}
+
+/// The same to any destination.
+///
+/// # Errors
+/// As [`write_measurements`].
+pub fn measurements_to_csv(out: &mut dyn Write, dataset: &Dataset) -> io::Result<()> {
+    let columns: Vec<Written> = COLUMNS.iter().filter_map(|column| Written::of(column, dataset)).collect();
+    let names: Vec<String> = columns.iter().map(|written| written.column.usual_name()).collect();
+    writeln!(out, "{}", names.join(","))?;
+    for observation in &dataset.observations {
+        write_row(out, &columns, &row_of(observation), observation)?;
+    }
+    Ok(())
+}
+
+/// A column with its unit.
+struct Written {
+    column: &'static Column,
+    unit: &'static Unit,
+}
+
+impl Written {
+    fn of(column: &'static Column, dataset: &Dataset) -> Option<Self> {
+        let unit = unit_named(column.usual_unit(), column.kind).unwrap_or(&PLAIN);
+        is_written(column, dataset).then_some(Self { column, unit })
+    }
+}
+
+fn is_written(column: &Column, dataset: &Dataset) -> bool {
+    let has = dataset.columns;
+    match column.group {
+        Group::Number | Group::Pose | Group::Wrench => true,
+        Group::Reference => has.reference,
+        Group::Sigma => has.sigma && column.is_usual_name(),
+        Group::Covariate => match column.places.first {
+            APPROACH => has.approach,
+            DELTA_T => has.delta_t,
+            _ => has.elapsed,
+        },
+        measured => measured_groups(dataset.measurand).contains(&measured),
+    }
+}
+
+fn row_of(observation: &Observation) -> Row {
+    let mut row = [0.0; PLACES];
+    let mut six = |first: usize, values: [f64; 6]| row[first..first + 6].copy_from_slice(&values);
+    six(POSE, observation.pose.to_array());
+    six(WRENCH, observation.wrench.to_array());
+    six(REFERENCE, observation.reference.to_array());
+    six(MEASURED, observation.measured);
+    // A row without sigma in a table with them becomes NaN, which is refused below.
+    six(SIGMA, observation.sigma.unwrap_or([f64::NAN; 6]));
+    row[APPROACH] = observation.approach;
+    row[DELTA_T] = observation.delta_t;
+    row[ELAPSED] = observation.elapsed;
+    row
+}
+
+fn write_row(out: &mut dyn Write, columns: &[Written], row: &Row, source: &Observation) -> io::Result<()> {
+    for (position, Written { column, unit }) in columns.iter().enumerate() {
+        if position > 0 {
+            out.write_all(b",")?;
+        }
+        match column.places.first {
+            POSE_ID => write!(out, "{}", source.pose_id)?,
+            REPEAT => write!(out, "{}", source.repeat)?,
+            place if row[place].is_finite() => write_number(out, unit.from_si(row[place]))?,
+            _ => return Err(not_finite(column, source)),
+        }
+    }
+    out.write_all(b"\n")
+}
+
+fn not_finite(column: &Column, observation: &Observation) -> io::Error {
+    let Observation { pose_id, repeat, .. } = observation;
+    let text = format!("pose {pose_id}, repeat {repeat} has no finite {}", column.name);
+    io::Error::new(io::ErrorKind::InvalidInput, text)
+}
+
+/// Plain decimals in the ordinary range, an exponent beyond it; every digit that is needed and no more.
+fn write_number(out: &mut dyn Write, value: f64) -> io::Result<()> {
+    let size = value.abs();
+    if size == 0.0 || (1e-5..1e15).contains(&size) {
+        write!(out, "{value}")
+    } else {
+        write!(out, "{value:e}")
+    }
+}

@@ -1,0 +1,70 @@
+//! Bad input: every kind has its message, its place and its next step, and `docs/bad-input.md` lists them all.
+
+mod document;
+mod hexapods;
+mod noticed;
+mod samples;
+mod tables;
+
+use hexbench_core::files::{FileError, read_hexapod, read_measurements};
+use std::fs;
+
+/// One bad file and what is expected of the reader.
+pub(crate) struct Case {
+    /// What is wrong, in the words of the documentation.
+    pub(crate) what: &'static str,
+    /// Name of the file: `measurements.csv` or `hexapod.toml`.
+    pub(crate) file: &'static str,
+    /// Its bytes.
+    pub(crate) bytes: Vec<u8>,
+    /// Line and column, zero where none is expected.
+    pub(crate) at: (u64, usize),
+    /// A part of the message.
+    pub(crate) says: &'static str,
+}
+
+/// One bad input in a file of its own name in a folder of its own.
+pub(crate) fn error_of(case: &Case) -> FileError {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(case.file);
+    fs::write(&path, &case.bytes).unwrap();
+    let error =
+        if case.file == "hexapod.toml" { read_hexapod(&path).err() } else { read_measurements(&path).err() };
+    error.unwrap_or_else(|| panic!("{} must be refused", case.what))
+}
+
+/// The message, the place, the caret and the next step are as they should be.
+pub(crate) fn check(case: &Case) {
+    let error = error_of(case);
+    let message = error.message();
+    assert!(message.contains(case.says), "{message}");
+    let (line, column) = (error.place.line.unwrap_or(0), error.place.column.unwrap_or(0));
+    assert_eq!((line, column), case.at, "{message}");
+    assert!(error.next_step().ends_with('.'), "{}", error.next_step());
+    check_caret(case, &error);
+}
+
+/// The span, where there is one, lies on the stated line and holds the stated value.
+fn check_caret(case: &Case, error: &FileError) {
+    let Some(span) = error.place.span.clone() else { return };
+    assert!(span.end <= case.bytes.len() && span.start <= span.end, "{span:?}");
+    let line = 1 + case.bytes[..span.start].iter().filter(|byte| **byte == b'\n').count() as u64;
+    assert_eq!(Some(line), error.place.line);
+    if let Some(value) = error.place.value.as_ref().filter(|value| !value.ends_with("...")) {
+        assert_eq!(case.bytes[span].trim_ascii(), value.as_bytes());
+    }
+}
+
+/// A test for each line, and all of them as a list for the documentation.
+macro_rules! bad_input {
+    ($file:literal; $($name:ident: $what:literal, $bytes:expr => $at:expr, $says:literal;)*) => {
+        $(#[test] fn $name() { crate::check(&$crate::Case {
+            what: $what, file: $file, bytes: $bytes.into(), at: $at, says: $says,
+        }); })*
+
+        pub(crate) fn cases() -> Vec<crate::Case> {
+            vec![$(crate::Case { what: $what, file: $file, bytes: $bytes.into(), at: $at, says: $says }),*]
+        }
+    };
+}
+pub(crate) use bad_input;
