@@ -2,7 +2,7 @@
 
 /// The known name nearest to `word`, when it is near enough to be a slip of the pen: one edit for names of three to
 /// five letters, two for longer ones. Two swapped neighbours count as one edit; case does not count.
-pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.to_lowercase();
     let scored = known.into_iter().map(|name| (edit_distance(&word, &name.to_lowercase()), name));
     let (distance, name) = scored.min_by_key(|(distance, _)| *distance)?;

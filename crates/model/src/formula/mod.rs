@@ -160,7 +160,8 @@ static CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("tau", std:
 
 /// True when a name already means something in every formula.
 pub fn is_reserved(name: &str) -> bool {
-    let names = UNARY.iter().map(|f| f.0).chain(BINARY.iter().map(|f| f.0)).chain(CONSTANTS.iter().map(|c| c.0));
+    let names =
+        UNARY.iter().map(|f| f.0).chain(BINARY.iter().map(|f| f.0)).chain(CONSTANTS.iter().map(|c| c.0));
     names.into_iter().any(|known| known == name)
 }
 
@@ -191,7 +192,11 @@ mod tests {
             ("cos(pi)", -1.0),
         ];
         for (text, expected) in table {
-            assert!((value(text) - expected).abs() < 4.0 * f64::EPSILON * expected.abs(), "{text}: {}", value(text));
+            assert!(
+                (value(text) - expected).abs() < 4.0 * f64::EPSILON * expected.abs(),
+                "{text}: {}",
+                value(text)
+            );
         }
     }
 

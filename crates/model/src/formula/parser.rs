@@ -2,7 +2,7 @@
 
 use super::token::{Token, TokenKind};
 use super::{BINARY, CONSTANTS, FormulaError, MOST_DEPTH, Step, UNARY};
-use crate::names::nearest;
+use hexbench_core::files::nearest;
 
 /// Steps of a whole formula.
 pub(super) fn parse(tokens: &[Token], length: usize, variables: &[&str]) -> Result<Vec<Step>, FormulaError> {
@@ -118,7 +118,10 @@ impl Parser<'_> {
         FormulaError::Unknown { name: name.to_owned(), suggestion: nearest(name, known).map(str::to_owned) }
     }
 
-    fn deeper(&mut self, inner: impl FnOnce(&mut Self) -> Result<(), FormulaError>) -> Result<(), FormulaError> {
+    fn deeper(
+        &mut self,
+        inner: impl FnOnce(&mut Self) -> Result<(), FormulaError>,
+    ) -> Result<(), FormulaError> {
         self.depth += 1;
         if self.depth > MOST_DEPTH {
             return Err(FormulaError::TooDeep);

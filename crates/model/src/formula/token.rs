@@ -31,7 +31,9 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, FormulaError> {
         }
         let length = match first {
             '0'..='9' | '.' => number_length(&characters[at..]),
-            'a'..='z' | 'A'..='Z' | '_' => count(&characters[at..], |c| c.is_ascii_alphanumeric() || c == '_'),
+            'a'..='z' | 'A'..='Z' | '_' => {
+                count(&characters[at..], |c| c.is_ascii_alphanumeric() || c == '_')
+            }
             _ => 1,
         };
         let word: String = characters[at..at + length].iter().collect();

@@ -86,7 +86,10 @@ impl File {
         }
         check_id(&file.id)?;
         if file.title.trim().is_empty() {
-            return Err(UserTermError::rule("title", "must say in a few words what the effect is".to_owned()));
+            return Err(UserTermError::rule(
+                "title",
+                "must say in a few words what the effect is".to_owned(),
+            ));
         }
         Ok(file)
     }
@@ -117,11 +120,20 @@ impl FileParameter {
         check_name(&self.name)?;
         let per_si = per_si(&self.unit, self.per_si)?;
         if !(self.scale.is_finite() && self.scale > 0.0) {
-            let why = format!("the scale of `{}` must be a positive number: its physically sensible size", self.name);
+            let why = format!(
+                "the scale of `{}` must be a positive number: its physically sensible size",
+                self.name
+            );
             return Err(UserTermError::rule("scale", why));
         }
         let (name, unit) = (intern::text(&self.name), intern::text(&self.unit));
-        Ok(Parameter { name, unit, per_si, scale: Scale::Fixed(self.scale / per_si), positive: self.positive })
+        Ok(Parameter {
+            name,
+            unit,
+            per_si,
+            scale: Scale::Fixed(self.scale / per_si),
+            positive: self.positive,
+        })
     }
 }
 
@@ -161,7 +173,8 @@ fn check_id(id: &str) -> Result<(), UserTermError> {
     let letters = id.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
     let shape = id.starts_with(|c: char| c.is_ascii_lowercase()) && !id.ends_with('-') && !id.contains("--");
     if !(letters && shape && id.len() <= LONGEST_NAME) {
-        let why = format!("`{id}` must be kebab-case: lower-case letters, digits and single hyphens, at most 40");
+        let why =
+            format!("`{id}` must be kebab-case: lower-case letters, digits and single hyphens, at most 40");
         return Err(UserTermError::rule("id", why));
     }
     let taken = terms::catalogue().iter().any(|t| t.info().id == id) || ["outside", "none"].contains(&id);

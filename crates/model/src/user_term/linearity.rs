@@ -22,7 +22,8 @@ pub(super) fn check(
 ) -> Result<(), UserTermError> {
     let (mut evaluated, mut last) = (0, String::new());
     for trial in 0..TRIALS {
-        let mut values: Vec<f64> = variables.iter().enumerate().map(|(k, name)| sample(name, trial, k)).collect();
+        let mut values: Vec<f64> =
+            variables.iter().enumerate().map(|(k, name)| sample(name, trial, k)).collect();
         let first = values.len();
         values.extend(parameters.iter().map(|_| 0.0));
         values.extend(shapes.get(trial % shapes.len().max(1)));
@@ -71,7 +72,8 @@ fn departure<'a>(
         }
         units.push(unit);
     }
-    let sizes: Vec<f64> = parameters.iter().enumerate().map(|(k, p)| scale(p) * random(trial, 100 + k)).collect();
+    let sizes: Vec<f64> =
+        parameters.iter().enumerate().map(|(k, p)| scale(p) * random(trial, 100 + k)).collect();
     let (together, zero) = (at(&sizes), at(&vec![0.0; n]));
     let apart: f64 = units.iter().zip(&sizes).map(|(u, s)| u * s).sum();
     let largest: f64 = units.iter().zip(&sizes).map(|(u, s)| (u * s).abs()).sum();
@@ -98,7 +100,13 @@ fn sample(name: &str, trial: usize, k: usize) -> f64 {
         "q" => 0.2 + 0.05 * r,
         "q_home" => 0.2,
         "leg" => 1.0 + (trial % 6) as f64,
-        "approach" => if trial % 2 == 0 { 1.0 } else { -1.0 },
+        "approach" => {
+            if trial % 2 == 0 {
+                1.0
+            } else {
+                -1.0
+            }
+        }
         "elapsed" => 150.0 + 140.0 * r,
         "a" | "b" | "c" => 0.03 * r,
         "alpha" | "beta" | "gamma" => 0.2 * r,

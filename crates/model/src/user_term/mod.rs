@@ -151,7 +151,9 @@ pub fn parse(text: &str) -> Result<Arc<dyn Term>, UserTermError> {
 pub fn read(path: &Path) -> Result<Arc<dyn Term>, UserTermError> {
     let unreadable = |e: std::io::Error| UserTermError::Read(e.to_string());
     if std::fs::metadata(path).map_err(unreadable)?.len() > LARGEST_FILE {
-        return Err(UserTermError::Read("a term file is a few lines; this one is larger than 1 MiB".to_owned()));
+        return Err(UserTermError::Read(
+            "a term file is a few lines; this one is larger than 1 MiB".to_owned(),
+        ));
     }
     parse(&std::fs::read_to_string(path).map_err(unreadable)?)
 }
@@ -168,10 +170,14 @@ fn effect(file: &File, parameters: &[Parameter], shape: Option<&Shape>) -> Resul
     match (&file.elongation, &file.wrench) {
         (Some(text), None) => Ok(Effect::Elongation(formula("elongation", text, &of_leg)?)),
         (None, Some(texts)) => {
-            let parse = |t: &String| (!t.trim().is_empty()).then(|| formula("wrench", t, &of_reading)).transpose();
+            let parse =
+                |t: &String| (!t.trim().is_empty()).then(|| formula("wrench", t, &of_reading)).transpose();
             Ok(Effect::Wrench(texts.iter().map(parse).collect::<Result<_, _>>()?))
         }
-        _ => Err(UserTermError::rule("elongation", "exactly one of elongation and wrench is needed".to_owned())),
+        _ => Err(UserTermError::rule(
+            "elongation",
+            "exactly one of elongation and wrench is needed".to_owned(),
+        )),
     }
 }
 
@@ -225,7 +231,8 @@ fn check_linearity(effect: &Effect, parameters: &[Parameter], grid: &[f64]) -> R
 fn info(file: &File, parameters: &[Parameter], shape: Option<Shape>, effect: &Effect) -> TermInfo {
     let equation = effect.formulas().iter().map(|f| f.text()).collect::<Vec<_>>().join("; ");
     let covariates = [("elapsed", Need::Elapsed), ("approach", Need::Approach), ("delta_T", Need::DeltaT)];
-    let needs: Vec<Need> = covariates.into_iter().filter(|(name, _)| effect.uses(name)).map(|c| c.1).collect();
+    let needs: Vec<Need> =
+        covariates.into_iter().filter(|(name, _)| effect.uses(name)).map(|c| c.1).collect();
     TermInfo {
         id: intern::text(&file.id),
         title: intern::text(&file.title),
@@ -250,7 +257,14 @@ impl UserTerm {
         formula.value(&values)
     }
 
-    fn elongation(&self, formula: &Formula, machine: &Machine, at: &Condition, k: usize, shape: f64) -> Vector6 {
+    fn elongation(
+        &self,
+        formula: &Formula,
+        machine: &Machine,
+        at: &Condition,
+        k: usize,
+        shape: f64,
+    ) -> Vector6 {
         let reading = variables::of_reading(at);
         Vector6::from_fn(|leg, _| {
             let mut values = variables::of_leg(machine, at, leg).to_vec();

@@ -7,8 +7,8 @@ use crate::machine::Machine;
 pub(super) const OF_LEG: [&str; 9] = ["f", "f0", "df", "q", "q_home", "nx", "ny", "nz", "leg"];
 /// Variables of the reading.
 pub(super) const OF_READING: [&str; 21] = [
-    "approach", "delta_T", "elapsed", "a", "b", "c", "alpha", "beta", "gamma", "fx", "fy", "fz", "mx", "my", "mz",
-    "ref_fx", "ref_fy", "ref_fz", "ref_mx", "ref_my", "ref_mz",
+    "approach", "delta_T", "elapsed", "a", "b", "c", "alpha", "beta", "gamma", "fx", "fy", "fz", "mx", "my",
+    "mz", "ref_fx", "ref_fy", "ref_fz", "ref_mx", "ref_my", "ref_mz",
 ];
 
 /// Values of [`OF_READING`] at a condition, SI.
