@@ -1,3 +1,26 @@
-//! The hexbench command.
+//! The `hexbench` command.
+//!
+//! Data go to standard output, progress and messages to standard error. Exit codes are those of [`failure::Exit`].
 
-fn main() {}
+mod args;
+mod commands;
+mod csv;
+mod failure;
+mod input;
+mod output;
+mod page;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    let cli = args::Cli::parse();
+    match commands::run(&cli) {
+        Ok(()) => failure::Exit::Done.into(),
+        Err(failure) => {
+            failure.report(cli.colour);
+            failure.exit().into()
+        }
+    }
+}

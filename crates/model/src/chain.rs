@@ -121,6 +121,11 @@ impl Link {
         self.reader * self.motion
     }
 
+    /// Whitened reading per elongation of each leg (6x6).
+    pub fn by_elongation(&self) -> Matrix6 {
+        self.reader * self.legs_to_motion
+    }
+
     /// Derivative of the whitened reading by the compliance of one leg.
     pub fn by_spring(&self, leg: usize) -> Vector6 {
         self.reader * (self.legs_to_motion.column(leg) * (self.force[leg] - self.relief[leg]))

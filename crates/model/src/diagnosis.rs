@@ -2,9 +2,6 @@
 
 use std::sync::Arc;
 
-use nalgebra::DMatrix;
-use rayon::prelude::*;
-
 use crate::campaign::Campaign;
 use crate::candidates::{
     Candidate, Collector, Kind, Untestable, orthonormal, project, sizes, target, why_untestable,
@@ -14,7 +11,7 @@ use crate::evidence::Gram;
 use crate::fit::{Fit, Wanted, fit, fit_baseline};
 use crate::linearization::{Linearization, Point};
 use crate::pattern::{Course, Pattern, Variable, spread};
-use crate::period::period_grid;
+use crate::scan::Scanner;
 use crate::search::{Search, Set, Sets};
 use crate::term::{Natural, Term};
 
@@ -168,184 +165,10 @@ fn patterns(
     let mut all: Vec<(Pattern, f64)> =
         simple.iter().map(|p| (*p, (0.3 * WEIGHT_OF_PATTERNS / 7.0).ln())).collect();
     if scan {
-        all.extend(scanner.patterns(campaign));
+        let weighed = |(p, trials)| (p, (0.1 * WEIGHT_OF_PATTERNS / trials as f64).ln());
+        all.extend(scanner.patterns(campaign).into_iter().map(weighed));
     }
     all
-}
-
-/// Fits one candidate at a time beside springs, frames and the terms found so far.
-struct Scanner<'a> {
-    lin: &'a Linearization,
-    basis: DMatrix<f64>,
-    residual: nalgebra::DVector<f64>,
-}
-
-impl<'a> Scanner<'a> {
-    /// `point`: the terms at which `lin` was made; `except`: one that is to be explained anew.
-    fn new(lin: &'a Linearization, point: &Point, except: Option<&str>) -> Self {
-        let mut columns = vec![lin.common_block()];
-        columns.extend(
-            point
-                .active
-                .iter()
-                .filter(|a| Some(a.id()) != except)
-                .map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)),
-        );
-        let width = columns.iter().map(DMatrix::ncols).sum();
-        let mut all = DMatrix::zeros(lin.equations(), width);
-        let mut at = 0;
-        for c in &columns {
-            all.columns_mut(at, c.ncols()).copy_from(c);
-            at += c.ncols();
-        }
-        let basis = orthonormal(&all);
-        let mut residual = target(lin, point);
-        project(&basis, &mut residual);
-        Self { lin, basis, residual }
-    }
-
-    /// Drop of chi-square when these columns are added.
-    fn drop(&self, mut columns: DMatrix<f64>) -> f64 {
-        let overlap = self.basis.tr_mul(&columns);
-        columns.gemm(-1.0, &self.basis, &overlap, 1.0);
-        let b = columns.tr_mul(&self.residual);
-        let mut g = columns.tr_mul(&columns);
-        let ridge = 1e-9 * g.diagonal().max().max(1e-300);
-        for k in 0..g.nrows() {
-            g[(k, k)] += ridge;
-        }
-        g.cholesky().map_or(0.0, |c| b.dot(&c.solve(&b)))
-    }
-
-    fn best_shape(&self, term: &dyn Term, grid: &[f64]) -> f64 {
-        self.peak(grid, |s| self.drop(self.lin.term_block(term, false, s)))
-    }
-
-    /// Grid point with the largest drop, refined between its neighbours.
-    fn peak(&self, grid: &[f64], drop: impl Fn(f64) -> f64 + Sync) -> f64 {
-        let scores: Vec<f64> = grid.par_iter().map(|&s| drop(s)).collect();
-        let Some(best) = (0..grid.len()).max_by(|&a, &b| scores[a].total_cmp(&scores[b])) else { return 1.0 };
-        let (low, high) = (grid[best.saturating_sub(1)], grid[(best + 1).min(grid.len() - 1)]);
-        golden(low, high, drop)
-    }
-
-    /// The best pattern of every family.
-    fn patterns(&self, campaign: &Campaign) -> Vec<(Pattern, f64)> {
-        let mut found = Vec::new();
-        for family in families(campaign, self.lin) {
-            let drops: Vec<f64> = family.par_iter().map(|p| self.pattern_drop(p)).collect();
-            if let Some(best) = (0..family.len()).max_by(|&a, &b| drops[a].total_cmp(&drops[b])) {
-                found.push((
-                    self.refined(family[best]),
-                    (0.1 * WEIGHT_OF_PATTERNS / family.len() as f64).ln(),
-                ));
-            }
-        }
-        found
-    }
-
-    /// A periodic pattern with its period between the grid points on both sides.
-    fn refined(&self, pattern: Pattern) -> Pattern {
-        let Course::Periodic(period) = pattern.course else { return pattern };
-        let grid = period_grid(&self.lin.conditions);
-        let place = grid.iter().position(|&p| p <= period).unwrap_or(0);
-        let (longer, shorter) = (grid[place.saturating_sub(1)], grid[(place + 1).min(grid.len() - 1)]);
-        let with = |p: f64| Pattern { course: Course::Periodic(p), ..pattern };
-        with(golden(shorter, longer, |p| self.pattern_drop(&with(p))))
-    }
-
-    fn pattern_drop(&self, pattern: &Pattern) -> f64 {
-        let range = spread(pattern.variable, &self.lin.conditions);
-        if range <= 0.0 {
-            return 0.0;
-        }
-        self.drop(self.lin.block_of(pattern.width(), |c, out| pattern.actions(c, range, out)))
-    }
-}
-
-/// Maximum of a function with one peak between two points, by golden sections.
-fn golden(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
-    const RATIO: f64 = 0.618_033_988_749_894_9;
-    let (mut low, mut high) = (a.min(b), a.max(b));
-    for _ in 0..20 {
-        let (x, y) = (high - RATIO * (high - low), low + RATIO * (high - low));
-        if f(x) > f(y) {
-            high = y;
-        } else {
-            low = x;
-        }
-    }
-    f64::midpoint(low, high)
-}
-
-/// Families of patterns that no term of the catalogue describes.
-fn families(campaign: &Campaign, lin: &Linearization) -> Vec<Vec<Pattern>> {
-    let legs: Vec<Option<usize>> = std::iter::once(None).chain((0..6).map(Some)).collect();
-    let periods = period_grid(&lin.conditions);
-    let wave = |leg: Option<usize>| {
-        periods
-            .iter()
-            .map(|&p| Pattern {
-                leg,
-                variable: Variable::LegLength,
-                course: Course::Periodic(p),
-                compliance: true,
-            })
-            .collect::<Vec<_>>()
-    };
-    let mut families = vec![wave(None), legs[1..].iter().flat_map(|&l| wave(l)).collect()];
-    let mut linear = Vec::new();
-    let mut steps = Vec::new();
-    for (variable, present) in [
-        (Variable::Elapsed, campaign.columns.elapsed),
-        (Variable::DeltaT, campaign.columns.delta_t),
-        (Variable::LegLength, true),
-        (Variable::LegForce, true),
-    ] {
-        if !present || spread(variable, &lin.conditions) <= 0.0 {
-            continue;
-        }
-        for &leg in &legs {
-            for compliance in [false, true] {
-                for course in [Course::Linear, Course::Quadratic] {
-                    let known = leg.is_none()
-                        && compliance
-                        && variable == Variable::LegLength
-                        && course == Course::Linear
-                        || leg.is_none()
-                            && !compliance
-                            && variable == Variable::DeltaT
-                            && course == Course::Linear;
-                    if !known {
-                        linear.push(Pattern { leg, variable, course, compliance });
-                    }
-                }
-                if variable != Variable::LegForce {
-                    let pattern = |at| Pattern { leg, variable, course: Course::Step(at), compliance };
-                    steps.extend(thresholds(variable, lin).into_iter().map(pattern));
-                }
-            }
-        }
-    }
-    families.push(linear);
-    families.push(steps);
-    families.retain(|f| !f.is_empty());
-    families
-}
-
-/// Values between which a step may lie: the deciles of the variable.
-fn thresholds(variable: Variable, lin: &Linearization) -> Vec<f64> {
-    let mut values: Vec<f64> =
-        lin.conditions.iter().flat_map(|c| (0..6).map(move |leg| variable.value(c, leg))).collect();
-    values.sort_by(f64::total_cmp);
-    values.dedup();
-    let n = values.len();
-    if n < 4 {
-        return Vec::new();
-    }
-    let mut cuts: Vec<f64> = (1..20).map(|k| values[(k * n / 20).min(n - 2)]).collect();
-    cuts.dedup();
-    cuts
 }
 
 /// The terms of a set as a fit wants them.

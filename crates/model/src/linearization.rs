@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Vector3, Vector6};
+use hexbench_core::{Matrix6, Vector3, Vector6};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -158,6 +158,11 @@ impl Linearization {
             out.fixed_rows_mut::<6>(6 * i).copy_from(&self.links[i].prediction());
         }
         out
+    }
+
+    /// Whitened reading per leg elongation, at every condition.
+    pub fn elongation_readers(&self) -> Vec<Matrix6> {
+        self.links.iter().map(Link::by_elongation).collect()
     }
 
     /// Columns of springs and frames.

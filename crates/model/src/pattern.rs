@@ -97,24 +97,28 @@ impl Pattern {
 
     /// Actions at a condition; `range` is the spread of the variable, so that sizes are elongations or compliances.
     pub fn actions(&self, at: &Condition, range: f64, out: &mut Vec<Action>) {
-        for wave in 0..self.width() {
-            out.push(Action::Elongation(Vector6::from_fn(|leg, _| {
-                if self.leg.is_some_and(|l| l != leg) {
-                    return 0.0;
-                }
-                let carrier = if self.compliance { at.force_change()[leg] } else { 1.0 };
-                carrier * self.course_value(self.variable.value(at, leg), range, wave)
-            })));
-        }
+        out.extend(self.elongations(at, range).into_iter().take(self.width()).map(Action::Elongation));
     }
 
-    fn course_value(&self, v: f64, range: f64, wave: usize) -> f64 {
+    /// Leg elongations per unit of each parameter; the second is used by waves only.
+    pub fn elongations(&self, at: &Condition, range: f64) -> [Vector6; 2] {
+        let mut e = [Vector6::zeros(); 2];
+        let force = at.force_change();
+        for leg in self.leg.map_or(0..6, |l| l..l + 1) {
+            let carrier = if self.compliance { force[leg] } else { 1.0 };
+            let [first, second] = self.course_values(self.variable.value(at, leg), range);
+            e[0][leg] = carrier * first;
+            e[1][leg] = carrier * second;
+        }
+        e
+    }
+
+    fn course_values(&self, v: f64, range: f64) -> [f64; 2] {
         match self.course {
-            Course::Linear => v / range,
-            Course::Quadratic => (v / range).powi(2),
-            Course::Step(at) => f64::from(v > at),
-            Course::Periodic(period) if wave == 0 => (TAU * v / period).sin(),
-            Course::Periodic(period) => (TAU * v / period).cos(),
+            Course::Linear => [v / range, 0.0],
+            Course::Quadratic => [(v / range).powi(2), 0.0],
+            Course::Step(at) => [f64::from(v > at), 0.0],
+            Course::Periodic(period) => (TAU * v / period).sin_cos().into(),
         }
     }
 

@@ -1,0 +1,34 @@
+//! Arguments common to all subcommands, and the list of subcommands.
+
+use clap::{Parser, Subcommand};
+
+use crate::commands::{compare, compensate, completions, demo, diagnose, fit, predict, terms};
+use crate::output::Colour;
+
+/// Compare a hexapod's stiffness model with measurements, name the physical effect it lacks, add it, and watch the
+/// error on held-out poses fall to the noise.
+#[derive(Debug, Parser)]
+#[command(name = "hexbench", version, max_term_width = 80, arg_required_else_help = true)]
+#[command(after_help = "Exit codes: 0 done, 1 a requested check failed, 2 usage, 3 bad input, \
+                        4 not determined by the data, 5 input or output")]
+pub(crate) struct Cli {
+    /// When to colour; NO_COLOR is respected by `auto`
+    #[arg(long = "color", alias = "colour", value_name = "WHEN", default_value = "auto", global = true)]
+    pub(crate) colour: Colour,
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// The subcommands: one file in `commands/` and one line here and in [`crate::commands::run`] each.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Demo(demo::Arguments),
+    Compare(compare::Arguments),
+    Diagnose(diagnose::Arguments),
+    Fit(fit::Arguments),
+    Predict(predict::Arguments),
+    Compensate(compensate::Arguments),
+    Terms(terms::Arguments),
+    Completions(completions::Arguments),
+}

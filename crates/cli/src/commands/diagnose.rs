@@ -1,0 +1,102 @@
+//! `hexbench diagnose HEXAPOD DATA`.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::{Args, ValueEnum};
+use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
+use hexbench_model::error::ModelError;
+use hexbench_model::term::Term;
+use hexbench_model::verdict::Verdict;
+
+use crate::failure::Failure;
+use crate::input;
+use crate::output::Screen;
+use crate::page::{self, Subject};
+
+/// Name the physical effect the model lacks, and show the held-out error fall
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The machine: hexapod.toml
+    hexapod: PathBuf,
+    /// Deflections or absolute poses: measurements.csv
+    data: PathBuf,
+    /// Readings kept out of every fit; without it poses are left out in turn
+    #[arg(long, value_name = "FILE")]
+    holdout: Option<PathBuf>,
+    /// A term file of your own (term/1) that competes with the catalogue; may be given several times
+    #[arg(long = "term", value_name = "FILE")]
+    terms: Vec<PathBuf>,
+    /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// All detectable sizes, and what every warning means
+    #[arg(long, short)]
+    verbose: bool,
+    /// Exit with 1 unless this is the verdict
+    #[arg(long, value_name = "VERDICT", num_args = 0..=1, require_equals = true, default_missing_value = "adequate")]
+    check: Option<Expected>,
+}
+
+/// Verdict expected by `--check`.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Expected {
+    Adequate,
+    Named,
+    Ambiguous,
+    Outside,
+}
+
+impl Expected {
+    fn verdict(self) -> Verdict {
+        match self {
+            Self::Adequate => Verdict::Adequate,
+            Self::Named => Verdict::Named,
+            Self::Ambiguous => Verdict::Ambiguous,
+            Self::Outside => Verdict::Outside,
+        }
+    }
+}
+
+/// Diagnose and tell.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let hexapod = input::hexapod(&arguments.hexapod)?;
+    let data = input::measurements(&arguments.data)?;
+    let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
+    let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
+    let study = study(&hexapod, &data, holdout.as_ref(), &terms)?;
+    let to_stdout = arguments.json.as_deref() == Some(Path::new("-"));
+    if let Some(path) = &arguments.json {
+        screen.write_to(path, &json(&study.diagnosis)?)?;
+    }
+    if !to_stdout {
+        let subject = Subject { hexapod: &hexapod, data: &data, holdout: holdout.as_ref(), study: &study };
+        screen.write(&page::diagnosis(&subject, arguments.verbose, screen.ink()))?;
+    }
+    check(arguments.check, &study.diagnosis)
+}
+
+/// Diagnose with these terms.
+pub(crate) fn study(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    holdout: Option<&Dataset>,
+    terms: &[Arc<dyn Term>],
+) -> Result<Study, Failure> {
+    let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
+    diagnose(hexapod, data, holdout, terms).map_err(failed)
+}
+
+fn json(diagnosis: &Diagnosis) -> Result<String, Failure> {
+    let cause = |e: serde_json::Error| Failure::Output { path: "diagnosis.json".into(), cause: e.into() };
+    Ok(serde_json::to_string_pretty(diagnosis).map_err(cause)? + "\n")
+}
+
+fn check(expected: Option<Expected>, diagnosis: &Diagnosis) -> Result<(), Failure> {
+    let Some(expected) = expected.map(Expected::verdict).filter(|e| *e != diagnosis.verdict) else {
+        return Ok(());
+    };
+    let word = |v: Verdict| page::word(v);
+    Err(Failure::Check(format!("the verdict is {}, not {}", word(diagnosis.verdict), word(expected))))
+}

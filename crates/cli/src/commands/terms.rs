@@ -1,0 +1,43 @@
+//! `hexbench terms [TERM]`: the catalogue, from the code.
+
+use std::sync::Arc;
+
+use clap::Args;
+use hexbench_core::files::nearest;
+use hexbench_model::error::ModelError;
+use hexbench_model::term::{Term, TermInfo};
+use hexbench_model::terms::catalogue;
+
+use crate::failure::Failure;
+use crate::output::Screen;
+use crate::page::{effect, effects};
+
+/// List the effects of the catalogue, or explain one
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Explain this effect: physics, equation, parameters, needs, source
+    term: Option<String>,
+    /// Print the whole catalogue as Markdown
+    #[arg(long, conflicts_with = "term")]
+    markdown: bool,
+}
+
+/// Print the list, one effect, or the Markdown page.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let terms = catalogue();
+    let text = match &arguments.term {
+        Some(id) => effect::text(find(&terms, id)?, screen.ink()),
+        None if arguments.markdown => effects::markdown(&terms),
+        None => effects::list(&terms, screen.ink()),
+    };
+    screen.write(&text)
+}
+
+fn find<'a>(terms: &'a [Arc<dyn Term>], id: &str) -> Result<&'a TermInfo, Failure> {
+    let known = || terms.iter().map(|t| t.info());
+    known().find(|info| info.id == id).ok_or_else(|| {
+        let nearest = nearest(id, known().map(|info| info.id)).map(str::to_owned);
+        let cause = ModelError::UnknownTerm { id: id.to_owned(), nearest };
+        Failure::Model { cause, data: String::new() }
+    })
+}

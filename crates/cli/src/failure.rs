@@ -1,0 +1,167 @@
+//! What can go wrong, the exit code of each, and how it is told.
+
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use hexbench_core::files::FileError;
+use hexbench_model::error::ModelError;
+use hexbench_model::model_file::ModelFileError;
+use hexbench_model::predict::PredictError;
+use hexbench_model::user_term::UserTermError;
+use thiserror::Error;
+
+use crate::output::{Colour, report};
+
+/// Exit codes of the command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Exit {
+    /// Done.
+    Done = 0,
+    /// A requested check failed.
+    CheckFailed = 1,
+    /// Wrong usage; argument parsing exits with the same number.
+    Usage = 2,
+    /// The input says something that cannot be used.
+    BadInput = 3,
+    /// The data do not determine what was asked.
+    NotDetermined = 4,
+    /// A file cannot be read or written.
+    InputOutput = 5,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+/// Why a subcommand stopped.
+#[derive(Debug, Error)]
+pub(crate) enum Failure {
+    /// A file that cannot be used.
+    #[error("{0}")]
+    File(#[from] FileError),
+    /// The model cannot be computed.
+    #[error("{cause}")]
+    Model {
+        /// What stands in the way.
+        cause: ModelError,
+        /// The data it was about.
+        data: String,
+    },
+    /// A model file that is none.
+    #[error("{}: {cause}", path.display())]
+    ModelFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: ModelFileError,
+    },
+    /// A term file that is none.
+    #[error("{}: {cause}", path.display())]
+    UserTerm {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: UserTermError,
+    },
+    /// A row that cannot be predicted.
+    #[error("{}: {cause}", path.display())]
+    Row {
+        /// The file of the row.
+        path: PathBuf,
+        /// The row, and why.
+        cause: PredictError,
+    },
+    /// A file that cannot be read.
+    #[error("{}: cannot be read: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
+    /// Wrong usage that only shows after parsing.
+    #[error("{message}")]
+    Usage {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        next: String,
+    },
+    /// The answer is not the expected one.
+    #[error("check failed: {0}")]
+    Check(String),
+    /// Output that cannot be written.
+    #[error("{}: cannot be written: {cause}", path.display())]
+    Output {
+        /// Where to.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
+}
+
+impl Failure {
+    /// The exit code.
+    pub(crate) fn exit(&self) -> Exit {
+        match self {
+            Self::File(error) if error.is_input_output() => Exit::InputOutput,
+            Self::File(_) => Exit::BadInput,
+            Self::Model { cause, .. } => exit_of(cause),
+            Self::Usage { .. } => Exit::Usage,
+            Self::Check(_) => Exit::CheckFailed,
+            Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
+            Self::UserTerm { cause: UserTermError::Read(_), .. } => Exit::InputOutput,
+            Self::ModelFile { .. } | Self::UserTerm { .. } | Self::Row { .. } => Exit::BadInput,
+        }
+    }
+
+    /// What to do about it, one sentence.
+    pub(crate) fn next_step(&self) -> Option<String> {
+        match self {
+            Self::File(error) => Some(error.next_step()),
+            Self::Model { cause, data } => Some(next_step_of(cause, data)),
+            Self::Usage { next, .. } => Some(next.clone()),
+            Self::Check(_) => None,
+            Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
+            Self::UserTerm { .. } => Some("`hexbench fit --help` names the format term/1; correct the file.".into()),
+            Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
+            Self::Unreadable { .. } => Some("Check the name of the file.".into()),
+            Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
+        }
+    }
+
+    /// Tell it on standard error.
+    pub(crate) fn report(&self, colour: Colour) {
+        report::print(self, colour);
+    }
+}
+
+fn exit_of(cause: &ModelError) -> Exit {
+    match cause {
+        ModelError::UnknownTerm { .. } => Exit::Usage,
+        ModelError::NotFinite { .. } | ModelError::Mismatch(_) => Exit::BadInput,
+        _ => Exit::NotDetermined,
+    }
+}
+
+fn next_step_of(cause: &ModelError, data: &str) -> String {
+    match cause {
+        ModelError::SingularPose { .. } => {
+            format!("Check the joints in the hexapod file and this pose in {data} (mm, deg).")
+        }
+        ModelError::TooFewEquations { .. } => {
+            format!("Add readings at other poses and loads to {data}; one pose gives six numbers.")
+        }
+        ModelError::NoLoad => format!("Check fx_N ... mz_Nm and ref_fx_N ... ref_mz_Nm in {data}."),
+        ModelError::UnknownTerm { .. } => "`hexbench terms` lists the effects.".into(),
+        ModelError::Untestable { .. } => "`hexbench terms TERM` says what the data must contain.".into(),
+        ModelError::NotDetermined { .. } => "Measure other poses or load directions, or leave the term out.".into(),
+        ModelError::NotFinite { .. } | ModelError::NotConverged { .. } => {
+            format!("Look in {data} for readings of the wrong size or unit.")
+        }
+        ModelError::Mismatch(_) => "Give a holdout file of the same kind as the data.".into(),
+    }
+}

@@ -1,0 +1,101 @@
+//! The offending line of a file, shortened around the offending text.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::ops::Range;
+use std::path::Path;
+
+use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
+
+/// Characters shown before and after the offending text.
+const CONTEXT: usize = 28;
+/// Bytes read before and after it to find the ends of the line.
+const REACH: usize = 4096;
+
+/// One shortened line; it answers every question for a span with that line.
+#[derive(Debug)]
+pub(crate) struct Excerpt {
+    name: String,
+    text: String,
+    /// Offending text within `text`.
+    span: Range<usize>,
+    /// Line of the file, from 0.
+    line: usize,
+}
+
+impl Excerpt {
+    /// The line that holds the bytes `span` of a file; `None` when it can no longer be read.
+    pub(crate) fn of(path: &Path, span: &Range<usize>, line: u64) -> Option<Self> {
+        let from = span.start.saturating_sub(REACH);
+        let mut file = File::open(path).ok()?;
+        file.seek(SeekFrom::Start(from as u64)).ok()?;
+        let mut bytes = Vec::new();
+        file.take((span.end - from + REACH) as u64).read_to_end(&mut bytes).ok()?;
+        let inside = span.start - from..(span.end - from).min(bytes.len());
+        let before = line_tail(&String::from_utf8_lossy(bytes.get(..inside.start)?));
+        let middle = first_line(&String::from_utf8_lossy(bytes.get(inside.clone())?));
+        let after = line_head(&String::from_utf8_lossy(&bytes[inside.end..]));
+        let span = before.len()..before.len() + middle.len();
+        let name = path.display().to_string();
+        Some(Self { name, text: format!("{before}{middle}{after}"), span, line: usize::try_from(line).ok()?.saturating_sub(1) })
+    }
+
+    /// Where the offending text is in the excerpt.
+    pub(crate) fn span(&self) -> SourceSpan {
+        (self.span.start, self.span.len()).into()
+    }
+}
+
+impl SourceCode for Excerpt {
+    fn read_span<'a>(
+        &'a self,
+        _: &SourceSpan,
+        _: usize,
+        _: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let all: SourceSpan = (0, self.text.len()).into();
+        let name = self.name.clone();
+        Ok(Box::new(MietteSpanContents::new_named(name, self.text.as_bytes(), all, self.line, 0, 1)))
+    }
+}
+
+/// End of the last line, shortened.
+fn line_tail(text: &str) -> String {
+    let line = text.rsplit('\n').next().unwrap_or_default();
+    let count = line.chars().count();
+    if count <= CONTEXT {
+        return line.to_owned();
+    }
+    format!("...{}", line.chars().skip(count - CONTEXT).collect::<String>())
+}
+
+/// Beginning of the first line, shortened.
+fn line_head(text: &str) -> String {
+    let line = first_line(text);
+    if line.chars().count() <= CONTEXT {
+        return line;
+    }
+    format!("{}...", line.chars().take(CONTEXT).collect::<String>())
+}
+
+fn first_line(text: &str) -> String {
+    text.split(['\r', '\n']).next().unwrap_or_default().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_line_is_cut_on_both_sides_of_the_offence() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("long.csv");
+        let text = format!("head\n{}abc,{}\n", "1,".repeat(100), "2,".repeat(100));
+        std::fs::write(&path, &text).unwrap();
+        let start = text.find("abc").unwrap();
+        let excerpt = Excerpt::of(&path, &(start..start + 3), 2).unwrap();
+        assert_eq!(&excerpt.text[excerpt.span.clone()], "abc");
+        assert!(excerpt.text.starts_with("...1,") && excerpt.text.ends_with("2,..."));
+        assert_eq!(excerpt.line, 1);
+    }
+}

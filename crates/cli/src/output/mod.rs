@@ -1,0 +1,14 @@
+//! Output: where it goes, colour, pages of 80 columns, numbers for people, error reports.
+
+mod colour;
+mod excerpt;
+pub(crate) mod number;
+mod paper;
+pub(crate) mod report;
+mod screen;
+mod table;
+
+pub(crate) use colour::{Colour, Ink};
+pub(crate) use paper::{Paper, WIDTH};
+pub(crate) use screen::Screen;
+pub(crate) use table::Table;

@@ -1,0 +1,77 @@
+//! Numbers with the digits that mean something.
+
+/// A value and its standard uncertainty, both to the second significant digit of the uncertainty (GUM 7.2.6).
+pub(crate) fn with_uncertainty(value: f64, std: f64) -> [String; 2] {
+    if !(std.is_finite() && std > 0.0) {
+        return [significant(value, 4), significant(std, 2)];
+    }
+    [rounded(value, std), rounded(std, std)]
+}
+
+/// A value to the second significant digit of `std`.
+pub(crate) fn rounded(value: f64, std: f64) -> String {
+    let decimals = 1 - exponent(std);
+    fixed(value, decimals)
+}
+
+/// A value to a number of significant digits, without an exponent.
+pub(crate) fn significant(value: f64, digits: i32) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    fixed(value, digits - 1 - exponent(value))
+}
+
+/// Probability in words that never claim certainty.
+pub(crate) fn percent(p: f64) -> String {
+    match p {
+        p if p > 0.995 => "> 99 %".into(),
+        p if p < 0.005 => "< 1 %".into(),
+        p => format!("{:.0} %", 100.0 * p),
+    }
+}
+
+/// Power of ten of the first digit, after rounding to two digits (9.96 counts as 10).
+fn exponent(value: f64) -> i32 {
+    let text = format!("{:.1e}", value.abs());
+    text.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0)
+}
+
+/// Fixed decimals; negative ones round to tens, hundreds, ... Minus zero is zero.
+fn fixed(value: f64, decimals: i32) -> String {
+    let text = if decimals >= 0 {
+        format!("{value:.0$}", decimals.unsigned_abs() as usize)
+    } else {
+        let step = 10f64.powi(-decimals);
+        format!("{:.0}", (value / step).round() * step)
+    };
+    let zero = text.starts_with('-') && text.chars().all(|c| matches!(c, '-' | '0' | '.'));
+    if zero { text[1..].to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uncertainty_has_two_digits_and_the_value_ends_with_it() {
+        assert_eq!(with_uncertainty(3.724_369, 0.021_4), ["3.724", "0.021"]);
+        assert_eq!(with_uncertainty(-0.004, 0.99), ["0.00", "0.99"]);
+        assert_eq!(with_uncertainty(1234.5, 123.0), ["1230", "120"]);
+        assert_eq!(with_uncertainty(5.0, 0.0999), ["5.00", "0.10"]);
+    }
+
+    #[test]
+    fn no_probability_is_called_certain() {
+        assert_eq!(percent(1.0), "> 99 %");
+        assert_eq!(percent(0.0), "< 1 %");
+        assert_eq!(percent(0.42), "42 %");
+    }
+
+    #[test]
+    fn significant_digits_need_no_exponent() {
+        assert_eq!(significant(0.001_234, 2), "0.0012");
+        assert_eq!(significant(98_765.0, 2), "99000");
+        assert_eq!(significant(0.0, 2), "0");
+    }
+}
