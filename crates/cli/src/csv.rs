@@ -23,20 +23,22 @@ impl Unit {
         }
     }
 
-    /// Decimals are a tenth of a nanometre or nanoradian, and finer for poses, so that rounding never shows.
+    /// Decimals reach a picometre and a picoradian, so that rounding never shows.
     fn write(self, text: &mut String, si: f64) {
-        let result = match self {
-            Self::Mm => write!(text, "{:.9}", si * 1e3),
-            Self::Deg => write!(text, "{:.11}", si.to_degrees()),
-            Self::Um | Self::Urad => write!(text, "{:.6}", si * 1e6),
+        let number = match self {
+            Self::Mm => format!("{:.9}", si * 1e3),
+            Self::Deg => format!("{:.11}", si.to_degrees()),
+            Self::Um | Self::Urad => format!("{:.6}", si * 1e6),
         };
-        debug_assert!(result.is_ok(), "writing into a String cannot fail");
+        let minus_zero = number.starts_with('-') && number.chars().all(|c| matches!(c, '-' | '0' | '.'));
+        text.push_str(&number[usize::from(minus_zero)..]);
     }
 }
 
 /// Header of the columns that say what a row is about.
 pub(crate) fn conditions_header(rows: &Dataset) -> String {
-    let mut text = "pose,repeat,a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm".to_owned();
+    let mut text =
+        "pose,repeat,a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm".to_owned();
     let c = rows.columns;
     let optional = [
         (c.reference, ",ref_fx_N,ref_fy_N,ref_fz_N,ref_mx_Nm,ref_my_Nm,ref_mz_Nm"),

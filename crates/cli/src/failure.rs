@@ -126,7 +126,9 @@ impl Failure {
             Self::Usage { next, .. } => Some(next.clone()),
             Self::Check(_) => None,
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
-            Self::UserTerm { .. } => Some("`hexbench fit --help` names the format term/1; correct the file.".into()),
+            Self::UserTerm { .. } => {
+                Some("`hexbench fit --help` names the format term/1; correct the file.".into())
+            }
             Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
@@ -158,7 +160,9 @@ fn next_step_of(cause: &ModelError, data: &str) -> String {
         ModelError::NoLoad => format!("Check fx_N ... mz_Nm and ref_fx_N ... ref_mz_Nm in {data}."),
         ModelError::UnknownTerm { .. } => "`hexbench terms` lists the effects.".into(),
         ModelError::Untestable { .. } => "`hexbench terms TERM` says what the data must contain.".into(),
-        ModelError::NotDetermined { .. } => "Measure other poses or load directions, or leave the term out.".into(),
+        ModelError::NotDetermined { .. } => {
+            "Measure other poses or load directions, or leave the term out.".into()
+        }
         ModelError::NotFinite { .. } | ModelError::NotConverged { .. } => {
             format!("Look in {data} for readings of the wrong size or unit.")
         }

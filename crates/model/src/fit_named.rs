@@ -60,7 +60,9 @@ pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, Mo
 fn refuse_twice(added: &[Arc<dyn Term>]) -> Result<(), ModelError> {
     let id = |t: &Arc<dyn Term>| t.info().id;
     let twice = (1..added.len()).find(|&i| added[..i].iter().any(|t| id(t) == id(&added[i])));
-    twice.map_or(Ok(()), |i| Err(ModelError::Mismatch(format!("the term `{}` is asked for twice", id(&added[i])))))
+    twice.map_or(Ok(()), |i| {
+        Err(ModelError::Mismatch(format!("the term `{}` is asked for twice", id(&added[i]))))
+    })
 }
 
 /// The fit with one more term, from the most promising of its shapes.
@@ -112,10 +114,10 @@ fn promising_shapes(term: &dyn Term, fitted: &Fit, lin: &Linearization) -> Vec<f
 /// [`ModelError::NotDetermined`] with the combinations in words.
 pub fn refuse_undetermined(fitted: &Fit) -> Result<(), ModelError> {
     let open = estimates(fitted).not_determined;
-    let legs: Vec<String> = open.iter().filter(|n| n.ends_with(".stiffness") && n.starts_with("leg-")).cloned().collect();
-    let silent = |(a, offset): &(&Active, &usize)| {
-        (0..a.values.len()).all(|k| !fitted.is_determined(**offset + k))
-    };
+    let legs: Vec<String> =
+        open.iter().filter(|n| n.ends_with(".stiffness") && n.starts_with("leg-")).cloned().collect();
+    let silent =
+        |(a, offset): &(&Active, &usize)| (0..a.values.len()).all(|k| !fitted.is_determined(**offset + k));
     let terms: Vec<&Active> =
         fitted.point.active.iter().zip(&fitted.offsets).filter(silent).map(|(a, _)| a).collect();
     if legs.is_empty() && terms.is_empty() {
@@ -136,7 +138,10 @@ fn reasons(fitted: &Fit) -> Vec<String> {
         return words;
     }
     let likes = look_alikes(fitted, LOOK_ALIKE);
-    let told = likes.iter().take(3).map(|(a, b, r)| format!("{a} and {b} can hardly be told apart (correlation {r:.3})"));
+    let told = likes
+        .iter()
+        .take(3)
+        .map(|(a, b, r)| format!("{a} and {b} can hardly be told apart (correlation {r:.3})"));
     told.collect()
 }
 

@@ -53,7 +53,8 @@ pub fn predict(model: &Model, rows: &[Observation]) -> Result<Vec<Prediction>, P
 pub(crate) enum Uncertain {
     /// Of the reading: everything.
     Reading,
-    /// Of the platform in its own frame: neither frames nor effects of the metrology.
+    /// Of the platform: without effects of the metrology. Frames stay, because only together with them is a geometry
+    /// determined: what is meant is the pose as an instrument would find it, in the axes of the machine.
     Platform,
 }
 
@@ -163,6 +164,5 @@ fn kept_columns(model: &Model, uncertain: Uncertain) -> Vec<usize> {
         };
         model.point.active.iter().enumerate().any(term)
     };
-    let of_frames = |k: usize| model.is_absolute() && (6..18).contains(&k);
-    all.filter(|&k| !of_frames(k) && !of_metrology(k)).collect()
+    all.filter(|&k| !of_metrology(k)).collect()
 }

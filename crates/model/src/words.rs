@@ -40,9 +40,33 @@ fn active_columns(a: &crate::linearization::Active) -> usize {
 
 /// Sentences about the combinations spanned by the columns of `null_space` (parameters x combinations).
 pub fn unobservable(null_space: &DMatrix<f64>, names: &[String]) -> Vec<String> {
-    let mut sentences: Vec<String> = reduced(null_space).iter().map(|v| sentence(v, names)).collect();
+    let all = reduced(null_space);
+    let moves_frame = |v: &&Vec<f64>| (0..v.len()).any(|k| v[k].abs() > TAKES_PART && is_frame(names, k));
+    let (frames, rest): (Vec<&Vec<f64>>, Vec<&Vec<f64>>) = all.iter().partition(moves_frame);
+    let mut sentences: Vec<String> = rest.iter().map(|v| sentence(v, names)).collect();
     sentences.dedup();
+    sentences.extend(gauge(&frames, names));
     sentences
+}
+
+fn is_frame(names: &[String], k: usize) -> bool {
+    names.get(k).is_some_and(|n| n.starts_with("metrology frame") || n.starts_with("target frame"))
+}
+
+/// Combinations that move a frame are one fact, not many: where the machine stands in the room is a convention.
+fn gauge(combinations: &[&Vec<f64>], names: &[String]) -> Option<String> {
+    let count = combinations.len();
+    let part = |k: &usize| combinations.iter().any(|v| v[*k].abs() > TAKES_PART) && !is_frame(names, *k);
+    let groups = (0..names.len()).filter(part).filter_map(|k| names[k].split('.').next().map(str::to_owned));
+    let mut groups: Vec<String> = groups.collect();
+    groups.dedup();
+    let what = joined(&groups);
+    (count > 0).then(|| {
+        format!(
+            "{count} combinations of {what} are the same as motions of the metrology or target frame; predictions do not \
+             depend on them"
+        )
+    })
 }
 
 /// A sentence about one combination.
@@ -131,6 +155,17 @@ mod tests {
             found,
             ["legs 1 and 3 cannot be told apart", "leg 6 and creep.fraction cannot be told apart"]
         );
+    }
+
+    #[test]
+    fn motions_of_a_frame_are_told_in_one_sentence() {
+        let names =
+            ["leg 1", "metrology frame x", "metrology frame y", "joint-geometry.a", "joint-geometry.b"];
+        let names: Vec<String> = names.map(str::to_owned).into();
+        let v = DMatrix::from_column_slice(5, 2, &[0.0, 0.6, 0.0, 0.8, 0.0, 0.0, 0.0, 0.6, 0.0, 0.8]);
+        let found = unobservable(&v, &names);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].starts_with("2 combinations of joint-geometry are"), "{found:?}");
     }
 
     #[test]

@@ -83,11 +83,13 @@ fn added(arguments: &Arguments) -> Result<Vec<Arc<dyn Term>>, Failure> {
     }
     let own = input::user_terms(&arguments.terms)?;
     let all = input::catalogue_with(&own);
-    let named = arguments.add.iter().map(|id| {
-        term_named(id, &all).map_err(|cause| Failure::Model { cause, data: String::new() })
-    });
+    let named = arguments
+        .add
+        .iter()
+        .map(|id| term_named(id, &all).map_err(|cause| Failure::Model { cause, data: String::new() }));
     let mut added = named.collect::<Result<Vec<_>, _>>()?;
-    let fresh: Vec<_> = own.into_iter().filter(|t| !arguments.add.iter().any(|id| id == t.info().id)).collect();
+    let fresh: Vec<_> =
+        own.into_iter().filter(|t| !arguments.add.iter().any(|id| id == t.info().id)).collect();
     added.extend(fresh);
     Ok(added)
 }
@@ -115,7 +117,8 @@ pub(crate) fn errors(
     let lin = Linearization::at(campaign, &fit.point)?;
     let own = summarise(&residuals(campaign, &data.observations, &lin), Some(fit.dof));
     if let Some(h) = holdout.filter(|h| h.is_absolute() != data.is_absolute()) {
-        let why = format!("{} and {} are of different kinds (deflections, absolute poses)", data.source, h.source);
+        let why =
+            format!("{} and {} are of different kinds (deflections, absolute poses)", data.source, h.source);
         return Err(ModelError::Mismatch(why));
     }
     let held = |h: &Dataset| prediction_errors(hexapod, h, campaign.noise, &fit.point);

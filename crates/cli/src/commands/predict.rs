@@ -49,9 +49,14 @@ fn names(measurand: Measurand) -> [&'static str; 6] {
     match measurand {
         Measurand::DeflectionEuler => ["da", "db", "dc", "dalpha", "dbeta", "dgamma"],
         Measurand::DeflectionRotationVector => ["da", "db", "dc", "drx", "dry", "drz"],
-        Measurand::AbsolutePose => {
-            ["predicted_a", "predicted_b", "predicted_c", "predicted_alpha", "predicted_beta", "predicted_gamma"]
-        }
+        Measurand::AbsolutePose => [
+            "predicted_a",
+            "predicted_b",
+            "predicted_c",
+            "predicted_alpha",
+            "predicted_beta",
+            "predicted_gamma",
+        ],
     }
 }
 

@@ -37,7 +37,12 @@ impl Excerpt {
         let after = line_head(&String::from_utf8_lossy(&bytes[inside.end..]));
         let span = before.len()..before.len() + middle.len();
         let name = path.display().to_string();
-        Some(Self { name, text: format!("{before}{middle}{after}"), span, line: usize::try_from(line).ok()?.saturating_sub(1) })
+        Some(Self {
+            name,
+            text: format!("{before}{middle}{after}"),
+            span,
+            line: usize::try_from(line).ok()?.saturating_sub(1),
+        })
     }
 
     /// Where the offending text is in the excerpt.

@@ -5,7 +5,7 @@ use hexbench_model::compare::adequacy::{Adequacy, Test};
 use hexbench_model::compare::design::Design;
 use hexbench_model::words::joined;
 
-use crate::output::number::significant;
+use crate::output::number::{rounded, significant};
 use crate::output::{Ink, Paper, Table};
 
 /// Rows of a list shown; the rest is in the JSON file.
@@ -44,10 +44,11 @@ fn coordinates(paper: &mut Paper, c: &Comparison) {
     let mut table = Table::default();
     table.row(["", "rms", "noise", "ratio", "bias", "t", "chance", "unit"]);
     for x in &c.coordinates {
-        let t = x.t.map_or("-".to_owned(), |t| format!("{t:.1}"));
+        let t = x.t.map_or("-".to_owned(), |t| rounded(t, 1.0));
         let p = x.p.map_or("-".to_owned(), chance);
         let ratio = significant(x.rms / x.noise, 3);
-        let cells = [significant(x.rms, 3), significant(x.noise, 3), ratio, significant(x.bias, 2), t, p];
+        let cells =
+            [significant(x.rms, 3), significant(x.noise, 3), ratio, rounded(x.bias, x.noise / 10.0), t, p];
         table.row(std::iter::once(x.name.to_owned()).chain(cells).chain([x.unit.to_owned()]));
     }
     table.lines().iter().for_each(|line| paper.line(line));
@@ -96,7 +97,8 @@ fn chance(p: f64) -> String {
 fn worst(paper: &mut Paper, c: &Comparison) {
     paper.heading("Worst poses", "root mean square in units of the noise");
     for w in &c.worst_poses {
-        let text = format!("  pose {} (line {}, {} readings)  {:.2}", w.pose, w.line, w.readings, w.whitened_rms);
+        let text =
+            format!("  pose {} (line {}, {} readings)  {:.2}", w.pose, w.line, w.readings, w.whitened_rms);
         paper.line(&text);
     }
     if c.outliers.is_empty() {
@@ -115,7 +117,9 @@ fn legs(paper: &mut Paper, c: &Comparison) {
     let mut table = Table::default();
     table.row(std::iter::once("leg".to_owned()).chain(c.legs.iter().map(|l| l.leg.to_string())));
     table.row(std::iter::once("rms".to_owned()).chain(c.legs.iter().map(|l| significant(l.rms_um, 3))));
-    table.row(std::iter::once("noise alone".to_owned()).chain(c.legs.iter().map(|l| significant(l.noise_um, 3))));
+    table.row(
+        std::iter::once("noise alone".to_owned()).chain(c.legs.iter().map(|l| significant(l.noise_um, 3))),
+    );
     table.lines().iter().for_each(|line| paper.line(line));
 }
 
@@ -174,7 +178,10 @@ fn hidden(paper: &mut Paper, c: &Comparison) {
         return;
     }
     paper.heading("What could hide in the springs", "bias of each leg stiffness, percent");
-    paper.paragraph(2, "By an effect of the size that these readings would just show (* : would not show at all).");
+    paper.paragraph(
+        2,
+        "By an effect of the size that these readings would just show (* : would not show at all).",
+    );
     let mut table = Table::default();
     table.row(["", "size", "leg 1", "2", "3", "4", "5", "6"]);
     for h in c.hidden.iter().take(SHOWN) {

@@ -65,7 +65,8 @@ fn values(paper: &mut Paper, fit: &Fit) {
     for e in &all.determined {
         let [value, std] = with_uncertainty(e.value, e.std);
         let share = 100.0 * (e.std / e.value).abs();
-        let percent = if share.is_finite() { format!("({} %)", significant(share, 2)) } else { String::new() };
+        let percent =
+            if share.is_finite() { format!("({} %)", significant(share, 2)) } else { String::new() };
         table.row([e.name.clone(), value, format!("+/- {std}"), percent, e.unit.clone()]);
     }
     table.lines().iter().for_each(|line| paper.line(line));

@@ -58,11 +58,7 @@ fn largest(h: &HiddenBias) -> f64 {
     h.bias_of_leg_stiffness_percent.iter().fold(0.0, |m, b| m.max(b.abs()))
 }
 
-fn worst_parameter(
-    judged: &Judged<'_>,
-    term: &dyn Term,
-    springs: &Springs<'_>,
-) -> Option<HiddenBias> {
+fn worst_parameter(judged: &Judged<'_>, term: &dyn Term, springs: &Springs<'_>) -> Option<HiddenBias> {
     let grid = term.shape_grid(&judged.lin.conditions);
     let shape = grid.get(grid.len() / 2).copied().unwrap_or(1.0);
     let block = judged.lin.term_block(term, false, shape);

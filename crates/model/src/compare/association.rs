@@ -5,19 +5,29 @@
 //! of the two added columns gives a chance, multiplied by the number of questions asked (Bonferroni). Spearman's rank
 //! correlation of elongation over carrier with the variable tells the direction.
 //!
-//! Limits: residuals of a fit are slightly correlated with each other and with the columns fitted, so chances are a guide;
-//! the diagnosis weighs effects properly.
+//! The regression is made on the whitened readings, where noise is independent, beside everything the fit has absorbed, so
+//! F is exact for Gaussian noise. The questions overlap; the diagnosis weighs effects against each other.
 
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
+use hexbench_core::Vector6;
+
 use super::Judged;
 use crate::campaign::Condition;
+use crate::candidates::project;
+use crate::chain::Action;
 
 /// Associations kept.
 const KEPT: usize = 12;
 /// Chance after correction below which an association is reported.
 const REPORTED: f64 = 0.01;
+
+/// Different values a variable must take before anything can be said to follow it.
+const FEWEST_VALUES: usize = 6;
+
+/// A column of which less than this share is left was absorbed by the fit.
+const ABSORBED: f64 = 1e-6;
 
 /// What an elongation may follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,7 +105,11 @@ pub fn associations(judged: &Judged<'_>) -> Vec<Association> {
     let mut all = Vec::new();
     for leg in legs {
         for variable in VARIABLES {
-            all.extend([false, true].into_iter().filter_map(|compliance| question(judged, leg, variable, compliance)));
+            all.extend(
+                [false, true]
+                    .into_iter()
+                    .filter_map(|compliance| question(judged, leg, variable, compliance)),
+            );
         }
     }
     let asked = all.len() as f64;
@@ -108,64 +122,115 @@ pub fn associations(judged: &Judged<'_>) -> Vec<Association> {
     all
 }
 
-/// Points of one question, whitened: elongation, carrier, variable.
-pub(crate) struct Points {
-    pub(crate) y: Vec<f64>,
-    pub(crate) carrier: Vec<f64>,
-    pub(crate) x: Vec<f64>,
+/// Points of one question: elongation in units of its noise, change of leg force, variable.
+struct Points {
+    y: Vec<f64>,
+    force_change: Vec<f64>,
+    x: Vec<f64>,
 }
 
-pub(crate) fn points(
-    judged: &Judged<'_>,
-    leg: Option<usize>,
-    compliance: bool,
-    value: impl Fn(&Condition, usize) -> f64,
-) -> Points {
-    let mut points = Points { y: Vec::new(), carrier: Vec::new(), x: Vec::new() };
+fn points(judged: &Judged<'_>, leg: Option<usize>, value: impl Fn(&Condition, usize) -> f64) -> Points {
+    let mut points = Points { y: Vec::new(), force_change: Vec::new(), x: Vec::new() };
     for (i, c) in judged.lin.conditions.iter().enumerate() {
         for l in (0..6).filter(|l| leg.is_none_or(|only| only == *l)) {
-            let sigma = judged.space.sigma[i][l];
-            points.y.push(judged.space.elongation[i][l] / sigma);
-            points.carrier.push(if compliance { c.force_change()[l] } else { 1.0 } / sigma);
+            points.y.push(judged.space.elongation[i][l] / judged.space.sigma[i][l]);
+            points.force_change.push(c.force_change()[l]);
             points.x.push(value(c, l));
         }
     }
     points
 }
 
-fn question(judged: &Judged<'_>, leg: Option<usize>, variable: Follows, compliance: bool) -> Option<Association> {
+fn question(
+    judged: &Judged<'_>,
+    leg: Option<usize>,
+    variable: Follows,
+    compliance: bool,
+) -> Option<Association> {
     // Elongation per force change against force change is the same question as elongation against its square.
     if compliance && variable == Follows::ForceChange {
         return None;
     }
-    let p = points(judged, leg, compliance, |c, l| variable.value(c, l));
-    let x = standardised(&p.x)?;
-    let base = vec![p.carrier.clone()];
-    let linear: Vec<f64> = p.carrier.iter().zip(&x).map(|(s, x)| s * x).collect();
-    let square: Vec<f64> = p.carrier.iter().zip(&x).map(|(s, x)| s * x * x).collect();
-    let two_valued = variable == Follows::Approach;
-    let added = if two_valued { vec![linear] } else { vec![linear, square] };
-    let (f, p_value) = added_columns(&p.y, &base, &added)?;
-    let ratio: Vec<f64> = p.y.iter().zip(&p.carrier).map(|(y, s)| y * s.signum()).collect();
+    let p = points(judged, leg, |c, l| variable.value(c, l));
+    if distinct(&p.x) < FEWEST_VALUES && variable != Follows::Approach {
+        return None;
+    }
+    let (mean, spread) = centre_and_spread(&p.x)?;
+    let x = |c: &Condition, l: usize| (variable.value(c, l) - mean) / spread;
+    let look = Look { judged, leg, compliance };
+    let mut added = vec![look.column(x)];
+    if variable != Follows::Approach {
+        added.push(look.column(|c, l| x(c, l).powi(2)));
+    }
+    let (f, p_value) =
+        added_columns(judged.white.as_slice(), &[look.column(|_, _| 1.0)], &added, judged.rank)?;
+    let sign = |s: &f64| if compliance { s.signum() } else { 1.0 };
+    let ratio: Vec<f64> = p.y.iter().zip(&p.force_change).map(|(y, s)| y * sign(s)).collect();
     Some(Association {
         leg: leg.map(|l| l + 1),
         variable: variable.name(),
-        of: if compliance { "compliance" } else { "length" },
+        of: look.of(),
         rank_correlation: spearman(&ratio, &p.x),
         f,
         p: p_value,
     })
 }
 
-/// F and its chance for columns added to a regression.
-pub(crate) fn added_columns(y: &[f64], base: &[Vec<f64>], added: &[Vec<f64>]) -> Option<(f64, f64)> {
+/// One way to look at the residuals: which legs, and whether their length or their compliance is asked about.
+pub(crate) struct Look<'a> {
+    pub(crate) judged: &'a Judged<'a>,
+    pub(crate) leg: Option<usize>,
+    pub(crate) compliance: bool,
+}
+
+impl Look<'_> {
+    /// Whitened readings that an elongation `carrier * course` of the legs would give, less what the fit absorbs.
+    pub(crate) fn column(&self, course: impl Fn(&Condition, usize) -> f64) -> Vec<f64> {
+        let elongation = |c: &Condition| {
+            let one = |l: usize, _| {
+                let carrier = if self.compliance { c.force_change()[l] } else { 1.0 };
+                if self.leg.is_none_or(|only| only == l) { carrier * course(c, l) } else { 0.0 }
+            };
+            Action::Elongation(Vector6::from_fn(one))
+        };
+        let block = self.judged.lin.block_of(1, |c, out| out.push(elongation(c)));
+        let mut column = block.column(0).into_owned();
+        let before = column.norm();
+        project(&self.judged.basis, &mut column);
+        // What the fit absorbs altogether leaves rounding only.
+        if column.norm() < ABSORBED * before {
+            column.fill(0.0);
+        }
+        column.as_slice().to_vec()
+    }
+
+    /// Word for files.
+    pub(crate) fn of(&self) -> &'static str {
+        if self.compliance { "compliance" } else { "length" }
+    }
+}
+
+fn distinct(x: &[f64]) -> usize {
+    let mut bits: Vec<u64> = x.iter().map(|v| (v + 0.0).to_bits()).collect();
+    bits.sort_unstable();
+    bits.dedup();
+    bits.len()
+}
+
+/// F and its chance for columns added to a regression; `lost` degrees of freedom went into the fit before.
+pub(crate) fn added_columns(
+    y: &[f64],
+    base: &[Vec<f64>],
+    added: &[Vec<f64>],
+    lost: f64,
+) -> Option<(f64, f64)> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut residual = y.to_vec();
     base.iter().for_each(|c| take(&mut basis, c, &mut residual));
     let (before, known) = (square(&residual), basis.len());
     added.iter().for_each(|c| take(&mut basis, c, &mut residual));
     let gained = (basis.len() - known) as f64;
-    let dof = y.len() as f64 - basis.len() as f64;
+    let dof = y.len() as f64 - basis.len() as f64 - lost;
     let after = square(&residual);
     if gained < 1.0 || dof < 3.0 || after <= 0.0 {
         return None;
@@ -195,7 +260,6 @@ fn take(basis: &mut Vec<Vec<f64>>, column: &[f64], y: &mut [f64]) {
     basis.push(c);
 }
 
-
 fn subtract(from: &mut [f64], what: &[f64], times: f64) {
     from.iter_mut().zip(what).for_each(|(a, b)| *a -= times * b);
 }
@@ -208,12 +272,12 @@ pub(crate) fn square(a: &[f64]) -> f64 {
     dot(a, a)
 }
 
-/// Values over their spread about their mean; `None` when they do not vary.
-fn standardised(x: &[f64]) -> Option<Vec<f64>> {
+/// Mean and root mean square deviation; `None` when the values do not vary.
+fn centre_and_spread(x: &[f64]) -> Option<(f64, f64)> {
     let mean = x.iter().sum::<f64>() / x.len().max(1) as f64;
     let spread = (x.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / x.len().max(1) as f64).sqrt();
     let varies = spread > 1e-9 * x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    varies.then(|| x.iter().map(|v| (v - mean) / spread).collect())
+    varies.then_some((mean, spread))
 }
 
 /// Spearman's rank correlation, ties sharing their mean rank.
@@ -257,7 +321,7 @@ mod tests {
         let x: Vec<f64> = (0..10).map(f64::from).collect();
         let y: Vec<f64> = x.iter().map(|v| 2.0 * v + (v * 1.7).sin()).collect();
         let ones = vec![1.0; 10];
-        let (f, p) = added_columns(&y, &[ones], &[x.clone()]).unwrap();
+        let (f, p) = added_columns(&y, &[ones], &[x.clone()], 0.0).unwrap();
         let (mx, my) = (4.5, y.iter().sum::<f64>() / 10.0);
         let sxy: f64 = x.iter().zip(&y).map(|(a, b)| (a - mx) * (b - my)).sum();
         let (sxx, syy): (f64, f64) =

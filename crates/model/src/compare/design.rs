@@ -39,7 +39,14 @@ pub fn design(judged: &Judged<'_>) -> Design {
     let solution = triangle.push(&a, &judged.lin.residuals()).and_then(|()| triangle.solve());
     let Ok(solution) = solution else {
         let unobservable = vec!["nothing can be said: a number in the regressor is not finite".to_owned()];
-        return Design { parameters: a.ncols(), rank: 0, condition: None, unobservable, weakest: None, paper: None };
+        return Design {
+            parameters: a.ncols(),
+            rank: 0,
+            condition: None,
+            unobservable,
+            weakest: None,
+            paper: None,
+        };
     };
     let condition = Some(solution.condition()).filter(|c| c.is_finite());
     Design {

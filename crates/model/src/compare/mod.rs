@@ -14,14 +14,15 @@ pub mod periodogram;
 pub mod rows;
 
 use hexbench_core::{Dataset, Hexapod, Measurand};
+use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use crate::campaign::Campaign;
+use crate::candidates::orthonormal;
 use crate::diagnose::prepare;
 use crate::error::ModelError;
 use crate::fit::{Fit, columns, fit_baseline};
 use crate::linearization::{Linearization, Point};
-use crate::lsq::solve;
 use crate::model_file::Model;
 use crate::residuals::{ErrorSummary, prediction_errors, residuals, summarise};
 
@@ -103,14 +104,20 @@ pub fn compare_fit(campaign: &Campaign, data: &Dataset, fit: &Fit) -> Result<Com
     Ok(report(&Judged::new(campaign, data, fit.point.clone(), true)?, None))
 }
 
-fn refuse_mixture(data: &Dataset, model: Option<&Model>, holdout: Option<&Dataset>) -> Result<(), ModelError> {
+fn refuse_mixture(
+    data: &Dataset,
+    model: Option<&Model>,
+    holdout: Option<&Dataset>,
+) -> Result<(), ModelError> {
     let other = model.is_some_and(|m| m.is_absolute() != data.is_absolute());
     if other {
-        let why = format!("the model and {} are of different kinds (deflections, absolute poses)", data.source);
+        let why =
+            format!("the model and {} are of different kinds (deflections, absolute poses)", data.source);
         return Err(ModelError::Mismatch(why));
     }
     if let Some(h) = holdout.filter(|h| h.is_absolute() != data.is_absolute()) {
-        let why = format!("{} and {} are of different kinds (deflections, absolute poses)", data.source, h.source);
+        let why =
+            format!("{} and {} are of different kinds (deflections, absolute poses)", data.source, h.source);
         return Err(ModelError::Mismatch(why));
     }
     Ok(())
@@ -125,16 +132,27 @@ pub struct Judged<'a> {
     pub(crate) rows: Vec<crate::residuals::Residual>,
     /// Rank of what was fitted to these data; zero for a saved model.
     pub(crate) rank: f64,
+    /// Orthonormal basis of the columns fitted to these data; empty for a saved model.
+    pub(crate) basis: DMatrix<f64>,
+    /// Whitened residuals of the averaged readings.
+    pub(crate) white: DVector<f64>,
     pub(crate) space: LegSpace,
 }
 
 impl<'a> Judged<'a> {
-    fn new(campaign: &'a Campaign, data: &'a Dataset, point: Point, fitted: bool) -> Result<Self, ModelError> {
+    fn new(
+        campaign: &'a Campaign,
+        data: &'a Dataset,
+        point: Point,
+        fitted: bool,
+    ) -> Result<Self, ModelError> {
         let lin = Linearization::at(campaign, &point)?;
         let rows = residuals(campaign, &data.observations, &lin);
-        let rank = if fitted { solve(&columns(&lin, &point), &lin.residuals())?.rank as f64 } else { 0.0 };
+        let columns = if fitted { columns(&lin, &point) } else { DMatrix::zeros(lin.equations(), 0) };
+        let basis = if fitted { orthonormal(&columns) } else { columns };
+        let (rank, white) = (basis.ncols() as f64, lin.residuals());
         let space = leg_space(campaign, &lin);
-        Ok(Self { campaign, data, point, lin, rows, rank, space })
+        Ok(Self { campaign, data, point, lin, rows, rank, basis, white, space })
     }
 }
 

@@ -50,7 +50,12 @@ pub fn worst_poses(judged: &Judged<'_>) -> Vec<WorstPose> {
     let rms = |n: usize, sum: f64| (sum / (6 * n) as f64).sqrt();
     let mut all: Vec<WorstPose> = poses
         .into_iter()
-        .map(|(pose, (line, readings, sum))| WorstPose { pose, line, readings, whitened_rms: rms(readings, sum) })
+        .map(|(pose, (line, readings, sum))| WorstPose {
+            pose,
+            line,
+            readings,
+            whitened_rms: rms(readings, sum),
+        })
         .collect();
     all.sort_by(|a, b| b.whitened_rms.total_cmp(&a.whitened_rms));
     all.truncate(POSES);
