@@ -1,4 +1,5 @@
 //! What is written is read back as the same.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use hexbench_core::files::{
     hexapod_to_toml, measurements_to_csv, parse_hexapod, read_hexapod, read_measurements,
@@ -65,14 +66,14 @@ prop_compose! {
 }
 
 /// What a table with these columns can say about the row.
-fn as_stated(row: Observation, columns: Columns) -> Observation {
+fn as_stated(row: &Observation, columns: Columns) -> Observation {
     Observation {
         reference: if columns.reference { row.reference } else { Wrench::default() },
         approach: if columns.approach { row.approach } else { 1.0 },
         delta_t: if columns.delta_t { row.delta_t } else { 0.0 },
         elapsed: if columns.elapsed { row.elapsed } else { 0.0 },
         sigma: row.sigma.filter(|_| columns.sigma),
-        ..row
+        ..*row
     }
 }
 
@@ -81,7 +82,7 @@ prop_compose! {
         measurand in measurand(), columns in columns(), rows in prop::collection::vec(observation(), 1..6),
     ) -> Dataset {
         let columns = Columns { reference: columns.reference && measurand != Measurand::AbsolutePose, ..columns };
-        let observations = rows.into_iter().map(|row| as_stated(row, columns)).collect();
+        let observations = rows.iter().map(|row| as_stated(row, columns)).collect();
         Dataset { source: "measurements.csv".into(), measurand, columns, observations }
     }
 }

@@ -8,13 +8,14 @@ use std::collections::HashMap;
 use hexbench_core::{
     Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, Vector3, Vector6, Wrench,
 };
-use rayon::prelude::*;
+use nalgebra::Rotation3;
 
 use crate::chain::Action;
 use crate::error::ModelError;
 use crate::kinematics::{Legs, cross_matrix, euler_rate_matrix};
 use crate::machine::Machine;
 use crate::noise::{Noise, NoiseSource, stated_or_repeated};
+use crate::parallel::try_map;
 
 /// Factor by which the load is exceeded before a reading with approach -1.
 const OVERLOAD: f64 = 1.4;
@@ -175,7 +176,7 @@ impl Campaign {
     /// # Errors
     /// [`ModelError::SingularPose`] for the first pose in file order that is singular.
     pub fn conditions(&self, machine: &Machine, springs: &Vector6) -> Result<Vec<Condition>, ModelError> {
-        self.groups.par_iter().map(|g| self.condition(machine, springs, g)).collect()
+        try_map(&self.groups, |g| self.condition(machine, springs, g))
     }
 
     fn condition(
@@ -209,7 +210,7 @@ impl Campaign {
             commanded_lengths,
             extension: commanded_lengths - machine.home_lengths,
             wrench: o.wrench,
-            reference: o.reference,
+            reference: if self.is_absolute() { Wrench::default() } else { o.reference },
             force: Vector6::from_fn(|leg, _| springs_at[leg][1]),
             reference_force: Vector6::from_fn(|leg, _| springs_at[leg][0]),
             path,
@@ -252,8 +253,9 @@ impl Stance {
     fn measured(machine: &Machine, o: &Observation) -> Result<Self, ModelError> {
         let pose = machine.platform_pose(&Pose::from_array(o.measured));
         let legs = machine.legs(&pose)?;
-        let force = |w: &Wrench| legs.forces(&machine.effective_wrench(w, &pose));
-        Ok(Self { pose, legs, force: force(&o.wrench), reference_force: force(&o.reference) })
+        let force = legs.forces(&machine.effective_wrench(&o.wrench, &pose));
+        // A pose is measured against nothing: its reference is the unloaded machine.
+        Ok(Self { pose, legs, force, reference_force: Vector6::zeros() })
     }
 
     /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
@@ -275,23 +277,21 @@ impl Stance {
             motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
         }
         let pose = moved(&reference, &motion, 0.5);
-        let loaded = machine.legs(&moved(&reference, &motion, 1.0))?;
+        let legs = machine.legs(&pose)?;
         Ok(Self {
-            legs: machine.legs(&pose)?,
+            force: machine.forces_near(&legs, &moved(&reference, &motion, 1.0), &o.wrench),
+            reference_force: machine.forces_near(&legs, &reference, &o.reference),
             pose,
-            force: loaded.forces(&machine.effective_wrench(&o.wrench, &o.pose)),
-            reference_force: machine.legs(&reference)?.forces(&reference_wrench),
+            legs,
         })
     }
 }
 
-/// A pose after a share of a small geometric twist.
+/// A pose after a share of a small geometric twist; the same motion in whatever axes it is written.
 fn moved(pose: &Pose, twist: &Vector6, share: f64) -> Pose {
-    let rates = euler_rate_matrix(&pose.angles).try_inverse().unwrap_or_else(Matrix3::identity);
-    Pose {
-        translation: pose.translation + share * twist.fixed_rows::<3>(0),
-        angles: pose.angles + share * (rates * twist.fixed_rows::<3>(3)),
-    }
+    let turn = Rotation3::new(share * twist.fixed_rows::<3>(3));
+    let translation = pose.translation + share * twist.fixed_rows::<3>(0);
+    Pose::from_rotation(translation, &(turn.matrix() * pose.rotation()))
 }
 
 /// `diag(I, M^-1) diag(axes, axes) [I, -[lever]x; 0, I]`.

@@ -11,7 +11,8 @@
 //! y  = H (I + D) dx                           reading, H the observer
 //! ```
 //!
-//! Every parameter enters through one [`Action`]; the chain is linear in each parameter taken alone.
+//! Every parameter enters through one [`Action`]; the chain is linear in each parameter taken
+//! alone, except a stiffness beside the legs, which enters through the inverse.
 
 use hexbench_core::{Matrix6, Vector6};
 

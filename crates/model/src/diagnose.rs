@@ -12,7 +12,7 @@ use crate::candidates::{Candidate, Kind};
 use crate::diagnosis::{Outcome, explain, wanted};
 use crate::error::ModelError;
 use crate::estimate::{Estimate, estimates};
-use crate::fit::{Fit, Wanted, fit};
+use crate::fit::{Fit, Wanted, average_over_shapes, fit};
 use crate::linearization::Linearization;
 use crate::next::separate;
 use crate::noise::{Noise, NoiseSource, scatter};
@@ -328,7 +328,9 @@ impl Context<'_> {
             let fitted = if n == 0 {
                 self.outcome.baseline.clone()
             } else {
-                fit(self.campaign, &order[..n], Some(&self.outcome.best.point))?
+                let mut fitted = fit(self.campaign, &order[..n], Some(&self.outcome.best.point))?;
+                average_over_shapes(self.campaign, &order[..n], &mut fitted)?;
+                fitted
             };
             let rows = residuals(
                 self.campaign,
@@ -586,7 +588,7 @@ fn contradiction(campaign: &Campaign, data: &Dataset) -> Option<String> {
     let chi2 = ChiSquared::new(s.dof).ok()?;
     let check = |variance: f64, stated: f64, what: &str, unit: &str| {
         let p = chi2.cdf(s.dof * variance / (stated * stated));
-        let off = p < CONTRADICTION_CHANCE || p > 1.0 - CONTRADICTION_CHANCE;
+        let off = !(CONTRADICTION_CHANCE..=1.0 - CONTRADICTION_CHANCE).contains(&p);
         off.then(|| {
             format!(
                 "repeats scatter by {:.3} {unit} in {what}, but [metrology] states {:.3} {unit}: every probability here \

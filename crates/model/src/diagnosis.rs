@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
 use crate::campaign::Campaign;
-use crate::candidates::{
-    Candidate, Collector, Kind, Untestable, orthonormal, project, sizes, target, why_untestable,
-};
+use crate::candidates::{Candidate, Collector, Kind, Untestable, sizes, why_untestable};
 use crate::error::ModelError;
 use crate::evidence::Gram;
 use crate::fit::{Fit, Wanted, fit, fit_baseline};
@@ -23,6 +23,10 @@ const LONG_GRID: usize = 24;
 const FIT_WIDTH: f64 = 3.0;
 /// Prior weight of all patterns together, relative to one term of the catalogue.
 const WEIGHT_OF_PATTERNS: f64 = 2.0;
+/// Chance of larger residuals below which patterns outside the catalogue are scanned for.
+const DOUBTFUL_CHANCE: f64 = 0.1;
+/// Term parameters up to which no scan is needed for imitation.
+const FEW_PARAMETERS: usize = 3;
 /// Most effects in a set.
 const MOST_EFFECTS: usize = 4;
 
@@ -55,28 +59,45 @@ pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Outcome, 
     let mut best = baseline.clone();
     let mut lin = Linearization::at(campaign, &best.point)?;
     let natural = baseline.natural(&lin);
-    let mut rich = false;
+    let mut effort = Effort { rich: false, scan: false };
     let mut history: Vec<Vec<String>> = Vec::new();
     loop {
         let (testable, mut untestable) = split(terms, campaign, &lin);
-        let (gram, candidates) = collect(campaign, &best.point, &lin, &testable, natural, rich);
+        let (gram, candidates) = collect(campaign, &best.point, &lin, &testable, natural, effort);
         let (candidates, faint) = noticeable(candidates, &gram);
         untestable.extend(faint);
-        let sets = Search::new(&gram, &candidates, campaign.noise.allows_verdict()).run(MOST_EFFECTS, &[]);
+        let sets = Search::new(&gram, &candidates, campaign.noise.allows_verdict()).run(MOST_EFFECTS);
         let top = sets.sets.first().cloned();
         let wanted = top.as_ref().map(|s| wanted(s, &gram, &candidates, &natural)).unwrap_or_default();
         let next = fit(campaign, &wanted, Some(&best.point)).or_else(|_| fit(campaign, &wanted, None))?;
         lin = Linearization::at(campaign, &next.point)?;
         best = next;
         let names = top.map(|s| names(&s, &candidates)).unwrap_or_default();
-        let settled = history.last() == Some(&names);
+        let scan = effort.scan || is_doubtful(&best);
+        let settled = history.last() == Some(&names) && scan == effort.scan;
         history.push(names);
         if settled || history.len() >= MOST_ROUNDS {
             return Ok(Outcome { candidates, untestable, sets, gram, baseline, best, natural, lin });
         }
-        // Richer forms and scans come in once the ideal forms leave something unexplained.
-        rich = true;
+        effort = Effort { rich: true, scan };
     }
+}
+
+/// What a round looks at beyond the ideal forms.
+#[derive(Clone, Copy)]
+struct Effort {
+    /// Richer forms of the terms of the best set.
+    rich: bool,
+    /// Waves, courses and steps outside the catalogue.
+    scan: bool,
+}
+
+/// True when something may be left unexplained: the residuals exceed the noise, or many parameters may imitate a
+/// simple pattern.
+fn is_doubtful(fit: &Fit) -> bool {
+    let parameters: usize = fit.point.active.iter().map(|a| a.values.len()).sum();
+    let Ok(law) = ChiSquared::new(fit.lack_of_fit_dof.max(1.0)) else { return true };
+    parameters > FEW_PARAMETERS || law.cdf(fit.lack_of_fit) > 1.0 - DOUBTFUL_CHANCE
 }
 
 /// Leave out terms of which no physically sensible size would show.
@@ -121,7 +142,7 @@ fn collect(
     lin: &Linearization,
     terms: &[Arc<dyn Term>],
     natural: Natural,
-    rich: bool,
+    effort: Effort,
 ) -> (Gram, Vec<Candidate>) {
     let mut collector = Collector::new(lin, natural);
     let scanner = Scanner::new(lin, point, None);
@@ -137,9 +158,9 @@ fn collect(
             grid.clone()
         };
         let active = point.active.iter().find(|a| a.id() == term.info().id);
-        collector.add_term(term, &shapes, grid.len(), active.filter(|_| rich).map(|a| a.shape));
+        collector.add_term(term, &shapes, grid.len(), active.filter(|_| effort.rich).map(|a| a.shape));
     }
-    for (pattern, log_weight) in patterns(campaign, lin, &scanner, rich) {
+    for (pattern, log_weight) in patterns(campaign, lin, &scanner, effort.scan) {
         collector.add_pattern(pattern, log_weight);
     }
     collector.finish(campaign, point)

@@ -7,7 +7,7 @@
 //! ln Z = (b' M^-1 b) / 2 - ln|M| / 2 + sum ln(lambda) / 2 + ln P(signs),   M = G + diag(lambda)
 //! ```
 //!
-//! relative to the model without any block. Source: MacKay 1992, Neural Computation 4 (evidence framework). The
+//! relative to the model without any block. Source: `MacKay` 1992, Neural Computation 4 (evidence framework). The
 //! width of the prior of each effect is not known: it is averaged over a grid that is uniform in its logarithm.
 //! Where the noise level itself comes from the data, `ln Z` is the Student form of the same integral.
 
@@ -16,8 +16,10 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Largest prior width as a multiple of the natural size of a parameter.
 pub const WIDEST: f64 = 2.0;
-/// Most widths tried per block, in octaves from the widest down.
-const MOST_WIDTHS: i32 = 16;
+/// Most widths tried per block, from the widest down.
+const MOST_WIDTHS: i32 = 11;
+/// Ratio between neighbouring widths.
+const WIDTH_RATIO: f64 = 0.4;
 /// An effect is noticeable when its expected signature is this many standard deviations long. Smaller effects leave no
 /// trace in these data and count as absent: whether they exist is not a question these data can answer.
 pub const NOTICEABLE: f64 = 5.0;
@@ -25,8 +27,8 @@ pub const NOTICEABLE: f64 = 5.0;
 /// Prior widths of a block, widest first, down to where the effect would no longer be noticeable; `signature` is the
 /// expected length of its whitened signature at the natural sizes.
 pub fn widths(signature: f64) -> Vec<f64> {
-    let octaves = (0..MOST_WIDTHS).map(|k| WIDEST * 0.5f64.powi(k));
-    let kept: Vec<f64> = octaves.take_while(|g| g * signature >= NOTICEABLE).collect();
+    let steps = (0..MOST_WIDTHS).map(|k| WIDEST * WIDTH_RATIO.powi(k));
+    let kept: Vec<f64> = steps.take_while(|g| g * signature >= NOTICEABLE).collect();
     if kept.is_empty() { vec![WIDEST] } else { kept }
 }
 
@@ -277,7 +279,9 @@ impl Rest {
         }
         let eigen = e.symmetric_eigen();
         let along = eigen.eigenvectors.tr_mul(&b);
-        let score = |g: f64| several(&eigen.eigenvectors, &eigen.eigenvalues, &along, g, block);
+        let rows: Vec<usize> = (0..block.width()).filter(|&k| block.positive[k]).collect();
+        let signed = block.transform.select_rows(&rows) * &eigen.eigenvectors;
+        let score = |g: f64| several(&signed, &eigen.eigenvalues, &along, g, block);
         let scored = block.widths.iter().map(|&g| score(g)).enumerate();
         scored.map(|(w, (d, rest))| (variant(w), gram.gain(self.drop + d, 1.0) + rest + offset)).collect()
     }
@@ -321,9 +325,10 @@ fn single(e: f64, b: f64, g: f64, positive: bool) -> (f64, f64) {
     (g * g * b * b / m, sign - 0.5 * m.ln())
 }
 
-/// The same for several parameters, on the eigenvectors of their normal equations.
+/// The same for several parameters, on the eigenvectors of their normal equations; `signed` holds the rows of the
+/// parameters that cannot be negative, in values per eigenvector.
 fn several(
-    vectors: &DMatrix<f64>,
+    signed: &DMatrix<f64>,
     values: &DVector<f64>,
     along: &DVector<f64>,
     g: f64,
@@ -335,15 +340,19 @@ fn several(
     if !block.positive.contains(&true) {
         return (drop, -0.5 * log_det);
     }
-    let to_values = &block.transform * vectors;
-    let mean = &to_values * DVector::from_fn(m.len(), |k, _| g * along[k] / m[k]);
-    let spread = &to_values * DMatrix::from_diagonal(&m.map(|x| 1.0 / x)) * to_values.transpose();
-    (drop, log_orthant(&mean, &spread, &block.positive) - block.log_signs - 0.5 * log_det)
+    let mean = signed * DVector::from_fn(m.len(), |k, _| g * along[k] / m[k]);
+    let mut scaled = signed.clone();
+    for (k, mut column) in scaled.column_iter_mut().enumerate() {
+        column /= m[k];
+    }
+    let spread = scaled * signed.transpose();
+    let all = vec![true; signed.nrows()];
+    (drop, log_orthant(&mean, &spread, &all) - block.log_signs - 0.5 * log_det)
 }
 
 /// Logarithm of the probability that all `positive` components of a Gaussian are positive, by conditioning on one sign
 /// after the other and matching moments. Source: Mendell and Elston 1974, Biometrics 30.
-fn log_orthant(mean: &DVector<f64>, covariance: &DMatrix<f64>, positive: &[bool]) -> f64 {
+pub fn log_orthant(mean: &DVector<f64>, covariance: &DMatrix<f64>, positive: &[bool]) -> f64 {
     let signed: Vec<usize> = (0..positive.len()).filter(|&i| positive[i]).collect();
     let mut mean: Vec<f64> = signed.iter().map(|&i| mean[i]).collect();
     let n = signed.len();

@@ -19,6 +19,8 @@ const MOST_ITERATIONS: usize = 40;
 const SETTLED_CHI2: f64 = 1e-4;
 /// Prior standard deviation of the logarithm of a shape about its start.
 const SHAPE_PRIOR: f64 = 0.7;
+/// Shapes tried on each side of the best one when a covariance is averaged over them.
+const SHAPE_STEPS: i32 = 4;
 /// A parameter whose standard error exceeds this share of its prior width is not determined by the data.
 const DETERMINED_SHARE: f64 = 0.5;
 
@@ -199,16 +201,27 @@ fn step(
     let a = columns(state, point);
     let mut triangle = Triangle::new(a.ncols());
     triangle.push(&a, &state.residuals())?;
+    push_priors(&mut triangle, point, wanted, prior)?;
+    triangle.solve()
+}
+
+/// Priors as equations: `(value + x) / width = 0`.
+fn push_priors(
+    triangle: &mut Triangle,
+    point: &Point,
+    wanted: &[Wanted],
+    prior: &DVector<f64>,
+) -> Result<(), ModelError> {
     let offset = prior_offsets(point, wanted, prior.len());
     let with_prior: Vec<usize> = (0..prior.len()).filter(|&k| prior[k].is_finite()).collect();
-    if !with_prior.is_empty() {
-        let rows = DMatrix::from_fn(with_prior.len(), prior.len(), |i, j| {
-            if with_prior[i] == j { 1.0 / prior[j] } else { 0.0 }
-        });
-        let target = DVector::from_fn(with_prior.len(), |i, _| -offset[with_prior[i]] / prior[with_prior[i]]);
-        triangle.push(&rows, &target)?;
+    if with_prior.is_empty() {
+        return Ok(());
     }
-    triangle.solve()
+    let rows = DMatrix::from_fn(with_prior.len(), prior.len(), |i, j| {
+        if with_prior[i] == j { 1.0 / prior[j] } else { 0.0 }
+    });
+    let target = DVector::from_fn(with_prior.len(), |i, _| -offset[with_prior[i]] / prior[with_prior[i]]);
+    triangle.push(&rows, &target)
 }
 
 /// Current distance of every column from the centre of its prior.
@@ -223,6 +236,77 @@ fn prior_offsets(point: &Point, wanted: &[Wanted], columns: usize) -> Vec<f64> {
         }
     }
     offsets
+}
+
+/// Covariance with the shapes averaged over instead of linearised in: springs follow an exponent or a time constant
+/// far from linearly. The profile of the objective over a few shapes gives their weights; each contributes its own
+/// covariance and the distance of its solution.
+///
+/// # Errors
+/// As [`fit`].
+pub fn average_over_shapes(campaign: &Campaign, wanted: &[Wanted], fit: &mut Fit) -> Result<(), ModelError> {
+    let state = Linearization::at(campaign, &fit.point)?;
+    for k in 0..wanted.len() {
+        if has_shape_column(wanted[k].term.as_ref()) {
+            fit.covariance = averaged(&state, wanted, fit, k)?;
+        }
+    }
+    Ok(())
+}
+
+/// Covariance averaged over the shape of one term.
+fn averaged(
+    state: &Linearization,
+    wanted: &[Wanted],
+    fit: &Fit,
+    k: usize,
+) -> Result<DMatrix<f64>, ModelError> {
+    let a = &fit.point.active[k];
+    let shape_column = fit.offsets[k] + a.values.len();
+    let spread = fit.std(shape_column).min(SHAPE_PRIOR);
+    let [low, high] = a.term.shape_bounds(a.shape);
+    let mut seen = Vec::new();
+    for step in -SHAPE_STEPS..=SHAPE_STEPS {
+        let shift = 3.0 * spread * f64::from(step) / f64::from(SHAPE_STEPS);
+        let shape = a.shape * shift.exp();
+        if (low..=high).contains(&shape) {
+            seen.push(at_shape(state, wanted, fit, k, shape)?);
+        }
+    }
+    let best = seen.iter().map(|s| s.0).fold(f64::INFINITY, f64::min);
+    let weights: Vec<f64> = seen.iter().map(|s| (-0.5 * (s.0 - best)).exp()).collect();
+    let total: f64 = weights.iter().sum();
+    let mut covariance = DMatrix::zeros(fit.prior.len(), fit.prior.len());
+    for ((_, x, own), w) in seen.iter().zip(&weights) {
+        covariance += (own + x * x.transpose()) * (w / total);
+    }
+    Ok(covariance)
+}
+
+/// Objective, increments (the logarithm of the shape among them) and covariance with one shape held at a value.
+fn at_shape(
+    state: &Linearization,
+    wanted: &[Wanted],
+    fit: &Fit,
+    k: usize,
+    shape: f64,
+) -> Result<(f64, DVector<f64>, DMatrix<f64>), ModelError> {
+    let a = &fit.point.active[k];
+    let held = fit.offsets[k] + a.values.len();
+    let mut moved = fit.point.clone();
+    moved.active[k].shape = shape;
+    let values = DVector::from_column_slice(&a.values);
+    let block = |s: f64| state.term_block(a.term.as_ref(), a.rich, s) * &values;
+    let residual = state.residuals() + block(a.shape) - block(shape);
+    let mut columns = columns(state, &moved);
+    columns.column_mut(held).fill(0.0);
+    let mut triangle = Triangle::new(columns.ncols());
+    triangle.push(&columns, &residual)?;
+    push_priors(&mut triangle, &moved, wanted, &fit.prior)?;
+    let solution = triangle.solve()?;
+    let mut x = solution.x;
+    x[held] = (shape / a.shape).ln();
+    Ok((solution.rss, x, solution.covariance))
 }
 
 /// Whitened columns of springs, frames, term parameters and shapes at a point.

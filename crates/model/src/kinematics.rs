@@ -44,6 +44,27 @@ impl Legs {
     }
 }
 
+/// Leg forces at a pose a small deflection away from known legs, N: one step of refinement on `L' f = W`, whose error is
+/// of second order in the change of the Jacobian.
+pub fn forces_near(
+    known: &Legs,
+    base: &[Vector3; 6],
+    platform: &[Vector3; 6],
+    pose: &Pose,
+    wrench: &Vector6,
+) -> Vector6 {
+    let rotation = pose.rotation();
+    let first = known.forces(wrench);
+    let mut unbalanced = *wrench;
+    for leg in 0..6 {
+        let arm = rotation * platform[leg];
+        let direction = (pose.translation + arm - base[leg]).normalize() * first[leg];
+        let moment = arm.cross(&direction);
+        unbalanced -= Vector6::new(direction.x, direction.y, direction.z, moment.x, moment.y, moment.z);
+    }
+    first + known.forces(&unbalanced)
+}
+
 /// Leg lengths only, m: `q_i = |t + R B_i - A_i|`.
 pub fn leg_lengths(base: &[Vector3; 6], platform: &[Vector3; 6], pose: &Pose) -> Vector6 {
     let rotation = pose.rotation();

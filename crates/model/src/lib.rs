@@ -2,6 +2,7 @@
 //!
 //! One spring per leg, identified from loaded poses, plus named terms for what the springs leave unexplained.
 
+pub mod batch;
 mod body;
 pub mod campaign;
 pub mod candidates;
@@ -26,6 +27,7 @@ pub mod next;
 pub mod noise;
 pub mod observability;
 pub mod paper;
+mod parallel;
 pub mod pattern;
 mod period;
 pub mod power;

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use hexbench_core::{Matrix6, Vector3, Vector6};
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use crate::campaign::{Campaign, Condition};
 use crate::chain::{Action, Link, Load};
 use crate::error::ModelError;
 use crate::machine::{Machine, exponential};
+use crate::parallel::map;
 use crate::term::{Rich, Term};
 
 /// A term in a model, with its values. SI.
@@ -122,7 +122,7 @@ impl Linearization {
     pub fn at(campaign: &Campaign, point: &Point) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
         let conditions = campaign.conditions(&machine, &point.springs)?;
-        let links = conditions.par_iter().map(|c| link(&machine, c, point)).collect();
+        let links = map(&conditions, |c| link(&machine, c, point));
         Ok(Self { machine, conditions, links, absolute: campaign.is_absolute() })
     }
 

@@ -125,12 +125,12 @@ fn poses(campaign: &Campaign, rows: &[&Observation]) -> Vec<Pose> {
 
 /// Element of the Halton sequence (Halton 1960) in base of the k-th prime.
 fn halton(index: usize, k: usize) -> f64 {
-    let base = [2, 3, 5, 7, 11, 13][k];
+    let base: usize = [2, 3, 5, 7, 11, 13][k];
     let (mut fraction, mut value, mut i) = (1.0, 0.0, index);
     while i > 0 {
-        fraction /= f64::from(base);
-        value += fraction * (i % base as usize) as f64;
-        i /= base as usize;
+        fraction /= base as f64;
+        value += fraction * (i % base) as f64;
+        i /= base;
     }
     value
 }

@@ -19,10 +19,6 @@ pub enum Variable {
     LegLength,
     /// Leg force under the load.
     LegForce,
-    /// Approach direction.
-    Approach,
-    /// Platform coordinates `a`, `b`, `c`, `alpha`, `beta`, `gamma`, from zero.
-    Pose(usize),
 }
 
 impl Variable {
@@ -33,9 +29,12 @@ impl Variable {
             Self::DeltaT => "delta_T_K",
             Self::LegLength => "leg_length",
             Self::LegForce => "leg_force",
-            Self::Approach => "approach",
-            Self::Pose(k) => ["a_mm", "b_mm", "c_mm", "alpha_deg", "beta_deg", "gamma_deg"][k.min(5)],
         }
+    }
+
+    /// True when it is the same for all legs.
+    fn is_common(self) -> bool {
+        matches!(self, Self::Elapsed | Self::DeltaT)
     }
 
     /// Value for one leg at a condition, SI.
@@ -45,8 +44,6 @@ impl Variable {
             Self::DeltaT => at.delta_t,
             Self::LegLength => at.extension[leg],
             Self::LegForce => at.force[leg],
-            Self::Approach => at.approach,
-            Self::Pose(k) => at.pose.to_array()[k.min(5)],
         }
     }
 }
@@ -104,9 +101,11 @@ impl Pattern {
     pub fn elongations(&self, at: &Condition, range: f64) -> [Vector6; 2] {
         let mut e = [Vector6::zeros(); 2];
         let force = at.force_change();
+        let shared = self.variable.is_common().then(|| self.course_values(self.variable.value(at, 0), range));
         for leg in self.leg.map_or(0..6, |l| l..l + 1) {
             let carrier = if self.compliance { force[leg] } else { 1.0 };
-            let [first, second] = self.course_values(self.variable.value(at, leg), range);
+            let own = || self.course_values(self.variable.value(at, leg), range);
+            let [first, second] = shared.unwrap_or_else(own);
             e[0][leg] = carrier * first;
             e[1][leg] = carrier * second;
         }
@@ -143,8 +142,7 @@ impl Pattern {
     /// A value of the variable in the unit of the files.
     pub fn shown(&self, v: f64) -> f64 {
         match self.variable {
-            Variable::LegLength | Variable::Pose(0..=2) => v * 1e3,
-            Variable::Pose(_) => v.to_degrees(),
+            Variable::LegLength => v * 1e3,
             _ => v,
         }
     }

@@ -5,7 +5,7 @@ use crate::campaign::Condition;
 /// Most periods tried.
 const MOST_PERIODS: usize = 600;
 /// Frequency steps per resolution element `1 / range`.
-const OVERSAMPLING: f64 = 4.0;
+const OVERSAMPLING: usize = 4;
 
 /// Periods (m) from the whole range of commanded leg lengths down to the mean spacing between lengths, equally spaced
 /// in frequency. Source: Scargle 1982, Astrophys. J. 263 (sampling of a periodogram).
@@ -16,14 +16,14 @@ pub(crate) fn period_grid(conditions: &[Condition]) -> Vec<f64> {
     if !range.is_finite() || range < 1e-6 {
         return Vec::new();
     }
-    let step = 1.0 / (OVERSAMPLING * range);
+    let step = 1.0 / (OVERSAMPLING as f64 * range);
     let count = distinct_lengths(conditions).saturating_mul(2).clamp(8, MOST_PERIODS);
-    (4..4 + count).map(|k| 1.0 / (step * k as f64)).collect()
+    (OVERSAMPLING..OVERSAMPLING + count).map(|k| 1.0 / (step * k as f64)).collect()
 }
 
 fn distinct_lengths(conditions: &[Condition]) -> usize {
     let mut lengths: Vec<u64> = conditions.iter().map(|c| c.commanded_lengths[0].to_bits()).collect();
     lengths.sort_unstable();
     lengths.dedup();
-    OVERSAMPLING as usize * lengths.len()
+    OVERSAMPLING * lengths.len()
 }

@@ -1,6 +1,6 @@
 //! Scans over periods, thresholds and legs: one candidate at a time beside everything found so far.
 
-use hexbench_core::Matrix6;
+use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -11,6 +11,9 @@ use crate::pattern::{Course, Pattern, Variable, spread};
 use crate::period::period_grid;
 use crate::term::Term;
 
+/// Variables a pattern may follow.
+const VARIABLES: [Variable; 4] =
+    [Variable::Elapsed, Variable::DeltaT, Variable::LegLength, Variable::LegForce];
 /// Steps of the search for the top of a peak.
 const GOLDEN_STEPS: usize = 20;
 
@@ -19,8 +22,8 @@ pub(crate) struct Scanner<'a> {
     lin: &'a Linearization,
     basis: DMatrix<f64>,
     residual: DVector<f64>,
-    /// Whitened reading per leg elongation at every condition.
-    readers: Vec<Matrix6>,
+    space: LegSpace,
+    spreads: Vec<(Variable, f64)>,
 }
 
 impl<'a> Scanner<'a> {
@@ -39,7 +42,9 @@ impl<'a> Scanner<'a> {
         let basis = orthonormal(&all);
         let mut residual = target(lin, point);
         project(&basis, &mut residual);
-        Self { lin, basis, residual, readers: lin.elongation_readers() }
+        let space = LegSpace::new(&lin.elongation_readers(), &basis, &residual);
+        let spreads = VARIABLES.map(|v| (v, spread(v, &lin.conditions))).to_vec();
+        Self { lin, basis, residual, space, spreads }
     }
 
     /// Drop of chi-square when these columns are added.
@@ -62,38 +67,164 @@ impl<'a> Scanner<'a> {
         golden(grid[best.saturating_sub(1)], grid[(best + 1).min(grid.len() - 1)], drop)
     }
 
-    /// The best pattern of every family, with the number of patterns it was chosen from.
+    /// The best pattern of every family, with the number of patterns it was chosen from: waves common to all legs, waves
+    /// in single legs, courses, steps.
     pub(crate) fn patterns(&self, campaign: &Campaign) -> Vec<(Pattern, usize)> {
-        let best = |family: &Vec<Pattern>| {
-            let scores: Vec<f64> = family.par_iter().map(|p| self.pattern_drop(p)).collect();
-            highest(&scores).map(|i| (self.refined(family[i]), family.len()))
-        };
-        families(campaign, self.lin).iter().filter_map(best).collect()
+        let periods = period_grid(&self.lin.conditions);
+        let wave = |p: &f64| (Variable::LegLength, Course::Periodic(*p), true);
+        let waves: Vec<Kind> = periods.iter().map(wave).collect();
+        let variables = variables(campaign, self.lin);
+        let courses: Vec<Kind> = variables.iter().flat_map(|v| courses(*v)).collect();
+        let steps: Vec<Kind> = variables.iter().flat_map(|v| steps(*v, self.lin)).collect();
+        let (common, single) = (0..1, 1..7);
+        let families = [(&waves, common), (&waves, single), (&courses, 0..7), (&steps, 0..7)];
+        families.into_iter().filter_map(|(kinds, legs)| self.best_of(kinds, legs)).collect()
     }
 
-    fn pattern_drop(&self, pattern: &Pattern) -> f64 {
-        let range = spread(pattern.variable, &self.lin.conditions);
+    /// The pattern with the largest drop among kinds and legs (0: all alike), and the number tried.
+    fn best_of(&self, kinds: &[Kind], legs: std::ops::Range<usize>) -> Option<(Pattern, usize)> {
+        let drops: Vec<[f64; 7]> = kinds.par_iter().map(|k| self.drops(k)).collect();
+        let tried = kinds.len() * legs.len();
+        let all = (0..kinds.len()).flat_map(|k| legs.clone().map(move |l| (k, l)));
+        let unknown = all.filter(|&(k, l)| l > 0 || !in_catalogue(&kinds[k]));
+        let (k, l) = unknown.max_by(|a, b| drops[a.0][a.1].total_cmp(&drops[b.0][b.1]))?;
+        let kind = self.refined(kinds[k], l);
+        Some((Pattern { leg: l.checked_sub(1), variable: kind.0, course: kind.1, compliance: kind.2 }, tried))
+    }
+
+    /// Drop of chi-square when all legs follow a course alike, and when each leg alone does.
+    fn drops(&self, &(variable, course, compliance): &Kind) -> [f64; 7] {
+        let range = self.spreads.iter().find(|s| s.0 == variable).map_or(0.0, |s| s.1);
         if range <= 0.0 {
-            return 0.0;
+            return [0.0; 7];
         }
-        let mut columns = DMatrix::zeros(self.lin.equations(), pattern.width());
-        for (i, (c, reader)) in self.lin.conditions.iter().zip(&self.readers).enumerate() {
-            for (wave, e) in pattern.elongations(c, range).iter().take(pattern.width()).enumerate() {
-                let reading = pattern.leg.map_or_else(|| reader * e, |leg| reader.column(leg) * e[leg]);
-                columns.fixed_view_mut::<6, 1>(6 * i, wave).copy_from(&reading);
+        let pattern = Pattern { leg: None, variable, course, compliance };
+        let n = self.lin.conditions.len();
+        let mut e = vec![DMatrix::zeros(n, 6); pattern.width()];
+        for (i, c) in self.lin.conditions.iter().enumerate() {
+            for (wave, values) in e.iter_mut().zip(pattern.elongations(c, range)) {
+                wave.row_mut(i).tr_copy_from(&values);
             }
         }
-        self.drop(&columns)
+        self.space.drops(&e)
     }
 
-    /// A periodic pattern with its period between the grid points on both sides.
-    fn refined(&self, pattern: Pattern) -> Pattern {
-        let Course::Periodic(period) = pattern.course else { return pattern };
+    /// A wave with its period between the grid points on both sides.
+    fn refined(&self, kind: Kind, leg: usize) -> Kind {
+        let Course::Periodic(period) = kind.1 else { return kind };
         let grid = period_grid(&self.lin.conditions);
         let place = grid.iter().position(|&p| p <= period).unwrap_or(0);
         let (longer, shorter) = (grid[place.saturating_sub(1)], grid[(place + 1).min(grid.len() - 1)]);
-        let with = |p: f64| Pattern { course: Course::Periodic(p), ..pattern };
-        with(golden(shorter, longer, |p| self.pattern_drop(&with(p))))
+        let with = |p: f64| (kind.0, Course::Periodic(p), kind.2);
+        with(golden(shorter, longer, |p| self.drops(&with(p))[leg]))
+    }
+}
+
+/// Variable, course, and whether it is a compliance.
+type Kind = (Variable, Course, bool);
+
+/// What a pattern of leg elongations meets: its share in the residual, its length, and its overlap with the columns
+/// already there. One column per leg, one row per condition.
+struct LegSpace {
+    residual: DMatrix<f64>,
+    length: Vec<Matrix6>,
+    /// Per leg: overlap with every column of the basis (conditions x columns).
+    overlap: [DMatrix<f64>; 6],
+}
+
+impl LegSpace {
+    fn new(readers: &[Matrix6], basis: &DMatrix<f64>, residual: &DVector<f64>) -> Self {
+        let n = readers.len();
+        let mut space = Self {
+            residual: DMatrix::zeros(n, 6),
+            length: readers.iter().map(|r| r.tr_mul(r)).collect(),
+            overlap: std::array::from_fn(|_| DMatrix::zeros(n, basis.ncols())),
+        };
+        for (i, reader) in readers.iter().enumerate() {
+            let share = reader.tr_mul(&residual.fixed_rows::<6>(6 * i));
+            space.residual.row_mut(i).tr_copy_from(&share);
+            let along = reader.tr_mul(&basis.fixed_rows::<6>(6 * i));
+            for leg in 0..6 {
+                space.overlap[leg].row_mut(i).copy_from(&along.row(leg));
+            }
+        }
+        space
+    }
+
+    /// Drops for all legs alike and for each leg alone; `e` holds one or two waves.
+    fn drops(&self, e: &[DMatrix<f64>]) -> [f64; 7] {
+        let legs: [Sums; 6] = std::array::from_fn(|leg| self.of_leg(e, leg));
+        let mut all = self.of_all(e);
+        for leg in &legs {
+            all.add_shares(leg);
+        }
+        std::array::from_fn(|k| if k == 0 { all.drop() } else { legs[k - 1].drop() })
+    }
+
+    fn of_leg(&self, e: &[DMatrix<f64>], leg: usize) -> Sums {
+        let mut sums = Sums::new(e.len(), self.overlap[leg].ncols());
+        for (w, wave) in e.iter().enumerate() {
+            let column = wave.column(leg);
+            sums.b[w] = column.dot(&self.residual.column(leg));
+            sums.overlap[w] = self.overlap[leg].tr_mul(&column);
+            for v in 0..=w {
+                let other = e[v].column(leg);
+                let pairs = column.iter().zip(other.iter()).zip(&self.length);
+                sums.g[w][v] = pairs.map(|((a, b), l)| a * b * l[(leg, leg)]).sum();
+            }
+        }
+        sums
+    }
+
+    /// Products of all legs together; shares and overlaps are the sums of the single legs.
+    fn of_all(&self, e: &[DMatrix<f64>]) -> Sums {
+        let mut sums = Sums::new(e.len(), self.overlap[0].ncols());
+        let rows = |w: usize, i: usize| Vector6::from_fn(|leg, _| e[w][(i, leg)]);
+        for (i, length) in self.length.iter().enumerate() {
+            for w in 0..e.len() {
+                let along = length * rows(w, i);
+                for v in 0..=w {
+                    sums.g[w][v] += along.dot(&rows(v, i));
+                }
+            }
+        }
+        sums
+    }
+}
+
+/// Normal equations of one or two columns.
+struct Sums {
+    width: usize,
+    b: [f64; 2],
+    g: [[f64; 2]; 2],
+    overlap: [DVector<f64>; 2],
+}
+
+impl Sums {
+    fn new(width: usize, basis_columns: usize) -> Self {
+        let zeros = || DVector::zeros(basis_columns);
+        Self { width, b: [0.0; 2], g: [[0.0; 2]; 2], overlap: [zeros(), zeros()] }
+    }
+
+    fn add_shares(&mut self, other: &Self) {
+        for w in 0..self.width {
+            self.b[w] += other.b[w];
+            self.overlap[w] += &other.overlap[w];
+        }
+    }
+
+    /// Drop of chi-square, `b' G^-1 b` after the projection.
+    fn drop(&self) -> f64 {
+        let shared = |i: usize, j: usize| self.overlap[i].dot(&self.overlap[j]);
+        let ridge = 1.0 + 1e-9;
+        let a = self.g[0][0] * ridge - shared(0, 0);
+        if self.width == 1 {
+            return if a > 0.0 { self.b[0].powi(2) / a } else { 0.0 };
+        }
+        let (c, d) = (self.g[1][0] - shared(1, 0), self.g[1][1] * ridge - shared(1, 1));
+        let det = a * d - c * c;
+        let top = d * self.b[0].powi(2) - 2.0 * c * self.b[0] * self.b[1] + a * self.b[1].powi(2);
+        if det > 0.0 { (top / det).max(0.0) } else { 0.0 }
     }
 }
 
@@ -121,26 +252,6 @@ fn golden(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Families of patterns that no term of the catalogue describes: waves over leg length common to all legs, waves in
-/// single legs, courses of leg and variable, steps.
-fn families(campaign: &Campaign, lin: &Linearization) -> Vec<Vec<Pattern>> {
-    let periods = period_grid(&lin.conditions);
-    let wave = |leg: Option<usize>| {
-        let pattern = move |p: &f64| Pattern {
-            leg,
-            variable: Variable::LegLength,
-            course: Course::Periodic(*p),
-            compliance: true,
-        };
-        periods.iter().map(pattern).collect::<Vec<_>>()
-    };
-    let courses = variables(campaign, lin).into_iter().flat_map(courses).collect();
-    let steps = variables(campaign, lin).into_iter().flat_map(|v| steps(v, lin)).collect();
-    let mut families = vec![wave(None), (0..6).flat_map(|l| wave(Some(l))).collect(), courses, steps];
-    families.retain(|f: &Vec<Pattern>| !f.is_empty());
-    families
-}
-
 /// Variables that vary in these data.
 fn variables(campaign: &Campaign, lin: &Linearization) -> Vec<Variable> {
     let present = [
@@ -153,39 +264,25 @@ fn variables(campaign: &Campaign, lin: &Linearization) -> Vec<Variable> {
     present.into_iter().filter(|(v, has)| *has && varies(*v)).map(|(v, _)| v).collect()
 }
 
-fn legs() -> impl Iterator<Item = Option<usize>> + Clone {
-    std::iter::once(None).chain((0..6).map(Some))
+fn courses(variable: Variable) -> Vec<Kind> {
+    let courses = [Course::Linear, Course::Quadratic];
+    courses.into_iter().flat_map(|c| [(variable, c, false), (variable, c, true)]).collect()
 }
 
-fn courses(variable: Variable) -> Vec<Pattern> {
-    let mut all = Vec::new();
-    for leg in legs() {
-        for compliance in [false, true] {
-            for course in [Course::Linear, Course::Quadratic] {
-                let pattern = Pattern { leg, variable, course, compliance };
-                if !in_catalogue(&pattern) {
-                    all.push(pattern);
-                }
-            }
-        }
-    }
-    all
-}
-
-/// Patterns that are terms: compliance in proportion to length, length in proportion to temperature.
-fn in_catalogue(p: &Pattern) -> bool {
+/// What all legs alike do and a term describes: compliance in proportion to length, length to temperature.
+fn in_catalogue(&(variable, course, compliance): &Kind) -> bool {
     let known = [(Variable::LegLength, true), (Variable::DeltaT, false)];
-    p.leg.is_none() && p.course == Course::Linear && known.contains(&(p.variable, p.compliance))
+    course == Course::Linear && known.contains(&(variable, compliance))
 }
 
-fn steps(variable: Variable, lin: &Linearization) -> Vec<Pattern> {
+fn steps(variable: Variable, lin: &Linearization) -> Vec<Kind> {
     if variable == Variable::LegForce {
         return Vec::new();
     }
     let cuts = thresholds(variable, lin);
-    let kinds = legs().flat_map(|leg| [(leg, false), (leg, true)]);
-    let step = |(leg, compliance), at: f64| Pattern { leg, variable, course: Course::Step(at), compliance };
-    kinds.flat_map(|kind| cuts.iter().map(move |&at| step(kind, at))).collect()
+    cuts.into_iter()
+        .flat_map(|at| [(variable, Course::Step(at), false), (variable, Course::Step(at), true)])
+        .collect()
 }
 
 /// Values between which a step may lie: the twentieths of the variable.

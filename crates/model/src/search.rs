@@ -17,10 +17,10 @@ const PRIOR_OF_DISCREPANCY: f64 = 0.03;
 const INFLATIONS: [f64; 9] = [1.05, 1.1, 1.2, 1.4, 2.0, 4.0, 10.0, 100.0, 1e4];
 /// Sets grown further in each round.
 const BEAM: usize = 4;
+/// Sets stop growing once the best of the next size is this many nats below the best.
+const GIVEN_UP: f64 = 2.0;
 /// Best sets that are also weighed with a discrepancy.
 const DISCREPANT_SETS: usize = 24;
-/// A set this many nats below the best is not refined.
-const CUT: f64 = 14.0;
 
 /// A set of candidates with its evidence.
 #[derive(Debug, Clone)]
@@ -35,6 +35,8 @@ pub struct Set {
     pub log_weight_discrepant: f64,
     /// Drop of chi-square.
     pub drop: f64,
+    /// What averaging over forms, shapes and widths adds to the evidence of the chosen ones.
+    bonus: f64,
 }
 
 /// All sets looked at, best first.
@@ -75,115 +77,82 @@ impl<'a> Search<'a> {
         Self { gram, candidates, effects: (terms + 1) as f64, discrepancy, done: BTreeMap::new() }
     }
 
-    /// Search from nothing up to `most` effects, always looking at the sets in `also`.
-    pub fn run(mut self, most: usize, also: &[Vec<usize>]) -> Sets {
-        self.evaluate(&[], &[]);
-        for set in also {
-            self.refine(set);
-        }
+    /// Search from nothing up to `most` effects.
+    pub fn run(mut self, most: usize) -> Sets {
+        self.record(Vec::new(), Vec::new(), 0.0);
         for size in 0..most.min(PRIOR_OF_COUNT.len() - 1) {
-            let parents = self.best_of_size(size);
             let before = self.best_weight();
-            for parent in parents {
+            for parent in self.best_of_size(size) {
                 self.grow(&parent);
             }
-            if size >= 1 && self.best_of_size(size + 1).first().is_none_or(|s| s.log_weight < before - CUT) {
+            for child in self.best_of_size(size + 1) {
+                self.polish(&child);
+            }
+            if size >= 1
+                && self.best_of_size(size + 1).first().is_none_or(|s| s.log_weight < before - GIVEN_UP)
+            {
                 break;
             }
         }
         self.finish()
     }
 
-    /// Every extension of a set by one candidate; the promising ones are refined.
+    /// Every extension of a set by one candidate, beside the variants the set has.
     fn grow(&mut self, parent: &Set) {
-        let mut scored: Vec<(f64, usize, Variant)> = Vec::new();
         for (index, candidate) in self.candidates.iter().enumerate() {
             if parent.members.contains(&index) {
                 continue;
             }
             let profile = self.gram.profile(&parent.variants, &candidate.blocks);
-            if let Some(&(variant, _)) = profile.first() {
-                let weight = log_sum(profile.iter().map(|p| p.1)) + candidate.log_weight;
-                scored.push((weight, index, variant));
-            }
-        }
-        scored.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let Some(&(best, ..)) = scored.first() else { return };
-        for (weight, index, variant) in scored {
-            let mut members = parent.members.clone();
-            let place = members.partition_point(|&m| m < index);
+            let Some(&(variant, _)) = profile.first() else { continue };
+            let bonus = parent.bonus + self.bonus(&profile, variant);
+            let place = parent.members.partition_point(|&m| m < index);
+            let (mut members, mut variants) = (parent.members.clone(), parent.variants.clone());
             members.insert(place, index);
-            if self.done.contains_key(&members) {
-                continue;
-            }
-            let mut variants = parent.variants.clone();
             variants.insert(place, variant);
-            if parent.members.is_empty() || weight < best - CUT {
-                self.evaluate(&members, &variants);
-            } else {
-                self.polish(&members, variants);
-            }
+            self.record(members, variants, bonus);
         }
     }
 
-    /// Best variants of a set from scratch.
-    fn refine(&mut self, members: &[usize]) {
-        let mut variants: Vec<Variant> = Vec::new();
-        for &m in members {
-            let Some(&(v, _)) = self.gram.profile(&variants, &self.candidates[m].blocks).first() else {
-                return;
-            };
-            variants.push(v);
-        }
-        self.polish(members, variants);
-    }
-
-    /// Coordinate ascent over the variants of each member.
-    fn polish(&mut self, members: &[usize], mut variants: Vec<Variant>) {
-        for _ in 0..2 {
-            let before = variants.clone();
-            for k in 0..members.len() {
-                let mut others = variants.clone();
-                others.remove(k);
-                if let Some(&(v, _)) = self.gram.profile(&others, &self.candidates[members[k]].blocks).first()
-                {
-                    variants[k] = v;
-                }
-            }
-            if variants == before {
-                break;
-            }
-        }
-        self.evaluate(members, &variants);
-    }
-
-    fn evaluate(&mut self, members: &[usize], variants: &[Variant]) {
-        let Some(posterior) = self.gram.posterior(variants, 1.0) else { return };
-        let white = if self.discrepancy { (1.0 - PRIOR_OF_DISCREPANCY).ln() } else { 0.0 };
-        let offset = self.averaging_bonus(members, variants) + self.log_prior(members) + white;
-        let set = Set {
-            members: members.to_vec(),
-            variants: variants.to_vec(),
-            log_weight: posterior.log_evidence + offset,
-            log_weight_discrepant: f64::NEG_INFINITY,
-            drop: posterior.drop,
-        };
-        self.done.insert(members.to_vec(), set);
-    }
-
-    /// What averaging over variants adds to the evidence of the best ones, member by member.
-    fn averaging_bonus(&self, members: &[usize], variants: &[Variant]) -> f64 {
+    /// One round of coordinate ascent over the variants of each member, and the exact average over them.
+    fn polish(&mut self, set: &Set) {
+        let mut variants = set.variants.clone();
         let mut bonus = 0.0;
-        for k in 0..members.len() {
-            let mut others = variants.to_vec();
+        for (k, &m) in set.members.iter().enumerate() {
+            let mut others = variants.clone();
             others.remove(k);
-            let profile = self.gram.profile(&others, &self.candidates[members[k]].blocks);
-            let chosen = profile.iter().find(|p| p.0 == variants[k]).map_or(0.0, |p| p.1);
-            let block = &self.gram.blocks[variants[k].block];
-            let share = block.log_share - (block.widths.len() as f64).ln();
-            bonus += log_sum(profile.iter().map(|p| p.1)) - chosen + share;
+            let profile = self.gram.profile(&others, &self.candidates[m].blocks);
+            if let Some(&(v, _)) = profile.first() {
+                variants[k] = v;
+                bonus += self.bonus(&profile, v);
+            }
         }
-        bonus
+        self.done.remove(&set.members);
+        self.record(set.members.clone(), variants, bonus);
+    }
+
+    /// What averaging over the variants of one member adds to the evidence of the chosen one.
+    fn bonus(&self, profile: &[(Variant, f64)], chosen: Variant) -> f64 {
+        let at_chosen = profile.iter().find(|p| p.0 == chosen).map_or(0.0, |p| p.1);
+        let block = &self.gram.blocks[chosen.block];
+        let share = block.log_share - (block.widths.len() as f64).ln();
+        log_sum(profile.iter().map(|p| p.1)) - at_chosen + share
+    }
+
+    /// Note a set; of two ways to the same set the better one stays.
+    fn record(&mut self, members: Vec<usize>, variants: Vec<Variant>, bonus: f64) {
+        let Some(posterior) = self.gram.posterior(&variants, 1.0) else { return };
+        let white = if self.discrepancy { (1.0 - PRIOR_OF_DISCREPANCY).ln() } else { 0.0 };
+        let log_weight = posterior.log_evidence + bonus + self.log_prior(&members) + white;
+        if self.done.get(&members).is_some_and(|known| known.log_weight >= log_weight) {
+            return;
+        }
+        let log_weight_discrepant = f64::NEG_INFINITY;
+        let drop = posterior.drop;
+        self.done.insert(
+            members.clone(),
+            Set { members, variants, log_weight, log_weight_discrepant, drop, bonus },
+        );
     }
 
     /// Weight of a set with a discrepancy of unknown size on top.

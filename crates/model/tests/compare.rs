@@ -1,6 +1,6 @@
 //! The comparison on cases with a known answer.
 
-mod common;
+mod cases;
 
 use hexbench_model::compare::{Comparison, compare};
 use hexbench_model::diagnose::prepare;
@@ -10,7 +10,7 @@ use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::terms::catalogue;
 
 fn of(case: &str) -> Comparison {
-    let (hexapod, data, holdout) = common::case(case);
+    let (hexapod, data, holdout) = cases::case(case);
     compare(&hexapod, &data, None, Some(&holdout)).unwrap()
 }
 
@@ -58,7 +58,7 @@ fn the_papers_plan_hides_a_foundation_in_the_springs() {
 
 #[test]
 fn frames_and_joints_of_absolute_poses_are_told_in_one_sentence() {
-    let (hexapod, data, holdout) = common::case("absolute-pitch");
+    let (hexapod, data, holdout) = cases::case("absolute-pitch");
     let campaign = prepare(&hexapod, &data).unwrap();
     let terms = ["joint-geometry", "actuator-pitch"].map(|id| term_named(id, &catalogue()).unwrap());
     let fitted = fit_named(&campaign, &terms).unwrap();
@@ -78,7 +78,7 @@ fn frames_and_joints_of_absolute_poses_are_told_in_one_sentence() {
 
 #[test]
 fn what_cannot_be_fitted_is_refused_by_name() {
-    let (hexapod, data, _) = common::case("mujoco-clean");
+    let (hexapod, data, _) = cases::case("mujoco-clean");
     let campaign = prepare(&hexapod, &data).unwrap();
     let all = catalogue();
     assert!(
@@ -92,7 +92,7 @@ fn what_cannot_be_fitted_is_refused_by_name() {
 
 #[test]
 fn an_effect_of_which_nothing_shows_is_not_determined() {
-    let (hexapod, data, _) = common::case("mujoco-clean");
+    let (hexapod, data, _) = cases::case("mujoco-clean");
     let campaign = prepare(&hexapod, &data).unwrap();
     // The gain of a leg in the direction it cannot be seen: a term without effect on these readings.
     let silent = hexbench_model::user_term::parse(

@@ -1,6 +1,6 @@
 //! The model file gives back the same bits and refuses what is no model.
 
-mod common;
+mod cases;
 
 use std::sync::Arc;
 
@@ -60,9 +60,9 @@ fn bits(model: &Model) -> Vec<u64> {
     all.into_iter().map(f64::to_bits).collect()
 }
 
-fn cases() -> Vec<Model> {
-    let (h, d, _) = common::case("mujoco-foundation");
-    let (ha, da, _) = common::case("absolute-pitch");
+fn models() -> Vec<Model> {
+    let (h, d, _) = cases::case("mujoco-foundation");
+    let (ha, da, _) = cases::case("absolute-pitch");
     vec![
         model(&h, &d, &[]),
         model(
@@ -77,7 +77,7 @@ fn cases() -> Vec<Model> {
 
 #[test]
 fn a_model_comes_back_bit_for_bit() {
-    for original in cases() {
+    for original in models() {
         let text = original.to_toml().unwrap();
         let back = Model::from_toml(&text).unwrap();
         assert_eq!(bits(&back), bits(&original));
@@ -91,15 +91,15 @@ fn a_model_comes_back_bit_for_bit() {
 
 #[test]
 fn a_reopened_model_predicts_the_same_numbers() {
-    let (_, data, _) = common::case("mujoco-foundation");
-    let original = cases().remove(1);
+    let (_, data, _) = cases::case("mujoco-foundation");
+    let original = models().remove(1);
     let back = Model::from_toml(&original.to_toml().unwrap()).unwrap();
     assert_eq!(predict(&back, &data.observations[..9]), predict(&original, &data.observations[..9]));
 }
 
 #[test]
 fn what_is_no_model_is_refused_with_key_and_rule() {
-    let text = cases().remove(1).to_toml().unwrap();
+    let text = models().remove(1).to_toml().unwrap();
     let after = |line_start: &str, new: &str| {
         let old = text
             .lines()
@@ -132,7 +132,7 @@ fn what_is_no_model_is_refused_with_key_and_rule() {
 }
 
 fn with_covariance(change: impl Fn(&mut Vec<Vec<f64>>)) -> String {
-    let model = cases().remove(0);
+    let model = models().remove(0);
     let mut table: toml::Table = model.to_toml().unwrap().parse().unwrap();
     let mut rows: Vec<Vec<f64>> = model.covariance.row_iter().map(|r| r.iter().copied().collect()).collect();
     change(&mut rows);
@@ -158,7 +158,7 @@ fn a_matrix_that_is_no_covariance_is_refused() {
 proptest! {
     #[test]
     fn any_finite_springs_come_back(springs in prop::array::uniform6(prop::num::f64::NORMAL)) {
-        let mut model = cases().remove(0);
+        let mut model = models().remove(0);
         model.point.springs = hexbench_core::Vector6::from_column_slice(&springs);
         let back = Model::from_toml(&model.to_toml().unwrap()).unwrap();
         prop_assert_eq!(back.point.springs.map(f64::to_bits), model.point.springs.map(f64::to_bits));
@@ -174,5 +174,5 @@ proptest! {
 }
 
 thread_local! {
-    static SAMPLE: String = cases().remove(0).to_toml().unwrap();
+    static SAMPLE: String = models().remove(0).to_toml().unwrap();
 }

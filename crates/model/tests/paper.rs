@@ -1,6 +1,6 @@
 //! The paper's estimator against its formulas written out, and against the regressor of the model.
 
-mod common;
+mod cases;
 
 use hexbench_core::{Dataset, Hexapod, Matrix6, Observation, Vector6};
 use hexbench_model::campaign::Campaign;
@@ -29,7 +29,7 @@ fn naive_block(hexapod: &Hexapod, o: &Observation) -> Matrix6 {
 #[test]
 fn the_regressor_is_the_papers_formula() {
     for name in ["paper-protocol", "mujoco-clean"] {
-        let (hexapod, data, _) = common::case(name);
+        let (hexapod, data, _) = cases::case(name);
         for o in &data.observations {
             let (ours, naive) = (block(&hexapod, o, data.measurand).unwrap(), naive_block(&hexapod, o));
             assert!((ours - naive).amax() < 1e-12 * naive.amax(), "{name} line {}", o.line);
@@ -39,7 +39,7 @@ fn the_regressor_is_the_papers_formula() {
 
 #[test]
 fn without_weights_and_deflection_the_regressor_of_the_model_is_the_papers() {
-    let (hexapod, data, _) = common::case("mujoco-clean");
+    let (hexapod, data, _) = cases::case("mujoco-clean");
     let undeflected: Vec<Observation> =
         data.observations.iter().map(|o| Observation { measured: [0.0; 6], ..*o }).collect();
     let data = Dataset { observations: undeflected, ..data };
@@ -57,7 +57,7 @@ fn without_weights_and_deflection_the_regressor_of_the_model_is_the_papers() {
 
 #[test]
 fn noiseless_deflections_give_the_springs_back() {
-    let (hexapod, data, _) = common::case("paper-protocol");
+    let (hexapod, data, _) = cases::case("paper-protocol");
     let springs = Vector6::new(4.1981, 3.7898, 2.7503, 4.32, 3.6716, 3.7288).map(|k| 1e-6 / k);
     let deflected = data.observations.iter().map(|o| {
         let y = block(&hexapod, o, data.measurand).unwrap() * springs;
@@ -71,7 +71,7 @@ fn noiseless_deflections_give_the_springs_back() {
 
 #[test]
 fn one_vertical_pose_on_a_symmetric_machine_leaves_combinations_that_are_named() {
-    let (hexapod, data, _) = common::case("mujoco-clean");
+    let (hexapod, data, _) = cases::case("mujoco-clean");
     let mut o = data.observations[0];
     o.wrench = hexbench_core::Wrench::default();
     o.reference = o.wrench;
@@ -89,7 +89,7 @@ fn one_vertical_pose_on_a_symmetric_machine_leaves_combinations_that_are_named()
 
 #[test]
 fn the_uncertainty_covers_the_truth_over_simulated_noise() {
-    let (hexapod, data, _) = common::case("paper-protocol");
+    let (hexapod, data, _) = cases::case("paper-protocol");
     let a = regressor(&hexapod, &data).unwrap();
     let fitted = fit_paper(&Campaign::new(&hexapod, &data).unwrap(), &data).unwrap();
     // Covariance against the formula of weighted propagation, written out.

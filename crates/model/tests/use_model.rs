@@ -1,6 +1,6 @@
 //! Predictions against held-out measurements, and commands that land where they should.
 
-mod common;
+mod cases;
 
 use std::sync::Arc;
 
@@ -28,12 +28,12 @@ fn model(hexapod: &Hexapod, data: &Dataset, terms: &[(&str, f64, f64)]) -> Model
 }
 
 fn foundation() -> (Model, Dataset) {
-    let (hexapod, data, holdout) = common::case("mujoco-foundation");
+    let (hexapod, data, holdout) = cases::case("mujoco-foundation");
     (model(&hexapod, &data, &[("base-compliance", 1.0, 1e-4)]), holdout)
 }
 
 fn absolute() -> (Model, Dataset) {
-    let (hexapod, data, holdout) = common::case("absolute-pitch");
+    let (hexapod, data, holdout) = cases::case("absolute-pitch");
     (model(&hexapod, &data, &[("joint-geometry", 1.0, 1e-3), ("actuator-pitch", 3e-3, 1e-4)]), holdout)
 }
 

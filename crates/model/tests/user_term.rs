@@ -1,6 +1,6 @@
 //! A user's own term: equal to a catalogue term it gives the same fit; hostile files are refused in words.
 
-mod common;
+mod cases;
 
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ fn catalogue_term(id: &str) -> Arc<dyn Term> {
 }
 
 fn same_fit(own: &str, id: &str, shape: f64, case: &str) {
-    let (hexapod, data, _) = common::case(case);
+    let (hexapod, data, _) = cases::case(case);
     let campaign = prepare(&hexapod, &data).unwrap();
     let of = |term: &Arc<dyn Term>| fit(&campaign, &[wanted(term, shape, 1.0)], None).unwrap();
     let (own, theirs) = (of(&parse(own).unwrap()), of(&catalogue_term(id)));
@@ -54,7 +54,7 @@ fn a_user_term_equal_to_a_catalogue_term_gives_the_same_fit() {
 
 #[test]
 fn a_wrench_formula_acts_like_the_same_wrench() {
-    let (hexapod, data, _) = common::case("mujoco-clean");
+    let (hexapod, data, _) = cases::case("mujoco-clean");
     let campaign = prepare(&hexapod, &data).unwrap();
     let own = parse(
         r#"
@@ -84,7 +84,7 @@ fn a_wrench_formula_acts_like_the_same_wrench() {
 
 #[test]
 fn a_user_term_wins_the_diagnosis_of_an_effect_outside_the_catalogue() {
-    let (hexapod, data, holdout) = common::case("not-in-catalogue");
+    let (hexapod, data, holdout) = cases::case("not-in-catalogue");
     let own = parse(
         r#"
         format = "term/1"
@@ -111,7 +111,7 @@ fn a_user_term_wins_the_diagnosis_of_an_effect_outside_the_catalogue() {
 fn a_formula_without_value_at_a_reading_names_line_and_variables() {
     let text = BRACKET.replace("size*(nx^2 + ny^2)*df", "size*df/(elapsed - 76.907)");
     let term = parse(&text).unwrap();
-    let (hexapod, data, _) = common::case("contact");
+    let (hexapod, data, _) = cases::case("contact");
     let campaign = prepare(&hexapod, &data).unwrap();
     let point = hexbench_model::fit::fit_baseline(&campaign).unwrap().point;
     let lin = hexbench_model::linearization::Linearization::at(&campaign, &point).unwrap();

@@ -24,5 +24,6 @@ pub(crate) fn run(_: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let holdout = read_measurements_from(HOLDOUT.as_bytes(), "holdout.csv")?.dataset;
     let study = study(&hexapod, &data, Some(&holdout), &catalogue())?;
     let subject = Subject { hexapod: &hexapod, data: &data, holdout: Some(&holdout), study: &study };
-    screen.write(&page::demo(&subject, screen.ink()))
+    let failed = |cause| Failure::Model { cause, data: data.source.clone() };
+    screen.write(&page::demo(&subject, screen.ink()).map_err(failed)?)
 }

@@ -18,7 +18,7 @@ pub(crate) fn text(info: &TermInfo, ink: Ink) -> String {
     paper.hanging("  richer", LABEL, rich(info.rich));
     paper.hanging("  source", LABEL, info.source);
     paper.heading("Parameters", "identified from the data; values below zero only where allowed");
-    parameters(info).lines().iter().for_each(|line| paper.line(line));
+    parameters(info).left(1).lines().iter().for_each(|line| paper.line(line));
     paper.into_text()
 }
 

@@ -1,30 +1,42 @@
 //! Pages of text for people: the diagnosis, the demo, the catalogue.
 
 pub(crate) mod comparison;
+mod conclusion;
+mod confidence;
+mod demo;
 pub(crate) mod effect;
 pub(crate) mod effects;
 pub(crate) mod fitted;
-use crate::output::Ink;
-use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::diagnose::Study;
-use hexbench_model::verdict::Verdict;
-pub(crate) struct Subject<'a> {
-    pub(crate) hexapod: &'a Hexapod,
-    pub(crate) data: &'a Dataset,
-    pub(crate) holdout: Option<&'a Dataset>,
-    pub(crate) study: &'a Study,
-}
-pub(crate) fn word(v: Verdict) -> &'static str {
-    match v {
-        Verdict::Adequate => "adequate",
-        Verdict::Named => "named",
-        Verdict::Ambiguous => "ambiguous",
-        Verdict::Outside => "outside",
-    }
-}
-pub(crate) fn diagnosis(_: &Subject, _: bool, _: Ink) -> String {
-    String::new()
-}
-pub(crate) fn demo(_: &Subject, _: Ink) -> String {
-    String::new()
+mod ladder;
+mod leg_space;
+mod limits;
+mod next;
+mod notes;
+mod pattern;
+mod size;
+mod stiffness;
+mod subject;
+
+pub(crate) use conclusion::word;
+pub(crate) use demo::demo;
+pub(crate) use subject::Subject;
+
+use crate::output::{Ink, Paper};
+
+/// The diagnosis on one page.
+pub(crate) fn diagnosis(subject: &Subject<'_>, verbose: bool, ink: Ink) -> String {
+    let mut paper = Paper::new(ink);
+    let d = &subject.study.diagnosis;
+    subject.head(&mut paper);
+    conclusion::section(&mut paper, d);
+    confidence::section(&mut paper, d);
+    ladder::section(&mut paper, d);
+    size::section(&mut paper, d, verbose);
+    stiffness::section(&mut paper, subject.hexapod, d, verbose);
+    next::section(&mut paper, d);
+    pattern::section(&mut paper, d);
+    limits::section(&mut paper, d, verbose);
+    notes::section(&mut paper, d);
+    notes::conventions(&mut paper);
+    paper.into_text()
 }

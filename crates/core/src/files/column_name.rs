@@ -1,9 +1,10 @@
 //! Reading one name of a table's header: which quantity, in which unit.
 
+use super::Problem;
 use super::columns::{COLUMNS, Column};
 use super::nearest::nearest;
-use super::units::{PLAIN, Unit, unit_named};
-use super::{Kind, Problem};
+use super::stated_unit::stated_unit;
+use super::units::{Unit, unit_named};
 
 /// What a header cell turns out to be.
 #[derive(Debug)]
@@ -59,23 +60,12 @@ fn column_named(lower: &str) -> Option<&'static Column> {
 /// The longest known name that `base` continues with `_unit`.
 fn split_at_unit(base: &str) -> Option<(&'static Column, &str)> {
     let cuts = base.char_indices().filter(|(_, symbol)| *symbol == '_').map(|(at, _)| at);
-    cuts.filter_map(|at| Some((column_named(&base[..at].to_lowercase())?, &base[at + 1..]))).last()
+    cuts.filter_map(|at| Some((column_named(&base[..at].to_lowercase())?, &base[at + 1..]))).next_back()
 }
 
 fn with_unit(column: &'static Column, unit: Option<&str>) -> Result<Named, Problem> {
-    let quantity = column.name.to_owned();
-    let kind = column.kind;
-    match unit.map(str::trim).filter(|text| !text.is_empty()) {
-        None if kind == Kind::Number => Ok(Named::Known(column, &PLAIN)),
-        None => Err(Problem::NoUnit { quantity, kind }),
-        Some(text) => match unit_named(text, kind) {
-            Some(unit) if unit.kind == kind => Ok(Named::Known(column, unit)),
-            Some(unit) => {
-                Err(Problem::WrongKindOfUnit { unit: unit.name.into(), unit_kind: unit.kind, quantity, kind })
-            }
-            None => Err(Problem::UnknownUnit { unit: text.into(), quantity, kind }),
-        },
-    }
+    let unit = stated_unit(column.name, column.kind, column.usual_name(), unit)?;
+    Ok(Named::Known(column, unit))
 }
 
 /// A slip of the pen is an error: a silently ignored column would be believed to be in use.

@@ -43,7 +43,9 @@ pub(crate) fn drop_copies(
     let last = copies.last()?[1];
     let lines = copies.iter().map(|pair| pair.map(|i| observations[i].line)).collect::<Vec<_>>();
     let mut is_copy = vec![false; last + 1];
-    copies.iter().for_each(|[_, copy]| is_copy[*copy] = true);
+    for [_, copy] in &copies {
+        is_copy[*copy] = true;
+    }
     let mut index = 0..;
     observations.retain(|_| index.next().is_none_or(|i: usize| !is_copy.get(i).copied().unwrap_or(false)));
     let place = Place { line: lines.first().map(|[_, copy]| *copy), ..Place::file() };

@@ -61,7 +61,12 @@ impl std::error::Error for FileError {
 /// `place: "value": message`, each part when there is one.
 pub(crate) fn located(place: &Place, message: &dyn fmt::Display) -> String {
     let at = place.to_string();
-    let value = place.value.as_ref().map(|value| format!("\"{value}\"")).unwrap_or_default();
+    let value = place
+        .value
+        .as_ref()
+        .filter(|value| !value.is_empty())
+        .map(|value| format!("\"{value}\""))
+        .unwrap_or_default();
     let parts = [at, value, message.to_string()];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ")
 }

@@ -29,6 +29,7 @@ mod read_conditions;
 mod read_hexapod;
 mod read_measurements;
 mod row;
+mod stated_unit;
 mod toml_value;
 mod units;
 mod warning;

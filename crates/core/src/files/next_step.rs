@@ -62,7 +62,7 @@ impl Problem {
         Some(match self {
             Self::EmptyCell => "Fill in the number, or remove the whole row if the reading failed.",
             Self::NotANumber => "Write a number such as -12.5 or 3e-6; units belong in the column name.",
-            Self::NotFinite => "Remove the reading, or put in the number that was measured.",
+            Self::NotFinite => "Write the true number, or leave the whole row or key out.",
             Self::TooLarge => "Correct the exponent.",
             Self::DecimalComma => {
                 "Write a decimal point, or export with semicolons between the columns and commas in the numbers."
@@ -100,10 +100,9 @@ impl Problem {
 
     fn particular_step(&self) -> String {
         match self {
-            Self::NoUnit { quantity, kind } => named_with_unit(quantity, *kind),
-            Self::UnknownUnit { quantity, kind, .. } | Self::WrongKindOfUnit { quantity, kind, .. } => {
-                named_with_unit(quantity, *kind)
-            }
+            Self::NoUnit { usual, kind, .. }
+            | Self::UnknownUnit { usual, kind, .. }
+            | Self::WrongKindOfUnit { usual, kind, .. } => named_with_unit(usual, *kind),
             Self::MisspeltColumn { suggestion } => {
                 format!("Write {suggestion}, or begin the name with x_ to have the column ignored.")
             }
@@ -123,12 +122,10 @@ impl Problem {
     }
 }
 
-fn named_with_unit(quantity: &str, kind: Kind) -> String {
-    match kind.units().nth(1).or_else(|| kind.units().next()) {
-        Some(usual) => {
-            format!("Write {quantity}_{}; units of {}: {}.", usual.name, kind.name(), kind.unit_names())
-        }
-        None => format!("Write {quantity} without a unit."),
+fn named_with_unit(usual: &str, kind: Kind) -> String {
+    match kind {
+        Kind::Number => format!("Write {usual}, without a unit."),
+        kind => format!("Write for example {usual}; units of {}: {}.", kind.name(), kind.unit_names()),
     }
 }
 

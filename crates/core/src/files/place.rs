@@ -55,6 +55,7 @@ impl fmt::Display for Place {
             write!(out, ", column {column}")?;
         }
         match &self.name {
+            Some(name) if name.is_empty() => Ok(()),
             Some(name) if self.line.is_some() => write!(out, " ({name})"),
             Some(name) => out.write_str(name),
             None => Ok(()),

@@ -75,6 +75,8 @@ pub enum Problem {
         quantity: String,
         /// Its kind.
         kind: Kind,
+        /// The name with its usual unit.
+        usual: String,
     },
     /// Text in the place of the unit that is no unit.
     #[error("\"{unit}\" is not a known unit; {quantity} is {}", kind.with_article())]
@@ -85,6 +87,8 @@ pub enum Problem {
         quantity: String,
         /// Its kind.
         kind: Kind,
+        /// The name with its usual unit.
+        usual: String,
     },
     /// A unit of another kind.
     #[error("{unit} is a unit of {}, but {quantity} is {}", unit_kind.name(), kind.with_article())]
@@ -97,6 +101,8 @@ pub enum Problem {
         quantity: String,
         /// Its kind.
         kind: Kind,
+        /// The name with its usual unit.
+        usual: String,
     },
     /// An unknown column whose name is near a known one.
     #[error("unknown column; probably \"{suggestion}\" is meant")]
@@ -168,7 +174,7 @@ pub enum Problem {
     #[error("this is not a number")]
     NotANumber,
     /// A number that is none.
-    #[error("NaN and infinity are not measurements")]
+    #[error("NaN and infinity are not values")]
     NotFinite,
     /// A number beyond double precision.
     #[error("the number is too large for double precision (beyond 1.8e308)")]

@@ -93,7 +93,9 @@ fn hexapod_of(text: &str) -> Result<Hexapod, Fault> {
 }
 
 fn check_format(top: &Section<'_>) -> Result<(), Fault> {
-    let format = top.require("format")?;
+    let Some(format) = top.get("format") else {
+        return Err(Fault::new(Place::file(), Problem::Format { expected: FORMAT }));
+    };
     match format.string()? {
         FORMAT => Ok(()),
         _ => Err(format.fault(Problem::Format { expected: FORMAT })),
@@ -203,6 +205,11 @@ fn stroke(legs: &Section<'_>) -> Result<Option<[f64; 2]>, Fault> {
     }
 }
 
+/// Whole numbers are exact in a float.
+fn is_same(one: f64, other: f64) -> bool {
+    one.total_cmp(&other).is_eq()
+}
+
 /// Pairs counted from 1 in the file, from 0 inside.
 fn brackets(item: &Item<'_>) -> Result<Vec<[usize; 2]>, Fault> {
     item.list()?.iter().map(bracket).collect()
@@ -210,7 +217,7 @@ fn brackets(item: &Item<'_>) -> Result<Vec<[usize; 2]>, Fault> {
 
 fn bracket(item: &Item<'_>) -> Result<[usize; 2], Fault> {
     let pair = item.numbers::<2>("two legs")?;
-    let leg = |number: f64| (1..=6_u8).find(|leg| f64::from(*leg) == number).map(|leg| usize::from(leg) - 1);
+    let leg = |number: f64| (0..6_u8).find(|leg| is_same(f64::from(leg + 1), number)).map(usize::from);
     match pair.map(leg) {
         [Some(one), Some(other)] if one != other => Ok([one, other]),
         _ => Err(item.fault(Problem::Bracket)),

@@ -1,8 +1,9 @@
 //! Reading a table of measurements in one pass.
 
+use super::columns::Group;
 use super::duplicates::{Fingerprints, drop_copies};
 use super::error::Fault;
-use super::header::{Plan, Purpose, read_header};
+use super::header::{Plan, Purpose, Source, read_header};
 use super::line::{Line, whole_place};
 use super::lines::{Lines, RawLine};
 use super::number::{Decimals, parse_number};
@@ -166,7 +167,7 @@ impl Table {
             let text = line.text(cell);
             let filled = number_of(text, self.separator, &mut self.decimals, line.number())
                 .and_then(|value| fill(&mut row, source, value));
-            filled.map_err(|problem| self.plan.fault(line, cell, problem))?;
+            filled.map_err(|problem| self.plan.fault(line, cell, source, problem))?;
         }
         let running = i64::try_from(self.observations.len() + 1).unwrap_or(i64::MAX);
         Ok(observation(&row, &self.plan, line.number(), running))
@@ -198,7 +199,9 @@ impl Table {
 }
 
 impl Plan {
-    fn fault(&self, line: &Line<'_>, cell: usize, problem: Problem) -> Fault {
+    fn fault(&self, line: &Line<'_>, cell: usize, source: &Source, problem: Problem) -> Fault {
+        let is_name = matches!(problem, Problem::NotANumber) && source.column.group == Group::Number;
+        let problem = if is_name { Problem::NotWhole } else { problem };
         let place = line.place(cell).with_name(&self.names[cell]).with_value(line.text(cell));
         Fault::new(place, problem)
     }

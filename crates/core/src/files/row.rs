@@ -33,8 +33,9 @@ pub(crate) fn fill(row: &mut Row, source: &Source, value: f64) -> Result<(), Pro
 fn check(source: &Source, si: f64) -> Result<(), Problem> {
     use super::Kind;
     match source.column.group {
+        _ if !si.is_finite() => Err(Problem::TooLarge),
         Group::Number if si.fract() != 0.0 || si.abs() > LARGEST_WHOLE => Err(Problem::NotWhole),
-        Group::Covariate if source.column.places.first == APPROACH && si.abs() != 1.0 => {
+        Group::Covariate if source.column.places.first == APPROACH && ![-1.0, 1.0].contains(&si) => {
             Err(Problem::Approach)
         }
         Group::Sigma if si <= 0.0 => Err(Problem::Sigma),
@@ -42,7 +43,6 @@ fn check(source: &Source, si: f64) -> Result<(), Problem> {
         _ if source.column.kind == Kind::Angle && si.abs() > LARGEST_ANGLE => {
             Err(Problem::AngleTooLarge { turns: si.abs() / TAU })
         }
-        _ if !si.is_finite() => Err(Problem::TooLarge),
         _ => Ok(()),
     }
 }

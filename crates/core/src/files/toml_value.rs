@@ -3,7 +3,8 @@
 use super::error::Fault;
 use super::nearest::nearest;
 use super::number::parse_number;
-use super::units::{PLAIN, Unit, unit_named};
+use super::stated_unit::stated_unit;
+use super::units::Unit;
 use super::{Kind, Place, Problem};
 use std::ops::Range;
 use toml::Spanned;
@@ -28,6 +29,13 @@ impl Key {
     /// A key with a unit.
     pub(crate) const fn with_unit(name: &'static str, kind: Kind, unit: &'static str) -> Self {
         Self { name, kind, unit }
+    }
+
+    /// The unit that `spelled` adds to this key (empty for none); none when it is another key.
+    fn unit_in<'s>(&self, spelled: &'s str) -> Option<&'s str> {
+        let rest = spelled.strip_prefix(self.name)?;
+        let unit = rest.strip_prefix('_').filter(|_| self.kind != Kind::Number);
+        if rest.is_empty() { Some("") } else { unit }
     }
 
     fn usual_name(&self) -> String {
@@ -131,33 +139,9 @@ fn in_file_order<'t>(table: &'t DeTable<'t>) -> Vec<(&'t Spanned<DeString<'t>>, 
 
 /// The key that is meant and its unit.
 fn known_key(spelled: &str, keys: &'static [Key]) -> Result<(&'static Key, &'static Unit), Problem> {
-    if let Some(key) = keys.iter().find(|key| key.name == spelled) {
-        let quantity = key.name.to_owned();
-        return if key.kind == Kind::Number {
-            Ok((key, &PLAIN))
-        } else {
-            Err(Problem::NoUnit { quantity, kind: key.kind })
-        };
-    }
-    let with_unit = |key: &'static Key| Some((key, spelled.strip_prefix(key.name)?.strip_prefix('_')?));
-    match keys.iter().filter(|key| key.kind != Kind::Number).find_map(with_unit) {
-        Some((key, unit)) => Ok((key, unit_of(key, unit)?)),
-        None => Err(unknown_key(spelled, keys)),
-    }
-}
-
-fn unit_of(key: &Key, text: &str) -> Result<&'static Unit, Problem> {
-    let quantity = key.name.to_owned();
-    match unit_named(text, key.kind) {
-        Some(unit) if unit.kind == key.kind => Ok(unit),
-        Some(unit) => Err(Problem::WrongKindOfUnit {
-            unit: unit.name.into(),
-            unit_kind: unit.kind,
-            quantity,
-            kind: key.kind,
-        }),
-        None => Err(Problem::UnknownUnit { unit: text.into(), quantity, kind: key.kind }),
-    }
+    let key =
+        keys.iter().find(|key| key.unit_in(spelled).is_some()).ok_or_else(|| unknown_key(spelled, keys))?;
+    Ok((key, stated_unit(key.name, key.kind, key.usual_name(), key.unit_in(spelled))?))
 }
 
 fn unknown_key(spelled: &str, keys: &[Key]) -> Problem {
@@ -176,7 +160,10 @@ impl<'t> Item<'t> {
         let span = value.span();
         let place = place_of(self.text, &span).with_name(&self.key);
         let text = self.text.get(span).unwrap_or_default();
-        Fault::new(if text.contains('\n') { place } else { place.with_value(text) }, problem)
+        Fault::new(
+            if text.contains('\n') { place } else { place.with_value(text.trim_matches('"')) },
+            problem,
+        )
     }
 
     fn wrong_type(&self, expected: &'static str, value: &Value<'_>) -> Fault {

@@ -40,7 +40,7 @@ pub enum Notice {
     #[error("the file does not end with a newline; its last number may be cut")]
     NoFinalNewline,
     /// Loaded equals reference.
-    #[error("{} the same wrench in the loaded and in the reference state (line {})", have(lines.len()), listed(lines))]
+    #[error("{} the same wrench in the loaded and in the reference state ({})", have(lines.len()), listed(lines))]
     NoLoadDifference {
         /// The lines.
         lines: Vec<u64>,
@@ -92,7 +92,8 @@ fn copies(lines: &[[u64; 2]]) -> String {
 }
 
 fn listed(lines: &[u64]) -> String {
-    joined(lines, u64::to_string)
+    let word = if lines.len() == 1 { "line" } else { "lines" };
+    format!("{word} {}", joined(lines, u64::to_string))
 }
 
 fn joined<T>(items: &[T], text: impl Fn(&T) -> String) -> String {

@@ -46,8 +46,8 @@ fn add(text: &mut String, key: &str, value: &str) {
 }
 
 fn add_joints(text: &mut String, key: &str, joints: &[Vector3; 6]) {
-    let rows: String = joints.iter().map(|joint| format!("  {},\n", point(joint))).collect();
-    add(text, key, &format!("[\n{rows}]"));
+    let rows = joints.each_ref().map(|joint| format!("  {},\n", point(joint)));
+    add(text, key, &format!("[\n{}]", rows.concat()));
 }
 
 fn add_legs(text: &mut String, hexapod: &Hexapod) {

@@ -12,7 +12,7 @@ fn without_base() -> String {
 }
 
 bad_input! { "hexapod.toml";
-    an_empty_hexapod_is_refused: "empty file", "" => (0, 0), "\"format\" is missing";
+    an_empty_hexapod_is_refused: "empty file", "" => (0, 0), "must be \"hexapod/1\"";
     broken_toml_is_refused: "not TOML", hexapod("[geometry]", "[geometry") => (4, 10), "not valid TOML";
     another_format_is_refused: "another format", hexapod("hexapod/1", "hexapod/9") => (1, 10), "must be \"hexapod/1\"";
     a_later_format_is_named_before_its_new_keys: "later format", hexapod("hexapod/1\"", "hexapod/2\"\nnew = 1")

@@ -69,7 +69,7 @@ bad_input! { "measurements.csv";
         ["ref_fx_N", "ref_fy_N", "ref_fz_N", "ref_mx_Nm", "ref_my_Nm", "ref_mz_Nm"].iter()
             .fold(poses(), |table, name| table.with(name, "0")).text() => (1, 0), "no reference state";
 
-    nan_is_refused: "NaN", deflections().set("db_um", "NaN").text() => (3, 17), "NaN and infinity are not measurements";
+    nan_is_refused: "NaN", deflections().set("db_um", "NaN").text() => (3, 17), "NaN and infinity are not values";
     infinity_is_refused: "infinity", deflections().set("db_um", "-inf").text() => (3, 17), "NaN and infinity";
     an_overflowing_number_is_refused: "number beyond double precision", deflections().set("db_um", "1e400").text()
         => (3, 17), "too large for double precision";
@@ -92,7 +92,7 @@ bad_input! { "measurements.csv";
     a_truncated_file_is_refused: "last line cut", without_end(20) => (3, 0), "breaks off after 19 of 21 cells";
     an_open_quote_is_refused: "quotation mark not closed", deflections().set("fz_N", "\"-338").text()
         => (3, 0), "quotation mark is not closed";
-    a_pose_name_is_refused: "name instead of a pose number", deflections().set("pose", "P1").text() => (3, 1), "not a number";
+    a_pose_name_is_refused: "name instead of a pose number", deflections().set("pose", "P1").text() => (3, 1), "whole number";
     a_fractional_repeat_is_refused: "repeat that is not whole", deflections().set("repeat", "1.5").text()
         => (3, 2), "whole number";
     another_approach_is_refused: "approach of 0", deflections().set("approach", "0").text() => (3, 15), "1 or -1";

@@ -1,12 +1,14 @@
 //! Periodic error of the leads.
 //!
-//! Each screw has an error that repeats with its pitch; amplitude and phase belong to the leg, the pitch is common.
+//! Each screw has an error that repeats with its pitch; amplitude and phase belong to the leg, the pitch is
+//! common.
 //!
 //! ```text
 //! e_i = a_i sin(2 pi q_i / pitch) + b_i cos(2 pi q_i / pitch)
 //! ```
 //!
-//! Source: ISO 230-2:2014; ISO 3408-3:2006 (ball screws, periodic lead deviation). It stays invisible unless poses are measured absolutely at many leg lengths.
+//! Source: ISO 230-2:2014; ISO 3408-3:2006 (ball screws, periodic lead deviation). It stays invisible unless
+//! poses are measured absolutely at many leg lengths.
 
 use std::f64::consts::TAU;
 

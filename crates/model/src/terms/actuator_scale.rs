@@ -6,7 +6,8 @@
 //! e_i = gain_i (q_i - q_home,i)
 //! ```
 //!
-//! Source: ISO 230-2:2014 (positioning accuracy of linear axes). It stays invisible unless poses are measured absolutely and use a long stroke.
+//! Source: ISO 230-2:2014 (positioning accuracy of linear axes). It stays invisible unless poses are measured
+//! absolutely and use a long stroke.
 
 use hexbench_core::Vector6;
 

@@ -1,12 +1,14 @@
 //! The foundation yields.
 //!
-//! The base with all six base joints moves as a rigid body on six springs at the centre of the base-joint plane.
+//! The base with all six base joints moves as a rigid body on six springs at the centre of the base-joint
+//! plane.
 //!
 //! ```text
 //! [v_P; w] = C [F; M_P], M_P = M + (t - P) x F; the platform follows
 //! ```
 //!
-//! Source: Kalas et al. 2018, list of suspects; Wallace, TPOINT (mount and pier flexure). It stays invisible unless moments and lateral loads are measured.
+//! Source: Kalas et al. 2018, list of suspects; Wallace, `TPOINT` (mount and pier flexure). It stays
+//! invisible unless moments and lateral loads are measured.
 
 use hexbench_core::Matrix3;
 

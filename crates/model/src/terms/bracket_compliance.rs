@@ -6,7 +6,8 @@
 //! e = c_lat (n_x^2 + n_y^2) (f - f0)
 //! ```
 //!
-//! Source: Kalas et al. 2018, list of suspects: incomplete stiffness model. It stays invisible unless the inclination of the legs varies.
+//! Source: Kalas et al. 2018, list of suspects: incomplete stiffness model. It stays invisible unless the
+//! inclination of the legs varies.
 
 use hexbench_core::Vector6;
 

@@ -6,7 +6,8 @@
 //! e = chi c_i (f - f0) (1 - exp(-elapsed / tau))
 //! ```
 //!
-//! Source: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976, ch. 5. It stays invisible unless elapsed_s varies.
+//! Source: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976, ch. 5. It
+//! stays invisible unless `elapsed_s` varies.
 
 use crate::campaign::Condition;
 use crate::chain::Action;

@@ -1,12 +1,14 @@
 //! Dry friction in legs and joints.
 //!
-//! A slider beside each leg spring holds up to f_c against the last motion, so the spring force lags behind the leg force and depends on the way the load was reached.
+//! A slider beside each leg spring holds up to `f_c` against the last motion, so the spring force lags behind
+//! the leg force and depends on the way the load was reached.
 //!
 //! ```text
 //! e = c (play(f) - play(f0)), play(f) kept within f -+ f_c along the path 0, f0, (overshoot), f
 //! ```
 //!
-//! Source: Visintin, Differential Models of Hysteresis, 1994 (play operator); Armstrong-Helouvry et al., Automatica 30, 1994. It stays invisible unless both approach directions are measured.
+//! Source: Visintin, Differential Models of Hysteresis, 1994 (play operator); Armstrong-Helouvry et al.,
+//! Automatica 30, 1994. It stays invisible unless both approach directions are measured.
 
 use hexbench_core::Vector6;
 

@@ -1,12 +1,14 @@
 //! Joints are not where the drawing says.
 //!
-//! Base and platform joints deviate from their nominal places (36 coordinates). Twelve combinations are the same as moving the metrology and the target frame and cannot be told from them.
+//! Base and platform joints deviate from their nominal places (36 coordinates). Twelve combinations are the
+//! same as moving the metrology and the target frame and cannot be told from them.
 //!
 //! ```text
 //! e = n . dA - (R' n) . dB
 //! ```
 //!
-//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 7; Daney 2003, Mech. Mach. Theory 38 (calibration of a Gough platform). It stays invisible unless poses are measured absolutely.
+//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 7; Daney 2003, Mech. Mach. Theory 38 (calibration of a
+//! Gough platform). It stays invisible unless poses are measured absolutely.
 
 use hexbench_core::{Vector3, Vector6};
 

@@ -1,12 +1,14 @@
 //! Flexure joints resist rotation.
 //!
-//! Flexure joints bend when a leg changes direction: at the base end against the base, at the platform end against the platform.
+//! Flexure joints bend when a leg changes direction: at the base end against the base, at the platform end
+//! against the platform.
 //!
 //! ```text
 //! K = sum k_b G_b' G_b + k_p G_p' G_p, with dn = G_b [v; w] and R d(R' n) = G_p [v; w]
 //! ```
 //!
-//! Source: Smith, Flexures, 2000; Dehaeze, PhD thesis 2021, ch. 5 (flexible joints of a Stewart platform). It stays invisible unless the joints are stiff compared with the legs.
+//! Source: Smith, Flexures, 2000; Dehaeze, doctoral thesis 2021, ch. 5 (flexible joints of a Stewart
+//! platform). It stays invisible unless the joints are stiff compared with the legs.
 
 use hexbench_core::{Matrix3, Matrix6};
 use nalgebra::Matrix3x6;

@@ -6,7 +6,8 @@
 //! e = gap/2 (sgn f - sgn f0)
 //! ```
 //!
-//! Source: Kalas et al. 2018: a preload was needed to suppress the play in the actuators. It stays invisible unless the force of a leg reverses between reference and load.
+//! Source: Kalas et al. 2018: a preload was needed to suppress the play in the actuators. It stays invisible
+//! unless the force of a leg reverses between reference and load.
 
 use crate::campaign::Condition;
 use crate::chain::Action;

@@ -6,7 +6,8 @@
 //! e_i += c_x (n_i . n_j) (f_j - f0_j) for each pair
 //! ```
 //!
-//! Source: Klimchik et al. 2014, Mech. Mach. Theory 81 (coupled compliances). It stays invisible unless lateral loads are measured.
+//! Source: Klimchik et al. 2014, Mech. Mach. Theory 81 (coupled compliances). It stays invisible unless
+//! lateral loads are measured.
 
 use hexbench_core::Vector6;
 

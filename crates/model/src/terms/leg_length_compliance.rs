@@ -6,7 +6,8 @@
 //! e = s (q - q_home) (f - f0)
 //! ```
 //!
-//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (stiffness of actuated links). It stays invisible unless the poses use a long stroke.
+//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (stiffness of actuated links). It stays invisible
+//! unless the poses use a long stroke.
 
 use crate::campaign::Condition;
 use crate::chain::Action;

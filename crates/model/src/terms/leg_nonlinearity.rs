@@ -1,12 +1,14 @@
 //! Nonlinear leg spring.
 //!
-//! Rolling contacts stiffen under load (Hertz, p = 2/3); other parts soften. The size is the extra elongation at 100 N.
+//! Rolling contacts stiffen under load (Hertz, p = 2/3); other parts soften. The size is the extra elongation
+//! at 100 N.
 //!
 //! ```text
 //! e = e100 (sgn(f) |f / 100 N|^p - the same at f0)
 //! ```
 //!
-//! Source: Johnson, Contact Mechanics, 1985, ch. 4; Harris and Kotzalas, Rolling Bearing Analysis, 2006. It stays invisible unless three or more load levels are measured.
+//! Source: Johnson, Contact Mechanics, 1985, ch. 4; Harris and Kotzalas, Rolling Bearing Analysis, 2006. It
+//! stays invisible unless three or more load levels are measured.
 
 use crate::campaign::Condition;
 use crate::chain::Action;

@@ -6,7 +6,8 @@
 //! e_i = offset_i
 //! ```
 //!
-//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 7 (calibration). It stays invisible unless poses are measured absolutely.
+//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 7 (calibration). It stays invisible unless poses are
+//! measured absolutely.
 
 use hexbench_core::Vector6;
 

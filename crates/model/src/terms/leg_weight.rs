@@ -1,12 +1,14 @@
 //! The legs are not massless.
 //!
-//! Half the weight of each uniform leg rests on its platform joint and half on its base joint; gravity points along -z.
+//! Half the weight of each uniform leg rests on its platform joint and half on its base joint; gravity points
+//! along -z.
 //!
 //! ```text
 //! dF at every platform joint = -w/2 z
 //! ```
 //!
-//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (gravity of the links). It stays invisible unless poses are measured absolutely under two loads.
+//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (gravity of the links). It stays invisible unless
+//! poses are measured absolutely under two loads.
 
 use hexbench_core::Vector3;
 

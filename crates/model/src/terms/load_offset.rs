@@ -6,7 +6,8 @@
 //! dM = (R r') x F, in both states
 //! ```
 //!
-//! Source: Kalas et al. 2018, experimental setup (stacked masses). It stays invisible unless lateral loads or tilts are measured.
+//! Source: Kalas et al. 2018, experimental setup (stacked masses). It stays invisible unless lateral loads or
+//! tilts are measured.
 
 use hexbench_core::Vector3;
 

@@ -6,7 +6,8 @@
 //! dF = [theta_x, theta_y, 0] x F, in both states
 //! ```
 //!
-//! Source: JCGM 100:2008 (GUM), F.2.4 (misalignment of a quantity). It stays invisible unless the leg forces react to the tilt more than to their own size.
+//! Source: JCGM 100:2008 (GUM), F.2.4 (misalignment of a quantity). It stays invisible unless the leg forces
+//! react to the tilt more than to their own size.
 
 use hexbench_core::Vector3;
 

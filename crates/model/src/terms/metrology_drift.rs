@@ -6,7 +6,8 @@
 //! dX = rates * elapsed
 //! ```
 //!
-//! Source: Wallace, TPOINT; JCGM 100:2008 (GUM), F.1.1.2 (drift between observations). It stays invisible unless elapsed_s varies.
+//! Source: Wallace, `TPOINT`; JCGM 100:2008 (GUM), F.1.1.2 (drift between observations). It stays invisible
+//! unless `elapsed_s` varies.
 
 use hexbench_core::Vector6;
 

@@ -1,12 +1,14 @@
 //! The platform plate yields.
 //!
-//! The plate between the legs and the measured targets moves as a rigid body on six springs at the mobile origin, mobile axes.
+//! The plate between the legs and the measured targets moves as a rigid body on six springs at the mobile
+//! origin, mobile axes.
 //!
 //! ```text
 //! [v; w] = R C R' [F; M]
 //! ```
 //!
-//! Source: Dasgupta and Mruthyunjaya 2000, Mech. Mach. Theory 35 (platform flexibility). It stays invisible unless the direction of the load varies against the platform.
+//! Source: Dasgupta and Mruthyunjaya 2000, Mech. Mach. Theory 35 (platform flexibility). It stays invisible
+//! unless the direction of the load varies against the platform.
 
 use hexbench_core::Vector3;
 

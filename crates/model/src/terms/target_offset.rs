@@ -6,7 +6,8 @@
 //! dt = (R_loaded - R_ref) r'
 //! ```
 //!
-//! Source: Kalas et al. 2018, fig. 5 (balls registered against reference holes). It stays invisible unless the deflection has rotations.
+//! Source: Kalas et al. 2018, fig. 5 (balls registered against reference holes). It stays invisible unless
+//! the deflection has rotations.
 
 use hexbench_core::{Matrix6, Vector3};
 

@@ -6,7 +6,8 @@
 //! e = alpha q delta_T
 //! ```
 //!
-//! Source: Mayr et al. 2012, CIRP Annals 61 (thermal issues in machine tools). It stays invisible unless delta_T_K varies.
+//! Source: Mayr et al. 2012, CIRP Annals 61 (thermal issues in machine tools). It stays invisible unless
+//! `delta_T_K` varies.
 
 use crate::campaign::Condition;
 use crate::chain::Action;

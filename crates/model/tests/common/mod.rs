@@ -1,18 +1,62 @@
-//! The practice cases as every test of this folder reads them.
-#![allow(dead_code, reason = "each test file uses its part")]
+//! Machines, plans, random numbers and a small independent world shared by the chapters.
+#![allow(
+    dead_code,
+    unreachable_pub,
+    reason = "every chapter is a program of its own and uses a part of this"
+)]
 
-use std::path::PathBuf;
+pub mod plan;
+pub mod random;
+pub mod terms;
+pub mod world;
 
-use hexbench_core::files::{read_hexapod, read_measurements};
-use hexbench_core::{Dataset, Hexapod};
+use hexbench_core::{Hexapod, Matrix6, Metrology, Vector3, Vector6};
 
-/// A file of a practice case.
-pub(crate) fn path(case: &str, file: &str) -> PathBuf {
-    [env!("CARGO_MANIFEST_DIR"), "../../data/cases", case, file].iter().collect()
+/// Stiffnesses of the six legs, N/m (Kalas et al. 2018, table 2).
+pub const PAPER_STIFFNESS: [f64; 6] = [4.1981e6, 3.7898e6, 2.7503e6, 4.3200e6, 3.6716e6, 3.7288e6];
+
+/// A hexapod from joints alone.
+pub fn hexapod(base_joints: [Vector3; 6], platform_joints: [Vector3; 6]) -> Hexapod {
+    Hexapod {
+        name: "test machine".into(),
+        base_joints,
+        platform_joints,
+        metrology: None,
+        nominal_stiffness: None,
+        stroke: None,
+        brackets: None,
+        mounting_plane_z: None,
+        payload_centre: None,
+    }
 }
 
-/// Hexapod, measurements and holdout of a practice case.
-pub(crate) fn case(name: &str) -> (Hexapod, Dataset, Dataset) {
-    let table = |file| read_measurements(&path(name, file)).unwrap().dataset;
-    (read_hexapod(&path(name, "hexapod.toml")).unwrap(), table("measurements.csv"), table("holdout.csv"))
+/// Joints on a circle. `degrees` along the circle, radius and height in m.
+pub fn ring(radius: f64, degrees: [f64; 6], z: f64) -> [Vector3; 6] {
+    degrees.map(|d| {
+        let (sine, cosine) = d.to_radians().sin_cos();
+        Vector3::new(radius * cosine, radius * sine, z)
+    })
+}
+
+/// A geometry that agrees with the published numbers of Kalas et al. 2018, whose own is not published: base radius
+/// 160 mm, platform radius 120 mm, height 165 mm, joints +-10 deg about the axes of each ring.
+pub fn paper_machine() -> Hexapod {
+    let base = ring(0.16, [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0], -0.165);
+    let platform = ring(0.12, [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0], 0.0);
+    hexapod(base, platform)
+}
+
+/// The same machine with a stated noise of one reading, m and rad.
+pub fn measured_machine(sigma_translation: f64, sigma_rotation: f64) -> Hexapod {
+    Hexapod { metrology: Some(Metrology { sigma_translation, sigma_rotation }), ..paper_machine() }
+}
+
+/// Largest element of the difference over the largest element of the reference.
+pub fn relative_difference(a: &Matrix6, reference: &Matrix6) -> f64 {
+    (a - reference).amax() / reference.amax()
+}
+
+/// A twist or wrench from its translational and its rotational half.
+pub fn six(upper: &Vector3, lower: &Vector3) -> Vector6 {
+    Vector6::new(upper.x, upper.y, upper.z, lower.x, lower.y, lower.z)
 }

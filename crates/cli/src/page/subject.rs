@@ -1,0 +1,61 @@
+//! What a page is about.
+
+use std::collections::BTreeSet;
+
+use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::diagnose::{NoiseReport, Study};
+
+use crate::output::Paper;
+use crate::output::number::significant;
+
+/// A machine, its measurements, and what was found.
+pub(crate) struct Subject<'a> {
+    /// The machine.
+    pub(crate) hexapod: &'a Hexapod,
+    /// The readings fitted.
+    pub(crate) data: &'a Dataset,
+    /// The readings held out, when they come from a file of their own.
+    pub(crate) holdout: Option<&'a Dataset>,
+    /// What was found.
+    pub(crate) study: &'a Study,
+}
+
+impl Subject<'_> {
+    /// Machine, files, noise.
+    pub(crate) fn head(&self, paper: &mut Paper) {
+        paper.heading(&format!("hexbench diagnose: {}", self.hexapod.name), "");
+        paper.hanging("  data", LABEL, &describe(self.data));
+        if let Some(holdout) = self.holdout {
+            paper.hanging("  held out", LABEL, &describe(holdout));
+        }
+        paper.hanging("  noise", LABEL, &noise(&self.study.diagnosis.noise));
+    }
+}
+
+const LABEL: usize = 12;
+
+/// File, kind and number of readings.
+pub(crate) fn describe(data: &Dataset) -> String {
+    let kind = if data.is_absolute() { "absolute poses" } else { "deflections" };
+    format!("{}: {} {kind} at {} poses", data.source, data.observations.len(), poses(data))
+}
+
+/// Number of different commanded poses.
+pub(crate) fn poses(data: &Dataset) -> usize {
+    let key = |o: &hexbench_core::Observation| o.pose.to_array().map(|x| (x + 0.0).to_bits());
+    data.observations.iter().map(key).collect::<BTreeSet<_>>().len()
+}
+
+fn noise(noise: &NoiseReport) -> String {
+    let (t, r) = (significant(noise.translation_um, 2), significant(noise.rotation_urad, 2));
+    format!("{t} um and {r} urad per reading, {}", origin(noise.source))
+}
+
+fn origin(source: &str) -> &str {
+    match source {
+        "metrology" => "stated in [metrology]",
+        "sigma columns" => "stated in the sigma_* columns",
+        "repeats" => "from repeated readings",
+        _ => "taken from the residuals themselves",
+    }
+}

@@ -1,0 +1,205 @@
+//! Linear deflections of many poses at once, four poses abreast.
+//!
+//! ```text
+//! dx = (L' diag(k) L)^-1 (W - W0)
+//! ```
+//!
+//! The stiffness matrix is symmetric and positive definite away from singular poses, so it is factored without
+//! pivoting and all four poses take the same path. Lengths are measured in units of the platform radius to keep it
+//! well conditioned. This is the plain linear model at the commanded pose; [`crate::linearization`] carries terms,
+//! second-order corrections and derivatives.
+
+use hexbench_core::{Hexapod, Pose, Vector3, Vector6, Wrench};
+use rayon::prelude::*;
+use wide::f64x4;
+
+/// Poses handled side by side.
+const LANES: usize = 4;
+/// Poses per piece of parallel work.
+const PIECE: usize = 1024;
+
+/// A pose with the change of wrench it sees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadCase {
+    /// Commanded pose.
+    pub pose: Pose,
+    /// Loaded minus reference wrench.
+    pub change: Wrench,
+}
+
+/// Geometric deflection twists `[v; omega]` at the mobile origin, fixed axes, m and rad, of a hexapod whose legs have the
+/// stiffnesses `k` (N/m). A singular pose gives values that are not finite.
+pub fn deflections(hexapod: &Hexapod, stiffness: &[f64; 6], cases: &[LoadCase]) -> Vec<Vector6> {
+    let machine = Lanes::new(hexapod, stiffness);
+    let mut out = vec![Vector6::zeros(); cases.len()];
+    out.par_chunks_mut(PIECE).zip(cases.par_chunks(PIECE)).for_each(|(out, cases)| machine.fill(out, cases));
+    out
+}
+
+/// A point or direction of four poses.
+type Point = [f64x4; 3];
+
+/// The machine, ready for four poses abreast.
+struct Lanes {
+    base: [Vector3; 6],
+    platform: [Vector3; 6],
+    stiffness: [f64; 6],
+    radius: f64,
+}
+
+impl Lanes {
+    fn new(hexapod: &Hexapod, stiffness: &[f64; 6]) -> Self {
+        let radius = hexapod.platform_radius().max(f64::MIN_POSITIVE);
+        Self {
+            base: hexapod.base_joints.map(|a| a / radius),
+            platform: hexapod.platform_joints.map(|b| b / radius),
+            stiffness: *stiffness,
+            radius,
+        }
+    }
+
+    fn fill(&self, out: &mut [Vector6], cases: &[LoadCase]) {
+        for (out, cases) in out.chunks_mut(LANES).zip(cases.chunks(LANES)) {
+            let lane = |k: usize| &cases[k.min(cases.len() - 1)];
+            let gather = |f: &dyn Fn(&LoadCase) -> f64| f64x4::from(std::array::from_fn(|k| f(lane(k))));
+            let translation: Point =
+                std::array::from_fn(|i| gather(&|c| c.pose.translation[i] / self.radius));
+            let angles: Point = std::array::from_fn(|i| gather(&|c| c.pose.angles[i]));
+            let force: Point = std::array::from_fn(|i| gather(&|c| c.change.force[i]));
+            let moment: Point = std::array::from_fn(|i| gather(&|c| c.change.moment[i] / self.radius));
+            let x = solve(
+                self.stiffness_matrix(&translation, &rotation(&angles)),
+                [force[0], force[1], force[2], moment[0], moment[1], moment[2]],
+            );
+            let x = x.map(f64x4::to_array);
+            for (k, twist) in out.iter_mut().enumerate() {
+                *twist = Vector6::from_fn(|i, _| if i < 3 { x[i][k] } else { x[i][k] / self.radius });
+            }
+        }
+    }
+
+    /// Lower triangle of `L' diag(k) L`, moments in units of force.
+    fn stiffness_matrix(&self, translation: &Point, rotation: &[Point; 3]) -> [[f64x4; 6]; 6] {
+        let mut matrix = [[f64x4::ZERO; 6]; 6];
+        for leg in 0..6 {
+            let row = self.jacobian_row(leg, translation, rotation);
+            let stiffness = f64x4::splat(self.stiffness[leg]);
+            for i in 0..6 {
+                let scaled = row[i] * stiffness;
+                for j in 0..=i {
+                    matrix[i][j] = scaled.mul_add(row[j], matrix[i][j]);
+                }
+            }
+        }
+        matrix
+    }
+
+    /// `[n', (R B x n)']` of one leg.
+    fn jacobian_row(&self, leg: usize, translation: &Point, rotation: &[Point; 3]) -> [f64x4; 6] {
+        let b = self.platform[leg].map(f64x4::splat);
+        let arm: Point =
+            std::array::from_fn(|i| rotation[i][0] * b.x + rotation[i][1] * b.y + rotation[i][2] * b.z);
+        let span: Point = std::array::from_fn(|i| translation[i] + arm[i] - f64x4::splat(self.base[leg][i]));
+        let length = (span[0] * span[0] + span[1] * span[1] + span[2] * span[2]).sqrt();
+        let inverse = f64x4::ONE / length;
+        let n = span.map(|s| s * inverse);
+        [
+            n[0],
+            n[1],
+            n[2],
+            arm[1] * n[2] - arm[2] * n[1],
+            arm[2] * n[0] - arm[0] * n[2],
+            arm[0] * n[1] - arm[1] * n[0],
+        ]
+    }
+}
+
+/// `Rz(gamma) Ry(beta) Rx(alpha)`, rows.
+fn rotation(angles: &Point) -> [Point; 3] {
+    let [(sa, ca), (sb, cb), (sg, cg)] = angles.map(f64x4::sin_cos);
+    [
+        [cg * cb, cg * sb * sa - sg * ca, cg * sb * ca + sg * sa],
+        [sg * cb, sg * sb * sa + cg * ca, sg * sb * ca - cg * sa],
+        [-sb, cb * sa, cb * ca],
+    ]
+}
+
+/// Solution of `A x = b` for symmetric positive definite `A` given by its lower triangle (Cholesky).
+fn solve(mut a: [[f64x4; 6]; 6], mut b: [f64x4; 6]) -> [f64x4; 6] {
+    for j in 0..6 {
+        for k in 0..j {
+            for i in j..6 {
+                a[i][j] -= a[i][k] * a[j][k];
+            }
+        }
+        let inverse = f64x4::ONE / a[j][j].sqrt();
+        for i in j..6 {
+            a[i][j] *= inverse;
+        }
+        for k in 0..j {
+            b[j] -= a[j][k] * b[k];
+        }
+        b[j] *= inverse;
+        // The diagonal is needed inverted from here on.
+        a[j][j] = inverse;
+    }
+    for j in (0..6).rev() {
+        for k in j + 1..6 {
+            b[j] -= a[k][j] * b[k];
+        }
+        b[j] *= a[j][j];
+    }
+    b
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::Legs;
+
+    /// Relative difference allowed between the two routes: rounding times the squared condition of the leg Jacobian.
+    const ROUTES_AGREE: f64 = 1e-10;
+
+    fn ring() -> Hexapod {
+        let joint = |r: f64, deg: f64, z: f64| {
+            let (s, c) = deg.to_radians().sin_cos();
+            Vector3::new(r * c, r * s, z)
+        };
+        Hexapod {
+            name: "ring".into(),
+            base_joints: [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0].map(|d| joint(0.16, d, -0.165)),
+            platform_joints: [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0].map(|d| joint(0.12, d, 0.0)),
+            metrology: None,
+            nominal_stiffness: None,
+            stroke: None,
+            brackets: None,
+            mounting_plane_z: None,
+            payload_centre: None,
+        }
+    }
+
+    fn cases(count: u32) -> Vec<LoadCase> {
+        let wave = |i: u32, k: f64| (f64::from(i) * k).sin();
+        let pose = |i| {
+            Pose::from_array(
+                [1.0, 2.0, 3.0, 5.0, 7.0, 11.0].map(|k| wave(i, k) * if k < 4.0 { 0.03 } else { 0.2 }),
+            )
+        };
+        let load = |i| Wrench::from_array([13.0, 17.0, 19.0, 23.0, 29.0, 31.0].map(|k| wave(i, k) * 50.0));
+        (1..=count).map(|i| LoadCase { pose: pose(i), change: load(i) }).collect()
+    }
+
+    #[test]
+    fn four_abreast_agree_with_one_by_one() {
+        let (hexapod, k) = (ring(), [4.2e6, 3.8e6, 2.7e6, 4.3e6, 3.7e6, 3.7e6]);
+        // Not a multiple of four: the last lanes are padded.
+        let cases = cases(1031);
+        for (case, fast) in cases.iter().zip(deflections(&hexapod, &k, &cases)) {
+            let legs = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &case.pose).unwrap();
+            let e = legs.forces(&case.change.to_vector()).component_div(&Vector6::from(k));
+            let slow = legs.platform_jacobian * e;
+            let off = (fast - slow).norm() / slow.norm();
+            assert!(off < ROUTES_AGREE, "off by {off:.1e}");
+        }
+    }
+}
