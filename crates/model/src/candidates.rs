@@ -65,7 +65,7 @@ pub fn why_untestable(term: &dyn Term, campaign: &Campaign, lin: &Linearization)
     if campaign.is_absolute() && term.info().id == "target-offset" {
         return Some("it is part of the target frame, which absolute poses estimate anyway".to_owned());
     }
-    term.info().needs.iter().find_map(|need| match need {
+    let unmet = term.info().needs.iter().find_map(|need| match need {
         Need::Absolute if !campaign.is_absolute() => {
             Some("it needs absolute poses (measured_a_mm ...)".to_owned())
         }
@@ -79,6 +79,10 @@ pub fn why_untestable(term: &dyn Term, campaign: &Campaign, lin: &Linearization)
         }
         Need::Loads if !several_loads(lin) => Some("every row has the same load".to_owned()),
         _ => None,
+    });
+    unmet.or_else(|| {
+        let mut pairs = lin.conditions.iter().zip(&campaign.groups);
+        pairs.find_map(|(at, g)| Some(format!("line {}: {}", g.mean.line, term.fault(&lin.machine, at)?)))
     })
 }
 
