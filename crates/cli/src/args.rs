@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{completions, demo, diagnose, terms};
+use crate::commands::{compare, compensate, completions, demo, diagnose, fit, predict, terms};
 use crate::output::Colour;
 
 /// Compare a hexapod's stiffness model with measurements, name the physical effect it lacks, add it, and watch the
@@ -31,7 +31,11 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Demo(demo::Arguments),
+    Compare(compare::Arguments),
     Diagnose(diagnose::Arguments),
+    Fit(fit::Arguments),
+    Predict(predict::Arguments),
+    Compensate(compensate::Arguments),
     Terms(terms::Arguments),
     Completions(completions::Arguments),
 }

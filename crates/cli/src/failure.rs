@@ -6,6 +6,9 @@ use std::process::ExitCode;
 
 use hexbench_core::files::FileError;
 use hexbench_model::error::ModelError;
+use hexbench_model::model_file::ModelFileError;
+use hexbench_model::predict::PredictError;
+use hexbench_model::user_term::UserTermError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
@@ -47,6 +50,46 @@ pub(crate) enum Failure {
         /// The data it was about.
         data: String,
     },
+    /// A model file that is none.
+    #[error("{}: {cause}", path.display())]
+    ModelFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: ModelFileError,
+    },
+    /// A term file that is none.
+    #[error("{}: {cause}", path.display())]
+    UserTerm {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: UserTermError,
+    },
+    /// A row that cannot be predicted.
+    #[error("{}: {cause}", path.display())]
+    Row {
+        /// The file of the row.
+        path: PathBuf,
+        /// The row, and why.
+        cause: PredictError,
+    },
+    /// A file that cannot be read.
+    #[error("{}: cannot be read: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
+    /// Wrong usage that only shows after parsing.
+    #[error("{message}")]
+    Usage {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        next: String,
+    },
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
@@ -68,7 +111,9 @@ impl Failure {
             Self::File(_) => Exit::BadInput,
             Self::Model { cause, .. } => exit_of(cause),
             Self::Check(_) => Exit::CheckFailed,
-            Self::Output { .. } => Exit::InputOutput,
+            Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
+            Self::UserTerm { cause: UserTermError::Read(_), .. } => Exit::InputOutput,
+            Self::ModelFile { .. } | Self::UserTerm { .. } | Self::Row { .. } => Exit::BadInput,
         }
     }
 
@@ -78,6 +123,12 @@ impl Failure {
             Self::File(error) => Some(error.next_step()),
             Self::Model { cause, data } => Some(next_step_of(cause, data)),
             Self::Check(_) => None,
+            Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
+            Self::UserTerm { .. } => {
+                Some("`hexbench fit --help` names the format term/1; correct the file.".into())
+            }
+            Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
+            Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
         }
     }

@@ -84,6 +84,14 @@ fn term_estimates(fit: &Fit, a: &Active, offset: usize, all: &mut Estimates) {
     }
 }
 
+/// Name, unit and factor from SI of every linear parameter of an active term, ideal ones first.
+pub fn parameter_names(a: &Active) -> Vec<(String, &'static str, f64)> {
+    let ideal = a.term.info().parameters;
+    let of_ideal = ideal.iter().map(|p| (p.name.to_owned(), p.unit, p.per_si));
+    let richer = (0..a.values.len().saturating_sub(ideal.len())).map(|k| rich_parameter(a, k));
+    of_ideal.chain(richer).collect()
+}
+
 /// Name, unit and conversion of the parameters of a richer form.
 fn rich_parameter(a: &Active, k: usize) -> (String, &'static str, f64) {
     let info = a.term.info();

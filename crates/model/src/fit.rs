@@ -198,9 +198,11 @@ fn step(
     wanted: &[Wanted],
     prior: &DVector<f64>,
 ) -> Result<Solution, ModelError> {
-    let a = columns(state, point);
-    let mut triangle = Triangle::new(a.ncols());
-    triangle.push(&a, &state.residuals())?;
+    let mut triangle = Triangle::new(prior.len());
+    for part in state.parts() {
+        let piece = state.part(&part);
+        triangle.push(&columns(&piece, point), &piece.residuals())?;
+    }
     push_priors(&mut triangle, point, wanted, prior)?;
     triangle.solve()
 }

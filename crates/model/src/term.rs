@@ -41,6 +41,21 @@ pub trait Term: Send + Sync {
         self.info().shape.map_or([0.0, f64::INFINITY], |s| s.bounds)
     }
 
+    /// What makes the term impossible to compute at this condition, in words; `None` when nothing does.
+    fn fault(&self, _machine: &Machine, _at: &Condition) -> Option<String> {
+        None
+    }
+
+    /// The text that defines the term when it is not part of the catalogue.
+    fn definition(&self) -> Option<&str> {
+        None
+    }
+
+    /// True when the effect is in the measurement and not in the machine: no command can correct it.
+    fn is_of_metrology(&self) -> bool {
+        false
+    }
+
     /// Grid of shape values worth trying for these conditions; empty when the term has no shape.
     fn shape_grid(&self, _conditions: &[Condition]) -> Vec<f64> {
         Vec::new()
@@ -194,7 +209,7 @@ impl Natural {
 }
 
 /// A column or mode a term cannot do without.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Need {
     /// Absolute poses.
     Absolute,

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use hexbench_core::files::{parse_hexapod, read_measurements_from};
+use hexbench_model::terms::catalogue;
 
 use crate::commands::diagnose::study;
 use crate::failure::Failure;
@@ -21,7 +22,7 @@ pub(crate) fn run(_: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = parse_hexapod(HEXAPOD, "hexapod.toml")?;
     let data = read_measurements_from(MEASUREMENTS.as_bytes(), "measurements.csv")?.dataset;
     let holdout = read_measurements_from(HOLDOUT.as_bytes(), "holdout.csv")?.dataset;
-    let study = study(&hexapod, &data, Some(&holdout))?;
+    let study = study(&hexapod, &data, Some(&holdout), &catalogue())?;
     let subject = Subject { hexapod: &hexapod, data: &data, holdout: Some(&holdout), study: &study };
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
     screen.write(&page::demo(&subject, screen.ink()).map_err(failed)?)

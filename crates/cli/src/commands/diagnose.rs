@@ -1,12 +1,13 @@
 //! `hexbench diagnose HEXAPOD DATA`.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
 use hexbench_model::error::ModelError;
-use hexbench_model::terms::catalogue;
+use hexbench_model::term::Term;
 use hexbench_model::verdict::Verdict;
 
 use crate::failure::Failure;
@@ -24,6 +25,9 @@ pub(crate) struct Arguments {
     /// Readings kept out of every fit; without it poses are left out in turn
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
+    /// A term file of your own (term/1) that competes with the catalogue; may be given several times
+    #[arg(long = "term", value_name = "FILE")]
+    terms: Vec<PathBuf>,
     /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -60,7 +64,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let data = input::measurements(&arguments.data)?;
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
-    let study = study(&hexapod, &data, holdout.as_ref())?;
+    let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
+    let study = study(&hexapod, &data, holdout.as_ref(), &terms)?;
     let to_stdout = arguments.json.as_deref() == Some(Path::new("-"));
     if let Some(path) = &arguments.json {
         screen.write_to(path, &json(&study.diagnosis)?)?;
@@ -72,10 +77,15 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     check(arguments.check, &study.diagnosis)
 }
 
-/// Diagnose with the whole catalogue.
-pub(crate) fn study(hexapod: &Hexapod, data: &Dataset, holdout: Option<&Dataset>) -> Result<Study, Failure> {
+/// Diagnose with these terms.
+pub(crate) fn study(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    holdout: Option<&Dataset>,
+    terms: &[Arc<dyn Term>],
+) -> Result<Study, Failure> {
     let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
-    diagnose(hexapod, data, holdout, &catalogue()).map_err(failed)
+    diagnose(hexapod, data, holdout, terms).map_err(failed)
 }
 
 fn json(diagnosis: &Diagnosis) -> Result<String, Failure> {

@@ -1,8 +1,12 @@
 //! One file per subcommand, each with its `Arguments` and `run`.
 
+pub(crate) mod compare;
+pub(crate) mod compensate;
 pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod diagnose;
+pub(crate) mod fit;
+pub(crate) mod predict;
 pub(crate) mod terms;
 
 use crate::args::{Cli, Command};
@@ -14,6 +18,10 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
     let screen = Screen::stdout(cli.colour);
     match &cli.command {
         Command::Demo(arguments) => demo::run(arguments, &screen),
+        Command::Compare(arguments) => compare::run(arguments, &screen),
+        Command::Fit(arguments) => fit::run(arguments, &screen),
+        Command::Predict(arguments) => predict::run(arguments, &screen),
+        Command::Compensate(arguments) => compensate::run(arguments, &screen),
         Command::Diagnose(arguments) => diagnose::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),

@@ -1,10 +1,12 @@
 //! Pages of text for people: the diagnosis, the demo, the catalogue.
 
+pub(crate) mod comparison;
 mod conclusion;
 mod confidence;
 mod demo;
 pub(crate) mod effect;
 pub(crate) mod effects;
+pub(crate) mod fitted;
 mod ladder;
 mod leg_space;
 mod limits;

@@ -28,14 +28,35 @@ pub(crate) struct Plan {
     pub(crate) has_pose: bool,
 }
 
+/// What a table is read for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// Measurements: measured values are required.
+    Measurements,
+    /// Conditions to predict: poses and loads; measured values are passed over.
+    Conditions,
+}
+
+impl Purpose {
+    fn passes_over(self, group: Group) -> bool {
+        use Group::{Absolute, Deflection, Euler, RotationVector, Sigma};
+        self == Self::Conditions && matches!(group, Absolute | Deflection | Euler | RotationVector | Sigma)
+    }
+}
+
 /// Reads the header line.
-pub(crate) fn read_header(line: &Line<'_>, warnings: &mut Vec<Warning>) -> Result<Plan, Fault> {
+pub(crate) fn read_header(
+    line: &Line<'_>,
+    purpose: Purpose,
+    warnings: &mut Vec<Warning>,
+) -> Result<Plan, Fault> {
     refuse_numbers(line)?;
     let mut sources = Vec::with_capacity(line.len());
     for cell in 0..line.len() {
         let text = line.text(cell);
         let place = line.place(cell).with_name(text);
         match read_column_name(text) {
+            Ok(Named::Known(column, _)) if purpose.passes_over(column.group) => sources.push(None),
             Ok(Named::Known(column, unit)) => sources.push(Some(Source { column, unit })),
             Ok(Named::Private) => sources.push(None),
             Ok(Named::Unknown) => {
@@ -47,7 +68,7 @@ pub(crate) fn read_header(line: &Line<'_>, warnings: &mut Vec<Warning>) -> Resul
     }
     let names = (0..line.len()).map(|cell| line.text(cell).to_owned()).collect();
     refuse_duplicates(&sources, line)?;
-    plan(sources, names).map_err(|problem| Fault::new(line.whole_place(), problem))
+    plan(sources, names, purpose).map_err(|problem| Fault::new(line.whole_place(), problem))
 }
 
 fn refuse_numbers(line: &Line<'_>) -> Result<(), Fault> {
@@ -109,10 +130,13 @@ impl Present<'_> {
     }
 }
 
-fn plan(sources: Vec<Option<Source>>, names: Vec<String>) -> Result<Plan, Problem> {
+fn plan(sources: Vec<Option<Source>>, names: Vec<String>, purpose: Purpose) -> Result<Plan, Problem> {
     let present = Present(&sources);
-    let measurand = measurand(&present)?;
-    let groups = [Group::Pose, Group::Wrench].into_iter().chain(measured_groups(measurand).iter().copied());
+    let (measurand, measured) = match purpose {
+        Purpose::Measurements => measurand(&present).map(|m| (m, measured_groups(m)))?,
+        Purpose::Conditions => (Measurand::DeflectionEuler, &[][..]),
+    };
+    let groups = [Group::Pose, Group::Wrench].into_iter().chain(measured.iter().copied());
     let missing: Vec<String> = groups.flat_map(|group| present.missing(group)).collect();
     if !missing.is_empty() {
         return Err(Problem::MissingColumns { names: missing });

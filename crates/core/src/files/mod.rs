@@ -3,6 +3,7 @@
 //! | file | read | write |
 //! |---|---|---|
 //! | `measurements.csv` | [`read_measurements`] | [`write_measurements`] |
+//! | poses and loads to predict | [`read_conditions`] | - |
 //! | `hexapod.toml` | [`read_hexapod`] | [`hexapod_to_toml`], [`write_hexapod`] |
 //! | any other | [`content_hash`] | [`atomic_write`] |
 //!
@@ -24,6 +25,7 @@ mod next_step;
 mod number;
 mod place;
 mod problem;
+mod read_conditions;
 mod read_hexapod;
 mod read_measurements;
 mod row;
@@ -40,6 +42,7 @@ pub use error::FileError;
 pub use nearest::nearest;
 pub use place::Place;
 pub use problem::Problem;
+pub use read_conditions::read_conditions;
 pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_measurements::{Reading, read_measurements, read_measurements_from};
 pub use units::{Kind, UNITS, Unit, unit_named};

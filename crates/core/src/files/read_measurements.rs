@@ -3,7 +3,7 @@
 use super::columns::Group;
 use super::duplicates::{Fingerprints, drop_copies};
 use super::error::Fault;
-use super::header::{Plan, Source, read_header};
+use super::header::{Plan, Purpose, Source, read_header};
 use super::line::{Line, whole_place};
 use super::lines::{Lines, RawLine};
 use super::number::{Decimals, parse_number};
@@ -43,8 +43,11 @@ const BUFFER_BYTES: usize = 1 << 18;
 /// ```
 pub fn read_measurements(path: &Path) -> Result<Reading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    let read = || read_table(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?), &name);
-    read().map_err(|fault| fault.in_file(path))
+    read_named(path, &name, Purpose::Measurements).map_err(|fault| fault.in_file(path))
+}
+
+pub(crate) fn read_named(path: &Path, name: &str, purpose: Purpose) -> Result<Reading, Fault> {
+    read_table(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?), name, purpose)
 }
 
 /// The same from memory or a stream; `name` stands for the file in messages.
@@ -52,12 +55,12 @@ pub fn read_measurements(path: &Path) -> Result<Reading, FileError> {
 /// # Errors
 /// As [`read_measurements`].
 pub fn read_measurements_from(input: impl BufRead, name: &str) -> Result<Reading, FileError> {
-    read_table(input, name).map_err(|fault| fault.in_file(Path::new(name)))
+    read_table(input, name, Purpose::Measurements).map_err(|fault| fault.in_file(Path::new(name)))
 }
 
-fn read_table(input: impl BufRead, name: &str) -> Result<Reading, Fault> {
+fn read_table(input: impl BufRead, name: &str, purpose: Purpose) -> Result<Reading, Fault> {
     let mut lines = Lines::new(input);
-    let mut table = start(&mut lines)?;
+    let mut table = start(&mut lines, purpose)?;
     let mut cells = Vec::new();
     while let Some(raw) = lines.next_line()? {
         if !is_skipped(raw.text, table.separator) {
@@ -67,7 +70,7 @@ fn read_table(input: impl BufRead, name: &str) -> Result<Reading, Fault> {
     table.finish(name)
 }
 
-fn start<R: BufRead>(lines: &mut Lines<R>) -> Result<Table, Fault> {
+fn start<R: BufRead>(lines: &mut Lines<R>, purpose: Purpose) -> Result<Table, Fault> {
     while let Some(raw) = lines.next_line()? {
         if raw.text.trim().is_empty() || raw.text.starts_with('#') {
             continue;
@@ -75,7 +78,7 @@ fn start<R: BufRead>(lines: &mut Lines<R>) -> Result<Table, Fault> {
         if raw.text.contains('\r') {
             return Err(Fault::new(Place::file(), Problem::CarriageReturnLines));
         }
-        return Table::new(raw);
+        return Table::new(raw, purpose);
     }
     Err(Fault::new(Place::file(), Problem::Empty))
 }
@@ -93,6 +96,7 @@ fn is_skipped(text: &str, separator: u8) -> bool {
 
 /// A table while it is read.
 struct Table {
+    purpose: Purpose,
     separator: u8,
     plan: Plan,
     observations: Vec<Observation>,
@@ -103,14 +107,15 @@ struct Table {
 }
 
 impl Table {
-    fn new(header: RawLine<'_>) -> Result<Self, Fault> {
+    fn new(header: RawLine<'_>, purpose: Purpose) -> Result<Self, Fault> {
         let (separator, name) = separator_of(header.text);
         let mut warnings = Vec::new();
         if let Some(name) = name {
             warnings.push(Warning::new(whole_place(&header), Notice::Separator(name)));
         }
-        let plan = read_header(&Line::cut(header, separator, &mut Vec::new())?, &mut warnings)?;
+        let plan = read_header(&Line::cut(header, separator, &mut Vec::new())?, purpose, &mut warnings)?;
         Ok(Self {
+            purpose,
             separator,
             plan,
             warnings,
@@ -169,14 +174,16 @@ impl Table {
     }
 
     fn compares_loads(&self) -> bool {
-        self.plan.measurand != Measurand::AbsolutePose
+        self.purpose == Purpose::Measurements && self.plan.measurand != Measurand::AbsolutePose
     }
 
     fn finish(mut self, name: &str) -> Result<Reading, Fault> {
         if self.observations.is_empty() {
             return Err(Fault::new(Place::file(), Problem::NoRows));
         }
-        self.warnings.extend(drop_copies(&mut self.observations, self.fingerprints, self.plan.has_pose));
+        if self.purpose == Purpose::Measurements {
+            self.warnings.extend(drop_copies(&mut self.observations, self.fingerprints, self.plan.has_pose));
+        }
         if self.decimals.has_comma() {
             self.warnings.push(Warning::new(Place::file(), Notice::DecimalComma));
         }

@@ -45,6 +45,10 @@ impl Term for MetrologyDrift {
         &INFO
     }
 
+    fn is_of_metrology(&self) -> bool {
+        true
+    }
+
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         out.extend((0..6).map(|k| Action::Twist(Vector6::ith(k, at.elapsed))));
     }

@@ -42,6 +42,10 @@ impl Term for TargetOffset {
         &INFO
     }
 
+    fn is_of_metrology(&self) -> bool {
+        true
+    }
+
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         for k in 0..3 {
             let lever: Vector3 = at.pose.rotation().column(k).into_owned();

@@ -1,0 +1,56 @@
+//! `hexbench compare HEXAPOD DATA`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_model::compare::compare;
+
+use crate::failure::Failure;
+use crate::input;
+use crate::output::Screen;
+use crate::page::comparison;
+
+/// Compare a model with measurements: errors beside the noise, where they sit, what they follow
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The machine: hexapod.toml
+    hexapod: PathBuf,
+    /// Deflections or absolute poses: measurements.csv
+    data: PathBuf,
+    /// Compare this model as it is (model.toml); without it the leg springs are fitted to the data
+    #[arg(long, value_name = "FILE")]
+    model: Option<PathBuf>,
+    /// Also compare with these readings, which no fit has seen
+    #[arg(long, value_name = "FILE")]
+    holdout: Option<PathBuf>,
+    /// Write all numbers to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Exit with 1 unless the chi-square per degree of freedom is below LIMIT (of the holdout when there is one)
+    #[arg(long, value_name = "LIMIT")]
+    check: Option<f64>,
+}
+
+/// Compare and tell.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let hexapod = input::hexapod(&arguments.hexapod)?;
+    let data = input::measurements(&arguments.data)?;
+    let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
+    let model = arguments.model.as_deref().map(input::model).transpose()?;
+    let result = compare(&hexapod, &data, model.as_ref(), holdout.as_ref())
+        .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
+    if let Some(path) = &arguments.json {
+        let cause = |e: serde_json::Error| Failure::Output { path: path.clone(), cause: e.into() };
+        screen.write_to(path, &(serde_json::to_string_pretty(&result).map_err(cause)? + "\n"))?;
+    }
+    if arguments.json.as_deref() != Some(Path::new("-")) {
+        screen.write(&comparison::page(&result, screen.ink()))?;
+    }
+    let reached = result.holdout.unwrap_or(result.error).chi2_reduced;
+    match arguments.check {
+        Some(limit) if reached.is_nan() || reached >= limit => {
+            Err(Failure::Check(format!("the reduced chi-square is {reached:.3}, not below {limit}")))
+        }
+        _ => Ok(()),
+    }
+}

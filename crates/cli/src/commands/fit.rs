@@ -1,0 +1,134 @@
+//! `hexbench fit HEXAPOD DATA --add TERM -o model.toml`.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::{Args, ValueEnum};
+use hexbench_core::files::content_hash;
+use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::campaign::Campaign;
+use hexbench_model::diagnose::prepare;
+use hexbench_model::error::ModelError;
+use hexbench_model::fit::Fit;
+use hexbench_model::fit_named::{fit_named, refuse_undetermined, term_named};
+use hexbench_model::linearization::Linearization;
+use hexbench_model::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::paper::fit_paper;
+use hexbench_model::residuals::{ErrorSummary, prediction_errors, residuals, summarise};
+use hexbench_model::term::Term;
+
+use crate::failure::Failure;
+use crate::input;
+use crate::output::Screen;
+use crate::page::fitted;
+
+/// Fit leg stiffnesses and the effects you name, and save the model
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The machine: hexapod.toml
+    hexapod: PathBuf,
+    /// Deflections or absolute poses: measurements.csv
+    data: PathBuf,
+    /// Add this effect beside the leg springs; may be given several times
+    #[arg(long, value_name = "TERM")]
+    add: Vec<String>,
+    /// Readings kept out of the fit, to judge it
+    #[arg(long, value_name = "FILE")]
+    holdout: Option<PathBuf>,
+    /// How the numbers are found
+    #[arg(long, value_enum, default_value_t = Method::Gls)]
+    estimator: Method,
+    /// A term file of your own (term/1); it is added to the model. May be given several times
+    #[arg(long = "term", value_name = "FILE")]
+    terms: Vec<PathBuf>,
+    /// Write the model to FILE (model.toml)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Estimators by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Method {
+    /// Generalised least squares, weighted by the noise
+    Gls,
+    /// The paper's unweighted minimum-norm least squares; springs and deflections only
+    Paper,
+}
+
+/// Fit, tell, save.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let hexapod = input::hexapod(&arguments.hexapod)?;
+    let data = input::measurements(&arguments.data)?;
+    let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
+    let added = added(arguments)?;
+    let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
+    let campaign = prepare(&hexapod, &data).map_err(failed)?;
+    let fit = fit(arguments, &campaign, &data, &added).map_err(failed)?;
+    refuse_undetermined(&fit).map_err(failed)?;
+    let errors = errors(&hexapod, &campaign, &data, holdout.as_ref(), &fit).map_err(failed)?;
+    let estimator = if arguments.estimator == Method::Paper { Estimator::Paper } else { Estimator::Gls };
+    screen.write(&fitted::report(&campaign, &fit, estimator, &errors, screen.ink()))?;
+    let Some(path) = &arguments.output else { return Ok(()) };
+    let model = Model::new(&campaign, &fit, estimator, origin(&arguments.data, &data)?);
+    let text = model.to_toml().map_err(|e| Failure::Usage { message: e.to_string(), next: String::new() })?;
+    screen.write_to(path, &text)
+}
+
+fn added(arguments: &Arguments) -> Result<Vec<Arc<dyn Term>>, Failure> {
+    if arguments.estimator == Method::Paper && !(arguments.add.is_empty() && arguments.terms.is_empty()) {
+        return Err(Failure::Usage {
+            message: "the paper's estimator knows leg springs only".into(),
+            next: "Leave out --estimator paper to add effects.".into(),
+        });
+    }
+    let own = input::user_terms(&arguments.terms)?;
+    let all = input::catalogue_with(&own);
+    let named = arguments
+        .add
+        .iter()
+        .map(|id| term_named(id, &all).map_err(|cause| Failure::Model { cause, data: String::new() }));
+    let mut added = named.collect::<Result<Vec<_>, _>>()?;
+    let fresh: Vec<_> =
+        own.into_iter().filter(|t| !arguments.add.iter().any(|id| id == t.info().id)).collect();
+    added.extend(fresh);
+    Ok(added)
+}
+
+fn fit(
+    arguments: &Arguments,
+    campaign: &Campaign,
+    data: &Dataset,
+    added: &[Arc<dyn Term>],
+) -> Result<Fit, ModelError> {
+    match arguments.estimator {
+        Method::Gls => fit_named(campaign, added),
+        Method::Paper => fit_paper(campaign, data)?.into_fit(campaign),
+    }
+}
+
+/// Errors on the readings fitted, and on those held out.
+pub(crate) fn errors(
+    hexapod: &Hexapod,
+    campaign: &Campaign,
+    data: &Dataset,
+    holdout: Option<&Dataset>,
+    fit: &Fit,
+) -> Result<(ErrorSummary, Option<ErrorSummary>), ModelError> {
+    let lin = Linearization::at(campaign, &fit.point)?;
+    let own = summarise(&residuals(campaign, &data.observations, &lin), Some(fit.dof));
+    if let Some(h) = holdout.filter(|h| h.is_absolute() != data.is_absolute()) {
+        let why =
+            format!("{} and {} are of different kinds (deflections, absolute poses)", data.source, h.source);
+        return Err(ModelError::Mismatch(why));
+    }
+    let held = |h: &Dataset| prediction_errors(hexapod, h, campaign.noise, &fit.point);
+    Ok((own, holdout.map(held).transpose()?.map(|rows| summarise(&rows, None))))
+}
+
+fn origin(path: &Path, data: &Dataset) -> Result<DataOrigin, Failure> {
+    Ok(DataOrigin {
+        file: data.source.clone(),
+        sha256: content_hash(path)?,
+        readings: data.observations.len(),
+    })
+}

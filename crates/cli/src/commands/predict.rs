@@ -1,0 +1,65 @@
+//! `hexbench predict model.toml POSES.csv`.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use hexbench_core::Measurand;
+use hexbench_model::predict::predict;
+
+use crate::csv::{self, Unit};
+use crate::failure::Failure;
+use crate::input;
+use crate::output::Screen;
+
+/// Predict deflections (or absolute poses) with their uncertainty
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The model that `fit` saved: model.toml
+    model: PathBuf,
+    /// Poses and loads: the columns of measurements.csv without the measured ones
+    poses: PathBuf,
+    /// Write to FILE instead of standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: PathBuf,
+}
+
+/// Predict every row.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let model = input::model(&arguments.model)?;
+    let rows = input::conditions(&arguments.poses)?;
+    let predictions = predict(&model, &rows.observations)
+        .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause })?;
+    let units = if model.is_absolute() { [Unit::Mm, Unit::Deg] } else { [Unit::Um, Unit::Urad] };
+    let names = names(model.measurand);
+    let mut text = csv::conditions_header(&rows);
+    csv::names(&mut text, "", &names, units);
+    csv::names(&mut text, "sigma_", &sigma_names(&names), [Unit::Um, Unit::Urad]);
+    text.push('\n');
+    for (row, p) in rows.observations.iter().zip(&predictions) {
+        csv::condition(&mut text, &rows, row);
+        csv::values(&mut text, &p.value, units);
+        csv::values(&mut text, &p.sigma, [Unit::Um, Unit::Urad]);
+        let _ = writeln!(text);
+    }
+    screen.write_to(&arguments.output, &text)
+}
+
+fn names(measurand: Measurand) -> [&'static str; 6] {
+    match measurand {
+        Measurand::DeflectionEuler => ["da", "db", "dc", "dalpha", "dbeta", "dgamma"],
+        Measurand::DeflectionRotationVector => ["da", "db", "dc", "drx", "dry", "drz"],
+        Measurand::AbsolutePose => [
+            "predicted_a",
+            "predicted_b",
+            "predicted_c",
+            "predicted_alpha",
+            "predicted_beta",
+            "predicted_gamma",
+        ],
+    }
+}
+
+fn sigma_names(names: &[&'static str; 6]) -> [&'static str; 6] {
+    names.map(|n| n.strip_prefix("predicted_").unwrap_or(n))
+}

@@ -1,0 +1,54 @@
+//! Reading poses and loads that have not been measured.
+
+use super::FileError;
+use super::header::Purpose;
+use super::read_measurements::{Reading, read_named};
+use std::path::Path;
+
+/// Reads a table of poses and wrenches to predict: the columns of `measurements.csv` without the measured ones.
+///
+/// Measured values and standard deviations are passed over when they are there, so that a file of measurements may be
+/// predicted as it is. Every row is kept, copies too. `measured` is zero in every row.
+///
+/// # Errors
+/// The first thing that is wrong, with line, column, value and next step.
+pub fn read_conditions(path: &Path) -> Result<Reading, FileError> {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    read_named(path, &name, Purpose::Conditions).map_err(|fault| fault.in_file(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Reading, FileError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("poses.csv");
+        std::fs::write(&path, text).unwrap();
+        read_conditions(&path)
+    }
+
+    const HEADER: &str = "a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
+
+    #[test]
+    fn rows_need_no_measurement_and_copies_stay() {
+        let row = "1,2,3,0,0,0,0,0,-100,0,0,0";
+        let reading = read(&format!("{HEADER}\n{row}\n{row}\n")).unwrap();
+        assert_eq!(reading.dataset.observations.len(), 2);
+        assert!(reading.warnings.is_empty(), "{:?}", reading.warnings);
+        assert_eq!(reading.dataset.observations[0].pose.to_array()[1].to_bits(), 0.002_f64.to_bits());
+    }
+
+    #[test]
+    fn measured_columns_are_passed_over() {
+        let reading = read(&format!("{HEADER},da_um,note\n1,2,3,0,0,0,0,0,-100,0,0,0,7,x\n")).unwrap();
+        assert!(reading.dataset.observations[0].measured.iter().all(|m| *m == 0.0));
+    }
+
+    #[test]
+    fn a_missing_load_is_named() {
+        let message =
+            read("a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg\n0,0,0,0,0,0\n").unwrap_err().to_string();
+        assert!(message.contains("fz_N"), "{message}");
+    }
+}

@@ -1,0 +1,169 @@
+//! Fitting terms a user asks for by name, and refusing what the data do not determine.
+
+use std::sync::Arc;
+
+use hexbench_core::files::nearest;
+
+use crate::campaign::Campaign;
+use crate::candidates::{orthonormal, project, sizes, why_untestable};
+use crate::error::ModelError;
+use crate::estimate::{estimates, parameter_names};
+use crate::evidence::WIDEST;
+use crate::fit::{Fit, Wanted, columns, fit, fit_baseline};
+use crate::linearization::{Active, Linearization};
+use crate::term::Term;
+use crate::words::{column_names, joined, unobservable};
+
+/// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.
+const PRIOR_WIDTH: f64 = 3.0;
+/// Shape values from which a fit is started.
+const STARTS: usize = 3;
+/// Correlation beyond which two parameters are named as look-alikes.
+const LOOK_ALIKE: f64 = 0.9;
+
+/// The term with an id.
+///
+/// # Errors
+/// [`ModelError::UnknownTerm`] with the nearest id.
+pub fn term_named(id: &str, terms: &[Arc<dyn Term>]) -> Result<Arc<dyn Term>, ModelError> {
+    let found = terms.iter().find(|t| t.info().id == id).map(Arc::clone);
+    found.ok_or_else(|| {
+        let near = nearest(id, terms.iter().map(|t| t.info().id));
+        ModelError::UnknownTerm { id: id.to_owned(), nearest: near.map(str::to_owned) }
+    })
+}
+
+/// Fit springs (and frames) with these terms, added one after the other.
+///
+/// # Errors
+/// As [`fit`]; [`ModelError::Untestable`] for a term whose columns are missing; [`ModelError::Mismatch`] for a term asked
+/// for twice; [`ModelError::NotDetermined`] when a leg stiffness or all parameters of a term are not determined.
+pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, ModelError> {
+    refuse_twice(added)?;
+    let mut fitted = fit_baseline(campaign)?;
+    let natural = fitted.natural(&Linearization::at(campaign, &fitted.point)?);
+    let mut wanted: Vec<Wanted> = Vec::new();
+    for term in added {
+        let lin = Linearization::at(campaign, &fitted.point)?;
+        if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
+            return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
+        }
+        let prior = sizes(term.as_ref(), false, &natural).iter().map(|s| PRIOR_WIDTH * WIDEST * s).collect();
+        let next = Wanted { term: Arc::clone(term), rich: false, shape: 1.0, prior };
+        let (start, better) = best_start(campaign, &wanted, &next, &fitted, &lin)?;
+        wanted.push(start);
+        fitted = better;
+    }
+    Ok(fitted)
+}
+
+fn refuse_twice(added: &[Arc<dyn Term>]) -> Result<(), ModelError> {
+    let id = |t: &Arc<dyn Term>| t.info().id;
+    let twice = (1..added.len()).find(|&i| added[..i].iter().any(|t| id(t) == id(&added[i])));
+    twice.map_or(Ok(()), |i| {
+        Err(ModelError::Mismatch(format!("the term `{}` is asked for twice", id(&added[i]))))
+    })
+}
+
+/// The fit with one more term, from the most promising of its shapes.
+fn best_start(
+    campaign: &Campaign,
+    before: &[Wanted],
+    next: &Wanted,
+    fitted: &Fit,
+    lin: &Linearization,
+) -> Result<(Wanted, Fit), ModelError> {
+    let mut best: Option<(Wanted, Fit)> = None;
+    let mut failure = None;
+    for shape in promising_shapes(next.term.as_ref(), fitted, lin) {
+        let start = Wanted { shape, ..next.clone() };
+        let all: Vec<Wanted> = before.iter().cloned().chain([start.clone()]).collect();
+        match fit(campaign, &all, Some(&fitted.point)) {
+            Ok(f) if best.as_ref().is_none_or(|(_, b)| f.chi2 < b.chi2) => best = Some((start, f)),
+            Ok(_) => {}
+            Err(e) => failure = Some(e),
+        }
+    }
+    best.ok_or_else(|| failure.unwrap_or(ModelError::NotFinite { what: "the shapes of the term" }))
+}
+
+/// Shapes whose columns explain most of the present residual beside everything fitted so far.
+fn promising_shapes(term: &dyn Term, fitted: &Fit, lin: &Linearization) -> Vec<f64> {
+    let grid = term.shape_grid(&lin.conditions);
+    if grid.is_empty() {
+        return vec![1.0];
+    }
+    let basis = orthonormal(&columns(lin, &fitted.point));
+    let mut residual = lin.residuals();
+    project(&basis, &mut residual);
+    let explained = |shape: f64| {
+        let mut block = lin.term_block(term, false, shape);
+        let overlap = basis.tr_mul(&block);
+        block.gemm(-1.0, &basis, &overlap, 1.0);
+        orthonormal(&block).tr_mul(&residual).norm_squared()
+    };
+    let mut scored: Vec<(f64, f64)> = grid.iter().map(|&s| (explained(s), s)).collect();
+    scored.retain(|(gain, _)| gain.is_finite());
+    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+    scored.into_iter().take(STARTS).map(|(_, shape)| shape).collect()
+}
+
+/// Refuse a fit whose leg stiffnesses, or all parameters of one term, the data leave open.
+///
+/// # Errors
+/// [`ModelError::NotDetermined`] with the combinations in words.
+pub fn refuse_undetermined(fitted: &Fit) -> Result<(), ModelError> {
+    let open = estimates(fitted).not_determined;
+    let legs: Vec<String> =
+        open.iter().filter(|n| n.ends_with(".stiffness") && n.starts_with("leg-")).cloned().collect();
+    let silent =
+        |(a, offset): &(&Active, &usize)| (0..a.values.len()).all(|k| !fitted.is_determined(**offset + k));
+    let terms: Vec<&Active> =
+        fitted.point.active.iter().zip(&fitted.offsets).filter(silent).map(|(a, _)| a).collect();
+    if legs.is_empty() && terms.is_empty() {
+        return Ok(());
+    }
+    let mut what: Vec<String> = terms.iter().map(|a| format!("nothing of `{}` shows", a.id())).collect();
+    if !legs.is_empty() {
+        what.push(format!("{} {} open", joined(&legs), if legs.len() == 1 { "is" } else { "are" }));
+    }
+    what.extend(reasons(fitted));
+    Err(ModelError::NotDetermined { what: what.join("; ") })
+}
+
+/// Undetermined combinations in words, else the strongest look-alikes.
+fn reasons(fitted: &Fit) -> Vec<String> {
+    let words = unobservable(&fitted.solution.null_space, &column_names(fitted));
+    if !words.is_empty() {
+        return words;
+    }
+    let likes = look_alikes(fitted, LOOK_ALIKE);
+    let told = likes
+        .iter()
+        .take(3)
+        .map(|(a, b, r)| format!("{a} and {b} can hardly be told apart (correlation {r:.3})"));
+    told.collect()
+}
+
+/// Pairs of columns whose estimates are correlated by more than `limit` in size, strongest first.
+pub fn look_alikes(fitted: &Fit, limit: f64) -> Vec<(String, String, f64)> {
+    let names = column_names(fitted);
+    let n = names.len().min(fitted.covariance.ncols());
+    let mut pairs: Vec<(usize, usize, f64)> = (0..n)
+        .flat_map(|i| (0..i).map(move |j| (j, i)))
+        .map(|(j, i)| (j, i, fitted.covariance[(i, j)] / (fitted.std(i) * fitted.std(j))))
+        .filter(|(.., r)| r.abs() > limit)
+        .collect();
+    pairs.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
+    pairs.into_iter().map(|(j, i, r)| (names[j].clone(), names[i].clone(), r)).collect()
+}
+
+/// Names of the parameters of all terms that the data leave open, `term.parameter`.
+pub fn open_parameters(fitted: &Fit) -> Vec<String> {
+    let of = |(a, offset): (&Active, &usize)| {
+        let names = parameter_names(a).into_iter().enumerate();
+        let open = names.filter(|(k, _)| !fitted.is_determined(offset + k));
+        open.map(|(_, (name, ..))| format!("{}.{name}", a.id())).collect::<Vec<_>>()
+    };
+    fitted.point.active.iter().zip(&fitted.offsets).flat_map(of).collect()
+}

@@ -1,0 +1,238 @@
+//! Formulas as people write them: numbers, names, `+ - * / ^`, parentheses and the usual functions.
+//!
+//! Rules of school: `-x^2` is `-(x^2)`, `2^3^2` is `2^(3^2)`, `1.5e-3` is a number. There are no loops, no
+//! assignments and no calls into the program, so evaluation always ends. Text is at most [`MOST_CHARACTERS`] long and
+//! nested at most [`MOST_DEPTH`] deep, both checked before anything is parsed.
+
+mod parser;
+mod token;
+
+use thiserror::Error;
+
+/// Longest formula, in characters.
+pub const MOST_CHARACTERS: usize = 2000;
+/// Deepest nesting of parentheses, signs and powers.
+pub const MOST_DEPTH: usize = 64;
+
+/// Why a text is not a formula.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FormulaError {
+    /// No text.
+    #[error("the formula is empty")]
+    Empty,
+    /// Too much text.
+    #[error("the formula has {length} characters; at most {MOST_CHARACTERS} are allowed")]
+    TooLong {
+        /// Its length.
+        length: usize,
+    },
+    /// Nested too deeply.
+    #[error("the formula is nested deeper than {MOST_DEPTH} levels")]
+    TooDeep,
+    /// A character that has no meaning in a formula.
+    #[error("character {position} is `{character}`, which has no meaning in a formula")]
+    Character {
+        /// The character.
+        character: char,
+        /// Its place from 1.
+        position: usize,
+    },
+    /// A number that is none.
+    #[error("`{text}` at character {position} is not a number")]
+    Number {
+        /// As written.
+        text: String,
+        /// Its place from 1.
+        position: usize,
+    },
+    /// Something else belongs there.
+    #[error("at character {position} {expected} is expected, but there is {found}")]
+    Expected {
+        /// What belongs there.
+        expected: &'static str,
+        /// What stands there.
+        found: String,
+        /// Its place from 1.
+        position: usize,
+    },
+    /// A name nobody knows.
+    #[error("`{name}` is no variable, parameter or function here{}", suggestion.as_ref().map(|s| format!("; did you mean `{s}`?")).unwrap_or_default())]
+    Unknown {
+        /// As written.
+        name: String,
+        /// The nearest known name.
+        suggestion: Option<String>,
+    },
+}
+
+/// One step of evaluation on a stack.
+#[derive(Debug, Clone, Copy)]
+enum Step {
+    Push(f64),
+    Load(usize),
+    Unary(fn(f64) -> f64),
+    Binary(fn(f64, f64) -> f64),
+}
+
+/// A formula over named variables, ready to evaluate.
+#[derive(Debug, Clone)]
+pub struct Formula {
+    text: String,
+    steps: Vec<Step>,
+}
+
+impl Formula {
+    /// Parse a text in which the names may be those of `variables`.
+    ///
+    /// # Errors
+    /// [`FormulaError`] with the place in the text.
+    pub fn parse(text: &str, variables: &[&str]) -> Result<Self, FormulaError> {
+        let length = text.chars().count();
+        if length > MOST_CHARACTERS {
+            return Err(FormulaError::TooLong { length });
+        }
+        let tokens = token::tokens(text)?;
+        if tokens.is_empty() {
+            return Err(FormulaError::Empty);
+        }
+        let steps = parser::parse(&tokens, length, variables)?;
+        Ok(Self { text: text.trim().to_owned(), steps })
+    }
+
+    /// Value for these values of the variables, in the order in which they were named; may be infinite or NaN.
+    pub fn value(&self, variables: &[f64]) -> f64 {
+        let mut stack: Vec<f64> = Vec::with_capacity(8);
+        for step in &self.steps {
+            match *step {
+                Step::Push(number) => stack.push(number),
+                Step::Load(k) => stack.push(variables.get(k).copied().unwrap_or(f64::NAN)),
+                Step::Unary(f) => {
+                    let x = stack.pop().unwrap_or(f64::NAN);
+                    stack.push(f(x));
+                }
+                Step::Binary(f) => {
+                    let (y, x) = (stack.pop().unwrap_or(f64::NAN), stack.pop().unwrap_or(f64::NAN));
+                    stack.push(f(x, y));
+                }
+            }
+        }
+        stack.pop().unwrap_or(f64::NAN)
+    }
+
+    /// True when the formula mentions a variable.
+    pub fn uses(&self, variable: usize) -> bool {
+        self.steps.iter().any(|s| matches!(s, Step::Load(k) if *k == variable))
+    }
+
+    /// As written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+/// Functions of one argument.
+static UNARY: [(&str, fn(f64) -> f64); 17] = [
+    ("abs", f64::abs),
+    ("sign", |x| if x == 0.0 { 0.0 } else { x.signum() }),
+    ("sqrt", f64::sqrt),
+    ("cbrt", f64::cbrt),
+    ("exp", f64::exp),
+    ("ln", f64::ln),
+    ("log10", f64::log10),
+    ("sin", f64::sin),
+    ("cos", f64::cos),
+    ("tan", f64::tan),
+    ("asin", f64::asin),
+    ("acos", f64::acos),
+    ("atan", f64::atan),
+    ("sinh", f64::sinh),
+    ("cosh", f64::cosh),
+    ("tanh", f64::tanh),
+    ("step", |x| if x > 0.0 { 1.0 } else { 0.0 }),
+];
+
+/// Functions of two arguments.
+static BINARY: [(&str, fn(f64, f64) -> f64); 4] =
+    [("min", f64::min), ("max", f64::max), ("atan2", f64::atan2), ("hypot", f64::hypot)];
+
+/// Names with a fixed value.
+static CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU)];
+
+/// True when a name already means something in every formula.
+pub fn is_reserved(name: &str) -> bool {
+    let names =
+        UNARY.iter().map(|f| f.0).chain(BINARY.iter().map(|f| f.0)).chain(CONSTANTS.iter().map(|c| c.0));
+    names.into_iter().any(|known| known == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> f64 {
+        Formula::parse(text, &["x", "f0", "elapsed"]).unwrap().value(&[2.0, 3.0, 0.5])
+    }
+
+    #[test]
+    fn the_rules_of_school_hold() {
+        let table = [
+            ("-x^2", -4.0),
+            ("2^3^2", 512.0),
+            ("2^-x", 0.25),
+            ("1.5e-3*x", 3e-3),
+            ("1E2 + .5", 100.5),
+            ("10 - 4 - 3", 3.0),
+            ("16/4/2", 2.0),
+            ("(1 + x)*f0", 9.0),
+            ("max(x, f0) - min(x, f0)", 1.0),
+            ("2*-x", -4.0),
+            ("exp(-elapsed/0.5)", (-1.0_f64).exp()),
+            ("abs(-x)*sign(x - 3)", -2.0),
+            ("+x", 2.0),
+            ("cos(pi)", -1.0),
+        ];
+        for (text, expected) in table {
+            assert!(
+                (value(text) - expected).abs() < 4.0 * f64::EPSILON * expected.abs(),
+                "{text}: {}",
+                value(text)
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_no_formula_says_why() {
+        let table = [
+            ("", "empty"),
+            ("   ", "empty"),
+            ("x +", "end of the formula"),
+            ("(x", "`)`"),
+            ("x)", "end of the formula"),
+            ("x y", "operator"),
+            ("2 x", "operator"),
+            ("elapsd", "did you mean `elapsed`"),
+            ("max(x)", "`,`"),
+            ("sin x", "`(`"),
+            ("x ; y", "no meaning"),
+            ("1.2.3", "not a number"),
+            ("1e", "not a number"),
+            ("sin", "`(`"),
+            ("\u{b5}*x", "no meaning"),
+        ];
+        for (text, part) in table {
+            let message = Formula::parse(text, &["x", "f0", "elapsed"]).unwrap_err().to_string();
+            assert!(message.contains(part), "{text:?}: {message}");
+        }
+    }
+
+    #[test]
+    fn hostile_text_is_refused_before_it_is_parsed() {
+        let parse = |text: &str| Formula::parse(text, &["x"]).unwrap_err();
+        assert_eq!(parse(&"(".repeat(100_000)), FormulaError::TooLong { length: 100_000 });
+        for text in ["(".repeat(1999), "-".repeat(1999), "2^".repeat(999), "sin(".repeat(400)] {
+            assert_eq!(parse(&text), FormulaError::TooDeep);
+        }
+        assert!(Formula::parse(&format!("{}x{}", "(".repeat(60), ")".repeat(60)), &["x"]).is_ok());
+        assert!(Formula::parse(&format!("x{}", "+x".repeat(999)), &["x"]).is_ok());
+    }
+}

@@ -1,0 +1,130 @@
+//! `model/1`: the file as written. Numbers marked `si` are the model; the others are for people and are checked
+//! against them.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct File {
+    pub(super) format: String,
+    pub(super) program: String,
+    pub(super) estimator: String,
+    pub(super) mode: String,
+    pub(super) settled: bool,
+    pub(super) chi2: f64,
+    pub(super) degrees_of_freedom: f64,
+    pub(super) data: Data,
+    pub(super) noise: NoiseTable,
+    pub(super) hexapod: HexapodTable,
+    #[serde(rename = "leg")]
+    pub(super) legs: Vec<LegTable>,
+    #[serde(rename = "term", default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) terms: Vec<TermTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) frames: Option<Frames>,
+    pub(super) covariance: Covariance,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Data {
+    pub(super) file: String,
+    pub(super) sha256: String,
+    pub(super) readings: usize,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct NoiseTable {
+    pub(super) translation_m: f64,
+    pub(super) rotation_rad: f64,
+    pub(super) source: String,
+    /// Absent when the level is stated and not estimated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) degrees_of_freedom: Option<f64>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct HexapodTable {
+    pub(super) name: String,
+    pub(super) base_joints_m: Vec<[f64; 3]>,
+    pub(super) platform_joints_m: Vec<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) sigma_translation_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) sigma_rotation_rad: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) nominal_stiffness_n_per_m: Option<[f64; 6]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) stroke_m: Option<[f64; 2]>,
+    /// Pairs of legs from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) brackets: Option<Vec<[usize; 2]>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) mounting_plane_z_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) payload_centre_m: Option<[f64; 3]>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LegTable {
+    #[serde(rename = "stiffness_N_per_um", default, skip_serializing_if = "Option::is_none")]
+    pub(super) stiffness: Option<f64>,
+    #[serde(rename = "standard_error_N_per_um", default, skip_serializing_if = "Option::is_none")]
+    pub(super) standard_error: Option<f64>,
+    #[serde(rename = "compliance_si")]
+    pub(super) compliance: f64,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TermTable {
+    pub(super) id: String,
+    /// `ideal` or `rich`.
+    pub(super) form: String,
+    /// The term's own file when it is a user's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) definition: Option<String>,
+    /// Absent when the term has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) shape: Option<ParameterTable>,
+    /// By name.
+    pub(super) parameters: BTreeMap<String, ParameterTable>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ParameterTable {
+    pub(super) value: f64,
+    pub(super) standard_error: f64,
+    pub(super) unit: String,
+    pub(super) determined: bool,
+    pub(super) si: f64,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Frames {
+    pub(super) metrology: Frame,
+    pub(super) target: Frame,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Frame {
+    pub(super) translation_m: [f64; 3],
+    /// `[i, j, k, w]`.
+    pub(super) quaternion: [f64; 4],
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Covariance {
+    /// Names of rows and columns; a shape enters by its logarithm, everything in SI.
+    pub(super) order: Vec<String>,
+    pub(super) matrix: Vec<Vec<f64>>,
+}

@@ -1,0 +1,126 @@
+//! From a model to its file.
+
+use nalgebra::Isometry3;
+
+use hexbench_core::{Hexapod, Measurand};
+
+use super::Model;
+use super::layout::{
+    Covariance, Data, File, Frame, Frames, HexapodTable, LegTable, NoiseTable, ParameterTable, TermTable,
+};
+use crate::estimate::parameter_names;
+use crate::linearization::Active;
+
+const STIFFNESS_PER_SI: f64 = 1e-6;
+
+pub(super) fn file(model: &Model) -> File {
+    let absolute = model.measurand == Measurand::AbsolutePose;
+    File {
+        format: "model/1".to_owned(),
+        program: model.program.clone(),
+        estimator: model.estimator.word().to_owned(),
+        mode: mode_word(model.measurand).to_owned(),
+        settled: model.settled,
+        chi2: model.chi2,
+        degrees_of_freedom: model.dof,
+        data: Data {
+            file: model.data.file.clone(),
+            sha256: model.data.sha256.clone(),
+            readings: model.data.readings,
+        },
+        noise: noise(model),
+        hexapod: hexapod(&model.hexapod),
+        legs: (0..6).map(|leg| leg_table(model, leg)).collect(),
+        terms: terms(model),
+        frames: absolute.then(|| Frames {
+            metrology: frame(&model.point.machine.metrology_frame),
+            target: frame(&model.point.machine.target_frame),
+        }),
+        covariance: Covariance {
+            order: model.column_names.clone(),
+            matrix: model.covariance.row_iter().map(|row| row.iter().copied().collect()).collect(),
+        },
+    }
+}
+
+pub(super) fn mode_word(measurand: Measurand) -> &'static str {
+    match measurand {
+        Measurand::DeflectionEuler => "deflection",
+        Measurand::DeflectionRotationVector => "deflection-rotation-vector",
+        Measurand::AbsolutePose => "absolute",
+    }
+}
+
+fn noise(model: &Model) -> NoiseTable {
+    NoiseTable {
+        translation_m: model.noise.translation,
+        rotation_rad: model.noise.rotation,
+        source: model.noise.source.word().to_owned(),
+        degrees_of_freedom: Some(model.noise.dof).filter(|d| d.is_finite()),
+    }
+}
+
+fn hexapod(h: &Hexapod) -> HexapodTable {
+    HexapodTable {
+        name: h.name.clone(),
+        base_joints_m: h.base_joints.iter().map(|a| (*a).into()).collect(),
+        platform_joints_m: h.platform_joints.iter().map(|b| (*b).into()).collect(),
+        sigma_translation_m: h.metrology.map(|m| m.sigma_translation),
+        sigma_rotation_rad: h.metrology.map(|m| m.sigma_rotation),
+        nominal_stiffness_n_per_m: h.nominal_stiffness,
+        stroke_m: h.stroke,
+        brackets: h.brackets.as_ref().map(|b| b.iter().map(|pair| pair.map(|leg| leg + 1)).collect()),
+        mounting_plane_z_m: h.mounting_plane_z,
+        payload_centre_m: h.payload_centre.map(Into::into),
+    }
+}
+
+fn leg_table(model: &Model, leg: usize) -> LegTable {
+    let c = model.point.springs[leg];
+    let stiffness = Some(STIFFNESS_PER_SI / c).filter(|k| k.is_finite());
+    let error = stiffness.map(|k| model.std(leg) / c.abs() * k.abs()).filter(|e| e.is_finite());
+    LegTable { stiffness, standard_error: error, compliance: c }
+}
+
+fn terms(model: &Model) -> Vec<TermTable> {
+    let with_offset = model.point.active.iter().zip(model.offsets());
+    with_offset.map(|(a, offset)| term(model, a, offset)).collect()
+}
+
+fn term(model: &Model, a: &Active, offset: usize) -> TermTable {
+    let parameter = |(k, (name, unit, per_si)): (usize, (String, &'static str, f64))| {
+        let table = ParameterTable {
+            value: a.values[k] * per_si,
+            standard_error: model.std(offset + k) * per_si,
+            unit: unit.to_owned(),
+            determined: model.determined.get(offset + k).copied().unwrap_or(true),
+            si: a.values[k],
+        };
+        (name, table)
+    };
+    TermTable {
+        id: a.id().to_owned(),
+        form: if a.rich { "rich" } else { "ideal" }.to_owned(),
+        shape: shape(model, a, offset + a.values.len()),
+        definition: a.term.definition().map(str::to_owned),
+        parameters: parameter_names(a).into_iter().enumerate().map(parameter).collect(),
+    }
+}
+
+/// The shape of a term, whose column, when it has one, holds its logarithm.
+fn shape(model: &Model, a: &Active, column: usize) -> Option<ParameterTable> {
+    let shape = a.term.info().shape?;
+    let own_column = !a.term.shape_is_parameter();
+    Some(ParameterTable {
+        value: a.shape * shape.per_si,
+        standard_error: if own_column { model.std(column) * a.shape * shape.per_si } else { 0.0 },
+        unit: shape.unit.to_owned(),
+        determined: !own_column || model.determined.get(column).copied().unwrap_or(true),
+        si: a.shape,
+    })
+}
+
+fn frame(isometry: &Isometry3<f64>) -> Frame {
+    let q = isometry.rotation.coords;
+    Frame { translation_m: isometry.translation.vector.into(), quaternion: [q.x, q.y, q.z, q.w] }
+}
