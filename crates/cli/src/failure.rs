@@ -110,6 +110,7 @@ impl Failure {
             Self::File(error) if error.is_input_output() => Exit::InputOutput,
             Self::File(_) => Exit::BadInput,
             Self::Model { cause, .. } => exit_of(cause),
+            Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
             Self::UserTerm { cause: UserTermError::Read(_), .. } => Exit::InputOutput,
@@ -122,6 +123,7 @@ impl Failure {
         match self {
             Self::File(error) => Some(error.next_step()),
             Self::Model { cause, data } => Some(next_step_of(cause, data)),
+            Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Check(_) => None,
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
             Self::UserTerm { .. } => {
