@@ -111,6 +111,7 @@ impl Failure {
             Self::File(_) => Exit::BadInput,
             Self::Model { cause, .. } => exit_of(cause),
             Self::Check(_) => Exit::CheckFailed,
+            Self::Usage { .. } => Exit::Usage,
             Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
             Self::UserTerm { cause: UserTermError::Read(_), .. } => Exit::InputOutput,
             Self::ModelFile { .. } | Self::UserTerm { .. } | Self::Row { .. } => Exit::BadInput,
@@ -123,6 +124,7 @@ impl Failure {
             Self::File(error) => Some(error.next_step()),
             Self::Model { cause, data } => Some(next_step_of(cause, data)),
             Self::Check(_) => None,
+            Self::Usage { next, .. } => Some(next.clone()),
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
             Self::UserTerm { .. } => {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())
