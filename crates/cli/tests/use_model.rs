@@ -1,4 +1,5 @@
 //! compare, fit, predict and compensate as a user runs them.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

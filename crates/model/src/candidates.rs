@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::campaign::Campaign;
 use crate::evidence::{Block, Gram};
 use crate::linearization::{Linearization, Point, parameter_count};
+use crate::parallel::sum_in_order;
 use crate::pattern::{Pattern, spread};
 use crate::term::{Natural, Need, Rich, Term};
 
@@ -14,6 +15,9 @@ use crate::term::{Natural, Need, Rich, Term};
 const IDEAL_SHARE: f64 = 0.8;
 /// Width of the deviations of a richer form relative to the ideal sizes.
 const RICH_WIDTH: f64 = 0.5;
+
+/// Eigenvalues of the scaled Gram matrix of the common columns below this share of the largest are not determined.
+const DETERMINED: f64 = 1e-13;
 
 /// One competitor.
 #[derive(Clone)]
@@ -106,11 +110,29 @@ fn cross_sizes(direct: &[f64]) -> Vec<f64> {
     pairs.map(|(i, j)| RICH_WIDTH * (direct[i] * direct[j]).sqrt()).collect()
 }
 
-/// Collects blocks of whitened columns that are projected and multiplied together at the end.
+/// Where the columns of a block come from.
+enum Source {
+    Term { term: Arc<dyn Term>, rich: bool, shape: f64 },
+    Pattern { pattern: Pattern, range: f64 },
+}
+
+impl Source {
+    fn columns(&self, lin: &Linearization) -> DMatrix<f64> {
+        match self {
+            Self::Term { term, rich, shape } => lin.term_block(term.as_ref(), *rich, *shape),
+            Self::Pattern { pattern, range } => {
+                lin.block_of(pattern.width(), |c, out| pattern.actions(c, *range, out))
+            }
+        }
+    }
+}
+
+/// Collects blocks of whitened columns that are multiplied together and projected at the end, a part of the conditions
+/// at a time.
 pub struct Collector<'a> {
     lin: &'a Linearization,
     natural: Natural,
-    columns: Vec<DMatrix<f64>>,
+    sources: Vec<Source>,
     width: usize,
     blocks: Vec<Block>,
     candidates: Vec<Candidate>,
@@ -119,7 +141,7 @@ pub struct Collector<'a> {
 impl<'a> Collector<'a> {
     /// Nothing collected yet.
     pub fn new(lin: &'a Linearization, natural: Natural) -> Self {
-        Self { lin, natural, columns: Vec::new(), width: 0, blocks: Vec::new(), candidates: Vec::new() }
+        Self { lin, natural, sources: Vec::new(), width: 0, blocks: Vec::new(), candidates: Vec::new() }
     }
 
     /// Add a term with the given shapes out of `trials`; also its richer form at the shape `rich`.
@@ -128,16 +150,15 @@ impl<'a> Collector<'a> {
         let ideal_share = if rich.is_some() { IDEAL_SHARE } else { 1.0 };
         let ideal = shapes.iter().map(|&s| (false, s, ideal_share / trials.max(1) as f64));
         let forms = ideal.chain(rich.map(|s| (true, s, 1.0 - IDEAL_SHARE)));
-        let blocks =
-            forms.map(|(form, shape, share)| self.push_term(term.as_ref(), form, shape, share)).collect();
+        let blocks = forms.map(|(form, shape, share)| self.push_term(term, form, shape, share)).collect();
         self.candidates.push(Candidate { kind: Kind::Term(Arc::clone(term)), blocks, log_weight: 0.0 });
     }
 
-    fn push_term(&mut self, term: &dyn Term, rich: bool, shape: f64, share: f64) -> usize {
+    fn push_term(&mut self, term: &Arc<dyn Term>, rich: bool, shape: f64, share: f64) -> usize {
         let mut positive: Vec<bool> = term.info().parameters.iter().map(|p| p.positive).collect();
-        positive.resize(parameter_count(term, rich), false);
-        let block = Block::new(&sizes(term, rich, &self.natural), positive, shape, rich, share);
-        self.push(self.lin.term_block(term, rich, shape), block)
+        positive.resize(parameter_count(term.as_ref(), rich), false);
+        let block = Block::new(&sizes(term.as_ref(), rich, &self.natural), positive, shape, rich, share);
+        self.push(Source::Term { term: Arc::clone(term), rich, shape }, block)
     }
 
     /// Add a pattern with its prior weight relative to a term.
@@ -147,48 +168,72 @@ impl<'a> Collector<'a> {
             return;
         }
         let n = pattern.width();
-        let columns = self.lin.block_of(n, |c, out| pattern.actions(c, range, out));
         let block = Block::new(&vec![pattern.size(&self.natural); n], vec![false; n], 1.0, false, 1.0);
-        let blocks = vec![self.push(columns, block)];
+        let blocks = vec![self.push(Source::Pattern { pattern, range }, block)];
         self.candidates.push(Candidate { kind: Kind::Pattern(pattern), blocks, log_weight });
     }
 
-    fn push(&mut self, columns: DMatrix<f64>, mut block: Block) -> usize {
+    fn push(&mut self, source: Source, mut block: Block) -> usize {
         block.first = self.width;
-        self.width += columns.ncols();
-        self.columns.push(columns * &block.transform);
+        self.width += block.width();
+        self.sources.push(source);
         self.blocks.push(block);
         self.blocks.len() - 1
     }
 
-    /// Project everything off the common columns and multiply.
+    /// Multiply everything, and project it off the common columns.
     pub fn finish(self, campaign: &Campaign, point: &Point) -> (Gram, Vec<Candidate>) {
-        let basis = orthonormal(&self.lin.common_block());
-        let mut y = target(self.lin, point);
-        project(&basis, &mut y);
-        let mut z = DMatrix::zeros(self.lin.equations(), self.width);
-        for (block, columns) in self.blocks.iter().zip(&self.columns) {
-            z.columns_mut(block.first, columns.ncols()).copy_from(columns);
-        }
-        let overlap = basis.transpose() * &z;
-        z.gemm(-1.0, &basis, &overlap, 1.0);
-        let g = z.transpose() * &z;
+        let parts = self.lin.parts();
+        let sums = sum_in_order(&parts, |part| self.products(&self.lin.part(part), point));
+        let Some(sums) = sums else { unreachable!("a campaign has at least one condition") };
+        let (common, width) = (self.lin.common_columns(), self.width);
+        let root = inverse_root(&sums.view((0, 0), (common, common)).into_owned());
+        // Overlap of everything with an orthonormal basis of the common columns.
+        let overlap = root.tr_mul(&sums.view((0, common), (common, width + 1)));
+        let rest = sums.view((common, common), (width + 1, width + 1)) - overlap.tr_mul(&overlap);
+        let g = rest.view((0, 0), (width, width)).into_owned();
         let mut blocks = self.blocks;
         for block in &mut blocks {
             let trace = (0..block.width()).map(|k| g[(block.first + k, block.first + k)]).sum::<f64>();
-            block.set_widths(trace.sqrt());
+            block.set_widths(trace.max(0.0).sqrt());
         }
         let gram = Gram {
             g,
-            b: z.tr_mul(&y),
-            yy: y.norm_squared(),
-            equations: (self.lin.equations() - basis.ncols()) as f64,
+            b: rest.view((0, width), (width, 1)).column(0).into_owned(),
+            yy: rest[(width, width)].max(0.0),
+            equations: (self.lin.equations() - root.ncols()) as f64,
             pure_error: (campaign.pure_error, campaign.pure_error_dof),
             noise_dof: campaign.noise.dof,
             blocks,
         };
         (gram, self.candidates)
     }
+
+    /// `[C Z y]' [C Z y]` of a part of the conditions.
+    fn products(&self, lin: &Linearization, point: &Point) -> DMatrix<f64> {
+        let common = lin.common_columns();
+        let mut all = DMatrix::zeros(lin.equations(), common + self.width + 1);
+        all.columns_mut(0, common).copy_from(&lin.common_block());
+        for (block, source) in self.blocks.iter().zip(&self.sources) {
+            let mut place = all.columns_mut(common + block.first, block.width());
+            place.gemm(1.0, &source.columns(lin), &block.transform, 0.0);
+        }
+        all.set_column(common + self.width, &target(lin, point));
+        all.transpose() * &all
+    }
+}
+
+/// `T` with `T' G T = I` on the determined subspace of a Gram matrix whose columns have any units.
+fn inverse_root(g: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = g.nrows();
+    let scale = DVector::from_fn(n, |k, _| if g[(k, k)] > 0.0 { g[(k, k)].sqrt().recip() } else { 0.0 });
+    let scaled = DMatrix::from_fn(n, n, |i, j| g[(i, j)] * scale[i] * scale[j]);
+    let eigen = scaled.symmetric_eigen();
+    let largest = eigen.eigenvalues.max();
+    let kept: Vec<usize> = (0..n).filter(|&k| eigen.eigenvalues[k] > DETERMINED * largest).collect();
+    DMatrix::from_fn(n, kept.len(), |i, j| {
+        scale[i] * eigen.eigenvectors[(i, kept[j])] / eigen.eigenvalues[kept[j]].sqrt()
+    })
 }
 
 /// What springs, frames and the terms together must explain: the residual plus what active terms explain now.

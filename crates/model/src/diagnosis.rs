@@ -27,6 +27,8 @@ const WEIGHT_OF_PATTERNS: f64 = 2.0;
 const DOUBTFUL_CHANCE: f64 = 0.1;
 /// Term parameters up to which no scan is needed for imitation.
 const FEW_PARAMETERS: usize = 3;
+/// Conditions looked at by scans.
+const SCANNED_CONDITIONS: usize = 400;
 /// Most effects in a set.
 const MOST_EFFECTS: usize = 4;
 
@@ -145,13 +147,15 @@ fn collect(
     effort: Effort,
 ) -> (Gram, Vec<Candidate>) {
     let mut collector = Collector::new(lin, natural);
-    let scanner = Scanner::new(lin, point, None);
+    // Scans only choose what to weigh; the weighing itself uses every condition.
+    let scanned = lin.thinned(SCANNED_CONDITIONS);
+    let scanner = Scanner::new(&scanned, point, None);
     for term in terms {
-        let grid = term.shape_grid(&lin.conditions);
+        let grid = term.shape_grid(&scanned.conditions);
         let shapes = if term.info().shape.is_none() {
             vec![1.0]
         } else if grid.len() > LONG_GRID {
-            vec![Scanner::new(lin, point, Some(term.info().id)).best_shape(term.as_ref(), &grid)]
+            vec![Scanner::new(&scanned, point, Some(term.info().id)).best_shape(term.as_ref(), &grid)]
         } else if grid.is_empty() {
             continue;
         } else {

@@ -198,9 +198,11 @@ fn step(
     wanted: &[Wanted],
     prior: &DVector<f64>,
 ) -> Result<Solution, ModelError> {
-    let a = columns(state, point);
-    let mut triangle = Triangle::new(a.ncols());
-    triangle.push(&a, &state.residuals())?;
+    let mut triangle = Triangle::new(prior.len());
+    for part in state.parts() {
+        let piece = state.part(&part);
+        triangle.push(&columns(&piece, point), &piece.residuals())?;
+    }
     push_priors(&mut triangle, point, wanted, prior)?;
     triangle.solve()
 }
@@ -306,7 +308,11 @@ fn at_shape(
     let solution = triangle.solve()?;
     let mut x = solution.x;
     x[held] = (shape / a.shape).ln();
-    Ok((solution.rss, x, solution.covariance))
+    // Held, the shape varies only from one of these fits to the next; its prior is not part of any of them.
+    let mut covariance = solution.covariance;
+    covariance.column_mut(held).fill(0.0);
+    covariance.row_mut(held).fill(0.0);
+    Ok((solution.rss, x, covariance))
 }
 
 /// Whitened columns of springs, frames, term parameters and shapes at a point.

@@ -1,5 +1,6 @@
 //! The model linearised at one point: whitened residuals and columns for springs, frames and terms.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use hexbench_core::{Matrix6, Vector3, Vector6};
@@ -11,6 +12,9 @@ use crate::error::ModelError;
 use crate::machine::{Machine, exponential};
 use crate::parallel::map;
 use crate::term::{Rich, Term};
+
+/// Conditions whose columns are made together.
+const PART: usize = 256;
 
 /// A term in a model, with its values. SI.
 #[derive(Clone)]
@@ -105,6 +109,7 @@ impl Point {
 }
 
 /// Whitened model at a point.
+#[derive(Debug, Clone)]
 pub struct Linearization {
     /// Machine with calibrated geometry.
     pub machine: Machine,
@@ -124,6 +129,35 @@ impl Linearization {
         let conditions = campaign.conditions(&machine, &point.springs)?;
         let links = map(&conditions, |c| link(&machine, c, point));
         Ok(Self { machine, conditions, links, absolute: campaign.is_absolute() })
+    }
+
+    /// Ranges of conditions small enough for all columns of all candidates to fit in the cache.
+    pub fn parts(&self) -> Vec<std::ops::Range<usize>> {
+        let n = self.conditions.len();
+        (0..n.div_ceil(PART)).map(|k| k * PART..((k + 1) * PART).min(n)).collect()
+    }
+
+    /// Some of the conditions; all of them are not copied.
+    pub fn part(&self, range: &std::ops::Range<usize>) -> Cow<'_, Self> {
+        if range.len() == self.conditions.len() {
+            return Cow::Borrowed(self);
+        }
+        Cow::Owned(self.choose(range.clone()))
+    }
+
+    /// Every n-th condition, at most `most`.
+    #[must_use]
+    pub fn thinned(&self, most: usize) -> Self {
+        self.choose((0..self.conditions.len()).step_by(self.conditions.len().div_ceil(most).max(1)))
+    }
+
+    fn choose(&self, which: impl Iterator<Item = usize> + Clone) -> Self {
+        Self {
+            machine: self.machine.clone(),
+            conditions: which.clone().map(|i| self.conditions[i].clone()).collect(),
+            links: which.map(|i| self.links[i]).collect(),
+            absolute: self.absolute,
+        }
     }
 
     /// Number of whitened equations.

@@ -1,5 +1,6 @@
 //! Work on all cores when there is enough of it.
 
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 /// Below this many items the hand-over to other threads costs more than the work.
@@ -20,4 +21,24 @@ pub(crate) fn try_map<T: Sync, R: Send, E: Send>(
     f: impl Fn(&T) -> Result<R, E> + Sync + Send,
 ) -> Result<Vec<R>, E> {
     map(items, f).into_iter().collect()
+}
+
+/// Sum of a matrix per item, added in order whatever thread made it; `None` for no items.
+pub(crate) fn sum_in_order<T: Sync>(
+    items: &[T],
+    f: impl Fn(&T) -> DMatrix<f64> + Sync + Send,
+) -> Option<DMatrix<f64>> {
+    let mut total: Option<DMatrix<f64>> = None;
+    // A batch at a time, so that memory does not grow with the number of items.
+    for batch in items.chunks(4 * rayon::current_num_threads().max(1)) {
+        let pieces: Vec<DMatrix<f64>> =
+            if batch.len() == 1 { vec![f(&batch[0])] } else { batch.par_iter().map(&f).collect() };
+        for piece in pieces {
+            match &mut total {
+                Some(sum) => *sum += piece,
+                None => total = Some(piece),
+            }
+        }
+    }
+    total
 }

@@ -3,7 +3,7 @@
 use crate::campaign::Condition;
 
 /// Most periods tried.
-const MOST_PERIODS: usize = 600;
+const MOST_PERIODS: usize = 400;
 /// Frequency steps per resolution element `1 / range`.
 const OVERSAMPLING: usize = 4;
 

@@ -8,7 +8,7 @@ use clap::ValueEnum;
 /// When to colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Colour {
-    /// On a terminal, unless NO_COLOR is set.
+    /// On a terminal, unless `NO_COLOR` is set.
     Auto,
     /// Always.
     Always,
@@ -27,7 +27,7 @@ impl Colour {
     }
 }
 
-/// NO_COLOR counts when it is present and not empty (no-color.org).
+/// `NO_COLOR` counts when it is present and not empty (no-color.org).
 fn no_colour() -> bool {
     std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty())
 }

@@ -1,5 +1,6 @@
 //! Output: where it goes, colour, pages of 80 columns, numbers for people, error reports.
 
+mod bar;
 mod colour;
 mod excerpt;
 pub(crate) mod number;
@@ -8,6 +9,7 @@ pub(crate) mod report;
 mod screen;
 mod table;
 
+pub(crate) use bar::bar;
 pub(crate) use colour::{Colour, Ink};
 pub(crate) use paper::{Paper, WIDTH};
 pub(crate) use screen::Screen;

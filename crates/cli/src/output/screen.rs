@@ -9,15 +9,18 @@ use super::{Colour, Ink};
 use crate::failure::Failure;
 
 /// Standard output.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub(crate) struct Screen {
+    stdout: io::Stdout,
     ink: Ink,
 }
 
 impl Screen {
     /// Standard output, coloured when it is a terminal.
     pub(crate) fn stdout(colour: Colour) -> Self {
-        Self { ink: Ink::new(colour.on(&io::stdout())) }
+        let stdout = io::stdout();
+        let ink = Ink::new(colour.on(&stdout));
+        Self { stdout, ink }
     }
 
     /// How to paint words for it.
@@ -27,7 +30,7 @@ impl Screen {
 
     /// Write text. A reader that has gone away, as in `hexbench ... | head`, is no failure.
     pub(crate) fn write(&self, text: &str) -> Result<(), Failure> {
-        let mut out = io::stdout().lock();
+        let mut out = self.stdout.lock();
         match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
             Err(cause) if cause.kind() != io::ErrorKind::BrokenPipe => {
                 Err(Failure::Output { path: "standard output".into(), cause })

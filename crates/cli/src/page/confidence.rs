@@ -4,8 +4,8 @@ use hexbench_model::diagnose::{CandidateReport, Diagnosis};
 use hexbench_model::verdict::{NONE, OUTSIDE};
 
 use super::conclusion::{in_words, joined};
-use crate::output::Paper;
 use crate::output::number::percent;
+use crate::output::{Paper, bar};
 
 /// Least probability that gets a line.
 const WORTH_A_LINE: f64 = 0.03;
@@ -14,7 +14,7 @@ const WORTH_SAYING: f64 = 0.01;
 /// Most lines.
 const MOST_LINES: usize = 7;
 /// Columns of a bar of probability one.
-const BAR: f64 = 24.0;
+const BAR: usize = 24;
 const LABEL: usize = 34;
 
 /// Probabilities that each effect is at work, alone or beside others.
@@ -24,7 +24,7 @@ pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
     let shown =
         all.iter().take_while(|(_, p)| *p >= WORTH_A_LINE).take(MOST_LINES).count().max(1).min(all.len());
     for (id, p) in &all[..shown] {
-        let bar = "#".repeat((BAR * p).round() as usize);
+        let bar = bar(*p, BAR);
         paper.line(&format!("  {:<width$}{:>6}  {bar}", in_words(id), percent(*p), width = LABEL - 2));
     }
     if let Some((_, next)) = all.get(shown) {

@@ -5,10 +5,10 @@ use hexbench_model::residuals::ErrorSummary;
 
 use super::conclusion::at_the_noise;
 use crate::output::number::significant;
-use crate::output::{Ink, Paper};
+use crate::output::{Ink, Paper, bar};
 
 /// Columns of the longest bar.
-const BAR: f64 = 22.0;
+const BAR: usize = 22;
 const NAME: usize = 26;
 
 /// One line per step of the model, then the noise.
@@ -23,7 +23,7 @@ pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
         let line = rung(paper.ink(), &name(step), error, largest);
         paper.line(&line);
     }
-    let noise = bar(1.0, largest);
+    let noise = at_least_one(1.0 / largest);
     let (t, r) = (significant(d.noise.translation_um, 3), significant(d.noise.rotation_urad, 3));
     paper.line(&format!("  {:<NAME$}{t:>8}{r:>8}{:>9}  {noise}", "noise of one reading", "1.00"));
 }
@@ -44,7 +44,7 @@ fn name(step: &StepReport) -> String {
 fn rung(ink: Ink, name: &str, error: &ErrorSummary, largest: f64) -> String {
     let times = error.chi2_reduced.sqrt();
     let (t, r) = (significant(error.rms.translation_um, 3), significant(error.rms.rotation_urad, 3));
-    let bar = bar(times, largest);
+    let bar = at_least_one(times / largest);
     let good = at_the_noise(error.chi2_reduced, error.count);
     let bar = if good { ink.good(&bar) } else { ink.bad(&bar) };
     format!("  {name:<NAME$}{t:>8}{r:>8}{:>9}  {bar}", multiple(times))
@@ -55,7 +55,8 @@ pub(crate) fn multiple(times: f64) -> String {
     if times < 10.0 { format!("{times:.2}") } else { format!("{times:.0}") }
 }
 
-fn bar(times: f64, largest: f64) -> String {
-    let length = (BAR * times / largest).round();
-    "#".repeat((length as usize).max(1))
+/// However small an error, its bar is seen.
+fn at_least_one(share: f64) -> String {
+    let bar = bar(share, BAR);
+    if bar.is_empty() { "#".to_owned() } else { bar }
 }

@@ -1,0 +1,85 @@
+//! `diagnosis.json` is a contract: keys may be added, not removed.
+
+use serde_json::Value;
+
+use crate::support::{cases, diagnose, text};
+
+const TOP: [&str; 14] = [
+    "format",
+    "verdict",
+    "added",
+    "candidates",
+    "credible_set",
+    "steps",
+    "noise",
+    "parameters",
+    "untestable",
+    "detectable",
+    "next",
+    "absorbed",
+    "suspects",
+    "outside",
+];
+
+/// The diagnosis of a bundled case.
+pub(crate) fn diagnosis(case: &str) -> Value {
+    serde_json::from_str(&text(diagnose(case, &["--json", "-"]))).unwrap()
+}
+
+fn assert_keys(value: &Value, keys: &[&str], what: &str) {
+    for key in keys {
+        assert!(value.get(key).is_some(), "{what} lacks {key}: {value}");
+    }
+}
+
+fn assert_error(error: &Value, what: &str) {
+    assert_keys(error, &["chi2_reduced", "rms"], what);
+    assert_keys(&error["rms"], &["translation_um", "rotation_urad"], what);
+}
+
+fn assert_items(diagnosis: &Value, list: &str, keys: &[&str]) {
+    for item in diagnosis[list].as_array().unwrap() {
+        assert_keys(item, keys, list);
+    }
+}
+
+#[test]
+fn every_key_of_the_contract_is_there() {
+    for case in cases() {
+        let d = diagnosis(&case);
+        assert_keys(&d, &TOP, &case);
+        assert_eq!(d["format"], "diagnosis/1");
+        assert_items(&d, "candidates", &["term", "probability", "indistinguishable"]);
+        assert_items(&d, "parameters", &["name", "value", "std", "unit"]);
+        assert_items(&d, "untestable", &["term", "why"]);
+        assert_items(&d, "detectable", &["term", "parameter", "unit", "size_at_90_percent_power"]);
+        assert_items(&d, "next", &["pose", "wrench", "separates", "gain"]);
+        assert_items(&d, "absorbed", &["term", "bias_of_leg_stiffness_percent"]);
+        assert_items(&d, "suspects", &["row", "z"]);
+        assert_keys(&d["noise"], &["translation_um", "rotation_urad", "source"], "noise");
+        for step in d["steps"].as_array().unwrap() {
+            assert_keys(step, &["terms"], "step");
+            assert_error(step, "step");
+            assert_error(&step["holdout"], "holdout");
+        }
+    }
+}
+
+#[test]
+fn probabilities_of_the_first_addition_sum_to_one() {
+    for case in cases() {
+        let d = diagnosis(&case);
+        let all = d["candidates"].as_array().unwrap();
+        let sum: f64 = all.iter().map(|c| c["probability"].as_f64().unwrap()).sum();
+        assert!((sum - 1.0).abs() < 1e-9, "{case}: {sum}");
+    }
+}
+
+#[test]
+fn a_pattern_outside_the_catalogue_is_described() {
+    let outside = diagnosis("not-in-catalogue")["outside"].clone();
+    assert_keys(&outside, &["leg", "variable", "pattern", "period", "text"], "outside");
+    assert_eq!(outside["pattern"], "periodic");
+    let period_mm = outside["period"].as_f64().unwrap();
+    assert!((period_mm - 8.0).abs() < 0.05, "{period_mm} mm");
+}

@@ -1,0 +1,12 @@
+//! The command as a user runs it, and the rules of the workspace around it.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
+
+mod documents;
+mod exits;
+mod json;
+mod pages;
+mod score;
+mod separation;
+mod streams;
+mod support;

@@ -1,0 +1,67 @@
+//! Pages of text that people read: kept as snapshots, never wider than a terminal.
+
+use crate::support::{cases, diagnose, hexbench, text};
+
+const WIDTH: usize = 80;
+
+fn assert_narrow(page: &str, what: &str) {
+    for line in page.lines() {
+        assert!(line.chars().count() <= WIDTH, "{what} is wider than {WIDTH} columns: {line}");
+    }
+}
+
+#[test]
+fn every_diagnosis_reads_as_before() {
+    for case in cases() {
+        let page = text(diagnose(&case, &[]));
+        assert_narrow(&page, &case);
+        insta::assert_snapshot!(format!("diagnose_{case}"), page);
+    }
+}
+
+#[test]
+fn all_the_details_fit_the_page_too() {
+    for case in cases() {
+        assert_narrow(&text(diagnose(&case, &["--verbose"])), &case);
+    }
+}
+
+#[test]
+fn the_demo_reads_as_before() {
+    let page = text(hexbench().arg("demo").output().unwrap());
+    assert_narrow(&page, "demo");
+    insta::assert_snapshot!("demo", page);
+}
+
+#[test]
+fn the_catalogue_reads_as_before() {
+    let list = text(hexbench().arg("terms").output().unwrap());
+    assert_narrow(&list, "terms");
+    insta::assert_snapshot!("terms", list);
+    insta::assert_snapshot!(
+        "terms_joint_friction",
+        text(hexbench().args(["terms", "joint-friction"]).output().unwrap())
+    );
+}
+
+#[test]
+fn every_effect_can_be_explained() {
+    let list = text(hexbench().arg("terms").output().unwrap());
+    let ids: Vec<&str> = list.lines().skip(1).filter_map(|l| l.split_whitespace().next()).collect();
+    assert_eq!(ids.len(), 21);
+    for id in ids {
+        let page = text(hexbench().args(["terms", id]).output().unwrap());
+        assert_narrow(&page, id);
+        for part in ["physics", "model", "needs", "source", "Parameters"] {
+            assert!(page.contains(part), "{id} lacks {part}");
+        }
+    }
+}
+
+#[test]
+fn the_demo_ends_with_the_foundation_named_and_the_error_at_the_noise() {
+    let page = text(hexbench().arg("demo").output().unwrap());
+    let end = page.split("Verdict").last().unwrap();
+    let words = end.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("base-compliance") && words.contains("it is at the noise"), "{words}");
+}
