@@ -56,7 +56,7 @@ pub(crate) enum Failure {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        cause: ModelFileError,
+        cause: Box<ModelFileError>,
     },
     /// A term file that is none.
     #[error("{}: {cause}", path.display())]
@@ -64,7 +64,7 @@ pub(crate) enum Failure {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        cause: UserTermError,
+        cause: Box<UserTermError>,
     },
     /// A row that cannot be predicted.
     #[error("{}: {cause}", path.display())]
@@ -72,7 +72,7 @@ pub(crate) enum Failure {
         /// The file of the row.
         path: PathBuf,
         /// The row, and why.
-        cause: PredictError,
+        cause: Box<PredictError>,
     },
     /// A file that cannot be read.
     #[error("{}: cannot be read: {cause}", path.display())]
@@ -112,9 +112,9 @@ impl Failure {
             Self::Model { cause, .. } => exit_of(cause),
             Self::Check(_) => Exit::CheckFailed,
             Self::Usage { .. } => Exit::Usage,
-            Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
-            Self::UserTerm { cause: UserTermError::Read(_), .. } => Exit::InputOutput,
-            Self::ModelFile { .. } | Self::UserTerm { .. } | Self::Row { .. } => Exit::BadInput,
+            Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
+            Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
+            Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
         }
     }
 
