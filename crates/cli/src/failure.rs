@@ -56,7 +56,7 @@ pub(crate) enum Failure {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        cause: ModelFileError,
+        cause: Box<ModelFileError>,
     },
     /// A term file that is none.
     #[error("{}: {cause}", path.display())]
@@ -64,7 +64,7 @@ pub(crate) enum Failure {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        cause: UserTermError,
+        cause: Box<UserTermError>,
     },
     /// A row that cannot be predicted.
     #[error("{}: {cause}", path.display())]
@@ -72,7 +72,7 @@ pub(crate) enum Failure {
         /// The file of the row.
         path: PathBuf,
         /// The row, and why.
-        cause: PredictError,
+        cause: Box<PredictError>,
     },
     /// A file that cannot be read.
     #[error("{}: cannot be read: {cause}", path.display())]
@@ -112,9 +112,10 @@ impl Failure {
             Self::Model { cause, .. } => exit_of(cause),
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
-            Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
-            Self::UserTerm { cause: UserTermError::Read(_), .. } => Exit::InputOutput,
-            Self::ModelFile { .. } | Self::UserTerm { .. } | Self::Row { .. } => Exit::BadInput,
+            Self::Usage { .. } => Exit::Usage,
+            Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
+            Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
+            Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
         }
     }
 
@@ -125,6 +126,7 @@ impl Failure {
             Self::Model { cause, data } => Some(next_step_of(cause, data)),
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Check(_) => None,
+            Self::Usage { next, .. } => Some(next.clone()),
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
             Self::UserTerm { .. } => {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())

@@ -1,4 +1,5 @@
 //! The comparison on cases with a known answer.
+#![allow(clippy::unwrap_used, reason = "a test without its case fails")]
 
 mod cases;
 

@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let model = input::model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses)?;
     let corrections = compensate(&model, &rows.observations)
-        .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause })?;
+        .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) })?;
     let (pose, small) = ([Unit::Mm, Unit::Deg], [Unit::Um, Unit::Urad]);
     let mut text = csv::conditions_header(&rows);
     csv::names(&mut text, "wanted_", &AXES, pose);

@@ -70,7 +70,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     screen.write(&fitted::report(&campaign, &fit, estimator, &errors, screen.ink()))?;
     let Some(path) = &arguments.output else { return Ok(()) };
     let model = Model::new(&campaign, &fit, estimator, origin(&arguments.data, &data)?);
-    let text = model.to_toml().map_err(|e| Failure::Usage { message: e.to_string(), next: String::new() })?;
+    let unsaved = |cause| Failure::ModelFile { path: path.clone(), cause: Box::new(cause) };
+    let text = model.to_toml().map_err(unsaved)?;
     screen.write_to(path, &text)
 }
 

@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let model = input::model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses)?;
     let predictions = predict(&model, &rows.observations)
-        .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause })?;
+        .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) })?;
     let units = if model.is_absolute() { [Unit::Mm, Unit::Deg] } else { [Unit::Um, Unit::Urad] };
     let names = names(model.measurand);
     let mut text = csv::conditions_header(&rows);

@@ -69,7 +69,9 @@ fn adequacy(paper: &mut Paper, a: &Adequacy) {
     if lines.is_empty() {
         paper.paragraph(2, "No noise level is stated and nothing is repeated: nothing can be said.");
     }
-    lines.iter().for_each(|line| paper.line(line));
+    for line in &lines {
+        paper.line(line);
+    }
     let best = [a.lack_of_fit_f, a.lack_of_fit_chi2].into_iter().flatten().map(|t| t.p).fold(1.0, f64::min);
     if best < 0.01 {
         paper.paragraph(2, "No: something is missing. `hexbench diagnose` looks for it.");

@@ -226,9 +226,13 @@ pub(crate) fn added_columns(
 ) -> Option<(f64, f64)> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut residual = y.to_vec();
-    base.iter().for_each(|c| take(&mut basis, c, &mut residual));
+    for c in base {
+        take(&mut basis, c, &mut residual);
+    }
     let (before, known) = (square(&residual), basis.len());
-    added.iter().for_each(|c| take(&mut basis, c, &mut residual));
+    for c in added {
+        take(&mut basis, c, &mut residual);
+    }
     let gained = (basis.len() - known) as f64;
     let dof = y.len() as f64 - basis.len() as f64 - lost;
     let after = square(&residual);
@@ -254,7 +258,9 @@ fn take(basis: &mut Vec<Vec<f64>>, column: &[f64], y: &mut [f64]) {
     if rest <= 1e-9 * size || rest == 0.0 {
         return;
     }
-    c.iter_mut().for_each(|v| *v /= rest);
+    for v in &mut c {
+        *v /= rest;
+    }
     let share = dot(y, &c);
     subtract(y, &c, share);
     basis.push(c);
@@ -283,7 +289,7 @@ fn centre_and_spread(x: &[f64]) -> Option<(f64, f64)> {
 /// Spearman's rank correlation, ties sharing their mean rank.
 pub fn spearman(a: &[f64], b: &[f64]) -> f64 {
     let (a, b) = (ranks(a), ranks(b));
-    let centre = |r: &[f64]| r.iter().map(|v| v - (r.len() as f64 + 1.0) / 2.0).collect::<Vec<_>>();
+    let centre = |r: &[f64]| r.iter().map(|v| v - f64::midpoint(r.len() as f64, 1.0)).collect::<Vec<_>>();
     let (a, b) = (centre(&a), centre(&b));
     let size = (square(&a) * square(&b)).sqrt();
     if size > 0.0 { dot(&a, &b) / size } else { 0.0 }
@@ -296,7 +302,7 @@ fn ranks(x: &[f64]) -> Vec<f64> {
     let mut first = 0;
     while first < order.len() {
         let same = order[first..].iter().take_while(|&&i| x[i] <= x[order[first]]).count();
-        let mean = first as f64 + (same as f64 + 1.0) / 2.0;
+        let mean = first as f64 + f64::midpoint(same as f64, 1.0);
         order[first..first + same].iter().for_each(|&i| ranks[i] = mean);
         first += same;
     }

@@ -54,13 +54,13 @@ pub fn design(judged: &Judged<'_>) -> Design {
         rank: solution.rank,
         condition,
         unobservable: unobservable(&solution.null_space, &names),
-        weakest: condition.filter(|c| *c > WEAK).and_then(|_| weakest(&a, &names)),
+        weakest: condition.filter(|c| *c > WEAK).map(|_| weakest(&a, &names)),
         paper: paper(judged),
     }
 }
 
 /// The direction of the smallest singular value of the column-scaled regressor, in words.
-fn weakest(a: &nalgebra::DMatrix<f64>, names: &[String]) -> Option<String> {
+fn weakest(a: &nalgebra::DMatrix<f64>, names: &[String]) -> String {
     let mut scaled = a.clone();
     for mut c in scaled.column_iter_mut() {
         let norm = c.norm();
@@ -74,7 +74,7 @@ fn weakest(a: &nalgebra::DMatrix<f64>, names: &[String]) -> Option<String> {
     let largest = direction.amax();
     let strong: Vec<f64> =
         direction.iter().map(|w| if w.abs() >= SHARE * largest { *w } else { 0.0 }).collect();
-    Some(sentence(&strong, names).replace("cannot be told apart", "are told apart worst"))
+    sentence(&strong, names).replace("cannot be told apart", "are told apart worst")
 }
 
 fn paper(judged: &Judged<'_>) -> Option<Observability> {

@@ -65,13 +65,16 @@ pub enum FormulaError {
     },
 }
 
+type Unary = fn(f64) -> f64;
+type Binary = fn(f64, f64) -> f64;
+
 /// One step of evaluation on a stack.
 #[derive(Debug, Clone, Copy)]
 enum Step {
     Push(f64),
     Load(usize),
-    Unary(fn(f64) -> f64),
-    Binary(fn(f64, f64) -> f64),
+    Unary(Unary),
+    Binary(Binary),
 }
 
 /// A formula over named variables, ready to evaluate.
@@ -131,7 +134,7 @@ impl Formula {
 }
 
 /// Functions of one argument.
-static UNARY: [(&str, fn(f64) -> f64); 17] = [
+static UNARY: [(&str, Unary); 17] = [
     ("abs", f64::abs),
     ("sign", |x| if x == 0.0 { 0.0 } else { x.signum() }),
     ("sqrt", f64::sqrt),
@@ -152,7 +155,7 @@ static UNARY: [(&str, fn(f64) -> f64); 17] = [
 ];
 
 /// Functions of two arguments.
-static BINARY: [(&str, fn(f64, f64) -> f64); 4] =
+static BINARY: [(&str, Binary); 4] =
     [("min", f64::min), ("max", f64::max), ("atan2", f64::atan2), ("hypot", f64::hypot)];
 
 /// Names with a fixed value.

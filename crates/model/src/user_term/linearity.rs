@@ -101,7 +101,7 @@ fn sample(name: &str, trial: usize, k: usize) -> f64 {
         "q_home" => 0.2,
         "leg" => 1.0 + (trial % 6) as f64,
         "approach" => {
-            if trial % 2 == 0 {
+            if trial.is_multiple_of(2) {
                 1.0
             } else {
                 -1.0
