@@ -13,7 +13,14 @@ use crate::output::Colour;
                         4 not determined by the data, 5 input or output")]
 pub(crate) struct Cli {
     /// When to colour; `NO_COLOR` is respected by `auto`
-    #[arg(long = "color", alias = "colour", value_name = "WHEN", default_value = "auto", global = true)]
+    #[arg(
+        long = "color",
+        alias = "colour",
+        value_name = "WHEN",
+        default_value = "auto",
+        global = true,
+        display_order = 100
+    )]
     pub(crate) colour: Colour,
     /// What to do.
     #[command(subcommand)]

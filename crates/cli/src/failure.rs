@@ -110,8 +110,8 @@ impl Failure {
             Self::File(error) if error.is_input_output() => Exit::InputOutput,
             Self::File(_) => Exit::BadInput,
             Self::Model { cause, .. } => exit_of(cause),
-            Self::Check(_) => Exit::CheckFailed,
             Self::Usage { .. } => Exit::Usage,
+            Self::Check(_) => Exit::CheckFailed,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
             Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
@@ -123,8 +123,8 @@ impl Failure {
         match self {
             Self::File(error) => Some(error.next_step()),
             Self::Model { cause, data } => Some(next_step_of(cause, data)),
+            Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Check(_) => None,
-            Self::Usage { next, .. } => Some(next.clone()),
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
             Self::UserTerm { .. } => {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())

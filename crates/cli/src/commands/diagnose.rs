@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// All detectable sizes, and what every warning means
+    /// Every parameter and every detectable size
     #[arg(long, short)]
     verbose: bool,
     /// Exit with 1 unless this is the verdict

@@ -9,6 +9,8 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 
 /// Characters shown before and after the offending text.
 const CONTEXT: usize = 28;
+/// Most characters of the offending text itself.
+const MOST_MARKED: usize = 40;
 /// Bytes read before and after it to find the ends of the line.
 const REACH: usize = 4096;
 
@@ -21,6 +23,8 @@ pub(crate) struct Excerpt {
     span: Range<usize>,
     /// Line of the file, from 0.
     line: usize,
+    /// Characters of the line before the offending text, when the line is not longer than what was read.
+    column: usize,
 }
 
 impl Excerpt {
@@ -32,9 +36,9 @@ impl Excerpt {
         let mut bytes = Vec::new();
         file.take((span.end - from + REACH) as u64).read_to_end(&mut bytes).ok()?;
         let inside = span.start - from..(span.end - from).min(bytes.len());
-        let before = line_tail(&String::from_utf8_lossy(bytes.get(..inside.start)?));
-        let middle = first_line(&String::from_utf8_lossy(bytes.get(inside.clone())?));
-        let after = line_head(&String::from_utf8_lossy(&bytes[inside.end..]));
+        let (before, column) = line_tail(&String::from_utf8_lossy(bytes.get(..inside.start)?));
+        let middle = line_head(&String::from_utf8_lossy(bytes.get(inside.clone())?), MOST_MARKED);
+        let after = line_head(&String::from_utf8_lossy(&bytes[inside.end..]), CONTEXT);
         let span = before.len()..before.len() + middle.len();
         let name = path.display().to_string();
         Some(Self {
@@ -42,6 +46,7 @@ impl Excerpt {
             text: format!("{before}{middle}{after}"),
             span,
             line: usize::try_from(line).ok()?.saturating_sub(1),
+            column,
         })
     }
 
@@ -60,31 +65,34 @@ impl SourceCode for Excerpt {
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let all: SourceSpan = (0, self.text.len()).into();
         let name = self.name.clone();
-        Ok(Box::new(MietteSpanContents::new_named(name, self.text.as_bytes(), all, self.line, 0, 1)))
+        Ok(Box::new(MietteSpanContents::new_named(
+            name,
+            self.text.as_bytes(),
+            all,
+            self.line,
+            self.column,
+            1,
+        )))
     }
 }
 
-/// End of the last line, shortened.
-fn line_tail(text: &str) -> String {
+/// End of the last line, shortened, and the number of characters of that line.
+fn line_tail(text: &str) -> (String, usize) {
     let line = text.rsplit('\n').next().unwrap_or_default();
     let count = line.chars().count();
     if count <= CONTEXT {
+        return (line.to_owned(), count);
+    }
+    (format!("...{}", line.chars().skip(count - CONTEXT).collect::<String>()), count)
+}
+
+/// Beginning of the first line, shortened to a number of characters.
+fn line_head(text: &str, most: usize) -> String {
+    let line = text.split(['\r', '\n']).next().unwrap_or_default();
+    if line.chars().count() <= most {
         return line.to_owned();
     }
-    format!("...{}", line.chars().skip(count - CONTEXT).collect::<String>())
-}
-
-/// Beginning of the first line, shortened.
-fn line_head(text: &str) -> String {
-    let line = first_line(text);
-    if line.chars().count() <= CONTEXT {
-        return line;
-    }
-    format!("{}...", line.chars().take(CONTEXT).collect::<String>())
-}
-
-fn first_line(text: &str) -> String {
-    text.split(['\r', '\n']).next().unwrap_or_default().to_owned()
+    format!("{}...", line.chars().take(most).collect::<String>())
 }
 
 #[cfg(test)]
@@ -101,6 +109,15 @@ mod tests {
         let excerpt = Excerpt::of(&path, &(start..start + 3), 2).unwrap();
         assert_eq!(&excerpt.text[excerpt.span.clone()], "abc");
         assert!(excerpt.text.starts_with("...1,") && excerpt.text.ends_with("..."));
-        assert_eq!(excerpt.line, 1);
+        assert_eq!((excerpt.line, excerpt.column), (1, 200));
+    }
+
+    #[test]
+    fn a_whole_line_is_marked_by_its_beginning() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("wide.csv");
+        std::fs::write(&path, "9,".repeat(100)).unwrap();
+        let excerpt = Excerpt::of(&path, &(0..200), 1).unwrap();
+        assert_eq!(excerpt.text.len(), MOST_MARKED + 3);
     }
 }
