@@ -108,14 +108,12 @@ impl Failure {
     pub(crate) fn exit(&self) -> Exit {
         match self {
             Self::File(error) if error.is_input_output() => Exit::InputOutput,
-            Self::File(_) => Exit::BadInput,
             Self::Model { cause, .. } => exit_of(cause),
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
-            Self::Usage { .. } => Exit::Usage,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
-            Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
+            Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
         }
     }
 
@@ -126,7 +124,6 @@ impl Failure {
             Self::Model { cause, data } => Some(next_step_of(cause, data)),
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Check(_) => None,
-            Self::Usage { next, .. } => Some(next.clone()),
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
             Self::UserTerm { .. } => {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())
