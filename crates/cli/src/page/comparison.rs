@@ -185,11 +185,11 @@ fn hidden(paper: &mut Paper, c: &Comparison) {
         "By an effect of the size that these readings would just show (* : would not show at all).",
     );
     let mut table = Table::default();
-    table.row(["", "size", "leg 1", "2", "3", "4", "5", "6"]);
+    table.row(["leg", "size", "1", "2", "3", "4", "5", "6"]);
     for h in c.hidden.iter().take(SHOWN) {
         let star = if h.would_show { "" } else { "*" };
         let size = format!("{} {}{star}", significant(h.size, 2), h.unit);
-        let bias = h.bias_of_leg_stiffness_percent.map(|b| significant(b, 2));
+        let bias = h.bias_of_leg_stiffness_percent.map(|b| format!("{b:.1}"));
         table.row([h.term.clone(), size].into_iter().chain(bias));
     }
     table.lines().iter().for_each(|line| paper.line(line));
