@@ -108,13 +108,12 @@ impl Failure {
     pub(crate) fn exit(&self) -> Exit {
         match self {
             Self::File(error) if error.is_input_output() => Exit::InputOutput,
-            Self::File(_) => Exit::BadInput,
+            Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
             Self::Model { cause, .. } => exit_of(cause),
             Self::Check(_) => Exit::CheckFailed,
             Self::Usage { .. } => Exit::Usage,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
-            Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
         }
     }
 

@@ -39,13 +39,15 @@ fn told(path: &Path, reading: Reading) -> Dataset {
 pub(crate) fn model(path: &Path) -> Result<Model, Failure> {
     let unreadable = |cause| Failure::Unreadable { path: path.to_owned(), cause };
     let text = std::fs::read_to_string(path).map_err(unreadable)?;
-    Model::from_toml(&text).map_err(|cause| Failure::ModelFile { path: path.to_owned(), cause: Box::new(cause) })
+    Model::from_toml(&text)
+        .map_err(|cause| Failure::ModelFile { path: path.to_owned(), cause: Box::new(cause) })
 }
 
 /// Terms from files of the user.
 pub(crate) fn user_terms(paths: &[PathBuf]) -> Result<Vec<Arc<dyn Term>>, Failure> {
     let read = |path: &PathBuf| {
-        user_term::read(path).map_err(|cause| Failure::UserTerm { path: path.clone(), cause: Box::new(cause) })
+        user_term::read(path)
+            .map_err(|cause| Failure::UserTerm { path: path.clone(), cause: Box::new(cause) })
     };
     paths.iter().map(read).collect()
 }

@@ -13,7 +13,7 @@ use crate::output::Screen;
 /// Find the command that brings the loaded platform to the wanted pose
 ///
 /// The pose columns are the wanted poses, the wrench columns the total load. Out come the same columns with the pose to
-/// command (a_mm ... gamma_deg), the wanted pose, the error without correction, what remains by the model's own
+/// command, the wanted pose, the error without correction, what remains by the model's own
 /// prediction, and the standard uncertainty of the pose reached.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {

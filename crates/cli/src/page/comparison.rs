@@ -189,7 +189,8 @@ fn hidden(paper: &mut Paper, c: &Comparison) {
     for h in c.hidden.iter().take(SHOWN) {
         let star = if h.would_show { "" } else { "*" };
         let size = format!("{} {}{star}", significant(h.size, 2), h.unit);
-        let bias = h.bias_of_leg_stiffness_percent.map(|b| significant(b, 2));
+        let bias =
+            h.bias_of_leg_stiffness_percent.map(|b| rounded(b, if b.abs() < 9.95 { 1.0 } else { 10.0 }));
         table.row([h.term.clone(), size].into_iter().chain(bias));
     }
     table.lines().iter().for_each(|line| paper.line(line));

@@ -327,7 +327,7 @@ mod tests {
         let x: Vec<f64> = (0..10).map(f64::from).collect();
         let y: Vec<f64> = x.iter().map(|v| 2.0 * v + (v * 1.7).sin()).collect();
         let ones = vec![1.0; 10];
-        let (f, p) = added_columns(&y, &[ones], &[x.clone()], 0.0).unwrap();
+        let (f, p) = added_columns(&y, &[ones], std::slice::from_ref(&x), 0.0).unwrap();
         let (mx, my) = (4.5, y.iter().sum::<f64>() / 10.0);
         let sxy: f64 = x.iter().zip(&y).map(|(a, b)| (a - mx) * (b - my)).sum();
         let (sxx, syy): (f64, f64) =
