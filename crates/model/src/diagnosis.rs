@@ -75,7 +75,7 @@ pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Outcome, 
         lin = Linearization::at(campaign, &next.point)?;
         best = next;
         let names = top.map(|s| names(&s, &candidates)).unwrap_or_default();
-        let scan = effort.scan || is_doubtful(&best);
+        let scan = effort.scan || !campaign.noise.allows_verdict() || is_doubtful(&best);
         let settled = history.last() == Some(&names) && scan == effort.scan;
         history.push(names);
         if settled || history.len() >= MOST_ROUNDS {
@@ -95,7 +95,7 @@ struct Effort {
 }
 
 /// True when something may be left unexplained: the residuals exceed the noise, or many parameters may imitate a
-/// simple pattern.
+/// simple pattern. A noise level taken from the residuals cannot tell.
 fn is_doubtful(fit: &Fit) -> bool {
     let parameters: usize = fit.point.active.iter().map(|a| a.values.len()).sum();
     let Ok(law) = ChiSquared::new(fit.lack_of_fit_dof.max(1.0)) else { return true };

@@ -1,0 +1,207 @@
+//! Diagnosis from files to verdict: search, held-out errors, numbers, and what to do next.
+
+mod context;
+mod notes;
+mod report;
+
+use std::sync::Arc;
+
+use hexbench_core::{Dataset, Hexapod};
+
+use self::context::Context;
+use self::notes::{outside, suspects, untestable, warnings};
+pub use self::report::{
+    AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, StepReport, Suspect,
+    UntestableReport,
+};
+use crate::campaign::Campaign;
+use crate::candidates::Candidate;
+use crate::diagnosis::{Outcome, explain, wanted};
+use crate::error::ModelError;
+use crate::estimate::estimates;
+use crate::fit::{Fit, Wanted, fit};
+use crate::linearization::Linearization;
+use crate::noise::{Noise, NoiseSource};
+use crate::power::detectable;
+use crate::residuals::{residuals, summarise};
+use crate::search::Set;
+use crate::term::Term;
+use crate::verdict::{Judgement, Verdict, judge};
+
+/// Cosine beyond which two signatures count as indistinguishable.
+const LOOK_ALIKE: f64 = 0.95;
+
+/// Everything behind a diagnosis, for plots and reports.
+pub struct Study {
+    /// What people read.
+    pub diagnosis: Diagnosis,
+    /// The search behind it.
+    pub outcome: Outcome,
+    /// The campaign.
+    pub campaign: Campaign,
+    /// Fits of the steps.
+    pub fits: Vec<Fit>,
+}
+
+/// Diagnose a dataset; held-out poses come from `holdout`, else poses are left out in turn.
+///
+/// # Errors
+/// As [`fit`]; [`ModelError::Mismatch`] when the holdout is of another kind.
+pub fn diagnose(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    holdout: Option<&Dataset>,
+    terms: &[Arc<dyn Term>],
+) -> Result<Study, ModelError> {
+    if let Some(h) = holdout.filter(|h| h.is_absolute() != data.is_absolute()) {
+        let what =
+            format!("{} and {} are of different kinds (deflections, absolute poses)", data.source, h.source);
+        return Err(ModelError::Mismatch(what));
+    }
+    let campaign = prepare(hexapod, data)?;
+    let outcome = explain(&campaign, terms)?;
+    let mut judgement = judge(&outcome.sets, &outcome.candidates);
+    let context = Context { hexapod, data, holdout, campaign: &campaign, outcome: &outcome };
+    let best = outcome.sets.sets.first();
+    let order = best.map(|s| addition_order(s, &outcome)).unwrap_or_default();
+    let (fits, steps) = context.steps(&order)?;
+    demote_what_does_not_survive(&mut judgement, &steps);
+    let last = fits.last().unwrap_or(&outcome.baseline);
+    context.face_holdout(&mut judgement, last);
+    let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &last.point)?);
+    let added: Vec<String> = match judgement.verdict {
+        Verdict::Named | Verdict::Ambiguous => order
+            .iter()
+            .map(|w| w.term.info().id.to_owned())
+            .filter(|id| judgement.sure.contains(id))
+            .collect(),
+        _ => Vec::new(),
+    };
+    let model: Vec<String> = order.iter().map(|w| w.term.info().id.to_owned()).collect();
+    let richer = order.iter().filter(|w| w.rich).map(|w| w.term.info().id.to_owned()).collect();
+    let numbers = estimates(last);
+    let diagnosis = Diagnosis {
+        format: "diagnosis/1",
+        verdict: judgement.verdict,
+        added,
+        model,
+        richer,
+        candidates: candidates(&judgement, &outcome),
+        present: judgement.present.clone(),
+        credible_set: judgement.credible.clone(),
+        steps,
+        holdout: if holdout.is_some() { "holdout file" } else { "poses left out in turn" },
+        noise: NoiseReport {
+            translation_um: campaign.noise.translation * 1e6,
+            rotation_urad: campaign.noise.rotation * 1e6,
+            source: campaign.noise.source.word(),
+        },
+        parameters: numbers.determined,
+        not_determined: numbers.not_determined,
+        untestable: untestable(&outcome),
+        detectable: detectable(
+            &outcome.gram,
+            &outcome.candidates,
+            &best.map(|s| s.variants.clone()).unwrap_or_default(),
+        ),
+        next: context.next(&judgement),
+        absorbed: context.absorbed(&order, &judgement),
+        suspects: suspects(&rows, data),
+        outside: outside(&judgement, &outcome),
+        warnings: warnings(&campaign, data, last, &judgement),
+    };
+    Ok(Study { diagnosis, outcome, campaign, fits })
+}
+
+/// Campaign with its noise level: stated, from repeats, or, failing both, from the residuals of the springs.
+///
+/// # Errors
+/// As [`fit`].
+pub fn prepare(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError> {
+    let campaign = Campaign::new(hexapod, data)?;
+    if campaign.noise.source != NoiseSource::Residuals {
+        return Ok(campaign);
+    }
+    let first = fit(&campaign, &[], None)?;
+    let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &first.point)?);
+    let rms = summarise(&rows, None).rms;
+    let inflate = (6.0 * rows.len() as f64 / first.dof.max(1.0)).sqrt();
+    let noise = Noise {
+        translation: (rms.translation_um * 1e-6 * inflate).max(1e-12),
+        rotation: (rms.rotation_urad * 1e-6 * inflate).max(1e-12),
+        source: NoiseSource::Residuals,
+        dof: 0.0,
+    };
+    Campaign::with_noise(hexapod, data, noise)
+}
+
+/// Terms of a set, the one that explains most alone first.
+fn addition_order(set: &Set, outcome: &Outcome) -> Vec<Wanted> {
+    let all = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
+    let alone = |id: &str| {
+        let single = |s: &&Set| s.members.len() == 1 && outcome.candidates[s.members[0]].id() == Some(id);
+        outcome.sets.sets.iter().find(single).map_or(f64::NEG_INFINITY, |s| s.log_weight)
+    };
+    let mut order = all;
+    order.sort_by(|a, b| alone(b.term.info().id).total_cmp(&alone(a.term.info().id)));
+    order
+}
+
+/// An effect whose addition does not lower the held-out error is not named.
+fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport]) {
+    for pair in steps.windows(2) {
+        let (Some(before), Some(after)) = (pair[0].holdout, pair[1].holdout) else { continue };
+        let Some(newest) = pair[1].terms.last() else { continue };
+        if after.chi2_reduced >= before.chi2_reduced && judgement.sure.contains(newest) {
+            judgement.sure.retain(|id| id != newest);
+            if judgement.verdict == Verdict::Named {
+                judgement.verdict = Verdict::Ambiguous;
+            }
+        }
+    }
+}
+
+fn candidates(judgement: &Judgement, outcome: &Outcome) -> Vec<CandidateReport> {
+    let report = |(term, probability): &(String, f64)| CandidateReport {
+        term: term.clone(),
+        probability: *probability,
+        indistinguishable: look_alikes(term, outcome),
+    };
+    let mut reports: Vec<CandidateReport> = judgement.first.iter().map(report).collect();
+    // Looking alike has no direction: what imitates is imitated.
+    for k in 0..reports.len() {
+        for other in reports[k].indistinguishable.clone() {
+            let name = reports[k].term.clone();
+            let twin = reports.iter_mut().find(|r| r.term == other);
+            if let Some(twin) = twin.filter(|t| !t.indistinguishable.contains(&name)) {
+                twin.indistinguishable.push(name);
+            }
+        }
+    }
+    reports
+}
+
+/// Terms that imitate the signature a term has in these data, beside the rest of the best set.
+fn look_alikes(term: &str, outcome: &Outcome) -> Vec<String> {
+    let index = |c: &Candidate| c.id() == Some(term);
+    let Some(own) = outcome.candidates.iter().position(index) else { return Vec::new() };
+    let best = outcome.sets.sets.first();
+    let others: Vec<_> = best.map_or(Vec::new(), |s| {
+        let kept = s.members.iter().zip(&s.variants).filter(|(m, _)| **m != own);
+        kept.map(|(_, v)| *v).collect()
+    });
+    let profile = outcome.gram.profile(&others, &outcome.candidates[own].blocks);
+    let Some(&(variant, _)) = profile.first() else { return Vec::new() };
+    let mut set = others.clone();
+    set.push(variant);
+    let Some(posterior) = outcome.gram.posterior(&set, 1.0) else { return Vec::new() };
+    let width = outcome.gram.blocks[variant.block].width();
+    let values: Vec<f64> = posterior.mean.iter().skip(posterior.mean.len() - width).copied().collect();
+    let imitates = |c: &&Candidate| {
+        let known = |b: &usize| outcome.gram.imitation(&others, variant.block, &values, *b) > LOOK_ALIKE;
+        c.id().is_some_and(|id| id != term) && c.blocks.iter().any(known)
+    };
+    let in_best = |c: &&Candidate| !others.iter().any(|v| c.blocks.contains(&v.block));
+    let like = outcome.candidates.iter().filter(in_best).filter(imitates);
+    like.filter_map(|c| c.id().map(str::to_owned)).collect()
+}

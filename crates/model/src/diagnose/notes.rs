@@ -1,0 +1,112 @@
+//! What a reader should know beside the verdict: suspects, patterns, warnings, what could not be tested.
+
+use hexbench_core::Dataset;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::report::{OutsideReport, Suspect, UntestableReport};
+use crate::campaign::Campaign;
+use crate::candidates::{Kind, Untestable};
+use crate::diagnosis::Outcome;
+use crate::fit::Fit;
+use crate::noise::{NoiseSource, scatter};
+use crate::pattern::Course;
+use crate::residuals::Residual;
+use crate::verdict::{Judgement, Verdict};
+
+/// Chance that a clean file of any size has a suspect reading.
+const SUSPECT_CHANCE: f64 = 0.01;
+/// Chance that repeats contradict a true noise statement.
+const CONTRADICTION_CHANCE: f64 = 1e-4;
+
+pub(super) fn untestable(outcome: &Outcome) -> Vec<UntestableReport> {
+    let report = |u: &Untestable| UntestableReport { term: u.term.to_owned(), why: u.why.clone() };
+    outcome.untestable.iter().map(report).collect()
+}
+
+/// Readings whose chi-square over six coordinates is beyond chance for a file of this size.
+pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<Suspect> {
+    let Ok(chi2) = ChiSquared::new(6.0) else { return Vec::new() };
+    let limit = chi2.inverse_cdf(1.0 - SUSPECT_CHANCE / rows.len().max(1) as f64);
+    let scale = typical_square(rows).max(1.0);
+    let far = rows.iter().filter(|r| r.whitened.norm_squared() > limit * scale);
+    far.map(|r| Suspect { row: data.observations[r.row].line, z: r.whitened.amax() }).collect()
+}
+
+/// Median of the squared length of whitened residuals over what noise alone would give, so that a bad model does not
+/// make every reading suspect.
+pub(super) fn typical_square(rows: &[Residual]) -> f64 {
+    const MEDIAN_OF_SIX: f64 = 5.348;
+    let mut squares: Vec<f64> = rows.iter().map(|r| r.whitened.norm_squared()).collect();
+    squares.sort_by(f64::total_cmp);
+    squares.get(squares.len() / 2).copied().unwrap_or(0.0) / MEDIAN_OF_SIX
+}
+
+pub(super) fn outside(judgement: &Judgement, outcome: &Outcome) -> Option<OutsideReport> {
+    if judgement.verdict != Verdict::Outside {
+        return None;
+    }
+    let best = outcome.sets.sets.first()?;
+    let patterns = best.members.iter().filter_map(|&m| match &outcome.candidates[m].kind {
+        Kind::Pattern(p) => Some(p),
+        Kind::Term(_) => None,
+    });
+    let strongest = patterns.min_by_key(|p| (p.width(), p.leg));
+    Some(strongest.map_or_else(unknown_pattern, |p| OutsideReport {
+        leg: p.leg.map(|l| l + 1),
+        variable: Some(p.variable.name()),
+        pattern: Some(p.course.word()),
+        period: if let Course::Periodic(period) = p.course { Some(period * 1e3) } else { None },
+        text: p.text(),
+    }))
+}
+
+pub(super) fn unknown_pattern() -> OutsideReport {
+    let text = "the residuals are larger than the noise, and follow neither a term of the catalogue nor a simple pattern";
+    OutsideReport { leg: None, variable: None, pattern: None, period: None, text: text.to_owned() }
+}
+
+pub(super) fn warnings(campaign: &Campaign, data: &Dataset, fit: &Fit, judgement: &Judgement) -> Vec<String> {
+    let mut all = Vec::new();
+    if judgement.refuted {
+        all.push(
+            "the best explanation of the fitted data does not predict the held-out poses to within noise and uncertainty: \
+             the credible set also lists what does"
+                .to_owned(),
+        );
+    }
+    if !fit.settled {
+        all.push("the fit did not settle; treat its numbers as provisional".to_owned());
+    }
+    if !campaign.noise.allows_verdict() {
+        all.push(
+            "no noise level is stated and there are too few repeats: it was taken from the residuals, so nothing can be \
+             said about whether the model is adequate; state [metrology] in the hexapod file"
+                .to_owned(),
+        );
+    }
+    all.extend(contradiction(campaign, data));
+    all
+}
+
+/// Repeats that scatter more or less than the stated noise.
+pub(super) fn contradiction(campaign: &Campaign, data: &Dataset) -> Option<String> {
+    if campaign.noise.source != NoiseSource::Metrology {
+        return None;
+    }
+    let s = scatter(&data.observations);
+    let chi2 = ChiSquared::new(s.dof).ok()?;
+    let check = |variance: f64, stated: f64, what: &str, unit: &str| {
+        let p = chi2.cdf(s.dof * variance / (stated * stated));
+        let off = !(CONTRADICTION_CHANCE..=1.0 - CONTRADICTION_CHANCE).contains(&p);
+        off.then(|| {
+            format!(
+                "repeats scatter by {:.3} {unit} in {what}, but [metrology] states {:.3} {unit}: every probability here \
+                 rests on the stated value",
+                variance.sqrt() * 1e6,
+                stated * 1e6
+            )
+        })
+    };
+    check(s.variance_translation, campaign.noise.translation, "translation", "um")
+        .or_else(|| check(s.variance_rotation, campaign.noise.rotation, "rotation", "urad"))
+}

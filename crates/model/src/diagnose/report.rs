@@ -1,0 +1,152 @@
+//! The diagnosis as people and programs receive it; field by field the contract of `diagnosis.json`.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::estimate::Estimate;
+use crate::power::Detectable;
+use crate::residuals::ErrorSummary;
+use crate::verdict::Verdict;
+
+/// Result of `diagnose`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Diagnosis {
+    /// `diagnosis/1`.
+    pub format: &'static str,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Effects named, in the order in which they were added.
+    pub added: Vec<String>,
+    /// Terms of the fitted model the numbers below belong to; equals `added` for a named verdict.
+    pub model: Vec<String>,
+    /// Terms of the model that needed their richer form.
+    pub richer: Vec<String>,
+    /// Probability of every first addition, of `outside` and of `none`.
+    pub candidates: Vec<CandidateReport>,
+    /// Probability that an effect is present at all, alone or beside others.
+    pub present: BTreeMap<String, f64>,
+    /// Smallest set of effects that holds 95 % of the probability.
+    pub credible_set: Vec<String>,
+    /// Error per step of the model, springs alone first.
+    pub steps: Vec<StepReport>,
+    /// How the held-out error was obtained.
+    pub holdout: &'static str,
+    /// The noise level used.
+    pub noise: NoiseReport,
+    /// Numbers of the fitted model.
+    pub parameters: Vec<Estimate>,
+    /// Names of parameters that the data do not determine.
+    pub not_determined: Vec<String>,
+    /// Terms that the file cannot test.
+    pub untestable: Vec<UntestableReport>,
+    /// Smallest sizes this campaign would show.
+    pub detectable: Vec<Detectable>,
+    /// Readings that would separate the rivals.
+    pub next: Vec<NextReport>,
+    /// What an effect does to the leg stiffnesses when it is left out.
+    pub absorbed: Vec<AbsorbedReport>,
+    /// Readings far from every prediction.
+    pub suspects: Vec<Suspect>,
+    /// The unexplained pattern.
+    pub outside: Option<OutsideReport>,
+    /// Things to know before trusting the numbers.
+    pub warnings: Vec<String>,
+}
+
+/// One candidate.
+#[derive(Debug, Clone, Serialize)]
+pub struct CandidateReport {
+    /// Id of the term, `outside` or `none`.
+    pub term: String,
+    /// Probability as the first addition.
+    pub probability: f64,
+    /// Terms whose signature is the same in these data.
+    pub indistinguishable: Vec<String>,
+}
+
+/// One step of the model.
+#[derive(Debug, Clone, Serialize)]
+pub struct StepReport {
+    /// Terms beside the springs.
+    pub terms: Vec<String>,
+    /// Error on the readings fitted.
+    #[serde(flatten)]
+    pub fitted: ErrorSummary,
+    /// Error on held-out poses.
+    pub holdout: Option<ErrorSummary>,
+}
+
+/// Noise of one reading.
+#[derive(Debug, Clone, Serialize)]
+pub struct NoiseReport {
+    /// Of a translation, um.
+    pub translation_um: f64,
+    /// Of a rotation, urad.
+    pub rotation_urad: f64,
+    /// Where it comes from.
+    pub source: &'static str,
+}
+
+/// A term that cannot be tested.
+#[derive(Debug, Clone, Serialize)]
+pub struct UntestableReport {
+    /// Its id.
+    pub term: String,
+    /// The reason.
+    pub why: String,
+}
+
+/// A proposed reading.
+#[derive(Debug, Clone, Serialize)]
+pub struct NextReport {
+    /// `[a, b, c]` in mm, `[alpha, beta, gamma]` in deg.
+    pub pose: [f64; 6],
+    /// `[fx, fy, fz]` in N, `[mx, my, mz]` in N m.
+    pub wrench: [f64; 6],
+    /// Reference wrench, same units.
+    pub reference: [f64; 6],
+    /// +1 or -1.
+    pub approach: f64,
+    /// Wait before the loaded reading, s.
+    pub elapsed_s: f64,
+    /// The rivals it separates.
+    pub separates: [String; 2],
+    /// Expected logarithm of the Bayes factor, nats.
+    pub gain: f64,
+    /// Why, in words.
+    pub text: String,
+}
+
+/// Bias of the leg stiffnesses without a term.
+#[derive(Debug, Clone, Serialize)]
+pub struct AbsorbedReport {
+    /// The term.
+    pub term: String,
+    /// Stiffness without it over stiffness with it, minus one, percent; absent where not determined.
+    pub bias_of_leg_stiffness_percent: [Option<f64>; 6],
+}
+
+/// A suspicious reading.
+#[derive(Debug, Clone, Serialize)]
+pub struct Suspect {
+    /// Line of the file.
+    pub row: u64,
+    /// Largest whitened residual.
+    pub z: f64,
+}
+
+/// An unexplained pattern.
+#[derive(Debug, Clone, Serialize)]
+pub struct OutsideReport {
+    /// Leg from 1; absent when all legs follow it.
+    pub leg: Option<usize>,
+    /// What it follows.
+    pub variable: Option<&'static str>,
+    /// `linear`, `quadratic`, `step`, `periodic`.
+    pub pattern: Option<&'static str>,
+    /// Period in mm.
+    pub period: Option<f64>,
+    /// A sentence.
+    pub text: String,
+}
