@@ -46,8 +46,13 @@ fn probabilities(d: &Diagnosis) -> Vec<(String, f64)> {
 /// Groups that leave the same trace, among the candidates that matter.
 fn look_alikes(paper: &mut Paper, d: &Diagnosis) {
     let alike = |c: &&CandidateReport| c.probability > WORTH_SAYING && !c.indistinguishable.is_empty();
+    let mut told: Vec<&str> = Vec::new();
     for candidate in d.candidates.iter().filter(alike) {
-        paper.paragraph(2, &likeness(d, candidate));
+        // Said of one, it is said of the other.
+        if !candidate.indistinguishable.iter().all(|other| told.contains(&other.as_str())) {
+            paper.paragraph(2, &likeness(d, candidate));
+            told.push(&candidate.term);
+        }
     }
 }
 
