@@ -12,7 +12,7 @@ use nalgebra::Rotation3;
 
 use crate::chain::Action;
 use crate::error::ModelError;
-use crate::kinematics::{Legs, cross_matrix, euler_rate_matrix};
+use crate::kinematics::{Legs, euler_rate_matrix};
 use crate::machine::Machine;
 use crate::noise::{Noise, NoiseSource, stated_or_repeated};
 use crate::parallel::try_map;
@@ -300,7 +300,7 @@ fn observer_matrix(axes: &Matrix3, lever: &Vector3, angles: &Vector3) -> Matrix6
     let rates = euler_rate_matrix(angles).try_inverse().unwrap_or_else(Matrix3::identity);
     let mut h = Matrix6::zeros();
     h.fixed_view_mut::<3, 3>(0, 0).copy_from(axes);
-    h.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-axes * cross_matrix(lever)));
+    h.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-axes * lever.cross_matrix()));
     h.fixed_view_mut::<3, 3>(3, 3).copy_from(&(rates * axes));
     h
 }

@@ -10,7 +10,7 @@ use crate::error::ModelError;
 use crate::evidence::Gram;
 use crate::fit::{Fit, Wanted, fit, fit_baseline};
 use crate::linearization::{Linearization, Point};
-use crate::pattern::{Course, Pattern, Variable, spread};
+use crate::pattern::{Course, Pattern, Variable};
 use crate::scan::Scanner;
 use crate::search::{Search, Set, Sets};
 use crate::term::{Natural, Term};
@@ -149,7 +149,6 @@ fn collect(
     let mut collector = Collector::new(lin, natural);
     // Scans only choose what to weigh; the weighing itself uses every condition.
     let scanned = lin.thinned(SCANNED_CONDITIONS);
-    let scanner = Scanner::new(&scanned, point, None);
     for term in terms {
         let grid = term.shape_grid(&scanned.conditions);
         let shapes = if term.info().shape.is_none() {
@@ -164,34 +163,24 @@ fn collect(
         let active = point.active.iter().find(|a| a.id() == term.info().id);
         collector.add_term(term, &shapes, grid.len(), active.filter(|_| effort.rich).map(|a| a.shape));
     }
-    for (pattern, log_weight) in patterns(campaign, lin, &scanner, effort.scan) {
+    for (pattern, log_weight) in patterns(campaign, &scanned, point, effort.scan) {
         collector.add_pattern(pattern, log_weight);
     }
     collector.finish(campaign, point)
 }
 
 /// Patterns worth weighing; those found by scanning carry the number of trials in their prior.
-fn patterns(
-    campaign: &Campaign,
-    lin: &Linearization,
-    scanner: &Scanner<'_>,
-    scan: bool,
-) -> Vec<(Pattern, f64)> {
-    let mut simple = Vec::new();
-    let legs = || std::iter::once(None).chain((0..6).map(Some));
-    let has = |v: Variable| spread(v, &lin.conditions) > 0.0;
-    for leg in legs() {
-        if campaign.columns.elapsed && has(Variable::Elapsed) {
-            let pattern =
-                Pattern { leg, variable: Variable::Elapsed, course: Course::Linear, compliance: false };
-            simple.push(pattern);
-        }
+fn patterns(campaign: &Campaign, scanned: &Linearization, point: &Point, scan: bool) -> Vec<(Pattern, f64)> {
+    let mut all = Vec::new();
+    if campaign.columns.elapsed {
+        let drift =
+            |leg| Pattern { leg, variable: Variable::Elapsed, course: Course::Linear, compliance: false };
+        let legs = std::iter::once(None).chain((0..6).map(Some));
+        all.extend(legs.map(|leg| (drift(leg), (0.3 * WEIGHT_OF_PATTERNS / 7.0).ln())));
     }
-    let mut all: Vec<(Pattern, f64)> =
-        simple.iter().map(|p| (*p, (0.3 * WEIGHT_OF_PATTERNS / 7.0).ln())).collect();
     if scan {
         let weighed = |(p, trials)| (p, (0.1 * WEIGHT_OF_PATTERNS / trials as f64).ln());
-        all.extend(scanner.patterns(campaign).into_iter().map(weighed));
+        all.extend(Scanner::new(scanned, point, None).patterns(campaign).into_iter().map(weighed));
     }
     all
 }

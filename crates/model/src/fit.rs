@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::campaign::Campaign;
 use crate::error::ModelError;
-use crate::linearization::{Active, Linearization, Point};
+use crate::linearization::{Active, Linearization, Point, beside};
 use crate::lsq::{Solution, Triangle};
 use crate::term::{Natural, Term};
 
@@ -117,7 +117,8 @@ pub fn fit_baseline(campaign: &Campaign) -> Result<Fit, ModelError> {
 /// Fit springs, frames and the wanted terms, starting from `start` when given.
 ///
 /// # Errors
-/// [`ModelError::SingularPose`], [`ModelError::NoLoad`], [`ModelError::NotFinite`], [`ModelError::NotConverged`].
+/// [`ModelError::SingularPose`], [`ModelError::NoLoad`], [`ModelError::NotFinite`]. Iterations that run out are not an error:
+/// [`Fit::settled`] tells.
 pub fn fit(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Result<Fit, ModelError> {
     let mut point = start_point(campaign, wanted, start);
     let prior = prior_widths(campaign, wanted);
@@ -126,7 +127,9 @@ pub fn fit(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Res
         return Err(ModelError::NoLoad);
     }
     let mut objective = state.residuals().norm_squared() + penalty(&point, wanted);
-    for iteration in 1..=MOST_ITERATIONS {
+    let mut iteration = 0;
+    loop {
+        iteration += 1;
         let solution = step(&state, &point, wanted, &prior)?;
         let (next, next_state, next_objective) = search(campaign, &point, &solution.x, wanted, objective)?;
         let last_step = (objective - next_objective).abs();
@@ -141,7 +144,6 @@ pub fn fit(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Res
             return Ok(Fit { settled, last_step, ..fit });
         }
     }
-    Err(ModelError::NotConverged { iterations: MOST_ITERATIONS, last_step: objective })
 }
 
 fn start_point(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Point {
@@ -334,13 +336,7 @@ pub fn columns(state: &Linearization, point: &Point) -> DMatrix<f64> {
         }
         blocks.push(block);
     }
-    let mut all = DMatrix::zeros(state.equations(), blocks.iter().map(DMatrix::ncols).sum());
-    let mut at = 0;
-    for block in &blocks {
-        all.columns_mut(at, block.ncols()).copy_from(block);
-        at += block.ncols();
-    }
-    all
+    beside(&blocks)
 }
 
 /// Derivative of the whitened reading by the logarithm of a shape, by central differences.

@@ -113,8 +113,3 @@ pub fn analytic_leg_jacobian(legs: &Legs, angles: &Vector3) -> Matrix6 {
     jacobian.fixed_columns_mut::<3>(3).copy_from(&moment);
     jacobian
 }
-
-/// `[v]x` with `[v]x w = v x w`.
-pub fn cross_matrix(v: &Vector3) -> Matrix3 {
-    v.cross_matrix()
-}

@@ -243,6 +243,18 @@ impl Linearization {
     }
 }
 
+/// Blocks of columns side by side.
+pub(crate) fn beside(blocks: &[DMatrix<f64>]) -> DMatrix<f64> {
+    let rows = blocks.first().map_or(0, DMatrix::nrows);
+    let mut all = DMatrix::zeros(rows, blocks.iter().map(DMatrix::ncols).sum());
+    let mut at = 0;
+    for block in blocks {
+        all.columns_mut(at, block.ncols()).copy_from(block);
+        at += block.ncols();
+    }
+    all
+}
+
 fn write_actions(
     block: &mut DMatrix<f64>,
     i: usize,

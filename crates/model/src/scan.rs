@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::campaign::Campaign;
 use crate::candidates::{orthonormal, project, target};
-use crate::linearization::{Linearization, Point};
+use crate::linearization::{Linearization, Point, beside};
 use crate::pattern::{Course, Pattern, Variable, spread};
 use crate::period::period_grid;
 use crate::term::Term;
@@ -32,14 +32,7 @@ impl<'a> Scanner<'a> {
         let mut columns = vec![lin.common_block()];
         let kept = point.active.iter().filter(|a| Some(a.id()) != except);
         columns.extend(kept.map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)));
-        let width = columns.iter().map(DMatrix::ncols).sum();
-        let mut all = DMatrix::zeros(lin.equations(), width);
-        let mut at = 0;
-        for c in &columns {
-            all.columns_mut(at, c.ncols()).copy_from(c);
-            at += c.ncols();
-        }
-        let basis = orthonormal(&all);
+        let basis = orthonormal(&beside(&columns));
         let mut residual = target(lin, point);
         project(&basis, &mut residual);
         let space = LegSpace::new(&lin.elongation_readers(), &basis, &residual);
