@@ -41,6 +41,14 @@ pub enum TruthError {
         /// Largest imbalance left, in newtons (moments over the platform radius, gaps times the stiffness).
         imbalance_n: f64,
     },
+    /// Another world or format lacks the means for a part of the structure.
+    #[error("{world} cannot express {what}")]
+    Inexpressible {
+        /// The world or format.
+        world: &'static str,
+        /// The part of the structure.
+        what: &'static str,
+    },
     /// A pose, wrench or parameter is NaN or infinite.
     #[error("{what} is not a finite number")]
     NotFinite {

@@ -33,6 +33,7 @@ pub mod situation;
 pub mod so3;
 pub mod world;
 
+pub use equilibrium::{Newton, Statics};
 pub use error::TruthError;
 pub use law::{LegLaw, LegMemory};
 pub use mechanisms::Mechanism;

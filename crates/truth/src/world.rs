@@ -1,10 +1,12 @@
 //! A machine with its imperfections, loaded and read.
 
+use std::sync::Arc;
+
 use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
 
 use crate::{
-    LegMemory, Mechanism, Moment, Phase, Setup, Situation, TruthError,
-    equilibrium::{self, Equilibrium},
+    LegMemory, Mechanism, Moment, Phase, Setup, Situation, Statics, TruthError,
+    equilibrium::{Equilibrium, Newton},
 };
 
 /// The true machine: nominal drawings, true leg springs, and what the drawings do not say.
@@ -16,6 +18,8 @@ pub struct World {
     pub leg_compliance: [f64; 6],
     /// Effects at work, in the order in which they act.
     pub mechanisms: Vec<Box<dyn Mechanism>>,
+    /// How states of rest are found.
+    pub statics: Arc<dyn Statics>,
 }
 
 /// What the instrument sees at one moment: pose of the measured point, m and rad (Euler angles X-Y-Z extrinsic).
@@ -30,7 +34,12 @@ pub struct Reading {
 impl World {
     /// A machine with plain leg springs of the given stiffness (N/m).
     pub fn new(hexapod: Hexapod, leg_stiffness: &[f64; 6]) -> Self {
-        Self { hexapod, leg_compliance: leg_stiffness.map(|k| 1.0 / k), mechanisms: Vec::new() }
+        Self {
+            hexapod,
+            leg_compliance: leg_stiffness.map(|k| 1.0 / k),
+            mechanisms: Vec::new(),
+            statics: Arc::new(Newton),
+        }
     }
 
     /// The machine with one effect more.
@@ -43,7 +52,12 @@ impl World {
     /// The same machine without any effect: leg springs alone.
     #[must_use]
     pub fn without_effects(&self) -> Self {
-        Self { hexapod: self.hexapod.clone(), leg_compliance: self.leg_compliance, mechanisms: Vec::new() }
+        Self {
+            hexapod: self.hexapod.clone(),
+            leg_compliance: self.leg_compliance,
+            mechanisms: Vec::new(),
+            statics: Arc::clone(&self.statics),
+        }
     }
 
     /// Deflection that an ideal instrument reads: loaded minus reference, m and rad, rotation as Euler differences.
@@ -139,7 +153,7 @@ impl World {
         wrench: Wrench,
         remembered: &[LegMemory; 6],
     ) -> Result<Equilibrium, TruthError> {
-        equilibrium::solve(&self.setup(moment, wrench), remembered)
+        self.statics.rest(&self.setup(moment, wrench), remembered)
     }
 
     fn read(&self, moment: &Moment<'_>, equilibrium: &Equilibrium) -> Pose {

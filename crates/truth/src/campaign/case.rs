@@ -202,7 +202,7 @@ impl CaseSpec {
         Ok(json!({
             "id": self.id,
             "kind": self.kind.name(),
-            "effects": self.effects.iter().map(|id| self.catalogue_id(id)).collect::<Vec<_>>(),
+            "effects": self.hidden_effects(),
             "scale": sized.scales,
             "parameters": parameters,
             "distance": sized.distance,
@@ -217,6 +217,11 @@ impl CaseSpec {
             "metrology_frame": bare.frames.metrology.to_array(),
             "target_frame": bare.frames.target.to_array(),
         }))
+    }
+
+    /// Ids of the effects as the catalogue calls them; those it lacks begin with `out:`.
+    pub fn hidden_effects(&self) -> Vec<&'static str> {
+        self.effects.iter().map(|id| self.catalogue_id(id)).collect()
     }
 
     fn catalogue_id(&self, id: &'static str) -> &'static str {

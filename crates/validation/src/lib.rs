@@ -1,0 +1,9 @@
+//! The proving ground: simulated campaigns with a known truth go through the identification, and what it says is compared
+//! with what was hidden.
+//!
+//! Next to the command this is the only place that sees both worlds. It holds no physics of its own: campaigns come from
+//! `hexbench_truth`, answers from `hexbench_model`.
+
+pub mod trial;
+
+pub use trial::{Outcome, Trial};
