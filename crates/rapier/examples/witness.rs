@@ -7,7 +7,7 @@ use hexbench_truth::Statics;
 use rayon::prelude::*;
 
 const SEED: u64 = 20_240_917;
-const USUAL_COUNT: u64 = 434;
+const USUAL_COUNT: usize = 434;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -20,7 +20,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn count(arguments: &[String]) -> Result<u64, String> {
+fn count(arguments: &[String]) -> Result<usize, String> {
     match arguments {
         [] => Ok(USUAL_COUNT),
         [name, value] if name == "--count" => match value.parse() {
@@ -31,7 +31,7 @@ fn count(arguments: &[String]) -> Result<u64, String> {
     }
 }
 
-fn run(count: u64) -> ExitCode {
+fn run(count: usize) -> ExitCode {
     let statics: Arc<dyn Statics> = Arc::new(RapierStatics::default());
     let compare = |index| {
         let case = witness::Case::draw(index, SEED);

@@ -87,9 +87,9 @@ fn root(law: &LegLaw, compliance: f64, target: f64, side: f64, before: LegMemory
     for _ in 0..MOST_ITERATIONS {
         let (e, slope) = stretch(law, compliance, f, before);
         if side * (e - target) > 0.0 {
-            far = f
+            far = f;
         } else {
-            near = f
+            near = f;
         }
         let newton = f - (e - target) / slope;
         let inside = (newton - near) * (newton - far) <= 0.0;

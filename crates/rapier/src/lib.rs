@@ -27,6 +27,12 @@ pub use rest::RapierStatics;
 
 use hexbench_truth::TruthError;
 
+/// A number of steps or sweeps.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // small and positive; the cast saturates
+fn whole(count: f64) -> usize {
+    count as usize
+}
+
 /// What the engine has no means for.
 fn inexpressible(what: &'static str) -> TruthError {
     TruthError::Inexpressible { world: "the world of rigid bodies", what }

@@ -41,7 +41,7 @@ pub fn quickest(setup: &Setup, dt: f64, phase: f64) -> Dynamics {
     let scale = eigenvalues(&stiffness, &mass)[5] / fastest.powi(2);
     let slowest = (eigenvalues(&softer, &mass)[0] / scale).sqrt();
     let plate = shape.scaled(scale);
-    let base = setup.base_compliance.and_then(|c| c.try_inverse());
+    let base = setup.base_compliance.and_then(nalgebra::Matrix::try_inverse);
     Dynamics {
         plate,
         loaded: plate,

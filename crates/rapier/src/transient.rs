@@ -1,16 +1,19 @@
 //! How the machine settles after a load step, with true masses.
 
-use hexbench_core::{Pose, Vector6};
-use hexbench_truth::{LegMemory, Setup, TruthError};
+use std::fmt::Write;
+
+use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
+use hexbench_truth::{LegMemory, Moment, Newton, Phase, Setup, Situation, Statics, TruthError, World};
 
 use crate::{
     Modes, inexpressible,
     parts::{Dynamics, Inertia, Stepping},
     scene::Scene,
+    whole,
 };
 
-/// Sweeps that leave less than 1e-4 open for legs of a tenth of the platform's mass and more.
-pub const USUAL_SWEEPS: usize = 100;
+/// Most sweeps over the joints in a step; lighter legs than these allow for are refused.
+const MOST_SWEEPS: f64 = 2000.0;
 /// Share of the last deflection within which the machine counts as settled.
 pub const SETTLED: f64 = 0.02;
 /// What is left of the lowest mode at the end of the trace.
@@ -29,8 +32,14 @@ pub struct LoadStep {
     pub leg_mass: f64,
     /// Damping of the lowest mode over its critical damping, by dampers beside the leg springs.
     pub damping_ratio: f64,
-    /// Sweeps over the joints in a step.
-    pub sweeps: usize,
+}
+
+impl LoadStep {
+    /// Sweeps that settle the joints: light bodies that carry a heavy one take as many more as it is heavier.
+    fn sweeps(&self) -> usize {
+        const FEWEST: f64 = 50.0;
+        whole((8.0 * self.platform.mass / self.leg_mass).max(FEWEST))
+    }
 }
 
 /// One moment of the trace.
@@ -64,6 +73,45 @@ impl Transient {
     }
 }
 
+/// The nominal machine with linear leg springs (N/m) at a pose, under a wrench.
+///
+/// # Errors
+/// [`TruthError::NotFinite`].
+pub fn nominal(
+    hexapod: &Hexapod,
+    stiffness: &[f64; 6],
+    pose: Pose,
+    wrench: Wrench,
+) -> Result<Setup, TruthError> {
+    let numbers = pose.to_array().into_iter().chain(wrench.to_array()).chain(*stiffness);
+    if !numbers.into_iter().all(f64::is_finite) {
+        return Err(TruthError::NotFinite { what: "pose, wrench or stiffness" });
+    }
+    let (situation, r) = (Situation::new(pose, wrench), pose.rotation());
+    let lengths = std::array::from_fn(|i| {
+        (pose.translation + r * hexapod.platform_joints[i] - hexapod.base_joints[i]).norm()
+    });
+    let moment = Moment {
+        hexapod,
+        situation: &situation,
+        phase: Phase::Loaded,
+        nominal_lengths: lengths,
+        home_lengths: lengths,
+        reference_forces: [0.0; 6],
+    };
+    Ok(World::new(hexapod.clone(), stiffness).setup(&moment, wrench))
+}
+
+/// Deflection (m, rad; Euler differences) at which the first world comes to rest.
+///
+/// # Errors
+/// As [`hexbench_truth::equilibrium::solve`].
+pub fn static_deflection(setup: &Setup) -> Result<Vector6, TruthError> {
+    let rest = Newton.rest(setup, &[LegMemory::default(); 6])?;
+    let pose = Pose::from_rotation(rest.platform.origin, &rest.platform.axes);
+    Ok(pose.to_vector() - setup.pose.to_vector())
+}
+
 /// The machine stands unloaded at the pose; at time zero the wrench of the setup acts. Gravity does not: the trace is the
 /// deflection by the wrench.
 ///
@@ -75,7 +123,7 @@ pub fn settle(setup: &Setup, step: &LoadStep) -> Result<Transient, TruthError> {
     let singular = TruthError::Singular { pivot_ratio: 0.0 };
     let modes = Modes::of(setup, &step.platform, step.leg_mass).ok_or(singular)?;
     let [lowest, .., highest] = modes.angular_frequencies;
-    let stepping = Stepping { dt: PHASE / highest, sweeps: step.sweeps };
+    let stepping = Stepping { dt: PHASE / highest, sweeps: step.sweeps() };
     let dynamics = Dynamics {
         plate: step.platform,
         loaded: step.platform,
@@ -105,6 +153,9 @@ fn check(setup: &Setup, step: &LoadStep) -> Result<(), TruthError> {
     if !positive(step.damping_ratio) {
         return bad("the damping ratio has to be positive");
     }
+    if 8.0 * step.platform.mass / step.leg_mass > MOST_SWEEPS {
+        return bad("legs have to weigh at least 1/250 of the platform");
+    }
     if setup.base_compliance.is_some() || setup.plate_compliance.is_some() {
         return Err(inexpressible("the transient of a yielding base or plate: its mass is not known"));
     }
@@ -116,8 +167,8 @@ fn radius(setup: &Setup) -> f64 {
 }
 
 fn trace(mut scene: Scene, commanded: &Pose, stepping: &Stepping, duration: f64) -> Vec<Sample> {
-    let stride = (std::f64::consts::TAU / PHASE / SAMPLES_PER_PERIOD).round().max(1.0) as usize;
-    let count = (duration / (stepping.dt * stride as f64)).ceil() as usize;
+    let stride = whole((std::f64::consts::TAU / PHASE / SAMPLES_PER_PERIOD).round().max(1.0));
+    let count = whole((duration / (stepping.dt * stride as f64)).ceil());
     let sample = |scene: &Scene, i: usize| {
         let place = scene.loaded();
         let pose = Pose::from_rotation(place.origin, &place.axes);
@@ -174,12 +225,13 @@ fn observed(samples: &[Sample], modes: &Modes) -> Option<f64> {
 /// The trace as a table, units in the names.
 pub fn csv(samples: &[Sample]) -> String {
     let mut text = "time_s,da_um,db_um,dc_um,dalpha_urad,dbeta_urad,dgamma_urad".to_owned();
-    (1..=6).for_each(|i| text.push_str(&format!(",force_{i}_N")));
+    // Writing to a string cannot fail.
+    (1..=6).for_each(|i| _ = write!(text, ",force_{i}_N"));
     text.push('\n');
     for s in samples {
-        text.push_str(&format!("{:.7}", s.time));
-        s.deflection.iter().for_each(|d| text.push_str(&format!(",{:.6}", d * 1e6)));
-        s.forces.iter().for_each(|f| text.push_str(&format!(",{f:.6}")));
+        let _ = write!(text, "{:.7}", s.time);
+        s.deflection.iter().for_each(|d| _ = write!(text, ",{:.6}", d * 1e6));
+        s.forces.iter().for_each(|f| _ = write!(text, ",{f:.6}"));
         text.push('\n');
     }
     text

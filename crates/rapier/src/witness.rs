@@ -16,7 +16,7 @@ use rand_pcg::Pcg64;
 #[derive(Debug, Clone)]
 pub struct Case {
     /// Number of the case.
-    pub index: u64,
+    pub index: usize,
     /// Family of the machine.
     pub family: &'static str,
     /// Effect at work; none: leg springs alone.
@@ -34,7 +34,7 @@ pub struct Case {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// Number of the case.
-    pub index: u64,
+    pub index: usize,
     /// Family of the machine.
     pub family: &'static str,
     /// Id of the effect, or `none`.
@@ -61,15 +61,15 @@ impl Comparison {
 impl Case {
     /// Case `index` of a seed. Consecutive ones walk through all effects and all families of machines; sizes, poses, loads
     /// and the approach to the load are drawn.
-    pub fn draw(index: u64, seed: u64) -> Self {
-        let mut rng = Pcg64::new(u128::from(seed), u128::from(index));
-        let effects = REGISTRY.len() as u64 + 1;
-        let family = machines::FAMILIES[(index % machines::FAMILIES.len() as u64) as usize];
+    pub fn draw(index: usize, seed: u64) -> Self {
+        let mut rng = Pcg64::new(u128::from(seed), index as u128);
+        let effects = REGISTRY.len() + 1;
+        let family = machines::FAMILIES[index % machines::FAMILIES.len()];
         let hexapod = machines::draw(family, &mut rng);
         let stiffness = machines::leg_stiffness(family, &mut rng);
         let rows = PlanKind::OtherLoads.draw(&hexapod, &mut rng).training;
         let situation = rows[rng.random_range(0..rows.len())].situation;
-        let effect = (index % effects).checked_sub(1).map(|i| &REGISTRY[i as usize]);
+        let effect = (index % effects).checked_sub(1).map(|i| &REGISTRY[i]);
         Self { index, family, effect, hexapod, stiffness, situation, seed }
     }
 
@@ -81,7 +81,7 @@ impl Case {
     /// The machine with its effect in the first world.
     pub fn world(&self) -> World {
         let world = World::new(self.hexapod.clone(), &self.stiffness);
-        let mut rng = Pcg64::new(u128::from(self.seed), u128::from(self.index) + (1 << 64));
+        let mut rng = Pcg64::new(u128::from(self.seed), self.index as u128 + (1 << 64));
         match self.effect {
             None => world,
             Some(effect) => world.with((effect.draw)(&self.hexapod, &mut rng)),
@@ -158,8 +158,8 @@ pub fn summary(comparisons: &[Comparison]) -> String {
     let mut line = |name: &str, value: fn(&Comparison) -> f64| {
         let mut values: Vec<f64> = comparisons.iter().map(value).collect();
         values.sort_by(f64::total_cmp);
-        let at = |share: f64| values.get(((values.len() as f64 * share) as usize).min(values.len() - 1));
-        if let (Some(q50), Some(q99), Some(most)) = (at(0.5), at(0.99), values.last()) {
+        let at = |percent: usize| values.get(values.len() * percent / 100);
+        if let (Some(q50), Some(q99), Some(most)) = (at(50), at(99), values.last()) {
             let _ = writeln!(text, "{name:<22}{q50:>12.1e}{q99:>12.1e}{most:>12.1e}");
         }
     };

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 const SEED: u64 = 20_240_917;
 /// Cases of the run: three machines for each of the 31 entries (30 effects and none).
-const CASES: u64 = 93;
+const CASES: usize = 93;
 /// Agreement asked for, as a share of deflection, rotation and largest leg force. What the engine leaves open (gaps of
 /// joints, unrest) is 100 times less.
 const AGREEMENT: f64 = 1e-4;

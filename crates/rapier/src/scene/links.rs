@@ -49,25 +49,20 @@ impl Scene {
         let stiffness = compliance.try_inverse().ok_or_else(rigid)?;
         let mut joint = GenericJointBuilder::new(JointAxesMask::empty())
             .local_anchor1(convert::to_engine(&centre))
-            .contacts_enabled(false);
+            .contacts_enabled(false)
+            .build();
         for (i, axis) in AXES.into_iter().enumerate() {
-            joint = self.spring(joint, axis, stiffness[(i, i)], stiffness[(i, i)]);
+            self.spring(&mut joint, axis, stiffness[(i, i)], stiffness[(i, i)]);
         }
         self.joints.insert(support, body, joint, true);
         self.yielding.push(Yielding { body, support, centre, stiffness });
         Ok(())
     }
 
-    /// A motor as a spring; `damped` is the stiffness that its damping is in proportion to.
-    fn spring(
-        &self,
-        joint: GenericJointBuilder,
-        axis: JointAxis,
-        k: f64,
-        damped: f64,
-    ) -> GenericJointBuilder {
+    /// Makes a motor a spring; `damped` is the stiffness that its damping is in proportion to.
+    fn spring(&self, joint: &mut GenericJoint, axis: JointAxis, k: f64, damped: f64) {
         let damping = self.stepping.motor_damping(k, damped * self.dynamics.per_stiffness);
-        joint.motor_model(axis, MotorModel::ForceBased).set_motor(axis, 0.0, 0.0, k, damping)
+        joint.set_motor_model(axis, MotorModel::ForceBased).set_motor(axis, 0.0, 0.0, k, damping);
     }
 
     pub(super) fn add_leg(&mut self, i: usize) {
@@ -98,26 +93,29 @@ impl Scene {
     }
 
     /// A prismatic joint with the spring of a leg.
-    fn slide(&self, quarter: Vector, stiffness: f64, damped: f64) -> GenericJointBuilder {
-        let joint = GenericJointBuilder::new(JointAxesMask::LOCKED_PRISMATIC_AXES)
+    fn slide(&self, quarter: Vector, stiffness: f64, damped: f64) -> GenericJoint {
+        let mut joint = GenericJointBuilder::new(JointAxesMask::LOCKED_PRISMATIC_AXES)
             .local_anchor1(quarter)
             .local_anchor2(-quarter)
             .softness(RIGID)
-            .contacts_enabled(false);
-        self.spring(joint, JointAxis::LinX, stiffness, damped)
+            .contacts_enabled(false)
+            .build();
+        self.spring(&mut joint, JointAxis::LinX, stiffness, damped);
+        joint
     }
 
     /// A ball joint that resists bending with `bending` (N m/rad) and lets the leg spin.
-    fn ball(&self, in_body: Pose, in_leg: Vector, bending: f64) -> GenericJointBuilder {
-        let joint = GenericJointBuilder::new(JointAxesMask::LOCKED_SPHERICAL_AXES)
+    fn ball(&self, in_body: Pose, in_leg: Vector, bending: f64) -> GenericJoint {
+        let mut joint = GenericJointBuilder::new(JointAxesMask::LOCKED_SPHERICAL_AXES)
             .local_frame1(in_body)
             .local_anchor2(in_leg)
             .softness(RIGID)
-            .contacts_enabled(false);
-        if bending == 0.0 {
-            return joint;
+            .contacts_enabled(false)
+            .build();
+        if bending != 0.0 {
+            self.spring(&mut joint, JointAxis::AngY, bending, bending);
+            self.spring(&mut joint, JointAxis::AngZ, bending, bending);
         }
-        let joint = self.spring(joint, JointAxis::AngY, bending, bending);
-        self.spring(joint, JointAxis::AngZ, bending, bending)
+        joint
     }
 }
