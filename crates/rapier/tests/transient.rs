@@ -1,6 +1,11 @@
 //! The way to rest: frequencies, damping and the static limit.
 
-#![allow(clippy::unwrap_used, clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a failed helper fails its test; sample numbers are small
+#![allow(
+    clippy::unwrap_used,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "helpers of a test may fail it; sample numbers are small"
+)]
 
 use hexbench_core::{Pose, Vector6, Wrench};
 use hexbench_rapier::{
