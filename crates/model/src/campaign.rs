@@ -114,6 +114,16 @@ impl Condition {
         self.force - self.reference_force
     }
 
+    /// Change of all leg forces (N) under the same wrench when the platform end of one leg moves by `end` against its base
+    /// end, and its arm from the mobile origin by `arm`. Fixed axes, m.
+    pub fn force_response(&self, leg: usize, end: &Vector3, arm: &Vector3) -> Vector6 {
+        let (n, length) = (self.legs.directions[leg], self.legs.lengths[leg]);
+        let turn = (end - n * n.dot(end)) / length;
+        let moment = arm.cross(&n) + self.legs.arms[leg].cross(&turn);
+        let wrench = Vector6::new(turn.x, turn.y, turn.z, moment.x, moment.y, moment.z);
+        -self.legs.forces(&(wrench * self.force[leg]))
+    }
+
     /// The leg forces that an extra force and moment at the mobile origin add. Fixed axes, N and N m.
     pub fn wrench_action(&self, force: &Vector3, moment: &Vector3) -> Action {
         let wrench = Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);

@@ -29,6 +29,20 @@ pub enum Action {
     Stiffness(Matrix6),
     /// `X`: extra geometric twist of the platform at the mobile origin, per unit.
     Twist(Vector6),
+    /// `E` and `F` at once: a joint that is elsewhere changes a length and, with the directions, all leg forces.
+    Joint {
+        /// As of [`Action::Elongation`].
+        elongation: Vector6,
+        /// As of [`Action::Force`].
+        force: Vector6,
+    },
+    /// `X` and `F` at once: a frame that is elsewhere moves the reading and turns the legs under the load.
+    Frame {
+        /// As of [`Action::Twist`].
+        twist: Vector6,
+        /// As of [`Action::Force`].
+        force: Vector6,
+    },
     /// `D`: twist of the target from the twist of the platform, per unit.
     Target(Matrix6),
 }
@@ -66,6 +80,14 @@ impl Load {
             Action::Force(f) => self.force += p * f,
             Action::Elongation(e) => self.elongation += p * e,
             Action::Twist(x) => self.twist += p * x,
+            Action::Joint { elongation, force } => {
+                self.elongation += p * elongation;
+                self.force += p * force;
+            }
+            Action::Frame { twist, force } => {
+                self.twist += p * twist;
+                self.force += p * force;
+            }
             Action::Stiffness(k) => *self.stiffness.get_or_insert_with(Matrix6::zeros) += p * k,
             Action::Target(d) => *self.target.get_or_insert_with(Matrix6::zeros) += p * d,
         }
@@ -138,6 +160,12 @@ impl Link {
             Action::Force(f) => self.reader * (self.legs_to_motion * self.springs.component_mul(f)),
             Action::Elongation(e) => self.reader * (self.legs_to_motion * e),
             Action::Twist(x) => self.reader * x,
+            Action::Joint { elongation, force } => {
+                self.reader * (self.legs_to_motion * (elongation + self.springs.component_mul(force)))
+            }
+            Action::Frame { twist, force } => {
+                self.reader * (twist + self.legs_to_motion * self.springs.component_mul(force))
+            }
             Action::Target(d) => self.bare_reader * (d * self.motion),
             Action::Stiffness(k) => {
                 let leg_load = condition.legs.platform_jacobian.tr_mul(&(k * self.elastic));

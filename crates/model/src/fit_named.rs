@@ -54,7 +54,17 @@ pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, Mo
         wanted.push(start);
         fitted = better;
     }
-    Ok(fitted)
+    Ok(together(campaign, &wanted, fitted))
+}
+
+/// The better of a fit reached term by term and one that starts with all terms at once: while a term is still missing, the
+/// others may go far astray to make up for it, too far to come back.
+fn together(campaign: &Campaign, wanted: &[Wanted], fitted: Fit) -> Fit {
+    if wanted.len() < 2 {
+        return fitted;
+    }
+    let fresh = fit(campaign, wanted, None).ok().filter(|f| f.chi2 < fitted.chi2);
+    fresh.unwrap_or(fitted)
 }
 
 fn refuse_twice(added: &[Arc<dyn Term>]) -> Result<(), ModelError> {

@@ -283,11 +283,20 @@ fn link(machine: &Machine, at: &Condition, point: &Point) -> Link {
 /// Small motions of the metrology frame (fixed axes, fixed origin) and of the target frame (mobile axes).
 fn frame_actions(c: &Condition, out: &mut Vec<Action>) {
     out.clear();
-    let twist = |v: Vector3, w: Vector3| Action::Twist(Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z));
     let axis = |k: usize| Vector3::ith(k, 1.0);
     let rotation = c.pose.rotation();
-    out.extend((0..3).map(|k| twist(axis(k), Vector3::zeros())));
-    out.extend((0..3).map(|k| twist(axis(k).cross(&c.pose.translation), axis(k))));
-    out.extend((0..3).map(|k| twist(rotation * axis(k), Vector3::zeros())));
-    out.extend((0..3).map(|k| twist(Vector3::zeros(), rotation * axis(k))));
+    let none = Vector3::zeros();
+    out.extend((0..3).map(|k| frame_action(c, axis(k), none)));
+    out.extend((0..3).map(|k| frame_action(c, axis(k).cross(&c.pose.translation), axis(k))));
+    out.extend((0..3).map(|k| frame_action(c, rotation * axis(k), none)));
+    out.extend((0..3).map(|k| frame_action(c, none, rotation * axis(k))));
+}
+
+/// A frame that moves the reading by a twist puts the platform behind a given reading back by the same twist.
+fn frame_action(c: &Condition, v: Vector3, w: Vector3) -> Action {
+    let back = |leg: usize| {
+        let arm = -w.cross(&c.legs.arms[leg]);
+        c.force_response(leg, &(arm - v), &arm)
+    };
+    Action::Frame { twist: Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z), force: (0..6).map(back).sum() }
 }

@@ -98,25 +98,33 @@ fn at_the_true_joints_and_frames_absolute_poses_leave_no_residual() {
 }
 
 #[test]
-fn joints_moved_recalibrate_the_closure_as_their_columns_say() {
+fn joints_moved_recalibrate_closure_and_leg_forces_as_their_columns_say() {
     // At the truth the residual vanishes and with it all terms of second order.
     let errors = joint_errors(12);
     let world = displaced_world(&errors);
-    let data = world.measure(Measurand::AbsolutePose, &unloaded(rows(6, 13)));
-    let campaign = Campaign::new(&measured_machine(0.5e-6, 3e-6), &data).unwrap();
-    let mut here = point(&campaign);
-    here.machine.metrology_frame = world.metrology_frame;
-    here.machine.target_frame = world.target_frame;
-    assert_recalibrates(&by_id("joint-geometry"), &campaign, &here, &errors, DIFFERENCE);
+    for plan in [unloaded(rows(6, 13)), rows(6, 13)] {
+        let data = world.measure(Measurand::AbsolutePose, &plan);
+        let campaign = Campaign::new(&measured_machine(0.5e-6, 3e-6), &data).unwrap();
+        let mut here = point(&campaign);
+        here.machine.metrology_frame = world.metrology_frame;
+        here.machine.target_frame = world.target_frame;
+        assert_recalibrates(&by_id("joint-geometry"), &campaign, &here, &errors, DIFFERENCE);
+    }
 }
 
 #[test]
 fn frames_moved_change_the_residual_as_their_columns_say() {
+    for plan in [unloaded(rows(6, 15)), rows(6, 15)] {
+        assert_frames_recalibrate(&plan);
+    }
+}
+
+fn assert_frames_recalibrate(plan: &[Observation]) {
     // m and rad; the curvature of a frame's motion is of size one.
     const STEP: f64 = 1e-6;
     let errors = joint_errors(14);
     let world = displaced_world(&errors);
-    let data = world.measure(Measurand::AbsolutePose, &unloaded(rows(6, 15)));
+    let data = world.measure(Measurand::AbsolutePose, plan);
     let campaign = Campaign::new(&measured_machine(0.5e-6, 3e-6), &data).unwrap();
     let mut here = point(&campaign);
     here.machine.metrology_frame = world.metrology_frame;

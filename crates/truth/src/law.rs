@@ -149,9 +149,11 @@ impl LegLaw {
         LawPoint::new(force, (z - force) / k, slope, k)
     }
 
-    /// Parameter `z = f + k e(f)` of the point with the given force (N).
+    /// Parameter `z = f + k e(f)` of the point with the given force (N); without force, of the middle of the play.
     pub fn parameter(&self, force: f64, k: f64, before: LegMemory) -> f64 {
-        force + k * (self.smooth(force, before).0 + 0.5 * self.gap * force.signum())
+        // Zero has a sign of its own, which says nothing about the side of the play.
+        let side = if force == 0.0 { 0.0 } else { force.signum() };
+        force + k * (self.smooth(force, before).0 + 0.5 * self.gap * side)
     }
 
     /// Root of `f + k g(f) = target` between zero and `far`, where `g` is the law without play.
@@ -249,6 +251,15 @@ mod tests {
                 let play = law.gap * 0.5 * point.force.signum();
                 assert!((g + play - point.elongation).abs() < 1e-16, "z = {z}");
             }
+        }
+    }
+
+    #[test]
+    fn an_unloaded_leg_with_play_rests_in_the_middle_whatever_the_sign_of_its_zero_force() {
+        let law = LegLaw { gap: 4e-6, ..LegLaw::spring(2.5e-7) };
+        for zero in [0.0, -0.0] {
+            let z = law.parameter(zero, K, LegMemory::default());
+            assert!(law.at(z, K, LegMemory::default()).elongation.abs() < 1e-20, "zero force {zero:?}");
         }
     }
 

@@ -9,6 +9,7 @@ pub(crate) mod fit;
 pub(crate) mod predict;
 pub(crate) mod terms;
 pub(crate) mod transient;
+pub(crate) mod validate;
 
 use crate::args::{Cli, Command};
 use crate::failure::Failure;
@@ -26,6 +27,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Diagnose(arguments) => diagnose::run(arguments, &screen),
         Command::Transient(arguments) => transient::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
+        Command::Validate(arguments) => validate::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),
     }
 }

@@ -13,12 +13,14 @@ mod limits;
 mod next;
 mod notes;
 mod pattern;
+mod recovery;
 mod size;
 mod stiffness;
 mod subject;
 
 pub(crate) use conclusion::word;
 pub(crate) use demo::demo;
+pub(crate) use recovery::recovery;
 pub(crate) use subject::Subject;
 
 use crate::output::{Ink, Paper};

@@ -6,6 +6,7 @@ mod documents;
 mod exits;
 mod json;
 mod pages;
+mod recovery;
 mod score;
 mod separation;
 mod streams;

@@ -1,10 +1,11 @@
 //! Periodic error of the leads.
 //!
 //! Each screw has an error that repeats with its pitch; amplitude and phase belong to the leg, the pitch is
-//! common.
+//! common. Phases are counted from the home length, in the middle of the travel: counted from zero length they would
+//! turn by radians when the pitch changes by a thousandth, and no linear uncertainty would hold.
 //!
 //! ```text
-//! e_i = a_i sin(2 pi q_i / pitch) + b_i cos(2 pi q_i / pitch)
+//! e_i = a_i sin(2 pi (q_i - q_home,i) / pitch) + b_i cos(2 pi (q_i - q_home,i) / pitch)
 //! ```
 //!
 //! Source: ISO 230-2:2014; ISO 3408-3:2006 (ball screws, periodic lead deviation). It stays invisible unless
@@ -42,7 +43,7 @@ static INFO: TermInfo = TermInfo {
     id: "actuator-pitch",
     title: "Periodic error of the leads",
     physics: "Each screw has an error that repeats with its pitch; amplitude and phase belong to the leg, the pitch is common.",
-    equation: "e_i = a_i sin(2 pi q_i / pitch) + b_i cos(2 pi q_i / pitch)",
+    equation: "e_i = a_i sin(2 pi (q_i - q_home,i) / pitch) + b_i cos(2 pi (q_i - q_home,i) / pitch)",
     source: "ISO 230-2:2014; ISO 3408-3:2006 (ball screws, periodic lead deviation)",
     shows: "poses are measured absolutely at many leg lengths",
     breaker: "measure absolute poses in small steps of leg length, finer than half a pitch",
@@ -59,7 +60,7 @@ impl Term for ActuatorPitch {
 
     fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
         for leg in 0..6 {
-            let (sine, cosine) = (TAU * at.commanded_lengths[leg] / shape).sin_cos();
+            let (sine, cosine) = (TAU * at.extension[leg] / shape).sin_cos();
             out.push(Action::Elongation(Vector6::ith(leg, sine)));
             out.push(Action::Elongation(Vector6::ith(leg, cosine)));
         }

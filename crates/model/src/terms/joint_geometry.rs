@@ -7,6 +7,9 @@
 //! e = n . dA - (R' n) . dB
 //! ```
 //!
+//! With the joints the directions of the legs change, and with them the leg forces under the load: a rigid rotation of all
+//! joints shows in no unloaded pose, but it turns the load against the legs, and the stiffnesses are as uncertain as it is.
+//!
 //! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 7; Daney 2003, Mech. Mach. Theory 38 (calibration of a
 //! Gough platform). It stays invisible unless poses are measured absolutely.
 
@@ -81,11 +84,11 @@ impl Term for JointGeometry {
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         let rotation = at.pose.rotation();
         for leg in 0..6 {
-            out.extend((0..3).map(|k| Action::Elongation(Vector6::ith(leg, at.legs.directions[leg][k]))));
+            out.extend((0..3).map(|k| moved(at, leg, -Vector3::ith(k, 1.0), Vector3::zeros())));
         }
         for leg in 0..6 {
-            let along = rotation.tr_mul(&at.legs.directions[leg]);
-            out.extend((0..3).map(|k| Action::Elongation(Vector6::ith(leg, -along[k]))));
+            let axes = rotation.column_iter().map(|axis| axis.into_owned());
+            out.extend(axes.map(|axis| moved(at, leg, axis, axis)));
         }
     }
 
@@ -99,4 +102,11 @@ impl Term for JointGeometry {
     fn calibrates(&self) -> bool {
         true
     }
+}
+
+/// The platform end of a leg is elsewhere by `end` against its base end, and its arm by `arm`. At a measured pose the leg is
+/// then commanded that much too short.
+fn moved(at: &Condition, leg: usize, end: Vector3, arm: Vector3) -> Action {
+    let elongation = Vector6::ith(leg, -at.legs.directions[leg].dot(&end));
+    Action::Joint { elongation, force: at.force_response(leg, &end, &arm) }
 }

@@ -193,7 +193,7 @@ impl CaseSpec {
             parameters.extend(mechanism.parameters());
         }
         let added = |rows: &[Row]| -> Result<[f64; 2], TruthError> {
-            let yardstick = Yardstick::new(bare, rows, self.plan)?;
+            let yardstick = Yardstick::of_signatures(bare, rows, self.plan)?;
             let all = sized.mechanisms.iter().map(|m| m.scaled(1.0)).collect();
             let signature: Vec<Vector6> = yardstick.signature(all)?;
             let (translation, rotation) = rms(&signature);

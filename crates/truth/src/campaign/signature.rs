@@ -25,13 +25,26 @@ impl<'a> Yardstick<'a> {
     /// # Errors
     /// As [`World::reading`].
     pub fn new(campaign: &'a Campaign, rows: &'a [Row], plan: PlanKind) -> Result<Self, TruthError> {
-        let baseline = campaign.ideal(rows, plan)?;
-        let mut yardstick = Self { campaign, rows, plan, baseline, explained: Vec::new() };
+        let mut yardstick = Self::of_signatures(campaign, rows, plan)?;
         yardstick.explain_by_springs()?;
         if plan == PlanKind::Absolute {
             yardstick.explain_by_frames()?;
         }
         Ok(yardstick)
+    }
+
+    /// A yardstick that explains nothing by springs or frames: its signatures are the same, at a tenth of the effort, and
+    /// its distances are whole lengths.
+    ///
+    /// # Errors
+    /// As [`World::reading`].
+    pub fn of_signatures(
+        campaign: &'a Campaign,
+        rows: &'a [Row],
+        plan: PlanKind,
+    ) -> Result<Self, TruthError> {
+        let baseline = campaign.ideal(rows, plan)?;
+        Ok(Self { campaign, rows, plan, baseline, explained: Vec::new() })
     }
 
     /// What the mechanisms add to the readings, m and rad.

@@ -1,0 +1,81 @@
+//! `hexbench validate recovery`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use hexbench_validation::recovery::document::document;
+use hexbench_validation::recovery::study::{self, Settings, Study};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::failure::Failure;
+use crate::output::Screen;
+use crate::page;
+
+/// Hide effects in simulated campaigns, and see that they are found with honest uncertainty
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Noisy campaigns, shared out among springs, geometry and every effect
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    campaigns: u32,
+    /// Diagnoses of each effect
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    diagnoses: u32,
+    /// Decides everything that is drawn
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Write all figures to FILE, `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write the page docs/recovery.md to FILE
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    /// Exit with 1 when a bound is broken
+    #[arg(long)]
+    check: bool,
+}
+
+/// Run the study, write its files, tell it.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let settings = Settings {
+        campaigns: arguments.campaigns as usize,
+        diagnoses: arguments.diagnoses as usize,
+        seed: arguments.seed,
+    };
+    let study = with_progress(settings);
+    if let Some(path) = &arguments.json {
+        screen.write_to(path, &json(&study)?)?;
+    }
+    if let Some(path) = &arguments.markdown {
+        screen.write_to(path, &document(&study))?;
+    }
+    if arguments.json.as_deref().is_none_or(|path| path.as_os_str() != "-") {
+        screen.write(&page::recovery(&study, screen.ink()))?;
+    }
+    check(arguments.check, &study)
+}
+
+/// The bar goes to standard error, and only when that is a terminal.
+fn with_progress(settings: Settings) -> Study {
+    let bar = ProgressBar::new(settings.steps() as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} campaigns, {eta} left") {
+        bar.set_style(style);
+    }
+    let study = study::run(settings, || bar.inc(1));
+    bar.finish_and_clear();
+    study
+}
+
+fn json(study: &Study) -> Result<String, Failure> {
+    let cause = |e: serde_json::Error| Failure::Output { path: "recovery.json".into(), cause: e.into() };
+    Ok(serde_json::to_string_pretty(study).map_err(cause)? + "\n")
+}
+
+fn check(asked: bool, study: &Study) -> Result<(), Failure> {
+    match study.broken.first() {
+        Some(first) if asked => {
+            let others = study.broken.len() - 1;
+            Err(Failure::Check(format!("{first} (and {others} more broken bounds)")))
+        }
+        _ => Ok(()),
+    }
+}

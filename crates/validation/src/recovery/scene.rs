@@ -1,0 +1,209 @@
+//! A campaign whose truth is known: a machine, a plan, hidden effects, and its readings without noise.
+
+use std::sync::Arc;
+
+use hexbench_core::{Dataset, Hexapod, Metrology, Observation, Vector6};
+use hexbench_model::term::Term;
+use hexbench_model::terms::catalogue;
+use hexbench_truth::campaign::{Campaign, Case, CaseSpec, Kind, PlanKind, Row, machines};
+use hexbench_truth::mechanisms::{REGISTRY, Shows, build};
+use hexbench_truth::metrology::Noise;
+use hexbench_truth::{Situation, TruthError};
+use rand::RngExt;
+use rand_pcg::Pcg64;
+use serde_json::json;
+
+use super::correspondence::{Equivalent, equivalent};
+
+/// Machines and plans tried until an effect shows.
+const ATTEMPTS: u64 = 24;
+/// Distances to which effects are scaled: plain, clear, large.
+const DISTANCES: [f64; 3] = [11.0, 22.0, 45.0];
+/// Noise of the instrument as multiples of 0.5 um and 3 urad.
+const NOISE_FACTORS: [f64; 3] = [0.4, 1.0, 2.5];
+/// Plans of deflections.
+const PLANS: [PlanKind; 5] =
+    [PlanKind::Rich, PlanKind::OtherLoads, PlanKind::FewPoses, PlanKind::VerticalOnly, PlanKind::NoReference];
+
+/// What is hidden in a campaign: one row of the table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Subject {
+    /// Name in tables.
+    pub name: &'static str,
+    /// Ids of the hidden effects.
+    pub effects: &'static [&'static str],
+    /// True for absolute poses.
+    pub absolute: bool,
+}
+
+/// Springs alone, springs in absolute poses, all 42 numbers of the geometry, and every effect of the catalogue.
+pub fn subjects() -> Vec<Subject> {
+    let mut all = vec![
+        Subject { name: "springs", effects: &[], absolute: false },
+        Subject { name: "springs (absolute)", effects: &[], absolute: true },
+        Subject { name: "geometry, 42 numbers", effects: &["joint-geometry", "leg-offset"], absolute: true },
+    ];
+    let known = REGISTRY.iter().filter(|e| e.shows != Shows::Outside);
+    all.extend(known.map(|e| Subject {
+        name: e.id,
+        effects: std::slice::from_ref(&e.id),
+        absolute: e.shows == Shows::Absolute,
+    }));
+    all
+}
+
+impl Subject {
+    /// The terms that stand for the hidden effects.
+    pub fn terms(&self) -> Vec<Arc<dyn Term>> {
+        let all = catalogue();
+        self.effects.iter().filter_map(|id| all.iter().find(|t| t.info().id == *id).map(Arc::clone)).collect()
+    }
+
+    fn is_geometry(&self) -> bool {
+        self.effects.contains(&"joint-geometry")
+    }
+}
+
+/// A campaign with its truth.
+pub struct Scene {
+    /// World, instrument and truth.
+    pub case: Case,
+}
+
+impl Scene {
+    /// The `index`-th campaign of a subject; `distance` as given, else one of three in turn. Effects that do not show in
+    /// one machine and plan are tried in others.
+    ///
+    /// # Errors
+    /// The last failure when no machine and plan will do.
+    pub fn draw(
+        subject: &Subject,
+        index: usize,
+        seed: u64,
+        distance: Option<f64>,
+    ) -> Result<Self, TruthError> {
+        let attempt = |n| spec(subject, index, seed, n, distance).build();
+        let case = (1..ATTEMPTS).fold(attempt(0), |made, n| made.or_else(|_| attempt(n)))?;
+        Ok(Self { case })
+    }
+
+    /// The machine as drawn, with the noise of the instrument stated.
+    pub fn hexapod(&self) -> &Hexapod {
+        &self.case.hexapod
+    }
+
+    /// Noise of the instrument.
+    pub fn noise(&self) -> Noise {
+        self.case.campaign.noise
+    }
+
+    /// Stiffness of the legs, N/m.
+    pub fn leg_stiffness(&self) -> [f64; 6] {
+        self.case.campaign.world.leg_compliance.map(f64::recip)
+    }
+
+    /// What the model should find for each hidden effect.
+    pub fn equivalents(&self) -> Vec<(&'static str, Equivalent)> {
+        let of = |m: &Box<dyn hexbench_truth::Mechanism>| {
+            Some((m.id(), equivalent(m.id(), &m.parameters(), self.hexapod())?))
+        };
+        self.case.campaign.world.mechanisms.iter().filter_map(of).collect()
+    }
+
+    /// The training part under loads scaled by a factor, as an ideal instrument reads it.
+    ///
+    /// # Errors
+    /// As [`Campaign::ideal`].
+    pub fn ideal_under(&self, factor: f64) -> Result<Dataset, TruthError> {
+        let mut plan = rows(&self.case.measurements);
+        for Situation { wrench, reference, .. } in plan.iter_mut().map(|row| &mut row.situation) {
+            for w in [wrench, reference] {
+                w.force *= factor;
+                w.moment *= factor;
+            }
+        }
+        self.reread(&self.case.campaign, &plan)
+    }
+
+    /// The training part without noise of a world of exactly the model's physics: dry sliders are rigid until they give way.
+    ///
+    /// # Errors
+    /// As [`Campaign::ideal`].
+    pub fn ideal_of_same_form(&self) -> Result<Dataset, TruthError> {
+        let bare = &self.case.campaign;
+        let mut world = bare.world.without_effects();
+        for mechanism in &bare.world.mechanisms {
+            let slider_force = mechanism.parameters().get("friction").cloned();
+            world.mechanisms.push(match slider_force {
+                Some(force) => build(mechanism.id(), json!({ "slider_force": force, "stick_ratio": null }))?,
+                None => mechanism.scaled(1.0),
+            });
+        }
+        let campaign = Campaign { world, frames: bare.frames, noise: bare.noise };
+        self.reread(&campaign, &rows(&self.case.measurements))
+    }
+
+    fn reread(&self, campaign: &Campaign, plan: &[Row]) -> Result<Dataset, TruthError> {
+        let ideal = campaign.ideal(plan, self.case.spec.plan)?;
+        let data = &self.case.measurements;
+        let read = |((o, row), r): ((&Observation, &Row), &Vector6)| Observation {
+            wrench: row.situation.wrench,
+            reference: row.situation.reference,
+            measured: (*r).into(),
+            ..*o
+        };
+        let observations = data.observations.iter().zip(plan).zip(&ideal).map(read).collect();
+        Ok(Dataset { observations, ..data.clone() })
+    }
+
+    /// The machine with another stated noise; `None`: nothing stated.
+    pub fn hexapod_stating(&self, metrology: Option<Metrology>) -> Hexapod {
+        Hexapod { metrology, ..self.hexapod().clone() }
+    }
+}
+
+fn spec(subject: &Subject, index: usize, seed: u64, attempt: u64, distance: Option<f64>) -> CaseSpec {
+    let name = subject.name.bytes().fold(0_u64, |h, b| h.wrapping_mul(131).wrapping_add(u64::from(b)));
+    let stream = (u128::from(name) << 64) | (u128::from(attempt) << 48) | index as u128;
+    let mut rng = Pcg64::new(u128::from(seed), stream);
+    let plan = match (subject.absolute, subject.effects.is_empty()) {
+        (true, _) => PlanKind::Absolute,
+        (false, true) if index % 4 == 3 => PlanKind::Paper,
+        _ => PLANS[rng.random_range(0..PLANS.len())],
+    };
+    let usual = DISTANCES[index % DISTANCES.len()];
+    let factor = NOISE_FACTORS[rng.random_range(0..NOISE_FACTORS.len())];
+    let Noise { sigma_translation, sigma_rotation, .. } = Noise::default();
+    CaseSpec {
+        id: format!("{}-{index}", subject.name),
+        kind: if subject.absolute { Kind::Absolute } else { Kind::Single },
+        family: machines::FAMILIES[rng.random_range(0..machines::FAMILIES.len())],
+        plan,
+        effects: subject.effects.to_vec(),
+        distance: (!subject.effects.is_empty() && !subject.is_geometry())
+            .then_some(distance.unwrap_or(usual)),
+        noise: Noise {
+            sigma_translation: factor * sigma_translation,
+            sigma_rotation: factor * sigma_rotation,
+            ..Noise::default()
+        },
+        seed: u64::from(rng.random::<u32>()),
+    }
+}
+
+/// The plan behind readings.
+fn rows(data: &Dataset) -> Vec<Row> {
+    let row = |o: &Observation| Row {
+        pose_id: o.pose_id,
+        repeat: o.repeat,
+        situation: Situation {
+            pose: o.pose,
+            wrench: o.wrench,
+            reference: o.reference,
+            approach: o.approach,
+            delta_t: o.delta_t,
+            elapsed: o.elapsed,
+        },
+    };
+    data.observations.iter().map(row).collect()
+}
