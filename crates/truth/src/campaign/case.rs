@@ -157,8 +157,9 @@ impl CaseSpec {
         let mut world = bare.world.without_effects();
         world.mechanisms = sized.mechanisms;
         let campaign = Campaign { world, ..bare };
-        let measurements = measure(&campaign, &plan.training, self.plan, "measurements.csv", &mut of_noise)?;
-        let holdout = measure(&campaign, &plan.holdout, self.plan, "holdout.csv", &mut of_noise)?;
+        let measurements =
+            measure(&campaign, &plan.training, plan.measurand, "measurements.csv", &mut of_noise)?;
+        let holdout = measure(&campaign, &plan.holdout, plan.measurand, "holdout.csv", &mut of_noise)?;
         Ok(Case { spec: self.clone(), campaign, hexapod, measurements, holdout, truth })
     }
 
@@ -169,7 +170,7 @@ impl CaseSpec {
         rng: &mut Pcg64,
     ) -> Result<SizedEffects, TruthError> {
         const SPREAD_OF_SIZE: f64 = 0.4;
-        let yardstick = Yardstick::new(bare, &plan.training, self.plan)?;
+        let yardstick = Yardstick::new(bare, &plan.training, plan.measurand)?;
         let mut sized = SizedEffects { mechanisms: Vec::new(), scales: Vec::new(), distance: 0.0 };
         for (i, id) in self.effects.iter().enumerate() {
             let usual = (mechanisms::effect(id)?.draw)(&bare.world.hexapod, rng);
@@ -193,7 +194,7 @@ impl CaseSpec {
             parameters.extend(mechanism.parameters());
         }
         let added = |rows: &[Row]| -> Result<[f64; 2], TruthError> {
-            let yardstick = Yardstick::new(bare, rows, self.plan)?;
+            let yardstick = Yardstick::new(bare, rows, plan.measurand)?;
             let all = sized.mechanisms.iter().map(|m| m.scaled(1.0)).collect();
             let signature: Vec<Vector6> = yardstick.signature(all)?;
             let (translation, rotation) = rms(&signature);
