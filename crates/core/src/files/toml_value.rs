@@ -31,6 +31,11 @@ impl Key {
         Self { name, kind, unit }
     }
 
+    /// Its name without the unit.
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
     /// The unit that `spelled` adds to this key (empty for none); none when it is another key.
     fn unit_in<'s>(&self, spelled: &'s str) -> Option<&'s str> {
         let rest = spelled.strip_prefix(self.name)?;

@@ -6,7 +6,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use serde_json::{Map, Value, json};
 
-use super::{Campaign, Plan, PlanKind, Row, Yardstick, absolute, machines, measure, pick, rms};
+use super::{Campaign, Plan, PlanKind, Row, Yardstick, machines, measure, pick, rms};
 use crate::{
     Mechanism, TruthError, World,
     mechanisms::{self, REGISTRY, Shows},
@@ -146,11 +146,8 @@ impl CaseSpec {
         hexapod.metrology = Some(self.noise.metrology());
         let stiffness = machines::leg_stiffness(self.family, &mut of_machine);
         let plan = self.plan.draw(&hexapod, &mut of_plan);
-        let frames = if self.plan == PlanKind::Absolute {
-            absolute::aligned(&mut of_frames)
-        } else {
-            Frames::default()
-        };
+        let frames =
+            if self.plan == PlanKind::Absolute { Frames::aligned(&mut of_frames) } else { Frames::default() };
         let bare = Campaign { world: World::new(hexapod.clone(), &stiffness), frames, noise: self.noise };
         let sized = self.sized_effects(&bare, &plan, &mut of_effects)?;
         let truth = self.truth(&bare, &plan, &sized)?;

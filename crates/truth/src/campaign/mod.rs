@@ -12,6 +12,7 @@ mod signature;
 pub use case::{Case, CaseSpec, Kind};
 pub use measure::{Campaign, measure};
 pub use plan::{Plan, PlanKind, Row, Schemes};
+pub(crate) use scheme::pose_of;
 pub use scheme::{Poses, Scheme, Spread, usual_half_range_mm_deg};
 pub use signature::{Yardstick, rms};
 
