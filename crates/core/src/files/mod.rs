@@ -52,4 +52,4 @@ pub use toml_value::{Item, Key, Section};
 pub use units::{Kind, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};
 pub use write_hexapod::{hexapod_to_toml, write_hexapod};
-pub use write_measurements::{measurements_to_csv, write_measurements};
+pub use write_measurements::{MeasurementsWriter, measurements_to_csv, write_measurements};
