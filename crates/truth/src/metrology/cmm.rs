@@ -88,6 +88,31 @@ impl Cmm {
         }
     }
 
+    /// The same machine without noise, drift, stretch and blunders.
+    #[must_use]
+    pub fn without_errors(&self) -> Self {
+        let quiet = |balls: &Balls| Balls { sigma: 0.0, ..balls.clone() };
+        Self {
+            platform: quiet(&self.platform),
+            base: self.base.as_ref().map(quiet),
+            drift: [0.0; 6],
+            scale_per_k: 0.0,
+            blunder_share: 0.0,
+            blunder: 0.0,
+        }
+    }
+
+    /// Covariance of the six numbers at a pose, m and rad, the frame of the machine being the fixed one.
+    ///
+    /// # Errors
+    /// [`TruthError::Balls`].
+    pub fn covariance_at(&self, pose: &Pose) -> Result<Matrix6, TruthError> {
+        let r = pose.rotation();
+        let platform = self.platform.centres.iter().map(|c| pose.translation + r * c).collect();
+        let base = self.base.as_ref().map(|base| base.centres.clone()).unwrap_or_default();
+        self.locate(&Record { platform, base }).map(|located| located.covariance)
+    }
+
     /// Pose of the platform in the fixed frame, or in the frame of the machine when no balls are on the base.
     ///
     /// # Errors
