@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "RECORD", group = "places")]
     relative_to: Option<String>,
     /// Standard deviation of one coordinate in um, instead of that of the balls file or of the residuals
-    #[arg(long, value_name = "UM")]
+    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
     sigma_um: Option<f64>,
     /// Write the table of poses to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]

@@ -14,6 +14,8 @@ pub struct Places {
     pub platform: Vec<BallPlace>,
     /// Balls on the base; none: poses are given in the frame of the measuring machine.
     pub base: Vec<BallPlace>,
+    /// Point of the measuring machine's frame from which translations count, m.
+    pub origin: Vector3,
     /// True when the places were measured with the same noise as the records.
     pub measured: bool,
 }
@@ -74,7 +76,12 @@ pub enum RegistrationError {
 impl Places {
     /// Known places.
     pub fn nominal(places: &BallPlaces) -> Self {
-        Self { platform: places.platform.clone(), base: places.base.clone(), measured: false }
+        Self {
+            platform: places.platform.clone(),
+            base: places.base.clone(),
+            origin: Vector3::zeros(),
+            measured: false,
+        }
     }
 
     /// The balls of a record as the places of all: poses are relative to it, about the centre of its balls, in the axes
@@ -83,10 +90,15 @@ impl Places {
         let count = record.balls.len().max(1) as f64;
         let centre = record.balls.iter().map(|b| b.centre).sum::<Vector3>() / count;
         let about = |b: &BallPlace| BallPlace { ball: b.ball.clone(), centre: b.centre - centre };
-        Self { platform: record.balls.iter().map(about).collect(), base: Vec::new(), measured: true }
+        Self {
+            platform: record.balls.iter().map(about).collect(),
+            base: Vec::new(),
+            origin: centre,
+            measured: true,
+        }
     }
 
-    /// Centre that poses relative to a record begin at.
+    /// Variance of a difference over that of one coordinate.
     fn noise_factor(&self) -> f64 {
         if self.measured { 2.0 } else { 1.0 }
     }
@@ -110,7 +122,7 @@ pub fn register_all(
     sigma: Option<f64>,
 ) -> Result<Registered, RegistrationError> {
     let fits = records.iter().map(|record| fit(record, places)).collect::<Result<Vec<_>, _>>()?;
-    let estimated_sigma = estimated(&fits, places);
+    let estimated_sigma = if places.measured { from_spread(&fits) } else { from_residuals(&fits) };
     let sigma = sigma.or(estimated_sigma).unwrap_or(0.0);
     let poses = records.iter().zip(&fits).map(|(record, fit)| located(record, fit, places, sigma));
     Ok(Registered { poses: poses.collect(), sigma, estimated_sigma })
@@ -145,24 +157,45 @@ fn matched(
 
 /// Median over the records of their mean square residual, so that a moved ball in some does not count; corrected for the
 /// median of a chi-square being below its mean (Wilson and Hilferty).
-fn estimated(fits: &[Fit], places: &Places) -> Option<f64> {
+fn from_residuals(fits: &[Fit]) -> Option<f64> {
     let dof = |fit: &Fit| {
         fit.platform.degrees_of_freedom() + fit.base.as_ref().map_or(0, Rigid::degrees_of_freedom)
     };
     let squares =
         |fit: &Fit| fit.platform.sum_of_squares() + fit.base.as_ref().map_or(0.0, Rigid::sum_of_squares);
-    // A record compared with itself has no residual.
-    let mut means: Vec<f64> =
-        fits.iter().map(|f| squares(f) / dof(f) as f64).filter(|mean| *mean > f64::EPSILON.powi(2)).collect();
-    means.sort_by(f64::total_cmp);
-    let middle = means.get(means.len() / 2)?;
     let freedom = dof(fits.first()?) as f64;
+    let middle = median(fits.iter().map(|fit| squares(fit) / freedom).collect())?;
     let median_over_mean = (1.0 - 2.0 / (9.0 * freedom)).powi(3);
-    Some((middle / (median_over_mean * places.noise_factor())).sqrt())
+    Some((middle / median_over_mean).sqrt())
+}
+
+/// Spread of each distance over the records, which the noise of the record they are compared with does not touch: median
+/// absolute deviation, root mean square over the distances.
+fn from_spread(fits: &[Fit]) -> Option<f64> {
+    const DEVIATION_OF_A_NORMAL: f64 = 0.674_489_750_196_081_7;
+    const FEWEST_RECORDS: usize = 4;
+    let pairs = fits.first().filter(|_| fits.len() >= FEWEST_RECORDS)?.distances.len();
+    let spread = |pair: usize| {
+        let residuals: Vec<f64> = fits.iter().map(|fit| fit.distances[pair].residual).collect();
+        let middle = median(residuals.clone())?;
+        median(residuals.iter().map(|r| (r - middle).abs()).collect())
+    };
+    let squares = (0..pairs).map(|pair| spread(pair).map(|d| (d / DEVIATION_OF_A_NORMAL).powi(2)));
+    let sum: f64 = squares.sum::<Option<f64>>()?;
+    // A distance has twice the variance of a coordinate.
+    Some((sum / (2 * pairs) as f64).sqrt())
+}
+
+/// Middle value, or the mean of the two middle ones.
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let (upper, lower) = (values.get(values.len() / 2)?, values.get((values.len() - 1) / 2)?);
+    Some(0.5 * (upper + lower))
 }
 
 fn located(record: &BallRecord, fit: &Fit, places: &Places, sigma: f64) -> Located {
-    let (pose, twist) = in_frame(&fit.platform, fit.base.as_ref());
+    let (mut pose, twist) = in_frame(&fit.platform, fit.base.as_ref());
+    pose.translation -= places.origin;
     let variance = sigma * sigma * places.noise_factor();
     let to_angles = angle_map(&pose);
     let covariance = to_angles * twist * to_angles.transpose() * variance;
