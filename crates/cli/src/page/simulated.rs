@@ -37,7 +37,8 @@ pub(crate) fn page(told: &Told<'_>, ink: Ink) -> String {
     line("written", &format!("{} in {}", files(scene), told.folder.display()));
     line("hidden", &hidden(told));
     paper.heading("Next", "");
-    paper.line(&format!("  {}", next(told)));
+    paper.line(&format!("  cd {}", told.folder.display()));
+    paper.line(&format!("  {}", next(scene)));
     paper.into_text()
 }
 
@@ -91,12 +92,11 @@ fn hidden(told: &Told<'_>) -> String {
     format!("{list}. {}", told.scene.shows)
 }
 
-fn next(told: &Told<'_>) -> String {
-    let file = |name: &str| told.folder.join(name).display().to_string();
-    let holdout = if told.scene.part(PartName::Holdout).is_empty() {
-        String::new()
-    } else {
-        format!(" --holdout {}", file("holdout.csv"))
+/// From the new folder, so that the command fits the page wherever the folder is.
+fn next(scene: &Scene) -> String {
+    let holdout = match scene.part(PartName::Holdout).len() {
+        0 => "",
+        _ => " --holdout holdout.csv",
     };
-    format!("hexbench diagnose {} {}{holdout}", file("hexapod.toml"), file("measurements.csv"))
+    format!("hexbench diagnose hexapod.toml measurements.csv{holdout}")
 }

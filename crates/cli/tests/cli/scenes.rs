@@ -109,6 +109,7 @@ fn the_page_tells_what_was_done_and_not_what_is_hidden() {
         text(command.output().unwrap())
     };
     let page = run("data", &[]);
+    assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
     insta::assert_snapshot!("simulate_hidden_6", page);
     for word in ["joint-friction", "load-offset", "friction", "offset"] {
         assert!(!page.contains(word), "{page}");
