@@ -229,3 +229,72 @@ fn every_bundled_scene_can_be_measured() {
         }
     }
 }
+
+fn with_instrument(instrument: &str) -> Result<Scene, FileError> {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "make = \"rich\"\nposes = 3\n", TRUTH);
+    let whole = std::fs::read_to_string(folder.path().join("scene.toml")).unwrap();
+    let (before, after) = whole.split_at(whole.find("[instrument]").unwrap());
+    let plan = &after[after.find("[plan]").unwrap()..];
+    let text = format!("{before}[instrument]\n{instrument}\n{plan}");
+    std::fs::write(folder.path().join("scene.toml"), text).unwrap();
+    Scene::read(folder.path())
+}
+
+const BALLS: &str =
+    "kind = \"balls\"\nballs_mm = [[120, 0, 0], [-60, 104, 0], [-60, -104, 30]]\nsigma_ball_um = 1\n";
+const BASE: &str = "base_balls_mm = [[300, 0, -200], [-150, 260, -200], [-150, -260, -150]]\n";
+
+/// Whitened by the stated standard deviations, errors have unit mean square: the whole chain from balls to the table.
+#[test]
+fn readings_by_balls_have_the_stated_noise() {
+    for base in ["", BASE] {
+        let mut scene = with_instrument(&format!("{BALLS}{base}")).unwrap();
+        scene.plan = scene.plan.with_repeats(40).unwrap();
+        let rows = scene.part(PartName::Training).len();
+        let read = |noise_free| Bench::new(&scene, noise_free).measure(PartName::Training, 0..rows).unwrap();
+        let mut squares = 0.0;
+        for (noisy, ideal) in read(false).iter().zip(read(true)) {
+            let (sigma, count) = (noisy.observation.sigma.unwrap(), 6.0 * rows as f64);
+            for k in 0..6 {
+                let error = noisy.observation.measured[k] - ideal.observation.measured[k];
+                squares += (error / sigma[k]).powi(2) / count;
+            }
+        }
+        // Correlations between the six numbers widen the spread of the mean square, at most as if only rows counted.
+        let bound = 4.5 * (2.0 / rows as f64).sqrt();
+        println!("base {}: {squares:.4}, bound {bound:.4}", !base.is_empty());
+        assert!((squares - 1.0).abs() < bound, "{squares}");
+    }
+}
+
+#[test]
+fn a_frame_that_drifts_shows_unless_balls_on_the_base_carry_it() {
+    let deflection = |more: &str| {
+        let scene = with_instrument(&format!("{BALLS}{more}")).unwrap();
+        Bench::new(&scene, false).measure(PartName::Training, 0..1).unwrap()[0].observation.measured[0]
+    };
+    let drift = "drift_um_per_h = [5000, 0, 0]\n";
+    assert!((deflection(drift) - deflection("")).abs() > 5e-6);
+    assert!((deflection(&format!("{BASE}{drift}")) - deflection(BASE)).abs() < 1e-9);
+}
+
+#[test]
+fn what_is_wrong_with_an_instrument_is_told() {
+    let table = [
+        ("kind = \"laser\"", "\"numbers\" or \"balls\""),
+        ("kind = \"numbers\"\nsigma_translation_um = 1", "the key \"sigma_rotation_urad\" is missing"),
+        ("kind = \"numbers\"\nsigma_ball_um = 1", "has no such key"),
+        (
+            "kind = \"balls\"\nsigma_ball_um = 1\nballs_mm = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]",
+            "not on one line",
+        ),
+        (&format!("{BALLS}blunder_share = 2"), "between 0 and 1"),
+        (&format!("{BALLS}drift_um_per_h = [1, 2]"), "three rates"),
+    ];
+    for (instrument, message) in table {
+        let error = with_instrument(instrument).unwrap_err();
+        assert!(error.to_string().contains(message), "{error}");
+        assert!(error.place.line.is_some() || message.contains("missing"), "{error}");
+    }
+}

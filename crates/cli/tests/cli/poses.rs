@@ -86,9 +86,8 @@ fn the_noise_is_found_from_the_residuals() {
     const TRUE_SIGMA_UM: f64 = 1.0;
     let bench = Bench::of("paper", &["--repeats", "60"]);
     let nominal = std::fs::read_to_string(bench.path("balls.toml")).unwrap();
-    let unknown: String =
-        nominal.lines().filter(|line| !line.starts_with("sigma")).map(|l| format!("{l}\n")).collect();
-    std::fs::write(bench.path("unknown.toml"), unknown).unwrap();
+    let unknown: Vec<&str> = nominal.lines().filter(|line| !line.starts_with("sigma")).collect();
+    std::fs::write(bench.path("unknown.toml"), unknown.join("\n")).unwrap();
     let page = text(bench.poses(&bench.path("balls.csv"), &["--balls", "unknown.toml", "-o", "poses.csv"]));
     let line =
         page.lines().find(|line| line.contains("from the residuals")).unwrap_or_else(|| panic!("{page}"));
