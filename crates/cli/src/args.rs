@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    compare, compensate, completions, demo, diagnose, fit, poses, predict, simulate, terms,
+    compare, compensate, completions, demo, diagnose, fit, poses, predict, simulate, terms, transient,
 };
 use crate::output::Colour;
 
@@ -40,6 +40,7 @@ pub(crate) enum Command {
     Fit(fit::Arguments),
     Predict(predict::Arguments),
     Compensate(compensate::Arguments),
+    Transient(transient::Arguments),
     Terms(terms::Arguments),
     Completions(completions::Arguments),
 }

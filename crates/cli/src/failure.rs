@@ -10,6 +10,7 @@ use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
 use hexbench_model::registration::RegistrationError;
 use hexbench_model::user_term::UserTermError;
+use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
 use thiserror::Error;
 
@@ -76,6 +77,9 @@ pub(crate) enum Failure {
         /// The row, and why.
         cause: Box<PredictError>,
     },
+    /// A state of the simulated machine that cannot be computed.
+    #[error("{0}")]
+    World(#[from] TruthError),
     /// A file that cannot be read.
     #[error("{}: cannot be read: {cause}", path.display())]
     Unreadable {
@@ -129,6 +133,7 @@ impl Failure {
             | Self::ModelFile { .. }
             | Self::Row { .. }
             | Self::Balls { .. }
+            | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
             Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } | Self::Simulation(_) => {
                 Exit::InputOutput
@@ -155,6 +160,10 @@ impl Failure {
                 Some("Touch every ball in every record, or take the ball out of the balls file.".into())
             }
             Self::Balls { .. } => Some("Use three balls or more that span a triangle.".into()),
+            Self::World(_) => Some(
+                "Check the joints in the hexapod file, the pose (mm, deg), load, stiffness and masses."
+                    .into(),
+            ),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())
