@@ -31,6 +31,8 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Demo(commands::demo::Arguments),
+    Simulate(commands::simulate::Arguments),
+    Poses(commands::poses::Arguments),
     Compare(commands::compare::Arguments),
     Diagnose(commands::diagnose::Arguments),
     Fit(commands::fit::Arguments),

@@ -10,6 +10,8 @@
 //! infinite `rho`; in general the Prandtl element of plasticity).
 //!
 //! Some of these are not functions of the force (play), others not of the elongation (a stuck slider), but all are monotone.
+//! A leg without force may rest anywhere within its play; the unloaded machine is taken to rest in the middle.
+//!
 //! A monotone law is a function of `z = f + k e` (Minty), with both `f(z)` and `e(z)` continuous and rising at most as
 //! fast as `z`; so `z` is the unknown of the equilibrium.
 

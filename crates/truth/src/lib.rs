@@ -20,6 +20,7 @@
 //! - [`mechanisms`]: one file for each physical effect, all of them in [`mechanisms::REGISTRY`].
 //! - [`metrology`]: what the instrument adds.
 //! - [`campaign`]: machines, plans, sizes and the case folders made of them.
+//! - [`scene`]: a folder that describes a machine with hidden effects, a plan and an instrument.
 
 pub mod campaign;
 pub mod equilibrium;
@@ -28,6 +29,7 @@ pub mod law;
 mod linear;
 pub mod mechanisms;
 pub mod metrology;
+pub mod scene;
 pub mod setup;
 pub mod situation;
 pub mod so3;
@@ -37,6 +39,7 @@ pub use equilibrium::{Newton, Statics};
 pub use error::TruthError;
 pub use law::{LegLaw, LegMemory};
 pub use mechanisms::Mechanism;
+pub use scene::Scene;
 pub use setup::Setup;
 pub use situation::{Moment, Phase, Situation};
 pub use world::World;

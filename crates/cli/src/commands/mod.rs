@@ -6,7 +6,9 @@ pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod diagnose;
 pub(crate) mod fit;
+pub(crate) mod poses;
 pub(crate) mod predict;
+pub(crate) mod simulate;
 pub(crate) mod terms;
 pub(crate) mod transient;
 pub(crate) mod validate;
@@ -20,6 +22,8 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
     let screen = Screen::stdout(cli.colour);
     match &cli.command {
         Command::Demo(arguments) => demo::run(arguments, &screen),
+        Command::Simulate(arguments) => simulate::run(arguments, &screen),
+        Command::Poses(arguments) => poses::run(arguments, &screen),
         Command::Compare(arguments) => compare::run(arguments, &screen),
         Command::Fit(arguments) => fit::run(arguments, &screen),
         Command::Predict(arguments) => predict::run(arguments, &screen),

@@ -6,11 +6,14 @@ mod files;
 pub mod machines;
 mod measure;
 mod plan;
+mod scheme;
 mod signature;
 
 pub use case::{Case, CaseSpec, Kind};
 pub use measure::{Campaign, measure};
-pub use plan::{Plan, PlanKind, Row};
+pub use plan::{Plan, PlanKind, Row, Schemes};
+pub(crate) use scheme::pose_of;
+pub use scheme::{Poses, Scheme, Spread, usual_half_range_mm_deg};
 pub use signature::{Yardstick, rms};
 
 use rand::RngExt;
@@ -22,7 +25,7 @@ fn pick<T: Copy>(rng: &mut Pcg64, choices: &[T]) -> T {
 }
 
 /// A value with as many decimals as the files carry, so that what is written is what was simulated.
-fn rounded(value: f64) -> f64 {
+pub(crate) fn rounded(value: f64) -> f64 {
     const DECIMALS: f64 = 1e6;
     (value * DECIMALS).round() / DECIMALS
 }

@@ -144,7 +144,7 @@ impl Scene {
     }
 
     fn reread(&self, campaign: &Campaign, plan: &[Row]) -> Result<Dataset, TruthError> {
-        let ideal = campaign.ideal(plan, self.case.spec.plan)?;
+        let ideal = campaign.ideal(plan, self.case.measurements.measurand)?;
         let data = &self.case.measurements;
         let read = |((o, row), r): ((&Observation, &Row), &Vector6)| Observation {
             wrench: row.situation.wrench,
