@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{compare, compensate, completions, demo, diagnose, fit, predict, terms};
+use crate::commands::{compare, compensate, completions, demo, diagnose, export, fit, predict, terms};
 use crate::output::Colour;
 
 /// Compare a hexapod's stiffness model with measurements, name the physical effect it lacks, add it, and watch the
@@ -36,6 +36,7 @@ pub(crate) enum Command {
     Fit(fit::Arguments),
     Predict(predict::Arguments),
     Compensate(compensate::Arguments),
+    Export(export::Arguments),
     Terms(terms::Arguments),
     Completions(completions::Arguments),
 }

@@ -9,6 +9,7 @@ use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
 use hexbench_model::user_term::UserTermError;
+use hexbench_truth::TruthError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
@@ -74,6 +75,16 @@ pub(crate) enum Failure {
         /// The row, and why.
         cause: Box<PredictError>,
     },
+    /// A state of a scene that the simulated world does not have, or that a format cannot express.
+    #[error("{}: row {row}: {cause}", scene.display())]
+    World {
+        /// Folder of the scene.
+        scene: PathBuf,
+        /// Row of the plan, from 1.
+        row: usize,
+        /// What stands in the way.
+        cause: TruthError,
+    },
     /// A file that cannot be read.
     #[error("{}: cannot be read: {cause}", path.display())]
     Unreadable {
@@ -113,7 +124,7 @@ impl Failure {
             Self::Check(_) => Exit::CheckFailed,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
-            Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
+            Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } | Self::World { .. } => Exit::BadInput,
         }
     }
 
@@ -129,6 +140,10 @@ impl Failure {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())
             }
             Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
+            Self::World { cause: TruthError::Inexpressible { .. }, .. } => {
+                Some("Leave this effect out of sealed/truth.toml for this purpose.".into())
+            }
+            Self::World { .. } => Some("Check the pose, the load and the hidden effects of the scene.".into()),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
         }

@@ -21,6 +21,7 @@
 //! - [`metrology`]: what the instrument adds.
 //! - [`mjcf`]: the structure written for MuJoCo, so that another program can say where it comes to rest.
 //! - [`campaign`]: machines, plans, sizes and the case folders made of them.
+//! - [`scene`]: a folder that describes a machine with hidden effects, a plan and an instrument.
 
 pub mod campaign;
 pub mod equilibrium;
@@ -30,6 +31,7 @@ mod linear;
 pub mod mechanisms;
 pub mod metrology;
 pub mod mjcf;
+pub mod scene;
 pub mod setup;
 pub mod situation;
 pub mod so3;
@@ -39,6 +41,7 @@ pub use equilibrium::{Newton, Statics};
 pub use error::TruthError;
 pub use law::{LegLaw, LegMemory};
 pub use mechanisms::Mechanism;
+pub use scene::Scene;
 pub use setup::Setup;
 pub use situation::{Moment, Phase, Situation};
 pub use world::World;

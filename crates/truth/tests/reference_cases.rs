@@ -5,10 +5,10 @@
 mod common;
 
 use common::{chi2_by_direction, hexapod, numbers, plan_rows, points, rows, stiffness, truth};
-use hexbench_core::Pose;
+use hexbench_core::{Measurand, Pose};
 use hexbench_truth::{
     Mechanism, World,
-    campaign::{Campaign, PlanKind, Yardstick, rms},
+    campaign::{Campaign, Yardstick, rms},
     mechanisms::{
         ActuatorPitch, BaseCompliance, JointFriction, JointGeometry, LegNonlinearity, LoadOffset,
         PeriodicCompliance,
@@ -102,7 +102,7 @@ fn sizes_of_effects_agree() {
         let bare =
             Campaign { world: world.without_effects(), frames: Frames::default(), noise: Noise::default() };
         let plan = plan_rows(case, "measurements.csv");
-        let yardstick = Yardstick::new(&bare, &plan, PlanKind::Rich).unwrap();
+        let yardstick = Yardstick::new(&bare, &plan, Measurand::DeflectionEuler).unwrap();
         let all = || world.mechanisms.iter().map(|m| m.scaled(1.0)).collect();
         let (translation, rotation) = rms(&yardstick.signature(all()).unwrap());
         let raw: [f64; 2] = numbers(&truth["raw_effect_rms"]);

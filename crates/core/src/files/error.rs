@@ -73,17 +73,21 @@ pub(crate) fn located(place: &Place, message: &dyn fmt::Display) -> String {
 
 /// A problem at a place, before the name of the file is known.
 #[derive(Debug)]
-pub(crate) struct Fault {
-    pub(crate) place: Box<Place>,
-    pub(crate) problem: Box<Problem>,
+pub struct Fault {
+    /// Where in the file.
+    pub place: Box<Place>,
+    /// What is wrong there.
+    pub problem: Box<Problem>,
 }
 
 impl Fault {
-    pub(crate) fn new(place: Place, problem: Problem) -> Self {
+    /// A problem at a place.
+    pub fn new(place: Place, problem: Problem) -> Self {
         Self { place: Box::new(place), problem: Box::new(problem) }
     }
 
-    pub(crate) fn in_file(self, path: &Path) -> FileError {
+    /// The same with the name of the file.
+    pub fn in_file(self, path: &Path) -> FileError {
         FileError { path: path.to_owned(), place: self.place, problem: self.problem }
     }
 }

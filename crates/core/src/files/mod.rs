@@ -5,6 +5,7 @@
 //! | `measurements.csv` | [`read_measurements`] | [`write_measurements`] |
 //! | poses and loads to predict | [`read_conditions`] | - |
 //! | `hexapod.toml` | [`read_hexapod`] | [`hexapod_to_toml`], [`write_hexapod`] |
+//! | any other TOML | [`read_toml`] | - |
 //! | any other | [`content_hash`] | [`atomic_write`] |
 //!
 //! A file is checked completely before anyone sees it: what a reader returns is finite, in SI units, and of the
@@ -30,6 +31,7 @@ mod read_hexapod;
 mod read_measurements;
 mod row;
 mod stated_unit;
+mod toml_file;
 mod toml_value;
 mod units;
 mod warning;
@@ -38,13 +40,15 @@ mod write_measurements;
 
 pub use atomic::atomic_write;
 pub use digest::content_hash;
-pub use error::FileError;
+pub use error::{Fault, FileError};
 pub use nearest::nearest;
 pub use place::Place;
 pub use problem::Problem;
 pub use read_conditions::read_conditions;
 pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_measurements::{Reading, read_measurements, read_measurements_from};
+pub use toml_file::{Format, read_toml};
+pub use toml_value::{Item, Key, Section};
 pub use units::{Kind, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};
 pub use write_hexapod::{hexapod_to_toml, write_hexapod};

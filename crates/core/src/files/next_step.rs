@@ -26,7 +26,7 @@ impl Problem {
             Self::LineTooLong { .. } => {
                 "Check that this is a table of text with one row per line, not a binary file."
             }
-            Self::FileTooLong { .. } => "Check the name; a hexapod.toml has some thousand bytes.",
+            Self::FileTooLong { .. } => "Check the name; such a file has some thousand bytes.",
             Self::CarriageReturnLines => "Save the file with line feed or carriage return + line feed ends.",
             _ => return None,
         })
@@ -117,6 +117,7 @@ impl Problem {
             Self::UnknownKey { suggestion: Some(name), .. } => format!("Write {name}."),
             Self::UnknownKey { known, .. } => format!("Remove it; known here: {}.", known.join(", ")),
             Self::MissingKey { key } => format!("Add {key}."),
+            Self::Rule { next, .. } => next.clone(),
             _ => String::from("Correct the file; docs/file-formats.md shows a complete one."),
         }
     }

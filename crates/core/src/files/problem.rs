@@ -288,4 +288,14 @@ pub enum Problem {
     /// A bracket that is not a pair of two different legs.
     #[error("a bracket joins two different legs, numbered 1 to 6")]
     Bracket,
+
+    // Formats defined elsewhere.
+    /// A rule of a format that is built on this module.
+    #[error("{rule}")]
+    Rule {
+        /// What is wrong.
+        rule: String,
+        /// What to do about it, one sentence.
+        next: String,
+    },
 }

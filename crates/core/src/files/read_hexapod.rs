@@ -1,19 +1,16 @@
 //! Reading `hexapod.toml`.
 
 use super::error::Fault;
-use super::lines::utf8_text;
-use super::toml_value::{Item, Key, Section, place_of};
-use super::{FileError, Kind, Place, Problem};
+use super::toml_file::{Format, parse_toml, read_toml};
+use super::toml_value::{Item, Key, Section};
+use super::{FileError, Kind, Problem};
 use crate::{Hexapod, Metrology, Vector3};
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
-use toml::de::DeTable;
 
 /// The format this program reads and writes.
 pub(crate) const FORMAT: &str = "hexapod/1";
 
-const MAX_FILE_BYTES: usize = 1 << 20;
+const HEXAPOD: Format = Format { name: FORMAT, keys: TOP };
 
 /// Joints nearer than this are one point, m.
 const SAME_POINT_M: f64 = 1e-9;
@@ -60,7 +57,7 @@ const PAYLOAD: &[Key] = &[Key::with_unit("center_of_gravity", Kind::Length, "mm"
 /// # Ok::<(), hexbench_core::files::FileError>(())
 /// ```
 pub fn read_hexapod(path: &Path) -> Result<Hexapod, FileError> {
-    read_file(path).and_then(|bytes| hexapod_of(utf8_text(&bytes)?)).map_err(|fault| fault.in_file(path))
+    read_toml(path, HEXAPOD, hexapod_of)
 }
 
 /// The same from text; `name` stands for the file in messages.
@@ -68,38 +65,12 @@ pub fn read_hexapod(path: &Path) -> Result<Hexapod, FileError> {
 /// # Errors
 /// As [`read_hexapod`].
 pub fn parse_hexapod(text: &str, name: &str) -> Result<Hexapod, FileError> {
-    hexapod_of(text).map_err(|fault| fault.in_file(Path::new(name)))
+    parse_toml(text, HEXAPOD, hexapod_of).map_err(|fault| fault.in_file(Path::new(name)))
 }
 
-fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    if bytes.len() > MAX_FILE_BYTES {
-        return Err(Fault::new(Place::file(), Problem::FileTooLong { limit_bytes: MAX_FILE_BYTES }));
-    }
-    Ok(bytes)
-}
-
-fn hexapod_of(text: &str) -> Result<Hexapod, Fault> {
-    let root = DeTable::parse(text).map_err(|wrong| {
-        let place = wrong.span().map_or_else(Place::file, |span| place_of(text, &span));
-        Fault::new(place, Problem::Toml(wrong.message().replace('\n', " ")))
-    })?;
-    // The format first: a file of another format may have other keys.
-    check_format(&Section::peek(text, root.get_ref(), TOP)?)?;
-    let top = Section::open(text, "", root.get_ref(), TOP)?;
+fn hexapod_of(top: &Section<'_>) -> Result<Hexapod, Fault> {
     let name = top.get("name").map(Item::string).transpose()?.unwrap_or("hexapod").to_owned();
-    with_sections(name, &top)
-}
-
-fn check_format(top: &Section<'_>) -> Result<(), Fault> {
-    let Some(format) = top.get("format") else {
-        return Err(Fault::new(Place::file(), Problem::Format { expected: FORMAT }));
-    };
-    match format.string()? {
-        FORMAT => Ok(()),
-        _ => Err(format.fault(Problem::Format { expected: FORMAT })),
-    }
+    with_sections(name, top)
 }
 
 fn with_sections(name: String, top: &Section<'_>) -> Result<Hexapod, Fault> {

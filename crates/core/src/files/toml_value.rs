@@ -4,7 +4,7 @@ use super::error::Fault;
 use super::nearest::nearest;
 use super::number::parse_number;
 use super::stated_unit::stated_unit;
-use super::units::Unit;
+use super::units::{PLAIN, Unit};
 use super::{Kind, Place, Problem};
 use std::ops::Range;
 use toml::Spanned;
@@ -14,7 +14,7 @@ type Value<'t> = Spanned<DeValue<'t>>;
 
 /// A key a section may have, without its unit, and the unit it is usually written in.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Key {
+pub struct Key {
     pub(crate) name: &'static str,
     pub(crate) kind: Kind,
     pub(crate) unit: &'static str,
@@ -22,13 +22,18 @@ pub(crate) struct Key {
 
 impl Key {
     /// A key without unit.
-    pub(crate) const fn plain(name: &'static str) -> Self {
+    pub const fn plain(name: &'static str) -> Self {
         Self { name, kind: Kind::Number, unit: "" }
     }
 
     /// A key with a unit.
-    pub(crate) const fn with_unit(name: &'static str, kind: Kind, unit: &'static str) -> Self {
+    pub const fn with_unit(name: &'static str, kind: Kind, unit: &'static str) -> Self {
         Self { name, kind, unit }
+    }
+
+    /// Its name without the unit.
+    pub const fn name(&self) -> &'static str {
+        self.name
     }
 
     /// The unit that `spelled` adds to this key (empty for none); none when it is another key.
@@ -45,7 +50,7 @@ impl Key {
 
 /// A table whose keys are all known.
 #[derive(Debug)]
-pub(crate) struct Section<'t> {
+pub struct Section<'t> {
     text: &'t str,
     title: &'static str,
     keys: &'static [Key],
@@ -54,7 +59,7 @@ pub(crate) struct Section<'t> {
 
 /// A value with the unit its key states.
 #[derive(Debug, Clone)]
-pub(crate) struct Item<'t> {
+pub struct Item<'t> {
     text: &'t str,
     key: String,
     unit: &'static Unit,
@@ -99,12 +104,15 @@ impl<'t> Section<'t> {
     }
 
     /// The value of a key that may be absent.
-    pub(crate) fn get(&self, name: &str) -> Option<&Item<'t>> {
+    pub fn get(&self, name: &str) -> Option<&Item<'t>> {
         self.items.iter().find(|(key, _)| key.name == name).map(|(_, item)| item)
     }
 
     /// The value of a key that must be there.
-    pub(crate) fn require(&self, name: &str) -> Result<&Item<'t>, Fault> {
+    ///
+    /// # Errors
+    /// A [`Fault`] when it is absent.
+    pub fn require(&self, name: &str) -> Result<&Item<'t>, Fault> {
         self.get(name).ok_or_else(|| {
             let usual = self.keys.iter().find(|key| key.name == name).map(Key::usual_name);
             let key = usual.unwrap_or_else(|| name.to_owned());
@@ -115,7 +123,10 @@ impl<'t> Section<'t> {
     }
 
     /// A table inside this one; absent means empty.
-    pub(crate) fn section(
+    ///
+    /// # Errors
+    /// A [`Fault`] at a value that is no table, or at an unknown or repeated key.
+    pub fn section(
         &self,
         name: &'static str,
         title: &'static str,
@@ -123,10 +134,7 @@ impl<'t> Section<'t> {
     ) -> Result<Section<'t>, Fault> {
         match self.get(name) {
             None => Ok(Section { text: self.text, title, keys, items: Vec::new() }),
-            Some(item) => match item.value.get_ref() {
-                DeValue::Table(table) => Section::open(self.text, title, table, keys),
-                _ => Err(item.wrong_type("a table", item.value)),
-            },
+            Some(item) => item.section(title, keys),
         }
     }
 }
@@ -152,7 +160,7 @@ fn unknown_key(spelled: &str, keys: &[Key]) -> Problem {
 
 impl<'t> Item<'t> {
     /// A fault at this value.
-    pub(crate) fn fault(&self, problem: Problem) -> Fault {
+    pub fn fault(&self, problem: Problem) -> Fault {
         self.fault_at(self.value, problem)
     }
 
@@ -171,7 +179,10 @@ impl<'t> Item<'t> {
     }
 
     /// A string.
-    pub(crate) fn string(&self) -> Result<&str, Fault> {
+    ///
+    /// # Errors
+    /// A [`Fault`] at a value of another kind.
+    pub fn string(&self) -> Result<&str, Fault> {
         self.value
             .get_ref()
             .as_str()
@@ -179,7 +190,10 @@ impl<'t> Item<'t> {
     }
 
     /// A finite number in SI.
-    pub(crate) fn number(&self) -> Result<f64, Fault> {
+    ///
+    /// # Errors
+    /// A [`Fault`] at a value of another kind.
+    pub fn number(&self) -> Result<f64, Fault> {
         let digits = match self.value.get_ref() {
             DeValue::Float(float) => float.as_str(),
             DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str(),
@@ -190,13 +204,81 @@ impl<'t> Item<'t> {
         if si.is_finite() { Ok(si) } else { Err(self.fault(Problem::TooLarge)) }
     }
 
+    /// The key as the file spells it.
+    pub fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// A table whose keys are all known.
+    ///
+    /// # Errors
+    /// A [`Fault`] at a value that is no table, or at an unknown or repeated key.
+    pub fn section(&self, title: &'static str, keys: &'static [Key]) -> Result<Section<'t>, Fault> {
+        Section::open(self.text, title, self.table()?, keys)
+    }
+
+    /// The entries of a table with any keys, in the order of the file; their values have no unit.
+    ///
+    /// # Errors
+    /// A [`Fault`] at a value that is no table.
+    pub fn entries(&self) -> Result<Vec<Item<'t>>, Fault> {
+        let entry = |(name, value): (&Spanned<DeString<'t>>, &'t Value<'t>)| Item {
+            text: self.text,
+            key: name.get_ref().as_ref().to_owned(),
+            unit: &PLAIN,
+            value,
+        };
+        Ok(in_file_order(self.table()?).into_iter().map(entry).collect())
+    }
+
+    fn table(&self) -> Result<&'t DeTable<'t>, Fault> {
+        match self.value.get_ref() {
+            DeValue::Table(table) => Ok(table),
+            _ => Err(self.wrong_type("a table", self.value)),
+        }
+    }
+
+    /// A whole number from `least` to 2^53.
+    ///
+    /// # Errors
+    /// A [`Fault`] at any other value.
+    pub fn whole(&self, least: u64) -> Result<u64, Fault> {
+        let DeValue::Integer(integer) = self.value.get_ref() else {
+            return Err(self.wrong_type("a whole number", self.value));
+        };
+        let digits = integer.as_str().replace('_', "");
+        let number = u64::from_str_radix(&digits, integer.radix()).ok();
+        number.filter(|n| (least..=1 << 53).contains(n)).ok_or_else(|| {
+            let rule = format!("must be a whole number from {least} to 2^53");
+            self.fault(Problem::Rule { rule, next: format!("Write for example {}.", least.max(7)) })
+        })
+    }
+
+    /// True for a number without decimal point.
+    pub fn is_integer(&self) -> bool {
+        self.value.get_ref().is_integer()
+    }
+
+    /// True for a table.
+    pub fn is_table(&self) -> bool {
+        self.value.get_ref().is_table()
+    }
+
+    /// True for text in quotation marks.
+    pub fn is_string(&self) -> bool {
+        self.value.get_ref().is_str()
+    }
+
     /// True for a list, false for a single value.
-    pub(crate) fn is_list(&self) -> bool {
+    pub fn is_list(&self) -> bool {
         self.value.get_ref().is_array()
     }
 
     /// The members of a list, each with the key and unit of the list.
-    pub(crate) fn list(&self) -> Result<Vec<Item<'t>>, Fault> {
+    ///
+    /// # Errors
+    /// A [`Fault`] at a value of another kind.
+    pub fn list(&self) -> Result<Vec<Item<'t>>, Fault> {
         let DeValue::Array(array) = self.value.get_ref() else {
             return Err(self.wrong_type("a list in square brackets", self.value));
         };
@@ -205,13 +287,19 @@ impl<'t> Item<'t> {
     }
 
     /// Exactly `N` members; `expected` says what they are, for example `six joints`.
-    pub(crate) fn exactly<const N: usize>(&self, expected: &'static str) -> Result<[Item<'t>; N], Fault> {
+    ///
+    /// # Errors
+    /// A [`Fault`] at a value of another kind.
+    pub fn exactly<const N: usize>(&self, expected: &'static str) -> Result<[Item<'t>; N], Fault> {
         let count = |found: Vec<Item<'t>>| self.fault(Problem::Count { expected, found: found.len() });
         self.list()?.try_into().map_err(count)
     }
 
     /// Exactly `N` numbers in SI.
-    pub(crate) fn numbers<const N: usize>(&self, expected: &'static str) -> Result<[f64; N], Fault> {
+    ///
+    /// # Errors
+    /// A [`Fault`] at a value of another kind.
+    pub fn numbers<const N: usize>(&self, expected: &'static str) -> Result<[f64; N], Fault> {
         let mut numbers = [0.0; N];
         for (number, item) in numbers.iter_mut().zip(self.exactly::<N>(expected)?) {
             *number = item.number()?;
@@ -220,7 +308,10 @@ impl<'t> Item<'t> {
     }
 
     /// A positive number in SI.
-    pub(crate) fn positive(&self, quantity: &'static str) -> Result<f64, Fault> {
+    ///
+    /// # Errors
+    /// A [`Fault`] at a value of another kind.
+    pub fn positive(&self, quantity: &'static str) -> Result<f64, Fault> {
         let number = self.number()?;
         if number > 0.0 { Ok(number) } else { Err(self.fault(Problem::NotPositive { quantity })) }
     }

@@ -1,10 +1,7 @@
 //! What only campaigns of absolute poses need.
 
-use hexbench_core::Pose;
-use rand_distr::{Distribution, StandardNormal};
-use rand_pcg::Pcg64;
-
 use crate::metrology::Frames;
+use hexbench_core::Pose;
 
 /// Frames with one of their twelve numbers changed (metrology first), m or rad.
 pub(super) fn shifted(frames: &Frames, k: usize, step: f64) -> Frames {
@@ -15,16 +12,4 @@ pub(super) fn shifted(frames: &Frames, k: usize, step: f64) -> Frames {
         target[k - 6] += step;
     }
     Frames { metrology: Pose::from_array(metrology), target: Pose::from_array(target) }
-}
-
-/// Frames as they are after a careful alignment: a tenth of a millimetre and some tenths of a milliradian off.
-pub(super) fn aligned(rng: &mut Pcg64) -> Frames {
-    const MISALIGNED: [f64; 6] = [1e-4, 1e-4, 1e-4, 2e-4, 2e-4, 2e-4];
-    let mut pose = || {
-        Pose::from_array(MISALIGNED.map(|size| {
-            let x: f64 = StandardNormal.sample(rng);
-            size * x
-        }))
-    };
-    Frames { metrology: pose(), target: pose() }
 }

@@ -6,7 +6,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use serde_json::{Map, Value, json};
 
-use super::{Campaign, Plan, PlanKind, Row, Yardstick, absolute, machines, measure, pick, rms};
+use super::{Campaign, Plan, PlanKind, Row, Yardstick, machines, measure, pick, rms};
 use crate::{
     Mechanism, TruthError, World,
     mechanisms::{self, REGISTRY, Shows},
@@ -146,19 +146,17 @@ impl CaseSpec {
         hexapod.metrology = Some(self.noise.metrology());
         let stiffness = machines::leg_stiffness(self.family, &mut of_machine);
         let plan = self.plan.draw(&hexapod, &mut of_plan);
-        let frames = if self.plan == PlanKind::Absolute {
-            absolute::aligned(&mut of_frames)
-        } else {
-            Frames::default()
-        };
+        let frames =
+            if self.plan == PlanKind::Absolute { Frames::aligned(&mut of_frames) } else { Frames::default() };
         let bare = Campaign { world: World::new(hexapod.clone(), &stiffness), frames, noise: self.noise };
         let sized = self.sized_effects(&bare, &plan, &mut of_effects)?;
         let truth = self.truth(&bare, &plan, &sized)?;
         let mut world = bare.world.without_effects();
         world.mechanisms = sized.mechanisms;
         let campaign = Campaign { world, ..bare };
-        let measurements = measure(&campaign, &plan.training, self.plan, "measurements.csv", &mut of_noise)?;
-        let holdout = measure(&campaign, &plan.holdout, self.plan, "holdout.csv", &mut of_noise)?;
+        let measurements =
+            measure(&campaign, &plan.training, plan.measurand, "measurements.csv", &mut of_noise)?;
+        let holdout = measure(&campaign, &plan.holdout, plan.measurand, "holdout.csv", &mut of_noise)?;
         Ok(Case { spec: self.clone(), campaign, hexapod, measurements, holdout, truth })
     }
 
@@ -169,7 +167,7 @@ impl CaseSpec {
         rng: &mut Pcg64,
     ) -> Result<SizedEffects, TruthError> {
         const SPREAD_OF_SIZE: f64 = 0.4;
-        let yardstick = Yardstick::new(bare, &plan.training, self.plan)?;
+        let yardstick = Yardstick::new(bare, &plan.training, plan.measurand)?;
         let mut sized = SizedEffects { mechanisms: Vec::new(), scales: Vec::new(), distance: 0.0 };
         for (i, id) in self.effects.iter().enumerate() {
             let usual = (mechanisms::effect(id)?.draw)(&bare.world.hexapod, rng);
@@ -193,7 +191,7 @@ impl CaseSpec {
             parameters.extend(mechanism.parameters());
         }
         let added = |rows: &[Row]| -> Result<[f64; 2], TruthError> {
-            let yardstick = Yardstick::new(bare, rows, self.plan)?;
+            let yardstick = Yardstick::new(bare, rows, plan.measurand)?;
             let all = sized.mechanisms.iter().map(|m| m.scaled(1.0)).collect();
             let signature: Vec<Vector6> = yardstick.signature(all)?;
             let (translation, rotation) = rms(&signature);

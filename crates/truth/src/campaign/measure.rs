@@ -3,7 +3,7 @@
 use hexbench_core::{Columns, Dataset, Measurand, Observation, Vector6};
 use rand_pcg::Pcg64;
 
-use super::{PlanKind, Row};
+use super::Row;
 use crate::{
     TruthError, World,
     metrology::{Frames, Noise},
@@ -25,18 +25,18 @@ impl Campaign {
     ///
     /// # Errors
     /// As [`World::reading`].
-    pub fn ideal(&self, rows: &[Row], plan: PlanKind) -> Result<Vec<Vector6>, TruthError> {
+    pub fn ideal(&self, rows: &[Row], measurand: Measurand) -> Result<Vec<Vector6>, TruthError> {
         let mut readings: Vec<Vector6> = Vec::with_capacity(rows.len());
         for (i, row) in rows.iter().enumerate() {
             let again = i > 0 && rows[i - 1].situation == row.situation;
-            let reading = if again { readings[i - 1] } else { self.one(row, plan)? };
+            let reading = if again { readings[i - 1] } else { self.one(row, measurand)? };
             readings.push(reading);
         }
         Ok(readings)
     }
 
-    fn one(&self, row: &Row, plan: PlanKind) -> Result<Vector6, TruthError> {
-        if plan == PlanKind::Absolute {
+    fn one(&self, row: &Row, measurand: Measurand) -> Result<Vector6, TruthError> {
+        if measurand == Measurand::AbsolutePose {
             self.world.pose(&row.situation).map(|pose| self.frames.seen(&pose).to_vector())
         } else {
             self.world.deflection(&row.situation)
@@ -51,20 +51,20 @@ impl Campaign {
 pub fn measure(
     campaign: &Campaign,
     rows: &[Row],
-    plan: PlanKind,
+    measurand: Measurand,
     source: &str,
     rng: &mut Pcg64,
 ) -> Result<Dataset, TruthError> {
-    let readings = campaign.ideal(rows, plan)?;
+    let readings = campaign.ideal(rows, measurand)?;
     let observations = rows
         .iter()
         .zip(readings)
         .enumerate()
         .map(|(i, (row, r))| observation(i, row, r, &campaign.noise, rng));
-    let deflections = plan != PlanKind::Absolute;
+    let deflections = measurand != Measurand::AbsolutePose;
     Ok(Dataset {
         source: source.to_owned(),
-        measurand: if deflections { Measurand::DeflectionEuler } else { Measurand::AbsolutePose },
+        measurand,
         columns: Columns {
             reference: deflections,
             approach: deflections,

@@ -6,11 +6,14 @@ mod files;
 pub mod machines;
 mod measure;
 mod plan;
+mod scheme;
 mod signature;
 
 pub use case::{Case, CaseSpec, Kind};
 pub use measure::{Campaign, measure};
-pub use plan::{Plan, PlanKind, Row};
+pub use plan::{Plan, PlanKind, Row, Schemes};
+pub(crate) use scheme::pose_of;
+pub use scheme::{Poses, Scheme, Spread, usual_half_range_mm_deg};
 pub use signature::{Yardstick, rms};
 
 use rand::RngExt;

@@ -1,11 +1,10 @@
 //! Plans: which poses, under which loads, how often.
 
-use hexbench_core::{Hexapod, Pose, Wrench};
+use hexbench_core::{Hexapod, Measurand, Pose, Wrench};
 use rand::RngExt;
-use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use super::rounded;
+use super::{Poses, Scheme, Spread, rounded, scheme};
 use crate::Situation;
 
 /// The paper's preload and full load, N along z.
@@ -46,15 +45,35 @@ pub enum PlanKind {
 /// A plan with its held-out part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// Its make.
-    pub kind: PlanKind,
+    /// What is read.
+    pub measurand: Measurand,
     /// Rows to learn from.
     pub training: Vec<Row>,
     /// Rows to judge by.
     pub holdout: Vec<Row>,
 }
 
+/// A scheme for the training part and one for the held-out part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Schemes {
+    /// Rows to learn from.
+    pub training: Scheme,
+    /// Rows to judge by.
+    pub holdout: Scheme,
+}
+
 impl PlanKind {
+    /// All makes.
+    pub const ALL: [Self; 7] = [
+        Self::Rich,
+        Self::OtherLoads,
+        Self::FewPoses,
+        Self::VerticalOnly,
+        Self::NoReference,
+        Self::Paper,
+        Self::Absolute,
+    ];
+
     /// Name in the truth file.
     pub fn name(self) -> &'static str {
         match self {
@@ -68,20 +87,41 @@ impl PlanKind {
         }
     }
 
+    /// What a plan of this make reads.
+    pub fn measurand(self) -> Measurand {
+        if self == Self::Absolute { Measurand::AbsolutePose } else { Measurand::DeflectionEuler }
+    }
+
     /// A plan of this make for a machine.
     pub fn draw(self, hexapod: &Hexapod, rng: &mut Pcg64) -> Plan {
-        let (training, holdout) = match self {
-            Self::Paper => (paper_training(rng), paper_holdout(rng)),
-            Self::Absolute => (absolute(hexapod, rng, 40, 2), absolute(hexapod, rng, 15, 1)),
-            _ => {
-                let loads = self.loads(rng);
-                let poses = if self == Self::FewPoses { 10 } else { 18 };
-                let reference = if self == Self::NoReference { 0.0 } else { PRELOAD_N };
-                let mut part = |poses, repeats| rich(hexapod, rng, poses, repeats, &loads, reference);
-                (part(poses, 2), part(poses / 3, 1))
-            }
+        let Schemes { training, holdout } = self.schemes(hexapod, rng);
+        Plan { measurand: self.measurand(), training: training.draw(rng), holdout: holdout.draw(rng) }
+    }
+
+    /// What a plan of this make is drawn by; the generator decides the loads of [`PlanKind::OtherLoads`] only.
+    pub fn schemes(self, hexapod: &Hexapod, rng: &mut Pcg64) -> Schemes {
+        match self {
+            Self::Paper => paper(),
+            Self::Absolute => absolute(hexapod),
+            _ => self.rich(hexapod, rng),
+        }
+    }
+
+    fn rich(self, hexapod: &Hexapod, rng: &mut Pcg64) -> Schemes {
+        let poses = if self == Self::FewPoses { 10 } else { 18 };
+        let training = Scheme {
+            measurand: Measurand::DeflectionEuler,
+            poses: usual_poses(hexapod, poses),
+            loads: self.loads(rng),
+            reference: along_z(if self == Self::NoReference { 0.0 } else { PRELOAD_N }),
+            repeats: 2,
+            approaches: vec![1.0, -1.0],
+            delta_t: Spread::Normal(0.3),
+            elapsed: Spread::Even([5.0, 300.0]),
+            anew: false,
         };
-        Plan { kind: self, training, holdout }
+        let holdout = Scheme { poses: usual_poses(hexapod, poses / 3), repeats: 1, ..training.clone() };
+        Schemes { training, holdout }
     }
 
     fn loads(self, rng: &mut Pcg64) -> Vec<Wrench> {
@@ -114,91 +154,54 @@ fn any_load(rng: &mut Pcg64) -> Wrench {
     Wrench::from_array([spread(100.0), spread(100.0), spread(300.0), spread(10.0), spread(10.0), spread(5.0)])
 }
 
-/// A pose within +-30 mm, +-15 mm along z and +-8 deg, for a machine of the paper's size.
-fn any_pose(hexapod: &Hexapod, rng: &mut Pcg64) -> Pose {
-    const PAPER_SIZE_M: f64 = 0.1;
-    let height = -hexapod.base_centre().z;
-    let size = (hexapod.platform_radius().min(0.8 * height) / PAPER_SIZE_M).clamp(0.4, 3.0);
-    let travel = 30.0 * if (0.7..1.3).contains(&size) { 1.0 } else { size };
-    let mut spread = |half: f64| rounded(rng.random_range(-half..half));
-    let mm = [spread(travel), spread(travel), spread(0.5 * travel)];
-    pose(mm, [spread(8.0), spread(8.0), spread(8.0)])
+fn usual_poses(hexapod: &Hexapod, count: u64) -> Poses {
+    Poses::Drawn { count, half_mm_deg: scheme::usual_half_range_mm_deg(hexapod) }
 }
 
-fn pose(mm: [f64; 3], deg: [f64; 3]) -> Pose {
-    let [a, b, c] = mm.map(|x| x * 1e-3);
-    let [x, y, z] = deg.map(f64::to_radians);
-    Pose::from_array([a, b, c, x, y, z])
-}
-
-fn normal(rng: &mut Pcg64) -> f64 {
-    StandardNormal.sample(rng)
-}
-
-fn rich(
-    hexapod: &Hexapod,
-    rng: &mut Pcg64,
-    poses: i64,
-    repeats: i64,
-    loads: &[Wrench],
-    reference: f64,
-) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for pose_id in 1..=poses {
-        let pose = any_pose(hexapod, rng);
-        for &wrench in loads {
-            let situation = Situation {
-                reference: along_z(reference),
-                approach: if rng.random_bool(0.5) { 1.0 } else { -1.0 },
-                delta_t: rounded(0.3 * normal(rng)),
-                elapsed: rounded(rng.random_range(5.0..300.0)),
-                ..Situation::new(pose, wrench)
-            };
-            rows.extend((1..=repeats).map(|repeat| Row { pose_id, repeat, situation }));
-        }
-    }
-    rows
-}
-
-fn absolute(hexapod: &Hexapod, rng: &mut Pcg64, poses: i64, repeats: i64) -> Vec<Row> {
+fn absolute(hexapod: &Hexapod) -> Schemes {
     const LIGHT_LOAD_N: f64 = -49.05;
-    let mut rows = Vec::new();
-    for pose_id in 1..=poses {
-        let pose = any_pose(hexapod, rng);
-        for load in [LIGHT_LOAD_N, FULL_LOAD_N] {
-            let situation = Situation::new(pose, along_z(load));
-            rows.extend((1..=repeats).map(|repeat| Row { pose_id, repeat, situation }));
-        }
-    }
-    rows
-}
-
-/// Table 1 of the paper.
-fn paper_training(rng: &mut Pcg64) -> Vec<Row> {
-    let poses = [
-        pose([2.616, 0.832, -0.666], [0.0, 0.0, 15.756]),
-        pose([10.017, -3.434, -0.764], [0.0, 0.0, -11.007]),
-        pose([-7.784, -3.21, 1.76], [0.0, 0.0, -11.266]),
-    ];
-    let numbered = (1..).zip(poses).flat_map(|(id, p)| [1, 2, 3].map(|repeat| (id, repeat, p)));
-    numbered.map(|(id, repeat, p)| paper_row(id, repeat, p, rng)).collect()
-}
-
-/// Table 3 of the paper.
-fn paper_holdout(rng: &mut Pcg64) -> Vec<Row> {
-    let steps = [-30.0, -15.0, 0.0, 15.0, 30.0];
-    let along_a = steps.map(|x| pose([x, 0.0, 0.0], [0.0; 3]));
-    let along_b = steps.map(|y| pose([0.0, y, 0.0], [0.0; 3]));
-    let all = (1..).zip(along_a.into_iter().chain(along_b));
-    all.map(|(id, p)| paper_row(id, 1, p, rng)).collect()
-}
-
-fn paper_row(pose_id: i64, repeat: i64, pose: Pose, rng: &mut Pcg64) -> Row {
-    let situation = Situation {
-        reference: along_z(PRELOAD_N),
-        delta_t: rounded(0.1 * normal(rng)),
-        elapsed: rounded(rng.random_range(20.0..60.0)),
-        ..Situation::new(pose, along_z(FULL_LOAD_N))
+    let training = Scheme {
+        measurand: Measurand::AbsolutePose,
+        poses: usual_poses(hexapod, 40),
+        loads: [LIGHT_LOAD_N, FULL_LOAD_N].map(along_z).to_vec(),
+        reference: Wrench::default(),
+        repeats: 2,
+        approaches: vec![1.0],
+        delta_t: Spread::Fixed(0.0),
+        elapsed: Spread::Fixed(0.0),
+        anew: false,
     };
-    Row { pose_id, repeat, situation }
+    let holdout = Scheme { poses: usual_poses(hexapod, 15), repeats: 1, ..training.clone() };
+    Schemes { training, holdout }
+}
+
+/// Tables 1 and 3 of the paper.
+fn paper() -> Schemes {
+    let best = [
+        [2.616, 0.832, -0.666, 0.0, 0.0, 15.756],
+        [10.017, -3.434, -0.764, 0.0, 0.0, -11.007],
+        [-7.784, -3.21, 1.76, 0.0, 0.0, -11.266],
+    ];
+    let training = Scheme {
+        measurand: Measurand::DeflectionEuler,
+        poses: Poses::Listed(best.map(scheme::pose_of).to_vec()),
+        loads: vec![along_z(FULL_LOAD_N)],
+        reference: along_z(PRELOAD_N),
+        repeats: 3,
+        approaches: vec![1.0],
+        delta_t: Spread::Normal(0.1),
+        elapsed: Spread::Even([20.0, 60.0]),
+        anew: true,
+    };
+    let holdout = Scheme { poses: Poses::Listed(paper_validation()), repeats: 1, ..training.clone() };
+    Schemes { training, holdout }
+}
+
+/// Poses of Table 3: along a, then along b.
+fn paper_validation() -> Vec<Pose> {
+    let steps = [-30.0, -15.0, 0.0, 15.0, 30.0];
+    let along = |axis: usize| {
+        steps.map(|step| scheme::pose_of(std::array::from_fn(|k| if k == axis { step } else { 0.0 })))
+    };
+    [along(0), along(1)].concat()
 }

@@ -4,9 +4,9 @@
 //! stiffness would explain (in absolute mode, also other frames of the instrument); the length of the rest is the
 //! *distance*: the square root of the noncentrality of a chi-square test for the effect.
 
-use hexbench_core::{Pose, Vector6};
+use hexbench_core::{Measurand, Pose, Vector6};
 
-use super::{Campaign, PlanKind, Row, absolute};
+use super::{Campaign, Row, absolute};
 use crate::{Mechanism, TruthError, World};
 
 /// Measures the distance of effects for one campaign without effects and one plan.
@@ -14,7 +14,7 @@ use crate::{Mechanism, TruthError, World};
 pub struct Yardstick<'a> {
     campaign: &'a Campaign,
     rows: &'a [Row],
-    plan: PlanKind,
+    measurand: Measurand,
     baseline: Vec<Vector6>,
     explained: Vec<Vec<f64>>,
 }
@@ -24,11 +24,11 @@ impl<'a> Yardstick<'a> {
     ///
     /// # Errors
     /// As [`World::reading`].
-    pub fn new(campaign: &'a Campaign, rows: &'a [Row], plan: PlanKind) -> Result<Self, TruthError> {
-        let baseline = campaign.ideal(rows, plan)?;
-        let mut yardstick = Self { campaign, rows, plan, baseline, explained: Vec::new() };
+    pub fn new(campaign: &'a Campaign, rows: &'a [Row], measurand: Measurand) -> Result<Self, TruthError> {
+        let baseline = campaign.ideal(rows, measurand)?;
+        let mut yardstick = Self { campaign, rows, measurand, baseline, explained: Vec::new() };
         yardstick.explain_by_springs()?;
-        if plan == PlanKind::Absolute {
+        if measurand == Measurand::AbsolutePose {
             yardstick.explain_by_frames()?;
         }
         Ok(yardstick)
@@ -88,7 +88,7 @@ impl<'a> Yardstick<'a> {
     }
 
     fn added_by(&self, campaign: &Campaign) -> Result<Vec<Vector6>, TruthError> {
-        let readings = campaign.ideal(self.rows, self.plan)?;
+        let readings = campaign.ideal(self.rows, self.measurand)?;
         Ok(readings.iter().zip(&self.baseline).map(|(a, b)| difference(a, b)).collect())
     }
 

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed};
+use super::{Effect, Mechanism, Shows, one_of, parsed_if};
 use crate::{Moment, Setup};
 
 /// Its entry in the registry.
@@ -17,7 +17,7 @@ pub(super) const EFFECT: Effect = Effect {
     physics: "c_i = c (1 + growth (x / reach)^3), x = a or b",
     shows: Shows::Outside,
     draw,
-    parse: parsed::<CubicCompliance>,
+    parse: |value| parsed_if::<CubicCompliance>(value, |m| m.axis < 2, "axis must be 0 (a) or 1 (b)"),
 };
 
 /// Leg compliance grows with the cube of the position.

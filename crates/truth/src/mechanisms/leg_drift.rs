@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed};
+use super::{Effect, Mechanism, Shows, one_of, parsed_if};
 use crate::{Moment, Setup};
 
 /// Its entry in the registry.
@@ -17,7 +17,7 @@ pub(super) const EFFECT: Effect = Effect {
     physics: "q_i += rate * elapsed for one leg",
     shows: Shows::Outside,
     draw,
-    parse: parsed::<LegDrift>,
+    parse: |value| parsed_if::<LegDrift>(value, |m| (1..=6).contains(&m.leg), "leg must be 1 to 6"),
 };
 
 /// One leg drifts with time.

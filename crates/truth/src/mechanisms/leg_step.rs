@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed, uniform};
+use super::{Effect, Mechanism, Shows, one_of, parsed_if, uniform};
 use crate::{Moment, Setup};
 
 /// Its entry in the registry.
@@ -17,7 +17,7 @@ pub(super) const EFFECT: Effect = Effect {
     physics: "q_i += step for one leg once elapsed > time",
     shows: Shows::Outside,
     draw,
-    parse: parsed::<LegStep>,
+    parse: |value| parsed_if::<LegStep>(value, |m| (1..=6).contains(&m.leg), "leg must be 1 to 6"),
 };
 
 /// One leg steps at some time.

@@ -179,6 +179,19 @@ fn parsed<M: Mechanism + DeserializeOwned + 'static>(value: Value) -> Result<Box
     serde_json::from_value::<M>(value).map(|m| Box::new(m) as Box<dyn Mechanism>).map_err(|e| e.to_string())
 }
 
+/// The same for a mechanism whose parameters obey a rule that their types do not tell.
+fn parsed_if<M: Mechanism + DeserializeOwned + 'static>(
+    value: Value,
+    is_good: fn(&M) -> bool,
+    rule: &str,
+) -> Result<Box<dyn Mechanism>, String> {
+    match serde_json::from_value::<M>(value) {
+        Ok(m) if is_good(&m) => Ok(Box::new(m)),
+        Ok(_) => Err(rule.to_owned()),
+        Err(e) => Err(e.to_string()),
+    }
+}
+
 fn vector(values: &[f64; 6]) -> Vector6 {
     Vector6::from_column_slice(values)
 }

@@ -1,6 +1,8 @@
 //! The instrument's own frames.
 
 use hexbench_core::Pose;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
 
 /// Constant frames between the machine and what is read in absolute mode: reading = metrology * pose * target.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -12,6 +14,18 @@ pub struct Frames {
 }
 
 impl Frames {
+    /// Frames as they are after a careful alignment: a tenth of a millimetre and some tenths of a milliradian off.
+    pub fn aligned(rng: &mut Pcg64) -> Self {
+        const MISALIGNED: [f64; 6] = [1e-4, 1e-4, 1e-4, 2e-4, 2e-4, 2e-4];
+        let mut pose = || {
+            Pose::from_array(MISALIGNED.map(|size| {
+                let x: f64 = StandardNormal.sample(rng);
+                size * x
+            }))
+        };
+        Self { metrology: pose(), target: pose() }
+    }
+
     /// Pose of the targets in the instrument's frame.
     pub fn seen(&self, pose: &Pose) -> Pose {
         let (m, x) = (self.metrology.rotation(), pose.rotation());

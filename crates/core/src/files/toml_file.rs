@@ -1,0 +1,65 @@
+//! Reading a TOML file of a stated format.
+
+use super::error::Fault;
+use super::lines::utf8_text;
+use super::toml_value::{Key, Section, place_of};
+use super::{FileError, Place, Problem};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use toml::de::DeTable;
+
+const MAX_FILE_BYTES: usize = 1 << 20;
+
+/// A format: what `format = "..."` must say, and the keys of the top level (`format` among them).
+#[derive(Debug, Clone, Copy)]
+pub struct Format {
+    /// Name and version, for example `hexapod/1`.
+    pub name: &'static str,
+    /// Keys of the top level.
+    pub keys: &'static [Key],
+}
+
+/// Reads a TOML file of a format and hands its top level to `make`.
+///
+/// # Errors
+/// No such file, not TOML, another format, an unknown key, or the fault that `make` found.
+pub fn read_toml<T>(
+    path: &Path,
+    format: Format,
+    make: impl FnOnce(&Section<'_>) -> Result<T, Fault>,
+) -> Result<T, FileError> {
+    let parsed = read_file(path).and_then(|bytes| parse_toml(utf8_text(&bytes)?, format, make));
+    parsed.map_err(|fault| fault.in_file(path))
+}
+
+/// The same from text.
+pub(crate) fn parse_toml<T>(
+    text: &str,
+    format: Format,
+    make: impl FnOnce(&Section<'_>) -> Result<T, Fault>,
+) -> Result<T, Fault> {
+    let root = DeTable::parse(text).map_err(|wrong| {
+        let place = wrong.span().map_or_else(Place::file, |span| place_of(text, &span));
+        Fault::new(place, Problem::Toml(wrong.message().replace('\n', " ")))
+    })?;
+    // The format first: a file of another format may have other keys.
+    check_format(&Section::peek(text, root.get_ref(), format.keys)?, format.name)?;
+    make(&Section::open(text, "", root.get_ref(), format.keys)?)
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > MAX_FILE_BYTES {
+        return Err(Fault::new(Place::file(), Problem::FileTooLong { limit_bytes: MAX_FILE_BYTES }));
+    }
+    Ok(bytes)
+}
+
+fn check_format(top: &Section<'_>, expected: &'static str) -> Result<(), Fault> {
+    let Some(format) = top.get("format") else {
+        return Err(Fault::new(Place::file(), Problem::Format { expected }));
+    };
+    if format.string()? == expected { Ok(()) } else { Err(format.fault(Problem::Format { expected })) }
+}

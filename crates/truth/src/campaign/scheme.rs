@@ -1,0 +1,167 @@
+//! How the rows of a plan come about: poses, loads, surroundings, repeats.
+
+use hexbench_core::{Hexapod, Measurand, Pose, Wrench};
+use rand::RngExt;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+
+use super::{Row, pick, rounded};
+use crate::Situation;
+
+/// Where the poses come from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Poses {
+    /// These.
+    Listed(Vec<Pose>),
+    /// So many, each drawn evenly within +-`half` of the zero pose.
+    Drawn {
+        /// Number of poses.
+        count: u64,
+        /// Half range `[a, b, c, alpha, beta, gamma]`, mm and deg.
+        half_mm_deg: [f64; 6],
+    },
+}
+
+impl Poses {
+    /// Number of poses.
+    pub fn count(&self) -> u64 {
+        match self {
+            Self::Listed(poses) => poses.len() as u64,
+            Self::Drawn { count, .. } => *count,
+        }
+    }
+
+    /// The pose of an index, which must be below the count when poses are listed.
+    fn pose(&self, index: u64, rng: &mut Pcg64) -> Pose {
+        match self {
+            Self::Listed(poses) => {
+                usize::try_from(index).ok().and_then(|i| poses.get(i)).copied().unwrap_or_default()
+            }
+            Self::Drawn { half_mm_deg, .. } => pose_of(half_mm_deg.map(|half| within(half, rng))),
+        }
+    }
+}
+
+/// A quantity of the surroundings from row to row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Spread {
+    /// Always this.
+    Fixed(f64),
+    /// Evenly between two limits.
+    Even([f64; 2]),
+    /// Normal about zero with this standard deviation.
+    Normal(f64),
+}
+
+impl Spread {
+    fn draw(self, rng: &mut Pcg64) -> f64 {
+        match self {
+            Self::Fixed(value) => value,
+            Self::Even([low, high]) => rounded(rng.random_range(low..high)),
+            Self::Normal(sigma) => {
+                let x: f64 = StandardNormal.sample(rng);
+                rounded(sigma * x)
+            }
+        }
+    }
+}
+
+/// A plan before its rows are drawn. Every pose sees every load, every condition is read `repeats` times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scheme {
+    /// What is read.
+    pub measurand: Measurand,
+    /// Poses.
+    pub poses: Poses,
+    /// Wrenches in the loaded state.
+    pub loads: Vec<Wrench>,
+    /// Wrench in the reference state.
+    pub reference: Wrench,
+    /// Readings of each condition.
+    pub repeats: u64,
+    /// Ways to approach the load, one of which is drawn for each condition.
+    pub approaches: Vec<f64>,
+    /// Change of temperature, K.
+    pub delta_t: Spread,
+    /// Waiting time, s.
+    pub elapsed: Spread,
+    /// True when every repeat has surroundings of its own.
+    pub anew: bool,
+}
+
+impl Scheme {
+    /// Number of rows.
+    pub fn rows(&self) -> u64 {
+        self.conditions() * self.repeats
+    }
+
+    /// Number of pairs of pose and load.
+    pub fn conditions(&self) -> u64 {
+        self.poses.count() * self.loads.len() as u64
+    }
+
+    /// The pose of an index.
+    pub fn pose(&self, index: u64, rng: &mut Pcg64) -> Pose {
+        self.poses.pose(index, rng)
+    }
+
+    /// A pose under a load, with approach and surroundings drawn.
+    pub fn situation(&self, pose: Pose, wrench: Wrench, rng: &mut Pcg64) -> Situation {
+        let approach = match *self.approaches.as_slice() {
+            [] => 1.0,
+            [only] => only,
+            // Two ways are decided as a coin is tossed.
+            [heads, tails] => [tails, heads][usize::from(rng.random_bool(0.5))],
+            ref many => pick(rng, many),
+        };
+        Situation {
+            reference: self.reference,
+            approach,
+            delta_t: self.delta_t.draw(rng),
+            elapsed: self.elapsed.draw(rng),
+            ..Situation::new(pose, wrench)
+        }
+    }
+
+    /// All rows, drawn one after the other from one generator.
+    pub fn draw(&self, rng: &mut Pcg64) -> Vec<Row> {
+        let mut rows = Vec::new();
+        for (index, pose_id) in (0..self.poses.count()).zip(1..) {
+            let pose = self.pose(index, rng);
+            for &wrench in &self.loads {
+                self.condition(pose_id, pose, wrench, rng, &mut rows);
+            }
+        }
+        rows
+    }
+
+    fn condition(&self, pose_id: i64, pose: Pose, wrench: Wrench, rng: &mut Pcg64, rows: &mut Vec<Row>) {
+        let mut situation = self.situation(pose, wrench, rng);
+        for (repeat, _) in (1..).zip(0..self.repeats) {
+            if self.anew && repeat > 1 {
+                situation = self.situation(pose, wrench, rng);
+            }
+            rows.push(Row { pose_id, repeat, situation });
+        }
+    }
+}
+
+/// Half range of drawn poses: +-30 mm, +-15 mm along z and +-8 deg, for a machine of the paper's size.
+pub fn usual_half_range_mm_deg(hexapod: &Hexapod) -> [f64; 6] {
+    const PAPER_SIZE_M: f64 = 0.1;
+    let height = -hexapod.base_centre().z;
+    let size = (hexapod.platform_radius().min(0.8 * height) / PAPER_SIZE_M).clamp(0.4, 3.0);
+    let travel = 30.0 * if (0.7..1.3).contains(&size) { 1.0 } else { size };
+    [travel, travel, 0.5 * travel, 8.0, 8.0, 8.0]
+}
+
+/// A pose from mm and deg.
+pub(crate) fn pose_of(mm_deg: [f64; 6]) -> Pose {
+    let [a, b, c, x, y, z] = mm_deg;
+    let [x, y, z] = [x, y, z].map(f64::to_radians);
+    Pose::from_array([a * 1e-3, b * 1e-3, c * 1e-3, x, y, z])
+}
+
+fn within(half: f64, rng: &mut Pcg64) -> f64 {
+    if half > 0.0 { rounded(rng.random_range(-half..half)) } else { 0.0 }
+}

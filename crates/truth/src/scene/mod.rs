@@ -1,0 +1,99 @@
+//! A scene: a machine, its hidden imperfections, a plan and an instrument, read from a folder.
+//!
+//! ```text
+//! scene.toml           what it shows, where its numbers come from, seed, plan, instrument
+//! hexapod.toml         the machine as its drawings describe it
+//! sealed/truth.toml    true leg springs and hidden effects
+//! ```
+//!
+//! Every row of a scene has random streams of its own, made from the seed and the number of the row: rows can be asked for
+//! in any order and on any number of threads.
+
+mod instrument;
+mod part;
+mod plan;
+mod plan_table;
+mod read;
+mod sealed;
+mod streams;
+
+pub use instrument::Instrument;
+pub use part::{Part, PartName};
+pub use plan::{PlanError, ScenePlan};
+pub use streams::{Purpose, Streams};
+
+use hexbench_core::{Hexapod, Measurand};
+
+use crate::{Mechanism, World, campaign::Plan, metrology::Frames};
+
+/// A scene as read from its folder. SI units.
+#[derive(Debug)]
+pub struct Scene {
+    /// Name of its folder.
+    pub name: String,
+    /// One line.
+    pub title: String,
+    /// What it shows.
+    pub shows: String,
+    /// Where its numbers come from.
+    pub source: String,
+    /// Decides all that is drawn.
+    pub seed: u64,
+    /// Nominal machine; its metrology is what the instrument states.
+    pub hexapod: Hexapod,
+    /// What is done to it.
+    pub plan: ScenePlan,
+    /// What it is measured with.
+    pub instrument: Instrument,
+    /// True stiffness of each leg, N/m.
+    pub leg_stiffness: [f64; 6],
+    /// Hidden effects.
+    pub mechanisms: Vec<Box<dyn Mechanism>>,
+}
+
+impl Scene {
+    /// The machine with its hidden effects.
+    pub fn world(&self) -> World {
+        let mut world = World::new(self.hexapod.clone(), &self.leg_stiffness);
+        world.mechanisms = self.mechanisms.iter().map(|m| m.scaled(1.0)).collect();
+        world
+    }
+
+    /// Ids of the hidden effects; those outside the catalogue begin with `out:`.
+    pub fn hidden_effects(&self) -> Vec<&'static str> {
+        self.mechanisms.iter().map(|m| m.id()).collect()
+    }
+
+    /// What is read.
+    pub fn measurand(&self) -> Measurand {
+        self.plan.measurand()
+    }
+
+    /// The random streams of the seed.
+    pub fn streams(&self) -> Streams {
+        Streams::new(self.seed)
+    }
+
+    /// A part of the plan, whose rows can be asked for one by one.
+    pub fn part(&self, name: PartName) -> Part<'_> {
+        self.plan.part(name, self.streams())
+    }
+
+    /// All rows of both parts.
+    pub fn plan(&self) -> Plan {
+        let rows = |name| self.part(name).iter().collect();
+        Plan {
+            measurand: self.measurand(),
+            training: rows(PartName::Training),
+            holdout: rows(PartName::Holdout),
+        }
+    }
+
+    /// Frames of the instrument: drawn in absolute mode, none in deflections.
+    pub fn frames(&self) -> Frames {
+        match self.measurand() {
+            Measurand::AbsolutePose => Frames::aligned(&mut self.streams().of(Purpose::Frames, 0)),
+            _ => Frames::default(),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! The rows of a part of a plan, each from its number alone.
+
+use super::{Purpose, Streams};
+use crate::campaign::{Row, Scheme};
+
+/// Which part of a plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PartName {
+    /// Rows to learn from.
+    Training,
+    /// Rows to judge by.
+    Holdout,
+}
+
+/// Where the rows of a part come from.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Source<'a> {
+    Scheme(&'a Scheme),
+    Rows { rows: &'a [Row], repeats: u64 },
+}
+
+/// A part of a plan.
+#[derive(Debug, Clone, Copy)]
+pub struct Part<'a> {
+    pub(super) name: PartName,
+    pub(super) source: Source<'a>,
+    pub(super) streams: Streams,
+}
+
+impl Part<'_> {
+    /// Which part it is.
+    pub fn name(&self) -> PartName {
+        self.name
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> u64 {
+        match self.source {
+            Source::Scheme(scheme) => scheme.rows(),
+            Source::Rows { rows, repeats } => rows.len() as u64 * repeats,
+        }
+    }
+
+    /// True when there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of different poses.
+    pub fn poses(&self) -> u64 {
+        match self.source {
+            Source::Scheme(scheme) => scheme.poses.count(),
+            Source::Rows { rows, .. } => {
+                let mut ids: Vec<i64> = rows.iter().map(|row| row.pose_id).collect();
+                ids.sort_unstable();
+                ids.dedup();
+                ids.len() as u64
+            }
+        }
+    }
+
+    /// All rows in order.
+    pub fn iter(&self) -> impl Iterator<Item = Row> {
+        (0..self.len()).filter_map(|index| self.row(index))
+    }
+
+    /// The row of an index; none beyond the last.
+    pub fn row(&self, index: u64) -> Option<Row> {
+        match self.source {
+            Source::Scheme(scheme) => (index < scheme.rows()).then(|| self.drawn(scheme, index)),
+            Source::Rows { rows, repeats } => {
+                let row = rows.get(usize::try_from(index / repeats).ok()?)?;
+                let again = i64::try_from(index % repeats).ok()?;
+                Some(Row { repeat: if repeats == 1 { row.repeat } else { again + 1 }, ..*row })
+            }
+        }
+    }
+
+    fn drawn(&self, scheme: &Scheme, index: u64) -> Row {
+        let loads = scheme.loads.len() as u64;
+        let (condition, repeat) = (index / scheme.repeats, index % scheme.repeats);
+        let (pose_index, load) = (condition / loads, condition % loads);
+        let pose = scheme.pose(pose_index, &mut self.streams.of(Purpose::Pose(self.name), pose_index));
+        let surroundings = Purpose::Surroundings(self.name);
+        let mut rng = self.streams.of(surroundings, if scheme.anew { index } else { condition });
+        let wrench =
+            usize::try_from(load).ok().and_then(|i| scheme.loads.get(i)).copied().unwrap_or_default();
+        let situation = scheme.situation(pose, wrench, &mut rng);
+        let from_one = |n: u64| i64::try_from(n).unwrap_or(i64::MAX - 1) + 1;
+        Row { pose_id: from_one(pose_index), repeat: from_one(repeat), situation }
+    }
+}

@@ -1,0 +1,291 @@
+//! Reading `[plan]`.
+
+use std::path::Path;
+
+use hexbench_core::{
+    Dataset, Hexapod, Measurand, Pose, Wrench,
+    files::{Fault, FileError, Item, Key, Kind, Place, Problem, Section, nearest, read_conditions},
+};
+
+use super::{Purpose, ScenePlan, Streams};
+use crate::{
+    Situation,
+    campaign::{PlanKind, Poses, Row, Scheme, Schemes, Spread, pose_of, usual_half_range_mm_deg},
+};
+
+const KEYS: &[Key] = &[
+    Key::plain("make"),
+    Key::plain("mode"),
+    Key::plain("conditions"),
+    Key::plain("holdout_conditions"),
+    Key::plain("poses"),
+    Key::plain("holdout_poses"),
+    Key::plain("poses_mm_deg"),
+    Key::plain("holdout_poses_mm_deg"),
+    Key::with_unit("travel", Kind::Length, "mm"),
+    Key::with_unit("turn", Kind::Angle, "deg"),
+    Key::plain("loads_N_Nm"),
+    Key::plain("reference_N_Nm"),
+    Key::plain("repeats"),
+    Key::plain("holdout_repeats"),
+    Key::plain("approach"),
+    Key::with_unit("delta_T", Kind::TemperatureDifference, "K"),
+    Key::with_unit("elapsed", Kind::Time, "s"),
+];
+/// Keys that make sense beside a table of conditions.
+const BESIDE_CONDITIONS: [&str; 4] = ["mode", "conditions", "holdout_conditions", "repeats"];
+
+/// `[plan]` before the machine is known.
+#[derive(Debug, Default)]
+pub(super) struct PlanTable {
+    make: Option<PlanKind>,
+    absolute: Option<bool>,
+    conditions: Option<[Option<String>; 2]>,
+    poses: [Option<Poses>; 2],
+    travel: Option<[f64; 3]>,
+    turn: Option<[f64; 3]>,
+    loads: Option<Vec<Wrench>>,
+    reference: Option<Wrench>,
+    repeats: [Option<u64>; 2],
+    approaches: Option<Vec<f64>>,
+    delta_t: Option<Spread>,
+    elapsed: Option<Spread>,
+}
+
+impl PlanTable {
+    /// Reads `[plan]`.
+    pub(super) fn read(top: &Section<'_>) -> Result<Self, Fault> {
+        let item = top.require("plan")?;
+        let t = item.section("[plan]", KEYS)?;
+        let table = Self {
+            make: t.get("make").map(make).transpose()?,
+            absolute: t.get("mode").map(mode).transpose()?,
+            conditions: conditions(&t)?,
+            poses: [poses(&t, "poses", "poses_mm_deg")?, poses(&t, "holdout_poses", "holdout_poses_mm_deg")?],
+            travel: t.get("travel").map(half_ranges).transpose()?,
+            turn: t.get("turn").map(half_ranges).transpose()?,
+            loads: t.get("loads_N_Nm").map(wrenches).transpose()?,
+            reference: t.get("reference_N_Nm").map(wrench).transpose()?,
+            repeats: [count(&t, "repeats", 1)?, count(&t, "holdout_repeats", 1)?],
+            approaches: t.get("approach").map(approaches).transpose()?,
+            delta_t: t.get("delta_T").map(spread).transpose()?,
+            elapsed: t.get("elapsed").map(spread).transpose()?,
+        };
+        table.refuse_halves(item, &t)?;
+        Ok(table)
+    }
+
+    /// A plan is a make, a table of conditions, or loads with poses.
+    fn refuse_halves(&self, item: &Item<'_>, table: &Section<'_>) -> Result<(), Fault> {
+        if self.conditions.is_some() {
+            let stray = KEYS
+                .iter()
+                .map(Key::name)
+                .find(|key| table.get(key).is_some() && !BESIDE_CONDITIONS.contains(key));
+            return stray.and_then(|key| table.get(key)).map_or(Ok(()), |stray| {
+                Err(rule(stray, "rows of a table of conditions are taken as they are", "Remove this key."))
+            });
+        }
+        if self.make.is_some() || (self.loads.is_some() && self.poses[0].is_some()) {
+            return Ok(());
+        }
+        let makes = PlanKind::ALL.map(PlanKind::name).join(", ");
+        Err(rule(
+            item,
+            "a plan needs a make, or a table of conditions, or poses and loads",
+            &format!("Add make (one of {makes}), or conditions = \"FILE\", or poses and loads_N_Nm."),
+        ))
+    }
+
+    /// The plan for a machine.
+    pub(super) fn complete(
+        self,
+        folder: &Path,
+        file: &Path,
+        hexapod: &Hexapod,
+        streams: Streams,
+    ) -> Result<ScenePlan, FileError> {
+        let plan = match &self.conditions {
+            Some(files) => self.rows(folder, files)?,
+            None => ScenePlan::Schemes(Box::new(self.schemes(hexapod, streams))),
+        };
+        plan.checked().map_err(|wrong| {
+            let problem =
+                Problem::Rule { rule: wrong.to_string(), next: "Change poses, loads or repeats.".into() };
+            Fault::new(Place::file().with_name("[plan]"), problem).in_file(file)
+        })
+    }
+
+    fn rows(&self, folder: &Path, files: &[Option<String>; 2]) -> Result<ScenePlan, FileError> {
+        let read = |file: &Option<String>| match file {
+            Some(name) => read_conditions(&folder.join(name)).map(|reading| rows_of(&reading.dataset)),
+            None => Ok(Vec::new()),
+        };
+        Ok(ScenePlan::Rows {
+            measurand: self.measurand().unwrap_or(Measurand::DeflectionEuler),
+            training: read(&files[0])?,
+            holdout: read(&files[1])?,
+            repeats: self.repeats[0].unwrap_or(1),
+        })
+    }
+
+    fn measurand(&self) -> Option<Measurand> {
+        self.absolute.map(|yes| if yes { Measurand::AbsolutePose } else { Measurand::DeflectionEuler })
+    }
+
+    fn schemes(self, hexapod: &Hexapod, streams: Streams) -> Schemes {
+        let base = match self.make {
+            Some(make) => make.schemes(hexapod, &mut streams.of(Purpose::Loads, 0)),
+            None => plain(),
+        };
+        let measurand = self.measurand().unwrap_or(base.training.measurand);
+        let half = self.half_ranges(hexapod);
+        let [training_poses, holdout_poses] = self.poses;
+        let [repeats, holdout_repeats] = self.repeats;
+        let part = |base: Scheme, poses: Option<Poses>, repeats: Option<u64>| Scheme {
+            measurand,
+            poses: with_half_range(poses.unwrap_or(base.poses), half),
+            loads: self.loads.clone().unwrap_or(base.loads),
+            reference: self.reference.unwrap_or(base.reference),
+            repeats: repeats.unwrap_or(base.repeats),
+            approaches: self.approaches.clone().unwrap_or(base.approaches),
+            delta_t: self.delta_t.unwrap_or(base.delta_t),
+            elapsed: self.elapsed.unwrap_or(base.elapsed),
+            anew: base.anew,
+        };
+        Schemes {
+            training: part(base.training, training_poses, repeats),
+            holdout: part(base.holdout, holdout_poses, holdout_repeats),
+        }
+    }
+
+    fn half_ranges(&self, hexapod: &Hexapod) -> [f64; 6] {
+        let mut half = usual_half_range_mm_deg(hexapod);
+        for k in 0..3 {
+            half[k] = self.travel.map_or(half[k], |travel| travel[k] * 1e3);
+            half[k + 3] = self.turn.map_or(half[k + 3], |turn| turn[k].to_degrees());
+        }
+        half
+    }
+}
+
+/// What a plan without a make has unless it says otherwise.
+fn plain() -> Schemes {
+    let part = Scheme {
+        measurand: Measurand::DeflectionEuler,
+        poses: Poses::Listed(Vec::new()),
+        loads: Vec::new(),
+        reference: Wrench::default(),
+        repeats: 1,
+        approaches: vec![1.0],
+        delta_t: Spread::Fixed(0.0),
+        elapsed: Spread::Fixed(0.0),
+        anew: false,
+    };
+    Schemes { training: part.clone(), holdout: part }
+}
+
+fn with_half_range(poses: Poses, half_mm_deg: [f64; 6]) -> Poses {
+    match poses {
+        Poses::Drawn { count, .. } => Poses::Drawn { count, half_mm_deg },
+        listed @ Poses::Listed(_) => listed,
+    }
+}
+
+fn rows_of(conditions: &Dataset) -> Vec<Row> {
+    let row = |o: &hexbench_core::Observation| Row {
+        pose_id: o.pose_id,
+        repeat: o.repeat,
+        situation: Situation {
+            pose: o.pose,
+            wrench: o.wrench,
+            reference: o.reference,
+            approach: o.approach,
+            delta_t: o.delta_t,
+            elapsed: o.elapsed,
+        },
+    };
+    conditions.observations.iter().map(row).collect()
+}
+
+fn rule(item: &Item<'_>, rule: &str, next: &str) -> Fault {
+    item.fault(Problem::Rule { rule: rule.into(), next: next.into() })
+}
+
+fn make(item: &Item<'_>) -> Result<PlanKind, Fault> {
+    let (word, names) = (item.string()?, PlanKind::ALL.map(PlanKind::name));
+    PlanKind::ALL.into_iter().find(|kind| kind.name() == word).ok_or_else(|| {
+        let next = match nearest(word, names.iter().copied()) {
+            Some(near) => format!("Write \"{near}\"."),
+            None => format!("Write one of {}.", names.join(", ")),
+        };
+        rule(item, "no make of plans has this name", &next)
+    })
+}
+
+fn mode(item: &Item<'_>) -> Result<bool, Fault> {
+    match item.string()? {
+        "absolute" => Ok(true),
+        "deflections" => Ok(false),
+        _ => Err(rule(item, "the mode is \"deflections\" or \"absolute\"", "Write one of the two.")),
+    }
+}
+
+fn conditions(table: &Section<'_>) -> Result<Option<[Option<String>; 2]>, Fault> {
+    let file = |key| table.get(key).map(|item| item.string().map(str::to_owned)).transpose();
+    Ok(match file("conditions")? {
+        Some(training) => Some([Some(training), file("holdout_conditions")?]),
+        None => None,
+    })
+}
+
+fn count(table: &Section<'_>, key: &str, least: u64) -> Result<Option<u64>, Fault> {
+    table.get(key).map(|item| item.whole(least)).transpose()
+}
+
+fn poses(table: &Section<'_>, number: &str, list: &str) -> Result<Option<Poses>, Fault> {
+    if let Some(item) = table.get(list) {
+        let six =
+            |pose: &Item<'_>| pose.numbers::<6>("six numbers [a, b, c, alpha, beta, gamma], mm and deg");
+        let listed = item.list()?;
+        let poses: Result<Vec<Pose>, Fault> = listed.iter().map(|pose| six(pose).map(pose_of)).collect();
+        return poses.map(|poses| Some(Poses::Listed(poses)));
+    }
+    let drawn = |count| Poses::Drawn { count, half_mm_deg: [0.0; 6] };
+    Ok(count(table, number, 0)?.map(drawn))
+}
+
+fn half_ranges(item: &Item<'_>) -> Result<[f64; 3], Fault> {
+    let half = item.numbers::<3>("three half ranges")?;
+    if half.iter().all(|x| *x >= 0.0) {
+        return Ok(half);
+    }
+    Err(rule(item, "half ranges are not negative", "Write how far poses go from zero on either side."))
+}
+
+fn wrenches(item: &Item<'_>) -> Result<Vec<Wrench>, Fault> {
+    item.list()?.iter().map(wrench).collect()
+}
+
+fn wrench(item: &Item<'_>) -> Result<Wrench, Fault> {
+    item.numbers::<6>("six numbers [fx, fy, fz, mx, my, mz], N and N m").map(Wrench::from_array)
+}
+
+fn approaches(item: &Item<'_>) -> Result<Vec<f64>, Fault> {
+    let one = |way: &Item<'_>| match way.number()? {
+        sign if sign.abs().total_cmp(&1.0).is_eq() => Ok(sign),
+        _ => Err(way.fault(Problem::Approach)),
+    };
+    item.list()?.iter().map(one).collect()
+}
+
+/// One number, or two limits.
+fn spread(item: &Item<'_>) -> Result<Spread, Fault> {
+    if !item.is_list() {
+        return item.number().map(Spread::Fixed);
+    }
+    match item.numbers::<2>("two limits [low, high]")? {
+        [low, high] if low < high => Ok(Spread::Even([low, high])),
+        _ => Err(rule(item, "the first limit is below the second", "Exchange them, or write one number.")),
+    }
+}

@@ -1,0 +1,93 @@
+//! Reading the folder of a scene.
+
+use std::path::Path;
+
+use hexbench_core::{
+    Hexapod,
+    files::{Fault, FileError, Format, Item, Key, Section, read_hexapod, read_toml},
+};
+
+use super::{Instrument, Scene, Streams, plan_table::PlanTable, sealed::read_truth};
+
+const SCENE: Format = Format {
+    name: "scene/1",
+    keys: &[
+        Key::plain("format"),
+        Key::plain("title"),
+        Key::plain("shows"),
+        Key::plain("source"),
+        Key::plain("seed"),
+        Key::plain("hexapod"),
+        Key::plain("truth"),
+        Key::plain("plan"),
+        Key::plain("instrument"),
+    ],
+};
+
+/// `scene.toml` before the files it names are read.
+struct Description {
+    title: String,
+    shows: String,
+    source: String,
+    seed: u64,
+    hexapod: String,
+    truth: String,
+    plan: PlanTable,
+    instrument: Instrument,
+}
+
+impl Scene {
+    /// Reads the scene in a folder.
+    ///
+    /// # Errors
+    /// The first thing that is wrong in `scene.toml` or in a file it names, with line, column, value and next step.
+    pub fn read(folder: &Path) -> Result<Self, FileError> {
+        Self::read_with_seed(folder, None)
+    }
+
+    /// The same with another seed than the scene's own.
+    ///
+    /// # Errors
+    /// As [`Scene::read`].
+    pub fn read_with_seed(folder: &Path, seed: Option<u64>) -> Result<Self, FileError> {
+        let file = folder.join("scene.toml");
+        let d = read_toml(&file, SCENE, description)?;
+        let hexapod = read_hexapod(&folder.join(&d.hexapod))?;
+        let sealed = read_truth(&folder.join(&d.truth))?;
+        let seed = seed.unwrap_or(d.seed);
+        let plan = d.plan.complete(folder, &file, &hexapod, Streams::new(seed))?;
+        let hexapod = Hexapod { metrology: Some(d.instrument.metrology()), ..hexapod };
+        Ok(Self {
+            name: name_of(folder),
+            title: d.title,
+            shows: d.shows,
+            source: d.source,
+            seed,
+            hexapod,
+            plan,
+            instrument: d.instrument,
+            leg_stiffness: sealed.leg_stiffness,
+            mechanisms: sealed.mechanisms,
+        })
+    }
+}
+
+fn description(top: &Section<'_>) -> Result<Description, Fault> {
+    let text = |key: &str| top.require(key)?.string().map(str::to_owned);
+    let file = |key: &str, usual: &str| top.get(key).map_or(Ok(usual), Item::string).map(str::to_owned);
+    Ok(Description {
+        title: text("title")?,
+        shows: text("shows")?,
+        source: text("source")?,
+        seed: top.require("seed")?.whole(0)?,
+        hexapod: file("hexapod", "hexapod.toml")?,
+        truth: file("truth", "sealed/truth.toml")?,
+        plan: PlanTable::read(top)?,
+        instrument: Instrument::read(top)?,
+    })
+}
+
+fn name_of(folder: &Path) -> String {
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned())
+}

@@ -1,0 +1,72 @@
+//! Reading the sealed truth of a scene.
+
+use std::path::Path;
+
+use hexbench_core::files::{Fault, FileError, Format, Item, Key, Kind, Problem, Section, read_toml};
+use serde_json::{Map, Value};
+
+use crate::{Mechanism, mechanisms};
+
+const TRUTH: Format = Format {
+    name: "truth/1",
+    keys: &[
+        Key::plain("format"),
+        Key::with_unit("leg_stiffness", Kind::Stiffness, "N_per_um"),
+        Key::plain("effect"),
+    ],
+};
+
+/// What the drawings do not say.
+#[derive(Debug)]
+pub(super) struct Sealed {
+    pub(super) leg_stiffness: [f64; 6],
+    pub(super) mechanisms: Vec<Box<dyn Mechanism>>,
+}
+
+/// Reads a file of the format `truth/1`.
+pub(super) fn read_truth(path: &Path) -> Result<Sealed, FileError> {
+    read_toml(path, TRUTH, |top| {
+        Ok(Sealed {
+            leg_stiffness: stiffness(top)?,
+            mechanisms: match top.get("effect") {
+                Some(effects) => effects.list()?.iter().map(effect).collect::<Result<_, _>>()?,
+                None => Vec::new(),
+            },
+        })
+    })
+}
+
+fn stiffness(top: &Section<'_>) -> Result<[f64; 6], Fault> {
+    let mut stiffness = [0.0; 6];
+    for (k, item) in stiffness.iter_mut().zip(top.require("leg_stiffness")?.exactly::<6>("six stiffnesses")?)
+    {
+        *k = item.positive("a stiffness")?;
+    }
+    Ok(stiffness)
+}
+
+fn effect(item: &Item<'_>) -> Result<Box<dyn Mechanism>, Fault> {
+    let entries = item.entries()?;
+    let (ids, parameters): (Vec<_>, Vec<_>) = entries.iter().partition(|entry| entry.key() == "id");
+    let Some(id) = ids.first() else {
+        return Err(item.fault(Problem::MissingKey { key: "id".into() }));
+    };
+    let values = parameters.iter().map(|p| Ok((p.key().to_owned(), json(p)?)));
+    let parameters = values.collect::<Result<Map<_, _>, Fault>>()?;
+    mechanisms::build(id.string()?, Value::Object(parameters)).map_err(|wrong| {
+        id.fault(Problem::Rule {
+            rule: wrong.to_string(),
+            next: "docs/file-formats.md lists the effects with their parameters.".into(),
+        })
+    })
+}
+
+fn json(item: &Item<'_>) -> Result<Value, Fault> {
+    if item.is_list() {
+        return Ok(Value::Array(item.list()?.iter().map(json).collect::<Result<_, _>>()?));
+    }
+    if item.is_integer() {
+        return Ok(item.whole(0).map(Value::from).unwrap_or(Value::from(item.number()?)));
+    }
+    item.number().map(Value::from)
+}
