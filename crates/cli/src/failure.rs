@@ -143,7 +143,9 @@ impl Failure {
             Self::World { cause: TruthError::Inexpressible { .. }, .. } => {
                 Some("Leave this effect out of sealed/truth.toml for this purpose.".into())
             }
-            Self::World { .. } => Some("Check the pose, the load and the hidden effects of the scene.".into()),
+            Self::World { .. } => {
+                Some("Check the pose, the load and the hidden effects of the scene.".into())
+            }
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
         }

@@ -6,11 +6,11 @@ use super::{
     element::Element,
     leg::LegStyle,
     load::LoadPart,
-    part::{GRAVITY_M_PER_S2, Parts},
+    part::{GRAVITY_M_PER_S2, LegPart, Parts},
     scenery::Looks,
     yielding,
 };
-use crate::{Situation, TruthError, World};
+use crate::{Situation, TruthError, World, setup::Cable};
 
 /// Mass of platform and base, kg: they set how fast rest comes, not where it is.
 const BODY_MASS_KG: f64 = 10.0;
@@ -62,7 +62,7 @@ impl Model<'_> {
             .child(self.worldbody(&looks, &style))
             .children(self.cables())
             .child(self.closures(&style))
-            .child(self.load.motors())
+            .child(LoadPart::motors())
             .child(self.sensors())
             .child(self.load.keyframe())
     }
@@ -122,7 +122,7 @@ impl Model<'_> {
             .numbers("euler", &[alpha, beta, gamma])
             .child(Element::new("freejoint").text("name", "held"))
             .child(looks.platform_disc(&centre))
-            .children(self.parts.legs.iter().map(|leg| leg.platform_site()));
+            .children(self.parts.legs.iter().map(LegPart::platform_site));
         let seen = self.load.mobile_sites().into_iter().chain(self.attachments());
         match &self.parts.plate {
             None => held.children(seen),
@@ -154,13 +154,13 @@ impl Model<'_> {
             sensor.text("objname", "mobile-origin")
         };
         Element::new("sensor")
-            .children(self.parts.legs.iter().flat_map(super::part::LegPart::sensors))
+            .children(self.parts.legs.iter().flat_map(LegPart::sensors))
             .child(place("framepos", "position"))
             .child(place("framequat", "orientation"))
     }
 
     fn anchors(&self) -> Vec<Element> {
-        let anchor = |(i, cable): (usize, &crate::setup::Cable)| {
+        let anchor = |(i, cable): (usize, &Cable)| {
             Element::new("site")
                 .text("name", format!("cable-{}-anchor", i + 1))
                 .numbers("pos", cable.anchor.as_slice())
@@ -169,7 +169,7 @@ impl Model<'_> {
     }
 
     fn attachments(&self) -> Vec<Element> {
-        let site = |(i, cable): (usize, &crate::setup::Cable)| {
+        let site = |(i, cable): (usize, &Cable)| {
             let site = Element::new("site").text("name", format!("cable-{}-end", i + 1));
             site.numbers("pos", cable.attachment.as_slice())
         };
@@ -177,7 +177,7 @@ impl Model<'_> {
     }
 
     fn cables(&self) -> Option<Element> {
-        let tendon = |(i, cable): (usize, &crate::setup::Cable)| {
+        let tendon = |(i, cable): (usize, &Cable)| {
             let site = |end: &str| Element::new("site").text("site", format!("cable-{}-{end}", i + 1));
             Element::new("spatial")
                 .text("name", format!("cable-{}", i + 1))

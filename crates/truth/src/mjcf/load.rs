@@ -71,7 +71,7 @@ impl LoadPart {
     }
 
     /// One motor for each component, in N and N m.
-    pub(super) fn motors(&self) -> Element {
+    pub(super) fn motors() -> Element {
         let motor = |(k, name): (usize, &&str)| {
             let (site, axes) = if k < 3 { ("load", "load-axes") } else { ("mobile-origin", "fixed-axes") };
             let mut gear = [0.0; 6];
