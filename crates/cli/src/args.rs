@@ -2,7 +2,9 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{compare, compensate, completions, demo, diagnose, export, fit, predict, terms};
+use crate::commands::{
+    compare, compensate, completions, demo, diagnose, export, fit, poses, predict, simulate, terms,
+};
 use crate::output::Colour;
 
 /// Compare a hexapod's stiffness model with measurements, name the physical effect it lacks, add it, and watch the
@@ -31,6 +33,8 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Demo(demo::Arguments),
+    Simulate(simulate::Arguments),
+    Poses(poses::Arguments),
     Compare(compare::Arguments),
     Diagnose(diagnose::Arguments),
     Fit(fit::Arguments),

@@ -8,8 +8,10 @@ use hexbench_core::files::FileError;
 use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
+use hexbench_model::registration::RegistrationError;
 use hexbench_model::user_term::UserTermError;
 use hexbench_truth::TruthError;
+use hexbench_truth::scene::SimulationError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
@@ -93,6 +95,17 @@ pub(crate) enum Failure {
         /// Why not.
         cause: io::Error,
     },
+    /// Balls that give no pose.
+    #[error("{}: {cause}", path.display())]
+    Balls {
+        /// The file of the balls.
+        path: PathBuf,
+        /// The record, and why.
+        cause: RegistrationError,
+    },
+    /// A scene that could not be simulated.
+    #[error("{0}")]
+    Simulation(SimulationError),
     /// Wrong usage that only shows after parsing.
     #[error("{message}")]
     Usage {
@@ -123,8 +136,15 @@ impl Failure {
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
-            Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
-            Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } | Self::World { .. } => Exit::BadInput,
+            Self::File(_)
+            | Self::ModelFile { .. }
+            | Self::Row { .. }
+            | Self::Balls { .. }
+            | Self::World { .. }
+            | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
+            Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } | Self::Simulation(_) => {
+                Exit::InputOutput
+            }
         }
     }
 
@@ -133,6 +153,9 @@ impl Failure {
         match self {
             Self::File(error) => Some(error.next_step()),
             Self::Model { cause, data } => Some(next_step_of(cause, data)),
+            Self::Simulation(SimulationError::Row(_)) => {
+                Some("Check the poses, loads and effects of the scene: this state does not exist.".into())
+            }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Check(_) => None,
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
@@ -146,14 +169,33 @@ impl Failure {
             Self::World { .. } => {
                 Some("Check the pose, the load and the hidden effects of the scene.".into())
             }
+            Self::Balls { cause: RegistrationError::MissingBall { .. }, .. } => {
+                Some("Touch every ball in every record, or take the ball out of the balls file.".into())
+            }
+            Self::Balls { .. } => Some("Use three balls or more that span a triangle.".into()),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
-            Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
+            Self::Output { .. } | Self::Simulation(_) => {
+                Some("Check the free space and that the folder may be written to.".into())
+            }
         }
     }
 
     /// Tell it on standard error.
     pub(crate) fn report(&self, colour: Colour) {
         report::print(self, colour);
+    }
+}
+
+impl From<SimulationError> for Failure {
+    fn from(error: SimulationError) -> Self {
+        match error {
+            SimulationError::File(file) => Self::File(file),
+            SimulationError::NotEmpty(_) => Self::Usage {
+                message: error.to_string(),
+                next: "Name another folder, or add --force to replace the files in it.".into(),
+            },
+            other => Self::Simulation(other),
+        }
     }
 }
 

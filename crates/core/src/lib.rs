@@ -7,12 +7,14 @@
 //! - A wrench `[F; M]` is applied *to the platform*, at the mobile origin, in fixed axes.
 //! - SI units inside (m, rad, N, N m, K, s); units appear in names only where a value crosses a border.
 
+pub mod balls;
 pub mod dataset;
 pub mod files;
 pub mod hexapod;
 pub mod pose;
 pub mod wrench;
 
+pub use balls::{BallPlace, BallPlaces, BallRecord};
 pub use dataset::{Columns, Dataset, Measurand, Observation};
 pub use hexapod::{Hexapod, Metrology};
 pub use pose::Pose;

@@ -32,6 +32,7 @@ pub mod pattern;
 mod period;
 pub mod power;
 pub mod predict;
+pub mod registration;
 pub mod residuals;
 mod scan;
 pub mod search;

@@ -10,6 +10,8 @@
 //! infinite `rho`; in general the Prandtl element of plasticity).
 //!
 //! Some of these are not functions of the force (play), others not of the elongation (a stuck slider), but all are monotone.
+//! A leg without force may rest anywhere within its play; the unloaded machine is taken to rest in the middle.
+//!
 //! A monotone law is a function of `z = f + k e` (Minty), with both `f(z)` and `e(z)` continuous and rising at most as
 //! fast as `z`; so `z` is the unknown of the equilibrium.
 
@@ -149,9 +151,10 @@ impl LegLaw {
         LawPoint::new(force, (z - force) / k, slope, k)
     }
 
-    /// Parameter `z = f + k e(f)` of the point with the given force (N).
+    /// Parameter `z = f + k e(f)` of the point with the given force (N); without force the middle of the play.
     pub fn parameter(&self, force: f64, k: f64, before: LegMemory) -> f64 {
-        force + k * (self.smooth(force, before).0 + 0.5 * self.gap * force.signum())
+        let side = if force == 0.0 { 0.0 } else { force.signum() };
+        force + k * (self.smooth(force, before).0 + 0.5 * self.gap * side)
     }
 
     /// Root of `f + k g(f) = target` between zero and `far`, where `g` is the law without play.

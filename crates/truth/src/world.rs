@@ -67,12 +67,22 @@ impl World {
     /// # Errors
     /// As [`World::reading`].
     pub fn deflection(&self, situation: &Situation) -> Result<Vector6, TruthError> {
+        let [before, loaded] = self.before_and_after(situation)?;
+        Ok(difference(&loaded, &before))
+    }
+
+    /// Poses that an ideal instrument reads in the reference state and in the loaded state, along the path of
+    /// [`World::deflection`].
+    ///
+    /// # Errors
+    /// As [`World::reading`].
+    pub fn before_and_after(&self, situation: &Situation) -> Result<[Pose; 2], TruthError> {
         let mut moment = self.moment(situation)?;
         let reference = self.state(&moment, situation.reference, &[LegMemory::default(); 6])?;
         let before = self.read(&moment, &reference);
         moment.reference_forces = reference.forces;
         let loaded = self.load(&mut moment, reference.memory)?;
-        Ok(difference(&loaded.pose, &before))
+        Ok([before, loaded.pose])
     }
 
     /// Pose that an ideal instrument reads under the load, reached from the unloaded machine.

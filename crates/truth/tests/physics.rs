@@ -366,3 +366,33 @@ fn newton_takes_few_steps() {
         assert!(steps <= most, "{id}: {steps}");
     }
 }
+
+/// Legs in the middle of their play: the platform is where it was commanded, and each leg gives half its play to either
+/// side.
+#[test]
+fn the_unloaded_machine_rests_in_the_middle_of_its_play() {
+    const GAP_M: f64 = 4e-6;
+    const ROUNDING_M: f64 = 1e-15;
+    let loose = ring().with(Box::new(LegBacklash { gap: GAP_M }));
+    let unloaded = loose.reading(&Situation::new(pose(), Wrench::default())).unwrap();
+    let off = (unloaded.pose.to_vector() - pose().to_vector()).amax();
+    assert!(off < ROUNDING_M, "{off} m or rad from the command");
+    let situation = Situation::new(pose(), wrench());
+    let [tight, loose] = [ring(), loose].map(|world| world.deflection(&situation).unwrap());
+    let forces = ring().reading(&situation).unwrap().equilibrium.forces;
+    let expected = forces.map(|f| 0.5 * GAP_M * f.signum());
+    let legs = leg_jacobian(&machines::RING_A.hexapod("ring_a"), &pose()) * twist(&(loose - tight));
+    for (leg, (found, expected)) in legs.iter().zip(expected).enumerate() {
+        // Second order: deflections of 1e-4 of the leg length turn the legs by as much.
+        assert!((found - expected).abs() < 1e-3 * GAP_M, "leg {}: {found} not {expected}", leg + 1);
+    }
+}
+
+/// Rotation vector instead of Euler differences, first order.
+fn twist(deflection: &Vector6) -> Vector6 {
+    let angles = pose().angles;
+    let ((sb, cb), (sg, cg)) = (angles.y.sin_cos(), angles.z.sin_cos());
+    let axes = Matrix3::new(cg * cb, -sg, 0.0, sg * cb, cg, 0.0, -sb, 0.0, 1.0);
+    let turn = axes * deflection.fixed_rows::<3>(3);
+    Vector6::new(deflection.x, deflection.y, deflection.z, turn.x, turn.y, turn.z)
+}

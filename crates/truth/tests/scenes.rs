@@ -7,7 +7,11 @@ use hexbench_core::{
     Measurand,
     files::{FileError, write_hexapod},
 };
-use hexbench_truth::{Scene, campaign::machines::RING_A, scene::PartName};
+use hexbench_truth::{
+    Scene,
+    campaign::machines::RING_A,
+    scene::{Bench, PartName},
+};
 
 const HEAD: &str = r#"
 format = "scene/1"
@@ -177,5 +181,51 @@ fn what_is_wrong_is_told_with_place_rule_and_next_step() {
         let error = complaint(plan, &truth);
         assert!(error.to_string().contains(message), "{error}");
         assert!(error.next_step().contains(next), "{error}: {}", error.next_step());
+    }
+}
+
+fn bundled() -> Vec<std::path::PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let entries = std::fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path());
+    let mut folders: Vec<_> = entries.filter(|path| path.is_dir()).collect();
+    folders.sort();
+    assert!(folders.len() >= 15, "{folders:?}");
+    folders
+}
+
+/// `HEXBENCH_BLESS=1` draws them anew.
+#[test]
+fn every_bundled_scene_has_its_picture_and_its_page() {
+    for folder in bundled() {
+        let picture = Scene::read(&folder).unwrap().picture();
+        let file = folder.join("picture.svg");
+        if std::env::var_os("HEXBENCH_BLESS").is_some() {
+            std::fs::write(&file, &picture).unwrap();
+        }
+        assert!(
+            std::fs::read_to_string(&file).is_ok_and(|kept| kept == picture),
+            "{} is stale",
+            file.display()
+        );
+        let page = std::fs::read_to_string(folder.join("README.md")).unwrap();
+        assert!(
+            page.contains("picture.svg") && page.contains("Source of the numbers"),
+            "{}",
+            folder.display()
+        );
+    }
+}
+
+#[test]
+fn every_bundled_scene_can_be_measured() {
+    for folder in bundled() {
+        let scene = Scene::read(&folder).unwrap();
+        let bench = Bench::new(&scene, false);
+        for part in [PartName::Training, PartName::Holdout] {
+            let rows = scene.part(part).len();
+            assert!(rows > 5, "{}: {rows} rows", folder.display());
+            let measured = bench.measure(part, 0..rows.min(40));
+            assert!(measured.is_ok(), "{}: {measured:?}", folder.display());
+        }
     }
 }

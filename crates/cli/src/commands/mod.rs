@@ -7,7 +7,9 @@ pub(crate) mod demo;
 pub(crate) mod diagnose;
 pub(crate) mod export;
 pub(crate) mod fit;
+pub(crate) mod poses;
 pub(crate) mod predict;
+pub(crate) mod simulate;
 pub(crate) mod terms;
 
 use crate::args::{Cli, Command};
@@ -19,6 +21,8 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
     let screen = Screen::stdout(cli.colour);
     match &cli.command {
         Command::Demo(arguments) => demo::run(arguments, &screen),
+        Command::Simulate(arguments) => simulate::run(arguments, &screen),
+        Command::Poses(arguments) => poses::run(arguments, &screen),
         Command::Compare(arguments) => compare::run(arguments, &screen),
         Command::Fit(arguments) => fit::run(arguments, &screen),
         Command::Predict(arguments) => predict::run(arguments, &screen),

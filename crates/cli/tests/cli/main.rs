@@ -6,6 +6,8 @@ mod documents;
 mod exits;
 mod json;
 mod pages;
+mod poses;
+mod scenes;
 mod score;
 mod separation;
 mod streams;

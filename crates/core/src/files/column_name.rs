@@ -42,7 +42,7 @@ fn is_private(lower: &str) -> bool {
 }
 
 /// `da [um]` into `da ` and `um`.
-fn without_brackets(text: &str) -> (&str, Option<&str>) {
+pub(crate) fn without_brackets(text: &str) -> (&str, Option<&str>) {
     let inside = |open: char, close: char| {
         let (base, rest) = text.split_once(open)?;
         Some((base, rest.strip_suffix(close)?))

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `measurements.csv` | [`read_measurements`] | [`write_measurements`] |
 //! | poses and loads to predict | [`read_conditions`] | - |
+//! | `balls.csv`, `balls.toml` | [`read_balls`], [`read_ball_places`] | - |
 //! | `hexapod.toml` | [`read_hexapod`] | [`hexapod_to_toml`], [`write_hexapod`] |
 //! | any other TOML | [`read_toml`] | - |
 //! | any other | [`content_hash`] | [`atomic_write`] |
@@ -26,6 +27,7 @@ mod next_step;
 mod number;
 mod place;
 mod problem;
+mod read_balls;
 mod read_conditions;
 mod read_hexapod;
 mod read_measurements;
@@ -44,6 +46,7 @@ pub use error::{Fault, FileError};
 pub use nearest::nearest;
 pub use place::Place;
 pub use problem::Problem;
+pub use read_balls::{read_ball_places, read_balls};
 pub use read_conditions::read_conditions;
 pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_measurements::{Reading, read_measurements, read_measurements_from};
@@ -52,4 +55,4 @@ pub use toml_value::{Item, Key, Section};
 pub use units::{Kind, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};
 pub use write_hexapod::{hexapod_to_toml, write_hexapod};
-pub use write_measurements::{measurements_to_csv, write_measurements};
+pub use write_measurements::{MeasurementsWriter, measurements_to_csv, write_measurements};

@@ -7,7 +7,7 @@ use super::columns::{
 use super::header::measured_groups;
 use super::units::{PLAIN, Unit, unit_named};
 use super::{FileError, atomic_write};
-use crate::{Dataset, Observation};
+use crate::{Columns, Dataset, Measurand, Observation};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -29,30 +29,57 @@ pub fn write_measurements(path: &Path, dataset: &Dataset) -> Result<(), FileErro
 /// # Errors
 /// As [`write_measurements`].
 pub fn measurements_to_csv(out: &mut dyn Write, dataset: &Dataset) -> io::Result<()> {
-    let columns: Vec<Written> = COLUMNS.iter().filter_map(|column| Written::of(column, dataset)).collect();
-    let names: Vec<String> = columns.iter().map(|written| written.column.usual_name()).collect();
-    writeln!(out, "{}", names.join(","))?;
-    for observation in &dataset.observations {
-        write_row(out, &columns, &row_of(observation), observation)?;
+    let writer = MeasurementsWriter::new(dataset.measurand, dataset.columns);
+    writer.header(out)?;
+    writer.rows(out, &dataset.observations)
+}
+
+/// Writes a table part by part, for tables that do not fit into memory.
+#[derive(Debug)]
+pub struct MeasurementsWriter {
+    columns: Vec<Written>,
+}
+
+impl MeasurementsWriter {
+    /// A table of this kind with these optional columns.
+    pub fn new(measurand: Measurand, columns: Columns) -> Self {
+        let written = COLUMNS.iter().filter_map(|column| Written::of(column, measurand, columns));
+        Self { columns: written.collect() }
     }
-    Ok(())
+
+    /// The line with the names of the columns.
+    ///
+    /// # Errors
+    /// What the destination reports.
+    pub fn header(&self, out: &mut dyn Write) -> io::Result<()> {
+        let names: Vec<String> = self.columns.iter().map(|written| written.column.usual_name()).collect();
+        writeln!(out, "{}", names.join(","))
+    }
+
+    /// Some rows, which go below those written before.
+    ///
+    /// # Errors
+    /// As [`write_measurements`].
+    pub fn rows(&self, out: &mut dyn Write, rows: &[Observation]) -> io::Result<()> {
+        rows.iter().try_for_each(|row| write_row(out, &self.columns, &row_of(row), row))
+    }
 }
 
 /// A column with its unit.
+#[derive(Debug)]
 struct Written {
     column: &'static Column,
     unit: &'static Unit,
 }
 
 impl Written {
-    fn of(column: &'static Column, dataset: &Dataset) -> Option<Self> {
+    fn of(column: &'static Column, measurand: Measurand, has: Columns) -> Option<Self> {
         let unit = unit_named(column.usual_unit(), column.kind).unwrap_or(&PLAIN);
-        is_written(column, dataset).then_some(Self { column, unit })
+        is_written(column, measurand, has).then_some(Self { column, unit })
     }
 }
 
-fn is_written(column: &Column, dataset: &Dataset) -> bool {
-    let has = dataset.columns;
+fn is_written(column: &Column, measurand: Measurand, has: Columns) -> bool {
     match column.group {
         Group::Number | Group::Pose | Group::Wrench => true,
         Group::Reference => has.reference,
@@ -62,7 +89,7 @@ fn is_written(column: &Column, dataset: &Dataset) -> bool {
             DELTA_T => has.delta_t,
             _ => has.elapsed,
         },
-        measured => measured_groups(dataset.measurand).contains(&measured),
+        measured => measured_groups(measurand).contains(&measured),
     }
 }
 

@@ -25,7 +25,7 @@ fn pick<T: Copy>(rng: &mut Pcg64, choices: &[T]) -> T {
 }
 
 /// A value with as many decimals as the files carry, so that what is written is what was simulated.
-fn rounded(value: f64) -> f64 {
+pub(crate) fn rounded(value: f64) -> f64 {
     const DECIMALS: f64 = 1e6;
     (value * DECIMALS).round() / DECIMALS
 }

@@ -1,6 +1,7 @@
 //! Play in the legs: `leg-backlash`.
 //!
 //! A loose nut or bearing: between pushing and pulling the leg crosses a gap in which it carries nothing.
+//! A leg without force rests in the middle of its play: that is where the unloaded machine starts.
 
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;

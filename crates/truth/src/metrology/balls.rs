@@ -4,8 +4,8 @@
 //! (B. K. P. Horn, J. Opt. Soc. Am. A 4 (1987) 629): it is a rotation even for three balls, which are always coplanar, where the
 //! singular value method returns a reflection about half the time.
 
-use hexbench_core::{Pose, Vector3};
-use nalgebra::{Matrix4, Quaternion, SymmetricEigen, UnitQuaternion};
+use hexbench_core::{Matrix6, Pose, Vector3};
+use nalgebra::{Matrix3x6, Matrix4, Quaternion, SymmetricEigen, UnitQuaternion};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
@@ -64,6 +64,26 @@ impl Balls {
         let sum: f64 = self.centres.iter().zip(measured).map(miss).sum();
         let pose = Pose::from_rotation(translation, rotation.to_rotation_matrix().matrix());
         Ok(Registration { pose, rms: (sum / measured.len() as f64).sqrt() })
+    }
+
+    /// First-order covariance of a pose found from these balls: translation, and rotation as a vector in fixed axes.
+    ///
+    /// `sigma^2 (sum J_i' J_i)^-1` with `J_i = [I, -[R c_i]]`, the motion of ball i per motion of the platform.
+    ///
+    /// # Errors
+    /// [`TruthError::Balls`] for balls that do not determine a pose.
+    pub fn covariance(&self, pose: &Pose) -> Result<Matrix6, TruthError> {
+        let r = pose.rotation();
+        let mut normal = Matrix6::zeros();
+        for centre in &self.centres {
+            let mut motion = Matrix3x6::zeros();
+            motion.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
+            motion.fixed_view_mut::<3, 3>(0, 3).copy_from(&-(r * centre).cross_matrix());
+            normal += motion.tr_mul(&motion);
+        }
+        let found = self.centres.len();
+        let inverse = normal.cholesky().ok_or(TruthError::Balls { found, expected: found.max(3) })?.inverse();
+        Ok(inverse * (self.sigma * self.sigma))
     }
 
     /// Eigenvector of Horn's matrix that belongs to its largest eigenvalue.

@@ -9,20 +9,27 @@
 //! Every row of a scene has random streams of its own, made from the seed and the number of the row: rows can be asked for
 //! in any order and on any number of threads.
 
+mod balls_file;
+mod bench;
+mod folder;
 mod instrument;
 mod part;
+mod picture;
 mod plan;
 mod plan_table;
 mod read;
 mod sealed;
+mod sealed_truth;
 mod streams;
 
+pub use bench::{Bench, Measured, RowError};
+pub use folder::{Existing, SimulationError};
 pub use instrument::Instrument;
 pub use part::{Part, PartName};
 pub use plan::{PlanError, ScenePlan};
 pub use streams::{Purpose, Streams};
 
-use hexbench_core::{Hexapod, Measurand};
+use hexbench_core::{Hexapod, Measurand, Pose};
 
 use crate::{Mechanism, World, campaign::Plan, metrology::Frames};
 
@@ -89,11 +96,14 @@ impl Scene {
         }
     }
 
-    /// Frames of the instrument: drawn in absolute mode, none in deflections.
+    /// Frames of the instrument: that of the measuring machine is never quite that of the hexapod; that of the target
+    /// matters for absolute poses only.
     pub fn frames(&self) -> Frames {
-        match self.measurand() {
-            Measurand::AbsolutePose => Frames::aligned(&mut self.streams().of(Purpose::Frames, 0)),
-            _ => Frames::default(),
+        let drawn = Frames::aligned(&mut self.streams().of(Purpose::Frames, 0));
+        match (self.measurand(), &self.instrument) {
+            (Measurand::AbsolutePose, _) => drawn,
+            (_, Instrument::Balls(_)) => Frames { target: Pose::default(), ..drawn },
+            (_, Instrument::Numbers(_)) => Frames::default(),
         }
     }
 }

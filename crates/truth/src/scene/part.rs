@@ -12,6 +12,24 @@ pub enum PartName {
     Holdout,
 }
 
+impl PartName {
+    /// In messages.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Training => "training",
+            Self::Holdout => "holdout",
+        }
+    }
+
+    /// Name of its table.
+    pub fn file(self) -> &'static str {
+        match self {
+            Self::Training => "measurements.csv",
+            Self::Holdout => "holdout.csv",
+        }
+    }
+}
+
 /// Where the rows of a part come from.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Source<'a> {

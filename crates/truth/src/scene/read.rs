@@ -56,7 +56,8 @@ impl Scene {
         let sealed = read_truth(&folder.join(&d.truth))?;
         let seed = seed.unwrap_or(d.seed);
         let plan = d.plan.complete(folder, &file, &hexapod, Streams::new(seed))?;
-        let hexapod = Hexapod { metrology: Some(d.instrument.metrology()), ..hexapod };
+        // Balls that determine no pose are refused while reading: only other instruments state nothing here.
+        let hexapod = Hexapod { metrology: d.instrument.metrology(plan.measurand()).ok(), ..hexapod };
         Ok(Self {
             name: name_of(folder),
             title: d.title,

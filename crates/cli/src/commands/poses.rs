@@ -1,0 +1,138 @@
+//! `hexbench poses BALLS.csv --balls balls.toml`.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::{ArgGroup, Args};
+use hexbench_core::BallRecord;
+use hexbench_core::files::{nearest, read_ball_places, read_balls};
+use hexbench_model::registration::{Located, Places, Registered, register_all};
+
+use crate::csv::{self, Unit};
+use crate::failure::Failure;
+use crate::output::number::significant;
+use crate::output::{Screen, report};
+use crate::page::located;
+
+/// Find poses, with their uncertainty, from balls that a measuring machine touched
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("places").required(true))]
+pub(crate) struct Arguments {
+    /// Ball centres: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`
+    data: PathBuf,
+    /// Where the balls should be (format balls/1): absolute poses
+    #[arg(long, value_name = "FILE", group = "places")]
+    balls: Option<PathBuf>,
+    /// Poses relative to this record, about the centre of its balls
+    #[arg(long, value_name = "RECORD", group = "places")]
+    relative_to: Option<String>,
+    /// Standard deviation of one coordinate in um, instead of that of the balls file or of the residuals
+    #[arg(long, value_name = "UM")]
+    sigma_um: Option<f64>,
+    /// Write the table of poses to FILE instead of standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: PathBuf,
+}
+
+/// Names of the six numbers.
+const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
+/// Most warnings told one by one.
+const MOST_TOLD: usize = 5;
+
+/// Register every record.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let records = read_balls(&arguments.data)?;
+    let (places, stated) = places(arguments, &records)?;
+    let sigma = given_sigma(arguments)?.or(stated);
+    let found = register_all(&records, &places, sigma)
+        .map_err(|cause| Failure::Balls { path: arguments.data.clone(), cause })?;
+    warn(&arguments.data, &found);
+    screen.write_to(&arguments.output, &table(&found))?;
+    if arguments.output == Path::new("-") {
+        return Ok(());
+    }
+    let told = located::Told { found: &found, places: &places, stated: sigma, output: &arguments.output };
+    screen.write(&located::page(&told, screen.ink()))
+}
+
+fn given_sigma(arguments: &Arguments) -> Result<Option<f64>, Failure> {
+    match arguments.sigma_um {
+        Some(sigma) if !(sigma.is_finite() && sigma > 0.0) => Err(Failure::Usage {
+            message: format!("--sigma-um {sigma}: a standard deviation is positive"),
+            next: "Leave it out to have it estimated from the residuals.".into(),
+        }),
+        given => Ok(given.map(|um| um * 1e-6)),
+    }
+}
+
+/// Places to compare with, and the noise stated beside them, m.
+fn places(arguments: &Arguments, records: &[BallRecord]) -> Result<(Places, Option<f64>), Failure> {
+    if let Some(path) = &arguments.balls {
+        let places = read_ball_places(path)?;
+        return Ok((Places::nominal(&places), places.sigma));
+    }
+    let wanted = arguments.relative_to.as_deref().unwrap_or_default();
+    match records.iter().find(|record| record.id == wanted) {
+        Some(record) => Ok((Places::of_record(record), None)),
+        None => Err(Failure::Usage {
+            message: format!("{}: there is no record {wanted}", arguments.data.display()),
+            next: match nearest(wanted, records.iter().map(|record| record.id.as_str())) {
+                Some(near) => format!("Write --relative-to {near}."),
+                None => "Name a record of the column record.".into(),
+            },
+        }),
+    }
+}
+
+fn warn(path: &Path, found: &Registered) {
+    let moved: Vec<&Located> = found.poses.iter().filter(|pose| pose.moved).collect();
+    for pose in moved.iter().take(MOST_TOLD) {
+        let Some((first, second, residual)) = &pose.worst else { continue };
+        let (um, side) = (residual.abs() * 1e6, if *residual > 0.0 { "farther apart" } else { "closer" });
+        let message = format!(
+            "{}: record {}: balls {first} and {second} are {} um {side} than they should be: a ball moved",
+            path.display(),
+            pose.id,
+            significant(um, 3)
+        );
+        report::warn(&message, "Look for a knocked or badly touched ball; leave the record out if so.");
+    }
+    if moved.len() > MOST_TOLD {
+        let message = format!("{}: so it is in {} records more", path.display(), moved.len() - MOST_TOLD);
+        report::warn(&message, "The column moved of the table marks them.");
+    }
+}
+
+/// The poses as a table whose columns are those of absolute measurements, with all correlations.
+fn table(found: &Registered) -> String {
+    let mut text = String::from("record");
+    csv::names(&mut text, "measured_", &NAMES, [Unit::Mm, Unit::Deg]);
+    csv::names(&mut text, "sigma_", &NAMES, [Unit::Um, Unit::Urad]);
+    for (i, j) in pairs() {
+        let _ = write!(text, ",x_corr_{}_{}", NAMES[i], NAMES[j]);
+    }
+    text.push_str(",x_rms_um,x_worst_first,x_worst_second,x_worst_distance_um,x_moved\n");
+    for pose in &found.poses {
+        row(&mut text, pose);
+    }
+    text
+}
+
+fn row(text: &mut String, pose: &Located) {
+    text.push_str(&pose.id);
+    csv::values(text, &pose.pose.to_array(), [Unit::Mm, Unit::Deg]);
+    let sigma: [f64; 6] = std::array::from_fn(|k| pose.covariance[(k, k)].sqrt());
+    csv::values(text, &sigma, [Unit::Um, Unit::Urad]);
+    for (i, j) in pairs() {
+        let scale = sigma[i] * sigma[j];
+        let correlation = if scale > 0.0 { pose.covariance[(i, j)] / scale } else { 0.0 };
+        let _ = write!(text, ",{correlation:.6}");
+    }
+    let (first, second, distance) = pose.worst.clone().unwrap_or_default();
+    let (rms, distance) = (pose.rms * 1e6, distance * 1e6);
+    let _ = writeln!(text, ",{rms:.6},{first},{second},{distance:.6},{}", u8::from(pose.moved));
+}
+
+fn pairs() -> impl Iterator<Item = (usize, usize)> {
+    (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)))
+}

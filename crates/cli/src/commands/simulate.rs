@@ -1,0 +1,75 @@
+//! `hexbench simulate SCENE -o DIR`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_truth::Scene;
+use hexbench_truth::scene::{Bench, Existing, PartName, PlanError};
+
+use crate::failure::Failure;
+use crate::output::{Progress, Screen};
+use crate::page::simulated;
+
+/// Measure a machine with hidden imperfections on the virtual bench
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder of the scene, with scene.toml in it
+    scene: PathBuf,
+    /// Folder for hexapod.toml, measurements.csv, holdout.csv, balls.csv and sealed/truth.json
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Draw plan and noise by this seed instead of the scene's own
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Number of training poses, for a scene whose poses are drawn
+    #[arg(long, value_name = "N")]
+    poses: Option<u64>,
+    /// Readings of each training condition
+    #[arg(long, value_name = "N")]
+    repeats: Option<u64>,
+    /// Read what an instrument without errors would
+    #[arg(long)]
+    noise_free: bool,
+    /// Replace files in a folder that is not empty
+    #[arg(long)]
+    force: bool,
+    /// Tell what is hidden
+    #[arg(long)]
+    reveal: bool,
+}
+
+/// Simulate and tell what was written.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let mut scene = Scene::read_with_seed(&arguments.scene, arguments.seed)?;
+    if let Some(poses) = arguments.poses {
+        scene.plan = scene.plan.with_poses(poses).map_err(|wrong| usage(&wrong))?;
+    }
+    if let Some(repeats) = arguments.repeats {
+        scene.plan = scene.plan.with_repeats(repeats).map_err(|wrong| usage(&wrong))?;
+    }
+    write(&Bench::new(&scene, arguments.noise_free), &arguments.output, arguments.force)?;
+    let told = simulated::Told {
+        scene: &scene,
+        folder: &arguments.output,
+        noise_free: arguments.noise_free,
+        reveal: arguments.reveal,
+    };
+    screen.write(&simulated::page(&told, screen.ink()))
+}
+
+fn write(bench: &Bench<'_>, folder: &Path, force: bool) -> Result<(), Failure> {
+    let rows = [PartName::Training, PartName::Holdout].map(|part| bench.scene().part(part).len());
+    let progress = Progress::of(rows.iter().sum());
+    let existing = if force { Existing::Replaced } else { Existing::Refused };
+    let written = bench.write(folder, existing, &|rows| progress.advance(rows));
+    progress.done();
+    Ok(written?)
+}
+
+fn usage(wrong: &PlanError) -> Failure {
+    let next = match wrong {
+        PlanError::ListedPoses => "Leave --poses out; --repeats asks for more readings.",
+        PlanError::Size { .. } => "Choose another number for --poses or --repeats.",
+    };
+    Failure::Usage { message: wrong.to_string(), next: next.into() }
+}

@@ -1,0 +1,42 @@
+//! A progress bar on standard error, for what takes longer than two seconds.
+
+use std::sync::Once;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// Work shorter than this needs no bar.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// A bar that appears after a while, on a terminal only.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    begun: Instant,
+    shown: Once,
+}
+
+impl Progress {
+    /// For so many steps.
+    pub(crate) fn of(steps: u64) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden());
+        let style = ProgressStyle::with_template(
+            "{bar:30} {percent:>3} %  {human_pos} of {human_len} rows, {eta} left",
+        );
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Self { bar, begun: Instant::now(), shown: Once::new() }
+    }
+
+    /// Some steps more are done.
+    pub(crate) fn advance(&self, steps: u64) {
+        self.bar.inc(steps);
+        if self.begun.elapsed() > PATIENCE {
+            self.shown.call_once(|| self.bar.set_draw_target(ProgressDrawTarget::stderr()));
+        }
+    }
+
+    /// The bar goes away.
+    pub(crate) fn done(self) {
+        self.bar.finish_and_clear();
+    }
+}

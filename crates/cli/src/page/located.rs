@@ -1,0 +1,72 @@
+//! Poses found from balls, in words.
+
+use std::path::Path;
+
+use hexbench_model::registration::{Located, Places, Registered};
+
+use crate::output::number::significant;
+use crate::output::{Ink, Paper};
+
+/// What the page is about.
+pub(crate) struct Told<'a> {
+    /// The poses.
+    pub(crate) found: &'a Registered,
+    /// What they were compared with.
+    pub(crate) places: &'a Places,
+    /// Noise of a coordinate when it was stated, m.
+    pub(crate) stated: Option<f64>,
+    /// Where the table is.
+    pub(crate) output: &'a Path,
+}
+
+/// Column at which values begin.
+const INDENT: usize = 14;
+
+/// The page.
+pub(crate) fn page(told: &Told<'_>, ink: Ink) -> String {
+    let mut paper = Paper::new(ink);
+    let Registered { poses, .. } = told.found;
+    paper.heading("Poses from balls", "");
+    let mut line = |label: &str, text: &str| paper.hanging(&format!("  {label}"), INDENT, text);
+    line("records", &poses.len().to_string());
+    line("balls", &balls(told.places));
+    line("noise", &noise(told));
+    line("one pose", &one_pose(poses));
+    let moved = poses.iter().filter(|pose| pose.moved).count();
+    line(
+        "moved",
+        &if moved == 0 { "no ball beyond the noise".into() } else { format!("a ball, in {moved} records") },
+    );
+    line("written", &told.output.display().to_string());
+    paper.into_text()
+}
+
+fn balls(places: &Places) -> String {
+    let platform = format!("{} on the platform", places.platform.len());
+    match (places.measured, places.base.len()) {
+        (true, _) => format!("{platform}; poses relative to a record, about the centre of its balls"),
+        (false, 0) => format!("{platform}; poses in the frame of the measuring machine"),
+        (false, base) => format!("{platform}, {base} on the base; poses in the frame of the base"),
+    }
+}
+
+fn noise(told: &Told<'_>) -> String {
+    let um = |sigma: f64| significant(sigma * 1e6, 3);
+    let estimated = told.found.estimated_sigma;
+    match (told.stated, estimated) {
+        (Some(stated), Some(found)) => {
+            format!("{} um per coordinate as stated; the residuals say {} um", um(stated), um(found))
+        }
+        (Some(stated), None) => format!("{} um per coordinate as stated", um(stated)),
+        (None, Some(found)) => format!("{} um per coordinate, from the residuals", um(found)),
+        (None, None) => "unknown: nothing is stated and no residual is left over".into(),
+    }
+}
+
+fn one_pose(poses: &[Located]) -> String {
+    let typical = |first: usize| {
+        let sum: f64 = poses.iter().flat_map(|p| (first..first + 3).map(|k| p.covariance[(k, k)])).sum();
+        significant((sum / (3 * poses.len().max(1)) as f64).sqrt() * 1e6, 3)
+    };
+    format!("{} um and {} urad, one standard deviation", typical(0), typical(3))
+}

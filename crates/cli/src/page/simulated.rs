@@ -1,0 +1,102 @@
+//! What was simulated, and what to do with it.
+
+use std::path::Path;
+
+use hexbench_core::Measurand;
+use hexbench_truth::Scene;
+use hexbench_truth::scene::{Instrument, PartName};
+
+use crate::output::number::significant;
+use crate::output::{Ink, Paper};
+
+/// What the page is about.
+pub(crate) struct Told<'a> {
+    /// The scene.
+    pub(crate) scene: &'a Scene,
+    /// Where its files are.
+    pub(crate) folder: &'a Path,
+    /// Without noise.
+    pub(crate) noise_free: bool,
+    /// Tell what is hidden.
+    pub(crate) reveal: bool,
+}
+
+/// Column at which values begin.
+const INDENT: usize = 14;
+
+/// The page. What is hidden stays hidden unless asked for.
+pub(crate) fn page(told: &Told<'_>, ink: Ink) -> String {
+    let mut paper = Paper::new(ink);
+    let scene = told.scene;
+    paper.heading("Simulated", &scene.title);
+    let mut line = |label: &str, text: &str| paper.hanging(&format!("  {label}"), INDENT, text);
+    line("machine", &scene.hexapod.name);
+    line("plan", &plan(scene));
+    line("noise", &noise(told));
+    line("seed", &scene.seed.to_string());
+    line("written", &format!("{} in {}", files(scene), told.folder.display()));
+    line("hidden", &hidden(told));
+    paper.heading("Next", "");
+    paper.line(&format!("  {}", next(told)));
+    paper.into_text()
+}
+
+fn plan(scene: &Scene) -> String {
+    let [training, holdout] = [PartName::Training, PartName::Holdout].map(|name| scene.part(name));
+    let what = if scene.measurand() == Measurand::AbsolutePose { "absolute poses" } else { "deflections" };
+    let counted = |n: u64, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
+    format!(
+        "{what}: {} at {} to learn from, {} at {} held out",
+        counted(training.len(), "row"),
+        counted(training.poses(), "pose"),
+        counted(holdout.len(), "row"),
+        counted(holdout.poses(), "pose"),
+    )
+}
+
+fn noise(told: &Told<'_>) -> String {
+    if told.noise_free {
+        return "none".into();
+    }
+    let stated = told.scene.hexapod.metrology.map_or_else(String::new, |m| {
+        let [um, urad] = [m.sigma_translation, m.sigma_rotation].map(|s| significant(s * 1e6, 3));
+        format!("{um} um and {urad} urad per reading")
+    });
+    match &told.scene.instrument {
+        Instrument::Numbers(_) => stated,
+        Instrument::Balls(cmm) => {
+            let um = significant(cmm.platform.sigma * 1e6, 3);
+            format!("{um} um per ball coordinate, that is {stated}")
+        }
+    }
+}
+
+fn files(scene: &Scene) -> String {
+    let mut names = vec!["hexapod.toml", "measurements.csv"];
+    if !scene.part(PartName::Holdout).is_empty() {
+        names.push("holdout.csv");
+    }
+    if matches!(scene.instrument, Instrument::Balls(_)) {
+        names.extend(["balls.csv", "balls.toml"]);
+    }
+    format!("{} and sealed/truth.json", names.join(", "))
+}
+
+fn hidden(told: &Told<'_>) -> String {
+    if !told.reveal {
+        return "sealed; --reveal tells".into();
+    }
+    let effects = told.scene.hidden_effects();
+    let list = if effects.is_empty() { "nothing".into() } else { effects.join(" and ") };
+    format!("{list}. {}", told.scene.shows)
+}
+
+fn next(told: &Told<'_>) -> String {
+    let file = |name: &str| told.folder.join(name).display().to_string();
+    let holdout = if told.scene.part(PartName::Holdout).is_empty() {
+        String::new()
+    } else {
+        format!(" --holdout {}", file("holdout.csv"))
+    };
+    format!("hexbench diagnose {} {}{holdout}", file("hexapod.toml"), file("measurements.csv"))
+}

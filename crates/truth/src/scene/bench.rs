@@ -1,0 +1,183 @@
+//! The machine of a scene on its bench: rows in, readings out.
+
+use std::ops::Range;
+
+use hexbench_core::{Columns, Measurand, Observation, Pose, Vector6};
+use rand_pcg::Pcg64;
+
+use super::{Instrument, PartName, Purpose, Scene};
+use crate::{
+    TruthError, World,
+    campaign::{Row, rounded},
+    metrology::{Cmm, Frames, Record, Surroundings},
+    world::difference,
+};
+
+/// A scene ready to be measured.
+#[derive(Debug)]
+pub struct Bench<'a> {
+    scene: &'a Scene,
+    world: World,
+    frames: Frames,
+    noise_free: bool,
+}
+
+/// One row as measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// The reading.
+    pub observation: Observation,
+    /// What the measuring machine wrote down, reference state first; empty for an instrument that reads numbers.
+    pub records: Vec<Record>,
+}
+
+/// A row whose state of rest does not exist.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{part} row {row} (pose {pose_id}): {cause}")]
+pub struct RowError {
+    /// `training` or `holdout`.
+    pub part: &'static str,
+    /// Row of the part, from 1.
+    pub row: u64,
+    /// Number of the pose.
+    pub pose_id: i64,
+    /// Why not.
+    pub cause: TruthError,
+}
+
+/// The states of a row, seen without error. In absolute mode only the second one is.
+type Ideal = [Pose; 2];
+
+impl<'a> Bench<'a> {
+    /// Sets a scene up; without noise the instrument reads what there is.
+    pub fn new(scene: &'a Scene, noise_free: bool) -> Self {
+        Self { scene, world: scene.world(), frames: scene.frames(), noise_free }
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// Frames of the instrument.
+    pub fn frames(&self) -> &Frames {
+        &self.frames
+    }
+
+    /// Optional columns its tables have.
+    pub fn columns(&self) -> Columns {
+        let deflections = !self.is_absolute();
+        Columns {
+            reference: deflections,
+            approach: deflections,
+            delta_t: true,
+            elapsed: true,
+            sigma: matches!(self.scene.instrument, Instrument::Balls(_)),
+        }
+    }
+
+    fn is_absolute(&self) -> bool {
+        self.scene.measurand() == Measurand::AbsolutePose
+    }
+
+    /// Measures some rows of a part. A row does not depend on which others are asked for.
+    ///
+    /// # Errors
+    /// [`RowError`].
+    pub fn measure(&self, name: PartName, range: Range<u64>) -> Result<Vec<Measured>, RowError> {
+        let part = self.scene.part(name);
+        let mut last: Option<(Row, Ideal)> = None;
+        let mut measured = Vec::new();
+        for (index, row) in range.filter_map(|index| part.row(index).map(|row| (index, row))) {
+            let failed = |cause| RowError { part: name.word(), row: index + 1, pose_id: row.pose_id, cause };
+            let ideal = match last {
+                Some((before, ideal)) if before.situation == row.situation => ideal,
+                _ => self.ideal(&row).map_err(failed)?,
+            };
+            last = Some((row, ideal));
+            let mut rng = self.scene.streams().of(Purpose::Noise(name), index);
+            measured.push(self.read(&row, index, ideal, &mut rng).map_err(failed)?);
+        }
+        Ok(measured)
+    }
+
+    fn ideal(&self, row: &Row) -> Result<Ideal, TruthError> {
+        if self.is_absolute() {
+            self.world.pose(&row.situation).map(|pose| [pose, pose])
+        } else {
+            self.world.before_and_after(&row.situation)
+        }
+    }
+
+    fn read(&self, row: &Row, index: u64, ideal: Ideal, rng: &mut Pcg64) -> Result<Measured, TruthError> {
+        let (measured, sigma, records) = match &self.scene.instrument {
+            Instrument::Numbers(noise) => {
+                let error = if self.noise_free { Vector6::zeros() } else { noise.draw(rng) };
+                (self.numbers(ideal) + error, None, Vec::new())
+            }
+            Instrument::Balls(cmm) => {
+                let (measured, sigma, records) = self.touched(cmm, row, ideal, rng)?;
+                (measured, Some(sigma.into()), records)
+            }
+        };
+        let observation = observation(row, index, self.written(measured), sigma);
+        Ok(Measured { observation, records })
+    }
+
+    fn numbers(&self, [before, after]: Ideal) -> Vector6 {
+        if self.is_absolute() { self.frames.seen(&after).to_vector() } else { difference(&after, &before) }
+    }
+
+    /// Measured values, their standard deviations, and the records they come from.
+    fn touched(
+        &self,
+        cmm: &Cmm,
+        row: &Row,
+        [before, after]: Ideal,
+        rng: &mut Pcg64,
+    ) -> Result<(Vector6, Vector6, Vec<Record>), TruthError> {
+        let quiet = self.noise_free.then(|| cmm.without_errors());
+        let acting = quiet.as_ref().unwrap_or(cmm);
+        let later = Surroundings { elapsed: row.situation.elapsed, delta_t: row.situation.delta_t };
+        let mut touch = |pose, at| acting.record(&self.frames, pose, at, rng);
+        let records = if self.is_absolute() {
+            vec![touch(&after, later)]
+        } else {
+            vec![touch(&before, Surroundings::default()), touch(&after, later)]
+        };
+        let located = records.iter().map(|r| cmm.locate(r)).collect::<Result<Vec<_>, _>>()?;
+        let variance = located.iter().map(|l| l.covariance.diagonal()).sum::<Vector6>();
+        let values = match located.as_slice() {
+            [first, second] => difference(&second.pose, &first.pose),
+            all => all.first().map(|l| l.pose.to_vector()).unwrap_or_default(),
+        };
+        Ok((values, variance.map(f64::sqrt), records))
+    }
+
+    /// A value with the digits the files carry: 1 pm and 1 prad, for absolute poses 0.1 nm and 1e-9 deg.
+    fn written(&self, value: Vector6) -> [f64; 6] {
+        let decimals = |k: usize, x: f64| match (self.is_absolute(), k < 3) {
+            (false, _) => rounded(x * 1e6) / 1e6,
+            (true, true) => (x * 1e10).round() / 1e10,
+            (true, false) => ((x.to_degrees() * 1e9).round() / 1e9).to_radians(),
+        };
+        std::array::from_fn(|k| decimals(k, value[k]))
+    }
+}
+
+fn observation(row: &Row, index: u64, measured: [f64; 6], sigma: Option<[f64; 6]>) -> Observation {
+    let s = &row.situation;
+    Observation {
+        pose_id: row.pose_id,
+        repeat: row.repeat,
+        line: index + 2,
+        pose: s.pose,
+        wrench: s.wrench,
+        reference: s.reference,
+        approach: s.approach,
+        delta_t: s.delta_t,
+        elapsed: s.elapsed,
+        measured,
+        sigma: sigma.map(|sigma| sigma.map(|s| rounded(s * 1e6) / 1e6)),
+    }
+}
