@@ -11,6 +11,9 @@ hexbench=$target/debug/hexbench
 python=$work/venv/bin/python
 witness=$repository/data/witness
 states_per_set=36
+# Scenes of other machines whose effects MJCF can express.
+scenes=(paper paper-rich rubin-camera rubin-m2)
+states_per_scene=12
 
 skip() {
     printf 'skipped: %s\n' "$1"
@@ -33,16 +36,19 @@ prepare_python() {
     cp "$requirements" "$work/venv/installed.txt"
 }
 
-# Models and states of a scene: export NAME COUNT FOLDER
+# Models and states of a scene: export_states SCENE COUNT FOLDER
 export_states() {
-    "$hexbench" export "$witness/$1" --mjcf --states "$2" -o "$3/$1" || fail "hexbench export $1"
+    "$hexbench" export "$1" --mjcf --states "$2" -o "$3/$(basename "$1")" || fail "hexbench export $1"
 }
 
 compare() {
-    local set
+    local scene
     rm -rf "$work/states"
-    for set in "$witness"/*/scene.toml; do
-        export_states "$(basename "$(dirname "$set")")" "$states_per_set" "$work/states"
+    for scene in "$witness"/*/scene.toml; do
+        export_states "$(dirname "$scene")" "$states_per_set" "$work/states"
+    done
+    for scene in "${scenes[@]}"; do
+        export_states "$repository/scenes/$scene" "$states_per_scene" "$work/states"
     done
     "$python" "$repository/scripts/mujoco_check.py" "$work"/states/* ||
         fail "MuJoCo comes to rest elsewhere"
@@ -82,7 +88,7 @@ diagnose() {
     local scene
     rm -rf "$work/plans" "$work/cases"
     for scene in legs-alone foundation bending-joints load-offset; do
-        export_states "$scene" 100000 "$work/plans"
+        export_states "$witness/$scene" 100000 "$work/plans"
     done
     make_cases
     "$python" "$repository/scripts/mujoco_measure.py" diagnose "$work"/cases/* --hexbench "$hexbench" |

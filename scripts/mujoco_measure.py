@@ -7,8 +7,8 @@
 `make` reads the plan from states.csv and the machine from the models; the static states in that table are not looked at. An
 effect named by --hidden is either in the models already (written there by hexbench as springs, sites and angles), or is one of
 those that MuJoCo has by itself and that only this script puts in: `leg-backlash` (a tendon with a dead band in place of the leg
-spring), `joint-friction` (frictionloss of the slide joints), `leg-nonlinearity` (a cubic spring). For the first two time runs along the whole path: unloaded machine,
-reference, exceeded load where the approach asks for it, load.
+spring), `joint-friction` (frictionloss of the slide joints), `leg-nonlinearity` (a cubic spring). For the first two time runs
+along the whole path: unloaded machine, reference, exceeded load where the approach asks for it, load.
 
 `diagnose` exits with 1 unless every case is called by its name: exactly the hidden effect is added and `named`, or the verdict
 is `adequate` where nothing is hidden.
@@ -26,6 +26,7 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
+
 from mujoco_bench import MOTORS, Machine, State
 
 # Standard deviation of one reading, m and rad.
@@ -37,8 +38,8 @@ PLAY_M = 3e-6
 FRICTION_N = 3.0
 # Three percent more force than the linear spring at 30 um.
 CUBIC_STIFFNESS = 1.3e14
-# Loading that is slow against the machine's own motion. A rotor on each slide joint makes the machine slow, but lets dry friction
-# hold: in MuJoCo it creeps, the less the heavier what it holds (here some 1e-8 m/s).
+# Loading that is slow against the machine's own motion. A rotor on each slide joint makes the machine slow, but lets dry
+# friction hold: in MuJoCo it creeps, the less the heavier what it holds (here some 1e-8 m/s).
 TIME_STEP_S = 1e-4
 ROTOR_KG = 10.0
 OVER_CRITICAL = 4.0
@@ -164,7 +165,7 @@ def make(arguments: argparse.Namespace) -> int:
             chosen = [(row, value) for row, value in zip(rows, true, strict=True) if row["part"] == part]
             write_readings(folder / f"{name}.csv", chosen, repeats, noise)
         (folder / "hexapod.toml").write_text(hexapod_with_noise(arguments.machine), encoding="utf-8")
-        truth = {"kind": "mujoco", "effects": effects, "form": form, "seed": seed, "noise": [0.5, 3.0], "mujoco": mujoco.__version__}
+        truth = {"kind": "mujoco", "effects": effects, "form": form, "seed": seed, "mujoco": mujoco.__version__}
         (folder / "truth.json").write_text(json.dumps(truth, indent=1) + "\n", encoding="utf-8")
     return 0
 

@@ -78,12 +78,12 @@ pub(crate) enum Failure {
         cause: Box<PredictError>,
     },
     /// A state of a scene that the simulated world does not have, or that a format cannot express.
-    #[error("{}: row {row}: {cause}", scene.display())]
+    #[error("{}: {place}: {cause}", scene.display())]
     World {
         /// Folder of the scene.
         scene: PathBuf,
-        /// Row of the plan, from 1.
-        row: usize,
+        /// Row of the plan or state of the table, from 1.
+        place: String,
         /// What stands in the way.
         cause: TruthError,
     },

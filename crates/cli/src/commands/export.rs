@@ -57,7 +57,7 @@ fn single(arguments: &Arguments, scene: &Scene, screen: &Screen) -> Result<(), F
         row.situation.pose = pose(numbers)?;
     }
     let model = mjcf::export(&scene.world(), &row.situation)
-        .map_err(|cause| failed(arguments, arguments.row.try_into().unwrap_or(usize::MAX), cause))?;
+        .map_err(|cause| failed(arguments, format!("row {}", arguments.row), cause))?;
     screen.write_to(&arguments.output, &model)
 }
 
@@ -79,7 +79,7 @@ fn states(arguments: &Arguments, scene: &Scene, count: usize, screen: &Screen) -
     let world = scene.world();
     let mut table = States::default();
     for (k, (part, row)) in chosen.iter().enumerate() {
-        let in_row = |cause| failed(arguments, k + 1, cause);
+        let in_row = |cause| failed(arguments, format!("state {}", k + 1), cause);
         let name = format!("state-{:03}.xml", k + 1);
         let model = mjcf::export(&world, &row.situation).map_err(in_row)?;
         let rest = world.reading(&row.situation).map_err(in_row)?;
@@ -89,8 +89,8 @@ fn states(arguments: &Arguments, scene: &Scene, count: usize, screen: &Screen) -
     screen.write_to(&folder.join("states.csv"), &table.csv(&scene.name))
 }
 
-fn failed(arguments: &Arguments, row: usize, cause: TruthError) -> Failure {
-    Failure::World { scene: arguments.scene.clone(), row, cause }
+fn failed(arguments: &Arguments, place: String, cause: TruthError) -> Failure {
+    Failure::World { scene: arguments.scene.clone(), place, cause }
 }
 
 fn folder(path: &Path) -> Result<&Path, Failure> {
