@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    compare, compensate, completions, demo, diagnose, export, fit, poses, predict, simulate, terms,
+    compare, compensate, completions, demo, diagnose, export, fit, poses, predict, simulate, terms, transient,
 };
 use crate::output::Colour;
 
@@ -41,6 +41,7 @@ pub(crate) enum Command {
     Predict(predict::Arguments),
     Compensate(compensate::Arguments),
     Export(export::Arguments),
+    Transient(transient::Arguments),
     Terms(terms::Arguments),
     Completions(completions::Arguments),
 }

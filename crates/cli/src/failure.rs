@@ -79,7 +79,7 @@ pub(crate) enum Failure {
     },
     /// A state of a scene that the simulated world does not have, or that a format cannot express.
     #[error("{}: {place}: {cause}", scene.display())]
-    World {
+    SceneState {
         /// Folder of the scene.
         scene: PathBuf,
         /// Row of the plan or state of the table, from 1.
@@ -87,6 +87,9 @@ pub(crate) enum Failure {
         /// What stands in the way.
         cause: TruthError,
     },
+    /// A state of the simulated machine that cannot be computed.
+    #[error("{0}")]
+    World(#[from] TruthError),
     /// A file that cannot be read.
     #[error("{}: cannot be read: {cause}", path.display())]
     Unreadable {
@@ -140,7 +143,8 @@ impl Failure {
             | Self::ModelFile { .. }
             | Self::Row { .. }
             | Self::Balls { .. }
-            | Self::World { .. }
+            | Self::SceneState { .. }
+            | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
             Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } | Self::Simulation(_) => {
                 Exit::InputOutput
@@ -163,16 +167,20 @@ impl Failure {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())
             }
             Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
-            Self::World { cause: TruthError::Inexpressible { .. }, .. } => {
+            Self::SceneState { cause: TruthError::Inexpressible { .. }, .. } => {
                 Some("Leave this effect out of sealed/truth.toml for this purpose.".into())
             }
-            Self::World { .. } => {
+            Self::SceneState { .. } => {
                 Some("Check the pose, the load and the hidden effects of the scene.".into())
             }
             Self::Balls { cause: RegistrationError::MissingBall { .. }, .. } => {
                 Some("Touch every ball in every record, or take the ball out of the balls file.".into())
             }
             Self::Balls { .. } => Some("Use three balls or more that span a triangle.".into()),
+            Self::World(_) => Some(
+                "Check the joints in the hexapod file, the pose (mm, deg), load, stiffness and masses."
+                    .into(),
+            ),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())

@@ -90,7 +90,7 @@ fn states(arguments: &Arguments, scene: &Scene, count: usize, screen: &Screen) -
 }
 
 fn failed(arguments: &Arguments, place: String, cause: TruthError) -> Failure {
-    Failure::World { scene: arguments.scene.clone(), place, cause }
+    Failure::SceneState { scene: arguments.scene.clone(), place, cause }
 }
 
 fn folder(path: &Path) -> Result<&Path, Failure> {

@@ -11,6 +11,7 @@ pub(crate) mod poses;
 pub(crate) mod predict;
 pub(crate) mod simulate;
 pub(crate) mod terms;
+pub(crate) mod transient;
 
 use crate::args::{Cli, Command};
 use crate::failure::Failure;
@@ -29,6 +30,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Compensate(arguments) => compensate::run(arguments, &screen),
         Command::Diagnose(arguments) => diagnose::run(arguments, &screen),
         Command::Export(arguments) => export::run(arguments, &screen),
+        Command::Transient(arguments) => transient::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),
     }
