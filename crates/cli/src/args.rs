@@ -39,6 +39,7 @@ pub(crate) enum Command {
     Predict(commands::predict::Arguments),
     Compensate(commands::compensate::Arguments),
     Transient(commands::transient::Arguments),
+    Export(commands::export::Arguments),
     Terms(commands::terms::Arguments),
     Validate(commands::validate::Arguments),
     Completions(commands::completions::Arguments),

@@ -77,6 +77,16 @@ pub(crate) enum Failure {
         /// The row, and why.
         cause: Box<PredictError>,
     },
+    /// A state of a scene that the simulated world does not have, or that a format cannot express.
+    #[error("{}: {place}: {cause}", scene.display())]
+    SceneState {
+        /// Folder of the scene.
+        scene: PathBuf,
+        /// Row of the plan or state of the table, from 1.
+        place: String,
+        /// What stands in the way.
+        cause: TruthError,
+    },
     /// A state of the simulated machine that cannot be computed.
     #[error("{0}")]
     World(#[from] TruthError),
@@ -133,6 +143,7 @@ impl Failure {
             | Self::ModelFile { .. }
             | Self::Row { .. }
             | Self::Balls { .. }
+            | Self::SceneState { .. }
             | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
             Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } | Self::Simulation(_) => {
@@ -156,6 +167,12 @@ impl Failure {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())
             }
             Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
+            Self::SceneState { cause: TruthError::Inexpressible { .. }, .. } => {
+                Some("Leave this effect out of sealed/truth.toml for this purpose.".into())
+            }
+            Self::SceneState { .. } => {
+                Some("Check the pose, the load and the hidden effects of the scene.".into())
+            }
             Self::Balls { cause: RegistrationError::MissingBall { .. }, .. } => {
                 Some("Touch every ball in every record, or take the ball out of the balls file.".into())
             }

@@ -19,6 +19,7 @@
 //! - [`World`]: a machine with its imperfections; [`World::deflection`], [`World::pose`].
 //! - [`mechanisms`]: one file for each physical effect, all of them in [`mechanisms::REGISTRY`].
 //! - [`metrology`]: what the instrument adds.
+//! - [`mjcf`]: the structure written for MuJoCo, so that another program can say where it comes to rest.
 //! - [`campaign`]: machines, plans, sizes and the case folders made of them.
 //! - [`scene`]: a folder that describes a machine with hidden effects, a plan and an instrument.
 
@@ -29,6 +30,7 @@ pub mod law;
 mod linear;
 pub mod mechanisms;
 pub mod metrology;
+pub mod mjcf;
 pub mod scene;
 pub mod setup;
 pub mod situation;

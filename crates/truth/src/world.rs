@@ -103,6 +103,15 @@ impl World {
         self.load(&mut moment, [LegMemory::default(); 6])
     }
 
+    /// The structure under the load, as [`World::reading`] brings it to rest.
+    ///
+    /// # Errors
+    /// [`TruthError::Unreachable`], [`TruthError::NotFinite`].
+    pub fn structure(&self, situation: &Situation) -> Result<Setup, TruthError> {
+        let moment = Moment { phase: Phase::Loaded, ..self.moment(situation)? };
+        Ok(self.setup(&moment, situation.wrench))
+    }
+
     fn load<'a>(
         &'a self,
         moment: &mut Moment<'a>,

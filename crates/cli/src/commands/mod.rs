@@ -5,6 +5,7 @@ pub(crate) mod compensate;
 pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod diagnose;
+pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod poses;
 pub(crate) mod predict;
@@ -29,6 +30,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Predict(arguments) => predict::run(arguments, &screen),
         Command::Compensate(arguments) => compensate::run(arguments, &screen),
         Command::Diagnose(arguments) => diagnose::run(arguments, &screen),
+        Command::Export(arguments) => export::run(arguments, &screen),
         Command::Transient(arguments) => transient::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
         Command::Validate(arguments) => validate::run(arguments, &screen),

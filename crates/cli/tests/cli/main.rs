@@ -4,6 +4,7 @@
 
 mod documents;
 mod exits;
+mod export;
 mod json;
 mod pages;
 mod poses;

@@ -1,0 +1,115 @@
+//! `hexbench export SCENE --mjcf`.
+
+use std::path::{Path, PathBuf};
+
+use clap::{ArgGroup, Args};
+use hexbench_core::Pose;
+use hexbench_truth::campaign::Row;
+use hexbench_truth::scene::{PartName, Scene};
+use hexbench_truth::{TruthError, mjcf};
+
+use crate::failure::Failure;
+use crate::output::Screen;
+use crate::states::States;
+
+/// Write the machine of a scene for another program
+///
+/// The model stands at a commanded pose with all hidden effects of the scene in it; the wrench of the row is in its keyframe
+/// `loaded`. What the format cannot express is an error that names it.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("format").required(true))]
+pub(crate) struct Arguments {
+    /// Folder of the scene
+    scene: PathBuf,
+    /// As a `MuJoCo` model (MJCF)
+    #[arg(long, group = "format")]
+    mjcf: bool,
+    /// Model file, or `-`; with --states the folder that gets models and states.csv
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: PathBuf,
+    /// Row of the plan, from 1: its pose and its load
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    row: u64,
+    /// Another commanded pose than the row's, mm and deg
+    #[arg(long, value_name = "A,B,C,ALPHA,BETA,GAMMA", value_delimiter = ',', allow_negative_numbers = true)]
+    pose: Option<Vec<f64>>,
+    /// Models of N conditions spread over the plan, and their states of rest in states.csv
+    #[arg(long, value_name = "N", conflicts_with_all = ["row", "pose"])]
+    states: Option<usize>,
+}
+
+/// Write one model, or many with their states of rest.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let scene = Scene::read(&arguments.scene)?;
+    match arguments.states {
+        Some(count) => states(arguments, &scene, count, screen),
+        None => single(arguments, &scene, screen),
+    }
+}
+
+fn single(arguments: &Arguments, scene: &Scene, screen: &Screen) -> Result<(), Failure> {
+    let part = scene.part(PartName::Training);
+    let mut row = part.row(arguments.row - 1).ok_or_else(|| Failure::Usage {
+        message: format!("the plan of this scene has no row {}", arguments.row),
+        next: format!("Give a row from 1 to {}.", part.len()),
+    })?;
+    if let Some(numbers) = &arguments.pose {
+        row.situation.pose = pose(numbers)?;
+    }
+    let model = mjcf::export(&scene.world(), &row.situation)
+        .map_err(|cause| failed(arguments, format!("row {}", arguments.row), cause))?;
+    screen.write_to(&arguments.output, &model)
+}
+
+fn pose(numbers: &[f64]) -> Result<Pose, Failure> {
+    let six: [f64; 6] = numbers.try_into().map_err(|_| Failure::Usage {
+        message: format!("--pose has {} numbers, it needs six", numbers.len()),
+        next: "Write for example --pose 10,0,-5,0,2,0 (mm, deg).".into(),
+    })?;
+    let [a, b, c, alpha, beta, gamma] = six;
+    let mm = [a, b, c].map(|x| x * 1e-3);
+    let rad = [alpha, beta, gamma].map(f64::to_radians);
+    Ok(Pose::from_array([mm[0], mm[1], mm[2], rad[0], rad[1], rad[2]]))
+}
+
+fn states(arguments: &Arguments, scene: &Scene, count: usize, screen: &Screen) -> Result<(), Failure> {
+    let folder = folder(&arguments.output)?;
+    let plan = scene.plan();
+    let chosen = spread(&plan.training, &plan.holdout, count);
+    let world = scene.world();
+    let mut table = States::default();
+    for (k, (part, row)) in chosen.iter().enumerate() {
+        let in_row = |cause| failed(arguments, format!("state {}", k + 1), cause);
+        let name = format!("state-{:03}.xml", k + 1);
+        let model = mjcf::export(&world, &row.situation).map_err(in_row)?;
+        let rest = world.reading(&row.situation).map_err(in_row)?;
+        screen.write_to(&folder.join(&name), &model)?;
+        table.push(row, *part, &name, &rest.equilibrium);
+    }
+    screen.write_to(&folder.join("states.csv"), &table.csv(&scene.name))
+}
+
+fn failed(arguments: &Arguments, place: String, cause: TruthError) -> Failure {
+    Failure::SceneState { scene: arguments.scene.clone(), place, cause }
+}
+
+fn folder(path: &Path) -> Result<&Path, Failure> {
+    if path.as_os_str() == "-" {
+        return Err(Failure::Usage {
+            message: "--states needs a folder".into(),
+            next: "Give one with -o DIR.".into(),
+        });
+    }
+    std::fs::create_dir_all(path).map_err(|cause| Failure::Output { path: path.to_owned(), cause })?;
+    Ok(path)
+}
+
+/// At most `count` conditions, evenly over both parts of a plan; repeats of a condition are one.
+fn spread<'a>(training: &'a [Row], holdout: &'a [Row], count: usize) -> Vec<(PartName, &'a Row)> {
+    let named = |name, rows: &'a [Row]| rows.iter().map(move |row| (name, row));
+    let mut all: Vec<(PartName, &Row)> =
+        named(PartName::Training, training).chain(named(PartName::Holdout, holdout)).collect();
+    all.dedup_by(|later, earlier| later.0 == earlier.0 && later.1.situation == earlier.1.situation);
+    let wanted = count.min(all.len());
+    (0..wanted).map(|k| all[k * all.len() / wanted]).collect()
+}

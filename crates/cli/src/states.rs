@@ -1,0 +1,76 @@
+//! A table of states of rest: what was done, and where the simulated world came to rest.
+
+use std::fmt::Write;
+
+use hexbench_core::{Columns, Dataset, Measurand, Observation, Pose};
+use hexbench_truth::campaign::Row;
+use hexbench_truth::equilibrium::Equilibrium;
+use hexbench_truth::scene::PartName;
+
+use crate::csv::{self, Unit};
+
+/// Rows of the table, each with its model file and its rest.
+#[derive(Debug, Default)]
+pub(crate) struct States {
+    rows: Vec<(Observation, PartName, String, Pose, [f64; 6])>,
+}
+
+impl States {
+    /// Adds a state; the pose is that of the platform itself, not what an instrument reads.
+    pub(crate) fn push(&mut self, row: &Row, part: PartName, model: &str, rest: &Equilibrium) {
+        let pose = Pose::from_rotation(rest.platform.origin, &rest.platform.axes);
+        self.rows.push((conditions(row), part, model.to_owned(), pose, rest.forces));
+    }
+
+    /// The table as CSV: conditions, part, model, resting pose, leg forces (tension positive).
+    pub(crate) fn csv(&self, source: &str) -> String {
+        let columns = Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false };
+        let dataset = Dataset {
+            source: source.to_owned(),
+            measurand: Measurand::AbsolutePose,
+            columns,
+            observations: Vec::new(),
+        };
+        let mut text = csv::conditions_header(&dataset);
+        text.push_str(",part,model");
+        csv::names(&mut text, "rest_", &["a", "b", "c", "alpha", "beta", "gamma"], [Unit::Mm, Unit::Deg]);
+        for leg in 1..=6 {
+            let _ = write!(text, ",force_{leg}_N");
+        }
+        text.push('\n');
+        for (observation, part, model, pose, forces) in &self.rows {
+            csv::condition(&mut text, &dataset, observation);
+            let _ = write!(text, ",{},{model}", name(*part));
+            csv::values(&mut text, &pose.to_array(), [Unit::Mm, Unit::Deg]);
+            for force in forces {
+                let _ = write!(text, ",{force}");
+            }
+            text.push('\n');
+        }
+        text
+    }
+}
+
+fn name(part: PartName) -> &'static str {
+    match part {
+        PartName::Training => "training",
+        PartName::Holdout => "holdout",
+    }
+}
+
+fn conditions(row: &Row) -> Observation {
+    let s = &row.situation;
+    Observation {
+        pose_id: row.pose_id,
+        repeat: row.repeat,
+        line: 0,
+        pose: s.pose,
+        wrench: s.wrench,
+        reference: s.reference,
+        approach: s.approach,
+        delta_t: s.delta_t,
+        elapsed: s.elapsed,
+        measured: [0.0; 6],
+        sigma: None,
+    }
+}

@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# MuJoCo as a witness: states of rest of the simulated world compared with MuJoCo's, the comparison itself put to the test, and
+# measurements made by MuJoCo diagnosed. Exit code 77: skipped, the reason on standard output. docs/witnesses.md says more.
+set -uo pipefail
+cd "$(dirname "$0")/.." || exit 5
+repository=$PWD
+target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
+work=$target/mujoco
+artefacts=$(realpath -m "${HEXBENCH_ARTEFACTS:-target/artefacts}")
+hexbench=$target/debug/hexbench
+python=$work/venv/bin/python
+witness=$repository/data/witness
+states_per_set=36
+# Scenes of other machines whose effects MJCF can express.
+scenes=(paper paper-rich rubin-camera rubin-m2)
+states_per_scene=12
+
+skip() {
+    printf 'skipped: %s\n' "$1"
+    exit 77
+}
+
+fail() {
+    printf 'FAILED: %s\n' "$1" >&2
+    exit 1
+}
+
+prepare_python() {
+    local requirements=$repository/scripts/mujoco-requirements.txt
+    cmp --silent "$requirements" "$work/venv/installed.txt" && return
+    command -v python3 >/dev/null || skip "python3 is not installed"
+    python3 -m venv --clear "$work/venv" >"$work/venv.log" 2>&1 ||
+        skip "python3 -m venv does not work here (Debian has it in python3-venv); see $work/venv.log"
+    "$python" -m pip install --quiet --disable-pip-version-check -r "$requirements" >"$work/pip.log" 2>&1 ||
+        skip "pip cannot install the pinned packages, no network perhaps; see $work/pip.log"
+    cp "$requirements" "$work/venv/installed.txt"
+}
+
+# Models and states of a scene: export_states SCENE COUNT FOLDER
+export_states() {
+    "$hexbench" export "$1" --mjcf --states "$2" -o "$3/$(basename "$1")" || fail "hexbench export $1"
+}
+
+compare() {
+    local scene
+    rm -rf "$work/states"
+    for scene in "$witness"/*/scene.toml; do
+        export_states "$(dirname "$scene")" "$states_per_set" "$work/states"
+    done
+    for scene in "${scenes[@]}"; do
+        export_states "$repository/scenes/$scene" "$states_per_scene" "$work/states"
+    done
+    "$python" "$repository/scripts/mujoco_check.py" "$work"/states/* ||
+        fail "MuJoCo comes to rest elsewhere"
+}
+
+# The comparison must notice a fault: must_fail ARGUMENTS
+must_fail() {
+    HEXBENCH_ARTEFACTS=$work/injected "$python" "$repository/scripts/mujoco_check.py" "$@" "$work/states/legs-alone" \
+        >"$work/injected.log" 2>&1
+    local code=$?
+    ((code == 1)) && grep -q '^FAILED legs-alone' "$work/injected.log" ||
+        fail "the comparison with $* ended with exit code $code, not with a failed set; see $work/injected.log"
+    printf 'noticed: %s\n' "$*"
+}
+
+# A case from MuJoCo: make_case SCENE MACHINE HIDDEN; an empty effect is the clean machine.
+make_case() {
+    "$python" "$repository/scripts/mujoco_measure.py" make "$work/plans/$1" --machine "$witness/machines/$2.toml" \
+        --hidden "$3" --seed 1 -o "$work/cases/${3:-clean}" || fail "no measurements with ${3:-nothing} hidden"
+}
+
+# The two that follow the load along its path take longest: one on each core.
+make_cases() {
+    make_case legs-alone wide-base leg-backlash &
+    local first=$!
+    make_case legs-alone wide-base joint-friction &
+    local second=$!
+    wait "$first" && wait "$second" || fail "no measurements along the path of the load"
+    make_case legs-alone wide-base ""
+    make_case legs-alone wide-base leg-nonlinearity
+    make_case foundation flat base-compliance
+    make_case bending-joints wide-base joint-rotation-stiffness
+    make_case load-offset cubic load-offset
+}
+
+diagnose() {
+    local scene
+    rm -rf "$work/plans" "$work/cases"
+    for scene in legs-alone foundation bending-joints load-offset; do
+        export_states "$witness/$scene" 100000 "$work/plans"
+    done
+    make_cases
+    "$python" "$repository/scripts/mujoco_measure.py" diagnose "$work"/cases/* --hexbench "$hexbench" |
+        tee "$artefacts/mujoco-diagnoses.txt" || fail "a hidden effect was not called by its name"
+}
+
+mkdir -p "$work" "$artefacts"
+export HEXBENCH_ARTEFACTS=$artefacts
+prepare_python
+cargo build --locked --quiet || fail "cargo build"
+# MuJoCo leaves a log where it runs.
+cd "$work" || exit 5
+compare
+must_fail --inject-nan
+must_fail --inject-stiffness 1.001
+diagnose
