@@ -9,6 +9,7 @@ use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
 use hexbench_model::user_term::UserTermError;
+use hexbench_validation::paper::PaperError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
@@ -93,6 +94,9 @@ pub(crate) enum Failure {
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
+    /// A study without an answer.
+    #[error("{0}")]
+    Reproduction(PaperError),
     /// Output that cannot be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Output {
@@ -113,6 +117,7 @@ impl Failure {
             Self::Check(_) => Exit::CheckFailed,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
+            Self::Reproduction(_) => Exit::NotDetermined,
             Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
         }
     }
@@ -130,6 +135,7 @@ impl Failure {
             }
             Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
+            Self::Reproduction(_) => Some("Give another seed.".into()),
             Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
         }
     }
