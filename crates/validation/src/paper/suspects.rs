@@ -40,7 +40,7 @@ const FAMILIES: [Family; 7] = [
     Family {
         id: "leg-length-compliance",
         effect: |s| Box::new(LegLengthCompliance { slope: s }),
-        words: |s| format!("{:.1} nm/N per mm of leg length", s * 1e6),
+        words: |s| format!("{:.1} nm/N per mm", s * 1e6),
         start: 1e-6,
     },
     Family {
@@ -52,37 +52,31 @@ const FAMILIES: [Family; 7] = [
     Family {
         id: "base-compliance",
         effect: |s| Box::new(BaseCompliance { stiffness: USUAL_BASE.map(|k| k / s) }),
-        words: |s| {
-            format!(
-                "{:.0} N/um upright, {:.1} N m/mrad in tilt",
-                USUAL_BASE[2] / s * 1e-6,
-                USUAL_BASE[3] / s * 1e-3
-            )
-        },
+        words: |s| format!("{:.0} N/um upright", USUAL_BASE[2] / s * 1e-6),
         start: 10.0,
     },
     Family {
         id: "load-offset",
         effect: |s| Box::new(LoadOffset { point: [s, s, 0.0] }),
-        words: |s| format!("mass {:.0} mm off centre", s * 1e3 * 2.0_f64.sqrt()),
+        words: |s| format!("{:.0} mm off centre", s * 1e3 * 2.0_f64.sqrt()),
         start: 0.02,
     },
     Family {
         id: "load-tilt",
         effect: |s| Box::new(LoadTilt { angles: [s, s] }),
-        words: |s| format!("gravity {:.1} deg off the Z axis", (s * 2.0_f64.sqrt()).to_degrees()),
+        words: |s| format!("{:.1} deg off Z", (s * 2.0_f64.sqrt()).to_degrees()),
         start: 0.05,
     },
     Family {
         id: "target-offset",
         effect: |s| Box::new(TargetOffset { point: [s, -s, s] }),
-        words: |s| format!("origin {:.0} mm off", s * 1e3 * 3.0_f64.sqrt()),
+        words: |s| format!("{:.0} mm off", s * 1e3 * 3.0_f64.sqrt()),
         start: 0.1,
     },
     Family {
-        id: "base-compliance, skew",
+        id: "skew support",
         effect: |s| skew_support([s, s, -s]),
-        words: |s| format!("support gives {:.1} um aslant", s * 1e6 * 3.0_f64.sqrt()),
+        words: |s| format!("{:.1} um aslant", s * 1e6 * 3.0_f64.sqrt()),
         start: 2e-6,
     },
 ];

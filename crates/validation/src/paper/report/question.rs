@@ -25,13 +25,13 @@ pub(super) fn suspects(page: &mut Document, study: &Reproduction) {
     let names = COORDINATES.map(|(name, _)| name);
     page.table(["effect", "size needed"].into_iter().chain(names), std::iter::once(published).chain(rows));
     page.list([
-        "Softness in the legs, or a base on six upright springs, misses dc and leaves da and db at the noise.",
-        "A mass off centre turns the platform: the rotation errors are twice the published ones.",
-        "Gravity 5 deg off the Z axis would have been seen. It leaves dc at the noise.",
+        "Softness of the legs or their brackets, or a base on springs along the axes, spoils dc and leaves da and db as they are.",
+        "A mass off centre also turns the platform: its rotation errors are well above the published ones.",
+        "Gravity 5 deg off the Z axis would have been seen, and leaves dc as it is.",
         "A measured origin beside the mobile one reads turns as moves and leaves the rotations alone, but it would have to sit further \
          out than the platform is wide.",
         "A support that gives aslant moves the whole machine, hardly turns it, and the paper's balls, read against the measuring \
-         machine's table, see it. It needs a few um under 219 N: the softest of the ordinary explanations, and the one taken here.",
+         machine's table, see it. A few um under 219 N are enough: the most ordinary explanation, and the one taken here.",
     ]);
 }
 

@@ -98,7 +98,7 @@ fn poses_in_words(page: &mut Document, study: &Reproduction) {
     page.paragraph(format!(
         "Fig. 7: O1 is proportional to the load (A is linear in it), so the largest load is the best, as the paper found. The paper \
          states no unit of O1; with rows in m and rad our set of Table 1 reaches {} at 300 N, where its figure ends at about {}: \
-         its rows must be in m and rad, too. In mm and mrad all values would be a thousand times as large.",
+         which suggests rows in m and rad there, too; in mm and mrad all values would be a thousand times as large.",
         number(at_300, 0),
         number(FIGURE_7_TOP, 0)
     ));
