@@ -15,6 +15,8 @@ use hexbench_validation::paper::{Reproduction, bench};
 const BLESS: &str = "HEXBENCH_BLESS";
 /// Chance below which errors are called too large.
 const REJECTED: f64 = 0.01;
+/// Columns of a page.
+const WIDEST: usize = 80;
 
 /// One run of the study serves all tests.
 fn study() -> &'static Reproduction {
@@ -128,7 +130,6 @@ fn charts_and_tables_hold_numbers_only_and_the_page_keeps_to_its_width() {
     for (name, text) in files(study()).unwrap() {
         assert!(!text.contains("NaN") && !text.contains("inf,"), "{name}");
     }
-    const WIDEST: usize = 80;
     let text = page(study()).to_text();
     let wide: Vec<&str> = text.lines().filter(|l| l.chars().count() > WIDEST).collect();
     assert!(wide.is_empty(), "{wide:#?}");

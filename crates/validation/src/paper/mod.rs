@@ -8,7 +8,7 @@
 //! | step | file |
 //! |---|---|
 //! | what the paper prints | [`published`] |
-//! | the simulated experiment | [`bench`], [`experiment`] |
+//! | the simulated experiment | [`mod@bench`], [`experiment`] |
 //! | poses | [`search`] |
 //! | springs and predictions | [`identify`] |
 //! | errors that noise alone explains | [`chances`] |
