@@ -9,6 +9,7 @@ use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
 use hexbench_model::user_term::UserTermError;
+use hexbench_truth::TruthError;
 use hexbench_validation::paper::PaperError;
 use thiserror::Error;
 
@@ -75,6 +76,9 @@ pub(crate) enum Failure {
         /// The row, and why.
         cause: Box<PredictError>,
     },
+    /// A state of the simulated machine that cannot be computed.
+    #[error("{0}")]
+    World(#[from] TruthError),
     /// A file that cannot be read.
     #[error("{}: cannot be read: {cause}", path.display())]
     Unreadable {
@@ -118,7 +122,7 @@ impl Failure {
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
             Self::Reproduction(_) => Exit::NotDetermined,
-            Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
+            Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } | Self::World(_) => Exit::BadInput,
         }
     }
 
@@ -134,6 +138,10 @@ impl Failure {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())
             }
             Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
+            Self::World(_) => Some(
+                "Check the joints in the hexapod file, the pose (mm, deg), load, stiffness and masses."
+                    .into(),
+            ),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Reproduction(_) => Some("Give another seed.".into()),
             Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
