@@ -12,6 +12,7 @@ use hexbench_model::registration::RegistrationError;
 use hexbench_model::user_term::UserTermError;
 use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
+use hexbench_validation::paper::PaperError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
@@ -120,6 +121,9 @@ pub(crate) enum Failure {
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
+    /// A study without an answer.
+    #[error("{0}")]
+    Reproduction(PaperError),
     /// Output that cannot be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Output {
@@ -139,6 +143,7 @@ impl Failure {
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
+            Self::Reproduction(_) => Exit::NotDetermined,
             Self::File(_)
             | Self::ModelFile { .. }
             | Self::Row { .. }
@@ -182,6 +187,7 @@ impl Failure {
                     .into(),
             ),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
+            Self::Reproduction(_) => Some("Give another seed.".into()),
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())
             }

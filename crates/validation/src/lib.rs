@@ -5,6 +5,7 @@
 //! `hexbench_truth`, answers from `hexbench_model`.
 
 pub mod recovery;
+pub mod paper;
 pub mod trial;
 
 pub use trial::{Outcome, Trial, TrialError};

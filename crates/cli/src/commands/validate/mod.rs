@@ -1,6 +1,7 @@
 //! `hexbench validate`: studies that say how far the bench itself can be trusted, one file each.
 
 pub(crate) mod recovery;
+pub(crate) mod paper;
 
 use clap::{Args, Subcommand};
 
@@ -20,11 +21,13 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Study {
     Recovery(recovery::Arguments),
+    Paper(paper::Arguments),
 }
 
 /// Run the study.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     match &arguments.study {
         Study::Recovery(arguments) => recovery::run(arguments, screen),
+        Study::Paper(arguments) => paper::run(arguments, screen),
     }
 }

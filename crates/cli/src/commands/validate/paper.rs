@@ -1,0 +1,39 @@
+//! `hexbench validate paper`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_validation::paper::{Reproduction, report};
+
+use crate::failure::Failure;
+use crate::output::Screen;
+
+/// Repeat the paper on a simulated machine: its tables beside ours, and what its remaining error is made of
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Seed of all noise
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Folder for the page, the charts, the readings and the numbers behind every table and figure
+    #[arg(short = 'o', long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Run the study, print the page, write the files.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let study = Reproduction::run(arguments.seed).map_err(Failure::Reproduction)?;
+    if let Some(folder) = &arguments.out {
+        for (name, text) in report::files(&study).map_err(Failure::Reproduction)? {
+            let path = folder.join(name);
+            make_folder_of(&path)?;
+            screen.write_to(&path, &text)?;
+        }
+    }
+    screen.write(&report::page(&study).to_text())
+}
+
+fn make_folder_of(path: &Path) -> Result<(), Failure> {
+    let Some(folder) = path.parent() else { return Ok(()) };
+    fs::create_dir_all(folder).map_err(|cause| Failure::Output { path: folder.to_owned(), cause })
+}

@@ -1,0 +1,9 @@
+//! Pages and charts of the bench, as text.
+//!
+//! Takes plain numbers and knows neither world: what is drawn was computed elsewhere, in the units that the axis titles
+//! state. Nothing here writes a file.
+
+pub mod document;
+pub mod plot;
+
+pub use document::Document;

@@ -1,0 +1,77 @@
+//! How often noise alone gives the paper's errors, over many repetitions of its experiment.
+
+use hexbench_core::{Dataset, Vector6};
+use hexbench_model::error::ModelError;
+use hexbench_model::paper::regressor;
+use nalgebra::{DMatrix, DVector};
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+
+use super::bench::{Bench, sigma};
+use super::error::PaperError;
+use super::identify::{pooled, rms};
+
+/// Errors of prediction over repetitions with springs alone, by the paper's estimator.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Repetitions {
+    /// Number of repetitions.
+    pub count: usize,
+    /// Median of the error of each coordinate, um and urad.
+    pub median: [f64; 6],
+    /// Error of each coordinate that one repetition in twenty exceeds, um and urad.
+    pub upper: [f64; 6],
+    /// Share of repetitions whose translation errors together are at least the given ones.
+    pub share_as_large: f64,
+}
+
+/// Repeats identification and validation with fresh noise; `error` is what the share is counted against.
+///
+/// # Errors
+/// [`PaperError::Model`] when the plan does not determine the springs.
+pub fn repetitions(
+    bench: &Bench,
+    data: [&Dataset; 2],
+    count: usize,
+    error: &[f64; 6],
+    seed: u64,
+) -> Result<Repetitions, PaperError> {
+    const STREAM: u128 = 77;
+    let [fitted, held_out] = [regressor(&bench.hexapod, data[0])?, regressor(&bench.hexapod, data[1])?];
+    let inverse = fitted.pseudo_inverse(0.0).map_err(|_| ModelError::NoLoad)?;
+    let gain = &held_out * inverse;
+    let mut rng = Pcg64::new(u128::from(seed), STREAM);
+    let errors: Vec<[f64; 6]> = (0..count).map(|_| one(&gain, &mut rng)).collect();
+    let limit = pooled(error, 0);
+    let large = errors.iter().filter(|e| pooled(e, 0) >= limit).count();
+    Ok(Repetitions {
+        count,
+        median: quantile(&errors, 0.5),
+        upper: quantile(&errors, 0.95),
+        share_as_large: large as f64 / count.max(1) as f64,
+    })
+}
+
+fn one(gain: &DMatrix<f64>, rng: &mut Pcg64) -> [f64; 6] {
+    let fitted = noise(gain.ncols(), rng);
+    let held_out = noise(gain.nrows(), rng) - gain * fitted;
+    rms((0..gain.nrows() / 6).map(|i| Vector6::from_fn(|k, _| held_out[6 * i + k])))
+}
+
+fn noise(rows: usize, rng: &mut Pcg64) -> DVector<f64> {
+    let sigma = sigma();
+    DVector::from_fn(rows, |i, _| {
+        let unit: f64 = StandardNormal.sample(rng);
+        unit * sigma[i % 6]
+    })
+}
+
+fn quantile(errors: &[[f64; 6]], share: f64) -> [f64; 6] {
+    // An index into the list.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let index = (share * errors.len().saturating_sub(1) as f64).round() as usize;
+    std::array::from_fn(|k| {
+        let mut sorted: Vec<f64> = errors.iter().map(|e| e[k]).collect();
+        sorted.sort_by(f64::total_cmp);
+        sorted.get(index).copied().unwrap_or(0.0)
+    })
+}

@@ -1,0 +1,112 @@
+//! From readings to leg stiffnesses, and from these to predictions.
+
+use hexbench_core::{Dataset, Matrix6, Vector6};
+use hexbench_model::campaign::Campaign;
+use hexbench_model::error::ModelError;
+use hexbench_model::fit::{Fit, fit_baseline};
+use hexbench_model::paper::{block, fit_paper};
+use hexbench_model::residuals::survival;
+
+use super::bench::{Bench, sigma};
+
+/// How stiffnesses are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Estimator {
+    /// The paper's: minimum-norm least squares without weights, metres and radians side by side.
+    Paper,
+    /// Generalised least squares: every number divided by its noise.
+    Weighted,
+}
+
+/// Identified springs.
+#[derive(Debug, Clone)]
+pub struct Identified {
+    /// Compliance of each leg, m/N.
+    pub springs: Vector6,
+    /// Covariance of the compliances under the noise of the readings, (m/N)^2.
+    pub covariance: Matrix6,
+    campaign: Campaign,
+    fit: Fit,
+}
+
+impl Identified {
+    /// Springs from readings.
+    ///
+    /// # Errors
+    /// As [`fit_paper`] and [`fit_baseline`].
+    pub fn from(bench: &Bench, data: &Dataset, estimator: Estimator) -> Result<Self, ModelError> {
+        let campaign = Campaign::new(&bench.hexapod, data)?;
+        let fit = match estimator {
+            Estimator::Paper => fit_paper(&campaign, data)?.into_fit(&campaign)?,
+            Estimator::Weighted => fit_baseline(&campaign)?,
+        };
+        let covariance = Matrix6::from_fn(|i, j| fit.covariance[(i, j)]);
+        Ok(Self { springs: fit.point.springs, covariance, campaign, fit })
+    }
+
+    /// Stiffness of each leg and its standard uncertainty, N/um.
+    pub fn stiffness(&self) -> [[f64; 2]; 6] {
+        std::array::from_fn(|leg| {
+            let compliance = self.springs[leg];
+            let stiffness = 1e-6 / compliance;
+            [stiffness, stiffness * self.covariance[(leg, leg)].sqrt() / compliance.abs()]
+        })
+    }
+
+    /// Predicted deflection of each reading, m and rad.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn predict(&self, bench: &Bench, data: &Dataset) -> Result<Vec<Vector6>, ModelError> {
+        let one = |o| Ok(block(&bench.hexapod, o, data.measurand)? * self.springs);
+        data.observations.iter().map(one).collect()
+    }
+
+    /// Error of prediction on other readings, root mean square by coordinate, um and urad.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn prediction_error(&self, bench: &Bench, data: &Dataset) -> Result<[f64; 6], ModelError> {
+        let predicted = self.predict(bench, data)?;
+        let errors = data.observations.iter().zip(predicted).map(|(o, p)| Vector6::from(o.measured) - p);
+        Ok(rms(errors))
+    }
+
+    /// What the error of prediction should be if springs are all there is: noise of the readings and of the springs.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn expected_error(&self, bench: &Bench, data: &Dataset) -> Result<[f64; 6], ModelError> {
+        let noise = Vector6::from(sigma()).map(|s| s * s);
+        let mut total = Vector6::zeros();
+        for reading in &data.observations {
+            let a = block(&bench.hexapod, reading, data.measurand)?;
+            total += noise + (a * self.covariance * a.transpose()).diagonal();
+        }
+        let n = data.observations.len().max(1) as f64;
+        Ok((total / n).map(|v| v.sqrt() * 1e6).into())
+    }
+
+    /// Chance of errors as large as these if springs are all there is.
+    ///
+    /// # Errors
+    /// As [`survival`].
+    pub fn chance(&self, bench: &Bench, data: &Dataset) -> Result<f64, ModelError> {
+        survival(&bench.hexapod, data, self.campaign.noise, &self.fit)
+    }
+}
+
+/// Root mean square by coordinate, um and urad, of values in m and rad.
+pub fn rms(values: impl IntoIterator<Item = Vector6>) -> [f64; 6] {
+    let (mut sum, mut count) = (Vector6::zeros(), 0.0);
+    for value in values {
+        sum += value.component_mul(&value);
+        count += 1.0;
+    }
+    (sum / f64::max(count, 1.0)).map(|v| v.sqrt() * 1e6).into()
+}
+
+/// Root mean square of three of six such numbers: the translations (0) or the rotations (1).
+pub fn pooled(rms: &[f64; 6], part: usize) -> f64 {
+    (rms[3 * part..3 * part + 3].iter().map(|x| x * x).sum::<f64>() / 3.0).sqrt()
+}
