@@ -2,7 +2,9 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{compare, compensate, completions, demo, diagnose, fit, predict, terms, validate};
+use crate::commands::{
+    compare, compensate, completions, demo, diagnose, fit, predict, terms, transient, validate,
+};
 use crate::output::Colour;
 
 /// Compare a hexapod's stiffness model with measurements, name the physical effect it lacks, add it, and watch the
@@ -36,6 +38,7 @@ pub(crate) enum Command {
     Fit(fit::Arguments),
     Predict(predict::Arguments),
     Compensate(compensate::Arguments),
+    Transient(transient::Arguments),
     Terms(terms::Arguments),
     Validate(validate::Arguments),
     Completions(completions::Arguments),

@@ -9,6 +9,7 @@ use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
 use hexbench_model::user_term::UserTermError;
+use hexbench_truth::TruthError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
@@ -74,6 +75,9 @@ pub(crate) enum Failure {
         /// The row, and why.
         cause: Box<PredictError>,
     },
+    /// A state of the simulated machine that cannot be computed.
+    #[error("{0}")]
+    World(#[from] TruthError),
     /// A file that cannot be read.
     #[error("{}: cannot be read: {cause}", path.display())]
     Unreadable {
@@ -113,7 +117,7 @@ impl Failure {
             Self::Check(_) => Exit::CheckFailed,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
-            Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
+            Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } | Self::World(_) => Exit::BadInput,
         }
     }
 
@@ -129,6 +133,10 @@ impl Failure {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())
             }
             Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
+            Self::World(_) => Some(
+                "Check the joints in the hexapod file, the pose (mm, deg), load, stiffness and masses."
+                    .into(),
+            ),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
         }

@@ -21,7 +21,6 @@ pub(crate) fn period_grid(conditions: &[Condition]) -> Vec<f64> {
         return Vec::new();
     }
     let finest = FINEST_PERIOD_M.max(range / (2 * lengths.len()) as f64);
-    let count = ((OVERSAMPLING as f64 * range / finest) as usize).clamp(8, MOST_PERIODS);
-    let step = 1.0 / (OVERSAMPLING as f64 * range);
-    (OVERSAMPLING..OVERSAMPLING + count).map(|k| 1.0 / (step * k as f64)).collect()
+    let periods = (OVERSAMPLING..).map(|k| OVERSAMPLING as f64 * range / k as f64);
+    periods.take(MOST_PERIODS).take_while(|&p| p >= finest).collect()
 }

@@ -72,3 +72,16 @@ fn a_folder_that_cannot_be_written_to_exits_with_5() {
     let output = diagnose("mujoco-clean", &["--json", "no/such/folder/d.json"]);
     assert_eq!(output.status.code(), Some(5));
 }
+
+#[test]
+fn a_transient_without_stiffness_or_with_a_short_load_is_wrong_usage() {
+    let bare =
+        hexbench_in("mujoco-clean").args(["transient", "hexapod.toml", "--load", "0,0,-9,0,0,0"]).output();
+    let bare = bare.unwrap();
+    assert_eq!(bare.status.code(), Some(2));
+    let stderr = String::from_utf8_lossy(&bare.stderr).into_owned();
+    assert!(stderr.contains("nominal_stiffness") && stderr.contains("--stiffness"), "{stderr}");
+    let short = hexbench_in("mujoco-clean").args(["transient", "hexapod.toml", "--load", "0,0,-9"]).output();
+    let stderr = String::from_utf8_lossy(&short.unwrap().stderr).into_owned();
+    assert!(stderr.contains("3 numbers; six"), "{stderr}");
+}

@@ -1,6 +1,6 @@
 //! Pages of text that people read: kept as snapshots, never wider than a terminal.
 
-use crate::support::{cases, diagnose, hexbench, text};
+use crate::support::{cases, diagnose, hexbench, hexbench_in, text};
 
 const WIDTH: usize = 80;
 
@@ -64,4 +64,17 @@ fn the_demo_ends_with_the_foundation_named_and_the_error_at_the_noise() {
     let end = page.split("Verdict").last().unwrap();
     let words = end.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("base-compliance") && words.contains("it is at the noise"), "{words}");
+}
+
+#[test]
+fn a_transient_reads_as_before_and_its_trace_ends_where_the_page_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let trace = folder.path().join("trace.csv");
+    let arguments = ["transient", "hexapod.toml", "--load", "0,0,-300,0,8,0", "--stiffness", "4", "-o"];
+    let page = text(hexbench_in("mujoco-clean").args(arguments).arg(&trace).output().unwrap());
+    assert_narrow(&page, "transient");
+    let rows = std::fs::read_to_string(&trace).unwrap();
+    let last: Vec<f64> = rows.lines().last().unwrap().split(',').map(|x| x.parse().unwrap()).collect();
+    assert_eq!(rows.lines().next().unwrap().split(',').count(), last.len());
+    assert!(page.contains(&format!("{:.3}", last[3])), "dc_um {} is not on the page:\n{page}", last[3]);
 }

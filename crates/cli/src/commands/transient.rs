@@ -1,0 +1,116 @@
+//! `hexbench transient HEXAPOD --load fx,fy,fz,mx,my,mz`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
+use hexbench_rapier::parts::Inertia;
+use hexbench_rapier::transient::{LoadStep, SETTLED, Transient, csv, nominal, settle, static_deflection};
+
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{Ink, Paper, Screen, Table, number};
+
+/// See how the machine settles after a load step, and its natural frequencies
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The machine: hexapod.toml
+    hexapod: PathBuf,
+    /// Force (N) and moment (N m) at the mobile origin: fx,fy,fz,mx,my,mz
+    #[arg(long, value_name = "WRENCH", value_parser = six, allow_hyphen_values = true)]
+    load: Six,
+    /// Pose (mm, deg): a,b,c,alpha,beta,gamma
+    #[arg(long, value_name = "POSE", value_parser = six, allow_hyphen_values = true, default_value = "0,0,0,0,0,0")]
+    pose: Six,
+    /// Mass of the platform with its payload, kg; a disc of the radius of its joints
+    #[arg(long, value_name = "MASS", value_parser = positive, default_value = "10")]
+    payload_kg: f64,
+    /// Mass of each leg, kg
+    #[arg(long, value_name = "MASS", value_parser = positive, default_value = "1")]
+    leg_kg: f64,
+    /// Damping of the lowest mode over its critical damping, 0.005 to 2
+    #[arg(long, value_name = "RATIO", value_parser = ratio, default_value = "0.05")]
+    damping_ratio: f64,
+    /// Stiffness of every leg, N/um; otherwise nominal_stiffness_N_per_um of the file
+    #[arg(long, value_name = "STIFFNESS", value_parser = positive)]
+    stiffness: Option<f64>,
+    /// Write the trace to FILE (trace.csv)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Six numbers of an argument.
+#[derive(Debug, Clone, Copy)]
+struct Six([f64; 6]);
+
+fn six(text: &str) -> Result<Six, String> {
+    let numbers: Vec<f64> = text.split(',').map(number_of).collect::<Result<_, _>>()?;
+    let count = numbers.len();
+    numbers.try_into().map(Six).map_err(|_| format!("{count} numbers; six with commas between are needed"))
+}
+
+fn number_of(text: &str) -> Result<f64, String> {
+    let value = text.trim().parse().map_err(|_| format!("`{text}` is not a number"))?;
+    if f64::is_finite(value) { Ok(value) } else { Err(format!("`{text}` is not finite")) }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    number_of(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("it has to be positive".into()) })
+}
+
+fn ratio(text: &str) -> Result<f64, String> {
+    let within = |x: &f64| (0.005..=2.0).contains(x);
+    number_of(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "it has to be 0.005 to 2".into()))
+}
+
+/// Settle, tell, save.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let hexapod = input::hexapod(&arguments.hexapod)?;
+    let stiffness = stiffness(arguments, &hexapod)?;
+    let [a, b, c, x, y, z] = arguments.pose.0;
+    let [a, b, c] = [a, b, c].map(|mm| mm * 1e-3);
+    let [x, y, z] = [x, y, z].map(f64::to_radians);
+    let pose = Pose::from_array([a, b, c, x, y, z]);
+    let setup = nominal(&hexapod, &stiffness, pose, Wrench::from_array(arguments.load.0))?;
+    let standing = static_deflection(&setup)?;
+    let step = LoadStep {
+        platform: Inertia::disc(arguments.payload_kg, hexapod.platform_radius()),
+        leg_mass: arguments.leg_kg,
+        damping_ratio: arguments.damping_ratio,
+    };
+    let transient = settle(&setup, &step)?;
+    screen.write(&page(&transient, &standing, screen.ink()))?;
+    arguments.output.as_ref().map_or(Ok(()), |path| screen.write_to(path, &csv(&transient.samples)))
+}
+
+fn stiffness(arguments: &Arguments, hexapod: &Hexapod) -> Result<[f64; 6], Failure> {
+    let common = arguments.stiffness.map(|k| [k * 1e6; 6]);
+    common.or(hexapod.nominal_stiffness).ok_or_else(|| Failure::Usage {
+        message: format!("{} states no nominal_stiffness_N_per_um", arguments.hexapod.display()),
+        next: "Give the stiffness of the legs: --stiffness 4 (N/um).".into(),
+    })
+}
+
+fn page(transient: &Transient, standing: &Vector6, ink: Ink) -> String {
+    let mut paper = Paper::new(ink);
+    let hz = transient.modes.frequencies_hz().map(|f| number::significant(f, 4)).join("  ");
+    paper.heading("Natural frequencies", "linear leg springs, platform and legs with mass");
+    paper.line(&format!("  {hz}  Hz"));
+    let seen = transient.observed_frequency_hz.map_or_else(
+        || "The load hardly made the lowest mode swing, or it is damped too much.".to_owned(),
+        |f| format!("The lowest mode was seen to swing at {} Hz.", number::significant(f, 4)),
+    );
+    paper.paragraph(2, &seen);
+    paper.heading("After the load step", "without gravity");
+    let percent = 100.0 * SETTLED;
+    let time = number::significant(transient.settling_time, 3);
+    paper.paragraph(2, &format!("Settled within {percent:.0} % of the deflection after {time} s."));
+    let mut table = Table::default();
+    table.row(["", "da_um", "db_um", "dc_um", "dalpha_urad", "dbeta_urad", "dgamma_urad"]);
+    for (name, deflection) in [("end of the trace", &transient.limit()), ("static equilibrium", standing)] {
+        let cells = deflection.iter().map(|d| format!("{:.3}", d * 1e6 + 0.0));
+        table.row(std::iter::once(name.to_owned()).chain(cells));
+    }
+    table.lines().iter().for_each(|line| paper.line(line));
+    paper.into_text()
+}

@@ -1,0 +1,39 @@
+//! The second world: the hexapod as rigid bodies and joints of a dynamics engine (Rapier), brought to rest.
+//!
+//! It takes over what the mechanisms of the first world made of the machine ([`hexbench_truth::Setup`]) and finds the state
+//! of rest by other means: nothing is solved for, the machine moves until it stands. Two programs that share no equation of
+//! balance and agree are a witness for each other.
+//!
+//! - [`RapierStatics`]: a [`Statics`](hexbench_truth::Statics); `World { statics: Arc::new(RapierStatics::default()), .. }`.
+//! - [`witness`]: both worlds side by side over machines, effects, poses and loads.
+//! - [`transient`]: how the machine settles after a load step, with true masses.
+//! - [`modes`]: natural frequencies.
+//!
+//! Not expressed ([`TruthError::Inexpressible`]): a rigid friction slider, whose force does not follow from where the bodies
+//! are; a yielding base or plate with rigid directions.
+
+mod convert;
+pub mod law;
+pub mod masses;
+pub mod modes;
+pub mod parts;
+pub mod rest;
+pub mod scene;
+pub mod transient;
+pub mod witness;
+
+pub use modes::Modes;
+pub use rest::RapierStatics;
+
+use hexbench_truth::TruthError;
+
+/// A number of steps or sweeps.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // small and positive; the cast saturates
+fn whole(count: f64) -> usize {
+    count as usize
+}
+
+/// What the engine has no means for.
+fn inexpressible(what: &'static str) -> TruthError {
+    TruthError::Inexpressible { world: "the world of rigid bodies", what }
+}

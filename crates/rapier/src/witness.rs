@@ -1,0 +1,171 @@
+//! Both worlds side by side: the same machine, effect, pose and load, two ways to the state of rest.
+
+use std::{fmt::Write, sync::Arc, time::Instant};
+
+use hexbench_core::{Hexapod, Vector6};
+use hexbench_truth::{
+    Situation, Statics, TruthError, World,
+    campaign::{PlanKind, machines},
+    mechanisms::{Effect, REGISTRY},
+    world::Reading,
+};
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+/// One situation in which the worlds are compared.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Number of the case.
+    pub index: usize,
+    /// Family of the machine.
+    pub family: &'static str,
+    /// Effect at work; none: leg springs alone.
+    pub effect: Option<&'static Effect>,
+    /// Nominal machine.
+    pub hexapod: Hexapod,
+    /// Stiffness of the legs, N/m.
+    pub stiffness: [f64; 6],
+    /// Pose, loads and path.
+    pub situation: Situation,
+    seed: u64,
+}
+
+/// How far apart the worlds are in one case, all as shares.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Number of the case.
+    pub index: usize,
+    /// Family of the machine.
+    pub family: &'static str,
+    /// Id of the effect, or `none`.
+    pub effect: &'static str,
+    /// Size of the deflection (loaded minus reference), m.
+    pub deflection: f64,
+    /// Difference in position over the deflection: of the deflection or of the loaded pose, whichever is larger.
+    pub translation: f64,
+    /// Difference in orientation over the rotation (that of the deflection, plus its translation over the radius).
+    pub rotation: f64,
+    /// Largest difference of a leg force over the largest leg force.
+    pub force: f64,
+    /// Time of one state of rest in the second world, s.
+    pub seconds: f64,
+}
+
+impl Comparison {
+    /// The largest of the three shares.
+    pub fn worst(&self) -> f64 {
+        self.translation.max(self.rotation).max(self.force)
+    }
+}
+
+impl Case {
+    /// Case `index` of a seed. Consecutive ones walk through all effects and all families of machines; sizes, poses, loads
+    /// and the approach to the load are drawn.
+    pub fn draw(index: usize, seed: u64) -> Self {
+        let mut rng = Pcg64::new(u128::from(seed), index as u128);
+        let effects = REGISTRY.len() + 1;
+        let family = machines::FAMILIES[index % machines::FAMILIES.len()];
+        let hexapod = machines::draw(family, &mut rng);
+        let stiffness = machines::leg_stiffness(family, &mut rng);
+        let rows = PlanKind::OtherLoads.draw(&hexapod, &mut rng).training;
+        let situation = rows[rng.random_range(0..rows.len())].situation;
+        let effect = (index % effects).checked_sub(1).map(|i| &REGISTRY[i]);
+        Self { index, family, effect, hexapod, stiffness, situation, seed }
+    }
+
+    /// Name of the effect, `none` for leg springs alone.
+    pub fn effect_name(&self) -> &'static str {
+        self.effect.map_or("none", |effect| effect.id)
+    }
+
+    /// The machine with its effect in the first world.
+    pub fn world(&self) -> World {
+        let world = World::new(self.hexapod.clone(), &self.stiffness);
+        let mut rng = Pcg64::new(u128::from(self.seed), self.index as u128 + (1 << 64));
+        match self.effect {
+            None => world,
+            Some(effect) => world.with((effect.draw)(&self.hexapod, &mut rng)),
+        }
+    }
+
+    /// Compares the first world with the same one on other statics.
+    ///
+    /// # Errors
+    /// As [`World::reading`], of either world.
+    pub fn compare(&self, other: &Arc<dyn Statics>) -> Result<Comparison, TruthError> {
+        let first = self.world();
+        let mut second = self.world();
+        second.statics = Arc::clone(other);
+        let deflections = [first.deflection(&self.situation)?, second.deflection(&self.situation)?];
+        let reading = first.reading(&self.situation)?;
+        let start = Instant::now();
+        let witnessed = second.reading(&self.situation)?;
+        // An overload on the way is a second state of rest.
+        let states = if self.situation.approach < 0.0 { 2.0 } else { 1.0 };
+        let seconds = start.elapsed().as_secs_f64() / states;
+        Ok(Comparison { seconds, ..self.differences(&deflections, &reading, &witnessed) })
+    }
+
+    fn differences(&self, deflections: &[Vector6; 2], first: &Reading, second: &Reading) -> Comparison {
+        let [size, turn] = parts(&deflections[0]);
+        let by_deflection = parts(&(deflections[1] - deflections[0]));
+        let by_pose = parts(&second.equilibrium.platform.relative_to(&first.equilibrium.platform));
+        let forces = (first.equilibrium.forces, second.equilibrium.forces);
+        let largest = forces.0.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+        let apart = forces.0.iter().zip(forces.1).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        Comparison {
+            index: self.index,
+            family: self.family,
+            effect: self.effect_name(),
+            deflection: size,
+            translation: by_deflection[0].max(by_pose[0]) / size,
+            rotation: by_deflection[1].max(by_pose[1]) / (turn + size / self.hexapod.platform_radius()),
+            force: apart / largest,
+            seconds: 0.0,
+        }
+    }
+}
+
+/// Sizes of translation and rotation.
+fn parts(d: &Vector6) -> [f64; 2] {
+    [d.fixed_rows::<3>(0).norm(), d.fixed_rows::<3>(3).norm()]
+}
+
+/// One line for each comparison.
+pub fn csv(comparisons: &[Comparison]) -> String {
+    let mut text = "case,family,effect,deflection_um,translation,rotation,force,seconds\n".to_owned();
+    for c in comparisons {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{},{},{},{:.6},{:.3e},{:.3e},{:.3e},{:.4}",
+            c.index,
+            c.family,
+            c.effect,
+            c.deflection * 1e6,
+            c.translation,
+            c.rotation,
+            c.force,
+            c.seconds
+        );
+    }
+    text
+}
+
+/// Median, 99 % quantile and largest value of each quantity, as a page.
+pub fn summary(comparisons: &[Comparison]) -> String {
+    let mut text = format!("{} cases{:>23}{:>12}{:>12}\n", comparisons.len(), "median", "99 %", "largest");
+    let mut line = |name: &str, value: fn(&Comparison) -> f64| {
+        let mut values: Vec<f64> = comparisons.iter().map(value).collect();
+        values.sort_by(f64::total_cmp);
+        let at = |percent: usize| values.get(values.len() * percent / 100);
+        if let (Some(q50), Some(q99), Some(most)) = (at(50), at(99), values.last()) {
+            let _ = writeln!(text, "{name:<22}{q50:>12.1e}{q99:>12.1e}{most:>12.1e}");
+        }
+    };
+    line("position", |c| c.translation);
+    line("orientation", |c| c.rotation);
+    line("leg forces", |c| c.force);
+    line("s per state of rest", |c| c.seconds);
+    text
+}
