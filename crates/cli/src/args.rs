@@ -2,9 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{
-    compare, compensate, completions, demo, diagnose, fit, predict, terms, transient, validate,
-};
+use crate::commands;
 use crate::output::Colour;
 
 /// Compare a hexapod's stiffness model with measurements, name the physical effect it lacks, add it, and watch the
@@ -32,14 +30,14 @@ pub(crate) struct Cli {
 /// The subcommands: one file in `commands/` and one line here and in [`crate::commands::run`] each.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    Demo(demo::Arguments),
-    Compare(compare::Arguments),
-    Diagnose(diagnose::Arguments),
-    Fit(fit::Arguments),
-    Predict(predict::Arguments),
-    Compensate(compensate::Arguments),
-    Transient(transient::Arguments),
-    Terms(terms::Arguments),
-    Validate(validate::Arguments),
-    Completions(completions::Arguments),
+    Demo(commands::demo::Arguments),
+    Compare(commands::compare::Arguments),
+    Diagnose(commands::diagnose::Arguments),
+    Fit(commands::fit::Arguments),
+    Predict(commands::predict::Arguments),
+    Compensate(commands::compensate::Arguments),
+    Transient(commands::transient::Arguments),
+    Terms(commands::terms::Arguments),
+    Validate(commands::validate::Arguments),
+    Completions(commands::completions::Arguments),
 }
