@@ -65,6 +65,9 @@ fn elements(action: &Action) -> Vec<f64> {
     match action {
         Action::Force(v) | Action::Elongation(v) | Action::Twist(v) => v.iter().copied().collect(),
         Action::Stiffness(m) | Action::Target(m) => m.iter().copied().collect(),
+        Action::Joint { elongation: first, force } | Action::Frame { twist: first, force } => {
+            first.iter().chain(force).copied().collect()
+        }
     }
 }
 

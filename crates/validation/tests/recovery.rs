@@ -81,12 +81,15 @@ fn the_numbers_of_an_effect_are_as_many_as_the_term_has() {
 }
 
 #[test]
-fn absolute_poses_leave_twelve_combinations_of_the_geometry_open_and_predict_to_the_noise() {
+fn absolute_poses_leave_seven_to_twelve_combinations_of_the_geometry_open_and_predict_to_the_noise() {
+    // Twelve rigid motions are frames; of five of them the load gives a hint, more of one on a quieter instrument.
+    const OPEN: std::ops::RangeInclusive<usize> = 7..=12;
     let s = subject("geometry, 42 numbers");
     let scene = Scene::draw(&s, 1, 6, None).unwrap();
     let (campaign, fit) = right_fit(&s, scene.hexapod(), &scene.case.measurements).unwrap();
     let found = combinations(&scene, &fit).unwrap();
-    assert_eq!((found.misses.len(), found.open), (30, 12));
+    assert_eq!(found.misses.len() + found.open, 42);
+    assert!(OPEN.contains(&found.open), "{} combinations are open", found.open);
     let errors = hexbench_model::residuals::prediction_errors(
         scene.hexapod(),
         &scene.case.holdout,

@@ -6,8 +6,10 @@
 //! the estimate by the two rigid motions that fit best (exactly the same machine, seen from other frames), and what is compared
 //! are the combinations that the data determine: eigenvectors of the covariance along which it is small against the prior.
 //!
-//! One thing is not the same in other frames: which way the load points. A rigid rotation of all joints by 1e-3 rad turns the
-//! load by as much against the legs.
+//! One thing is not the same in other frames: which way the load points and where it acts. A tilt of all base joints by 1e-3 rad
+//! turns a vertical load by as much against the legs, and a shift of all platform joints moves its point of action. Loaded
+//! poses give a hint of these five; the other seven (shifts of the base, its rotation about the load, rotations of the
+//! platform) never show.
 
 use hexbench_core::Vector3;
 use hexbench_model::fit::Fit;
