@@ -6,6 +6,7 @@ mod files;
 pub mod machines;
 mod measure;
 mod plan;
+mod redraw;
 mod signature;
 
 pub use case::{Case, CaseSpec, Kind};
