@@ -4,6 +4,9 @@
 //! Next to the command this is the only place that sees both worlds. It holds no physics of its own: campaigns come from
 //! `hexbench_truth`, answers from `hexbench_model`.
 
+pub mod calibration;
+pub mod proportion;
 pub mod trial;
 
+pub use proportion::Proportion;
 pub use trial::{Outcome, Trial};
