@@ -1,0 +1,172 @@
+//! A table whose cells are shaded.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::number;
+use super::canvas::{Canvas, Type, svg};
+use super::chart::{MARGIN_PX, title};
+use super::error::{PlotError, finite, length, not_empty};
+use super::style::{INK, LABEL_PX, PAPER, TICK_PX, shade, text_width};
+
+/// A table of numbers, each cell shaded from white (zero) to dark (the largest).
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeatMap {
+    title: String,
+    rows: Vec<String>,
+    columns: Vec<String>,
+    values: Vec<Vec<f64>>,
+    row_title: String,
+    column_title: String,
+    decimals: usize,
+    full_shade: Option<f64>,
+    cell_px: [f64; 2],
+}
+
+impl HeatMap {
+    /// A table; `values` has one list for each row. Zeros stay blank.
+    pub fn new(
+        title: impl Into<String>,
+        rows: Vec<String>,
+        columns: Vec<String>,
+        values: Vec<Vec<f64>>,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            rows,
+            columns,
+            values,
+            row_title: String::new(),
+            column_title: String::new(),
+            decimals: 0,
+            full_shade: None,
+            cell_px: [30.0, 24.0],
+        }
+    }
+
+    /// What rows and columns are.
+    #[must_use]
+    pub fn with_axis_titles(self, rows: impl Into<String>, columns: impl Into<String>) -> Self {
+        Self { row_title: rows.into(), column_title: columns.into(), ..self }
+    }
+
+    /// Decimals of the numbers in the cells.
+    #[must_use]
+    pub fn with_decimals(self, decimals: usize) -> Self {
+        Self { decimals, ..self }
+    }
+
+    /// The size at which a cell is darkest, instead of the largest one.
+    #[must_use]
+    pub fn with_full_shade_at(self, value: f64) -> Self {
+        Self { full_shade: Some(value), ..self }
+    }
+
+    /// Cells of another size, px.
+    #[must_use]
+    pub fn with_cell_size(self, width_px: f64, height_px: f64) -> Self {
+        Self { cell_px: [width_px, height_px], ..self }
+    }
+
+    /// The table as SVG; its size follows the cells and names.
+    ///
+    /// # Errors
+    /// [`PlotError::NotFinite`], [`PlotError::Empty`], [`PlotError::Length`].
+    pub fn to_svg(&self) -> Result<String, PlotError> {
+        self.check()?;
+        let [left, top] = self.corner();
+        let width = (left + self.columns.len() as f64 * self.cell_px[0] + MARGIN_PX).max(320.0);
+        let height = top + self.rows.len() as f64 * self.cell_px[1] + MARGIN_PX;
+        svg([width, height], &self.title, |canvas| {
+            title(canvas, &self.title, [MARGIN_PX, MARGIN_PX], width - 2.0 * MARGIN_PX)?;
+            self.draw_cells(canvas, [left, top])?;
+            self.draw_names(canvas, [left, top])?;
+            self.draw_axis_titles(canvas, [left, top])
+        })
+    }
+
+    fn check(&self) -> Result<(), PlotError> {
+        not_empty(&self.title, self.rows.len().min(self.columns.len()))?;
+        length(&self.title, "the table", self.values.len(), self.rows.len())?;
+        for (name, row) in self.rows.iter().zip(&self.values) {
+            length(&self.title, &format!("row \"{name}\""), row.len(), self.columns.len())?;
+            finite(&self.title, &format!("row \"{name}\""), row)?;
+        }
+        finite(&self.title, "the settings", self.full_shade.iter().chain(&self.cell_px))
+    }
+
+    /// Upper left corner of the first cell, px.
+    fn corner(&self) -> [f64; 2] {
+        let row_title = if self.row_title.is_empty() { 0.0 } else { LABEL_PX + 10.0 };
+        let column_title = if self.column_title.is_empty() { 0.0 } else { LABEL_PX + 8.0 };
+        let head = MARGIN_PX + if self.title.is_empty() { 0.0 } else { super::chart::TITLE_ROW_PX };
+        let names = if self.upright() { widest(&self.columns) } else { TICK_PX };
+        [MARGIN_PX + row_title + widest(&self.rows) + 8.0, head + column_title + names + 8.0]
+    }
+
+    /// Names of columns are turned when they do not fit over their cells.
+    fn upright(&self) -> bool {
+        widest(&self.columns) > self.cell_px[0] - 4.0
+    }
+
+    fn darkest(&self) -> f64 {
+        let largest = || self.values.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+        self.full_shade.unwrap_or_else(largest).abs().max(f64::MIN_POSITIVE)
+    }
+
+    fn draw_cells(&self, canvas: &Canvas<'_>, [left, top]: [f64; 2]) -> Result<(), PlotError> {
+        const LIGHT_TEXT_FROM: f64 = 0.55;
+        const GAP_PX: f64 = 1.0;
+        let ([w, h], darkest) = (self.cell_px, self.darkest());
+        for (i, row) in self.values.iter().enumerate() {
+            for (j, &value) in row.iter().enumerate() {
+                let (x, y) = (left + j as f64 * w, top + i as f64 * h);
+                let share = value.abs() / darkest;
+                // Faint cells stay apart from the paper so that the table shows where nothing is.
+                let floor = 0.035;
+                let colour = shade(floor + (1.0 - floor) * share);
+                canvas.rectangle([x, y], [x + w - GAP_PX, y + h - GAP_PX], colour)?;
+                if value != 0.0 {
+                    let ink = if share > LIGHT_TEXT_FROM { PAPER } else { INK };
+                    let set = Type::new(TICK_PX).colour(ink).at(HPos::Center, VPos::Center);
+                    let centre = [x + 0.5 * (w - GAP_PX), y + 0.5 * (h - GAP_PX)];
+                    canvas.text(centre, &number(value, self.decimals), set)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_names(&self, canvas: &Canvas<'_>, [left, top]: [f64; 2]) -> Result<(), PlotError> {
+        let [w, h] = self.cell_px;
+        let at_row = Type::new(TICK_PX).at(HPos::Right, VPos::Center);
+        for (i, name) in self.rows.iter().enumerate() {
+            canvas.text([left - 7.0, top + (i as f64 + 0.5) * h], name, at_row)?;
+        }
+        let flat = Type::new(TICK_PX).at(HPos::Center, VPos::Bottom);
+        let turned = Type::new(TICK_PX).at(HPos::Left, VPos::Center).upright();
+        for (j, name) in self.columns.iter().enumerate() {
+            let set = if self.upright() { turned } else { flat };
+            canvas.text([left + (j as f64 + 0.5) * w, top - 6.0], name, set)?;
+        }
+        Ok(())
+    }
+
+    fn draw_axis_titles(&self, canvas: &Canvas<'_>, [left, top]: [f64; 2]) -> Result<(), PlotError> {
+        let (w, h) = (self.columns.len() as f64 * self.cell_px[0], self.rows.len() as f64 * self.cell_px[1]);
+        let set = Type::new(LABEL_PX).bold();
+        if !self.row_title.is_empty() {
+            let at = [MARGIN_PX + LABEL_PX / 2.0, top + h / 2.0];
+            canvas.text(at, &self.row_title, set.at(HPos::Center, VPos::Center).upright())?;
+        }
+        if self.column_title.is_empty() {
+            return Ok(());
+        }
+        let head = MARGIN_PX + if self.title.is_empty() { 0.0 } else { super::chart::TITLE_ROW_PX };
+        let at = [left + w / 2.0, head + LABEL_PX / 2.0];
+        canvas.text(at, &self.column_title, set.at(HPos::Center, VPos::Center))
+    }
+}
+
+fn widest(names: &[String]) -> f64 {
+    names.iter().map(|n| text_width(n, TICK_PX)).fold(0.0, f64::max)
+}
