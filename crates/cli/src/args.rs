@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{compare, compensate, completions, demo, diagnose, fit, predict, terms};
+use crate::commands::{compare, compensate, completions, demo, diagnose, fit, predict, terms, validate};
 use crate::output::Colour;
 
 /// Compare a hexapod's stiffness model with measurements, name the physical effect it lacks, add it, and watch the
@@ -37,5 +37,6 @@ pub(crate) enum Command {
     Predict(predict::Arguments),
     Compensate(compensate::Arguments),
     Terms(terms::Arguments),
+    Validate(validate::Arguments),
     Completions(completions::Arguments),
 }

@@ -9,6 +9,9 @@ use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
 use hexbench_model::user_term::UserTermError;
+use hexbench_report::plot::PlotError;
+use hexbench_truth::TruthError;
+use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
@@ -93,6 +96,12 @@ pub(crate) enum Failure {
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
+    /// A simulated campaign without an answer.
+    #[error("{0}")]
+    Trial(TrialError),
+    /// A chart that cannot be drawn.
+    #[error("{0}")]
+    Plot(#[from] PlotError),
     /// Output that cannot be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Output {
@@ -112,7 +121,11 @@ impl Failure {
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
-            Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } => Exit::InputOutput,
+            Self::Trial(TrialError::Truth(TruthError::File { .. }))
+            | Self::UserTerm { .. }
+            | Self::Output { .. }
+            | Self::Unreadable { .. } => Exit::InputOutput,
+            Self::Trial(_) | Self::Plot(_) => Exit::NotDetermined,
             Self::File(_) | Self::ModelFile { .. } | Self::Row { .. } => Exit::BadInput,
         }
     }
@@ -130,6 +143,8 @@ impl Failure {
             }
             Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
+            Self::Trial(_) => Some("Give another trial or another seed.".into()),
+            Self::Plot(_) => Some("Give more trials.".into()),
             Self::Output { .. } => Some("Check the free space and that the folder may be written to.".into()),
         }
     }

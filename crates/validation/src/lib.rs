@@ -6,7 +6,9 @@
 
 pub mod calibration;
 pub mod proportion;
+pub mod sheet;
 pub mod trial;
 
 pub use proportion::Proportion;
+pub use sheet::Sheet;
 pub use trial::{Outcome, Trial};

@@ -8,6 +8,7 @@ pub(crate) mod diagnose;
 pub(crate) mod fit;
 pub(crate) mod predict;
 pub(crate) mod terms;
+pub(crate) mod validate;
 
 use crate::args::{Cli, Command};
 use crate::failure::Failure;
@@ -24,6 +25,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Compensate(arguments) => compensate::run(arguments, &screen),
         Command::Diagnose(arguments) => diagnose::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
+        Command::Validate(arguments) => validate::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),
     }
 }

@@ -10,3 +10,4 @@ mod score;
 mod separation;
 mod streams;
 mod support;
+mod validate;

@@ -4,20 +4,25 @@
 //! diagnosis, and what was stated is held against what was true: of all claims made with probability `p`, a share `p`
 //! should come true; an effect that is not there should hardly ever be named.
 
+mod charts;
 mod claim;
 mod confusion;
+mod document;
 mod fate;
 mod mistake;
 mod power;
 mod protocol;
 mod record;
 mod reliability;
+pub mod sheets;
 mod study;
 mod trials_csv;
 mod trust;
 
+pub use charts::{Picture, pictures};
 pub use claim::{Claim, Claims, Mix};
 pub use confusion::{Confusion, WELL_VISIBLE, is_well_visible};
+pub use document::{document, headlines};
 pub use fate::Fate;
 pub use mistake::{Group, mistakes};
 pub use power::{Curve, SIZES, Step};

@@ -11,22 +11,26 @@ pub const BORDERS: [f64; 13] = [0.0, 0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8,
 pub struct Bin {
     /// Borders of the stated probability.
     pub range: [f64; 2],
-    /// Mean of what was stated.
+    /// Mean of what was stated, by weight of the claims.
     pub stated: f64,
-    /// How often it was true.
+    /// Share that was true, by weight of the claims.
+    pub observed: f64,
+    /// How often it was true, every claim counted once.
     pub came_true: Proportion,
 }
 
-/// The bins that hold any claim; claims count once each.
+/// The bins that hold any claim.
 pub fn bins(claims: &[Claim]) -> Vec<Bin> {
     BORDERS.windows(2).filter_map(|b| bin(claims, [b[0], b[1]])).collect()
 }
 
 fn bin(claims: &[Claim], range: [f64; 2]) -> Option<Bin> {
     let inside: Vec<&Claim> = claims.iter().filter(|c| is_inside(c.stated, range)).collect();
-    let stated = inside.iter().map(|c| c.stated).sum::<f64>() / inside.len() as f64;
+    let total: f64 = inside.iter().map(|c| c.weight).sum();
+    let mean = |f: &dyn Fn(&Claim) -> f64| inside.iter().map(|c| c.weight * f(c)).sum::<f64>() / total;
+    let (stated, observed) = (mean(&|c| c.stated), mean(&truth));
     let came_true = Proportion::count(inside, |c| c.is_true);
-    (came_true.of > 0).then_some(Bin { range, stated, came_true })
+    (came_true.of > 0).then_some(Bin { range, stated, observed, came_true })
 }
 
 fn is_inside(p: f64, [low, high]: [f64; 2]) -> bool {

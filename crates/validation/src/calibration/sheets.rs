@@ -81,12 +81,13 @@ fn score_row<'a>(
     Some(row)
 }
 
-/// Stated probability against observed share, bin by bin.
-pub fn reliability(records: &[Record]) -> Sheet {
+/// Stated probability against observed share, bin by bin, from a stated probability on; as drawn.
+pub fn reliability(records: &[Record], from: f64) -> Sheet {
     let header = ["claim", "bin", "claims", "came true", "stated %", "observed %", "95 % bounds"];
     let mut sheet = Sheet::new(&header);
     for claims in Claims::ALL {
-        for bin in bins(&claims.of(records, &Mix::as_drawn())) {
+        let bins = bins(&claims.of(records, &Mix::as_drawn()));
+        for bin in bins.iter().filter(|b| b.range[0] >= from) {
             let Proportion { hits, of } = bin.came_true;
             let range = format!("{:.0} .. {:.0} %", 100.0 * bin.range[0], 100.0 * bin.range[1]);
             let mut row = vec![claims.title().to_owned(), range, of.to_string(), hits.to_string()];
@@ -105,8 +106,7 @@ pub fn power(curves: &[Curve]) -> Sheet {
             let share = |fates: &[Fate]| percent(step.share(fates).rate());
             let range = format!("{} .. {}", step.range[0], step.range[1]);
             let of = step.share(&[]).of.to_string();
-            let shares =
-                [share(&[Fate::Right]), share(&[Fate::Right, Fate::Honest]), share(&[Fate::Missed])];
+            let shares = [share(&[Fate::Right]), share(&[Fate::Right, Fate::Honest]), share(&[Fate::Missed])];
             sheet.row([curve.title.clone(), range, of].into_iter().chain(shares));
         }
     }
@@ -176,8 +176,13 @@ pub fn numbers(records: &[Record]) -> Sheet {
 
 /// The largest groups of answers that state something false.
 pub fn mistakes_sheet(records: &[Record]) -> Sheet {
-    let mut sheet =
-        Sheet::new(&["hidden", "answer", "trials", "highest probability stated", "examples: distance, plan, machine"]);
+    let mut sheet = Sheet::new(&[
+        "hidden",
+        "answer",
+        "trials",
+        "highest probability stated",
+        "examples: distance, plan, machine",
+    ]);
     for group in mistakes(records).iter().take(MOST_GROUPS) {
         let confidence = group.trials.first().and_then(|r| r.confidence).unwrap_or(0.0);
         let examples: Vec<String> = group.trials.iter().take(EXAMPLES).map(|r| example(r)).collect();
@@ -189,7 +194,8 @@ pub fn mistakes_sheet(records: &[Record]) -> Sheet {
 
 fn example(r: &Record) -> String {
     let distance = r.distance.unwrap_or(r.total_distance);
-    let pair = if r.kind == Kind::Pair { format!(" {} -> {}", r.hidden_words(), r.answer()) } else { String::new() };
+    let pair =
+        if r.kind == Kind::Pair { format!(" {} -> {}", r.hidden_words(), r.answer()) } else { String::new() };
     format!("{}{pair} ({distance:.0}, {}, {})", r.id, r.plan.name(), r.family)
 }
 

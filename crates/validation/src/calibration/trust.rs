@@ -33,9 +33,11 @@ pub fn credible_coverage<'a>(records: impl IntoIterator<Item = &'a Record>) -> P
     Proportion::count(records, |r| r.is_covered())
 }
 
-/// Leg stiffnesses within 1.96 of their stated standard deviations.
+/// Leg stiffnesses within 1.96 of their stated standard deviations; answers "outside" come with a model that is known to
+/// lack something and do not count.
 pub fn stiffness_coverage<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
-    let all = records.into_iter().flat_map(|r| r.stiffness_z.iter().flatten());
+    let meant = records.into_iter().filter(|r| r.verdict != Verdict::Outside);
+    let all = meant.flat_map(|r| r.stiffness_z.iter().flatten());
     Proportion::count(all, |z| z.abs() <= COVERED)
 }
 

@@ -1,0 +1,30 @@
+//! `hexbench validate`: studies that say how far the bench itself can be trusted, one file each.
+
+pub(crate) mod calibration;
+
+use clap::{Args, Subcommand};
+
+use crate::failure::Failure;
+use crate::output::Screen;
+
+/// Check the bench itself: simulated campaigns with a known truth go through the identification
+#[derive(Debug, Args)]
+#[command(arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    /// What to check.
+    #[command(subcommand)]
+    study: Study,
+}
+
+/// The studies: one file here and one line here and in [`run`] each.
+#[derive(Debug, Subcommand)]
+enum Study {
+    Calibration(calibration::Arguments),
+}
+
+/// Run the study.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    match &arguments.study {
+        Study::Calibration(arguments) => calibration::run(arguments, screen),
+    }
+}
