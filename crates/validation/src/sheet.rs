@@ -22,14 +22,20 @@ impl Sheet {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
 
-    /// As a table of Markdown; every column but the first is right-aligned.
+    /// As a table of Markdown; columns of numbers are right-aligned.
     pub fn markdown(&self) -> String {
         let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-        let rule: Vec<String> =
-            (0..self.header.len()).map(|k| if k == 0 { "---" } else { "---:" }.to_owned()).collect();
+        let rule = |k: usize| if self.holds_numbers(k) { "---:" } else { "---" }.to_owned();
+        let rule: Vec<String> = (0..self.header.len()).map(rule).collect();
         let mut text = line(&self.header) + &line(&rule);
         self.rows.iter().for_each(|row| text += &line(row));
         text
+    }
+
+    /// True when every cell of a column begins like a number, or is a dash for none.
+    fn holds_numbers(&self, column: usize) -> bool {
+        let begins = |cell: &String| cell.starts_with(|c: char| c.is_ascii_digit() || c == '-');
+        self.rows.iter().filter_map(|row| row.get(column)).all(begins)
     }
 
     /// As comma-separated values; cells with a comma or a quote are quoted.

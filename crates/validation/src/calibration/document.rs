@@ -61,6 +61,10 @@ pub fn headlines(records: &[Record]) -> Vec<String> {
             told(right(Kind::Outside))
         ),
         format!(
+            "The springs were called adequate although effects at {WELL_VISIBLE} or more were hidden in {}.",
+            told(Proportion::count(visible(), |r| r.fate == Fate::Missed))
+        ),
+        format!(
             "Credible sets (which claim {} %) hold the whole truth in {}, where it is well visible in {}.",
             percent(CREDIBLE),
             told(credible_coverage(records)),
@@ -111,11 +115,13 @@ fn headline(records: &[Record]) -> String {
 
 const FATES: &str = "Right: exactly the truth is said. Honest: ambiguous, with the whole truth among what is kept. \
 Undecided: ambiguous without that, or although nothing or something outside is hidden. Missed: the springs are called \
-adequate; most of these effects are too small to see. Incomplete: only true effects are named, but not all. False \
+adequate, as they must be where an effect is too small to see. Incomplete: only true effects are named, but not all. False \
 outside, false name: something is claimed that is not so.";
 
 const COVERAGE: &str = "A credible set is the smallest set of effects that holds 95 % of the probability; `none` and \
-`outside` may be in it. It holds the truth when every hidden effect (or `none`, or `outside`) is in it or named.";
+`outside` may be in it. It holds the truth when every hidden effect (or `none`, or `outside`) is in it or named. An \
+effect too small to see leaves the set `none`: that is why sets hold the truth less often where effects of all sizes \
+are counted.";
 
 const NUMBERS: &str = "Held-out chi-square is per number, 1 is noise. Stiffnesses are compared with the true ones in \
 their own stated standard deviations; answers \"outside\" come with a model that is known to lack something.";
@@ -150,7 +156,7 @@ fn reliability(records: &[Record], charts: &str) -> String {
         The shares depend on the mix of truths. The diagrams count every trial once (\"as drawn\"): few clean campaigns, \
         and many effects too small to see, so that \"nothing hidden\" must come true less often than stated. The table \
         also weighs the trials to the shares the diagnosis itself expects before any data (\"as expected\": none 45 %, \
-        one 38 %, two 13 %, outside 4 %). Calibration error: mean distance of stated from observed over the bins. \
+        one 38 %, two 13 %, outside 4 %); the sizes stay as drawn. Calibration error: mean distance of stated from observed over the bins. \
         Scores: 0 is perfect.";
     [
         picture(title, charts, "reliability.svg", words),
