@@ -4,7 +4,7 @@ use hexbench_report::plot::{Axis, Chart, HeatMap, Panels, PlotError, Series};
 use hexbench_truth::campaign::Kind;
 
 use super::sheets::visible_confusion;
-use super::{Bin, Claim, Claims, Curve, Fate, Mix, Record, Step, WELL_VISIBLE, bins};
+use super::{Bin, Claim, Claims, Curve, DISTANCES, Fate, Mix, Record, Step, WELL_VISIBLE, bins};
 use crate::proportion::Proportion;
 
 /// Claims below which a bin is not drawn: its bounds would span most of the diagram.
@@ -24,16 +24,15 @@ pub struct Picture {
 /// # Errors
 /// [`PlotError`]; of an empty study.
 pub fn pictures(records: &[Record]) -> Result<Vec<Picture>, PlotError> {
-    let curves = |kind| Curve::of_each(records, kind);
-    let power = |title, kind| power(title, &curves(kind));
+    let power = |title, kind, second: &Kept| power(title, &Curve::of_each(records, kind), second);
     let all = [
         ("confusion.svg", confusion(records)?),
         ("reliability.svg", reliability(records)?),
         ("reliability-by-kind.svg", reliability_by_kind(records)?),
-        ("power.svg", power("One effect of the catalogue: how often it is named", Kind::Single)?),
+        ("power.svg", power("One effect of the catalogue: how often it is named", Kind::Single, &HONEST)?),
         (
             "outside.svg",
-            power("Effects outside the catalogue: how often \"outside\" is said", Kind::Outside)?,
+            power("Effects outside the catalogue: how often \"outside\" is said", Kind::Outside, &DOUBTFUL)?,
         ),
     ];
     Ok(all.map(|(file, svg)| Picture { file, svg }).to_vec())
@@ -64,7 +63,7 @@ fn reliability(records: &[Record]) -> Result<String, PlotError> {
     Claims::ALL
         .into_iter()
         .filter_map(panel)
-        .fold(Panels::new("Do probabilities mean what they say?", 3), Panels::with)
+        .fold(Panels::new("Do probabilities mean what they say?", 4), Panels::with)
         .with_panel_size(250.0, 240.0)
         .to_svg()
 }
@@ -102,17 +101,26 @@ fn reliability_panel(title: &str, bins: &[Bin]) -> Option<Chart> {
     })
 }
 
-/// Shares over the distance, one panel for each effect and one for all together.
-fn power(title: &str, curves: &[Curve]) -> Result<String, PlotError> {
+/// Fates that count beside "right" in a second line, and its name.
+struct Kept {
+    name: &'static str,
+    fates: [Fate; 2],
+}
+
+const HONEST: Kept = Kept { name: "right or honestly ambiguous", fates: [Fate::Right, Fate::Honest] };
+const DOUBTFUL: Kept = Kept { name: "right or ambiguous", fates: [Fate::Right, Fate::Undecided] };
+
+/// Shares over the distance, one panel for each effect.
+fn power(title: &str, curves: &[Curve], second: &Kept) -> Result<String, PlotError> {
     curves
         .iter()
-        .filter_map(power_panel)
+        .filter_map(|curve| power_panel(curve, second))
         .fold(Panels::new(title, 4), Panels::with)
         .with_panel_size(232.0, 190.0)
         .to_svg()
 }
 
-fn power_panel(curve: &Curve) -> Option<Chart> {
+fn power_panel(curve: &Curve, second: &Kept) -> Option<Chart> {
     let steps: Vec<&Step> = curve.steps.iter().filter(|s| s.share(&[]).of > 0).collect();
     let line = |fates: &[Fate]| -> Vec<[f64; 2]> {
         steps.iter().map(|s| [s.middle(), 100.0 * s.share(fates).rate()]).collect()
@@ -121,18 +129,16 @@ fn power_panel(curve: &Curve) -> Option<Chart> {
         let [low, high] = s.share(&[Fate::Right]).interval();
         [s.middle(), 100.0 * low, 100.0 * high]
     });
-    let x = Axis::new("Distance", "")
-        .with_logarithm()
-        .with_range(2.0, 60.0)
-        .with_ticks(vec![2.0, 5.0, 10.0, 20.0, 50.0]);
+    let ticks = vec![2.0, 5.0, 10.0, 20.0, 50.0];
+    let x =
+        Axis::new("Distance", "").with_logarithm().with_range(DISTANCES[0], DISTANCES[1]).with_ticks(ticks);
     let y = Axis::new("Share", "%").with_range(0.0, 100.0).with_ticks(vec![0.0, 25.0, 50.0, 75.0, 100.0]);
-    let kept = [Fate::Right, Fate::Honest];
     let not_false = [Fate::Right, Fate::Honest, Fate::Undecided, Fate::Missed];
     (!steps.is_empty()).then(|| {
         Chart::new(curve.title.clone(), x, y)
             .with(Series::band("95 % bounds", band.collect()).with_look(0))
             .with(Series::marked_line("right", line(&[Fate::Right])).with_look(0))
-            .with(Series::marked_line("right or honestly ambiguous", line(&kept)).with_look(1))
+            .with(Series::marked_line(second.name, line(&second.fates)).with_look(1))
             .with(Series::line("nothing false said", line(&not_false)).as_reference())
     })
 }

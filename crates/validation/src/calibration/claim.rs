@@ -18,6 +18,8 @@ pub struct Claim {
 /// Kinds of claims.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Claims {
+    /// Exactly the effects named are the truth, where the verdict is "named".
+    Named,
     /// The best first addition is at work, where that is an effect of the catalogue.
     First,
     /// An effect is at work, alone or with others: one claim for each effect the file can test, unless the verdict is
@@ -35,24 +37,26 @@ pub enum Claims {
 
 impl Claims {
     /// All kinds.
-    pub const ALL: [Self; 6] = [
-        Self::Verdict,
+    pub const ALL: [Self; 7] = [
+        Self::Named,
         Self::First,
         Self::Presence,
         Self::Outside,
         Self::Nothing,
+        Self::Verdict,
         Self::PresenceBesideOutside,
     ];
 
     /// A few words.
     pub fn title(self) -> &'static str {
         match self {
+            Self::Named => "exactly what is named",
             Self::First => "first candidate, an effect",
             Self::Presence => "presence of an effect",
-            Self::PresenceBesideOutside => "presence of an effect beside \"outside\"",
+            Self::PresenceBesideOutside => "presence beside \"outside\"",
             Self::Outside => "something outside",
             Self::Nothing => "nothing hidden",
-            Self::Verdict => "verdict",
+            Self::Verdict => "any verdict but ambiguous",
         }
     }
 
@@ -64,15 +68,17 @@ impl Claims {
     fn one(self, r: &Record, weight: f64) -> Vec<Claim> {
         let claim = |stated: f64, is_true: bool| Claim { stated, is_true, weight };
         let presence = || r.present.iter().map(|(id, &p)| claim(p, r.holds(id))).collect();
+        let verdict = || r.confidence.map(|p| claim(p, r.fate == Fate::Right)).into_iter().collect();
         let first = (r.best.0 != NONE && r.best.0 != OUTSIDE).then(|| claim(r.best.1, r.holds(&r.best.0)));
         match self {
             Self::First => first.into_iter().collect(),
             Self::Presence if r.verdict != Verdict::Outside => presence(),
             Self::PresenceBesideOutside if r.verdict == Verdict::Outside => presence(),
-            Self::Presence | Self::PresenceBesideOutside => Vec::new(),
+            Self::Named if r.verdict == Verdict::Named => verdict(),
+            Self::Named | Self::Presence | Self::PresenceBesideOutside => Vec::new(),
             Self::Outside => vec![claim(r.outside, r.holds(OUTSIDE))],
             Self::Nothing => vec![claim(r.none, r.holds(NONE))],
-            Self::Verdict => r.confidence.map(|p| claim(p, r.fate == Fate::Right)).into_iter().collect(),
+            Self::Verdict => verdict(),
         }
     }
 }

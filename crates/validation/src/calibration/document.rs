@@ -149,13 +149,14 @@ const NEARLY_SURE: f64 = 0.9;
 
 fn reliability(records: &[Record], charts: &str) -> String {
     let title = "Do probabilities mean what they say";
-    let words = "Of all claims stated with about the same probability, how many came true. Verdict: exactly the effects \
-        named (or nothing, or something outside), with the probability of exactly that. First candidate: the best first \
+    let words = "Of all claims stated with about the same probability, how many came true. Exactly what is named: the \
+        verdict \"named\", with the probability of exactly this set of effects. Any verdict: the same, or \
+        nothing hidden, or something outside. First candidate: the best first \
         addition, where that is an effect. Presence: every effect the file can test, alone or with others. Beside \
         \"outside\", presence says what helps to fit an unknown effect, not what is at work: do not read it as such.\n\n\
-        The shares depend on the mix of truths. The diagrams count every trial once (\"as drawn\"): few clean campaigns, \
-        and many effects too small to see, so that \"nothing hidden\" must come true less often than stated. The table \
-        also weighs the trials to the shares the diagnosis itself expects before any data (\"as expected\": none 45 %, \
+        The shares depend on the mix of truths. Counted once each (\"as drawn\"), few campaigns are clean \
+        and many effects are too small to see, so that \"nothing hidden\" must come true less often than stated. The second line \
+        and the lower half of the table weigh the trials to the shares the diagnosis itself expects before any data (\"as expected\": none 45 %, \
         one 38 %, two 13 %, outside 4 %); the sizes stay as drawn. Calibration error: mean distance of stated from observed over the bins. \
         Scores: 0 is perfect.";
     [
@@ -185,7 +186,7 @@ fn power(records: &[Record], charts: &str) -> String {
 
 fn outside(records: &[Record], charts: &str) -> String {
     let words = "Share of the trials of kind outside in which \"outside\" is said. An answer that names effects of the \
-        catalogue instead is above the dashed line.";
+        catalogue instead is above the dashed line; between the lines the springs are called adequate.";
     let title = "Noticing what the catalogue lacks";
     let table = sheets::right_by_size(&Curve::of_each(records, Kind::Outside)).markdown();
     format!("{}\nPercent right by distance:\n\n{table}", picture(title, charts, "outside.svg", words))

@@ -58,7 +58,7 @@ pub fn all_scores(records: &[Record]) -> Sheet {
 /// Scores of the verdicts and of presence by kind of campaign, as drawn.
 pub fn scores_by_kind(records: &[Record]) -> Sheet {
     let mut sheet = Sheet::new(&SCORES);
-    for claims in [Claims::Verdict, Claims::Presence] {
+    for claims in [Claims::Named, Claims::Verdict, Claims::Presence] {
         for kind in Kind::ALL {
             sheet.rows.extend(score_row(claims, kind.name(), of_kind(records, kind), &Mix::as_drawn()));
         }
