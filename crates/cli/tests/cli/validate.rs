@@ -41,18 +41,16 @@ fn a_calibration_writes_trials_tables_charts_and_a_document_whose_charts_exist()
 }
 
 #[test]
-fn the_same_seed_writes_the_same_files_and_another_seed_does_not() {
+fn the_same_seed_writes_the_same_files_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
-    let files = |name: &str, seed: &str, threads: &str| {
+    let files = |name: &str, threads: &str| {
         let out = folder.path().join(name);
         let mut command = hexbench();
-        command.env("RAYON_NUM_THREADS", threads).args(FEW).args(["--seed", seed, "-o"]).arg(&out);
+        command.env("RAYON_NUM_THREADS", threads).args(FEW).args(["--seed", "5", "-o"]).arg(&out);
         assert!(command.output().unwrap().status.success());
         files_of(&out)
     };
-    let first = files("a", "5", "1");
-    assert!(first == files("b", "5", "3"), "the files differ");
-    assert!(first != files("c", "6", "2"), "the seed has no effect");
+    assert!(files("a", "1") == files("b", "3"), "the files differ");
 }
 
 #[test]
