@@ -2,28 +2,26 @@
 
 use crate::campaign::Condition;
 
+/// Shortest lead of a screw in use, m: nothing finer is looked for.
+const FINEST_PERIOD_M: f64 = 0.5e-3;
 /// Most periods tried.
-const MOST_PERIODS: usize = 400;
+const MOST_PERIODS: usize = 1500;
 /// Frequency steps per resolution element `1 / range`.
 const OVERSAMPLING: usize = 4;
 
-/// Periods (m) from the whole range of commanded leg lengths down to the mean spacing between lengths, equally spaced
-/// in frequency. Source: Scargle 1982, Astrophys. J. 263 (sampling of a periodogram).
+/// Periods (m), equally spaced in frequency: from the whole range of commanded leg lengths down to half the mean spacing of
+/// all lengths or the finest lead. Lengths at irregular places tell apart waves far shorter than their spacing in one leg.
+/// Source: Scargle 1982, Astrophys. J. 263 (sampling of a periodogram).
 pub(crate) fn period_grid(conditions: &[Condition]) -> Vec<f64> {
-    let lengths = conditions.iter().flat_map(|c| c.commanded_lengths.iter().copied().collect::<Vec<_>>());
-    let (low, high) = lengths.fold((f64::INFINITY, 0.0_f64), |(a, b), q| (a.min(q), b.max(q)));
-    let range = high - low;
+    let mut lengths: Vec<f64> = conditions.iter().flat_map(|c| c.commanded_lengths.data.0[0]).collect();
+    lengths.sort_unstable_by(f64::total_cmp);
+    lengths.dedup();
+    let range = lengths.last().zip(lengths.first()).map_or(0.0, |(high, low)| high - low);
     if !range.is_finite() || range < 1e-6 {
         return Vec::new();
     }
+    let finest = FINEST_PERIOD_M.max(range / (2 * lengths.len()) as f64);
+    let count = ((OVERSAMPLING as f64 * range / finest) as usize).clamp(8, MOST_PERIODS);
     let step = 1.0 / (OVERSAMPLING as f64 * range);
-    let count = distinct_lengths(conditions).saturating_mul(2).clamp(8, MOST_PERIODS);
     (OVERSAMPLING..OVERSAMPLING + count).map(|k| 1.0 / (step * k as f64)).collect()
-}
-
-fn distinct_lengths(conditions: &[Condition]) -> usize {
-    let mut lengths: Vec<u64> = conditions.iter().map(|c| c.commanded_lengths[0].to_bits()).collect();
-    lengths.sort_unstable();
-    lengths.dedup();
-    OVERSAMPLING * lengths.len()
 }

@@ -50,7 +50,7 @@ impl Term for JointFriction {
     fn shape_grid(&self, conditions: &[Condition]) -> Vec<f64> {
         // The limit decides which legs slide at all: from nearly all of them to the strongest only.
         let typical = typical_force(conditions);
-        (0..7).map(|k| typical * 0.003 * 2f64.powi(k)).collect()
+        (0..9).map(|k| typical * 0.003 * 2f64.powi(k)).collect()
     }
 
     fn shape_is_parameter(&self) -> bool {
