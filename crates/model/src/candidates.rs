@@ -8,7 +8,7 @@ use crate::campaign::Campaign;
 use crate::evidence::{Block, Gram};
 use crate::linearization::{Linearization, Point, parameter_count};
 use crate::parallel::sum_in_order;
-use crate::pattern::{Pattern, spread};
+use crate::pattern::Pattern;
 use crate::term::{Natural, Need, Rich, Term};
 
 /// Prior share of the ideal form where there is a richer one.
@@ -163,12 +163,11 @@ impl<'a> Collector<'a> {
 
     /// Add a pattern with its prior weight relative to a term.
     pub fn add_pattern(&mut self, pattern: Pattern, log_weight: f64) {
-        let range = spread(pattern.variable, &self.lin.conditions);
+        let range = pattern.spread(&self.lin.conditions);
         if range <= 0.0 {
             return;
         }
-        let n = pattern.width();
-        let block = Block::new(&vec![pattern.size(&self.natural); n], vec![false; n], 1.0, false, 1.0);
+        let block = Block::new(&pattern.sizes(&self.natural), pattern.positive(), 1.0, false, 1.0);
         let blocks = vec![self.push(Source::Pattern { pattern, range }, block)];
         self.candidates.push(Candidate { kind: Kind::Pattern(pattern), blocks, log_weight });
     }

@@ -10,10 +10,10 @@ use crate::error::ModelError;
 use crate::evidence::Gram;
 use crate::fit::{Fit, Wanted, fit, fit_baseline};
 use crate::linearization::{Linearization, Point};
-use crate::pattern::{Course, Pattern, Variable};
+use crate::pattern::{Course, LegPattern, Pattern, Variable};
 use crate::scan::Scanner;
 use crate::search::{Search, Set, Sets};
-use crate::term::{Natural, Term};
+use crate::term::{Natural, Rich, Term};
 
 /// Rounds of linearisation and search.
 const MOST_ROUNDS: usize = 6;
@@ -160,8 +160,7 @@ fn collect(
         } else {
             grid.clone()
         };
-        let active = point.active.iter().find(|a| a.id() == term.info().id);
-        collector.add_term(term, &shapes, grid.len(), active.filter(|_| effort.rich).map(|a| a.shape));
+        collector.add_term(term, &shapes, grid.len(), rich_shape(term.as_ref(), point, effort));
     }
     for (pattern, log_weight) in patterns(campaign, &scanned, point, effort.scan) {
         collector.add_pattern(pattern, log_weight);
@@ -169,18 +168,29 @@ fn collect(
     collector.finish(campaign, point)
 }
 
+/// Shape at which the richer form of a term competes: that of a term in the model; and bodies that yield in any way always
+/// compete while something is left unexplained, since their ideal form may not even enter the model.
+fn rich_shape(term: &dyn Term, point: &Point, effort: Effort) -> Option<f64> {
+    let active = point.active.iter().find(|a| a.id() == term.info().id).map(|a| a.shape);
+    let any_body = effort.scan && term.info().rich == Rich::Full;
+    active.or(any_body.then_some(1.0)).filter(|_| effort.rich)
+}
+
 /// Patterns worth weighing; those found by scanning carry the number of trials in their prior.
 fn patterns(campaign: &Campaign, scanned: &Linearization, point: &Point, scan: bool) -> Vec<(Pattern, f64)> {
     let mut all = Vec::new();
     if campaign.columns.elapsed {
-        let drift =
-            |leg| Pattern { leg, variable: Variable::Elapsed, course: Course::Linear, compliance: false };
+        let drift = |leg| {
+            let (variable, course) = (Variable::Elapsed, Course::Linear);
+            Pattern::Leg(LegPattern { leg, variable, course, compliance: false })
+        };
         let legs = std::iter::once(None).chain((0..6).map(Some));
         all.extend(legs.map(|leg| (drift(leg), (0.3 * WEIGHT_OF_PATTERNS / 7.0).ln())));
     }
     if scan {
         let weighed = |(p, trials)| (p, (0.1 * WEIGHT_OF_PATTERNS / trials as f64).ln());
         all.extend(Scanner::new(scanned, point, None).patterns(campaign).into_iter().map(weighed));
+        all.push((Pattern::Beside, (0.1 * WEIGHT_OF_PATTERNS).ln()));
     }
     all
 }

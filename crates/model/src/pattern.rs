@@ -1,8 +1,8 @@
-//! Patterns outside the catalogue: what the residual elongation of one leg, or of all, follows.
+//! Patterns outside the catalogue: what the residual elongation of one leg, or of all, follows; and a stiffness beside the legs.
 
 use std::f64::consts::TAU;
 
-use hexbench_core::Vector6;
+use hexbench_core::{Matrix6, Vector6};
 
 use crate::campaign::Condition;
 use crate::chain::Action;
@@ -73,9 +73,90 @@ impl Course {
     }
 }
 
-/// An unexplained pattern: leg elongation = size * course(variable), times the force change when it is a compliance.
+/// An unexplained pattern.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pattern {
+pub enum Pattern {
+    /// In the elongation of legs.
+    Leg(LegPattern),
+    /// Something beside the legs holds the platform with a stiffness constant in fixed axes: a cable, a hose, bellows. A full
+    /// symmetric 6x6 matrix at the mobile origin.
+    Beside,
+}
+
+/// Stiffness of what holds the platform beside the legs relative to one leg: its natural size.
+const BESIDE: f64 = 0.05;
+
+impl Pattern {
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        match self {
+            Self::Leg(p) => p.width(),
+            Self::Beside => 21,
+        }
+    }
+
+    /// Actions at a condition; `range` is the spread of the variable of a leg pattern.
+    pub fn actions(&self, at: &Condition, range: f64, out: &mut Vec<Action>) {
+        match self {
+            Self::Leg(p) => p.actions(at, range, out),
+            Self::Beside => {
+                out.extend(entries().map(|(i, j)| {
+                    let mut unit = Matrix6::zeros();
+                    unit[(i, j)] = 1.0;
+                    unit[(j, i)] = 1.0;
+                    Action::Stiffness(unit)
+                }));
+            }
+        }
+    }
+
+    /// Natural sizes of its parameters, SI.
+    pub fn sizes(&self, natural: &Natural) -> Vec<f64> {
+        match self {
+            Self::Leg(p) => vec![p.size(natural); p.width()],
+            Self::Beside => {
+                let arm = |k: usize| if k < 3 { 1.0 } else { natural.radius };
+                entries().map(|(i, j)| BESIDE / natural.compliance * arm(i) * arm(j)).collect()
+            }
+        }
+    }
+
+    /// Which parameters cannot be negative.
+    pub fn positive(&self) -> Vec<bool> {
+        match self {
+            Self::Leg(p) => vec![false; p.width()],
+            Self::Beside => entries().map(|(i, j)| i == j).collect(),
+        }
+    }
+
+    /// Spread of what it follows; zero when the campaign cannot show it.
+    pub fn spread(&self, conditions: &[Condition]) -> f64 {
+        match self {
+            Self::Leg(p) => spread(p.variable, conditions),
+            Self::Beside => 1.0,
+        }
+    }
+
+    /// A sentence for people.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Leg(p) => p.text(),
+            Self::Beside => {
+                "something beside the legs holds the platform with a stiffness of its own".to_owned()
+            }
+        }
+    }
+}
+
+/// Entries of a symmetric 6x6 matrix: the diagonal, then those above it.
+fn entries() -> impl Iterator<Item = (usize, usize)> {
+    let above = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
+    (0..6).map(|k| (k, k)).chain(above)
+}
+
+/// Leg elongation = size * course(variable), times the force change when it is a compliance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LegPattern {
     /// The leg (from zero), or all six alike.
     pub leg: Option<usize>,
     /// What it follows.
@@ -86,7 +167,7 @@ pub struct Pattern {
     pub compliance: bool,
 }
 
-impl Pattern {
+impl LegPattern {
     /// Number of columns.
     pub fn width(&self) -> usize {
         if matches!(self.course, Course::Periodic(_)) { 2 } else { 1 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::campaign::Campaign;
 use crate::candidates::{orthonormal, project, target};
 use crate::linearization::{Linearization, Point, beside};
-use crate::pattern::{Course, Pattern, Variable, spread};
+use crate::pattern::{Course, LegPattern, Pattern, Variable, spread};
 use crate::period::period_grid;
 use crate::term::Term;
 
@@ -82,7 +82,9 @@ impl<'a> Scanner<'a> {
         let unknown = all.filter(|&(k, l)| l > 0 || !in_catalogue(&kinds[k]));
         let (k, l) = unknown.max_by(|a, b| drops[a.0][a.1].total_cmp(&drops[b.0][b.1]))?;
         let kind = self.refined(kinds[k], l);
-        Some((Pattern { leg: l.checked_sub(1), variable: kind.0, course: kind.1, compliance: kind.2 }, tried))
+        let leg = l.checked_sub(1);
+        let pattern = LegPattern { leg, variable: kind.0, course: kind.1, compliance: kind.2 };
+        Some((Pattern::Leg(pattern), tried))
     }
 
     /// Drop of chi-square when all legs follow a course alike, and when each leg alone does.
@@ -91,7 +93,7 @@ impl<'a> Scanner<'a> {
         if range <= 0.0 {
             return [0.0; 7];
         }
-        let pattern = Pattern { leg: None, variable, course, compliance };
+        let pattern = LegPattern { leg: None, variable, course, compliance };
         let n = self.lin.conditions.len();
         let mut e = vec![DMatrix::zeros(n, 6); pattern.width()];
         for (i, c) in self.lin.conditions.iter().enumerate() {

@@ -96,23 +96,28 @@ fn leader(set: &Set, sets: &Sets, candidates: &[Candidate]) -> String {
     best.and_then(|m| candidates[m].id()).unwrap_or(NONE).to_owned()
 }
 
-/// Members of the most probable sets until they hold 95 %.
+/// Members of the most probable explanations until they hold 95 %; a discrepancy counts as an explanation of its own.
 fn credible(sets: &Sets, candidates: &[Candidate]) -> Vec<String> {
-    let mut weighed: Vec<(f64, &Set)> =
-        sets.sets.iter().map(|s| (sets.probability(s) + sets.discrepant_probability(s), s)).collect();
-    weighed.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.members.cmp(&b.1.members)));
+    let mut weighed: Vec<(f64, bool, &Set)> = sets
+        .sets
+        .iter()
+        .flat_map(|s| [(sets.probability(s), false, s), (sets.discrepant_probability(s), true, s)])
+        .collect();
+    weighed.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)).then(a.2.members.cmp(&b.2.members)));
     let mut names: Vec<String> = Vec::new();
     let mut held = 0.0;
-    for (p, set) in weighed {
+    for (p, discrepant, set) in weighed {
         if held >= CREDIBLE {
             break;
         }
         held += p;
-        let labels: Vec<&str> = if set.members.is_empty() {
-            vec![NONE]
-        } else {
-            set.members.iter().map(|&m| candidates[m].id().unwrap_or(OUTSIDE)).collect()
-        };
+        let mut labels: Vec<&str> =
+            set.members.iter().map(|&m| candidates[m].id().unwrap_or(OUTSIDE)).collect();
+        if discrepant {
+            labels.push(OUTSIDE);
+        } else if set.members.is_empty() {
+            labels.push(NONE);
+        }
         for label in labels {
             if !names.iter().any(|n| n == label) {
                 names.push(label.to_owned());

@@ -1,7 +1,7 @@
 //! How sure: probabilities, and what looks alike.
 
 use hexbench_model::diagnose::{CandidateReport, Diagnosis};
-use hexbench_model::verdict::{NONE, OUTSIDE};
+use hexbench_model::verdict::{NONE, OUTSIDE, Verdict};
 
 use super::conclusion::{in_words, joined};
 use crate::output::number::percent;
@@ -30,6 +30,11 @@ pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
     if let Some((_, next)) = all.get(shown) {
         let most = if *next < 0.01 { "below 1 %".to_owned() } else { format!("at most {}", percent(*next)) };
         paper.line(&format!("  {:<width$}{most}", "anything else, each", width = LABEL));
+    }
+    if d.verdict == Verdict::Outside && all.iter().any(|(id, p)| *p >= WORTH_A_LINE && id != OUTSIDE) {
+        let text = "Beside something without a name the other lines say what helps to fit it, not what is there: catalogue \
+                    terms imitate it.";
+        paper.paragraph(2, text);
     }
     look_alikes(paper, d);
 }

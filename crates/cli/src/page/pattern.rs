@@ -34,6 +34,11 @@ fn hint(outside: &OutsideReport) -> String {
         (Some("delta_T_K"), _) => format!("Something in {who} follows the temperature."),
         (Some("leg_force"), _) => format!("Something in {who} depends on its force: contact, preload, play."),
         (Some(variable), _) => format!("Something in {who} follows {variable}."),
+        (None, _) if outside.pattern.is_some() => {
+            "Something takes a part of the load past the legs: look for a cable, a hose, bellows or a cover that touches the \
+             platform."
+                .to_owned()
+        }
         (None, _) => {
             "Look at the readings with the largest residuals first, and repeat some of them.".to_owned()
         }

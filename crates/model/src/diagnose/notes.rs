@@ -9,7 +9,7 @@ use crate::candidates::{Kind, Untestable};
 use crate::diagnosis::Outcome;
 use crate::fit::Fit;
 use crate::noise::{NoiseSource, scatter};
-use crate::pattern::Course;
+use crate::pattern::{Course, LegPattern, Pattern};
 use crate::residuals::Residual;
 use crate::verdict::{Judgement, Verdict};
 
@@ -50,15 +50,28 @@ pub(super) fn outside(judgement: &Judgement, outcome: &Outcome) -> Option<Outsid
         Kind::Pattern(p) => Some(p),
         Kind::Term(_) => None,
     });
-    let strongest = patterns.min_by_key(|p| (p.width(), p.leg));
-    Some(strongest.map_or_else(unknown_pattern, |p| OutsideReport {
-        leg: p.leg.map(|l| l + 1),
-        variable: Some(p.variable.name()),
-        pattern: Some(p.course.word()),
-        period: if let Course::Periodic(period) = p.course { Some(period * 1e3) } else { None },
-        text: p.text(),
-    }))
+    let simplest = patterns.min_by_key(|p| (p.width(), if let Pattern::Leg(p) = p { p.leg } else { None }));
+    Some(simplest.map_or_else(unknown_pattern, known_pattern))
 }
+
+fn known_pattern(pattern: &Pattern) -> OutsideReport {
+    let text = pattern.text();
+    match pattern {
+        Pattern::Leg(LegPattern { leg, variable, course, .. }) => OutsideReport {
+            leg: leg.map(|l| l + 1),
+            variable: Some(variable.name()),
+            pattern: Some(course.word()),
+            period: if let Course::Periodic(period) = course { Some(period * 1e3) } else { None },
+            text,
+        },
+        Pattern::Beside => {
+            OutsideReport { leg: None, variable: None, pattern: Some(BESIDE_THE_LEGS), period: None, text }
+        }
+    }
+}
+
+/// Word for a stiffness beside the legs.
+const BESIDE_THE_LEGS: &str = "stiffness-beside-the-legs";
 
 pub(super) fn unknown_pattern() -> OutsideReport {
     let text = "the residuals are larger than the noise, and follow neither a term of the catalogue nor a simple pattern";
