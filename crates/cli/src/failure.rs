@@ -10,9 +10,11 @@ use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
 use hexbench_model::registration::RegistrationError;
 use hexbench_model::user_term::UserTermError;
+use hexbench_report::plot::PlotError;
 use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
 use hexbench_validation::paper::PaperError;
+use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
@@ -124,6 +126,12 @@ pub(crate) enum Failure {
     /// A study without an answer.
     #[error("{0}")]
     Reproduction(PaperError),
+    /// A simulated campaign without an answer.
+    #[error("{0}")]
+    Trial(TrialError),
+    /// A chart that cannot be drawn.
+    #[error("{0}")]
+    Plot(#[from] PlotError),
     /// Output that cannot be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Output {
@@ -142,8 +150,9 @@ impl Failure {
             Self::Model { cause, .. } => exit_of(cause),
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
+            Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
-            Self::Reproduction(_) => Exit::NotDetermined,
+            Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => Exit::NotDetermined,
             Self::File(_)
             | Self::ModelFile { .. }
             | Self::Row { .. }
@@ -187,6 +196,8 @@ impl Failure {
                     .into(),
             ),
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
+            Self::Trial(_) => Some("Give another trial or another seed.".into()),
+            Self::Plot(_) => Some("Give more trials.".into()),
             Self::Reproduction(_) => Some("Give another seed.".into()),
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())

@@ -123,6 +123,22 @@ fn a_number_that_is_none_is_refused_with_its_place() {
 }
 
 #[test]
+fn a_logarithmic_axis_refuses_what_is_not_positive() {
+    let over = |x: f64| {
+        let axis = Axis::new("Distance", "").with_logarithm();
+        Chart::new("Power", axis, Axis::new("", "")).with(Series::line("p", vec![[x, 0.0], [10.0, 1.0]]))
+    };
+    assert!(over(1.0).to_svg().is_ok_and(|svg| !svg.contains("NaN")));
+    let message = over(0.0).to_svg().unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "chart \"Power\": number 1 of the x axis is 0; a logarithmic axis shows positive numbers only"
+    );
+    let bars = Bars::new("", names(1), Axis::new("", "").with_logarithm()).with("b", vec![1.0]);
+    assert!(matches!(bars.to_svg(), Err(PlotError::NotPositive { .. })));
+}
+
+#[test]
 fn lists_of_unequal_length_and_empty_charts_are_refused() {
     assert!(matches!(bars(vec![1.0]).to_svg(), Err(PlotError::Length { found: 1, expected: 3, .. })));
     let empty = Chart::new("", Axis::new("", ""), Axis::new("", ""));

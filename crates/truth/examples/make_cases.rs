@@ -5,10 +5,7 @@
 
 use std::{path::PathBuf, process::ExitCode};
 
-use hexbench_truth::{
-    TruthError,
-    campaign::{Case, CaseSpec, Kind},
-};
+use hexbench_truth::campaign::{Case, Kind};
 use rayon::prelude::*;
 
 struct Settings {
@@ -43,15 +40,9 @@ fn run(settings: &Settings) -> Result<(), String> {
 }
 
 fn one(settings: &Settings, kind: Kind, index: usize) -> Result<(), String> {
-    let case = build(settings, kind, index).map_err(|e| format!("{}-{index}: {e}", kind.name()))?;
+    let case = Case::draw(kind, index, settings.seed, settings.distance)
+        .map_err(|e| format!("{}-{index}: {e}", kind.name()))?;
     case.write(&settings.out.join(&case.spec.id)).map_err(|e| e.to_string())
-}
-
-/// Some effects do not show in some plans or machines: then the same effect is tried in others.
-fn build(settings: &Settings, kind: Kind, index: usize) -> Result<Case, TruthError> {
-    const ATTEMPTS: u64 = 12;
-    let attempt = |n| CaseSpec::draw(kind, index, settings.seed, n, settings.distance).build();
-    (1..ATTEMPTS).fold(attempt(0), |made, n| made.or_else(|_| attempt(n)))
 }
 
 fn settings() -> Result<Settings, String> {

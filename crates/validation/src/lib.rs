@@ -4,8 +4,13 @@
 //! Next to the command this is the only place that sees both worlds. It holds no physics of its own: campaigns come from
 //! `hexbench_truth`, answers from `hexbench_model`.
 
-pub mod recovery;
+pub mod calibration;
 pub mod paper;
+pub mod proportion;
+pub mod recovery;
+pub mod sheet;
 pub mod trial;
 
+pub use proportion::Proportion;
+pub use sheet::Sheet;
 pub use trial::{Outcome, Trial, TrialError};

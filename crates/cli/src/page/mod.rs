@@ -1,5 +1,6 @@
 //! Pages of text for people: the diagnosis, the demo, the catalogue.
 
+mod calibration;
 pub(crate) mod comparison;
 mod conclusion;
 mod confidence;
@@ -20,6 +21,7 @@ mod size;
 mod stiffness;
 mod subject;
 
+pub(crate) use calibration::calibration;
 pub(crate) use conclusion::word;
 pub(crate) use demo::demo;
 pub(crate) use recovery::recovery;

@@ -14,3 +14,4 @@ mod score;
 mod separation;
 mod streams;
 mod support;
+mod validate;

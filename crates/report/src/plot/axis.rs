@@ -7,12 +7,13 @@ pub struct Axis {
     unit: String,
     range: Option<[f64; 2]>,
     ticks: Option<Vec<f64>>,
+    logarithmic: bool,
 }
 
 impl Axis {
     /// An axis whose range follows the data; an empty unit is not shown.
     pub fn new(title: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self { title: title.into(), unit: unit.into(), range: None, ticks: None }
+        Self { title: title.into(), unit: unit.into(), range: None, ticks: None, logarithmic: false }
     }
 
     /// The axis over a fixed range; data beyond it widen it.
@@ -25,6 +26,17 @@ impl Axis {
     #[must_use]
     pub fn with_ticks(self, ticks: Vec<f64>) -> Self {
         Self { ticks: Some(ticks), ..self }
+    }
+
+    /// The axis with equal steps for equal ratios; its numbers must be positive.
+    #[must_use]
+    pub fn with_logarithm(self) -> Self {
+        Self { logarithmic: true, ..self }
+    }
+
+    /// True when numbers on it must be positive.
+    pub(super) fn is_logarithmic(&self) -> bool {
+        self.logarithmic
     }
 
     /// Title and unit as printed.
@@ -48,10 +60,12 @@ impl Axis {
         let [low, high] = match self.range {
             Some([a, b]) => [a.min(b).min(low), a.max(b).max(high)],
             None if low > high => [0.0, 1.0],
+            None if self.logarithmic => [low, high],
             None => [low - AIR * (high - low), high + AIR * (high - low)],
         };
         let [low, high] = if high > low { [low, high] } else { around(low) };
-        Scale::new([low, high], self.ticks.as_deref(), most)
+        let scale = Scale::new([low, high], self.ticks.as_deref(), most);
+        if self.logarithmic { scale.with_logarithm(self.ticks.is_some()) } else { scale }
     }
 }
 
@@ -72,6 +86,7 @@ pub(super) struct Scale {
     /// Where ticks are, in the unit of the axis.
     pub(super) ticks: Vec<f64>,
     decimals: Option<usize>,
+    logarithmic: bool,
 }
 
 impl Scale {
@@ -82,13 +97,19 @@ impl Scale {
             None => round_numbers(range, most),
         };
         let decimals = decimals(&ticks);
-        Self { range, ticks, decimals }
+        Self { range, ticks, decimals, logarithmic: false }
+    }
+
+    fn with_logarithm(self, has_ticks: bool) -> Self {
+        let ticks = if has_ticks { self.ticks } else { round_ratios(self.range) };
+        Self { decimals: decimals(&ticks), ticks, logarithmic: true, ..self }
     }
 
     /// Place of a value between two ends in px.
     pub(super) fn place(&self, value: f64, [from, to]: [f64; 2]) -> f64 {
-        let [low, high] = self.range;
-        let share = (value - low) / (high - low);
+        let along = |x: f64| if self.logarithmic { x.ln() } else { x };
+        let [low, high] = self.range.map(along);
+        let share = (along(value) - low) / (high - low);
         from + share * (to - from)
     }
 
@@ -120,6 +141,20 @@ fn round_numbers([low, high]: [f64; 2], most: usize) -> Vec<f64> {
     while (ticks.len() as f64) < count {
         ticks.push((first + ticks.len() as f64) * step);
     }
+    ticks
+}
+
+/// 1, 2 and 5 times the powers of ten within a range of positive numbers.
+fn round_ratios([low, high]: [f64; 2]) -> Vec<f64> {
+    const MOST_DECADES: f64 = 12.0;
+    let first = low.log10().floor();
+    let decades = (high.log10().ceil() - first).clamp(1.0, MOST_DECADES);
+    let decade = |k: usize| 10.0_f64.powf(first + k as f64);
+    let all = (0..)
+        .take_while(|&k| (k as f64) < decades)
+        .flat_map(|k| [1.0, 2.0, 5.0, 10.0].map(|m| m * decade(k)));
+    let mut ticks: Vec<f64> = all.filter(|x| (low..=high).contains(x)).collect();
+    ticks.dedup();
     ticks
 }
 
@@ -156,6 +191,13 @@ mod tests {
         assert_eq!(round_numbers([-5.2, 5.4], 3), [-5.0, 0.0, 5.0]);
         assert_eq!(round_numbers([0.0, 300.0], 7), [0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0]);
         assert_eq!(round_numbers([1.0e-6, 2.0e-6], 4).len(), 3);
+    }
+
+    #[test]
+    fn equal_ratios_are_equal_steps_on_a_logarithmic_axis() {
+        let scale = Axis::new("", "").with_logarithm().with_range(1.0, 100.0).scale([], 5);
+        assert!((scale.place(10.0, [0.0, 1.0]) - 0.5).abs() < 1e-12);
+        assert_eq!(scale.ticks, [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0]);
     }
 
     #[test]

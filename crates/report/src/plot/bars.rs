@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::axis::Axis;
 use super::canvas::{Canvas, Type, svg};
 use super::chart::{MARGIN_PX, title};
-use super::error::{PlotError, finite, length, not_empty};
+use super::error::{PlotError, finite, length, not_empty, positive};
 use super::frame::{Frame, Rect, most_ticks};
 use super::legend::{self, Entry};
 use super::series::error_bar;
@@ -80,6 +80,7 @@ impl Bars {
     fn check(&self) -> Result<(), PlotError> {
         not_empty(&self.title, self.categories.len().min(self.sets.len()))?;
         finite(&self.title, "an axis", self.y.fixed().chain(&self.size_px))?;
+        positive(&self.title, "the foot of the bars", self.y.is_logarithmic().then_some(&0.0))?;
         for set in &self.sets {
             let what = format!("set \"{}\"", set.name);
             length(&self.title, &what, set.values.len(), self.categories.len())?;

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::canvas::{Canvas, Type, svg};
-use super::error::{PlotError, finite, not_empty};
+use super::error::{PlotError, finite, not_empty, positive};
 use super::frame::{Frame, Rect, most_ticks};
 use super::legend::{self, distinct};
 use super::series::Series;
@@ -72,7 +72,16 @@ impl Chart {
     pub(super) fn check(&self) -> Result<(), PlotError> {
         not_empty(&self.title, self.series.len())?;
         finite(&self.title, "an axis", self.x.fixed().chain(self.y.fixed()).chain(&self.size_px))?;
-        self.series.iter().try_for_each(|s| s.check(&self.title))
+        self.series.iter().try_for_each(|s| s.check(&self.title))?;
+        self.check_logarithms()
+    }
+
+    fn check_logarithms(&self) -> Result<(), PlotError> {
+        let check = |axis: &Axis, what: &str, values: Vec<f64>| {
+            positive(&self.title, what, axis.fixed().chain(&values).filter(|_| axis.is_logarithmic()))
+        };
+        check(&self.x, "the x axis", self.series.iter().flat_map(Series::xs).collect())?;
+        check(&self.y, "the y axis", self.series.iter().flat_map(Series::ys).collect())
     }
 
     /// Draws axes and data, without title and legend.

@@ -15,6 +15,16 @@ pub enum PlotError {
         /// The number.
         value: f64,
     },
+    /// A number that has no place on a logarithmic axis.
+    #[error("chart \"{chart}\": {what} is {value}; a logarithmic axis shows positive numbers only")]
+    NotPositive {
+        /// Title of the chart.
+        chart: String,
+        /// Which number.
+        what: String,
+        /// The number.
+        value: f64,
+    },
     /// Nothing to draw.
     #[error("chart \"{chart}\" has nothing to draw")]
     Empty {
@@ -47,6 +57,22 @@ pub(super) fn finite<'a>(
     match values.into_iter().enumerate().find(|(_, x)| !x.is_finite()) {
         None => Ok(()),
         Some((i, &value)) => Err(PlotError::NotFinite {
+            chart: chart.to_owned(),
+            what: format!("number {} of {what}", i + 1),
+            value,
+        }),
+    }
+}
+
+/// First number of a list that is not above zero, as an error.
+pub(super) fn positive<'a>(
+    chart: &str,
+    what: &str,
+    values: impl IntoIterator<Item = &'a f64>,
+) -> Result<(), PlotError> {
+    match values.into_iter().enumerate().find(|(_, x)| **x <= 0.0) {
+        None => Ok(()),
+        Some((i, &value)) => Err(PlotError::NotPositive {
             chart: chart.to_owned(),
             what: format!("number {} of {what}", i + 1),
             value,

@@ -6,6 +6,7 @@ mod files;
 pub mod machines;
 mod measure;
 mod plan;
+mod redraw;
 mod scheme;
 mod signature;
 

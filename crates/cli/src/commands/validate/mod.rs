@@ -1,7 +1,8 @@
 //! `hexbench validate`: studies that say how far the bench itself can be trusted, one file each.
 
-pub(crate) mod recovery;
+pub(crate) mod calibration;
 pub(crate) mod paper;
+pub(crate) mod recovery;
 
 use clap::{Args, Subcommand};
 
@@ -22,6 +23,7 @@ pub(crate) struct Arguments {
 enum Study {
     Recovery(recovery::Arguments),
     Paper(paper::Arguments),
+    Calibration(calibration::Arguments),
 }
 
 /// Run the study.
@@ -29,5 +31,6 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     match &arguments.study {
         Study::Recovery(arguments) => recovery::run(arguments, screen),
         Study::Paper(arguments) => paper::run(arguments, screen),
+        Study::Calibration(arguments) => calibration::run(arguments, screen),
     }
 }

@@ -1,0 +1,147 @@
+//! `hexbench validate calibration`.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_truth::campaign::Kind;
+use hexbench_validation::calibration::{
+    self, Calibration, Curve, MOST_FALSE_NAMES, Protocol, SEED, document, false_names, pictures, sheets,
+    trials_csv,
+};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::failure::Failure;
+use crate::output::Screen;
+use crate::page;
+
+/// Say how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder for the table of trials, the summary tables and the charts
+    #[arg(short = 'o', long, value_name = "DIR")]
+    out: PathBuf,
+    /// Campaigns to simulate, in the mix of the protocol
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    trials: Option<u32>,
+    /// Seed of everything that is drawn
+    #[arg(long, value_name = "S", default_value_t = SEED)]
+    seed: u64,
+    /// Write the study as a document too; its charts go to a folder beside it
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    /// Write the files of this one trial instead, such as `pair-0007`
+    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "markdown", "check"])]
+    case: Option<String>,
+    /// Exit with 1 when effects that are not there are named in clearly more than 1 % of the trials
+    #[arg(long)]
+    check: bool,
+}
+
+/// Run the study, write its files, tell the main figures.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    if let Some(trial) = &arguments.case {
+        return write_case(trial, arguments, screen);
+    }
+    let protocol = Protocol::default().with_seed(arguments.seed);
+    let protocol = match arguments.trials {
+        Some(trials) => protocol.with_trials(trials as usize),
+        None => protocol,
+    };
+    let study = with_progress(protocol);
+    let written = write(&study, arguments, screen)?;
+    screen.write(&page::calibration(&study, &written, screen.ink()))?;
+    check(arguments.check, &study)
+}
+
+fn with_progress(protocol: Protocol) -> Calibration {
+    let bar = ProgressBar::new(protocol.trials() as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} trials, {eta} left") {
+        bar.set_style(style);
+    }
+    let study = calibration::calibrate(protocol, &|| bar.inc(1));
+    bar.finish_and_clear();
+    study
+}
+
+/// Returns the paths written.
+fn write(study: &Calibration, arguments: &Arguments, screen: &Screen) -> Result<Vec<PathBuf>, Failure> {
+    let out = &arguments.out;
+    let mut files: Vec<(PathBuf, String)> = vec![(out.join("trials.csv"), trials_csv(&study.records))];
+    files.extend(tables(study).map(|(name, text)| (out.join(name), text)));
+    let charts = pictures(&study.records)?;
+    files.extend(charts.iter().map(|c| (out.join(c.file), c.svg.clone())));
+    if let Some(markdown) = &arguments.markdown {
+        let folder = markdown.with_extension("");
+        let beside = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
+        files.push((markdown.clone(), document(study, &beside)));
+        files.extend(charts.into_iter().map(|c| (folder.join(c.file), c.svg)));
+    }
+    for (path, text) in &files {
+        make_folder_of(path)?;
+        screen.write_to(path, text)?;
+    }
+    Ok(files.into_iter().map(|(path, _)| path).collect())
+}
+
+fn tables(study: &Calibration) -> impl Iterator<Item = (&'static str, String)> {
+    let records = &study.records;
+    let curves: Vec<Curve> = [Kind::Single, Kind::Outside, Kind::RichForm, Kind::SeedProtocol]
+        .into_iter()
+        .flat_map(|kind| Curve::of_each(records, kind))
+        .collect();
+    let all = [
+        ("fates.csv", sheets::fates(records)),
+        ("confusion.csv", sheets::confusion(records)),
+        ("scores.csv", sheets::all_scores(records)),
+        ("scores-by-kind.csv", sheets::scores_by_kind(records)),
+        ("reliability.csv", sheets::reliability(records, 0.0)),
+        ("power.csv", sheets::power(&curves)),
+        ("coverage.csv", sheets::coverage(records)),
+        ("numbers.csv", sheets::numbers(records)),
+        ("mistakes.csv", sheets::mistakes_sheet(records)),
+    ];
+    all.into_iter().map(|(name, sheet)| (name, sheet.csv()))
+}
+
+fn make_folder_of(path: &Path) -> Result<(), Failure> {
+    let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) else { return Ok(()) };
+    fs::create_dir_all(folder).map_err(|cause| Failure::Output { path: folder.to_owned(), cause })
+}
+
+fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let (kind, index) = parse(trial).ok_or_else(|| Failure::Usage {
+        message: format!("`{trial}` is no trial"),
+        next: format!(
+            "Give a kind and a number, such as pair-0007; kinds are {}.",
+            Kind::ALL.map(Kind::name).join(", ")
+        ),
+    })?;
+    let case = calibration::case(kind, index, arguments.seed).map_err(Failure::Trial)?;
+    let folder = arguments.out.join(&case.spec.id);
+    case.write(&folder).map_err(|cause| Failure::Trial(cause.into()))?;
+    let path = folder.display();
+    screen.write(&format!(
+        "hexbench diagnose {path}/hexapod.toml {path}/measurements.csv --holdout {path}/holdout.csv\n"
+    ))
+}
+
+fn parse(trial: &str) -> Option<(Kind, usize)> {
+    const MOST_DIGITS: usize = 6;
+    let (kind, index) = trial.rsplit_once('-').filter(|(_, index)| index.len() <= MOST_DIGITS)?;
+    Some((Kind::ALL.into_iter().find(|k| k.name() == kind)?, index.parse().ok()?))
+}
+
+fn check(asked: bool, study: &Calibration) -> Result<(), Failure> {
+    let found = false_names(&study.records);
+    if !asked || !found.is_above(MOST_FALSE_NAMES) {
+        return Ok(());
+    }
+    Err(Failure::Check(format!(
+        "{} of {} trials name an effect that is not there, more than {} %",
+        found.hits,
+        found.of,
+        100.0 * MOST_FALSE_NAMES
+    )))
+}

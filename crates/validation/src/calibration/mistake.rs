@@ -1,0 +1,45 @@
+//! Wrong answers, grouped by what was hidden and what was said.
+
+use std::collections::BTreeMap;
+
+use hexbench_truth::campaign::Kind;
+
+use super::{Fate, Record};
+
+/// Wrong answers of one sort.
+#[derive(Debug)]
+pub struct Group<'a> {
+    /// What was hidden.
+    pub hidden: String,
+    /// What was said.
+    pub answer: String,
+    /// The trials, the most confident first.
+    pub trials: Vec<&'a Record>,
+}
+
+/// Groups of answers that state something false: a false name, a false "outside", some of several effects taken for
+/// all. The largest first. Of pairs the sort of mistake stands for the answer.
+pub fn mistakes(records: &[Record]) -> Vec<Group<'_>> {
+    let mut groups: BTreeMap<(String, String), Vec<&Record>> = BTreeMap::new();
+    for record in records.iter().filter(|r| r.fate >= Fate::Incomplete) {
+        groups.entry(key(record)).or_default().push(record);
+    }
+    let mut all: Vec<Group<'_>> = groups
+        .into_iter()
+        .map(|((hidden, answer), mut trials)| {
+            trials.sort_by(|a, b| b.confidence.unwrap_or(0.0).total_cmp(&a.confidence.unwrap_or(0.0)));
+            Group { hidden, answer, trials }
+        })
+        .collect();
+    all.sort_by_key(|g| std::cmp::Reverse(g.trials.len()));
+    all
+}
+
+fn key(r: &Record) -> (String, String) {
+    match r.kind {
+        Kind::Pair => ("two effects".to_owned(), r.fate.word().to_owned()),
+        Kind::SeedProtocol => (format!("{} (paper plan)", r.hidden_words()), r.answer()),
+        Kind::RichForm => (format!("{} (richer form)", r.hidden_words()), r.answer()),
+        _ => (r.hidden_words(), r.answer()),
+    }
+}

@@ -1,0 +1,75 @@
+//! Figures that say how far an answer can be trusted.
+
+use hexbench_model::verdict::Verdict;
+
+use super::{Fate, Record};
+use crate::proportion::Proportion;
+
+/// Share of trials with an effect named that is not there which must not be exceeded.
+pub const MOST_FALSE_NAMES: f64 = 0.01;
+/// Probability a credible set claims to hold.
+pub const CREDIBLE: f64 = 0.95;
+/// Standard deviations that hold 95 % of a normal law.
+const COVERED: f64 = 1.96;
+
+/// Trials in which an effect is named that is not there.
+pub fn false_names<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
+    Proportion::count(records, |r| r.fate == Fate::FalseName)
+}
+
+/// The same among the answers that name anything.
+pub fn false_names_among_named<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
+    false_names(records.into_iter().filter(|r| r.verdict == Verdict::Named))
+}
+
+/// "Outside" said where all that is hidden is in the catalogue, or nothing is.
+pub fn false_outside<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
+    let inside = records.into_iter().filter(|r| !r.is_outside());
+    Proportion::count(inside, |r| r.verdict == Verdict::Outside)
+}
+
+/// Credible sets that hold the whole truth.
+pub fn credible_coverage<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
+    Proportion::count(records, |r| r.is_covered())
+}
+
+/// Leg stiffnesses within 1.96 of their stated standard deviations; answers "outside" come with a model that is known to
+/// lack something and do not count.
+pub fn stiffness_coverage<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
+    let meant = records.into_iter().filter(|r| r.verdict != Verdict::Outside);
+    let all = meant.flat_map(|r| r.stiffness_z.iter().flatten());
+    Proportion::count(all, |z| z.abs() <= COVERED)
+}
+
+/// Quantiles of the reduced chi-square on held-out poses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeldOut {
+    /// Trials behind it.
+    pub trials: usize,
+    /// Median with the springs alone.
+    pub springs_median: f64,
+    /// Median with the final model.
+    pub median: f64,
+    /// 95 % of the trials are below.
+    pub high: f64,
+}
+
+impl HeldOut {
+    /// Quantiles over trials; `None` of nothing.
+    pub fn of<'a>(records: impl IntoIterator<Item = &'a Record>) -> Option<Self> {
+        let pairs: Vec<[f64; 2]> =
+            records.into_iter().filter_map(|r| Some([r.holdout[0]?, r.holdout[1]?])).collect();
+        let quantile = |step: usize, share: f64| {
+            let mut all: Vec<f64> = pairs.iter().map(|p| p[step]).collect();
+            all.sort_by(f64::total_cmp);
+            all.into_iter().enumerate().find(|(k, _)| (k + 1) as f64 >= share * pairs.len() as f64)
+        };
+        let value = |step, share| quantile(step, share).map(|(_, x)| x);
+        Some(Self {
+            trials: pairs.len(),
+            springs_median: value(0, 0.5)?,
+            median: value(1, 0.5)?,
+            high: value(1, 0.95)?,
+        })
+    }
+}
