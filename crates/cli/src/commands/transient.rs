@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     /// Damping of the lowest mode over its critical damping, 0.005 to 2
     #[arg(long, value_name = "RATIO", value_parser = ratio, default_value = "0.05")]
     damping_ratio: f64,
-    /// Stiffness of every leg, N/um; otherwise nominal_stiffness_N_per_um of the file
+    /// Stiffness of every leg, N/um; otherwise `nominal_stiffness_N_per_um` of the file
     #[arg(long, value_name = "STIFFNESS", value_parser = positive)]
     stiffness: Option<f64>,
     /// Write the trace to FILE (trace.csv)

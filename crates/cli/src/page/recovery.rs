@@ -33,5 +33,7 @@ fn told(paper: &mut Paper, heading: &str, lines: impl Iterator<Item = String>) {
         return;
     }
     paper.heading(heading, "");
-    lines.iter().for_each(|line| paper.hanging("  -", 4, line));
+    for line in &lines {
+        paper.hanging("  -", 4, line);
+    }
 }

@@ -87,7 +87,7 @@ impl Term for JointGeometry {
             out.extend((0..3).map(|k| moved(at, leg, -Vector3::ith(k, 1.0), Vector3::zeros())));
         }
         for leg in 0..6 {
-            let axes = rotation.column_iter().map(|axis| axis.into_owned());
+            let axes = rotation.column_iter().map(nalgebra::Matrix::into_owned);
             out.extend(axes.map(|axis| moved(at, leg, axis, axis)));
         }
     }

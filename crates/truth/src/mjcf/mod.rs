@@ -1,6 +1,6 @@
 //! The structure as a MuJoCo model: a witness that shares nothing with the solver of this crate but the drawing.
 //!
-//! Written from a [`World`] at one commanded pose; MuJoCo finds the rest. The geometry is that of the *true* machine at the
+//! Written from a [`World`](crate::World) at one commanded pose; MuJoCo finds the rest. The geometry is that of the *true* machine at the
 //! commanded pose, the springs are relaxed at the commanded leg lengths:
 //!
 //! - a leg is a chain of uniform rods on a universal joint at the base; between the rods slide joints with springs, in

@@ -1,8 +1,10 @@
 //! The study as a page of Markdown.
 
+use hexbench_report::Document;
+
 use super::correspondence::CORRESPONDENCES;
 use super::study::Study;
-use super::tables::{Table, summary, tables};
+use super::tables::{summary, tables};
 
 const BEGINNING: &str = "\
 # Recovery
@@ -28,24 +30,19 @@ each row of a table divided by the number of rows; intervals of one campaign cou
 
 /// The page.
 pub fn document(study: &Study) -> String {
-    let mut text = String::from(BEGINNING);
-    text += &format!("\n{}\n", summary(study));
-    for broken in &study.broken {
-        text += &format!("\n- broken: {broken}\n");
+    let mut page = Document::default();
+    page.paragraph(summary(study));
+    if !study.broken.is_empty() {
+        page.list(study.broken.iter().map(|broken| format!("broken: {broken}")));
     }
     for table in tables(study) {
-        text += &section(&table);
+        page.heading(2, table.title);
+        page.paragraph(capital(table.remark) + ".");
+        page.table(table.header.iter().map(ToString::to_string), table.rows.clone());
     }
-    text + &wrong_answers(study) + &correspondence()
-}
-
-fn section(table: &Table) -> String {
-    let header: Vec<String> = table.header.iter().map(ToString::to_string).collect();
-    let rule: Vec<String> =
-        (0..header.len()).map(|k| if k == 0 { "---" } else { "---:" }.to_owned()).collect();
-    let lines = [header, rule].into_iter().chain(table.rows.iter().cloned());
-    let body: String = lines.map(|cells| format!("| {} |\n", cells.join(" | "))).collect();
-    format!("\n## {}\n\n{}.\n\n{body}", table.title, capital(table.remark))
+    wrong_answers(&mut page, study);
+    correspondence(&mut page);
+    format!("{BEGINNING}\n{}", page.to_markdown())
 }
 
 fn capital(text: &str) -> String {
@@ -53,22 +50,24 @@ fn capital(text: &str) -> String {
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
-fn wrong_answers(study: &Study) -> String {
-    let told: String = study
-        .rows
-        .iter()
-        .flat_map(|row| row.wrong_answers.iter().map(move |a| format!("- {}: {a}\n", row.subject)))
-        .collect();
-    if told.is_empty() { String::new() } else { format!("\n## Wrong answers\n\n{told}") }
+fn wrong_answers(page: &mut Document, study: &Study) {
+    let of_row = |row: &super::study::Row| {
+        row.wrong_answers.iter().map(|a| format!("{}: {a}", row.subject)).collect::<Vec<_>>()
+    };
+    let told: Vec<String> = study.rows.iter().flat_map(of_row).collect();
+    if !told.is_empty() {
+        page.heading(2, "Wrong answers");
+        page.list(told);
+    }
 }
 
-fn correspondence() -> String {
-    let row = |c: &super::correspondence::Correspondence| {
-        format!("| {} | `{}` | {} | {} |\n", c.effect, c.world, c.rule, c.differs)
+fn correspondence(page: &mut Document) {
+    page.heading(2, "Which number stands for which");
+    page.paragraph(
+        "The world's numbers are those of the case files, SI; the model's are those of `hexbench terms`.",
+    );
+    let cells = |c: &super::correspondence::Correspondence| {
+        vec![c.effect.to_owned(), format!("`{}`", c.world), c.rule.to_owned(), c.differs.to_owned()]
     };
-    let rows: String = CORRESPONDENCES.iter().map(row).collect();
-    format!(
-        "\n## Which number stands for which\n\nThe world's numbers are those of the case files, SI; the model's are those \
-         of `hexbench terms`.\n\n| effect | world | model | what differs |\n| --- | --- | --- | --- |\n{rows}"
-    )
+    page.table(["effect", "world", "model", "what differs"], CORRESPONDENCES.iter().map(cells));
 }

@@ -104,10 +104,9 @@ impl Scene {
 
     /// What the model should find for each hidden effect.
     pub fn equivalents(&self) -> Vec<(&'static str, Equivalent)> {
-        let of = |m: &Box<dyn hexbench_truth::Mechanism>| {
-            Some((m.id(), equivalent(m.id(), &m.parameters(), self.hexapod())?))
-        };
-        self.case.campaign.world.mechanisms.iter().filter_map(of).collect()
+        let mechanisms = &self.case.campaign.world.mechanisms;
+        let of = |(id, parameters)| Some((id, equivalent(id, &parameters, self.hexapod())?));
+        mechanisms.iter().map(|m| (m.id(), m.parameters())).filter_map(of).collect()
     }
 
     /// The training part under loads scaled by a factor, as an ideal instrument reads it.
