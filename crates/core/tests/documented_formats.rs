@@ -22,6 +22,7 @@ fn the_hexapod_of_the_page_is_read() {
 fn the_tables_of_the_page_are_read_without_warning() {
     let readings: Vec<_> = examples("csv")
         .iter()
+        .filter(|text| text.starts_with("pose,"))
         .map(|text| {
             read_measurements_from(text.as_bytes(), "example").unwrap_or_else(|error| panic!("{error}"))
         })

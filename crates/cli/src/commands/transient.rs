@@ -101,12 +101,12 @@ fn page(transient: &Transient, standing: &Vector6, ink: Ink) -> String {
         |f| format!("The lowest mode was seen to swing at {} Hz.", number::significant(f, 4)),
     );
     paper.paragraph(2, &seen);
-    paper.heading("After the load step", "without gravity");
+    paper.heading("After the load step", "without gravity; um and urad");
     let percent = 100.0 * SETTLED;
     let time = number::significant(transient.settling_time, 3);
     paper.paragraph(2, &format!("Settled within {percent:.0} % of the deflection after {time} s."));
     let mut table = Table::default();
-    table.row(["", "da_um", "db_um", "dc_um", "dalpha_urad", "dbeta_urad", "dgamma_urad"]);
+    table.row(["", "da", "db", "dc", "dalpha", "dbeta", "dgamma"]);
     for (name, deflection) in [("end of the trace", &transient.limit()), ("static equilibrium", standing)] {
         let cells = deflection.iter().map(|d| format!("{:.3}", d * 1e6 + 0.0));
         table.row(std::iter::once(name.to_owned()).chain(cells));

@@ -24,7 +24,7 @@ search. The diagnosis is told nothing; its effects have distance 22.
 Bounds: an error without noise must stay below `std |d|`, with `d` the linearisation error of the readings (second order in
 load / (k leg length) for springs, first order for what an effect adds; `crates/validation/src/recovery/noiseless.rs` derives
 it). Absolute poses are closed exactly by world and model alike, so that only rounding remains there; deflections must *not*
-agree to rounding. A coverage must lie within binomial bounds that a right estimator breaks with a chance of 7e-4, for
+agree to rounding. A coverage must lie within binomial bounds that a right estimator breaks with a chance of 0.001, for
 each row of a table divided by the number of rows; intervals of one campaign count as one trial.
 ";
 

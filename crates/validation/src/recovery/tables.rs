@@ -93,9 +93,9 @@ fn sums(study: &Study) -> Table {
         ("shapes of effects", study.shapes),
         ("noise level from repeats", study.noise_by_repeats),
         ("noise level from residuals", study.noise_by_residuals),
-        ("leg stiffness, noise from repeats", study.stiffness_by_repeats),
-        ("leg stiffness after search", study.stiffness_after_search),
-        ("leg stiffness after right search", study.stiffness_after_right_search),
+        ("stiffness, noise from repeats", study.stiffness_by_repeats),
+        ("stiffness after search", study.stiffness_after_search),
+        ("stiffness after right search", study.stiffness_after_right_search),
     ];
     let row = |(what, c): (&str, Coverage)| {
         let allowed = format!("{:.4} to {:.4}", c.low, c.high);

@@ -9,7 +9,7 @@ pub const COVERAGE_FACTOR: f64 = 1.959_963_984_540_054;
 pub const NOMINAL: f64 = 0.95;
 /// Chance that right intervals break a bound: for 2000 campaigns they are 0.9335 and 0.9655. Where a table has a row for each
 /// of many subjects, it is divided among them (Bonferroni), so that a whole column breaks with this chance.
-pub const CHANCE: f64 = 7e-4;
+pub const CHANCE: f64 = 1e-3;
 
 /// Pulls of a kind of numbers, counted campaign by campaign.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -101,8 +101,8 @@ impl Coverage {
     }
 }
 
-/// Shares between which `n` independent trials of a probability fall but for [`CHANCE`] over the number of rows. Intervals of one campaign share its
-/// noise: counting each campaign once makes these bounds the widest that can be needed.
+/// Shares between which `n` independent trials of a probability fall but for [`CHANCE`] over the number of rows. Intervals of
+/// one campaign share its noise: counting each campaign once makes these bounds the widest that can be needed.
 pub fn bounds(n: u64, probability: f64, rows: usize) -> [f64; 2] {
     let Ok(law) = Binomial::new(probability, n.max(1)) else { return [0.0, 1.0] };
     let share = |p: f64| law.inverse_cdf(p) as f64 / n.max(1) as f64;
