@@ -40,6 +40,7 @@ pub(crate) enum Command {
     Compensate(commands::compensate::Arguments),
     Transient(commands::transient::Arguments),
     Export(commands::export::Arguments),
+    Design(commands::design::Arguments),
     Terms(commands::terms::Arguments),
     Validate(commands::validate::Arguments),
     Completions(commands::completions::Arguments),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use hexbench_core::files::FileError;
+use hexbench_design::DesignError;
 use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
@@ -112,6 +113,9 @@ pub(crate) enum Failure {
     /// A scene that could not be simulated.
     #[error("{0}")]
     Simulation(SimulationError),
+    /// A design problem without an answer.
+    #[error("{0}")]
+    Design(#[from] DesignError),
     /// Wrong usage that only shows after parsing.
     #[error("{message}")]
     Usage {
@@ -152,7 +156,7 @@ impl Failure {
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
-            Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => Exit::NotDetermined,
+            Self::Design(_) | Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => Exit::NotDetermined,
             Self::File(_)
             | Self::ModelFile { .. }
             | Self::Row { .. }
@@ -176,6 +180,9 @@ impl Failure {
             }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Check(_) => None,
+            Self::Design(_) => {
+                Some("Widen the ranges or limits in the space file, or ask for more poses.".into())
+            }
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
             Self::UserTerm { .. } => {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())

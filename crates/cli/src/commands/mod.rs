@@ -4,6 +4,7 @@ pub(crate) mod compare;
 pub(crate) mod compensate;
 pub(crate) mod completions;
 pub(crate) mod demo;
+pub(crate) mod design;
 pub(crate) mod diagnose;
 pub(crate) mod export;
 pub(crate) mod fit;
@@ -32,6 +33,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Diagnose(arguments) => diagnose::run(arguments, &screen),
         Command::Export(arguments) => export::run(arguments, &screen),
         Command::Transient(arguments) => transient::run(arguments, &screen),
+        Command::Design(arguments) => design::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
         Command::Validate(arguments) => validate::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),

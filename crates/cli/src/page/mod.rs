@@ -5,6 +5,7 @@ pub(crate) mod comparison;
 mod conclusion;
 mod confidence;
 mod demo;
+pub(crate) mod designed;
 pub(crate) mod effect;
 pub(crate) mod effects;
 pub(crate) mod fitted;

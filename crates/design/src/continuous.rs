@@ -1,0 +1,270 @@
+//! Few poses, every free coordinate of each chosen at will: many starts of sequential quadratic programming.
+//!
+//! Minimises `-ln value` of a criterion over the free coordinates of all poses, each scaled to 0..1 over its travel, under the
+//! limits of the space. Starts come from a scrambled Sobol sequence; each runs on its own, so that the answer does not
+//! depend on the number of threads. Source: Kraft 1988 (SLSQP).
+
+use hexbench_core::{Hexapod, Pose};
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+use slsqp::{Func, StopTols, minimize};
+
+use crate::regressor::PoseRegressor;
+use crate::{Criterion, DesignError, Space};
+
+/// Evaluations of one start before it is taken as it is.
+const MOST_EVALUATIONS: usize = 300;
+/// Values this close, relatively, count as the same optimum.
+const SAME: f64 = 1e-4;
+/// Excess over a limit that rounding excuses.
+const SLACK: f64 = 1e-6;
+/// `-ln value` of a set of poses that cannot be evaluated or determines nothing.
+const WORTHLESS: f64 = 1e3;
+
+/// Poses to be found.
+pub struct Problem<'a, R> {
+    /// The machine.
+    pub hexapod: &'a Hexapod,
+    /// Where poses may lie.
+    pub space: &'a Space,
+    /// What a pose tells.
+    pub regressor: &'a R,
+    /// What makes a set of poses good.
+    pub criterion: &'a Criterion,
+    /// Number of poses.
+    pub poses: usize,
+}
+
+/// A set of poses with the value of the criterion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoseSet {
+    /// The poses.
+    pub poses: Vec<Pose>,
+    /// Value of the criterion.
+    pub value: f64,
+}
+
+/// Outcome of all starts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Search {
+    /// The best set found.
+    pub best: PoseSet,
+    /// Number of starts.
+    pub starts: usize,
+    /// Starts that ended at a set within the limits.
+    pub ended: usize,
+    /// Starts whose value agrees with the best to four digits.
+    pub agreeing: usize,
+}
+
+impl<R: PoseRegressor> Problem<'_, R> {
+    /// Value of the criterion for poses; zero when one is singular.
+    pub fn value(&self, poses: &[Pose]) -> f64 {
+        self.information(poses).map_or(0.0, |m| self.criterion.value(&m, self.readings(poses)))
+    }
+
+    fn readings(&self, poses: &[Pose]) -> usize {
+        poses.len() * self.regressor.readings()
+    }
+
+    /// Sum of the information of poses (p x p).
+    ///
+    /// # Errors
+    /// A singular pose.
+    pub fn information(&self, poses: &[Pose]) -> Result<DMatrix<f64>, DesignError> {
+        let p = self.regressor.parameters();
+        let mut information = DMatrix::zeros(p, p);
+        poses.iter().try_for_each(|pose| self.regressor.inform(pose, &mut information))?;
+        Ok(information)
+    }
+
+    /// The best of many starts.
+    ///
+    /// # Errors
+    /// [`DesignError::NoPose`] when the space is empty, [`DesignError::NotDetermined`] when no start ends at poses that
+    /// determine all parameters.
+    pub fn search(&self, starts: usize, seed: u32) -> Result<Search, DesignError> {
+        let drawn = self.space.poses(self.hexapod, starts * self.poses, seed)?;
+        let ends: Vec<Option<PoseSet>> =
+            drawn.par_chunks(self.poses).map(|start| self.climb(start)).collect();
+        let ended: Vec<&PoseSet> = ends.iter().flatten().collect();
+        // The first of equals, so that the order of threads does not matter.
+        let best = ended.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
+        let Some(best) = best else {
+            return Err(DesignError::NotDetermined {
+                readings: self.poses,
+                parameters: self.regressor.parameters(),
+                hint: ": allow more poses, turns or load directions",
+            });
+        };
+        let agrees = |set: &&&PoseSet| set.value >= (1.0 - SAME) * best.value;
+        Ok(Search {
+            best: best.clone(),
+            starts,
+            ended: ended.len(),
+            agreeing: ended.iter().filter(agrees).count(),
+        })
+    }
+
+    /// The nearest optimum from a start; none when it breaks a limit or determines nothing.
+    pub fn climb(&self, start: &[Pose]) -> Option<PoseSet> {
+        let free = self.space.free();
+        let x: Vec<f64> = start.iter().flat_map(|pose| self.scaled(pose, &free)).collect();
+        let bounds = vec![(0.0, 1.0); x.len()];
+        let objective =
+            |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| self.objective(x, gradient, &free);
+        let limit = |k: usize| {
+            let free = &free;
+            move |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| self.limit(x, gradient, free, k)
+        };
+        let limited = self.space.limits(self.hexapod, &start[0]).len();
+        let limits: Vec<_> = (0..limited * start.len()).map(limit).collect();
+        let limits: Vec<&dyn Func<()>> = limits.iter().map(|l| l as &dyn Func<()>).collect();
+        let tolerances = StopTols { ftol_abs: 1e-10, ..StopTols::default() };
+        let end = minimize(objective, &x, &bounds, &limits, (), MOST_EVALUATIONS, Some(tolerances));
+        let x = match end {
+            Ok((_, x, _)) | Err((_, x, _)) => x,
+        };
+        let poses = self.poses_of(&x, &free);
+        let keeps = |p: &Pose| self.space.worst_limit(self.hexapod, p).is_none_or(|l| l.excess <= SLACK);
+        let value = self.value(&poses);
+        (value > 0.0 && poses.iter().all(keeps)).then_some(PoseSet { poses, value })
+    }
+
+    fn objective(&self, x: &[f64], gradient: Option<&mut [f64]>, free: &[usize]) -> f64 {
+        self.logarithm(x, gradient, free).unwrap_or(WORTHLESS)
+    }
+
+    /// `-ln value` and its gradient; none where the value is zero.
+    fn logarithm(&self, x: &[f64], gradient: Option<&mut [f64]>, free: &[usize]) -> Option<f64> {
+        let poses = self.poses_of(x, free);
+        let information = self.information(&poses).ok()?;
+        let Some(gradient) = gradient else {
+            let value = self.criterion.value(&information, self.readings(&poses));
+            return (value > 0.0).then(|| -value.ln());
+        };
+        gradient.fill(0.0);
+        let (value, g) = self.criterion.gradient(&information, self.readings(&poses));
+        if value <= 0.0 {
+            return None;
+        }
+        for (pose, part) in poses.iter().zip(gradient.chunks_mut(free.len())) {
+            let slopes = self.regressor.slopes(pose, &g).ok()?;
+            for (slope, &k) in part.iter_mut().zip(free) {
+                *slope = -slopes[k] * (self.space.high[k] - self.space.low[k]) / value;
+            }
+        }
+        Some(-value.ln())
+    }
+
+    /// The k-th limit over all poses, and its differences: limits are cheap, and have corners.
+    fn limit(&self, x: &[f64], gradient: Option<&mut [f64]>, free: &[usize], k: usize) -> f64 {
+        const STEP: f64 = 1e-7;
+        let per_pose = free.len();
+        let poses = x.len() / per_pose;
+        let (which, pose) = (k / poses, k % poses);
+        let place = pose * per_pose..(pose + 1) * per_pose;
+        let excess = |x: &[f64]| {
+            let at = self.poses_of(x, free)[0];
+            self.space.limits(self.hexapod, &at).get(which).map_or(1.0, |l| l.excess)
+        };
+        let mut own = x[place.clone()].to_vec();
+        let here = excess(&own);
+        if let Some(gradient) = gradient {
+            gradient.fill(0.0);
+            for (j, slope) in gradient[place].iter_mut().enumerate() {
+                own[j] += STEP;
+                *slope = (excess(&own) - here) / STEP;
+                own[j] -= STEP;
+            }
+        }
+        here
+    }
+
+    fn scaled(&self, pose: &Pose, free: &[usize]) -> Vec<f64> {
+        let (x, low, high) = (pose.to_array(), self.space.low, self.space.high);
+        free.iter().map(|&k| (x[k] - low[k]) / (high[k] - low[k])).collect()
+    }
+
+    fn poses_of(&self, x: &[f64], free: &[usize]) -> Vec<Pose> {
+        let pose = |part: &[f64]| {
+            let mut pose = self.space.low;
+            for (share, &k) in part.iter().zip(free) {
+                pose[k] += share * (self.space.high[k] - self.space.low[k]);
+            }
+            Pose::from_array(pose)
+        };
+        x.chunks(free.len()).map(pose).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::Wrench;
+
+    use super::*;
+    use crate::regressor::{SpringRegressor, Weights};
+    use crate::space::Loading;
+    use crate::test_machine::machine;
+
+    /// Level poses under a weight, as in the paper.
+    fn space() -> Space {
+        let weight = |n: f64| Wrench::from_array([0.0, 0.0, -n, 0.0, 0.0, 0.0]);
+        let reach = [0.04, 0.04, 0.02, 0.0, 0.0, 0.5];
+        Space {
+            low: reach.map(|x| -x),
+            high: reach,
+            stroke: Some([0.178, 0.211]),
+            joint_angle: None,
+            least_dexterity: 0.0,
+            loads: vec![Loading { reference: weight(119.7), load: weight(338.4) }],
+        }
+    }
+
+    #[test]
+    fn no_set_of_thousand_drawn_ones_beats_the_search_and_the_limits_are_kept() {
+        let (hexapod, space) = (machine(), space());
+        let regressor = SpringRegressor::new(&hexapod, &space.loads, 1, Weights::UNWEIGHTED);
+        let problem = Problem {
+            hexapod: &hexapod,
+            space: &space,
+            regressor: &regressor,
+            criterion: &Criterion::O1,
+            poses: 3,
+        };
+        let found = problem.search(24, 1).unwrap();
+        let drawn = space.poses(&hexapod, 3000, 7).unwrap();
+        let best_drawn = drawn.chunks(3).map(|set| problem.value(set)).fold(0.0, f64::max);
+        assert!(found.best.value > best_drawn, "{} {best_drawn}", found.best.value);
+        for pose in &found.best.poses {
+            let worst = space.worst_limit(&hexapod, pose).unwrap();
+            assert!(worst.excess <= SLACK, "{worst:?}");
+        }
+    }
+
+    #[test]
+    fn the_answer_does_not_depend_on_the_number_of_threads() {
+        let (hexapod, space) = (machine(), space());
+        let regressor = SpringRegressor::new(&hexapod, &space.loads, 1, Weights::UNWEIGHTED);
+        let problem = Problem {
+            hexapod: &hexapod,
+            space: &space,
+            regressor: &regressor,
+            criterion: &Criterion::O5,
+            poses: 3,
+        };
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| problem.search(6, 3).unwrap())
+        };
+        assert_eq!(on(1), on(3));
+    }
+
+    #[test]
+    fn limits_that_no_pose_keeps_are_told() {
+        let hexapod = machine();
+        let space = Space { stroke: Some([0.5, 0.6]), ..space() };
+        let why = space.poses(&hexapod, 3, 1).unwrap_err().to_string();
+        assert!(why.contains("shortest leg") && why.contains("only 0 of"), "{why}");
+    }
+}

@@ -1,0 +1,26 @@
+//! Which poses and loads to measure.
+//!
+//! A plan is a list of readings. With `J` the whitened regressor of all its readings (six rows each, one column per
+//! parameter) its information matrix is `M = J'J`, the sum over the readings; a [`Criterion`] turns `M` into one number,
+//! larger for a better plan. Poses and loads come from a [`Space`]: travel, stroke, joint angles, distance from singularity, and
+//! the loads that can be applied.
+//!
+//! - [`regressor`]: rows of a reading for springs and terms; closed form with exact derivatives for springs.
+//! - [`continuous`]: few poses, each coordinate free: many starts of sequential quadratic programming.
+//! - [`exchange`]: many readings out of candidates: exchange and excursion algorithms.
+
+pub mod continuous;
+pub mod criterion;
+pub mod error;
+pub mod exchange;
+pub mod regressor;
+pub mod space;
+pub mod space_file;
+
+#[cfg(test)]
+mod test_machine;
+
+pub use continuous::{PoseSet, Problem, Search};
+pub use criterion::Criterion;
+pub use error::DesignError;
+pub use space::Space;

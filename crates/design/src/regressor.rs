@@ -1,0 +1,41 @@
+//! Rows that a pose contributes to the regressor, and how they change with the pose.
+
+mod model;
+mod springs;
+
+pub use model::{ModelRegressor, reading};
+pub use springs::{SpringRegressor, Weights};
+
+use hexbench_core::Pose;
+use nalgebra::DMatrix;
+
+use crate::DesignError;
+
+/// Information that all readings of one pose give about the parameters.
+pub trait PoseRegressor: Sync {
+    /// Number of parameters p.
+    fn parameters(&self) -> usize;
+
+    /// Readings of one pose: loads times repeats.
+    fn readings(&self) -> usize;
+
+    /// Names of the parameters.
+    fn names(&self) -> Vec<String>;
+
+    /// Adds `J'J` of the pose (p x p) to `information`.
+    ///
+    /// # Errors
+    /// A singular pose.
+    fn inform(&self, pose: &Pose, information: &mut DMatrix<f64>) -> Result<(), DesignError>;
+
+    /// Derivatives of `trace(G J'J)` by the six pose coordinates (per m and per rad), for a symmetric `G` (p x p).
+    ///
+    /// # Errors
+    /// A singular pose.
+    fn slopes(&self, pose: &Pose, g: &DMatrix<f64>) -> Result<[f64; 6], DesignError>;
+}
+
+/// Names of the six leg springs.
+fn leg_names() -> Vec<String> {
+    (1..=6).map(|leg| format!("leg-{leg}.stiffness")).collect()
+}

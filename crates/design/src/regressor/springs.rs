@@ -1,0 +1,227 @@
+//! Six leg springs, first order, in closed form with exact derivatives.
+//!
+//! ```text
+//! A = E P diag(f) diag(s)      P = L^-1, f = P' dW, E = diag(I, M^-1)
+//! dP = -P dL P                 df = -P' dL' f
+//! dL_i = [dn_i', (da_i x n_i + a_i x dn_i)'],  dn_i = (I - n_i n_i') dl_i / q_i,  dl_i = dt + da_i,  da_i = w x a_i
+//! ```
+//!
+//! `dW` is the change of the wrench, `M` the matrix from Euler rates to angular velocity, `w` its column for a turn. Source:
+//! Kalas et al. 2018, eq. 12 and 13; the derivatives are our own.
+
+use hexbench_core::{Hexapod, Matrix3, Matrix6, Pose, Vector3, Vector6};
+use hexbench_model::kinematics::{Legs, euler_rate_matrix};
+use nalgebra::DMatrix;
+
+use super::{PoseRegressor, leg_names};
+use crate::DesignError;
+use crate::space::Loading;
+
+/// Weights of the rows and units of the columns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weights {
+    /// Of a translation row, 1/m.
+    pub translation: f64,
+    /// Of a rotation row, 1/rad.
+    pub rotation: f64,
+    /// Unit of each column: the compliance (m/N) that counts as one.
+    pub compliance: [f64; 6],
+}
+
+impl Weights {
+    /// As the paper: metres and radians side by side, compliances in m/N.
+    pub const UNWEIGHTED: Self = Self { translation: 1.0, rotation: 1.0, compliance: [1.0; 6] };
+}
+
+/// Readings of one pose under every loading, for the compliances of the six legs.
+#[derive(Debug, Clone)]
+pub struct SpringRegressor<'a> {
+    hexapod: &'a Hexapod,
+    changes: Vec<Vector6>,
+    repeats: usize,
+    weights: Weights,
+}
+
+/// Everything about one pose that the rows need.
+struct AtPose {
+    legs: Legs,
+    euler: Matrix3,
+    inverse_euler: Matrix3,
+    rows: Vector6,
+}
+
+impl<'a> SpringRegressor<'a> {
+    /// Readings at each pose: `repeats` under every loading.
+    pub fn new(hexapod: &'a Hexapod, loads: &[Loading], repeats: usize, weights: Weights) -> Self {
+        let changes = loads.iter().map(|l| l.load.to_vector() - l.reference.to_vector()).collect();
+        Self { hexapod, changes, repeats, weights }
+    }
+
+    fn at(&self, pose: &Pose) -> Result<AtPose, DesignError> {
+        let legs = Legs::at(&self.hexapod.base_joints, &self.hexapod.platform_joints, pose)?;
+        let euler = euler_rate_matrix(&pose.angles);
+        let inverse_euler = euler
+            .try_inverse()
+            .ok_or_else(|| DesignError::Bad("at beta = 90 deg Euler angles have no rates".to_owned()))?;
+        let (t, r) = (self.weights.translation, self.weights.rotation);
+        Ok(AtPose { legs, euler, inverse_euler, rows: Vector6::new(t, t, t, r, r, r) })
+    }
+
+    /// `A` (6x6) of one change of wrench.
+    fn block(&self, at: &AtPose, change: &Vector6) -> Matrix6 {
+        let forces = at.legs.forces(change);
+        self.finished(at, &at.legs.platform_jacobian, &forces, &at.inverse_euler)
+    }
+
+    /// Rows in Euler angles, weighted, columns times force and unit.
+    fn finished(&self, at: &AtPose, jacobian: &Matrix6, forces: &Vector6, rates: &Matrix3) -> Matrix6 {
+        let mut a = *jacobian;
+        let turned = rates * a.fixed_rows::<3>(3);
+        a.fixed_rows_mut::<3>(3).copy_from(&turned);
+        Matrix6::from_fn(|i, j| a[(i, j)] * at.rows[i] * forces[j] * self.weights.compliance[j])
+    }
+
+    /// Derivative of `A` by one pose coordinate.
+    fn block_slope(&self, at: &AtPose, change: &Vector6, angles: &Vector3, k: usize) -> Matrix6 {
+        let p = &at.legs.platform_jacobian;
+        let forces = at.legs.forces(change);
+        let dl = leg_jacobian_slope(at, k);
+        let dp = -(p * dl * p);
+        let dforces = -p.tr_mul(&dl.tr_mul(&forces));
+        let mut slope = self.finished(at, &dp, &forces, &at.inverse_euler)
+            + self.finished(at, p, &dforces, &at.inverse_euler);
+        if k > 3 {
+            let drates = -(at.inverse_euler * euler_rate_slope(angles, k) * at.inverse_euler);
+            let mut rotation_only = *p;
+            rotation_only.fixed_rows_mut::<3>(0).fill(0.0);
+            slope += self.finished(at, &rotation_only, &forces, &drates);
+        }
+        slope
+    }
+}
+
+/// `dL` by the k-th pose coordinate.
+fn leg_jacobian_slope(at: &AtPose, k: usize) -> Matrix6 {
+    let mut slope = Matrix6::zeros();
+    for i in 0..6 {
+        let (n, arm) = (at.legs.directions[i], at.legs.arms[i]);
+        let (darm, dspan) = if k < 3 {
+            (Vector3::zeros(), Vector3::ith(k, 1.0))
+        } else {
+            let darm = at.euler.column(k - 3).cross(&arm);
+            (darm, darm)
+        };
+        let dn = (dspan - n * n.dot(&dspan)) / at.legs.lengths[i];
+        let dmoment = darm.cross(&n) + arm.cross(&dn);
+        for axis in 0..3 {
+            slope[(i, axis)] = dn[axis];
+            slope[(i, axis + 3)] = dmoment[axis];
+        }
+    }
+    slope
+}
+
+/// Derivative of the Euler rate matrix by beta (k = 4) or gamma (k = 5).
+fn euler_rate_slope(angles: &Vector3, k: usize) -> Matrix3 {
+    let (sb, cb) = angles.y.sin_cos();
+    let (sg, cg) = angles.z.sin_cos();
+    if k == 4 {
+        Matrix3::new(-cg * sb, 0.0, 0.0, -sg * sb, 0.0, 0.0, -cb, 0.0, 0.0)
+    } else {
+        Matrix3::new(-sg * cb, -cg, 0.0, cg * cb, -sg, 0.0, 0.0, 0.0, 0.0)
+    }
+}
+
+impl PoseRegressor for SpringRegressor<'_> {
+    fn parameters(&self) -> usize {
+        6
+    }
+
+    fn readings(&self) -> usize {
+        self.changes.len() * self.repeats
+    }
+
+    fn names(&self) -> Vec<String> {
+        leg_names()
+    }
+
+    fn inform(&self, pose: &Pose, information: &mut DMatrix<f64>) -> Result<(), DesignError> {
+        let at = self.at(pose)?;
+        for change in &self.changes {
+            let a = self.block(&at, change);
+            let mut whole = information.fixed_view_mut::<6, 6>(0, 0);
+            whole += a.tr_mul(&a) * (self.repeats as f64);
+        }
+        Ok(())
+    }
+
+    fn slopes(&self, pose: &Pose, g: &DMatrix<f64>) -> Result<[f64; 6], DesignError> {
+        let at = self.at(pose)?;
+        let g = g.fixed_view::<6, 6>(0, 0);
+        let mut slopes = [0.0; 6];
+        for change in &self.changes {
+            let weighted = self.block(&at, change) * g;
+            for (k, slope) in slopes.iter_mut().enumerate() {
+                let da = self.block_slope(&at, change, &pose.angles, k);
+                *slope += 2.0 * self.repeats as f64 * weighted.dot(&da);
+            }
+        }
+        Ok(slopes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::{Measurand, Wrench};
+    use hexbench_model::paper::block;
+
+    use super::*;
+    use crate::regressor::reading;
+    use crate::test_machine::machine;
+
+    fn loads() -> Vec<Loading> {
+        let of = |load: [f64; 6]| Loading {
+            reference: Wrench::from_array([0.0, 0.0, -119.7, 0.0, 0.0, 0.0]),
+            load: Wrench::from_array(load),
+        };
+        vec![of([0.0, 0.0, -338.4, 0.0, 0.0, 0.0]), of([100.0, 20.0, -50.0, 3.0, -4.0, 5.0])]
+    }
+
+    fn pose() -> Pose {
+        Pose::from_array([0.012, -0.02, 0.008, 0.1, -0.15, 0.3])
+    }
+
+    #[test]
+    fn rows_are_those_of_the_paper() {
+        let hexapod = machine();
+        let regressor = SpringRegressor::new(&hexapod, &loads()[1..], 1, Weights::UNWEIGHTED);
+        let mut found = DMatrix::zeros(6, 6);
+        regressor.inform(&pose(), &mut found).unwrap();
+        let a = block(&hexapod, &reading(pose(), &loads()[1]), Measurand::DeflectionEuler).unwrap();
+        let error = (found.fixed_view::<6, 6>(0, 0) - a.tr_mul(&a)).amax() / found.amax();
+        assert!(error < 1e-13, "{error}");
+    }
+
+    #[test]
+    fn slopes_agree_with_differences() {
+        const STEP: f64 = 1e-6;
+        let hexapod = machine();
+        let weights =
+            Weights { translation: 2e6, rotation: 3e5, compliance: [2e-7, 3e-7, 1e-7, 2e-7, 4e-7, 2e-7] };
+        let regressor = SpringRegressor::new(&hexapod, &loads(), 3, weights);
+        let g = DMatrix::from_fn(6, 6, |i, j| 1.0 / (1.0 + i as f64 + j as f64));
+        let along = |k: usize, s: f64| {
+            let mut x = pose().to_array();
+            x[k] += s;
+            let mut information = DMatrix::zeros(6, 6);
+            regressor.inform(&Pose::from_array(x), &mut information).unwrap();
+            (&g * information).trace()
+        };
+        let exact = regressor.slopes(&pose(), &g).unwrap();
+        let largest = exact.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        for k in 0..6 {
+            let difference = (along(k, STEP) - along(k, -STEP)) / (2.0 * STEP);
+            assert!((exact[k] - difference).abs() < 1e-7 * largest, "{k}: {} {difference}", exact[k]);
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Where poses and loads may be chosen.
+
+use hexbench_core::{Hexapod, Pose, Vector3, Wrench};
+use hexbench_model::kinematics::Legs;
+use sobol_burley::sample;
+
+use crate::DesignError;
+
+/// One way to load the platform: reference and load. N, N m, fixed axes, at the mobile origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loading {
+    /// Wrench in the reference state.
+    pub reference: Wrench,
+    /// Wrench in the loaded state.
+    pub load: Wrench,
+}
+
+/// Travel and limits of the poses, and the loads that can be applied. SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Space {
+    /// Lowest pose coordinates `[a, b, c, alpha, beta, gamma]`, m and rad.
+    pub low: [f64; 6],
+    /// Highest pose coordinates; equal to the lowest where a coordinate is fixed.
+    pub high: [f64; 6],
+    /// Shortest and longest leg, m.
+    pub stroke: Option<[f64; 2]>,
+    /// Largest angle between a leg and its direction at the zero pose, seen from the base and from the platform, rad.
+    pub joint_angle: Option<f64>,
+    /// Smallest dexterity: inverse condition number of the leg Jacobian, moments over the platform radius.
+    pub least_dexterity: f64,
+    /// Loads that can be applied.
+    pub loads: Vec<Loading>,
+}
+
+/// A limit of a pose: negative or zero when kept.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// What is limited.
+    pub name: &'static str,
+    /// Excess over the limit, as a share of it.
+    pub excess: f64,
+}
+
+impl Space {
+    /// Indices of the pose coordinates that vary.
+    pub fn free(&self) -> Vec<usize> {
+        (0..6).filter(|&k| self.high[k] > self.low[k]).collect()
+    }
+
+    /// The `index`-th pose of a scrambled Sobol sequence over the travel; limits are not looked at.
+    /// Source: Owen 1995 (scrambling); Burley 2020 (hashing).
+    pub fn pose(&self, index: u32, seed: u32) -> Pose {
+        let mut pose = self.low;
+        for (dimension, k) in (0_u32..).zip(0..6) {
+            pose[k] += f64::from(sample(index, dimension, seed)) * (self.high[k] - self.low[k]);
+        }
+        Pose::from_array(pose)
+    }
+
+    /// The first `count` poses of the sequence that keep all limits; a sequence that ends is scrambled anew.
+    ///
+    /// # Errors
+    /// [`DesignError::NoPose`] when fewer than one in a thousand does.
+    pub fn poses(&self, hexapod: &Hexapod, count: usize, seed: u32) -> Result<Vec<Pose>, DesignError> {
+        const PATIENCE: usize = 1000;
+        const SEQUENCE: u32 = 1 << 16;
+        let tried = PATIENCE * count.max(10);
+        let sequences =
+            (0..).flat_map(|again: u32| (0..SEQUENCE).map(move |i| (i, seed.wrapping_add(again))));
+        let (mut poses, mut broken) = (Vec::with_capacity(count), "travel");
+        for (index, scramble) in sequences.take(tried) {
+            let pose = self.pose(index, scramble);
+            match self.worst_limit(hexapod, &pose) {
+                Some(limit) if limit.excess > 0.0 => broken = limit.name,
+                _ => poses.push(pose),
+            }
+            if poses.len() == count {
+                return Ok(poses);
+            }
+        }
+        Err(DesignError::NoPose { found: poses.len(), tried, why: broken })
+    }
+
+    /// The limit that a pose comes closest to breaking, or breaks most; none when there are no limits.
+    pub fn worst_limit(&self, hexapod: &Hexapod, pose: &Pose) -> Option<Limit> {
+        self.limits(hexapod, pose).into_iter().max_by(|a, b| a.excess.total_cmp(&b.excess))
+    }
+
+    /// All limits at a pose.
+    pub fn limits(&self, hexapod: &Hexapod, pose: &Pose) -> Vec<Limit> {
+        let Ok(legs) = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose) else {
+            return vec![Limit { name: "distance from singularity", excess: 1.0 }];
+        };
+        let mut limits = Vec::with_capacity(4);
+        if let Some([shortest, longest]) = self.stroke {
+            let (least, most) = (legs.lengths.min(), legs.lengths.max());
+            limits.push(Limit { name: "shortest leg", excess: 1.0 - least / shortest });
+            limits.push(Limit { name: "longest leg", excess: most / longest - 1.0 });
+        }
+        if let Some(largest) = self.joint_angle {
+            limits.push(Limit {
+                name: "joint angle",
+                excess: joint_angle(hexapod, pose, &legs) / largest - 1.0,
+            });
+        }
+        if self.least_dexterity > 0.0 {
+            let dexterity = dexterity(hexapod, &legs);
+            limits.push(Limit {
+                name: "distance from singularity",
+                excess: 1.0 - dexterity / self.least_dexterity,
+            });
+        }
+        limits
+    }
+}
+
+/// Inverse condition number of the leg Jacobian with moments over the platform radius.
+pub fn dexterity(hexapod: &Hexapod, legs: &Legs) -> f64 {
+    let mut scaled = legs.leg_jacobian;
+    scaled.fixed_columns_mut::<3>(3).unscale_mut(hexapod.platform_radius());
+    let squares = (scaled.transpose() * scaled).symmetric_eigenvalues();
+    (squares.min().max(0.0) / squares.max()).sqrt()
+}
+
+/// Largest turn of a leg against its direction at the zero pose, seen from the base or from the platform, rad.
+fn joint_angle(hexapod: &Hexapod, pose: &Pose, legs: &Legs) -> f64 {
+    let rotation = pose.rotation();
+    let angle = |a: &Vector3, b: &Vector3| a.cross(b).norm().atan2(a.dot(b));
+    (0..6)
+        .map(|i| {
+            let home = hexapod.platform_joints[i] - hexapod.base_joints[i];
+            let seen_from_platform = rotation.tr_mul(&legs.directions[i]);
+            angle(&home, &legs.directions[i]).max(angle(&home, &seen_from_platform))
+        })
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,133 @@
+//! `space.toml`: where poses and loads may be chosen.
+//!
+//! ```toml
+//! format = "space/1"
+//!
+//! [poses]                        # ranges; a coordinate that is left out stays at zero
+//! a_mm = [-30, 30]
+//! gamma_deg = [-20, 20]
+//!
+//! [limits]                       # optional, each key too
+//! min_length_mm = 150            # default: the stroke in hexapod.toml
+//! max_length_mm = 250
+//! joint_angle_deg = 30           # a leg against its direction at the zero pose
+//! least_dexterity = 0.05         # inverse condition of the leg Jacobian, moments over the platform radius
+//!
+//! [loads]                        # stacked masses along gravity ...
+//! reference_kg = 12.2
+//! masses_kg = [34.5]
+//! # ... or wrenches [fx, fy, fz (N), mx, my, mz (Nm)]
+//! # reference_N_Nm = [0, 0, -120, 0, 0, 0]
+//! # wrenches_N_Nm = [[0, 0, -338, 0, 0, 0], [100, 0, -120, 0, 0, 0]]
+//! ```
+
+use std::path::Path;
+
+use hexbench_core::files::{Fault, FileError, Format, Item, Key, Kind, Problem, Section, read_toml};
+use hexbench_core::{Hexapod, Wrench};
+
+use crate::Space;
+use crate::space::Loading;
+
+/// Standard gravity, m/s^2 (exact by definition).
+const GRAVITY_M_PER_S2: f64 = 9.806_65;
+
+const FORMAT: Format = Format {
+    name: "space/1",
+    keys: &[Key::plain("format"), Key::plain("poses"), Key::plain("limits"), Key::plain("loads")],
+};
+const POSES: &[Key] = &[
+    Key::with_unit("a", Kind::Length, "mm"),
+    Key::with_unit("b", Kind::Length, "mm"),
+    Key::with_unit("c", Kind::Length, "mm"),
+    Key::with_unit("alpha", Kind::Angle, "deg"),
+    Key::with_unit("beta", Kind::Angle, "deg"),
+    Key::with_unit("gamma", Kind::Angle, "deg"),
+];
+const LIMITS: &[Key] = &[
+    Key::with_unit("min_length", Kind::Length, "mm"),
+    Key::with_unit("max_length", Kind::Length, "mm"),
+    Key::with_unit("joint_angle", Kind::Angle, "deg"),
+    Key::plain("least_dexterity"),
+];
+const LOADS: &[Key] = &[
+    Key::plain("reference_kg"),
+    Key::plain("masses_kg"),
+    Key::plain("reference_N_Nm"),
+    Key::plain("wrenches_N_Nm"),
+];
+const SIX: &str = "six numbers, three forces (N) and three moments (Nm)";
+const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
+
+/// Reads `space.toml` for a machine.
+///
+/// # Errors
+/// What the file says that it may not, with its place.
+pub fn read_space(path: &Path, hexapod: &Hexapod) -> Result<Space, FileError> {
+    read_toml(path, FORMAT, |top| space(top, hexapod))
+}
+
+fn space(top: &Section<'_>, hexapod: &Hexapod) -> Result<Space, Fault> {
+    let (low, high) = ranges(&top.section("poses", "[poses]", POSES)?)?;
+    let mut space = Space {
+        low,
+        high,
+        stroke: hexapod.stroke,
+        joint_angle: None,
+        least_dexterity: 0.0,
+        loads: loads(&top.section("loads", "[loads]", LOADS)?)?,
+    };
+    if top.get("limits").is_some() {
+        limits(&top.section("limits", "[limits]", LIMITS)?, &mut space)?;
+    }
+    Ok(space)
+}
+
+fn ranges(table: &Section<'_>) -> Result<([f64; 6], [f64; 6]), Fault> {
+    let (mut low, mut high) = ([0.0; 6], [0.0; 6]);
+    for (k, name) in NAMES.iter().enumerate() {
+        let Some(item) = table.get(name) else { continue };
+        [low[k], high[k]] = item.numbers("two numbers, the lowest and the highest")?;
+        if low[k] > high[k] {
+            return Err(rule(item, "the lowest comes first", "Swap the two numbers."));
+        }
+    }
+    Ok((low, high))
+}
+
+fn limits(table: &Section<'_>, space: &mut Space) -> Result<(), Fault> {
+    let positive = |name: &str| table.get(name).map(|item| item.positive("a limit")).transpose();
+    let (shortest, longest) = (positive("min_length")?, positive("max_length")?);
+    if shortest.is_some() || longest.is_some() {
+        let [known_shortest, known_longest] = space.stroke.unwrap_or([1e-6, 1e6]);
+        space.stroke = Some([shortest.unwrap_or(known_shortest), longest.unwrap_or(known_longest)]);
+    }
+    space.joint_angle = positive("joint_angle")?;
+    space.least_dexterity = positive("least_dexterity")?.unwrap_or(0.0);
+    Ok(())
+}
+
+fn loads(table: &Section<'_>) -> Result<Vec<Loading>, Fault> {
+    let of = |reference: Wrench, loads: Vec<Wrench>| {
+        loads.into_iter().map(|load| Loading { reference, load }).collect()
+    };
+    if let Some(masses) = table.get("masses_kg") {
+        let weight = |item: &Item<'_>| Ok(weight(item.positive("a mass")?));
+        let reference = table.get("reference_kg").map(weight).transpose()?.unwrap_or_default();
+        let stacked: Result<Vec<Wrench>, Fault> = masses.list()?.iter().map(weight).collect();
+        return Ok(of(reference, stacked?));
+    }
+    let wrench = |item: &Item<'_>| item.numbers::<6>(SIX).map(Wrench::from_array);
+    let reference = table.get("reference_N_Nm").map(wrench).transpose()?.unwrap_or_default();
+    let wrenches = table.require("wrenches_N_Nm")?;
+    let listed: Result<Vec<Wrench>, Fault> = wrenches.list()?.iter().map(wrench).collect();
+    Ok(of(reference, listed?))
+}
+
+fn weight(mass: f64) -> Wrench {
+    Wrench::from_array([0.0, 0.0, -mass * GRAVITY_M_PER_S2, 0.0, 0.0, 0.0])
+}
+
+fn rule(item: &Item<'_>, rule: &str, next: &str) -> Fault {
+    item.fault(Problem::Rule { rule: rule.into(), next: next.into() })
+}
