@@ -42,7 +42,7 @@ fn both_worlds_agree_on_every_machine_and_effect() {
     let failed: Vec<String> = failed.into_iter().filter_map(Result::err).collect();
     std::fs::create_dir_all(artefacts()).unwrap();
     std::fs::write(artefacts().join("rapier.csv"), witness::csv(&done)).unwrap();
-    println!("{}", witness::summary(&done));
+    std::fs::write(artefacts().join("rapier.txt"), witness::summary(&done)).unwrap();
     assert!(failed.is_empty(), "{failed:#?}");
     for c in &done {
         assert!(c.worst() < AGREEMENT, "{c:?}");

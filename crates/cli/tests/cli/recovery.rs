@@ -22,7 +22,7 @@ fn recovery_prints_pages_of_80_columns_and_writes_its_figures_and_its_document()
     assert_eq!(figures["format"], "recovery/1");
     assert_eq!(figures["rows"].as_array().unwrap().len(), 24);
     let document = std::fs::read_to_string(markdown).unwrap();
-    assert!(document.contains("| base-compliance | `base` |"), "{document}");
+    assert!(document.contains("| base-compliance ") && document.contains("`base`"), "{document}");
 }
 
 #[test]
