@@ -91,17 +91,18 @@ impl Space {
         let Ok(legs) = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose) else {
             return vec![Limit { name: "distance from singularity", excess: 1.0 }];
         };
-        let mut limits = Vec::with_capacity(4);
+        let mut limits = Vec::with_capacity(25);
+        // Leg by leg and both ends at once, so that each limit is smooth: a search that follows the longest leg stalls where two
+        // legs change places.
         if let Some([shortest, longest]) = self.stroke {
-            let (least, most) = (legs.lengths.min(), legs.lengths.max());
-            limits.push(Limit { name: "shortest leg", excess: 1.0 - least / shortest });
-            limits.push(Limit { name: "longest leg", excess: most / longest - 1.0 });
+            let (middle, half) = (f64::midpoint(shortest, longest), 0.5 * (longest - shortest));
+            for length in &legs.lengths {
+                limits.push(Limit { name: "stroke", excess: ((length - middle) / half).powi(2) - 1.0 });
+            }
         }
         if let Some(largest) = self.joint_angle {
-            limits.push(Limit {
-                name: "joint angle",
-                excess: joint_angle(hexapod, pose, &legs) / largest - 1.0,
-            });
+            let angles = joint_angles(hexapod, pose, &legs);
+            limits.extend(angles.map(|angle| Limit { name: "joint angle", excess: angle / largest - 1.0 }));
         }
         if self.least_dexterity > 0.0 {
             let dexterity = dexterity(hexapod, &legs);
@@ -122,15 +123,14 @@ pub fn dexterity(hexapod: &Hexapod, legs: &Legs) -> f64 {
     (squares.min().max(0.0) / squares.max()).sqrt()
 }
 
-/// Largest turn of a leg against its direction at the zero pose, seen from the base or from the platform, rad.
-fn joint_angle(hexapod: &Hexapod, pose: &Pose, legs: &Legs) -> f64 {
+/// Turns of the legs against their directions at the zero pose, seen from the base and from the platform, rad.
+fn joint_angles(hexapod: &Hexapod, pose: &Pose, legs: &Legs) -> [f64; 12] {
     let rotation = pose.rotation();
     let angle = |a: &Vector3, b: &Vector3| a.cross(b).norm().atan2(a.dot(b));
-    (0..6)
-        .map(|i| {
-            let home = hexapod.platform_joints[i] - hexapod.base_joints[i];
-            let seen_from_platform = rotation.tr_mul(&legs.directions[i]);
-            angle(&home, &legs.directions[i]).max(angle(&home, &seen_from_platform))
-        })
-        .fold(0.0, f64::max)
+    std::array::from_fn(|k| {
+        let (leg, from_platform) = (k / 2, k % 2 == 1);
+        let home = hexapod.platform_joints[leg] - hexapod.base_joints[leg];
+        let now = legs.directions[leg];
+        angle(&home, &if from_platform { rotation.tr_mul(&now) } else { now })
+    })
 }

@@ -4,7 +4,11 @@ use crate::support::{hexbench, root, text};
 
 fn design(more: &[&str]) -> String {
     let mut command = hexbench();
-    command.current_dir(root()).args(["design", "scenes/paper/hexapod.toml", "data/designs/paper-space.toml"]);
+    command.current_dir(root()).args([
+        "design",
+        "scenes/paper/hexapod.toml",
+        "data/designs/paper-space.toml",
+    ]);
     text(command.args(more).output().unwrap())
 }
 
@@ -23,7 +27,16 @@ fn the_papers_problem_is_solved_with_turns_to_the_end_of_the_stroke() {
 #[test]
 fn more_poses_inform_more_about_a_foundation() {
     let value = |poses: &str| -> f64 {
-        let page = design(&["--criterion", "d", "--add", "leg-length-compliance", "--starts", "4", "--poses", poses]);
+        let page = design(&[
+            "--criterion",
+            "d",
+            "--add",
+            "leg-length-compliance",
+            "--starts",
+            "4",
+            "--poses",
+            poses,
+        ]);
         page.split("D = ").nth(1).unwrap().split_whitespace().next().unwrap().parse().unwrap()
     };
     assert!(value("6") > value("3"));
@@ -35,12 +48,8 @@ fn a_range_the_wrong_way_round_is_told_with_its_place() {
     let space = folder.path().join("space.toml");
     let turned = "format = \"space/1\"\n[poses]\na_mm = [30, -30]\n[loads]\nmasses_kg = [10]\n";
     std::fs::write(&space, turned).unwrap();
-    let output = hexbench()
-        .arg("design")
-        .arg(root().join("scenes/paper/hexapod.toml"))
-        .arg(&space)
-        .output()
-        .unwrap();
+    let output =
+        hexbench().arg("design").arg(root().join("scenes/paper/hexapod.toml")).arg(&space).output().unwrap();
     let told = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(3), "{told}");
     assert!(told.contains("the lowest comes first") && told.contains('3'), "{told}");
@@ -50,6 +59,10 @@ fn a_range_the_wrong_way_round_is_told_with_its_place() {
 fn loads_that_show_nothing_are_not_determined() {
     let folder = tempfile::tempdir().unwrap();
     let space = folder.path().join("space.toml");
-    std::fs::write(&space, "format = \"space/1\"\n[poses]\na_mm = [-3, 3]\n[loads]\nwrenches_N_Nm = [[0, 0, 0, 0, 0, 0]]\n").unwrap();
+    std::fs::write(
+        &space,
+        "format = \"space/1\"\n[poses]\na_mm = [-3, 3]\n[loads]\nwrenches_N_Nm = [[0, 0, 0, 0, 0, 0]]\n",
+    )
+    .unwrap();
     hexbench().arg("design").arg(root().join("scenes/paper/hexapod.toml")).arg(&space).assert().code(4);
 }
