@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let regressor = SpringRegressor::new(&hexapod, &space.loads, repeats, weights);
         search(arguments, &hexapod, &space, &regressor)?
     } else {
-        let springs = Vector6::from_iterator(weights.compliance);
+        let springs = Vector6::from(nominal_compliance(&hexapod));
         let noise = noise(&weights);
         let regressor = ModelRegressor::new(&hexapod, springs, noise, &terms, &space.loads, repeats)?;
         search(arguments, &hexapod, &space, &regressor)?
@@ -148,13 +148,18 @@ fn wanted(ids: &[String]) -> Result<Vec<Arc<dyn Term>>, Failure> {
 /// Rows in units of the stated noise, columns in relative changes of the nominal compliance; without a stated noise as in
 /// the paper.
 fn weights(hexapod: &Hexapod) -> Weights {
-    const USUAL_N_PER_M: f64 = 4e6;
     let Some(metrology) = hexapod.metrology else { return Weights::UNWEIGHTED };
     Weights {
         translation: 1.0 / metrology.sigma_translation,
         rotation: 1.0 / metrology.sigma_rotation,
-        compliance: hexapod.nominal_stiffness.unwrap_or([USUAL_N_PER_M; 6]).map(f64::recip),
+        compliance: nominal_compliance(hexapod),
     }
+}
+
+/// Stated, or that of the paper's legs; m/N.
+fn nominal_compliance(hexapod: &Hexapod) -> [f64; 6] {
+    const USUAL_N_PER_M: f64 = 4e6;
+    hexapod.nominal_stiffness.unwrap_or([USUAL_N_PER_M; 6]).map(f64::recip)
 }
 
 fn noise(weights: &Weights) -> Noise {

@@ -25,7 +25,7 @@ fn the_papers_problem_is_solved_with_turns_to_the_end_of_the_stroke() {
 }
 
 #[test]
-fn more_poses_inform_more_about_a_foundation() {
+fn more_poses_inform_more_about_legs_that_soften_with_their_length() {
     let value = |poses: &str| -> f64 {
         let page = design(&[
             "--criterion",
