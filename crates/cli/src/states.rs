@@ -19,7 +19,7 @@ impl States {
     /// Adds a state; the pose is that of the platform itself, not what an instrument reads.
     pub(crate) fn push(&mut self, row: &Row, part: PartName, model: &str, rest: &Equilibrium) {
         let pose = Pose::from_rotation(rest.platform.origin, &rest.platform.axes);
-        self.rows.push((conditions(row), part, model.to_owned(), pose, rest.forces));
+        self.rows.push((row.read(0, [0.0; 6], None), part, model.to_owned(), pose, rest.forces));
     }
 
     /// The table as CSV: conditions, part, model, resting pose, leg forces (tension positive).
@@ -55,22 +55,5 @@ fn name(part: PartName) -> &'static str {
     match part {
         PartName::Training => "training",
         PartName::Holdout => "holdout",
-    }
-}
-
-fn conditions(row: &Row) -> Observation {
-    let s = &row.situation;
-    Observation {
-        pose_id: row.pose_id,
-        repeat: row.repeat,
-        line: 0,
-        pose: s.pose,
-        wrench: s.wrench,
-        reference: s.reference,
-        approach: s.approach,
-        delta_t: s.delta_t,
-        elapsed: s.elapsed,
-        measured: [0.0; 6],
-        sigma: None,
     }
 }

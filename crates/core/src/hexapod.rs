@@ -35,6 +35,25 @@ pub struct Metrology {
 }
 
 impl Hexapod {
+    /// A machine of which nothing but the joints is stated: `A_i` in the fixed, `B_i` in the mobile frame, m.
+    pub fn of_joints(
+        name: impl Into<String>,
+        base_joints: [Vector3; 6],
+        platform_joints: [Vector3; 6],
+    ) -> Self {
+        Self {
+            name: name.into(),
+            base_joints,
+            platform_joints,
+            metrology: None,
+            nominal_stiffness: None,
+            stroke: None,
+            brackets: None,
+            mounting_plane_z: None,
+            payload_centre: None,
+        }
+    }
+
     /// Pairs of legs that share a bracket: the stated ones, else each leg with its nearest neighbour at the base
     /// when the six pair up mutually, else none.
     pub fn bracket_pairs(&self) -> Vec<[usize; 2]> {
@@ -77,17 +96,7 @@ mod tests {
         };
         let base = [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0].map(|d| joint(0.16, d, -0.165));
         let platform = [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0].map(|d| joint(0.12, d, 0.0));
-        Hexapod {
-            name: "ring".into(),
-            base_joints: base,
-            platform_joints: platform,
-            metrology: None,
-            nominal_stiffness: None,
-            stroke: None,
-            brackets: None,
-            mounting_plane_z: None,
-            payload_centre: None,
-        }
+        Hexapod::of_joints("ring", base, platform)
     }
 
     #[test]

@@ -180,17 +180,11 @@ fn numbers_of_a_file_are_written_with_the_same_digits() {
 fn files_on_the_disk_come_back() {
     let folder = tempfile::tempdir().unwrap();
     let hexapod_path = folder.path().join("hexapod.toml");
-    let hexapod = Hexapod {
-        name: "a \"quoted\" name".into(),
-        base_joints: [0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|x: f64| Vector3::new(x, x * x, 0.0)),
-        platform_joints: [0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|x: f64| Vector3::new(x, x * x, 1.0)),
-        metrology: None,
-        nominal_stiffness: None,
-        stroke: None,
-        brackets: None,
-        mounting_plane_z: None,
-        payload_centre: None,
-    };
+    let hexapod = Hexapod::of_joints(
+        "a \"quoted\" name",
+        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|x: f64| Vector3::new(x, x * x, 0.0)),
+        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|x: f64| Vector3::new(x, x * x, 1.0)),
+    );
     write_hexapod(&hexapod_path, &hexapod).unwrap();
     assert_eq!(read_hexapod(&hexapod_path).unwrap(), hexapod);
     let table = folder.path().join("measurements.csv");

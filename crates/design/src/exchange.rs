@@ -94,7 +94,7 @@ impl<'a> Exchange<'a> {
         let mut helped = false;
         for k in 0..members.len() {
             let rest = self.sum(members) - &self.information[members[k]];
-            let (candidate, best) = self.best_addition(&rest, members.len());
+            let (candidate, best) = self.best_addition(&rest);
             if best > *value * (1.0 + LEAST_GAIN) {
                 (members[k], *value) = (candidate, best);
                 helped = true;
@@ -107,7 +107,7 @@ impl<'a> Exchange<'a> {
     fn excursion(&self, members: &mut Vec<usize>, value: &mut f64, length: usize) -> bool {
         let (size, mut trial) = (members.len(), members.clone());
         for _ in 0..length {
-            trial.push(self.best_addition(&self.sum(&trial), size).0);
+            trial.push(self.best_addition(&self.sum(&trial)).0);
         }
         let mut now = *value;
         while trial.len() > size {
@@ -126,7 +126,7 @@ impl<'a> Exchange<'a> {
         false
     }
 
-    fn best_addition(&self, rest: &DMatrix<f64>, _size: usize) -> (usize, f64) {
+    fn best_addition(&self, rest: &DMatrix<f64>) -> (usize, f64) {
         let with = |(k, m): (usize, &DMatrix<f64>)| (k, self.value(&(rest + m)));
         let best = self.information.iter().enumerate().map(with);
         best.reduce(|a, b| if b.1 > a.1 { b } else { a }).unwrap_or((0, 0.0))

@@ -165,17 +165,11 @@ mod tests {
             let (s, c) = deg.to_radians().sin_cos();
             Vector3::new(r * c, r * s, z)
         };
-        Hexapod {
-            name: "ring".into(),
-            base_joints: [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0].map(|d| joint(0.16, d, -0.165)),
-            platform_joints: [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0].map(|d| joint(0.12, d, 0.0)),
-            metrology: None,
-            nominal_stiffness: None,
-            stroke: None,
-            brackets: None,
-            mounting_plane_z: None,
-            payload_centre: None,
-        }
+        Hexapod::of_joints(
+            "ring",
+            [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0].map(|d| joint(0.16, d, -0.165)),
+            [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0].map(|d| joint(0.12, d, 0.0)),
+        )
     }
 
     fn cases(count: u32) -> Vec<LoadCase> {

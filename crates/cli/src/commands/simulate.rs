@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn write(bench: &Bench<'_>, folder: &Path, force: bool) -> Result<(), Failure> {
     let rows = [PartName::Training, PartName::Holdout].map(|part| bench.scene().part(part).len());
-    let progress = Progress::of(rows.iter().sum());
+    let progress = Progress::of(rows.iter().sum(), "rows");
     let existing = if force { Existing::Replaced } else { Existing::Refused };
     let written = bench.write(folder, existing, &|rows| progress.advance(rows));
     progress.done();

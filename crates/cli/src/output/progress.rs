@@ -17,12 +17,12 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// For so many steps.
-    pub(crate) fn of(steps: u64) -> Self {
+    /// For so many steps of a kind, such as rows.
+    pub(crate) fn of(steps: u64, kind: &str) -> Self {
         let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden());
-        let style = ProgressStyle::with_template(
-            "{bar:30} {percent:>3} %  {human_pos} of {human_len} rows, {eta} left",
-        );
+        let style = ProgressStyle::with_template(&format!(
+            "{{bar:30}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {kind}, {{eta}} left"
+        ));
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         Self { bar, begun: Instant::now(), shown: Once::new() }
     }

@@ -39,6 +39,12 @@ impl Screen {
         }
     }
 
+    /// Make the folder of a file to be written.
+    pub(crate) fn make_folder_of(path: &Path) -> Result<(), Failure> {
+        let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) else { return Ok(()) };
+        std::fs::create_dir_all(folder).map_err(|cause| Failure::Output { path: folder.to_owned(), cause })
+    }
+
     /// Write text to a file, or to standard output when the path is `-`.
     pub(crate) fn write_to(&self, path: &Path, text: &str) -> Result<(), Failure> {
         if path.as_os_str() == "-" {

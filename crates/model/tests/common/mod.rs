@@ -17,17 +17,7 @@ pub const PAPER_STIFFNESS: [f64; 6] = [4.1981e6, 3.7898e6, 2.7503e6, 4.3200e6, 3
 
 /// A hexapod from joints alone.
 pub fn hexapod(base_joints: [Vector3; 6], platform_joints: [Vector3; 6]) -> Hexapod {
-    Hexapod {
-        name: "test machine".into(),
-        base_joints,
-        platform_joints,
-        metrology: None,
-        nominal_stiffness: None,
-        stroke: None,
-        brackets: None,
-        mounting_plane_z: None,
-        payload_centre: None,
-    }
+    Hexapod::of_joints("test machine", base_joints, platform_joints)
 }
 
 /// Joints on a circle. `degrees` along the circle, radius and height in m.

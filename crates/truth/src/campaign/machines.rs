@@ -138,17 +138,7 @@ fn on_circle(radius: f64, turn_deg: f64, z: f64) -> Vector3 {
 /// A hexapod from joints in mm, rounded to the decimals of its file.
 fn hexapod(name: &str, base_mm: [Vector3; 6], platform_mm: [Vector3; 6]) -> Hexapod {
     let metres = |joint: Vector3| joint.map(|x| rounded(x) * 1e-3);
-    Hexapod {
-        name: name.to_owned(),
-        base_joints: base_mm.map(metres),
-        platform_joints: platform_mm.map(metres),
-        metrology: None,
-        nominal_stiffness: None,
-        stroke: None,
-        brackets: None,
-        mounting_plane_z: None,
-        payload_centre: None,
-    }
+    Hexapod::of_joints(name, base_mm.map(metres), platform_mm.map(metres))
 }
 
 #[cfg(test)]

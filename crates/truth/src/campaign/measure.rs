@@ -1,6 +1,6 @@
 //! Running a plan on a world.
 
-use hexbench_core::{Columns, Dataset, Measurand, Observation, Vector6};
+use hexbench_core::{Columns, Dataset, Measurand, Vector6};
 use rand_pcg::Pcg64;
 
 use super::Row;
@@ -60,7 +60,7 @@ pub fn measure(
         .iter()
         .zip(readings)
         .enumerate()
-        .map(|(i, (row, r))| observation(i, row, r, &campaign.noise, rng));
+        .map(|(i, (row, r))| row.read(i as u64 + 2, (r + campaign.noise.draw(rng)).into(), None));
     let deflections = measurand != Measurand::AbsolutePose;
     Ok(Dataset {
         source: source.to_owned(),
@@ -74,21 +74,4 @@ pub fn measure(
         },
         observations: observations.collect(),
     })
-}
-
-fn observation(index: usize, row: &Row, reading: Vector6, noise: &Noise, rng: &mut Pcg64) -> Observation {
-    let s = &row.situation;
-    Observation {
-        pose_id: row.pose_id,
-        repeat: row.repeat,
-        line: index as u64 + 2,
-        pose: s.pose,
-        wrench: s.wrench,
-        reference: s.reference,
-        approach: s.approach,
-        delta_t: s.delta_t,
-        elapsed: s.elapsed,
-        measured: (reading + noise.draw(rng)).into(),
-        sigma: None,
-    }
 }

@@ -1,6 +1,6 @@
 //! Plans: which poses, under which loads, how often.
 
-use hexbench_core::{Hexapod, Measurand, Pose, Wrench};
+use hexbench_core::{Hexapod, Measurand, Observation, Pose, Wrench};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
@@ -21,6 +21,34 @@ pub struct Row {
     pub repeat: i64,
     /// What is done.
     pub situation: Situation,
+}
+
+impl Row {
+    /// What was read in this row; `line` of its file, `measured` in m and rad.
+    pub fn read(&self, line: u64, measured: [f64; 6], sigma: Option<[f64; 6]>) -> Observation {
+        let Situation { pose, wrench, reference, approach, delta_t, elapsed } = self.situation;
+        Observation {
+            pose_id: self.pose_id,
+            repeat: self.repeat,
+            line,
+            pose,
+            wrench,
+            reference,
+            approach,
+            delta_t,
+            elapsed,
+            measured,
+            sigma,
+        }
+    }
+}
+
+impl From<&Observation> for Row {
+    /// The row behind a reading.
+    fn from(o: &Observation) -> Self {
+        let Observation { pose_id, repeat, pose, wrench, reference, approach, delta_t, elapsed, .. } = *o;
+        Self { pose_id, repeat, situation: Situation { pose, wrench, reference, approach, delta_t, elapsed } }
+    }
 }
 
 /// Makes of plans.

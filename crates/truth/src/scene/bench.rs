@@ -120,7 +120,8 @@ impl<'a> Bench<'a> {
                 (measured, Some(sigma.into()), records)
             }
         };
-        let observation = observation(row, index, self.written(measured), sigma);
+        let sigma = sigma.map(|six: [f64; 6]| six.map(|s: f64| rounded(s * 1e6) / 1e6));
+        let observation = row.read(index + 2, self.written(measured), sigma);
         Ok(Measured { observation, records })
     }
 
@@ -162,22 +163,5 @@ impl<'a> Bench<'a> {
             (true, false) => ((x.to_degrees() * 1e9).round() / 1e9).to_radians(),
         };
         std::array::from_fn(|k| decimals(k, value[k]))
-    }
-}
-
-fn observation(row: &Row, index: u64, measured: [f64; 6], sigma: Option<[f64; 6]>) -> Observation {
-    let s = &row.situation;
-    Observation {
-        pose_id: row.pose_id,
-        repeat: row.repeat,
-        line: index + 2,
-        pose: s.pose,
-        wrench: s.wrench,
-        reference: s.reference,
-        approach: s.approach,
-        delta_t: s.delta_t,
-        elapsed: s.elapsed,
-        measured,
-        sigma: sigma.map(|sigma| sigma.map(|s| rounded(s * 1e6) / 1e6)),
     }
 }

@@ -8,10 +8,7 @@ use hexbench_core::{
 };
 
 use super::{Purpose, ScenePlan, Streams};
-use crate::{
-    Situation,
-    campaign::{PlanKind, Poses, Row, Scheme, Schemes, Spread, pose_of, usual_half_range_mm_deg},
-};
+use crate::campaign::{PlanKind, Poses, Row, Scheme, Schemes, Spread, pose_of, usual_half_range_mm_deg};
 
 const KEYS: &[Key] = &[
     Key::plain("make"),
@@ -193,19 +190,7 @@ fn with_half_range(poses: Poses, half_mm_deg: [f64; 6]) -> Poses {
 }
 
 fn rows_of(conditions: &Dataset) -> Vec<Row> {
-    let row = |o: &hexbench_core::Observation| Row {
-        pose_id: o.pose_id,
-        repeat: o.repeat,
-        situation: Situation {
-            pose: o.pose,
-            wrench: o.wrench,
-            reference: o.reference,
-            approach: o.approach,
-            delta_t: o.delta_t,
-            elapsed: o.elapsed,
-        },
-    };
-    conditions.observations.iter().map(row).collect()
+    conditions.observations.iter().map(Row::from).collect()
 }
 
 fn rule(item: &Item<'_>, rule: &str, next: &str) -> Fault {

@@ -42,15 +42,8 @@ pub(crate) fn hexapod(case: &str) -> Hexapod {
         })
     };
     Hexapod {
-        name: case.to_owned(),
-        base_joints: joints("base_joints_mm"),
-        platform_joints: joints("platform_joints_mm"),
         metrology: Some(Metrology { sigma_translation: 0.5e-6, sigma_rotation: 3e-6 }),
-        nominal_stiffness: None,
-        stroke: None,
-        brackets: None,
-        mounting_plane_z: None,
-        payload_centre: None,
+        ..Hexapod::of_joints(case, joints("base_joints_mm"), joints("platform_joints_mm"))
     }
 }
 

@@ -68,7 +68,7 @@ impl Bench {
         let read = |(i, row): (usize, &Row)| {
             let ideal = world.deflection(&row.situation)?;
             let measured = self.read_balls(&row.situation.pose, &ideal, &mut rng)?;
-            Ok(observation(i, row, measured))
+            Ok(row.read(i as u64 + 2, measured.into(), Some(sigma())))
         };
         let observations = rows.iter().enumerate().map(read).collect::<Result<_, TruthError>>()?;
         Ok(dataset(source, covariates, observations))
@@ -79,7 +79,9 @@ impl Bench {
     /// # Errors
     /// As [`World::deflection`].
     pub fn ideal(&self, world: &World, rows: &[Row]) -> Result<Dataset, TruthError> {
-        let read = |(i, row): (usize, &Row)| Ok(observation(i, row, world.deflection(&row.situation)?));
+        let read = |(i, row): (usize, &Row)| {
+            Ok(row.read(i as u64 + 2, world.deflection(&row.situation)?.into(), Some(sigma())))
+        };
         let observations = rows.iter().enumerate().map(read).collect::<Result<_, TruthError>>()?;
         Ok(dataset("ideal", Covariates::None, observations))
     }
@@ -104,26 +106,9 @@ pub fn sigma() -> [f64; 6] {
     [translation, translation, translation, tilt, tilt, turn]
 }
 
-fn observation(index: usize, row: &Row, measured: Vector6) -> Observation {
-    let s = &row.situation;
-    Observation {
-        pose_id: row.pose_id,
-        repeat: row.repeat,
-        line: index as u64 + 2,
-        pose: s.pose,
-        wrench: s.wrench,
-        reference: s.reference,
-        approach: s.approach,
-        delta_t: s.delta_t,
-        elapsed: s.elapsed,
-        measured: measured.into(),
-        sigma: Some(sigma()),
-    }
-}
-
 /// A reading of nothing, for what depends on pose and load alone.
 pub fn unread(situation: Situation) -> Observation {
-    observation(0, &Row { pose_id: 1, repeat: 1, situation }, Vector6::zeros())
+    Row { pose_id: 1, repeat: 1, situation }.read(2, [0.0; 6], Some(sigma()))
 }
 
 fn dataset(source: &str, covariates: Covariates, observations: Vec<Observation>) -> Dataset {

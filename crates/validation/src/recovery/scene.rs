@@ -192,17 +192,5 @@ fn spec(subject: &Subject, index: usize, seed: u64, attempt: u64, distance: Opti
 
 /// The plan behind readings.
 fn rows(data: &Dataset) -> Vec<Row> {
-    let row = |o: &Observation| Row {
-        pose_id: o.pose_id,
-        repeat: o.repeat,
-        situation: Situation {
-            pose: o.pose,
-            wrench: o.wrench,
-            reference: o.reference,
-            approach: o.approach,
-            delta_t: o.delta_t,
-            elapsed: o.elapsed,
-        },
-    };
-    data.observations.iter().map(row).collect()
+    data.observations.iter().map(Row::from).collect()
 }

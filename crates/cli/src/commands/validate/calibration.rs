@@ -1,8 +1,7 @@
 //! `hexbench validate calibration`.
 
 use std::ffi::OsStr;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_truth::campaign::Kind;
@@ -10,10 +9,9 @@ use hexbench_validation::calibration::{
     self, Calibration, Curve, MOST_FALSE_NAMES, Protocol, SEED, document, false_names, pictures, sheets,
     trials_csv,
 };
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{Progress, Screen};
 use crate::page;
 
 /// Say how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
@@ -56,12 +54,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 }
 
 fn with_progress(protocol: Protocol) -> Calibration {
-    let bar = ProgressBar::new(protocol.trials() as u64);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} trials, {eta} left") {
-        bar.set_style(style);
-    }
-    let study = calibration::calibrate(protocol, &|| bar.inc(1));
-    bar.finish_and_clear();
+    let progress = Progress::of(protocol.trials() as u64, "trials");
+    let study = calibration::calibrate(protocol, &|| progress.advance(1));
+    progress.done();
     study
 }
 
@@ -79,7 +74,7 @@ fn write(study: &Calibration, arguments: &Arguments, screen: &Screen) -> Result<
         files.extend(charts.into_iter().map(|c| (folder.join(c.file), c.svg)));
     }
     for (path, text) in &files {
-        make_folder_of(path)?;
+        Screen::make_folder_of(path)?;
         screen.write_to(path, text)?;
     }
     Ok(files.into_iter().map(|(path, _)| path).collect())
@@ -103,11 +98,6 @@ fn tables(study: &Calibration) -> impl Iterator<Item = (&'static str, String)> {
         ("mistakes.csv", sheets::mistakes_sheet(records)),
     ];
     all.into_iter().map(|(name, sheet)| (name, sheet.csv()))
-}
-
-fn make_folder_of(path: &Path) -> Result<(), Failure> {
-    let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) else { return Ok(()) };
-    fs::create_dir_all(folder).map_err(|cause| Failure::Output { path: folder.to_owned(), cause })
 }
 
 fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {

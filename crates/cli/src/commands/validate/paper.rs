@@ -1,7 +1,6 @@
 //! `hexbench validate paper`.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_validation::paper::{Reproduction, report};
@@ -26,14 +25,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(folder) = &arguments.out {
         for (name, text) in report::files(&study).map_err(Failure::Reproduction)? {
             let path = folder.join(name);
-            make_folder_of(&path)?;
+            Screen::make_folder_of(&path)?;
             screen.write_to(&path, &text)?;
         }
     }
     screen.write(&report::page(&study).to_text())
-}
-
-fn make_folder_of(path: &Path) -> Result<(), Failure> {
-    let Some(folder) = path.parent() else { return Ok(()) };
-    fs::create_dir_all(folder).map_err(|cause| Failure::Output { path: folder.to_owned(), cause })
 }

@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use hexbench_validation::recovery::document::document;
 use hexbench_validation::recovery::study::{self, Settings, Study};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{Progress, Screen};
 use crate::page;
 
 /// Hide effects in simulated campaigns, and see that they are found with honest uncertainty
@@ -54,14 +53,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     check(arguments.check, &study)
 }
 
-/// The bar goes to standard error, and only when that is a terminal.
 fn with_progress(settings: Settings) -> Study {
-    let bar = ProgressBar::new(settings.steps() as u64);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} campaigns, {eta} left") {
-        bar.set_style(style);
-    }
-    let study = study::run(settings, || bar.inc(1));
-    bar.finish_and_clear();
+    let progress = Progress::of(settings.steps() as u64, "campaigns");
+    let study = study::run(settings, || progress.advance(1));
+    progress.done();
     study
 }
 
