@@ -8,11 +8,13 @@
 //! - [`regressor`]: rows of a reading for springs and terms; closed form with exact derivatives for springs.
 //! - [`continuous`]: few poses, each coordinate free: many starts of sequential quadratic programming.
 //! - [`exchange`]: many readings out of candidates: exchange and excursion algorithms.
+//! - [`power`]: which effects a plan would see, at what size, and what they would be taken for.
 
 pub mod continuous;
 pub mod criterion;
 pub mod error;
 pub mod exchange;
+pub mod power;
 pub mod regressor;
 pub mod space;
 pub mod space_file;
