@@ -6,6 +6,7 @@
 
 pub mod calibration;
 pub mod paper;
+pub mod power;
 pub mod proportion;
 pub mod recovery;
 pub mod sheet;

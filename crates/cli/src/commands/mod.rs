@@ -9,6 +9,7 @@ pub(crate) mod diagnose;
 pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod poses;
+pub(crate) mod power;
 pub(crate) mod predict;
 pub(crate) mod simulate;
 pub(crate) mod terms;
@@ -34,6 +35,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Export(arguments) => export::run(arguments, &screen),
         Command::Transient(arguments) => transient::run(arguments, &screen),
         Command::Design(arguments) => design::run(arguments, &screen),
+        Command::Power(arguments) => power::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
         Command::Validate(arguments) => validate::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),

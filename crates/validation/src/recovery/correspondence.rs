@@ -168,6 +168,15 @@ pub fn equivalent(effect: &str, parameters: &Map<String, Value>, hexapod: &Hexap
     }
 }
 
+/// As [`equivalent`]; numbers without exact counterpart are taken over as they are, in the same place.
+pub fn nearest(effect: &str, parameters: &Map<String, Value>, hexapod: &Hexapod) -> Option<(Vec<f64>, Option<f64>)> {
+    let Equivalent { values, shape } = equivalent(effect, parameters, hexapod)?;
+    let c = CORRESPONDENCES.iter().find(|c| c.effect == effect)?;
+    let as_they_are = parameters.get(c.world).map(numbers).unwrap_or_default();
+    let value = |(k, v): (usize, &Option<f64>)| v.or_else(|| as_they_are.get(k).copied());
+    Some((values.iter().enumerate().map(value).collect::<Option<_>>()?, shape))
+}
+
 /// True minus nominal joints, base joints first, m.
 fn joint_errors(parameters: &Map<String, Value>, hexapod: &Hexapod) -> Option<Vec<f64>> {
     let of = |key: &str, nominal: &[Vector3; 6]| -> Option<Vec<f64>> {
