@@ -155,12 +155,16 @@ impl Failure {
     pub(crate) fn exit(&self) -> Exit {
         match self {
             Self::File(error) if error.is_input_output() => Exit::InputOutput,
-            Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => exit_of(cause),
+            Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => {
+                exit_of(cause)
+            }
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
-            Self::Power(_) | Self::Design(_) | Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => Exit::NotDetermined,
+            Self::Power(_) | Self::Design(_) | Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => {
+                Exit::NotDetermined
+            }
             Self::File(_)
             | Self::ModelFile { .. }
             | Self::Row { .. }
@@ -184,7 +188,9 @@ impl Failure {
             }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Check(_) => None,
-            Self::Power(PowerError::Design(DesignError::Model(cause))) => Some(next_step_of(cause, "the plan")),
+            Self::Power(PowerError::Design(DesignError::Model(cause))) => {
+                Some(next_step_of(cause, "the plan"))
+            }
             Self::Power(_) => Some("Check the poses (mm, deg) and loads (N, N m) of the plan.".into()),
             Self::Design(_) => {
                 Some("Widen the ranges or limits in the space file, or ask for more poses.".into())

@@ -42,6 +42,11 @@ impl Proportion {
         self.lower(HARDLY) > rate
     }
 
+    /// True when a true rate is within the two-sided exact bounds that a share leaves with this chance of error.
+    pub fn is_compatible_with(&self, rate: f64, error: f64) -> bool {
+        (self.lower(0.5 * error)..=self.upper(0.5 * error)).contains(&rate)
+    }
+
     /// Quantile of Beta(hits, misses + 1).
     fn lower(&self, tail: f64) -> f64 {
         let [hits, misses] = [self.hits as f64, (self.of - self.hits) as f64];

@@ -8,7 +8,9 @@ use hexbench_core::{Hexapod, Measurand, Metrology};
 use hexbench_design::power::Settings;
 use hexbench_model::fit_named::term_named;
 use hexbench_model::term::Term;
-use hexbench_validation::power::{Page, Power, PowerPlan, Simulation, most_campaigns, pictures, run as study};
+use hexbench_validation::power::{
+    Page, Power, PowerPlan, Simulation, most_campaigns, pictures, run as study,
+};
 
 use crate::failure::Failure;
 use crate::input;
@@ -129,7 +131,8 @@ fn plan(arguments: &Arguments) -> Result<PowerPlan, Failure> {
             arguments.hexapod.display(),
             arguments.plan.display()
         ),
-        next: "State [metrology] in the hexapod file, or give --sigma UM,URAD of one reading, such as 0.5,3.".into(),
+        next: "State [metrology] in the hexapod file, or give --sigma UM,URAD of one reading, such as 0.5,3."
+            .into(),
     })?;
     if !arguments.noise_from_repeats {
         return Ok(plan);
@@ -145,7 +148,10 @@ fn refuse_references(arguments: &Arguments, has_references: bool) -> Result<(), 
         return Ok(());
     }
     Err(Failure::Usage {
-        message: format!("{} has ref_ columns, but absolute poses have no reference state", arguments.plan.display()),
+        message: format!(
+            "{} has ref_ columns, but absolute poses have no reference state",
+            arguments.plan.display()
+        ),
         next: "Remove the ref_ columns, or leave --absolute out.".into(),
     })
 }
@@ -157,13 +163,13 @@ fn stiffness(given_n_per_um: Option<f64>, hexapod: &Hexapod) -> [f64; 6] {
     given.or(hexapod.nominal_stiffness).unwrap_or([USUAL_N_PER_M; 6])
 }
 
-fn with_progress(
-    arguments: &Arguments,
-    plan: &PowerPlan,
-    terms: &[Arc<dyn Term>],
-) -> Result<Power, Failure> {
-    let settings =
-        Settings { alarm: arguments.alarm, power: arguments.power, seed: arguments.seed, ..Settings::default() };
+fn with_progress(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -> Result<Power, Failure> {
+    let settings = Settings {
+        alarm: arguments.alarm,
+        power: arguments.power,
+        seed: arguments.seed,
+        ..Settings::default()
+    };
     let campaigns = arguments.simulate.map_or(0, |n| n as usize);
     let simulation = Simulation { campaigns, diagnoses: campaigns > 0 };
     let simulated = if arguments.effects.is_empty() { terms.len() } else { arguments.effects.len() };

@@ -34,8 +34,12 @@ impl Alike {
     /// Effects that the effect of a row is taken for, with the share, largest first; the effect itself is left out.
     pub fn mistaken(&self, row: usize) -> Vec<(&'static str, f64)> {
         let names = self.terms.iter().copied().chain([NOTHING]);
-        let mut all: Vec<(&'static str, f64)> =
-            names.zip(self.taken_for[row].iter().copied()).enumerate().filter(|(k, _)| *k != row).map(|(_, x)| x).collect();
+        let mut all: Vec<(&'static str, f64)> = names
+            .zip(self.taken_for[row].iter().copied())
+            .enumerate()
+            .filter(|(k, _)| *k != row)
+            .map(|(_, x)| x)
+            .collect();
         all.retain(|(_, share)| *share > 0.0);
         all.sort_by(|a, b| b.1.total_cmp(&a.1));
         all
@@ -43,7 +47,12 @@ impl Alike {
 }
 
 /// Likeness of all subjects; confusion of those in `effects` that show.
-pub(super) fn alike(planned: &Planned, subjects: &[Subject], effects: &[Effect], settings: &Settings) -> Alike {
+pub(super) fn alike(
+    planned: &Planned,
+    subjects: &[Subject],
+    effects: &[Effect],
+    settings: &Settings,
+) -> Alike {
     let of = |(s, e): (&Subject, &Effect)| s.signature(planned, &e.example, signature_scale(e));
     let whole: Vec<DVector<f64>> = subjects.iter().zip(effects).map(of).collect();
     let rests: Vec<DVector<f64>> = whole.iter().map(|s| planned.absorption.rest(s)).collect();
@@ -101,7 +110,8 @@ impl Evidence {
             .into_par_iter()
             .map(|draw| self.winner(rest, settings.seed, [row, draw]).unwrap_or(nothing))
             .collect();
-        let share = |k: usize| winners.iter().filter(|w| **w == k).count() as f64 / settings.draws.max(1) as f64;
+        let share =
+            |k: usize| winners.iter().filter(|w| **w == k).count() as f64 / settings.draws.max(1) as f64;
         (0..=nothing).map(share).collect()
     }
 

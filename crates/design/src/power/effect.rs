@@ -112,7 +112,7 @@ impl Effect {
             term: info.id,
             verdict,
             reference: subject.reference,
-            usual_size: size_of(subject, example),
+            usual_size: subject.size(example),
             unit,
             seen_at,
             sensible,
@@ -139,14 +139,6 @@ impl Effect {
     pub fn size_seen(&self) -> Option<f64> {
         self.shows().then_some(self.usual_size * self.seen_at.middle)
     }
-}
-
-/// Root mean square of the parameters that have the unit of the first one, in that unit.
-fn size_of(subject: &Subject, example: &Example) -> f64 {
-    let parameters = subject.term.info().parameters;
-    let alike = parameters.iter().zip(&example.values).filter(|(p, _)| p.unit == parameters[0].unit);
-    let squares: Vec<f64> = alike.map(|(p, v)| (v * p.per_si).powi(2)).collect();
-    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
 /// Index of the middle value, and the range.

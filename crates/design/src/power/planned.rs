@@ -53,6 +53,16 @@ impl Planned {
         Ok(Self { campaign, point, lin, natural, absorption })
     }
 
+    /// Condition number of the whitened columns of the springs (and frames) at unit length.
+    pub fn condition(&self) -> f64 {
+        let mut columns = self.lin.common_block();
+        columns.column_iter_mut().for_each(|mut c| {
+            c.normalize_mut();
+        });
+        let singular = columns.singular_values();
+        singular.max() / singular.min()
+    }
+
     /// Whitened signature of parameter values (SI) of a term at a shape, springs included.
     pub fn signature(&self, term: &dyn Term, shape: f64, values: &[f64]) -> DVector<f64> {
         self.lin.term_block(term, false, shape) * DVector::from_column_slice(values)

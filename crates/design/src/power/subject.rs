@@ -49,6 +49,14 @@ impl Subject {
         Self { term: Arc::clone(term), examples, reference: Reference::Natural }
     }
 
+    /// Size of an example in the unit of its first parameter: root mean square of the parameters that have this unit.
+    pub fn size(&self, example: &Example) -> f64 {
+        let parameters = self.term.info().parameters;
+        let alike = parameters.iter().zip(&example.values).filter(|(p, _)| p.unit == parameters[0].unit);
+        let squares: Vec<f64> = alike.map(|(p, v)| (v * p.per_si).powi(2)).collect();
+        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+    }
+
     /// Whitened signature of an example `scale` times as large, springs included.
     pub(super) fn signature(&self, planned: &Planned, example: &Example, scale: f64) -> DVector<f64> {
         let values: Vec<f64> = example.values.iter().map(|v| v * scale).collect();

@@ -102,9 +102,7 @@ impl Test {
 /// Directions of every shape: determined combinations of the parameters, less what springs absorb.
 fn bases(planned: &Planned, term: &dyn Term) -> Vec<DMatrix<f64>> {
     let natural = sizes(term, false, &planned.natural);
-    let column_of = |block: &DMatrix<f64>, k: usize| {
-        planned.absorption.rest(&(block.column(k) * natural[k]))
-    };
+    let column_of = |block: &DMatrix<f64>, k: usize| planned.absorption.rest(&(block.column(k) * natural[k]));
     let basis = |shape: f64| {
         let block = planned.lin.term_block(term, false, shape);
         let columns: Vec<DVector<f64>> = (0..block.ncols()).map(|k| column_of(&block, k)).collect();
@@ -118,7 +116,9 @@ fn determined(columns: &DMatrix<f64>) -> DMatrix<f64> {
     let eigen = columns.tr_mul(columns).symmetric_eigen();
     let lengths = eigen.eigenvalues.map(|l| l.max(0.0).sqrt());
     let best = lengths.max();
-    let counts = |k: &usize| lengths[*k] > 0.0 && (lengths[*k] * WIDEST * DETERMINED_SHARE >= 1.0 || lengths[*k] >= best);
+    let counts = |k: &usize| {
+        lengths[*k] > 0.0 && (lengths[*k] * WIDEST * DETERMINED_SHARE >= 1.0 || lengths[*k] >= best)
+    };
     let kept: Vec<usize> = (0..lengths.len()).filter(counts).collect();
     orthonormal(&(columns * eigen.eigenvectors.select_columns(&kept)))
 }
@@ -156,7 +156,8 @@ impl Noise {
     /// So many draws, one in each column.
     fn along(&mut self, draws: usize) -> DMatrix<f64> {
         let rng = &mut self.rng;
-        let independent = DMatrix::from_fn(self.mixing.ncols(), draws, |_, _| -> f64 { StandardNormal.sample(rng) });
+        let independent =
+            DMatrix::from_fn(self.mixing.ncols(), draws, |_, _| -> f64 { StandardNormal.sample(rng) });
         &self.mixing * independent
     }
 

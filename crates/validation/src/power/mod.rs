@@ -6,13 +6,18 @@
 //! how far the leg stiffnesses go astray when it is left out.
 
 mod charts;
+mod document;
+mod faint;
 mod page;
 mod plan;
 mod simulate;
 mod study;
+mod tables;
 mod usual;
 
 pub use charts::pictures;
+pub use document::{Studied, document, plan_of};
+pub use faint::Faint;
 pub use page::Page;
 pub use plan::PowerPlan;
 pub use simulate::{Answers, Simulated};

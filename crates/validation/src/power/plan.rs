@@ -46,7 +46,8 @@ impl PowerPlan {
 
     /// The machine as a diagnosis of the readings would be given it.
     pub fn machine(&self) -> Hexapod {
-        let stated = Metrology { sigma_translation: self.noise.translation, sigma_rotation: self.noise.rotation };
+        let stated =
+            Metrology { sigma_translation: self.noise.translation, sigma_rotation: self.noise.rotation };
         let metrology = (self.noise.source == NoiseSource::Metrology).then_some(stated);
         Hexapod { metrology, ..self.hexapod.clone() }
     }

@@ -68,6 +68,9 @@ pub struct Simulated {
     pub scale: f64,
     /// Campaigns in which the test saw the effect.
     pub seen: Proportion,
+    /// Chance to see what the effect leaves in the world without noise: it differs from what the model expects where the
+    /// effect does not grow in proportion or has another form.
+    pub chance_by_the_world: f64,
     /// Change of the leg stiffnesses without noise when the effect is left out, percent.
     pub bias_percent: [f64; 6],
     /// Answers of the whole diagnosis, where asked for.
@@ -98,7 +101,9 @@ impl<'a> Bench<'a> {
     fn data(&self, ideal: &[Vector6], stream: Option<u128>) -> Dataset {
         let mut rng = stream.map(|stream| Pcg64::new(u128::from(self.seed), stream));
         let mut noise = |row: usize| match &mut rng {
-            Some(rng) => Vector6::from_fn(|_, _| StandardNormal.sample(rng)).component_mul(&self.plan.sigma(row)),
+            Some(rng) => {
+                Vector6::from_fn(|_, _| StandardNormal.sample(rng)).component_mul(&self.plan.sigma(row))
+            }
             None => Vector6::zeros(),
         };
         let read = |(row, (o, value)): (usize, (&Observation, &Vector6))| Observation {
@@ -134,8 +139,16 @@ impl<'a> Bench<'a> {
         Ok((0..tests.len()).map(|t| Proportion::count(&all, |seen| seen[t])).collect())
     }
 
-    /// Change of the leg stiffnesses that springs fitted to ideal readings take, percent.
-    pub(super) fn bias(&self, ideal: &[Vector6]) -> Result<[f64; 6], ModelError> {
+    /// Length of what ideal readings have beyond those of the plain machine, in units of the noise.
+    pub(super) fn length_of_change(&self, ideal: &[Vector6]) -> Result<f64, TruthError> {
+        let plain = self.ideal(Vec::new())?;
+        let whitened =
+            |(row, (a, b)): (usize, (&Vector6, &Vector6))| (a - b).component_div(&self.plan.sigma(row));
+        Ok(ideal.iter().zip(&plain).enumerate().map(|x| whitened(x).norm_squared()).sum::<f64>().sqrt())
+    }
+
+    /// What springs fitted to ideal readings leave (whitened residuals), and how their stiffness changes, percent.
+    pub(super) fn without_noise(&self, ideal: &[Vector6]) -> Result<(DVector<f64>, [f64; 6]), ModelError> {
         let campaign = hexbench_model::campaign::Campaign::with_noise(
             &self.plan.machine(),
             &self.data(ideal, None),
@@ -143,7 +156,8 @@ impl<'a> Bench<'a> {
         )?;
         let fit = fit_baseline(&campaign)?;
         let fitted = |leg: usize| 1.0 / fit.point.springs[leg];
-        Ok(std::array::from_fn(|leg| 100.0 * (fitted(leg) / self.plan.stiffness[leg] - 1.0)))
+        let bias = std::array::from_fn(|leg| 100.0 * (fitted(leg) / self.plan.stiffness[leg] - 1.0));
+        Ok((Linearization::at(&campaign, &fit.point)?.residuals(), bias))
     }
 
     /// What the diagnosis says.

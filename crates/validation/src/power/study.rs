@@ -3,15 +3,16 @@
 use std::sync::Arc;
 
 use hexbench_design::DesignError;
-use hexbench_design::power::{Effect, Planned, Settings, Study, Subject, study};
+use hexbench_design::power::{Effect, Planned, Settings, Study, Subject, Test, study};
 use hexbench_model::error::ModelError;
 use hexbench_model::term::Term;
 use hexbench_truth::TruthError;
+use hexbench_truth::scene::RowError;
 use serde::Serialize;
 
+use super::PowerPlan;
 use super::simulate::{Bench, Simulated};
 use super::usual::{Usual, usual};
-use super::PowerPlan;
 use crate::Proportion;
 
 /// Seeds of what belongs to one effect.
@@ -64,6 +65,12 @@ pub enum PowerError {
     /// In the simulated world.
     #[error("the plan cannot be simulated: {0}")]
     Truth(#[from] TruthError),
+    /// A row of a scene.
+    #[error(transparent)]
+    Row(#[from] RowError),
+    /// Nothing states the noise.
+    #[error("neither the rows nor the machine of the plan state how well readings are taken")]
+    NoNoise,
     /// A simulated campaign.
     #[error("a simulated campaign cannot be fitted: {0}")]
     Model(#[from] ModelError),
@@ -145,10 +152,7 @@ struct One<'a> {
 }
 
 impl One<'_> {
-    fn check(
-        &self,
-        test: Option<&hexbench_design::power::Test>,
-    ) -> Result<(Option<Simulated>, Option<Simulated>), PowerError> {
+    fn check(&self, test: Option<&Test>) -> Result<(Option<Simulated>, Option<Simulated>), PowerError> {
         let Some(test) = test else { return Ok((None, None)) };
         let usual = self.at(test, 1.0, USUAL, false)?;
         let seen_at = self.effect.shows().then_some(self.effect.seen_at.middle);
@@ -157,13 +161,7 @@ impl One<'_> {
         Ok((Some(usual), when_seen))
     }
 
-    fn at(
-        &self,
-        test: &hexbench_design::power::Test,
-        scale: f64,
-        stream: u128,
-        diagnoses: bool,
-    ) -> Result<Simulated, PowerError> {
+    fn at(&self, test: &Test, scale: f64, stream: u128, diagnoses: bool) -> Result<Simulated, PowerError> {
         let mechanism = self.usual.mechanisms[self.effect.example_index].scaled(scale);
         let ideal = self.bench.ideal(vec![mechanism])?;
         let stream = stream + STREAMS_PER_EFFECT * (1 + self.index as u128);
@@ -171,6 +169,7 @@ impl One<'_> {
         let seen = self.bench.seen(&ideal, &[Some(test)], stream, campaigns, self.done)?[0];
         let answers = diagnoses
             .then(|| self.bench.answers(self.effect.term, &ideal, self.terms, stream, campaigns, self.done));
-        Ok(Simulated { scale, seen, bias_percent: self.bench.bias(&ideal)?, answers })
+        let (left, bias_percent) = self.bench.without_noise(&ideal)?;
+        Ok(Simulated { scale, seen, chance_by_the_world: test.chance(&left), bias_percent, answers })
     }
 }

@@ -169,7 +169,11 @@ pub fn equivalent(effect: &str, parameters: &Map<String, Value>, hexapod: &Hexap
 }
 
 /// As [`equivalent`]; numbers without exact counterpart are taken over as they are, in the same place.
-pub fn nearest(effect: &str, parameters: &Map<String, Value>, hexapod: &Hexapod) -> Option<(Vec<f64>, Option<f64>)> {
+pub fn nearest(
+    effect: &str,
+    parameters: &Map<String, Value>,
+    hexapod: &Hexapod,
+) -> Option<(Vec<f64>, Option<f64>)> {
     let Equivalent { values, shape } = equivalent(effect, parameters, hexapod)?;
     let c = CORRESPONDENCES.iter().find(|c| c.effect == effect)?;
     let as_they_are = parameters.get(c.world).map(numbers).unwrap_or_default();

@@ -2,6 +2,7 @@
 
 pub(crate) mod calibration;
 pub(crate) mod paper;
+pub(crate) mod power;
 pub(crate) mod recovery;
 
 use clap::{Args, Subcommand};
@@ -24,6 +25,7 @@ enum Study {
     Recovery(recovery::Arguments),
     Paper(paper::Arguments),
     Calibration(calibration::Arguments),
+    Power(power::Arguments),
 }
 
 /// Run the study.
@@ -32,5 +34,6 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Recovery(arguments) => recovery::run(arguments, screen),
         Study::Paper(arguments) => paper::run(arguments, screen),
         Study::Calibration(arguments) => calibration::run(arguments, screen),
+        Study::Power(arguments) => power::run(arguments, screen),
     }
 }
