@@ -9,11 +9,17 @@ use serde::Serialize;
 use super::{Example, Planned, Reference, Settings, Subject, Test};
 
 /// Multiples of the usual size beyond this are not looked for.
-const MOST: f64 = 1e7;
+const MOST: f64 = 1e5;
 /// Steps of a power curve.
 const STEPS: i32 = 24;
-/// A power curve reaches from this share of the wanted size to its inverse.
-const CURVE: f64 = 0.1;
+/// A power curve reaches from this share of the size that is seen, or from the usual size, to ...
+const CURVE_FROM: f64 = 0.1;
+/// ... this multiple of it.
+const CURVE_TO: f64 = 3.0;
+/// Steps in which the size that is seen is first looked for.
+const STRIDE: f64 = 4.0;
+/// The same for effects whose signature changes its form with their size: friction that holds all legs leaves none.
+const SHORT_STRIDE: f64 = 1.15;
 
 /// Least, middle and most of something over the examples of an effect.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -178,7 +184,8 @@ impl Judge<'_> {
 
     /// Multiple of an example that is seen with the wanted power; infinite when none is.
     fn seen_at(&self, example: &Example) -> f64 {
-        smallest(self.chance_of(example), self.wanted)
+        let stride = if self.subject.is_its_own_shape() { SHORT_STRIDE } else { STRIDE };
+        smallest(self.chance_of(example), self.wanted, stride)
     }
 
     fn verdict(&self, at_usual: &DVector<f64>, seen_at: f64, sensible: f64) -> Verdict {
@@ -224,18 +231,19 @@ impl Judge<'_> {
 
     fn curve(&self, example: &Example, seen_at: f64) -> Vec<[f64; 2]> {
         let chance = self.chance_of(example);
-        let scale = |step: i32| seen_at * CURVE.powf(1.0 - 2.0 * f64::from(step) / f64::from(STEPS));
+        let (from, to) = ((CURVE_FROM * seen_at).min(1.0), CURVE_TO * seen_at.max(1.0));
+        let scale = |step: i32| from * (to / from).powf(f64::from(step) / f64::from(STEPS));
         (0..=STEPS).map(scale).map(|s| [s, chance(s)]).collect()
     }
 }
 
-/// Smallest scale at which a chance that grows reaches a value; infinite when none does.
-fn smallest(chance: impl Fn(f64) -> f64, wanted: f64) -> f64 {
+/// Smallest scale at which a chance reaches a value, looked for in strides from a hundredth on; infinite when none does.
+fn smallest(chance: impl Fn(f64) -> f64, wanted: f64, stride: f64) -> f64 {
     const ROUNDS: usize = 40;
-    let (mut low, mut high) = (0.0, 1.0);
+    let (mut low, mut high) = (0.0, 0.01);
     while chance(high) < wanted {
         low = high;
-        high *= 4.0;
+        high *= stride;
         if high > MOST {
             return f64::INFINITY;
         }

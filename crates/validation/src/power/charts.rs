@@ -7,8 +7,8 @@ use super::{Check, Power, Simulated};
 use crate::calibration::Picture;
 
 const PERCENT: f64 = 100.0;
-/// Shares below half a percent would be printed as zero.
-const SHOWN_PERCENT: f64 = 0.5;
+/// Shares below this stay blank.
+const SHOWN_PERCENT: f64 = 1.0;
 
 /// All charts; the heat map of what is taken for what comes first.
 ///

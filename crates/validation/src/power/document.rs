@@ -184,13 +184,33 @@ fn rich_sees(plain: &Studied, rich: &Studied) -> String {
 fn never(plain: &Studied, rich: &Studied) -> String {
     let absolute = rich.power.study.untestable.len();
     let blind: Vec<&str> = plain.power.study.effects.iter().filter(|e| !e.shows()).map(|e| e.term).collect();
+    let hides = |s: &Studied, k: usize| s.faint[k].chance < HIDDEN_CHANCE;
+    let (mut always, mut here) = (Vec::new(), Vec::new());
+    for (k, f) in plain.faint.iter().enumerate() {
+        match (hides(plain, k), hides(rich, k)) {
+            (true, true) => always.push(f.what),
+            (true, false) => {
+                here.push(format!("{} (the rich plan sees it in {})", f.what, percent(rich.faint[k].chance)))
+            }
+            _ => {}
+        }
+    }
     format!(
-        "Some effects never show. {absolute} of the catalogue act on absolute poses only; {} not act under the loads of the \
-         paper. And some are the same as springs of other stiffness, in any plan or in most (table below): the fit takes them \
-         for stiffness, no residual tells, and the answer is wrong by the bias.",
-        if blind.is_empty() { "all others do".to_owned() } else { format!("{} do", blind.join(" and ")) },
+        "Some effects never show. {absolute} of the catalogue need absolute poses; {} no trace under the loads of the paper. \
+         Others are the same as springs of other stiffness: the fit takes them for stiffness, no residual tells, and the \
+         stiffness is wrong by the bias. In both plans: {}. In the plan of the paper: {}.",
+        if blind.is_empty() {
+            "no other leaves".to_owned()
+        } else {
+            format!("{} leave", blind.join(" and "))
+        },
+        always.join("; "),
+        here.join("; "),
     )
 }
+
+/// An effect that is seen less often than this hides: hardly more often than noise alone would raise an alarm.
+const HIDDEN_CHANCE: f64 = 0.05;
 
 const FAINT: [&str; 6] = ["hidden in the world", "plan", "absorbed", "distance", "chance", "bias"];
 

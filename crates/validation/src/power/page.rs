@@ -160,7 +160,8 @@ impl Page<'_> {
              Reckoned and simulated chance, percent, with exact 95 % bounds; \"world\" is the chance reckoned with what \
              the effect leaves in the simulated world without noise; false alarms are of campaigns without effects."
         ));
-        let both = |(k, e)| tables::check(e, &self.power.checks[k]);
+        let wanted = self.power.study.settings.power;
+        let both = |(k, e)| tables::check(e, &self.power.checks[k], wanted);
         page.table(tables::CHECK, self.told().flat_map(both).collect::<Vec<_>>());
         self.answers(page, level);
         let lost = |(k, e): (usize, &Effect)| {

@@ -57,12 +57,13 @@ pub(super) fn taken_for(alike: &Alike, row: usize, e: &Effect) -> Vec<String> {
         percent(own),
         percent(nothing),
         percent((1.0 - own - nothing).max(0.0)),
-        top.map_or(NONE.to_owned(), |(name, share)| format!("{name} {}", percent(*share))),
+        top.filter(|(_, share)| *share >= 0.01)
+            .map_or(NONE.to_owned(), |(name, share)| format!("{name} {}", percent(*share))),
     ]
 }
 
 /// Reckoned and simulated chance, at the usual size and at the size that is seen.
-pub(super) fn check(e: &Effect, check: &Check) -> Vec<Vec<String>> {
+pub(super) fn check(e: &Effect, check: &Check, wanted: f64) -> Vec<Vec<String>> {
     let alarms = check.false_alarms.map_or(NONE.to_owned(), bounded);
     let row = |name: &str, size: &str, reckoned: f64, s: &Simulated, alarms: String| {
         vec![
@@ -75,7 +76,6 @@ pub(super) fn check(e: &Effect, check: &Check) -> Vec<Vec<String>> {
         ]
     };
     let usual = check.usual.as_ref().map(|s| row(e.term, "usual", e.power_at_usual_size.middle, s, alarms));
-    let wanted = e.curve.get(e.curve.len() / 2).map_or(f64::NAN, |p| p[1]);
     let seen = check.when_seen.as_ref().map(|s| row("", "seen", wanted, s, String::new()));
     usual.into_iter().chain(seen).collect()
 }
@@ -119,7 +119,7 @@ pub(super) fn percent(share: f64) -> String {
 fn number(share: f64) -> String {
     match 100.0 * share {
         p if p <= 0.0 => "0".to_owned(),
-        p if p < 0.5 => "< 1".to_owned(),
+        p if p < 1.0 => "< 1".to_owned(),
         p if p > 99.5 && share < 1.0 => "> 99".to_owned(),
         p => format!("{p:.0}"),
     }
