@@ -89,11 +89,11 @@ impl Test {
         match &self.way {
             Way::Law(law) => law.power(self.threshold, largest(&self.groups, &along)),
             Way::Draws(noise, levels) => {
-                let seen = |(draw, level): (DVector<f64>, &f64)| {
-                    largest(&self.groups, &(draw + &along)) > self.threshold * level
+                let seen = |(draw, level): &(usize, &f64)| {
+                    let moved = noise.column(*draw) + &along;
+                    largest(&self.groups, &moved) > self.threshold * **level
                 };
-                let draws = noise.column_iter().map(|c| c.into_owned()).zip(levels);
-                draws.filter(|d| seen((d.0.clone(), d.1))).count() as f64 / levels.len() as f64
+                levels.iter().enumerate().filter(seen).count() as f64 / levels.len() as f64
             }
         }
     }
@@ -142,15 +142,15 @@ fn largest(groups: &[(usize, usize)], along: &DVector<f64>) -> f64 {
 /// Noise along directions that need not be orthogonal to each other.
 struct Noise {
     mixing: DMatrix<f64>,
-    noise_dof: f64,
+    level_dof: f64,
     rng: Pcg64,
 }
 
 impl Noise {
-    fn new(directions: &DMatrix<f64>, noise_dof: f64, seed: u64) -> Self {
+    fn new(directions: &DMatrix<f64>, level_dof: f64, seed: u64) -> Self {
         const STREAM: u128 = 90;
         let mixing = directions.tr_mul(&orthonormal(directions));
-        Self { mixing, noise_dof, rng: Pcg64::new(u128::from(seed), STREAM) }
+        Self { mixing, level_dof, rng: Pcg64::new(u128::from(seed), STREAM) }
     }
 
     /// So many draws, one in each column.
@@ -163,8 +163,8 @@ impl Noise {
 
     /// Estimated over true variance of the noise.
     fn levels(&mut self, draws: usize) -> Vec<f64> {
-        let law = ChiSquared::new(self.noise_dof).ok().filter(|_| self.noise_dof.is_finite());
-        let mut level = || law.map_or(1.0, |law| law.sample(&mut self.rng) / self.noise_dof);
+        let law = ChiSquared::new(self.level_dof).ok().filter(|_| self.level_dof.is_finite());
+        let mut level = || law.map_or(1.0, |law| law.sample(&mut self.rng) / self.level_dof);
         (0..draws).map(|_| level()).collect()
     }
 

@@ -190,7 +190,7 @@ fn never(plain: &Studied, rich: &Studied) -> String {
         match (hides(plain, k), hides(rich, k)) {
             (true, true) => always.push(f.what),
             (true, false) => {
-                here.push(format!("{} (the rich plan sees it in {})", f.what, percent(rich.faint[k].chance)))
+                here.push(format!("{} (the rich plan sees it in {})", f.what, percent(rich.faint[k].chance)));
             }
             _ => {}
         }

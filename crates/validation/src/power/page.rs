@@ -40,6 +40,13 @@ impl Page<'_> {
 
     /// Tables, without title and notes, under headings of a level.
     pub(super) fn body(&self, page: &mut Document, level: usize) {
+        if self.told().any(|(_, e)| leaves_something(e)) {
+            self.seen(page, level);
+        }
+        self.blind(page, level);
+    }
+
+    fn seen(&self, page: &mut Document, level: usize) {
         page.heading(level, "Smallest size that is seen");
         page.table(tables::SIZES, self.each(tables::sizes));
         page.heading(level, "What springs make of it");
@@ -55,7 +62,6 @@ impl Page<'_> {
             let rows = self.told().flat_map(|(_, e)| tables::parameters(e)).collect::<Vec<_>>();
             page.table(tables::PARAMETERS, rows);
         }
-        self.blind(page, level);
     }
 
     fn told(&self) -> impl Iterator<Item = (usize, &Effect)> {
@@ -96,24 +102,24 @@ impl Page<'_> {
         let count = |wanted: &[Verdict]| all.iter().filter(|e| wanted.contains(&e.verdict)).count();
         let seen = count(&[Verdict::Seen]);
         let larger = count(&[Verdict::SeenWhenLarger]);
-        let mut text = format!(
+        let mut sentences = vec![format!(
             "This plan sees {seen} of {} at their usual size, {larger} when they are larger than usual, {} never.",
             counted(all.len(), "effect"),
             all.len() - seen - larger
-        );
+        )];
         let wrong = self.wrongly_taken();
         if !wrong.is_empty() {
-            text += &format!(" {}.", wrong.join("; "));
+            sentences.push(wrong.join("; ") + ".");
         }
-        if let Some(worst) = self.most_absorbed() {
-            text += &format!(
-                " Springs absorb {} of {}: left out at its usual size, it moves a leg stiffness by {} %.",
+        sentences.extend(self.most_absorbed().map(|worst| {
+            format!(
+                "Springs absorb {} of {}: left out at its usual size, it moves a leg stiffness by {} %.",
                 percent(worst.absorbed),
                 worst.term,
                 significant(tables::largest(&worst.bias_at_usual_size_percent).abs(), 2)
-            );
-        }
-        text
+            )
+        }));
+        sentences.join(" ")
     }
 
     /// Effects whose best explanation is mostly another effect.

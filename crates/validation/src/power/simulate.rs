@@ -175,11 +175,13 @@ impl<'a> Bench<'a> {
             let data = self.data(ideal, Some(first_stream + k as u128));
             let study = diagnose(&machine, &data, None, terms);
             done();
-            study.map_or((NO_ANSWER.to_owned(), None), |study| said(Trial { hidden: vec![id], study }))
+            study.map_or((NO_ANSWER.to_owned(), None), |study| said(&Trial { hidden: vec![id], study }))
         };
         let all: Vec<_> = (0..campaigns).into_par_iter().map(one).collect();
         let mut answers = Answers::default();
-        all.into_iter().for_each(|a| answers.add(a));
+        for answer in all {
+            answers.add(answer);
+        }
         answers
     }
 }
@@ -187,8 +189,8 @@ impl<'a> Bench<'a> {
 /// Word for a diagnosis that could not be made.
 const NO_ANSWER: &str = "no answer";
 
-fn said(trial: Trial) -> (String, Option<Fate>) {
-    let fate = Fate::of(&trial);
+fn said(trial: &Trial) -> (String, Option<Fate>) {
+    let fate = Fate::of(trial);
     let d = &trial.study.diagnosis;
     let word = match d.verdict {
         Verdict::Named => d.added.join("+"),

@@ -34,6 +34,8 @@ pub struct Simulation {
 /// Power of one plan.
 #[derive(Debug, Serialize)]
 pub struct Power {
+    /// `power/1`.
+    pub format: &'static str,
     /// As reckoned.
     #[serde(flatten)]
     pub study: Study,
@@ -94,7 +96,8 @@ pub fn run(
         known.as_ref().map_or_else(|| Subject::natural(term, &planned), |u| u.subject.clone())
     };
     let study = study(&planned, terms.iter().zip(&known).map(subject).collect(), settings);
-    let mut power = Power { checks: vec![Check::default(); study.effects.len()], study, simulation };
+    let mut power =
+        Power { format: "power/1", checks: vec![Check::default(); study.effects.len()], study, simulation };
     if simulation.campaigns > 0 {
         power.checks = checks(plan, terms, &known, &power, only, done)?;
     }
