@@ -82,9 +82,6 @@ fn figures_and_charts_are_written() {
     for name in ["taken-for.svg", "cosine.svg", "power.svg"] {
         assert!(fs::read_to_string(charts.join(name)).unwrap().starts_with("<svg"), "{name}");
     }
-    let one = bench.path("map.svg");
-    text(bench.power(&["--svg", one.to_str().unwrap()]));
-    assert_eq!(fs::read_to_string(one).unwrap(), fs::read_to_string(charts.join("taken-for.svg")).unwrap());
 }
 
 #[test]
@@ -125,7 +122,7 @@ fn absolute_poses_test_what_deflections_cannot() {
             format!("{x},{y},{t},{},{t},{},0,0,-{},0,0,0", t / 2, x / 3, if k % 2 == 0 { 50 } else { 340 })
         })
         .collect();
-    let (_folder, hexapod, plan) = bare(COLUMNS, &rows.join("\n"));
+    let (folder, hexapod, plan) = bare(COLUMNS, &rows.join("\n"));
     let page =
         text(power(&hexapod, &plan, &["--sigma", "0.5,3", "--absolute", "--effect", "actuator-scale"]));
     assert!(page.contains("absolute poses") && page.contains("actuator-scale"), "{page}");

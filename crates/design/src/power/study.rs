@@ -22,7 +22,7 @@ pub struct Settings {
 impl Default for Settings {
     /// 1 % false alarm, 90 % power.
     fn default() -> Self {
-        Self { alarm: 0.01, power: 0.9, seed: 1, draws: 200 }
+        Self { alarm: 0.01, power: 0.9, seed: 1, draws: 100 }
     }
 }
 

@@ -7,7 +7,7 @@ use super::{Check, Simulated};
 use crate::Proportion;
 
 /// Header of [`sizes`].
-pub(super) const SIZES: [&str; 6] = ["effect", "usual", "chance", "seen from", "unit", "x usual"];
+pub(super) const SIZES: [&str; 6] = ["effect", "usual", "chance %", "seen from", "unit", "x usual"];
 /// Header of [`springs`].
 pub(super) const SPRINGS: [&str; 4] = ["effect", "absorbed", "bias at usual size", "bias when seen"];
 /// Header of [`taken_for`].
@@ -125,10 +125,10 @@ fn number(share: f64) -> String {
     }
 }
 
-/// `15 %`, or `3 .. 12 %` where directions or shapes differ.
+/// `15`, or `7 (3..12)` where directions or shapes differ.
 fn percent_range(r: &Range) -> String {
     let [low, middle, high] = [r.least, r.middle, r.most].map(number);
-    if low == high { format!("{middle} %") } else { format!("{middle} % ({low}..{high})") }
+    if low == high { middle } else { format!("{middle} ({low}..{high})") }
 }
 
 /// `2.5`, or `2.5 (1.9..3.1)`.
