@@ -99,14 +99,11 @@ impl Page<'_> {
     /// The answer in some sentences.
     pub(super) fn summary(&self) -> String {
         let all: Vec<&Effect> = self.told().map(|(_, e)| e).collect();
-        let count = |wanted: &[Verdict]| all.iter().filter(|e| wanted.contains(&e.verdict)).count();
-        let seen = count(&[Verdict::Seen]);
-        let larger = count(&[Verdict::SeenWhenLarger]);
-        let mut sentences = vec![format!(
-            "This plan sees {seen} of {} at their usual size, {larger} when they are larger than usual, {} never.",
-            counted(all.len(), "effect"),
-            all.len() - seen - larger
-        )];
+        let mut sentences = vec![match all[..] {
+            [] => "This plan can test none of these effects.".to_owned(),
+            [one] => self.sentence(one),
+            _ => counts(&all),
+        }];
         let wrong = self.wrongly_taken();
         if !wrong.is_empty() {
             sentences.push(wrong.join("; ") + ".");
@@ -120,6 +117,22 @@ impl Page<'_> {
             )
         }));
         sentences.join(" ")
+    }
+
+    fn sentence(&self, e: &Effect) -> String {
+        let Some(size) = e.size_seen() else {
+            return format!("This plan never sees {}.", e.term);
+        };
+        format!(
+            "This plan sees {} of usual size ({} {}) in {} of the campaigns, and from {} {} on in {}.",
+            e.term,
+            significant(e.usual_size, 2),
+            e.unit,
+            percent(e.power_at_usual_size.middle),
+            significant(size, 2),
+            e.unit,
+            percent(self.power.study.settings.power),
+        )
     }
 
     /// Effects whose best explanation is mostly another effect.
@@ -238,6 +251,16 @@ impl Page<'_> {
         notes.push(format!("Seed {}.", self.power.study.settings.seed));
         notes
     }
+}
+
+fn counts(all: &[&Effect]) -> String {
+    let count = |wanted: Verdict| all.iter().filter(|e| e.verdict == wanted).count();
+    let (seen, larger) = (count(Verdict::Seen), count(Verdict::SeenWhenLarger));
+    format!(
+        "This plan sees {seen} of {} effects at their usual size, {larger} when they are larger than usual, {} never.",
+        all.len(),
+        all.len() - seen - larger
+    )
 }
 
 /// True for effects of which springs leave something at all.

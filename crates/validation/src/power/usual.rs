@@ -9,7 +9,7 @@ use hexbench_truth::Mechanism;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 use rand_pcg::Pcg64;
 
-use crate::recovery::correspondence::nearest;
+use crate::recovery::correspondence::{Equivalent, equivalent};
 
 /// Effects drawn of each kind; an odd number has a middle one.
 const DRAWS: usize = 33;
@@ -44,6 +44,7 @@ pub fn usual(term: &Arc<dyn Term>, hexapod: &Hexapod, seed: u64) -> Option<Usual
 }
 
 fn example(mechanism: &dyn Mechanism, hexapod: &Hexapod) -> Option<Example> {
-    let (values, shape) = nearest(mechanism.id(), &mechanism.parameters(), hexapod)?;
+    let Equivalent { values, shape } = equivalent(mechanism.id(), &mechanism.parameters(), hexapod)?;
+    let values = values.into_iter().collect::<Option<_>>()?;
     Some(Example { values, shape: shape.unwrap_or(1.0) })
 }

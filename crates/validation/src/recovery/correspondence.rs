@@ -77,19 +77,7 @@ pub const CORRESPONDENCES: &[Correspondence] = &[
     same("load-offset", "cog", "x, y, z = r'"),
     same("load-tilt", "tilt", "about-x, about-y = angles"),
     same("thermal-expansion", "alpha", "coefficient = alpha"),
-    Correspondence {
-        effect: "metrology-drift",
-        world: "drift",
-        rule: "translation rates are the same; rotation rates have no counterpart",
-        differs: "the world's Euler angles drift, the model's frame turns about fixed axes: equal only without tilt",
-        convert: Conversion::Special(|v| {
-            let rates = numbers(v);
-            Equivalent {
-                values: rates.iter().enumerate().map(|(k, r)| (k < 3).then_some(*r)).collect(),
-                shape: None,
-            }
-        }),
-    },
+    same("metrology-drift", "drift", "rates = rates of the numbers that are read"),
     same("target-offset", "target", "x, y, z = r'"),
     Correspondence {
         effect: "creep",
@@ -166,19 +154,6 @@ pub fn equivalent(effect: &str, parameters: &Map<String, Value>, hexapod: &Hexap
         }
         Conversion::Special(convert) => Some(convert(parameters.get(c.world)?)),
     }
-}
-
-/// As [`equivalent`]; numbers without exact counterpart are taken over as they are, in the same place.
-pub fn nearest(
-    effect: &str,
-    parameters: &Map<String, Value>,
-    hexapod: &Hexapod,
-) -> Option<(Vec<f64>, Option<f64>)> {
-    let Equivalent { values, shape } = equivalent(effect, parameters, hexapod)?;
-    let c = CORRESPONDENCES.iter().find(|c| c.effect == effect)?;
-    let as_they_are = parameters.get(c.world).map(numbers).unwrap_or_default();
-    let value = |(k, v): (usize, &Option<f64>)| v.or_else(|| as_they_are.get(k).copied());
-    Some((values.iter().enumerate().map(value).collect::<Option<_>>()?, shape))
 }
 
 /// True minus nominal joints, base joints first, m.
