@@ -108,13 +108,18 @@ fn settings(paper: &mut Paper, plan: &Designed) {
     let mut table = Table::default();
     let names = shown.iter().map(|(name, _)| (*name).to_owned());
     table.row(std::iter::once("load (reference)".to_owned()).chain(names).chain(["readings".to_owned()]));
-    for (k, setting) in plan.settings.iter().enumerate() {
-        let count: usize = plan.visits.iter().map(|v| v.counts[k]).sum();
+    let counts = (0..plan.settings.len()).map(|k| plan.visits.iter().map(|v| v.counts[k]).sum::<usize>());
+    let (read, passed): (Vec<_>, Vec<_>) =
+        plan.settings.iter().zip(counts).partition(|(_, count)| *count > 0);
+    for (setting, count) in read {
         let loading = format!("{} ({})", wrench(&setting.loading.load), wrench(&setting.loading.reference));
         let cells = shown.iter().map(|(_, of)| of(setting).to_string());
         table.row(std::iter::once(loading).chain(cells).chain([count.to_string()]));
     }
     table.lines().iter().for_each(|line| paper.line(line));
+    if !passed.is_empty() {
+        paper.line(&format!("  {} others are not worth a reading", passed.len()));
+    }
 }
 
 /// The components of a wrench that are not zero.
@@ -173,25 +178,19 @@ fn sure(paper: &mut Paper, plan: &Designed) {
         plan.value / plan.best - 1.0,
     ));
     let Some(candidates) = plan.candidates else { return };
-    let among = format!("any plan over these {candidates} poses");
-    let text = match (plan.efficiency, plan.budget.limit) {
-        (None, _) => format!("No bound is known for {}: it is a ratio of eigenvalues.", plan.criterion),
-        (Some(e), limit) => {
-            let free = match limit {
-                Some(Amount::Time(_)) if plan.budget.pose_change > 0.0 => {
-                    ", even one that changed poses in no time"
-                }
-                _ => "",
-            };
-            format!(
-                "{}-efficiency at least {:.1} %: {among}{free} needs {:.1} % of this budget or more for the same.",
-                plan.criterion,
-                floored(e),
-                floored(e),
-            )
-        }
+    let Some(share) = plan.efficiency.map(floored) else {
+        paper.paragraph(2, &format!("No bound is known for {}, a ratio of eigenvalues.", plan.criterion));
+        return;
     };
-    paper.paragraph(2, &text);
+    let free = match plan.budget.limit {
+        Some(Amount::Time(_)) if plan.budget.pose_change > 0.0 => ", even if changing poses took no time,",
+        _ => "",
+    };
+    paper.paragraph(2, &format!(
+        "{}-efficiency at least {share:.1} %: for the same, any plan over these {candidates} poses{free} needs {share:.1} % of \
+         the budget or more.",
+        plan.criterion,
+    ));
 }
 
 /// Percent, rounded down to a tenth: a bound stays one.

@@ -150,8 +150,7 @@ impl Bench<'_> {
             Some(amount) => self.within(amount, regressor, &criterion)?,
         };
         let best = information(&found.visits, regressor)?;
-        let visits: Vec<Visit> =
-            found.visits.into_iter().map(|v| Visit { pose: rounded(&v.pose), ..v }).collect();
+        let visits = merged(found.visits.into_iter().map(|v| Visit { pose: rounded(&v.pose), ..v }));
         let information = information(&visits, regressor)?;
         let readings = visits.iter().flat_map(|v| &v.counts).sum();
         Ok(Designed {
@@ -308,14 +307,26 @@ fn noise(weights: &Weights) -> Noise {
     }
 }
 
+/// Visits of one pose put together.
+fn merged(visits: impl Iterator<Item = Visit>) -> Vec<Visit> {
+    let mut different: Vec<Visit> = Vec::new();
+    for visit in visits {
+        match different.iter_mut().find(|known| known.pose == visit.pose) {
+            Some(known) => known.counts.iter_mut().zip(&visit.counts).for_each(|(n, more)| *n += more),
+            None => different.push(visit),
+        }
+    }
+    different
+}
+
 /// To a micrometre and a thousandth of a degree.
 fn rounded(pose: &Pose) -> Pose {
     let x = pose.to_array();
     Pose::from_array(std::array::from_fn(|k| {
         if k < 3 {
-            (x[k] * 1e6).round() * 1e-6
+            (x[k] * 1e6).round() * 1e-6 + 0.0
         } else {
-            ((x[k].to_degrees() * 1e3).round() * 1e-3).to_radians()
+            ((x[k].to_degrees() * 1e3).round() * 1e-3).to_radians() + 0.0
         }
     }))
 }
