@@ -14,6 +14,7 @@ pub(crate) type Six = [f64x4; 6];
 pub(crate) type Matrix = [Six; 6];
 
 /// `Rz(gamma) Ry(beta) Rx(alpha)`, rows.
+#[inline]
 pub(crate) fn rotation(angles: &Point) -> [Point; 3] {
     let [(sa, ca), (sb, cb), (sg, cg)] = angles.map(f64x4::sin_cos);
     [
@@ -24,11 +25,13 @@ pub(crate) fn rotation(angles: &Point) -> [Point; 3] {
 }
 
 /// The same point in every lane.
+#[inline]
 pub(crate) fn splat(point: &Vector3) -> Point {
     [f64x4::splat(point.x), f64x4::splat(point.y), f64x4::splat(point.z)]
 }
 
 /// `[n', (R B x n)']` of a leg from base joint `a` to platform joint `b`.
+#[inline]
 pub(crate) fn jacobian_row(a: &Point, b: &Point, translation: &Point, rotation: &[Point; 3]) -> Six {
     let arm: Point =
         std::array::from_fn(|i| rotation[i][0] * b[0] + rotation[i][1] * b[1] + rotation[i][2] * b[2]);
@@ -47,6 +50,7 @@ pub(crate) fn jacobian_row(a: &Point, b: &Point, translation: &Point, rotation: 
 }
 
 /// Adds `weight row row'` to the lower triangle of a symmetric matrix.
+#[inline]
 pub(crate) fn add_square(matrix: &mut Matrix, row: &Six, weight: f64x4) {
     for i in 0..6 {
         let scaled = row[i] * weight;
@@ -57,6 +61,7 @@ pub(crate) fn add_square(matrix: &mut Matrix, row: &Six, weight: f64x4) {
 }
 
 /// Cholesky factor of a symmetric positive definite matrix given by its lower triangle; the diagonal is stored inverted.
+#[inline]
 pub(crate) fn factor(mut a: Matrix) -> Matrix {
     for j in 0..6 {
         for k in 0..j {
@@ -74,6 +79,7 @@ pub(crate) fn factor(mut a: Matrix) -> Matrix {
 }
 
 /// Solution of `A x = b` with the factor of `A`.
+#[inline]
 pub(crate) fn substitute(factor: &Matrix, mut b: Six) -> Six {
     for j in 0..6 {
         for k in 0..j {
@@ -88,4 +94,38 @@ pub(crate) fn substitute(factor: &Matrix, mut b: Six) -> Six {
         b[j] *= factor[j][j];
     }
     b
+}
+
+/// Lower triangle of the inverse of `A` from its factor.
+#[inline]
+pub(crate) fn inverse(factor: &Matrix) -> Matrix {
+    let mut lower = *factor;
+    for j in 0..6 {
+        for i in j + 1..6 {
+            let mut sum = f64x4::ZERO;
+            for k in j..i {
+                sum += factor[i][k] * lower[k][j];
+            }
+            lower[i][j] = -sum * factor[i][i];
+        }
+    }
+    let mut inverse = [[f64x4::ZERO; 6]; 6];
+    for i in 0..6 {
+        for j in 0..=i {
+            for k in i..6 {
+                inverse[i][j] += lower[k][i] * lower[k][j];
+            }
+        }
+    }
+    inverse
+}
+
+/// Scalar product.
+#[inline]
+pub(crate) fn dot(a: &Six, b: &Six) -> f64x4 {
+    let mut sum = a[0] * b[0];
+    for k in 1..6 {
+        sum += a[k] * b[k];
+    }
+    sum
 }

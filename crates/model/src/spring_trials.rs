@@ -1,14 +1,21 @@
 //! Simulated campaigns of a machine with springs alone, fitted in closed form: as many as a study needs.
 //!
 //! ```text
-//! y = A c + noise,  A = diag(I, M^-1) L^-1 diag(f),  f = L^-T (W - W0)        one reading, six numbers
-//! c_fit = (sum A' S^-1 A)^-1 sum A' S^-1 y                                   S = diag(sigma^2)
+//! y = A c + noise                        one reading, six numbers; A = E L^-1 diag(f), f = L^-T (W - W0), E = diag(I, M^-1)
+//! c_fit = (sum A'S A)^-1 sum A'S y       S = diag(1 / sigma^2)
 //! ```
 //!
 //! Every number of every reading gets its own noise, and every campaign its own weighted least squares. Four campaigns run
 //! abreast. With a tolerance of the joints every campaign has its own machine, whose joints the fit knows (it is calibrated) and
-//! whose regressor is made anew; without one the regressor is the same for all and its inverse is made once. Source of the
-//! model: Kalas et al. 2018, eq. 12, 13; weights as in generalised least squares.
+//! whose regressor is made anew; without one the regressor is the same for all and its inverse is made once. With
+//! `B = L E^-1 S^-1/2` and `T = B B'`, noise whitened,
+//!
+//! ```text
+//! A'S A = diag(f) T^-1 diag(f),   A'S y = diag(f) T^-1 B y,   f = T^-1 B S^-1/2 E^-T (W - W0)
+//! ```
+//!
+//! so that one Cholesky factor per pose serves all. Source of the model: Kalas et al. 2018, eq. 12, 13; weights as in generalised
+//! least squares.
 
 use hexbench_core::{Hexapod, Matrix3, Observation, Pose, Vector6};
 use rand::distr::Distribution;
@@ -20,7 +27,7 @@ use wide::f64x4;
 use crate::error::ModelError;
 use crate::kinematics::{Legs, euler_rate_matrix};
 use crate::lanes::{
-    LANES, Matrix, Point, Six, add_square, factor, jacobian_row, rotation, splat, substitute,
+    LANES, Matrix, Point, Six, add_square, dot, factor, inverse, jacobian_row, rotation, splat, substitute,
 };
 
 /// Campaigns per piece of parallel work, each piece with its own stream of random numbers.
@@ -41,13 +48,24 @@ pub struct SpringTrials {
 struct Group {
     translation: Point,
     rotation: [Point; 3],
-    /// Euler rates from the angular velocity.
-    rates: Matrix3,
+    /// `S^-1/2`: a twist in units of the noise, lengths over the radius.
+    sigma: [f64; 6],
+    /// `M`: angular velocity from Euler rates.
+    euler: Matrix3,
+    /// `S^-1/2 E^-T (W - W0)`.
     change: Six,
-    /// 1 / sigma of each row, in the units of the scaled regressor.
-    weights: [f64; 6],
     compliance: [f64; 6],
     repeats: usize,
+}
+
+/// One pose of four machines.
+struct AtPose {
+    /// `B`.
+    legs: Matrix,
+    /// Cholesky factor of `T`.
+    factor: Matrix,
+    /// Forces times true compliances.
+    elongations: Six,
 }
 
 /// What a group of readings adds to the fit when the machine is the same in every campaign.
@@ -124,57 +142,85 @@ impl SpringTrials {
     }
 
     fn own_machines(&self, rng: &mut Pcg64) -> Six {
-        let [base, platform] = self.joints.map(|end| end.map(|joint| off(joint, self.tolerance, rng)));
-        let (mut normal, mut right) = ([[f64x4::ZERO; 6]; 6], [f64x4::ZERO; 6]);
+        let mut ends = self.joints;
+        ends.iter_mut().flatten().flatten().for_each(|x| *x += normal(rng) * f64x4::splat(self.tolerance));
+        let (mut whole, mut right) = ([[f64x4::ZERO; 6]; 6], [f64x4::ZERO; 6]);
         for group in &self.groups {
+            let at = group.at(&ends);
             let noise = mean_noise(group.repeats, rng);
             let repeats = f64x4::splat(group.repeats as f64);
-            for (row, noise) in group.rows(&base, &platform).iter().zip(noise) {
-                let y = (sum(row) + noise) * repeats;
-                add_square(&mut normal, row, repeats);
-                for leg in 0..6 {
-                    right[leg] = row[leg].mul_add(y, right[leg]);
+            let seen = substitute(
+                &at.factor,
+                std::array::from_fn(|leg| at.elongations[leg] + dot(&at.legs[leg], &noise)),
+            );
+            let inverse = inverse(&at.factor);
+            for i in 0..6 {
+                let scaled = at.elongations[i] * repeats;
+                right[i] += scaled * seen[i];
+                for j in 0..=i {
+                    whole[i][j] += scaled * inverse[i][j] * at.elongations[j];
                 }
             }
         }
-        substitute(&factor(normal), right)
+        substitute(&factor(whole), right)
     }
 
-    /// `(sum n A'A)^-1 n A'` of each group for the machine as drawn.
+    /// `(sum n A'S A)^-1 n A'S^1/2` of each group, and its undisturbed whitened reading, for the machine as drawn.
     fn estimators(&self) -> Vec<Estimator> {
-        let [base, platform] = &self.joints;
-        let rows: Vec<Matrix> = self.groups.iter().map(|g| g.rows(base, platform)).collect();
-        let mut normal = [[f64x4::ZERO; 6]; 6];
-        for (group, rows) in self.groups.iter().zip(&rows) {
-            rows.iter().for_each(|row| add_square(&mut normal, row, f64x4::splat(group.repeats as f64)));
+        let poses: Vec<AtPose> = self.groups.iter().map(|g| g.at(&self.joints)).collect();
+        let mut whole = [[f64x4::ZERO; 6]; 6];
+        let blocks: Vec<Matrix> = poses.iter().map(AtPose::whitened).collect();
+        for (group, rows) in self.groups.iter().zip(&blocks) {
+            rows.iter().for_each(|row| add_square(&mut whole, row, f64x4::splat(group.repeats as f64)));
         }
-        let factor = factor(normal);
+        let factor = factor(whole);
         let estimator = |(group, rows): (&Group, &Matrix)| Estimator {
-            mean: rows.map(|row| sum(&row)),
+            mean: rows.map(|row| row.iter().fold(f64x4::ZERO, |sum, x| sum + *x)),
             gain: rows.map(|row| substitute(&factor, row.map(|a| a * f64x4::splat(group.repeats as f64)))),
         };
-        self.groups.iter().zip(&rows).map(estimator).collect()
+        self.groups.iter().zip(&blocks).map(estimator).collect()
     }
 }
 
 impl Group {
-    /// Whitened rows of the regressor for four machines, one column per compliance in units of the true one.
-    fn rows(&self, base: &[Point; 6], platform: &[Point; 6]) -> Matrix {
-        let legs: Matrix = std::array::from_fn(|leg| {
-            jacobian_row(&base[leg], &platform[leg], &self.translation, &self.rotation)
-        });
+    #[inline]
+    fn at(&self, [base, platform]: &[[Point; 6]; 2]) -> AtPose {
+        let mut legs = [[f64x4::ZERO; 6]; 6];
+        for (leg, row) in legs.iter_mut().enumerate() {
+            let [nx, ny, nz, mx, my, mz] =
+                jacobian_row(&base[leg], &platform[leg], &self.translation, &self.rotation);
+            let by_euler = |k: usize| {
+                let column = self.euler.column(k);
+                mx * f64x4::splat(column.x) + my * f64x4::splat(column.y) + mz * f64x4::splat(column.z)
+            };
+            let free = [nx, ny, nz, by_euler(0), by_euler(1), by_euler(2)];
+            for k in 0..6 {
+                row[k] = free[k] * f64x4::splat(self.sigma[k]);
+            }
+        }
         let mut square = [[f64x4::ZERO; 6]; 6];
-        legs.iter().for_each(|row| add_square(&mut square, row, f64x4::ONE));
+        for i in 0..6 {
+            for j in 0..=i {
+                square[i][j] = dot(&legs[i], &legs[j]);
+            }
+        }
         let factor = factor(square);
-        let balance = substitute(&factor, self.change);
+        let forces = substitute(&factor, std::array::from_fn(|leg| dot(&legs[leg], &self.change)));
+        let elongations = std::array::from_fn(|leg| forces[leg] * f64x4::splat(self.compliance[leg]));
+        AtPose { legs, factor, elongations }
+    }
+}
+
+impl AtPose {
+    /// `S^1/2 A`, columns in units of the true compliances: `B' T^-1 diag(elongations)`.
+    fn whitened(&self) -> Matrix {
         let mut rows = [[f64x4::ZERO; 6]; 6];
         for leg in 0..6 {
-            let force = dot(&legs[leg], &balance) * f64x4::splat(self.compliance[leg]);
-            let twist = substitute(&factor, legs[leg]).map(|x| x * force);
-            for i in 0..3 {
-                rows[i][leg] = twist[i] * f64x4::splat(self.weights[i]);
-                let rate = |j: usize| twist[3 + j] * f64x4::splat(self.rates[(i, j)]);
-                rows[3 + i][leg] = (rate(0) + rate(1) + rate(2)) * f64x4::splat(self.weights[3 + i]);
+            let mut one = [f64x4::ZERO; 6];
+            one[leg] = self.elongations[leg];
+            let column = substitute(&self.factor, one);
+            for (k, row) in rows.iter_mut().enumerate() {
+                row[leg] = (0..6).fold(f64x4::ZERO, |sum, i| sum + self.legs[i][k] * column[i]);
             }
         }
         rows
@@ -203,15 +249,21 @@ fn groups(
     let group = |(pose, change, repeats): (Pose, Vector6, usize)| {
         // A singular pose is found here rather than as numbers that are not finite.
         Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &pose)?;
-        let rates = euler_rate_matrix(&pose.angles).try_inverse().ok_or(ModelError::SingularPose { pose })?;
-        let unit = |i: usize| if i < 3 { 1.0 } else { radius };
+        let euler = euler_rate_matrix(&pose.angles);
+        // Euler angles have no rates at beta = 90 deg.
+        euler.try_inverse().ok_or(ModelError::SingularPose { pose })?;
+        // Lengths, arms of moments among them, over the radius; rotations as they are.
+        let sigma: [f64; 6] = std::array::from_fn(|i| if i < 3 { sigma[i] / radius } else { sigma[i] });
+        let moment = euler.tr_mul(&change.fixed_rows::<3>(3)) / radius;
         Ok(Group {
             translation: splat(&(pose.translation / radius)),
             rotation: rotation(&splat(&pose.angles)),
-            rates,
-            change: std::array::from_fn(|i| f64x4::splat(change[i] / unit(i))),
-            weights: std::array::from_fn(|i| 1.0 / (sigma[i] * unit(i))),
-            compliance: stiffness.map(f64::recip),
+            sigma,
+            euler,
+            change: std::array::from_fn(|i| {
+                f64x4::splat(sigma[i] * if i < 3 { change[i] } else { moment[i - 3] })
+            }),
+            compliance: stiffness.map(|k| 1.0 / (k * radius)),
             repeats,
         })
     };
@@ -219,6 +271,7 @@ fn groups(
 }
 
 /// Mean of the whitened noise of `repeats` readings, four campaigns.
+#[inline]
 fn mean_noise(repeats: usize, rng: &mut Pcg64) -> Six {
     let mut sum = [f64x4::ZERO; 6];
     for _ in 0..repeats {
@@ -227,20 +280,11 @@ fn mean_noise(repeats: usize, rng: &mut Pcg64) -> Six {
     sum.map(|total| total / f64x4::splat(repeats as f64))
 }
 
-fn off(joint: Point, tolerance: f64, rng: &mut Pcg64) -> Point {
-    joint.map(|x| x + normal(rng) * f64x4::splat(tolerance))
-}
-
+#[inline]
 fn normal(rng: &mut Pcg64) -> f64x4 {
-    f64x4::from(std::array::from_fn::<f64, LANES, _>(|_| StandardNormal.sample(rng)))
-}
-
-fn sum(row: &Six) -> f64x4 {
-    row.iter().fold(f64x4::ZERO, |sum, x| sum + *x)
-}
-
-fn dot(a: &Six, b: &Six) -> f64x4 {
-    a.iter().zip(b).fold(f64x4::ZERO, |sum, (a, b)| a.mul_add(*b, sum))
+    let mut four = [0.0; LANES];
+    four.iter_mut().for_each(|x| *x = StandardNormal.sample(rng));
+    f64x4::from(four)
 }
 
 #[cfg(test)]

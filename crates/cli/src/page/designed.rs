@@ -207,16 +207,16 @@ fn uncertainty(paper: &mut Paper, plan: &Designed) {
     table.row(["", "uncertainty", "unit", "share", "of"]);
     for (k, quantity) in plan.parameters.iter().enumerate() {
         let relative = covariance[(k, k)].sqrt();
-        let of = if k < 6 { "nominal" } else { "usual size" };
         table.row([
             quantity.name.clone(),
             number::significant(relative * quantity.size, 2),
             quantity.unit.to_owned(),
             format!("{} %", number::significant(100.0 * relative, 2)),
-            format!("{of} {}", number::significant(quantity.size, 3)),
+            number::significant(quantity.size, 3),
         ]);
     }
     table.left(2).lines().iter().for_each(|line| paper.line(line));
+    paper.paragraph(2, "Shares of a nominal stiffness, or of the usual size of an effect.");
 }
 
 /// The pairs of parameters that the plan separates worst.

@@ -52,7 +52,10 @@ impl Candidates {
             }
         };
         if costs.iter().any(|c| *c <= 0.0) {
-            return Err(DesignError::Bad("a reading that takes no time can be repeated for ever".to_owned()));
+            return Err(DesignError::Bad(
+                "a reading that takes no time can be repeated for ever: state reading_s in [budget]"
+                    .to_owned(),
+            ));
         }
         let each: Vec<_> = poses.par_iter().map(|pose| regressor.each(pose).ok()).collect();
         let usable = || each.iter().zip(poses).filter_map(|(e, pose)| e.as_ref().map(|e| (e, *pose)));
