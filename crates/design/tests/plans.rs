@@ -104,6 +104,21 @@ fn the_best_approximate_plan_has_efficiency_one_and_a_worse_one_its_own() {
     assert!((worse - (6.0_f64 / 8.0).cbrt()).abs() < BOUND_REACHED, "{worse}");
 }
 
+/// Six readings of three parameters one by one: two each is best for E, though the smallest eigenvalue is a triple one there.
+#[test]
+fn the_bound_of_the_smallest_eigenvalue_is_close_where_eigenvalues_meet() {
+    /// `ln 3` over the sharpness of the smooth minimum, and what the moves leave.
+    const CLOSE: f64 = 0.01;
+    let axis = |k: usize| DMatrix::from_fn(1, 3, |_, j| if j == k { 1.0 } else { 0.0 });
+    let candidates = Candidates::of_rows(&[axis(0), axis(1), axis(2)], 6);
+    for criterion in [Criterion::E, Criterion::O3] {
+        let best = efficiency(&candidates, &criterion, &[0, 0, 1, 1, 2, 2]).unwrap();
+        assert!(best > 1.0 - CLOSE, "{}: {best}", criterion.name());
+        let half = efficiency(&candidates, &criterion, &[0, 0, 0, 1, 1, 2]).unwrap();
+        assert!((half - 0.5).abs() < CLOSE, "{}: {half}", criterion.name());
+    }
+}
+
 #[test]
 fn ratios_of_eigenvalues_have_no_bound() {
     let candidates = drawn(4, 3, [1.0, 1.0], 0.0, 5.0);

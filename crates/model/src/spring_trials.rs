@@ -171,7 +171,9 @@ impl SpringTrials {
         let mut whole = [[f64x4::ZERO; 6]; 6];
         let blocks: Vec<Matrix> = poses.iter().map(AtPose::whitened).collect();
         for (group, rows) in self.groups.iter().zip(&blocks) {
-            rows.iter().for_each(|row| add_square(&mut whole, row, f64x4::splat(group.repeats as f64)));
+            for row in rows {
+                add_square(&mut whole, row, f64x4::splat(group.repeats as f64));
+            }
         }
         let factor = factor(whole);
         let estimator = |(group, rows): (&Group, &Matrix)| Estimator {
@@ -275,7 +277,9 @@ fn groups(
 fn mean_noise(repeats: usize, rng: &mut Pcg64) -> Six {
     let mut sum = [f64x4::ZERO; 6];
     for _ in 0..repeats {
-        sum.iter_mut().for_each(|total| *total += normal(rng));
+        for total in &mut sum {
+            *total += normal(rng);
+        }
     }
     sum.map(|total| total / f64x4::splat(repeats as f64))
 }
@@ -283,7 +287,9 @@ fn mean_noise(repeats: usize, rng: &mut Pcg64) -> Six {
 #[inline]
 fn normal(rng: &mut Pcg64) -> f64x4 {
     let mut four = [0.0; LANES];
-    four.iter_mut().for_each(|x| *x = StandardNormal.sample(rng));
+    for x in &mut four {
+        *x = StandardNormal.sample(rng);
+    }
     f64x4::from(four)
 }
 

@@ -172,10 +172,10 @@ fn sure(paper: &mut Paper, plan: &Designed) {
     let lost = if ended < starts { format!(", {} within no limits", starts - ended) } else { String::new() };
     paper.paragraph(2, &format!(
         "{agreeing} of {starts} starts reached this value to four digits, {} a worse one{lost} (seed {}). Rounding the poses \
-         changes it by {:.1e}.",
+         changes it by {}.",
         ended - agreeing,
         plan.seed,
-        plan.value / plan.best - 1.0,
+        change(plan.value / plan.best - 1.0),
     ));
     let Some(candidates) = plan.candidates else { return };
     let Some(share) = plan.efficiency.map(floored) else {
@@ -191,6 +191,16 @@ fn sure(paper: &mut Paper, plan: &Designed) {
          the budget or more.",
         plan.criterion,
     ));
+}
+
+/// A relative change in percent; small ones only as small.
+fn change(relative: f64) -> String {
+    const SMALL: f64 = 1e-4;
+    if relative.abs() < SMALL {
+        "less than 0.01 %".to_owned()
+    } else {
+        format!("{} %", number::significant(100.0 * relative, 2))
+    }
 }
 
 /// Percent, rounded down to a tenth: a bound stays one.

@@ -82,7 +82,9 @@ impl Candidates {
     pub fn visits(&self, poses: &[Pose], members: &[usize]) -> Vec<Visit> {
         let settings = self.costs.len();
         let mut counts = vec![vec![0; settings]; poses.len()];
-        members.iter().for_each(|&k| counts[self.pose(k)][k % settings] += 1);
+        for &k in members {
+            counts[self.pose(k)][k % settings] += 1;
+        }
         let visited = poses.iter().zip(counts).filter(|(_, counts)| counts.iter().any(|n| *n > 0));
         visited.map(|(&pose, counts)| Visit { pose, counts }).collect()
     }
