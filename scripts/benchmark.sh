@@ -23,9 +23,15 @@ prepare_python() {
     cp "$requirements" "$work/venv/installed.txt"
 }
 
+build() {
+    cargo build --locked --quiet --release -p hexbench-design --example benchmark "$@" || exit 1
+}
+
 mkdir -p "$work"
 prepare_python
-cargo build --locked --quiet --release -p hexbench-design --example benchmark || exit 1
+build
+RUSTFLAGS="-C target-cpu=native" build --target-dir "$work/native"
 # One thread on both sides.
 export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
-exec "$python" scripts/benchmark.py "$target/release/examples/benchmark" --work "$work" --page docs/benchmarks.md "$@"
+exec "$python" scripts/benchmark.py "$target/release/examples/benchmark" \
+    --native "$work/native/release/examples/benchmark" --work "$work" --page docs/benchmarks.md "$@"

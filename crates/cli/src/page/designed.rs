@@ -96,12 +96,15 @@ fn poses(paper: &mut Paper, plan: &Designed) {
     table.lines().iter().for_each(|line| paper.line(line));
 }
 
+/// Name of a condition, and its value in a setting.
+type Column = (&'static str, fn(&Setting) -> f64);
+
 /// How often each setting is read, all poses together.
 fn settings(paper: &mut Paper, plan: &Designed) {
     let varies = |of: fn(&Setting) -> f64| {
         plan.settings.iter().any(|s| of(s).total_cmp(&of(&plan.settings[0])).is_ne())
     };
-    let columns: [(&str, fn(&Setting) -> f64); 3] =
+    let columns: [Column; 3] =
         [("approach", |s| s.approach), ("delta_T K", |s| s.delta_t), ("wait s", |s| s.elapsed)];
     let shown: Vec<_> = columns.into_iter().filter(|(_, of)| varies(*of)).collect();
     paper.line("");
@@ -246,5 +249,7 @@ fn correlations(paper: &mut Paper, plan: &Designed) {
     if lines.is_empty() {
         paper.paragraph(2, &format!("No two estimates correlate by {WORTH_TELLING} or more."));
     }
-    lines.iter().for_each(|line| paper.line(line));
+    for line in &lines {
+        paper.line(line);
+    }
 }

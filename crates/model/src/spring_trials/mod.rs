@@ -17,7 +17,9 @@
 //! so that one Cholesky factor per pose serves all. Source of the model: Kalas et al. 2018, eq. 12, 13; weights as in generalised
 //! least squares.
 
-use hexbench_core::{Hexapod, Matrix3, Observation, Pose, Vector6};
+mod group;
+
+use hexbench_core::{Hexapod, Observation, Vector3, Vector6};
 use rand::distr::Distribution;
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
@@ -25,10 +27,8 @@ use rayon::prelude::*;
 use wide::f64x4;
 
 use crate::error::ModelError;
-use crate::kinematics::{Legs, euler_rate_matrix};
-use crate::lanes::{
-    LANES, Matrix, Point, Six, add_square, dot, factor, inverse, jacobian_row, rotation, splat, substitute,
-};
+use crate::lanes::{LANES, Matrix, Point, Six, add_square, dot, factor, inverse, splat, substitute};
+use group::{AtPose, Group, groups};
 
 /// Campaigns per piece of parallel work, each piece with its own stream of random numbers.
 const PIECE: usize = 1024;
@@ -41,31 +41,6 @@ pub struct SpringTrials {
     groups: Vec<Group>,
     tolerance: f64,
     fixed: Vec<Estimator>,
-}
-
-/// Readings of one pose under one load.
-#[derive(Debug, Clone)]
-struct Group {
-    translation: Point,
-    rotation: [Point; 3],
-    /// `S^-1/2`: a twist in units of the noise, lengths over the radius.
-    sigma: [f64; 6],
-    /// `M`: angular velocity from Euler rates.
-    euler: Matrix3,
-    /// `S^-1/2 E^-T (W - W0)`.
-    change: Six,
-    compliance: [f64; 6],
-    repeats: usize,
-}
-
-/// One pose of four machines.
-struct AtPose {
-    /// `B`.
-    legs: Matrix,
-    /// Cholesky factor of `T`.
-    factor: Matrix,
-    /// Forces times true compliances.
-    elongations: Six,
 }
 
 /// What a group of readings adds to the fit when the machine is the same in every campaign.
@@ -88,7 +63,7 @@ impl SpringTrials {
         stiffness: &[f64; 6],
     ) -> Result<Self, ModelError> {
         let radius = hexapod.platform_radius().max(f64::MIN_POSITIVE);
-        let scaled = |joints: &[hexbench_core::Vector3; 6]| joints.map(|j| splat(&(j / radius)));
+        let scaled = |joints: &[Vector3; 6]| joints.map(|j| splat(&(j / radius)));
         let mut trials = Self {
             stiffness: Vector6::from(*stiffness),
             joints: [scaled(&hexapod.base_joints), scaled(&hexapod.platform_joints)],
@@ -184,94 +159,6 @@ impl SpringTrials {
     }
 }
 
-impl Group {
-    #[inline]
-    fn at(&self, [base, platform]: &[[Point; 6]; 2]) -> AtPose {
-        let mut legs = [[f64x4::ZERO; 6]; 6];
-        for (leg, row) in legs.iter_mut().enumerate() {
-            let [nx, ny, nz, mx, my, mz] =
-                jacobian_row(&base[leg], &platform[leg], &self.translation, &self.rotation);
-            let by_euler = |k: usize| {
-                let column = self.euler.column(k);
-                mx * f64x4::splat(column.x) + my * f64x4::splat(column.y) + mz * f64x4::splat(column.z)
-            };
-            let free = [nx, ny, nz, by_euler(0), by_euler(1), by_euler(2)];
-            for k in 0..6 {
-                row[k] = free[k] * f64x4::splat(self.sigma[k]);
-            }
-        }
-        let mut square = [[f64x4::ZERO; 6]; 6];
-        for i in 0..6 {
-            for j in 0..=i {
-                square[i][j] = dot(&legs[i], &legs[j]);
-            }
-        }
-        let factor = factor(square);
-        let forces = substitute(&factor, std::array::from_fn(|leg| dot(&legs[leg], &self.change)));
-        let elongations = std::array::from_fn(|leg| forces[leg] * f64x4::splat(self.compliance[leg]));
-        AtPose { legs, factor, elongations }
-    }
-}
-
-impl AtPose {
-    /// `S^1/2 A`, columns in units of the true compliances: `B' T^-1 diag(elongations)`.
-    fn whitened(&self) -> Matrix {
-        let mut rows = [[f64x4::ZERO; 6]; 6];
-        for leg in 0..6 {
-            let mut one = [f64x4::ZERO; 6];
-            one[leg] = self.elongations[leg];
-            let column = substitute(&self.factor, one);
-            for (k, row) in rows.iter_mut().enumerate() {
-                row[leg] = (0..6).fold(f64x4::ZERO, |sum, i| sum + self.legs[i][k] * column[i]);
-            }
-        }
-        rows
-    }
-}
-
-/// Readings that differ in noise only, put together.
-fn groups(
-    hexapod: &Hexapod,
-    readings: &[Observation],
-    sigma: &[f64; 6],
-    stiffness: &[f64; 6],
-    radius: f64,
-) -> Result<Vec<Group>, ModelError> {
-    let change = |o: &Observation| o.wrench.to_vector() - o.reference.to_vector();
-    let mut counted: Vec<(Pose, Vector6, usize)> = Vec::new();
-    for o in readings {
-        match counted.iter_mut().find(|(pose, w, _)| *pose == o.pose && *w == change(o)) {
-            Some((_, _, repeats)) => *repeats += 1,
-            None => counted.push((o.pose, change(o), 1)),
-        }
-    }
-    if counted.is_empty() {
-        return Err(ModelError::TooFewEquations { equations: 0, unknowns: 6 });
-    }
-    let group = |(pose, change, repeats): (Pose, Vector6, usize)| {
-        // A singular pose is found here rather than as numbers that are not finite.
-        Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &pose)?;
-        let euler = euler_rate_matrix(&pose.angles);
-        // Euler angles have no rates at beta = 90 deg.
-        euler.try_inverse().ok_or(ModelError::SingularPose { pose })?;
-        // Lengths, arms of moments among them, over the radius; rotations as they are.
-        let sigma: [f64; 6] = std::array::from_fn(|i| if i < 3 { sigma[i] / radius } else { sigma[i] });
-        let moment = euler.tr_mul(&change.fixed_rows::<3>(3)) / radius;
-        Ok(Group {
-            translation: splat(&(pose.translation / radius)),
-            rotation: rotation(&splat(&pose.angles)),
-            sigma,
-            euler,
-            change: std::array::from_fn(|i| {
-                f64x4::splat(sigma[i] * if i < 3 { change[i] } else { moment[i - 3] })
-            }),
-            compliance: stiffness.map(|k| 1.0 / (k * radius)),
-            repeats,
-        })
-    };
-    counted.into_iter().map(group).collect()
-}
-
 /// Mean of the whitened noise of `repeats` readings, four campaigns.
 #[inline]
 fn mean_noise(repeats: usize, rng: &mut Pcg64) -> Six {
@@ -295,7 +182,7 @@ fn normal(rng: &mut Pcg64) -> f64x4 {
 
 #[cfg(test)]
 mod tests {
-    use hexbench_core::{Vector3, Wrench};
+    use hexbench_core::{Pose, Wrench};
     use nalgebra::DMatrix;
 
     use super::*;
