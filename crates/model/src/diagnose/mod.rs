@@ -1,6 +1,7 @@
 //! Diagnosis from files to verdict: search, held-out errors, numbers, and what to do next.
 
 mod context;
+mod next;
 mod notes;
 mod report;
 
@@ -11,8 +12,8 @@ use hexbench_core::{Dataset, Hexapod};
 use self::context::Context;
 use self::notes::{outside, suspects, untestable, warnings};
 pub use self::report::{
-    AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, StepReport, Suspect,
-    UntestableReport,
+    AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, SeparationReport,
+    StepReport, Suspect, UntestableReport,
 };
 use crate::campaign::Campaign;
 use crate::candidates::Candidate;
@@ -80,6 +81,7 @@ pub fn diagnose(
     let model: Vec<String> = order.iter().map(|w| w.term.info().id.to_owned()).collect();
     let richer = order.iter().filter(|w| w.rich).map(|w| w.term.info().id.to_owned()).collect();
     let numbers = estimates(last);
+    let next = context.next(&judgement);
     let diagnosis = Diagnosis {
         format: "diagnosis/1",
         verdict: judgement.verdict,
@@ -104,7 +106,8 @@ pub fn diagnose(
             &outcome.candidates,
             &best.map(|s| s.variants.clone()).unwrap_or_default(),
         ),
-        next: context.next(&judgement),
+        next: next.readings,
+        separation: next.separation,
         absorbed: context.absorbed(&order, &judgement),
         suspects: suspects(&rows, data),
         outside: outside(&judgement, &outcome),
