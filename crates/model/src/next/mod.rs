@@ -10,6 +10,7 @@ mod filter;
 mod kind;
 mod menu;
 mod separation;
+mod suspects;
 mod words;
 
 use hexbench_core::Observation;
@@ -18,6 +19,7 @@ use rayon::prelude::*;
 pub use self::choice::Between;
 pub use self::kind::{round_down, snapped, step};
 pub use self::separation::Separation;
+pub use self::suspects::{Suspects, suspects};
 
 use self::belief::{Belief, as_plan};
 use self::choice::Choice;
