@@ -14,13 +14,14 @@ fn try_out() {
             format!("{}/{}/{}", n(Outcome::Right), n(Outcome::Honest), n(Outcome::Wrong))
         };
         println!(
-            "{:50} {:3} before {:9} next {:9} asked {:9} random {:9} readings {:.1} promised {:.2}",
+            "{:50} {:3} before {:9} next {:9} random {:9} asked {:9} random {:9} readings {:.1} promised {:.2}",
             c.name(),
             records.len(),
             share(|r| r.before),
             share(|r| r.proposed),
+            share(|r| r.proposed_random),
             share(|r| r.asked),
-            share(|r| r.random),
+            share(|r| r.asked_random),
             records.iter().map(|r| r.readings as f64).sum::<f64>() / records.len() as f64,
             records.iter().map(|r| r.promised).sum::<f64>() / records.len() as f64,
         );

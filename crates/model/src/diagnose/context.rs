@@ -55,10 +55,12 @@ impl Context<'_> {
                 &self.data.observations,
                 &Linearization::at(self.campaign, &fitted.point)?,
             );
+            let held_out = self.held_out(&order[..n], &fitted);
             steps.push(StepReport {
                 terms: order[..n].iter().map(|w| w.term.info().id.to_owned()).collect(),
                 fitted: summarise(&rows, Some(fitted.dof)),
-                holdout: self.held_out(&order[..n], &fitted).map(|r| summarise(&r, None)),
+                log_density: held_out.as_ref().and_then(|h| h.1),
+                holdout: held_out.map(|h| summarise(&h.0, None)),
             });
             fits.push(fitted);
         }
@@ -93,11 +95,17 @@ impl Context<'_> {
         }
     }
 
-    fn held_out(&self, terms: &[Wanted], fitted: &Fit) -> Option<Vec<Residual>> {
+    /// Prediction errors, and the predictive density where poses are left out.
+    fn held_out(&self, terms: &[Wanted], fitted: &Fit) -> Option<(Vec<Residual>, Option<f64>)> {
         let noise = self.campaign.noise;
         match self.holdout {
-            Some(holdout) => prediction_errors(self.hexapod, holdout, noise, &fitted.point).ok(),
-            None => leave_poses_out(self.hexapod, self.data, noise, terms, &fitted.point).ok(),
+            Some(holdout) => {
+                Some((prediction_errors(self.hexapod, holdout, noise, &fitted.point).ok()?, None))
+            }
+            None => {
+                let left = leave_poses_out(self.hexapod, self.data, noise, terms, &fitted.point).ok()?;
+                Some((left.residuals, Some(left.log_density)))
+            }
         }
     }
 

@@ -150,12 +150,20 @@ fn addition_order(set: &Set, outcome: &Outcome) -> Vec<Wanted> {
     order
 }
 
-/// An effect whose addition does not lower the held-out error is not named.
+/// An effect whose addition does not make held-out readings better predicted is not named.
 fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport]) {
     for pair in steps.windows(2) {
-        let (Some(before), Some(after)) = (pair[0].holdout, pair[1].holdout) else { continue };
         let Some(newest) = pair[1].terms.last() else { continue };
-        if after.chi2_reduced >= before.chi2_reduced && judgement.sure.contains(newest) {
+        let better = match (&pair[0], &pair[1]) {
+            (StepReport { log_density: Some(before), .. }, StepReport { log_density: Some(after), .. }) => {
+                after > before
+            }
+            (StepReport { holdout: Some(before), .. }, StepReport { holdout: Some(after), .. }) => {
+                after.chi2_reduced < before.chi2_reduced
+            }
+            _ => continue,
+        };
+        if !better && judgement.sure.contains(newest) {
             judgement.sure.retain(|id| id != newest);
             if judgement.verdict == Verdict::Named {
                 judgement.verdict = Verdict::Ambiguous;

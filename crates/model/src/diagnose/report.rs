@@ -77,6 +77,9 @@ pub struct StepReport {
     pub fitted: ErrorSummary,
     /// Error on held-out poses.
     pub holdout: Option<ErrorSummary>,
+    /// Logarithm of the predictive density of poses left out in turn; absent with a holdout file.
+    #[serde(skip)]
+    pub log_density: Option<f64>,
 }
 
 /// Noise of one reading.

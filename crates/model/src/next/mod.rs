@@ -32,6 +32,9 @@ use crate::linearization::Linearization;
 
 /// Odds at which an explanation counts as excluded.
 pub const EXCLUDED_ODDS: f64 = 20.0;
+/// Odds at which no more readings are asked for: what is expected of readings and what they then say differ, and effects that
+/// nobody thought of want to be excluded too.
+const ENOUGH_ODDS: f64 = 1000.0;
 /// A reading that lowers the bound on wrong decisions by less than this (logarithm) is not worth taking.
 const WORTHWHILE: f64 = 0.02;
 
@@ -135,8 +138,8 @@ pub fn propose(
     let outlook = outlook.collect();
     let gain = |k: usize, between: Between| {
         let at = pairs.iter().position(|p| *p == between).unwrap_or(0);
-        let least = |k: usize| courses[at].get(k).map_or(0.0, |d| d[0].min(d[1]));
-        least(k) - if k > 0 { least(k - 1) } else { 0.0 }
+        let after = |k: usize| courses[at].get(k).map_or(0.0, |d| least(*d));
+        after(k) - if k > 0 { after(k - 1) } else { 0.0 }
     };
     let mut proposals: Vec<Proposal> = Vec::new();
     for (k, &(reading, between)) in chosen.iter().enumerate() {
@@ -190,7 +193,7 @@ fn chosen(beliefs: &[Belief], rivals: &[Rival], effort: Effort) -> Vec<(usize, B
         chosen.push((reading, between));
         if matches!(effort, Effort::UpTo(_)) {
             let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
-            let done = |&p: &Between| pair(beliefs, p, &taken).is_some_and(|p| excluded(p.log_bayes_factor()));
+            let done = |&p: &Between| pair(beliefs, p, &taken).is_some_and(|p| least(p.log_bayes_factor()) >= ENOUGH_ODDS.ln());
             if pairs(rivals.len()).iter().all(done) {
                 break;
             }
@@ -200,8 +203,8 @@ fn chosen(beliefs: &[Belief], rivals: &[Rival], effort: Effort) -> Vec<(usize, B
     chosen
 }
 
-fn excluded(log_bayes_factor: [f64; 2]) -> bool {
-    log_bayes_factor[0].min(log_bayes_factor[1]) >= EXCLUDED_ODDS.ln()
+fn least(log_bayes_factor: [f64; 2]) -> f64 {
+    log_bayes_factor[0].min(log_bayes_factor[1])
 }
 
 fn pair(beliefs: &[Belief], [a, b]: Between, readings: &[usize]) -> Option<Pair> {
@@ -215,7 +218,7 @@ fn course(beliefs: &[Belief], between: Between, readings: &[usize]) -> Vec<[f64;
 }
 
 fn needed(course: &[[f64; 2]]) -> Option<usize> {
-    course.iter().position(|&d| excluded(d)).map(|k| k + 1)
+    course.iter().position(|&d| least(d) >= EXCLUDED_ODDS.ln()).map(|k| k + 1)
 }
 
 /// Puts the aspects that matter into words.

@@ -6,7 +6,6 @@ use hexbench_truth::campaign::{Poses, Scheme, Spread, usual_half_range_mm_deg};
 /// Preload and full load of the paper, N along z.
 const PRELOAD_N: f64 = -119.682;
 const FULL_LOAD_N: f64 = -338.445;
-const HALF_LOAD_N: f64 = -225.63;
 
 /// Two effects and a plan that confuses them.
 #[derive(Debug, Clone, Copy)]
@@ -17,22 +16,27 @@ pub struct Confusion {
     pub plan: &'static str,
     /// Loads of the plan, N along z.
     loads_n: &'static [f64],
+    /// Number of poses.
+    poses: u64,
     /// Largest turns of the platform, deg.
     turns_deg: [f64; 3],
     /// Waits, s.
     waits_s: [f64; 2],
 }
 
+/// The plans keep to the middle: this share of the usual travel.
+const NARROW: f64 = 0.3;
 const LEVEL: [f64; 3] = [0.0, 0.0, 8.0];
 const TILTED: [f64; 3] = [8.0, 8.0, 8.0];
 const SHORT_S: [f64; 2] = [20.0, 60.0];
-const PRESSED: &[f64] = &[FULL_LOAD_N, HALF_LOAD_N];
+const PRESSED: &[f64] = &[FULL_LOAD_N];
 const PRESSED_AND_PULLED: &[f64] = &[FULL_LOAD_N, 100.0];
 
 const VERTICAL_LEVEL: Confusion = Confusion {
     between: ["", ""],
     plan: "vertical loads, platform level",
     loads_n: PRESSED,
+    poses: 3,
     turns_deg: LEVEL,
     waits_s: SHORT_S,
 };
@@ -64,15 +68,15 @@ impl Confusion {
 
     /// The confusing plan for a machine.
     pub(super) fn scheme(&self, hexapod: &Hexapod) -> Scheme {
-        let [a, b, c, ..] = usual_half_range_mm_deg(hexapod);
+        let [a, b, c, ..] = usual_half_range_mm_deg(hexapod).map(|x| x * NARROW);
         let [x, y, z] = self.turns_deg;
         let along_z = |n: &f64| Wrench::from_array([0.0, 0.0, *n, 0.0, 0.0, 0.0]);
         Scheme {
             measurand: Measurand::DeflectionEuler,
-            poses: Poses::Drawn { count: 8, half_mm_deg: [a, b, c, x, y, z] },
+            poses: Poses::Drawn { count: self.poses, half_mm_deg: [a, b, c, x, y, z] },
             loads: self.loads_n.iter().map(along_z).collect(),
             reference: along_z(&PRELOAD_N),
-            repeats: 2,
+            repeats: 3,
             approaches: vec![1.0, -1.0],
             delta_t: Spread::Normal(0.1),
             elapsed: Spread::Even(self.waits_s),

@@ -15,9 +15,9 @@ use super::{Bench, Confusion};
 use crate::trial::{Outcome, TrialError, outcome};
 
 /// Further readings that are taken.
-pub const READINGS: usize = 6;
+pub const READINGS: usize = 3;
 /// Distances of the hidden effect under the confusing plan: from well visible to obvious.
-const DISTANCES: [f64; 2] = [10.0, 30.0];
+const DISTANCES: [f64; 2] = [8.0, 20.0];
 
 /// What was said before and after further readings.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,10 +32,12 @@ pub struct Record {
     pub proposed: Outcome,
     /// Readings it proposes.
     pub readings: usize,
+    /// With as many readings drawn from the menu.
+    pub proposed_random: Outcome,
     /// With readings chosen to separate the two effects of the pair.
     pub asked: Outcome,
-    /// With as many readings drawn from the same menu.
-    pub random: Outcome,
+    /// With as many readings drawn from the menu.
+    pub asked_random: Outcome,
     /// Promised chance that the readings chosen for the pair favour the truth.
     pub promised: f64,
 }
@@ -55,7 +57,15 @@ impl Record {
         let terms = catalogue();
         let judge = |data: &Dataset| diagnose(&bench.hexapod, data, None, &terms);
         let first = judge(&bench.measurements)?;
-        let said = |study: &Study| outcome(&[hidden], &study.diagnosis);
+        let said = |study: &Study| {
+            if std::env::var("V").is_ok() {
+                let d = &study.diagnosis;
+                let c: Vec<String> = d.candidates.iter().take(4).map(|c| format!("{} {:.2}", c.term, c.probability)).collect();
+                let ch: Vec<String> = d.steps.iter().map(|s| format!("{:.2}/{:.2}", s.fitted.chi2_reduced, s.holdout.map_or(0.0, |h| h.chi2_reduced))).collect();
+                eprintln!("{index} {hidden} {family} {distance:.1}: {:?} added {:?} cred {:?} cand {c:?} present {:?} steps {ch:?} model {:?}", d.verdict, d.added, d.credible_set, d.present.iter().filter(|p| *p.1>0.3).collect::<Vec<_>>(), d.model);
+            }
+            outcome(&[hidden], &study.diagnosis)
+        };
         let after = |further: &[Observation]| -> Result<Outcome, TrialError> {
             // The same noise whatever is measured.
             let mut noise = Pcg64::new(u128::from(seed), (1 << 64) + index as u128);
@@ -65,16 +75,19 @@ impl Record {
         let before = said(&first);
         let proposed = if next.is_empty() { before } else { after(&next)? };
         let (programme, menu) = asked(&first, confusion, &terms)?;
-        let drawn: Vec<Observation> =
-            (0..READINGS).map(|_| menu[rng.random_range(0..menu.len())]).collect();
+        let mut drawn = |n: usize| -> Vec<Observation> {
+            (0..n).map(|_| menu[rng.random_range(0..menu.len())]).collect()
+        };
+        let (as_many_as_proposed, as_many_as_asked) = (drawn(next.len()), drawn(READINGS));
         Ok(Self {
             hidden,
             family,
             before,
             proposed,
+            proposed_random: if next.is_empty() { before } else { after(&as_many_as_proposed)? },
             readings: next.len(),
             asked: after(&repeated(&programme))?,
-            random: after(&drawn)?,
+            asked_random: after(&as_many_as_asked)?,
             promised: programme.outlook.first().map_or(f64::NAN, |o| o.separation.right),
         })
     }
