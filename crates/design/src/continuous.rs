@@ -9,6 +9,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use slsqp::{Func, StopTols, minimize};
 
+use crate::determined::require_determined;
 use crate::regressor::PoseRegressor;
 use crate::{Criterion, DesignError, Space};
 
@@ -33,6 +34,8 @@ pub struct Problem<'a, R> {
     pub criterion: &'a Criterion,
     /// Number of poses.
     pub poses: usize,
+    /// Information (p x p) that is there without them.
+    pub known: Option<&'a DMatrix<f64>>,
 }
 
 /// A set of poses with the value of the criterion.
@@ -67,34 +70,38 @@ impl<R: PoseRegressor> Problem<'_, R> {
         poses.len() * self.regressor.readings()
     }
 
-    /// Sum of the information of poses (p x p).
+    /// Sum of what is known and of the information of poses (p x p).
     ///
     /// # Errors
     /// A singular pose.
     pub fn information(&self, poses: &[Pose]) -> Result<DMatrix<f64>, DesignError> {
         let p = self.regressor.parameters();
-        let mut information = DMatrix::zeros(p, p);
+        let mut information = self.known.cloned().unwrap_or_else(|| DMatrix::zeros(p, p));
         poses.iter().try_for_each(|pose| self.regressor.inform(pose, &mut information))?;
         Ok(information)
     }
 
-    /// The best of many starts.
+    /// The best of many starts; `done` is called after each.
     ///
     /// # Errors
-    /// [`DesignError::NoPose`] when the space is empty, [`DesignError::NotDetermined`] when no start ends at poses that
+    /// [`DesignError::NoPose`] when the space is empty, [`DesignError::NeverDetermined`], [`DesignError::NotDetermined`] when no start ends at poses that
     /// determine all parameters.
-    pub fn search(&self, starts: usize, seed: u32) -> Result<Search, DesignError> {
+    pub fn search(&self, starts: usize, seed: u32, done: &(dyn Fn() + Sync)) -> Result<Search, DesignError> {
         let drawn = self.space.poses(self.hexapod, starts * self.poses, seed)?;
-        let ends: Vec<Option<PoseSet>> =
-            drawn.par_chunks(self.poses).map(|start| self.climb(start)).collect();
+        require_determined(&self.information(&drawn)?, &self.regressor.names())?;
+        let end = |start: &[Pose]| {
+            let set = self.climb(start);
+            done();
+            set
+        };
+        let ends: Vec<Option<PoseSet>> = drawn.par_chunks(self.poses).map(end).collect();
         let ended: Vec<&PoseSet> = ends.iter().flatten().collect();
         // The first of equals, so that the order of threads does not matter.
         let best = ended.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
         let Some(best) = best else {
             return Err(DesignError::NotDetermined {
-                readings: self.poses,
                 parameters: self.regressor.parameters(),
-                hint: ": allow more poses, turns or load directions",
+                hint: "allow more poses, turns or load directions",
             });
         };
         let agrees = |set: &&&PoseSet| set.value >= (1.0 - SAME) * best.value;
@@ -221,8 +228,9 @@ mod tests {
     use hexbench_core::Wrench;
 
     use super::*;
+    use crate::Budget;
     use crate::regressor::{SpringRegressor, Weights};
-    use crate::space::Loading;
+    use crate::space::{Conditions, Loading};
     use crate::test_machine::machine;
 
     /// Level poses under a weight, as in the paper.
@@ -236,21 +244,24 @@ mod tests {
             joint_angle: None,
             least_dexterity: 0.0,
             loads: vec![Loading { reference: weight(119.7), load: weight(338.4) }],
+            conditions: Conditions::default(),
+            budget: Budget::default(),
         }
     }
 
     #[test]
     fn no_set_of_thousand_drawn_ones_beats_the_search_and_the_limits_are_kept() {
         let (hexapod, space) = (machine(), space());
-        let regressor = SpringRegressor::new(&hexapod, &space.loads, 1, Weights::UNWEIGHTED);
+        let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
         let problem = Problem {
             hexapod: &hexapod,
             space: &space,
             regressor: &regressor,
             criterion: &Criterion::O1,
             poses: 3,
+            known: None,
         };
-        let found = problem.search(24, 1).unwrap();
+        let found = problem.search(24, 1, &|| ()).unwrap();
         let drawn = space.poses(&hexapod, 3000, 7).unwrap();
         let best_drawn = drawn.chunks(3).map(|set| problem.value(set)).fold(0.0, f64::max);
         assert!(found.best.value > best_drawn, "{} {best_drawn}", found.best.value);
@@ -263,17 +274,18 @@ mod tests {
     #[test]
     fn the_answer_does_not_depend_on_the_number_of_threads() {
         let (hexapod, space) = (machine(), space());
-        let regressor = SpringRegressor::new(&hexapod, &space.loads, 1, Weights::UNWEIGHTED);
+        let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
         let problem = Problem {
             hexapod: &hexapod,
             space: &space,
             regressor: &regressor,
             criterion: &Criterion::O5,
             poses: 3,
+            known: None,
         };
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| problem.search(6, 3).unwrap())
+            pool.install(|| problem.search(6, 3, &|| ()).unwrap())
         };
         assert_eq!(on(1), on(3));
     }

@@ -13,9 +13,9 @@ use hexbench_core::{Hexapod, Matrix3, Matrix6, Pose, Vector3, Vector6};
 use hexbench_model::kinematics::{Legs, euler_rate_matrix};
 use nalgebra::DMatrix;
 
-use super::{PoseRegressor, leg_names};
+use super::{PoseRegressor, SettingRegressor, leg_names};
 use crate::DesignError;
-use crate::space::Loading;
+use crate::space::Setting;
 
 /// Weights of the rows and units of the columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,12 +33,12 @@ impl Weights {
     pub const UNWEIGHTED: Self = Self { translation: 1.0, rotation: 1.0, compliance: [1.0; 6] };
 }
 
-/// Readings of one pose under every loading, for the compliances of the six legs.
+/// Readings of one pose under every setting, for the compliances of the six legs.
 #[derive(Debug, Clone)]
 pub struct SpringRegressor<'a> {
     hexapod: &'a Hexapod,
     changes: Vec<Vector6>,
-    repeats: usize,
+    counts: Vec<usize>,
     weights: Weights,
 }
 
@@ -51,10 +51,17 @@ struct AtPose {
 }
 
 impl<'a> SpringRegressor<'a> {
-    /// Readings at each pose: `repeats` under every loading.
-    pub fn new(hexapod: &'a Hexapod, loads: &[Loading], repeats: usize, weights: Weights) -> Self {
-        let changes = loads.iter().map(|l| l.load.to_vector() - l.reference.to_vector()).collect();
-        Self { hexapod, changes, repeats, weights }
+    /// Readings at each pose: `repeats` under every setting.
+    pub fn new(hexapod: &'a Hexapod, settings: &[Setting], repeats: usize, weights: Weights) -> Self {
+        let change = |s: &Setting| s.loading.load.to_vector() - s.loading.reference.to_vector();
+        let changes = settings.iter().map(change).collect();
+        Self { hexapod, changes, counts: vec![repeats; settings.len()], weights }
+    }
+
+    /// Changes of wrench that are read, and how often.
+    fn read(&self) -> impl Iterator<Item = (&Vector6, f64)> {
+        let counted = self.changes.iter().zip(&self.counts).filter(|(_, count)| **count > 0);
+        counted.map(|(change, &count)| (change, count as f64))
     }
 
     fn at(&self, pose: &Pose) -> Result<AtPose, DesignError> {
@@ -138,7 +145,7 @@ impl PoseRegressor for SpringRegressor<'_> {
     }
 
     fn readings(&self) -> usize {
-        self.changes.len() * self.repeats
+        self.counts.iter().sum()
     }
 
     fn names(&self) -> Vec<String> {
@@ -147,10 +154,10 @@ impl PoseRegressor for SpringRegressor<'_> {
 
     fn inform(&self, pose: &Pose, information: &mut DMatrix<f64>) -> Result<(), DesignError> {
         let at = self.at(pose)?;
-        for change in &self.changes {
+        for (change, count) in self.read() {
             let a = self.block(&at, change);
             let mut whole = information.fixed_view_mut::<6, 6>(0, 0);
-            whole += a.tr_mul(&a) * (self.repeats as f64);
+            whole += a.tr_mul(&a) * count;
         }
         Ok(())
     }
@@ -159,14 +166,27 @@ impl PoseRegressor for SpringRegressor<'_> {
         let at = self.at(pose)?;
         let g = g.fixed_view::<6, 6>(0, 0);
         let mut slopes = [0.0; 6];
-        for change in &self.changes {
+        for (change, count) in self.read() {
             let weighted = self.block(&at, change) * g;
             for (k, slope) in slopes.iter_mut().enumerate() {
                 let da = self.block_slope(&at, change, &pose.angles, k);
-                *slope += 2.0 * self.repeats as f64 * weighted.dot(&da);
+                *slope += 2.0 * count * weighted.dot(&da);
             }
         }
         Ok(slopes)
+    }
+}
+
+impl SettingRegressor for SpringRegressor<'_> {
+    fn each(&self, pose: &Pose) -> Result<Vec<DMatrix<f64>>, DesignError> {
+        let at = self.at(pose)?;
+        let square = |a: Matrix6| a.tr_mul(&a);
+        let of = |change| DMatrix::from_column_slice(6, 6, square(self.block(&at, change)).as_slice());
+        Ok(self.changes.iter().map(of).collect())
+    }
+
+    fn repeated(&self, counts: &[usize]) -> Self {
+        Self { counts: counts.to_vec(), ..self.clone() }
     }
 }
 
@@ -177,12 +197,13 @@ mod tests {
 
     use super::*;
     use crate::regressor::reading;
+    use crate::space::Loading;
     use crate::test_machine::machine;
 
-    fn loads() -> Vec<Loading> {
-        let of = |load: [f64; 6]| Loading {
-            reference: Wrench::from_array([0.0, 0.0, -119.7, 0.0, 0.0, 0.0]),
-            load: Wrench::from_array(load),
+    fn loads() -> Vec<Setting> {
+        let of = |load: [f64; 6]| {
+            let reference = Wrench::from_array([0.0, 0.0, -119.7, 0.0, 0.0, 0.0]);
+            Setting::from(Loading { reference, load: Wrench::from_array(load) })
         };
         vec![of([0.0, 0.0, -338.4, 0.0, 0.0, 0.0]), of([100.0, 20.0, -50.0, 3.0, -4.0, 5.0])]
     }
