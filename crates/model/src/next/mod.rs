@@ -20,11 +20,11 @@ pub use self::choice::Between;
 pub use self::kind::{round_down, snapped, step};
 pub use self::separation::Separation;
 pub use self::suspects::{Suspects, suspects};
+pub use self::words::{ASPECTS, Aspect, MATTERS, Ordinary};
 
 use self::belief::{Belief, as_plan};
 use self::choice::Choice;
 use self::separation::Pair;
-use self::words::{ASPECTS, Aspect, MATTERS, Ordinary};
 use crate::campaign::Campaign;
 use crate::error::ModelError;
 use crate::fit::Fit;
@@ -236,6 +236,7 @@ fn say(campaign: &Campaign, rivals: &[Rival], proposals: &mut [Proposal]) -> Res
             }
         }
     }
+    let half = menu::half_ranges(campaign);
     let beliefs = beliefs(&as_plan(campaign, &readings)?, rivals)?;
     let weights: Vec<f64> = rivals.iter().map(|r| r.weight.max(f64::MIN_POSITIVE)).collect();
     let mut choice = Choice::new(&beliefs, &weights);
@@ -246,7 +247,7 @@ fn say(campaign: &Campaign, rivals: &[Rival], proposals: &mut [Proposal]) -> Res
             .filter(|(of, _, without)| *of == k && choice.drop(*without) < MATTERS * own)
             .map(|(_, aspect, _)| *aspect)
             .collect();
-        p.words = ordinary.phrase(campaign, &p.observation, &matters);
+        p.words = ordinary.phrase(&campaign.hexapod, &half, &p.observation, &matters);
         (0..p.repeats).for_each(|_| choice.choose(k));
     }
     Ok(())

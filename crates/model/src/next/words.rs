@@ -1,13 +1,13 @@
 //! What sort of reading it is, in words: only what matters is said. An aspect matters when the reading separates much less
 //! without it.
 
-use hexbench_core::{Observation, Pose, Vector3, Vector6};
+use hexbench_core::{Hexapod, Observation, Pose, Vector3, Vector6};
 
 use crate::campaign::Campaign;
 use crate::kinematics::Legs;
 
 /// An aspect matters when less than this share of the gain is left without it.
-pub(super) const MATTERS: f64 = 0.7;
+pub const MATTERS: f64 = 0.7;
 /// A coordinate is told when it is at least this share of the largest of its kind.
 const NOTABLE: f64 = 0.6;
 /// A leg force counts as reversed when it is at least this share of the largest on its other side.
@@ -15,25 +15,39 @@ const REVERSED: f64 = 0.05;
 
 /// One aspect of a reading that may be taken away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Aspect {
+pub enum Aspect {
+    /// Its wrench.
     Load,
+    /// Where the platform is.
     Position,
+    /// How it is turned.
     Tilt,
+    /// From which side the load is approached.
     Approach,
+    /// How long it waits.
     Wait,
+    /// The temperature.
     Temperature,
 }
 
-pub(super) const ASPECTS: [Aspect; 6] =
+/// All aspects.
+pub const ASPECTS: [Aspect; 6] =
     [Aspect::Load, Aspect::Position, Aspect::Tilt, Aspect::Approach, Aspect::Wait, Aspect::Temperature];
 
-/// Ordinary values of the aspects, as the campaign shows them.
-pub(super) struct Ordinary {
+/// Ordinary values of the aspects.
+#[derive(Debug, Clone)]
+pub struct Ordinary {
     load: Observation,
     waits: [f64; 2],
 }
 
 impl Ordinary {
+    /// A reading with an ordinary load, and the shortest and longest wait.
+    pub fn new(load: Observation, waits: [f64; 2]) -> Self {
+        Self { load, waits }
+    }
+
+    /// As a campaign shows them: its most frequent load.
     pub(super) fn of(campaign: &Campaign) -> Option<Self> {
         let first = campaign.groups.first()?.mean;
         let count = |o: &Observation| campaign.groups.iter().filter(|g| g.mean.wrench == o.wrench).count();
@@ -45,7 +59,7 @@ impl Ordinary {
     }
 
     /// The reading without an aspect; none when it is ordinary in it already.
-    pub(super) fn without(&self, o: &Observation, aspect: Aspect) -> Option<Observation> {
+    pub fn without(&self, o: &Observation, aspect: Aspect) -> Option<Observation> {
         let pose = o.pose;
         let plain = match aspect {
             Aspect::Load => Observation { wrench: self.load.wrench, reference: self.load.reference, ..*o },
@@ -67,12 +81,11 @@ impl Ordinary {
         wait > 0.5 * (self.waits[0] + self.waits[1])
     }
 
-    /// A phrase for each aspect that matters.
-    pub(super) fn phrase(&self, campaign: &Campaign, o: &Observation, matters: &[Aspect]) -> String {
-        let half = super::menu::half_ranges(campaign);
+    /// A phrase for each aspect that matters; `half` range of every pose coordinate, m and rad.
+    pub fn phrase(&self, hexapod: &Hexapod, half: &[f64; 6], o: &Observation, matters: &[Aspect]) -> String {
         let of = |a: &Aspect| match a {
-            Aspect::Load => load(campaign, o),
-            Aspect::Position => position(&o.pose, &half),
+            Aspect::Load => load(hexapod, o),
+            Aspect::Position => position(&o.pose, half),
             Aspect::Tilt => tilt(&o.pose),
             Aspect::Approach => "come from the other side (first exceed the load)".to_owned(),
             Aspect::Wait if self.is_long(o.elapsed) => format!("wait {} s", o.elapsed),
@@ -87,9 +100,9 @@ impl Ordinary {
 }
 
 /// `load sideways along x, which reverses the force of leg 3`.
-fn load(campaign: &Campaign, o: &Observation) -> String {
+fn load(hexapod: &Hexapod, o: &Observation) -> String {
     let change = o.wrench.to_vector() - o.reference.to_vector();
-    let radius = campaign.hexapod.platform_radius();
+    let radius = hexapod.platform_radius();
     let scaled = Vector6::from_fn(|k, _| if k < 3 { change[k] } else { change[k] / radius });
     let axis = scaled.iamax();
     let name = ["x", "y", "z"][axis % 3];
@@ -100,7 +113,7 @@ fn load(campaign: &Campaign, o: &Observation) -> String {
         5 => "twist about z".to_owned(),
         _ => format!("apply a moment about {name}"),
     };
-    let reversed = reversed(campaign, o);
+    let reversed = reversed(hexapod, o);
     let legs = reversed.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     match reversed.len() {
         0 => kind,
@@ -111,8 +124,7 @@ fn load(campaign: &Campaign, o: &Observation) -> String {
 }
 
 /// Legs (from 1) that are pushed in one state and pulled in the other.
-fn reversed(campaign: &Campaign, o: &Observation) -> Vec<usize> {
-    let hexapod = &campaign.hexapod;
+fn reversed(hexapod: &Hexapod, o: &Observation) -> Vec<usize> {
     let Ok(legs) = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &o.pose) else { return Vec::new() };
     let (before, after) = (legs.forces(&o.reference.to_vector()), legs.forces(&o.wrench.to_vector()));
     let least = REVERSED * before.amax().max(after.amax());
