@@ -1,5 +1,6 @@
 //! What to measure next when the answer is open.
 
+use hexbench_core::Observation;
 use hexbench_model::diagnose::{Diagnosis, NextReport, SeparationReport};
 use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::{NONE, Verdict};
@@ -35,15 +36,14 @@ fn proposal(paper: &mut Paper, number: usize, reading: &NextReport, usual: &[f64
         paper.hanging(&format!("  {number}  in words"), LABEL, &reading.text);
     }
     let label = if reading.text.is_empty() { format!("  {number}  pose") } else { "     pose".to_owned() };
-    let [a, b, c, alpha, beta, gamma] = reading.pose.map(round);
-    let pose = format!("({a}, {b}, {c}) mm, ({alpha}, {beta}, {gamma}) deg");
-    paper.hanging(&label, LABEL, &pose);
+    paper.hanging(&label, LABEL, &pose(&reading.pose));
     paper.hanging("     load", LABEL, &load(&reading.wrench));
     let without = reading.reference.iter().all(|x| *x == 0.0);
     if !without && (number == 1 || reading.reference != *usual) {
         paper.hanging("     reference", LABEL, &load(&reading.reference));
     }
-    paper.hanging("     way", LABEL, &way(reading));
+    let NextReport { approach, elapsed_s, delta_t_k, repeats, .. } = *reading;
+    paper.hanging("     way", LABEL, &way(approach, elapsed_s, delta_t_k, repeats));
     let separates = if reading.separates == *pair { "the two".to_owned() } else { rivals(&reading.separates, "and") };
     paper.hanging("     gain", LABEL, &gain(reading.gain, &separates));
 }
@@ -62,26 +62,41 @@ fn round(x: f64) -> String {
     format!("{}", (x * FINEST).round() / FINEST + 0.0)
 }
 
-fn load(w: &[f64; 6]) -> String {
+/// A pose from mm and deg.
+pub(crate) fn pose(x: &[f64; 6]) -> String {
+    let [a, b, c, alpha, beta, gamma] = x.map(round);
+    format!("({a}, {b}, {c}) mm, ({alpha}, {beta}, {gamma}) deg")
+}
+
+/// Pose of a reading, mm and deg.
+pub(crate) fn settings(o: &Observation) -> [f64; 6] {
+    let pose = o.pose.to_array();
+    std::array::from_fn(|k| if k < 3 { pose[k] * 1e3 } else { pose[k].to_degrees() })
+}
+
+/// A wrench in N and N m.
+pub(crate) fn load(w: &[f64; 6]) -> String {
     let [fx, fy, fz, mx, my, mz] = w.map(|x| significant(x, 3).parse().map_or(String::new(), round));
     format!("F ({fx}, {fy}, {fz}) N, M ({mx}, {my}, {mz}) N m")
 }
 
-fn way(reading: &NextReport) -> String {
-    let mut parts = vec![if reading.approach < 0.0 {
-        "exceed the load by 40 % of its change and come back (approach -1)".to_owned()
+/// How a reading is taken.
+pub(crate) fn way(approach: f64, elapsed_s: f64, delta_t_k: f64, repeats: usize) -> String {
+    let side = if approach < 0.0 {
+        "exceed the load by 40 % of its change and come back (approach -1)"
     } else {
-        "load from below (approach +1)".to_owned()
-    }];
-    if reading.elapsed_s > 0.0 {
-        parts.push(format!("read {} s after the reference", significant(reading.elapsed_s, 2)));
+        "load from below (approach +1)"
+    };
+    let mut parts = vec![side.to_owned()];
+    if elapsed_s > 0.0 {
+        parts.push(format!("read {} s after the reference", significant(elapsed_s, 2)));
     }
-    if reading.delta_t_k != 0.0 {
-        let sort = if reading.delta_t_k > 0.0 { "warmer" } else { "colder" };
-        parts.push(format!("{} K {sort} than at the reference", significant(reading.delta_t_k.abs(), 2)));
+    if delta_t_k != 0.0 {
+        let sort = if delta_t_k > 0.0 { "warmer" } else { "colder" };
+        parts.push(format!("{} K {sort} than at the reference", significant(delta_t_k.abs(), 2)));
     }
-    if reading.repeats > 1 {
-        parts.push(format!("{} times", reading.repeats));
+    if repeats > 1 {
+        parts.push(format!("{repeats} times"));
     }
     parts.join("; ")
 }

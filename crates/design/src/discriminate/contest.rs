@@ -13,6 +13,7 @@ use hexbench_model::linearization::{Linearization, Point};
 use hexbench_model::noise::Noise;
 use hexbench_model::term::Term;
 use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::DesignError;
 
@@ -49,6 +50,18 @@ pub struct Distance {
     pub of: [usize; 2],
     /// `T`, at the least favourable shapes.
     pub value: f64,
+}
+
+impl Distance {
+    /// Mean logarithm of the ratio of likelihoods for the truth; its standard deviation is `T`.
+    pub fn log_likelihood_ratio(&self) -> f64 {
+        0.5 * self.value * self.value
+    }
+
+    /// Chance that the ratio of likelihoods favours the truth.
+    pub fn right(&self) -> f64 {
+        Normal::standard().cdf(0.5 * self.value)
+    }
 }
 
 impl<'a> Contest<'a> {
