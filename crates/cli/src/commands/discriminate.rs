@@ -7,7 +7,7 @@ use clap::Args;
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Vector6};
 use hexbench_design::discriminate::{Contest, Distance, Plan, menu};
 use hexbench_design::space_file::read_space;
-use hexbench_design::{DesignError, Space};
+use hexbench_design::Space;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::fit_named::term_named;
 use hexbench_model::next::{Effort, Outlook, Suspects, propose, suspects};
@@ -94,7 +94,7 @@ fn new_plan(
     space: &Space,
     terms: &[Arc<dyn Term>],
 ) -> Result<Discriminated, Failure> {
-    let menu = menu(space, hexapod, arguments.seed)?;
+    let menu = menu(space, hexapod, terms, arguments.seed)?;
     let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[0]));
     let contest = Contest::new(hexapod, springs(hexapod), noise(hexapod)?, terms, &menu, count)?;
     let progress = Progress::of(count as u64, "readings");
@@ -149,7 +149,7 @@ fn next_readings(
         let measured = if data.is_absolute() { o.pose.to_array() } else { [0.0; 6] };
         Observation { measured, ..o }
     };
-    let menu: Vec<Observation> = menu(space, hexapod, arguments.seed)?.into_iter().map(as_read).collect();
+    let menu: Vec<Observation> = menu(space, hexapod, terms, arguments.seed)?.into_iter().map(as_read).collect();
     let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[1]));
     let programme = propose(&campaign, &rivals, &menu, Effort::Exactly(count)).map_err(of_model)?;
     let names: Vec<String> = terms.iter().map(|t| t.info().id.to_owned()).collect();
@@ -203,10 +203,9 @@ fn springs(hexapod: &Hexapod) -> Vector6 {
 }
 
 fn noise(hexapod: &Hexapod) -> Result<Noise, Failure> {
-    let unknown = || {
-        DesignError::Bad(
-            "how well readings separate effects depends on their noise: state [metrology] in hexapod.toml".into(),
-        )
+    let unknown = || Failure::Usage {
+        message: "how well readings separate effects depends on their noise, which the hexapod file does not state".into(),
+        next: "Add [metrology] with sigma_translation_um and sigma_rotation_urad.".into(),
     };
     let metrology = hexapod.metrology.ok_or_else(unknown)?;
     Ok(Noise {

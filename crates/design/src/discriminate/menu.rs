@@ -1,9 +1,13 @@
 //! Readings of a space to choose from, in round numbers.
 
+use std::sync::Arc;
+
 use hexbench_core::{Hexapod, Observation, Pose};
 use hexbench_model::next::{snapped, step};
+use hexbench_model::term::{Need, Term};
 
 use crate::regressor::reading;
+use crate::space::Conditions;
 use crate::{DesignError, Space};
 
 /// Readings tried, about.
@@ -12,11 +16,17 @@ const MOST_READINGS: usize = 1200;
 const POSES: [usize; 2] = [12, 60];
 
 /// Poses of the space, each coordinate round, under every setting: the middle, the ends of every coordinate, and poses all over.
+/// Conditions vary where one of the terms depends on them.
 ///
 /// # Errors
 /// [`DesignError::NoPose`].
-pub fn menu(space: &Space, hexapod: &Hexapod, seed: u32) -> Result<Vec<Observation>, DesignError> {
-    let settings = space.settings();
+pub fn menu(
+    space: &Space,
+    hexapod: &Hexapod,
+    terms: &[Arc<dyn Term>],
+    seed: u32,
+) -> Result<Vec<Observation>, DesignError> {
+    let settings = Space { conditions: conditions(space, terms), ..space.clone() }.settings();
     let [fewest, most] = POSES;
     let count = (MOST_READINGS / settings.len().max(1)).clamp(fewest, most);
     let mut poses: Vec<Pose> = Vec::new();
@@ -32,6 +42,21 @@ pub fn menu(space: &Space, hexapod: &Hexapod, seed: u32) -> Result<Vec<Observati
         poses = drawn;
     }
     Ok(poses.iter().flat_map(|p| settings.iter().map(|s| reading(*p, s))).collect())
+}
+
+/// All conditions that matter to a term; of the others the most ordinary one.
+fn conditions(space: &Space, terms: &[Arc<dyn Term>]) -> Conditions {
+    let matters = |need: Need| terms.iter().any(|t| t.info().needs.contains(&need));
+    let ordinary = |values: &[f64], need: Need, distance: fn(f64) -> f64| {
+        let nearest = values.iter().copied().reduce(|a, b| if distance(b) < distance(a) { b } else { a });
+        if matters(need) { values.to_vec() } else { nearest.into_iter().collect() }
+    };
+    let Conditions { approaches, delta_t, waits } = &space.conditions;
+    Conditions {
+        approaches: ordinary(approaches, Need::Approach, |a| -a),
+        delta_t: ordinary(delta_t, Need::DeltaT, f64::abs),
+        waits: ordinary(waits, Need::Elapsed, |t| t),
+    }
 }
 
 /// The middle of the space and both ends of each coordinate.

@@ -1,7 +1,7 @@
 //! The search: reading by reading, then exchange of each for a better one until nothing helps (Fedorov 1972).
 
 use hexbench_core::{Hexapod, Observation};
-use hexbench_model::next::{ASPECTS, Aspect, MATTERS, Ordinary};
+use hexbench_model::next::{ASPECTS, Aspect, MATTERS, Ordinary, effort};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
@@ -10,6 +10,8 @@ use crate::{DesignError, Space};
 
 /// Rounds of exchange.
 const ROUNDS: usize = 6;
+/// The bound may rise by this (logarithm) for the sake of simple poses.
+const GIVEN_FOR_SIMPLICITY: f64 = 0.1;
 /// An exchange must lower the bound by this (logarithm).
 const LEAST_GAIN: f64 = 1e-6;
 
@@ -47,7 +49,8 @@ impl Plan {
         done: &dyn Fn(),
     ) -> Result<Self, DesignError> {
         let informations = contest.informations(menu)?;
-        let chosen = choose(contest, &informations, count, done);
+        let mut chosen = choose(contest, &informations, count, done);
+        simplify(contest, &informations, menu, &mut chosen);
         let total = sum(&informations, &chosen);
         let mut distinct = chosen.clone();
         distinct.sort_unstable();
@@ -85,6 +88,19 @@ fn choose(contest: &Contest<'_>, informations: &[DMatrix<f64>], count: usize, do
         }
     }
     chosen
+}
+
+/// Exchanges readings for simpler ones that are nearly as good.
+fn simplify(contest: &Contest<'_>, informations: &[DMatrix<f64>], menu: &[Observation], chosen: &mut [usize]) {
+    let allowed = contest.log_bound(&sum(informations, chosen)) + GIVEN_FOR_SIMPLICITY;
+    for k in 0..chosen.len() {
+        let rest = sum(informations, chosen) - &informations[chosen[k]];
+        let simpler = |i: &usize| effort(&menu[*i]) < effort(&menu[chosen[k]]);
+        let kept = |i: &usize| contest.log_bound(&(&rest + &informations[*i])) <= allowed;
+        if let Some(other) = (0..menu.len()).filter(simpler).filter(kept).min_by_key(|i| effort(&menu[*i])) {
+            chosen[k] = other;
+        }
+    }
 }
 
 /// The reading that lowers the bound most beside the information there is; the first of equals.

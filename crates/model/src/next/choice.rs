@@ -14,6 +14,9 @@ use super::belief::Belief;
 use super::filter::{Addition, Filter};
 use crate::evidence::log_sum;
 
+/// A reading that lowers the logarithm of the bound by this share of the most is as good when it is simpler.
+const NEARLY: f64 = 0.93;
+
 /// Two explanations by their places in the list.
 pub type Between = [usize; 2];
 
@@ -50,11 +53,13 @@ impl Choice {
         Self { alone, pairs: indices.par_iter().map(state).collect(), readings }
     }
 
-    /// The reading that lowers the bound most, and by what factor (logarithm).
-    pub(super) fn best(&self) -> Option<(usize, f64)> {
-        let values: Vec<f64> = (0..self.readings).into_par_iter().map(|i| self.log_bound_with(i)).collect();
-        let best = (0..self.readings).reduce(|a, b| if values[b] < values[a] { b } else { a })?;
-        Some((best, self.log_bound() - values[best]))
+    /// The reading that lowers the bound most, or a simpler one that lowers it nearly as much, and by what factor (logarithm).
+    pub(super) fn best(&self, effort: &[usize]) -> Option<(usize, f64)> {
+        let drops: Vec<f64> = (0..self.readings).into_par_iter().map(|i| self.drop(i)).collect();
+        let most = drops.iter().copied().fold(0.0, f64::max);
+        let nearly = (0..self.readings).filter(|&i| drops[i] > 0.0 && drops[i] >= NEARLY * most);
+        let best = nearly.min_by(|&a, &b| effort[a].cmp(&effort[b]).then(drops[b].total_cmp(&drops[a])))?;
+        Some((best, drops[best]))
     }
 
     /// By what factor (logarithm) a reading lowers the bound.

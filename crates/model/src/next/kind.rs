@@ -1,5 +1,7 @@
 //! Numbers that people like to set.
 
+use hexbench_core::Observation;
+
 /// Finest round step that is asked for, m: what a hexapod's controller takes for granted.
 const STEP_M: f64 = 1e-3;
 /// The same, rad.
@@ -14,13 +16,18 @@ pub fn step(k: usize, half: f64) -> f64 {
     if ratio >= 1.0 { usual } else { usual * round_down(ratio.max(1e-9), 1) }
 }
 
+/// How much has to be set for a reading: pose coordinates that are not zero.
+pub fn effort(o: &Observation) -> usize {
+    o.pose.to_array().iter().filter(|x| **x != 0.0).count()
+}
+
 /// To the nearest multiple of a step.
 pub fn snapped(x: f64, step: f64) -> f64 {
     if step > 0.0 { (x / step).round() * step + 0.0 } else { x }
 }
 
 /// Towards zero, to so many significant digits.
-pub fn round_down(x: f64, digits: i32) -> f64 {
+pub(super) fn round_down(x: f64, digits: i32) -> f64 {
     if x == 0.0 || !x.is_finite() {
         return 0.0;
     }

@@ -17,7 +17,7 @@ use hexbench_core::Observation;
 use rayon::prelude::*;
 
 pub use self::choice::Between;
-pub use self::kind::{round_down, snapped, step};
+pub use self::kind::{effort, snapped, step};
 pub use self::separation::Separation;
 pub use self::suspects::{Suspects, suspects};
 pub use self::words::{ASPECTS, Aspect, MATTERS, Ordinary};
@@ -35,6 +35,8 @@ pub const EXCLUDED_ODDS: f64 = 20.0;
 /// Odds at which no more readings are asked for: what is expected of readings and what they then say differ, and effects that
 /// nobody thought of want to be excluded too.
 const ENOUGH_ODDS: f64 = 1000.0;
+/// Readings asked for at least: one alone cannot be checked.
+const FEWEST: usize = 2;
 /// A reading that lowers the bound on wrong decisions by less than this (logarithm) is not worth taking.
 const WORTHWHILE: f64 = 0.02;
 
@@ -127,7 +129,8 @@ pub fn propose(
     }
     let plan = as_plan(campaign, menu)?;
     let beliefs = beliefs(&plan, rivals)?;
-    let chosen = chosen(&beliefs, rivals, effort);
+    let simplicity: Vec<usize> = plan.groups.iter().map(|g| kind::effort(&g.mean)).collect();
+    let chosen = chosen(&beliefs, rivals, &simplicity, effort);
     let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
     let pairs = pairs(rivals.len());
     let courses: Vec<Vec<[f64; 2]>> = pairs.par_iter().map(|&p| course(&beliefs, p, &taken)).collect();
@@ -182,16 +185,21 @@ fn pairs(rivals: usize) -> Vec<Between> {
 }
 
 /// Places in the menu, with the pair each separates most.
-fn chosen(beliefs: &[Belief], rivals: &[Rival], effort: Effort) -> Vec<(usize, Between)> {
+fn chosen(
+    beliefs: &[Belief],
+    rivals: &[Rival],
+    simplicity: &[usize],
+    effort: Effort,
+) -> Vec<(usize, Between)> {
     let weights: Vec<f64> = rivals.iter().map(|r| r.weight.max(f64::MIN_POSITIVE)).collect();
     let mut choice = Choice::new(beliefs, &weights);
     let (Effort::UpTo(most) | Effort::Exactly(most)) = effort;
     let mut chosen: Vec<(usize, Between)> = Vec::new();
     while chosen.len() < most {
-        let Some((reading, _)) = choice.best().filter(|(_, drop)| *drop > WORTHWHILE) else { break };
+        let Some((reading, _)) = choice.best(simplicity).filter(|(_, drop)| *drop > WORTHWHILE) else { break };
         let Some(between) = choice.separated_most(reading) else { break };
         chosen.push((reading, between));
-        if matches!(effort, Effort::UpTo(_)) {
+        if matches!(effort, Effort::UpTo(_)) && chosen.len() >= FEWEST {
             let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
             let done = |&p: &Between| pair(beliefs, p, &taken).is_some_and(|p| least(p.log_bayes_factor()) >= ENOUGH_ODDS.ln());
             if pairs(rivals.len()).iter().all(done) {

@@ -3,10 +3,13 @@
 
 mod bench;
 mod confusion;
+mod document;
+pub mod sheets;
 mod study;
 mod trial;
 
 pub use bench::Bench;
 pub use confusion::{CONFUSIONS, Confusion};
+pub use document::{document, headlines};
 pub use study::{Discrimination, Protocol, SEED, discriminate};
 pub use trial::{READINGS, Record};

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{CONFUSIONS, Confusion, Record};
+use super::{Confusion, Record};
 
 /// Seed of the committed figures.
 pub const SEED: u64 = 20_261;
@@ -37,6 +37,13 @@ pub struct Discrimination {
     pub failures: usize,
 }
 
+impl Discrimination {
+    /// The trials of all pairs.
+    pub fn records(&self) -> Vec<Record> {
+        self.pairs.iter().flat_map(|(_, records)| records.iter().cloned()).collect()
+    }
+}
+
 /// Runs every trial; `done` is called after each. One stream of random numbers per trial: the same seed gives the same records on
 /// any number of threads.
 pub fn discriminate(protocol: Protocol, confusions: &[Confusion], done: &(dyn Fn() + Sync)) -> Discrimination {
@@ -55,12 +62,4 @@ pub fn discriminate(protocol: Protocol, confusions: &[Confusion], done: &(dyn Fn
         (confusions[c], own.iter().flatten().cloned().collect())
     };
     Discrimination { protocol, pairs: (0..confusions.len()).map(of).collect(), failures }
-}
-
-/// Trials of the whole protocol.
-impl Protocol {
-    /// Trials of all pairs.
-    pub fn all(&self) -> usize {
-        self.trials * CONFUSIONS.len()
-    }
 }

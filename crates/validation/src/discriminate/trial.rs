@@ -1,7 +1,8 @@
 //! One trial: diagnosed, measured further, diagnosed again.
 
 use hexbench_core::{Dataset, Observation, Pose, Wrench};
-use hexbench_model::diagnose::{Diagnosis, NextReport, Study, diagnose};
+use hexbench_model::campaign::Campaign;
+use hexbench_model::diagnose::{Diagnosis, NextReport, Study, diagnose, prepare};
 use hexbench_model::error::ModelError;
 use hexbench_model::next::{Effort, Programme, menu, propose, suspects};
 use hexbench_model::term::Term;
@@ -38,8 +39,12 @@ pub struct Record {
     pub asked: Outcome,
     /// With as many readings drawn from the menu.
     pub asked_random: Outcome,
-    /// Promised chance that the readings chosen for the pair favour the truth.
+    /// Readings chosen for the pair.
+    pub asked_readings: usize,
+    /// Promised chance that the readings chosen for the pair favour the truth over the other.
     pub promised: f64,
+    /// Whether all readings then do.
+    pub favoured: bool,
 }
 
 impl Record {
@@ -57,28 +62,25 @@ impl Record {
         let terms = catalogue();
         let judge = |data: &Dataset| diagnose(&bench.hexapod, data, None, &terms);
         let first = judge(&bench.measurements)?;
-        let said = |study: &Study| {
-            if std::env::var("V").is_ok() {
-                let d = &study.diagnosis;
-                let c: Vec<String> = d.candidates.iter().take(4).map(|c| format!("{} {:.2}", c.term, c.probability)).collect();
-                let ch: Vec<String> = d.steps.iter().map(|s| format!("{:.2}/{:.2}", s.fitted.chi2_reduced, s.holdout.map_or(0.0, |h| h.chi2_reduced))).collect();
-                eprintln!("{index} {hidden} {family} {distance:.1}: {:?} added {:?} cred {:?} cand {c:?} present {:?} steps {ch:?} model {:?}", d.verdict, d.added, d.credible_set, d.present.iter().filter(|p| *p.1>0.3).collect::<Vec<_>>(), d.model);
-            }
-            outcome(&[hidden], &study.diagnosis)
-        };
-        let after = |further: &[Observation]| -> Result<Outcome, TrialError> {
+        let said = |study: &Study| outcome(&[hidden], &study.diagnosis);
+        let measured = |further: &[Observation]| -> Result<Dataset, TrialError> {
             // The same noise whatever is measured.
             let mut noise = Pcg64::new(u128::from(seed), (1 << 64) + index as u128);
-            Ok(said(&judge(&bench.with(further, &mut noise)?)?))
+            Ok(bench.with(further, &mut noise)?)
+        };
+        let after = |further: &[Observation]| -> Result<Outcome, TrialError> {
+            Ok(said(&judge(&measured(further)?)?))
         };
         let next = listed(&first.diagnosis);
         let before = said(&first);
         let proposed = if next.is_empty() { before } else { after(&next)? };
-        let (programme, menu) = asked(&first, confusion, &terms)?;
+        let pair = pair(confusion, &terms);
+        let (programme, menu) = asked(&first, &pair)?;
+        let chosen = measured(&repeated(&programme))?;
         let mut drawn = |n: usize| -> Vec<Observation> {
             (0..n).map(|_| menu[rng.random_range(0..menu.len())]).collect()
         };
-        let (as_many_as_proposed, as_many_as_asked) = (drawn(next.len()), drawn(READINGS));
+        let (as_many_as_proposed, as_many_as_asked) = (drawn(next.len()), drawn(programme.readings()));
         Ok(Self {
             hidden,
             family,
@@ -86,25 +88,35 @@ impl Record {
             proposed,
             proposed_random: if next.is_empty() { before } else { after(&as_many_as_proposed)? },
             readings: next.len(),
-            asked: after(&repeated(&programme))?,
+            asked: said(&judge(&chosen)?),
+            asked_readings: programme.readings(),
             asked_random: after(&as_many_as_asked)?,
+            favoured: favours(&prepare(&bench.hexapod, &chosen)?, &pair, hidden)?,
             promised: programme.outlook.first().map_or(f64::NAN, |o| o.separation.right),
         })
     }
 }
 
+fn pair(confusion: &Confusion, terms: &[Arc<dyn Term>]) -> Vec<Arc<dyn Term>> {
+    terms.iter().filter(|t| confusion.between.contains(&t.info().id)).map(Arc::clone).collect()
+}
+
 /// Readings for the pair itself, and the menu they come from.
-fn asked(
-    study: &Study,
-    confusion: &Confusion,
-    terms: &[Arc<dyn Term>],
-) -> Result<(Programme, Vec<Observation>), ModelError> {
-    let is_meant = |t: &&Arc<dyn Term>| confusion.between.contains(&t.info().id);
-    let pair: Vec<Arc<dyn Term>> = terms.iter().filter(is_meant).map(Arc::clone).collect();
-    let suspects = suspects(&study.campaign, &pair)?;
+fn asked(study: &Study, pair: &[Arc<dyn Term>]) -> Result<(Programme, Vec<Observation>), ModelError> {
+    let suspects = suspects(&study.campaign, pair)?;
     let menu = menu(&study.campaign, &suspects.rivals)?;
     let programme = propose(&study.campaign, &suspects.rivals, &menu, Effort::Exactly(READINGS))?;
     Ok((programme, menu))
+}
+
+/// True when the evidence is for the hidden one of a pair.
+fn favours(campaign: &Campaign, pair: &[Arc<dyn Term>], hidden: &str) -> Result<bool, ModelError> {
+    let suspects = suspects(campaign, pair)?;
+    let evidence = |of_hidden: bool| {
+        let own = pair.iter().zip(&suspects.log_evidence).find(|(t, _)| (t.info().id == hidden) == of_hidden);
+        own.and_then(|(_, e)| *e).unwrap_or(f64::NEG_INFINITY)
+    };
+    Ok(evidence(true) > evidence(false))
 }
 
 fn repeated(programme: &Programme) -> Vec<Observation> {
