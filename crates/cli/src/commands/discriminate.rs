@@ -10,7 +10,7 @@ use hexbench_design::space_file::read_space;
 use hexbench_design::Space;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::fit_named::term_named;
-use hexbench_model::next::{Effort, Outlook, Suspects, propose, suspects};
+use hexbench_model::next::{EXCLUDED_ODDS, Effort, Outlook, Suspects, propose, suspects};
 use hexbench_model::noise::{Noise, NoiseSource};
 use hexbench_model::term::Term;
 
@@ -45,6 +45,9 @@ pub(crate) struct Arguments {
     /// A plan to compare the new one with: poses and loads as in measurements.csv
     #[arg(long, value_name = "FILE", conflicts_with = "data")]
     against: Option<PathBuf>,
+    /// Size of the effects in a new plan: standard deviations by which readings spread evenly over the space would show each
+    #[arg(long, value_name = "D", default_value = "5", conflicts_with = "data", value_parser = visibility)]
+    visible: f64,
     /// Seed of the poses tried
     #[arg(long, value_name = "S", default_value = "1")]
     seed: u32,
@@ -54,6 +57,11 @@ pub(crate) struct Arguments {
     /// Write the result as JSON to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+}
+
+fn visibility(text: &str) -> Result<f64, String> {
+    let known = text.parse().ok().filter(|d: &f64| (0.1..=1e3).contains(d));
+    known.ok_or_else(|| "a number from 0.1 to 1000".to_owned())
 }
 
 /// Choose, tell, save.
@@ -96,7 +104,7 @@ fn new_plan(
 ) -> Result<Discriminated, Failure> {
     let menu = menu(space, hexapod, terms, arguments.seed)?;
     let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[0]));
-    let contest = Contest::new(hexapod, springs(hexapod), noise(hexapod)?, terms, &menu, count)?;
+    let contest = Contest::new(hexapod, springs(hexapod), noise(hexapod)?, terms, &menu, count, arguments.visible)?;
     let progress = Progress::of(count as u64, "readings");
     let plan = Plan::search(&contest, space, hexapod, &menu, count, &|| progress.advance(1));
     progress.done();
@@ -113,7 +121,7 @@ fn new_plan(
             in_hand: None,
             before: before.as_ref().and_then(|d| promise(d, between)),
             after: promise(&plan.distances, between)?,
-            readings_needed: None,
+            readings_needed: needed(&plan.distances, between, count),
         })
     };
     let sizes = (0..contest.rivals()).map(|k| (names[k].clone(), contest.just_visible(k)));
@@ -178,6 +186,15 @@ fn next_readings(
         candidates: menu.len(),
         seed: arguments.seed,
     })
+}
+
+/// Readings like those of the plan after which the wrong one of a pair is on average excluded: information grows with their number.
+fn needed(distances: &[Distance], pair: [usize; 2], count: usize) -> Option<usize> {
+    const MOST: f64 = 1e4;
+    let own = distances.iter().filter(|d| d.of.iter().all(|k| pair.contains(k)));
+    let least = own.map(Distance::log_likelihood_ratio).fold(f64::INFINITY, f64::min);
+    let readings = (count as f64 * EXCLUDED_ODDS.ln() / least).ceil();
+    (1.0..=MOST).contains(&readings).then_some(readings as usize)
 }
 
 fn pairs(rivals: usize) -> impl Iterator<Item = [usize; 2]> {

@@ -184,8 +184,9 @@ fn separation(paper: &mut Paper, found: &Discriminated) {
         head.extend(["before", "right"]);
     }
     if with_data {
-        head.extend(["in hand", "20:1 after"]);
+        head.push("in hand");
     }
+    head.push("20:1 after");
     table.row(head.iter().map(ToString::to_string));
     for p in &found.pairs {
         let mut row = vec![p.between.join(" or "), factors(&p.after), percent(p.right())];
@@ -194,8 +195,8 @@ fn separation(paper: &mut Paper, found: &Discriminated) {
         }
         if with_data {
             row.push(p.in_hand.map_or("no trace".to_owned(), |x| format!("{x:+.1}")));
-            row.push(p.readings_needed.map_or("more".to_owned(), |n| n.to_string()));
         }
+        row.push(p.readings_needed.map_or("more".to_owned(), |n| n.to_string()));
         table.row(row);
     }
     table.lines().iter().for_each(|line| paper.line(line));
@@ -205,7 +206,7 @@ fn separation(paper: &mut Paper, found: &Discriminated) {
          readings after which the wrong one is on average excluded at 20:1."
     } else {
         "Expected decimal logarithm of the ratio of likelihoods for the truth, if the first is true and if the second is, the wrong \
-         one and the springs fitted as well as they can (1.3 is 20:1); chance that it favours the truth."
+         one and the springs fitted as well as they can (1.3 is 20:1); chance that it favours the truth; number of readings of this sort after which the wrong one is on average excluded at 20:1."
     };
     paper.paragraph(2, words);
 }
@@ -227,7 +228,7 @@ fn assumptions(paper: &mut Paper, found: &Discriminated) {
         paper.heading("How it was chosen", "");
         return paper.paragraph(2, &chosen);
     }
-    paper.heading("Sizes assumed", "just visible by readings spread evenly over the space");
+    paper.heading("Sizes assumed", "shown by readings spread evenly over the space, beside free springs");
     for (id, parameters) in &found.sizes {
         let one = |(name, value, unit): &(&str, f64, &str)| format!("{name} {} {unit}", significant(*value, 2));
         let all: Vec<String> = parameters.iter().map(one).collect();

@@ -7,7 +7,7 @@ use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Vector6};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::candidates::{sizes, why_untestable};
 use hexbench_model::error::ModelError;
-use hexbench_model::evidence::{NOTICEABLE, WIDEST};
+use hexbench_model::evidence::{WIDEST, log_sum};
 use hexbench_model::fit::natural;
 use hexbench_model::linearization::{Linearization, Point};
 use hexbench_model::noise::Noise;
@@ -19,6 +19,10 @@ use crate::DesignError;
 
 /// Shapes at which an effect of unknown shape counts.
 const SHAPES: usize = 3;
+/// `q` of the smooth smallest distance: pairs twice as far apart as the closest hardly count.
+const SHARPNESS: f64 = 6.0;
+/// Distance that counts as none, standard deviations.
+const UNSEEN: f64 = 1e-4;
 /// Prior width of a spring, relative to its nominal compliance.
 const SPRING_WIDTH: f64 = 1.0;
 
@@ -65,8 +69,8 @@ impl Distance {
 }
 
 impl<'a> Contest<'a> {
-    /// Terms on springs of the given compliance (m/N); `menu` are the readings that can be taken, `readings` the number that
-    /// will be.
+    /// Terms on springs of the given compliance (m/N); `menu` are the readings that can be taken. Each term is taken so large that
+    /// `readings` of them, spread evenly, would show it beside free springs by `visible` standard deviations.
     ///
     /// # Errors
     /// [`ModelError::Untestable`] for a term that no reading of the menu shows; a singular pose.
@@ -77,6 +81,7 @@ impl<'a> Contest<'a> {
         terms: &[Arc<dyn Term>],
         menu: &[Observation],
         readings: usize,
+        visible: f64,
     ) -> Result<Self, DesignError> {
         let mut contest = Self { hexapod, springs, noise, forms: Vec::new(), rivals: terms.len() };
         let (campaign, point, lin) = contest.linearized(menu)?;
@@ -99,11 +104,11 @@ impl<'a> Contest<'a> {
         let even = contest.informations(menu)?.iter().fold(DMatrix::zeros(at, at), |sum, m| sum + m) * share;
         for k in 0..contest.forms.len() {
             let shown = distance(&even, &contest.forms[k], None);
-            if shown <= NOTICEABLE / WIDEST {
+            if WIDEST * shown <= visible {
                 let why = "no size of it that makes physical sense would show in this space".to_owned();
                 return Err(untestable(&contest.forms[k].term, why).into());
             }
-            contest.forms[k].size = NOTICEABLE / shown;
+            contest.forms[k].size = visible / shown;
         }
         Ok(contest)
     }
@@ -172,11 +177,14 @@ impl<'a> Contest<'a> {
         pairs.map(least).collect()
     }
 
-    /// Logarithm of `sum exp(-T^2 / 8)`: smaller for a better plan.
-    pub(super) fn log_bound(&self, information: &DMatrix<f64>) -> f64 {
-        const BHATTACHARYYA: f64 = 0.125;
-        let exponents = self.distances(information).into_iter().map(|d| -BHATTACHARYYA * d.value * d.value);
-        hexbench_model::evidence::log_sum(exponents.collect::<Vec<_>>().into_iter())
+    /// `-ln T` of the smallest distance in smooth form, `T = (sum T^-2q)^(-1/2q)`: smaller for a better plan.
+    pub(super) fn closeness(&self, information: &DMatrix<f64>) -> f64 {
+        let exponents: Vec<f64> = self
+            .distances(information)
+            .into_iter()
+            .map(|d| -SHARPNESS * (d.value * d.value + UNSEEN * UNSEEN).ln())
+            .collect();
+        log_sum(exponents.iter().copied()) / (2.0 * SHARPNESS)
     }
 }
 

@@ -9,14 +9,17 @@
 //! ```
 //!
 //! on average over the parameters of `a` of size `s`. Source: Atkinson and Fedorov 1975, Biometrika 62 (T-optimal designs). The plan
-//! minimises `sum exp(-T^2 / 8)` over all ordered pairs, which bounds the chance of a wrong decision (Kailath 1967) and is ruled
-//! by the smallest distance. An effect of unknown shape counts at several shapes, the least favourable of both sides.
+//! makes the smallest distance over all ordered pairs as large as it can, in the smooth form `(sum T^-2q)^(-1/2q)` that an exchange
+//! can climb. An effect of unknown shape counts at several shapes, the least favourable of both sides.
 //!
 //! Each effect is taken so large that readings spread evenly over the space would just show it beside free springs.
 
 mod contest;
 mod menu;
 mod search;
+
+#[cfg(test)]
+mod tests;
 
 pub use contest::{Contest, Distance};
 pub use menu::menu;

@@ -10,9 +10,9 @@ use crate::{DesignError, Space};
 
 /// Rounds of exchange.
 const ROUNDS: usize = 6;
-/// The bound may rise by this (logarithm) for the sake of simple poses.
-const GIVEN_FOR_SIMPLICITY: f64 = 0.1;
-/// An exchange must lower the bound by this (logarithm).
+/// Share of the smallest distance that simple poses may cost.
+const GIVEN_FOR_SIMPLICITY: f64 = 0.03;
+/// An exchange must enlarge the smallest distance by this share.
 const LEAST_GAIN: f64 = 1e-6;
 
 /// A reading of a plan.
@@ -78,7 +78,7 @@ fn choose(contest: &Contest<'_>, informations: &[DMatrix<f64>], count: usize, do
             let whole = sum(informations, &chosen);
             let rest = &whole - &informations[chosen[k]];
             let (other, bound) = best(contest, informations, &rest);
-            if bound < contest.log_bound(&whole) - LEAST_GAIN {
+            if bound < contest.closeness(&whole) - LEAST_GAIN {
                 chosen[k] = other;
                 helped = true;
             }
@@ -92,20 +92,20 @@ fn choose(contest: &Contest<'_>, informations: &[DMatrix<f64>], count: usize, do
 
 /// Exchanges readings for simpler ones that are nearly as good.
 fn simplify(contest: &Contest<'_>, informations: &[DMatrix<f64>], menu: &[Observation], chosen: &mut [usize]) {
-    let allowed = contest.log_bound(&sum(informations, chosen)) + GIVEN_FOR_SIMPLICITY;
+    let allowed = contest.closeness(&sum(informations, chosen)) + GIVEN_FOR_SIMPLICITY;
     for k in 0..chosen.len() {
         let rest = sum(informations, chosen) - &informations[chosen[k]];
         let simpler = |i: &usize| effort(&menu[*i]) < effort(&menu[chosen[k]]);
-        let kept = |i: &usize| contest.log_bound(&(&rest + &informations[*i])) <= allowed;
+        let kept = |i: &usize| contest.closeness(&(&rest + &informations[*i])) <= allowed;
         if let Some(other) = (0..menu.len()).filter(simpler).filter(kept).min_by_key(|i| effort(&menu[*i])) {
             chosen[k] = other;
         }
     }
 }
 
-/// The reading that lowers the bound most beside the information there is; the first of equals.
+/// The reading that adds most to the smallest distance beside the information there is; the first of equals.
 fn best(contest: &Contest<'_>, informations: &[DMatrix<f64>], rest: &DMatrix<f64>) -> (usize, f64) {
-    let bounds: Vec<f64> = informations.par_iter().map(|m| contest.log_bound(&(rest + m))).collect();
+    let bounds: Vec<f64> = informations.par_iter().map(|m| contest.closeness(&(rest + m))).collect();
     let least = bounds.iter().enumerate().reduce(|a, b| if b.1 < a.1 { b } else { a });
     least.map_or((0, f64::INFINITY), |(i, b)| (i, *b))
 }
@@ -137,8 +137,8 @@ fn say(
             continue;
         }
         let rest = total - *own * reading.repeats as f64;
-        let before = contest.log_bound(&rest);
-        let gain = |m: &DMatrix<f64>| before - contest.log_bound(&(&rest + m * reading.repeats as f64));
+        let before = contest.closeness(&rest);
+        let gain = |m: &DMatrix<f64>| before - contest.closeness(&(&rest + m * reading.repeats as f64));
         let kept = contest.informations(&plain)?;
         let matters: Vec<Aspect> = without
             .iter()

@@ -67,3 +67,41 @@ impl Filter {
         self.covariance -= &gain * solved * gain.transpose();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of sums over 24 numbers.
+    const CLOSE: f64 = 1e-9;
+
+    #[test]
+    fn additions_of_a_sequence_make_up_the_determinant_and_length_of_the_whole() {
+        const READINGS: usize = 5;
+        const PARAMETERS: usize = 4;
+        let rows =
+            DMatrix::from_fn(6 * READINGS, PARAMETERS, |i, j| (1.7 * i as f64 + 2.3 * (j * j) as f64).sin());
+        let root = DMatrix::from_fn(PARAMETERS, PARAMETERS, |i, j| 0.3 + (i as f64 - 0.6 * j as f64).cos());
+        let covariance = &root * root.transpose();
+        let difference = DVector::from_fn(6 * READINGS, |i, _| (0.9 * i as f64).cos());
+        let mut filter = Filter::new(rows.clone(), covariance.clone(), &difference);
+        // The same reading may be taken twice.
+        let taken = [3, 0, 3, 4];
+        let mut total = Addition::default();
+        for &reading in &taken {
+            let added = filter.addition(reading);
+            total.log_det += added.log_det;
+            total.square += added.square;
+            filter.choose(reading);
+        }
+        let picked: Vec<usize> = taken.iter().flat_map(|&i| 6 * i..6 * i + 6).collect();
+        let j = rows.select_rows(&picked);
+        let whole = DMatrix::identity(24, 24) + &j * covariance * j.transpose();
+        let d = difference.select_rows(&picked);
+        let factor = whole.cholesky().unwrap();
+        let log_det = 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
+        let square = d.dot(&factor.solve(&d));
+        assert!((total.log_det / log_det - 1.0).abs() < CLOSE, "{} {log_det}", total.log_det);
+        assert!((total.square / square - 1.0).abs() < CLOSE, "{} {square}", total.square);
+    }
+}

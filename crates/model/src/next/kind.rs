@@ -38,3 +38,28 @@ pub(super) fn round_down(x: f64, digits: i32) -> f64 {
     let text = format!("{scaled}e{exponent}");
     text.parse().unwrap_or(0.0) * x.signum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn same(a: f64, b: f64) -> bool {
+        a.total_cmp(&b).is_eq()
+    }
+
+    #[test]
+    fn numbers_are_cut_towards_zero_and_round_ones_stay() {
+        for (x, digits, expected) in
+            [(218.763, 1, 200.0), (218.763, 2, 210.0), (-98.0, 1, -90.0), (0.3, 1, 0.3), (0.0, 2, 0.0), (13.0, 2, 13.0)]
+        {
+            assert!(same(round_down(x, digits), expected), "{x} to {digits}: {}", round_down(x, digits));
+        }
+    }
+
+    #[test]
+    fn steps_are_a_millimetre_and_half_a_degree_and_finer_in_small_ranges() {
+        assert!(same(step(0, 0.03), STEP_M));
+        assert!(same(step(5, 0.1), STEP_RAD));
+        assert!((step(0, 0.001) - 0.2e-3).abs() < 1e-12, "{}", step(0, 0.001));
+    }
+}

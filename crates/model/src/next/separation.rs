@@ -72,3 +72,50 @@ impl Pair {
         f64::from(hits) / f64::from(OUTCOMES)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CLOSE: f64 = 1e-12;
+    /// Four standard deviations of a share of the simulated outcomes.
+    const CHANCE: f64 = 0.045;
+
+    fn scalar(mean: f64, variance: f64) -> (DVector<f64>, DMatrix<f64>) {
+        (DVector::from_element(1, mean), DMatrix::from_element(1, 1, variance))
+    }
+
+    #[test]
+    fn two_means_apart_have_half_the_squared_distance() {
+        let s = Pair::new(scalar(1.0, 4.0), scalar(5.0, 4.0)).unwrap().separation();
+        assert!(s.log_bayes_factor.iter().all(|l| (l - 2.0).abs() < CLOSE), "{:?}", s.log_bayes_factor);
+        // Normal distribution at half the distance.
+        assert!((s.right - 0.8413).abs() < CHANCE, "{}", s.right);
+    }
+
+    /// Kullback-Leibler divergence of N(0, 1) and N(0, 4): (1/4 - 1 + ln 4) / 2, and (4 - 1 - ln 4) / 2 the other way round.
+    #[test]
+    fn a_wide_and_a_narrow_expectation_separate_unequally() {
+        let [narrow, wide] = Pair::new(scalar(0.0, 1.0), scalar(0.0, 4.0)).unwrap().log_bayes_factor();
+        let ln4 = 4.0_f64.ln();
+        assert!((narrow - 0.5 * (ln4 - 0.75)).abs() < CLOSE && (wide - 0.5 * (3.0 - ln4)).abs() < CLOSE);
+    }
+
+    #[test]
+    fn what_both_expect_alike_separates_nothing() {
+        let s = Pair::new(scalar(1.0, 2.0), scalar(1.0, 2.0)).unwrap().separation();
+        assert!(s.log_bayes_factor.iter().all(|l| l.abs() < CLOSE));
+    }
+
+    #[test]
+    fn a_change_of_coordinates_changes_nothing() {
+        let t = DMatrix::from_row_slice(2, 2, &[2.0, 1.0, -0.5, 3.0]);
+        let (ma, mb) = (DVector::from_vec(vec![0.0, 1.0]), DVector::from_vec(vec![2.0, 0.5]));
+        let va = DMatrix::from_row_slice(2, 2, &[2.0, 0.3, 0.3, 1.0]);
+        let vb = DMatrix::from_row_slice(2, 2, &[1.0, -0.2, -0.2, 3.0]);
+        let before = Pair::new((ma.clone(), va.clone()), (mb.clone(), vb.clone())).unwrap().log_bayes_factor();
+        let moved = |m: DVector<f64>, v: DMatrix<f64>| (&t * m, &t * v * t.transpose());
+        let after = Pair::new(moved(ma, va), moved(mb, vb)).unwrap().log_bayes_factor();
+        assert!((0..2).all(|k| (before[k] / after[k] - 1.0).abs() < CLOSE), "{before:?} {after:?}");
+    }
+}
