@@ -69,19 +69,17 @@ fn proposed_readings_separate_the_worst_pair_better_than_random_ones() {
         let all = outlook(&campaign, &rivals, readings).unwrap();
         all.iter().flat_map(|(_, s)| s.log_bayes_factor).fold(f64::INFINITY, f64::min)
     };
-    let chosen: Vec<Observation> = programme
-        .proposals
-        .iter()
-        .flat_map(|p| std::iter::repeat_n(p.observation, p.repeats))
-        .collect();
+    let chosen: Vec<Observation> =
+        programme.proposals.iter().flat_map(|p| std::iter::repeat_n(p.observation, p.repeats)).collect();
     let best = worst(&chosen);
     let promised = programme.outlook.iter().flat_map(|o| o.separation.log_bayes_factor);
     assert!((promised.fold(f64::INFINITY, f64::min) / best - 1.0).abs() < 1e-9);
     let mut random = Random::new(3);
     let mut better = 0;
     for _ in 0..DRAWS {
-        let drawn: Vec<Observation> =
-            (0..READINGS).map(|_| menu[((menu.len() as f64 * random.unit()) as usize).min(menu.len() - 1)]).collect();
+        let drawn: Vec<Observation> = (0..READINGS)
+            .map(|_| menu[((menu.len() as f64 * random.unit()) as usize).min(menu.len() - 1)])
+            .collect();
         better += usize::from(worst(&drawn) >= best);
     }
     assert_eq!(better, 0, "of {DRAWS} random sets so many are as good as {best:.2}");

@@ -343,8 +343,9 @@ fn a_wrong_model_shows_on_poses_left_out_and_the_right_term_mends_it() {
     let hexapod = measured_machine(SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD);
     let campaign = Campaign::new(&hexapod, &data).unwrap();
     let held_out = |terms: &[Wanted]| {
-        let errors =
-            leave_poses_out(&hexapod, &data, campaign.noise, terms, &Point::start(&campaign)).unwrap().residuals;
+        let errors = leave_poses_out(&hexapod, &data, campaign.noise, terms, &Point::start(&campaign))
+            .unwrap()
+            .residuals;
         summarise(&errors, None).chi2_reduced
     };
     let (without, with) = (held_out(&[]), held_out(&[wanted("load-offset", 1.0)]));

@@ -64,8 +64,7 @@ pub fn outcome(hidden: &[&str], d: &Diagnosis) -> Outcome {
         Verdict::Ambiguous => false,
     };
     let kept = |id: &&str| d.credible_set.iter().chain(&d.added).any(|c| c == id);
-    let honest =
-        d.verdict == Verdict::Ambiguous && !outside && !hidden.is_empty() && hidden.iter().all(kept);
+    let honest = d.verdict == Verdict::Ambiguous && !outside && !hidden.is_empty() && hidden.iter().all(kept);
     match (right, honest) {
         (true, _) => Outcome::Right,
         (_, true) => Outcome::Honest,

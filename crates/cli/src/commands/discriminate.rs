@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use clap::Args;
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Vector6};
+use hexbench_design::Space;
 use hexbench_design::discriminate::{Contest, Distance, Plan, menu};
 use hexbench_design::space_file::read_space;
-use hexbench_design::Space;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::fit_named::term_named;
 use hexbench_model::next::{EXCLUDED_ODDS, Effort, Outlook, Suspects, propose, suspects};
@@ -46,7 +46,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE", conflicts_with = "data")]
     against: Option<PathBuf>,
     /// Size of the effects in a new plan: standard deviations by which readings spread evenly over the space would show each
-    #[arg(long, value_name = "D", default_value = "5", conflicts_with = "data", value_parser = visibility)]
+    /// (5 is just visible)
+    #[arg(long, value_name = "D", default_value = "20", conflicts_with = "data", value_parser = visibility)]
     visible: f64,
     /// Seed of the poses tried
     #[arg(long, value_name = "S", default_value = "1")]
@@ -104,7 +105,8 @@ fn new_plan(
 ) -> Result<Discriminated, Failure> {
     let menu = menu(space, hexapod, terms, arguments.seed)?;
     let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[0]));
-    let contest = Contest::new(hexapod, springs(hexapod), noise(hexapod)?, terms, &menu, count, arguments.visible)?;
+    let contest =
+        Contest::new(hexapod, springs(hexapod), noise(hexapod)?, terms, &menu, count, arguments.visible)?;
     let progress = Progress::of(count as u64, "readings");
     let plan = Plan::search(&contest, space, hexapod, &menu, count, &|| progress.advance(1));
     progress.done();
@@ -124,7 +126,7 @@ fn new_plan(
             readings_needed: needed(&plan.distances, between, count),
         })
     };
-    let sizes = (0..contest.rivals()).map(|k| (names[k].clone(), contest.just_visible(k)));
+    let sizes = (0..contest.rivals()).map(|k| (names[k].clone(), contest.assumed(k)));
     Ok(Discriminated {
         format: "discrimination/1",
         data: None,
@@ -157,7 +159,8 @@ fn next_readings(
         let measured = if data.is_absolute() { o.pose.to_array() } else { [0.0; 6] };
         Observation { measured, ..o }
     };
-    let menu: Vec<Observation> = menu(space, hexapod, terms, arguments.seed)?.into_iter().map(as_read).collect();
+    let menu: Vec<Observation> =
+        menu(space, hexapod, terms, arguments.seed)?.into_iter().map(as_read).collect();
     let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[1]));
     let programme = propose(&campaign, &rivals, &menu, Effort::Exactly(count)).map_err(of_model)?;
     let names: Vec<String> = terms.iter().map(|t| t.info().id.to_owned()).collect();
@@ -221,7 +224,9 @@ fn springs(hexapod: &Hexapod) -> Vector6 {
 
 fn noise(hexapod: &Hexapod) -> Result<Noise, Failure> {
     let unknown = || Failure::Usage {
-        message: "how well readings separate effects depends on their noise, which the hexapod file does not state".into(),
+        message:
+            "how well readings separate effects depends on their noise, which the hexapod file does not state"
+                .into(),
         next: "Add [metrology] with sigma_translation_um and sigma_rotation_urad.".into(),
     };
     let metrology = hexapod.metrology.ok_or_else(unknown)?;

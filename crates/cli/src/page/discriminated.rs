@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::next::{settings, way};
 use crate::failure::Failure;
 use crate::output::number::{percent, significant};
-use crate::output::{Ink, Paper, Table};
+use crate::output::{Ink, Paper};
 
 const LABEL: usize = 16;
 /// Decimal logarithms of odds beyond which a number says no more.
@@ -93,7 +93,8 @@ impl Discriminated {
     /// The result for programs.
     pub(crate) fn json(&self) -> Result<String, Failure> {
         let sizes = |(id, parameters): &(String, Vec<(&str, f64, &str)>)| {
-            let one = |(name, value, unit): &(&str, f64, &str)| json!({"name": name, "value": value, "unit": unit});
+            let one =
+                |(name, value, unit): &(&str, f64, &str)| json!({"name": name, "value": value, "unit": unit});
             json!({"term": id, "parameters": parameters.iter().map(one).collect::<Vec<_>>()})
         };
         let all = json!({
@@ -176,50 +177,41 @@ fn planned(paper: &mut Paper, number: usize, reading: &Planned, with_reference: 
 }
 
 fn separation(paper: &mut Paper, found: &Discriminated) {
-    let mut table = Table::default();
-    let compared = found.pairs.iter().any(|p| p.before.is_some());
-    let with_data = found.data.is_some();
-    let mut head = vec!["either", "log10 Bayes factor", "right"];
-    if compared {
-        head.extend(["before", "right"]);
-    }
-    if with_data {
-        head.push("in hand");
-    }
-    head.push("20:1 after");
-    table.row(head.iter().map(ToString::to_string));
     for p in &found.pairs {
-        let mut row = vec![p.between.join(" or "), factors(&p.after), percent(p.right())];
+        paper.line(&format!("  {}", p.between.join(" or ")));
+        if let Some(odds) = p.in_hand {
+            let [a, b] = &p.between;
+            let (odds, first, second) = if odds < 0.0 { (-odds, b, a) } else { (odds, a, b) };
+            paper.hanging("     in hand", LABEL, &format!("odds 10^{odds:.1} for {first} against {second}"));
+        }
         if let Some(before) = &p.before {
-            row.extend([factors(before), percent(before.right)]);
+            paper.hanging("     before", LABEL, &promise(before));
         }
-        if with_data {
-            row.push(p.in_hand.map_or("no trace".to_owned(), |x| format!("{x:+.1}")));
-        }
-        row.push(p.readings_needed.map_or("more".to_owned(), |n| n.to_string()));
-        table.row(row);
+        let needed = match p.readings_needed {
+            Some(1) => "20:1 after the first reading".to_owned(),
+            Some(n) => format!("20:1 after {n} such readings"),
+            None => "20:1 only after more readings".to_owned(),
+        };
+        paper.hanging("     chosen", LABEL, &format!("{}; {needed}", promise(&p.after)));
     }
-    table.lines().iter().for_each(|line| paper.line(line));
-    let words = if with_data {
-        "Expected decimal logarithm of the Bayes factor for the truth, if the first is true and if the second is (1.3 is 20:1); \
-         chance that the readings favour the truth; odds of the first against the second by the data in hand, same scale; \
-         readings after which the wrong one is on average excluded at 20:1."
+    let words = if found.data.is_some() {
+        "Odds by the data in hand; expected odds for the truth by the readings chosen, if the first is true and if the second is; \
+         chance that they favour the truth."
     } else {
-        "Expected decimal logarithm of the ratio of likelihoods for the truth, if the first is true and if the second is, the wrong \
-         one and the springs fitted as well as they can (1.3 is 20:1); chance that it favours the truth; number of readings of this sort after which the wrong one is on average excluded at 20:1."
+        "Expected ratio of likelihoods for the truth, if the first is true and if the second is, the wrong one and the springs fitted \
+         as well as they can; chance that it favours the truth."
     };
     paper.paragraph(2, words);
 }
 
-impl Pair {
-    fn right(&self) -> f64 {
-        self.after.right
-    }
-}
-
-fn factors(p: &Promise) -> String {
-    let one = |x: f64| if x > OVERWHELMING { format!("> {OVERWHELMING}") } else { format!("{x:.1}") };
-    p.log10_bayes_factor.map(one).join(", ")
+/// `expected odds 10^1.2 and 10^0.8, right in 85 %`.
+fn promise(p: &Promise) -> String {
+    let one = |x: f64| {
+        if x > OVERWHELMING { format!("beyond 10^{OVERWHELMING}") } else { format!("10^{x:.1}") }
+    };
+    let [a, b] = p.log10_bayes_factor.map(one);
+    let both = if a == b { a } else { format!("{a} and {b}") };
+    format!("expected odds {both}, right in {}", percent(p.right))
 }
 
 fn assumptions(paper: &mut Paper, found: &Discriminated) {
@@ -230,7 +222,8 @@ fn assumptions(paper: &mut Paper, found: &Discriminated) {
     }
     paper.heading("Sizes assumed", "shown by readings spread evenly over the space, beside free springs");
     for (id, parameters) in &found.sizes {
-        let one = |(name, value, unit): &(&str, f64, &str)| format!("{name} {} {unit}", significant(*value, 2));
+        let one =
+            |(name, value, unit): &(&str, f64, &str)| format!("{name} {} {unit}", significant(*value, 2));
         let all: Vec<String> = parameters.iter().map(one).collect();
         paper.hanging(&format!("  {id}"), 2 * LABEL, &all.join(", "));
     }

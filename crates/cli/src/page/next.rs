@@ -44,7 +44,8 @@ fn proposal(paper: &mut Paper, number: usize, reading: &NextReport, usual: &[f64
     }
     let NextReport { approach, elapsed_s, delta_t_k, repeats, .. } = *reading;
     paper.hanging("     way", LABEL, &way(approach, elapsed_s, delta_t_k, repeats));
-    let separates = if reading.separates == *pair { "the two".to_owned() } else { rivals(&reading.separates, "and") };
+    let separates =
+        if reading.separates == *pair { "the two".to_owned() } else { rivals(&reading.separates, "and") };
     paper.hanging("     gain", LABEL, &gain(reading.gain, &separates));
 }
 
@@ -104,7 +105,11 @@ pub(crate) fn way(approach: f64, elapsed_s: f64, delta_t_k: f64, repeats: usize)
 /// Expected logarithm of the Bayes factor as odds.
 fn gain(nats: f64, between: &str) -> String {
     let odds = nats.exp();
-    let odds = if odds > OVERWHELMING { "more than 10000".to_owned() } else { format!("about {}", significant(odds, 2)) };
+    let odds = if odds > OVERWHELMING {
+        "more than 10000".to_owned()
+    } else {
+        format!("about {}", significant(odds, 2))
+    };
     format!("shifts the odds between {between} by a factor of {odds}")
 }
 
@@ -115,9 +120,15 @@ fn promise(d: &Diagnosis) -> String {
         let pair = rivals(&s.between, "or");
         let chance = percent(s.right);
         match s.readings_needed {
-            Some(1) => format!("{pair}: the first reading is expected to exclude the wrong one at 20:1 (right in {chance})."),
-            Some(n) => format!("{pair}: after {n} readings the wrong one is expected to be excluded at 20:1 (right in {chance})."),
-            None => format!("{pair}: {readings} readings are right in {chance}, too few to exclude the wrong one at 20:1; repeat them."),
+            Some(1) => format!(
+                "{pair}: the first reading is expected to exclude the wrong one at 20:1 (right in {chance})."
+            ),
+            Some(n) => format!(
+                "{pair}: after {n} readings the wrong one is expected to be excluded at 20:1 (right in {chance})."
+            ),
+            None => format!(
+                "{pair}: {readings} readings are right in {chance}, too few to exclude the wrong one at 20:1; repeat them."
+            ),
         }
     };
     d.separation.iter().map(of).collect::<Vec<_>>().join(" ")

@@ -7,7 +7,7 @@ use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Vector6};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::candidates::{sizes, why_untestable};
 use hexbench_model::error::ModelError;
-use hexbench_model::evidence::{WIDEST, log_sum};
+use hexbench_model::evidence::{NOTICEABLE, WIDEST, log_sum};
 use hexbench_model::fit::natural;
 use hexbench_model::linearization::{Linearization, Point};
 use hexbench_model::noise::Noise;
@@ -43,7 +43,7 @@ struct Form {
     /// Natural sizes of its parameters, SI.
     sizes: Vec<f64>,
     columns: Range<usize>,
-    /// Multiple of the natural sizes at which it would just show.
+    /// Multiple of the natural sizes at which it counts.
     size: f64,
 }
 
@@ -70,7 +70,8 @@ impl Distance {
 
 impl<'a> Contest<'a> {
     /// Terms on springs of the given compliance (m/N); `menu` are the readings that can be taken. Each term is taken so large that
-    /// `readings` of them, spread evenly, would show it beside free springs by `visible` standard deviations.
+    /// `readings` of them, spread evenly, would show it beside free springs by `visible` standard deviations, as far as such a size
+    /// makes physical sense.
     ///
     /// # Errors
     /// [`ModelError::Untestable`] for a term that no reading of the menu shows; a singular pose.
@@ -86,7 +87,8 @@ impl<'a> Contest<'a> {
         let mut contest = Self { hexapod, springs, noise, forms: Vec::new(), rivals: terms.len() };
         let (campaign, point, lin) = contest.linearized(menu)?;
         let natural = natural(&point, &lin);
-        let untestable = |term: &Arc<dyn Term>, why: String| ModelError::Untestable { id: term.info().id.to_owned(), why };
+        let untestable =
+            |term: &Arc<dyn Term>, why: String| ModelError::Untestable { id: term.info().id.to_owned(), why };
         let mut at = 6;
         for (rival, term) in terms.iter().enumerate() {
             if let Some(why) = why_untestable(term.as_ref(), &campaign, &lin) {
@@ -104,11 +106,11 @@ impl<'a> Contest<'a> {
         let even = contest.informations(menu)?.iter().fold(DMatrix::zeros(at, at), |sum, m| sum + m) * share;
         for k in 0..contest.forms.len() {
             let shown = distance(&even, &contest.forms[k], None);
-            if WIDEST * shown <= visible {
+            if WIDEST * shown <= NOTICEABLE {
                 let why = "no size of it that makes physical sense would show in this space".to_owned();
                 return Err(untestable(&contest.forms[k].term, why).into());
             }
-            contest.forms[k].size = visible / shown;
+            contest.forms[k].size = (visible / shown).min(WIDEST);
         }
         Ok(contest)
     }
@@ -118,8 +120,8 @@ impl<'a> Contest<'a> {
         self.rivals
     }
 
-    /// Parameters of a rival with the size at which it would just show (shown units), at its middle shape.
-    pub fn just_visible(&self, rival: usize) -> Vec<(&'static str, f64, &'static str)> {
+    /// Parameters of a rival in the size at which it counts (shown units), at its middle shape.
+    pub fn assumed(&self, rival: usize) -> Vec<(&'static str, f64, &'static str)> {
         let own: Vec<&Form> = self.forms.iter().filter(|f| f.rival == rival).collect();
         let Some(form) = own.get(own.len() / 2) else { return Vec::new() };
         let named = form.term.info().parameters.iter().zip(&form.sizes);
@@ -158,7 +160,10 @@ impl<'a> Contest<'a> {
             source: String::new(),
             measurand: Measurand::DeflectionEuler,
             columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },
-            observations: readings.iter().map(|o| Observation { sigma: None, measured: [0.0; 6], ..*o }).collect(),
+            observations: readings
+                .iter()
+                .map(|o| Observation { sigma: None, measured: [0.0; 6], ..*o })
+                .collect(),
         };
         let campaign = Campaign::with_noise(self.hexapod, &dataset, self.noise)?;
         let point = Point { springs: self.springs, ..Point::start(&campaign) };
@@ -168,7 +173,8 @@ impl<'a> Contest<'a> {
 
     /// Distances of every effect from every other by the information of a plan.
     pub fn distances(&self, information: &DMatrix<f64>) -> Vec<Distance> {
-        let pairs = (0..self.rivals).flat_map(|a| (0..self.rivals).filter(move |b| *b != a).map(move |b| [a, b]));
+        let pairs =
+            (0..self.rivals).flat_map(|a| (0..self.rivals).filter(move |b| *b != a).map(move |b| [a, b]));
         let least = |[a, b]: [usize; 2]| {
             let of = |rival: usize| self.forms.iter().filter(move |f| f.rival == rival);
             let all = of(a).flat_map(|x| of(b).map(move |y| distance(information, x, Some(y))));

@@ -12,7 +12,8 @@
 //! makes the smallest distance over all ordered pairs as large as it can, in the smooth form `(sum T^-2q)^(-1/2q)` that an exchange
 //! can climb. An effect of unknown shape counts at several shapes, the least favourable of both sides.
 //!
-//! Each effect is taken so large that readings spread evenly over the space would just show it beside free springs.
+//! Each effect is taken so large that readings spread evenly over the space would show it beside free springs by a chosen number of
+//! standard deviations.
 
 mod contest;
 mod menu;

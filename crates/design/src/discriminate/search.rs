@@ -91,7 +91,12 @@ fn choose(contest: &Contest<'_>, informations: &[DMatrix<f64>], count: usize, do
 }
 
 /// Exchanges readings for simpler ones that are nearly as good.
-fn simplify(contest: &Contest<'_>, informations: &[DMatrix<f64>], menu: &[Observation], chosen: &mut [usize]) {
+fn simplify(
+    contest: &Contest<'_>,
+    informations: &[DMatrix<f64>],
+    menu: &[Observation],
+    chosen: &mut [usize],
+) {
     let allowed = contest.closeness(&sum(informations, chosen)) + GIVEN_FOR_SIMPLICITY;
     for k in 0..chosen.len() {
         let rest = sum(informations, chosen) - &informations[chosen[k]];
@@ -124,9 +129,13 @@ fn say(
     own: &[&DMatrix<f64>],
     readings: &mut [Reading],
 ) -> Result<(), DesignError> {
-    let Some(first) = space.settings().first().map(|s| crate::regressor::reading(Default::default(), s)) else { return Ok(()) };
+    let Some(first) = space.settings().first().map(|s| crate::regressor::reading(Default::default(), s))
+    else {
+        return Ok(());
+    };
     let waits = &space.conditions.waits;
-    let ends = [waits.iter().copied().fold(f64::INFINITY, f64::min), waits.iter().copied().fold(0.0, f64::max)];
+    let ends =
+        [waits.iter().copied().fold(f64::INFINITY, f64::min), waits.iter().copied().fold(0.0, f64::max)];
     let ordinary = Ordinary::new(first, ends);
     let half = std::array::from_fn(|k| 0.5 * (space.high[k] - space.low[k]));
     for (reading, own) in readings.iter_mut().zip(own) {

@@ -63,7 +63,15 @@ fn terms(ids: &[&str]) -> Vec<Arc<dyn Term>> {
 fn by_least_squares(rows: &DMatrix<f64>, a: std::ops::Range<usize>, b: std::ops::Range<usize>) -> f64 {
     let fitted: Vec<usize> = (0..6).chain(b).collect();
     let n = fitted.len();
-    let prior = DMatrix::from_fn(n, n, |i, j| if i != j { 0.0 } else if i < 6 { 1.0 } else { 1.0 / WIDEST });
+    let prior = DMatrix::from_fn(n, n, |i, j| {
+        if i != j {
+            0.0
+        } else if i < 6 {
+            1.0
+        } else {
+            1.0 / WIDEST
+        }
+    });
     let mut c = DMatrix::zeros(rows.nrows() + n, n);
     c.rows_mut(0, rows.nrows()).copy_from(&rows.select_columns(&fitted));
     c.rows_mut(rows.nrows(), n).copy_from(&prior);
@@ -84,7 +92,8 @@ fn distances_are_what_least_squares_cannot_fit() {
     let menu = menu(&space(), &hexapod, &terms, 1).unwrap();
     let contest = Contest::new(&hexapod, springs(), noise(), &terms, &menu, 12, VISIBLE).unwrap();
     let some: Vec<Observation> = menu.iter().step_by(7).copied().collect();
-    let information = contest.informations(&some).unwrap().iter().fold(DMatrix::zeros(15, 15), |sum, m| sum + m);
+    let information =
+        contest.informations(&some).unwrap().iter().fold(DMatrix::zeros(15, 15), |sum, m| sum + m);
     let distances = contest.distances(&information);
     let settings = space().settings();
     let regressor = ModelRegressor::new(&hexapod, springs(), noise(), &terms, &settings, 1).unwrap();
@@ -96,7 +105,7 @@ fn distances_are_what_least_squares_cannot_fit() {
             if rival == 0 { all[0] } else { all[6] }
         };
         let p = terms[rival].info().parameters[0];
-        contest.just_visible(rival)[0].1 / p.per_si / natural
+        contest.assumed(rival)[0].1 / p.per_si / natural
     };
     for (pair, (a, b)) in [([0, 1], (6..12, 12..15)), ([1, 0], (12..15, 6..12))] {
         let expected = size(pair[0]) * by_least_squares(&rows, a, b).sqrt();
@@ -119,7 +128,8 @@ fn a_plan_holds_the_worst_pair_further_apart_than_random_plans() {
     let mut rng = Pcg64::seed_from_u64(4);
     let mut random = || {
         let drawn: Vec<usize> = (0..READINGS).map(|_| rng.random_range(0..menu.len())).collect();
-        let total = drawn.iter().skip(1).fold(informations[drawn[0]].clone(), |sum, &i| sum + &informations[i]);
+        let total =
+            drawn.iter().skip(1).fold(informations[drawn[0]].clone(), |sum, &i| sum + &informations[i]);
         least(&contest.distances(&total))
     };
     let best_of_random = (0..DRAWS).map(|_| random()).fold(0.0, f64::max);
@@ -141,6 +151,7 @@ fn an_effect_that_no_reading_shows_is_refused_with_the_reason() {
     let (hexapod, terms) = (machine(), terms(&["creep", "base-compliance"]));
     let still = Space { conditions: Conditions::default(), ..space() };
     let menu = menu(&still, &hexapod, &terms, 1).unwrap();
-    let refused = Contest::new(&hexapod, springs(), noise(), &terms, &menu, 6, VISIBLE).err().unwrap().to_string();
+    let refused =
+        Contest::new(&hexapod, springs(), noise(), &terms, &menu, 6, VISIBLE).err().unwrap().to_string();
     assert!(refused.contains("creep") && refused.contains("elapsed_s"), "{refused}");
 }

@@ -98,15 +98,11 @@ impl Context<'_> {
     /// Prediction errors, and the predictive density where poses are left out.
     fn held_out(&self, terms: &[Wanted], fitted: &Fit) -> Option<(Vec<Residual>, Option<f64>)> {
         let noise = self.campaign.noise;
-        match self.holdout {
-            Some(holdout) => {
-                Some((prediction_errors(self.hexapod, holdout, noise, &fitted.point).ok()?, None))
-            }
-            None => {
-                let left = leave_poses_out(self.hexapod, self.data, noise, terms, &fitted.point).ok()?;
-                Some((left.residuals, Some(left.log_density)))
-            }
+        if let Some(holdout) = self.holdout {
+            return Some((prediction_errors(self.hexapod, holdout, noise, &fitted.point).ok()?, None));
         }
+        let left = leave_poses_out(self.hexapod, self.data, noise, terms, &fitted.point).ok()?;
+        Some((left.residuals, Some(left.log_density)))
     }
 
     /// Readings that separate the most probable explanations, when none is sure.

@@ -41,8 +41,7 @@ impl Choice {
         let none = |b: &Belief| DVector::zeros(b.mean.len());
         let alone: Vec<Filter> =
             beliefs.par_iter().map(|b| Filter::new(b.rows.clone(), b.covariance.clone(), &none(b))).collect();
-        let indices: Vec<Between> =
-            (0..beliefs.len()).flat_map(|b| (0..b).map(move |a| [a, b])).collect();
+        let indices: Vec<Between> = (0..beliefs.len()).flat_map(|b| (0..b).map(move |a| [a, b])).collect();
         let state = |&[a, b]: &Between| PairState {
             between: [a, b],
             log_weight: 0.5 * (weights[a] * weights[b]).ln(),

@@ -27,16 +27,14 @@ pub fn snapped(x: f64, step: f64) -> f64 {
 }
 
 /// Towards zero, to so many significant digits.
-pub(super) fn round_down(x: f64, digits: i32) -> f64 {
-    if x == 0.0 || !x.is_finite() {
-        return 0.0;
-    }
+pub(super) fn round_down(x: f64, digits: usize) -> f64 {
     // A number with so few digits already must stay: 0.3 is not 0.2999...
     const SLACK: f64 = 1.0 + 1e-9;
-    let exponent = (x.abs() * SLACK).log10().floor() as i32 - (digits - 1);
-    let scaled = (x.abs() * SLACK / 10f64.powi(exponent)).floor();
-    let text = format!("{scaled}e{exponent}");
-    text.parse().unwrap_or(0.0) * x.signum()
+    let text = format!("{:.17e}", x.abs() * SLACK);
+    let Some((mantissa, exponent)) = text.split_once('e').filter(|_| x.is_finite()) else { return 0.0 };
+    let kept = if digits > 1 { digits + 1 } else { 1 };
+    let cut = format!("{}e{exponent}", &mantissa[..kept]);
+    cut.parse::<f64>().unwrap_or(0.0) * x.signum() + 0.0
 }
 
 #[cfg(test)]
@@ -49,9 +47,14 @@ mod tests {
 
     #[test]
     fn numbers_are_cut_towards_zero_and_round_ones_stay() {
-        for (x, digits, expected) in
-            [(218.763, 1, 200.0), (218.763, 2, 210.0), (-98.0, 1, -90.0), (0.3, 1, 0.3), (0.0, 2, 0.0), (13.0, 2, 13.0)]
-        {
+        for (x, digits, expected) in [
+            (218.763, 1, 200.0),
+            (218.763, 2, 210.0),
+            (-98.0, 1, -90.0),
+            (0.3, 1, 0.3),
+            (0.0, 2, 0.0),
+            (13.0, 2, 13.0),
+        ] {
             assert!(same(round_down(x, digits), expected), "{x} to {digits}: {}", round_down(x, digits));
         }
     }

@@ -2,8 +2,8 @@
 //!
 //! Poses lie in the range of the campaign, never narrower than a tenth of the platform radius and three degrees: its middle, the
 //! ends of each coordinate, and a low-discrepancy sequence (Halton 1960). Loads are those of the campaign, and forces and moments
-//! along every axis, none so large that a leg carries more than it has carried. Both ways to approach, waits and temperatures vary
-//! where one of the explanations depends on them.
+//! along every axis, none so large that a leg carries more than it has carried. Both ways to approach, waits (longer ones too) and
+//! temperatures vary where one of the explanations depends on them.
 
 use hexbench_core::{Measurand, Observation, Pose, Vector6, Wrench};
 
@@ -22,6 +22,8 @@ const FEWEST_POSES: usize = 6;
 const OWN_LOADS: usize = 6;
 /// The smaller of two sizes of each load.
 const SMALL_SHARE: f64 = 0.3;
+/// Waits may be so much longer than the longest: they ask for patience only.
+const LONGER: f64 = 5.0;
 /// A leg may carry so much more than it has carried: rounding, and poses beside the middle.
 const LEG_FORCE_SLACK: f64 = 1.05;
 
@@ -43,7 +45,8 @@ pub(super) fn menu(campaign: &Campaign, conditions: &[Condition], fits: &[&Fit])
             }
             for &(approach, elapsed, delta_t) in &states {
                 let measured = if campaign.is_absolute() { pose.to_array() } else { [0.0; 6] };
-                let row = Observation { pose, wrench: *wrench, approach, elapsed, delta_t, measured, ..first };
+                let row =
+                    Observation { pose, wrench: *wrench, approach, elapsed, delta_t, measured, ..first };
                 menu.push(row);
             }
         }
@@ -83,13 +86,14 @@ impl Needs {
         }
     }
 
-    /// Approach, wait (s) and temperature (K): the usual state and, where it matters, the ends of the campaign's range.
+    /// Approach, wait (s) and temperature (K): the usual state and, where it matters, the ends of the campaign's range and beyond the
+    /// longest wait.
     fn states(&self, campaign: &Campaign) -> Vec<(f64, f64, f64)> {
         let rows = || campaign.groups.iter().map(|g| &g.mean);
         let mut waits: Vec<f64> = rows().map(|r| r.elapsed).collect();
         waits.sort_by(f64::total_cmp);
         let (shortest, usual, longest) = (waits[0], waits[waits.len() / 2], waits[waits.len() - 1]);
-        let waits = if self.elapsed { vec![shortest, longest] } else { vec![usual] };
+        let waits = if self.elapsed { vec![shortest, longest, LONGER * longest] } else { vec![usual] };
         let coldest = rows().map(|r| r.delta_t).fold(0.0, f64::min);
         let warmest = rows().map(|r| r.delta_t).fold(0.0, f64::max);
         let temperatures = if self.delta_t { vec![0.0, coldest, warmest] } else { vec![0.0] };
@@ -97,7 +101,8 @@ impl Needs {
         let mut states = Vec::new();
         for &approach in approaches {
             for &wait in &waits {
-                states.extend(temperatures.iter().map(|&t| (approach, round_down(wait, 2), round_down(t, 1))));
+                states
+                    .extend(temperatures.iter().map(|&t| (approach, round_down(wait, 2), round_down(t, 1))));
             }
         }
         states.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));

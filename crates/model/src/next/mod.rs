@@ -196,12 +196,16 @@ fn chosen(
     let (Effort::UpTo(most) | Effort::Exactly(most)) = effort;
     let mut chosen: Vec<(usize, Between)> = Vec::new();
     while chosen.len() < most {
-        let Some((reading, _)) = choice.best(simplicity).filter(|(_, drop)| *drop > WORTHWHILE) else { break };
+        let Some((reading, _)) = choice.best(simplicity).filter(|(_, drop)| *drop > WORTHWHILE) else {
+            break;
+        };
         let Some(between) = choice.separated_most(reading) else { break };
         chosen.push((reading, between));
         if matches!(effort, Effort::UpTo(_)) && chosen.len() >= FEWEST {
             let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
-            let done = |&p: &Between| pair(beliefs, p, &taken).is_some_and(|p| least(p.log_bayes_factor()) >= ENOUGH_ODDS.ln());
+            let done = |&p: &Between| {
+                pair(beliefs, p, &taken).is_some_and(|p| least(p.log_bayes_factor()) >= ENOUGH_ODDS.ln())
+            };
             if pairs(rivals.len()).iter().all(done) {
                 break;
             }

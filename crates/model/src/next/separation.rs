@@ -113,7 +113,8 @@ mod tests {
         let (ma, mb) = (DVector::from_vec(vec![0.0, 1.0]), DVector::from_vec(vec![2.0, 0.5]));
         let va = DMatrix::from_row_slice(2, 2, &[2.0, 0.3, 0.3, 1.0]);
         let vb = DMatrix::from_row_slice(2, 2, &[1.0, -0.2, -0.2, 3.0]);
-        let before = Pair::new((ma.clone(), va.clone()), (mb.clone(), vb.clone())).unwrap().log_bayes_factor();
+        let before =
+            Pair::new((ma.clone(), va.clone()), (mb.clone(), vb.clone())).unwrap().log_bayes_factor();
         let moved = |m: DVector<f64>, v: DMatrix<f64>| (&t * m, &t * v * t.transpose());
         let after = Pair::new(moved(ma, va), moved(mb, vb)).unwrap().log_bayes_factor();
         assert!((0..2).all(|k| (before[k] / after[k] - 1.0).abs() < CLOSE), "{before:?} {after:?}");

@@ -42,9 +42,10 @@ pub fn suspects(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Suspects
 
 /// The form, shape and width that the data prefer, and the evidence; the natural size where the data say nothing.
 fn alone(term: &Arc<dyn Term>, outcome: &Outcome) -> (Wanted, Option<f64>) {
-    let single = outcome.sets.sets.iter().find(|s| {
-        matches!(s.members.as_slice(), [m] if outcome.candidates[*m].id() == Some(term.info().id))
-    });
+    let single =
+        outcome.sets.sets.iter().find(
+            |s| matches!(s.members.as_slice(), [m] if outcome.candidates[*m].id() == Some(term.info().id)),
+        );
     let preferred = single.and_then(|s| {
         let mut all = wanted(s, &outcome.gram, &outcome.candidates, &outcome.natural);
         Some((all.pop()?, Some(s.log_weight)))

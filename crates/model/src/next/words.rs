@@ -91,7 +91,11 @@ impl Ordinary {
             Aspect::Wait if self.is_long(o.elapsed) => format!("wait {} s", o.elapsed),
             Aspect::Wait => format!("read early, after {} s", o.elapsed),
             Aspect::Temperature => {
-                format!("with the machine {} K {}", o.delta_t.abs(), if o.delta_t > 0.0 { "warmer" } else { "colder" })
+                format!(
+                    "with the machine {} K {}",
+                    o.delta_t.abs(),
+                    if o.delta_t > 0.0 { "warmer" } else { "colder" }
+                )
             }
         };
         let phrases: Vec<String> = matters.iter().map(of).filter(|p| !p.is_empty()).collect();
@@ -125,12 +129,12 @@ fn load(hexapod: &Hexapod, o: &Observation) -> String {
 
 /// Legs (from 1) that are pushed in one state and pulled in the other.
 fn reversed(hexapod: &Hexapod, o: &Observation) -> Vec<usize> {
-    let Ok(legs) = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &o.pose) else { return Vec::new() };
+    let Ok(legs) = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, &o.pose) else {
+        return Vec::new();
+    };
     let (before, after) = (legs.forces(&o.reference.to_vector()), legs.forces(&o.wrench.to_vector()));
     let least = REVERSED * before.amax().max(after.amax());
-    let turns = |i: &usize| {
-        before[*i] * after[*i] < 0.0 && before[*i].abs().min(after[*i].abs()) > least
-    };
+    let turns = |i: &usize| before[*i] * after[*i] < 0.0 && before[*i].abs().min(after[*i].abs()) > least;
     (0..6).filter(turns).map(|i| i + 1).collect()
 }
 
@@ -138,7 +142,9 @@ fn reversed(hexapod: &Hexapod, o: &Observation) -> Vec<usize> {
 fn position(pose: &Pose, half: &[f64; 6]) -> String {
     let x = pose.to_array();
     let far = (0..3).filter(|&k| x[k].abs() > NOTABLE * half[k]);
-    let far: Vec<String> = far.map(|k| format!("{} {}", if x[k] > 0.0 { "large" } else { "negative" }, ["x", "y", "z"][k])).collect();
+    let far: Vec<String> = far
+        .map(|k| format!("{} {}", if x[k] > 0.0 { "large" } else { "negative" }, ["x", "y", "z"][k]))
+        .collect();
     if far.is_empty() { "away from the middle".to_owned() } else { format!("at {}", far.join(" and ")) }
 }
 
@@ -149,4 +155,3 @@ fn tilt(pose: &Pose) -> String {
     let axes: Vec<&str> = notable.map(|k| ["x", "y", "z"][k]).collect();
     format!("with the platform turned about {}", axes.join(" and "))
 }
-

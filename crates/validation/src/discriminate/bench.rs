@@ -64,7 +64,8 @@ impl Bench {
         let taken = measure(&self.campaign, &rows, self.measurements.measurand, "further.csv", rng)?;
         let mut all = self.measurements.clone();
         let lines = all.observations.len() as u64;
-        all.observations.extend(taken.observations.into_iter().map(|o| Observation { line: o.line + lines, ..o }));
+        all.observations
+            .extend(taken.observations.into_iter().map(|o| Observation { line: o.line + lines, ..o }));
         Ok(all)
     }
 }

@@ -42,10 +42,12 @@ const VERTICAL_LEVEL: Confusion = Confusion {
 };
 const VERTICAL_TILTED: Confusion =
     Confusion { plan: "vertical loads, platform tilted", turns_deg: TILTED, ..VERTICAL_LEVEL };
-const TWO_LEVELS: Confusion =
-    Confusion { plan: "one load that presses, one that pulls", loads_n: PRESSED_AND_PULLED, ..VERTICAL_TILTED };
-const HURRIED: Confusion =
-    Confusion { plan: "vertical loads, waits of 20 to 60 s", ..VERTICAL_TILTED };
+const TWO_LEVELS: Confusion = Confusion {
+    plan: "one load that presses, one that pulls",
+    loads_n: PRESSED_AND_PULLED,
+    ..VERTICAL_TILTED
+};
+const HURRIED: Confusion = Confusion { plan: "vertical loads, waits of 20 to 60 s", ..VERTICAL_TILTED };
 
 /// The pairs of the study.
 pub const CONFUSIONS: [Confusion; 9] = [

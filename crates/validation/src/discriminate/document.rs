@@ -14,7 +14,10 @@ pub fn document(study: &Discrimination) -> String {
         section("The confusing plans alone", BEFORE, &before(study).markdown()),
         section("After the readings that the diagnosis proposes", PROPOSED, &proposed(study).markdown()),
         section("After readings chosen for the pair", &asked_words(), &asked(study).markdown()),
-        format!("## Run it again\n\n```text\nhexbench validate discriminate --trials {} --seed {}\n```\n", study.protocol.trials, study.protocol.seed),
+        format!(
+            "## Run it again\n\n```text\nhexbench validate discriminate --trials {} --seed {}\n```\n",
+            study.protocol.trials, study.protocol.seed
+        ),
     ]
     .join("\n")
 }
@@ -62,9 +65,13 @@ pub fn headlines(study: &Discrimination) -> Vec<String> {
 }
 
 /// Trials that only one of two ways brings to the right answer.
-fn versus(what: &str, records: &[&Record], chosen: fn(&Record) -> bool, random: fn(&Record) -> bool) -> String {
-    let only: Vec<bool> =
-        records.iter().filter(|r| chosen(r) != random(r)).map(|r| chosen(r)).collect();
+fn versus(
+    what: &str,
+    records: &[&Record],
+    chosen: fn(&Record) -> bool,
+    random: fn(&Record) -> bool,
+) -> String {
+    let only: Vec<bool> = records.iter().filter(|r| chosen(r) != random(r)).map(|r| chosen(r)).collect();
     let p = Proportion::count(&only, |c| **c);
     format!(
         "Of {} trials that only one of the two brings to the right answer, the readings {what} do so in {}; 50 % would be no \

@@ -9,11 +9,7 @@ use crate::trial::Outcome;
 pub type Stage = fn(&Record) -> Outcome;
 
 /// Share of trials with an outcome at a stage.
-pub fn share<'a>(
-    records: impl IntoIterator<Item = &'a Record>,
-    stage: Stage,
-    wanted: Outcome,
-) -> Proportion {
+pub fn share<'a>(records: impl IntoIterator<Item = &'a Record>, stage: Stage, wanted: Outcome) -> Proportion {
     Proportion::count(records, |r| stage(r) == wanted)
 }
 

@@ -46,7 +46,11 @@ impl Discrimination {
 
 /// Runs every trial; `done` is called after each. One stream of random numbers per trial: the same seed gives the same records on
 /// any number of threads.
-pub fn discriminate(protocol: Protocol, confusions: &[Confusion], done: &(dyn Fn() + Sync)) -> Discrimination {
+pub fn discriminate(
+    protocol: Protocol,
+    confusions: &[Confusion],
+    done: &(dyn Fn() + Sync),
+) -> Discrimination {
     let jobs: Vec<(usize, usize)> =
         (0..confusions.len()).flat_map(|c| (0..protocol.trials).map(move |t| (c, t))).collect();
     let one = |&(c, t): &(usize, usize)| {

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_validation::discriminate::{CONFUSIONS, Protocol, SEED, discriminate, document, headlines, sheets};
+use hexbench_validation::discriminate::{
+    CONFUSIONS, Protocol, SEED, discriminate, document, headlines, sheets,
+};
 
 use crate::failure::Failure;
 use crate::output::{Paper, Progress, Screen, Table};
@@ -37,14 +39,16 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let mut paper = Paper::new(screen.ink());
     paper.heading("Readings that tell effects apart", &format!("seed {}", protocol.seed));
     headlines(&study).iter().for_each(|line| paper.hanging("  -", 4, line));
-    paper.heading("Open answers", "share of right answers");
+    paper.heading(
+        "Open answers",
+        "share of right answers after the readings proposed, and after as many at random",
+    );
     let mut table = Table::default();
-    // Name, trials, and the three shares of right answers.
-    const TOLD: [usize; 5] = [0, 1, 3, 4, 5];
-    let sheet = sheets::proposed(&study);
-    for row in std::iter::once(&sheet.header).chain(&sheet.rows) {
+    table.row(["effects", "open", "proposed", "random"]);
+    for row in sheets::proposed(&study).rows {
+        // Name, trials, and the two shares without their bounds.
         let cell = |k: usize| row[k].split(" (").next().unwrap_or_default().to_owned();
-        table.row(TOLD.map(cell));
+        table.row([0, 1, 4, 5].map(cell));
     }
     table.lines().iter().for_each(|line| paper.line(line));
     screen.write(&paper.into_text())?;
