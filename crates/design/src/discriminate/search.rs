@@ -1,6 +1,6 @@
 //! The search: reading by reading, then exchange of each for a better one until nothing helps (Fedorov 1972).
 
-use hexbench_core::{Hexapod, Observation};
+use hexbench_core::{Hexapod, Observation, Pose};
 use hexbench_model::next::{ASPECTS, Aspect, MATTERS, Ordinary, effort};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -129,8 +129,7 @@ fn say(
     own: &[&DMatrix<f64>],
     readings: &mut [Reading],
 ) -> Result<(), DesignError> {
-    let Some(first) = space.settings().first().map(|s| crate::regressor::reading(Default::default(), s))
-    else {
+    let Some(first) = space.settings().first().map(|s| crate::regressor::reading(Pose::default(), s)) else {
         return Ok(());
     };
     let waits = &space.conditions.waits;

@@ -116,6 +116,12 @@ impl Context<'_> {
         programme.map(|p| Next::of(&p, &rivals)).unwrap_or_default()
     }
 
+    /// Fit of the terms of a set.
+    fn fit_of(&self, set: &Set) -> Option<Fit> {
+        let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
+        fit(self.campaign, &terms, Some(&self.outcome.best.point)).ok()
+    }
+
     /// The best set of effects, others that are nearly as probable, and one at least that is not the same plus something more.
     fn rivals(&self) -> Vec<Rival> {
         let outcome = self.outcome;
@@ -131,10 +137,9 @@ impl Context<'_> {
         // A rival of another kind must not be crowded out by additions to the best set.
         sets.sort_by_key(|s| s.members != best.members && contains(s, best));
         let explanation = |s: &&Set| {
-            let terms = wanted(s, &outcome.gram, &outcome.candidates, &outcome.natural);
-            let fit = fit(self.campaign, &terms, Some(&outcome.best.point)).ok()?;
-            let ids = terms.iter().map(|w| w.term.info().id.to_owned()).collect();
-            Some(Rival { terms: ids, weight: outcome.sets.probability(s), fit })
+            let ids =
+                s.members.iter().filter_map(|&m| outcome.candidates[m].id().map(str::to_owned)).collect();
+            Some(Rival { terms: ids, weight: outcome.sets.probability(s), fit: self.fit_of(s)? })
         };
         sets.iter().filter_map(explanation).take(MOST_RIVALS).collect()
     }

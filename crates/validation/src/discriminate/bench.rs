@@ -56,11 +56,12 @@ impl Bench {
     /// As [`World::reading`].
     pub fn with(&self, further: &[Observation], rng: &mut Pcg64) -> Result<Dataset, TruthError> {
         let known = self.measurements.observations.iter().map(|o| o.pose_id).max().unwrap_or(0);
-        let number = |(k, o): (i64, &Observation)| {
-            let repeat = further[..k as usize].iter().filter(|p| *p == o).count() as i64 + 1;
-            Row::from(&Observation { pose_id: known + 1 + k, repeat, ..*o })
+        let number = |(k, o): (usize, &Observation)| {
+            let repeat = (1..).zip(further[..=k].iter().filter(|p| *p == o)).last().map_or(1, |(n, _)| n);
+            Row::from(&Observation { repeat, ..*o })
         };
-        let rows: Vec<Row> = (0..).zip(further).map(number).collect();
+        let rows = (known + 1..).zip(further.iter().enumerate().map(number));
+        let rows: Vec<Row> = rows.map(|(pose_id, row)| Row { pose_id, ..row }).collect();
         let taken = measure(&self.campaign, &rows, self.measurements.measurand, "further.csv", rng)?;
         let mut all = self.measurements.clone();
         let lines = all.observations.len() as u64;
