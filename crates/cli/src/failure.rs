@@ -180,6 +180,11 @@ impl Failure {
             }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Check(_) => None,
+            Self::Design(DesignError::NeverDetermined { .. }) => Some(
+                "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
+                 effect."
+                    .into(),
+            ),
             Self::Design(_) => {
                 Some("Widen the ranges or limits in the space file, or ask for more poses.".into())
             }

@@ -1,7 +1,7 @@
 //! Where poses and loads may be chosen.
 
 use hexbench_core::{Hexapod, Pose, Vector3, Wrench};
-use hexbench_model::kinematics::Legs;
+use hexbench_model::kinematics::{Legs, euler_rate_matrix};
 use sobol_burley::sample;
 
 use crate::{Budget, DesignError};
@@ -175,6 +175,60 @@ impl Space {
         }
         limits
     }
+}
+
+/// A limit of a pose with its derivatives by the six pose coordinates.
+pub type Slope = (f64, [f64; 6]);
+
+impl Space {
+    /// Excesses of all limits at a pose with their derivatives, in the order of [`Space::limits`]; none at a singular pose.
+    pub fn limit_slopes(&self, hexapod: &Hexapod, pose: &Pose) -> Option<Vec<Slope>> {
+        let mut slopes = Vec::with_capacity(25);
+        if let Some(stroke) = self.stroke {
+            slopes.extend(stroke_slopes(hexapod, pose, stroke));
+        }
+        if self.joint_angle.is_none() && self.least_dexterity <= 0.0 {
+            return Some(slopes);
+        }
+        let others = |pose: &Pose| {
+            Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose).ok()?;
+            Some(self.limits(hexapod, pose).split_off(slopes.len()))
+        };
+        let differences = by_differences(others, pose)?;
+        slopes.extend(differences);
+        Some(slopes)
+    }
+}
+
+/// Strokes of the six legs with exact derivatives.
+fn stroke_slopes(hexapod: &Hexapod, pose: &Pose, [shortest, longest]: [f64; 2]) -> [Slope; 6] {
+    let (middle, half) = (f64::midpoint(shortest, longest), 0.5 * (longest - shortest));
+    let (rotation, euler) = (pose.rotation(), euler_rate_matrix(&pose.angles));
+    std::array::from_fn(|leg| {
+        let arm = rotation * hexapod.platform_joints[leg];
+        let span = pose.translation + arm - hexapod.base_joints[leg];
+        let length = span.norm();
+        let beyond = (length - middle) / half;
+        let n = span * (2.0 * beyond / (half * length));
+        let turned = euler.tr_mul(&arm.cross(&n));
+        (beyond * beyond - 1.0, [n.x, n.y, n.z, turned.x, turned.y, turned.z])
+    })
+}
+
+fn by_differences(limits: impl Fn(&Pose) -> Option<Vec<Limit>>, pose: &Pose) -> Option<Vec<Slope>> {
+    const STEP: f64 = 1e-6;
+    let mut slopes: Vec<Slope> = limits(pose)?.iter().map(|limit| (limit.excess, [0.0; 6])).collect();
+    for k in 0..6 {
+        let beside = |step: f64| {
+            let mut x = pose.to_array();
+            x[k] += step;
+            limits(&Pose::from_array(x))
+        };
+        for ((slope, above), below) in slopes.iter_mut().zip(beside(STEP)?).zip(beside(-STEP)?) {
+            slope.1[k] = (above.excess - below.excess) / (2.0 * STEP);
+        }
+    }
+    Some(slopes)
 }
 
 /// Inverse condition number of the leg Jacobian with moments over the platform radius.

@@ -193,11 +193,11 @@ fn next_readings(
 
 /// Readings like those of the plan after which the wrong one of a pair is on average excluded: information grows with their number.
 fn needed(distances: &[Distance], pair: [usize; 2], count: usize) -> Option<usize> {
-    const MOST: f64 = 1e4;
+    const MOST: usize = 10_000;
     let own = distances.iter().filter(|d| d.of.iter().all(|k| pair.contains(k)));
     let least = own.map(Distance::log_likelihood_ratio).fold(f64::INFINITY, f64::min);
-    let readings = (count as f64 * EXCLUDED_ODDS.ln() / least).ceil();
-    (1.0..=MOST).contains(&readings).then_some(readings as usize)
+    let each = least / count as f64;
+    (1..=MOST).find(|&n| n as f64 * each >= EXCLUDED_ODDS.ln())
 }
 
 fn pairs(rivals: usize) -> impl Iterator<Item = [usize; 2]> {

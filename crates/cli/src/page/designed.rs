@@ -96,25 +96,33 @@ fn poses(paper: &mut Paper, plan: &Designed) {
     table.lines().iter().for_each(|line| paper.line(line));
 }
 
+/// Name of a condition, and its value in a setting.
+type Column = (&'static str, fn(&Setting) -> f64);
+
 /// How often each setting is read, all poses together.
 fn settings(paper: &mut Paper, plan: &Designed) {
     let varies = |of: fn(&Setting) -> f64| {
         plan.settings.iter().any(|s| of(s).total_cmp(&of(&plan.settings[0])).is_ne())
     };
-    let columns: [(&str, fn(&Setting) -> f64); 3] =
+    let columns: [Column; 3] =
         [("approach", |s| s.approach), ("delta_T K", |s| s.delta_t), ("wait s", |s| s.elapsed)];
     let shown: Vec<_> = columns.into_iter().filter(|(_, of)| varies(*of)).collect();
     paper.line("");
     let mut table = Table::default();
     let names = shown.iter().map(|(name, _)| (*name).to_owned());
     table.row(std::iter::once("load (reference)".to_owned()).chain(names).chain(["readings".to_owned()]));
-    for (k, setting) in plan.settings.iter().enumerate() {
-        let count: usize = plan.visits.iter().map(|v| v.counts[k]).sum();
+    let counts = (0..plan.settings.len()).map(|k| plan.visits.iter().map(|v| v.counts[k]).sum::<usize>());
+    let (read, passed): (Vec<_>, Vec<_>) =
+        plan.settings.iter().zip(counts).partition(|(_, count)| *count > 0);
+    for (setting, count) in read {
         let loading = format!("{} ({})", wrench(&setting.loading.load), wrench(&setting.loading.reference));
         let cells = shown.iter().map(|(_, of)| of(setting).to_string());
         table.row(std::iter::once(loading).chain(cells).chain([count.to_string()]));
     }
     table.lines().iter().for_each(|line| paper.line(line));
+    if !passed.is_empty() {
+        paper.line(&format!("  {} others are not worth a reading", passed.len()));
+    }
 }
 
 /// The components of a wrench that are not zero.
@@ -167,31 +175,35 @@ fn sure(paper: &mut Paper, plan: &Designed) {
     let lost = if ended < starts { format!(", {} within no limits", starts - ended) } else { String::new() };
     paper.paragraph(2, &format!(
         "{agreeing} of {starts} starts reached this value to four digits, {} a worse one{lost} (seed {}). Rounding the poses \
-         changes it by {:.1e}.",
+         changes it by {}.",
         ended - agreeing,
         plan.seed,
-        plan.value / plan.best - 1.0,
+        change(plan.value / plan.best - 1.0),
     ));
     let Some(candidates) = plan.candidates else { return };
-    let among = format!("any plan over these {candidates} poses");
-    let text = match (plan.efficiency, plan.budget.limit) {
-        (None, _) => format!("No bound is known for {}: it is a ratio of eigenvalues.", plan.criterion),
-        (Some(e), limit) => {
-            let free = match limit {
-                Some(Amount::Time(_)) if plan.budget.pose_change > 0.0 => {
-                    ", even one that changed poses in no time"
-                }
-                _ => "",
-            };
-            format!(
-                "{}-efficiency at least {:.1} %: {among}{free} needs {:.1} % of this budget or more for the same.",
-                plan.criterion,
-                floored(e),
-                floored(e),
-            )
-        }
+    let Some(share) = plan.efficiency.map(floored) else {
+        paper.paragraph(2, &format!("No bound is known for {}, a ratio of eigenvalues.", plan.criterion));
+        return;
     };
-    paper.paragraph(2, &text);
+    let free = match plan.budget.limit {
+        Some(Amount::Time(_)) if plan.budget.pose_change > 0.0 => ", even if changing poses took no time,",
+        _ => "",
+    };
+    paper.paragraph(2, &format!(
+        "{}-efficiency at least {share:.1} %: for the same, any plan over these {candidates} poses{free} needs {share:.1} % of \
+         the budget or more.",
+        plan.criterion,
+    ));
+}
+
+/// A relative change in percent; small ones only as small.
+fn change(relative: f64) -> String {
+    const SMALL: f64 = 1e-4;
+    if relative.abs() < SMALL {
+        "less than 0.01 %".to_owned()
+    } else {
+        format!("{} %", number::significant(100.0 * relative, 2))
+    }
 }
 
 /// Percent, rounded down to a tenth: a bound stays one.
@@ -208,16 +220,16 @@ fn uncertainty(paper: &mut Paper, plan: &Designed) {
     table.row(["", "uncertainty", "unit", "share", "of"]);
     for (k, quantity) in plan.parameters.iter().enumerate() {
         let relative = covariance[(k, k)].sqrt();
-        let of = if k < 6 { "nominal" } else { "usual size" };
         table.row([
             quantity.name.clone(),
             number::significant(relative * quantity.size, 2),
             quantity.unit.to_owned(),
             format!("{} %", number::significant(100.0 * relative, 2)),
-            format!("{of} {}", number::significant(quantity.size, 3)),
+            number::significant(quantity.size, 3),
         ]);
     }
     table.left(2).lines().iter().for_each(|line| paper.line(line));
+    paper.paragraph(2, "Shares of a nominal stiffness, or of the usual size of an effect.");
 }
 
 /// The pairs of parameters that the plan separates worst.
@@ -237,5 +249,7 @@ fn correlations(paper: &mut Paper, plan: &Designed) {
     if lines.is_empty() {
         paper.paragraph(2, &format!("No two estimates correlate by {WORTH_TELLING} or more."));
     }
-    lines.iter().for_each(|line| paper.line(line));
+    for line in &lines {
+        paper.line(line);
+    }
 }

@@ -15,6 +15,9 @@ const LABEL: usize = 16;
 /// Decimal logarithms of odds beyond which a number says no more.
 const OVERWHELMING: f64 = 4.0;
 
+/// Name of a parameter, its value, its unit.
+pub(crate) type Size = (&'static str, f64, &'static str);
+
 /// Readings that separate rivals, and what they promise.
 pub(crate) struct Discriminated {
     /// `discrimination/1`.
@@ -25,8 +28,8 @@ pub(crate) struct Discriminated {
     pub(crate) readings: Vec<Planned>,
     /// Every pair of rivals.
     pub(crate) pairs: Vec<Pair>,
-    /// Sizes at which the rivals count, with unit: names, values, units of their parameters.
-    pub(crate) sizes: Vec<(String, Vec<(&'static str, f64, &'static str)>)>,
+    /// Sizes in which the rivals count, by their ids.
+    pub(crate) sizes: Vec<(String, Vec<Size>)>,
     /// What shows each rival.
     pub(crate) breakers: Vec<(String, String)>,
     /// Readings chosen from.
@@ -92,9 +95,8 @@ impl Promise {
 impl Discriminated {
     /// The result for programs.
     pub(crate) fn json(&self) -> Result<String, Failure> {
-        let sizes = |(id, parameters): &(String, Vec<(&str, f64, &str)>)| {
-            let one =
-                |(name, value, unit): &(&str, f64, &str)| json!({"name": name, "value": value, "unit": unit});
+        let sizes = |(id, parameters): &(String, Vec<Size>)| {
+            let one = |(name, value, unit): &Size| json!({"name": name, "value": value, "unit": unit});
             json!({"term": id, "parameters": parameters.iter().map(one).collect::<Vec<_>>()})
         };
         let all = json!({
@@ -222,8 +224,7 @@ fn assumptions(paper: &mut Paper, found: &Discriminated) {
     }
     paper.heading("Sizes assumed", "shown by readings spread evenly over the space, beside free springs");
     for (id, parameters) in &found.sizes {
-        let one =
-            |(name, value, unit): &(&str, f64, &str)| format!("{name} {} {unit}", significant(*value, 2));
+        let one = |(name, value, unit): &Size| format!("{name} {} {unit}", significant(*value, 2));
         let all: Vec<String> = parameters.iter().map(one).collect();
         paper.hanging(&format!("  {id}"), 2 * LABEL, &all.join(", "));
     }

@@ -39,7 +39,7 @@ fn proposal(paper: &mut Paper, number: usize, reading: &NextReport, usual: &[f64
     paper.hanging(&label, LABEL, &pose(&reading.pose));
     paper.hanging("     load", LABEL, &load(&reading.wrench));
     let without = reading.reference.iter().all(|x| *x == 0.0);
-    if !without && (number == 1 || reading.reference != *usual) {
+    if !without && (number == 1 || differ(&reading.reference, usual)) {
         paper.hanging("     reference", LABEL, &load(&reading.reference));
     }
     let NextReport { approach, elapsed_s, delta_t_k, repeats, .. } = *reading;
@@ -47,6 +47,10 @@ fn proposal(paper: &mut Paper, number: usize, reading: &NextReport, usual: &[f64
     let separates =
         if reading.separates == *pair { "the two".to_owned() } else { rivals(&reading.separates, "and") };
     paper.hanging("     gain", LABEL, &gain(reading.gain, &separates));
+}
+
+fn differ(a: &[f64; 6], b: &[f64; 6]) -> bool {
+    a.map(f64::to_bits) != b.map(f64::to_bits)
 }
 
 /// `base-compliance from leg-coupling`; `creep or nothing more`, beside what both have.

@@ -9,9 +9,10 @@
 //!
 //! for every plan `M*` out of the candidates `I_k`. For D this is the variance function of Kiefer and Wolfowitz 1960; at the best
 //! approximate plan both sides are equal. It is approached by moving weight from the worst member to the best candidate (vertex
-//! exchange, Böhning 1986). Changes of pose count no time here, so that the bound holds for all plans.
+//! exchange, Böhning 1986). The smallest eigenvalue (E, O3) has no gradient where several meet, as they do at the best plan; there
+//! `G` may be any matrix of trace one, and that of a smooth minimum is taken. Changes of pose count no time here, so that the bound holds for all plans.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::Candidates;
 use crate::Criterion;
@@ -20,8 +21,13 @@ use crate::Criterion;
 const MOST_MOVES: usize = 3000;
 /// Relative gap at which the bound is as good as reached.
 const REACHED: f64 = 1e-4;
-/// Halvings of a move.
-const HALVINGS: usize = 30;
+/// Moves without a better bound after which none is expected, and the relative gain that counts.
+const PATIENCE: usize = 100;
+const WORTHWHILE: f64 = 1e-5;
+/// Sharpness of the smooth minimum: it lies below the smallest eigenvalue of the plan by `ln p` over this, relatively.
+const SHARPNESS: f64 = 300.0;
+/// Steps of the search along a move.
+const STEPS: usize = 30;
 
 /// Power that brings a criterion to degree one, where it is concave; none for ratios of eigenvalues, which are not.
 pub fn degree_one(criterion: &Criterion) -> Option<f64> {
@@ -45,18 +51,24 @@ struct Approximate<'a> {
     candidates: &'a Candidates,
     criterion: &'a Criterion,
     power: f64,
+    /// Sharpness of the smooth minimum of the eigenvalues; none when the criterion has a gradient.
+    sharpness: Option<f64>,
     weights: Vec<f64>,
     information: DMatrix<f64>,
 }
 
 fn upper_bound(candidates: &Candidates, criterion: &Criterion, power: f64, members: &[usize]) -> f64 {
     let mut plan = Approximate::of(candidates, criterion, power, members);
-    let mut bound = f64::INFINITY;
+    let (mut bound, mut vain) = (f64::INFINITY, 0);
     for _ in 0..MOST_MOVES {
         let (value, slopes) = plan.slopes();
         let best = (0..slopes.len()).reduce(|a, b| if slopes[b] > slopes[a] { b } else { a });
         let Some(best) = best else { break };
+        vain = if slopes[best] < bound * (1.0 - WORTHWHILE) { 0 } else { vain + 1 };
         bound = bound.min(slopes[best]);
+        if vain > PATIENCE {
+            break;
+        }
         let worst = (0..slopes.len())
             .filter(|&k| plan.weights[k] > 0.0)
             .reduce(|a, b| if slopes[b] < slopes[a] { b } else { a });
@@ -72,13 +84,21 @@ impl<'a> Approximate<'a> {
     /// The weights of an exact plan, scaled to spend the whole budget.
     fn of(candidates: &'a Candidates, criterion: &'a Criterion, power: f64, members: &[usize]) -> Self {
         let mut weights = vec![0.0; candidates.information.len()];
-        members.iter().for_each(|&k| weights[k] += candidates.cost(k));
+        for &k in members {
+            weights[k] += candidates.cost(k);
+        }
         let spent: f64 = weights.iter().sum();
-        weights.iter_mut().for_each(|w| *w /= spent);
+        for weight in &mut weights {
+            *weight /= spent;
+        }
         let p = candidates.parameters();
-        let mut plan = Self { candidates, criterion, power, weights, information: DMatrix::zeros(p, p) };
+        let information = DMatrix::zeros(p, p);
+        let mut plan = Self { candidates, criterion, power, sharpness: None, weights, information };
         for (k, &weight) in plan.weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
             plan.information += plan.whole(k) * weight;
+        }
+        if matches!(criterion, Criterion::E | Criterion::O3) {
+            plan.sharpness = Some(SHARPNESS / plan.information.clone().symmetric_eigenvalues().min());
         }
         plan
     }
@@ -94,15 +114,29 @@ impl<'a> Approximate<'a> {
     }
 
     fn value(&self, information: &DMatrix<f64>) -> f64 {
-        self.criterion.value(information, 1).powf(self.power)
+        match self.sharpness {
+            Some(sharpness) => smooth_minimum(&information.clone().symmetric_eigenvalues(), sharpness).0,
+            None => self.criterion.value(information, 1).powf(self.power),
+        }
+    }
+
+    /// Value and gradient.
+    fn gradient(&self) -> (f64, DMatrix<f64>) {
+        if let Some(sharpness) = self.sharpness {
+            let eigen = self.information.clone().symmetric_eigen();
+            let (value, shares) = smooth_minimum(&eigen.eigenvalues, sharpness);
+            let v = &eigen.eigenvectors;
+            return (value, v * DMatrix::from_diagonal(&shares) * v.transpose());
+        }
+        let (value, slope) = self.criterion.gradient(&self.information, 1);
+        (value.powf(self.power), slope * (self.power * value.powf(self.power - 1.0)))
     }
 
     /// Value, and its slope towards each candidate.
     fn slopes(&self) -> (f64, Vec<f64>) {
-        let (value, mut slope) = self.criterion.gradient(&self.information, 1);
-        slope *= self.power * value.powf(self.power - 1.0);
+        let (value, slope) = self.gradient();
         let towards = |(k, m): (usize, &DMatrix<f64>)| slope.dot(m) * self.readings(k);
-        (value.powf(self.power), self.candidates.information.iter().enumerate().map(towards).collect())
+        (value, self.candidates.information.iter().enumerate().map(towards).collect())
     }
 
     /// Moves as much weight as is best; false when none helps.
@@ -120,11 +154,19 @@ impl<'a> Approximate<'a> {
     }
 }
 
+/// `-ln(sum exp(-s l)) / s` of numbers `l`, and its derivatives, which sum to one.
+fn smooth_minimum(l: &DVector<f64>, sharpness: f64) -> (f64, DVector<f64>) {
+    let least = l.min();
+    let weights = l.map(|x| (sharpness * (least - x)).exp());
+    let total = weights.sum();
+    (least - total.ln() / sharpness, weights / total)
+}
+
 /// Where a concave function is highest on `[0, most]`, by golden section.
 fn highest(f: impl Fn(f64) -> f64, most: f64) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut low, mut high) = (0.0, most);
-    for _ in 0..HALVINGS {
+    for _ in 0..STEPS {
         let (left, right) = (high - golden * (high - low), low + golden * (high - low));
         if f(left) < f(right) { low = left } else { high = right }
     }

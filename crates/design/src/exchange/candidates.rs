@@ -52,7 +52,10 @@ impl Candidates {
             }
         };
         if costs.iter().any(|c| *c <= 0.0) {
-            return Err(DesignError::Bad("a reading that takes no time can be repeated for ever".to_owned()));
+            return Err(DesignError::Bad(
+                "a reading that takes no time can be repeated for ever: state reading_s in [budget]"
+                    .to_owned(),
+            ));
         }
         let each: Vec<_> = poses.par_iter().map(|pose| regressor.each(pose).ok()).collect();
         let usable = || each.iter().zip(poses).filter_map(|(e, pose)| e.as_ref().map(|e| (e, *pose)));
@@ -79,7 +82,9 @@ impl Candidates {
     pub fn visits(&self, poses: &[Pose], members: &[usize]) -> Vec<Visit> {
         let settings = self.costs.len();
         let mut counts = vec![vec![0; settings]; poses.len()];
-        members.iter().for_each(|&k| counts[self.pose(k)][k % settings] += 1);
+        for &k in members {
+            counts[self.pose(k)][k % settings] += 1;
+        }
         let visited = poses.iter().zip(counts).filter(|(_, counts)| counts.iter().any(|n| *n > 0));
         visited.map(|(&pose, counts)| Visit { pose, counts }).collect()
     }

@@ -88,8 +88,8 @@ impl<'a> Exchange<'a> {
     fn start(&self, rng: &mut Pcg64) -> Draft<'_, 'a> {
         let c = self.candidates;
         let dearest = c.costs.iter().copied().fold(0.0, f64::max);
-        let affordable = (c.budget / (c.pose_cost + dearest)).floor().max(1.0) as usize;
-        let most = rng.random_range(1..=affordable.min(c.poses()));
+        let affordable = |n: &usize| *n as f64 * (c.pose_cost + dearest) <= c.budget;
+        let most = rng.random_range(1..=(1..=c.poses()).take_while(affordable).count().max(1));
         let few: Vec<usize> = (0..most).map(|_| rng.random_range(0..c.poses())).collect();
         let mut draft = Draft::new(self, Vec::new());
         let mut vain = 0;

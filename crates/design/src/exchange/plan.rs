@@ -32,7 +32,9 @@ impl<'a, 'c> Draft<'a, 'c> {
     pub(super) fn new(exchange: &'a Exchange<'c>, members: Vec<usize>) -> Self {
         let c = exchange.candidates;
         let mut visits = vec![0; c.poses()];
-        members.iter().for_each(|&k| visits[c.pose(k)] += 1);
+        for &k in &members {
+            visits[c.pose(k)] += 1;
+        }
         let information = &exchange.ridge + c.sum(&members);
         Self { spent: c.cost_of(&members), exchange, members, visits, information }
     }
@@ -90,7 +92,9 @@ impl<'a, 'c> Draft<'a, 'c> {
     /// Reads a pose under settings.
     pub(super) fn visit(&mut self, pose: usize, settings: &[usize]) {
         let first = pose * self.exchange.candidates.costs.len();
-        settings.iter().for_each(|s| self.add(first + s));
+        for setting in settings {
+            self.add(first + setting);
+        }
     }
 
     /// Poses that are read, ascending.

@@ -38,7 +38,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     progress.done();
     let mut paper = Paper::new(screen.ink());
     paper.heading("Readings that tell effects apart", &format!("seed {}", protocol.seed));
-    headlines(&study).iter().for_each(|line| paper.hanging("  -", 4, line));
+    for line in headlines(&study) {
+        paper.hanging("  -", 4, &line);
+    }
     paper.heading(
         "Open answers",
         "share of right answers after the readings proposed, and after as many at random",
