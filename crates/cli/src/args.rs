@@ -42,6 +42,7 @@ pub(crate) enum Command {
     Export(commands::export::Arguments),
     Design(commands::design::Arguments),
     Discriminate(commands::discriminate::Arguments),
+    Power(commands::power::Arguments),
     Terms(commands::terms::Arguments),
     Validate(commands::validate::Arguments),
     Completions(commands::completions::Arguments),

@@ -15,6 +15,7 @@ use hexbench_report::plot::PlotError;
 use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
 use hexbench_validation::paper::PaperError;
+use hexbench_validation::power::PowerError;
 use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
@@ -127,6 +128,9 @@ pub(crate) enum Failure {
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
+    /// A plan whose power cannot be told.
+    #[error("{0}")]
+    Power(#[from] PowerError),
     /// A study without an answer.
     #[error("{0}")]
     Reproduction(PaperError),
@@ -151,12 +155,16 @@ impl Failure {
     pub(crate) fn exit(&self) -> Exit {
         match self {
             Self::File(error) if error.is_input_output() => Exit::InputOutput,
-            Self::Model { cause, .. } => exit_of(cause),
+            Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => {
+                exit_of(cause)
+            }
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
-            Self::Design(_) | Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => Exit::NotDetermined,
+            Self::Power(_) | Self::Design(_) | Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => {
+                Exit::NotDetermined
+            }
             Self::File(_)
             | Self::ModelFile { .. }
             | Self::Row { .. }
@@ -185,6 +193,10 @@ impl Failure {
                  effect."
                     .into(),
             ),
+            Self::Power(PowerError::Design(DesignError::Model(cause))) => {
+                Some(next_step_of(cause, "the plan"))
+            }
+            Self::Power(_) => Some("Check the poses (mm, deg) and loads (N, N m) of the plan.".into()),
             Self::Design(_) => {
                 Some("Widen the ranges or limits in the space file, or ask for more poses.".into())
             }

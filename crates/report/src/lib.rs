@@ -4,6 +4,7 @@
 //! state. Nothing here writes a file.
 
 pub mod document;
+pub mod number;
 pub mod plot;
 
 pub use document::Document;

@@ -10,6 +10,7 @@ pub(crate) mod discriminate;
 pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod poses;
+pub(crate) mod power;
 pub(crate) mod predict;
 pub(crate) mod simulate;
 pub(crate) mod terms;
@@ -36,6 +37,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Transient(arguments) => transient::run(arguments, &screen),
         Command::Design(arguments) => design::run(arguments, &screen),
         Command::Discriminate(arguments) => discriminate::run(arguments, &screen),
+        Command::Power(arguments) => power::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
         Command::Validate(arguments) => validate::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),

@@ -10,6 +10,7 @@ mod export;
 mod json;
 mod pages;
 mod poses;
+mod power;
 mod recovery;
 mod scenes;
 mod score;
