@@ -41,6 +41,7 @@ pub(crate) enum Command {
     Transient(commands::transient::Arguments),
     Export(commands::export::Arguments),
     Design(commands::design::Arguments),
+    Discriminate(commands::discriminate::Arguments),
     Power(commands::power::Arguments),
     Terms(commands::terms::Arguments),
     Validate(commands::validate::Arguments),

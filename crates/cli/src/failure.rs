@@ -188,6 +188,11 @@ impl Failure {
             }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Check(_) => None,
+            Self::Design(DesignError::NeverDetermined { .. }) => Some(
+                "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
+                 effect."
+                    .into(),
+            ),
             Self::Power(PowerError::Design(DesignError::Model(cause))) => {
                 Some(next_step_of(cause, "the plan"))
             }

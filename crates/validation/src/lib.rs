@@ -5,6 +5,7 @@
 //! `hexbench_truth`, answers from `hexbench_model`.
 
 pub mod calibration;
+pub mod discriminate;
 pub mod paper;
 pub mod power;
 pub mod proportion;

@@ -1,6 +1,7 @@
 //! `hexbench validate`: studies that say how far the bench itself can be trusted, one file each.
 
 pub(crate) mod calibration;
+pub(crate) mod discriminate;
 pub(crate) mod paper;
 pub(crate) mod power;
 pub(crate) mod recovery;
@@ -25,6 +26,7 @@ enum Study {
     Recovery(recovery::Arguments),
     Paper(paper::Arguments),
     Calibration(calibration::Arguments),
+    Discriminate(discriminate::Arguments),
     Power(power::Arguments),
 }
 
@@ -34,6 +36,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Recovery(arguments) => recovery::run(arguments, screen),
         Study::Paper(arguments) => paper::run(arguments, screen),
         Study::Calibration(arguments) => calibration::run(arguments, screen),
+        Study::Discriminate(arguments) => discriminate::run(arguments, screen),
         Study::Power(arguments) => power::run(arguments, screen),
     }
 }
