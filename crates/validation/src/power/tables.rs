@@ -54,11 +54,11 @@ pub(super) fn taken_for(alike: &Alike, row: usize, e: &Effect) -> Vec<String> {
     let top = mistaken.iter().find(|(name, _)| *name != NOTHING);
     vec![
         e.term.to_owned(),
-        percent(own),
-        percent(nothing),
-        percent((1.0 - own - nothing).max(0.0)),
+        number(own),
+        number(nothing),
+        number((1.0 - own - nothing).max(0.0)),
         top.filter(|(_, share)| *share >= 0.01)
-            .map_or(NONE.to_owned(), |(name, share)| format!("{name} {}", percent(*share))),
+            .map_or(NONE.to_owned(), |(name, share)| format!("{name} {}", number(*share))),
     ]
 }
 
