@@ -41,6 +41,7 @@ pub(crate) enum Command {
     Transient(commands::transient::Arguments),
     Export(commands::export::Arguments),
     Design(commands::design::Arguments),
+    Study(commands::study::Arguments),
     Terms(commands::terms::Arguments),
     Validate(commands::validate::Arguments),
     Completions(commands::completions::Arguments),
