@@ -5,5 +5,6 @@
 
 pub mod document;
 pub mod plot;
+pub mod png;
 
 pub use document::Document;

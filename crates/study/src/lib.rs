@@ -22,7 +22,7 @@ pub mod columns;
 pub mod draw;
 pub mod error;
 pub mod journal;
-// pub mod page;
+pub mod page;
 pub mod plan;
 pub mod read;
 pub mod results;

@@ -24,6 +24,22 @@ impl Welford {
         self.squares += before * (x - self.mean);
     }
 
+    /// Both sets of numbers. Source: Chan, Golub and `LeVeque`, The American Statistician 37 (1983) 242.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        let count = self.count + other.count;
+        if other.count == 0 || count == 0 {
+            return self;
+        }
+        let (n, m, apart) = (self.count as f64, other.count as f64, other.mean - self.mean);
+        let all = count as f64;
+        Self {
+            count,
+            mean: self.mean + apart * m / all,
+            squares: self.squares + other.squares + apart * apart * n * m / all,
+        }
+    }
+
     /// How many numbers it has seen.
     pub fn count(&self) -> u64 {
         self.count
@@ -79,9 +95,26 @@ pub struct Answers {
 }
 
 impl CellStatistics {
-    fn empty(cell: usize) -> Self {
+    /// A cell without trials.
+    pub fn empty(cell: usize) -> Self {
         let (springs, answers) = (Springs::default(), Answers::default());
         Self { cell, by_status: [0; 6], springs, answers }
+    }
+
+    /// Trials of both cells taken together; the number is that of the first.
+    #[must_use]
+    pub fn and(mut self, other: &Self) -> Self {
+        self.by_status.iter_mut().zip(other.by_status).for_each(|(a, b)| *a += b);
+        self.springs.errors = self.springs.errors.and(other.springs.errors);
+        self.springs.covered += other.springs.covered;
+        for k in 0..3 {
+            self.springs.holdout[k] = self.springs.holdout[k].and(other.springs.holdout[k]);
+            self.answers.outcomes[k] += other.answers.outcomes[k];
+        }
+        for k in 0..2 {
+            self.answers.holdout[k] = self.answers.holdout[k].and(other.answers.holdout[k]);
+        }
+        self
     }
 
     /// Trials.
@@ -176,6 +209,19 @@ mod tests {
         let mut small = Welford::default();
         [3.0, -4.0].iter().for_each(|x| small.add(*x));
         assert!((small.rms() - 12.5_f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn statistics_of_parts_together_are_those_of_the_whole() {
+        let of = |range: std::ops::Range<i32>| {
+            let mut all = Welford::default();
+            range.for_each(|k| all.add(f64::from(k * k)));
+            all
+        };
+        let (whole, parts) = (of(0..9), of(0..0).and(of(0..4)).and(of(4..9)).and(of(0..0)));
+        assert_eq!(whole.count(), parts.count());
+        assert!((whole.mean() - parts.mean()).abs() < 1e-13, "{} {}", whole.mean(), parts.mean());
+        assert!((whole.std() - parts.std()).abs() < 1e-13, "{} {}", whole.std(), parts.std());
     }
 
     #[test]
