@@ -106,7 +106,7 @@ impl Axes {
     pub fn levels(&self) -> [AxisLevels; AXES] {
         let words = |names: Vec<String>| names.into_iter().map(Level::Word).collect::<Vec<_>>();
         let whole = |numbers: &[u64]| numbers.iter().map(|&n| Level::Number(n as f64)).collect::<Vec<_>>();
-        let effect = |id: &Option<&str>| id.unwrap_or("none").to_owned();
+        let effect = |id: Option<&str>| id.unwrap_or("none").to_owned();
         let axis = |name, levels: Vec<Level>, usual: &str| AxisLevels {
             name,
             given: !levels.is_empty(),
@@ -118,7 +118,7 @@ impl Axes {
             axis("poses", whole(&self.poses), "of the plan"),
             axis("repeats", whole(&self.repeats), "of the plan"),
             axis("estimator", words(self.estimator.iter().map(|e| e.name().to_owned()).collect()), "gls"),
-            axis("effect", words(self.effect.iter().map(effect).collect()), "none"),
+            axis("effect", words(self.effect.iter().copied().map(effect).collect()), "none"),
             axis(self.size.name(), self.size.values().iter().map(|&x| Level::Number(x)).collect(), "usual"),
             axis(self.noise.name(), self.noise.levels(), ""),
         ]

@@ -95,7 +95,9 @@ impl Shard {
     /// Adds a trial without an answer.
     pub fn push_failed(&mut self, status: Status) {
         let (first, others) = self.columns.split_at_mut(1);
-        first.iter_mut().for_each(|column| column.push(Value::Code(status as u8)));
+        for column in first {
+            column.push(Value::Code(status as u8));
+        }
         for column in others {
             // No number is a code and no code a number: either leaves the value empty.
             let none =

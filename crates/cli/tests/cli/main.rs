@@ -14,5 +14,6 @@ mod scenes;
 mod score;
 mod separation;
 mod streams;
+mod study;
 mod support;
 mod validate;

@@ -50,7 +50,7 @@ pub(super) fn decode(bytes: &[u8], mut empty: Shard, origin: [u8; DIGEST]) -> Op
         let (own, others) = rest.split_at_checked(rows.checked_mul(size)?)?;
         match column {
             Values::Numbers(values) => {
-                values.extend(own.as_chunks::<8>().0.iter().map(|b| f64::from_le_bytes(*b)))
+                values.extend(own.as_chunks::<8>().0.iter().map(|b| f64::from_le_bytes(*b)));
             }
             Values::Codes(codes) => codes.extend(own),
         }

@@ -4,7 +4,7 @@ use hexbench_report::plot::{Axis, Bars, Chart, Panels, PlotError, Series};
 
 use super::marginal::{Marginal, group_of, marginal, varying};
 use super::response::{Response, responses};
-use crate::cells::{AXES, AxisLevels};
+use crate::cells::{AXES, AxisLevels, Level};
 use crate::results::CellStatistics;
 use crate::study::Study;
 
@@ -36,7 +36,8 @@ pub fn pictures(study: &Study, cells: &[CellStatistics]) -> Result<Vec<Picture>,
         if let Some(numbers) = levels[axis].numbers() {
             all.extend(over_numbers(study, &levels, &found, &numbers).transpose()?);
         } else {
-            for response in responses(study.task) {
+            // Bars of coverage are all alike.
+            for response in responses(study.task).iter().filter(|r| r.key != "coverage") {
                 all.extend(over_names(&levels, &found, response).transpose()?);
             }
         }
@@ -67,15 +68,11 @@ fn panel(levels: &[AxisLevels; AXES], found: &Marginal, numbers: &[f64], r: &Res
     let lines: Vec<Vec<[f64; 4]>> = found.groups.iter().map(|cells| points(cells, numbers, r)).collect();
     let values = || lines.iter().flatten().map(|p| p[1]);
     values().next()?;
-    let x = with_scale(Axis::new(spoken(levels[found.axis].name), "").with_ticks(sorted(numbers)), numbers);
-    let y = Axis::new("", r.unit);
-    let y = if r.is_share { y } else { with_scale(y, &values().collect::<Vec<_>>()) };
+    let x = with_air(Axis::new(spoken(levels[found.axis].name), "").with_ticks(sorted(numbers)), numbers);
+    let y = upright(Axis::new("", r.unit), r, &values().collect::<Vec<_>>());
     let mut chart = Chart::new(r.title, x, y);
     if r.key == "coverage" {
-        let ends = [
-            numbers.iter().copied().fold(f64::INFINITY, f64::min),
-            numbers.iter().copied().fold(0.0, f64::max),
-        ];
+        let ends = extremes(numbers);
         chart = chart.with(Series::line("as it should be", ends.map(|x| [x, 95.0]).to_vec()).as_reference());
     }
     for (k, line) in lines.iter().enumerate().filter(|(_, line)| !line.is_empty()) {
@@ -115,7 +112,7 @@ fn over_names(
     let title = format!("{} over {}{}", r.title, spoken(axis.name), by(levels, found));
     let y = Axis::new(r.title, r.unit);
     let y = if r.is_share { y.with_range(0.0, 100.0) } else { y };
-    let mut bars = Bars::new(title.clone(), axis.levels.iter().map(|l| l.text()).collect(), y);
+    let mut bars = Bars::new(title.clone(), axis.levels.iter().map(Level::text).collect(), y);
     for (k, values) in all.into_iter().enumerate() {
         bars = bars.with(found.group.map_or("all trials".to_owned(), |g| named(&levels[g], k)), values);
     }
@@ -123,10 +120,41 @@ fn over_names(
     Some(bars.to_svg().map(|svg| Picture { name, axis: axis.name, caption: title, svg }))
 }
 
-fn with_scale(axis: Axis, values: &[f64]) -> Axis {
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(0.0, f64::max);
-    if low > 0.0 && high / low >= WIDE { axis.with_logarithm() } else { axis }
+fn extremes(values: &[f64]) -> [f64; 2] {
+    [values.iter().copied().fold(f64::INFINITY, f64::min), values.iter().copied().fold(0.0, f64::max)]
+}
+
+/// The axis below: logarithmic where its numbers span much, a little wider than they are.
+fn with_air(axis: Axis, values: &[f64]) -> Axis {
+    const AIR: f64 = 0.06;
+    let [low, high] = extremes(values);
+    if low > 0.0 && high / low >= WIDE {
+        let margin = (high / low).powf(AIR);
+        return axis.with_logarithm().with_range(low / margin, high * margin);
+    }
+    axis.with_range(low - AIR * (high - low), high + AIR * (high - low))
+}
+
+/// The axis of a result: shares from 0 to 100 % (coverage about its 95 %), errors from zero or between round numbers.
+fn upright(axis: Axis, r: &Response, values: &[f64]) -> Axis {
+    const COVERAGE: [f64; 2] = [90.0, 100.0];
+    let [low, high] = extremes(values);
+    if r.key == "coverage" && low >= COVERAGE[0] {
+        return axis.with_range(COVERAGE[0], COVERAGE[1]);
+    }
+    if r.is_share {
+        return axis.with_range(0.0, 100.0);
+    }
+    if low > 0.0 && high / low >= WIDE {
+        return axis.with_logarithm().with_range(round_below(low), 1.0 / round_below(1.0 / high));
+    }
+    axis.with_range(0.0, 1.05 * high)
+}
+
+/// The largest of 1, 2, 5 times a power of ten that is not above a positive number.
+fn round_below(x: f64) -> f64 {
+    let ten = 10.0_f64.powf(x.log10().floor());
+    [5.0, 2.0, 1.0].into_iter().map(|k| k * ten).find(|round| *round <= x).unwrap_or(ten)
 }
 
 fn sorted(numbers: &[f64]) -> Vec<f64> {

@@ -69,7 +69,7 @@ fn matching(curve: &[[f64; 2]], error: f64) -> Option<Matching> {
     let mut curve: Vec<[f64; 2]> = curve.iter().copied().filter(|p| p[1] > 0.0).collect();
     curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let (first, last) = (curve.first()?, curve.last()?);
-    if !(error > 0.0) {
+    if error.is_nan() || error <= 0.0 {
         return None;
     }
     if error > first[1] {

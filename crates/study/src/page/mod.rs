@@ -13,7 +13,7 @@ use crate::results::CellStatistics;
 use crate::study::Study;
 
 pub use charts::{Picture, pictures};
-pub use equal::{Equal, equals};
+pub use equal::{Equal, Matching, equals};
 pub use laws::{Law, laws};
 pub use marginal::{Marginal, marginal};
 
@@ -21,7 +21,7 @@ pub use marginal::{Marginal, marginal};
 pub fn summary(study: &Study, cells: &[CellStatistics]) -> Document {
     let mut page = Document::default();
     sections::head(&mut page, study, cells);
-    sections::by_axis(&mut page, study, cells, &[]);
+    sections::by_axis(&mut page, study, cells, None);
     sections::conclusions(&mut page, study, cells);
     page
 }
@@ -34,7 +34,7 @@ pub fn document(study: &Study, cells: &[CellStatistics], pictures: &[Picture], f
     let charts: Vec<(&Picture, String)> =
         pictures.iter().map(|p| (p, format!("{folder}/{}.svg", p.name))).collect();
     sections::conclusions(&mut page, study, cells);
-    sections::by_axis(&mut page, study, cells, &charts);
+    sections::by_axis(&mut page, study, cells, Some(&charts));
     sections::all_cells(&mut page, study, cells);
     sections::reading(&mut page, study);
     page

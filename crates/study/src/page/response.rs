@@ -10,6 +10,8 @@ pub(super) struct Response {
     pub key: &'static str,
     /// As a title.
     pub title: &'static str,
+    /// As the head of a column.
+    pub short: &'static str,
     /// Unit.
     pub unit: &'static str,
     /// Value, and its 95 % bounds where there are any (else NaN).
@@ -38,6 +40,7 @@ static SPRINGS: [Response; 3] = [
     Response {
         key: "stiffness-error",
         title: "Stiffness error, rms",
+        short: "stiffness error, %",
         unit: "%",
         of: |c| alone(c.springs.errors.rms()),
         is_share: false,
@@ -45,6 +48,7 @@ static SPRINGS: [Response; 3] = [
     Response {
         key: "holdout-error",
         title: "Held-out error over noise",
+        short: "held-out error / noise",
         unit: "",
         of: |c| alone(c.springs.holdout[2].rms()),
         is_share: false,
@@ -52,6 +56,7 @@ static SPRINGS: [Response; 3] = [
     Response {
         key: "coverage",
         title: "Coverage of 95 % intervals",
+        short: "coverage, %",
         unit: "%",
         of: |c| percent(c.coverage()),
         is_share: true,
@@ -59,7 +64,28 @@ static SPRINGS: [Response; 3] = [
 ];
 
 static DIAGNOSE: [Response; 3] = [
-    Response { key: "right", title: "Right", unit: "%", of: |c| percent(c.share(0)), is_share: true },
-    Response { key: "honest", title: "Honest", unit: "%", of: |c| percent(c.share(1)), is_share: true },
-    Response { key: "wrong", title: "Wrong", unit: "%", of: |c| percent(c.share(2)), is_share: true },
+    Response {
+        key: "right",
+        title: "Right",
+        short: "right, %",
+        unit: "%",
+        of: |c| percent(c.share(0)),
+        is_share: true,
+    },
+    Response {
+        key: "honest",
+        title: "Honest",
+        short: "honest, %",
+        unit: "%",
+        of: |c| percent(c.share(1)),
+        is_share: true,
+    },
+    Response {
+        key: "wrong",
+        title: "Wrong",
+        short: "wrong, %",
+        unit: "%",
+        of: |c| percent(c.share(2)),
+        is_share: true,
+    },
 ];

@@ -7,7 +7,7 @@ use super::equal::{Equal, Matching, equals};
 use super::laws::{Law, laws};
 use super::marginal::{group_of, marginal, varying};
 use super::response::responses;
-use crate::cells::AxisLevels;
+use crate::cells::{AxisLevels, Level};
 use crate::columns::Status;
 use crate::results::CellStatistics;
 use crate::study::{Study, Task};
@@ -47,7 +47,7 @@ pub(super) fn head(page: &mut Document, study: &Study, cells: &[CellStatistics])
 /// The axes with their values.
 pub(super) fn axes(page: &mut Document, study: &Study) {
     page.heading(2, "Axes");
-    let values = |axis: &AxisLevels| axis.levels.iter().map(|l| l.text()).collect::<Vec<_>>().join(", ");
+    let values = |axis: &AxisLevels| axis.levels.iter().map(Level::text).collect::<Vec<_>>().join(", ");
     let rows = study
         .axes
         .levels()
@@ -110,24 +110,21 @@ fn equal_table(page: &mut Document, equals: &[Equal]) {
     page.table(header, equals.iter().map(row).collect::<Vec<_>>());
 }
 
-/// A table for each axis with more than one value, with its charts.
+/// A table for each axis with more than one value: by a second axis with charts, else by itself.
 pub(super) fn by_axis(
     page: &mut Document,
     study: &Study,
     cells: &[CellStatistics],
-    charts: &[(&Picture, String)],
+    charts: Option<&[(&Picture, String)]>,
 ) {
     let levels = study.axes.levels();
     for axis in varying(&levels) {
-        let group = group_of(&levels, axis);
+        let group = charts.and_then(|_| group_of(&levels, axis));
         page.heading(2, format!("Over {}", spoken(levels[axis].name)));
         let found = marginal(study, cells, axis, group);
         let mut header: Vec<String> = group.map(|g| spoken(levels[g].name).to_owned()).into_iter().collect();
         header.push(spoken(levels[axis].name).to_owned());
-        header.extend(responses(study.task).iter().map(|r| match r.unit {
-            "" => r.title.to_lowercase(),
-            unit => format!("{}, {unit}", r.title.to_lowercase()),
-        }));
+        header.extend(responses(study.task).iter().map(|r| r.short.to_owned()));
         let mut rows = Vec::new();
         for (g, line) in found.groups.iter().enumerate() {
             for (k, cell) in line.iter().enumerate() {
@@ -138,7 +135,9 @@ pub(super) fn by_axis(
             }
         }
         page.table(header, rows);
-        for (picture, file) in charts.iter().filter(|(picture, _)| picture.axis == levels[axis].name) {
+        for (picture, file) in
+            charts.unwrap_or_default().iter().filter(|(picture, _)| picture.axis == levels[axis].name)
+        {
             page.figure(file.clone(), picture.caption.clone());
         }
     }
@@ -166,8 +165,7 @@ pub(super) fn all_cells(page: &mut Document, study: &Study, cells: &[CellStatist
     let shown = varying(&levels);
     page.heading(2, "All cells");
     let axes = shown.iter().map(|&k| levels[k].name.to_owned());
-    let header: Vec<String> =
-        axes.chain(responses(study.task).iter().map(|r| r.title.to_lowercase())).collect();
+    let header: Vec<String> = axes.chain(responses(study.task).iter().map(|r| r.short.to_owned())).collect();
     let row = |cell: &CellStatistics| {
         let position = study.axes.cell(cell.cell).position;
         let at = shown.iter().map(|&k| levels[k].levels[position[k]].text());
@@ -204,9 +202,11 @@ pub(super) fn reading(page: &mut Document, study: &Study) {
 
 /// Three digits.
 fn number(x: f64) -> String {
+    const MOST_PLACES: u8 = 8;
     if !x.is_finite() {
         return "-".to_owned();
     }
-    let places = if x.abs() < f64::MIN_POSITIVE { 2 } else { 2 - x.abs().log10().floor() as i32 };
-    format!("{x:.*}", usize::try_from(places).unwrap_or(0))
+    let shows = |places: &u8| x.abs() * 10.0_f64.powi(i32::from(*places)) >= 99.5;
+    let places = (0..MOST_PLACES).find(shows).unwrap_or(MOST_PLACES);
+    format!("{x:.*}", usize::from(places))
 }

@@ -1,5 +1,7 @@
 //! Reading `[axes]`.
 
+use std::path::Path;
+
 use hexbench_core::files::{Fault, Item, Key, Problem, Section};
 use hexbench_truth::campaign::{PlanKind, machines};
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
@@ -159,9 +161,13 @@ fn whole_to(item: &Item<'_>, most: u64) -> Result<u64, Fault> {
     Err(rule(item, &format!("at most {most}"), "Write a smaller number."))
 }
 
+fn has_extension(name: &str, extension: &str) -> bool {
+    Path::new(name).extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
+}
+
 fn geometry(item: &Item<'_>) -> Result<GeometryName, Fault> {
     let word = item.string()?;
-    if word.ends_with(".toml") {
+    if has_extension(word, "toml") {
         return Ok(GeometryName::File(word.to_owned()));
     }
     let known = machines::FAMILIES.iter().find(|family| **family == word);
@@ -173,7 +179,7 @@ fn geometry(item: &Item<'_>) -> Result<GeometryName, Fault> {
 
 fn plan(item: &Item<'_>) -> Result<PlanName, Fault> {
     let word = item.string()?;
-    if std::path::Path::new(word).extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
+    if has_extension(word, "csv") {
         return Ok(PlanName::Table(word.to_owned()));
     }
     if word.contains('/') {

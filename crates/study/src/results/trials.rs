@@ -15,7 +15,7 @@ use parquet::file::properties::{WriterProperties, WriterPropertiesBuilder, Write
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
-use crate::cells::{AXES, AxisLevels, Level};
+use crate::cells::{AXES, AxisLevels};
 use crate::columns::{Column, Kind};
 use crate::runner::Runner;
 use crate::shard::{EMPTY, Shard, Values};
@@ -106,13 +106,12 @@ impl Head<'_> {
         for (k, axis) in self.levels.iter().enumerate() {
             let at = |p: &(usize, u64)| study.axes.cell(p.0).position[k];
             let at: Vec<usize> = places.iter().map(at).collect();
-            match axis.numbers() {
-                Some(numbers) => double(group, &at.iter().map(|&k| numbers[k]).collect::<Vec<_>>())?,
-                None => {
-                    let words: Vec<ByteArray> =
-                        axis.levels.iter().map(|l: &Level| l.text().into_bytes().into()).collect();
-                    text(group, &at.iter().map(|&k| words[k].clone()).collect::<Vec<_>>(), None)?;
-                }
+            if let Some(numbers) = axis.numbers() {
+                double(group, &at.iter().map(|&k| numbers[k]).collect::<Vec<_>>())?;
+            } else {
+                let words = axis.levels.iter().map(|level| level.text().into_bytes().into());
+                let words: Vec<ByteArray> = words.collect();
+                text(group, &at.iter().map(|&k| words[k].clone()).collect::<Vec<_>>(), None)?;
             }
         }
         let sigma = |of: fn(&hexbench_truth::metrology::Noise) -> f64| {

@@ -179,7 +179,8 @@ fn inverse_of_normal(a: &DMatrix<f64>) -> Result<DMatrix<f64>, Status> {
     let scaled = DMatrix::from_fn(a.nrows(), 6, |i, j| a[(i, j)] / scale[j]);
     let normal = scaled.tr_mul(&scaled);
     let eigenvalues = normal.symmetric_eigenvalues();
-    if !(eigenvalues.min() > DETERMINED * eigenvalues.max()) {
+    let share = eigenvalues.min() / eigenvalues.max();
+    if share.is_nan() || share <= DETERMINED {
         return Err(Status::NotDetermined);
     }
     let inverse = normal.cholesky().ok_or(Status::NotDetermined)?.inverse();
