@@ -20,6 +20,7 @@ seed = 7
 trials = $((trials / 4))
 task = "springs"
 redraw = 5
+space = "$PWD/data/designs/paper-space.toml"
 
 [axes]
 geometry = ["ring_a", "random_ring"]

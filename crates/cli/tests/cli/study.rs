@@ -128,6 +128,22 @@ fn the_bundled_studies_can_be_read() {
     }
 }
 
+#[test]
+fn the_example_of_the_page_on_formats_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let formats = fs::read_to_string(root().join("docs/file-formats.md")).unwrap();
+    let example = formats.split("```toml\nformat = \"study/1\"").nth(1).unwrap();
+    let file = write(folder.path(), &format!("format = \"study/1\"{}", example.split("```").next().unwrap()));
+    for (from, to) in
+        [("scenes/paper/hexapod.toml", "hexapod.toml"), ("data/designs/paper-space.toml", "space.toml")]
+    {
+        fs::copy(root().join(from), folder.path().join(to)).unwrap();
+    }
+    let study = hexbench_study::Study::read(&file).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(study.axes.cells(), 2 * 2 * 3 * 3);
+    assert_eq!(study.inputs.len(), 3, "{:?}", study.inputs);
+}
+
 /// A file that must be refused: what is wrong, its text, exit code, parts of the message.
 struct Bad {
     what: &'static str,
