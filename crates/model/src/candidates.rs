@@ -204,6 +204,8 @@ impl<'a> Collector<'a> {
             pure_error: (campaign.pure_error, campaign.pure_error_dof),
             noise_dof: campaign.noise.dof,
             blocks,
+            absorbed: root.rows(0, 6) * overlap.columns(0, width),
+            springs: root.rows(0, 6) * root.rows(0, 6).transpose(),
         };
         (gram, self.candidates)
     }

@@ -1,5 +1,6 @@
 //! Estimates with names, units and uncertainty, as people and files read them.
 
+use hexbench_core::Vector6;
 use serde::{Deserialize, Serialize};
 
 use crate::fit::Fit;
@@ -41,11 +42,38 @@ impl Estimates {
     }
 }
 
+/// Leg compliances with their uncertainty, of one model or averaged over several.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Springs {
+    /// m/N.
+    pub compliance: Vector6,
+    /// (m/N)^2.
+    pub variance: Vector6,
+    /// False where the data leave a compliance open.
+    pub determined: [bool; 6],
+}
+
+impl Springs {
+    /// Those of one fit.
+    pub fn of(fit: &Fit) -> Self {
+        Self {
+            compliance: fit.point.springs,
+            variance: Vector6::from_fn(|leg, _| fit.std(leg).powi(2)),
+            determined: std::array::from_fn(|leg| fit.is_determined(leg)),
+        }
+    }
+}
+
 /// Stiffness of every leg, then the parameters and shape of every term.
 pub fn estimates(fit: &Fit) -> Estimates {
+    estimates_with(&Springs::of(fit), fit)
+}
+
+/// The same with springs from elsewhere.
+pub fn estimates_with(springs: &Springs, fit: &Fit) -> Estimates {
     let mut all = Estimates::default();
     for leg in 0..6 {
-        stiffness(fit, leg, &mut all);
+        stiffness(springs, leg, &mut all);
     }
     for (a, &offset) in fit.point.active.iter().zip(&fit.offsets) {
         term_estimates(fit, a, offset, &mut all);
@@ -54,12 +82,12 @@ pub fn estimates(fit: &Fit) -> Estimates {
 }
 
 /// Stiffness `k = 1 / c` with `std(k) = std(c) k^2`.
-fn stiffness(fit: &Fit, leg: usize, all: &mut Estimates) {
-    let c = fit.point.springs[leg];
+fn stiffness(springs: &Springs, leg: usize, all: &mut Estimates) {
+    let (c, std) = (springs.compliance[leg], springs.variance[leg].sqrt());
     let k = 1.0 / c;
     // A compliance that may be zero has no stiffness to report.
-    let determined = fit.is_determined(leg) && c > 0.0 && fit.std(leg) < 0.5 * c;
-    let std = fit.std(leg) * k * k;
+    let determined = springs.determined[leg] && c > 0.0 && std < 0.5 * c;
+    let std = std * k * k;
     let name = format!("leg-{}.stiffness", leg + 1);
     all.push(name, "N/um", k * STIFFNESS_PER_SI, std * STIFFNESS_PER_SI, determined);
 }

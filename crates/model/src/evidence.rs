@@ -11,6 +11,7 @@
 //! width of the prior of each effect is not known: it is averaged over a grid that is uniform in its logarithm.
 //! Where the noise level itself comes from the data, `ln Z` is the Student form of the same integral.
 
+use hexbench_core::Vector6;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -126,6 +127,10 @@ pub struct Gram {
     pub noise_dof: f64,
     /// The blocks.
     pub blocks: Vec<Block>,
+    /// Compliance (m/N) the six springs take over from one unit of every column; 6 rows.
+    pub absorbed: DMatrix<f64>,
+    /// Covariance of the springs alone, (m/N)^2; 6x6.
+    pub springs: DMatrix<f64>,
 }
 
 /// Posterior of one set of variants.
@@ -172,6 +177,21 @@ impl Gram {
         }
         let log_evidence = self.gain(drop, inflation) - 0.5 * log_det + signs;
         Some(Posterior { log_evidence, drop: drop * inflation, mean: values, variance })
+    }
+
+    /// Springs beside a set of variants: change of the compliances (m/N) against springs alone, and their variances.
+    ///
+    /// `None` as for [`Self::posterior`].
+    pub fn springs(&self, set: &[Variant]) -> Option<(Vector6, Vector6)> {
+        let rest = Rest::new(self, set)?;
+        let taken = DMatrix::from_fn(6, rest.columns.len(), |leg, k| {
+            self.absorbed[(leg, rest.columns[k])] * rest.scale[k]
+        });
+        // Covariance of the columns is (L L')^-1, their mean L'^-1 of the forward solution.
+        let spread = rest.factor.solve_lower_triangular(&taken.transpose())?;
+        let change = -spread.tr_mul(&rest.forward);
+        let variance = |leg: usize| self.springs[(leg, leg)] + spread.column(leg).norm_squared();
+        Some((Vector6::from_fn(|leg, _| change[leg]), Vector6::from_fn(|leg, _| variance(leg))))
     }
 
     /// Columns of a set of variants and their prior widths.

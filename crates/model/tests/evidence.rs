@@ -40,6 +40,8 @@ fn gram(g: &DMatrix<f64>, b: &DVector<f64>, mut block: Block, width: f64, yy: f6
         pure_error: (0.0, 0.0),
         noise_dof: f64::INFINITY,
         blocks: vec![block],
+        absorbed: DMatrix::zeros(6, t.ncols()),
+        springs: DMatrix::zeros(6, 6),
     }
 }
 
@@ -58,6 +60,39 @@ fn log_integral(from: f64, to: f64, steps: usize, f: impl Fn(f64) -> f64) -> f64
 /// `ln N(x; 0, s^2)`.
 fn log_normal(x: f64, s: f64) -> f64 {
     -0.5 * (x / s).powi(2) - s.ln() - 0.5 * std::f64::consts::TAU.ln()
+}
+
+#[test]
+fn springs_beside_an_effect_are_those_of_the_joint_least_squares_problem() {
+    /// Of condition numbers below 1e4 in double precision.
+    const ALGEBRA: f64 = 1e-9;
+    let mut random = Random::new(5);
+    let mut draw = |rows: usize, columns: usize| DMatrix::from_fn(rows, columns, |_, _| random.normal());
+    let (springs, effect, y) = (draw(20, 6), draw(20, 2), draw(20, 1));
+    let (sizes, width) = ([0.5, 3.0], 0.8);
+    let alone = (springs.transpose() * &springs).try_inverse().unwrap();
+    let residual = |m: &DMatrix<f64>| m - &springs * (&alone * springs.tr_mul(m));
+    let block = Block::new(&sizes, vec![false; 2], 1.0, false, 1.0);
+    let t = block.transform.clone();
+    let g = effect.tr_mul(&residual(&effect));
+    let b = effect.tr_mul(&residual(&y)).column(0).into_owned();
+    let problem = Gram {
+        absorbed: &alone * springs.tr_mul(&effect) * t,
+        springs: alone.clone(),
+        ..gram(&g, &b, block, width, 40.0)
+    };
+    let (change, variance) = problem.springs(&ONLY).unwrap();
+
+    let all = DMatrix::from_fn(20, 8, |i, j| if j < 6 { springs[(i, j)] } else { effect[(i, j - 6)] });
+    let prior =
+        DMatrix::from_fn(8, 8, |i, j| if i == j && i > 5 { (width * sizes[i - 6]).powi(-2) } else { 0.0 });
+    let covariance = (all.tr_mul(&all) + prior).try_inverse().unwrap();
+    let joint = &covariance * all.tr_mul(&y);
+    let before = &alone * springs.tr_mul(&y);
+    for leg in 0..6 {
+        let off = [change[leg] - (joint[leg] - before[leg]), variance[leg] - covariance[(leg, leg)]];
+        assert!(off.iter().all(|e| e.abs() < ALGEBRA), "leg {leg}: {off:?}");
+    }
 }
 
 #[test]

@@ -9,7 +9,11 @@ use crate::output::{Paper, Table};
 
 /// Stiffness per leg with uncertainty, then the bias per effect left out.
 pub(crate) fn section(paper: &mut Paper, hexapod: &Hexapod, d: &Diagnosis, verbose: bool) {
-    paper.heading("Leg stiffness", "N/um, +- standard uncertainty (k = 1)");
+    let of = match d.verdict {
+        Verdict::Ambiguous => "N/um, +- standard uncertainty (k = 1), over all explanations that remain",
+        _ => "N/um, +- standard uncertainty (k = 1)",
+    };
+    paper.heading("Leg stiffness", of);
     let mut table = table(d);
     if let Some(nominal) = hexapod.nominal_stiffness {
         table.row(std::iter::once("nominal".to_owned()).chain(nominal.map(|k| format!("{:.3}", k * 1e-6))));

@@ -100,14 +100,16 @@ impl Context<'_> {
             return Vec::new();
         }
         let Some((a, b)) = self.rivals() else { return Vec::new() };
-        let fitted = |s: &Set| {
-            let terms = wanted(s, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
-            fit(self.campaign, &terms, Some(&self.outcome.best.point))
-        };
-        let (Ok(fit_a), Ok(fit_b)) = (fitted(a), fitted(b)) else { return Vec::new() };
+        let (Some(fit_a), Some(fit_b)) = (self.fit_of(a), self.fit_of(b)) else { return Vec::new() };
         let names = [self.name(a, b), self.name(b, a)];
         let proposals = separate(self.campaign, &fit_a, &fit_b).unwrap_or_default();
         proposals.iter().map(|p| next_report(p, &names, self.breaker(a, b))).collect()
+    }
+
+    /// Fit of the terms of a set.
+    pub(super) fn fit_of(&self, set: &Set) -> Option<Fit> {
+        let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
+        fit(self.campaign, &terms, Some(&self.outcome.best.point)).ok()
     }
 
     /// The best set and the best set that is not merely the same plus something more.

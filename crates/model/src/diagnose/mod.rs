@@ -1,5 +1,6 @@
 //! Diagnosis from files to verdict: search, held-out errors, numbers, and what to do next.
 
+mod averaged;
 mod context;
 mod notes;
 mod report;
@@ -8,6 +9,7 @@ use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod};
 
+use self::averaged::averaged_springs;
 use self::context::Context;
 use self::notes::{outside, suspects, untestable, warnings};
 pub use self::report::{
@@ -18,7 +20,7 @@ use crate::campaign::Campaign;
 use crate::candidates::Candidate;
 use crate::diagnosis::{Outcome, explain, wanted};
 use crate::error::ModelError;
-use crate::estimate::estimates;
+use crate::estimate::estimates_with;
 use crate::fit::{Fit, Wanted, fit};
 use crate::linearization::Linearization;
 use crate::noise::{Noise, NoiseSource};
@@ -79,7 +81,7 @@ pub fn diagnose(
     };
     let model: Vec<String> = order.iter().map(|w| w.term.info().id.to_owned()).collect();
     let richer = order.iter().filter(|w| w.rich).map(|w| w.term.info().id.to_owned()).collect();
-    let numbers = estimates(last);
+    let numbers = estimates_with(&averaged_springs(&outcome, last), last);
     let diagnosis = Diagnosis {
         format: "diagnosis/1",
         verdict: judgement.verdict,

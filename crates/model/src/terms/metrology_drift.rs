@@ -1,6 +1,7 @@
 //! The measurement drifts with time.
 //!
-//! The frame of the measuring machine moves steadily between the reference and the loaded reading.
+//! The measuring machine drifts steadily between the reference and the loaded reading: the numbers it gives change at constant
+//! rates, three coordinates and three angles, the angles as the file states them (Euler angles or a rotation vector).
 //!
 //! ```text
 //! dX = rates * elapsed
@@ -9,7 +10,7 @@
 //! Source: Wallace, `TPOINT`; JCGM 100:2008 (GUM), F.1.1.2 (drift between observations). It stays invisible
 //! unless `elapsed_s` varies.
 
-use hexbench_core::Vector6;
+use hexbench_core::Matrix6;
 
 use crate::campaign::Condition;
 use crate::chain::Action;
@@ -22,7 +23,7 @@ pub(super) struct MetrologyDrift;
 static INFO: TermInfo = TermInfo {
     id: "metrology-drift",
     title: "The measurement drifts with time",
-    physics: "The frame of the measuring machine moves steadily between the reference and the loaded reading.",
+    physics: "The measuring machine drifts steadily between the reference and the loaded reading.",
     equation: "dX = rates * elapsed",
     source: "Wallace, TPOINT; JCGM 100:2008 (GUM), F.1.1.2 (drift between observations)",
     shows: "elapsed_s varies",
@@ -50,6 +51,8 @@ impl Term for MetrologyDrift {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        out.extend((0..6).map(|k| Action::Twist(Vector6::ith(k, at.elapsed))));
+        // The motion of the platform that would read like the drift.
+        let motion = at.observer.try_inverse().unwrap_or_else(Matrix6::identity) * at.elapsed;
+        out.extend(motion.column_iter().map(|c| Action::Twist(c.into_owned())));
     }
 }
