@@ -12,6 +12,7 @@ use hexbench_model::predict::PredictError;
 use hexbench_model::registration::RegistrationError;
 use hexbench_model::user_term::UserTermError;
 use hexbench_report::plot::PlotError;
+use hexbench_study::StudyError;
 use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
 use hexbench_validation::paper::PaperError;
@@ -117,6 +118,9 @@ pub(crate) enum Failure {
     /// A design problem without an answer.
     #[error("{0}")]
     Design(#[from] DesignError),
+    /// A study that cannot go on.
+    #[error("{0}")]
+    Study(StudyError),
     /// Wrong usage that only shows after parsing.
     #[error("{message}")]
     Usage {
@@ -158,6 +162,7 @@ impl Failure {
             Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => {
                 exit_of(cause)
             }
+            Self::Study(cause) => exit_of_study(cause),
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
@@ -187,6 +192,7 @@ impl Failure {
                 Some("Check the poses, loads and effects of the scene: this state does not exist.".into())
             }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
+            Self::Study(cause) => Some(cause.next_step()),
             Self::Check(_) => None,
             Self::Design(DesignError::NeverDetermined { .. }) => Some(
                 "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
@@ -245,6 +251,25 @@ impl From<SimulationError> for Failure {
             },
             other => Self::Simulation(other),
         }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::File(file) => Self::File(file),
+            StudyError::Plot(plot) => Self::Plot(plot),
+            other => Self::Study(other),
+        }
+    }
+}
+
+fn exit_of_study(cause: &StudyError) -> Exit {
+    match cause {
+        StudyError::NotEmpty(_) => Exit::Usage,
+        StudyError::Design { .. } => Exit::NotDetermined,
+        _ if cause.is_input_output() => Exit::InputOutput,
+        _ => Exit::BadInput,
     }
 }
 

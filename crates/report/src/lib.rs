@@ -6,5 +6,6 @@
 pub mod document;
 pub mod number;
 pub mod plot;
+pub mod png;
 
 pub use document::Document;
