@@ -34,16 +34,13 @@ impl Data {
             Ok(Seen { legs: leg_space(&study.campaign, &lin), lin, readings })
         };
         let last = study.fits.last().filter(|_| study.fits.len() > 1);
-        Ok(Self {
-            before: seen(&study.outcome.baseline)?,
-            after: last.map(seen).transpose()?,
-        })
+        Ok(Self { before: seen(&study.outcome.baseline)?, after: last.map(seen).transpose()? })
     }
 
     /// Conditions with the residual elongations (um) of the springs alone, what the added effects explain of them, and the
     /// standard deviation by noise; thinned to what an eye can tell apart.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = (&Condition, Vector6, Option<Vector6>, Vector6)> {
-        const MOST: usize = 400;
+        const MOST: usize = 150;
         let n = self.before.lin.conditions.len();
         (0..n).step_by(n.div_ceil(MOST).max(1)).map(|i| {
             let left = self.before.legs.elongation[i];

@@ -2,6 +2,7 @@
 
 mod data;
 mod figures;
+mod machine;
 mod numbers;
 mod predicted;
 mod residual_sheet;
@@ -42,6 +43,7 @@ pub(crate) fn diagnosis(subject: &Subject<'_>, provenance: &Provenance) -> Resul
         Some(verdict::ladder(d)),
         Some(verdict::confidence(d)),
         Some(predicted::section(subject, &data)?),
+        machine::section(&data)?,
         Some(residual_sheet::section(&data)?),
         Some(scatter::section(&data)?),
         numbers::effects(d),
