@@ -21,6 +21,7 @@ use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
+use crate::report::ReportError;
 
 /// Exit codes of the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -144,6 +145,9 @@ pub(crate) enum Failure {
     /// A chart that cannot be drawn.
     #[error("{0}")]
     Plot(#[from] PlotError),
+    /// A page that cannot be drawn.
+    #[error("{0}")]
+    Report(#[from] ReportError),
     /// Output that cannot be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Output {
@@ -167,9 +171,12 @@ impl Failure {
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
-            Self::Power(_) | Self::Design(_) | Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => {
-                Exit::NotDetermined
-            }
+            Self::Power(_)
+            | Self::Design(_)
+            | Self::Reproduction(_)
+            | Self::Trial(_)
+            | Self::Plot(_)
+            | Self::Report(_) => Exit::NotDetermined,
             Self::File(_)
             | Self::ModelFile { .. }
             | Self::Row { .. }
@@ -228,6 +235,7 @@ impl Failure {
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Trial(_) => Some("Give another trial or another seed.".into()),
             Self::Plot(_) => Some("Give more trials.".into()),
+            Self::Report(_) => Some("Leave --html away: the page in the terminal needs no charts.".into()),
             Self::Reproduction(_) => Some("Give another seed.".into()),
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())
