@@ -9,14 +9,18 @@
 //! - [`continuous`]: few poses, each coordinate free: many starts of sequential quadratic programming.
 //! - [`exchange`]: many readings out of candidates within a [`Budget`]: exchange and excursion algorithms, and how far from the
 //!   best they can be.
+//! - [`discriminate`]: plans that tell rival effects apart.
 //! - [`refine`]: the poses of such a plan moved to where they tell most.
+//! - [`power`]: which effects a plan would see, at what size, and what they would be taken for.
 
 pub mod budget;
 pub mod continuous;
 pub mod criterion;
 pub mod determined;
+pub mod discriminate;
 pub mod error;
 pub mod exchange;
+pub mod power;
 pub mod refine;
 pub mod regressor;
 pub mod space;

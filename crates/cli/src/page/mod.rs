@@ -6,6 +6,7 @@ mod conclusion;
 mod confidence;
 mod demo;
 pub(crate) mod designed;
+pub(crate) mod discriminated;
 pub(crate) mod effect;
 pub(crate) mod effects;
 pub(crate) mod fitted;

@@ -15,12 +15,7 @@ pub(super) fn table(space: &Space, visits: &[Visit]) -> String {
         columns: columns(&space.conditions),
         observations: readings(space, visits),
     };
-    let mut text = csv::conditions_header(&rows) + "\n";
-    for row in &rows.observations {
-        csv::condition(&mut text, &rows, row);
-        text.push('\n');
-    }
-    text
+    csv::conditions(&rows)
 }
 
 /// A column is there when the space says something about it.
