@@ -12,9 +12,11 @@ use hexbench_model::predict::PredictError;
 use hexbench_model::registration::RegistrationError;
 use hexbench_model::user_term::UserTermError;
 use hexbench_report::plot::PlotError;
+use hexbench_study::StudyError;
 use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
 use hexbench_validation::paper::PaperError;
+use hexbench_validation::power::PowerError;
 use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
@@ -116,6 +118,9 @@ pub(crate) enum Failure {
     /// A design problem without an answer.
     #[error("{0}")]
     Design(#[from] DesignError),
+    /// A study that cannot go on.
+    #[error("{0}")]
+    Study(StudyError),
     /// Wrong usage that only shows after parsing.
     #[error("{message}")]
     Usage {
@@ -127,6 +132,9 @@ pub(crate) enum Failure {
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
+    /// A plan whose power cannot be told.
+    #[error("{0}")]
+    Power(#[from] PowerError),
     /// A study without an answer.
     #[error("{0}")]
     Reproduction(PaperError),
@@ -151,12 +159,17 @@ impl Failure {
     pub(crate) fn exit(&self) -> Exit {
         match self {
             Self::File(error) if error.is_input_output() => Exit::InputOutput,
-            Self::Model { cause, .. } => exit_of(cause),
+            Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => {
+                exit_of(cause)
+            }
+            Self::Study(cause) => exit_of_study(cause),
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
-            Self::Design(_) | Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => Exit::NotDetermined,
+            Self::Power(_) | Self::Design(_) | Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => {
+                Exit::NotDetermined
+            }
             Self::File(_)
             | Self::ModelFile { .. }
             | Self::Row { .. }
@@ -179,12 +192,17 @@ impl Failure {
                 Some("Check the poses, loads and effects of the scene: this state does not exist.".into())
             }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
+            Self::Study(cause) => Some(cause.next_step()),
             Self::Check(_) => None,
             Self::Design(DesignError::NeverDetermined { .. }) => Some(
                 "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
                  effect."
                     .into(),
             ),
+            Self::Power(PowerError::Design(DesignError::Model(cause))) => {
+                Some(next_step_of(cause, "the plan"))
+            }
+            Self::Power(_) => Some("Check the poses (mm, deg) and loads (N, N m) of the plan.".into()),
             Self::Design(_) => {
                 Some("Widen the ranges or limits in the space file, or ask for more poses.".into())
             }
@@ -233,6 +251,25 @@ impl From<SimulationError> for Failure {
             },
             other => Self::Simulation(other),
         }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::File(file) => Self::File(file),
+            StudyError::Plot(plot) => Self::Plot(plot),
+            other => Self::Study(other),
+        }
+    }
+}
+
+fn exit_of_study(cause: &StudyError) -> Exit {
+    match cause {
+        StudyError::NotEmpty(_) => Exit::Usage,
+        StudyError::Design { .. } => Exit::NotDetermined,
+        _ if cause.is_input_output() => Exit::InputOutput,
+        _ => Exit::BadInput,
     }
 }
 

@@ -11,6 +11,7 @@
 //!   best they can be.
 //! - [`discriminate`]: plans that tell rival effects apart.
 //! - [`refine`]: the poses of such a plan moved to where they tell most.
+//! - [`power`]: which effects a plan would see, at what size, and what they would be taken for.
 
 pub mod budget;
 pub mod continuous;
@@ -19,6 +20,7 @@ pub mod determined;
 pub mod discriminate;
 pub mod error;
 pub mod exchange;
+pub mod power;
 pub mod refine;
 pub mod regressor;
 pub mod space;

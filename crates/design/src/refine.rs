@@ -80,3 +80,63 @@ pub fn refine<R: SettingRegressor>(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::Wrench;
+
+    use super::*;
+    use crate::Budget;
+    use crate::regressor::{PoseRegressor, SpringRegressor, Weights};
+    use crate::space::{Conditions, Loading};
+    use crate::test_machine::machine;
+
+    fn space() -> Space {
+        let load = |x: [f64; 6]| Loading { reference: Wrench::default(), load: Wrench::from_array(x) };
+        let reach = [0.03, 0.03, 0.02, 0.1, 0.1, 0.4];
+        Space {
+            low: reach.map(|x| -x),
+            high: reach,
+            stroke: Some([0.178, 0.211]),
+            joint_angle: Some(0.3),
+            least_dexterity: 0.1,
+            loads: vec![load([0.0, 0.0, -300.0, 0.0, 0.0, 0.0]), load([80.0, 0.0, 0.0, 0.0, 5.0, 0.0])],
+            conditions: Conditions::default(),
+            budget: Budget::default(),
+        }
+    }
+
+    #[test]
+    fn refined_poses_tell_more_within_the_limits_and_keep_their_readings() {
+        /// As in the search for poses.
+        const SLACK: f64 = 1e-6;
+        let (hexapod, space) = (machine(), space());
+        let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
+        let counts = [vec![2, 0], vec![1, 3], vec![0, 1]];
+        let poses = space.poses(&hexapod, 3, 1).unwrap();
+        let mut visits: Vec<Visit> =
+            poses.into_iter().zip(counts.clone()).map(|(pose, counts)| Visit { pose, counts }).collect();
+        let value = |visits: &[Visit]| Criterion::A.value(&information(visits, &regressor).unwrap(), 1);
+        let before = value(&visits);
+        refine(&hexapod, &space, &regressor, &Criterion::A, &mut visits).unwrap();
+        assert!(value(&visits) > 1.2 * before, "{} from {before}", value(&visits));
+        for (visit, counts) in visits.iter().zip(counts) {
+            assert_eq!(visit.counts, counts);
+            let worst = space.worst_limit(&hexapod, &visit.pose).unwrap();
+            assert!(worst.excess <= SLACK, "{worst:?}");
+        }
+    }
+
+    #[test]
+    fn a_visit_informs_as_its_readings_one_by_one() {
+        let (hexapod, space) = (machine(), space());
+        let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
+        let visit = Visit { pose: Pose::from_array([0.01, 0.0, 0.0, 0.05, 0.0, 0.2]), counts: vec![2, 3] };
+        let together = information([&visit], &regressor).unwrap();
+        let each = regressor.each(&visit.pose).unwrap();
+        let sum = &each[0] * 2.0 + &each[1] * 3.0;
+        let off = (&together - &sum).amax() / sum.amax();
+        assert!(off < 8.0 * f64::EPSILON, "{off:.1e}");
+        assert_eq!(regressor.repeated(&visit.counts).readings(), 5);
+    }
+}

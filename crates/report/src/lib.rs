@@ -4,6 +4,8 @@
 //! state. Nothing here writes a file.
 
 pub mod document;
+pub mod number;
 pub mod plot;
+pub mod png;
 
 pub use document::Document;

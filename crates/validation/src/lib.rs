@@ -7,6 +7,7 @@
 pub mod calibration;
 pub mod discriminate;
 pub mod paper;
+pub mod power;
 pub mod proportion;
 pub mod recovery;
 pub mod sheet;

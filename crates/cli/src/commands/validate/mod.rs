@@ -3,6 +3,7 @@
 pub(crate) mod calibration;
 pub(crate) mod discriminate;
 pub(crate) mod paper;
+pub(crate) mod power;
 pub(crate) mod recovery;
 
 use clap::{Args, Subcommand};
@@ -26,6 +27,7 @@ enum Study {
     Paper(paper::Arguments),
     Calibration(calibration::Arguments),
     Discriminate(discriminate::Arguments),
+    Power(power::Arguments),
 }
 
 /// Run the study.
@@ -35,5 +37,6 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Paper(arguments) => paper::run(arguments, screen),
         Study::Calibration(arguments) => calibration::run(arguments, screen),
         Study::Discriminate(arguments) => discriminate::run(arguments, screen),
+        Study::Power(arguments) => power::run(arguments, screen),
     }
 }
