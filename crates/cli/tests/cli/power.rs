@@ -123,8 +123,10 @@ fn absolute_poses_test_what_deflections_cannot() {
         })
         .collect();
     let (folder, hexapod, plan) = bare(COLUMNS, &rows.join("\n"));
-    let page =
-        text(power(&hexapod, &plan, &["--sigma", "0.5,3", "--absolute", "--effect", "actuator-scale"]));
+    let map = folder.path().join("map.svg");
+    let more = ["--sigma", "0.5,3", "--absolute", "--effect", "actuator-scale", "--svg"];
+    let page = text(power(&hexapod, &plan, &[&more[..], &[map.to_str().unwrap()]].concat()));
+    assert!(fs::read_to_string(map).unwrap().contains("Best explanation"));
     assert!(page.contains("absolute poses") && page.contains("actuator-scale"), "{page}");
     let deflections = text(power(&hexapod, &plan, &["--sigma", "0.5,3"]));
     let words = deflections.split_whitespace().collect::<Vec<_>>().join(" ");

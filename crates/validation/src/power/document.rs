@@ -292,7 +292,7 @@ fn agreement(page: &mut Document, studied: &[&Studied]) {
     if !off.is_empty() {
         page.paragraph(
             "Those that disagree with the reckoned chance are effects so large that their signature no longer grows in \
-             proportion to their size:",
+             proportion to their size, or that the two worlds write differently (see below):",
         );
         page.list(off);
     }

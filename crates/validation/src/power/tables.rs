@@ -119,7 +119,7 @@ pub(super) fn percent(share: f64) -> String {
 fn number(share: f64) -> String {
     match 100.0 * share {
         p if p <= 0.0 => "0".to_owned(),
-        p if p < 1.0 => "< 1".to_owned(),
+        p if p < 0.95 => "< 1".to_owned(),
         p if p > 99.5 && share < 1.0 => "> 99".to_owned(),
         p => format!("{p:.0}"),
     }
@@ -131,11 +131,11 @@ fn percent_range(r: &Range) -> String {
     if low == high { middle } else { format!("{middle} ({low}..{high})") }
 }
 
-/// `2.5`, or `2.5 (1.9..3.1)`.
+/// `2.5`, or `1.9..3.1` where directions or shapes differ.
 fn multiples(r: &Range) -> String {
-    let [low, middle, high] = [r.least, r.middle, r.most]
-        .map(|x| if x.is_finite() { significant(x, 2) } else { "never".to_owned() });
-    if low == high { middle } else { format!("{middle} ({low}..{high})") }
+    let word = |x: f64| if x.is_finite() { significant(x, 2) } else { "never".to_owned() };
+    let [low, high] = [r.least, r.most].map(word);
+    if low == high { low } else { format!("{low}..{high}") }
 }
 
 /// `92 (85..96)`.
