@@ -41,6 +41,8 @@ pub(crate) enum Command {
     Transient(commands::transient::Arguments),
     Export(commands::export::Arguments),
     Design(commands::design::Arguments),
+    Discriminate(commands::discriminate::Arguments),
+    Power(commands::power::Arguments),
     Study(commands::study::Arguments),
     Terms(commands::terms::Arguments),
     Validate(commands::validate::Arguments),

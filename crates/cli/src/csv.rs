@@ -35,6 +35,16 @@ impl Unit {
     }
 }
 
+/// A conditions file.
+pub(crate) fn conditions(rows: &Dataset) -> String {
+    let mut text = conditions_header(rows) + "\n";
+    for row in &rows.observations {
+        condition(&mut text, rows, row);
+        text.push('\n');
+    }
+    text
+}
+
 /// Header of the columns that say what a row is about.
 pub(crate) fn conditions_header(rows: &Dataset) -> String {
     let mut text =

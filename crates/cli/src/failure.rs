@@ -16,10 +16,12 @@ use hexbench_study::StudyError;
 use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
 use hexbench_validation::paper::PaperError;
+use hexbench_validation::power::PowerError;
 use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
+use crate::report::ReportError;
 
 /// Exit codes of the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -131,6 +133,9 @@ pub(crate) enum Failure {
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
+    /// A plan whose power cannot be told.
+    #[error("{0}")]
+    Power(#[from] PowerError),
     /// A study without an answer.
     #[error("{0}")]
     Reproduction(PaperError),
@@ -140,6 +145,9 @@ pub(crate) enum Failure {
     /// A chart that cannot be drawn.
     #[error("{0}")]
     Plot(#[from] PlotError),
+    /// A page that cannot be drawn.
+    #[error("{0}")]
+    Report(#[from] ReportError),
     /// Output that cannot be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Output {
@@ -155,13 +163,20 @@ impl Failure {
     pub(crate) fn exit(&self) -> Exit {
         match self {
             Self::File(error) if error.is_input_output() => Exit::InputOutput,
-            Self::Model { cause, .. } => exit_of(cause),
+            Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => {
+                exit_of(cause)
+            }
             Self::Study(cause) => exit_of_study(cause),
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
-            Self::Design(_) | Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => Exit::NotDetermined,
+            Self::Power(_)
+            | Self::Design(_)
+            | Self::Reproduction(_)
+            | Self::Trial(_)
+            | Self::Plot(_)
+            | Self::Report(_) => Exit::NotDetermined,
             Self::File(_)
             | Self::ModelFile { .. }
             | Self::Row { .. }
@@ -186,6 +201,15 @@ impl Failure {
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Study(cause) => Some(cause.next_step()),
             Self::Check(_) => None,
+            Self::Design(DesignError::NeverDetermined { .. }) => Some(
+                "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
+                 effect."
+                    .into(),
+            ),
+            Self::Power(PowerError::Design(DesignError::Model(cause))) => {
+                Some(next_step_of(cause, "the plan"))
+            }
+            Self::Power(_) => Some("Check the poses (mm, deg) and loads (N, N m) of the plan.".into()),
             Self::Design(_) => {
                 Some("Widen the ranges or limits in the space file, or ask for more poses.".into())
             }
@@ -211,6 +235,7 @@ impl Failure {
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Trial(_) => Some("Give another trial or another seed.".into()),
             Self::Plot(_) => Some("Give more trials.".into()),
+            Self::Report(_) => Some("Leave --html away: the page in the terminal needs no charts.".into()),
             Self::Reproduction(_) => Some("Give another seed.".into()),
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use hexbench_core::files::{Reading, read_conditions, read_hexapod, read_measurements};
+use hexbench_core::files::{Reading, read_conditions, read_hexapod, read_measurements, read_plan};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::model_file::Model;
 use hexbench_model::term::Term;
@@ -26,6 +26,11 @@ pub(crate) fn measurements(path: &Path) -> Result<Dataset, Failure> {
 /// Poses and loads that need no measurement.
 pub(crate) fn conditions(path: &Path) -> Result<Dataset, Failure> {
     Ok(told(path, read_conditions(path)?))
+}
+
+/// Poses and loads to be measured.
+pub(crate) fn plan(path: &Path) -> Result<Dataset, Failure> {
+    Ok(told(path, read_plan(path)?))
 }
 
 fn told(path: &Path, reading: Reading) -> Dataset {

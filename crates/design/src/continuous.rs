@@ -1,15 +1,19 @@
 //! Few poses, every free coordinate of each chosen at will: many starts of sequential quadratic programming.
 //!
-//! Minimises `-ln value` of a criterion over the free coordinates of all poses, each scaled to 0..1 over its travel; the limits of
-//! the space are penalties that grow from run to run. Starts come from a scrambled Sobol sequence; each runs on its own, so that the answer does not
+//! Minimises `-ln value` of a criterion over the free coordinates of all poses, each scaled to 0..1 over its travel, within the
+//! limits of the space. Starts come from a scrambled Sobol sequence; each runs on its own, so that the answer does not
 //! depend on the number of threads. Source: Kraft 1988 (SLSQP).
+
+use std::cell::RefCell;
 
 use hexbench_core::{Hexapod, Pose};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use slsqp::{Func, StopTols, minimize};
 
+use crate::determined::require_determined;
 use crate::regressor::PoseRegressor;
+use crate::space::Slope;
 use crate::{Criterion, DesignError, Space};
 
 /// Evaluations of one start before it is taken as it is.
@@ -18,6 +22,8 @@ const MOST_EVALUATIONS: usize = 300;
 const SAME: f64 = 1e-4;
 /// Excess over a limit that rounding excuses.
 const SLACK: f64 = 1e-6;
+/// Change of `-ln value` at which a search ends.
+const SETTLED: f64 = 1e-9;
 /// `-ln value` of a set of poses that cannot be evaluated or determines nothing.
 const WORTHLESS: f64 = 1e3;
 
@@ -33,6 +39,8 @@ pub struct Problem<'a, R> {
     pub criterion: &'a Criterion,
     /// Number of poses.
     pub poses: usize,
+    /// Information (p x p) that is there without them.
+    pub known: Option<&'a DMatrix<f64>>,
 }
 
 /// A set of poses with the value of the criterion.
@@ -67,34 +75,38 @@ impl<R: PoseRegressor> Problem<'_, R> {
         poses.len() * self.regressor.readings()
     }
 
-    /// Sum of the information of poses (p x p).
+    /// Sum of what is known and of the information of poses (p x p).
     ///
     /// # Errors
     /// A singular pose.
     pub fn information(&self, poses: &[Pose]) -> Result<DMatrix<f64>, DesignError> {
         let p = self.regressor.parameters();
-        let mut information = DMatrix::zeros(p, p);
+        let mut information = self.known.cloned().unwrap_or_else(|| DMatrix::zeros(p, p));
         poses.iter().try_for_each(|pose| self.regressor.inform(pose, &mut information))?;
         Ok(information)
     }
 
-    /// The best of many starts.
+    /// The best of many starts; `done` is called after each.
     ///
     /// # Errors
-    /// [`DesignError::NoPose`] when the space is empty, [`DesignError::NotDetermined`] when no start ends at poses that
+    /// [`DesignError::NoPose`] when the space is empty, [`DesignError::NeverDetermined`], [`DesignError::NotDetermined`] when no start ends at poses that
     /// determine all parameters.
-    pub fn search(&self, starts: usize, seed: u32) -> Result<Search, DesignError> {
+    pub fn search(&self, starts: usize, seed: u32, done: &(dyn Fn() + Sync)) -> Result<Search, DesignError> {
         let drawn = self.space.poses(self.hexapod, starts * self.poses, seed)?;
-        let ends: Vec<Option<PoseSet>> =
-            drawn.par_chunks(self.poses).map(|start| self.climb(start)).collect();
+        require_determined(&self.information(&drawn)?, &self.regressor.names())?;
+        let end = |start: &[Pose]| {
+            let set = self.climb(start);
+            done();
+            set
+        };
+        let ends: Vec<Option<PoseSet>> = drawn.par_chunks(self.poses).map(end).collect();
         let ended: Vec<&PoseSet> = ends.iter().flatten().collect();
         // The first of equals, so that the order of threads does not matter.
         let best = ended.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
         let Some(best) = best else {
             return Err(DesignError::NotDetermined {
-                readings: self.poses,
                 parameters: self.regressor.parameters(),
-                hint: ": allow more poses, turns or load directions",
+                hint: "allow more poses, turns or load directions",
             });
         };
         let agrees = |set: &&&PoseSet| set.value >= (1.0 - SAME) * best.value;
@@ -108,53 +120,48 @@ impl<R: PoseRegressor> Problem<'_, R> {
 
     /// The nearest optimum from a start that keeps the limits; none when it determines nothing.
     ///
-    /// Broken limits cost more from run to run; what little the last run breaks is undone on the way back to the start.
+    /// What little the last step breaks of a limit is undone on the way back to the start.
     pub fn climb(&self, start: &[Pose]) -> Option<PoseSet> {
-        const WEIGHTS: [f64; 4] = [1e1, 1e3, 1e5, 1e7];
         let free = self.space.free();
-        let scaled = |poses: &[Pose]| poses.iter().flat_map(|p| self.scaled(p, &free)).collect::<Vec<f64>>();
-        let from = scaled(start);
-        let end = WEIGHTS.iter().fold(from.clone(), |x, &weight| self.run(&x, &free, weight));
+        let from: Vec<f64> = start.iter().flat_map(|p| self.scaled(p, &free)).collect();
+        let end = self.run(&from, &free);
         let poses = self.poses_of(&self.pulled_back(&from, &end, &free), &free);
         let value = self.value(&poses);
         (value > 0.0).then_some(PoseSet { poses, value })
     }
 
-    /// One run of the quadratic programming, limits as penalties of this weight.
-    fn run(&self, start: &[f64], free: &[usize], weight: f64) -> Vec<f64> {
-        let objective = |x: &[f64], mut gradient: Option<&mut [f64]>, (): &mut ()| {
-            let worth = self.logarithm(x, gradient.as_deref_mut(), free).unwrap_or(WORTHLESS);
-            worth + weight * self.penalty(x, gradient, free, weight)
+    fn run(&self, start: &[f64], free: &[usize]) -> Vec<f64> {
+        let here = RefCell::new(Limits::default());
+        let objective = |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
+            self.logarithm(x, gradient, free).unwrap_or(WORTHLESS)
         };
+        let each = self.space.limits(self.hexapod, &self.poses_of(start, free)[0]).len();
+        let constraint = |k: usize| {
+            let here = &here;
+            move |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
+                let mut here = here.borrow_mut();
+                here.move_to(x, |part| self.limits_of(part, free), free.len());
+                here.excess(k / each, k % each, gradient, free.len())
+            }
+        };
+        let constraints: Vec<_> = (0..each * self.poses).map(constraint).collect();
+        let constraints: Vec<&dyn Func<()>> = constraints.iter().map(|c| c as _).collect();
         let bounds = vec![(0.0, 1.0); start.len()];
-        let limits: [&dyn Func<()>; 0] = [];
-        let tolerances = StopTols { ftol_abs: 1e-10, ..StopTols::default() };
-        match minimize(objective, start, &bounds, &limits, (), MOST_EVALUATIONS, Some(tolerances)) {
+        let tolerances = StopTols { ftol_abs: SETTLED, ..StopTols::default() };
+        match minimize(objective, start, &bounds, &constraints, (), MOST_EVALUATIONS, Some(tolerances)) {
             Ok((_, x, _)) | Err((_, x, _)) => x,
         }
     }
 
-    /// Sum of the squared excesses; adds `weight` times its slopes to the gradient.
-    fn penalty(&self, x: &[f64], gradient: Option<&mut [f64]>, free: &[usize], weight: f64) -> f64 {
-        const STEP: f64 = 1e-6;
-        let own = |part: &[f64]| -> f64 {
-            let limits = self.space.limits(self.hexapod, &self.poses_of(part, free)[0]);
-            limits.iter().map(|l| l.excess.max(0.0).powi(2)).sum()
-        };
-        let here: Vec<f64> = x.chunks(free.len()).map(own).collect();
-        if let Some(gradient) = gradient {
-            for (k, part) in x.chunks(free.len()).enumerate().filter(|(k, _)| here[*k] > 0.0) {
-                for j in 0..free.len() {
-                    let beside = |step: f64| {
-                        let mut at = part.to_vec();
-                        at[j] += step;
-                        own(&at)
-                    };
-                    gradient[k * free.len() + j] += weight * (beside(STEP) - beside(-STEP)) / (2.0 * STEP);
-                }
-            }
+    /// Limits of one pose with derivatives by its scaled free coordinates.
+    fn limits_of(&self, part: &[f64], free: &[usize]) -> Option<Vec<Slope>> {
+        let mut limits = self.space.limit_slopes(self.hexapod, &self.poses_of(part, free)[0])?;
+        for (_, slope) in &mut limits {
+            *slope = std::array::from_fn(|j| {
+                free.get(j).map_or(0.0, |&k| slope[k] * (self.space.high[k] - self.space.low[k]))
+            });
         }
-        here.iter().sum()
+        Some(limits)
     }
 
     /// The point nearest to `end` on the way back to the feasible `start` that keeps all limits, to a millionth of the way.
@@ -216,13 +223,41 @@ impl<R: PoseRegressor> Problem<'_, R> {
     }
 }
 
+/// Limits of all poses at one point: the search asks for them one by one.
+#[derive(Default)]
+struct Limits {
+    x: Vec<f64>,
+    poses: Vec<Option<Vec<Slope>>>,
+}
+
+impl Limits {
+    fn move_to(&mut self, x: &[f64], of: impl Fn(&[f64]) -> Option<Vec<Slope>>, each: usize) {
+        if self.x != x {
+            self.x = x.to_vec();
+            self.poses = x.chunks(each).map(of).collect();
+        }
+    }
+
+    /// Excess of a limit of a pose, and its gradient.
+    fn excess(&self, pose: usize, limit: usize, gradient: Option<&mut [f64]>, each: usize) -> f64 {
+        let (excess, slope) = self.poses[pose].as_ref().map_or((1.0, [0.0; 6]), |limits| limits[limit]);
+        if let Some(gradient) = gradient {
+            gradient.fill(0.0);
+            gradient[pose * each..][..each].copy_from_slice(&slope[..each]);
+        }
+        // The search counts a point as allowed only when no excess is above zero, which rounding denies it.
+        if excess > 0.0 && excess < SLACK { 0.0 } else { excess }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use hexbench_core::Wrench;
 
     use super::*;
+    use crate::Budget;
     use crate::regressor::{SpringRegressor, Weights};
-    use crate::space::Loading;
+    use crate::space::{Conditions, Loading};
     use crate::test_machine::machine;
 
     /// Level poses under a weight, as in the paper.
@@ -236,21 +271,24 @@ mod tests {
             joint_angle: None,
             least_dexterity: 0.0,
             loads: vec![Loading { reference: weight(119.7), load: weight(338.4) }],
+            conditions: Conditions::default(),
+            budget: Budget::default(),
         }
     }
 
     #[test]
     fn no_set_of_thousand_drawn_ones_beats_the_search_and_the_limits_are_kept() {
         let (hexapod, space) = (machine(), space());
-        let regressor = SpringRegressor::new(&hexapod, &space.loads, 1, Weights::UNWEIGHTED);
+        let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
         let problem = Problem {
             hexapod: &hexapod,
             space: &space,
             regressor: &regressor,
             criterion: &Criterion::O1,
             poses: 3,
+            known: None,
         };
-        let found = problem.search(24, 1).unwrap();
+        let found = problem.search(24, 1, &|| ()).unwrap();
         let drawn = space.poses(&hexapod, 3000, 7).unwrap();
         let best_drawn = drawn.chunks(3).map(|set| problem.value(set)).fold(0.0, f64::max);
         assert!(found.best.value > best_drawn, "{} {best_drawn}", found.best.value);
@@ -263,17 +301,18 @@ mod tests {
     #[test]
     fn the_answer_does_not_depend_on_the_number_of_threads() {
         let (hexapod, space) = (machine(), space());
-        let regressor = SpringRegressor::new(&hexapod, &space.loads, 1, Weights::UNWEIGHTED);
+        let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
         let problem = Problem {
             hexapod: &hexapod,
             space: &space,
             regressor: &regressor,
             criterion: &Criterion::O5,
             poses: 3,
+            known: None,
         };
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| problem.search(6, 3).unwrap())
+            pool.install(|| problem.search(6, 3, &|| ()).unwrap())
         };
         assert_eq!(on(1), on(3));
     }

@@ -112,18 +112,20 @@ impl Criterion {
             let value = 1.0 / (mean * &inverse).trace();
             return (value, spread * (value * value));
         }
-        let eigen = information.clone().symmetric_eigen();
-        let (mut value, mut slopes) = self.spectral(&eigen.eigenvalues);
-        if *self == Self::O1 {
-            let root = (readings.max(1) as f64).sqrt();
-            value /= root;
-            slopes /= root;
+        if matches!(self, Self::O1 | Self::D) {
+            // det(M)^power
+            let Some(c) = information.clone().cholesky() else { return nothing() };
+            let power = if *self == Self::O1 { 0.5 } else { 1.0 } / information.nrows() as f64;
+            let value = self.value(information, readings);
+            return (value, c.inverse() * (value * power));
         }
+        let eigen = information.clone().symmetric_eigen();
+        let (value, slopes) = self.spectral(&eigen.eigenvalues);
         let v = &eigen.eigenvectors;
         (value, v * DMatrix::from_diagonal(&slopes) * v.transpose())
     }
 
-    /// Value as a function of the eigenvalues, and its derivatives by them; O1 for one reading.
+    /// Value as a function of the eigenvalues, and its derivatives by them; O1, D and I need no eigenvalues.
     fn spectral(&self, l: &DVector<f64>) -> (f64, DVector<f64>) {
         let n = l.len();
         let (first, last) = (l.imax(), l.imin());
@@ -134,16 +136,6 @@ impl Criterion {
         }
         let p = n as f64;
         let value = match self {
-            Self::O1 => {
-                let value = (0.5 * l.iter().map(|x| x.ln()).sum::<f64>() / p).exp();
-                slopes = l.map(|x| value / (2.0 * p * x));
-                value
-            }
-            Self::D => {
-                let value = (l.iter().map(|x| x.ln()).sum::<f64>() / p).exp();
-                slopes = l.map(|x| value / (p * x));
-                value
-            }
             Self::A => {
                 let sum: f64 = l.iter().map(|x| 1.0 / x).sum();
                 slopes = l.map(|x| p / (sum * sum * x * x));
@@ -174,7 +166,7 @@ impl Criterion {
                 slopes[first] -= 0.5 * value / large;
                 value
             }
-            Self::I(_) => 0.0,
+            Self::O1 | Self::D | Self::I(_) => 0.0,
         };
         (value, slopes)
     }

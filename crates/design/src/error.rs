@@ -16,14 +16,18 @@ pub enum DesignError {
         why: &'static str,
     },
     /// No plan of this size determines all parameters.
-    #[error("{readings} readings of this space do not determine {parameters} parameters{hint}")]
+    #[error("no plan found determines all {parameters} parameters: {hint}")]
     NotDetermined {
-        /// Readings of the plan.
-        readings: usize,
         /// Parameters wanted.
         parameters: usize,
         /// What could be done.
         hint: &'static str,
+    },
+    /// No plan of any size does.
+    #[error("no plan of this space determines {}", .names.join(", "))]
+    NeverDetermined {
+        /// Parameters that are not seen, or only together with others.
+        names: Vec<String>,
     },
     /// A quantity of the problem makes no sense.
     #[error("{0}")]

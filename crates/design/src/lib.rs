@@ -7,12 +7,21 @@
 //!
 //! - [`regressor`]: rows of a reading for springs and terms; closed form with exact derivatives for springs.
 //! - [`continuous`]: few poses, each coordinate free: many starts of sequential quadratic programming.
-//! - [`exchange`]: many readings out of candidates: exchange and excursion algorithms.
+//! - [`exchange`]: many readings out of candidates within a [`Budget`]: exchange and excursion algorithms, and how far from the
+//!   best they can be.
+//! - [`discriminate`]: plans that tell rival effects apart.
+//! - [`refine`]: the poses of such a plan moved to where they tell most.
+//! - [`power`]: which effects a plan would see, at what size, and what they would be taken for.
 
+pub mod budget;
 pub mod continuous;
 pub mod criterion;
+pub mod determined;
+pub mod discriminate;
 pub mod error;
 pub mod exchange;
+pub mod power;
+pub mod refine;
 pub mod regressor;
 pub mod space;
 pub mod space_file;
@@ -20,7 +29,9 @@ pub mod space_file;
 #[cfg(test)]
 mod test_machine;
 
+pub use budget::Budget;
 pub use continuous::{PoseSet, Problem, Search};
 pub use criterion::Criterion;
 pub use error::DesignError;
+pub use refine::Visit;
 pub use space::Space;

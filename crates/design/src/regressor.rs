@@ -16,7 +16,7 @@ pub trait PoseRegressor: Sync {
     /// Number of parameters p.
     fn parameters(&self) -> usize;
 
-    /// Readings of one pose: loads times repeats.
+    /// Readings of one pose: the sum of the repeats of all settings.
     fn readings(&self) -> usize;
 
     /// Names of the parameters.
@@ -33,6 +33,19 @@ pub trait PoseRegressor: Sync {
     /// # Errors
     /// A singular pose.
     fn slopes(&self, pose: &Pose, g: &DMatrix<f64>) -> Result<[f64; 6], DesignError>;
+}
+
+/// A regressor that can tell its settings apart.
+pub trait SettingRegressor: PoseRegressor + Sized {
+    /// Information of one reading under each setting (p x p each).
+    ///
+    /// # Errors
+    /// A singular pose.
+    fn each(&self, pose: &Pose) -> Result<Vec<DMatrix<f64>>, DesignError>;
+
+    /// The same settings, each read so many times; zero leaves one out.
+    #[must_use]
+    fn repeated(&self, counts: &[usize]) -> Self;
 }
 
 /// Names of the six leg springs.

@@ -1,10 +1,10 @@
 //! Where poses and loads may be chosen.
 
 use hexbench_core::{Hexapod, Pose, Vector3, Wrench};
-use hexbench_model::kinematics::Legs;
+use hexbench_model::kinematics::{Legs, euler_rate_matrix};
 use sobol_burley::sample;
 
-use crate::DesignError;
+use crate::{Budget, DesignError};
 
 /// One way to load the platform: reference and load. N, N m, fixed axes, at the mobile origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +15,45 @@ pub struct Loading {
     pub load: Wrench,
 }
 
-/// Travel and limits of the poses, and the loads that can be applied. SI units.
+/// Circumstances of a reading beside pose and load; every one is combined with every other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conditions {
+    /// Load histories, +1 or -1, see the file format.
+    pub approaches: Vec<f64>,
+    /// Temperatures of the structure at the loaded reading minus at the reference reading, K.
+    pub delta_t: Vec<f64>,
+    /// Times from the reference reading to the loaded one, s.
+    pub waits: Vec<f64>,
+}
+
+impl Default for Conditions {
+    /// Loaded from below, at the same temperature, read at once.
+    fn default() -> Self {
+        Self { approaches: vec![1.0], delta_t: vec![0.0], waits: vec![0.0] }
+    }
+}
+
+/// Everything that is set for a reading but the pose. SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setting {
+    /// Reference and load.
+    pub loading: Loading,
+    /// Load history, +1 or -1.
+    pub approach: f64,
+    /// Temperature at the loaded reading minus at the reference reading, K.
+    pub delta_t: f64,
+    /// Time from the reference reading to the loaded one, s.
+    pub elapsed: f64,
+}
+
+impl From<Loading> for Setting {
+    /// Loaded from below, at the same temperature, read at once.
+    fn from(loading: Loading) -> Self {
+        Self { loading, approach: 1.0, delta_t: 0.0, elapsed: 0.0 }
+    }
+}
+
+/// Travel and limits of the poses, the loads that can be applied, and under which conditions. SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Space {
     /// Lowest pose coordinates `[a, b, c, alpha, beta, gamma]`, m and rad.
@@ -30,6 +68,10 @@ pub struct Space {
     pub least_dexterity: f64,
     /// Loads that can be applied.
     pub loads: Vec<Loading>,
+    /// Approaches, temperatures and waits.
+    pub conditions: Conditions,
+    /// What the plan may cost.
+    pub budget: Budget,
 }
 
 /// A limit of a pose: negative or zero when kept.
@@ -42,6 +84,26 @@ pub struct Limit {
 }
 
 impl Space {
+    /// Every load under every condition: loads slowest, then approaches, temperatures, waits.
+    pub fn settings(&self) -> Vec<Setting> {
+        let Conditions { approaches, delta_t, waits } = &self.conditions;
+        let mut settings =
+            Vec::with_capacity(self.loads.len() * approaches.len() * delta_t.len() * waits.len());
+        for &loading in &self.loads {
+            for &approach in approaches {
+                for &delta_t in delta_t {
+                    settings.extend(waits.iter().map(|&elapsed| Setting {
+                        loading,
+                        approach,
+                        delta_t,
+                        elapsed,
+                    }));
+                }
+            }
+        }
+        settings
+    }
+
     /// Indices of the pose coordinates that vary.
     pub fn free(&self) -> Vec<usize> {
         (0..6).filter(|&k| self.high[k] > self.low[k]).collect()
@@ -113,6 +175,60 @@ impl Space {
         }
         limits
     }
+}
+
+/// A limit of a pose with its derivatives by the six pose coordinates.
+pub type Slope = (f64, [f64; 6]);
+
+impl Space {
+    /// Excesses of all limits at a pose with their derivatives, in the order of [`Space::limits`]; none at a singular pose.
+    pub fn limit_slopes(&self, hexapod: &Hexapod, pose: &Pose) -> Option<Vec<Slope>> {
+        let mut slopes = Vec::with_capacity(25);
+        if let Some(stroke) = self.stroke {
+            slopes.extend(stroke_slopes(hexapod, pose, stroke));
+        }
+        if self.joint_angle.is_none() && self.least_dexterity <= 0.0 {
+            return Some(slopes);
+        }
+        let others = |pose: &Pose| {
+            Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose).ok()?;
+            Some(self.limits(hexapod, pose).split_off(slopes.len()))
+        };
+        let differences = by_differences(others, pose)?;
+        slopes.extend(differences);
+        Some(slopes)
+    }
+}
+
+/// Strokes of the six legs with exact derivatives.
+fn stroke_slopes(hexapod: &Hexapod, pose: &Pose, [shortest, longest]: [f64; 2]) -> [Slope; 6] {
+    let (middle, half) = (f64::midpoint(shortest, longest), 0.5 * (longest - shortest));
+    let (rotation, euler) = (pose.rotation(), euler_rate_matrix(&pose.angles));
+    std::array::from_fn(|leg| {
+        let arm = rotation * hexapod.platform_joints[leg];
+        let span = pose.translation + arm - hexapod.base_joints[leg];
+        let length = span.norm();
+        let beyond = (length - middle) / half;
+        let n = span * (2.0 * beyond / (half * length));
+        let turned = euler.tr_mul(&arm.cross(&n));
+        (beyond * beyond - 1.0, [n.x, n.y, n.z, turned.x, turned.y, turned.z])
+    })
+}
+
+fn by_differences(limits: impl Fn(&Pose) -> Option<Vec<Limit>>, pose: &Pose) -> Option<Vec<Slope>> {
+    const STEP: f64 = 1e-6;
+    let mut slopes: Vec<Slope> = limits(pose)?.iter().map(|limit| (limit.excess, [0.0; 6])).collect();
+    for k in 0..6 {
+        let beside = |step: f64| {
+            let mut x = pose.to_array();
+            x[k] += step;
+            limits(&Pose::from_array(x))
+        };
+        for ((slope, above), below) in slopes.iter_mut().zip(beside(STEP)?).zip(beside(-STEP)?) {
+            slope.1[k] = (above.excess - below.excess) / (2.0 * STEP);
+        }
+    }
+    Some(slopes)
 }
 
 /// Inverse condition number of the leg Jacobian with moments over the platform radius.

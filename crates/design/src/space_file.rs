@@ -19,6 +19,17 @@
 //! # ... or wrenches [fx, fy, fz (N), mx, my, mz (Nm)]
 //! # reference_N_Nm = [0, 0, -120, 0, 0, 0]
 //! # wrenches_N_Nm = [[0, 0, -338, 0, 0, 0], [100, 0, -120, 0, 0, 0]]
+//!
+//! [conditions]                   # optional, each key too: every load is read under each of them
+//! elapsed_s = [5, 300]           # waits from the reference reading to the loaded one; default 0
+//! delta_T_K = [-0.5, 0.5]        # change of the temperature between the two; default 0
+//! approach = [1, -1]             # loaded from below, or coming back from an overload; default 1
+//!
+//! [budget]                       # optional: what a plan may cost
+//! time_h = 3                     # or readings = 60
+//! reading_s = 40                 # to read a deflection: reference and load
+//! load_change_s = 60             # once for a reading with approach 1, twice with -1
+//! pose_change_s = 120            # once for every pose
 //! ```
 
 use std::path::Path;
@@ -26,15 +37,22 @@ use std::path::Path;
 use hexbench_core::files::{Fault, FileError, Format, Item, Key, Kind, Problem, Section, read_toml};
 use hexbench_core::{Hexapod, Wrench};
 
-use crate::Space;
-use crate::space::Loading;
+use crate::budget::{Amount, Budget};
+use crate::space::{Conditions, Loading, Space};
 
 /// Standard gravity, m/s^2 (exact by definition).
 const GRAVITY_M_PER_S2: f64 = 9.806_65;
 
 const FORMAT: Format = Format {
     name: "space/1",
-    keys: &[Key::plain("format"), Key::plain("poses"), Key::plain("limits"), Key::plain("loads")],
+    keys: &[
+        Key::plain("format"),
+        Key::plain("poses"),
+        Key::plain("limits"),
+        Key::plain("loads"),
+        Key::plain("conditions"),
+        Key::plain("budget"),
+    ],
 };
 const POSES: &[Key] = &[
     Key::with_unit("a", Kind::Length, "mm"),
@@ -56,6 +74,18 @@ const LOADS: &[Key] = &[
     Key::plain("reference_N_Nm"),
     Key::plain("wrenches_N_Nm"),
 ];
+const CONDITIONS: &[Key] = &[
+    Key::with_unit("elapsed", Kind::Time, "s"),
+    Key::with_unit("delta_T", Kind::TemperatureDifference, "K"),
+    Key::plain("approach"),
+];
+const BUDGET: &[Key] = &[
+    Key::plain("readings"),
+    Key::with_unit("time", Kind::Time, "h"),
+    Key::with_unit("reading", Kind::Time, "s"),
+    Key::with_unit("load_change", Kind::Time, "s"),
+    Key::with_unit("pose_change", Kind::Time, "s"),
+];
 const SIX: &str = "six numbers, three forces (N) and three moments (Nm)";
 const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 
@@ -76,6 +106,8 @@ fn space(top: &Section<'_>, hexapod: &Hexapod) -> Result<Space, Fault> {
         joint_angle: None,
         least_dexterity: 0.0,
         loads: loads(&top.section("loads", "[loads]", LOADS)?)?,
+        conditions: conditions(&top.section("conditions", "[conditions]", CONDITIONS)?)?,
+        budget: budget(&top.section("budget", "[budget]", BUDGET)?)?,
     };
     if top.get("limits").is_some() {
         limits(&top.section("limits", "[limits]", LIMITS)?, &mut space)?;
@@ -122,6 +154,73 @@ fn loads(table: &Section<'_>) -> Result<Vec<Loading>, Fault> {
     let wrenches = table.require("wrenches_N_Nm")?;
     let listed: Result<Vec<Wrench>, Fault> = wrenches.list()?.iter().map(wrench).collect();
     Ok(of(reference, listed?))
+}
+
+fn conditions(table: &Section<'_>) -> Result<Conditions, Fault> {
+    let mut conditions = Conditions::default();
+    let places = [
+        ("elapsed", &mut conditions.waits, wait as fn(&Item<'_>) -> Result<f64, Fault>),
+        ("delta_T", &mut conditions.delta_t, |item| item.number()),
+        ("approach", &mut conditions.approaches, approach),
+    ];
+    for (name, place, read) in places {
+        if let Some(item) = table.get(name) {
+            *place = different(item, read)?;
+        }
+    }
+    Ok(conditions)
+}
+
+fn wait(item: &Item<'_>) -> Result<f64, Fault> {
+    let seconds = item.number()?;
+    if seconds >= 0.0 {
+        Ok(seconds)
+    } else {
+        Err(rule(item, "time does not run backwards", "Remove the sign."))
+    }
+}
+
+fn approach(item: &Item<'_>) -> Result<f64, Fault> {
+    let sign = item.number()?;
+    if sign.abs().total_cmp(&1.0).is_eq() { Ok(sign) } else { Err(item.fault(Problem::Approach)) }
+}
+
+/// The members of a list, at least one and no two alike.
+fn different(item: &Item<'_>, read: fn(&Item<'_>) -> Result<f64, Fault>) -> Result<Vec<f64>, Fault> {
+    let mut values: Vec<f64> = Vec::new();
+    for member in item.list()? {
+        let value = read(&member)?;
+        if values.iter().any(|v| v.total_cmp(&value).is_eq()) {
+            return Err(rule(
+                &member,
+                "each condition is listed once",
+                "Remove the second one; a plan repeats what is worth it.",
+            ));
+        }
+        values.push(value);
+    }
+    if values.is_empty() {
+        return Err(rule(item, "at least one condition", "Remove the key, or list one."));
+    }
+    Ok(values)
+}
+
+fn budget(table: &Section<'_>) -> Result<Budget, Fault> {
+    let seconds = |name: &str| table.get(name).map_or(Ok(0.0), wait);
+    let limit = match (table.get("readings"), table.get("time")) {
+        (Some(_), Some(time)) => {
+            return Err(rule(time, "a budget is in readings or in time", "Remove one of the two keys."));
+        }
+        (Some(item), None) => Some(Amount::Readings(usize::try_from(item.whole(1)?).unwrap_or(usize::MAX))),
+        (None, Some(item)) => Some(Amount::Time(item.positive("a budget")?)),
+        (None, None) => None,
+    };
+    Ok(Budget {
+        limit,
+        reading: seconds("reading")?,
+        load_change: seconds("load_change")?,
+        pose_change: seconds("pose_change")?,
+    })
 }
 
 fn weight(mass: f64) -> Wrench {

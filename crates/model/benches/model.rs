@@ -11,6 +11,7 @@ use hexbench_model::batch::{LoadCase, deflections};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::diagnose::diagnose;
 use hexbench_model::fit::fit_baseline;
+use hexbench_model::spring_trials::SpringTrials;
 use hexbench_model::terms::catalogue;
 
 const POSES: u32 = 100_000;
@@ -50,6 +51,20 @@ fn fit(c: &mut Criterion) {
     c.bench_function("fit of the springs, 54 equations", |b| b.iter(|| fit_baseline(black_box(&campaign))));
 }
 
+fn trials(c: &mut Criterion) {
+    const CAMPAIGNS: usize = 10_000;
+    let (hexapod, data) = case("paper-protocol");
+    let sigma = [0.8e-6, 0.8e-6, 0.8e-6, 9.6e-6, 9.6e-6, 6.8e-6];
+    let same = SpringTrials::new(&hexapod, &data.observations, &sigma, &[4e6; 6]).expect("a plan");
+    let own = same.clone().with_joint_tolerance(&hexapod, 5e-5);
+    let mut group = c.benchmark_group("simulated campaigns");
+    group.throughput(Throughput::Elements(CAMPAIGNS as u64));
+    for (name, trials) in [("one machine", same), ("a machine each", own)] {
+        group.bench_function(name, |b| b.iter(|| trials.run(CAMPAIGNS, black_box(1))));
+    }
+    group.finish();
+}
+
 fn diagnosis(c: &mut Criterion) {
     let terms = catalogue();
     for name in ["contact", "mujoco-foundation", "two-effects"] {
@@ -66,5 +81,5 @@ fn one_thread() -> Criterion {
     Criterion::default().sample_size(20)
 }
 
-criterion_group! { name = benches; config = one_thread(); targets = deflection, fit, diagnosis }
+criterion_group! { name = benches; config = one_thread(); targets = deflection, fit, trials, diagnosis }
 criterion_main!(benches);

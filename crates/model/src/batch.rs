@@ -9,12 +9,12 @@
 //! well conditioned. This is the plain linear model at the commanded pose; [`crate::linearization`] carries terms,
 //! second-order corrections and derivatives.
 
-use hexbench_core::{Hexapod, Pose, Vector3, Vector6, Wrench};
+use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
 use rayon::prelude::*;
 use wide::f64x4;
 
-/// Poses handled side by side.
-const LANES: usize = 4;
+use crate::lanes::{LANES, Matrix, Point, add_square, factor, jacobian_row, rotation, splat, substitute};
+
 /// Poses per piece of parallel work.
 const PIECE: usize = 1024;
 
@@ -36,13 +36,10 @@ pub fn deflections(hexapod: &Hexapod, stiffness: &[f64; 6], cases: &[LoadCase]) 
     out
 }
 
-/// A point or direction of four poses.
-type Point = [f64x4; 3];
-
 /// The machine, ready for four poses abreast.
 struct Lanes {
-    base: [Vector3; 6],
-    platform: [Vector3; 6],
+    base: [Point; 6],
+    platform: [Point; 6],
     stiffness: [f64; 6],
     radius: f64,
 }
@@ -51,8 +48,8 @@ impl Lanes {
     fn new(hexapod: &Hexapod, stiffness: &[f64; 6]) -> Self {
         let radius = hexapod.platform_radius().max(f64::MIN_POSITIVE);
         Self {
-            base: hexapod.base_joints.map(|a| a / radius),
-            platform: hexapod.platform_joints.map(|b| b / radius),
+            base: hexapod.base_joints.map(|a| splat(&(a / radius))),
+            platform: hexapod.platform_joints.map(|b| splat(&(b / radius))),
             stiffness: *stiffness,
             radius,
         }
@@ -67,8 +64,8 @@ impl Lanes {
             let angles: Point = std::array::from_fn(|i| gather(&|c| c.pose.angles[i]));
             let force: Point = std::array::from_fn(|i| gather(&|c| c.change.force[i]));
             let moment: Point = std::array::from_fn(|i| gather(&|c| c.change.moment[i] / self.radius));
-            let x = solve(
-                self.stiffness_matrix(&translation, &rotation(&angles)),
+            let x = substitute(
+                &factor(self.stiffness_matrix(&translation, &rotation(&angles))),
                 [force[0], force[1], force[2], moment[0], moment[1], moment[2]],
             );
             let x = x.map(f64x4::to_array);
@@ -79,81 +76,20 @@ impl Lanes {
     }
 
     /// Lower triangle of `L' diag(k) L`, moments in units of force.
-    fn stiffness_matrix(&self, translation: &Point, rotation: &[Point; 3]) -> [[f64x4; 6]; 6] {
+    fn stiffness_matrix(&self, translation: &Point, rotation: &[Point; 3]) -> Matrix {
         let mut matrix = [[f64x4::ZERO; 6]; 6];
         for leg in 0..6 {
-            let row = self.jacobian_row(leg, translation, rotation);
-            let stiffness = f64x4::splat(self.stiffness[leg]);
-            for i in 0..6 {
-                let scaled = row[i] * stiffness;
-                for j in 0..=i {
-                    matrix[i][j] = scaled.mul_add(row[j], matrix[i][j]);
-                }
-            }
+            let row = jacobian_row(&self.base[leg], &self.platform[leg], translation, rotation);
+            add_square(&mut matrix, &row, f64x4::splat(self.stiffness[leg]));
         }
         matrix
     }
-
-    /// `[n', (R B x n)']` of one leg.
-    fn jacobian_row(&self, leg: usize, translation: &Point, rotation: &[Point; 3]) -> [f64x4; 6] {
-        let b = self.platform[leg].map(f64x4::splat);
-        let arm: Point =
-            std::array::from_fn(|i| rotation[i][0] * b.x + rotation[i][1] * b.y + rotation[i][2] * b.z);
-        let span: Point = std::array::from_fn(|i| translation[i] + arm[i] - f64x4::splat(self.base[leg][i]));
-        let length = (span[0] * span[0] + span[1] * span[1] + span[2] * span[2]).sqrt();
-        let inverse = f64x4::ONE / length;
-        let n = span.map(|s| s * inverse);
-        [
-            n[0],
-            n[1],
-            n[2],
-            arm[1] * n[2] - arm[2] * n[1],
-            arm[2] * n[0] - arm[0] * n[2],
-            arm[0] * n[1] - arm[1] * n[0],
-        ]
-    }
-}
-
-/// `Rz(gamma) Ry(beta) Rx(alpha)`, rows.
-fn rotation(angles: &Point) -> [Point; 3] {
-    let [(sa, ca), (sb, cb), (sg, cg)] = angles.map(f64x4::sin_cos);
-    [
-        [cg * cb, cg * sb * sa - sg * ca, cg * sb * ca + sg * sa],
-        [sg * cb, sg * sb * sa + cg * ca, sg * sb * ca - cg * sa],
-        [-sb, cb * sa, cb * ca],
-    ]
-}
-
-/// Solution of `A x = b` for symmetric positive definite `A` given by its lower triangle (Cholesky).
-fn solve(mut a: [[f64x4; 6]; 6], mut b: [f64x4; 6]) -> [f64x4; 6] {
-    for j in 0..6 {
-        for k in 0..j {
-            for i in j..6 {
-                a[i][j] -= a[i][k] * a[j][k];
-            }
-        }
-        let inverse = f64x4::ONE / a[j][j].sqrt();
-        for i in j..6 {
-            a[i][j] *= inverse;
-        }
-        for k in 0..j {
-            b[j] -= a[j][k] * b[k];
-        }
-        b[j] *= inverse;
-        // The diagonal is needed inverted from here on.
-        a[j][j] = inverse;
-    }
-    for j in (0..6).rev() {
-        for k in j + 1..6 {
-            b[j] -= a[k][j] * b[k];
-        }
-        b[j] *= a[j][j];
-    }
-    b
 }
 
 #[cfg(test)]
 mod tests {
+    use hexbench_core::Vector3;
+
     use super::*;
     use crate::kinematics::Legs;
 

@@ -2,6 +2,7 @@
 //!
 //! One spring per leg, identified from loaded poses, plus named terms for what the springs leave unexplained.
 
+pub mod absorption;
 pub mod batch;
 mod body;
 pub mod campaign;
@@ -19,6 +20,7 @@ pub mod fit_named;
 pub mod formula;
 mod intern;
 pub mod kinematics;
+mod lanes;
 pub mod linearization;
 pub mod lsq;
 pub mod machine;
@@ -36,6 +38,7 @@ pub mod registration;
 pub mod residuals;
 mod scan;
 pub mod search;
+pub mod spring_trials;
 pub mod term;
 pub mod terms;
 pub mod user_term;

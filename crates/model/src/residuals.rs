@@ -104,21 +104,54 @@ pub fn prediction_errors(
 /// # Errors
 /// As [`prediction_errors`].
 pub fn survival(hexapod: &Hexapod, holdout: &Dataset, noise: Noise, fit: &Fit) -> Result<f64, ModelError> {
-    let campaign = Campaign::with_noise(hexapod, holdout, noise)?;
-    let lin = Linearization::at(&campaign, &fit.point)?;
-    let jacobian = columns(&lin, &fit.point);
-    let n = lin.conditions.len();
-    let distance = |i: usize| {
-        let j = jacobian.rows(6 * i, 6);
-        let spread = j * &fit.covariance * j.transpose();
-        let total = Matrix6::identity() + spread.fixed_view::<6, 6>(0, 0);
-        let d = lin.residual(i);
-        total.cholesky().map_or(0.0, |c| d.dot(&c.solve(&d)))
-    };
-    let chi2: f64 = (0..n).map(distance).sum();
-    let law =
-        ChiSquared::new(6.0 * n as f64).map_err(|_| ModelError::NotFinite { what: "the held-out data" })?;
-    Ok(1.0 - law.cdf(chi2))
+    let expected = Expected::of(hexapod, holdout, noise, fit)?;
+    let law = ChiSquared::new(6.0 * expected.readings)
+        .map_err(|_| ModelError::NotFinite { what: "the held-out data" })?;
+    Ok(1.0 - law.cdf(expected.chi2))
+}
+
+/// Averaged readings beside what a fit expects of them, uncertainty of its parameters included.
+struct Expected {
+    readings: f64,
+    /// Sum of squared distances in units of noise plus uncertainty.
+    chi2: f64,
+    /// Logarithm of the determinant of noise plus uncertainty, in units of the noise.
+    log_det: f64,
+}
+
+impl Expected {
+    fn of(hexapod: &Hexapod, data: &Dataset, noise: Noise, fit: &Fit) -> Result<Self, ModelError> {
+        let campaign = Campaign::with_noise(hexapod, data, noise)?;
+        let lin = Linearization::at(&campaign, &fit.point)?;
+        let jacobian = columns(&lin, &fit.point);
+        let mut expected = Self { readings: lin.conditions.len() as f64, chi2: 0.0, log_det: 0.0 };
+        for i in 0..lin.conditions.len() {
+            let j = jacobian.rows(6 * i, 6);
+            let spread = j * &fit.covariance * j.transpose();
+            let total = Matrix6::identity() + spread.fixed_view::<6, 6>(0, 0);
+            let Some(factor) = total.cholesky() else { continue };
+            let d = lin.residual(i);
+            expected.chi2 += d.dot(&factor.solve(&d));
+            expected.log_det += 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
+        }
+        Ok(expected)
+    }
+
+    /// Logarithm of the predictive density of the readings, up to a constant of the noise.
+    fn log_density(&self) -> f64 {
+        -0.5 * (self.chi2 + self.log_det)
+    }
+}
+
+/// Errors on poses left out in turn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LeftOut {
+    /// Of every reading.
+    pub residuals: Vec<Residual>,
+    /// Sum of the logarithms of the predictive densities of what was left out (Geisser and Eddy 1979, Journal of the American
+    /// Statistical Association 74): unlike the errors it does not hold against an effect that the pose left out was the only one to
+    /// determine it.
+    pub log_density: f64,
 }
 
 /// Prediction errors when poses are left out in turn and the model is fitted to the others.
@@ -131,12 +164,12 @@ pub fn leave_poses_out(
     noise: Noise,
     wanted: &[Wanted],
     start: &Point,
-) -> Result<Vec<Residual>, ModelError> {
+) -> Result<LeftOut, ModelError> {
     let folds = folds(&dataset.observations);
     if folds.len() < 2 {
         return Err(ModelError::TooFewEquations { equations: 6, unknowns: 12 });
     }
-    let errors: Vec<Vec<Residual>> = folds
+    let errors: Vec<(Vec<Residual>, f64)> = folds
         .par_iter()
         .map(|held| {
             let part = |inside: bool| {
@@ -146,10 +179,13 @@ pub fn leave_poses_out(
             };
             let campaign = Campaign::with_noise(hexapod, &part(false), noise)?;
             let fitted = fit(&campaign, wanted, Some(start))?;
-            prediction_errors(hexapod, &part(true), noise, &fitted.point)
+            let held = part(true);
+            let density = Expected::of(hexapod, &held, noise, &fitted)?.log_density();
+            Ok((prediction_errors(hexapod, &held, noise, &fitted.point)?, density))
         })
         .collect::<Result<_, ModelError>>()?;
-    Ok(errors.into_iter().flatten().collect())
+    let log_density = errors.iter().map(|e| e.1).sum();
+    Ok(LeftOut { residuals: errors.into_iter().flat_map(|e| e.0).collect(), log_density })
 }
 
 /// Rows of equal pose belong to one fold; poses are dealt out in order of appearance.

@@ -5,7 +5,9 @@
 //! `hexbench_truth`, answers from `hexbench_model`.
 
 pub mod calibration;
+pub mod discriminate;
 pub mod paper;
+pub mod power;
 pub mod proportion;
 pub mod recovery;
 pub mod sheet;

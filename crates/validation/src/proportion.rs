@@ -3,7 +3,7 @@
 use statrs::distribution::{Beta, ContinuousCDF};
 
 /// So many hits of so many.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub struct Proportion {
     /// How often it happened.
     pub hits: usize,
@@ -40,6 +40,11 @@ impl Proportion {
     pub fn is_above(&self, rate: f64) -> bool {
         const HARDLY: f64 = 1e-3;
         self.lower(HARDLY) > rate
+    }
+
+    /// True when a true rate is within the two-sided exact bounds that a share leaves with this chance of error.
+    pub fn is_compatible_with(&self, rate: f64, error: f64) -> bool {
+        (self.lower(0.5 * error)..=self.upper(0.5 * error)).contains(&rate)
     }
 
     /// Quantile of Beta(hits, misses + 1).

@@ -1,6 +1,6 @@
 //! One campaign through the diagnosis: right, honest or wrong.
 
-use hexbench_model::diagnose::{Study, diagnose};
+use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
 use hexbench_model::error::ModelError;
 use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::Verdict;
@@ -49,25 +49,25 @@ impl Trial {
 
     /// Right, honest or wrong.
     pub fn outcome(&self) -> Outcome {
-        let d = &self.study.diagnosis;
-        let outside = self.hidden.iter().any(|id| id.starts_with("out:"));
-        let same = d.added.len() == self.hidden.len()
-            && self.hidden.iter().all(|id| d.added.iter().any(|a| a == id));
-        let right = match d.verdict {
-            Verdict::Outside => outside,
-            Verdict::Adequate => self.hidden.is_empty(),
-            Verdict::Named => !outside && !self.hidden.is_empty() && same,
-            Verdict::Ambiguous => false,
-        };
-        let kept = |id: &&str| d.credible_set.iter().chain(&d.added).any(|c| c == id);
-        let honest = d.verdict == Verdict::Ambiguous
-            && !outside
-            && !self.hidden.is_empty()
-            && self.hidden.iter().all(kept);
-        match (right, honest) {
-            (true, _) => Outcome::Right,
-            (_, true) => Outcome::Honest,
-            _ => Outcome::Wrong,
-        }
+        outcome(&self.hidden, &self.study.diagnosis)
+    }
+}
+
+/// Right, honest or wrong about hidden effects; those outside the catalogue begin with `out:`.
+pub fn outcome(hidden: &[&str], d: &Diagnosis) -> Outcome {
+    let outside = hidden.iter().any(|id| id.starts_with("out:"));
+    let same = d.added.len() == hidden.len() && hidden.iter().all(|id| d.added.iter().any(|a| a == id));
+    let right = match d.verdict {
+        Verdict::Outside => outside,
+        Verdict::Adequate => hidden.is_empty(),
+        Verdict::Named => !outside && !hidden.is_empty() && same,
+        Verdict::Ambiguous => false,
+    };
+    let kept = |id: &&str| d.credible_set.iter().chain(&d.added).any(|c| c == id);
+    let honest = d.verdict == Verdict::Ambiguous && !outside && !hidden.is_empty() && hidden.iter().all(kept);
+    match (right, honest) {
+        (true, _) => Outcome::Right,
+        (_, true) => Outcome::Honest,
+        _ => Outcome::Wrong,
     }
 }

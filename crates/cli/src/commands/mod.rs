@@ -6,9 +6,11 @@ pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod design;
 pub(crate) mod diagnose;
+pub(crate) mod discriminate;
 pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod poses;
+pub(crate) mod power;
 pub(crate) mod predict;
 pub(crate) mod simulate;
 pub(crate) mod study;
@@ -35,6 +37,8 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Export(arguments) => export::run(arguments, &screen),
         Command::Transient(arguments) => transient::run(arguments, &screen),
         Command::Design(arguments) => design::run(arguments, &screen),
+        Command::Discriminate(arguments) => discriminate::run(arguments, &screen),
+        Command::Power(arguments) => power::run(arguments, &screen),
         Command::Study(arguments) => study::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
         Command::Validate(arguments) => validate::run(arguments, &screen),

@@ -3,7 +3,7 @@
 mod bar;
 mod colour;
 mod excerpt;
-pub(crate) mod number;
+pub(crate) use hexbench_report::number;
 mod paper;
 mod progress;
 pub(crate) mod report;

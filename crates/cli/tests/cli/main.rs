@@ -3,12 +3,14 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
 
 mod design;
+mod discriminate;
 mod documents;
 mod exits;
 mod export;
 mod json;
 mod pages;
 mod poses;
+mod power;
 mod recovery;
 mod scenes;
 mod score;

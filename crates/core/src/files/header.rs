@@ -35,12 +35,18 @@ pub(crate) enum Purpose {
     Measurements,
     /// Conditions to predict: poses and loads; measured values are passed over.
     Conditions,
+    /// Conditions to be measured: as conditions to predict, and the standard deviations of what will be read.
+    Plan,
 }
 
 impl Purpose {
     fn passes_over(self, group: Group) -> bool {
         use Group::{Absolute, Deflection, Euler, RotationVector, Sigma};
-        self == Self::Conditions && matches!(group, Absolute | Deflection | Euler | RotationVector | Sigma)
+        match group {
+            Absolute | Deflection | Euler | RotationVector => self != Self::Measurements,
+            Sigma => self == Self::Conditions,
+            _ => false,
+        }
     }
 }
 
@@ -134,7 +140,7 @@ fn plan(sources: Vec<Option<Source>>, names: Vec<String>, purpose: Purpose) -> R
     let present = Present(&sources);
     let (measurand, measured) = match purpose {
         Purpose::Measurements => measurand(&present).map(|m| (m, measured_groups(m)))?,
-        Purpose::Conditions => (Measurand::DeflectionEuler, &[][..]),
+        Purpose::Conditions | Purpose::Plan => (Measurand::DeflectionEuler, &[][..]),
     };
     let groups = [Group::Pose, Group::Wrench].into_iter().chain(measured.iter().copied());
     let missing: Vec<String> = groups.flat_map(|group| present.missing(group)).collect();

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `measurements.csv` | [`read_measurements`] | [`write_measurements`] |
 //! | poses and loads to predict | [`read_conditions`] | - |
+//! | poses and loads to be measured | [`read_plan`] | - |
 //! | `balls.csv`, `balls.toml` | [`read_balls`], [`read_ball_places`] | - |
 //! | `hexapod.toml` | [`read_hexapod`] | [`hexapod_to_toml`], [`write_hexapod`] |
 //! | any other TOML | [`read_toml`] | - |
@@ -47,7 +48,7 @@ pub use nearest::nearest;
 pub use place::Place;
 pub use problem::Problem;
 pub use read_balls::{read_ball_places, read_balls};
-pub use read_conditions::read_conditions;
+pub use read_conditions::{read_conditions, read_plan};
 pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_measurements::{Reading, read_measurements, read_measurements_from};
 pub use toml_file::{Format, read_toml};

@@ -17,6 +17,17 @@ pub fn read_conditions(path: &Path) -> Result<Reading, FileError> {
     read_named(path, &name, Purpose::Conditions).map_err(|fault| fault.in_file(path))
 }
 
+/// Reads a plan: poses and loads that are to be measured.
+///
+/// As [`read_conditions`], but standard deviations are kept: they say how well the rows will be read.
+///
+/// # Errors
+/// As [`read_conditions`].
+pub fn read_plan(path: &Path) -> Result<Reading, FileError> {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    read_named(path, &name, Purpose::Plan).map_err(|fault| fault.in_file(path))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -43,6 +54,18 @@ mod tests {
     fn measured_columns_are_passed_over() {
         let reading = read(&format!("{HEADER},da_um,note\n1,2,3,0,0,0,0,0,-100,0,0,0,7,x\n")).unwrap();
         assert!(reading.dataset.observations[0].measured.iter().all(|m| *m == 0.0));
+    }
+
+    #[test]
+    fn a_plan_keeps_its_standard_deviations() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("plan.csv");
+        let columns = "da_um,sigma_translation_um,sigma_rotation_urad";
+        std::fs::write(&path, format!("{HEADER},{columns}\n1,2,3,0,0,0,0,0,-100,0,0,0,7,0.5,3\n")).unwrap();
+        let dataset = read_plan(&path).unwrap().dataset;
+        let sigma = dataset.observations[0].sigma.unwrap();
+        assert!(dataset.columns.sigma && (sigma[0] * 1e6 - 0.5).abs() < 1e-12, "{sigma:?}");
+        assert!(read_conditions(&path).unwrap().dataset.observations[0].sigma.is_none());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! `docs/bad-input.md`, made from the cases. Run with `HEXBENCH_BLESS=1` to write it again.
 
-use crate::{Case, error_of, hexapods, noticed, tables};
+use crate::{Case, error_of, hexapods, noticed, plans, tables};
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
@@ -42,6 +42,7 @@ fn the_page_about_bad_input_is_up_to_date() {
     let mut text = OPENING.to_owned();
     refused(&mut text, "measurements.csv: refused", &tables::cases());
     accepted(&mut text);
+    refused(&mut text, "plan.csv: refused", &plans::cases());
     refused(&mut text, "hexapod.toml: refused", &hexapods::cases());
     if std::env::var_os("HEXBENCH_BLESS").is_some() {
         fs::write(document_path(), &text).unwrap();

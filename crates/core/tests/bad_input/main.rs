@@ -4,17 +4,18 @@
 mod document;
 mod hexapods;
 mod noticed;
+mod plans;
 mod samples;
 mod tables;
 
-use hexbench_core::files::{FileError, read_hexapod, read_measurements};
+use hexbench_core::files::{FileError, read_hexapod, read_measurements, read_plan};
 use std::fs;
 
 /// One bad file and what is expected of the reader.
 pub(crate) struct Case {
     /// What is wrong, in the words of the documentation.
     pub(crate) what: &'static str,
-    /// Name of the file: `measurements.csv` or `hexapod.toml`.
+    /// Name of the file: `measurements.csv`, `plan.csv` or `hexapod.toml`.
     pub(crate) file: &'static str,
     /// Its bytes.
     pub(crate) bytes: Vec<u8>,
@@ -29,8 +30,11 @@ pub(crate) fn error_of(case: &Case) -> FileError {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(case.file);
     fs::write(&path, &case.bytes).unwrap();
-    let error =
-        if case.file == "hexapod.toml" { read_hexapod(&path).err() } else { read_measurements(&path).err() };
+    let error = match case.file {
+        "hexapod.toml" => read_hexapod(&path).err(),
+        "plan.csv" => read_plan(&path).err(),
+        _ => read_measurements(&path).err(),
+    };
     error.unwrap_or_else(|| panic!("{} must be refused", case.what))
 }
 

@@ -11,32 +11,35 @@ use hexbench_model::noise::Noise;
 use hexbench_model::term::Term;
 use nalgebra::{DMatrix, DVector};
 
-use super::{PoseRegressor, leg_names};
+use super::{PoseRegressor, SettingRegressor, leg_names};
 use crate::DesignError;
-use crate::space::Loading;
+use crate::space::Setting;
 
 /// A term with its shape value and the natural sizes of its parameters.
+#[derive(Clone)]
 struct Wanted {
     term: Arc<dyn Term>,
     shape: f64,
     sizes: Vec<f64>,
 }
 
-/// Readings of a pose under every loading, for springs (first six columns) and the parameters of terms.
+/// Readings of a pose under every setting, for springs (first six columns) and the parameters of terms.
 ///
 /// A spring counts in relative changes of its compliance, a parameter of a term in natural sizes. A term with a shape takes the
 /// middle one of those it would be tried with.
+#[derive(Clone)]
 pub struct ModelRegressor<'a> {
     hexapod: &'a Hexapod,
     springs: Vector6,
     noise: Noise,
     terms: Vec<Wanted>,
-    readings: Vec<Observation>,
+    settings: Vec<Setting>,
+    counts: Vec<usize>,
 }
 
 impl<'a> ModelRegressor<'a> {
     /// Springs of the given compliance (m/N) and terms, whitened with a noise; at every pose `repeats` readings under each
-    /// loading.
+    /// setting.
     ///
     /// # Errors
     /// A machine that is singular at the zero pose.
@@ -45,14 +48,13 @@ impl<'a> ModelRegressor<'a> {
         springs: Vector6,
         noise: Noise,
         terms: &[Arc<dyn Term>],
-        loads: &[Loading],
+        settings: &[Setting],
         repeats: usize,
     ) -> Result<Self, DesignError> {
-        let of = |l: &Loading| reading(Pose::default(), l);
-        let readings: Vec<Observation> =
-            loads.iter().flat_map(|l| std::iter::repeat_n(of(l), repeats)).collect();
-        let mut regressor = Self { hexapod, springs, noise, terms: Vec::new(), readings };
-        let (point, lin) = regressor.linearized(regressor.readings.clone())?;
+        let counts = vec![repeats; settings.len()];
+        let mut regressor =
+            Self { hexapod, springs, noise, terms: Vec::new(), settings: settings.to_vec(), counts };
+        let (point, lin) = regressor.linearized(regressor.readings(&Pose::default()))?;
         let natural = natural(&point, &lin);
         let wanted = |term: &Arc<dyn Term>| {
             let grid = term.shape_grid(&lin.conditions);
@@ -61,6 +63,16 @@ impl<'a> ModelRegressor<'a> {
         };
         regressor.terms = terms.iter().map(wanted).collect();
         Ok(regressor)
+    }
+
+    /// One reading of a pose under each setting.
+    fn readings(&self, pose: &Pose) -> Vec<Observation> {
+        self.settings.iter().map(|s| reading(*pose, s)).collect()
+    }
+
+    /// Natural sizes of the parameters of the terms, SI, in the order of the columns after the springs.
+    pub fn sizes(&self) -> impl Iterator<Item = f64> {
+        self.terms.iter().flat_map(|w| w.sizes.iter().copied())
     }
 
     fn linearized(&self, readings: Vec<Observation>) -> Result<(Point, Linearization), DesignError> {
@@ -102,17 +114,17 @@ impl<'a> ModelRegressor<'a> {
 }
 
 /// A reading to be taken.
-pub fn reading(pose: Pose, loading: &Loading) -> Observation {
+pub fn reading(pose: Pose, setting: &Setting) -> Observation {
     Observation {
         pose_id: 1,
         repeat: 1,
         line: 0,
         pose,
-        wrench: loading.load,
-        reference: loading.reference,
-        approach: 1.0,
-        delta_t: 0.0,
-        elapsed: 0.0,
+        wrench: setting.loading.load,
+        reference: setting.loading.reference,
+        approach: setting.approach,
+        delta_t: setting.delta_t,
+        elapsed: setting.elapsed,
         measured: [0.0; 6],
         sigma: None,
     }
@@ -124,7 +136,7 @@ impl PoseRegressor for ModelRegressor<'_> {
     }
 
     fn readings(&self) -> usize {
-        self.readings.len()
+        self.counts.iter().sum()
     }
 
     fn names(&self) -> Vec<String> {
@@ -136,8 +148,10 @@ impl PoseRegressor for ModelRegressor<'_> {
     }
 
     fn inform(&self, pose: &Pose, information: &mut DMatrix<f64>) -> Result<(), DesignError> {
-        let readings = self.readings.iter().map(|o| Observation { pose: *pose, ..*o }).collect();
-        let rows = self.rows(readings)?;
+        let mut rows = self.rows(self.readings(pose))?;
+        for (k, &count) in self.counts.iter().enumerate() {
+            rows.rows_mut(6 * k, 6).scale_mut((count as f64).sqrt());
+        }
         information.gemm_tr(1.0, &rows, &rows, 1.0);
         Ok(())
     }
@@ -158,5 +172,17 @@ impl PoseRegressor for ModelRegressor<'_> {
             *slope = (along(k, STEP)? - along(k, -STEP)?) / (2.0 * STEP);
         }
         Ok(slopes)
+    }
+}
+
+impl SettingRegressor for ModelRegressor<'_> {
+    fn each(&self, pose: &Pose) -> Result<Vec<DMatrix<f64>>, DesignError> {
+        let rows = self.rows(self.readings(pose))?;
+        let of = |k: usize| rows.rows(6 * k, 6).tr_mul(&rows.rows(6 * k, 6));
+        Ok((0..self.settings.len()).map(of).collect())
+    }
+
+    fn repeated(&self, counts: &[usize]) -> Self {
+        Self { counts: counts.to_vec(), ..self.clone() }
     }
 }

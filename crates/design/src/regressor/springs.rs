@@ -1,21 +1,27 @@
 //! Six leg springs, first order, in closed form with exact derivatives.
 //!
 //! ```text
-//! A = E P diag(f) diag(s)      P = L^-1, f = P' dW, E = diag(I, M^-1)
-//! dP = -P dL P                 df = -P' dL' f
-//! dL_i = [dn_i', (da_i x n_i + a_i x dn_i)'],  dn_i = (I - n_i n_i') dl_i / q_i,  dl_i = dt + da_i,  da_i = w x a_i
+//! A = W E P diag(g)         P = L^-1, f = P' dW, g = s f, E = diag(I, M^-1)
 //! ```
 //!
-//! `dW` is the change of the wrench, `M` the matrix from Euler rates to angular velocity, `w` its column for a turn. Source:
-//! Kalas et al. 2018, eq. 12 and 13; the derivatives are our own.
+//! `dW` is the change of the wrench, `W` the weights of the rows, `s` the units of the columns, `M` the matrix from Euler rates to
+//! angular velocity. Derivatives of `trace(G A'A)` go backwards: with `H = G o g g'`, `K = E'W'W E`, `B = K P H` and
+//! `v_i = 2 s_i sum_j G_ij g_j (P'K P)_ij` its slope by `L` is
+//!
+//! ```text
+//! S = -2 P'B P' - f (P v)'
+//! ```
+//!
+//! summed over the readings; a row `[u', w']` of it acts on the leg as the force `y = (I - n n') (u + w x a) / q` on its platform
+//! end and the moment `a x (y + n x w)`. Source: Kalas et al. 2018, eq. 12 and 13; the derivatives are our own.
 
 use hexbench_core::{Hexapod, Matrix3, Matrix6, Pose, Vector3, Vector6};
 use hexbench_model::kinematics::{Legs, euler_rate_matrix};
 use nalgebra::DMatrix;
 
-use super::{PoseRegressor, leg_names};
+use super::{PoseRegressor, SettingRegressor, leg_names};
 use crate::DesignError;
-use crate::space::Loading;
+use crate::space::Setting;
 
 /// Weights of the rows and units of the columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,12 +39,12 @@ impl Weights {
     pub const UNWEIGHTED: Self = Self { translation: 1.0, rotation: 1.0, compliance: [1.0; 6] };
 }
 
-/// Readings of one pose under every loading, for the compliances of the six legs.
+/// Readings of one pose under every setting, for the compliances of the six legs.
 #[derive(Debug, Clone)]
 pub struct SpringRegressor<'a> {
     hexapod: &'a Hexapod,
     changes: Vec<Vector6>,
-    repeats: usize,
+    counts: Vec<usize>,
     weights: Weights,
 }
 
@@ -51,10 +57,17 @@ struct AtPose {
 }
 
 impl<'a> SpringRegressor<'a> {
-    /// Readings at each pose: `repeats` under every loading.
-    pub fn new(hexapod: &'a Hexapod, loads: &[Loading], repeats: usize, weights: Weights) -> Self {
-        let changes = loads.iter().map(|l| l.load.to_vector() - l.reference.to_vector()).collect();
-        Self { hexapod, changes, repeats, weights }
+    /// Readings at each pose: `repeats` under every setting.
+    pub fn new(hexapod: &'a Hexapod, settings: &[Setting], repeats: usize, weights: Weights) -> Self {
+        let change = |s: &Setting| s.loading.load.to_vector() - s.loading.reference.to_vector();
+        let changes = settings.iter().map(change).collect();
+        Self { hexapod, changes, counts: vec![repeats; settings.len()], weights }
+    }
+
+    /// Changes of wrench that are read, and how often.
+    fn read(&self) -> impl Iterator<Item = (&Vector6, f64)> {
+        let counted = self.changes.iter().zip(&self.counts).filter(|(_, count)| **count > 0);
+        counted.map(|(change, &count)| (change, count as f64))
     }
 
     fn at(&self, pose: &Pose) -> Result<AtPose, DesignError> {
@@ -70,55 +83,35 @@ impl<'a> SpringRegressor<'a> {
     /// `A` (6x6) of one change of wrench.
     fn block(&self, at: &AtPose, change: &Vector6) -> Matrix6 {
         let forces = at.legs.forces(change);
-        self.finished(at, &at.legs.platform_jacobian, &forces, &at.inverse_euler)
-    }
-
-    /// Rows in Euler angles, weighted, columns times force and unit.
-    fn finished(&self, at: &AtPose, jacobian: &Matrix6, forces: &Vector6, rates: &Matrix3) -> Matrix6 {
-        let mut a = *jacobian;
-        let turned = rates * a.fixed_rows::<3>(3);
+        let mut a = at.legs.platform_jacobian;
+        let turned = at.inverse_euler * a.fixed_rows::<3>(3);
         a.fixed_rows_mut::<3>(3).copy_from(&turned);
         Matrix6::from_fn(|i, j| a[(i, j)] * at.rows[i] * forces[j] * self.weights.compliance[j])
     }
 
-    /// Derivative of `A` by one pose coordinate.
-    fn block_slope(&self, at: &AtPose, change: &Vector6, angles: &Vector3, k: usize) -> Matrix6 {
-        let p = &at.legs.platform_jacobian;
-        let forces = at.legs.forces(change);
-        let dl = leg_jacobian_slope(at, k);
-        let dp = -(p * dl * p);
-        let dforces = -p.tr_mul(&dl.tr_mul(&forces));
-        let mut slope = self.finished(at, &dp, &forces, &at.inverse_euler)
-            + self.finished(at, p, &dforces, &at.inverse_euler);
-        if k > 3 {
-            let drates = -(at.inverse_euler * euler_rate_slope(angles, k) * at.inverse_euler);
-            let mut rotation_only = *p;
-            rotation_only.fixed_rows_mut::<3>(0).fill(0.0);
-            slope += self.finished(at, &rotation_only, &forces, &drates);
-        }
-        slope
+    /// `K`: what a squared deviation of the platform weighs, in twists.
+    fn metric(&self, at: &AtPose) -> Matrix6 {
+        let (t, r) = (self.weights.translation.powi(2), self.weights.rotation.powi(2));
+        let mut metric = Matrix6::zeros();
+        metric.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(t);
+        metric.fixed_view_mut::<3, 3>(3, 3).copy_from(&(at.inverse_euler.tr_mul(&at.inverse_euler) * r));
+        metric
     }
 }
 
-/// `dL` by the k-th pose coordinate.
-fn leg_jacobian_slope(at: &AtPose, k: usize) -> Matrix6 {
-    let mut slope = Matrix6::zeros();
+/// Force and moment on the platform that stand for the slope of a function by the leg Jacobian.
+fn wrench_of(at: &AtPose, slope: &Matrix6) -> (Vector3, Vector3) {
+    let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
     for i in 0..6 {
         let (n, arm) = (at.legs.directions[i], at.legs.arms[i]);
-        let (darm, dspan) = if k < 3 {
-            (Vector3::zeros(), Vector3::ith(k, 1.0))
-        } else {
-            let darm = at.euler.column(k - 3).cross(&arm);
-            (darm, darm)
-        };
-        let dn = (dspan - n * n.dot(&dspan)) / at.legs.lengths[i];
-        let dmoment = darm.cross(&n) + arm.cross(&dn);
-        for axis in 0..3 {
-            slope[(i, axis)] = dn[axis];
-            slope[(i, axis + 3)] = dmoment[axis];
-        }
+        let u = Vector3::new(slope[(i, 0)], slope[(i, 1)], slope[(i, 2)]);
+        let w = Vector3::new(slope[(i, 3)], slope[(i, 4)], slope[(i, 5)]);
+        let z = u + w.cross(&arm);
+        let y = (z - n * n.dot(&z)) / at.legs.lengths[i];
+        force += y;
+        moment += arm.cross(&(y + n.cross(&w)));
     }
-    slope
+    (force, moment)
 }
 
 /// Derivative of the Euler rate matrix by beta (k = 4) or gamma (k = 5).
@@ -138,7 +131,7 @@ impl PoseRegressor for SpringRegressor<'_> {
     }
 
     fn readings(&self) -> usize {
-        self.changes.len() * self.repeats
+        self.counts.iter().sum()
     }
 
     fn names(&self) -> Vec<String> {
@@ -147,10 +140,10 @@ impl PoseRegressor for SpringRegressor<'_> {
 
     fn inform(&self, pose: &Pose, information: &mut DMatrix<f64>) -> Result<(), DesignError> {
         let at = self.at(pose)?;
-        for change in &self.changes {
+        for (change, count) in self.read() {
             let a = self.block(&at, change);
             let mut whole = information.fixed_view_mut::<6, 6>(0, 0);
-            whole += a.tr_mul(&a) * (self.repeats as f64);
+            whole += a.tr_mul(&a) * count;
         }
         Ok(())
     }
@@ -158,15 +151,43 @@ impl PoseRegressor for SpringRegressor<'_> {
     fn slopes(&self, pose: &Pose, g: &DMatrix<f64>) -> Result<[f64; 6], DesignError> {
         let at = self.at(pose)?;
         let g = g.fixed_view::<6, 6>(0, 0);
-        let mut slopes = [0.0; 6];
-        for change in &self.changes {
-            let weighted = self.block(&at, change) * g;
-            for (k, slope) in slopes.iter_mut().enumerate() {
-                let da = self.block_slope(&at, change, &pose.angles, k);
-                *slope += 2.0 * self.repeats as f64 * weighted.dot(&da);
-            }
+        let (p, metric) = (&at.legs.platform_jacobian, self.metric(&at));
+        let heavy = metric * p;
+        let square = p.tr_mul(&heavy);
+        let (mut h, mut slope) = (Matrix6::zeros(), Matrix6::zeros());
+        for (change, count) in self.read() {
+            let f = at.legs.forces(change);
+            let column = Vector6::from_fn(|i, _| f[i] * self.weights.compliance[i]);
+            h += g.component_mul(&(column * column.transpose())) * count;
+            let v = g.component_mul(&square) * column;
+            let v = Vector6::from_fn(|i, _| 2.0 * count * self.weights.compliance[i] * v[i]);
+            slope -= f * (p * v).transpose();
         }
-        Ok(slopes)
+        let twice = heavy * h * 2.0;
+        slope -= p.tr_mul(&(twice * p.transpose()));
+        let (force, moment) = wrench_of(&at, &slope);
+        let turned = at.euler.tr_mul(&moment);
+        let rotations = p.fixed_rows::<3>(3);
+        let spread =
+            at.inverse_euler * (rotations * h * rotations.transpose()) * at.inverse_euler.transpose();
+        let by_euler = |k| {
+            let rates = at.inverse_euler * euler_rate_slope(&pose.angles, k);
+            -2.0 * self.weights.rotation.powi(2) * (rates * spread).trace()
+        };
+        Ok([force.x, force.y, force.z, turned.x, turned.y + by_euler(4), turned.z + by_euler(5)])
+    }
+}
+
+impl SettingRegressor for SpringRegressor<'_> {
+    fn each(&self, pose: &Pose) -> Result<Vec<DMatrix<f64>>, DesignError> {
+        let at = self.at(pose)?;
+        let square = |a: Matrix6| a.tr_mul(&a);
+        let of = |change| DMatrix::from_column_slice(6, 6, square(self.block(&at, change)).as_slice());
+        Ok(self.changes.iter().map(of).collect())
+    }
+
+    fn repeated(&self, counts: &[usize]) -> Self {
+        Self { counts: counts.to_vec(), ..self.clone() }
     }
 }
 
@@ -177,12 +198,13 @@ mod tests {
 
     use super::*;
     use crate::regressor::reading;
+    use crate::space::Loading;
     use crate::test_machine::machine;
 
-    fn loads() -> Vec<Loading> {
-        let of = |load: [f64; 6]| Loading {
-            reference: Wrench::from_array([0.0, 0.0, -119.7, 0.0, 0.0, 0.0]),
-            load: Wrench::from_array(load),
+    fn loads() -> Vec<Setting> {
+        let of = |load: [f64; 6]| {
+            let reference = Wrench::from_array([0.0, 0.0, -119.7, 0.0, 0.0, 0.0]);
+            Setting::from(Loading { reference, load: Wrench::from_array(load) })
         };
         vec![of([0.0, 0.0, -338.4, 0.0, 0.0, 0.0]), of([100.0, 20.0, -50.0, 3.0, -4.0, 5.0])]
     }

@@ -4,14 +4,14 @@
 //! `C^+ t`) and a visible rest. The effect is given the size at which a test sees the rest with 90 % power, at most its
 //! largest sensible size; the shift at that size is a bias that may be there without anyone noticing.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use serde::Serialize;
 
 use super::Judged;
-use crate::candidates::{orthonormal, project, sizes, why_untestable};
+use crate::absorption::{Absorption, bias_percent};
+use crate::candidates::{sizes, why_untestable};
 use crate::evidence::WIDEST;
 use crate::fit::natural;
-use crate::lsq::solve;
 use crate::power::{FALSE_ALARM, POWER, noncentrality};
 use crate::term::Term;
 use crate::terms::catalogue;
@@ -39,15 +39,14 @@ pub struct HiddenBias {
 /// The most harmful parameter of every effect that is not in the model, worst effect first.
 pub fn hidden_biases(judged: &Judged<'_>) -> Vec<HiddenBias> {
     let known = |t: &dyn Term| judged.point.active.iter().any(|a| a.id() == t.info().id);
-    let span = judged.lin.common_block();
-    let basis = orthonormal(&span);
+    let absorption = Absorption::of(&judged.lin);
     let visible = noncentrality(1.0, FALSE_ALARM, POWER).sqrt();
     let mut all: Vec<HiddenBias> = Vec::new();
     for term in catalogue() {
         if known(term.as_ref()) || why_untestable(term.as_ref(), judged.campaign, &judged.lin).is_some() {
             continue;
         }
-        let worst = worst_parameter(judged, term.as_ref(), &Springs { span: &span, basis: &basis, visible });
+        let worst = worst_parameter(judged, term.as_ref(), &absorption, visible);
         all.extend(worst.filter(|h| largest(h) >= WORTH_TELLING));
     }
     all.sort_by(|a, b| largest(b).total_cmp(&largest(a)).then(a.term.cmp(&b.term)));
@@ -58,7 +57,12 @@ fn largest(h: &HiddenBias) -> f64 {
     h.bias_of_leg_stiffness_percent.iter().fold(0.0, |m, b| m.max(b.abs()))
 }
 
-fn worst_parameter(judged: &Judged<'_>, term: &dyn Term, springs: &Springs<'_>) -> Option<HiddenBias> {
+fn worst_parameter(
+    judged: &Judged<'_>,
+    term: &dyn Term,
+    absorption: &Absorption,
+    visible: f64,
+) -> Option<HiddenBias> {
     let grid = term.shape_grid(&judged.lin.conditions);
     let shape = grid.get(grid.len() / 2).copied().unwrap_or(1.0);
     let block = judged.lin.term_block(term, false, shape);
@@ -66,9 +70,9 @@ fn worst_parameter(judged: &Judged<'_>, term: &dyn Term, springs: &Springs<'_>) 
     let sizes = sizes(term, false, &natural);
     let parameters = term.info().parameters.iter().enumerate();
     let biases = parameters.filter_map(|(k, p)| {
-        let (size, would_show, shift) = springs.hidden(&block.column(k).into_owned(), WIDEST * sizes[k])?;
-        let percent = |leg: usize| -100.0 * shift[leg] / (judged.point.springs[leg] + shift[leg]);
-        let bias: [f64; 6] = std::array::from_fn(percent);
+        let column = block.column(k).into_owned();
+        let (size, would_show, shift) = hidden(absorption, &column, WIDEST * sizes[k], visible)?;
+        let bias = bias_percent(&judged.point.springs, &shift);
         bias.iter().all(|b| b.is_finite()).then(|| HiddenBias {
             term: term.info().id.to_owned(),
             parameter: p.name,
@@ -81,23 +85,16 @@ fn worst_parameter(judged: &Judged<'_>, term: &dyn Term, springs: &Springs<'_>) 
     biases.max_by(|a, b| largest(a).total_cmp(&largest(b)))
 }
 
-/// What springs (and frames) can absorb.
-struct Springs<'a> {
-    span: &'a DMatrix<f64>,
-    /// Orthonormal basis of the span.
-    basis: &'a DMatrix<f64>,
-    /// Length of a visible rest, in units of the noise, that a test sees.
+/// Size of an effect with this column, at most `most`; whether it would show; the shift of springs and frames at that size.
+/// `visible`: length of a rest that a test sees, in units of the noise.
+fn hidden(
+    absorption: &Absorption,
+    column: &DVector<f64>,
+    most: f64,
     visible: f64,
-}
-
-impl Springs<'_> {
-    /// Size of an effect with this column, whether it would show, and the shift of springs and frames at that size.
-    fn hidden(&self, column: &DVector<f64>, most: f64) -> Option<(f64, bool, DVector<f64>)> {
-        let mut rest = column.clone();
-        project(self.basis, &mut rest);
-        let shows_at = self.visible / rest.norm();
-        let (size, would_show) = if shows_at < most { (shows_at, true) } else { (most, false) };
-        let shift = solve(self.span, column).ok()?.x * size;
-        Some((size, would_show, shift)).filter(|(size, ..)| size.is_finite())
-    }
+) -> Option<(f64, bool, DVector<f64>)> {
+    let shows_at = visible / absorption.rest(column).norm();
+    let (size, would_show) = if shows_at < most { (shows_at, true) } else { (most, false) };
+    let shift = absorption.shift(column)? * size;
+    Some((size, would_show, shift)).filter(|(size, ..)| size.is_finite())
 }

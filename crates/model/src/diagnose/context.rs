@@ -2,17 +2,18 @@
 
 use hexbench_core::{Dataset, Hexapod};
 
-use super::report::{AbsorbedReport, NextReport, StepReport};
+use super::next::Next;
+use super::report::{AbsorbedReport, StepReport};
 use crate::campaign::Campaign;
 use crate::candidates::Kind;
 use crate::diagnosis::{Outcome, wanted};
 use crate::error::ModelError;
 use crate::fit::{Fit, Wanted, average_over_shapes, fit};
 use crate::linearization::Linearization;
-use crate::next::{Proposal, separate};
+use crate::next::{Effort, Rival, menu, propose};
 use crate::residuals::{Residual, leave_poses_out, prediction_errors, residuals, summarise, survival};
 use crate::search::Set;
-use crate::verdict::{Judgement, NONE, OUTSIDE, Verdict};
+use crate::verdict::{Judgement, Verdict};
 
 /// A model that predicts the holdout file worse than this chance allows is refuted.
 const REFUTED_CHANCE: f64 = 1e-5;
@@ -22,6 +23,12 @@ const SURVIVAL_CHANCE: f64 = 1e-3;
 const SETS_FACED: usize = 40;
 /// Candidates whose absorbed bias is worth a fit of their own.
 const CANDIDATES_FITTED: usize = 4;
+/// Explanations that the proposed readings separate.
+const MOST_RIVALS: usize = 3;
+/// Odds against the best explanation at which another still counts.
+const LEAST_ODDS: f64 = 0.1;
+/// Readings proposed at most.
+const PROPOSALS: usize = 6;
 
 pub(super) struct Context<'a> {
     pub(super) hexapod: &'a Hexapod,
@@ -48,10 +55,12 @@ impl Context<'_> {
                 &self.data.observations,
                 &Linearization::at(self.campaign, &fitted.point)?,
             );
+            let held_out = self.held_out(&order[..n], &fitted);
             steps.push(StepReport {
                 terms: order[..n].iter().map(|w| w.term.info().id.to_owned()).collect(),
                 fitted: summarise(&rows, Some(fitted.dof)),
-                holdout: self.held_out(&order[..n], &fitted).map(|r| summarise(&r, None)),
+                log_density: held_out.as_ref().and_then(|h| h.1),
+                holdout: held_out.map(|h| summarise(&h.0, None)),
             });
             fits.push(fitted);
         }
@@ -86,55 +95,53 @@ impl Context<'_> {
         }
     }
 
-    fn held_out(&self, terms: &[Wanted], fitted: &Fit) -> Option<Vec<Residual>> {
+    /// Prediction errors, and the predictive density where poses are left out.
+    fn held_out(&self, terms: &[Wanted], fitted: &Fit) -> Option<(Vec<Residual>, Option<f64>)> {
         let noise = self.campaign.noise;
-        match self.holdout {
-            Some(holdout) => prediction_errors(self.hexapod, holdout, noise, &fitted.point).ok(),
-            None => leave_poses_out(self.hexapod, self.data, noise, terms, &fitted.point).ok(),
+        if let Some(holdout) = self.holdout {
+            return Some((prediction_errors(self.hexapod, holdout, noise, &fitted.point).ok()?, None));
         }
+        let left = leave_poses_out(self.hexapod, self.data, noise, terms, &fitted.point).ok()?;
+        Some((left.residuals, Some(left.log_density)))
     }
 
-    /// Readings that separate the two most probable explanations, when none is sure.
-    pub(super) fn next(&self, judgement: &Judgement) -> Vec<NextReport> {
+    /// Readings that separate the most probable explanations, when none is sure.
+    pub(super) fn next(&self, judgement: &Judgement) -> Next {
         if judgement.verdict != Verdict::Ambiguous {
-            return Vec::new();
+            return Next::default();
         }
-        let Some((a, b)) = self.rivals() else { return Vec::new() };
-        let (Some(fit_a), Some(fit_b)) = (self.fit_of(a), self.fit_of(b)) else { return Vec::new() };
-        let names = [self.name(a, b), self.name(b, a)];
-        let proposals = separate(self.campaign, &fit_a, &fit_b).unwrap_or_default();
-        proposals.iter().map(|p| next_report(p, &names, self.breaker(a, b))).collect()
+        let rivals = self.rivals();
+        let programme = menu(self.campaign, &rivals)
+            .and_then(|menu| propose(self.campaign, &rivals, &menu, Effort::UpTo(PROPOSALS)));
+        programme.map(|p| Next::of(&p, &rivals)).unwrap_or_default()
     }
 
     /// Fit of the terms of a set.
-    pub(super) fn fit_of(&self, set: &Set) -> Option<Fit> {
+    fn fit_of(&self, set: &Set) -> Option<Fit> {
         let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
         fit(self.campaign, &terms, Some(&self.outcome.best.point)).ok()
     }
 
-    /// The best set and the best set that is not merely the same plus something more.
-    fn rivals(&self) -> Option<(&Set, &Set)> {
-        let sets = &self.outcome.sets.sets;
-        let best = sets.first()?;
+    /// The best set of effects, others that are nearly as probable, and one at least that is not the same plus something more.
+    fn rivals(&self) -> Vec<Rival> {
+        let outcome = self.outcome;
+        let is_named =
+            |s: &&Set| s.members.iter().all(|&m| matches!(outcome.candidates[m].kind, Kind::Term(_)));
+        let named: Vec<&Set> = outcome.sets.sets.iter().filter(is_named).collect();
+        let Some(&best) = named.first() else { return Vec::new() };
         let contains = |big: &Set, small: &Set| small.members.iter().all(|m| big.members.contains(m));
-        let rival = sets.iter().skip(1).find(|s| !contains(s, best) && !contains(best, s));
-        Some((best, rival.or_else(|| sets.get(1))?))
-    }
-
-    /// What a set has that the other has not.
-    fn name(&self, set: &Set, other: &Set) -> String {
-        let own = set.members.iter().filter(|m| !other.members.contains(m));
-        let names: Vec<&str> = own.map(|&m| self.outcome.candidates[m].id().unwrap_or(OUTSIDE)).collect();
-        if names.is_empty() { NONE.to_owned() } else { names.join(" + ") }
-    }
-
-    fn breaker(&self, a: &Set, b: &Set) -> String {
-        let own = a.members.iter().filter(|m| !b.members.contains(m));
-        let terms = own.filter_map(|&m| match &self.outcome.candidates[m].kind {
-            Kind::Term(t) => Some(t.info().breaker),
-            Kind::Pattern(_) => None,
-        });
-        terms.collect::<Vec<_>>().join("; ")
+        let other = named.iter().position(|s| !contains(s, best) && !contains(best, s));
+        let probable = |s: &Set| s.log_weight > best.log_weight + LEAST_ODDS.ln();
+        let chosen = named.iter().enumerate().filter(|(k, s)| Some(*k) == other || probable(s));
+        let mut sets: Vec<&Set> = chosen.map(|(_, s)| *s).collect();
+        // A rival of another kind must not be crowded out by additions to the best set.
+        sets.sort_by_key(|s| s.members != best.members && contains(s, best));
+        let explanation = |s: &&Set| {
+            let ids =
+                s.members.iter().filter_map(|&m| outcome.candidates[m].id().map(str::to_owned)).collect();
+            Some(Rival { terms: ids, weight: outcome.sets.probability(s), fit: self.fit_of(s)? })
+        };
+        sets.iter().filter_map(explanation).take(MOST_RIVALS).collect()
     }
 
     /// Bias of the stiffnesses without each added term, and without the strongest other candidates.
@@ -170,19 +177,4 @@ fn absorbed(id: &str, without: &Fit, with: &Fit) -> AbsorbedReport {
         (determined && ratio.is_finite()).then_some(100.0 * (ratio - 1.0))
     };
     AbsorbedReport { term: id.to_owned(), bias_of_leg_stiffness_percent: std::array::from_fn(bias) }
-}
-
-fn next_report(p: &Proposal, separates: &[String; 2], breaker: String) -> NextReport {
-    let o = &p.observation;
-    let pose = o.pose.to_array();
-    NextReport {
-        pose: std::array::from_fn(|k| if k < 3 { pose[k] * 1e3 } else { pose[k].to_degrees() }),
-        wrench: o.wrench.to_array(),
-        reference: o.reference.to_array(),
-        approach: o.approach,
-        elapsed_s: o.elapsed,
-        separates: separates.clone(),
-        gain: p.gain,
-        text: breaker,
-    }
 }

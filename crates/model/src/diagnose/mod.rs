@@ -2,6 +2,7 @@
 
 mod averaged;
 mod context;
+mod next;
 mod notes;
 mod report;
 
@@ -13,8 +14,8 @@ use self::averaged::averaged_springs;
 use self::context::Context;
 use self::notes::{outside, suspects, untestable, warnings};
 pub use self::report::{
-    AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, StepReport, Suspect,
-    UntestableReport,
+    AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, SeparationReport,
+    StepReport, Suspect, UntestableReport,
 };
 use crate::campaign::Campaign;
 use crate::candidates::Candidate;
@@ -82,6 +83,7 @@ pub fn diagnose(
     let model: Vec<String> = order.iter().map(|w| w.term.info().id.to_owned()).collect();
     let richer = order.iter().filter(|w| w.rich).map(|w| w.term.info().id.to_owned()).collect();
     let numbers = estimates_with(&averaged_springs(&outcome, last), last);
+    let next = context.next(&judgement);
     let diagnosis = Diagnosis {
         format: "diagnosis/1",
         verdict: judgement.verdict,
@@ -106,7 +108,8 @@ pub fn diagnose(
             &outcome.candidates,
             &best.map(|s| s.variants.clone()).unwrap_or_default(),
         ),
-        next: context.next(&judgement),
+        next: next.readings,
+        separation: next.separation,
         absorbed: context.absorbed(&order, &judgement),
         suspects: suspects(&rows, data),
         outside: outside(&judgement, &outcome),
@@ -149,12 +152,20 @@ fn addition_order(set: &Set, outcome: &Outcome) -> Vec<Wanted> {
     order
 }
 
-/// An effect whose addition does not lower the held-out error is not named.
+/// An effect whose addition does not make held-out readings better predicted is not named.
 fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport]) {
     for pair in steps.windows(2) {
-        let (Some(before), Some(after)) = (pair[0].holdout, pair[1].holdout) else { continue };
         let Some(newest) = pair[1].terms.last() else { continue };
-        if after.chi2_reduced >= before.chi2_reduced && judgement.sure.contains(newest) {
+        let better = match (&pair[0], &pair[1]) {
+            (StepReport { log_density: Some(before), .. }, StepReport { log_density: Some(after), .. }) => {
+                after > before
+            }
+            (StepReport { holdout: Some(before), .. }, StepReport { holdout: Some(after), .. }) => {
+                after.chi2_reduced < before.chi2_reduced
+            }
+            _ => continue,
+        };
+        if !better && judgement.sure.contains(newest) {
             judgement.sure.retain(|id| id != newest);
             if judgement.verdict == Verdict::Named {
                 judgement.verdict = Verdict::Ambiguous;

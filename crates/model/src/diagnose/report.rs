@@ -44,6 +44,8 @@ pub struct Diagnosis {
     pub detectable: Vec<Detectable>,
     /// Readings that would separate the rivals.
     pub next: Vec<NextReport>,
+    /// What those readings promise, pair by pair.
+    pub separation: Vec<SeparationReport>,
     /// What an effect does to the leg stiffnesses when it is left out.
     pub absorbed: Vec<AbsorbedReport>,
     /// Readings far from every prediction.
@@ -75,6 +77,9 @@ pub struct StepReport {
     pub fitted: ErrorSummary,
     /// Error on held-out poses.
     pub holdout: Option<ErrorSummary>,
+    /// Logarithm of the predictive density of poses left out in turn; absent with a holdout file.
+    #[serde(skip)]
+    pub log_density: Option<f64>,
 }
 
 /// Noise of one reading.
@@ -110,12 +115,31 @@ pub struct NextReport {
     pub approach: f64,
     /// Wait before the loaded reading, s.
     pub elapsed_s: f64,
-    /// The rivals it separates.
+    /// Temperature of the structure against the reference reading, K.
+    #[serde(rename = "delta_T_K")]
+    pub delta_t_k: f64,
+    /// How often to read it.
+    pub repeats: usize,
+    /// The rivals it separates most.
     pub separates: [String; 2],
-    /// Expected logarithm of the Bayes factor, nats.
+    /// What it adds to the expected logarithm of the Bayes factor between them, under the one of the two for which that is less;
+    /// nats.
     pub gain: f64,
-    /// Why, in words.
+    /// What sort of reading it is, in words.
     pub text: String,
+}
+
+/// What the proposed readings promise for two rivals.
+#[derive(Debug, Clone, Serialize)]
+pub struct SeparationReport {
+    /// The rivals.
+    pub between: [String; 2],
+    /// Expected decimal logarithm of the Bayes factor for the truth, when the first is true and when the second is.
+    pub log10_bayes_factor: [f64; 2],
+    /// Chance that the readings favour the truth.
+    pub right: f64,
+    /// Readings after which the wrong one is on average excluded at 20:1; absent when more are needed.
+    pub readings_needed: Option<usize>,
 }
 
 /// Bias of the leg stiffnesses without a term.

@@ -77,19 +77,7 @@ pub const CORRESPONDENCES: &[Correspondence] = &[
     same("load-offset", "cog", "x, y, z = r'"),
     same("load-tilt", "tilt", "about-x, about-y = angles"),
     same("thermal-expansion", "alpha", "coefficient = alpha"),
-    Correspondence {
-        effect: "metrology-drift",
-        world: "drift",
-        rule: "translation rates are the same; rotation rates have no counterpart",
-        differs: "the world's Euler angles drift, the model's frame turns about fixed axes: equal only without tilt",
-        convert: Conversion::Special(|v| {
-            let rates = numbers(v);
-            Equivalent {
-                values: rates.iter().enumerate().map(|(k, r)| (k < 3).then_some(*r)).collect(),
-                shape: None,
-            }
-        }),
-    },
+    same("metrology-drift", "drift", "rates = rates of the numbers that are read"),
     same("target-offset", "target", "x, y, z = r'"),
     Correspondence {
         effect: "creep",

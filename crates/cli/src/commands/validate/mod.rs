@@ -1,7 +1,9 @@
 //! `hexbench validate`: studies that say how far the bench itself can be trusted, one file each.
 
 pub(crate) mod calibration;
+pub(crate) mod discriminate;
 pub(crate) mod paper;
+pub(crate) mod power;
 pub(crate) mod recovery;
 
 use clap::{Args, Subcommand};
@@ -24,6 +26,8 @@ enum Study {
     Recovery(recovery::Arguments),
     Paper(paper::Arguments),
     Calibration(calibration::Arguments),
+    Discriminate(discriminate::Arguments),
+    Power(power::Arguments),
 }
 
 /// Run the study.
@@ -32,5 +36,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Recovery(arguments) => recovery::run(arguments, screen),
         Study::Paper(arguments) => paper::run(arguments, screen),
         Study::Calibration(arguments) => calibration::run(arguments, screen),
+        Study::Discriminate(arguments) => discriminate::run(arguments, screen),
+        Study::Power(arguments) => power::run(arguments, screen),
     }
 }

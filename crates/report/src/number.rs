@@ -1,7 +1,7 @@
 //! Numbers with the digits that mean something.
 
 /// A value and its standard uncertainty, both to the second significant digit of the uncertainty (GUM 7.2.6).
-pub(crate) fn with_uncertainty(value: f64, std: f64) -> [String; 2] {
+pub fn with_uncertainty(value: f64, std: f64) -> [String; 2] {
     if !(std.is_finite() && std > 0.0) {
         return [significant(value, 4), significant(std, 2)];
     }
@@ -9,13 +9,13 @@ pub(crate) fn with_uncertainty(value: f64, std: f64) -> [String; 2] {
 }
 
 /// A value to the second significant digit of `std`.
-pub(crate) fn rounded(value: f64, std: f64) -> String {
+pub fn rounded(value: f64, std: f64) -> String {
     let decimals = 1 - exponent(std);
     fixed(value, decimals)
 }
 
 /// A value to a number of significant digits, without an exponent.
-pub(crate) fn significant(value: f64, digits: i32) -> String {
+pub fn significant(value: f64, digits: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }
@@ -23,7 +23,7 @@ pub(crate) fn significant(value: f64, digits: i32) -> String {
 }
 
 /// Probability in words that never claim certainty.
-pub(crate) fn percent(p: f64) -> String {
+pub fn percent(p: f64) -> String {
     match p {
         p if p > 0.995 => "> 99 %".into(),
         p if p < 0.005 => "< 1 %".into(),

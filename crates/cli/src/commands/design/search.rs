@@ -1,0 +1,164 @@
+//! The search of `hexbench design`: few poses, or readings within a budget.
+
+use hexbench_core::{Hexapod, Pose};
+use hexbench_design::budget::Amount;
+use hexbench_design::determined::require_determined;
+use hexbench_design::exchange::bound::efficiency;
+use hexbench_design::exchange::{Candidates, Exchange, Plan};
+use hexbench_design::refine::{information, refine};
+use hexbench_design::regressor::SettingRegressor;
+use hexbench_design::{Criterion, Problem, Search, Space, Visit};
+
+use super::{Arguments, Named};
+use crate::failure::Failure;
+use crate::output::Progress;
+use crate::page::designed::{Designed, Quantity};
+
+/// What the search is made of.
+pub(super) struct Bench<'a> {
+    pub(super) arguments: &'a Arguments,
+    pub(super) hexapod: &'a Hexapod,
+    pub(super) space: &'a Space,
+}
+
+impl Bench<'_> {
+    /// The plan with rounded poses.
+    pub(super) fn design<R: SettingRegressor>(
+        &self,
+        regressor: &R,
+        promised: Vec<Quantity>,
+    ) -> Result<Designed, Failure> {
+        let usual = if self.space.budget.limit.is_some() { Named::D } else { Named::O1 };
+        let named = self.arguments.criterion.unwrap_or(usual);
+        let criterion = criterion(named, self.hexapod, self.space, regressor)?;
+        let found = match self.space.budget.limit {
+            None => self.few_poses(regressor, &criterion)?,
+            Some(amount) => self.within(amount, regressor, &criterion)?,
+        };
+        let best = information(&found.visits, regressor)?;
+        let visits = merged(found.visits.into_iter().map(|v| Visit { pose: rounded(&v.pose), ..v }));
+        let information = information(&visits, regressor)?;
+        let readings = visits.iter().flat_map(|v| &v.counts).sum();
+        Ok(Designed {
+            criterion: criterion.name(),
+            best: criterion.value(&best, readings),
+            value: criterion.value(&information, readings),
+            information,
+            parameters: promised,
+            visits,
+            settings: self.space.settings(),
+            budget: self.space.budget,
+            candidates: found.candidates,
+            efficiency: found.efficiency,
+            starts: found.starts,
+            weighted: self.hexapod.metrology.is_some(),
+            seed: self.arguments.seed,
+        })
+    }
+
+    /// So many poses, every setting read as often at each.
+    fn few_poses<R: SettingRegressor>(&self, regressor: &R, criterion: &Criterion) -> Result<Found, Failure> {
+        let counts = vec![usize::from(self.arguments.repeats); self.space.settings().len()];
+        let problem = Problem {
+            hexapod: self.hexapod,
+            space: self.space,
+            regressor: &regressor.repeated(&counts),
+            criterion,
+            poses: usize::from(self.arguments.poses.unwrap_or(3)),
+            known: None,
+        };
+        let (starts, progress) = self.starts(128);
+        let found = problem.search(starts, self.arguments.seed, &|| progress.advance(1));
+        progress.done();
+        let Search { best, starts, ended, agreeing } = found?;
+        let visit = |pose: Pose| Visit { pose, counts: counts.clone() };
+        Ok(Found {
+            visits: best.poses.into_iter().map(visit).collect(),
+            starts: [starts, ended, agreeing],
+            candidates: None,
+            efficiency: None,
+        })
+    }
+
+    /// Readings out of candidates within a budget, then their poses refined.
+    fn within<R: SettingRegressor>(
+        &self,
+        amount: Amount,
+        regressor: &R,
+        criterion: &Criterion,
+    ) -> Result<Found, Failure> {
+        let Arguments { seed, candidates: count, .. } = *self.arguments;
+        let (hexapod, space) = (self.hexapod, self.space);
+        let (mut candidates, mut poses) =
+            Candidates::spread(hexapod, space, regressor, amount, usize::from(count), seed)?;
+        require_determined(&candidates.whole(), &regressor.names())?;
+        let (starts, progress) = self.starts(16);
+        let found =
+            Exchange::new(&candidates, criterion).search(starts, seed.into(), &|| progress.advance(1));
+        progress.done();
+        let Plan { members, agreeing, .. } = found?;
+        let mut visits = candidates.visits(&poses, &members);
+        refine(hexapod, space, regressor, criterion, &mut visits)?;
+        // The bound counts the refined poses among the candidates.
+        let members = candidates.extend(&mut poses, &visits, regressor)?;
+        let efficiency = efficiency(&candidates, criterion, &members);
+        Ok(Found { visits, starts: [starts, starts, agreeing], candidates: Some(poses.len()), efficiency })
+    }
+
+    fn starts(&self, usual: u16) -> (usize, Progress) {
+        let starts = self.arguments.starts.unwrap_or(usual);
+        (usize::from(starts), Progress::of(starts.into(), "starts"))
+    }
+}
+
+/// A plan found, with how it was found.
+struct Found {
+    visits: Vec<Visit>,
+    starts: [usize; 3],
+    candidates: Option<usize>,
+    efficiency: Option<f64>,
+}
+
+/// `B` of criterion I is the mean information over the workspace.
+fn criterion<R: SettingRegressor>(
+    named: Named,
+    hexapod: &Hexapod,
+    space: &Space,
+    regressor: &R,
+) -> Result<Criterion, Failure> {
+    Ok(match named {
+        Named::O1 => Criterion::O1,
+        Named::O2 => Criterion::O2,
+        Named::O3 => Criterion::O3,
+        Named::O4 => Criterion::O4,
+        Named::O5 => Criterion::O5,
+        Named::D => Criterion::D,
+        Named::A => Criterion::A,
+        Named::E => Criterion::E,
+        Named::I => Criterion::mean_prediction(hexapod, space, regressor)?,
+    })
+}
+
+/// Visits of one pose put together.
+fn merged(visits: impl Iterator<Item = Visit>) -> Vec<Visit> {
+    let mut different: Vec<Visit> = Vec::new();
+    for visit in visits {
+        match different.iter_mut().find(|known| known.pose == visit.pose) {
+            Some(known) => known.counts.iter_mut().zip(&visit.counts).for_each(|(n, more)| *n += more),
+            None => different.push(visit),
+        }
+    }
+    different
+}
+
+/// To a micrometre and a thousandth of a degree.
+fn rounded(pose: &Pose) -> Pose {
+    let x = pose.to_array();
+    Pose::from_array(std::array::from_fn(|k| {
+        if k < 3 {
+            (x[k] * 1e6).round() * 1e-6 + 0.0
+        } else {
+            ((x[k].to_degrees() * 1e3).round() * 1e-3).to_radians() + 0.0
+        }
+    }))
+}

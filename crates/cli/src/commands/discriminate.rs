@@ -1,0 +1,253 @@
+//! `hexbench discriminate HEXAPOD SPACE --between TERM --between TERM`.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Vector6};
+use hexbench_design::Space;
+use hexbench_design::discriminate::{Contest, Distance, Plan, menu};
+use hexbench_design::space_file::read_space;
+use hexbench_model::diagnose::prepare;
+use hexbench_model::fit_named::term_named;
+use hexbench_model::next::{EXCLUDED_ODDS, Effort, Outlook, Suspects, propose, suspects};
+use hexbench_model::noise::{Noise, NoiseSource};
+use hexbench_model::term::Term;
+
+use crate::csv;
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{Progress, Screen};
+use crate::page::discriminated::{Discriminated, Pair, Planned, Promise, discriminated};
+
+/// Readings of a new plan, and further ones beside data, unless asked otherwise.
+const USUAL_READINGS: [u16; 2] = [12, 6];
+
+/// Choose the readings that tell effects apart: a new plan, or the next readings beside data
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The machine: hexapod.toml
+    hexapod: PathBuf,
+    /// Where poses may lie and which loads and conditions there are: space.toml
+    space: PathBuf,
+    /// An effect to tell from the others; two or more
+    #[arg(long, value_name = "TERM", required = true)]
+    between: Vec<String>,
+    /// A term of your own that may be named
+    #[arg(long = "term", value_name = "FILE")]
+    terms: Vec<PathBuf>,
+    /// Readings to choose (default: 12 for a new plan, 6 beside data)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=200))]
+    readings: Option<u16>,
+    /// Measurements in hand: the next readings are chosen beside them
+    #[arg(long, value_name = "FILE")]
+    data: Option<PathBuf>,
+    /// A plan to compare the new one with: poses and loads as in measurements.csv
+    #[arg(long, value_name = "FILE", conflicts_with = "data")]
+    against: Option<PathBuf>,
+    /// Size of the effects in a new plan: standard deviations by which readings spread evenly over the space would show each
+    /// (5 is just visible)
+    #[arg(long, value_name = "D", default_value = "20", conflicts_with = "data", value_parser = visibility)]
+    visible: f64,
+    /// Seed of the poses tried
+    #[arg(long, value_name = "S", default_value = "1")]
+    seed: u32,
+    /// Write the readings to FILE: the columns of measurements.csv without the measured ones
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write the result as JSON to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+fn visibility(text: &str) -> Result<f64, String> {
+    let known = text.parse().ok().filter(|d: &f64| (0.1..=1e3).contains(d));
+    known.ok_or_else(|| "a number from 0.1 to 1000".to_owned())
+}
+
+/// Choose, tell, save.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let hexapod = input::hexapod(&arguments.hexapod)?;
+    let space = read_space(&arguments.space, &hexapod)?;
+    let own = input::user_terms(&arguments.terms)?;
+    let terms = rivals(&arguments.between, &input::catalogue_with(&own))?;
+    let found = match &arguments.data {
+        None => new_plan(arguments, &hexapod, &space, &terms)?,
+        Some(path) => next_readings(arguments, &hexapod, &space, &terms, path)?,
+    };
+    let to_stdout = arguments.json.as_deref() == Some(Path::new("-"));
+    if let Some(path) = &arguments.json {
+        screen.write_to(path, &found.json()?)?;
+    }
+    if !to_stdout {
+        screen.write(&discriminated(&found, screen.ink()))?;
+    }
+    arguments.output.as_ref().map_or(Ok(()), |path| screen.write_to(path, &table(&found)))
+}
+
+fn rivals(ids: &[String], known: &[Arc<dyn Term>]) -> Result<Vec<Arc<dyn Term>>, Failure> {
+    let twice = (1..ids.len()).any(|i| ids[..i].contains(&ids[i]));
+    if ids.len() < 2 || twice {
+        return Err(Failure::Usage {
+            message: "two different effects are needed to tell apart".into(),
+            next: "Give --between TERM twice; `hexbench terms` lists them.".into(),
+        });
+    }
+    let unknown = |cause| Failure::Model { cause, data: String::new() };
+    ids.iter().map(|id| term_named(id, known).map_err(unknown)).collect()
+}
+
+fn new_plan(
+    arguments: &Arguments,
+    hexapod: &Hexapod,
+    space: &Space,
+    terms: &[Arc<dyn Term>],
+) -> Result<Discriminated, Failure> {
+    let menu = menu(space, hexapod, terms, arguments.seed)?;
+    let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[0]));
+    let contest =
+        Contest::new(hexapod, springs(hexapod), noise(hexapod)?, terms, &menu, count, arguments.visible)?;
+    let progress = Progress::of(count as u64, "readings");
+    let plan = Plan::search(&contest, space, hexapod, &menu, count, &|| progress.advance(1));
+    progress.done();
+    let plan = plan?;
+    let before = arguments.against.as_ref().map(|path| distances(&contest, path)).transpose()?;
+    let names: Vec<String> = terms.iter().map(|t| t.info().id.to_owned()).collect();
+    let promise = |distances: &[Distance], [a, b]: [usize; 2]| {
+        let of = |pair: [usize; 2]| distances.iter().find(|d| d.of == pair).copied();
+        of([a, b]).zip(of([b, a])).map(|(x, y)| Promise::of_distances([x, y]))
+    };
+    let pair = |between: [usize; 2]| {
+        Some(Pair {
+            between: between.map(|k| names[k].clone()),
+            in_hand: None,
+            before: before.as_ref().and_then(|d| promise(d, between)),
+            after: promise(&plan.distances, between)?,
+            readings_needed: needed(&plan.distances, between, count),
+        })
+    };
+    let sizes = (0..contest.rivals()).map(|k| (names[k].clone(), contest.assumed(k)));
+    Ok(Discriminated {
+        format: "discrimination/1",
+        data: None,
+        readings: plan
+            .readings
+            .into_iter()
+            .map(|r| Planned { observation: r.observation, repeats: r.repeats, words: r.words })
+            .collect(),
+        pairs: pairs(terms.len()).filter_map(pair).collect(),
+        sizes: sizes.collect(),
+        breakers: breakers(terms),
+        candidates: menu.len(),
+        seed: arguments.seed,
+    })
+}
+
+fn next_readings(
+    arguments: &Arguments,
+    hexapod: &Hexapod,
+    space: &Space,
+    terms: &[Arc<dyn Term>],
+    path: &Path,
+) -> Result<Discriminated, Failure> {
+    let data = input::measurements(path)?;
+    let source = path.display().to_string();
+    let of_model = |cause| Failure::Model { cause, data: source.clone() };
+    let campaign = prepare(hexapod, &data).map_err(of_model)?;
+    let Suspects { rivals, log_evidence } = suspects(&campaign, terms).map_err(of_model)?;
+    let as_read = |o: Observation| {
+        let measured = if data.is_absolute() { o.pose.to_array() } else { [0.0; 6] };
+        Observation { measured, ..o }
+    };
+    let menu: Vec<Observation> =
+        menu(space, hexapod, terms, arguments.seed)?.into_iter().map(as_read).collect();
+    let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[1]));
+    let programme = propose(&campaign, &rivals, &menu, Effort::Exactly(count)).map_err(of_model)?;
+    let names: Vec<String> = terms.iter().map(|t| t.info().id.to_owned()).collect();
+    let pair = |o: &Outlook| {
+        let [a, b] = o.between;
+        let odds = log_evidence[a].zip(log_evidence[b]).map(|(a, b)| (a - b) / std::f64::consts::LN_10);
+        Pair {
+            between: o.between.map(|k| names[k].clone()),
+            in_hand: odds,
+            before: None,
+            after: Promise::of(&o.separation),
+            readings_needed: o.readings_needed,
+        }
+    };
+    Ok(Discriminated {
+        format: "discrimination/1",
+        data: Some(source.clone()),
+        pairs: programme.outlook.iter().map(pair).collect(),
+        readings: programme
+            .proposals
+            .into_iter()
+            .map(|p| Planned { observation: p.observation, repeats: p.repeats, words: p.words })
+            .collect(),
+        sizes: Vec::new(),
+        breakers: breakers(terms),
+        candidates: menu.len(),
+        seed: arguments.seed,
+    })
+}
+
+/// Readings like those of the plan after which the wrong one of a pair is on average excluded: information grows with their number.
+fn needed(distances: &[Distance], pair: [usize; 2], count: usize) -> Option<usize> {
+    const MOST: usize = 10_000;
+    let own = distances.iter().filter(|d| d.of.iter().all(|k| pair.contains(k)));
+    let least = own.map(Distance::log_likelihood_ratio).fold(f64::INFINITY, f64::min);
+    let each = least / count as f64;
+    (1..=MOST).find(|&n| n as f64 * each >= EXCLUDED_ODDS.ln())
+}
+
+fn pairs(rivals: usize) -> impl Iterator<Item = [usize; 2]> {
+    (0..rivals).flat_map(move |a| (a + 1..rivals).map(move |b| [a, b]))
+}
+
+fn breakers(terms: &[Arc<dyn Term>]) -> Vec<(String, String)> {
+    terms.iter().map(|t| (t.info().id.to_owned(), t.info().breaker.to_owned())).collect()
+}
+
+/// Distances by the plan of a file.
+fn distances(contest: &Contest<'_>, path: &Path) -> Result<Vec<Distance>, Failure> {
+    let rows = input::conditions(path)?.observations;
+    let informations = contest.informations(&rows)?;
+    let total = informations.iter().skip(1).fold(informations[0].clone(), |sum, m| sum + m);
+    Ok(contest.distances(&total))
+}
+
+/// Nominal compliances, or those of the paper's legs, m/N.
+fn springs(hexapod: &Hexapod) -> Vector6 {
+    const USUAL_N_PER_M: f64 = 4e6;
+    Vector6::from(hexapod.nominal_stiffness.unwrap_or([USUAL_N_PER_M; 6]).map(f64::recip))
+}
+
+fn noise(hexapod: &Hexapod) -> Result<Noise, Failure> {
+    let unknown = || Failure::Usage {
+        message:
+            "how well readings separate effects depends on their noise, which the hexapod file does not state"
+                .into(),
+        next: "Add [metrology] with sigma_translation_um and sigma_rotation_urad.".into(),
+    };
+    let metrology = hexapod.metrology.ok_or_else(unknown)?;
+    Ok(Noise {
+        translation: metrology.sigma_translation,
+        rotation: metrology.sigma_rotation,
+        source: NoiseSource::Metrology,
+        dof: f64::INFINITY,
+    })
+}
+
+/// The readings, each repeat in a row of its own.
+fn table(found: &Discriminated) -> String {
+    let repeated = (1..).zip(&found.readings).flat_map(|(pose_id, r)| {
+        (1..).take(r.repeats).map(move |repeat| Observation { pose_id, repeat, ..r.observation })
+    });
+    let rows = Dataset {
+        source: String::new(),
+        measurand: Measurand::DeflectionEuler,
+        columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },
+        observations: repeated.collect(),
+    };
+    csv::conditions(&rows)
+}

@@ -1,0 +1,206 @@
+//! `hexbench power HEXAPOD PLAN`.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use hexbench_core::{Hexapod, Measurand, Metrology};
+use hexbench_design::power::Settings;
+use hexbench_model::fit_named::term_named;
+use hexbench_model::term::Term;
+use hexbench_validation::power::{
+    Page, Power, PowerPlan, Simulation, most_campaigns, pictures, run as study,
+};
+
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{Progress, Screen};
+
+/// See which effects a plan would show, from which size on, and what it would take them for
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The machine: hexapod.toml
+    hexapod: PathBuf,
+    /// Poses and loads to be measured: plan.csv of `design`, or measurements.csv (measured values do not matter)
+    plan: PathBuf,
+    /// A term file of your own (term/1) beside the catalogue; may be given several times
+    #[arg(long = "term", value_name = "FILE")]
+    terms: Vec<PathBuf>,
+    /// Tell this effect only; may be given several times
+    #[arg(long = "effect", value_name = "TERM")]
+    effects: Vec<String>,
+    /// Chance of a false alarm of each test
+    #[arg(long, value_name = "CHANCE", value_parser = chance, default_value = "0.01")]
+    alarm: f64,
+    /// Wanted chance to see an effect
+    #[arg(long, value_name = "CHANCE", value_parser = chance, default_value = "0.9")]
+    power: f64,
+    /// Check every effect by N campaigns in the simulated world, each with a whole diagnosis
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "200", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    simulate: Option<u32>,
+    /// Seed of examples, thresholds and campaigns
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// The plan reads absolute poses instead of deflections
+    #[arg(long)]
+    absolute: bool,
+    /// Stiffness of every leg, N/um; otherwise `nominal_stiffness_N_per_um` of the machine, else 4
+    #[arg(long, value_name = "STIFFNESS", value_parser = positive)]
+    stiffness: Option<f64>,
+    /// Noise of one reading, um and urad, instead of that of the files
+    #[arg(long, value_name = "UM,URAD", value_parser = sigma)]
+    sigma: Option<Sigma>,
+    /// The noise will be estimated from the repeats of the plan
+    #[arg(long)]
+    noise_from_repeats: bool,
+    /// Every parameter of every effect
+    #[arg(long, short)]
+    verbose: bool,
+    /// Write all figures to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write the charts to a folder, or the heat map alone to a file whose name ends with .svg
+    #[arg(long, value_name = "DIR")]
+    svg: Option<PathBuf>,
+    /// Write the page as Markdown to FILE
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+}
+
+/// Noise of one reading, m and rad.
+#[derive(Debug, Clone, Copy)]
+struct Sigma(Metrology);
+
+fn number(text: &str) -> Result<f64, String> {
+    let value: f64 = text.trim().parse().map_err(|_| format!("`{text}` is not a number"))?;
+    if value.is_finite() { Ok(value) } else { Err(format!("`{text}` is not finite")) }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    number(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("it has to be positive".into()) })
+}
+
+fn chance(text: &str) -> Result<f64, String> {
+    let within = |x: &f64| (1e-4..=0.9999).contains(x);
+    number(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "it has to be 0.0001 to 0.9999".into()))
+}
+
+fn sigma(text: &str) -> Result<Sigma, String> {
+    let parts: Vec<f64> = text.split(',').map(positive).collect::<Result<_, _>>()?;
+    match parts[..] {
+        [um, urad] => Ok(Sigma(Metrology { sigma_translation: um * 1e-6, sigma_rotation: urad * 1e-6 })),
+        _ => Err(format!("{} numbers; two with a comma between are needed, such as 0.5,3", parts.len())),
+    }
+}
+
+/// Study the plan, tell, save.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
+    known(&arguments.effects, &terms)?;
+    let plan = plan(arguments)?;
+    let power = with_progress(arguments, &plan, &terms)?;
+    let page = Page { plan: &plan, power: &power, only: &arguments.effects, verbose: arguments.verbose };
+    write(arguments, &page, screen)?;
+    match arguments.json.as_deref() {
+        Some(path) if path == Path::new("-") => Ok(()),
+        _ => screen.write(&page.document().to_text()),
+    }
+}
+
+fn known(ids: &[String], terms: &[Arc<dyn Term>]) -> Result<(), Failure> {
+    let unknown = |cause| Failure::Model { cause, data: String::new() };
+    ids.iter().try_for_each(|id| term_named(id, terms).map(|_| ()).map_err(unknown))
+}
+
+/// The plan with its machine and noise.
+fn plan(arguments: &Arguments) -> Result<PowerPlan, Failure> {
+    let mut hexapod = input::hexapod(&arguments.hexapod)?;
+    let mut rows = input::plan(&arguments.plan)?;
+    if arguments.absolute {
+        rows.measurand = Measurand::AbsolutePose;
+        refuse_references(arguments, rows.columns.reference)?;
+    }
+    if let Some(Sigma(stated)) = arguments.sigma {
+        hexapod.metrology = Some(stated);
+        rows.columns.sigma = false;
+    }
+    let stiffness = stiffness(arguments.stiffness, &hexapod);
+    let plan = PowerPlan::new(hexapod, rows, stiffness).ok_or_else(|| Failure::Usage {
+        message: format!(
+            "neither {} nor {} states how well readings are taken",
+            arguments.hexapod.display(),
+            arguments.plan.display()
+        ),
+        next: "State [metrology] in the hexapod file, or give --sigma UM,URAD of one reading, such as 0.5,3."
+            .into(),
+    })?;
+    if !arguments.noise_from_repeats {
+        return Ok(plan);
+    }
+    plan.with_noise_from_repeats().ok_or_else(|| Failure::Usage {
+        message: format!("{} repeats too few readings to estimate their noise", arguments.plan.display()),
+        next: "Repeat at least three readings, or leave --noise-from-repeats out.".into(),
+    })
+}
+
+fn refuse_references(arguments: &Arguments, has_references: bool) -> Result<(), Failure> {
+    if !has_references {
+        return Ok(());
+    }
+    Err(Failure::Usage {
+        message: format!(
+            "{} has ref_ columns, but absolute poses have no reference state",
+            arguments.plan.display()
+        ),
+        next: "Remove the ref_ columns, or leave --absolute out.".into(),
+    })
+}
+
+/// Given, or stated, or that of the paper's legs; N/m.
+fn stiffness(given_n_per_um: Option<f64>, hexapod: &Hexapod) -> [f64; 6] {
+    const USUAL_N_PER_M: f64 = 4e6;
+    let given = given_n_per_um.map(|k| [k * 1e6; 6]);
+    given.or(hexapod.nominal_stiffness).unwrap_or([USUAL_N_PER_M; 6])
+}
+
+fn with_progress(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -> Result<Power, Failure> {
+    let settings = Settings {
+        alarm: arguments.alarm,
+        power: arguments.power,
+        seed: arguments.seed,
+        ..Settings::default()
+    };
+    let campaigns = arguments.simulate.map_or(0, |n| n as usize);
+    let simulation = Simulation { campaigns, diagnoses: campaigns > 0 };
+    let simulated = if arguments.effects.is_empty() { terms.len() } else { arguments.effects.len() };
+    let progress = Progress::of(most_campaigns(simulated, simulation) as u64, "campaigns");
+    let power = study(plan, terms, settings, simulation, &arguments.effects, &|| progress.advance(1));
+    progress.done();
+    Ok(power?)
+}
+
+fn write(arguments: &Arguments, page: &Page<'_>, screen: &Screen) -> Result<(), Failure> {
+    if let Some(path) = &arguments.json {
+        screen.write_to(path, &json(page.power)?)?;
+    }
+    if let Some(path) = &arguments.markdown {
+        screen.write_to(path, &page.document().to_markdown())?;
+    }
+    let Some(path) = &arguments.svg else { return Ok(()) };
+    let charts = pictures(page.power)?;
+    if path.extension().is_some_and(|e| e == "svg") {
+        let heat_map = charts.first().map_or("", |c| c.svg.as_str());
+        return screen.write_to(path, heat_map);
+    }
+    for chart in &charts {
+        let file = path.join(chart.file);
+        Screen::make_folder_of(&file)?;
+        screen.write_to(&file, &chart.svg)?;
+    }
+    Ok(())
+}
+
+fn json(power: &Power) -> Result<String, Failure> {
+    let cause = |e: serde_json::Error| Failure::Output { path: "power.json".into(), cause: e.into() };
+    Ok(serde_json::to_string_pretty(power).map_err(cause)? + "\n")
+}

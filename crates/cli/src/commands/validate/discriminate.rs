@@ -1,0 +1,61 @@
+//! `hexbench validate discriminate`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use hexbench_validation::discriminate::{
+    CONFUSIONS, Protocol, SEED, discriminate, document, headlines, sheets,
+};
+
+use crate::failure::Failure;
+use crate::output::{Paper, Progress, Screen, Table};
+
+/// Say whether the proposed readings tell effects apart: they are taken on simulated machines with a known truth
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Campaigns per pair of effects
+    #[arg(long, value_name = "N", default_value_t = Protocol::default().trials, value_parser = trials)]
+    trials: usize,
+    /// Seed of everything that is drawn
+    #[arg(long, value_name = "S", default_value_t = SEED)]
+    seed: u64,
+    /// Write the study as a document too
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+}
+
+fn trials(text: &str) -> Result<usize, String> {
+    const MOST: usize = 100_000;
+    let known = text.parse().ok().filter(|n| (1..=MOST).contains(n));
+    known.ok_or_else(|| format!("a whole number from 1 to {MOST}"))
+}
+
+/// Run the study, tell the figures, write the document.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let protocol = Protocol { seed: arguments.seed, trials: arguments.trials };
+    let progress = Progress::of((protocol.trials * CONFUSIONS.len()) as u64, "trials");
+    let study = discriminate(protocol, &CONFUSIONS, &|| progress.advance(1));
+    progress.done();
+    let mut paper = Paper::new(screen.ink());
+    paper.heading("Readings that tell effects apart", &format!("seed {}", protocol.seed));
+    for line in headlines(&study) {
+        paper.hanging("  -", 4, &line);
+    }
+    paper.heading(
+        "Open answers",
+        "share of right answers after the readings proposed, and after as many at random",
+    );
+    let mut table = Table::default();
+    table.row(["effects", "open", "proposed", "random"]);
+    for row in sheets::proposed(&study).rows {
+        // Name, trials, and the two shares without their bounds.
+        let cell = |k: usize| row[k].split(" (").next().unwrap_or_default().to_owned();
+        table.row([0, 1, 4, 5].map(cell));
+    }
+    table.lines().iter().for_each(|line| paper.line(line));
+    screen.write(&paper.into_text())?;
+    arguments.markdown.as_ref().map_or(Ok(()), |path| {
+        Screen::make_folder_of(path)?;
+        screen.write_to(path, &document(&study))
+    })
+}

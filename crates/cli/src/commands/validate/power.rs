@@ -1,0 +1,78 @@
+//! `hexbench validate power`.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_design::power::Settings;
+use hexbench_report::Document;
+use hexbench_truth::Scene;
+use hexbench_validation::power::{
+    Simulation, Studied, document, most_campaigns, pictures, plan_of, run as study,
+};
+
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{Progress, Screen};
+
+/// Say which effects the plan of the paper and a richer one can see: reckoned, and counted in the simulated world
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Scene whose plan is the plain one
+    #[arg(long, value_name = "SCENE", default_value = "scenes/paper")]
+    plain: PathBuf,
+    /// Scene whose plan is the rich one
+    #[arg(long, value_name = "SCENE", default_value = "scenes/paper-rich")]
+    rich: PathBuf,
+    /// Campaigns of every effect and size
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    campaigns: u32,
+    /// Seed of everything that is drawn
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Write the page as Markdown to FILE, its charts to a folder beside it
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+}
+
+/// Study both plans, print the page, write the files.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let terms = input::catalogue_with(&[]);
+    let simulation = Simulation { campaigns: arguments.campaigns as usize, diagnoses: true };
+    let progress = Progress::of(2 * most_campaigns(terms.len(), simulation) as u64, "campaigns");
+    let one = |folder: &Path| -> Result<Studied, Failure> {
+        let scene = Scene::read(folder)?;
+        let plan = plan_of(&scene)?;
+        let settings = Settings { seed: arguments.seed, ..Settings::default() };
+        let power = study(&plan, &terms, settings, simulation, &[], &|| progress.advance(1))?;
+        Ok(Studied::new(&scene.name, plan, power)?)
+    };
+    let (plain, rich) = (one(&arguments.plain)?, one(&arguments.rich)?);
+    progress.done();
+    write(arguments, &plain, &rich, screen)?;
+    screen.write(&page(arguments, &plain, &rich, "power").to_text())
+}
+
+fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen) -> Result<(), Failure> {
+    let Some(path) = &arguments.markdown else { return Ok(()) };
+    let folder = path.with_extension("");
+    let beside = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
+    Screen::make_folder_of(path)?;
+    screen.write_to(path, &page(arguments, plain, rich, &beside).to_markdown())?;
+    for studied in [plain, rich] {
+        for chart in pictures(&studied.power)? {
+            let file = folder.join(format!("{}-{}", studied.name, chart.file));
+            Screen::make_folder_of(&file)?;
+            screen.write_to(&file, &chart.svg)?;
+        }
+    }
+    Ok(())
+}
+
+fn page(arguments: &Arguments, plain: &Studied, rich: &Studied, charts: &str) -> Document {
+    let again = format!(
+        "hexbench validate power --campaigns {} --seed {} --markdown docs/power.md",
+        arguments.campaigns, arguments.seed
+    );
+    document(plain, rich, charts, &again)
+}

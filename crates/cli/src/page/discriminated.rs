@@ -1,0 +1,232 @@
+//! The page of `hexbench discriminate`.
+
+use hexbench_core::Observation;
+use hexbench_design::discriminate::Distance;
+use hexbench_model::next::Separation;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::next::{settings, way};
+use crate::failure::Failure;
+use crate::output::number::{percent, significant};
+use crate::output::{Ink, Paper};
+
+const LABEL: usize = 16;
+/// Decimal logarithms of odds beyond which a number says no more.
+const OVERWHELMING: f64 = 4.0;
+
+/// Name of a parameter, its value, its unit.
+pub(crate) type Size = (&'static str, f64, &'static str);
+
+/// Readings that separate rivals, and what they promise.
+pub(crate) struct Discriminated {
+    /// `discrimination/1`.
+    pub(crate) format: &'static str,
+    /// The measurements in hand.
+    pub(crate) data: Option<String>,
+    /// The readings.
+    pub(crate) readings: Vec<Planned>,
+    /// Every pair of rivals.
+    pub(crate) pairs: Vec<Pair>,
+    /// Sizes in which the rivals count, by their ids.
+    pub(crate) sizes: Vec<(String, Vec<Size>)>,
+    /// What shows each rival.
+    pub(crate) breakers: Vec<(String, String)>,
+    /// Readings chosen from.
+    pub(crate) candidates: usize,
+    /// Seed of the poses tried.
+    pub(crate) seed: u32,
+}
+
+/// One reading.
+pub(crate) struct Planned {
+    /// What to set.
+    pub(crate) observation: Observation,
+    /// How often to read it.
+    pub(crate) repeats: usize,
+    /// What sort of reading it is.
+    pub(crate) words: String,
+}
+
+/// Two rivals.
+#[derive(Debug, Serialize)]
+pub(crate) struct Pair {
+    /// Which.
+    pub(crate) between: [String; 2],
+    /// Decimal logarithm of the odds of the first against the second by the data in hand.
+    #[serde(rename = "log10_odds_in_hand")]
+    pub(crate) in_hand: Option<f64>,
+    /// By the plan compared with.
+    pub(crate) before: Option<Promise>,
+    /// By the readings chosen.
+    pub(crate) after: Promise,
+    /// Readings after which the wrong one is on average excluded at 20:1.
+    pub(crate) readings_needed: Option<usize>,
+}
+
+/// What readings promise for two rivals.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct Promise {
+    /// Expected decimal logarithm of the Bayes factor for the truth, when the first is true and when the second is.
+    pub(crate) log10_bayes_factor: [f64; 2],
+    /// Chance that the readings favour the truth.
+    pub(crate) right: f64,
+    /// Distance of each from the best fit of the other, standard deviations of the noise.
+    pub(crate) distance: Option<[f64; 2]>,
+}
+
+impl Promise {
+    /// From what is expected beside data.
+    pub(crate) fn of(s: &Separation) -> Self {
+        let log10_bayes_factor = s.log_bayes_factor.map(|x| x / std::f64::consts::LN_10);
+        Self { log10_bayes_factor, right: s.right, distance: None }
+    }
+
+    /// From the distance of each from the best fit of the other.
+    pub(crate) fn of_distances(distances: [Distance; 2]) -> Self {
+        Self {
+            log10_bayes_factor: distances.map(|d| d.log_likelihood_ratio() / std::f64::consts::LN_10),
+            right: f64::midpoint(distances[0].right(), distances[1].right()),
+            distance: Some(distances.map(|d| d.value)),
+        }
+    }
+}
+
+impl Discriminated {
+    /// The result for programs.
+    pub(crate) fn json(&self) -> Result<String, Failure> {
+        let sizes = |(id, parameters): &(String, Vec<Size>)| {
+            let one = |(name, value, unit): &Size| json!({"name": name, "value": value, "unit": unit});
+            json!({"term": id, "parameters": parameters.iter().map(one).collect::<Vec<_>>()})
+        };
+        let all = json!({
+            "format": self.format,
+            "data": self.data,
+            "readings": self.readings.iter().map(Planned::value).collect::<Vec<_>>(),
+            "pairs": self.pairs,
+            "sizes": self.sizes.iter().map(sizes).collect::<Vec<_>>(),
+            "seed": self.seed,
+        });
+        let cause =
+            |e: serde_json::Error| Failure::Output { path: "discrimination.json".into(), cause: e.into() };
+        Ok(serde_json::to_string_pretty(&all).map_err(cause)? + "\n")
+    }
+
+    fn count(&self) -> usize {
+        self.readings.iter().map(|r| r.repeats).sum()
+    }
+}
+
+impl Planned {
+    fn value(&self) -> Value {
+        let o = &self.observation;
+        json!({
+            "pose": settings(o),
+            "wrench": o.wrench.to_array(),
+            "reference": o.reference.to_array(),
+            "approach": o.approach,
+            "elapsed_s": o.elapsed,
+            "delta_T_K": o.delta_t,
+            "repeats": self.repeats,
+            "text": self.words,
+        })
+    }
+}
+
+/// The page.
+pub(crate) fn discriminated(found: &Discriminated, ink: Ink) -> String {
+    let mut paper = Paper::new(ink);
+    let (heading, remark) = match &found.data {
+        None => ("Plan", "readings that tell the effects apart".to_owned()),
+        Some(data) => ("Next readings", format!("beside {data}")),
+    };
+    paper.heading(heading, &remark);
+    for (k, reading) in found.readings.iter().enumerate() {
+        planned(&mut paper, k + 1, reading, k == 0 || differs(found, k));
+    }
+    if found.readings.is_empty() {
+        paper.paragraph(2, "No reading of this space tells these effects apart beside the data in hand.");
+    }
+    let frames = "Wrench on the platform at the mobile origin, fixed axes; loaded minus reference.";
+    paper.hanging("  frames", LABEL, frames);
+    paper.heading("How well they separate", &format!("{} readings", found.count()));
+    separation(&mut paper, found);
+    paper.heading("What shows each effect", "");
+    for (id, breaker) in &found.breakers {
+        paper.hanging(&format!("  {id}"), 2 * LABEL, breaker);
+    }
+    assumptions(&mut paper, found);
+    paper.into_text()
+}
+
+fn differs(found: &Discriminated, k: usize) -> bool {
+    found.readings[k].observation.reference != found.readings[0].observation.reference
+}
+
+fn planned(paper: &mut Paper, number: usize, reading: &Planned, with_reference: bool) {
+    let o = &reading.observation;
+    let mut label = format!("  {number}");
+    if !reading.words.is_empty() {
+        paper.hanging(&format!("{label:<5}in words"), LABEL, &reading.words);
+        label.clear();
+    }
+    paper.hanging(&format!("{label:<5}pose"), LABEL, &super::next::pose(&settings(o)));
+    paper.hanging("     load", LABEL, &super::next::load(&o.wrench.to_array()));
+    if with_reference && o.reference.to_array().iter().any(|x| *x != 0.0) {
+        paper.hanging("     reference", LABEL, &super::next::load(&o.reference.to_array()));
+    }
+    paper.hanging("     way", LABEL, &way(o.approach, o.elapsed, o.delta_t, reading.repeats));
+}
+
+fn separation(paper: &mut Paper, found: &Discriminated) {
+    for p in &found.pairs {
+        paper.line(&format!("  {}", p.between.join(" or ")));
+        if let Some(odds) = p.in_hand {
+            let [a, b] = &p.between;
+            let (odds, first, second) = if odds < 0.0 { (-odds, b, a) } else { (odds, a, b) };
+            paper.hanging("     in hand", LABEL, &format!("odds 10^{odds:.1} for {first} against {second}"));
+        }
+        if let Some(before) = &p.before {
+            paper.hanging("     before", LABEL, &promise(before));
+        }
+        let needed = match p.readings_needed {
+            Some(1) => "20:1 after the first reading".to_owned(),
+            Some(n) => format!("20:1 after {n} such readings"),
+            None => "20:1 only after more readings".to_owned(),
+        };
+        paper.hanging("     chosen", LABEL, &format!("{}; {needed}", promise(&p.after)));
+    }
+    let words = if found.data.is_some() {
+        "Odds by the data in hand; expected odds for the truth by the readings chosen, if the first is true and if the second is; \
+         chance that they favour the truth."
+    } else {
+        "Expected ratio of likelihoods for the truth, if the first is true and if the second is, the wrong one and the springs fitted \
+         as well as they can; chance that it favours the truth."
+    };
+    paper.paragraph(2, words);
+}
+
+/// `expected odds 10^1.2 and 10^0.8, right in 85 %`.
+fn promise(p: &Promise) -> String {
+    let one = |x: f64| {
+        if x > OVERWHELMING { format!("beyond 10^{OVERWHELMING}") } else { format!("10^{x:.1}") }
+    };
+    let [a, b] = p.log10_bayes_factor.map(one);
+    let both = if a == b { a } else { format!("{a} and {b}") };
+    format!("expected odds {both}, right in {}", percent(p.right))
+}
+
+fn assumptions(paper: &mut Paper, found: &Discriminated) {
+    let chosen = format!("Chosen from {} readings (seed {}).", found.candidates, found.seed);
+    if found.sizes.is_empty() {
+        paper.heading("How it was chosen", "");
+        return paper.paragraph(2, &chosen);
+    }
+    paper.heading("Sizes assumed", "shown by readings spread evenly over the space, beside free springs");
+    for (id, parameters) in &found.sizes {
+        let one = |(name, value, unit): &Size| format!("{name} {} {unit}", significant(*value, 2));
+        let all: Vec<String> = parameters.iter().map(one).collect();
+        paper.hanging(&format!("  {id}"), 2 * LABEL, &all.join(", "));
+    }
+    paper.paragraph(2, &format!("Larger effects are easier to tell apart. {chosen}"));
+}

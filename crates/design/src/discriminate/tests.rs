@@ -1,0 +1,157 @@
+//! Distances against plain least squares, plans against random ones.
+
+use std::sync::Arc;
+
+use hexbench_core::{Hexapod, Metrology, Observation, Vector6, Wrench};
+use hexbench_model::evidence::WIDEST;
+use hexbench_model::fit_named::term_named;
+use hexbench_model::noise::{Noise, NoiseSource};
+use hexbench_model::term::Term;
+use hexbench_model::terms::catalogue;
+use nalgebra::{DMatrix, DVector};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+use super::{Contest, Plan, menu};
+use crate::regressor::ModelRegressor;
+use crate::space::{Conditions, Loading};
+use crate::test_machine::machine;
+use crate::{Budget, Space};
+
+/// Visibility of the effects, standard deviations.
+const VISIBLE: f64 = 5.0;
+const SIGMA: Metrology = Metrology { sigma_translation: 0.5e-6, sigma_rotation: 3e-6 };
+
+fn noise() -> Noise {
+    Noise {
+        translation: SIGMA.sigma_translation,
+        rotation: SIGMA.sigma_rotation,
+        source: NoiseSource::Metrology,
+        dof: f64::INFINITY,
+    }
+}
+
+fn springs() -> Vector6 {
+    Vector6::repeat(1.0 / 4e6)
+}
+
+fn space() -> Space {
+    let down = Wrench::from_array([0.0, 0.0, -120.0, 0.0, 0.0, 0.0]);
+    let load = |w: [f64; 6]| Loading { reference: down, load: Wrench::from_array(w) };
+    let tilt = 5f64.to_radians();
+    Space {
+        low: [-0.02, -0.02, -0.01, -tilt, -tilt, -tilt],
+        high: [0.02, 0.02, 0.01, tilt, tilt, tilt],
+        stroke: None,
+        joint_angle: None,
+        least_dexterity: 0.0,
+        loads: vec![
+            load([0.0, 0.0, -338.0, 0.0, 0.0, 0.0]),
+            load([100.0, 0.0, -120.0, 0.0, 0.0, 0.0]),
+            load([0.0, 0.0, -120.0, 0.0, 0.0, 15.0]),
+        ],
+        conditions: Conditions { waits: vec![5.0, 300.0], approaches: vec![1.0, -1.0], delta_t: vec![0.0] },
+        budget: Budget::default(),
+    }
+}
+
+fn terms(ids: &[&str]) -> Vec<Arc<dyn Term>> {
+    ids.iter().map(|id| term_named(id, &catalogue()).unwrap()).collect()
+}
+
+/// `T^2` of unit natural sizes of `a` (columns of `rows`) by least squares with the priors as further equations.
+fn by_least_squares(rows: &DMatrix<f64>, a: std::ops::Range<usize>, b: std::ops::Range<usize>) -> f64 {
+    let fitted: Vec<usize> = (0..6).chain(b).collect();
+    let n = fitted.len();
+    let prior = DMatrix::from_fn(n, n, |i, j| {
+        if i != j {
+            0.0
+        } else if i < 6 {
+            1.0
+        } else {
+            1.0 / WIDEST
+        }
+    });
+    let mut c = DMatrix::zeros(rows.nrows() + n, n);
+    c.rows_mut(0, rows.nrows()).copy_from(&rows.select_columns(&fitted));
+    c.rows_mut(rows.nrows(), n).copy_from(&prior);
+    let svd = c.clone().svd(true, true);
+    let left = |k: usize| {
+        let mut y = DVector::zeros(rows.nrows() + n);
+        y.rows_mut(0, rows.nrows()).copy_from(&rows.column(k));
+        let x = svd.solve(&y, 1e-14).unwrap();
+        (y - &c * x).norm_squared()
+    };
+    a.map(left).sum()
+}
+
+#[test]
+fn distances_are_what_least_squares_cannot_fit() {
+    const CLOSE: f64 = 1e-6;
+    let (hexapod, terms) = (machine(), terms(&["base-compliance", "load-offset"]));
+    let menu = menu(&space(), &hexapod, &terms, 1).unwrap();
+    let contest = Contest::new(&hexapod, springs(), noise(), &terms, &menu, 12, VISIBLE).unwrap();
+    let some: Vec<Observation> = menu.iter().step_by(7).copied().collect();
+    let information =
+        contest.informations(&some).unwrap().iter().fold(DMatrix::zeros(15, 15), |sum, m| sum + m);
+    let distances = contest.distances(&information);
+    let settings = space().settings();
+    let regressor = ModelRegressor::new(&hexapod, springs(), noise(), &terms, &settings, 1).unwrap();
+    let rows = regressor.rows(some).unwrap();
+    // Sizes differ by factors that the ratio of distance and size takes out: parameters keep their proportions.
+    let size = |rival: usize| {
+        let natural: f64 = {
+            let all: Vec<f64> = regressor.sizes().collect();
+            if rival == 0 { all[0] } else { all[6] }
+        };
+        let p = terms[rival].info().parameters[0];
+        contest.assumed(rival)[0].1 / p.per_si / natural
+    };
+    for (pair, (a, b)) in [([0, 1], (6..12, 12..15)), ([1, 0], (12..15, 6..12))] {
+        let expected = size(pair[0]) * by_least_squares(&rows, a, b).sqrt();
+        let found = distances.iter().find(|d| d.of == pair).unwrap().value;
+        assert!((found / expected - 1.0).abs() < CLOSE, "{pair:?}: {found} against {expected}");
+    }
+}
+
+#[test]
+fn a_plan_holds_the_worst_pair_further_apart_than_random_plans() {
+    const READINGS: usize = 6;
+    const DRAWS: usize = 30;
+    let (hexapod, terms) = (machine(), terms(&["base-compliance", "platform-compliance", "load-offset"]));
+    let menu = menu(&space(), &hexapod, &terms, 1).unwrap();
+    let contest = Contest::new(&hexapod, springs(), noise(), &terms, &menu, READINGS, VISIBLE).unwrap();
+    let plan = Plan::search(&contest, &space(), &hexapod, &menu, READINGS, &|| ()).unwrap();
+    assert_eq!(plan.readings.iter().map(|r| r.repeats).sum::<usize>(), READINGS);
+    let least = |d: &[super::Distance]| d.iter().map(|d| d.value).fold(f64::INFINITY, f64::min);
+    let informations = contest.informations(&menu).unwrap();
+    let mut rng = Pcg64::seed_from_u64(4);
+    let mut random = || {
+        let drawn: Vec<usize> = (0..READINGS).map(|_| rng.random_range(0..menu.len())).collect();
+        let total =
+            drawn.iter().skip(1).fold(informations[drawn[0]].clone(), |sum, &i| sum + &informations[i]);
+        least(&contest.distances(&total))
+    };
+    let best_of_random = (0..DRAWS).map(|_| random()).fold(0.0, f64::max);
+    let found = least(&plan.distances);
+    assert!(found > best_of_random, "{found:.2} against {best_of_random:.2}");
+}
+
+#[test]
+fn conditions_vary_only_where_an_effect_depends_on_them() {
+    let hexapod: Hexapod = machine();
+    let still = menu(&space(), &hexapod, &terms(&["base-compliance", "load-offset"]), 1).unwrap();
+    assert!(still.iter().all(|o| o.approach > 0.0 && (o.elapsed - 5.0).abs() < 1e-9));
+    let moving = menu(&space(), &hexapod, &terms(&["creep", "joint-friction"]), 1).unwrap();
+    assert!(moving.iter().any(|o| o.approach < 0.0) && moving.iter().any(|o| o.elapsed > 100.0));
+}
+
+#[test]
+fn an_effect_that_no_reading_shows_is_refused_with_the_reason() {
+    let (hexapod, terms) = (machine(), terms(&["creep", "base-compliance"]));
+    let still = Space { conditions: Conditions::default(), ..space() };
+    let menu = menu(&still, &hexapod, &terms, 1).unwrap();
+    let refused =
+        Contest::new(&hexapod, springs(), noise(), &terms, &menu, 6, VISIBLE).err().unwrap().to_string();
+    assert!(refused.contains("creep") && refused.contains("elapsed_s"), "{refused}");
+}

@@ -1,0 +1,142 @@
+//! Poses of a chosen plan moved to where they tell most: one after the other, the readings of each kept.
+
+use hexbench_core::{Hexapod, Pose};
+use nalgebra::DMatrix;
+
+use crate::regressor::SettingRegressor;
+use crate::{Criterion, DesignError, Problem, Space};
+
+/// Rounds over all poses.
+const MOST_ROUNDS: usize = 4;
+/// Relative gain of a round that is worth another.
+const WORTHWHILE: f64 = 1e-4;
+
+/// A pose and how often it is read under each setting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Visit {
+    /// The pose.
+    pub pose: Pose,
+    /// Readings under each setting of the space.
+    pub counts: Vec<usize>,
+}
+
+impl Visit {
+    /// Adds the information of its readings (p x p).
+    ///
+    /// # Errors
+    /// A singular pose.
+    pub fn inform<R: SettingRegressor>(
+        &self,
+        regressor: &R,
+        information: &mut DMatrix<f64>,
+    ) -> Result<(), DesignError> {
+        regressor.repeated(&self.counts).inform(&self.pose, information)
+    }
+}
+
+/// Sum of the information of visits (p x p).
+///
+/// # Errors
+/// A singular pose.
+pub fn information<'v, R: SettingRegressor>(
+    visits: impl IntoIterator<Item = &'v Visit>,
+    regressor: &R,
+) -> Result<DMatrix<f64>, DesignError> {
+    let p = regressor.parameters();
+    let mut sum = DMatrix::zeros(p, p);
+    visits.into_iter().try_for_each(|visit| visit.inform(regressor, &mut sum))?;
+    Ok(sum)
+}
+
+/// Moves the poses of visits within the limits of the space; the value of the criterion never falls.
+///
+/// # Errors
+/// A singular pose.
+pub fn refine<R: SettingRegressor>(
+    hexapod: &Hexapod,
+    space: &Space,
+    regressor: &R,
+    criterion: &Criterion,
+    visits: &mut [Visit],
+) -> Result<(), DesignError> {
+    let mut before = criterion.value(&information(&*visits, regressor)?, 1);
+    for _ in 0..MOST_ROUNDS {
+        for k in 0..visits.len() {
+            let others = visits.iter().enumerate().filter(|(i, _)| *i != k).map(|(_, visit)| visit);
+            let known = Some(&information(others, regressor)?);
+            let own = &regressor.repeated(&visits[k].counts);
+            let problem = Problem { hexapod, space, regressor: own, criterion, poses: 1, known };
+            let here = [visits[k].pose];
+            let Some(moved) = problem.climb(&here).filter(|set| set.value > problem.value(&here)) else {
+                continue;
+            };
+            visits[k].pose = moved.poses[0];
+        }
+        let value = criterion.value(&information(&*visits, regressor)?, 1);
+        if value <= before * (1.0 + WORTHWHILE) {
+            break;
+        }
+        before = value;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::Wrench;
+
+    use super::*;
+    use crate::Budget;
+    use crate::regressor::{PoseRegressor, SpringRegressor, Weights};
+    use crate::space::{Conditions, Loading};
+    use crate::test_machine::machine;
+
+    fn space() -> Space {
+        let load = |x: [f64; 6]| Loading { reference: Wrench::default(), load: Wrench::from_array(x) };
+        let reach = [0.03, 0.03, 0.02, 0.1, 0.1, 0.4];
+        Space {
+            low: reach.map(|x| -x),
+            high: reach,
+            stroke: Some([0.178, 0.211]),
+            joint_angle: Some(0.3),
+            least_dexterity: 0.1,
+            loads: vec![load([0.0, 0.0, -300.0, 0.0, 0.0, 0.0]), load([80.0, 0.0, 0.0, 0.0, 5.0, 0.0])],
+            conditions: Conditions::default(),
+            budget: Budget::default(),
+        }
+    }
+
+    #[test]
+    fn refined_poses_tell_more_within_the_limits_and_keep_their_readings() {
+        /// As in the search for poses.
+        const SLACK: f64 = 1e-6;
+        let (hexapod, space) = (machine(), space());
+        let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
+        let counts = [vec![2, 0], vec![1, 3], vec![0, 1]];
+        let poses = space.poses(&hexapod, 3, 1).unwrap();
+        let mut visits: Vec<Visit> =
+            poses.into_iter().zip(counts.clone()).map(|(pose, counts)| Visit { pose, counts }).collect();
+        let value = |visits: &[Visit]| Criterion::A.value(&information(visits, &regressor).unwrap(), 1);
+        let before = value(&visits);
+        refine(&hexapod, &space, &regressor, &Criterion::A, &mut visits).unwrap();
+        assert!(value(&visits) > 1.2 * before, "{} from {before}", value(&visits));
+        for (visit, counts) in visits.iter().zip(counts) {
+            assert_eq!(visit.counts, counts);
+            let worst = space.worst_limit(&hexapod, &visit.pose).unwrap();
+            assert!(worst.excess <= SLACK, "{worst:?}");
+        }
+    }
+
+    #[test]
+    fn a_visit_informs_as_its_readings_one_by_one() {
+        let (hexapod, space) = (machine(), space());
+        let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
+        let visit = Visit { pose: Pose::from_array([0.01, 0.0, 0.0, 0.05, 0.0, 0.2]), counts: vec![2, 3] };
+        let together = information([&visit], &regressor).unwrap();
+        let each = regressor.each(&visit.pose).unwrap();
+        let sum = &each[0] * 2.0 + &each[1] * 3.0;
+        let off = (&together - &sum).amax() / sum.amax();
+        assert!(off < 8.0 * f64::EPSILON, "{off:.1e}");
+        assert_eq!(regressor.repeated(&visit.counts).readings(), 5);
+    }
+}

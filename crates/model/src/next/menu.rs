@@ -1,0 +1,203 @@
+//! The readings that are tried: what the campaign shows the machine can do, in round numbers.
+//!
+//! Poses lie in the range of the campaign, never narrower than a tenth of the platform radius and three degrees: its middle, the
+//! ends of each coordinate, and a low-discrepancy sequence (Halton 1960). Loads are those of the campaign, and forces and moments
+//! along every axis, none so large that a leg carries more than it has carried. Both ways to approach, waits (longer ones too) and
+//! temperatures vary where one of the explanations depends on them.
+
+use hexbench_core::{Measurand, Observation, Pose, Vector6, Wrench};
+
+use super::kind::{round_down, snapped, step};
+use crate::campaign::{Campaign, Condition};
+use crate::fit::Fit;
+use crate::term::Need;
+
+/// Poses inside the range, beside its middle and its ends.
+const INNER_POSES: usize = 11;
+/// Readings tried, about.
+const MOST_READINGS: usize = 500;
+/// Poses tried at least.
+const FEWEST_POSES: usize = 6;
+/// Own loads of the campaign that are tried.
+const OWN_LOADS: usize = 6;
+/// The smaller of two sizes of each load.
+const SMALL_SHARE: f64 = 0.3;
+/// Waits may be so much longer than the longest: they ask for patience only.
+const LONGER: f64 = 5.0;
+/// A leg may carry so much more than it has carried: rounding, and poses beside the middle.
+const LEG_FORCE_SLACK: f64 = 1.05;
+
+/// Readings to choose from; `fits` tell on what the explanations depend, `conditions` where the machine has been.
+pub(super) fn menu(campaign: &Campaign, conditions: &[Condition], fits: &[&Fit]) -> Vec<Observation> {
+    let Some(first) = campaign.groups.first().map(|g| g.mean) else { return Vec::new() };
+    let needs = Needs::of(campaign, fits);
+    let loads = loads(campaign, conditions);
+    let states = needs.states(campaign);
+    let count = (MOST_READINGS / (loads.len() * states.len()).max(1)).max(FEWEST_POSES);
+    let strongest = strongest(conditions) * LEG_FORCE_SLACK;
+    let mut menu = Vec::new();
+    for pose in poses(campaign).into_iter().take(count) {
+        let Some(legs) = conditions.first().and(legs(campaign, &pose)) else { continue };
+        for wrench in &loads {
+            let carried = |w: &Wrench| legs.forces(&w.to_vector()).amax();
+            if carried(wrench).max(carried(&first.reference)) > strongest {
+                continue;
+            }
+            for &(approach, elapsed, delta_t) in &states {
+                let measured = if campaign.is_absolute() { pose.to_array() } else { [0.0; 6] };
+                let row =
+                    Observation { pose, wrench: *wrench, approach, elapsed, delta_t, measured, ..first };
+                menu.push(row);
+            }
+        }
+    }
+    menu
+}
+
+fn legs(campaign: &Campaign, pose: &Pose) -> Option<crate::kinematics::Legs> {
+    let hexapod = &campaign.hexapod;
+    let legs = crate::kinematics::Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose).ok()?;
+    let fits = hexapod.stroke.is_none_or(|[low, high]| legs.lengths.iter().all(|q| (low..=high).contains(q)));
+    fits.then_some(legs)
+}
+
+/// Largest force that any leg has carried, N.
+fn strongest(conditions: &[Condition]) -> f64 {
+    let of = |c: &Condition| c.path.reference.amax().max(c.path.load.amax());
+    conditions.iter().map(of).fold(0.0, f64::max)
+}
+
+/// On which covariates the explanations depend, and the file has.
+struct Needs {
+    approach: bool,
+    elapsed: bool,
+    delta_t: bool,
+}
+
+impl Needs {
+    fn of(campaign: &Campaign, fits: &[&Fit]) -> Self {
+        let terms = || fits.iter().flat_map(|f| &f.point.active);
+        let has = |need: Need| terms().any(|a| a.term.info().needs.contains(&need));
+        let columns = campaign.columns;
+        Self {
+            approach: columns.approach && has(Need::Approach),
+            elapsed: columns.elapsed && has(Need::Elapsed),
+            delta_t: columns.delta_t && has(Need::DeltaT),
+        }
+    }
+
+    /// Approach, wait (s) and temperature (K): the usual state and, where it matters, the ends of the campaign's range and beyond the
+    /// longest wait.
+    fn states(&self, campaign: &Campaign) -> Vec<(f64, f64, f64)> {
+        let rows = || campaign.groups.iter().map(|g| &g.mean);
+        let mut waits: Vec<f64> = rows().map(|r| r.elapsed).collect();
+        waits.sort_by(f64::total_cmp);
+        let (shortest, usual, longest) = (waits[0], waits[waits.len() / 2], waits[waits.len() - 1]);
+        let waits = if self.elapsed { vec![shortest, longest, LONGER * longest] } else { vec![usual] };
+        let coldest = rows().map(|r| r.delta_t).fold(0.0, f64::min);
+        let warmest = rows().map(|r| r.delta_t).fold(0.0, f64::max);
+        let temperatures = if self.delta_t { vec![0.0, coldest, warmest] } else { vec![0.0] };
+        let approaches: &[f64] = if self.approach { &[1.0, -1.0] } else { &[1.0] };
+        let mut states = Vec::new();
+        for &approach in approaches {
+            for &wait in &waits {
+                states
+                    .extend(temperatures.iter().map(|&t| (approach, round_down(wait, 2), round_down(t, 1))));
+            }
+        }
+        states.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+        states.dedup();
+        states
+    }
+}
+
+/// The middle, the ends of each coordinate, then poses all over the range; each coordinate a round number.
+fn poses(campaign: &Campaign) -> Vec<Pose> {
+    let half = half_ranges(campaign);
+    let at = |share: [f64; 6]| {
+        let coordinate = |k: usize| {
+            let step = step(k, half[k]);
+            let x = snapped(half[k] * share[k], step);
+            if x.abs() > half[k] * (1.0 + 1e-9) { x - step.copysign(x) } else { x }
+        };
+        Pose::from_array(std::array::from_fn(coordinate))
+    };
+    let mut shares = vec![[0.0; 6]];
+    for sign in [1.0, -1.0] {
+        shares.extend((0..6).map(|k| std::array::from_fn(|i| if i == k { sign } else { 0.0 })));
+    }
+    let inner = (1..=INNER_POSES).map(|i| std::array::from_fn(|k| 2.0 * halton(i, k) - 1.0));
+    // Few poses must still be different in everything: ends and inner ones in turn.
+    let mut mixed = vec![shares[0]];
+    let mut ends = shares.into_iter().skip(1);
+    for share in inner {
+        mixed.push(share);
+        mixed.extend(ends.next());
+    }
+    mixed.extend(ends);
+    mixed.into_iter().map(at).collect()
+}
+
+/// Half range of each pose coordinate, m and rad.
+pub(super) fn half_ranges(campaign: &Campaign) -> [f64; 6] {
+    let radius = campaign.hexapod.platform_radius();
+    std::array::from_fn(|k| {
+        let rows = campaign.groups.iter().map(|g| g.mean.pose.to_array()[k].abs());
+        rows.fold(0.0, f64::max).max(if k < 3 { 0.1 * radius } else { 3f64.to_radians() })
+    })
+}
+
+/// Element of the Halton sequence in base of the k-th prime.
+fn halton(index: usize, k: usize) -> f64 {
+    let base: usize = [2, 3, 5, 7, 11, 13][k];
+    let (mut fraction, mut value, mut i) = (1.0, 0.0, index);
+    while i > 0 {
+        fraction /= base as f64;
+        value += fraction * (i % base) as f64;
+        i /= base;
+    }
+    value
+}
+
+/// The campaign's own loads, and two sizes of force and moment along every axis on top of the reference.
+fn loads(campaign: &Campaign, conditions: &[Condition]) -> Vec<Wrench> {
+    let rows = || campaign.groups.iter().map(|g| &g.mean);
+    let mut loads: Vec<Wrench> = Vec::new();
+    for row in rows().filter(|r| same(&r.reference, &campaign.groups[0].mean.reference)) {
+        if loads.len() < OWN_LOADS && !loads.iter().any(|w| same(w, &row.wrench)) {
+            loads.push(row.wrench);
+        }
+    }
+    let absolute = campaign.measurand == Measurand::AbsolutePose;
+    let reference = if absolute { Vector6::zeros() } else { campaign.groups[0].mean.reference.to_vector() };
+    let change = |r: &Observation| (r.wrench.force - r.reference.force).norm();
+    let moment_change = |r: &Observation| (r.wrench.moment - r.reference.moment).norm();
+    let force = rows().map(change).fold(0.0, f64::max).max(1.0);
+    let arm = 0.5 * campaign.hexapod.platform_radius();
+    let moment = rows().map(moment_change).fold(0.0, f64::max).max(force * arm);
+    let Some(legs) = legs(campaign, &Pose::default()) else { return loads };
+    let strongest = strongest(conditions);
+    for axis in 0..6 {
+        for sign in [1.0, -1.0] {
+            let wanted = sign * if axis < 3 { force } else { moment };
+            // Round is what is set, not its change.
+            let with = |share: f64| {
+                let mut w = reference;
+                w[axis] = round_down(w[axis] + wanted * share, 2);
+                w
+            };
+            let fits = |share: &f64| legs.forces(&with(*share)).amax() <= strongest;
+            let Some(large) = [1.0, 0.8, 0.6, 0.4].into_iter().find(fits) else { continue };
+            loads.extend([large, large * SMALL_SHARE].map(|share| wrench(&with(share))));
+        }
+    }
+    loads
+}
+
+fn same(a: &Wrench, b: &Wrench) -> bool {
+    a.to_array().map(f64::to_bits) == b.to_array().map(f64::to_bits)
+}
+
+fn wrench(w: &Vector6) -> Wrench {
+    Wrench::from_array(std::array::from_fn(|k| w[k]))
+}

@@ -1,0 +1,15 @@
+//! Whether proposed readings bring the right answer: effects that a plan confuses are diagnosed, the proposed readings are taken
+//! on the same simulated machine, and everything is diagnosed again, beside as many readings at random.
+
+mod bench;
+mod confusion;
+mod document;
+pub mod sheets;
+mod study;
+mod trial;
+
+pub use bench::Bench;
+pub use confusion::{CONFUSIONS, Confusion};
+pub use document::{document, headlines};
+pub use study::{Discrimination, Protocol, SEED, discriminate};
+pub use trial::{READINGS, Record};

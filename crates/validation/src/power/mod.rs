@@ -1,0 +1,25 @@
+//! The power of a plan, reckoned and simulated.
+//!
+//! What the linear model expects ([`hexbench_design::power`]) is held against campaigns in the simulated world: finite
+//! deflections, mechanisms of its own, noise. Every effect gets the size that should be seen with the wanted power; counted are
+//! how often the same test sees it, how often it sees something in campaigns without effects, what the diagnosis calls it, and
+//! how far the leg stiffnesses go astray when it is left out.
+
+mod charts;
+mod document;
+mod faint;
+mod page;
+mod plan;
+mod simulate;
+mod study;
+mod tables;
+mod usual;
+
+pub use charts::pictures;
+pub use document::{Studied, document, plan_of};
+pub use faint::Faint;
+pub use page::Page;
+pub use plan::PowerPlan;
+pub use simulate::{Answers, Simulated};
+pub use study::{Check, Power, PowerError, Simulation, most_campaigns, run};
+pub use usual::{Usual, usual};
