@@ -12,20 +12,20 @@ hexbench=${HEXBENCH:-${CARGO_TARGET_DIR:-target}/release/hexbench}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Four cells; a new machine every five trials keeps the run long enough to be hit.
+# Four cells; a new machine every ten trials keeps the run long enough to be hit.
 cat > "$work/study.toml" <<TOML
 format = "study/1"
 title = "A study that is killed"
 seed = 7
 trials = $((trials / 4))
 task = "springs"
-redraw = 5
+redraw = 10
 space = "$PWD/data/designs/paper-space.toml"
 
 [axes]
-geometry = ["ring_a", "random_ring"]
+geometry = ["ring_a"]
 plan = ["random"]
-poses = [4]
+poses = [3, 4]
 noise_scale = [1, 2]
 TOML
 

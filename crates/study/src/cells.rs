@@ -81,14 +81,9 @@ impl Axes {
         ]
     }
 
-    /// Number of cells, which must have been checked to be small.
+    /// Number of cells; the reader has made sure that there are not too many.
     pub fn cells(&self) -> usize {
         self.counts().iter().product()
-    }
-
-    /// Number of cells without overflow.
-    pub fn cells_exactly(&self) -> u128 {
-        self.counts().iter().map(|&n| n as u128).product()
     }
 
     /// The cell of a number.

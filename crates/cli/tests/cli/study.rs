@@ -237,7 +237,11 @@ fn all_bad() -> Vec<Bad> {
             effect("noise_um_urad = [[1]]\n"),
             &["line 11, column 18", "two standard deviations"],
         ),
-        bad("unknown estimator", effect("estimator = [\"ols\"]\n"), &["line 11, column 14", "gls, paper"]),
+        bad(
+            "unknown estimator",
+            effect("estimator = [\"ols\"]\n"),
+            &["line 11, column 14", "no estimator has this name"],
+        ),
         bad(
             "estimator of a diagnosis",
             effect("estimator = [\"gls\"]\n").replace("springs", "diagnose"),

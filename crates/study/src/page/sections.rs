@@ -6,7 +6,7 @@ use super::charts::{Picture, spoken};
 use super::equal::{Equal, Matching, equals};
 use super::laws::{Law, laws};
 use super::marginal::{group_of, marginal, varying};
-use super::response::responses;
+use super::response::{Response, responses};
 use crate::cells::{AxisLevels, Level};
 use crate::columns::Status;
 use crate::results::CellStatistics;
@@ -122,8 +122,8 @@ pub(super) fn by_axis(
         let group = charts.and_then(|_| group_of(&levels, axis));
         page.heading(2, format!("Over {}", spoken(levels[axis].name)));
         let found = marginal(study, cells, axis, group);
-        let mut header: Vec<String> = group.map(|g| spoken(levels[g].name).to_owned()).into_iter().collect();
-        header.push(spoken(levels[axis].name).to_owned());
+        let mut header: Vec<String> = group.map(|g| levels[g].name.to_owned()).into_iter().collect();
+        header.push(levels[axis].name.to_owned());
         header.extend(responses(study.task).iter().map(|r| r.short.to_owned()));
         let mut rows = Vec::new();
         for (g, line) in found.groups.iter().enumerate() {
@@ -144,16 +144,17 @@ pub(super) fn by_axis(
 }
 
 fn results(study: &Study, cell: &CellStatistics) -> Vec<String> {
-    let told = |[value, low, high]: [f64; 3]| {
-        if value.is_nan() {
-            "-".to_owned()
-        } else if low.is_nan() {
-            number(value)
-        } else {
-            format!("{value:.1} ({low:.1} to {high:.1})")
+    let told = |r: &Response| {
+        let [value, low, high] = (r.of)(cell);
+        // Coverage is close to 95 %: a digit more tells something.
+        let places = usize::from(r.key == "coverage");
+        match (value.is_nan(), low.is_nan()) {
+            (true, _) => "-".to_owned(),
+            (false, true) => number(value),
+            (false, false) => format!("{value:.places$} ({low:.places$} to {high:.places$})"),
         }
     };
-    responses(study.task).iter().map(|r| told((r.of)(cell))).collect()
+    responses(study.task).iter().map(told).collect()
 }
 
 /// Every cell, when there are few.
