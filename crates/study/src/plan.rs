@@ -2,8 +2,8 @@
 
 use hexbench_core::{Hexapod, Measurand, Pose, Wrench};
 use hexbench_design::regressor::{SpringRegressor, Weights};
-use hexbench_design::space::Loading;
-use hexbench_design::{Criterion, DesignError, Problem, Space};
+use hexbench_design::space::{Conditions, Loading};
+use hexbench_design::{Budget, Criterion, DesignError, Problem, Space};
 use hexbench_truth::campaign::{PlanKind, Poses, Row, Scheme, Spread, usual_half_range_mm_deg};
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -30,6 +30,8 @@ pub fn usual_space(hexapod: &Hexapod) -> Space {
         joint_angle: None,
         least_dexterity: 0.0,
         loads: rich.loads.iter().map(loading).collect(),
+        conditions: Conditions::default(),
+        budget: Budget::default(),
     }
 }
 
@@ -65,7 +67,7 @@ pub fn designed_poses(
         rotation: 1.0 / noise[1],
         compliance: hexapod.nominal_stiffness.unwrap_or([USUAL_N_PER_M; 6]).map(f64::recip),
     };
-    let regressor = SpringRegressor::new(hexapod, &space.loads, 1, weights);
+    let regressor = SpringRegressor::new(hexapod, &space.settings(), 1, weights);
     let criterion = match criterion {
         "O2" => Criterion::O2,
         "O3" => Criterion::O3,
@@ -78,9 +80,10 @@ pub fn designed_poses(
         _ => Criterion::O1,
     };
     let poses = usize::try_from(poses).unwrap_or(usize::MAX);
-    let problem = Problem { hexapod, space, regressor: &regressor, criterion: &criterion, poses };
+    let problem =
+        Problem { hexapod, space, regressor: &regressor, criterion: &criterion, poses, known: None };
     let starts = usize::try_from(starts).unwrap_or(usize::MAX);
-    Ok(problem.search(starts, SEED)?.best.poses)
+    Ok(problem.search(starts, SEED, &|| ())?.best.poses)
 }
 
 /// Streams of random numbers for a plan.
