@@ -94,7 +94,7 @@ impl AxesTable {
         for (item, effect) in list.list()?.iter().zip(&self.effect) {
             if effect.is_none() {
                 let next = "Remove it, and add 0 to the sizes: an effect of size 0 is none.";
-                return Err(rule(item, "no effect has no size, but there is an axis of sizes", next));
+                return Err(rule(item, "\"none\" has no size, but there is an axis of sizes", next));
             }
         }
         Ok(())
