@@ -43,6 +43,7 @@ pub(crate) enum Command {
     Design(commands::design::Arguments),
     Discriminate(commands::discriminate::Arguments),
     Power(commands::power::Arguments),
+    Study(commands::study::Arguments),
     Terms(commands::terms::Arguments),
     Validate(commands::validate::Arguments),
     Completions(commands::completions::Arguments),

@@ -12,6 +12,7 @@ use hexbench_model::predict::PredictError;
 use hexbench_model::registration::RegistrationError;
 use hexbench_model::user_term::UserTermError;
 use hexbench_report::plot::PlotError;
+use hexbench_study::StudyError;
 use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
 use hexbench_validation::paper::PaperError;
@@ -20,6 +21,7 @@ use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
+use crate::report::ReportError;
 
 /// Exit codes of the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -117,6 +119,9 @@ pub(crate) enum Failure {
     /// A design problem without an answer.
     #[error("{0}")]
     Design(#[from] DesignError),
+    /// A study that cannot go on.
+    #[error("{0}")]
+    Study(StudyError),
     /// Wrong usage that only shows after parsing.
     #[error("{message}")]
     Usage {
@@ -140,6 +145,9 @@ pub(crate) enum Failure {
     /// A chart that cannot be drawn.
     #[error("{0}")]
     Plot(#[from] PlotError),
+    /// A page that cannot be drawn.
+    #[error("{0}")]
+    Report(#[from] ReportError),
     /// Output that cannot be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Output {
@@ -158,13 +166,17 @@ impl Failure {
             Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => {
                 exit_of(cause)
             }
+            Self::Study(cause) => exit_of_study(cause),
             Self::Usage { .. } => Exit::Usage,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
-            Self::Power(_) | Self::Design(_) | Self::Reproduction(_) | Self::Trial(_) | Self::Plot(_) => {
-                Exit::NotDetermined
-            }
+            Self::Power(_)
+            | Self::Design(_)
+            | Self::Reproduction(_)
+            | Self::Trial(_)
+            | Self::Plot(_)
+            | Self::Report(_) => Exit::NotDetermined,
             Self::File(_)
             | Self::ModelFile { .. }
             | Self::Row { .. }
@@ -187,6 +199,7 @@ impl Failure {
                 Some("Check the poses, loads and effects of the scene: this state does not exist.".into())
             }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
+            Self::Study(cause) => Some(cause.next_step()),
             Self::Check(_) => None,
             Self::Design(DesignError::NeverDetermined { .. }) => Some(
                 "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
@@ -222,6 +235,7 @@ impl Failure {
             Self::Unreadable { .. } => Some("Check the name of the file.".into()),
             Self::Trial(_) => Some("Give another trial or another seed.".into()),
             Self::Plot(_) => Some("Give more trials.".into()),
+            Self::Report(_) => Some("Leave --html away: the page in the terminal needs no charts.".into()),
             Self::Reproduction(_) => Some("Give another seed.".into()),
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())
@@ -245,6 +259,25 @@ impl From<SimulationError> for Failure {
             },
             other => Self::Simulation(other),
         }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::File(file) => Self::File(file),
+            StudyError::Plot(plot) => Self::Plot(plot),
+            other => Self::Study(other),
+        }
+    }
+}
+
+fn exit_of_study(cause: &StudyError) -> Exit {
+    match cause {
+        StudyError::NotEmpty(_) => Exit::Usage,
+        StudyError::Design { .. } => Exit::NotDetermined,
+        _ if cause.is_input_output() => Exit::InputOutput,
+        _ => Exit::BadInput,
     }
 }
 

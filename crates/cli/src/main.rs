@@ -9,6 +9,7 @@ mod failure;
 mod input;
 mod output;
 mod page;
+mod report;
 mod states;
 
 use std::process::ExitCode;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
+use hexbench_core::files::content_hash;
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
 use hexbench_model::error::ModelError;
@@ -14,6 +15,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::output::Screen;
 use crate::page::{self, Subject};
+use crate::report::{self, Provenance};
 
 /// Name the physical effect the model lacks, and show the held-out error fall
 #[derive(Debug, Args)]
@@ -31,6 +33,9 @@ pub(crate) struct Arguments {
     /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write the page with charts to FILE: one file for a browser, needs no network
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
     /// Every parameter and every detectable size
     #[arg(long, short)]
     verbose: bool,
@@ -70,8 +75,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(path) = &arguments.json {
         screen.write_to(path, &json(&study.diagnosis)?)?;
     }
+    let subject = Subject { hexapod: &hexapod, data: &data, holdout: holdout.as_ref(), study: &study };
+    if let Some(path) = &arguments.html {
+        screen.write_to(path, &report::diagnosis(&subject, &provenance(arguments)?)?)?;
+    }
     if !to_stdout {
-        let subject = Subject { hexapod: &hexapod, data: &data, holdout: holdout.as_ref(), study: &study };
         screen.write(&page::diagnosis(&subject, arguments.verbose, screen.ink()))?;
     }
     check(arguments.check, &study.diagnosis)
@@ -88,6 +96,16 @@ pub(crate) fn study(
     diagnose(hexapod, data, holdout, terms).map_err(failed)
 }
 
+/// Command and digests of all files read.
+fn provenance(arguments: &Arguments) -> Result<Provenance, Failure> {
+    let read =
+        [&arguments.hexapod, &arguments.data].into_iter().chain(&arguments.holdout).chain(&arguments.terms);
+    let digest = |path: &PathBuf| Ok((path.display().to_string(), content_hash(path)?));
+    let files = read.map(digest).collect::<Result<_, Failure>>()?;
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    Ok(Provenance { command: format!("hexbench {}", words.join(" ")), files })
+}
+
 fn json(diagnosis: &Diagnosis) -> Result<String, Failure> {
     let cause = |e: serde_json::Error| Failure::Output { path: "diagnosis.json".into(), cause: e.into() };
     Ok(serde_json::to_string_pretty(diagnosis).map_err(cause)? + "\n")
@@ -97,6 +115,6 @@ fn check(expected: Option<Expected>, diagnosis: &Diagnosis) -> Result<(), Failur
     let Some(expected) = expected.map(Expected::verdict).filter(|e| *e != diagnosis.verdict) else {
         return Ok(());
     };
-    let word = |v: Verdict| page::word(v);
+    let word = |v: Verdict| page::conclusion::word(v);
     Err(Failure::Check(format!("the verdict is {}, not {}", word(diagnosis.verdict), word(expected))))
 }

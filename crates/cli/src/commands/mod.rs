@@ -13,6 +13,7 @@ pub(crate) mod poses;
 pub(crate) mod power;
 pub(crate) mod predict;
 pub(crate) mod simulate;
+pub(crate) mod study;
 pub(crate) mod terms;
 pub(crate) mod transient;
 pub(crate) mod validate;
@@ -38,6 +39,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Design(arguments) => design::run(arguments, &screen),
         Command::Discriminate(arguments) => discriminate::run(arguments, &screen),
         Command::Power(arguments) => power::run(arguments, &screen),
+        Command::Study(arguments) => study::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
         Command::Validate(arguments) => validate::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),

@@ -27,6 +27,14 @@ impl Progress {
         Self { bar, begun: Instant::now(), shown: Once::new() }
     }
 
+    /// So many steps were done before: they say nothing about the time the others will take.
+    #[must_use]
+    pub(crate) fn beginning_at(self, steps: u64) -> Self {
+        self.bar.set_position(steps);
+        self.bar.reset_eta();
+        self
+    }
+
     /// Some steps more are done.
     pub(crate) fn advance(&self, steps: u64) {
         self.bar.inc(steps);

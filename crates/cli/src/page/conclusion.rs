@@ -40,7 +40,8 @@ fn paint(ink: Ink, verdict: Verdict) -> String {
     }
 }
 
-fn sentences(d: &Diagnosis) -> Vec<String> {
+/// The verdict in a sentence or two.
+pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
     match d.verdict {
         Verdict::Adequate => vec![
             "The springs alone explain these measurements: nothing is missing that these data could show. What \

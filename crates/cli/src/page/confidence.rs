@@ -17,6 +17,10 @@ const MOST_LINES: usize = 7;
 const BAR: usize = 24;
 const LABEL: usize = 34;
 
+/// What the probabilities of effects mean beside something unknown.
+pub(crate) const BESIDE_OUTSIDE: &str = "Beside something without a name the other lines say what helps to fit it, not what is \
+                                         there: catalogue terms imitate it.";
+
 /// Probabilities that each effect is at work, alone or beside others.
 pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
     paper.heading("How sure", "probability that each is at work, alone or with others");
@@ -32,15 +36,13 @@ pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
         paper.line(&format!("  {:<width$}{most}", "anything else, each", width = LABEL));
     }
     if d.verdict == Verdict::Outside && all.iter().any(|(id, p)| *p >= WORTH_A_LINE && id != OUTSIDE) {
-        let text = "Beside something without a name the other lines say what helps to fit it, not what is there: catalogue \
-                    terms imitate it.";
-        paper.paragraph(2, text);
+        paper.paragraph(2, BESIDE_OUTSIDE);
     }
     look_alikes(paper, d);
 }
 
 /// Effects, something outside, and nothing at all, the most probable first.
-fn probabilities(d: &Diagnosis) -> Vec<(String, f64)> {
+pub(crate) fn probabilities(d: &Diagnosis) -> Vec<(String, f64)> {
     let mut all: Vec<(String, f64)> = d.present.iter().map(|(id, p)| (id.clone(), *p)).collect();
     let special = d.candidates.iter().filter(|c| c.term == NONE || c.term == OUTSIDE);
     all.extend(special.map(|c| (c.term.clone(), c.probability)));

@@ -28,7 +28,8 @@ pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
     paper.line(&format!("  {:<NAME$}{t:>8}{r:>8}{:>9}  {noise}", "noise of one reading", "1.00"));
 }
 
-fn how_held_out(d: &Diagnosis) -> &'static str {
+/// Where the held-out error comes from.
+pub(crate) fn how_held_out(d: &Diagnosis) -> &'static str {
     match d.steps.first().and_then(|s| s.holdout) {
         None => "on the fitted readings: too few poses to hold any out",
         Some(_) if d.holdout == "holdout file" => "on held-out poses (root mean square, holdout file)",
@@ -37,7 +38,7 @@ fn how_held_out(d: &Diagnosis) -> &'static str {
 }
 
 /// `springs alone`, then `+ term`.
-fn name(step: &StepReport) -> String {
+pub(crate) fn name(step: &StepReport) -> String {
     step.terms.last().map_or_else(|| "springs alone".to_owned(), |term| format!("+ {term}"))
 }
 

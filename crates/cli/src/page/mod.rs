@@ -2,20 +2,20 @@
 
 mod calibration;
 pub(crate) mod comparison;
-mod conclusion;
-mod confidence;
+pub(crate) mod conclusion;
+pub(crate) mod confidence;
 mod demo;
 pub(crate) mod designed;
 pub(crate) mod discriminated;
 pub(crate) mod effect;
 pub(crate) mod effects;
 pub(crate) mod fitted;
-mod ladder;
+pub(crate) mod ladder;
 mod leg_space;
 mod limits;
 pub(crate) mod located;
 mod next;
-mod notes;
+pub(crate) mod notes;
 mod pattern;
 mod recovery;
 pub(crate) mod simulated;
@@ -24,7 +24,6 @@ mod stiffness;
 mod subject;
 
 pub(crate) use calibration::calibration;
-pub(crate) use conclusion::word;
 pub(crate) use demo::demo;
 pub(crate) use recovery::recovery;
 pub(crate) use subject::Subject;

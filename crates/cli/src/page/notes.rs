@@ -22,15 +22,18 @@ pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
     }
 }
 
+/// Frames and signs.
+pub(crate) const CONVENTIONS: &str = "Fixed axes of the base unless a term says mobile; wrenches act on the platform at the mobile \
+                                      origin; deflection = loaded minus reference; tension is positive.";
+
 /// Frames and signs, the same on every page.
 pub(crate) fn conventions(paper: &mut Paper) {
     paper.heading("Conventions", "");
-    let text = "Fixed axes of the base unless a term says mobile; wrenches act on the platform at the mobile origin; \
-                deflection = loaded minus reference; tension is positive.";
-    paper.paragraph(2, text);
+    paper.paragraph(2, CONVENTIONS);
 }
 
-fn suspects(d: &Diagnosis) -> String {
+/// Readings far from every prediction, in a sentence.
+pub(crate) fn suspects(d: &Diagnosis) -> String {
     let mut worst: Vec<_> = d.suspects.iter().collect();
     worst.sort_by(|a, b| b.z.total_cmp(&a.z));
     let listed: Vec<String> = worst

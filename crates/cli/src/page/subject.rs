@@ -30,6 +30,13 @@ impl Subject<'_> {
         }
         paper.hanging("  noise", LABEL, &noise(&self.study.diagnosis.noise));
     }
+
+    /// The same, a line each.
+    pub(crate) fn lines(&self) -> Vec<String> {
+        let holdout = self.holdout.map(|h| format!("held out {}", describe(h)));
+        let noise = format!("noise {}", noise(&self.study.diagnosis.noise));
+        std::iter::once(describe(self.data)).chain(holdout).chain([noise]).collect()
+    }
 }
 
 const LABEL: usize = 12;

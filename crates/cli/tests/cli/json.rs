@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::support::{cases, diagnose, text};
 
-const TOP: [&str; 14] = [
+const TOP: [&str; 15] = [
     "format",
     "verdict",
     "added",
@@ -16,6 +16,7 @@ const TOP: [&str; 14] = [
     "untestable",
     "detectable",
     "next",
+    "separation",
     "absorbed",
     "suspects",
     "outside",
@@ -53,7 +54,8 @@ fn every_key_of_the_contract_is_there() {
         assert_items(&d, "parameters", &["name", "value", "std", "unit"]);
         assert_items(&d, "untestable", &["term", "why"]);
         assert_items(&d, "detectable", &["term", "parameter", "unit", "size_at_90_percent_power"]);
-        assert_items(&d, "next", &["pose", "wrench", "separates", "gain"]);
+        assert_items(&d, "next", &["pose", "wrench", "separates", "gain", "repeats", "delta_T_K", "text"]);
+        assert_items(&d, "separation", &["between", "log10_bayes_factor", "right", "readings_needed"]);
         assert_items(&d, "absorbed", &["term", "bias_of_leg_stiffness_percent"]);
         assert_items(&d, "suspects", &["row", "z"]);
         assert_keys(&d["noise"], &["translation_um", "rotation_urad", "source"], "noise");

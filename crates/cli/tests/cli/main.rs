@@ -16,5 +16,6 @@ mod scenes;
 mod score;
 mod separation;
 mod streams;
+mod study;
 mod support;
 mod validate;

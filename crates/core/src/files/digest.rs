@@ -17,6 +17,11 @@ pub fn content_hash(path: &Path) -> Result<String, FileError> {
     hash_of(path).map_err(|cause| FileError::reading(path, cause))
 }
 
+/// SHA-256 of a text as 64 hexadecimal digits.
+pub fn text_hash(text: &str) -> String {
+    hexadecimal(&Sha256::digest(text))
+}
+
 fn hash_of(path: &Path) -> io::Result<String> {
     let mut file = File::open(path)?;
     let mut digest = Sha256::new();

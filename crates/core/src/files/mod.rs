@@ -42,7 +42,7 @@ mod write_hexapod;
 mod write_measurements;
 
 pub use atomic::atomic_write;
-pub use digest::content_hash;
+pub use digest::{content_hash, text_hash};
 pub use error::{Fault, FileError};
 pub use nearest::nearest;
 pub use place::Place;

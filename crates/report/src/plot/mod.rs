@@ -6,6 +6,7 @@
 //! | [`Panels`] | several charts in a grid with one legend, such as the six coordinates of a deflection |
 //! | [`Bars`] | groups of bars over names |
 //! | [`HeatMap`] | a table whose cells are shaded, such as a confusion matrix |
+//! | [`Wireframe`] | a machine in space, from several sides |
 //! | [`Reliability`] | stated probability against observed frequency, with counts |
 //!
 //! Every chart has `to_svg`. The text of an SVG is text, the background is white so that it also reads on a dark page,
@@ -35,6 +36,7 @@ mod panels;
 mod reliability;
 mod series;
 mod style;
+mod wireframe;
 
 pub use axis::Axis;
 pub use bars::Bars;
@@ -44,3 +46,4 @@ pub use heat_map::HeatMap;
 pub use panels::Panels;
 pub use reliability::{Bin, Reliability};
 pub use series::Series;
+pub use wireframe::{Edge, Wireframe};

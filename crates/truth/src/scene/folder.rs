@@ -194,7 +194,7 @@ fn whole(
     name: &str,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), SimulationError> {
-    atomic_write(&at.join(name), fill)
+    atomic_write(&at.join(name), |out| fill(out))
         .map_err(|cause| SimulationError::Write { path: shown.join(name), cause })
 }
 

@@ -42,16 +42,22 @@ impl Streams {
     }
 
     /// The stream of a purpose and a number.
-    ///
-    /// Seed, purpose and number are mixed into the state, because generators of this kind whose streams differ by the
-    /// increment alone are not independent.
     pub fn of(self, purpose: Purpose, number: u64) -> Pcg64 {
-        let mut state = mixed(self.seed);
-        for word in [purpose.number(), number] {
-            state = mixed(state ^ mixed(word));
-        }
-        Pcg64::new(u128::from(state) << 64 | u128::from(mixed(!state)), u128::from(mixed(state ^ number)))
+        stream([self.seed, purpose.number(), number])
     }
+}
+
+/// The random stream of some numbers: a seed, what the stream decides, for which row or trial.
+///
+/// All are mixed into the state, because generators of this kind whose streams differ by the increment alone are not
+/// independent.
+pub fn stream<const N: usize>(numbers: [u64; N]) -> Pcg64 {
+    let [mut state, last] = [numbers.first(), numbers.last()].map(|n| n.copied().unwrap_or(0));
+    state = mixed(state);
+    for &number in numbers.iter().skip(1) {
+        state = mixed(state ^ mixed(number));
+    }
+    Pcg64::new(u128::from(state) << 64 | u128::from(mixed(!state)), u128::from(mixed(state ^ last)))
 }
 
 /// One step of `SplitMix64` (Steele, Lea, Flood, OOPSLA 2014): a bijection whose output bits all depend on all input bits.

@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
     /// Choose so many readings, each with its pose, load and condition, instead of poses that are all read alike
     #[arg(long, value_name = "N", conflicts_with = "poses", value_parser = clap::value_parser!(u16).range(1..=2000))]
     readings: Option<u16>,
-    /// Choose readings that together take so many hours; how long each takes is in [budget] of the space file
+    /// Choose readings that together take so many hours; how long each takes is in the table budget of the space file
     #[arg(long, value_name = "H", conflicts_with_all = ["poses", "readings"], allow_negative_numbers = true)]
     hours: Option<f64>,
     /// Poses to choose readings from

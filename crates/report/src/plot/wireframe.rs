@@ -1,0 +1,182 @@
+//! Edges in space, seen from several sides in parallel projection; the same scale on every view.
+
+use super::canvas::{Canvas, Type, svg};
+use super::chart::{MARGIN_PX, TITLE_ROW_PX, title};
+use super::error::{PlotError, finite, not_empty};
+use super::legend::{self, Entry};
+use super::style::{LABEL_PX, Look};
+
+/// Side of one view, px.
+const VIEW_PX: f64 = 420.0;
+/// Width of an edge, px.
+const EDGE_PX: f64 = 1.8;
+
+/// An edge between two points.
+pub type Edge = [[f64; 3]; 2];
+
+/// Bodies made of edges.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wireframe {
+    title: String,
+    views: Vec<View>,
+    bodies: Vec<Body>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct View {
+    name: String,
+    /// Turn about the z axis, then tilt towards the viewer, rad.
+    azimuth: f64,
+    elevation: f64,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Body {
+    name: String,
+    look: Option<usize>,
+    edges: Vec<Edge>,
+}
+
+impl Wireframe {
+    /// Nothing to see yet.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self { title: title.into(), views: Vec::new(), bodies: Vec::new() }
+    }
+
+    /// The drawing with one view more: turned about the z axis and seen from an elevation (90: from above), degrees.
+    #[must_use]
+    pub fn seen(mut self, name: impl Into<String>, azimuth_deg: f64, elevation_deg: f64) -> Self {
+        let (azimuth, elevation) = (azimuth_deg.to_radians(), elevation_deg.to_radians());
+        self.views.push(View { name: name.into(), azimuth, elevation });
+        self
+    }
+
+    /// The drawing with one body more; without a look it is grey and dashed. Later bodies lie on top.
+    #[must_use]
+    pub fn with(mut self, name: impl Into<String>, look: Option<usize>, edges: Vec<Edge>) -> Self {
+        self.bodies.push(Body { name: name.into(), look, edges });
+        self
+    }
+
+    /// The drawing as SVG.
+    ///
+    /// # Errors
+    /// [`PlotError::NotFinite`], [`PlotError::Empty`].
+    pub fn to_svg(&self) -> Result<String, PlotError> {
+        not_empty(&self.title, self.views.len().min(self.bodies.len()))?;
+        for body in &self.bodies {
+            finite(
+                &self.title,
+                &format!("an edge of \"{}\"", body.name),
+                body.edges.iter().flatten().flatten(),
+            )?;
+        }
+        let entries: Vec<&Body> = self.bodies.iter().collect();
+        let width = 2.0 * MARGIN_PX + self.views.len() as f64 * VIEW_PX;
+        let room = width - 2.0 * MARGIN_PX;
+        let head = MARGIN_PX + if self.title.is_empty() { 0.0 } else { TITLE_ROW_PX };
+        let below = head + legend::height(&entries, room) + 4.0;
+        svg([width, below + VIEW_PX + MARGIN_PX], &self.title, |canvas| {
+            let top = title(canvas, &self.title, [MARGIN_PX, MARGIN_PX], room)?;
+            legend::draw(canvas, &entries, [MARGIN_PX, top], room)?;
+            self.draw(canvas, below)
+        })
+    }
+
+    fn draw(&self, canvas: &Canvas<'_>, top: f64) -> Result<(), PlotError> {
+        let scale = self.scale();
+        for (k, view) in self.views.iter().enumerate() {
+            let corner = [MARGIN_PX + k as f64 * VIEW_PX, top];
+            let [x, y] = self.centre(view);
+            let place = |point: &[f64; 3]| {
+                let [right, up] = view.project(point);
+                [
+                    corner[0] + 0.5 * VIEW_PX + (right - x) * scale,
+                    corner[1] + 0.5 * VIEW_PX - (up - y) * scale,
+                ]
+            };
+            canvas.text([corner[0], corner[1] + LABEL_PX], &view.name, Type::new(LABEL_PX))?;
+            for body in &self.bodies {
+                let look = body.drawn();
+                let edges = body.edges.iter().map(|edge| edge.each_ref().map(place));
+                edges.into_iter().try_for_each(|e| canvas.line(&e, look.colour, EDGE_PX, look.dash))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn points(&self) -> impl Iterator<Item = &[f64; 3]> {
+        self.bodies.iter().flat_map(|b| b.edges.iter().flatten())
+    }
+
+    /// Range of a view across and along.
+    fn range(&self, view: &View) -> [[f64; 2]; 2] {
+        let empty = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        self.points()
+            .map(|p| view.project(p))
+            .fold(empty, |range, at| [0, 1].map(|k| [range[k][0].min(at[k]), range[k][1].max(at[k])]))
+    }
+
+    fn centre(&self, view: &View) -> [f64; 2] {
+        self.range(view).map(|[low, high]| f64::midpoint(low, high))
+    }
+
+    /// Pixels per unit at which every view fits.
+    fn scale(&self) -> f64 {
+        const FILLED: f64 = 0.84;
+        let reach = self.views.iter().flat_map(|v| self.range(v)).map(|[low, high]| high - low);
+        FILLED * VIEW_PX / reach.fold(f64::MIN_POSITIVE, f64::max)
+    }
+}
+
+impl View {
+    /// Right and up on the page.
+    fn project(&self, [x, y, z]: &[f64; 3]) -> [f64; 2] {
+        let (sa, ca) = self.azimuth.sin_cos();
+        let (se, ce) = self.elevation.sin_cos();
+        [ca * x + sa * y, se * (ca * y - sa * x) + ce * z]
+    }
+}
+
+impl Body {
+    fn drawn(&self) -> Look {
+        // Bodies are told apart by colour and by where they are: dashes would break their short edges.
+        self.look.map_or_else(Look::reference, |n| Look { dash: None, ..Look::nth(n) })
+    }
+}
+
+impl Entry for &Body {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn sample(&self, canvas: &Canvas<'_>, [from, to]: [f64; 2], y: f64) -> Result<(), PlotError> {
+        let look = self.drawn();
+        canvas.line(&[[from, y], [to, y]], look.colour, EDGE_PX, look.dash)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn from_above_x_is_right_and_y_is_up() {
+        let view = View { name: String::new(), azimuth: 0.0, elevation: 90f64.to_radians() };
+        let [right, up] = view.project(&[2.0, 3.0, 7.0]);
+        assert!((right - 2.0).abs() < 1e-12 && (up - 3.0).abs() < 1e-12, "{right} {up}");
+    }
+
+    #[test]
+    fn from_the_front_z_is_up() {
+        let view = View { name: String::new(), azimuth: 0.0, elevation: 0.0 };
+        assert!((view.project(&[2.0, 3.0, 7.0])[1] - 7.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_body_that_is_nowhere_is_refused() {
+        let drawing = Wireframe::new("machine").seen("front", 0.0, 0.0);
+        let drawing = drawing.with("platform", None, vec![[[0.0; 3], [f64::NAN, 0.0, 0.0]]]);
+        assert!(matches!(drawing.to_svg(), Err(PlotError::NotFinite { .. })));
+    }
+}

@@ -1,0 +1,186 @@
+//! What a study varies.
+
+use hexbench_core::Hexapod;
+use hexbench_design::Space;
+use hexbench_truth::campaign::{PlanKind, Row};
+use hexbench_truth::metrology::Noise;
+
+/// Where the machine comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Geometry {
+    /// Name in the study file.
+    pub name: String,
+    /// Family, or drawings from a file.
+    pub source: Drawings,
+    /// Where poses may lie, and under which loads; none: as suits the machine.
+    pub space: Option<Space>,
+}
+
+/// Drawings of a machine.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Drawings {
+    /// A family of `hexbench_truth::campaign::machines`.
+    Family(&'static str),
+    /// A hexapod file.
+    File(Box<Hexapod>),
+}
+
+impl Geometry {
+    /// True when every block has the same drawings.
+    pub fn is_fixed(&self) -> bool {
+        match &self.source {
+            Drawings::Family(name) => name.starts_with("ring_"),
+            Drawings::File(_) => true,
+        }
+    }
+}
+
+/// Names of criteria a plan may be designed for.
+pub const CRITERIA: [&str; 9] = ["O1", "O2", "O3", "O4", "O5", "D", "A", "E", "I"];
+
+/// Which readings are taken.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanChoice {
+    /// Name in the study file.
+    pub name: String,
+    /// How its rows come about.
+    pub source: PlanSource,
+}
+
+/// How the rows of a plan come about.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PlanSource {
+    /// A make of `hexbench_truth::campaign`.
+    Make(PlanKind),
+    /// Poses that are best by a criterion, one of [`CRITERIA`].
+    Designed(&'static str),
+    /// Poses drawn evenly from the space.
+    Random,
+    /// Rows of a table or scene.
+    Rows(Vec<Row>),
+}
+
+impl PlanSource {
+    /// True when the study says how many poses there are.
+    pub fn needs_poses(&self) -> bool {
+        matches!(self, Self::Designed(_) | Self::Random)
+    }
+
+    /// True when the study may say so.
+    pub fn takes_poses(&self) -> bool {
+        match self {
+            Self::Make(kind) => *kind != PlanKind::Paper,
+            Self::Rows(_) => false,
+            Self::Designed(_) | Self::Random => true,
+        }
+    }
+}
+
+/// How leg stiffness is estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Estimator {
+    /// Generalised least squares, rows weighted by the noise.
+    Gls,
+    /// The paper's: unweighted, at the commanded pose.
+    Paper,
+}
+
+impl Estimator {
+    /// All estimators.
+    pub const ALL: [Self; 2] = [Self::Gls, Self::Paper];
+
+    /// Name in the study file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gls => "gls",
+            Self::Paper => "paper",
+        }
+    }
+}
+
+/// How large the effect is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Sizes {
+    /// Its usual size.
+    Usual,
+    /// Distances in standard deviations beyond what six springs explain; zero: no effect.
+    Sigmas(Vec<f64>),
+    /// Factors of its usual size; zero: no effect.
+    Factors(Vec<f64>),
+}
+
+impl Sizes {
+    /// The values; none when the study leaves them open.
+    pub fn values(&self) -> &[f64] {
+        match self {
+            Self::Usual => &[],
+            Self::Sigmas(values) | Self::Factors(values) => values,
+        }
+    }
+
+    /// Name of the axis.
+    pub fn name(&self) -> &'static str {
+        if matches!(self, Self::Sigmas(_)) { "size_sigmas" } else { "size_factor" }
+    }
+}
+
+/// How noisy the instrument is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Noises {
+    /// Multiples of what the hexapod file states, else of 0.5 um and 3 urad.
+    Scales(Vec<f64>),
+    /// Standard deviations of one reading: translation (m), rotation (rad).
+    Sigmas(Vec<[f64; 2]>),
+}
+
+impl Noises {
+    /// Number of values.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Scales(values) => values.len(),
+            Self::Sigmas(values) => values.len(),
+        }
+    }
+
+    /// True without values.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The noise of a value on a machine that states some, or none.
+    pub fn noise(&self, index: usize, geometry: &Geometry) -> Noise {
+        let stated = match &geometry.source {
+            Drawings::File(hexapod) => hexapod.metrology,
+            Drawings::Family(_) => None,
+        };
+        let usual = stated.unwrap_or(Noise::default().metrology());
+        let [sigma_translation, sigma_rotation] = match self {
+            Self::Scales(scales) => {
+                [usual.sigma_translation, usual.sigma_rotation].map(|s| s * scales[index])
+            }
+            Self::Sigmas(pairs) => pairs[index],
+        };
+        Noise { sigma_translation, sigma_rotation, ..Noise::default() }
+    }
+}
+
+/// All axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axes {
+    /// Machines.
+    pub geometry: Vec<Geometry>,
+    /// Plans.
+    pub plan: Vec<PlanChoice>,
+    /// Numbers of poses; empty: as the plan has them.
+    pub poses: Vec<u64>,
+    /// Readings of each condition; empty: as the plan has them.
+    pub repeats: Vec<u64>,
+    /// Estimators; empty where the task has its own.
+    pub estimator: Vec<Estimator>,
+    /// Ids of hidden effects; none: nothing hidden.
+    pub effect: Vec<Option<&'static str>>,
+    /// Sizes of the effects.
+    pub size: Sizes,
+    /// Noise of the instrument.
+    pub noise: Noises,
+}

@@ -1,0 +1,42 @@
+//! Random streams: what is drawn once for a machine, and what for every trial.
+//!
+//! | drawn | once for | from |
+//! |---|---|---|
+//! | drawings of the machine, leg stiffness | a block of trials | seed, geometry, block |
+//! | random poses, drawn loads | a block | seed, geometry, block |
+//! | approach, temperature, waiting time | a block | seed, geometry, block |
+//! | held-out readings | a block | seed, geometry, block |
+//! | shape of the effect | a block | seed, effect, block |
+//! | noise | a trial | seed, cell, trial |
+//!
+//! Cells with the same geometry thus see the same machines, and a plan of more random poses begins with those of a smaller
+//! one: differences between cells are differences of the choice. Noise is never shared.
+
+use hexbench_truth::scene::stream;
+use rand_pcg::Pcg64;
+
+/// What a stream decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// Drawings and leg stiffness.
+    Machine = 1,
+    /// Poses and loads of a plan.
+    Plan = 2,
+    /// Approach, temperature and waiting times.
+    Surroundings = 3,
+    /// Held-out readings.
+    Holdout = 4,
+    /// Shape of an effect.
+    Effect = 5,
+    /// Noise of a trial.
+    Noise = 6,
+    /// Approach, temperature and waiting times of held-out readings.
+    HoldoutSurroundings = 7,
+}
+
+/// The stream of a purpose: `of` is the number of the geometry, effect or cell, `number` that of the block or trial.
+pub fn drawn(seed: u64, purpose: Purpose, of: usize, number: u64) -> Pcg64 {
+    // Apart from the streams of scenes with the same seed.
+    const STUDY: u64 = 0x0053_5455_4459;
+    stream([seed, STUDY, purpose as u64, of as u64, number])
+}

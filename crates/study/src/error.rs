@@ -1,0 +1,104 @@
+//! Why a study stopped.
+
+use std::io;
+use std::path::PathBuf;
+
+use hexbench_core::files::FileError;
+use hexbench_design::DesignError;
+use hexbench_report::plot::PlotError;
+
+/// A study that cannot go on. What is in the journal stays there.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The study file, or a file it names, cannot be used.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A designed plan without an answer.
+    #[error("plan \"{plan}\" with {poses} poses on geometry \"{geometry}\": {cause}")]
+    Design {
+        /// Name of the plan.
+        plan: String,
+        /// Poses asked for.
+        poses: u64,
+        /// Name of the geometry.
+        geometry: String,
+        /// What stands in the way.
+        cause: DesignError,
+    },
+    /// The folder holds something else.
+    #[error("{}: the folder is not empty and holds no study", .0.display())]
+    NotEmpty(PathBuf),
+    /// Another run works in the folder.
+    #[error("{}: another run works in this folder{}", folder.display(), holder.map(|pid| format!(" (process {pid})")).unwrap_or_default())]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+        /// Number of the process, when it is known.
+        holder: Option<u32>,
+    },
+    /// The journal belongs to another study, or to another state of it.
+    #[error("{}: {what}", folder.display())]
+    Foreign {
+        /// The folder.
+        folder: PathBuf,
+        /// What does not fit.
+        what: String,
+    },
+    /// The journal cannot be read.
+    #[error("{}: cannot be read: {cause}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        cause: io::Error,
+    },
+    /// A result or a record cannot be written.
+    #[error("{}: cannot be written: {cause}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        cause: io::Error,
+    },
+    /// A shard that the results need is not in the journal.
+    #[error("{}: shard {shard} is missing or damaged", folder.display())]
+    Missing {
+        /// The folder.
+        folder: PathBuf,
+        /// Number of the shard.
+        shard: u64,
+    },
+    /// A chart cannot be drawn.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+}
+
+impl StudyError {
+    /// What to do next, one sentence.
+    pub fn next_step(&self) -> String {
+        match self {
+            Self::File(error) => error.next_step(),
+            Self::Design { .. } => "Widen the space, or change the numbers of poses.".into(),
+            Self::NotEmpty(_) => "Name another folder.".into(),
+            Self::Busy { .. } => "Wait for it to end, or name another folder.".into(),
+            Self::Foreign { .. } => {
+                "Name another folder, or go back to the study and the program that began this one.".into()
+            }
+            Self::Read { .. } => "Check that the file may be read.".into(),
+            Self::Write { .. } => "Check the free space and that the folder may be written to, then run the \
+                                   same command again: it goes on where it stopped."
+                .into(),
+            Self::Missing { .. } => "Run the same command again: the shard is computed anew.".into(),
+            Self::Plot(_) => "Give more trials.".into(),
+        }
+    }
+
+    /// True when the trouble is with the disk rather than with what a file says.
+    pub fn is_input_output(&self) -> bool {
+        match self {
+            Self::File(error) => error.is_input_output(),
+            Self::Busy { .. } | Self::Read { .. } | Self::Write { .. } | Self::Missing { .. } => true,
+            _ => false,
+        }
+    }
+}
