@@ -383,7 +383,7 @@ fn a_full_disk_is_told_nothing_is_lost_and_the_run_goes_on_later() {
     );
     assert!(records(&full) >= before);
     let parts = fs::read_dir(full.join("journal")).unwrap().map(|e| e.unwrap().file_name());
-    assert!(parts.map(|n| n.to_string_lossy().into_owned()).all(|n| !n.ends_with(".part")));
+    assert!(parts.map(|n| n.to_string_lossy().into_owned()).all(|n| !n.contains(".part")));
     study(&file, &full).assert().success();
     assert!(results(&whole) == results(&full), "the files differ");
 }
