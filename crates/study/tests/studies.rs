@@ -79,6 +79,8 @@ fn designed_poses_are_worth_more_than_as_many_random_ones() {
     let (runner, cells) = run(folder.path(), rest);
     let equal = equals(runner.study(), &cells);
     assert_eq!(equal.len(), 3);
+    let page = hexbench_study::page::summary(runner.study(), &cells).to_text();
+    assert!(page.contains("random poses as good"), "{page}");
     for e in &equal {
         let worth = match e.random_poses {
             Matching::About(n) | Matching::MoreThan(n) => n,

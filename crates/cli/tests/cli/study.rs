@@ -80,8 +80,8 @@ fn a_study_reads_as_before_and_its_charts_exist() {
     let folder = tempfile::tempdir().unwrap();
     let file = write(
         folder.path(),
-        "format = \"study/1\"\ntitle = \"Noise and poses\"\nseed = 1\ntrials = 200\ntask = \"springs\"\nstarts = 4\n\
-         [axes]\ngeometry = [\"ring_a\"]\nplan = [\"O1\", \"random\"]\nposes = [3, 6, 12]\nnoise_scale = [1, 2]\n",
+        "format = \"study/1\"\ntitle = \"Noise and poses\"\nseed = 1\ntrials = 200\ntask = \"springs\"\n\
+         [axes]\ngeometry = [\"ring_a\"]\nplan = [\"random\", \"rich\"]\nposes = [3, 6, 12]\nnoise_scale = [1, 2]\n",
     );
     let [out, page] = ["out", "page/study.md"].map(|name| folder.path().join(name));
     let shown = text(study(&file, &out).arg("--markdown").arg(&page).output().unwrap());
@@ -383,7 +383,7 @@ fn a_full_disk_is_told_nothing_is_lost_and_the_run_goes_on_later() {
     );
     assert!(records(&full) >= before);
     let parts = fs::read_dir(full.join("journal")).unwrap().map(|e| e.unwrap().file_name());
-    assert!(parts.map(|n| n.to_string_lossy().into_owned()).all(|n| !n.ends_with(".part")));
+    assert!(parts.map(|n| n.to_string_lossy().into_owned()).all(|n| !n.contains(".part")));
     study(&file, &full).assert().success();
     assert!(results(&whole) == results(&full), "the files differ");
 }
