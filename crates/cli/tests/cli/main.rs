@@ -7,6 +7,7 @@ mod discriminate;
 mod documents;
 mod exits;
 mod export;
+mod html;
 mod json;
 mod pages;
 mod poses;
