@@ -59,13 +59,13 @@ fn without_corrections_of_second_order_the_papers_estimator_misses_its_intervals
 
 #[test]
 fn the_error_is_proportional_to_the_noise_and_falls_with_the_root_of_the_readings() {
+    /// 12000 errors behind each of four cells: the exponents are known to a few thousandths.
+    const CLOSE: f64 = 0.02;
     let folder = tempfile::tempdir().unwrap();
     let rest = "trials = 2000\ntask = \"springs\"\nredraw = 20\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"random\"]\n\
                 poses = [8]\nrepeats = [1, 4]\nnoise_scale = [0.1, 0.4]\n";
     let (runner, cells) = run(folder.path(), rest);
     let law = &laws(runner.study(), &cells)[0];
-    // 12000 errors behind each of four cells: the exponents are known to a few thousandths.
-    const CLOSE: f64 = 0.02;
     let [repeats, noise] = [law.exponents[0], law.exponents[1]];
     assert!(repeats.0 == "repeats" && (repeats.1 + 0.5).abs() < CLOSE, "{repeats:?}");
     assert!(noise.0 == "noise_scale" && (noise.1 - 1.0).abs() < CLOSE, "{noise:?}");

@@ -32,11 +32,17 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// From means and covariances; none when the covariance of `a` is not positive definite.
+    /// From means and covariances; none without readings, or when the covariance of `a` is not positive definite.
     pub(super) fn new(a: (DVector<f64>, DMatrix<f64>), b: (DVector<f64>, DMatrix<f64>)) -> Option<Self> {
+        if a.0.is_empty() {
+            return None;
+        }
         let root = a.1.cholesky()?.unpack();
         let half = root.solve_lower_triangular(&b.1)?;
         let whole = root.solve_lower_triangular(&half.transpose())?;
+        if whole.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
         let eigen = (0.5 * (&whole + whole.transpose())).symmetric_eigen();
         let delta = eigen.eigenvectors.tr_mul(&root.solve_lower_triangular(&(b.0 - a.0))?);
         Some(Self { delta, lambda: eigen.eigenvalues.map(|l| l.max(f64::MIN_POSITIVE)) })
@@ -99,6 +105,13 @@ mod tests {
         let [narrow, wide] = Pair::new(scalar(0.0, 1.0), scalar(0.0, 4.0)).unwrap().log_bayes_factor();
         let ln4 = 4.0_f64.ln();
         assert!((narrow - 0.5 * (ln4 - 0.75)).abs() < CLOSE && (wide - 0.5 * (3.0 - ln4)).abs() < CLOSE);
+    }
+
+    #[test]
+    fn no_reading_and_no_number_separate_nothing_that_could_be_told() {
+        let none = || (DVector::zeros(0), DMatrix::zeros(0, 0));
+        assert!(Pair::new(none(), none()).is_none());
+        assert!(Pair::new(scalar(0.0, 1.0), scalar(0.0, f64::NAN)).is_none());
     }
 
     #[test]
