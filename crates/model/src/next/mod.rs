@@ -233,6 +233,15 @@ fn needed(course: &[[f64; 2]]) -> Option<usize> {
     course.iter().position(|&d| least(d) >= EXCLUDED_ODDS.ln()).map(|k| k + 1)
 }
 
+/// Place of every reading among those of a plan, which holds equal ones once.
+fn places(plan: &Campaign, readings: usize) -> Vec<usize> {
+    let mut places = vec![0; readings];
+    for (place, group) in plan.groups.iter().enumerate() {
+        group.rows.iter().for_each(|&row| places[row as usize] = place);
+    }
+    places
+}
+
 /// Puts the aspects that matter into words.
 fn say(campaign: &Campaign, rivals: &[Rival], proposals: &mut [Proposal]) -> Result<(), ModelError> {
     let Some(ordinary) = Ordinary::of(campaign).filter(|_| !proposals.is_empty()) else { return Ok(()) };
@@ -249,18 +258,20 @@ fn say(campaign: &Campaign, rivals: &[Rival], proposals: &mut [Proposal]) -> Res
         }
     }
     let half = menu::half_ranges(campaign);
-    let beliefs = beliefs(&as_plan(campaign, &readings)?, rivals)?;
+    let plan = as_plan(campaign, &readings)?;
+    let place = places(&plan, readings.len());
+    let beliefs = beliefs(&plan, rivals)?;
     let weights: Vec<f64> = rivals.iter().map(|r| r.weight.max(f64::MIN_POSITIVE)).collect();
     let mut choice = Choice::new(&beliefs, &weights);
     for (k, p) in proposals.iter_mut().enumerate() {
-        let own = choice.drop(k);
+        let own = choice.drop(place[k]);
         let matters: Vec<Aspect> = plain
             .iter()
-            .filter(|(of, _, without)| *of == k && choice.drop(*without) < MATTERS * own)
+            .filter(|(of, _, without)| *of == k && choice.drop(place[*without]) < MATTERS * own)
             .map(|(_, aspect, _)| *aspect)
             .collect();
         p.words = ordinary.phrase(&campaign.hexapod, &half, &p.observation, &matters);
-        (0..p.repeats).for_each(|_| choice.choose(k));
+        (0..p.repeats).for_each(|_| choice.choose(place[k]));
     }
     Ok(())
 }
