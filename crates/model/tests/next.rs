@@ -95,3 +95,31 @@ fn every_reading_says_what_sort_it_is_or_is_ordinary() {
         assert!(usual || !p.words.is_empty(), "{p:?}");
     }
 }
+
+#[test]
+fn readings_that_change_nothing_are_not_proposed() {
+    let (campaign, rivals) = open_campaign();
+    let idle: Vec<Observation> = menu(&campaign, &rivals)
+        .unwrap()
+        .into_iter()
+        .map(|o| Observation { wrench: o.reference, elapsed: 0.0, delta_t: 0.0, ..o })
+        .collect();
+    let programme = propose(&campaign, &rivals, &idle, Effort::UpTo(3)).unwrap();
+    assert!(programme.proposals.is_empty() && programme.outlook.is_empty(), "{programme:?}");
+}
+
+/// The model averages readings under equal conditions, whatever line of whatever file they come from.
+#[test]
+fn readings_that_differ_only_in_where_they_come_from_are_proposed_as_any() {
+    let (campaign, rivals) = open_campaign();
+    let menu = menu(&campaign, &rivals).unwrap();
+    let numbered: Vec<Observation> =
+        menu.iter().zip(1..).map(|(o, line)| Observation { line, ..*o }).collect();
+    let of = |menu: &[Observation]| propose(&campaign, &rivals, menu, Effort::Exactly(6)).unwrap();
+    let (plain, from_lines) = (of(&menu), of(&numbered));
+    assert!(plain.proposals.len() > 1, "{} proposals", plain.proposals.len());
+    let words = |p: &hexbench_model::next::Programme| -> Vec<String> {
+        p.proposals.iter().map(|p| p.words.clone()).collect()
+    };
+    assert_eq!(words(&plain), words(&from_lines));
+}
