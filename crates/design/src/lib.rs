@@ -20,6 +20,7 @@ pub mod determined;
 pub mod discriminate;
 pub mod error;
 pub mod exchange;
+pub mod nominal;
 pub mod power;
 pub mod refine;
 pub mod regressor;

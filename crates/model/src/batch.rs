@@ -88,25 +88,12 @@ impl Lanes {
 
 #[cfg(test)]
 mod tests {
-    use hexbench_core::Vector3;
-
     use super::*;
     use crate::kinematics::Legs;
+    use crate::test_machine::machine;
 
     /// Relative difference allowed between the two routes: rounding times the squared condition of the leg Jacobian.
     const ROUTES_AGREE: f64 = 1e-10;
-
-    fn ring() -> Hexapod {
-        let joint = |r: f64, deg: f64, z: f64| {
-            let (s, c) = deg.to_radians().sin_cos();
-            Vector3::new(r * c, r * s, z)
-        };
-        Hexapod::of_joints(
-            "ring",
-            [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0].map(|d| joint(0.16, d, -0.165)),
-            [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0].map(|d| joint(0.12, d, 0.0)),
-        )
-    }
 
     fn cases(count: u32) -> Vec<LoadCase> {
         let wave = |i: u32, k: f64| (f64::from(i) * k).sin();
@@ -121,7 +108,7 @@ mod tests {
 
     #[test]
     fn four_abreast_agree_with_one_by_one() {
-        let (hexapod, k) = (ring(), [4.2e6, 3.8e6, 2.7e6, 4.3e6, 3.7e6, 3.7e6]);
+        let (hexapod, k) = (machine(), [4.2e6, 3.8e6, 2.7e6, 4.3e6, 3.7e6, 3.7e6]);
         // Not a multiple of four: the last lanes are padded.
         let cases = cases(1031);
         for (case, fast) in cases.iter().zip(deflections(&hexapod, &k, &cases)) {

@@ -44,3 +44,6 @@ pub mod terms;
 pub mod user_term;
 pub mod verdict;
 pub mod words;
+
+#[cfg(test)]
+mod test_machine;

@@ -43,6 +43,11 @@ pub struct Noise {
 }
 
 impl Noise {
+    /// As somebody states it: standard deviations of a translation (m) and of a rotation (rad).
+    pub fn stated(translation: f64, rotation: f64) -> Self {
+        Self { translation, rotation, source: NoiseSource::Metrology, dof: f64::INFINITY }
+    }
+
     /// Standard deviations of the six measured values.
     pub fn sigma(&self) -> [f64; 6] {
         let (t, r) = (self.translation, self.rotation);
@@ -75,12 +80,7 @@ pub fn stated_or_repeated(hexapod: &Hexapod, dataset: &Dataset) -> Option<Noise>
         return Some(from_columns(&dataset.observations));
     }
     if let Some(m) = hexapod.metrology {
-        return Some(Noise {
-            translation: m.sigma_translation,
-            rotation: m.sigma_rotation,
-            source: NoiseSource::Metrology,
-            dof: f64::INFINITY,
-        });
+        return Some(Noise::stated(m.sigma_translation, m.sigma_rotation));
     }
     let scatter = scatter(&dataset.observations);
     let usable = scatter.dof >= ENOUGH_REPEATS

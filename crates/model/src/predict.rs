@@ -14,7 +14,7 @@ use crate::error::ModelError;
 use crate::fit::columns;
 use crate::linearization::Linearization;
 use crate::model_file::Model;
-use crate::noise::{Noise, NoiseSource};
+use crate::noise::Noise;
 
 /// Rounds after which a prediction counts as not settled.
 const MOST_ROUNDS: usize = 60;
@@ -121,7 +121,7 @@ fn dataset(model: &Model, rows: &[Observation], measurand: Measurand) -> Dataset
 
 /// Weights of one; the level does not matter for a prediction.
 fn unit_noise() -> Noise {
-    Noise { translation: 1.0, rotation: 1.0, source: NoiseSource::Metrology, dof: f64::INFINITY }
+    Noise::stated(1.0, 1.0)
 }
 
 fn unweighted(whitened: &Vector6, weight: &Vector6) -> Vector6 {

@@ -1,6 +1,7 @@
 //! The readings of a cell on a drawn machine.
 
 use hexbench_core::{Hexapod, Measurand, Pose, Wrench};
+use hexbench_design::nominal;
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space::{Conditions, Loading};
 use hexbench_design::{Budget, Criterion, DesignError, Problem, Space};
@@ -60,12 +61,11 @@ pub fn designed_poses(
     noise: [f64; 2],
     starts: u64,
 ) -> Result<Vec<Pose>, DesignError> {
-    const USUAL_N_PER_M: f64 = 4e6;
     const SEED: u32 = 1;
     let weights = Weights {
         translation: 1.0 / noise[0],
         rotation: 1.0 / noise[1],
-        compliance: hexapod.nominal_stiffness.unwrap_or([USUAL_N_PER_M; 6]).map(f64::recip),
+        compliance: nominal::compliance(hexapod).into(),
     };
     let regressor = SpringRegressor::new(hexapod, &space.settings(), 1, weights);
     let criterion = match criterion {

@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Vector6};
+use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation};
 use hexbench_design::Space;
 use hexbench_design::discriminate::{Contest, Distance, Plan, menu};
+use hexbench_design::nominal;
 use hexbench_design::space_file::read_space;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::fit_named::term_named;
 use hexbench_model::next::{EXCLUDED_ODDS, Effort, Outlook, Suspects, propose, suspects};
-use hexbench_model::noise::{Noise, NoiseSource};
+use hexbench_model::noise::Noise;
 use hexbench_model::term::Term;
 
 use crate::csv;
@@ -105,8 +106,15 @@ fn new_plan(
 ) -> Result<Discriminated, Failure> {
     let menu = menu(space, hexapod, terms, arguments.seed)?;
     let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[0]));
-    let contest =
-        Contest::new(hexapod, springs(hexapod), noise(hexapod)?, terms, &menu, count, arguments.visible)?;
+    let contest = Contest::new(
+        hexapod,
+        nominal::compliance(hexapod),
+        noise(hexapod)?,
+        terms,
+        &menu,
+        count,
+        arguments.visible,
+    )?;
     let progress = Progress::of(count as u64, "readings");
     let plan = Plan::search(&contest, space, hexapod, &menu, count, &|| progress.advance(1));
     progress.done();
@@ -216,12 +224,6 @@ fn distances(contest: &Contest<'_>, path: &Path) -> Result<Vec<Distance>, Failur
     Ok(contest.distances(&total))
 }
 
-/// Nominal compliances, or those of the paper's legs, m/N.
-fn springs(hexapod: &Hexapod) -> Vector6 {
-    const USUAL_N_PER_M: f64 = 4e6;
-    Vector6::from(hexapod.nominal_stiffness.unwrap_or([USUAL_N_PER_M; 6]).map(f64::recip))
-}
-
 fn noise(hexapod: &Hexapod) -> Result<Noise, Failure> {
     let unknown = || Failure::Usage {
         message:
@@ -230,12 +232,7 @@ fn noise(hexapod: &Hexapod) -> Result<Noise, Failure> {
         next: "Add [metrology] with sigma_translation_um and sigma_rotation_urad.".into(),
     };
     let metrology = hexapod.metrology.ok_or_else(unknown)?;
-    Ok(Noise {
-        translation: metrology.sigma_translation,
-        rotation: metrology.sigma_rotation,
-        source: NoiseSource::Metrology,
-        dof: f64::INFINITY,
-    })
+    Ok(Noise::stated(metrology.sigma_translation, metrology.sigma_rotation))
 }
 
 /// The readings, each repeat in a row of its own.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use hexbench_core::{Hexapod, Measurand, Metrology};
+use hexbench_design::nominal;
 use hexbench_design::power::Settings;
 use hexbench_model::fit_named::term_named;
 use hexbench_model::term::Term;
@@ -158,9 +159,7 @@ fn refuse_references(arguments: &Arguments, has_references: bool) -> Result<(), 
 
 /// Given, or stated, or that of the paper's legs; N/m.
 fn stiffness(given_n_per_um: Option<f64>, hexapod: &Hexapod) -> [f64; 6] {
-    const USUAL_N_PER_M: f64 = 4e6;
-    let given = given_n_per_um.map(|k| [k * 1e6; 6]);
-    given.or(hexapod.nominal_stiffness).unwrap_or([USUAL_N_PER_M; 6])
+    given_n_per_um.map_or_else(|| nominal::stiffness(hexapod), |k| [k * 1e6; 6])
 }
 
 fn with_progress(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -> Result<Power, Failure> {

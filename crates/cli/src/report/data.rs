@@ -37,15 +37,15 @@ impl Data {
         Ok(Self { before: seen(&study.outcome.baseline)?, after: last.map(seen).transpose()? })
     }
 
-    /// Conditions with the residual elongations (um) of the springs alone, what the added effects explain of them, and the
-    /// standard deviation by noise; thinned to what an eye can tell apart.
-    pub(crate) fn conditions(&self) -> impl Iterator<Item = (&Condition, Vector6, Option<Vector6>, Vector6)> {
+    /// Conditions with the residual elongations (um) of the springs alone and what the added effects explain of them; thinned to
+    /// what an eye can tell apart.
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = (&Condition, Vector6, Option<Vector6>)> {
         const MOST: usize = 150;
         let n = self.before.lin.conditions.len();
         (0..n).step_by(n.div_ceil(MOST).max(1)).map(|i| {
             let left = self.before.legs.elongation[i];
             let explained = self.after.as_ref().map(|a| (left - a.legs.elongation[i]) * 1e6);
-            (&self.before.lin.conditions[i], left * 1e6, explained, self.before.legs.sigma[i] * 1e6)
+            (&self.before.lin.conditions[i], left * 1e6, explained)
         })
     }
 }

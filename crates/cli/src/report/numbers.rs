@@ -27,12 +27,11 @@ pub(crate) fn effects(d: &Diagnosis) -> Option<Section> {
     let remark = format!("Springs + {}; standard uncertainty (k = 1).", d.model.join(" + "));
     let section = Section::new("effects", "How large", remark)
         .with(Block::table(["parameter", "value", "uncertainty", "unit"], rows));
-    let open: Vec<&String> = d.not_determined.iter().collect();
-    Some(if open.is_empty() {
+    Some(if d.not_determined.is_empty() {
         section
     } else {
-        let names: Vec<&str> = open.iter().map(|n| n.as_str()).collect();
-        section.with(Block::paragraph(format!("Not determined by these data: {}.", names.join(", "))))
+        let open = d.not_determined.join(", ");
+        section.with(Block::paragraph(format!("Not determined by these data: {open}.")))
     })
 }
 

@@ -32,7 +32,7 @@ fn by_leg(
     let mut panels = Panels::new("", 3).with_panel_size(300.0, 190.0);
     for leg in 0..6 {
         let cloud =
-            Cloud::of(data.conditions().map(|(c, left, fit, _)| (x(c, leg), left[leg], fit.map(|f| f[leg]))));
+            Cloud::of(data.conditions().map(|(c, left, fit)| (x(c, leg), left[leg], fit.map(|f| f[leg]))));
         let y = Axis::new(format!("leg {}", leg + 1), "um");
         panels = panels.with(cloud.chart("", Axis::new(title, unit), y));
     }
@@ -78,7 +78,7 @@ fn by_conditions(data: &Data) -> Result<Option<Block>, ReportError> {
 }
 
 fn all_legs(data: &Data, x: impl Fn(&Condition) -> f64) -> Cloud {
-    Cloud::of(data.conditions().flat_map(|(c, left, fit, _)| {
+    Cloud::of(data.conditions().flat_map(|(c, left, fit)| {
         let x = x(c);
         (0..6).map(move |leg| (x, left[leg], fit.map(|f| f[leg])))
     }))

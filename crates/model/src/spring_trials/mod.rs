@@ -187,21 +187,10 @@ mod tests {
 
     use super::*;
     use crate::paper::block;
+    use crate::test_machine::machine;
 
     const SIGMA: [f64; 6] = [0.8e-6, 0.8e-6, 0.8e-6, 9.6e-6, 9.6e-6, 6.8e-6];
     const STIFFNESS: [f64; 6] = [4.2e6, 3.8e6, 2.75e6, 4.3e6, 3.7e6, 3.73e6];
-
-    fn machine() -> Hexapod {
-        let joint = |r: f64, deg: f64, z: f64| {
-            let (s, c) = deg.to_radians().sin_cos();
-            Vector3::new(r * c, r * s, z)
-        };
-        Hexapod::of_joints(
-            "ring",
-            [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0].map(|d| joint(0.16, d, -0.165)),
-            [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0].map(|d| joint(0.12, d, 0.0)),
-        )
-    }
 
     fn readings() -> Vec<Observation> {
         let poses = [[2.6, 0.8, -0.7, 15.8], [10.0, -3.4, -0.8, -11.0], [-7.8, -3.2, 1.8, -11.3]];

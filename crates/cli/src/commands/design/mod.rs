@@ -7,12 +7,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use hexbench_core::{Hexapod, Vector6};
+use hexbench_core::Hexapod;
 use hexbench_design::budget::Amount;
+use hexbench_design::nominal;
 use hexbench_design::regressor::{ModelRegressor, SpringRegressor, Weights};
 use hexbench_design::space_file::read_space;
 use hexbench_model::fit_named::term_named;
-use hexbench_model::noise::{Noise, NoiseSource};
+use hexbench_model::noise::Noise;
 use hexbench_model::term::Term;
 
 use crate::failure::Failure;
@@ -99,8 +100,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let regressor = SpringRegressor::new(&hexapod, &settings, 1, weights);
         bench.design(&regressor, springs(&hexapod))?
     } else {
-        let nominal = Vector6::from(nominal_compliance(&hexapod));
-        let regressor = ModelRegressor::new(&hexapod, nominal, noise(&weights), &terms, &settings, 1)?;
+        let noise = Noise::stated(1.0 / weights.translation, 1.0 / weights.rotation);
+        let nominal = nominal::compliance(&hexapod);
+        let regressor = ModelRegressor::new(&hexapod, nominal, noise, &terms, &settings, 1)?;
         bench.design(
             &regressor,
             springs(&hexapod).into_iter().chain(sized(&terms, regressor.sizes())).collect(),
@@ -128,7 +130,7 @@ fn asked(arguments: &Arguments) -> Result<Option<Amount>, Failure> {
 
 /// The stiffnesses of the legs.
 fn springs(hexapod: &Hexapod) -> Vec<Quantity> {
-    let stiffness = nominal_compliance(hexapod).map(|c| 1e-6 / c);
+    let stiffness = nominal::stiffness(hexapod).map(|k| 1e-6 * k);
     (1..)
         .zip(stiffness)
         .map(|(leg, size)| Quantity { name: format!("leg-{leg}.stiffness"), unit: "N/um", size })
@@ -161,21 +163,6 @@ fn weights(hexapod: &Hexapod) -> Weights {
     Weights {
         translation: 1.0 / metrology.sigma_translation,
         rotation: 1.0 / metrology.sigma_rotation,
-        compliance: nominal_compliance(hexapod),
-    }
-}
-
-/// Stated, or that of the paper's legs; m/N.
-fn nominal_compliance(hexapod: &Hexapod) -> [f64; 6] {
-    const USUAL_N_PER_M: f64 = 4e6;
-    hexapod.nominal_stiffness.unwrap_or([USUAL_N_PER_M; 6]).map(f64::recip)
-}
-
-fn noise(weights: &Weights) -> Noise {
-    Noise {
-        translation: 1.0 / weights.translation,
-        rotation: 1.0 / weights.rotation,
-        source: NoiseSource::Metrology,
-        dof: f64::INFINITY,
+        compliance: nominal::compliance(hexapod).into(),
     }
 }
