@@ -1,0 +1,430 @@
+//! What page and server say to each other, as JSON. Units are in the names; numbers are in the frames of the files.
+//!
+//! Everything loaded is immutable: a bench is made once and answers questions about selections of terms. Undo, and what is ticked,
+//! are the page's own; two tabs cannot disturb each other.
+
+use hexbench_model::diagnose::Diagnosis;
+use hexbench_model::estimate::Estimate;
+use hexbench_model::residuals::ErrorSummary;
+use serde::{Deserialize, Serialize};
+
+/// Answer to `GET /api/catalogue`: what there is to choose from.
+#[derive(Debug, Clone, Serialize)]
+pub struct Catalogue {
+    /// Version of the program.
+    pub version: &'static str,
+    /// Terms of the model, in the order of the catalogue.
+    pub terms: Vec<TermCard>,
+    /// Bundled measurements.
+    pub cases: Vec<Choice>,
+    /// Families of machines that can be simulated.
+    pub machines: Vec<Choice>,
+    /// Plans of a simulated campaign.
+    pub plans: Vec<Choice>,
+    /// Effects that can be put into a simulated machine; those outside the catalogue begin with `out:`.
+    pub effects: Vec<Choice>,
+    /// What a formula of one's own may use.
+    pub formula: FormulaHelp,
+    /// What the server accepts.
+    pub limits: Limits,
+}
+
+/// A term of the model.
+#[derive(Debug, Clone, Serialize)]
+pub struct TermCard {
+    /// Kebab-case id.
+    pub id: String,
+    /// A few words.
+    pub title: String,
+    /// One or two sentences.
+    pub physics: String,
+    /// First-order equation.
+    pub equation: String,
+    /// What the data must contain for it to show.
+    pub shows: String,
+    /// Names of its parameters with their units.
+    pub parameters: Vec<NamedUnit>,
+}
+
+/// A name and a unit.
+#[derive(Debug, Clone, Serialize)]
+pub struct NamedUnit {
+    /// Name.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+}
+
+/// Something to choose.
+#[derive(Debug, Clone, Serialize)]
+pub struct Choice {
+    /// What is sent back.
+    pub id: String,
+    /// What people read.
+    pub title: String,
+    /// A sentence more; may be empty.
+    pub text: String,
+}
+
+/// What a formula may use.
+#[derive(Debug, Clone, Serialize)]
+pub struct FormulaHelp {
+    /// Names and meanings, with units.
+    pub variables: Vec<Choice>,
+    /// Names of functions.
+    pub functions: Vec<String>,
+    /// Units a parameter may have.
+    pub units: Vec<String>,
+    /// A term file to begin with.
+    pub example: String,
+}
+
+/// What the server accepts.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Limits {
+    /// Bytes of a request.
+    pub bytes: usize,
+    /// Readings of a file.
+    pub rows: usize,
+    /// Terms of one's own in a request.
+    pub own_terms: usize,
+    /// Benches kept; the one unused for longest gives way.
+    pub benches: usize,
+}
+
+/// Body of `POST /api/benches`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(tag = "from", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Open {
+    /// Measurements that come with the program.
+    Case {
+        /// One of [`Catalogue::cases`].
+        id: String,
+    },
+    /// The files given on the command line, when there are any.
+    Given {},
+    /// Files the page has read; their names are only shown.
+    Files {
+        /// hexapod.toml
+        hexapod: Text,
+        /// measurements.csv
+        data: Text,
+        /// holdout.csv
+        holdout: Option<Text>,
+    },
+    /// A machine simulated on the spot.
+    Simulation {
+        /// One of [`Catalogue::machines`].
+        machine: String,
+        /// One of [`Catalogue::plans`].
+        plan: String,
+        /// Ids of [`Catalogue::effects`].
+        effects: Vec<String>,
+        /// How far each effect stands out of what the springs can absorb, in units of the noise; none: its usual size.
+        distance: Option<f64>,
+        /// Decides machine, plan and noise; none: drawn.
+        seed: Option<u64>,
+    },
+    /// Something is hidden from the user.
+    Game {
+        /// How hard.
+        level: Level,
+        /// Decides everything; none: drawn.
+        seed: Option<u64>,
+    },
+}
+
+/// How hard a game is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Level {
+    /// One effect of the catalogue, easy to see.
+    Easy,
+    /// One or two effects.
+    Hard,
+    /// Anything: nothing at all, one, two, or something the catalogue does not know.
+    Honest,
+}
+
+/// A file as text.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Text {
+    /// Its name, for messages; never used to find a file.
+    pub name: String,
+    /// What is in it.
+    pub text: String,
+}
+
+/// Answer to `POST /api/benches` (201).
+#[derive(Debug, Clone, Serialize)]
+pub struct Opened {
+    /// Names it in later requests.
+    pub id: String,
+    /// Name of the machine.
+    pub title: String,
+    /// A line each: files, readings, noise.
+    pub about: Vec<String>,
+    /// What a simulation was made from, to make it again.
+    pub seed: Option<u64>,
+    /// What was put in, unless it is hidden; empty when nothing was, absent for measurements.
+    pub contains: Option<Vec<Hidden>>,
+    /// True for a game: what is in it is told by `reveal` only.
+    pub sealed: bool,
+    /// True for absolute poses, false for deflections.
+    pub absolute: bool,
+    /// Readings fitted.
+    pub readings: usize,
+    /// Standard deviation of one reading.
+    pub noise: Noise,
+    /// Why a term cannot be tested with these data; terms not listed can.
+    pub untestable: Vec<Untestable>,
+    /// Base joints, mm, fixed frame.
+    pub base_joints_mm: [[f64; 3]; 6],
+    /// Where and how was measured.
+    pub conditions: Conditions,
+    /// The springs alone.
+    pub view: View,
+}
+
+/// Noise of one reading.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Noise {
+    /// Of a translation, um.
+    pub translation_um: f64,
+    /// Of a rotation, urad.
+    pub rotation_urad: f64,
+    /// Where it comes from.
+    pub source: &'static str,
+}
+
+/// A term the data cannot speak about.
+#[derive(Debug, Clone, Serialize)]
+pub struct Untestable {
+    /// Its id.
+    pub term: String,
+    /// Why.
+    pub why: String,
+}
+
+/// Conditions (readings averaged where all that was set is equal), one entry per condition shown in every list. Deflections are
+/// loaded minus reference; of an absolute pose what is measured beside what is commanded.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Conditions {
+    /// How many there are; those shown are evenly chosen.
+    pub of: usize,
+    /// a, b, c (mm), alpha, beta, gamma (deg).
+    pub pose: Vec<[f64; 6]>,
+    /// Change of the wrench: N, N m.
+    pub wrench: Vec<[f64; 6]>,
+    /// Change of the leg forces, N, tension positive.
+    pub leg_force_n: Vec<[f64; 6]>,
+    /// Leg lengths, mm.
+    pub leg_length_mm: Vec<[f64; 6]>,
+    /// Time since the reference, s.
+    pub elapsed_s: Vec<f64>,
+    /// Temperature since the reference, K.
+    pub delta_t_k: Vec<f64>,
+    /// 1 or -1.
+    pub approach: Vec<f64>,
+    /// Platform joints before the load, mm, fixed frame.
+    pub platform_joints_mm: Vec<[[f64; 3]; 6]>,
+    /// Measured: a, b, c (um), alpha, beta, gamma (urad).
+    pub measured: Vec<[f64; 6]>,
+    /// The same as motion of the platform at its origin, fixed axes: um, urad (rotation vector).
+    pub measured_motion: Vec<[f64; 6]>,
+}
+
+/// Body of `POST /api/benches/{id}/view`: the model asked about.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Selection {
+    /// Ids in the order of ticking, of the catalogue and of one's own.
+    #[serde(default)]
+    pub terms: Vec<String>,
+    /// Term files (term/1) of one's own, as text.
+    #[serde(default)]
+    pub own: Vec<String>,
+}
+
+/// Answer to `POST /api/benches/{id}/view`: springs and the selected terms, fitted to the data.
+#[derive(Debug, Clone, Serialize)]
+pub struct View {
+    /// The selection, in its order.
+    pub terms: Vec<String>,
+    /// Error on the readings fitted.
+    pub fitted: ErrorSummary,
+    /// Error on held-out readings; absent where none can be held out.
+    pub holdout: Option<ErrorSummary>,
+    /// `holdout file` or `poses left out in turn`.
+    pub held_out: &'static str,
+    /// Held-out error (else fitted) as a multiple of the noise.
+    pub times_noise: f64,
+    /// True when that is what noise alone gives.
+    pub at_the_noise: bool,
+    /// Numbers of the terms.
+    pub parameters: Vec<Estimate>,
+    /// Leg stiffness, N/um.
+    pub legs: [Leg; 6],
+    /// Names of what the data leave open.
+    pub not_determined: Vec<String>,
+    /// Pairs of numbers that can hardly be told apart.
+    pub look_alikes: Vec<LookAlike>,
+    /// Elongation of each leg the model leaves, um, per condition shown.
+    pub residual_um: Vec<[f64; 6]>,
+    /// Prediction in measured coordinates, um and urad, per condition shown.
+    pub predicted: Vec<[f64; 6]>,
+    /// Prediction as motion of the platform, um and urad, per condition shown.
+    pub predicted_motion: Vec<[f64; 6]>,
+    /// Are the residuals noise?
+    pub scatter: Scatter,
+    /// Time taken on the server, ms.
+    pub milliseconds: f64,
+}
+
+/// Stiffness of one leg, N/um; absent where the data leave it open.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Leg {
+    /// Stiffness.
+    pub stiffness: Option<f64>,
+    /// Standard uncertainty (k = 1).
+    pub std: Option<f64>,
+    /// As the machine's file states it.
+    pub nominal: Option<f64>,
+}
+
+/// Two numbers with correlated estimates.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LookAlike {
+    /// One.
+    pub a: String,
+    /// The other.
+    pub b: String,
+    /// Correlation of the estimates.
+    pub correlation: f64,
+}
+
+/// Residuals of single readings in units of the noise.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Scatter {
+    /// Outline of the histogram: residual, share per unit.
+    pub histogram: Vec<[f64; 2]>,
+    /// Normal plot: expected of noise, found.
+    pub quantiles: Vec<[f64; 2]>,
+}
+
+/// Body of `POST /api/benches/{id}/diagnosis`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ask {
+    /// Term files of one's own that compete.
+    #[serde(default)]
+    pub own: Vec<String>,
+}
+
+/// Answer to `POST /api/benches/{id}/diagnosis`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Diagnosed {
+    /// `named`, `ambiguous`, `adequate`, `outside`.
+    pub word: &'static str,
+    /// The verdict in a sentence or two.
+    pub sentences: Vec<String>,
+    /// Probability that each is at work, most probable first.
+    pub probabilities: Vec<Probability>,
+    /// What to measure next, a sentence each; empty when nothing is open.
+    pub next: Vec<String>,
+    /// Everything, as `diagnose --json` writes it.
+    pub diagnosis: Diagnosis,
+    /// Time taken on the server, ms.
+    pub milliseconds: f64,
+}
+
+/// An explanation and how sure it is.
+#[derive(Debug, Clone, Serialize)]
+pub struct Probability {
+    /// Id of the term, `none` or `outside`.
+    pub id: String,
+    /// In words.
+    pub title: String,
+    /// 0 to 1.
+    pub probability: f64,
+    /// Ids of terms that look the same in these data.
+    pub alike: Vec<String>,
+}
+
+/// Body of `POST /api/benches/{id}/export`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Export {
+    /// What.
+    pub what: What,
+    /// The model, for `model`; the competitors of one's own, for `report` and `diagnosis`.
+    #[serde(flatten)]
+    pub selection: Selection,
+}
+
+/// What can be taken home.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum What {
+    /// model.toml of the selection.
+    Model,
+    /// The page of `diagnose --html`.
+    Report,
+    /// `diagnose --json`.
+    Diagnosis,
+    /// The machine's file.
+    Hexapod,
+    /// The measurements.
+    Measurements,
+    /// The held-out measurements.
+    Holdout,
+}
+
+/// Answer to `POST /api/benches/{id}/export`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Exported {
+    /// Name for the file.
+    pub name: String,
+    /// Media type.
+    pub media: &'static str,
+    /// What is in it.
+    pub text: String,
+}
+
+/// Body of `POST /api/benches/{id}/reveal`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Guess {
+    /// Ids of terms; `outside` for something the catalogue does not know; empty: nothing is hidden.
+    pub guess: Vec<String>,
+}
+
+/// Answer to `POST /api/benches/{id}/reveal`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Revealed {
+    /// True when the guess names all that is hidden and nothing else.
+    pub right: bool,
+    /// What is hidden.
+    pub hidden: Vec<Hidden>,
+    /// True leg stiffness, N/um.
+    pub leg_stiffness: [f64; 6],
+}
+
+/// An effect in a simulated machine.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Hidden {
+    /// Its id; `out:...` when the catalogue lacks it.
+    pub id: String,
+    /// In words.
+    pub title: String,
+}
+
+/// Body of every refusal.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Refused {
+    /// What is wrong.
+    pub error: String,
+    /// What to do.
+    pub next: String,
+}
