@@ -148,6 +148,14 @@ pub(crate) enum Failure {
     /// A page that cannot be drawn.
     #[error("{0}")]
     Report(#[from] ReportError),
+    /// A server that cannot begin.
+    #[error("port {port} on 127.0.0.1 cannot be used: {cause}")]
+    Server {
+        /// Its port; 0: any.
+        port: u16,
+        /// Why not.
+        cause: io::Error,
+    },
     /// Output that cannot be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Output {
@@ -184,9 +192,11 @@ impl Failure {
             | Self::SceneState { .. }
             | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
-            Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } | Self::Simulation(_) => {
-                Exit::InputOutput
-            }
+            Self::UserTerm { .. }
+            | Self::Output { .. }
+            | Self::Server { .. }
+            | Self::Unreadable { .. }
+            | Self::Simulation(_) => Exit::InputOutput,
         }
     }
 
@@ -237,6 +247,9 @@ impl Failure {
             Self::Plot(_) => Some("Give more trials.".into()),
             Self::Report(_) => Some("Leave --html away: the page in the terminal needs no charts.".into()),
             Self::Reproduction(_) => Some("Give another seed.".into()),
+            Self::Server { .. } => {
+                Some("Leave --port away: a free port is then chosen.".into())
+            }
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())
             }
