@@ -11,6 +11,7 @@ use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
 use hexbench_model::registration::RegistrationError;
 use hexbench_model::user_term::UserTermError;
+use hexbench_pages::html::ReportError;
 use hexbench_report::plot::PlotError;
 use hexbench_study::StudyError;
 use hexbench_truth::TruthError;
@@ -21,7 +22,6 @@ use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
 use crate::output::{Colour, report};
-use crate::report::ReportError;
 
 /// Exit codes of the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

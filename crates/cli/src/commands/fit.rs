@@ -16,11 +16,11 @@ use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::paper::fit_paper;
 use hexbench_model::residuals::{ErrorSummary, prediction_errors, residuals, summarise};
 use hexbench_model::term::Term;
+use hexbench_pages::fitted;
 
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Screen;
-use crate::page::fitted;
 
 /// Fit leg stiffnesses and the effects you name, and save the model
 #[derive(Debug, Args)]

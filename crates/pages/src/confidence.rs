@@ -2,10 +2,10 @@
 
 use hexbench_model::diagnose::{CandidateReport, Diagnosis};
 use hexbench_model::verdict::{NONE, OUTSIDE, Verdict};
+use hexbench_report::number::percent;
 
 use super::conclusion::{in_words, joined};
-use crate::output::number::percent;
-use crate::output::{Paper, bar};
+use crate::text::{Paper, bar};
 
 /// Least probability that gets a line.
 const WORTH_A_LINE: f64 = 0.03;
@@ -18,11 +18,11 @@ const BAR: usize = 24;
 const LABEL: usize = 34;
 
 /// What the probabilities of effects mean beside something unknown.
-pub(crate) const BESIDE_OUTSIDE: &str = "Beside something without a name the other lines say what helps to fit it, not what is \
+pub const BESIDE_OUTSIDE: &str = "Beside something without a name the other lines say what helps to fit it, not what is \
                                          there: catalogue terms imitate it.";
 
 /// Probabilities that each effect is at work, alone or beside others.
-pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
+pub fn section(paper: &mut Paper, d: &Diagnosis) {
     paper.heading("How sure", "probability that each is at work, alone or with others");
     let all = probabilities(d);
     let shown =
@@ -42,7 +42,7 @@ pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
 }
 
 /// Effects, something outside, and nothing at all, the most probable first.
-pub(crate) fn probabilities(d: &Diagnosis) -> Vec<(String, f64)> {
+pub fn probabilities(d: &Diagnosis) -> Vec<(String, f64)> {
     let mut all: Vec<(String, f64)> = d.present.iter().map(|(id, p)| (id.clone(), *p)).collect();
     let special = d.candidates.iter().filter(|c| c.term == NONE || c.term == OUTSIDE);
     all.extend(special.map(|c| (c.term.clone(), c.probability)));

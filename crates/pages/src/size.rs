@@ -2,10 +2,10 @@
 
 use hexbench_model::diagnose::Diagnosis;
 use hexbench_model::estimate::Estimate;
+use hexbench_report::number::with_uncertainty;
 
 use super::conclusion::joined;
-use crate::output::number::with_uncertainty;
-use crate::output::{Paper, Table};
+use crate::text::{Paper, Table};
 
 /// Most parameters of one effect on the page.
 const MOST_LINES: usize = 8;

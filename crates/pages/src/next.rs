@@ -4,17 +4,17 @@ use hexbench_core::Observation;
 use hexbench_model::diagnose::{Diagnosis, NextReport, SeparationReport};
 use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::{NONE, Verdict};
+use hexbench_report::number::{percent, significant};
 
 use super::conclusion::in_words;
-use crate::output::Paper;
-use crate::output::number::{percent, significant};
+use crate::text::Paper;
 
 const LABEL: usize = 16;
 /// Odds beyond which a number says no more than "overwhelming".
 const OVERWHELMING: f64 = 1e4;
 
 /// Readings that separate the rivals; else what makes each of them visible.
-pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
+pub fn section(paper: &mut Paper, d: &Diagnosis) {
     if d.verdict != Verdict::Ambiguous {
         return;
     }
@@ -54,7 +54,7 @@ fn differ(a: &[f64; 6], b: &[f64; 6]) -> bool {
 }
 
 /// `base-compliance from leg-coupling`; `creep or nothing more`, beside what both have.
-pub(crate) fn rivals(pair: &[String; 2], word: &str) -> String {
+pub fn rivals(pair: &[String; 2], word: &str) -> String {
     match pair.each_ref().map(String::as_str) {
         [NONE, more] | [more, NONE] => format!("{more} {word} nothing more"),
         [a, b] => format!("{} {word} {}", in_words(a), in_words(b)),
@@ -68,25 +68,25 @@ fn round(x: f64) -> String {
 }
 
 /// A pose from mm and deg.
-pub(crate) fn pose(x: &[f64; 6]) -> String {
+pub fn pose(x: &[f64; 6]) -> String {
     let [a, b, c, alpha, beta, gamma] = x.map(round);
     format!("({a}, {b}, {c}) mm, ({alpha}, {beta}, {gamma}) deg")
 }
 
 /// Pose of a reading, mm and deg.
-pub(crate) fn settings(o: &Observation) -> [f64; 6] {
+pub fn settings(o: &Observation) -> [f64; 6] {
     let pose = o.pose.to_array();
     std::array::from_fn(|k| if k < 3 { pose[k] * 1e3 } else { pose[k].to_degrees() })
 }
 
 /// A wrench in N and N m.
-pub(crate) fn load(w: &[f64; 6]) -> String {
+pub fn load(w: &[f64; 6]) -> String {
     let [fx, fy, fz, mx, my, mz] = w.map(|x| significant(x, 3).parse().map_or(String::new(), round));
     format!("F ({fx}, {fy}, {fz}) N, M ({mx}, {my}, {mz}) N m")
 }
 
 /// How a reading is taken.
-pub(crate) fn way(approach: f64, elapsed_s: f64, delta_t_k: f64, repeats: usize) -> String {
+pub fn way(approach: f64, elapsed_s: f64, delta_t_k: f64, repeats: usize) -> String {
     let side = if approach < 0.0 {
         "exceed the load by 40 % of its change and come back (approach -1)"
     } else {

@@ -13,29 +13,35 @@ use hexbench_model::error::ModelError;
 use hexbench_report::html::{Page, PageError};
 use hexbench_report::plot::PlotError;
 
-use crate::page::Subject;
+use crate::Subject;
 
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum ReportError {
+pub enum ReportError {
+    /// A chart that cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// A page that cannot be laid out.
     #[error(transparent)]
     Page(#[from] PageError),
+    /// A model that cannot be computed again.
     #[error(transparent)]
     Model(#[from] ModelError),
 }
 
 /// What made the page, for its foot.
-pub(crate) struct Provenance {
+pub struct Provenance {
     /// The command line.
-    pub(crate) command: String,
+    pub command: String,
     /// Files read, each with its digest.
-    pub(crate) files: Vec<(String, String)>,
+    pub files: Vec<(String, String)>,
 }
 
 /// The page of a diagnosis.
-pub(crate) fn diagnosis(subject: &Subject<'_>, provenance: &Provenance) -> Result<String, ReportError> {
+///
+/// # Errors
+/// [`ReportError`] when a chart or the page cannot be made.
+pub fn diagnosis(subject: &Subject<'_>, provenance: &Provenance) -> Result<String, ReportError> {
     let d = &subject.study.diagnosis;
     let data = data::Data::of(subject)?;
     let sections = [

@@ -4,11 +4,11 @@ use hexbench_core::Hexapod;
 use hexbench_model::diagnose::{Diagnosis, NextReport};
 use hexbench_model::estimate::{Estimate, parameter_names};
 use hexbench_report::html::{Block, Cell, Section};
+use hexbench_report::number::{significant, with_uncertainty};
 use hexbench_report::plot::HeatMap;
 
 use super::{Provenance, ReportError};
-use crate::output::number::{significant, with_uncertainty};
-use crate::page::{Subject, notes};
+use crate::{Subject, notes};
 
 /// Columns of a correlation map that can be read.
 const MOST_COLUMNS: usize = 24;

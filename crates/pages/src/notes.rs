@@ -1,15 +1,15 @@
 //! Suspect readings and warnings.
 
 use hexbench_model::diagnose::Diagnosis;
+use hexbench_report::number::significant;
 
-use crate::output::Paper;
-use crate::output::number::significant;
+use crate::text::Paper;
 
 /// Most readings listed.
 const MOST_SUSPECTS: usize = 5;
 
 /// What to look at before trusting the numbers.
-pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
+pub fn section(paper: &mut Paper, d: &Diagnosis) {
     if d.suspects.is_empty() && d.warnings.is_empty() {
         return;
     }
@@ -23,17 +23,17 @@ pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
 }
 
 /// Frames and signs.
-pub(crate) const CONVENTIONS: &str = "Fixed axes of the base unless a term says mobile; wrenches act on the platform at the mobile \
+pub const CONVENTIONS: &str = "Fixed axes of the base unless a term says mobile; wrenches act on the platform at the mobile \
                                       origin; deflection = loaded minus reference; tension is positive.";
 
 /// Frames and signs, the same on every page.
-pub(crate) fn conventions(paper: &mut Paper) {
+pub fn conventions(paper: &mut Paper) {
     paper.heading("Conventions", "");
     paper.paragraph(2, CONVENTIONS);
 }
 
 /// Readings far from every prediction, in a sentence.
-pub(crate) fn suspects(d: &Diagnosis) -> String {
+pub fn suspects(d: &Diagnosis) -> String {
     let mut worst: Vec<_> = d.suspects.iter().collect();
     worst.sort_by(|a, b| b.z.total_cmp(&a.z));
     let listed: Vec<String> = worst

@@ -4,7 +4,7 @@ use hexbench_model::diagnose::{Diagnosis, StepReport};
 use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::Verdict;
 
-use crate::output::{Ink, Paper};
+use crate::text::{Ink, Paper};
 
 /// Least excess of the held-out chi-square that counts as above the noise.
 const LEAST_EXCESS: f64 = 0.2;
@@ -12,7 +12,7 @@ const LEAST_EXCESS: f64 = 0.2;
 const CHANCE: f64 = 3.1;
 
 /// One word for a verdict, as in the files.
-pub(crate) fn word(verdict: Verdict) -> &'static str {
+pub fn word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Adequate => "adequate",
         Verdict::Named => "named",
@@ -22,7 +22,7 @@ pub(crate) fn word(verdict: Verdict) -> &'static str {
 }
 
 /// The verdict.
-pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
+pub fn section(paper: &mut Paper, d: &Diagnosis) {
     paper.heading("Verdict", "");
     let painted = paint(paper.ink(), d.verdict);
     paper.line(&format!("  {painted}"));
@@ -41,7 +41,7 @@ fn paint(ink: Ink, verdict: Verdict) -> String {
 }
 
 /// The verdict in a sentence or two.
-pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
+pub fn sentences(d: &Diagnosis) -> Vec<String> {
     match d.verdict {
         Verdict::Adequate => vec![
             "The springs alone explain these measurements: nothing is missing that these data could show. What \
@@ -55,7 +55,7 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
 }
 
 /// `The model lacks one effect: the foundation yields (base-compliance).`
-pub(crate) fn lacks(ids: &[String]) -> String {
+pub fn lacks(ids: &[String]) -> String {
     let names: Vec<String> = ids.iter().map(|id| described(id)).collect();
     match ids.len() {
         1 => format!("The model lacks one effect: {}.", names[0]),
@@ -64,7 +64,7 @@ pub(crate) fn lacks(ids: &[String]) -> String {
 }
 
 /// `the foundation yields (base-compliance)`.
-pub(crate) fn described(id: &str) -> String {
+pub fn described(id: &str) -> String {
     let terms = catalogue();
     let title = terms.iter().find(|t| t.info().id == id).map(|t| t.info().title);
     title.map_or_else(|| id.to_owned(), |title| format!("{} ({id})", lower_first(title)))
@@ -76,7 +76,7 @@ fn lower_first(text: &str) -> String {
 }
 
 /// `a, b and c`.
-pub(crate) fn joined<S: AsRef<str>>(parts: &[S], last: &str) -> String {
+pub fn joined<S: AsRef<str>>(parts: &[S], last: &str) -> String {
     match parts {
         [] => String::new(),
         [one] => one.as_ref().to_owned(),
@@ -88,7 +88,7 @@ pub(crate) fn joined<S: AsRef<str>>(parts: &[S], last: &str) -> String {
 }
 
 /// How the held-out error falls, in multiples of the noise.
-pub(crate) fn error_statement(steps: &[StepReport]) -> String {
+pub fn error_statement(steps: &[StepReport]) -> String {
     let ends = || Some((steps.first()?.holdout?, steps.last()?.holdout?));
     let Some((before, after)) = ends() else { return "No poses could be held out.".to_owned() };
     let multiple = |chi2: f64| super::ladder::multiple(chi2.sqrt());
@@ -106,7 +106,7 @@ pub(crate) fn error_statement(steps: &[StepReport]) -> String {
 }
 
 /// True when a reduced chi-square over `count` numbers is what the noise gives, a little model uncertainty included.
-pub(crate) fn at_the_noise(chi2_reduced: f64, count: usize) -> bool {
+pub fn at_the_noise(chi2_reduced: f64, count: usize) -> bool {
     let spread = CHANCE * (2.0 / count.max(1) as f64).sqrt();
     chi2_reduced < 1.0 + spread.max(LEAST_EXCESS)
 }
@@ -126,7 +126,7 @@ fn ambiguous(d: &Diagnosis) -> Vec<String> {
 }
 
 /// A credible explanation in words.
-pub(crate) fn in_words(id: &str) -> &str {
+pub fn in_words(id: &str) -> &str {
     match id {
         "none" => "nothing beyond the springs",
         "outside" => "something outside the catalogue",

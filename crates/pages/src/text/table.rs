@@ -2,25 +2,25 @@
 
 /// Rows of cells; the first column is left-aligned, the others right-aligned unless said otherwise.
 #[derive(Debug, Default)]
-pub(crate) struct Table {
+pub struct Table {
     rows: Vec<Vec<String>>,
     left: Option<usize>,
 }
 
 impl Table {
     /// Add a row.
-    pub(crate) fn row<S: Into<String>>(&mut self, cells: impl IntoIterator<Item = S>) {
+    pub fn row<S: Into<String>>(&mut self, cells: impl IntoIterator<Item = S>) {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
 
     /// The same table with one more column left-aligned.
     #[must_use]
-    pub(crate) fn left(self, column: usize) -> Self {
+    pub fn left(self, column: usize) -> Self {
         Self { left: Some(column), ..self }
     }
 
     /// The lines, indented by two, columns two apart.
-    pub(crate) fn lines(&self) -> Vec<String> {
+    pub fn lines(&self) -> Vec<String> {
         let widths = self.widths();
         self.rows.iter().map(|row| self.aligned(row, &widths)).collect()
     }

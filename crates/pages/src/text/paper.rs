@@ -3,33 +3,33 @@
 use super::Ink;
 
 /// Columns of a page.
-pub(crate) const WIDTH: usize = 80;
+pub const WIDTH: usize = 80;
 
 /// Collects headings, paragraphs and lines.
 #[derive(Debug)]
-pub(crate) struct Paper {
+pub struct Paper {
     text: String,
     ink: Ink,
 }
 
 impl Paper {
     /// An empty page.
-    pub(crate) fn new(ink: Ink) -> Self {
+    pub fn new(ink: Ink) -> Self {
         Self { text: String::new(), ink }
     }
 
     /// How words are painted on it.
-    pub(crate) fn ink(&self) -> Ink {
+    pub fn ink(&self) -> Ink {
         self.ink
     }
 
     /// What is on it.
-    pub(crate) fn into_text(self) -> String {
+    pub fn into_text(self) -> String {
         self.text
     }
 
     /// An empty line, then a heading and an explanation in small print.
-    pub(crate) fn heading(&mut self, heading: &str, remark: &str) {
+    pub fn heading(&mut self, heading: &str, remark: &str) {
         if !self.text.is_empty() {
             self.text.push('\n');
         }
@@ -47,18 +47,18 @@ impl Paper {
     }
 
     /// One line as it is; non-breaking blanks have done their work.
-    pub(crate) fn line(&mut self, line: &str) {
+    pub fn line(&mut self, line: &str) {
         self.text.push_str(&line.trim_end().replace('\u{a0}', " "));
         self.text.push('\n');
     }
 
     /// Text wrapped to the width, every line indented.
-    pub(crate) fn paragraph(&mut self, indent: usize, text: &str) {
+    pub fn paragraph(&mut self, indent: usize, text: &str) {
         self.hanging(&" ".repeat(indent), indent, text);
     }
 
     /// `label`, then text wrapped beside it from column `indent` on.
-    pub(crate) fn hanging(&mut self, label: &str, indent: usize, text: &str) {
+    pub fn hanging(&mut self, label: &str, indent: usize, text: &str) {
         let label_width = label.chars().count();
         let mut start = format!("{label}{}", " ".repeat(indent.saturating_sub(label_width)));
         for line in wrap(text, WIDTH - indent) {
@@ -70,7 +70,7 @@ impl Paper {
 }
 
 /// Lines of at most `width` characters; a longer word stands alone.
-pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
+fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split([' ', '\n']).filter(|word| !word.is_empty()) {
         match lines.last_mut() {

@@ -2,7 +2,7 @@
 
 use hexbench_model::diagnose::{Diagnosis, OutsideReport};
 
-use crate::output::Paper;
+use crate::text::Paper;
 
 /// Where a pattern outside the catalogue points to.
 pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {

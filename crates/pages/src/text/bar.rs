@@ -1,7 +1,7 @@
 //! Bars of text.
 
 /// A bar of `share` of `width` columns, rounded.
-pub(crate) fn bar(share: f64, width: usize) -> String {
+pub fn bar(share: f64, width: usize) -> String {
     let length = share * width as f64;
     (0..width).take_while(|k| *k as f64 + 0.5 <= length).map(|_| '#').collect()
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use hexbench_model::diagnose::Diagnosis;
 use hexbench_model::power::Detectable;
+use hexbench_report::number::significant;
 
-use crate::output::number::significant;
-use crate::output::{Paper, Table};
+use crate::text::{Paper, Table};
 
 /// A blank at which no line is broken.
 const NO_BREAK: &str = "\u{a0}";

@@ -6,10 +6,10 @@ use hexbench_core::Vector6;
 use hexbench_model::campaign::Condition;
 use hexbench_model::error::ModelError;
 use hexbench_model::linearization::Linearization;
+use hexbench_report::number::significant;
 
 use super::subject::Subject;
-use crate::output::number::significant;
-use crate::output::{Paper, Table};
+use crate::text::{Paper, Table};
 
 /// Sums of squares per leg under one load.
 struct Row {

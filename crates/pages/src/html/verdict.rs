@@ -3,9 +3,9 @@
 use hexbench_model::diagnose::{Diagnosis, StepReport};
 use hexbench_model::verdict::{OUTSIDE, Verdict};
 use hexbench_report::html::{Block, Cell, Mood, Section};
+use hexbench_report::number::{percent, significant};
 
-use crate::output::number::{percent, significant};
-use crate::page::{conclusion, confidence, ladder as rungs};
+use crate::{conclusion, confidence, ladder as rungs};
 
 /// Names of the measured numbers, translations first.
 const COORDINATES: [&str; 6] = ["a um", "b um", "c um", "alpha urad", "beta urad", "gamma urad"];

@@ -4,25 +4,25 @@ use std::collections::BTreeSet;
 
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::diagnose::{NoiseReport, Study};
+use hexbench_report::number::significant;
 
-use crate::output::Paper;
-use crate::output::number::significant;
+use crate::text::Paper;
 
 /// A machine, its measurements, and what was found.
-pub(crate) struct Subject<'a> {
+pub struct Subject<'a> {
     /// The machine.
-    pub(crate) hexapod: &'a Hexapod,
+    pub hexapod: &'a Hexapod,
     /// The readings fitted.
-    pub(crate) data: &'a Dataset,
+    pub data: &'a Dataset,
     /// The readings held out, when they come from a file of their own.
-    pub(crate) holdout: Option<&'a Dataset>,
+    pub holdout: Option<&'a Dataset>,
     /// What was found.
-    pub(crate) study: &'a Study,
+    pub study: &'a Study,
 }
 
 impl Subject<'_> {
     /// Machine, files, noise.
-    pub(crate) fn head(&self, paper: &mut Paper) {
+    pub fn head(&self, paper: &mut Paper) {
         paper.heading(&format!("hexbench diagnose: {}", self.hexapod.name), "");
         paper.hanging("  data", LABEL, &describe(self.data));
         if let Some(holdout) = self.holdout {
@@ -32,7 +32,7 @@ impl Subject<'_> {
     }
 
     /// The same, a line each.
-    pub(crate) fn lines(&self) -> Vec<String> {
+    pub fn lines(&self) -> Vec<String> {
         let holdout = self.holdout.map(|h| format!("held out {}", describe(h)));
         let noise = format!("noise {}", noise(&self.study.diagnosis.noise));
         std::iter::once(describe(self.data)).chain(holdout).chain([noise]).collect()
@@ -42,13 +42,13 @@ impl Subject<'_> {
 const LABEL: usize = 12;
 
 /// File, kind and number of readings.
-pub(crate) fn describe(data: &Dataset) -> String {
+pub fn describe(data: &Dataset) -> String {
     let kind = if data.is_absolute() { "absolute poses" } else { "deflections" };
     format!("{}: {} {kind} at {} poses", data.source, data.observations.len(), poses(data))
 }
 
 /// Number of different commanded poses.
-pub(crate) fn poses(data: &Dataset) -> usize {
+pub fn poses(data: &Dataset) -> usize {
     let key = |o: &hexbench_core::Observation| o.pose.to_array().map(|x| (x + 0.0).to_bits());
     data.observations.iter().map(key).collect::<BTreeSet<_>>().len()
 }

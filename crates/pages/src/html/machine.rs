@@ -4,12 +4,12 @@ use hexbench_core::{Vector3, Vector6};
 use hexbench_model::campaign::Condition;
 use hexbench_model::linearization::Linearization;
 use hexbench_report::html::{Block, Section};
+use hexbench_report::number::significant;
 use hexbench_report::plot::{Edge, Wireframe};
 
 use super::ReportError;
 use super::data::Data;
 use super::figures::{FINAL, MEASURED, SPRINGS};
-use crate::output::number::significant;
 
 /// Longest drawn displacement of a joint, as a share of the platform radius.
 const DRAWN: f64 = 0.35;

@@ -3,9 +3,9 @@
 use hexbench_core::Hexapod;
 use hexbench_model::diagnose::{AbsorbedReport, Diagnosis};
 use hexbench_model::verdict::Verdict;
+use hexbench_report::number::with_uncertainty;
 
-use crate::output::number::with_uncertainty;
-use crate::output::{Paper, Table};
+use crate::text::{Paper, Table};
 
 /// Stiffness per leg with uncertainty, then the bias per effect left out.
 pub(crate) fn section(paper: &mut Paper, hexapod: &Hexapod, d: &Diagnosis, verbose: bool) {

@@ -9,7 +9,7 @@ use hexbench_report::plot::{Axis, Chart, Panels, Series};
 use super::ReportError;
 use super::data::Data;
 use super::figures::{FINAL, MEASURED, SPRINGS};
-use crate::page::Subject;
+use crate::Subject;
 
 /// Readings a panel can show apart.
 const MOST: usize = 120;

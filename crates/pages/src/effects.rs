@@ -6,12 +6,12 @@ use std::sync::Arc;
 use hexbench_model::term::{Term, TermInfo};
 
 use super::effect::{needs, rich};
-use crate::output::{Ink, Paper};
+use crate::text::{Ink, Paper};
 
 const LABEL: usize = 28;
 
 /// One effect per line.
-pub(crate) fn list(terms: &[Arc<dyn Term>], ink: Ink) -> String {
+pub fn list(terms: &[Arc<dyn Term>], ink: Ink) -> String {
     let mut paper = Paper::new(ink);
     paper.heading(&format!("{} effects", terms.len()), "`hexbench terms TERM` explains one");
     for info in terms.iter().map(|t| t.info()) {
@@ -21,7 +21,7 @@ pub(crate) fn list(terms: &[Arc<dyn Term>], ink: Ink) -> String {
 }
 
 /// The page `docs/effects.md`.
-pub(crate) fn markdown(terms: &[Arc<dyn Term>]) -> String {
+pub fn markdown(terms: &[Arc<dyn Term>]) -> String {
     let mut page = introduction(terms.len());
     for info in terms.iter().map(|t| t.info()) {
         // Writing into a String cannot fail.

@@ -4,15 +4,15 @@ use hexbench_model::compare::Comparison;
 use hexbench_model::compare::adequacy::{Adequacy, Test};
 use hexbench_model::compare::design::Design;
 use hexbench_model::words::joined;
+use hexbench_report::number::{rounded, significant};
 
-use crate::output::number::{rounded, significant};
-use crate::output::{Ink, Paper, Table};
+use crate::text::{Ink, Paper, Table};
 
 /// Rows of a list shown; the rest is in the JSON file.
 const SHOWN: usize = 6;
 
 /// The whole page.
-pub(crate) fn page(c: &Comparison, ink: Ink) -> String {
+pub fn page(c: &Comparison, ink: Ink) -> String {
     let mut paper = Paper::new(ink);
     head(&mut paper, c);
     coordinates(&mut paper, c);

@@ -7,10 +7,13 @@ use super::conclusion::{error_statement, lacks};
 use super::ladder::multiple;
 use super::subject::{Subject, describe};
 use super::{confidence, ladder, leg_space, size, stiffness};
-use crate::output::{Ink, Paper};
+use crate::text::{Ink, Paper};
 
 /// From measurements to the named effect.
-pub(crate) fn demo(subject: &Subject<'_>, ink: Ink) -> Result<String, ModelError> {
+///
+/// # Errors
+/// As the linearisation of the model.
+pub fn demo(subject: &Subject<'_>, ink: Ink) -> Result<String, ModelError> {
     let mut paper = Paper::new(ink);
     measurements(&mut paper, subject);
     springs(&mut paper, subject);

@@ -7,9 +7,9 @@ use hexbench_model::fit_named::look_alikes;
 use hexbench_model::model_file::Estimator;
 use hexbench_model::residuals::ErrorSummary;
 use hexbench_model::words::joined;
+use hexbench_report::number::{significant, with_uncertainty};
 
-use crate::output::number::{significant, with_uncertainty};
-use crate::output::{Ink, Paper, Table};
+use crate::text::{Ink, Paper, Table};
 
 /// Correlations larger than this are told.
 const TOLD: f64 = 0.7;
@@ -17,7 +17,7 @@ const TOLD: f64 = 0.7;
 const MOST_TOLD: usize = 10;
 
 /// The whole report.
-pub(crate) fn report(
+pub fn report(
     campaign: &Campaign,
     fit: &Fit,
     estimator: Estimator,

@@ -8,7 +8,7 @@ use hexbench_model::fit::Fit;
 use hexbench_model::linearization::Linearization;
 use hexbench_model::residuals::{Residual, residuals};
 
-use crate::page::Subject;
+use crate::Subject;
 
 /// One model on the fitted readings.
 pub(crate) struct Seen {

@@ -1,13 +1,14 @@
 //! One effect of the catalogue, explained.
 
 use hexbench_model::term::{Need, Rich, TermInfo};
+use hexbench_report::number::significant;
 
-use crate::output::{Ink, Paper, Table, number::significant};
+use crate::text::{Ink, Paper, Table};
 
 const LABEL: usize = 12;
 
 /// Physics, equation, parameters with units, needs, source, and what makes it visible.
-pub(crate) fn text(info: &TermInfo, ink: Ink) -> String {
+pub fn text(info: &TermInfo, ink: Ink) -> String {
     let mut paper = Paper::new(ink);
     paper.heading(info.id, info.title);
     paper.hanging("  physics", LABEL, info.physics);
@@ -36,7 +37,7 @@ fn parameters(info: &TermInfo) -> Table {
 }
 
 /// What the file must hold, in words.
-pub(crate) fn needs(info: &TermInfo) -> String {
+pub fn needs(info: &TermInfo) -> String {
     let words: Vec<&str> = info.needs.iter().map(|n| need(*n)).collect();
     if words.is_empty() { "deflections or absolute poses, no extra column".into() } else { words.join(", ") }
 }
@@ -53,7 +54,7 @@ fn need(need: Need) -> &'static str {
 }
 
 /// What the richer form allows, in words.
-pub(crate) fn rich(rich: Rich) -> &'static str {
+pub fn rich(rich: Rich) -> &'static str {
     match rich {
         Rich::None => "none",
         Rich::PerLeg => "the size may differ from leg to leg",

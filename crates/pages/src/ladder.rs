@@ -2,17 +2,17 @@
 
 use hexbench_model::diagnose::{Diagnosis, StepReport};
 use hexbench_model::residuals::ErrorSummary;
+use hexbench_report::number::significant;
 
 use super::conclusion::at_the_noise;
-use crate::output::number::significant;
-use crate::output::{Ink, Paper, bar};
+use crate::text::{Ink, Paper, bar};
 
 /// Columns of the longest bar.
 const BAR: usize = 22;
 const NAME: usize = 26;
 
 /// One line per step of the model, then the noise.
-pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
+pub fn section(paper: &mut Paper, d: &Diagnosis) {
     let heading = if d.steps.len() > 1 { "The error falls" } else { "The error" };
     paper.heading(heading, how_held_out(d));
     paper.line(&format!("  {:<NAME$}{:>8}{:>8}{:>9}", "", "um", "urad", "x noise"));
@@ -29,7 +29,7 @@ pub(crate) fn section(paper: &mut Paper, d: &Diagnosis) {
 }
 
 /// Where the held-out error comes from.
-pub(crate) fn how_held_out(d: &Diagnosis) -> &'static str {
+pub fn how_held_out(d: &Diagnosis) -> &'static str {
     match d.steps.first().and_then(|s| s.holdout) {
         None => "on the fitted readings: too few poses to hold any out",
         Some(_) if d.holdout == "holdout file" => "on held-out poses (root mean square, holdout file)",
@@ -38,7 +38,7 @@ pub(crate) fn how_held_out(d: &Diagnosis) -> &'static str {
 }
 
 /// `springs alone`, then `+ term`.
-pub(crate) fn name(step: &StepReport) -> String {
+pub fn name(step: &StepReport) -> String {
     step.terms.last().map_or_else(|| "springs alone".to_owned(), |term| format!("+ {term}"))
 }
 
@@ -52,7 +52,7 @@ fn rung(ink: Ink, name: &str, error: &ErrorSummary, largest: f64) -> String {
 }
 
 /// A multiple of the noise with the digits that matter.
-pub(crate) fn multiple(times: f64) -> String {
+pub fn multiple(times: f64) -> String {
     if times < 10.0 { format!("{times:.2}") } else { format!("{times:.0}") }
 }
 
