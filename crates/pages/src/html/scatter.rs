@@ -1,33 +1,30 @@
 //! Are the residuals noise? Histogram and normal plot of the whitened residuals.
 
+use hexbench_model::scatter::Scatter;
 use hexbench_report::html::{Block, Section};
 use hexbench_report::plot::{Axis, Chart, Panels, Series};
-use statrs::distribution::{Continuous, ContinuousCDF, Normal};
+use statrs::distribution::{Continuous, Normal};
 
 use super::ReportError;
-use super::data::{Data, Seen};
+use super::data::Data;
 use super::figures::{FINAL, SPRINGS};
-
-/// Width of a class, standard deviations of one reading.
-const CLASS: f64 = 0.5;
-/// Residuals beyond count in the outermost class.
-const FURTHEST: f64 = 6.0;
-/// Quantiles drawn.
-const QUANTILES: usize = 60;
 
 /// Both charts, before and after.
 pub(crate) fn section(data: &Data) -> Result<Section, ReportError> {
+    let before = Scatter::of(&data.before.readings);
     let mut histogram =
         Chart::new("", Axis::new("residual in units of the noise", ""), Axis::new("share per unit", ""))
             .with(Series::line("noise alone", bell()).as_reference())
-            .with(Series::line("springs alone", shares(&data.before)).with_look(SPRINGS));
+            .with(Series::line("springs alone", before.histogram()).with_look(SPRINGS));
     let mut normal =
         Chart::new("", Axis::new("expected of noise", ""), Axis::new("residual in units of the noise", ""))
             .with(Series::line("noise alone", vec![[-3.0, -3.0], [3.0, 3.0]]).as_reference())
-            .with(Series::markers("springs alone", quantiles(&data.before)).with_look(SPRINGS));
+            .with(Series::markers("springs alone", before.quantiles()).with_look(SPRINGS));
     if let Some(after) = &data.after {
-        histogram = histogram.with(Series::line("with the added effects", shares(after)).with_look(FINAL));
-        normal = normal.with(Series::markers("with the added effects", quantiles(after)).with_look(FINAL));
+        let after = Scatter::of(&after.readings);
+        histogram =
+            histogram.with(Series::line("with the added effects", after.histogram()).with_look(FINAL));
+        normal = normal.with(Series::markers("with the added effects", after.quantiles()).with_look(FINAL));
     }
     let panels = Panels::new("", 2).with_panel_size(450.0, 280.0).with(histogram).with(normal);
     let caption =
@@ -37,45 +34,7 @@ pub(crate) fn section(data: &Data) -> Result<Section, ReportError> {
         .with(Block::figure(&panels.to_svg()?, caption)))
 }
 
-fn sorted(seen: &Seen) -> Vec<f64> {
-    let mut all: Vec<f64> =
-        seen.readings.iter().flat_map(|r| r.whitened.iter().copied().collect::<Vec<_>>()).collect();
-    all.sort_by(f64::total_cmp);
-    all
-}
-
 fn bell() -> Vec<[f64; 2]> {
     let law = Normal::standard();
     (-24..=24).map(|k| f64::from(k) * 0.25).map(|x| [x, law.pdf(x)]).collect()
-}
-
-/// Outline of a histogram.
-fn shares(seen: &Seen) -> Vec<[f64; 2]> {
-    let all = sorted(seen);
-    let n = all.len().max(1) as f64;
-    let classes = (2.0 * FURTHEST / CLASS).round();
-    let mut outline = Vec::new();
-    let mut from = -FURTHEST;
-    while from < FURTHEST - 0.5 * CLASS {
-        let to = from + CLASS;
-        let clamped = all.iter().map(|x| x.clamp(-FURTHEST, FURTHEST - 1e-9));
-        let share = clamped.filter(|x| (from..to).contains(x)).count() as f64 / n / CLASS;
-        outline.extend([[from, share], [to, share]]);
-        from = to;
-    }
-    debug_assert!(outline.len() as f64 <= 2.0 * classes);
-    outline
-}
-
-fn quantiles(seen: &Seen) -> Vec<[f64; 2]> {
-    let all = sorted(seen);
-    let n = all.len();
-    let law = Normal::standard();
-    let count = QUANTILES.min(n);
-    let at = |k: usize| {
-        // Both ends are kept: outliers are what the plot is for.
-        let i = if count > 1 { k * (n - 1) / (count - 1) } else { 0 };
-        [law.inverse_cdf((i as f64 + 0.5) / n as f64), all[i]]
-    };
-    (0..count).map(at).collect()
 }
