@@ -39,6 +39,14 @@ pub fn term_named(id: &str, terms: &[Arc<dyn Term>]) -> Result<Arc<dyn Term>, Mo
 /// As [`fit`]; [`ModelError::Untestable`] for a term whose columns are missing; [`ModelError::Mismatch`] for a term asked
 /// for twice; [`ModelError::NotDetermined`] when a leg stiffness or all parameters of a term are not determined.
 pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, ModelError> {
+    Ok(fit_wanted(campaign, added)?.1)
+}
+
+/// The same fit, and what it asked for, to ask again of other readings.
+///
+/// # Errors
+/// As [`fit_named`].
+pub fn fit_wanted(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<(Vec<Wanted>, Fit), ModelError> {
     refuse_twice(added)?;
     let mut fitted = fit_baseline(campaign)?;
     let natural = fitted.natural(&Linearization::at(campaign, &fitted.point)?);
@@ -54,7 +62,8 @@ pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, Mo
         wanted.push(start);
         fitted = better;
     }
-    Ok(together(campaign, &wanted, fitted))
+    let fitted = together(campaign, &wanted, fitted);
+    Ok((wanted, fitted))
 }
 
 /// The better of a fit reached term by term and one that starts with all terms at once: while a term is still missing, the

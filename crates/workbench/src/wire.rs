@@ -88,8 +88,8 @@ pub struct Limits {
     pub rows: usize,
     /// Terms of one's own in a request.
     pub own_terms: usize,
-    /// Bytes of one of them.
-    pub own_bytes: usize,
+    /// Bytes of a term of one's own.
+    pub term_bytes: usize,
     /// Benches kept; the one unused for longest gives way.
     pub benches: usize,
 }

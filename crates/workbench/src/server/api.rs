@@ -80,7 +80,7 @@ async fn catalogue<D: Desk>(State(shared): Of<D>) -> Response {
 /// Makes a bench, and keeps it when its client is still there.
 async fn open<D: Desk>(State(shared): Of<D>, request: Request) -> Result<Response, Refuse> {
     let (place, bytes) = received(&shared, request).await?;
-    let (name, size) = (shared.store.name(), bytes.len());
+    let name = shared.store.name();
     let id = name.id.clone();
     let job = {
         let shared = Arc::clone(&shared);
@@ -92,7 +92,8 @@ async fn open<D: Desk>(State(shared): Of<D>, request: Request) -> Result<Respons
         }
     };
     let (bench, text) = shared.work.run(place, job).await?;
-    shared.store.keep(&name, bench, size + text.len());
+    let bytes = bench.bytes();
+    shared.store.keep(&name, bench, bytes);
     Ok((StatusCode::CREATED, body::answer(text)).into_response())
 }
 

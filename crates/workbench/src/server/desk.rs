@@ -17,6 +17,8 @@ pub trait Desk: Send + Sync + Sized + 'static {
     fn open(request: &Open, given: Option<&Given>, limits: &Limits) -> Result<Self, Refusal>;
     /// What it is.
     fn opened(&self, id: &str) -> Result<impl Serialize, Refusal>;
+    /// Bytes of the files it was made from.
+    fn bytes(&self) -> usize;
     /// Springs with the selected terms.
     fn view(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The diagnosis.
@@ -38,6 +40,10 @@ impl Desk for Bench {
 
     fn opened(&self, id: &str) -> Result<impl Serialize, Refusal> {
         self.opened(id)
+    }
+
+    fn bytes(&self) -> usize {
+        self.bytes()
     }
 
     fn view(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {

@@ -11,7 +11,7 @@ pub struct Settings {
     pub port: u16,
     /// What the page is told and the engine keeps to.
     pub limits: Limits,
-    /// Bytes of requests and first answers behind all benches kept; the one opened last stays in any case.
+    /// Bytes of the files behind all benches kept, which take some ten times as much; the bench opened last stays in any case.
     pub kept_bytes: usize,
     /// Connections answered at once.
     pub connections: usize,
@@ -37,11 +37,11 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        let limits = Limits { bytes: 32 << 20, rows: 50_000, own_terms: 8, own_bytes: 64 << 10, benches: 8 };
+        let limits = Limits { bytes: 32 << 20, rows: 50_000, own_terms: 8, term_bytes: 64 << 10, benches: 8 };
         Self {
             port: 0,
             limits,
-            kept_bytes: 128 << 20,
+            kept_bytes: 64 << 20,
             connections: 256,
             turned_away: 512,
             computing: 4,

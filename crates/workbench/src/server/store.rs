@@ -32,7 +32,7 @@ struct Entry<B> {
 }
 
 impl<B> Store<B> {
-    /// For this many benches, made from this many bytes together.
+    /// For this many benches of this many bytes together.
     pub(super) fn new(key: Token, most: usize, most_bytes: usize) -> Self {
         Self { key, most, most_bytes, kept: Mutex::new(Kept { next: 1, benches: vec![] }) }
     }
@@ -45,7 +45,7 @@ impl<B> Store<B> {
         Name { number, id: self.id(number) }
     }
 
-    /// Keep a bench made from so many bytes.
+    /// Keep a bench.
     pub(super) fn keep(&self, name: &Name, bench: Arc<B>, bytes: usize) {
         let mut kept = self.lock();
         kept.benches.push(Entry { number: name.number, bench, bytes });

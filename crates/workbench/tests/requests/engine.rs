@@ -51,6 +51,10 @@ impl Desk for Obedient {
         Ok(json!({ "id": id }))
     }
 
+    fn bytes(&self) -> usize {
+        0
+    }
+
     fn view(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
         assert!(selection.terms != ["falls-over"], "told to fall over");
         Ok(json!({ "terms": selection.terms }))

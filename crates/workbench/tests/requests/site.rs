@@ -69,7 +69,7 @@ impl Site {
     /// A server that runs as long as the test.
     pub(crate) fn start() -> Self {
         let (benches, computing, waiting) = PLACES;
-        let limits = Limits { bytes: BYTES, rows: 100, own_terms: 8, own_bytes: 1000, benches };
+        let limits = Limits { bytes: BYTES, rows: 100, own_terms: 8, term_bytes: 1000, benches };
         let settings = Settings {
             limits,
             computing,
