@@ -4,6 +4,7 @@
 
 mod acts;
 mod engine;
+mod limits;
 mod noise;
 mod rows;
 mod site;
