@@ -42,6 +42,8 @@ pub struct TermCard {
     pub equation: String,
     /// What the data must contain for it to show.
     pub shows: String,
+    /// True when it has a richer form, asked for by `:richer` behind the id.
+    pub richer: bool,
     /// Names of its parameters with their units.
     pub parameters: Vec<NamedUnit>,
 }
@@ -241,7 +243,7 @@ pub struct Conditions {
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Selection {
-    /// Ids in the order of ticking, of the catalogue and of one's own.
+    /// Ids in the order of ticking, of the catalogue and of one's own; `:richer` behind an id asks for the richer form.
     #[serde(default)]
     pub terms: Vec<String>,
     /// Term files (term/1) of one's own, as text.

@@ -1,6 +1,6 @@
 //! What there is to choose from.
 
-use hexbench_model::term::TermInfo;
+use hexbench_model::term::{Rich, TermInfo};
 use hexbench_model::terms;
 use hexbench_model::user_term::{self, Variable};
 
@@ -29,6 +29,7 @@ fn card(info: &TermInfo) -> TermCard {
         physics: info.physics.to_owned(),
         equation: info.equation.to_owned(),
         shows: info.shows.to_owned(),
+        richer: info.rich != Rich::None,
         parameters: info.parameters.iter().map(|p| named(p.name, p.unit)).chain(shape).collect(),
     }
 }
