@@ -34,7 +34,7 @@ pub fn term_named(id: &str, terms: &[Arc<dyn Term>]) -> Result<Arc<dyn Term>, Mo
 }
 
 /// Behind the id of a term: its richer form is wanted.
-const RICHER: &str = ":richer";
+pub const RICHER: &str = ":richer";
 
 /// A term somebody asks for, in its ideal or its richer form.
 #[derive(Clone)]

@@ -23,6 +23,8 @@ pub struct Catalogue {
     pub plans: Vec<Choice>,
     /// Effects that can be put into a simulated machine; those outside the catalogue begin with `out:`.
     pub effects: Vec<Choice>,
+    /// The files named on the command line, when there are any; opened by `{"from": "given"}`.
+    pub given: Option<Choice>,
     /// What a formula of one's own may use.
     pub formula: FormulaHelp,
     /// What the server accepts.
@@ -335,6 +337,8 @@ pub struct Diagnosed {
     pub sentences: Vec<String>,
     /// Probability that each is at work, most probable first.
     pub probabilities: Vec<Probability>,
+    /// What to tick to see the model it settled on, `:richer` included.
+    pub tick: Vec<String>,
     /// What to measure next, a sentence each; empty when nothing is open.
     pub next: Vec<String>,
     /// Everything, as `diagnose --json` writes it.

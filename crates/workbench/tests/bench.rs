@@ -110,8 +110,8 @@ fn a_fault_in_a_file_is_told_with_its_place() {
     assert!(!refusal.next.is_empty());
     let header = known.data.lines().next().unwrap();
     let row = known.data.lines().nth(1).unwrap().strip_prefix("1,1,").unwrap();
-    let rows: String = (0..=LIMITS.rows).map(|repeat| format!("1,{repeat},{row}\n")).collect();
-    let long = format!("{header}\n{rows}");
+    let rows: Vec<String> = (0..=LIMITS.rows).map(|repeat| format!("1,{repeat},{row}")).collect();
+    let long = format!("{header}\n{}\n", rows.join("\n"));
     assert_eq!(open(&request(&long)).unwrap_err().kind, Kind::TooLarge);
 }
 
