@@ -95,7 +95,8 @@ impl Task<'_> {
             return Ok(Some(summarise(&errors, None)));
         }
         // Too few poses, or poses that alone determine a spring, leave nothing to be judged by.
-        let left = wanted.and_then(|w| leave_poses_out(self.hexapod, self.data, noise, w, &fit.point).ok());
+        let left =
+            wanted.and_then(|w| leave_poses_out(self.campaign, &self.data.observations, w, &fit.point).ok());
         Ok(left.map(|left| summarise(&left.residuals, None)))
     }
 }
