@@ -296,7 +296,7 @@ fn exit_of_study(cause: &StudyError) -> Exit {
 
 fn exit_of(cause: &ModelError) -> Exit {
     match cause {
-        ModelError::UnknownTerm { .. } => Exit::Usage,
+        ModelError::UnknownTerm { .. } | ModelError::Selection(_) => Exit::Usage,
         ModelError::NotFinite { .. } | ModelError::Mismatch(_) => Exit::BadInput,
         _ => Exit::NotDetermined,
     }

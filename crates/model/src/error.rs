@@ -40,6 +40,9 @@ pub enum ModelError {
         /// The closest known id.
         nearest: Option<String>,
     },
+    /// Terms that cannot be asked for like this.
+    #[error("{0}")]
+    Selection(String),
     /// The term cannot be tested with this file.
     #[error("`{id}` cannot be fitted to this file: {why}")]
     Untestable {
@@ -79,6 +82,9 @@ impl ModelError {
             }
             Self::NoLoad => format!("Check fx_N ... mz_Nm and ref_fx_N ... ref_mz_Nm in {data}."),
             Self::UnknownTerm { .. } => "`hexbench terms` lists the effects.".into(),
+            Self::Selection(_) => {
+                "Name each term once; `hexbench terms TERM` says whether it has a richer form.".into()
+            }
             Self::Untestable { .. } => "`hexbench terms TERM` says what the data must contain.".into(),
             Self::NotDetermined { .. } => {
                 "Measure other poses or load directions, or leave the term out.".into()

@@ -1,16 +1,13 @@
 //! Terms chosen by hand: fitted beside the springs, and judged on readings that no fit has seen.
 
-use std::sync::Arc;
-
 use hexbench_core::{Dataset, Hexapod};
 
 use crate::campaign::Campaign;
 use crate::error::ModelError;
 use crate::fit::{Fit, Wanted};
-use crate::fit_named::fit_wanted;
+use crate::fit_named::{Added, fit_wanted};
 use crate::linearization::Linearization;
 use crate::residuals::{ErrorSummary, Residual, leave_poses_out, prediction_errors, residuals, summarise};
-use crate::term::Term;
 
 /// Which readings no fit has seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +61,7 @@ impl Task<'_> {
     ///
     /// # Errors
     /// As [`crate::fit_named::fit_named`]; [`ModelError::Mismatch`] when the readings held out are of another kind.
-    pub fn fit(&self, terms: &[Arc<dyn Term>]) -> Result<Judged, ModelError> {
+    pub fn fit(&self, terms: &[Added]) -> Result<Judged, ModelError> {
         let (wanted, fit) = fit_wanted(self.campaign, terms)?;
         self.judge(fit, Some(&wanted))
     }
@@ -98,7 +95,8 @@ impl Task<'_> {
             return Ok(Some(summarise(&errors, None)));
         }
         // Too few poses, or poses that alone determine a spring, leave nothing to be judged by.
-        let left = wanted.and_then(|w| leave_poses_out(self.hexapod, self.data, noise, w, &fit.point).ok());
+        let left =
+            wanted.and_then(|w| leave_poses_out(self.campaign, &self.data.observations, w, &fit.point).ok());
         Ok(left.map(|left| summarise(&left.residuals, None)))
     }
 }

@@ -109,8 +109,9 @@ fn a_fault_in_a_file_is_told_with_its_place() {
     assert!(refusal.message.starts_with("mine.csv: line 1, column 11"), "{}", refusal.message);
     assert!(!refusal.next.is_empty());
     let header = known.data.lines().next().unwrap();
-    let row = known.data.lines().nth(1).unwrap();
-    let long = format!("{header}\n{}", format!("{row}\n").repeat(LIMITS.rows + 1));
+    let row = known.data.lines().nth(1).unwrap().strip_prefix("1,1,").unwrap();
+    let rows: Vec<String> = (0..=LIMITS.rows).map(|repeat| format!("1,{repeat},{row}")).collect();
+    let long = format!("{header}\n{}\n", rows.join("\n"));
     assert_eq!(open(&request(&long)).unwrap_err().kind, Kind::TooLarge);
 }
 
@@ -223,4 +224,23 @@ fn the_diagnosis_names_the_effect_and_the_files_can_be_taken_home() {
     assert_eq!(json["format"], "diagnosis/1");
     assert_eq!(take(What::Hexapod, &[]).text, CASES[0].hexapod);
     assert_eq!(take(What::Holdout, &[]).text, CASES[0].holdout);
+}
+
+#[test]
+fn a_bending_foundation_needs_the_richer_form() {
+    let request = Open::Simulation {
+        machine: "ring_b".to_owned(),
+        plan: "rich".to_owned(),
+        effects: vec!["out:base-bending".to_owned()],
+        distance: Some(60.0),
+        seed: Some(3),
+    };
+    let bench = open(&request).unwrap();
+    let error = |terms: &[&str]| held_out(&bench.view(&ticked(terms)).unwrap());
+    let [springs, ideal, richer] =
+        [error(&[]), error(&["base-compliance"]), error(&["base-compliance:richer"])];
+    assert!(richer < ideal && ideal < springs, "{springs} {ideal} {richer}");
+    assert!(bench.view(&ticked(&["base-compliance:richer"])).unwrap().at_the_noise, "{richer}");
+    let refusal = bench.view(&ticked(&["load-tilt:richer"])).map(|v| v.times_noise).unwrap_err();
+    assert!(refusal.message.contains("no richer form"), "{}", refusal.message);
 }

@@ -8,7 +8,7 @@ use hexbench_core::Dataset;
 use hexbench_core::files::content_hash;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::error::ModelError;
-use hexbench_model::fit_named::{refuse_undetermined, term_named};
+use hexbench_model::fit_named::{Added, refuse_undetermined};
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::paper::fit_paper;
 use hexbench_model::selection::{Judged, Task};
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     hexapod: PathBuf,
     /// Deflections or absolute poses: measurements.csv
     data: PathBuf,
-    /// Add this effect beside the leg springs; may be given several times
+    /// Add this effect beside the leg springs, with `:richer` behind it in its richer form; may be given several times
     #[arg(long, value_name = "TERM")]
     add: Vec<String>,
     /// Readings kept out of the fit, to judge it
@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     screen.write_to(path, &text)
 }
 
-fn added(arguments: &Arguments) -> Result<Vec<Arc<dyn Term>>, Failure> {
+fn added(arguments: &Arguments) -> Result<Vec<Added>, Failure> {
     if arguments.estimator == Method::Paper && !(arguments.add.is_empty() && arguments.terms.is_empty()) {
         return Err(Failure::Usage {
             message: "the paper's estimator knows leg springs only".into(),
@@ -81,18 +81,16 @@ fn added(arguments: &Arguments) -> Result<Vec<Arc<dyn Term>>, Failure> {
     }
     let own = input::user_terms(&arguments.terms)?;
     let all = input::catalogue_with(&own);
-    let named = arguments
-        .add
-        .iter()
-        .map(|id| term_named(id, &all).map_err(|cause| Failure::Model { cause, data: String::new() }));
+    let failed = |cause| Failure::Model { cause, data: String::new() };
+    let named = arguments.add.iter().map(|name| Added::named(name, &all).map_err(failed));
     let mut added = named.collect::<Result<Vec<_>, _>>()?;
-    let fresh: Vec<_> =
-        own.into_iter().filter(|t| !arguments.add.iter().any(|id| id == t.info().id)).collect();
-    added.extend(fresh);
+    let asked = |t: &Arc<dyn Term>| added.iter().any(|a| a.term.info().id == t.info().id);
+    let fresh: Vec<_> = own.into_iter().filter(|t| !asked(t)).collect();
+    added.extend(fresh.into_iter().map(Added::from));
     Ok(added)
 }
 
-fn fit(arguments: &Arguments, task: &Task<'_>, added: &[Arc<dyn Term>]) -> Result<Judged, ModelError> {
+fn fit(arguments: &Arguments, task: &Task<'_>, added: &[Added]) -> Result<Judged, ModelError> {
     match arguments.estimator {
         Method::Gls => task.fit(added),
         Method::Paper => task.judge(fit_paper(task.campaign, task.data)?.into_fit(task.campaign)?, None),

@@ -1,14 +1,14 @@
 //! What there is to choose from.
 
-use hexbench_model::term::TermInfo;
+use hexbench_model::term::{Rich, TermInfo};
 use hexbench_model::terms;
 use hexbench_model::user_term::{self, Variable};
 
-use super::{cases, simulate};
+use super::{Given, cases, simulate};
 use crate::wire::{Catalogue, Choice, FormulaHelp, Limits, NamedUnit, TermCard};
 
 /// Terms, cases, machines, plans, effects, the language of formulas.
-pub fn catalogue(limits: Limits) -> Catalogue {
+pub fn catalogue(limits: Limits, given: Option<&Given>) -> Catalogue {
     Catalogue {
         version: env!("CARGO_PKG_VERSION"),
         terms: terms::catalogue().iter().map(|t| card(t.info())).collect(),
@@ -16,9 +16,16 @@ pub fn catalogue(limits: Limits) -> Catalogue {
         machines: simulate::machines(),
         plans: simulate::plans(),
         effects: simulate::effects(),
+        given: given.map(choice_of),
         formula: formula(),
         limits,
     }
+}
+
+fn choice_of(given: &Given) -> Choice {
+    let held = given.holdout.iter().map(|t| t.name.as_str());
+    let names: Vec<&str> = [given.hexapod.name.as_str(), &given.data.name].into_iter().chain(held).collect();
+    Choice { id: "given".to_owned(), title: given.data.name.clone(), text: names.join(", ") }
 }
 
 fn card(info: &TermInfo) -> TermCard {
@@ -29,6 +36,7 @@ fn card(info: &TermInfo) -> TermCard {
         physics: info.physics.to_owned(),
         equation: info.equation.to_owned(),
         shows: info.shows.to_owned(),
+        richer: info.rich != Rich::None,
         parameters: info.parameters.iter().map(|p| named(p.name, p.unit)).chain(shape).collect(),
     }
 }

@@ -4,6 +4,7 @@ use hexbench_core::{Vector3, Vector6};
 use hexbench_model::campaign::Condition;
 use hexbench_model::linearization::Linearization;
 
+use super::digits::{all_short, short};
 use crate::wire::Conditions;
 
 /// Most conditions shown: more than an eye can tell apart, few enough to be drawn at once.
@@ -18,15 +19,15 @@ pub(super) fn shown(count: usize) -> Vec<usize> {
 pub(super) fn columns(lin: &Linearization, shown: &[usize]) -> Conditions {
     let mut all = Conditions { of: lin.conditions.len(), ..Conditions::default() };
     for c in shown.iter().map(|&i| &lin.conditions[i]) {
-        all.pose.push(pose(c));
-        all.wrench.push(difference(&c.wrench.to_array(), &c.reference.to_array()));
-        all.leg_force_n.push(c.force_change().into());
-        all.leg_length_mm.push((c.legs.lengths * 1e3).into());
+        all.pose.push(all_short(pose(c)));
+        all.wrench.push(all_short(difference(&c.wrench.to_array(), &c.reference.to_array())));
+        all.leg_force_n.push(all_short(c.force_change()));
+        all.leg_length_mm.push(all_short(c.legs.lengths * 1e3));
         all.elapsed_s.push(c.elapsed);
         all.delta_t_k.push(c.delta_t);
         all.approach.push(c.approach);
         all.platform_joints_mm.push(std::array::from_fn(|leg| joint_mm(c, leg)));
-        all.measured.push((c.reading * 1e6).into());
+        all.measured.push(all_short(c.reading * 1e6));
         all.measured_motion.push(motion(c, &c.reading));
     }
     all
@@ -43,7 +44,7 @@ fn difference(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
 
 fn joint_mm(c: &Condition, leg: usize) -> [f64; 3] {
     let joint: Vector3 = c.pose.translation + c.legs.arms[leg];
-    (joint * 1e3).into()
+    <[f64; 3]>::from(joint * 1e3).map(short)
 }
 
 /// Prediction of a model in measured coordinates, m and rad.
@@ -55,7 +56,7 @@ pub(super) fn predicted(lin: &Linearization, condition: usize) -> Vector6 {
 /// Motion of the platform at its origin that reads like this: um, urad.
 pub(super) fn motion(c: &Condition, reading: &Vector6) -> [f64; 6] {
     let twist = c.observer.try_inverse().map_or_else(Vector6::zeros, |h| h * reading);
-    (twist * 1e6).into()
+    all_short(twist * 1e6)
 }
 
 #[cfg(test)]

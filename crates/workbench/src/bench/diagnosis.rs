@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::time::Instant;
 
 use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
+use hexbench_model::fit_named::RICHER;
 use hexbench_model::verdict::OUTSIDE;
 use hexbench_pages::{conclusion, confidence, next};
 
@@ -34,6 +35,7 @@ impl Bench {
             word: conclusion::word(d.verdict),
             sentences: conclusion::sentences(&d),
             probabilities: probabilities(&d),
+            tick: d.model.iter().map(|id| asked_for(&d, id)).collect(),
             next: next::proposals(&d),
             diagnosis: d,
             milliseconds: since.elapsed().as_secs_f64() * 1e3,
@@ -56,6 +58,11 @@ impl Bench {
             leg_stiffness: truth.leg_stiffness,
         })
     }
+}
+
+/// A term of the diagnosis as a selection asks for it.
+fn asked_for(d: &Diagnosis, id: &str) -> String {
+    if d.richer.iter().any(|r| r == id) { format!("{id}{RICHER}") } else { id.to_owned() }
 }
 
 /// What a guess calls an effect: those without a name are all outside.

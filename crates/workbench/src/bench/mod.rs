@@ -7,6 +7,7 @@ pub mod cases;
 mod catalogue;
 mod conditions;
 mod diagnosis;
+mod digits;
 mod export;
 mod files;
 mod refusal;
@@ -107,7 +108,7 @@ impl Bench {
         let terms = files::terms_with(&selection.own, &self.limits)?;
         let chosen = view::selected(&selection.terms, &terms, &self.contents.data.source)?;
         let task = self.task();
-        Ok(view::view(&task, &view::judged(&task, &chosen)?, &self.shown, since))
+        Ok(view::view(&task, &selection.terms, &view::judged(&task, &chosen)?, &self.shown, since))
     }
 
     /// Bytes of the texts it was made from: what it needs in memory is some ten times as much.

@@ -6,13 +6,14 @@ use std::time::Instant;
 use hexbench_core::Hexapod;
 use hexbench_model::compare::legs::leg_space;
 use hexbench_model::estimate::{Estimate, Estimates, estimates};
-use hexbench_model::fit_named::{look_alikes, term_named};
+use hexbench_model::fit_named::{Added, look_alikes};
 use hexbench_model::scatter::Scatter;
 use hexbench_model::selection::{Judged, Task};
 use hexbench_model::term::Term;
 use hexbench_pages::conclusion::at_the_noise;
 
 use super::conditions::{motion, predicted};
+use super::digits::{all_short, short};
 use super::refusal::Refusal;
 use crate::wire::{self, Leg, LookAlike, View};
 
@@ -22,22 +23,24 @@ const TOLD: f64 = 0.9;
 const MOST_TOLD: usize = 12;
 
 /// The terms of these ids.
-pub(super) fn selected(
-    ids: &[String],
-    all: &[Arc<dyn Term>],
-    data: &str,
-) -> Result<Vec<Arc<dyn Term>>, Refusal> {
-    let named = |id: &String| term_named(id, all).map_err(|cause| Refusal::model(&cause, data));
+pub(super) fn selected(ids: &[String], all: &[Arc<dyn Term>], data: &str) -> Result<Vec<Added>, Refusal> {
+    let named = |id: &String| Added::named(id, all).map_err(|cause| Refusal::model(&cause, data));
     ids.iter().map(named).collect()
 }
 
 /// Fits and judges.
-pub(super) fn judged(task: &Task<'_>, terms: &[Arc<dyn Term>]) -> Result<Judged, Refusal> {
+pub(super) fn judged(task: &Task<'_>, terms: &[Added]) -> Result<Judged, Refusal> {
     task.fit(terms).map_err(|cause| Refusal::model(&cause, &task.data.source))
 }
 
 /// What is seen of a fit; `since` the question was asked.
-pub(super) fn view(task: &Task<'_>, judged: &Judged, shown: &[usize], since: Instant) -> View {
+pub(super) fn view(
+    task: &Task<'_>,
+    asked: &[String],
+    judged: &Judged,
+    shown: &[usize],
+    since: Instant,
+) -> View {
     let lin = &judged.linearization;
     let legs = leg_space(task.campaign, lin);
     let error = judged.held_out.unwrap_or(judged.fitted);
@@ -45,7 +48,7 @@ pub(super) fn view(task: &Task<'_>, judged: &Judged, shown: &[usize], since: Ins
     let predictions: Vec<_> = shown.iter().map(|&i| predicted(lin, i)).collect();
     let scatter = Scatter::of(&judged.residuals);
     View {
-        terms: judged.fit.point.active.iter().map(|a| a.id().to_owned()).collect(),
+        terms: asked.to_vec(),
         fitted: judged.fitted,
         holdout: judged.held_out,
         held_out: task.held_out().word(),
@@ -55,16 +58,23 @@ pub(super) fn view(task: &Task<'_>, judged: &Judged, shown: &[usize], since: Ins
         parameters: numbers.determined.into_iter().filter(|e| !is_stiffness(&e.name)).collect(),
         not_determined: numbers.not_determined,
         look_alikes: alike(judged),
-        residual_um: shown.iter().map(|&i| (legs.elongation[i] * 1e6).into()).collect(),
-        predicted: predictions.iter().map(|p| (p * 1e6).into()).collect(),
+        residual_um: shown.iter().map(|&i| all_short(legs.elongation[i] * 1e6)).collect(),
+        predicted: predictions.iter().map(|p| all_short(p * 1e6)).collect(),
         predicted_motion: shown
             .iter()
             .zip(&predictions)
             .map(|(&i, p)| motion(&lin.conditions[i], p))
             .collect(),
-        scatter: wire::Scatter { histogram: scatter.histogram(), quantiles: scatter.quantiles() },
+        scatter: wire::Scatter {
+            histogram: points(scatter.histogram()),
+            quantiles: points(scatter.quantiles()),
+        },
         milliseconds: since.elapsed().as_secs_f64() * 1e3,
     }
+}
+
+fn points(all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    all.into_iter().map(|point| point.map(short)).collect()
 }
 
 fn is_stiffness(name: &str) -> bool {

@@ -36,7 +36,7 @@ impl<D: Desk> Shared<D> {
     /// The catalogue is made once.
     pub(super) fn new(settings: &Settings, given: Option<Given>) -> io::Result<Self> {
         let limits = settings.limits;
-        let catalogue = serde_json::to_vec(&D::catalogue(limits))?.into();
+        let catalogue = serde_json::to_vec(&D::catalogue(limits, given.as_ref()))?.into();
         let store = Store::new(Token::random()?, limits.benches, settings.kept_bytes);
         Ok(Self { settings: *settings, given, catalogue, store, work: Work::of(settings) })
     }

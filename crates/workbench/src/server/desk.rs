@@ -12,7 +12,7 @@ use crate::wire::{Ask, Export, Guess, Limits, Open, Selection};
 #[expect(clippy::missing_errors_doc, reason = "said once, above")]
 pub trait Desk: Send + Sync + Sized + 'static {
     /// Everything there is to choose from.
-    fn catalogue(limits: Limits) -> impl Serialize;
+    fn catalogue(limits: Limits, given: Option<&Given>) -> impl Serialize;
     /// Load, read or simulate.
     fn open(request: &Open, given: Option<&Given>, limits: &Limits) -> Result<Self, Refusal>;
     /// What it is.
@@ -30,8 +30,8 @@ pub trait Desk: Send + Sync + Sized + 'static {
 }
 
 impl Desk for Bench {
-    fn catalogue(limits: Limits) -> impl Serialize {
-        bench::catalogue(limits)
+    fn catalogue(limits: Limits, given: Option<&Given>) -> impl Serialize {
+        bench::catalogue(limits, given)
     }
 
     fn open(request: &Open, given: Option<&Given>, limits: &Limits) -> Result<Self, Refusal> {

@@ -33,7 +33,7 @@ fn refusal(kind: Kind) -> Refusal {
 }
 
 impl Desk for Obedient {
-    fn catalogue(limits: Limits) -> impl Serialize {
+    fn catalogue(limits: Limits, _: Option<&Given>) -> impl Serialize {
         json!({ "limits": limits })
     }
 
