@@ -86,6 +86,7 @@ async fn open<D: Desk>(State(shared): Of<D>, request: Request) -> Result<Respons
         let shared = Arc::clone(&shared);
         move || {
             let request: Open = body::parse(&bytes)?;
+            drop(bytes);
             let bench = D::open(&request, shared.given.as_ref(), &shared.settings.limits)?;
             let text = body::json(&bench.opened(&id)?)?;
             Ok((Arc::new(bench), text))

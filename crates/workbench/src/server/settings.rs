@@ -51,7 +51,7 @@ impl Default for Settings {
             head: Duration::from_secs(10),
             body: Duration::from_secs(10),
             write: Duration::from_secs(10),
-            linger: Duration::from_secs(2),
+            linger: Duration::from_secs(5),
         }
     }
 }

@@ -50,6 +50,14 @@ pub(crate) fn half_a_body(site: &Site) -> Reply {
     site.send(&post("/api/benches", r#"{"from":"#).but("Content-Length: 16"))
 }
 
+/// A large body that is refused for other reasons: all of it can be sent, and then the answer be read.
+pub(crate) fn unwanted(site: &Site) -> Reply {
+    let mut stream = site.connect();
+    let request = post("/api/benches", vec![b' '; 8 << 20]).without("Authorization");
+    stream.write_all(&site.bytes(&request)).expect("the server takes what it does not want");
+    answer(&mut stream)
+}
+
 /// A large answer, and nobody who reads it in time.
 pub(crate) fn unread(site: &Site) -> Reply {
     let path = format!("/api/benches/{}/export", site.open());

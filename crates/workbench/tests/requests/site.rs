@@ -78,7 +78,7 @@ impl Site {
             head: SHORT,
             body: SHORT,
             write: SHORT,
-            linger: SHORT,
+            linger: 10 * SHORT,
             wait: 3 * SHORT,
             compute: 4 * SHORT,
             ..Settings::default()

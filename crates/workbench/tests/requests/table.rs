@@ -151,6 +151,7 @@ fn sent() -> Vec<Row> {
         asks("too large, and says so", "413", open(&large)),
         asks("too large, in chunks", "413", open("").chunked(large.as_bytes())),
         asks("too large by far, nothing sent", "413", open("").but("Content-Length: 99999999999999")),
+        acts("eight megabytes, nothing of them wanted", "401", acts::unwanted),
         asks("too large and of the wrong content type", "415", open(&large).but("Content-Type: text/plain")),
         asks("nothing", "400", open("")),
         asks("garbage", "400", open("\u{1}\u{2}{{")),
