@@ -1,0 +1,79 @@
+/** The diagnosis: verdict, how sure, what to measure next. */
+import { percent } from "../format";
+import type { Diagnosed } from "../wire";
+import type { BenchProps } from "./screen";
+
+/** Explanations less probable than this are summed up. */
+const SHOWN_FROM = 0.01;
+const SHOWN_AT_LEAST = 3;
+
+export function DiagnosisSheet({ store, bench, state }: BenchProps) {
+  const { diagnosed } = bench;
+  const running = state.busy === "diagnosing";
+  return (
+    <>
+      <div class="row">
+        <button type="button" class="main" data-testid="diagnose" disabled={running} onClick={() => void store.diagnose()}>
+          {diagnosed === null ? "Diagnose" : "Diagnose again"}
+        </button>
+        <span class="hint">
+          {running ? "Weighing all explanations; this may take some seconds." : "Weighs every term, alone and together, against the readings and the noise."}
+        </span>
+      </div>
+      {diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}
+    </>
+  );
+}
+
+function Answer({ answer, tick }: { answer: Diagnosed; tick: (ids: string[]) => void }) {
+  const named = answer.diagnosis.model ?? answer.diagnosis.added ?? [];
+  return (
+    <div aria-live="polite">
+      <p class="verdict" data-testid="verdict" data-word={answer.word}>
+        <strong>{answer.word.toUpperCase()}</strong> {answer.sentences.join(" ")}
+      </p>
+      {named.length > 0 && (
+        <button type="button" data-testid="tick-named" onClick={() => tick(named)}>
+          Tick what it names: {named.join(", ")}
+        </button>
+      )}
+      <Probabilities answer={answer} />
+      {answer.next.length > 0 && (
+        <>
+          <h3>What to measure next</h3>
+          <ul data-testid="next">
+            {answer.next.map((sentence) => (
+              <li key={sentence}>{sentence}</li>
+            ))}
+          </ul>
+        </>
+      )}
+      <p class="hint">Took {(answer.milliseconds / 1000).toFixed(1)} s.</p>
+    </div>
+  );
+}
+
+function Probabilities({ answer }: { answer: Diagnosed }) {
+  const shown = answer.probabilities.filter(({ probability }, index) => probability >= SHOWN_FROM || index < SHOWN_AT_LEAST);
+  return (
+    <table class="probabilities" data-testid="probabilities">
+      <caption>How sure: probability that each is at work, alone or with others</caption>
+      <tbody>
+        {shown.map(({ id, title, probability, alike }) => (
+          <tr key={id}>
+            <th scope="row">
+              {title} {title !== id && <code>{id}</code>}
+            </th>
+            <td>{percent(probability)}</td>
+            <td class="wide">
+              <span class="track">
+                <span class="bar" style={{ width: `${100 * probability}%` }} />
+              </span>
+              {alike.length > 0 && <small>looks like {alike.join(", ")} in these data</small>}
+            </td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}

@@ -1,0 +1,61 @@
+/** A term: its switch, and what it means. */
+import { useState } from "preact/hooks";
+import { digits } from "../format";
+import type { TermCard } from "../wire";
+
+interface Props {
+  term: TermCard;
+  ticked: boolean;
+  /** Why it cannot be tested with these data. */
+  why: string | undefined;
+  /** Held-out error if it were ticked as well, times the noise. */
+  trial: number | undefined;
+  /** Told when the gesture began, ms. */
+  toggle: (start: number) => void;
+}
+
+export function TermSwitch({ term, ticked, why, trial, toggle }: Props) {
+  const [shown, setShown] = useState(false);
+  const about = `about-${term.id}`;
+  return (
+    <li class={why === undefined ? "" : "untestable"}>
+      <div class="switch">
+        <label>
+          <input
+            type="checkbox"
+            data-testid={`term-${term.id}`}
+            checked={ticked}
+            disabled={why !== undefined && !ticked}
+            onChange={(event) => {
+              // The page decides what is ticked, not the box.
+              event.currentTarget.checked = ticked;
+              toggle(event.timeStamp);
+            }}
+          />
+          <span>
+            {term.title} <code>{term.id}</code>
+          </span>
+        </label>
+        {trial !== undefined && !ticked && <span class="trial" title="held-out error with it, times the noise">{digits(trial)} x</span>}
+        <button type="button" class="quiet" aria-expanded={shown} aria-controls={about} aria-label={`About ${term.title}`} onClick={() => setShown(!shown)}>
+          ?
+        </button>
+      </div>
+      {why !== undefined && <p class="hint">Cannot be tested: {why}</p>}
+      <div id={about} hidden={!shown} class="explained">
+        {shown && <Explained term={term} />}
+      </div>
+    </li>
+  );
+}
+
+function Explained({ term }: { term: TermCard }) {
+  return (
+    <>
+      <p>{term.physics}</p>
+      <pre>{term.equation}</pre>
+      <p>To see it: {term.shows}</p>
+      {term.parameters.length > 0 && <p class="hint">{term.parameters.map(({ name, unit }) => `${name} (${unit})`).join(", ")}</p>}
+    </>
+  );
+}

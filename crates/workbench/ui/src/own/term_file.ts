@@ -1,0 +1,101 @@
+/** Term files (term/1): the simple ones a form can show, and how a form writes one. */
+
+export interface Parameter {
+  name: string;
+  unit: string;
+  scale: string;
+}
+
+/** What the form holds; numbers as typed. */
+export interface OwnTerm {
+  id: string;
+  title: string;
+  elongation: string;
+  parameters: Parameter[];
+}
+
+/** Id in a term file; empty when there is none. */
+export function idOf(text: string): string {
+  return topLevel(text, "id");
+}
+
+/** Title in a term file; its id when there is none. */
+export function titleOf(text: string): string {
+  return topLevel(text, "title") || idOf(text);
+}
+
+function topLevel(text: string, key: string): string {
+  return new RegExp(`^\\s*${key}\\s*=\\s*"([^"]*)"`, "m").exec(text)?.[1] ?? "";
+}
+
+/** The file of a form. */
+export function written(term: OwnTerm): string {
+  const head = [
+    `format = "term/1"`,
+    `id = ${quoted(term.id)}`,
+    `title = ${quoted(term.title)}`,
+    `elongation = ${quoted(term.elongation)}`,
+  ];
+  const parameters = term.parameters.map(
+    ({ name, unit, scale }) => `\n[[parameters]]\nname = ${quoted(name)}\nunit = ${quoted(unit)}\nscale = ${scale.trim() || "1"}`,
+  );
+  return `${[...head, ...parameters].join("\n")}\n`;
+}
+
+function quoted(text: string): string {
+  return JSON.stringify(text);
+}
+
+const LINE = /^\s*(\w+)\s*=\s*("(?:[^"\\]|\\.)*"|[-+\d.eE_]+)\s*(?:#.*)?$/;
+
+/** The form of a file, or null when the file says more than the form can show. */
+export function parsed(text: string): OwnTerm | null {
+  const head: Record<string, string> = {};
+  const parameters: Record<string, string>[] = [];
+  for (const line of text.split(/\r?\n/)) {
+    if (/^\s*(#.*)?$/.test(line)) continue;
+    if (/^\s*\[\[parameters\]\]\s*(#.*)?$/.test(line)) {
+      parameters.push({});
+      continue;
+    }
+    const [, key, value] = LINE.exec(line) ?? [];
+    if (key === undefined || value === undefined) return null;
+    const read = unquoted(value);
+    if (read === null) return null;
+    (parameters.at(-1) ?? head)[key] = read;
+  }
+  if (!only(head, ["format", "id", "title", "elongation"])) return null;
+  if (!parameters.every((parameter) => only(parameter, ["name", "unit", "scale"]))) return null;
+  return {
+    id: head.id ?? "",
+    title: head.title ?? "",
+    elongation: head.elongation ?? "",
+    parameters: parameters.map(({ name = "", unit = "", scale = "" }) => ({ name, unit, scale })),
+  };
+}
+
+function unquoted(value: string): string | null {
+  if (!value.startsWith('"')) return value;
+  try {
+    return JSON.parse(value) as string;
+  } catch {
+    return null;
+  }
+}
+
+function only(table: Record<string, string>, keys: string[]): boolean {
+  return Object.keys(table).every((key) => keys.includes(key));
+}
+
+/** Line and column (from 1) that an error message names. */
+export function placeIn(message: string): { line: number; column: number } | null {
+  const line = /\bline (\d+)/.exec(message)?.[1];
+  if (line === undefined) return null;
+  return { line: Number(line), column: Number(/\bcol(?:umn)? (\d+)/.exec(message)?.[1] ?? "1") };
+}
+
+/** Offset of a place in a text. */
+export function offsetOf(text: string, place: { line: number; column: number }): number {
+  const before = text.split("\n").slice(0, place.line - 1);
+  return before.reduce((sum, line) => sum + line.length + 1, 0) + place.column - 1;
+}
