@@ -7,7 +7,12 @@ export const OPEN_ADDRESS = "Open the address that `hexbench workbench` printed:
 /** A failed request as something to show; `again` repeats it. */
 export function problemOf(error: unknown, place: Problem["place"], again?: () => void): Problem {
   if (error instanceof ServerGone) {
-    return { place: "page", message: error.message, next: "Is `hexbench workbench` still running? Start it again if not.", ...retry(again) };
+    return {
+      place: "page",
+      message: error.message,
+      next: "Is `hexbench workbench` still running? Start it again if not.",
+      ...retry(again),
+    };
   }
   if (error instanceof Refusal) {
     if (error.status === 401) return { place: "page", message: "This page has no valid key.", next: OPEN_ADDRESS };

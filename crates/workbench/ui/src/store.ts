@@ -1,12 +1,12 @@
 /** Holds the state; everything the user does is a method here. */
-import { aborted, type Api, Refusal } from "./api";
+import { type Api, aborted, Refusal } from "./api";
 import { download } from "./download";
 import * as History from "./history";
 import * as memory from "./memory";
+import { idOf } from "./own/term_file";
 import { OPEN_ADDRESS, problemOf } from "./problem";
 import { type Bench, type Busy, EMPTY, type Problem, type State } from "./state";
 import { untilDrawn } from "./stopwatch";
-import { idOf } from "./own/term_file";
 import type { Open, Opened, Selection, View, What } from "./wire";
 
 const SPRINGS: Selection = { terms: [], own: [] };
@@ -59,6 +59,7 @@ export class Store {
     }
     const before = memory.rememberedBench();
     if (before !== null) await this.open(before.open, before.selection);
+    else if (this.state.catalogue?.given) await this.open({ from: "given" });
   }
 
   /** Opens a bench; `selection` is ticked at once. What is open stays until the new one is there. */
@@ -66,10 +67,15 @@ export class Store {
     const api = this.api;
     if (api === null) return;
     this.callOff();
-    await this.during("opening", "page", () => this.open(open, selection), async (signal) => {
-      const opened = await api.open(open, signal);
-      this.show(opened, { ...open, ...seedOf(open, opened) } as Open);
-    });
+    await this.during(
+      "opening",
+      "page",
+      () => this.open(open, selection),
+      async (signal) => {
+        const opened = await api.open(open, signal);
+        this.show(opened, { ...open, ...seedOf(open, opened) } as Open);
+      },
+    );
     if (this.state.bench?.opened && selection !== SPRINGS && this.state.problem === null) await this.select(selection);
   }
 
@@ -202,10 +208,15 @@ export class Store {
     const bench = this.state.bench;
     if (bench === null) return;
     const own = bench.wanted.own;
-    await this.during("diagnosing", "page", () => this.diagnose(), async (signal) => {
-      const answer = await this.onBench((id, api) => api.diagnose(id, own, signal), signal);
-      this.setBench({ diagnosed: { answer, own } });
-    });
+    await this.during(
+      "diagnosing",
+      "page",
+      () => this.diagnose(),
+      async (signal) => {
+        const answer = await this.onBench((id, api) => api.diagnose(id, own, signal), signal);
+        this.setBench({ diagnosed: { answer, own } });
+      },
+    );
   }
 
   /** Asks for the held-out error of every term that could be ticked as well. */
@@ -214,14 +225,19 @@ export class Store {
     if (bench === null) return;
     const at = bench.history.at;
     const error: Record<string, number> = {};
-    await this.during("trying", "page", () => this.tryEach(ids), async (signal) => {
-      for (const id of ids) {
-        if (this.state.bench?.history.at !== at) return;
-        const view = await this.trial(History.toggled(bench.wanted, id), signal);
-        if (view !== null) error[id] = view.times_noise;
-        this.setBench({ trials: { at, error: { ...error } } });
-      }
-    });
+    await this.during(
+      "trying",
+      "page",
+      () => this.tryEach(ids),
+      async (signal) => {
+        for (const id of ids) {
+          if (this.state.bench?.history.at !== at) return;
+          const view = await this.trial(History.toggled(bench.wanted, id), signal);
+          if (view !== null) error[id] = view.times_noise;
+          this.setBench({ trials: { at, error: { ...error } } });
+        }
+      },
+    );
   }
 
   /** One trial; a term that cannot be fitted is left out. */
@@ -244,10 +260,15 @@ export class Store {
   async export(what: What): Promise<void> {
     const bench = this.state.bench;
     if (bench === null) return;
-    await this.during("exporting", "page", () => this.export(what), async () => {
-      const file = await this.onBench((id, api) => api.export(id, what, bench.wanted));
-      download(file.name, file.media, file.text);
-    });
+    await this.during(
+      "exporting",
+      "page",
+      () => this.export(what),
+      async () => {
+        const file = await this.onBench((id, api) => api.export(id, what, bench.wanted));
+        download(file.name, file.media, file.text);
+      },
+    );
   }
 
   /** Ends a game. */
@@ -255,17 +276,27 @@ export class Store {
     const bench = this.state.bench;
     if (bench === null || bench.open.from !== "game") return;
     const { level } = bench.open;
-    await this.during("revealing", "page", () => this.reveal(guess), async () => {
-      const answer = await this.onBench((id, api) => api.reveal(id, guess));
-      const scores = [...this.state.scores, { level, right: answer.right, helped: bench.diagnosed !== null }];
-      memory.rememberScores(scores);
-      this.setBench({ revealed: { answer, guess } });
-      this.set({ scores });
-    });
+    await this.during(
+      "revealing",
+      "page",
+      () => this.reveal(guess),
+      async () => {
+        const answer = await this.onBench((id, api) => api.reveal(id, guess));
+        const scores = [...this.state.scores, { level, right: answer.right, helped: bench.diagnosed !== null }];
+        memory.rememberScores(scores);
+        this.setBench({ revealed: { answer, guess } });
+        this.set({ scores });
+      },
+    );
   }
 
   /** Runs something slow: one at a time, with its failure shown. */
-  private async during(busy: Busy, place: Problem["place"], again: () => Promise<void>, work: (signal: AbortSignal) => Promise<void>): Promise<void> {
+  private async during(
+    busy: Busy,
+    place: Problem["place"],
+    again: () => Promise<void>,
+    work: (signal: AbortSignal) => Promise<void>,
+  ): Promise<void> {
     this.asking?.abort();
     const asking = new AbortController();
     this.asking = asking;

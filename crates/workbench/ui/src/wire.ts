@@ -30,6 +30,7 @@ export interface Limits {
   bytes: number;
   rows: number;
   own_terms: number;
+  term_bytes: number;
   benches: number;
 }
 

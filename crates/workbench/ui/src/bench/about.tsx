@@ -25,7 +25,11 @@ export function About({ store, bench }: { store: Store; bench: Bench }) {
           <li key={line}>{line}</li>
         ))}
         {opened.seed !== null && <li>Seed {opened.seed}</li>}
-        {opened.contains && <li>Put in: {opened.contains.length === 0 ? "nothing" : opened.contains.map(({ id, title }) => `${title} (${id})`).join(", ")}</li>}
+        {opened.contains && (
+          <li>
+            Put in: {opened.contains.length === 0 ? "nothing" : opened.contains.map(({ id, title }) => `${title} (${id})`).join(", ")}
+          </li>
+        )}
       </ul>
       <div class="row">
         {[...RESULTS, ...sources].map(([what, title]) => (

@@ -17,7 +17,9 @@ export function DiagnosisSheet({ store, bench, state }: BenchProps) {
           {diagnosed === null ? "Diagnose" : "Diagnose again"}
         </button>
         <span class="hint">
-          {running ? "Weighing all explanations; this may take some seconds." : "Weighs every term, alone and together, against the readings and the noise."}
+          {running
+            ? "Weighing all explanations; this may take some seconds."
+            : "Weighs every term, alone and together, against the readings and the noise."}
         </span>
       </div>
       {diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}

@@ -23,10 +23,16 @@ export function PredictedSheet({ bench }: BenchProps) {
   const springs = History.springs(history).view.predicted;
   const now = History.now(history).view.predicted;
   const draw = (width: number, looks: Looks) => {
-    const panels = COORDINATES.map((_, k) => (quantity === "values" ? values(k, opened, springs, now, looks) : differences(k, opened, springs, now, looks)));
+    const panels = COORDINATES.map((_, k) =>
+      quantity === "values" ? values(k, opened, springs, now, looks) : differences(k, opened, springs, now, looks),
+    );
     const tooltip = (series: string, panel: number, x: number, y: number, index: number) =>
       `${series}\nmeasured ${digits(x, 4)} ${unit(panel)}, ${quantity === "values" ? "predicted" : "measured minus predicted"} ${digits(y)} ${unit(panel)}\n${where(opened, index)}`;
-    return drawing({ panels, x: "measured (um, urad)", across: 3, legend: [SPRINGS, NOW], tooltip, square: quantity === "values" }, width, looks);
+    return drawing(
+      { panels, x: "measured (um, urad)", across: 3, legend: [SPRINGS, NOW], tooltip, square: quantity === "values" },
+      width,
+      looks,
+    );
   };
   return (
     <>
@@ -42,8 +48,16 @@ export function PredictedSheet({ bench }: BenchProps) {
           set={setQuantity}
         />
       </div>
-      <Chart name="predicted" shape={quantity} label={`${quantity === "values" ? "Predicted" : "Measured minus predicted"} over measured, six coordinates`} draw={draw} />
-      <p class="hint">{opened.absolute ? "What is measured beside what is commanded." : "Deflections: loaded minus reference."} {quantity === "values" ? "On the line, the model is right." : "The band is the noise of one reading."}</p>
+      <Chart
+        name="predicted"
+        shape={quantity}
+        label={`${quantity === "values" ? "Predicted" : "Measured minus predicted"} over measured, six coordinates`}
+        draw={draw}
+      />
+      <p class="hint">
+        {opened.absolute ? "What is measured beside what is commanded." : "Deflections: loaded minus reference."}{" "}
+        {quantity === "values" ? "On the line, the model is right." : "The band is the noise of one reading."}
+      </p>
     </>
   );
 }
@@ -55,7 +69,15 @@ function values(k: number, { conditions }: Opened, springs: Six[], now: Six[], l
     title: `${COORDINATES[k]} (${unit(k)})`,
     reach,
     series: [
-      line("measured", [[-reach, -reach], [reach, reach]], looks.grey, "dashed"),
+      line(
+        "measured",
+        [
+          [-reach, -reach],
+          [reach, reach],
+        ],
+        looks.grey,
+        "dashed",
+      ),
       points(SPRINGS, pairs(springs), { colour: looks.before, symbol: "rect", size: 5, opacity: 0.45 }),
       points(NOW, pairs(now), { colour: looks.now, size: 5 }),
     ],
@@ -63,7 +85,8 @@ function values(k: number, { conditions }: Opened, springs: Six[], now: Six[], l
 }
 
 function differences(k: number, { conditions, noise }: Opened, springs: Six[], now: Six[], looks: Looks): Panel {
-  const pairs = (predicted: Six[]) => predicted.map((six, i) => [conditions.measured[i]?.[k] ?? 0, (conditions.measured[i]?.[k] ?? 0) - (six[k] ?? 0)]);
+  const pairs = (predicted: Six[]) =>
+    predicted.map((six, i) => [conditions.measured[i]?.[k] ?? 0, (conditions.measured[i]?.[k] ?? 0) - (six[k] ?? 0)]);
   const before = pairs(springs);
   const after = pairs(now);
   const sigma = k < 3 ? noise.translation_um : noise.rotation_urad;

@@ -25,7 +25,10 @@ export function ResidualSheet({ bench }: BenchProps) {
   const [quantity, setQuantity] = useState<Quantity>("left");
   const [layout, setLayout] = useState<Layout>("each");
   const variable = VARIABLES.find(({ id }) => id === x) ?? (VARIABLES[0] as Variable);
-  const choices = useMemo(() => VARIABLES.map((one) => ({ id: one.id, title: `${one.title} (${one.unit})`, disabled: !varies(one, opened.conditions) })), [opened.conditions]);
+  const choices = useMemo(
+    () => VARIABLES.map((one) => ({ id: one.id, title: `${one.title} (${one.unit})`, disabled: !varies(one, opened.conditions) })),
+    [opened.conditions],
+  );
   const noise = useMemo(() => legNoise(opened), [opened]);
   const springs = History.springs(history).view.residual_um;
   const left = History.now(history).view.residual_um;
@@ -40,8 +43,26 @@ export function ResidualSheet({ bench }: BenchProps) {
     <>
       <div class="row">
         <Options label="over" name="variable" value={x} options={choices} set={setX} />
-        <Options label="show" name="quantity" value={quantity} options={[{ id: "left", title: "what is left" }, { id: "explained", title: "what the ticked terms explain" }]} set={setQuantity} />
-        <Options label="legs" name="layout" value={layout} options={[{ id: "each", title: "each" }, { id: "all", title: "all in one" }]} set={setLayout} />
+        <Options
+          label="show"
+          name="quantity"
+          value={quantity}
+          options={[
+            { id: "left", title: "what is left" },
+            { id: "explained", title: "what the ticked terms explain" },
+          ]}
+          set={setQuantity}
+        />
+        <Options
+          label="legs"
+          name="layout"
+          value={layout}
+          options={[
+            { id: "each", title: "each" },
+            { id: "all", title: "all in one" },
+          ]}
+          set={setLayout}
+        />
       </div>
       <Chart name="residuals" shape={`${layout} ${x} ${quantity}`} label={title} draw={draw} />
       <p class="hint">
@@ -67,7 +88,10 @@ function eachLeg(data: Data, looks: Looks): Sheet {
       title: `leg ${leg + 1} (um)`,
       reach: data.reach,
       series: [
-        { ...points(SPRINGS, along(data, data.springs, leg), { colour: looks.before, symbol: "rect", size: 4, opacity: 0.45 }), ...band(data.noise[leg] ?? 0, looks.band) },
+        {
+          ...points(SPRINGS, along(data, data.springs, leg), { colour: looks.before, symbol: "rect", size: 4, opacity: 0.45 }),
+          ...band(data.noise[leg] ?? 0, looks.band),
+        },
         points(data.name, along(data, data.front, leg), { colour: looks.now }),
       ],
     }),
@@ -78,7 +102,13 @@ function eachLeg(data: Data, looks: Looks): Sheet {
 function allLegs(data: Data, looks: Looks): Sheet {
   const mean = Math.sqrt(data.noise.reduce((sum, sigma) => sum + sigma ** 2, 0) / data.noise.length);
   const back = LEGS.flatMap((leg) => along(data, data.springs, leg));
-  const legs = LEGS.map((leg) => points(`leg ${leg + 1}`, along(data, data.front, leg), { colour: looks.legs[leg] ?? looks.ink, symbol: MARKERS[leg] ?? "circle", size: 7 }));
+  const legs = LEGS.map((leg) =>
+    points(`leg ${leg + 1}`, along(data, data.front, leg), {
+      colour: looks.legs[leg] ?? looks.ink,
+      symbol: MARKERS[leg] ?? "circle",
+      size: 7,
+    }),
+  );
   const series = [{ ...points(SPRINGS, back, { colour: looks.grey, size: 3, opacity: 0.4 }), ...band(mean, looks.band) }, ...legs];
   const legend = [SPRINGS, ...LEGS.map((leg) => `leg ${leg + 1}`)];
   return { ...sheet(data), panels: [{ title: "all legs (um)", reach: data.reach, series }], across: 1, legend };
@@ -88,7 +118,8 @@ function sheet({ variable, opened }: Data): Pick<Sheet, "x" | "tooltip"> {
   const count = opened.conditions.pose.length;
   return {
     x: `${variable.title} (${variable.unit})`,
-    tooltip: (series, _, x, y, index) => `${series}: ${digits(y)} um\n${variable.title} ${digits(x, 4)} ${variable.unit}\n${where(opened, index % count)}`,
+    tooltip: (series, _, x, y, index) =>
+      `${series}: ${digits(y)} um\n${variable.title} ${digits(x, 4)} ${variable.unit}\n${where(opened, index % count)}`,
   };
 }
 

@@ -23,7 +23,12 @@ export function ScatterSheet({ bench }: BenchProps) {
   };
   return (
     <>
-      <Chart name="scatter" shape="scatter" label="Histogram and normal plot of the residuals of single readings, in units of the noise" draw={draw} />
+      <Chart
+        name="scatter"
+        shape="scatter"
+        label="Histogram and normal plot of the residuals of single readings, in units of the noise"
+        draw={draw}
+      />
       <p class="hint">Residuals of single readings divided by their noise. Noise alone follows the dashed lines.</p>
     </>
   );
@@ -35,7 +40,11 @@ function histogram(springs: Scatter, now: Scatter, looks: Looks): Panel {
   const reach = reachOf([...springs.histogram, ...now.histogram].map(([x]) => x));
   return {
     title: "share per unit",
-    series: [line(NOISE, bell(reach), looks.grey, "dashed"), line(SPRINGS, springs.histogram, looks.before), { ...line(NOW, now.histogram, looks.now), areaStyle: { color: looks.now, opacity: 0.12 } }],
+    series: [
+      line(NOISE, bell(reach), looks.grey, "dashed"),
+      line(SPRINGS, springs.histogram, looks.before),
+      { ...line(NOW, now.histogram, looks.now), areaStyle: { color: looks.now, opacity: 0.12 } },
+    ],
   };
 }
 
@@ -44,7 +53,15 @@ function quantiles(springs: Scatter, now: Scatter, looks: Looks): Panel {
   return {
     title: "found (over expected of noise)",
     series: [
-      line(NOISE, [[-reach, -reach], [reach, reach]], looks.grey, "dashed"),
+      line(
+        NOISE,
+        [
+          [-reach, -reach],
+          [reach, reach],
+        ],
+        looks.grey,
+        "dashed",
+      ),
       points(SPRINGS, springs.quantiles, { colour: looks.before, symbol: "rect", size: 4, opacity: 0.6 }),
       points(NOW, now.quantiles, { colour: looks.now, size: 5 }),
     ],

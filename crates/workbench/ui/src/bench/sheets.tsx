@@ -1,7 +1,7 @@
 /** Sheets of the bench, one shown at a time. */
 import { useRef, useState } from "preact/hooks";
-import { DiagnosisSheet } from "./diagnosis";
 import { MachineSheet } from "../machine/sheet";
+import { DiagnosisSheet } from "./diagnosis";
 import { NumbersSheet } from "./numbers";
 import { PredictedSheet } from "./predicted";
 import { ResidualSheet } from "./residuals";

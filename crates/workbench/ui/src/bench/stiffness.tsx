@@ -14,15 +14,34 @@ const COVERAGE = 2;
 const ASIDE = 0.14;
 
 export function StiffnessChart({ springs, now }: { springs: Leg[]; now: Leg[] }) {
-  return <Chart name="stiffness" shape="stiffness" label="Stiffness of the six legs with uncertainty: springs alone, now, nominal" draw={(width, looks) => drawing(sheet(springs, now, looks), width, looks)} />;
+  return (
+    <Chart
+      name="stiffness"
+      shape="stiffness"
+      label="Stiffness of the six legs with uncertainty: springs alone, now, nominal"
+      draw={(width, looks) => drawing(sheet(springs, now, looks), width, looks)}
+    />
+  );
 }
 
 function sheet(springs: Leg[], now: Leg[], looks: Looks): Sheet {
   const series = [
-    points(NOMINAL, values(now, 0, ({ nominal }) => nominal), { colour: looks.grey, symbol: "diamond", size: 9 }),
-    points(SPRINGS, values(springs, -ASIDE, ({ stiffness }) => stiffness), { colour: looks.before, symbol: "rect" }),
+    points(
+      NOMINAL,
+      values(now, 0, ({ nominal }) => nominal),
+      { colour: looks.grey, symbol: "diamond", size: 9 },
+    ),
+    points(
+      SPRINGS,
+      values(springs, -ASIDE, ({ stiffness }) => stiffness),
+      { colour: looks.before, symbol: "rect" },
+    ),
     line(SPRINGS, bars(springs, -ASIDE), looks.before),
-    points(NOW, values(now, ASIDE, ({ stiffness }) => stiffness), { colour: looks.now }),
+    points(
+      NOW,
+      values(now, ASIDE, ({ stiffness }) => stiffness),
+      { colour: looks.now },
+    ),
     line(NOW, bars(now, ASIDE), looks.now),
   ];
   const nominal = now.some((leg) => leg.nominal !== null);
@@ -47,6 +66,10 @@ function bars(legs: Leg[], aside: number): (number | null)[][] {
   return legs.flatMap(({ stiffness, std }, i) => {
     if (stiffness === null || std === null) return [];
     const x = i + 1 + aside;
-    return [[x, stiffness - COVERAGE * std], [x, stiffness + COVERAGE * std], [null, null]];
+    return [
+      [x, stiffness - COVERAGE * std],
+      [x, stiffness + COVERAGE * std],
+      [null, null],
+    ];
   });
 }

@@ -36,8 +36,19 @@ export function TermSwitch({ term, ticked, why, trial, toggle }: Props) {
             {term.title} <code>{term.id}</code>
           </span>
         </label>
-        {trial !== undefined && !ticked && <span class="trial" title="held-out error with it, times the noise">{digits(trial)} x</span>}
-        <button type="button" class="quiet" aria-expanded={shown} aria-controls={about} aria-label={`About ${term.title}`} onClick={() => setShown(!shown)}>
+        {trial !== undefined && !ticked && (
+          <span class="trial" title="held-out error with it, times the noise">
+            {digits(trial)} x
+          </span>
+        )}
+        <button
+          type="button"
+          class="quiet"
+          aria-expanded={shown}
+          aria-controls={about}
+          aria-label={`About ${term.title}`}
+          onClick={() => setShown(!shown)}
+        >
           ?
         </button>
       </div>

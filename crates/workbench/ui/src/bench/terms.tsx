@@ -14,8 +14,14 @@ export function Terms(props: BenchProps) {
   return (
     <section class="card terms" aria-labelledby="terms-title">
       <div class="row spread">
-        <h2 id="terms-title">What the model knows</h2>
-        <button type="button" class="quiet" data-testid="try-each" title="Fits every term once beside those ticked" onClick={() => void store.tryEach(open)}>
+        <h2 id="terms-title">Terms of the model</h2>
+        <button
+          type="button"
+          class="quiet"
+          data-testid="try-each"
+          title="Fits every term once beside those ticked"
+          onClick={() => void store.tryEach(open)}
+        >
           Try each
         </button>
       </div>

@@ -42,7 +42,14 @@ const DARK: Looks = {
 };
 
 /** Markers of the six legs: told apart without colour. */
-export const MARKERS = ["circle", "rect", "triangle", "diamond", "emptyCircle", "path://M0 0L1 0L5 4L9 0L10 0L10 1L6 5L10 9L10 10L9 10L5 6L1 10L0 10L0 9L4 5L0 1Z"];
+export const MARKERS = [
+  "circle",
+  "rect",
+  "triangle",
+  "diamond",
+  "emptyCircle",
+  "path://M0 0L1 0L5 4L9 0L10 0L10 1L6 5L10 9L10 10L9 10L5 6L1 10L0 10L0 9L4 5L0 1Z",
+];
 
 export function looks(dark: boolean): Looks {
   return dark ? DARK : LIGHT;

@@ -46,11 +46,25 @@ export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Op
     top: TOP_PX + Math.floor(index / columns) * rowHeight,
     last: index + columns >= sheet.panels.length,
   }));
-  const axes = { nameTextStyle: { color: looks.ink }, axisLabel: { color: looks.grey, fontSize: 11, hideOverlap: true }, axisLine: { onZero: false, lineStyle: { color: looks.grey } }, splitLine: { lineStyle: { color: looks.grid } } };
+  const axes = {
+    nameTextStyle: { color: looks.ink },
+    nameMoveOverlap: false,
+    axisLabel: { color: looks.grey, fontSize: 11, hideOverlap: true },
+    axisLine: { onZero: false, lineStyle: { color: looks.grey } },
+    splitLine: { lineStyle: { color: looks.grid } },
+  };
   const option: Option = {
     animation: false,
     textStyle: { fontFamily: "system-ui, sans-serif", color: looks.ink },
-    legend: { data: sheet.legend, top: 0, left: LEFT_PX, itemWidth: 12, itemHeight: 10, textStyle: { color: looks.ink }, inactiveColor: looks.grid },
+    legend: {
+      data: sheet.legend,
+      top: 0,
+      left: LEFT_PX,
+      itemWidth: 12,
+      itemHeight: 10,
+      textStyle: { color: looks.ink },
+      inactiveColor: looks.grid,
+    },
     tooltip: {
       trigger: "item",
       renderMode: "richText",
@@ -61,10 +75,40 @@ export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Op
       formatter: (hit: { seriesName: string; seriesIndex: number; value: number[]; dataIndex: number }) =>
         sheet.tooltip(hit.seriesName, panelOf(sheet, hit.seriesIndex), hit.value[0] ?? 0, hit.value[1] ?? 0, hit.dataIndex),
     },
-    title: sheet.panels.map(({ title }, index) => ({ text: title, left: (places[index]?.left ?? 0) + LEFT_PX, top: places[index]?.top ?? 0, textStyle: { fontSize: 12, fontWeight: "bold", color: looks.ink }, padding: [6, 0] })),
-    grid: places.map(({ left, top }) => ({ left: left + LEFT_PX, top: top + TITLE_PX, width: Math.round(cell) - LEFT_PX - GAP_PX, height: rowHeight - TITLE_PX - 22, containLabel: false })),
-    xAxis: sheet.panels.map((panel, index) => ({ ...axes, type: "value", scale: true, gridIndex: index, splitNumber: 4, name: places[index]?.last ? sheet.x : "", nameLocation: "middle", nameGap: 26, ...range(sheet.square ? panel.reach : undefined) })),
-    yAxis: sheet.panels.map((panel, index) => ({ ...axes, type: "value", scale: true, gridIndex: index, splitNumber: 4, ...range(panel.reach) })),
+    title: sheet.panels.map(({ title }, index) => ({
+      text: title,
+      left: (places[index]?.left ?? 0) + LEFT_PX,
+      top: places[index]?.top ?? 0,
+      textStyle: { fontSize: 12, fontWeight: "bold", color: looks.ink },
+      padding: [6, 0],
+    })),
+    grid: places.map(({ left, top }) => ({
+      left: left + LEFT_PX,
+      top: top + TITLE_PX,
+      width: Math.round(cell) - LEFT_PX - GAP_PX,
+      height: rowHeight - TITLE_PX - 22,
+      containLabel: false,
+      outerBoundsMode: "none",
+    })),
+    xAxis: sheet.panels.map((panel, index) => ({
+      ...axes,
+      type: "value",
+      scale: true,
+      gridIndex: index,
+      splitNumber: 4,
+      name: places[index]?.last ? sheet.x : "",
+      nameLocation: "middle",
+      nameGap: 26,
+      ...range(sheet.square ? panel.reach : undefined),
+    })),
+    yAxis: sheet.panels.map((panel, index) => ({
+      ...axes,
+      type: "value",
+      scale: true,
+      gridIndex: index,
+      splitNumber: 4,
+      ...range(panel.reach),
+    })),
     series: sheet.panels.flatMap(({ series }, index) => series.map((one) => ({ ...one, xAxisIndex: index, yAxisIndex: index }))),
   };
   return { option, height };

@@ -28,7 +28,16 @@ export function points(name: string, data: number[][], look: Look): Option {
 
 /** A line without markers; null breaks it. */
 export function line(name: string, data: (number | null)[][], colour: string, dash: "solid" | "dashed" | number[] = "solid"): Option {
-  return { type: "line", name, data, showSymbol: false, silent: true, lineStyle: { color: colour, width: 1.5, type: dash }, itemStyle: { color: colour }, emphasis: { disabled: true } };
+  return {
+    type: "line",
+    name,
+    data,
+    showSymbol: false,
+    silent: true,
+    lineStyle: { color: colour, width: 1.5, type: dash },
+    itemStyle: { color: colour },
+    emphasis: { disabled: true },
+  };
 }
 
 /** A band between two heights, for the noise. */

@@ -52,8 +52,9 @@ function Outcome({ store, bench }: Omit<Props, "scores">) {
     <div role="status" data-testid="revealed">
       <h2>{answer.right ? "Right." : "Not quite."}</h2>
       <p>
-        Hidden: <strong>{answer.hidden.length === 0 ? "nothing" : answer.hidden.map(({ id, title }) => `${title} (${id})`).join(", ")}</strong>.
-        You said: {inWords(guess)}.
+        Hidden:{" "}
+        <strong>{answer.hidden.length === 0 ? "nothing" : answer.hidden.map(({ id, title }) => `${title} (${id})`).join(", ")}</strong>. You
+        said: {inWords(guess)}.
       </p>
       <p class="hint">True leg stiffness, N/um: {answer.leg_stiffness.map((k) => k.toFixed(3)).join(", ")}.</p>
       <button type="button" data-testid="game-again" onClick={() => void store.open({ from: "game", level: open.level, seed: null })}>

@@ -1,95 +1,136 @@
 /** The machine in three dimensions. */
-import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useMemo, useState } from "preact/hooks";
+import { Options } from "../bench/options";
 import type { BenchProps } from "../bench/screen";
-import { looks } from "../charts/looks";
+import { type Looks, looks } from "../charts/looks";
 import { reachOf } from "../charts/panels";
 import { digits } from "../format";
 import * as History from "../history";
 import { useDark } from "../theme";
-import type { Opened, Six } from "../wire";
-import { MachineScene, type Shown } from "./scene";
+import type { Opened, Six, View } from "../wire";
+import { Key } from "./key";
+import type { Moved, Shown } from "./scene";
+import { Stage } from "./stage";
 
-const FACTOR_EXPONENTS = { from: 0, to: 4.5, step: 0.05 };
+/** Deflections, or what the model misses of them. */
+export type Quantity = "deflections" | "missed";
+
+const LARGEST_EXPONENT = 5.5;
+const ZERO: Six = [0, 0, 0, 0, 0, 0];
 
 export function MachineSheet({ bench }: BenchProps) {
   const { opened, history } = bench;
+  const springs = History.springs(history).view;
   const view = History.now(history).view;
-  const worst = useMemo(() => worstOf(history.steps[0]?.view.residual_um ?? []), [opened]);
+  const dark = useDark();
+  const worst = useMemo(() => worstOf(springs.residual_um), [springs]);
+  const reach = useMemo(() => reachOf(springs.residual_um.flat()), [springs]);
   const [index, setIndex] = useState(worst);
-  const [exponent, setExponent] = useState(() => Math.log10(usualFactor(opened)));
-  const factor = 10 ** exponent;
-  const residual = view.residual_um[index] ?? ([0, 0, 0, 0, 0, 0] as Six);
+  const [quantity, setQuantity] = useState<Quantity>("deflections");
+  const [exponent, setExponent] = useState<Record<Quantity, number>>(() => ({
+    deflections: usualExponent(opened, opened.conditions.measured_motion),
+    missed: usualExponent(opened, missed(opened, springs)),
+  }));
+  const { conditions } = opened;
+  const residual = view.residual_um[index] ?? ZERO;
   const shown: Shown = {
     base: opened.base_joints_mm,
-    platform: opened.conditions.platform_joints_mm[index] ?? [],
-    origin: opened.conditions.pose[index]?.slice(0, 3) as [number, number, number],
-    force: opened.conditions.wrench[index] ?? null,
-    measured: opened.conditions.measured_motion[index] ?? null,
-    predicted: view.predicted_motion[index] ?? null,
-    factor,
+    platform: conditions.platform_joints_mm[index] ?? [],
+    origin: (conditions.pose[index] ?? ZERO).slice(0, 3) as [number, number, number],
+    wrench: conditions.wrench[index] ?? null,
+    moved: moved(quantity, opened, springs, view, index, looks(dark)),
+    factor: 10 ** exponent[quantity],
     residual,
-    reach: useMemo(() => reachOf(history.steps[0]?.view.residual_um.flat() ?? []), [opened]),
+    reach,
   };
   return (
     <>
       <div class="row">
-        <label class="slider">
-          <span>
-            condition {index + 1} of {opened.conditions.pose.length}
-          </span>
-          <input type="range" min={0} max={opened.conditions.pose.length - 1} value={index} data-testid="condition" onInput={(event) => setIndex(Number(event.currentTarget.value))} />
-        </label>
-        <label class="slider">
-          <span>drawn {digits(factor, 2)} times too large</span>
-          <input type="range" {...{ min: FACTOR_EXPONENTS.from, max: FACTOR_EXPONENTS.to, step: FACTOR_EXPONENTS.step }} value={exponent} data-testid="factor" onInput={(event) => setExponent(Number(event.currentTarget.value))} />
-        </label>
+        <Options
+          label="show"
+          name="machine"
+          value={quantity}
+          options={[
+            { id: "deflections", title: "deflection, measured and predicted" },
+            { id: "missed", title: "what the model misses of it" },
+          ]}
+          set={setQuantity}
+        />
+        <Slider
+          name="condition"
+          title={`condition ${index + 1} of ${conditions.pose.length}`}
+          range={[0, conditions.pose.length - 1, 1]}
+          value={index}
+          set={setIndex}
+        />
+        <Slider
+          name="factor"
+          title={`drawn ${digits(shown.factor, 2)} times too large`}
+          range={[0, LARGEST_EXPONENT, 0.05]}
+          value={exponent[quantity]}
+          set={(value) => setExponent({ ...exponent, [quantity]: value })}
+        />
         <button type="button" class="quiet" onClick={() => setIndex(worst)}>
-          The condition springs miss most
+          Where the springs miss most
         </button>
       </div>
-      <Stage shown={shown} />
+      <Stage shown={shown} dark={dark} />
+      <Key quantity={quantity} reach={reach} />
       <p class="hint" data-testid="machine-text">
-        Pose [{six(opened.conditions.pose[index])}] mm, deg; load [{six(opened.conditions.wrench[index])}] N, N m. Left in the legs, um: {six(residual)}.
+        Pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}] N, N m. Left in the legs, um: {six(residual)}.
       </p>
-      <ul class="key">
-        <li><span class="swatch unloaded" /> unloaded</li>
-        <li><span class="swatch measured" /> measured</li>
-        <li><span class="swatch predicted" /> predicted</li>
-        <li><span class="swatch longer" /> leg longer than predicted</li>
-        <li><span class="swatch shorter" /> shorter (to {digits(shown.reach, 2)} um)</li>
-      </ul>
-      <p class="hint">Turn with the mouse or the arrow keys; wheel, + and - come nearer.</p>
     </>
   );
 }
 
-function Stage({ shown }: { shown: Shown }) {
-  const box = useRef<HTMLDivElement>(null);
-  const scene = useRef<MachineScene | null>(null);
-  const [fault, setFault] = useState(false);
-  const dark = useDark();
-  useEffect(() => {
-    if (box.current === null) return;
-    try {
-      scene.current = new MachineScene(box.current);
-      scene.current.draw(shown, looks(dark));
-    } catch {
-      setFault(true);
-    }
-    return () => {
-      scene.current?.dispose();
-      scene.current = null;
-    };
-  }, []);
-  useLayoutEffect(() => scene.current?.draw(shown, looks(dark)));
-  if (fault) {
-    return (
-      <p class="trouble" data-testid="no-webgl">
-        This browser shows no 3D graphics (WebGL is off or missing). Everything else works; the numbers are below.
-      </p>
-    );
+interface SliderProps {
+  name: string;
+  title: string;
+  /** From, to, step. */
+  range: [number, number, number];
+  value: number;
+  set: (value: number) => void;
+}
+
+function Slider({ name, title, range: [min, max, step], value, set }: SliderProps) {
+  return (
+    <label class="slider">
+      <span>{title}</span>
+      <input
+        type="range"
+        min={min}
+        max={max}
+        step={step}
+        value={value}
+        data-testid={name}
+        onInput={(event) => set(Number(event.currentTarget.value))}
+      />
+    </label>
+  );
+}
+
+/** Platforms drawn at a condition; the first carries the legs. */
+function moved(quantity: Quantity, opened: Opened, springs: View, view: View, index: number, looks: Looks): Moved[] {
+  const measured = opened.conditions.measured_motion[index] ?? ZERO;
+  const predicted = view.predicted_motion[index] ?? ZERO;
+  if (quantity === "deflections") {
+    return [
+      { motion: measured, colour: looks.ink },
+      { motion: predicted, colour: looks.now },
+    ];
   }
-  return <div ref={box} class="stage" data-testid="chart-machine" role="img" aria-label="The machine: base, legs coloured by what is left, platform unloaded, measured and predicted" tabIndex={0} />;
+  return [
+    { motion: minus(measured, predicted), colour: looks.now },
+    { motion: minus(measured, springs.predicted_motion[index] ?? ZERO), colour: looks.before },
+  ];
+}
+
+function missed({ conditions }: Opened, view: View): Six[] {
+  return conditions.measured_motion.map((motion, i) => minus(motion, view.predicted_motion[i] ?? ZERO));
+}
+
+function minus(a: Six, b: Six): Six {
+  return a.map((value, k) => value - (b[k] ?? 0)) as Six;
 }
 
 /** The condition with the largest residual. */
@@ -98,11 +139,12 @@ function worstOf(residual: Six[]): number {
   return Math.max(0, sizes.indexOf(Math.max(...sizes)));
 }
 
-/** Makes the largest deflection a fifth of the machine's width. */
-function usualFactor({ base_joints_mm, conditions }: Opened): number {
-  const width_um = 1000 * Math.max(...base_joints_mm.map(([x, y]) => Math.hypot(x, y)));
-  const largest_um = Math.max(1e-3, ...conditions.measured_motion.map(([x, y, z]) => Math.hypot(x, y, z)));
-  return Math.min(10 ** FACTOR_EXPONENTS.to, Math.max(1, (0.25 * width_um) / largest_um));
+/** Power of ten that makes the largest motion a good part of the machine's width. */
+function usualExponent({ base_joints_mm }: Opened, motions: Six[]): number {
+  const radius_um = 1000 * Math.max(1, ...base_joints_mm.map(([x, y]) => Math.hypot(x, y)));
+  const size = ([x, y, z, rx, ry, rz]: Six) => Math.hypot(x, y, z) + radius_um * 0.5e-6 * Math.hypot(rx, ry, rz);
+  const largest_um = Math.max(1e-3, ...motions.map(size));
+  return Math.min(LARGEST_EXPONENT, Math.max(0, Math.log10((0.35 * radius_um) / largest_um)));
 }
 
 function six(values: Six | undefined): string {

@@ -37,7 +37,14 @@ export function Editor({ text: first, help, problem, put, close }: Props) {
       )}
       <label>
         <span>The file (term/1)</span>
-        <textarea ref={area} data-testid="own-text" rows={10} spellcheck={false} value={text} onInput={(event) => setText(event.currentTarget.value)} />
+        <textarea
+          ref={area}
+          data-testid="own-text"
+          rows={10}
+          spellcheck={false}
+          value={text}
+          onInput={(event) => setText(event.currentTarget.value)}
+        />
       </label>
       {problem && <Trouble problem={problem} />}
       <div class="row">
@@ -49,7 +56,12 @@ export function Editor({ text: first, help, problem, put, close }: Props) {
         </button>
         <label class="button">
           Open a file
-          <input type="file" class="unseen" accept=".toml" onChange={(event) => void event.currentTarget.files?.[0]?.text().then(setText)} />
+          <input
+            type="file"
+            class="unseen"
+            accept=".toml"
+            onChange={(event) => void event.currentTarget.files?.[0]?.text().then(setText)}
+          />
         </label>
         <button type="button" class="quiet" onClick={close}>
           Close

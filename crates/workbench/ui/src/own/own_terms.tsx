@@ -17,7 +17,12 @@ export function OwnTerms({ store, catalogue, bench, state }: BenchProps) {
           return (
             <li key={id} class="switch">
               <label>
-                <input type="checkbox" data-testid={`term-${id}`} checked={terms.includes(id)} onChange={(event) => store.toggle(id, event.timeStamp)} />
+                <input
+                  type="checkbox"
+                  data-testid={`term-${id}`}
+                  checked={terms.includes(id)}
+                  onChange={(event) => store.toggle(id, event.timeStamp)}
+                />
                 <span>
                   {titleOf(text)} <code>{id}</code>
                 </span>

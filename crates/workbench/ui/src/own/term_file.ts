@@ -3,7 +3,12 @@
 export interface Parameter {
   name: string;
   unit: string;
+  /** Its physically sensible size, in that unit. */
   scale: string;
+  /** How many of the unit make one SI unit; empty when the unit tells. */
+  perSi: string;
+  /** Negative values have no meaning. */
+  positive: boolean;
 }
 
 /** What the form holds; numbers as typed. */
@@ -30,23 +35,27 @@ function topLevel(text: string, key: string): string {
 
 /** The file of a form. */
 export function written(term: OwnTerm): string {
-  const head = [
-    `format = "term/1"`,
-    `id = ${quoted(term.id)}`,
-    `title = ${quoted(term.title)}`,
-    `elongation = ${quoted(term.elongation)}`,
+  const head = [`format = "term/1"`, `id = ${quoted(term.id)}`, `title = ${quoted(term.title)}`, `elongation = ${quoted(term.elongation)}`];
+  return `${[...head, ...term.parameters.flatMap(lines)].join("\n")}\n`;
+}
+
+function lines({ name, unit, scale, perSi, positive }: Parameter): string[] {
+  return [
+    "",
+    "[[parameters]]",
+    `name = ${quoted(name)}`,
+    `unit = ${quoted(unit)}`,
+    ...(perSi.trim() === "" ? [] : [`per_si = ${perSi.trim()}`]),
+    `scale = ${scale.trim() || "1"}`,
+    ...(positive ? ["positive = true"] : []),
   ];
-  const parameters = term.parameters.map(
-    ({ name, unit, scale }) => `\n[[parameters]]\nname = ${quoted(name)}\nunit = ${quoted(unit)}\nscale = ${scale.trim() || "1"}`,
-  );
-  return `${[...head, ...parameters].join("\n")}\n`;
 }
 
 function quoted(text: string): string {
   return JSON.stringify(text);
 }
 
-const LINE = /^\s*(\w+)\s*=\s*("(?:[^"\\]|\\.)*"|[-+\d.eE_]+)\s*(?:#.*)?$/;
+const LINE = /^\s*(\w+)\s*=\s*("(?:[^"\\]|\\.)*"|[-+\d.eE_]+|true|false)\s*(?:#.*)?$/;
 
 /** The form of a file, or null when the file says more than the form can show. */
 export function parsed(text: string): OwnTerm | null {
@@ -65,12 +74,18 @@ export function parsed(text: string): OwnTerm | null {
     (parameters.at(-1) ?? head)[key] = read;
   }
   if (!only(head, ["format", "id", "title", "elongation"])) return null;
-  if (!parameters.every((parameter) => only(parameter, ["name", "unit", "scale"]))) return null;
+  if (!parameters.every((parameter) => only(parameter, ["name", "unit", "scale", "per_si", "positive"]))) return null;
   return {
     id: head.id ?? "",
     title: head.title ?? "",
     elongation: head.elongation ?? "",
-    parameters: parameters.map(({ name = "", unit = "", scale = "" }) => ({ name, unit, scale })),
+    parameters: parameters.map(({ name = "", unit = "", scale = "", per_si: perSi = "", positive }) => ({
+      name,
+      unit,
+      scale,
+      perSi,
+      positive: positive === "true",
+    })),
   };
 }
 

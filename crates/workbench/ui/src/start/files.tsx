@@ -1,7 +1,7 @@
 /** Files of one's own: dropped or chosen, read here, sent as text. */
 import { useState } from "preact/hooks";
 import { idOf } from "../own/term_file";
-import { missing, type NamedFile, type Role, ROLES, withFiles } from "./roles";
+import { missing, type NamedFile, ROLES, type Role, withFiles } from "./roles";
 import type { StartProps } from "./screen";
 
 export function Files({ store, catalogue }: StartProps) {
@@ -18,6 +18,7 @@ export function Files({ store, catalogue }: StartProps) {
   };
   const lacks = files.length === 0 ? "" : missing(files);
   return (
+    // biome-ignore lint/a11y/noStaticElementInteractions: dropping is a shortcut, the button does the same.
     <section
       class={over ? "card drop over" : "card drop"}
       onDragOver={(event) => {
@@ -49,7 +50,13 @@ export function Files({ store, catalogue }: StartProps) {
       </p>
       {files.length > 0 && <Chosen files={files} setFiles={setFiles} />}
       {(tooLarge || lacks) && <p class="hint">{tooLarge || lacks}</p>}
-      <button type="button" class="main" data-testid="open-files" disabled={files.length === 0 || lacks !== ""} onClick={() => open(store, files)}>
+      <button
+        type="button"
+        class="main"
+        data-testid="open-files"
+        disabled={files.length === 0 || lacks !== ""}
+        onClick={() => open(store, files)}
+      >
         Open them
       </button>
     </section>
@@ -72,7 +79,12 @@ function Chosen({ files, setFiles }: { files: NamedFile[]; setFiles: (files: Nam
               ))}
             </select>
           </label>
-          <button type="button" class="quiet" aria-label={`Remove ${name}`} onClick={() => setFiles(files.filter((file) => file.name !== name))}>
+          <button
+            type="button"
+            class="quiet"
+            aria-label={`Remove ${name}`}
+            onClick={() => setFiles(files.filter((file) => file.name !== name))}
+          >
             Remove
           </button>
         </li>

@@ -27,7 +27,13 @@ export function Game({ store, scores }: { store: Store; scores: Score[] }) {
         <legend class="unseen">Level</legend>
         {LEVELS.map((one) => (
           <label key={one.level}>
-            <input type="radio" name="level" checked={level === one.level} data-testid={`level-${one.level}`} onChange={() => setLevel(one.level)} />
+            <input
+              type="radio"
+              name="level"
+              checked={level === one.level}
+              data-testid={`level-${one.level}`}
+              onChange={() => setLevel(one.level)}
+            />
             <span>
               <strong>{one.title}.</strong> {one.text}
             </span>
@@ -36,7 +42,16 @@ export function Game({ store, scores }: { store: Store; scores: Score[] }) {
       </fieldset>
       <label>
         <span>Seed</span>{" "}
-        <input type="number" min="0" max={Number.MAX_SAFE_INTEGER} step="1" placeholder="drawn" value={seed} data-testid="game-seed" onInput={(event) => setSeed(event.currentTarget.value)} />
+        <input
+          type="number"
+          min="0"
+          max={Number.MAX_SAFE_INTEGER}
+          step="1"
+          placeholder="drawn"
+          value={seed}
+          data-testid="game-seed"
+          onInput={(event) => setSeed(event.currentTarget.value)}
+        />
       </label>
       <button type="submit" class="main" data-testid="game-start">
         Begin

@@ -15,13 +15,11 @@ export const ROLES: { role: Role; title: string }[] = [
   { role: "none", title: "not used" },
 ];
 
-/** Adds files to those chosen; a new file takes a role from an old one of the same role, except for terms. */
+/** Adds files to those chosen, each with its role; a file of the same name is replaced. */
 export function withFiles(old: NamedFile[], added: FileText[]): NamedFile[] {
-  return added.reduce((files, file) => [...files, { ...file, role: roleOf(file, files) }], dropNames(old, added));
-}
-
-function dropNames(old: NamedFile[], added: FileText[]): NamedFile[] {
-  return old.filter(({ name }) => !added.some((file) => file.name === name));
+  const files = old.filter(({ name }) => !added.some((file) => file.name === name));
+  for (const file of added) files.push({ ...file, role: roleOf(file, files) });
+  return files;
 }
 
 /** The role of a file beside those already there. */

@@ -16,13 +16,17 @@ export function StartScreen({ store, catalogue, state }: StartProps & { state: S
   return (
     <div class="start">
       <p class="lead">
-        Compare the model of a hexapod with measurements, see where it fails, tick the effect it lacks, and watch the error on
-        readings that no fit has seen fall to the noise.
+        Compare the model of a hexapod with measurements, see where it fails, tick the effect it lacks, and watch the error on readings that
+        no fit has seen fall to the noise.
       </p>
-      <Cases store={store} catalogue={catalogue} />
-      <Files store={store} catalogue={catalogue} />
-      <Game store={store} scores={state.scores} />
-      <Simulation store={store} catalogue={catalogue} />
+      <div class="column">
+        <Cases store={store} catalogue={catalogue} />
+      </div>
+      <div class="column">
+        <Files store={store} catalogue={catalogue} />
+        <Game store={store} scores={state.scores} />
+        <Simulation store={store} catalogue={catalogue} />
+      </div>
     </div>
   );
 }

@@ -23,11 +23,28 @@ export function Simulation({ store, catalogue }: StartProps) {
         <Select label="Plan" name="plan" value={plan} choices={catalogue.plans} set={setPlan} />
         <label>
           <span>How far each effect stands out (times the noise)</span>
-          <input type="number" min="0.1" step="any" placeholder="its usual size" value={distance} data-testid="simulation-distance" onInput={(event) => setDistance(event.currentTarget.value)} />
+          <input
+            type="number"
+            min="0.1"
+            step="any"
+            placeholder="its usual size"
+            value={distance}
+            data-testid="simulation-distance"
+            onInput={(event) => setDistance(event.currentTarget.value)}
+          />
         </label>
         <label>
           <span>Seed</span>
-          <input type="number" min="0" max={Number.MAX_SAFE_INTEGER} step="1" placeholder="drawn" value={seed} data-testid="simulation-seed" onInput={(event) => setSeed(event.currentTarget.value)} />
+          <input
+            type="number"
+            min="0"
+            max={Number.MAX_SAFE_INTEGER}
+            step="1"
+            placeholder="drawn"
+            value={seed}
+            data-testid="simulation-seed"
+            onInput={(event) => setSeed(event.currentTarget.value)}
+          />
         </label>
       </div>
       <Effects choices={catalogue.effects} chosen={effects} set={setEffects} />
