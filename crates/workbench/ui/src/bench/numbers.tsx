@@ -78,7 +78,9 @@ function Parameters({ view }: { view: View }) {
               <th scope="col">number</th>
               <th scope="col">value</th>
               <th scope="col">unit</th>
-              <th scope="col">remark</th>
+              <th scope="col" class="words">
+                remark
+              </th>
             </tr>
           </thead>
           <tbody>

@@ -1,6 +1,7 @@
 /** A loaded bench: terms, the held-out error, and charts of what is left. */
-import { useEffect } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { Envelope } from "../game/envelope";
+import { OwnEditor } from "../own/own_editor";
 import type { Bench, State } from "../state";
 import type { Store } from "../store";
 import type { Catalogue } from "../wire";
@@ -19,12 +20,14 @@ export interface BenchProps {
 
 export function BenchScreen(props: BenchProps) {
   const { store, state, bench } = props;
+  const [edited, edit] = useState<string | null>(null);
   useUndoKeys(store);
   return (
     <div class="bench">
       <HeldOut bench={bench} tick={state.tick} />
-      <Terms {...props} />
+      <Terms {...props} edit={edit} />
       <div class="sheets">
+        {edited !== null && <OwnEditor key={edited} {...props} text={edited} close={() => edit(null)} />}
         {bench.opened.sealed && <Envelope store={store} bench={bench} scores={state.scores} />}
         <Ladder store={store} bench={bench} />
         <Sheets {...props} />

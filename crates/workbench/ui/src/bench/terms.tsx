@@ -5,7 +5,8 @@ import { grouped } from "./groups";
 import type { BenchProps } from "./screen";
 import { TermSwitch } from "./term_switch";
 
-export function Terms(props: BenchProps) {
+/** `edit` opens a term file in the editor. */
+export function Terms(props: BenchProps & { edit: (text: string) => void }) {
   const { store, catalogue, bench } = props;
   const why = new Map(bench.opened.untestable.map(({ term, why }) => [term, why]));
   const { wanted, trials, history } = bench;

@@ -29,7 +29,7 @@ const NARROWEST_PX = 150;
 const ROW_PX = 190;
 const LONE_ROW_PX = 360;
 const TOP_PX = 34;
-const BOTTOM_PX = 46;
+const BOTTOM_PX = 24;
 const LEFT_PX = 46;
 const TITLE_PX = 26;
 const GAP_PX = 14;
@@ -124,7 +124,7 @@ function panelOf(sheet: Sheet, series: number): number {
 
 /** Limits of an axis about zero; null hands an axis back to the data. */
 function range(reach: number | undefined): Option {
-  return reach === undefined ? { min: null, max: null } : { min: -reach, max: reach };
+  return reach === undefined ? { min: null, max: null, interval: null } : { min: -reach, max: reach, interval: reach / 2 };
 }
 
 /** A round number not below the largest magnitude. */

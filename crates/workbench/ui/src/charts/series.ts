@@ -32,7 +32,7 @@ export function line(name: string, data: (number | null)[][], colour: string, da
     type: "line",
     name,
     data,
-    showSymbol: false,
+    symbol: "none",
     silent: true,
     lineStyle: { color: colour, width: 1.5, type: dash },
     itemStyle: { color: colour },

@@ -1,11 +1,8 @@
-/** Terms of one's own: switches, and the editor. */
-import { useState } from "preact/hooks";
+/** Switches of terms of one's own. */
 import type { BenchProps } from "../bench/screen";
-import { Editor } from "./editor";
 import { idOf, titleOf } from "./term_file";
 
-export function OwnTerms({ store, catalogue, bench, state }: BenchProps) {
-  const [edited, setEdited] = useState<string | null>(null);
+export function OwnTerms({ store, catalogue, bench, edit }: BenchProps & { edit: (text: string) => void }) {
   const { own, terms } = bench.wanted;
   const full = own.length >= catalogue.limits.own_terms;
   return (
@@ -21,13 +18,16 @@ export function OwnTerms({ store, catalogue, bench, state }: BenchProps) {
                   type="checkbox"
                   data-testid={`term-${id}`}
                   checked={terms.includes(id)}
-                  onChange={(event) => store.toggle(id, event.timeStamp)}
+                  onChange={(event) => {
+                    event.currentTarget.checked = terms.includes(id);
+                    store.toggle(id, event.timeStamp);
+                  }}
                 />
                 <span>
                   {titleOf(text)} <code>{id}</code>
                 </span>
               </label>
-              <button type="button" class="quiet" onClick={() => setEdited(text)}>
+              <button type="button" class="quiet" onClick={() => edit(text)}>
                 Edit
               </button>
               <button type="button" class="quiet" aria-label={`Remove ${id}`} onClick={() => store.dropOwn(id)}>
@@ -37,25 +37,10 @@ export function OwnTerms({ store, catalogue, bench, state }: BenchProps) {
           );
         })}
       </ul>
-      {edited === null ? (
-        <button type="button" data-testid="own-new" disabled={full} onClick={() => setEdited(catalogue.formula.example)}>
-          Write a formula
-        </button>
-      ) : (
-        <Editor
-          key={edited}
-          text={edited}
-          help={catalogue.formula}
-          problem={state.problem?.place === "formula" ? state.problem : null}
-          put={async (text) => {
-            if (await store.putOwn(text)) setEdited(null);
-          }}
-          close={() => {
-            if (state.problem?.place === "formula") store.dismiss();
-            setEdited(null);
-          }}
-        />
-      )}
+      <button type="button" data-testid="own-new" disabled={full} onClick={() => edit(catalogue.formula.example)}>
+        Write a formula
+      </button>
+      {full && <p class="hint">At most {catalogue.limits.own_terms} at a time.</p>}
     </details>
   );
 }
