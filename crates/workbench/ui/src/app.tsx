@@ -31,7 +31,9 @@ export function App({ store }: { store: Store }) {
       </header>
       {problem?.place === "page" && <Trouble problem={problem} {...(state.locked ? {} : { dismiss: store.dismiss })} />}
       <main>
-        {catalogue && bench && <BenchScreen store={store} state={state} catalogue={catalogue} bench={bench} />}
+        {catalogue && bench && (
+          <BenchScreen key={`${bench.opened.title} ${bench.opened.seed}`} store={store} state={state} catalogue={catalogue} bench={bench} />
+        )}
         {catalogue && !bench && <StartScreen store={store} catalogue={catalogue} state={state} />}
       </main>
       <footer>

@@ -45,8 +45,31 @@ export function changed(from: Selection | undefined, to: Selection): string {
   return words === "" ? "formula changed" : words;
 }
 
+const RICHER = ":richer";
+
+/** Id of a term without the mark of its richer form. */
+export function plain(id: string): string {
+  return id.endsWith(RICHER) ? id.slice(0, -RICHER.length) : id;
+}
+
+/** Is the term ticked, in either form? */
+export function isTicked(selection: Selection, id: string): boolean {
+  return selection.terms.some((other) => plain(other) === id);
+}
+
+/** Is the term ticked in its richer form? */
+export function isRicher(selection: Selection, id: string): boolean {
+  return selection.terms.includes(id + RICHER);
+}
+
 /** The selection with a term ticked or not. */
 export function toggled(selection: Selection, id: string): Selection {
-  const terms = selection.terms.includes(id) ? selection.terms.filter((other) => other !== id) : [...selection.terms, id];
+  const terms = isTicked(selection, id) ? selection.terms.filter((other) => plain(other) !== id) : [...selection.terms, id];
   return { ...selection, terms };
+}
+
+/** The selection with a ticked term in its other form. */
+export function otherForm(selection: Selection, id: string): Selection {
+  const other = isRicher(selection, id) ? id : id + RICHER;
+  return { ...selection, terms: selection.terms.map((one) => (plain(one) === id ? other : one)) };
 }

@@ -104,6 +104,12 @@ export class Store {
     if (bench !== null) void this.select(History.toggled(bench.wanted, id), "page", start);
   }
 
+  /** Asks for a ticked term in its richer or its ideal form. */
+  changeForm(id: string, start = performance.now()): void {
+    const bench = this.state.bench;
+    if (bench !== null) void this.select(History.otherForm(bench.wanted, id), "page", start);
+  }
+
   /** Unticks all. */
   springsAlone(): void {
     const bench = this.state.bench;

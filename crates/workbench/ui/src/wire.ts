@@ -16,6 +16,8 @@ export interface TermCard {
   physics: string;
   equation: string;
   shows: string;
+  /** True when it has a richer form, asked for by `:richer` behind the id. */
+  richer: boolean;
   parameters: { name: string; unit: string }[];
 }
 
@@ -44,7 +46,7 @@ export interface Catalogue {
   formula: FormulaHelp;
   limits: Limits;
   /** The files of the command line, when there are any. */
-  given?: Choice | null;
+  given: Choice | null;
 }
 
 export interface FileText {
@@ -162,8 +164,10 @@ export interface Diagnosed {
   word: "named" | "ambiguous" | "adequate" | "outside";
   sentences: string[];
   probabilities: { id: string; title: string; probability: number; alike: string[] }[];
+  /** What to tick to see the model it settled on. */
+  tick: string[];
   next: string[];
-  diagnosis: { added?: string[]; model?: string[] } & Record<string, unknown>;
+  diagnosis: Record<string, unknown>;
   milliseconds: number;
 }
 

@@ -27,7 +27,10 @@ export async function startWorkbench(...files) {
   const child = spawn(process.env.HEXBENCH_BINARY, ["workbench", ...files], { stdio: ["ignore", "pipe", "inherit"] });
   const url = await new Promise((resolve, reject) => {
     let said = "";
-    const timer = setTimeout(() => reject(new Error(`no address within ${STARTS_WITHIN_MS} ms; said: ${said}`)), STARTS_WITHIN_MS);
+    const timer = setTimeout(() => {
+      child.kill("SIGKILL");
+      reject(new Error(`no address within ${STARTS_WITHIN_MS} ms; said: ${said}`));
+    }, STARTS_WITHIN_MS);
     child.on("exit", (code) => reject(new Error(`ended with ${code}; said: ${said}`)));
     child.stdout.on("data", (data) => {
       said += data;

@@ -28,7 +28,7 @@ export function DiagnosisSheet({ store, bench, state }: BenchProps) {
 }
 
 function Answer({ answer, tick }: { answer: Diagnosed; tick: (ids: string[]) => void }) {
-  const named = answer.diagnosis.model ?? answer.diagnosis.added ?? [];
+  const named = answer.tick;
   return (
     <div aria-live="polite">
       <p class="verdict" data-testid="verdict" data-word={answer.word}>

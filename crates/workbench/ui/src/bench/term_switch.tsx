@@ -6,15 +6,18 @@ import type { TermCard } from "../wire";
 interface Props {
   term: TermCard;
   ticked: boolean;
+  /** Ticked in its richer form. */
+  richer: boolean;
   /** Why it cannot be tested with these data. */
   why: string | undefined;
   /** Held-out error if it were ticked as well, times the noise. */
   trial: number | undefined;
   /** Told when the gesture began, ms. */
   toggle: (start: number) => void;
+  changeForm: (start: number) => void;
 }
 
-export function TermSwitch({ term, ticked, why, trial, toggle }: Props) {
+export function TermSwitch({ term, ticked, richer, why, trial, toggle, changeForm }: Props) {
   const [shown, setShown] = useState(false);
   const about = `about-${term.id}`;
   return (
@@ -52,6 +55,20 @@ export function TermSwitch({ term, ticked, why, trial, toggle }: Props) {
           ?
         </button>
       </div>
+      {ticked && term.richer && (
+        <label class="richer" title="as real structures are: not the ideal form of the table">
+          <input
+            type="checkbox"
+            data-testid={`richer-${term.id}`}
+            checked={richer}
+            onChange={(event) => {
+              event.currentTarget.checked = richer;
+              changeForm(event.timeStamp);
+            }}
+          />{" "}
+          in its richer form
+        </label>
+      )}
       {why !== undefined && <p class="hint">Cannot be tested: {why}</p>}
       <div id={about} hidden={!shown} class="explained">
         {shown && <Explained term={term} />}

@@ -1,5 +1,6 @@
 /** Switches of all terms. */
 import { useState } from "preact/hooks";
+import { isRicher, isTicked } from "../history";
 import { OwnTerms } from "../own/own_terms";
 import { grouped } from "./groups";
 import type { BenchProps } from "./screen";
@@ -11,7 +12,7 @@ export function Terms(props: BenchProps & { edit: (text: string) => void }) {
   const why = new Map(bench.opened.untestable.map(({ term, why }) => [term, why]));
   const { wanted, trials, history } = bench;
   const trial = trials?.at === history.at ? trials.error : {};
-  const open = catalogue.terms.map(({ id }) => id).filter((id) => !why.has(id) && !wanted.terms.includes(id));
+  const open = catalogue.terms.map(({ id }) => id).filter((id) => !why.has(id) && !isTicked(wanted, id));
   return (
     <section class="card terms" aria-labelledby="terms-title">
       <div class="row spread">
@@ -33,10 +34,12 @@ export function Terms(props: BenchProps & { edit: (text: string) => void }) {
             <TermSwitch
               key={term.id}
               term={term}
-              ticked={wanted.terms.includes(term.id)}
+              ticked={isTicked(wanted, term.id)}
+              richer={isRicher(wanted, term.id)}
               why={why.get(term.id)}
               trial={trial[term.id]}
               toggle={(start) => store.toggle(term.id, start)}
+              changeForm={(start) => store.changeForm(term.id, start)}
             />
           ))}
         </Group>

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { add, begin, changed, goTo, now, type Step, toggled } from "../../src/history";
+import { add, begin, changed, goTo, isRicher, isTicked, now, otherForm, type Step, toggled } from "../../src/history";
 import type { View } from "../../src/wire";
 
 const step = (...terms: string[]): Step => ({ selection: { terms, own: [] }, view: { terms } as View });
@@ -27,4 +27,13 @@ test("a step is named by what it adds and removes", () => {
 test("ticking keeps the order of ticking", () => {
   assert.deepEqual(toggled({ terms: ["b"], own: [] }, "a").terms, ["b", "a"]);
   assert.deepEqual(toggled({ terms: ["b", "a"], own: [] }, "b").terms, ["a"]);
+});
+
+test("a term keeps its place when its form changes, and is unticked in either form", () => {
+  const selection = { terms: ["a", "b"], own: [] };
+  const richer = otherForm(selection, "a");
+  assert.deepEqual(richer.terms, ["a:richer", "b"]);
+  assert.ok(isTicked(richer, "a") && isRicher(richer, "a") && !isRicher(selection, "a"));
+  assert.deepEqual(otherForm(richer, "a").terms, ["a", "b"]);
+  assert.deepEqual(toggled(richer, "a").terms, ["b"]);
 });
