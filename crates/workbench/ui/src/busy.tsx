@@ -14,7 +14,8 @@ const WORDS: Record<Busy, string> = {
 };
 
 /** A line of text while `busy`, after a moment. */
-export function BusyLine({ busy }: { busy: Busy | null }) {
+export function BusyLine({ busy: all }: { busy: Busy[] }) {
+  const busy = all.at(-1) ?? null;
   const [shown, setShown] = useState(false);
   useEffect(() => {
     setShown(false);

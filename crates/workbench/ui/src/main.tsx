@@ -13,5 +13,7 @@ const store = new Store(token === null ? null : new Api(token));
 const root = document.getElementById("app");
 if (root !== null) render(<App store={store} />, root);
 void store.start();
+// A file dropped beside the place for files must not replace the page.
+for (const kind of ["dragover", "drop"]) addEventListener(kind, (event) => event.preventDefault());
 // An address with a new key, pasted into a tab that is already open.
 addEventListener("hashchange", () => location.reload());

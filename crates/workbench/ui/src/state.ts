@@ -1,5 +1,5 @@
 /** All the page knows. */
-import type { History } from "./history";
+import type { History, Step } from "./history";
 import type { Catalogue, Diagnosed, Level, Open, Opened, Revealed, Selection } from "./wire";
 
 /** Something that went wrong, with what to do. */
@@ -29,8 +29,14 @@ export interface Bench {
   /** Diagnosis and the formulas it weighed. */
   diagnosed: { answer: Diagnosed; own: string[] } | null;
   revealed: { answer: Revealed; guess: string[] } | null;
-  /** Held-out error if a term were ticked as well, by id; belongs to one place of the history. */
-  trials: { at: number; error: Record<string, number> } | null;
+  /** What each term would give if ticked as well, by id; belongs to one step. */
+  trials: { step: Step; found: Record<string, Trial> } | null;
+}
+
+/** A term tried: the held-out error it would give, times the noise. */
+export interface Trial {
+  times: number;
+  atTheNoise: boolean;
 }
 
 /** Games played in this tab. */
@@ -46,8 +52,8 @@ export type Busy = "opening" | "fitting" | "diagnosing" | "exporting" | "reveali
 export interface State {
   catalogue: Catalogue | null;
   bench: Bench | null;
-  /** Shown only when it takes longer than a blink. */
-  busy: Busy | null;
+  /** What is under way, the newest last. */
+  busy: Busy[];
   problem: Problem | null;
   scores: Score[];
   tick: Tick | null;
@@ -58,7 +64,7 @@ export interface State {
 export const EMPTY: State = {
   catalogue: null,
   bench: null,
-  busy: null,
+  busy: [],
   problem: null,
   scores: [],
   tick: null,

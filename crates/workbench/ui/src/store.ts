@@ -5,7 +5,7 @@ import * as History from "./history";
 import * as memory from "./memory";
 import { idOf } from "./own/term_file";
 import { OPEN_ADDRESS, problemOf } from "./problem";
-import { type Bench, type Busy, EMPTY, type Problem, type State } from "./state";
+import { type Bench, type Busy, EMPTY, type Problem, type State, type Trial } from "./state";
 import { untilDrawn } from "./stopwatch";
 import type { Open, Opened, Selection, View, What } from "./wire";
 
@@ -14,9 +14,8 @@ const SPRINGS: Selection = { terms: [], own: [] };
 export class Store {
   private state: State = { ...EMPTY, scores: memory.rememberedScores() };
   private readonly listeners = new Set<() => void>();
-  /** Request for a view under way; a newer one calls it off. */
-  private fitting: AbortController | null = null;
-  private asking: AbortController | null = null;
+  /** Requests under way. */
+  private readonly running = new Map<Busy, AbortController>();
 
   constructor(private readonly api: Api | null) {
     if (api === null) {
@@ -58,8 +57,11 @@ export class Store {
       return;
     }
     const before = memory.rememberedBench();
-    if (before !== null) await this.open(before.open, before.selection);
-    else if (this.state.catalogue?.given) await this.open({ from: "given" });
+    if (before !== null) {
+      // What cannot be opened again is not tried at every reload.
+      memory.rememberBench(null);
+      await this.open(before.open, before.selection);
+    } else if (this.state.catalogue?.given) await this.open({ from: "given" });
   }
 
   /** Opens a bench; `selection` is ticked at once. What is open stays until the new one is there. */
@@ -76,7 +78,8 @@ export class Store {
         this.show(opened, { ...open, ...seedOf(open, opened) } as Open);
       },
     );
-    if (this.state.bench?.opened && selection !== SPRINGS && this.state.problem === null) await this.select(selection);
+    const more = selection.terms.length + selection.own.length > 0;
+    if (more && this.state.bench !== null && this.state.problem === null) await this.select(selection);
   }
 
   private show(opened: Opened, open: Open): void {
@@ -93,7 +96,7 @@ export class Store {
   close(): void {
     this.callOff();
     memory.rememberBench(null);
-    this.set({ bench: null, problem: null, busy: null });
+    this.set({ bench: null, problem: null });
   }
 
   dismiss = (): void => this.set({ problem: null });
@@ -118,20 +121,18 @@ export class Store {
 
   /** Asks for the view of a selection; the newest wins. True when it was drawn. */
   async select(selection: Selection, place: Problem["place"] = "page", start = performance.now()): Promise<boolean> {
-    this.fitting?.abort();
-    const fitting = new AbortController();
-    this.fitting = fitting;
+    const signal = this.begin("fitting");
     this.setBench({ wanted: selection });
-    this.set({ busy: "fitting", problem: null });
+    this.set({ problem: null });
     try {
-      const view = await this.viewOf(selection, fitting.signal);
+      const view = await this.viewOf(selection, signal);
       this.draw(selection, view, start);
       return true;
     } catch (error) {
       if (!aborted(error)) this.refuse(error, place, () => void this.select(selection, place));
       return false;
     } finally {
-      if (this.fitting === fitting) this.set({ busy: this.state.busy === "fitting" ? null : this.state.busy });
+      this.end("fitting", signal);
     }
   }
 
@@ -186,7 +187,7 @@ export class Store {
   goTo(at: number): void {
     const bench = this.state.bench;
     if (bench === null) return;
-    this.fitting?.abort();
+    this.running.get("fitting")?.abort();
     const history = History.goTo(bench.history, at);
     this.setBench({ history, wanted: History.now(history).selection });
   }
@@ -229,18 +230,18 @@ export class Store {
   async tryEach(ids: string[]): Promise<void> {
     const bench = this.state.bench;
     if (bench === null) return;
-    const at = bench.history.at;
-    const error: Record<string, number> = {};
+    const step = History.now(bench.history);
+    const found: Record<string, Trial> = {};
     await this.during(
       "trying",
       "page",
       () => this.tryEach(ids),
       async (signal) => {
         for (const id of ids) {
-          if (this.state.bench?.history.at !== at) return;
-          const view = await this.trial(History.toggled(bench.wanted, id), signal);
-          if (view !== null) error[id] = view.times_noise;
-          this.setBench({ trials: { at, error: { ...error } } });
+          if (this.state.bench === null || History.now(this.state.bench.history) !== step) return;
+          const view = await this.trial(History.toggled(step.selection, id), signal);
+          if (view !== null) found[id] = { times: view.times_noise, atTheNoise: view.at_the_noise };
+          this.setBench({ trials: { step, found: { ...found } } });
         }
       },
     );
@@ -303,22 +304,35 @@ export class Store {
     again: () => Promise<void>,
     work: (signal: AbortSignal) => Promise<void>,
   ): Promise<void> {
-    this.asking?.abort();
-    const asking = new AbortController();
-    this.asking = asking;
-    this.set({ busy, problem: null });
+    const signal = this.begin(busy);
+    this.set({ problem: null });
     try {
-      await work(asking.signal);
+      await work(signal);
     } catch (error) {
       if (!aborted(error)) this.set({ problem: problemOf(error, place, () => void again()) });
     } finally {
-      if (this.asking === asking) this.set({ busy: this.state.busy === busy ? null : this.state.busy });
+      this.end(busy, signal);
     }
   }
 
+  /** Something is under way; the same thing begun before is called off. */
+  private begin(busy: Busy): AbortSignal {
+    this.running.get(busy)?.abort();
+    const control = new AbortController();
+    this.running.set(busy, control);
+    this.set({ busy: [...this.state.busy.filter((other) => other !== busy), busy] });
+    return control.signal;
+  }
+
+  /** It has come to its end, unless a newer one has taken its place. */
+  private end(busy: Busy, signal: AbortSignal): void {
+    if (this.running.get(busy)?.signal !== signal) return;
+    this.running.delete(busy);
+    this.set({ busy: this.state.busy.filter((other) => other !== busy) });
+  }
+
   private callOff(): void {
-    this.fitting?.abort();
-    this.asking?.abort();
+    for (const control of this.running.values()) control.abort();
   }
 }
 

@@ -9,7 +9,7 @@ const SHOWN_AT_LEAST = 3;
 
 export function DiagnosisSheet({ store, bench, state }: BenchProps) {
   const { diagnosed } = bench;
-  const running = state.busy === "diagnosing";
+  const running = state.busy.includes("diagnosing");
   return (
     <>
       <div class="row">
@@ -22,6 +22,9 @@ export function DiagnosisSheet({ store, bench, state }: BenchProps) {
             : "Weighs every term, alone and together, against the readings and the noise."}
         </span>
       </div>
+      {diagnosed && diagnosed.own.join() !== bench.wanted.own.join() && (
+        <p class="hint">Your formulas have changed since: diagnose again to weigh them.</p>
+      )}
       {diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}
     </>
   );

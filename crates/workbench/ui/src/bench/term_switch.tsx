@@ -1,6 +1,7 @@
 /** A term: its switch, and what it means. */
 import { useState } from "preact/hooks";
 import { digits } from "../format";
+import type { Trial } from "../state";
 import type { TermCard } from "../wire";
 
 interface Props {
@@ -10,8 +11,8 @@ interface Props {
   richer: boolean;
   /** Why it cannot be tested with these data. */
   why: string | undefined;
-  /** Held-out error if it were ticked as well, times the noise. */
-  trial: number | undefined;
+  /** What it would give if it were ticked as well. */
+  trial: Trial | undefined;
   /** Told when the gesture began, ms. */
   toggle: (start: number) => void;
   changeForm: (start: number) => void;
@@ -40,8 +41,8 @@ export function TermSwitch({ term, ticked, richer, why, trial, toggle, changeFor
           </span>
         </label>
         {trial !== undefined && !ticked && (
-          <span class="trial" title="held-out error with it, times the noise">
-            {digits(trial)} x
+          <span class={trial.atTheNoise ? "trial good" : "trial"} title="held-out error with it, times the noise">
+            {digits(trial.times)} x{trial.atTheNoise ? " \u2713" : ""}
           </span>
         )}
         <button

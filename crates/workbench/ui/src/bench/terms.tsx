@@ -1,6 +1,6 @@
 /** Switches of all terms. */
 import { useState } from "preact/hooks";
-import { isRicher, isTicked } from "../history";
+import { isRicher, isTicked, now } from "../history";
 import { OwnTerms } from "../own/own_terms";
 import { grouped } from "./groups";
 import type { BenchProps } from "./screen";
@@ -11,7 +11,7 @@ export function Terms(props: BenchProps & { edit: (text: string) => void }) {
   const { store, catalogue, bench } = props;
   const why = new Map(bench.opened.untestable.map(({ term, why }) => [term, why]));
   const { wanted, trials, history } = bench;
-  const trial = trials?.at === history.at ? trials.error : {};
+  const trial = trials?.step === now(history) ? trials.found : {};
   const open = catalogue.terms.map(({ id }) => id).filter((id) => !why.has(id) && !isTicked(wanted, id));
   return (
     <section class="card terms" aria-labelledby="terms-title">

@@ -50,7 +50,9 @@ export class Orbit {
     this.turn(-event.movementX * TURN_PER_PX, event.movementY * TURN_PER_PX);
   }
 
+  /** Only once the machine has the focus: else the wheel scrolls the page. */
   private wheel(event: WheelEvent): void {
+    if (document.activeElement !== this.box) return;
     event.preventDefault();
     this.come(Math.exp(-event.deltaY * 1e-3));
   }

@@ -34,7 +34,7 @@ export function Stage({ shown, dark }: { shown: Shown; dark: boolean }) {
     <>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: keys turn the machine. */}
       <div ref={box} class="stage" data-testid="chart-machine" role="img" aria-label={label} tabIndex={0} />
-      <p class="hint">Turn it with the mouse or the arrow keys; the wheel, + and - come nearer.</p>
+      <p class="hint">Turn it with the mouse or the arrow keys; + and - come nearer, and the wheel after a click.</p>
     </>
   );
 }
