@@ -43,7 +43,13 @@ export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
         </tbody>
       </table>
       <p class="hint">
-        {view.held_out}; root mean square of {error.count} numbers
+        <span class="narrow-only">
+          {digits(error.rms.translation_um)} um, {digits(error.rms.rotation_urad)} urad; noise {digits(noise.translation_um)} um,{" "}
+          {digits(noise.rotation_urad)} urad
+        </span>
+        <span class="wide-only">
+          {view.held_out}; root mean square of {error.count} numbers
+        </span>
         {tick && (
           <>
             <br />

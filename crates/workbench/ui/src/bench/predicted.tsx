@@ -50,6 +50,7 @@ export function PredictedSheet({ bench }: BenchProps) {
       </div>
       <Chart
         name="predicted"
+        of={[springs, now]}
         shape={quantity}
         label={`${quantity === "values" ? "Predicted" : "Measured minus predicted"} over measured, six coordinates`}
         draw={draw}

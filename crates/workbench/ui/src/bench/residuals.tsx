@@ -64,7 +64,7 @@ export function ResidualSheet({ bench }: BenchProps) {
           set={setLayout}
         />
       </div>
-      <Chart name="residuals" shape={`${layout} ${x} ${quantity}`} label={title} draw={draw} />
+      <Chart name="residuals" of={[springs, left]} shape={`${layout} ${x} ${quantity}`} label={title} draw={draw} />
       <p class="hint">
         Elongation of the legs in um that the model does not predict{shown(opened)}; the band is the noise of one reading seen by that leg.
       </p>

@@ -25,6 +25,7 @@ export function ScatterSheet({ bench }: BenchProps) {
     <>
       <Chart
         name="scatter"
+        of={[springs, now]}
         shape="scatter"
         label="Histogram and normal plot of the residuals of single readings, in units of the noise"
         draw={draw}

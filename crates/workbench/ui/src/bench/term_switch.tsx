@@ -83,7 +83,7 @@ function Explained({ term }: { term: TermCard }) {
     <>
       <p>{term.physics}</p>
       <pre>{term.equation}</pre>
-      <p>To see it: {term.shows}</p>
+      <p>Visible when {term.shows}.</p>
       {term.parameters.length > 0 && <p class="hint">{term.parameters.map(({ name, unit }) => `${name} (${unit})`).join(", ")}</p>}
     </>
   );

@@ -16,10 +16,12 @@ interface Props {
   label: string;
   /** Charts of the same shape only change their data, which is quicker than a new chart. */
   shape: string;
+  /** What is drawn: nothing is drawn again while all of this is the same. */
+  of: unknown[];
   draw: (width: number, looks: Looks) => Drawing;
 }
 
-export function Chart({ name, label, shape, draw }: Props) {
+export function Chart({ name, label, shape, of, draw }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const chart = useRef<{ instance: Instance; shape: string } | null>(null);
   const [width, setWidth] = useState(0);
@@ -47,6 +49,6 @@ export function Chart({ name, label, shape, draw }: Props) {
     chart.current.instance.setOption(option, { notMerge: chart.current.shape !== kind, silent: true });
     chart.current.instance.getZr().flush();
     chart.current.shape = kind;
-  });
+  }, [width, dark, shape, ...of]);
   return <div ref={box} class="chart" role="img" aria-label={label} data-testid={`chart-${name}`} />;
 }

@@ -74,7 +74,7 @@ export function MachineSheet({ bench }: BenchProps) {
           Where the springs miss most
         </button>
       </div>
-      <Stage shown={shown} dark={dark} />
+      <Stage shown={shown} of={[view, index, quantity, exponent]} dark={dark} />
       <Key quantity={quantity} reach={reach} />
       <p class="hint" data-testid="machine-text">
         Pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}] N, N m. Left in the legs, um: {six(residual)}.

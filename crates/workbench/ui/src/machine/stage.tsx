@@ -3,7 +3,8 @@ import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { looks } from "../charts/looks";
 import { MachineScene, type Shown } from "./scene";
 
-export function Stage({ shown, dark }: { shown: Shown; dark: boolean }) {
+/** Drawn again when `of` changes. */
+export function Stage({ shown, of, dark }: { shown: Shown; of: unknown[]; dark: boolean }) {
   const box = useRef<HTMLDivElement>(null);
   const scene = useRef<MachineScene | null>(null);
   const [fault, setFault] = useState(false);
@@ -21,7 +22,7 @@ export function Stage({ shown, dark }: { shown: Shown; dark: boolean }) {
       scene.current = null;
     };
   }, []);
-  useLayoutEffect(() => scene.current?.draw(shown, looks(dark)));
+  useLayoutEffect(() => scene.current?.draw(shown, looks(dark)), [dark, ...of]);
   if (fault) {
     return (
       <p class="trouble" data-testid="no-webgl">

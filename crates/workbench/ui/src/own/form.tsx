@@ -16,6 +16,7 @@ export function Form({ term, units, set }: Props) {
       <Field label="Id (small letters and dashes)" name="own-id" value={term.id} set={(id) => set({ ...term, id })} />
       <Field label="Title" name="own-title" value={term.title} set={(title) => set({ ...term, title })} />
       <Field
+        wide
         label="Elongation of a leg, m"
         name="own-elongation"
         value={term.elongation}
@@ -40,12 +41,7 @@ export function Form({ term, units, set }: Props) {
             </select>
           </label>
           <Field label="Usual size" name={`own-scale-${index}`} value={parameter.scale} set={(scale) => change(index, { scale })} />
-          <Field
-            label="Units per SI unit (for a unit of your own)"
-            name={`own-per-si-${index}`}
-            value={parameter.perSi}
-            set={(perSi) => change(index, { perSi })}
-          />
+          <Field label="Units per SI unit" name={`own-per-si-${index}`} value={parameter.perSi} set={(perSi) => change(index, { perSi })} />
           <label class="row">
             <input type="checkbox" checked={parameter.positive} onChange={() => change(index, { positive: !parameter.positive })} /> never
             negative
@@ -67,9 +63,17 @@ export function Form({ term, units, set }: Props) {
   );
 }
 
-function Field({ label, name, value, set }: { label: string; name: string; value: string; set: (value: string) => void }) {
+interface FieldProps {
+  label: string;
+  name: string;
+  value: string;
+  set: (value: string) => void;
+  wide?: boolean;
+}
+
+function Field({ label, name, value, set, wide }: FieldProps) {
   return (
-    <label>
+    <label class={wide ? "whole" : ""}>
       <span>{label}</span>
       <input
         type="text"

@@ -12,7 +12,8 @@ export function Help({ help }: { help: FormulaHelp }) {
               <code>{id}</code>
             </dt>
             <dd>
-              {title} {text}
+              {title}
+              {text && `, ${text}`}
             </dd>
           </div>
         ))}
