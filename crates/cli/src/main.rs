@@ -9,7 +9,6 @@ mod failure;
 mod input;
 mod output;
 mod page;
-mod report;
 mod states;
 
 use std::process::ExitCode;

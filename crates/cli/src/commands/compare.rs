@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_model::compare::compare;
+use hexbench_pages::comparison;
 
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Screen;
-use crate::page::comparison;
 
 /// Compare a model with measurements: errors beside the noise, where they sit, what they follow
 #[derive(Debug, Args)]

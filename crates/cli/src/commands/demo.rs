@@ -3,11 +3,11 @@
 use clap::Args;
 use hexbench_core::files::{parse_hexapod, read_measurements_from};
 use hexbench_model::terms::catalogue;
+use hexbench_pages::Subject;
 
 use crate::commands::diagnose::study;
 use crate::failure::Failure;
 use crate::output::Screen;
-use crate::page::{self, Subject};
 
 const HEXAPOD: &str = include_str!("../../../../data/cases/mujoco-foundation/hexapod.toml");
 const MEASUREMENTS: &str = include_str!("../../../../data/cases/mujoco-foundation/measurements.csv");
@@ -25,5 +25,5 @@ pub(crate) fn run(_: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let study = study(&hexapod, &data, Some(&holdout), &catalogue())?;
     let subject = Subject { hexapod: &hexapod, data: &data, holdout: Some(&holdout), study: &study };
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
-    screen.write(&page::demo(&subject, screen.ink()).map_err(failed)?)
+    screen.write(&hexbench_pages::demo(&subject, screen.ink()).map_err(failed)?)
 }

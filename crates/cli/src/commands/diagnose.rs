@@ -10,12 +10,12 @@ use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
 use hexbench_model::error::ModelError;
 use hexbench_model::term::Term;
 use hexbench_model::verdict::Verdict;
+use hexbench_pages::Subject;
+use hexbench_pages::html::{self, Provenance};
 
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Screen;
-use crate::page::{self, Subject};
-use crate::report::{self, Provenance};
 
 /// Name the physical effect the model lacks, and show the held-out error fall
 #[derive(Debug, Args)]
@@ -77,10 +77,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let subject = Subject { hexapod: &hexapod, data: &data, holdout: holdout.as_ref(), study: &study };
     if let Some(path) = &arguments.html {
-        screen.write_to(path, &report::diagnosis(&subject, &provenance(arguments)?)?)?;
+        screen.write_to(path, &html::diagnosis(&subject, &provenance(arguments)?)?)?;
     }
     if !to_stdout {
-        screen.write(&page::diagnosis(&subject, arguments.verbose, screen.ink()))?;
+        screen.write(&hexbench_pages::diagnosis(&subject, arguments.verbose, screen.ink()))?;
     }
     check(arguments.check, &study.diagnosis)
 }
@@ -115,6 +115,6 @@ fn check(expected: Option<Expected>, diagnosis: &Diagnosis) -> Result<(), Failur
     let Some(expected) = expected.map(Expected::verdict).filter(|e| *e != diagnosis.verdict) else {
         return Ok(());
     };
-    let word = |v: Verdict| page::conclusion::word(v);
+    let word = |v: Verdict| hexbench_pages::conclusion::word(v);
     Err(Failure::Check(format!("the verdict is {}, not {}", word(diagnosis.verdict), word(expected))))
 }

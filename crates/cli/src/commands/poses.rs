@@ -7,10 +7,10 @@ use clap::{ArgGroup, Args};
 use hexbench_core::BallRecord;
 use hexbench_core::files::{nearest, read_ball_places, read_balls};
 use hexbench_model::registration::{Located, Places, Registered, register_all};
+use hexbench_report::number::significant;
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
-use crate::output::number::significant;
 use crate::output::{Screen, report};
 use crate::page::located;
 

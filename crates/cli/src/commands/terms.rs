@@ -7,10 +7,10 @@ use hexbench_core::files::nearest;
 use hexbench_model::error::ModelError;
 use hexbench_model::term::{Term, TermInfo};
 use hexbench_model::terms::catalogue;
+use hexbench_pages::{effect, effects};
 
 use crate::failure::Failure;
 use crate::output::Screen;
-use crate::page::{effect, effects};
 
 /// List the effects of the catalogue, or explain one
 #[derive(Debug, Args)]

@@ -4,12 +4,15 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
+use hexbench_pages::text::{Ink, Paper, Table};
 use hexbench_rapier::parts::Inertia;
 use hexbench_rapier::transient::{LoadStep, SETTLED, Transient, csv, nominal, settle, static_deflection};
+use hexbench_report::number;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{Ink, Paper, Screen, Table, number};
+
+use crate::output::Screen;
 
 /// See how the machine settles after a load step, and its natural frequencies
 #[derive(Debug, Args)]

@@ -3,10 +3,12 @@
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
 
+use hexbench_pages::text::WIDTH;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 
 use super::excerpt::Excerpt;
-use super::{Colour, WIDTH};
+
+use super::Colour;
 use crate::failure::Failure;
 
 /// Tell why the command stopped.

@@ -4,8 +4,9 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use hexbench_core::files::atomic_write;
+use hexbench_pages::text::Ink;
 
-use super::{Colour, Ink};
+use super::Colour;
 use crate::failure::Failure;
 
 /// Standard output.

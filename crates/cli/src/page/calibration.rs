@@ -2,10 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use hexbench_pages::text::{Ink, Paper, Table};
 use hexbench_truth::campaign::Kind;
 use hexbench_validation::calibration::{Calibration, Fate, Record, headlines};
-
-use crate::output::{Ink, Paper, Table};
 
 /// Groups of false answers that get a line.
 const GROUPS: usize = 8;

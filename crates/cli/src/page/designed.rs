@@ -6,9 +6,9 @@ use hexbench_design::budget::{Amount, Budget};
 use hexbench_design::determined::unit_diagonal;
 use hexbench_design::space::Setting;
 use hexbench_model::observability::Observability;
+use hexbench_pages::text::{Ink, Paper, Table};
+use hexbench_report::number;
 use nalgebra::DMatrix;
-
-use crate::output::{Ink, Paper, Table, number};
 
 /// Correlations told at most, and the smallest worth telling.
 const MOST_TOLD: usize = 4;

@@ -3,13 +3,13 @@
 use hexbench_core::Observation;
 use hexbench_design::discriminate::Distance;
 use hexbench_model::next::Separation;
+use hexbench_pages::next::{self, settings, way};
+use hexbench_pages::text::{Ink, Paper};
+use hexbench_report::number::{percent, significant};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::next::{settings, way};
 use crate::failure::Failure;
-use crate::output::number::{percent, significant};
-use crate::output::{Ink, Paper};
 
 const LABEL: usize = 16;
 /// Decimal logarithms of odds beyond which a number says no more.
@@ -170,10 +170,10 @@ fn planned(paper: &mut Paper, number: usize, reading: &Planned, with_reference: 
         paper.hanging(&format!("{label:<5}in words"), LABEL, &reading.words);
         label.clear();
     }
-    paper.hanging(&format!("{label:<5}pose"), LABEL, &super::next::pose(&settings(o)));
-    paper.hanging("     load", LABEL, &super::next::load(&o.wrench.to_array()));
+    paper.hanging(&format!("{label:<5}pose"), LABEL, &next::pose(&settings(o)));
+    paper.hanging("     load", LABEL, &next::load(&o.wrench.to_array()));
     if with_reference && o.reference.to_array().iter().any(|x| *x != 0.0) {
-        paper.hanging("     reference", LABEL, &super::next::load(&o.reference.to_array()));
+        paper.hanging("     reference", LABEL, &next::load(&o.reference.to_array()));
     }
     paper.hanging("     way", LABEL, &way(o.approach, o.elapsed, o.delta_t, reading.repeats));
 }

@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use hexbench_model::registration::{Located, Places, Registered};
-
-use crate::output::number::significant;
-use crate::output::{Ink, Paper};
+use hexbench_pages::text::{Ink, Paper};
+use hexbench_report::number::significant;
 
 /// What the page is about.
 pub(crate) struct Told<'a> {

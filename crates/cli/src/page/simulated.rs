@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use hexbench_core::Measurand;
+use hexbench_pages::text::{Ink, Paper};
+use hexbench_report::number::significant;
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{Instrument, PartName};
-
-use crate::output::number::significant;
-use crate::output::{Ink, Paper};
 
 /// What the page is about.
 pub(crate) struct Told<'a> {

@@ -20,3 +20,4 @@ mod streams;
 mod study;
 mod support;
 mod validate;
+mod workbench;

@@ -15,12 +15,12 @@ use hexbench_design::space_file::read_space;
 use hexbench_model::fit_named::term_named;
 use hexbench_model::noise::Noise;
 use hexbench_model::term::Term;
+use search::Bench;
 
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Screen;
 use crate::page::designed::{Quantity, designed};
-use search::Bench;
 
 /// Choose the poses that determine stiffnesses (and effects) best
 #[derive(Debug, Args)]

@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use hexbench_pages::text::{Paper, Table};
 use hexbench_validation::discriminate::{
     CONFUSIONS, Protocol, SEED, discriminate, document, headlines, sheets,
 };
 
 use crate::failure::Failure;
-use crate::output::{Paper, Progress, Screen, Table};
+
+use crate::output::{Progress, Screen};
 
 /// Say whether the proposed readings tell effects apart: they are taken on simulated machines with a known truth
 #[derive(Debug, Args)]
