@@ -18,6 +18,11 @@ export function withUncertainty(value: number, std: number): { value: string; st
   return { value: sign(rounded(value, place)), std: rounded(std, place) };
 }
 
+/** A multiple of the noise. */
+export function times(value: number): string {
+  return value < 10 ? value.toFixed(2) : digits(value);
+}
+
 /** A probability: whole percents, with the ends said as such. */
 export function percent(share: number): string {
   if (share > 0.99) return "> 99 %";

@@ -7,7 +7,7 @@ export function Trouble({ problem, dismiss }: { problem: Problem; dismiss?: () =
       <p>
         <strong>{problem.message}</strong> {problem.next}
       </p>
-      <div class="row">
+      <div class="buttons">
         {problem.again && (
           <button type="button" data-testid="retry" onClick={problem.again}>
             Try again

@@ -1,13 +1,13 @@
 /** The diagnosis: verdict, how sure, what to measure next. */
-import { percent } from "../format";
-import type { Diagnosed } from "../wire";
+import { digits, percent } from "../format";
+import type { Diagnosed, TermCard } from "../wire";
 import type { BenchProps } from "./screen";
 
 /** Explanations less probable than this are summed up. */
 const SHOWN_FROM = 0.01;
 const SHOWN_AT_LEAST = 3;
 
-export function DiagnosisSheet({ store, bench, state }: BenchProps) {
+export function DiagnosisSheet({ store, bench, state, catalogue }: BenchProps) {
   const { diagnosed } = bench;
   const running = state.busy.includes("diagnosing");
   return (
@@ -25,12 +25,18 @@ export function DiagnosisSheet({ store, bench, state }: BenchProps) {
       {diagnosed && diagnosed.own.join() !== bench.wanted.own.join() && (
         <p class="hint">Your formulas have changed since: diagnose again to weigh them.</p>
       )}
-      {diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}
+      {diagnosed && <Answer answer={diagnosed.answer} terms={catalogue.terms} tick={(ids) => store.tickNamed(ids)} />}
     </>
   );
 }
 
-function Answer({ answer, tick }: { answer: Diagnosed; tick: (ids: string[]) => void }) {
+interface AnswerProps {
+  answer: Diagnosed;
+  terms: TermCard[];
+  tick: (ids: string[]) => void;
+}
+
+function Answer({ answer, terms, tick }: AnswerProps) {
   const named = answer.tick;
   return (
     <div aria-live="polite">
@@ -39,10 +45,10 @@ function Answer({ answer, tick }: { answer: Diagnosed; tick: (ids: string[]) => 
       </p>
       {named.length > 0 && (
         <button type="button" data-testid="tick-named" onClick={() => tick(named)}>
-          Tick what it names: {named.join(", ")}
+          {answer.word === "named" ? "Tick what it names" : "Tick what fits best"}: {named.join(", ")}
         </button>
       )}
-      <Probabilities answer={answer} />
+      <Probabilities answer={answer} terms={terms} />
       {answer.next.length > 0 && (
         <>
           <h3>What to measure next</h3>
@@ -53,12 +59,13 @@ function Answer({ answer, tick }: { answer: Diagnosed; tick: (ids: string[]) => 
           </ul>
         </>
       )}
-      <p class="hint">Took {(answer.milliseconds / 1000).toFixed(1)} s.</p>
+      <p class="hint">Took {digits(answer.milliseconds / 1000, 2)} s.</p>
     </div>
   );
 }
 
-function Probabilities({ answer }: { answer: Diagnosed }) {
+function Probabilities({ answer, terms }: Omit<AnswerProps, "tick">) {
+  const words = (id: string, title: string) => terms.find((term) => term.id === id)?.title ?? title;
   const shown = answer.probabilities.filter(({ probability }, index) => probability >= SHOWN_FROM || index < SHOWN_AT_LEAST);
   return (
     <table class="probabilities" data-testid="probabilities">
@@ -67,7 +74,7 @@ function Probabilities({ answer }: { answer: Diagnosed }) {
         {shown.map(({ id, title, probability, alike }) => (
           <tr key={id}>
             <th scope="row">
-              {title} {title !== id && <code>{id}</code>}
+              {words(id, title)} {words(id, title) !== id && <code>{id}</code>}
             </th>
             <td>{percent(probability)}</td>
             <td class="wide">

@@ -1,5 +1,5 @@
 /** The number that has to fall. */
-import { digits } from "../format";
+import { digits, times } from "../format";
 import * as History from "../history";
 import type { Bench, Tick } from "../state";
 
@@ -13,7 +13,7 @@ export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
         <h2>{view.holdout === null ? "Error on the readings fitted" : "Held-out error"}</h2>
         <p class="number">
           <strong data-testid="held-out" data-value={view.times_noise}>
-            {digits(view.times_noise)}
+            {times(view.times_noise)}
           </strong>{" "}
           times the noise
         </p>

@@ -1,5 +1,5 @@
 /** The held-out error step by step, with the noise as a line. */
-import { digits } from "../format";
+import { times } from "../format";
 import * as History from "../history";
 import type { Bench } from "../state";
 import type { Store } from "../store";
@@ -10,7 +10,7 @@ const WIDEST_AT_LEAST = 1.25;
 export function Ladder({ store, bench }: { store: Store; bench: Bench }) {
   const { steps, at } = bench.history;
   const widest = Math.max(WIDEST_AT_LEAST, ...steps.map(({ view }) => view.times_noise));
-  const share = (times: number) => `${(100 * times) / widest}%`;
+  const share = (multiple: number) => `${(100 * multiple) / widest}%`;
   return (
     <section class="card ladder">
       <div class="row spread">
@@ -32,7 +32,7 @@ export function Ladder({ store, bench }: { store: Store; bench: Bench }) {
           <li key={index} class={index > at ? "undone" : ""}>
             <button type="button" class="step" aria-current={index === at ? "step" : undefined} onClick={() => store.goTo(index)}>
               <span class="what">{History.changed(steps[index - 1]?.selection, step.selection)}</span>
-              <span class="times">{digits(step.view.times_noise)} x</span>
+              <span class="times">{times(step.view.times_noise)} x</span>
               <span class="track">
                 <span class={step.view.at_the_noise ? "bar good" : "bar"} style={{ width: share(step.view.times_noise) }} />
                 <span class="noise-line" style={{ left: share(1) }} />

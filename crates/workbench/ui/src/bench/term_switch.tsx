@@ -1,6 +1,6 @@
 /** A term: its switch, and what it means. */
 import { useState } from "preact/hooks";
-import { digits } from "../format";
+import { times } from "../format";
 import type { Trial } from "../state";
 import type { TermCard } from "../wire";
 
@@ -42,7 +42,7 @@ export function TermSwitch({ term, ticked, richer, why, trial, toggle, changeFor
         </label>
         {trial !== undefined && !ticked && (
           <span class={trial.atTheNoise ? "trial good" : "trial"} title="held-out error with it, times the noise">
-            {digits(trial.times)} x{trial.atTheNoise ? " \u2713" : ""}
+            {times(trial.times)} x{trial.atTheNoise ? " \u2713" : ""}
           </span>
         )}
         <button

@@ -6,7 +6,7 @@ import { Trouble } from "../trouble";
 import type { FormulaHelp } from "../wire";
 import { Form } from "./form";
 import { Help } from "./help";
-import { idOf, offsetOf, parsed, placeIn, written } from "./term_file";
+import { idOf, parsed, pointedAt, written } from "./term_file";
 
 interface Props {
   text: string;
@@ -72,11 +72,10 @@ export function Editor({ text: first, help, problem, put, close }: Props) {
   );
 }
 
-/** Puts the cursor where the message points. */
+/** Marks what the message points at. */
 function showPlace(area: HTMLTextAreaElement | null, message: string | undefined): void {
-  const place = message === undefined ? null : placeIn(message);
+  const place = area === null || message === undefined ? null : pointedAt(area.value, message);
   if (area === null || place === null) return;
-  const from = offsetOf(area.value, place);
   area.focus();
-  area.setSelectionRange(from, Math.min(from + 1, area.value.length));
+  area.setSelectionRange(...place);
 }

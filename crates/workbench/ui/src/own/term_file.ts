@@ -109,6 +109,18 @@ export function placeIn(message: string): { line: number; column: number } | nul
   return { line: Number(line), column: Number(/\bcol(?:umn)? (\d+)/.exec(message)?.[1] ?? "1") };
 }
 
+/** Where a message points in a text: offsets of the line and column it names, else of the words it quotes; null for neither. */
+export function pointedAt(text: string, message: string): [number, number] | null {
+  const place = placeIn(message);
+  if (place !== null) {
+    const from = Math.min(offsetOf(text, place), text.length);
+    return [from, Math.min(from + 1, text.length)];
+  }
+  const words = /`([^`]+)`/.exec(message)?.[1] ?? "";
+  const from = words === "" ? -1 : text.indexOf(words);
+  return from < 0 ? null : [from, from + words.length];
+}
+
 /** Offset of a place in a text. */
 export function offsetOf(text: string, place: { line: number; column: number }): number {
   const before = text.split("\n").slice(0, place.line - 1);

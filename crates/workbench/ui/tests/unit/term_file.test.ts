@@ -27,3 +27,11 @@ test("the place that a message names is found in the text", () => {
   assert.equal(placeIn("no place"), null);
   assert.equal("ab\ncd\nefghijklmnop".charAt(offsetOf("ab\ncd\nefghijklmnop", place ?? { line: 1, column: 1 })), "m");
 });
+
+test("a message without a place points at the words it quotes", () => {
+  const text = 'id = "a"\nelongation = "size * nonsense"\n';
+  const [from, to] = pointedAt(text, "`nonsense` is no variable, parameter or function here") ?? [0, 0];
+  assert.equal(text.slice(from, to), "nonsense");
+  assert.equal(pointedAt(text, "`elsewhere` is unknown"), null);
+  assert.deepEqual(pointedAt(text, "line 99, column 99"), [text.length, text.length]);
+});
