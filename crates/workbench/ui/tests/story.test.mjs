@@ -151,6 +151,58 @@ test("every sheet draws without a fault", async () => {
   await close();
 });
 
+test("a term is asked for in its richer form, and every other term is tried", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  assert.ok(await at("term-joint-geometry").isDisabled());
+  await at("try-each").click();
+  await page.locator(".trial").nth(15).waitFor();
+  const springs = await heldOut(page);
+  await at(`term-${TERM}`).click();
+  const ideal = await changedFrom(page, springs);
+  assert.equal(await page.locator(".trial").count(), 0, "what was tried belongs to another step");
+  await at(`richer-${TERM}`).click();
+  assert.notEqual(await changedFrom(page, ideal), ideal);
+  await at(`term-${TERM}`).click();
+  assert.equal(await changedFrom(page, ideal), springs);
+  await close();
+});
+
+test("a machine is simulated, tells its seed and what was put in, and the same seed gives the same readings", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  const readings = [];
+  for (let i = 0; i < 2; i++) {
+    await page.locator("summary", { hasText: "Effects in it" }).click();
+    await at(`effect-${TERM}`).check();
+    await at("simulation-plan").selectOption("few-poses");
+    await at("simulation-distance").fill("30");
+    await at("simulation-seed").fill("11");
+    await at("simulate").click();
+    await at("held-out").waitFor();
+    assert.match(await page.locator(".about").textContent(), new RegExp(`Seed 11.*${TERM}`));
+    readings.push(await downloaded(page, "export-measurements"));
+    await at("close").click();
+  }
+  assert.deepEqual(readings[0], readings[1]);
+  assert.match(readings[0].text, /^pose,/);
+  await close();
+});
+
+test("the page is dark or light as the system says or as chosen", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url, { colorScheme: "dark" });
+  const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  await at("theme").waitFor();
+  const dark = await paper();
+  await at("theme").selectOption("light");
+  assert.notEqual(await paper(), dark);
+  await page.reload();
+  await at("theme").waitFor();
+  assert.notEqual(await paper(), dark);
+  await at("theme").selectOption("auto");
+  assert.equal(await paper(), dark);
+  await close();
+});
+
 test("without WebGL the machine says so and the rest works", async () => {
   const plain = await startBrowser(false);
   const { page, at, close } = await openPage(plain, workbench.url, { refusals: ["WebGL"] });

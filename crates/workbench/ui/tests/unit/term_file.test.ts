@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { idOf, type OwnTerm, offsetOf, parsed, placeIn, written } from "../../src/own/term_file";
+import { idOf, type OwnTerm, offsetOf, parsed, placeIn, pointedAt, written } from "../../src/own/term_file";
 
 const TERM: OwnTerm = {
   id: "my-effect",
