@@ -2,8 +2,8 @@
 
 use std::io::{ErrorKind, Read, Write};
 use std::net::{Ipv4Addr, TcpStream};
-use std::thread;
-use std::time::Duration;
+use std::thread::{self, sleep};
+use std::time::{Duration, Instant};
 
 use hexbench_workbench::server::{Server, Settings};
 use hexbench_workbench::wire::Limits;
@@ -109,6 +109,18 @@ impl Site {
         self.exchange(&self.bytes(ask))
     }
 
+    /// Send a request again and again as long as the server is busy.
+    pub(crate) fn patiently(&self, ask: &Ask) -> Reply {
+        let begin = Instant::now();
+        loop {
+            let reply = self.send(ask);
+            if reply.answer != "503" || begin.elapsed() > PATIENCE {
+                return reply;
+            }
+            sleep(SHORT / 10);
+        }
+    }
+
     /// A request with this server's port and token in it.
     pub(crate) fn bytes(&self, ask: &Ask) -> Vec<u8> {
         let head = ask.head.join("\r\n") + "\r\n\r\n";
@@ -118,7 +130,7 @@ impl Site {
 
     /// Open a bench; its id.
     pub(crate) fn open(&self) -> String {
-        let reply = self.send(&post("/api/benches", r#"{"from":"given"}"#));
+        let reply = self.patiently(&post("/api/benches", r#"{"from":"given"}"#));
         assert_eq!(reply.answer, "201", "{reply:?}");
         reply.text("id").expect("an id")
     }
