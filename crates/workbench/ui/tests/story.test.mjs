@@ -319,15 +319,26 @@ test("only the newest answer is drawn, and a busy server is asked once more", as
   await loadCase(page, CASE);
   const springs = await heldOut(page);
   let asked = 0;
+  let late = () => {};
+  const lateAnswer = new Promise((resolve) => {
+    late = resolve;
+  });
   await page.route("**/view", async (route) => {
     asked += 1;
-    if (asked === 1) await new Promise((resolve) => setTimeout(resolve, 1000));
-    if (asked === 2) await route.fulfill({ status: 503, headers: { "retry-after": "1" }, json: { error: "busy", next: "wait" } });
-    else await route.continue().catch(() => {});
+    if (asked === 1) {
+      const response = await route.fetch();
+      await new Promise((resolve) => setTimeout(resolve, 2500));
+      await route.fulfill({ response }).catch(() => {});
+      late();
+    } else if (asked === 2) await route.fulfill({ status: 503, headers: { "retry-after": "1" }, json: { error: "busy", next: "wait" } });
+    else await route.continue();
   });
   await at("term-creep").click();
   await at(`term-${TERM}`).click();
-  await changedFrom(page, springs);
+  const newest = await changedFrom(page, springs);
+  await lateAnswer;
+  await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 200)));
+  assert.equal(await heldOut(page), newest);
   assert.ok((await at("term-creep").isChecked()) && (await at(`term-${TERM}`).isChecked()));
   assert.equal(await at("history").locator("li").count(), 2);
   assert.equal(asked, 3);
