@@ -111,7 +111,7 @@ impl Series {
     }
 
     /// Draws the data in a frame.
-    pub(super) fn draw(&self, canvas: &Canvas<'_>, frame: &Frame, look: Look) -> Result<(), PlotError> {
+    pub(super) fn draw(&self, canvas: &Canvas, frame: &Frame, look: Look) -> Result<(), PlotError> {
         match &self.kind {
             Kind::Band(points) => {
                 let low = points.iter().map(|p| frame.place([p[0], p[1]]));
@@ -130,7 +130,7 @@ impl Series {
 
     fn draw_line(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &Canvas,
         frame: &Frame,
         points: &[[f64; 2]],
         look: Look,
@@ -142,7 +142,7 @@ impl Series {
 
     fn draw_markers(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &Canvas,
         frame: &Frame,
         points: &[[f64; 2]],
         look: Look,
@@ -158,7 +158,7 @@ impl Series {
     /// Its sample in the legend, between two ends at a height.
     pub(super) fn sample(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &Canvas,
         [from, to]: [f64; 2],
         y: f64,
         look: Look,
@@ -183,7 +183,7 @@ impl Series {
 
 /// A vertical bar with caps.
 pub(super) fn error_bar(
-    canvas: &Canvas<'_>,
+    canvas: &Canvas,
     x: f64,
     [top, bottom]: [f64; 2],
     look: Look,
@@ -198,6 +198,6 @@ pub(super) fn error_bar(
 }
 
 /// Half-width of the marker samples, for charts that draw their own markers.
-pub(super) fn marker(canvas: &Canvas<'_>, at: [f64; 2], look: Look, marker: Marker) -> Result<(), PlotError> {
+pub(super) fn marker(canvas: &Canvas, at: [f64; 2], look: Look, marker: Marker) -> Result<(), PlotError> {
     canvas.marker(at, marker, look.colour, MARKER_PX)
 }
