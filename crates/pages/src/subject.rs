@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::diagnose::{NoiseReport, Study};
+use hexbench_model::diagnose::Study;
+use hexbench_model::noise::Noise;
 use hexbench_report::number::significant;
 
 use crate::text::Paper;
@@ -28,15 +29,20 @@ impl Subject<'_> {
         if let Some(holdout) = self.holdout {
             paper.hanging("  held out", LABEL, &describe(holdout));
         }
-        paper.hanging("  noise", LABEL, &noise(&self.study.diagnosis.noise));
+        paper.hanging("  noise", LABEL, &noise(&self.study.campaign.noise));
     }
 
     /// The same, a line each.
     pub fn lines(&self) -> Vec<String> {
-        let holdout = self.holdout.map(|h| format!("held out {}", describe(h)));
-        let noise = format!("noise {}", noise(&self.study.diagnosis.noise));
-        std::iter::once(describe(self.data)).chain(holdout).chain([noise]).collect()
+        lines(self.data, self.holdout, &self.study.campaign.noise)
     }
+}
+
+/// Files and noise, a line each.
+pub(crate) fn lines(data: &Dataset, holdout: Option<&Dataset>, level: &Noise) -> Vec<String> {
+    let holdout = holdout.map(|h| format!("held out {}", describe(h)));
+    let noise = format!("noise {}", noise(level));
+    std::iter::once(describe(data)).chain(holdout).chain([noise]).collect()
 }
 
 const LABEL: usize = 12;
@@ -53,9 +59,10 @@ pub fn poses(data: &Dataset) -> usize {
     data.observations.iter().map(key).collect::<BTreeSet<_>>().len()
 }
 
-fn noise(noise: &NoiseReport) -> String {
-    let (t, r) = (significant(noise.translation_um, 2), significant(noise.rotation_urad, 2));
-    format!("{t} um and {r} urad per reading, {}", origin(noise.source))
+/// Size and origin of the noise of one reading.
+pub fn noise(noise: &Noise) -> String {
+    let (t, r) = (significant(noise.translation * 1e6, 2), significant(noise.rotation * 1e6, 2));
+    format!("{t} um and {r} urad per reading, {}", origin(noise.source.word()))
 }
 
 fn origin(source: &str) -> &str {

@@ -6,7 +6,6 @@ use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
 use super::ReportError;
 use super::data::{Data, Seen};
-use super::figures::{FINAL, SPRINGS};
 
 /// Width of a class, standard deviations of one reading.
 const CLASS: f64 = 0.5;
@@ -15,31 +14,29 @@ const FURTHEST: f64 = 6.0;
 /// Quantiles drawn.
 const QUANTILES: usize = 60;
 
-/// Both charts, before and after.
-pub(crate) fn section(data: &Data) -> Result<Section, ReportError> {
+/// Both charts, a curve for each model.
+pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
     let mut histogram =
         Chart::new("", Axis::new("residual in units of the noise", ""), Axis::new("share per unit", ""))
-            .with(Series::line("noise alone", bell()).as_reference())
-            .with(Series::line("springs alone", shares(&data.before)).with_look(SPRINGS));
+            .with(Series::line("noise alone", bell()).as_reference());
     let mut normal =
         Chart::new("", Axis::new("expected of noise", ""), Axis::new("residual in units of the noise", ""))
-            .with(Series::line("noise alone", vec![[-3.0, -3.0], [3.0, 3.0]]).as_reference())
-            .with(Series::markers("springs alone", quantiles(&data.before)).with_look(SPRINGS));
-    if let Some(after) = &data.after {
-        histogram = histogram.with(Series::line("with the added effects", shares(after)).with_look(FINAL));
-        normal = normal.with(Series::markers("with the added effects", quantiles(after)).with_look(FINAL));
+            .with(Series::line("noise alone", vec![[-3.0, -3.0], [3.0, 3.0]]).as_reference());
+    for (name, look, seen) in data.models() {
+        histogram = histogram.with(Series::line(name, shares(seen)).with_look(look));
+        normal = normal.with(Series::markers(name, quantiles(seen)).with_look(look));
     }
     let panels = Panels::new("", 2).with_panel_size(450.0, 280.0).with(histogram).with(normal);
     let caption =
         "Left: how often residuals of a size occur. Right: normal plot; noise alone lies on the line.";
     let remark = "Residuals of single readings over the stated noise.";
     Ok(Section::new("scatter", "Are the residuals noise?", remark)
-        .with(Block::figure(&panels.to_svg()?, caption)))
+        .with(Block::figure(panels.to_svg()?, caption)))
 }
 
-fn sorted(seen: &Seen) -> Vec<f64> {
+fn sorted(seen: &Seen<'_>) -> Vec<f64> {
     let mut all: Vec<f64> =
-        seen.readings.iter().flat_map(|r| r.whitened.iter().copied().collect::<Vec<_>>()).collect();
+        seen.judged.rows.iter().flat_map(|r| r.whitened.iter().copied().collect::<Vec<_>>()).collect();
     all.sort_by(f64::total_cmp);
     all
 }
@@ -50,7 +47,7 @@ fn bell() -> Vec<[f64; 2]> {
 }
 
 /// Outline of a histogram.
-fn shares(seen: &Seen) -> Vec<[f64; 2]> {
+fn shares(seen: &Seen<'_>) -> Vec<[f64; 2]> {
     let all = sorted(seen);
     let n = all.len().max(1) as f64;
     let classes = (2.0 * FURTHEST / CLASS).round();
@@ -67,7 +64,7 @@ fn shares(seen: &Seen) -> Vec<[f64; 2]> {
     outline
 }
 
-fn quantiles(seen: &Seen) -> Vec<[f64; 2]> {
+fn quantiles(seen: &Seen<'_>) -> Vec<[f64; 2]> {
     let all = sorted(seen);
     let n = all.len();
     let law = Normal::standard();

@@ -35,7 +35,7 @@ pub enum Block {
     /// A chart.
     Figure {
         /// Its name within the section, as in the names of files; empty for the only one.
-        name: &'static str,
+        name: String,
         /// The chart, as [`crate::plot`] draws it.
         svg: String,
         /// What it shows.
@@ -107,7 +107,7 @@ impl Block {
     }
 
     /// One of several charts of a section: lower-case letters and hyphens.
-    pub fn named_figure(name: &'static str, svg: String, caption: impl Into<String>) -> Self {
-        Self::Figure { name, svg, caption: caption.into() }
+    pub fn named_figure(name: impl Into<String>, svg: String, caption: impl Into<String>) -> Self {
+        Self::Figure { name: name.into(), svg, caption: caption.into() }
     }
 }

@@ -1,7 +1,7 @@
 //! A chart within a page: in the colours of the page, with a name for readers who do not see.
 
 /// Colours of a chart, and the colours of the page that replace them.
-const THEMED: [(&str, &str); 11] = [
+const THEMED: [(&str, &str); 12] = [
     ("#262626", "var(--ink)"),
     ("#000000", "var(--ink)"),
     ("#707070", "var(--grey)"),
@@ -13,6 +13,7 @@ const THEMED: [(&str, &str); 11] = [
     ("#CC79A7", "var(--pink)"),
     ("#E69F00", "var(--amber)"),
     ("#005A8F", "var(--deep)"),
+    ("#B34A00", "var(--rust)"),
 ];
 
 /// The chart as it stands in a page.

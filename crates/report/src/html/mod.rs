@@ -12,7 +12,7 @@ use serde::Serialize;
 pub use block::{Block, Cell, Mood};
 
 /// What makes the pages, as they say themselves.
-const PROGRAM: &str = concat!("hexbench ", env!("CARGO_PKG_VERSION"));
+pub const PROGRAM: &str = concat!("hexbench ", env!("CARGO_PKG_VERSION"));
 
 /// True for a page that this program wrote, in whatever version: such a file may be replaced.
 pub fn is_own(page: &str) -> bool {
@@ -59,7 +59,7 @@ impl Section {
     /// Name and chart of a block that is one.
     fn figure<'a>(&self, block: &'a Block) -> Option<(String, &'a str)> {
         match block {
-            Block::Figure { name: "", svg, .. } => Some((self.id.to_owned(), svg)),
+            Block::Figure { name, svg, .. } if name.is_empty() => Some((self.id.to_owned(), svg)),
             Block::Figure { name, svg, .. } => Some((format!("{}-{name}", self.id), svg)),
             _ => None,
         }
@@ -89,11 +89,10 @@ impl Page {
             minijinja::Value::from_safe_string(figure::themed(svg, caption))
         });
         pages.add_template(NAME, include_str!("../../templates/report.html"))?;
-        let program = PROGRAM;
         let style = minijinja::Value::from_safe_string(include_str!("../../templates/report.css").to_owned());
         Ok(pages
             .get_template(NAME)?
-            .render(context! { page => minijinja::Value::from(Serde(self)), style, program })?)
+            .render(context! { page => minijinja::Value::from(Serde(self)), style, program => PROGRAM })?)
     }
 }
 

@@ -169,8 +169,9 @@ fn through(points: impl IntoIterator<Item = Point>) -> String {
 }
 
 fn stroke(colour: Colour, width: f64, dash: Dash) -> String {
-    let dash =
-        dash.map(|(on, off)| format!(" stroke-dasharray=\"{} {}\"", short(on), short(off))).unwrap_or_default();
+    let dash = dash
+        .map(|(on, off)| format!(" stroke-dasharray=\"{} {}\"", short(on), short(off)))
+        .unwrap_or_default();
     format!(" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{}\"{dash}", short(width))
 }
 
@@ -252,11 +253,8 @@ impl Canvas {
 
     /// A line of text. Upright text is turned a quarter to the left; its anchor turns with it.
     pub(super) fn text(&self, [x, y]: Point, text: &str, set: Type) -> Result<(), PlotError> {
-        let turn = if set.upright {
-            format!(" transform=\"rotate(-90 {})\"", place([x, y]))
-        } else {
-            String::new()
-        };
+        let turn =
+            if set.upright { format!(" transform=\"rotate(-90 {})\"", place([x, y])) } else { String::new() };
         let [x, foot] = [x, y + set.drop()].map(short);
         let element = format!("<text x=\"{x}\" y=\"{foot}\"{turn}>{}</text>", escaped(text));
         self.put(Kind::Text, set.attributes(), &element)

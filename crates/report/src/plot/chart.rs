@@ -108,12 +108,7 @@ impl Chart {
 }
 
 /// Draws a title, if any; returns where the next thing begins.
-pub(super) fn title(
-    canvas: &Canvas,
-    text: &str,
-    [left, top]: [f64; 2],
-    room: f64,
-) -> Result<f64, PlotError> {
+pub(super) fn title(canvas: &Canvas, text: &str, [left, top]: [f64; 2], room: f64) -> Result<f64, PlotError> {
     if text.is_empty() {
         return Ok(top);
     }

@@ -20,6 +20,7 @@ pub struct Series {
     errors: Vec<f64>,
     look: Option<usize>,
     reference: bool,
+    marker_px: f64,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +53,14 @@ impl Series {
     }
 
     fn new(name: impl Into<String>, kind: Kind) -> Self {
-        Self { name: name.into(), kind, errors: Vec::new(), look: None, reference: false }
+        Self {
+            name: name.into(),
+            kind,
+            errors: Vec::new(),
+            look: None,
+            reference: false,
+            marker_px: MARKER_PX,
+        }
     }
 
     /// Error bars: half-length above and below each point, in the unit of the y axis.
@@ -65,6 +73,12 @@ impl Series {
     #[must_use]
     pub fn with_look(self, number: usize) -> Self {
         Self { look: Some(number), ..self }
+    }
+
+    /// Markers of another half-width, px: small ones for clouds of many.
+    #[must_use]
+    pub fn with_marker_size(self, px: f64) -> Self {
+        Self { marker_px: px, ..self }
     }
 
     /// A grey dashed line to compare with, such as a noise level.
@@ -85,6 +99,7 @@ impl Series {
             length(chart, &format!("the list of errors of \"{}\"", self.name), self.errors.len(), entries)?;
         }
         let what = format!("series \"{}\"", self.name);
+        finite(chart, "the size of a marker", &[self.marker_px])?;
         finite(chart, &what, &self.xs())?;
         finite(chart, &what, &self.ys())?;
         finite(chart, &format!("the errors of {what}"), &self.errors)
@@ -152,7 +167,9 @@ impl Series {
             let [_, bottom] = frame.place([point[0], point[1] - error]);
             error_bar(canvas, x, [top, bottom], look)?;
         }
-        points.iter().try_for_each(|p| canvas.marker(frame.place(*p), look.marker, look.colour, MARKER_PX))
+        points
+            .iter()
+            .try_for_each(|p| canvas.marker(frame.place(*p), look.marker, look.colour, self.marker_px))
     }
 
     /// Its sample in the legend, between two ends at a height.
