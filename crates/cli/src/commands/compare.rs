@@ -8,7 +8,7 @@ use hexbench_pages::{comparison, html};
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{PageFiles, Screen, provenance};
+use crate::output::{PageFiles, Screen, WithOrigin, origin, provenance, write_json};
 
 /// Compare a model with measurements: errors beside the noise, where they sit, what they follow
 #[derive(Debug, Args)]
@@ -43,8 +43,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
     let result = &compared.comparison;
     if let Some(path) = &arguments.json {
-        let cause = |e: serde_json::Error| Failure::Output { path: path.clone(), cause: e.into() };
-        screen.write_to(path, &(serde_json::to_string_pretty(result).map_err(cause)? + "\n"))?;
+        let run =
+            origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
+        write_json(screen, path, &WithOrigin { result, run })?;
     }
     arguments.page.write(screen, || {
         let read = [&arguments.hexapod, &arguments.data]

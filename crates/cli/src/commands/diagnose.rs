@@ -14,7 +14,7 @@ use hexbench_pages::html;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{PageFiles, Screen, provenance};
+use crate::output::{PageFiles, Screen, WithOrigin, origin, provenance, write_json};
 
 /// Name the physical effect the model lacks, and show the held-out error fall
 #[derive(Debug, Args)]
@@ -71,7 +71,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let study = study(&hexapod, &data, holdout.as_ref(), &terms)?;
     let to_stdout = arguments.json.as_deref() == Some(Path::new("-"));
     if let Some(path) = &arguments.json {
-        screen.write_to(path, &json(&study.diagnosis)?)?;
+        let run =
+            origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
+        write_json(screen, path, &WithOrigin { result: &study.diagnosis, run })?;
     }
     let subject = Subject { hexapod: &hexapod, data: &data, holdout: holdout.as_ref(), study: &study };
     arguments.page.write(screen, || {
@@ -96,11 +98,6 @@ pub(crate) fn study(
 ) -> Result<Study, Failure> {
     let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
     diagnose(hexapod, data, holdout, terms).map_err(failed)
-}
-
-fn json(diagnosis: &Diagnosis) -> Result<String, Failure> {
-    let cause = |e: serde_json::Error| Failure::Output { path: "diagnosis.json".into(), cause: e.into() };
-    Ok(serde_json::to_string_pretty(diagnosis).map_err(cause)? + "\n")
 }
 
 fn check(expected: Option<Expected>, diagnosis: &Diagnosis) -> Result<(), Failure> {

@@ -1,12 +1,15 @@
-//! A page for a browser as a file, its charts as files.
+//! Results as files: JSON, a page for a browser, its charts.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_core::files::{atomic_write, content_hash};
+use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::runs::Origin;
 use hexbench_pages::html::{Provenance, ReportError};
-use hexbench_report::html::Page;
+use hexbench_report::html::{PROGRAM, Page};
 use hexbench_report::png::png;
+use serde::Serialize;
 
 use super::{Screen, report};
 use crate::failure::Failure;
@@ -69,4 +72,34 @@ pub(crate) fn provenance<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Re
     let files = files.into_iter().map(digest).collect::<Result<_, Failure>>()?;
     let words: Vec<String> = std::env::args().skip(1).collect();
     Ok(Provenance { command: format!("hexbench {}", words.join(" ")), files })
+}
+
+/// Which machine and files a result is about.
+pub(crate) fn origin(
+    hexapod: (&Hexapod, &Path),
+    data: (&Dataset, &Path),
+    holdout: Option<&Path>,
+) -> Result<Origin, Failure> {
+    Ok(Origin {
+        program: PROGRAM.to_owned(),
+        machine: hexapod.0.name.clone(),
+        measurand: if data.0.is_absolute() { "absolute poses" } else { "deflections" }.to_owned(),
+        hexapod_sha256: content_hash(hexapod.1)?,
+        data_sha256: content_hash(data.1)?,
+        holdout_sha256: holdout.map(content_hash).transpose()?,
+    })
+}
+
+/// A result with where it comes from, key by key.
+#[derive(Serialize)]
+pub(crate) struct WithOrigin<'a, T> {
+    #[serde(flatten)]
+    pub(crate) result: &'a T,
+    pub(crate) run: Origin,
+}
+
+/// Write a result as JSON.
+pub(crate) fn write_json(screen: &Screen, path: &Path, value: &impl Serialize) -> Result<(), Failure> {
+    let cause = |e: serde_json::Error| Failure::Output { path: path.to_owned(), cause: e.into() };
+    screen.write_to(path, &(serde_json::to_string_pretty(value).map_err(cause)? + "\n"))
 }

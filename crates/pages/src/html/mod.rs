@@ -10,6 +10,7 @@ mod numbers;
 mod period;
 mod predicted;
 mod residual_sheet;
+mod runs;
 mod scatter;
 mod verdict;
 
@@ -18,6 +19,8 @@ use hexbench_model::compare::Compared;
 use hexbench_model::error::ModelError;
 use hexbench_report::html::{Page, PageError, Section};
 use hexbench_report::plot::PlotError;
+
+pub use self::runs::runs;
 
 use self::data::Data;
 use crate::{Subject, subject};
