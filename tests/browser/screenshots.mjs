@@ -9,7 +9,6 @@ const SIZE = { width: 1200, height: 800 };
 const PICTURES = [
   ["report", "diagnosis", "light", "verdict"],
   ["report-dark", "diagnosis", "dark", "leg-space"],
-  ["report-machine", "comparison", "light", "machine"],
 ];
 
 const reason = missing();

@@ -102,7 +102,9 @@ pub(crate) fn error_sentence(runs: &Runs) -> String {
         ""
     };
     let Some(e) = runs.error else {
-        return format!("One error is of held-out readings, the other is not: they are not compared.{noise}");
+        return format!(
+            "Only one of the two has a file of held-out readings: their errors are not compared.{noise}"
+        );
     };
     let times = significant(e.ratio.sqrt(), 3);
     let p = chance(e.p);
@@ -116,7 +118,9 @@ fn errors(paper: &mut Paper, runs: &Runs) {
     paper.heading("The error", "held-out readings where there are some");
     let mut table = Table::default();
     table.row(["", "x noise", "um", "urad"]);
-    rungs(runs).into_iter().for_each(|row| table.row(row));
+    for row in rungs(runs) {
+        table.row(row);
+    }
     table.lines().iter().for_each(|line| paper.line(line));
     paper.paragraph(2, &error_sentence(runs));
 }
@@ -137,7 +141,7 @@ pub(crate) fn legend(runs: &Runs) -> String {
     let count = runs.parameters.iter().filter(|p| p.changed == Changed::Yes).count();
     let verb = if count == 1 { "differs" } else { "differ" };
     format!(
-        "{count} of {} {verb} beyond chance (*: more than {} combined standard uncertainties, which noise reaches anywhere in the \
+        "{count} of {} parameters {verb} beyond chance (*: more than {} combined standard uncertainties, which noise reaches anywhere in the \
          list once in a hundred).",
         runs.parameters.len(),
         significant(runs.sigmas_beyond_chance, 2)
@@ -151,8 +155,16 @@ fn parameters(paper: &mut Paper, runs: &Runs) {
     paper.heading("Parameters", "+- standard uncertainty (k = 1); B - A in combined uncertainties");
     let mut table = Table::default();
     table.row(["", "A", "B", "unit", "B - A"]);
+    let mut told = "";
     for p in &runs.parameters {
-        table.row([p.name.clone(), number(p.a), number(p.b), p.unit.clone(), difference(p)]);
+        let (of, name) = p.name.split_once('.').unwrap_or(("", &p.name));
+        let is_leg = name == "stiffness" && of.starts_with("leg-");
+        if !is_leg && of != told {
+            table.row([of]);
+            told = of;
+        }
+        let name = if is_leg { p.name.clone() } else { format!("  {name}") };
+        table.row([name, number(p.a), number(p.b), p.unit.clone(), difference(p)]);
     }
     table.left(3).lines().iter().for_each(|line| paper.line(line));
     paper.paragraph(2, &legend(runs));

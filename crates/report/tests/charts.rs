@@ -87,7 +87,7 @@ fn many_markers_are_one_element() {
     let svg = chart(900).to_svg().unwrap();
     assert!(svg.matches("<path").count() < 12, "{} paths", svg.matches("<path").count());
     let each = (svg.len() - chart(100).to_svg().unwrap().len()) as f64 / 1600.0;
-    assert!(each < 26.0, "{each} bytes for a marker");
+    assert!(each < 16.0, "{each} bytes for a marker");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Judged;
-use super::association::{Look, added_columns};
+use super::association::{COMPLIANCE, Look, added_columns};
 use crate::period::period_grid;
 
 /// Grid steps per independent frequency.
@@ -60,6 +60,20 @@ pub struct Spectra {
     pub peak: Option<Peak>,
 }
 
+impl Spectrum {
+    fn new(look: &Look<'_>, scanned: &[Scanned]) -> Self {
+        let points = scanned.iter().map(|s| [s.period * 1e3, s.f]).collect();
+        Self { leg: look.leg.map(|l| l + 1), of: look.of(), points }
+    }
+
+    /// The same look at another model.
+    pub fn again(&self, judged: &Judged<'_>) -> Option<Self> {
+        let periods = usable_periods(judged)?;
+        let look = Look { judged, leg: self.leg.map(|l| l - 1), compliance: self.of == COMPLIANCE };
+        Some(Self::new(&look, &scan(&look, &periods))).filter(|s| !s.points.is_empty())
+    }
+}
+
 impl Spectra {
     /// All of them; `None` with too few poses.
     pub fn of(judged: &Judged<'_>) -> Option<Self> {
@@ -75,12 +89,8 @@ impl Spectra {
         let count = looked.len().max(1) as f64;
         let single = -f64::exp_m1(f64::ln_1p(-REPORTED / count) / independent(&periods));
         let dof = judged.white.len() as f64 - 3.0 - judged.rank;
-        let spectrum = |(look, points): (Look<'_>, Vec<Scanned>)| Spectrum {
-            leg: look.leg.map(|l| l + 1),
-            of: look.of(),
-            points: points.into_iter().map(|s| [s.period * 1e3, s.f]).collect(),
-        };
-        let all: Vec<Spectrum> = scanned.into_iter().map(spectrum).filter(|s| !s.points.is_empty()).collect();
+        let all = scanned.iter().map(|(look, s)| Spectrum::new(look, s)).filter(|s| !s.points.is_empty());
+        let all: Vec<Spectrum> = all.collect();
         (dof > 0.0).then(|| Self { all, level: exceeded_with(single, dof), peak: significant(looked) })
     }
 }

@@ -96,7 +96,7 @@ pub struct Runs {
     pub b: Run,
     /// Effects, something outside and nothing: probability in the first and in the second, zero where it is not listed.
     pub probabilities: Vec<(String, [f64; 2])>,
-    /// Error on held-out readings, else on fitted ones; absent when the two are not of one kind.
+    /// Error on held-out readings, else on fitted ones; absent when only one of the two has a holdout file.
     pub error: Option<ErrorChange>,
     /// True when the noise is another one.
     pub noise_changed: bool,
@@ -195,10 +195,12 @@ fn probabilities(a: &Run, b: &Run) -> Vec<(String, [f64; 2])> {
     all
 }
 
-/// Ratio of the errors of the final models, held out in both or in neither.
+/// Ratio of the errors of the final models, held out in the same way.
 fn error(a: &Run, b: &Run) -> Option<ErrorChange> {
+    let file = |run: &Run| run.origin.as_ref().map(|o| o.holdout_sha256.is_some());
+    let one_has_a_file = file(a).zip(file(b)).is_some_and(|(a, b)| a != b);
     let (a, b) = (a.steps.last()?, b.steps.last()?);
-    if a.holdout.is_some() != b.holdout.is_some() {
+    if a.holdout.is_some() != b.holdout.is_some() || one_has_a_file {
         return None;
     }
     ratio(a.error(), b.error())
@@ -322,6 +324,8 @@ mod tests {
         assert!(
             between(run(4.0, 1.0), other.clone()).unwrap().warnings[0].starts_with("The measurements differ")
         );
+        other.origin.as_mut().unwrap().holdout_sha256 = Some("4".into());
+        assert!(between(run(4.0, 1.0), other.clone()).unwrap().error.is_none(), "one has a holdout file");
         other.origin = None;
         assert!(between(run(4.0, 1.0), other).unwrap().warnings[0].contains("was not checked"));
     }

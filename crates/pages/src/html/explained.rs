@@ -6,7 +6,7 @@ use hexbench_model::compare::legs::{LegSpace, leg_space};
 use hexbench_model::linearization::Linearization;
 use hexbench_report::html::{Block, Section};
 use hexbench_report::number::significant;
-use hexbench_report::plot::{Axis, Chart, Series};
+use hexbench_report::plot::{Axis, Chart, Panels, Series};
 
 use super::ReportError;
 use super::data::{Data, Seen, spread};
@@ -15,6 +15,8 @@ use super::residual_sheet::{OF_LEGS, varies};
 
 /// Conditions of a panel.
 const MOST: usize = 100;
+/// Charts side by side.
+const MOST_COLUMNS: usize = 3;
 /// Legs of which an effect must be a curve for them all to be drawn over the variable.
 const LEAST_CURVES: usize = 4;
 
@@ -33,7 +35,8 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     let Some(after) = &data.after else { return Ok(None) };
     let remark = "Residual elongations of the final model with one effect taken out; springs and other effects stay as fitted.";
     let mut section = Section::new("explained", "What each added effect explains", remark);
-    let mut sheet = panels().with_panel_size(300.0, 240.0);
+    let columns = after.point.active.len().min(MOST_COLUMNS);
+    let mut sheet = Panels::new("", columns).with_panel_size(300.0, 240.0);
     let mut courses = Vec::new();
     for k in 0..after.point.active.len() {
         let effect = Effect::of(data, after, k)?;
@@ -72,8 +75,8 @@ impl<'a> Effect<'a> {
             .collect();
         let [low, high] = points.iter().fold([0.0, 0.0], |[l, h]: [f64; 2], p| [l.min(p[0]), h.max(p[0])]);
         Chart::new(self.id, Axis::new("the effect explains", "um"), Axis::new("left without it", "um"))
-            .with(Series::line("explained", vec![[low, low], [high, high]]).as_reference())
             .with(residuals("left without the effect", points))
+            .with(Series::line("explained", vec![[low, low], [high, high]]).as_reference())
     }
 
     /// Every leg over the variable of which the effect is a curve.
@@ -92,7 +95,7 @@ impl<'a> Effect<'a> {
             let y = Axis::new(format!("leg {}", leg + 1), "um");
             sheet = sheet.with(cloud(names, &self.dots(leg, &x), Axis::new(title, unit), y));
         }
-        let caption = format!("{} in each leg over {title}{}.", self.id, self.fold(shape, title));
+        let caption = format!("{} in each leg over {title}{}.", self.id, fold(shape, title));
         Ok(Some(Block::named_figure(self.id, sheet.to_svg()?, caption)))
     }
 
@@ -116,10 +119,6 @@ impl<'a> Effect<'a> {
         own.and_then(|a| a.term.info().shape).is_some_and(|shape| shape.name == "pitch")
     }
 
-    fn fold(&self, shape: f64, title: &str) -> String {
-        if title == WITHIN { format!(" of {} mm", significant(shape * 1e3, 4)) } else { String::new() }
-    }
-
     fn dots(&self, leg: usize, x: &Over<'_>) -> Vec<Dot> {
         let dot = |(c, left, explained): (&Condition, Vector6, Vector6)| Dot {
             x: x(c, leg),
@@ -133,3 +132,8 @@ impl<'a> Effect<'a> {
 
 /// Name of the variable of a periodic effect.
 const WITHIN: &str = "leg length within one pitch";
+
+/// The period, where a chart is folded at it.
+fn fold(shape: f64, title: &str) -> String {
+    if title == WITHIN { format!(" of {} mm", significant(shape * 1e3, 4)) } else { String::new() }
+}

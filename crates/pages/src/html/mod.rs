@@ -73,7 +73,7 @@ pub fn diagnosis(subject: &Subject<'_>, provenance: &Provenance) -> Result<Page,
         numbers::look_at(d),
         Some(numbers::provenance(provenance, d.noise.source)),
     ];
-    Ok(page(subject.hexapod, subject.lines(), sections))
+    Ok(page(subject.hexapod, &subject.lines(), sections))
 }
 
 /// The page of a comparison.
@@ -106,10 +106,10 @@ pub fn comparison(
         comparison::hidden(c),
         Some(numbers::provenance(provenance, c.noise_source)),
     ];
-    Ok(page(hexapod, subject::lines(readings, holdout, &compared.campaign.noise), sections))
+    Ok(page(hexapod, &subject::lines(readings, holdout, &compared.campaign.noise), sections))
 }
 
-fn page<const N: usize>(hexapod: &Hexapod, subject: Vec<String>, sections: [Option<Section>; N]) -> Page {
+fn page<const N: usize>(hexapod: &Hexapod, subject: &[String], sections: [Option<Section>; N]) -> Page {
     Page {
         title: hexapod.name.clone(),
         subject: subject.join(" · "),

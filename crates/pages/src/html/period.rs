@@ -21,10 +21,9 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
     let Some(peak) = &spectra.peak else { return Ok(None) };
     let same = |s: &&Spectrum| s.leg == peak.leg && s.of == peak.of;
     let Some(before) = spectra.all.iter().find(same) else { return Ok(None) };
-    let after = data.after.as_ref().and_then(|a| Spectra::of(&a.judged));
-    let after = after.as_ref().and_then(|s| s.all.iter().find(same));
+    let after = data.after.as_ref().and_then(|a| before.again(&a.judged));
     let section = Section::new("period", "What repeats with leg length", remark(peak))
-        .with(spectrum(data, before, after, spectra.level)?)
+        .with(spectrum(data, before, after.as_ref(), spectra.level)?)
         .with(folded(data, peak.of == "compliance", peak.period_mm)?);
     Ok(Some(section))
 }

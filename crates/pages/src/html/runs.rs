@@ -15,6 +15,9 @@ use crate::runs::{
 /// Parameters of a chart of differences.
 const MOST: usize = 40;
 
+/// Differences that a chart shows, combined uncertainties.
+const SEEN: f64 = 0.05;
+
 /// The page of two results.
 ///
 /// # Errors
@@ -133,7 +136,7 @@ fn parameters(runs: &Runs) -> Result<Option<Section>, ReportError> {
         .with(Block::paragraph(legend(runs)));
     let (names, sigmas): (Vec<String>, Vec<f64>) =
         runs.parameters.iter().filter_map(|p| Some((p.name.clone(), p.sigmas?))).take(MOST).unzip();
-    if names.is_empty() {
+    if sigmas.iter().all(|s| s.abs() < SEEN) {
         return Ok(Some(section));
     }
     let bars = Bars::new("", names, Axis::new("B − A", "combined uncertainties")).with("", sigmas);

@@ -60,8 +60,8 @@ impl Bars {
     /// [`PlotError::NotFinite`], [`PlotError::Empty`], [`PlotError::Length`].
     pub fn to_svg(&self) -> Result<String, PlotError> {
         self.check()?;
-        let entries: Vec<(&str, Look)> =
-            self.sets.iter().enumerate().map(|(i, s)| (s.name.as_str(), Look::nth(i))).collect();
+        let entries = self.sets.iter().enumerate().map(|(i, s)| (s.name.as_str(), Look::nth(i)));
+        let entries: Vec<(&str, Look)> = entries.filter(|(name, _)| !name.is_empty()).collect();
         svg(self.size_px, &self.title, |canvas| {
             let [width, height] = self.size_px;
             let room = width - 2.0 * MARGIN_PX;

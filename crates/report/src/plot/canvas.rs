@@ -225,18 +225,14 @@ impl Canvas {
         const RIM_PX: f64 = 1.5;
         let corner = |x: f64, y: f64| [at[0] + x * size, at[1] + y * size];
         match marker {
-            Marker::Circle => {
-                // A line without length with round ends.
-                let round = format!("{} stroke-linecap=\"round\"", stroke(colour, 2.0 * size, None));
-                self.put(Kind::Path, round, &format!("M{}h0", place(at)))
-            }
+            Marker::Circle => self.cap(at, "round", colour, size),
             Marker::Ring => {
                 let rim = format!(" fill=\"{PAPER}\" stroke=\"{colour}\" stroke-width=\"{RIM_PX}\"");
                 let (r, d) = (short(size), short(2.0 * size));
                 let ring = format!("M{}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z", place(corner(-1.0, 0.0)));
                 self.put(Kind::Path, rim, &ring)
             }
-            Marker::Square => self.rectangle(corner(-0.9, -0.9), corner(0.9, 0.9), colour),
+            Marker::Square => self.cap(at, "square", colour, 0.9 * size),
             Marker::Triangle => {
                 self.polygon(&[corner(-1.1, 0.85), corner(1.1, 0.85), corner(0.0, -1.15)], colour, 1.0)
             }
@@ -249,6 +245,12 @@ impl Canvas {
                 self.line(&[corner(-0.9, 0.9), corner(0.9, -0.9)], colour, RIM_PX, None)
             }
         }
+    }
+
+    /// A line without length: nothing but its ends, the shortest way to say a marker.
+    fn cap(&self, at: Point, ends: &str, colour: Colour, size: f64) -> Result<(), PlotError> {
+        let line = format!("{} stroke-linecap=\"{ends}\"", stroke(colour, 2.0 * size, None));
+        self.put(Kind::Path, line, &format!("M{}h0", place(at)))
     }
 
     /// A line of text. Upright text is turned a quarter to the left; its anchor turns with it.

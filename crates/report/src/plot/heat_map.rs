@@ -112,7 +112,7 @@ impl HeatMap {
     }
 
     fn draw_cells(&self, canvas: &Canvas, [left, top]: [f64; 2]) -> Result<(), PlotError> {
-        const LIGHT_TEXT_FROM: f64 = 0.55;
+        const LIGHT_TEXT_FROM: f64 = 0.62;
         const GAP_PX: f64 = 1.0;
         const FAINTEST: f64 = 0.035;
         let ([w, h], darkest) = (self.cell_px, self.darkest());
