@@ -47,5 +47,6 @@ pub(crate) enum Command {
     Study(commands::study::Arguments),
     Terms(commands::terms::Arguments),
     Validate(commands::validate::Arguments),
+    Workbench(commands::workbench::Arguments),
     Completions(commands::completions::Arguments),
 }

@@ -160,6 +160,14 @@ pub(crate) enum Failure {
     /// A page that cannot be drawn.
     #[error("{0}")]
     Report(#[from] ReportError),
+    /// A server that cannot begin.
+    #[error("port {port} on 127.0.0.1 cannot be used: {cause}")]
+    Server {
+        /// Its port; 0: any.
+        port: u16,
+        /// Why not.
+        cause: io::Error,
+    },
     /// Output that cannot be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Output {
@@ -198,9 +206,11 @@ impl Failure {
             | Self::SceneState { .. }
             | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
-            Self::UserTerm { .. } | Self::Output { .. } | Self::Unreadable { .. } | Self::Simulation(_) => {
-                Exit::InputOutput
-            }
+            Self::UserTerm { .. }
+            | Self::Output { .. }
+            | Self::Server { .. }
+            | Self::Unreadable { .. }
+            | Self::Simulation(_) => Exit::InputOutput,
         }
     }
 
@@ -208,7 +218,7 @@ impl Failure {
     pub(crate) fn next_step(&self) -> Option<String> {
         match self {
             Self::File(error) => Some(error.next_step()),
-            Self::Model { cause, data } => Some(next_step_of(cause, data)),
+            Self::Model { cause, data } => Some(cause.next_step(data)),
             Self::Simulation(SimulationError::Row(_)) => {
                 Some("Check the poses, loads and effects of the scene: this state does not exist.".into())
             }
@@ -221,7 +231,7 @@ impl Failure {
                     .into(),
             ),
             Self::Power(PowerError::Design(DesignError::Model(cause))) => {
-                Some(next_step_of(cause, "the plan"))
+                Some(cause.next_step("the plan"))
             }
             Self::Power(_) => Some("Check the poses (mm, deg) and loads (N, N m) of the plan.".into()),
             Self::Design(_) => {
@@ -255,6 +265,9 @@ impl Failure {
             Self::Plot(_) => Some("Give more trials.".into()),
             Self::Report(_) => Some("Leave --html away: the page in the terminal needs no charts.".into()),
             Self::Reproduction(_) => Some("Give another seed.".into()),
+            Self::Server { .. } => {
+                Some("Leave --port away: a free port is then chosen.".into())
+            }
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())
             }
@@ -301,29 +314,8 @@ fn exit_of_study(cause: &StudyError) -> Exit {
 
 fn exit_of(cause: &ModelError) -> Exit {
     match cause {
-        ModelError::UnknownTerm { .. } => Exit::Usage,
+        ModelError::UnknownTerm { .. } | ModelError::Selection(_) => Exit::Usage,
         ModelError::NotFinite { .. } | ModelError::Mismatch(_) => Exit::BadInput,
         _ => Exit::NotDetermined,
-    }
-}
-
-fn next_step_of(cause: &ModelError, data: &str) -> String {
-    match cause {
-        ModelError::SingularPose { .. } => {
-            format!("Check the joints in the hexapod file and this pose in {data} (mm, deg).")
-        }
-        ModelError::TooFewEquations { .. } => {
-            format!("Add readings at other poses and loads to {data}; one pose gives six numbers.")
-        }
-        ModelError::NoLoad => format!("Check fx_N ... mz_Nm and ref_fx_N ... ref_mz_Nm in {data}."),
-        ModelError::UnknownTerm { .. } => "`hexbench terms` lists the effects.".into(),
-        ModelError::Untestable { .. } => "`hexbench terms TERM` says what the data must contain.".into(),
-        ModelError::NotDetermined { .. } => {
-            "Measure other poses or load directions, or leave the term out.".into()
-        }
-        ModelError::NotFinite { .. } | ModelError::NotConverged { .. } => {
-            format!("Look in {data} for readings of the wrong size or unit.")
-        }
-        ModelError::Mismatch(_) => "Give a holdout file of the same kind as the data.".into(),
     }
 }

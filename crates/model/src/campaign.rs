@@ -29,6 +29,8 @@ pub struct Group {
     pub sigma: [f64; 6],
     /// Indices of the readings in the dataset.
     pub rows: Vec<u32>,
+    /// Sum of squared whitened differences between the readings and their mean.
+    pub pure_error: f64,
 }
 
 /// One group with the legs and forces of its pose. Fixed frame, SI.
@@ -156,24 +158,28 @@ impl Campaign {
             return Err(ModelError::TooFewEquations { equations: 0, unknowns: 6 });
         }
         let groups = group(&dataset.observations, &noise);
-        let mut pure_error = 0.0;
-        for g in &groups {
-            for &row in &g.rows {
-                let reading = &dataset.observations[row as usize];
-                pure_error += whitened_square(reading, &g.mean.measured, &noise);
-            }
-        }
-        let extra = dataset.observations.len() - groups.len();
-        Ok(Self {
-            hexapod: hexapod.clone(),
-            measurand: dataset.measurand,
-            columns: dataset.columns,
-            readings: dataset.observations.len(),
-            groups,
-            noise,
-            pure_error,
-            pure_error_dof: 6.0 * extra as f64,
-        })
+        Ok(Self::of_groups(hexapod, dataset.measurand, dataset.columns, noise, groups))
+    }
+
+    fn of_groups(
+        hexapod: &Hexapod,
+        measurand: Measurand,
+        columns: Columns,
+        noise: Noise,
+        groups: Vec<Group>,
+    ) -> Self {
+        let readings: usize = groups.iter().map(|g| g.rows.len()).sum();
+        let pure_error = groups.iter().map(|g| g.pure_error).sum();
+        let pure_error_dof = 6.0 * (readings - groups.len()) as f64;
+        let hexapod = hexapod.clone();
+        Self { hexapod, measurand, columns, groups, readings, noise, pure_error, pure_error_dof }
+    }
+
+    /// Some of the groups; their readings keep their indices in the dataset.
+    #[must_use]
+    pub fn part(&self, groups: &[usize]) -> Self {
+        let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
+        Self::of_groups(&self.hexapod, self.measurand, self.columns, self.noise, kept)
     }
 
     /// True in absolute mode.
@@ -321,7 +327,7 @@ fn group(rows: &[Observation], noise: &Noise) -> Vec<Group> {
     for (i, row) in rows.iter().enumerate() {
         let slot = *index.entry(key(row)).or_insert(groups.len());
         if slot == groups.len() {
-            groups.push(Group { mean: *row, sigma: [0.0; 6], rows: Vec::with_capacity(1) });
+            groups.push(Group { mean: *row, sigma: [0.0; 6], rows: Vec::with_capacity(1), pure_error: 0.0 });
         }
         groups[slot].rows.push(u32::try_from(i).unwrap_or(u32::MAX));
     }
@@ -348,6 +354,8 @@ fn average(group: &mut Group, rows: &[Observation], noise: &Noise) {
         group.mean.measured[k] = first[k] + sums[k] / weights[k];
         group.sigma[k] = weights[k].sqrt().recip();
     }
+    let mean = group.mean.measured;
+    group.pure_error = group.rows.iter().map(|&i| whitened_square(&rows[i as usize], &mean, noise)).sum();
 }
 
 /// Standard deviation of the six values of one reading.

@@ -40,6 +40,9 @@ pub enum ModelError {
         /// The closest known id.
         nearest: Option<String>,
     },
+    /// Terms that cannot be asked for like this.
+    #[error("{0}")]
+    Selection(String),
     /// The term cannot be tested with this file.
     #[error("`{id}` cannot be fitted to this file: {why}")]
     Untestable {
@@ -65,6 +68,33 @@ pub enum ModelError {
     /// Two things that do not belong together.
     #[error("{0}")]
     Mismatch(String),
+}
+
+impl ModelError {
+    /// What to do about it, one sentence; `data` names the file.
+    pub fn next_step(&self, data: &str) -> String {
+        match self {
+            Self::SingularPose { .. } => {
+                format!("Check the joints in the hexapod file and this pose in {data} (mm, deg).")
+            }
+            Self::TooFewEquations { .. } => {
+                format!("Add readings at other poses and loads to {data}; one pose gives six numbers.")
+            }
+            Self::NoLoad => format!("Check fx_N ... mz_Nm and ref_fx_N ... ref_mz_Nm in {data}."),
+            Self::UnknownTerm { .. } => "`hexbench terms` lists the effects.".into(),
+            Self::Selection(_) => {
+                "Name each term once; `hexbench terms TERM` says whether it has a richer form.".into()
+            }
+            Self::Untestable { .. } => "`hexbench terms TERM` says what the data must contain.".into(),
+            Self::NotDetermined { .. } => {
+                "Measure other poses or load directions, or leave the term out.".into()
+            }
+            Self::NotFinite { .. } | Self::NotConverged { .. } => {
+                format!("Look in {data} for readings of the wrong size or unit.")
+            }
+            Self::Mismatch(_) => "Give a holdout file of the same kind as the data.".into(),
+        }
+    }
 }
 
 fn describe(pose: &Pose) -> String {

@@ -120,9 +120,19 @@ pub fn fit_baseline(campaign: &Campaign) -> Result<Fit, ModelError> {
 /// [`ModelError::SingularPose`], [`ModelError::NoLoad`], [`ModelError::NotFinite`]. Iterations that run out are not an error:
 /// [`Fit::settled`] tells.
 pub fn fit(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Result<Fit, ModelError> {
-    let mut point = start_point(campaign, wanted, start);
+    let point = start_point(campaign, wanted, start);
+    let state = Linearization::at(campaign, &point)?;
+    fit_from(campaign, wanted, point, state)
+}
+
+/// The same from a point where the campaign has been linearised already.
+fn fit_from(
+    campaign: &Campaign,
+    wanted: &[Wanted],
+    mut point: Point,
+    mut state: Linearization,
+) -> Result<Fit, ModelError> {
     let prior = prior_widths(campaign, wanted);
-    let mut state = Linearization::at(campaign, &point)?;
     if state.conditions.iter().all(|c| c.force_change().amax() < 1e-9) {
         return Err(ModelError::NoLoad);
     }
@@ -143,6 +153,38 @@ pub fn fit(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Res
             let fit = finish(campaign, point, &state, solution, prior, wanted, iteration);
             return Ok(Fit { settled, last_step, ..fit });
         }
+    }
+}
+
+/// The fit without some groups of the campaign, from where the whole of it was linearised.
+///
+/// # Errors
+/// As [`fit`].
+pub fn refit(
+    campaign: &Campaign,
+    wanted: &[Wanted],
+    start: &Start,
+    kept: &[usize],
+) -> Result<Fit, ModelError> {
+    let state = start.state.choose(kept.iter().copied());
+    fit_from(&campaign.part(kept), wanted, start.point.clone(), state)
+}
+
+/// Where fits to parts of a campaign start.
+pub struct Start {
+    point: Point,
+    state: Linearization,
+}
+
+impl Start {
+    /// At a point, with the wanted terms.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn at(campaign: &Campaign, wanted: &[Wanted], point: &Point) -> Result<Self, ModelError> {
+        let point = start_point(campaign, wanted, Some(point));
+        let state = Linearization::at(campaign, &point)?;
+        Ok(Self { point, state })
     }
 }
 

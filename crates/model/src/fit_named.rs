@@ -11,7 +11,7 @@ use crate::estimate::{estimates, parameter_names};
 use crate::evidence::WIDEST;
 use crate::fit::{Fit, Wanted, columns, fit, fit_baseline};
 use crate::linearization::{Active, Linearization};
-use crate::term::Term;
+use crate::term::{Natural, Rich, Term};
 use crate::words::{column_names, joined, unobservable};
 
 /// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.
@@ -33,28 +33,83 @@ pub fn term_named(id: &str, terms: &[Arc<dyn Term>]) -> Result<Arc<dyn Term>, Mo
     })
 }
 
+/// Behind the id of a term: its richer form is wanted.
+pub const RICHER: &str = ":richer";
+
+/// A term somebody asks for, in its ideal or its richer form.
+#[derive(Clone)]
+pub struct Added {
+    /// The effect.
+    pub term: Arc<dyn Term>,
+    /// True for the richer form.
+    pub richer: bool,
+}
+
+impl Added {
+    /// What `id`, or `id:richer`, asks for.
+    ///
+    /// # Errors
+    /// [`ModelError::UnknownTerm`] with the nearest id; [`ModelError::Selection`] for a term without a richer form.
+    pub fn named(text: &str, terms: &[Arc<dyn Term>]) -> Result<Self, ModelError> {
+        let (id, richer) = text.strip_suffix(RICHER).map_or((text, false), |id| (id, true));
+        let term = term_named(id, terms)?;
+        if richer && term.info().rich == Rich::None {
+            return Err(ModelError::Selection(format!("`{id}` has no richer form")));
+        }
+        Ok(Self { term, richer })
+    }
+
+    /// As it is asked for.
+    pub fn name(&self) -> String {
+        format!("{}{}", self.term.info().id, if self.richer { RICHER } else { "" })
+    }
+}
+
+impl From<Arc<dyn Term>> for Added {
+    fn from(term: Arc<dyn Term>) -> Self {
+        Self { term, richer: false }
+    }
+}
+
 /// Fit springs (and frames) with these terms, added one after the other.
 ///
 /// # Errors
-/// As [`fit`]; [`ModelError::Untestable`] for a term whose columns are missing; [`ModelError::Mismatch`] for a term asked
-/// for twice; [`ModelError::NotDetermined`] when a leg stiffness or all parameters of a term are not determined.
+/// As [`fit`]; [`ModelError::Untestable`] for a term whose columns are missing; [`ModelError::Selection`] for a term asked
+/// for twice.
 pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, ModelError> {
+    let ideal: Vec<Added> = added.iter().map(|t| Added::from(Arc::clone(t))).collect();
+    Ok(fit_wanted(campaign, &ideal)?.1)
+}
+
+/// The same fit, and what it asked for, to ask again of other readings.
+///
+/// # Errors
+/// As [`fit_named`].
+pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<Wanted>, Fit), ModelError> {
     refuse_twice(added)?;
     let mut fitted = fit_baseline(campaign)?;
     let natural = fitted.natural(&Linearization::at(campaign, &fitted.point)?);
     let mut wanted: Vec<Wanted> = Vec::new();
-    for term in added {
+    for Added { term, richer } in added {
         let lin = Linearization::at(campaign, &fitted.point)?;
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
         }
-        let prior = sizes(term.as_ref(), false, &natural).iter().map(|s| PRIOR_WIDTH * WIDEST * s).collect();
-        let next = Wanted { term: Arc::clone(term), rich: false, shape: 1.0, prior };
+        let prior = prior(term.as_ref(), *richer, &natural);
+        let next = Wanted { term: Arc::clone(term), rich: *richer, shape: 1.0, prior };
         let (start, better) = best_start(campaign, &wanted, &next, &fitted, &lin)?;
         wanted.push(start);
         fitted = better;
     }
-    Ok(together(campaign, &wanted, fitted))
+    let fitted = together(campaign, &wanted, fitted);
+    Ok((wanted, fitted))
+}
+
+/// Prior widths: wide for the ideal form, and no wider than sensible for what the richer one adds, so that it shrinks.
+fn prior(term: &dyn Term, richer: bool, natural: &Natural) -> Vec<f64> {
+    let ideal = term.info().parameters.len();
+    let widened = |(k, size): (usize, f64)| if k < ideal { PRIOR_WIDTH * WIDEST * size } else { size };
+    sizes(term, richer, natural).into_iter().enumerate().map(widened).collect()
 }
 
 /// The better of a fit reached term by term and one that starts with all terms at once: while a term is still missing, the
@@ -67,11 +122,11 @@ fn together(campaign: &Campaign, wanted: &[Wanted], fitted: Fit) -> Fit {
     fresh.unwrap_or(fitted)
 }
 
-fn refuse_twice(added: &[Arc<dyn Term>]) -> Result<(), ModelError> {
-    let id = |t: &Arc<dyn Term>| t.info().id;
+fn refuse_twice(added: &[Added]) -> Result<(), ModelError> {
+    let id = |a: &Added| a.term.info().id;
     let twice = (1..added.len()).find(|&i| added[..i].iter().any(|t| id(t) == id(&added[i])));
     twice.map_or(Ok(()), |i| {
-        Err(ModelError::Mismatch(format!("the term `{}` is asked for twice", id(&added[i]))))
+        Err(ModelError::Selection(format!("the term `{}` is asked for twice", id(&added[i]))))
     })
 }
 
@@ -85,7 +140,7 @@ fn best_start(
 ) -> Result<(Wanted, Fit), ModelError> {
     let mut best: Option<(Wanted, Fit)> = None;
     let mut failure = None;
-    for shape in promising_shapes(next.term.as_ref(), fitted, lin) {
+    for shape in promising_shapes(next, fitted, lin) {
         let start = Wanted { shape, ..next.clone() };
         let all: Vec<Wanted> = before.iter().cloned().chain([start.clone()]).collect();
         match fit(campaign, &all, Some(&fitted.point)) {
@@ -98,8 +153,8 @@ fn best_start(
 }
 
 /// Shapes whose columns explain most of the present residual beside everything fitted so far.
-fn promising_shapes(term: &dyn Term, fitted: &Fit, lin: &Linearization) -> Vec<f64> {
-    let grid = term.shape_grid(&lin.conditions);
+fn promising_shapes(next: &Wanted, fitted: &Fit, lin: &Linearization) -> Vec<f64> {
+    let grid = next.term.shape_grid(&lin.conditions);
     if grid.is_empty() {
         return vec![1.0];
     }
@@ -107,7 +162,7 @@ fn promising_shapes(term: &dyn Term, fitted: &Fit, lin: &Linearization) -> Vec<f
     let mut residual = lin.residuals();
     project(&basis, &mut residual);
     let explained = |shape: f64| {
-        let mut block = lin.term_block(term, false, shape);
+        let mut block = lin.term_block(next.term.as_ref(), next.rich, shape);
         let overlap = basis.tr_mul(&block);
         block.gemm(-1.0, &basis, &overlap, 1.0);
         orthonormal(&block).tr_mul(&residual).norm_squared()

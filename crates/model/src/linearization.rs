@@ -151,7 +151,9 @@ impl Linearization {
         self.choose((0..self.conditions.len()).step_by(self.conditions.len().div_ceil(most).max(1)))
     }
 
-    fn choose(&self, which: impl Iterator<Item = usize> + Clone) -> Self {
+    /// Some of the conditions, in this order.
+    #[must_use]
+    pub fn choose(&self, which: impl Iterator<Item = usize> + Clone) -> Self {
         Self {
             machine: self.machine.clone(),
             conditions: which.clone().map(|i| self.conditions[i].clone()).collect(),

@@ -1,13 +1,15 @@
 //! Residuals of single readings, error summaries, and errors on held-out poses.
 
+use std::collections::HashMap;
+
 use hexbench_core::{Dataset, Hexapod, Matrix6, Observation, Vector6};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::campaign::{Campaign, row_sigma};
+use crate::campaign::{Campaign, Group, row_sigma};
 use crate::error::ModelError;
-use crate::fit::{Fit, Wanted, columns, fit};
+use crate::fit::{Fit, Start, Wanted, columns, refit};
 use crate::linearization::{Linearization, Point};
 use crate::noise::Noise;
 
@@ -104,7 +106,8 @@ pub fn prediction_errors(
 /// # Errors
 /// As [`prediction_errors`].
 pub fn survival(hexapod: &Hexapod, holdout: &Dataset, noise: Noise, fit: &Fit) -> Result<f64, ModelError> {
-    let expected = Expected::of(hexapod, holdout, noise, fit)?;
+    let campaign = Campaign::with_noise(hexapod, holdout, noise)?;
+    let expected = Expected::of(&Linearization::at(&campaign, &fit.point)?, fit);
     let law = ChiSquared::new(6.0 * expected.readings)
         .map_err(|_| ModelError::NotFinite { what: "the held-out data" })?;
     Ok(1.0 - law.cdf(expected.chi2))
@@ -120,10 +123,9 @@ struct Expected {
 }
 
 impl Expected {
-    fn of(hexapod: &Hexapod, data: &Dataset, noise: Noise, fit: &Fit) -> Result<Self, ModelError> {
-        let campaign = Campaign::with_noise(hexapod, data, noise)?;
-        let lin = Linearization::at(&campaign, &fit.point)?;
-        let jacobian = columns(&lin, &fit.point);
+    /// `lin` is the fit seen at these readings.
+    fn of(lin: &Linearization, fit: &Fit) -> Self {
+        let jacobian = columns(lin, &fit.point);
         let mut expected = Self { readings: lin.conditions.len() as f64, chi2: 0.0, log_det: 0.0 };
         for i in 0..lin.conditions.len() {
             let j = jacobian.rows(6 * i, 6);
@@ -134,7 +136,7 @@ impl Expected {
             expected.chi2 += d.dot(&factor.solve(&d));
             expected.log_det += 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
         }
-        Ok(expected)
+        expected
     }
 
     /// Logarithm of the predictive density of the readings, up to a constant of the noise.
@@ -154,57 +156,46 @@ pub struct LeftOut {
     pub log_density: f64,
 }
 
-/// Prediction errors when poses are left out in turn and the model is fitted to the others.
+/// Prediction errors when poses are left out in turn and the model is fitted to the others; `rows` are the readings of the campaign.
 ///
 /// # Errors
-/// As [`fit`]; [`ModelError::TooFewEquations`] with fewer than two poses.
+/// As [`fit`](crate::fit::fit); [`ModelError::TooFewEquations`] with fewer than two poses.
 pub fn leave_poses_out(
-    hexapod: &Hexapod,
-    dataset: &Dataset,
-    noise: Noise,
+    campaign: &Campaign,
+    rows: &[Observation],
     wanted: &[Wanted],
     start: &Point,
 ) -> Result<LeftOut, ModelError> {
-    let folds = folds(&dataset.observations);
-    if folds.len() < 2 {
+    let fold_of = folds(campaign);
+    let count = fold_of.iter().max().map_or(0, |last| last + 1);
+    if count < 2 {
         return Err(ModelError::TooFewEquations { equations: 6, unknowns: 12 });
     }
-    let errors: Vec<(Vec<Residual>, f64)> = folds
-        .par_iter()
-        .map(|held| {
-            let part = |inside: bool| {
-                let rows = dataset.observations.iter().enumerate();
-                let kept = rows.filter(|(i, _)| held.contains(i) == inside).map(|(_, o)| *o).collect();
-                Dataset { observations: kept, ..dataset.clone() }
-            };
-            let campaign = Campaign::with_noise(hexapod, &part(false), noise)?;
-            let fitted = fit(&campaign, wanted, Some(start))?;
-            let held = part(true);
-            let density = Expected::of(hexapod, &held, noise, &fitted)?.log_density();
-            Ok((prediction_errors(hexapod, &held, noise, &fitted.point)?, density))
+    let start = Start::at(campaign, wanted, start)?;
+    let errors: Vec<(Vec<Residual>, f64)> = (0..count)
+        .into_par_iter()
+        .map(|fold| {
+            let [kept, held] = [false, true].map(|inside| {
+                (0..fold_of.len()).filter(|&g| (fold_of[g] == fold) == inside).collect::<Vec<_>>()
+            });
+            let fitted = refit(campaign, wanted, &start, &kept)?;
+            let held = campaign.part(&held);
+            let lin = Linearization::at(&held, &fitted.point)?;
+            Ok((residuals(&held, rows, &lin), Expected::of(&lin, &fitted).log_density()))
         })
         .collect::<Result<_, ModelError>>()?;
     let log_density = errors.iter().map(|e| e.1).sum();
     Ok(LeftOut { residuals: errors.into_iter().flat_map(|e| e.0).collect(), log_density })
 }
 
-/// Rows of equal pose belong to one fold; poses are dealt out in order of appearance.
-fn folds(rows: &[Observation]) -> Vec<std::collections::BTreeSet<usize>> {
-    let mut poses: Vec<[u64; 6]> = Vec::new();
-    let mut pose_of_row = Vec::with_capacity(rows.len());
-    let mut known = std::collections::HashMap::new();
-    for row in rows {
-        let key = row.pose.to_array().map(|x| (x + 0.0).to_bits());
-        let index = *known.entry(key).or_insert_with(|| {
-            poses.push(key);
-            poses.len() - 1
-        });
-        pose_of_row.push(index);
-    }
-    let count = poses.len().min(MOST_FOLDS);
-    let mut folds = vec![std::collections::BTreeSet::new(); count];
-    for (row, pose) in pose_of_row.into_iter().enumerate() {
-        folds[pose % count].insert(row);
-    }
-    folds
+/// Fold of every group: groups of equal pose belong to one; poses are dealt out in order of appearance.
+fn folds(campaign: &Campaign) -> Vec<usize> {
+    let mut known = HashMap::new();
+    let number = |g: &Group| {
+        let next = known.len();
+        *known.entry(g.mean.pose.to_array().map(|x| (x + 0.0).to_bits())).or_insert(next)
+    };
+    let poses: Vec<usize> = campaign.groups.iter().map(number).collect();
+    let count = known.len().clamp(1, MOST_FOLDS);
+    poses.into_iter().map(|pose| pose % count).collect()
 }

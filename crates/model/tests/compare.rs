@@ -88,7 +88,7 @@ fn what_cannot_be_fitted_is_refused_by_name() {
     let absolute = term_named("leg-offset", &all).unwrap();
     assert!(matches!(fit_named(&campaign, &[absolute]), Err(ModelError::Untestable { .. })));
     let twice = term_named("creep", &all).unwrap();
-    assert!(matches!(fit_named(&campaign, &[twice.clone(), twice]), Err(ModelError::Mismatch(_))));
+    assert!(matches!(fit_named(&campaign, &[twice.clone(), twice]), Err(ModelError::Selection(_))));
 }
 
 #[test]

@@ -323,7 +323,7 @@ fn a_right_model_predicts_poses_left_out_to_the_noise_and_its_own_uncertainty() 
         let data = noisy(&clean, SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD, seed);
         let campaign = Campaign::new(&hexapod, &data).unwrap();
         let start = Point::start(&campaign);
-        let errors = leave_poses_out(&hexapod, &data, campaign.noise, &[], &start).unwrap().residuals;
+        let errors = leave_poses_out(&campaign, &data.observations, &[], &start).unwrap().residuals;
         assert_eq!(errors.len(), 24);
         summarise(&errors, None).chi2_reduced
     };
@@ -343,7 +343,7 @@ fn a_wrong_model_shows_on_poses_left_out_and_the_right_term_mends_it() {
     let hexapod = measured_machine(SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD);
     let campaign = Campaign::new(&hexapod, &data).unwrap();
     let held_out = |terms: &[Wanted]| {
-        let errors = leave_poses_out(&hexapod, &data, campaign.noise, terms, &Point::start(&campaign))
+        let errors = leave_poses_out(&campaign, &data.observations, terms, &Point::start(&campaign))
             .unwrap()
             .residuals;
         summarise(&errors, None).chi2_reduced

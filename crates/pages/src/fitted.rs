@@ -6,6 +6,7 @@ use hexbench_model::fit::Fit;
 use hexbench_model::fit_named::look_alikes;
 use hexbench_model::model_file::Estimator;
 use hexbench_model::residuals::ErrorSummary;
+use hexbench_model::selection::{HeldOut, Judged, Task};
 use hexbench_model::words::joined;
 use hexbench_report::number::{significant, with_uncertainty};
 
@@ -17,18 +18,13 @@ const TOLD: f64 = 0.7;
 const MOST_TOLD: usize = 10;
 
 /// The whole report.
-pub fn report(
-    campaign: &Campaign,
-    fit: &Fit,
-    estimator: Estimator,
-    errors: &(ErrorSummary, Option<ErrorSummary>),
-    ink: Ink,
-) -> String {
+pub fn report(task: &Task<'_>, judged: &Judged, estimator: Estimator, ink: Ink) -> String {
+    let (campaign, fit) = (task.campaign, &judged.fit);
     let mut paper = Paper::new(ink);
     quality(&mut paper, campaign, fit, estimator);
     values(&mut paper, fit);
     correlations(&mut paper, fit);
-    error_table(&mut paper, campaign, errors);
+    error_table(&mut paper, task, judged);
     paper.into_text()
 }
 
@@ -90,7 +86,7 @@ fn correlations(paper: &mut Paper, fit: &Fit) {
     }
 }
 
-fn error_table(paper: &mut Paper, campaign: &Campaign, errors: &(ErrorSummary, Option<ErrorSummary>)) {
+fn error_table(paper: &mut Paper, task: &Task<'_>, judged: &Judged) {
     paper.heading("Errors", "root mean square");
     let mut table = Table::default();
     table.row(["", "translation um", "rotation urad", "chi2 per number"]);
@@ -98,11 +94,15 @@ fn error_table(paper: &mut Paper, campaign: &Campaign, errors: &(ErrorSummary, O
         let (t, r) = (significant(e.rms.translation_um, 3), significant(e.rms.rotation_urad, 3));
         table.row([name.to_owned(), t, r, significant(e.chi2_reduced, 3)]);
     };
-    row("fitted readings", &errors.0);
-    if let Some(held) = &errors.1 {
-        row("held-out readings", held);
+    row("fitted readings", &judged.fitted);
+    if let Some(held) = &judged.held_out {
+        let name = match task.held_out() {
+            HeldOut::File => "held-out readings",
+            HeldOut::PosesInTurn => "poses left out in turn",
+        };
+        row(name, held);
     }
-    let noise = campaign.noise;
+    let noise = task.campaign.noise;
     let level = |sigma: f64| significant(sigma * 1e6, 3);
     let source = format!("noise ({})", noise.source.word());
     table.row([source, level(noise.translation), level(noise.rotation), "1".to_owned()]);

@@ -31,6 +31,18 @@ pub fn section(paper: &mut Paper, d: &Diagnosis) {
     paper.hanging("  frames", LABEL, frames);
 }
 
+/// The same proposals, a sentence each.
+pub fn proposals(d: &Diagnosis) -> Vec<String> {
+    let one = |n: &NextReport| {
+        let NextReport { approach, elapsed_s, delta_t_k, repeats, .. } = *n;
+        let words = if n.text.is_empty() { String::new() } else { format!("{} ", n.text) };
+        let odds = gain(n.gain, &rivals(&n.separates, "and"));
+        let way = way(approach, elapsed_s, delta_t_k, repeats);
+        format!("{words}Pose {}; {}; {way}: {odds}.", pose(&n.pose), load(&n.wrench))
+    };
+    d.next.iter().map(one).collect()
+}
+
 fn proposal(paper: &mut Paper, number: usize, reading: &NextReport, usual: &[f64; 6], pair: &[String; 2]) {
     if !reading.text.is_empty() {
         paper.hanging(&format!("  {number}  in words"), LABEL, &reading.text);

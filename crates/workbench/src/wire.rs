@@ -23,6 +23,8 @@ pub struct Catalogue {
     pub plans: Vec<Choice>,
     /// Effects that can be put into a simulated machine; those outside the catalogue begin with `out:`.
     pub effects: Vec<Choice>,
+    /// The files named on the command line, when there are any; opened by `{"from": "given"}`.
+    pub given: Option<Choice>,
     /// What a formula of one's own may use.
     pub formula: FormulaHelp,
     /// What the server accepts.
@@ -42,6 +44,8 @@ pub struct TermCard {
     pub equation: String,
     /// What the data must contain for it to show.
     pub shows: String,
+    /// True when it has a richer form, asked for by `:richer` behind the id.
+    pub richer: bool,
     /// Names of its parameters with their units.
     pub parameters: Vec<NamedUnit>,
 }
@@ -88,6 +92,8 @@ pub struct Limits {
     pub rows: usize,
     /// Terms of one's own in a request.
     pub own_terms: usize,
+    /// Bytes of a term of one's own.
+    pub term_bytes: usize,
     /// Benches kept; the one unused for longest gives way.
     pub benches: usize,
 }
@@ -239,7 +245,7 @@ pub struct Conditions {
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Selection {
-    /// Ids in the order of ticking, of the catalogue and of one's own.
+    /// Ids in the order of ticking, of the catalogue and of one's own; `:richer` behind an id asks for the richer form.
     #[serde(default)]
     pub terms: Vec<String>,
     /// Term files (term/1) of one's own, as text.
@@ -331,6 +337,8 @@ pub struct Diagnosed {
     pub sentences: Vec<String>,
     /// Probability that each is at work, most probable first.
     pub probabilities: Vec<Probability>,
+    /// What to tick to see the model it settled on, `:richer` included.
+    pub tick: Vec<String>,
     /// What to measure next, a sentence each; empty when nothing is open.
     pub next: Vec<String>,
     /// Everything, as `diagnose --json` writes it.

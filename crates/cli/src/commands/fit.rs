@@ -4,17 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
+use hexbench_core::Dataset;
 use hexbench_core::files::content_hash;
-use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::campaign::Campaign;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::error::ModelError;
-use hexbench_model::fit::Fit;
-use hexbench_model::fit_named::{fit_named, refuse_undetermined, term_named};
-use hexbench_model::linearization::Linearization;
+use hexbench_model::fit_named::{Added, refuse_undetermined};
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::paper::fit_paper;
-use hexbench_model::residuals::{ErrorSummary, prediction_errors, residuals, summarise};
+use hexbench_model::selection::{Judged, Task};
 use hexbench_model::term::Term;
 use hexbench_pages::fitted;
 
@@ -29,7 +26,7 @@ pub(crate) struct Arguments {
     hexapod: PathBuf,
     /// Deflections or absolute poses: measurements.csv
     data: PathBuf,
-    /// Add this effect beside the leg springs; may be given several times
+    /// Add this effect beside the leg springs, with `:richer` behind it in its richer form; may be given several times
     #[arg(long, value_name = "TERM")]
     add: Vec<String>,
     /// Readings kept out of the fit, to judge it
@@ -63,19 +60,19 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let added = added(arguments)?;
     let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
     let campaign = prepare(&hexapod, &data).map_err(failed)?;
-    let fit = fit(arguments, &campaign, &data, &added).map_err(failed)?;
-    refuse_undetermined(&fit).map_err(failed)?;
-    let errors = errors(&hexapod, &campaign, &data, holdout.as_ref(), &fit).map_err(failed)?;
+    let task = Task { hexapod: &hexapod, data: &data, campaign: &campaign, holdout: holdout.as_ref() };
+    let judged = fit(arguments, &task, &added).map_err(failed)?;
+    refuse_undetermined(&judged.fit).map_err(failed)?;
     let estimator = if arguments.estimator == Method::Paper { Estimator::Paper } else { Estimator::Gls };
-    screen.write(&fitted::report(&campaign, &fit, estimator, &errors, screen.ink()))?;
+    screen.write(&fitted::report(&task, &judged, estimator, screen.ink()))?;
     let Some(path) = &arguments.output else { return Ok(()) };
-    let model = Model::new(&campaign, &fit, estimator, origin(&arguments.data, &data)?);
+    let model = Model::new(&campaign, &judged.fit, estimator, origin(&arguments.data, &data)?);
     let unsaved = |cause| Failure::ModelFile { path: path.clone(), cause: Box::new(cause) };
     let text = model.to_toml().map_err(unsaved)?;
     screen.write_to(path, &text)
 }
 
-fn added(arguments: &Arguments) -> Result<Vec<Arc<dyn Term>>, Failure> {
+fn added(arguments: &Arguments) -> Result<Vec<Added>, Failure> {
     if arguments.estimator == Method::Paper && !(arguments.add.is_empty() && arguments.terms.is_empty()) {
         return Err(Failure::Usage {
             message: "the paper's estimator knows leg springs only".into(),
@@ -84,46 +81,20 @@ fn added(arguments: &Arguments) -> Result<Vec<Arc<dyn Term>>, Failure> {
     }
     let own = input::user_terms(&arguments.terms)?;
     let all = input::catalogue_with(&own);
-    let named = arguments
-        .add
-        .iter()
-        .map(|id| term_named(id, &all).map_err(|cause| Failure::Model { cause, data: String::new() }));
+    let failed = |cause| Failure::Model { cause, data: String::new() };
+    let named = arguments.add.iter().map(|name| Added::named(name, &all).map_err(failed));
     let mut added = named.collect::<Result<Vec<_>, _>>()?;
-    let fresh: Vec<_> =
-        own.into_iter().filter(|t| !arguments.add.iter().any(|id| id == t.info().id)).collect();
-    added.extend(fresh);
+    let asked = |t: &Arc<dyn Term>| added.iter().any(|a| a.term.info().id == t.info().id);
+    let fresh: Vec<_> = own.into_iter().filter(|t| !asked(t)).collect();
+    added.extend(fresh.into_iter().map(Added::from));
     Ok(added)
 }
 
-fn fit(
-    arguments: &Arguments,
-    campaign: &Campaign,
-    data: &Dataset,
-    added: &[Arc<dyn Term>],
-) -> Result<Fit, ModelError> {
+fn fit(arguments: &Arguments, task: &Task<'_>, added: &[Added]) -> Result<Judged, ModelError> {
     match arguments.estimator {
-        Method::Gls => fit_named(campaign, added),
-        Method::Paper => fit_paper(campaign, data)?.into_fit(campaign),
+        Method::Gls => task.fit(added),
+        Method::Paper => task.judge(fit_paper(task.campaign, task.data)?.into_fit(task.campaign)?, None),
     }
-}
-
-/// Errors on the readings fitted, and on those held out.
-pub(crate) fn errors(
-    hexapod: &Hexapod,
-    campaign: &Campaign,
-    data: &Dataset,
-    holdout: Option<&Dataset>,
-    fit: &Fit,
-) -> Result<(ErrorSummary, Option<ErrorSummary>), ModelError> {
-    let lin = Linearization::at(campaign, &fit.point)?;
-    let own = summarise(&residuals(campaign, &data.observations, &lin), Some(fit.dof));
-    if let Some(h) = holdout.filter(|h| h.is_absolute() != data.is_absolute()) {
-        let why =
-            format!("{} and {} are of different kinds (deflections, absolute poses)", data.source, h.source);
-        return Err(ModelError::Mismatch(why));
-    }
-    let held = |h: &Dataset| prediction_errors(hexapod, h, campaign.noise, &fit.point);
-    Ok((own, holdout.map(held).transpose()?.map(|rows| summarise(&rows, None))))
 }
 
 fn origin(path: &Path, data: &Dataset) -> Result<DataOrigin, Failure> {

@@ -18,6 +18,7 @@ pub(crate) mod study;
 pub(crate) mod terms;
 pub(crate) mod transient;
 pub(crate) mod validate;
+pub(crate) mod workbench;
 
 use crate::args::{Cli, Command};
 use crate::failure::Failure;
@@ -44,6 +45,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Study(arguments) => study::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
         Command::Validate(arguments) => validate::run(arguments, &screen),
+        Command::Workbench(arguments) => workbench::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),
     }
 }

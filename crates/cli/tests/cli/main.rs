@@ -22,3 +22,4 @@ mod streams;
 mod study;
 mod support;
 mod validate;
+mod workbench;

@@ -25,6 +25,7 @@ use crate::fit::{Fit, columns, fit_baseline};
 use crate::linearization::{Linearization, Point};
 use crate::model_file::Model;
 use crate::residuals::{ErrorSummary, Residual, prediction_errors, residuals, summarise};
+use crate::selection::same_kind;
 
 use absorbed::{HiddenBias, hidden_biases};
 use adequacy::{Adequacy, adequacy};
@@ -127,12 +128,7 @@ fn refuse_mixture(
             format!("the model and {} are of different kinds (deflections, absolute poses)", data.source);
         return Err(ModelError::Mismatch(why));
     }
-    if let Some(h) = holdout.filter(|h| h.is_absolute() != data.is_absolute()) {
-        let why =
-            format!("{} and {} are of different kinds (deflections, absolute poses)", data.source, h.source);
-        return Err(ModelError::Mismatch(why));
-    }
-    Ok(())
+    holdout.map_or(Ok(()), |held| same_kind(data, held))
 }
 
 /// A model at a point, its residuals, and the columns it has in these data.

@@ -101,7 +101,7 @@ impl Context<'_> {
         if let Some(holdout) = self.holdout {
             return Some((prediction_errors(self.hexapod, holdout, noise, &fitted.point).ok()?, None));
         }
-        let left = leave_poses_out(self.hexapod, self.data, noise, terms, &fitted.point).ok()?;
+        let left = leave_poses_out(self.campaign, &self.data.observations, terms, &fitted.point).ok()?;
         Some((left.residuals, Some(left.log_density)))
     }
 

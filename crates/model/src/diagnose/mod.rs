@@ -28,6 +28,7 @@ use crate::noise::{Noise, NoiseSource};
 use crate::power::detectable;
 use crate::residuals::{residuals, summarise};
 use crate::search::Set;
+use crate::selection::{HeldOut, same_kind};
 use crate::term::Term;
 use crate::verdict::{Judgement, Verdict, judge};
 
@@ -56,10 +57,8 @@ pub fn diagnose(
     holdout: Option<&Dataset>,
     terms: &[Arc<dyn Term>],
 ) -> Result<Study, ModelError> {
-    if let Some(h) = holdout.filter(|h| h.is_absolute() != data.is_absolute()) {
-        let what =
-            format!("{} and {} are of different kinds (deflections, absolute poses)", data.source, h.source);
-        return Err(ModelError::Mismatch(what));
+    if let Some(held) = holdout {
+        same_kind(data, held)?;
     }
     let campaign = prepare(hexapod, data)?;
     let outcome = explain(&campaign, terms)?;
@@ -94,7 +93,7 @@ pub fn diagnose(
         present: judgement.present.clone(),
         credible_set: judgement.credible.clone(),
         steps,
-        holdout: if holdout.is_some() { "holdout file" } else { "poses left out in turn" },
+        holdout: if holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn }.word(),
         noise: NoiseReport {
             translation_um: campaign.noise.translation * 1e6,
             rotation_urad: campaign.noise.rotation * 1e6,

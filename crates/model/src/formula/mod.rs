@@ -161,11 +161,14 @@ static BINARY: [(&str, Binary); 4] =
 /// Names with a fixed value.
 static CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU)];
 
+/// Names of all functions.
+pub fn functions() -> impl Iterator<Item = &'static str> {
+    UNARY.iter().map(|f| f.0).chain(BINARY.iter().map(|f| f.0))
+}
+
 /// True when a name already means something in every formula.
 pub fn is_reserved(name: &str) -> bool {
-    let names =
-        UNARY.iter().map(|f| f.0).chain(BINARY.iter().map(|f| f.0)).chain(CONSTANTS.iter().map(|c| c.0));
-    names.into_iter().any(|known| known == name)
+    functions().chain(CONSTANTS.iter().map(|c| c.0)).any(|known| known == name)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::term::{Parameter, Scale, Shape};
 use crate::{intern, terms};
 
 /// Units whose factor from SI is known.
-const UNITS: [(&str, f64); 28] = [
+pub(super) const UNITS: [(&str, f64); 28] = [
     ("1", 1.0),
     ("%", 1e2),
     ("m", 1.0),

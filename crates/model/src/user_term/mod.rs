@@ -20,6 +20,7 @@
 //! linear in its parameters; what is not goes into `[shape]` (one number, profiled): name, unit, bounds, grid.
 
 mod file;
+mod help;
 mod linearity;
 mod variables;
 
@@ -37,6 +38,7 @@ use crate::machine::Machine;
 use crate::term::{Need, Parameter, Rich, Shape, Term, TermInfo};
 
 use file::File;
+pub use help::{EXAMPLE, Variable, functions, units, variables};
 use variables::{OF_LEG, OF_READING};
 
 /// Largest file read, bytes.

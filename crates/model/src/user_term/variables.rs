@@ -11,6 +11,29 @@ pub(super) const OF_READING: [&str; 21] = [
     "mz", "ref_fx", "ref_fy", "ref_fz", "ref_mx", "ref_my", "ref_mz",
 ];
 
+/// Unit and meaning of a variable.
+pub(super) fn meaning(variable: &str) -> [&'static str; 2] {
+    match variable {
+        "f" => ["N", "leg force under the load, tension positive"],
+        "f0" => ["N", "leg force in the reference state"],
+        "df" => ["N", "f - f0"],
+        "q" => ["m", "leg length"],
+        "q_home" => ["m", "leg length at the zero pose"],
+        "nx" | "ny" | "nz" => ["", "direction of the leg, base joint to platform joint, fixed axes"],
+        "leg" => ["", "number of the leg, 1 to 6"],
+        "approach" => ["", "+1: load reached from below, -1: from above"],
+        "delta_T" => ["K", "temperature since the reference"],
+        "elapsed" => ["s", "time since the reference"],
+        "a" | "b" | "c" => ["m", "position of the platform"],
+        "alpha" | "beta" | "gamma" => ["rad", "orientation of the platform"],
+        "fx" | "fy" | "fz" => ["N", "force on the platform, fixed axes"],
+        "mx" | "my" | "mz" => ["N m", "moment on the platform at the mobile origin, fixed axes"],
+        "ref_fx" | "ref_fy" | "ref_fz" => ["N", "the same in the reference state"],
+        "ref_mx" | "ref_my" | "ref_mz" => ["N m", "the same in the reference state"],
+        _ => ["", ""],
+    }
+}
+
 /// Values of [`OF_READING`] at a condition, SI.
 pub(super) fn of_reading(at: &Condition) -> Vec<f64> {
     let mut values = vec![at.approach, at.delta_t, at.elapsed];

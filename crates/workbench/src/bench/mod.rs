@@ -1,12 +1,35 @@
 //! One campaign on the bench: loaded once, asked about any selection of terms.
+//!
+//! The same functions as the command's: reading, fitting, judging, diagnosing, reporting. A bench never changes, so the answer to a
+//! question depends on the question alone.
 
+pub mod cases;
+mod catalogue;
+mod conditions;
+mod diagnosis;
+mod digits;
+mod export;
+mod files;
 mod refusal;
+mod simulate;
+mod view;
 
+pub use catalogue::catalogue;
 pub use refusal::{Kind, Refusal};
 
-use crate::wire::{
-    Ask, Catalogue, Diagnosed, Export, Exported, Guess, Limits, Open, Opened, Revealed, Selection, Text, View,
-};
+use std::time::Instant;
+
+use hexbench_model::campaign::Campaign;
+use hexbench_model::candidates::why_untestable;
+use hexbench_model::diagnose::prepare;
+use hexbench_model::linearization::{Linearization, Point};
+use hexbench_model::selection::Task;
+use hexbench_model::terms;
+use hexbench_pages::subject::{describe, noise};
+
+use self::files::{Contents, Files};
+use self::simulate::{Request, Truth};
+use crate::wire::{Limits, Noise, Open, Opened, Selection, Text, Untestable, View};
 
 /// Files given on the command line, as text.
 #[derive(Debug, Clone)]
@@ -19,76 +42,127 @@ pub struct Given {
     pub holdout: Option<Text>,
 }
 
-/// Everything there is to choose from.
-pub fn catalogue(limits: Limits) -> Catalogue {
-    let help = crate::wire::FormulaHelp {
-        variables: vec![],
-        functions: vec![],
-        units: vec![],
-        example: String::new(),
-    };
-    Catalogue {
-        version: env!("CARGO_PKG_VERSION"),
-        terms: vec![],
-        cases: vec![],
-        machines: vec![],
-        plans: vec![],
-        effects: vec![],
-        formula: help,
-        limits,
-    }
-}
-
 /// A campaign on the bench.
 #[derive(Debug)]
-pub struct Bench {}
+pub struct Bench {
+    files: Files,
+    contents: Contents,
+    campaign: Campaign,
+    truth: Option<Truth>,
+    /// Conditions that are shown.
+    shown: Vec<usize>,
+    limits: Limits,
+}
 
 impl Bench {
     /// Loads, reads or simulates.
     ///
     /// # Errors
-    /// [`Refusal`].
-    pub fn open(_: &Open, _: Option<&Given>, _: &Limits) -> Result<Self, Refusal> {
-        Err(Refusal::bad_input("cannot open yet", ""))
+    /// [`Refusal`] with the place in the file, or what cannot be simulated.
+    pub fn open(request: &Open, given: Option<&Given>, limits: &Limits) -> Result<Self, Refusal> {
+        let (files, truth) = source(request, given)?;
+        let contents = files.read(limits)?;
+        let campaign = prepare(&contents.hexapod, &contents.data)
+            .map_err(|cause| Refusal::model(&cause, &contents.data.source))?;
+        let shown = conditions::shown(campaign.groups.len());
+        Ok(Self { files, contents, campaign, truth, shown, limits: *limits })
     }
 
     /// What it is, and the springs alone.
     ///
     /// # Errors
-    /// [`Refusal`].
-    pub fn opened(&self, _id: &str) -> Result<Opened, Refusal> {
-        Err(Refusal::bad_input("cannot open yet", ""))
+    /// [`Refusal`] when not even the springs can be fitted.
+    pub fn opened(&self, id: &str) -> Result<Opened, Refusal> {
+        let view = self.view(&Selection::default())?;
+        let c = &self.contents;
+        let refused = |cause| Refusal::model(&cause, &c.data.source);
+        let lin = Linearization::at(&self.campaign, &Point::start(&self.campaign)).map_err(refused)?;
+        let level = self.campaign.noise;
+        Ok(Opened {
+            id: id.to_owned(),
+            title: c.hexapod.name.clone(),
+            about: self.about(),
+            seed: self.truth.as_ref().map(|t| t.seed),
+            contains: self.truth.as_ref().filter(|t| !t.sealed).map(|t| t.hidden.clone()),
+            sealed: self.truth.as_ref().is_some_and(|t| t.sealed),
+            absolute: c.data.is_absolute(),
+            readings: c.data.observations.len(),
+            noise: Noise {
+                translation_um: level.translation * 1e6,
+                rotation_urad: level.rotation * 1e6,
+                source: level.source.word(),
+            },
+            untestable: self.untestable(&lin),
+            base_joints_mm: c.hexapod.base_joints.map(|joint| (joint * 1e3).into()),
+            conditions: conditions::columns(&lin, &self.shown),
+            view,
+        })
     }
 
     /// Springs with the selected terms.
     ///
     /// # Errors
-    /// [`Refusal`].
-    pub fn view(&self, _: &Selection) -> Result<View, Refusal> {
-        Err(Refusal::bad_input("cannot view yet", ""))
+    /// [`Refusal`] for a term that is unknown or cannot be tested with these data.
+    pub fn view(&self, selection: &Selection) -> Result<View, Refusal> {
+        let since = Instant::now();
+        let terms = files::terms_with(&selection.own, &self.limits)?;
+        let chosen = view::selected(&selection.terms, &terms, &self.contents.data.source)?;
+        let task = self.task();
+        Ok(view::view(&task, &selection.terms, &view::judged(&task, &chosen)?, &self.shown, since))
     }
 
-    /// The diagnosis.
-    ///
-    /// # Errors
-    /// [`Refusal`].
-    pub fn diagnose(&self, _: &Ask) -> Result<Diagnosed, Refusal> {
-        Err(Refusal::bad_input("cannot diagnose yet", ""))
+    /// Bytes of the texts it was made from: what it needs in memory is some ten times as much.
+    pub fn bytes(&self) -> usize {
+        let f = &self.files;
+        f.hexapod.len() + f.data.len() + f.holdout.as_ref().map_or(0, String::len)
     }
 
-    /// A file to take home.
-    ///
-    /// # Errors
-    /// [`Refusal`].
-    pub fn export(&self, _: &Export) -> Result<Exported, Refusal> {
-        Err(Refusal::bad_input("cannot export yet", ""))
+    fn task(&self) -> Task<'_> {
+        let c = &self.contents;
+        Task { hexapod: &c.hexapod, data: &c.data, campaign: &self.campaign, holdout: c.holdout.as_ref() }
     }
 
-    /// What is hidden.
-    ///
-    /// # Errors
-    /// [`Refusal`].
-    pub fn reveal(&self, _: &Guess) -> Result<Revealed, Refusal> {
-        Err(Refusal::bad_input("cannot reveal yet", ""))
+    fn about(&self) -> Vec<String> {
+        let c = &self.contents;
+        let held = c.holdout.as_ref().map(|h| format!("held out {}", describe(h)));
+        let level = format!("noise {}", noise(&self.campaign.noise));
+        std::iter::once(describe(&c.data))
+            .chain(held)
+            .chain([level])
+            .chain(c.warnings.iter().cloned())
+            .collect()
+    }
+
+    fn untestable(&self, lin: &Linearization) -> Vec<Untestable> {
+        let reason = |t: &std::sync::Arc<dyn hexbench_model::term::Term>| {
+            let why = why_untestable(t.as_ref(), &self.campaign, lin)?;
+            Some(Untestable { term: t.info().id.to_owned(), why })
+        };
+        terms::catalogue().iter().filter_map(reason).collect()
+    }
+}
+
+fn source(request: &Open, given: Option<&Given>) -> Result<(Files, Option<Truth>), Refusal> {
+    match request {
+        Open::Case { id } => {
+            let case = cases::named(id).ok_or_else(|| Refusal::unknown("case", id))?;
+            Ok((Files::of_case(case), None))
+        }
+        Open::Given {} => {
+            let none =
+                || Refusal::new(Kind::Unknown, "no files were given on the command line", "Open files here.");
+            let given = given.ok_or_else(none)?;
+            Ok((Files::of_texts(&given.hexapod, &given.data, given.holdout.as_ref()), None))
+        }
+        Open::Files { hexapod, data, holdout } => {
+            Ok((Files::of_texts(hexapod, data, holdout.as_ref()), None))
+        }
+        Open::Simulation { machine, plan, effects, distance, seed } => {
+            let request = Request { machine, plan, effects, distance: *distance, seed: *seed };
+            simulate::simulate(&request).map(|(files, truth)| (files, Some(truth)))
+        }
+        Open::Game { level, seed } => {
+            simulate::game(*level, *seed).map(|(files, truth)| (files, Some(truth)))
+        }
     }
 }

@@ -1,0 +1,63 @@
+//! `hexbench workbench [HEXAPOD DATA]`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_workbench::bench::Given;
+use hexbench_workbench::server::{Server, Settings};
+use hexbench_workbench::wire::Text;
+
+use crate::failure::Failure;
+use crate::input;
+use crate::output::Screen;
+
+/// A page in your browser: compare, tick effects on and off, diagnose, simulate, guess what is hidden
+///
+/// The page is served by this command, to this machine only, and needs the address that is printed: it holds a token that
+/// nobody else has. Nothing is written; what is opened is forgotten when the command ends (Ctrl-C).
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The machine: hexapod.toml; the page can load other files too
+    #[arg(requires = "data")]
+    hexapod: Option<PathBuf>,
+    /// Deflections or absolute poses: measurements.csv
+    data: Option<PathBuf>,
+    /// Readings kept out of every fit
+    #[arg(long, value_name = "FILE", requires = "data")]
+    holdout: Option<PathBuf>,
+    /// Port on 127.0.0.1; without it the system chooses a free one
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    port: u16,
+}
+
+/// Serve until asked to stop.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let given = given(arguments)?;
+    let port = arguments.port;
+    let failed = |cause| Failure::Server { port, cause };
+    let server = Server::bind(&Settings { port, ..Settings::default() }, given).map_err(failed)?;
+    let stop = server.asked_to_stop().map_err(failed)?;
+    screen.write(&format!(
+        "The workbench is open at\n\n  {}\n\nOpen this address in a browser on this machine. Ctrl-C ends it.\n",
+        server.url()
+    ))?;
+    server.run_until(stop);
+    Ok(())
+}
+
+/// The files, once it is clear that they can be used.
+fn given(arguments: &Arguments) -> Result<Option<Given>, Failure> {
+    let (Some(hexapod), Some(data)) = (&arguments.hexapod, &arguments.data) else { return Ok(None) };
+    input::hexapod(hexapod)?;
+    input::measurements(data)?;
+    let holdout = arguments.holdout.as_deref();
+    holdout.map(input::measurements).transpose()?;
+    let holdout = holdout.map(text).transpose()?;
+    Ok(Some(Given { hexapod: text(hexapod)?, data: text(data)?, holdout }))
+}
+
+fn text(path: &Path) -> Result<Text, Failure> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|cause| Failure::Unreadable { path: path.to_owned(), cause })?;
+    Ok(Text { name: path.display().to_string(), text })
+}

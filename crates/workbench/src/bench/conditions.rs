@@ -1,0 +1,73 @@
+//! Where and how was measured, as columns for charts.
+
+use hexbench_core::{Vector3, Vector6};
+use hexbench_model::campaign::Condition;
+use hexbench_model::linearization::Linearization;
+
+use super::digits::{all_short, short};
+use crate::wire::Conditions;
+
+/// Most conditions shown: more than an eye can tell apart, few enough to be drawn at once.
+const MOST: usize = 1000;
+
+/// Indices of the conditions shown, evenly chosen among `count`.
+pub(super) fn shown(count: usize) -> Vec<usize> {
+    (0..count).step_by(count.div_ceil(MOST).max(1)).collect()
+}
+
+/// Columns of the conditions shown, on the machine as drawn.
+pub(super) fn columns(lin: &Linearization, shown: &[usize]) -> Conditions {
+    let mut all = Conditions { of: lin.conditions.len(), ..Conditions::default() };
+    for c in shown.iter().map(|&i| &lin.conditions[i]) {
+        all.pose.push(all_short(pose(c)));
+        all.wrench.push(all_short(difference(&c.wrench.to_array(), &c.reference.to_array())));
+        all.leg_force_n.push(all_short(c.force_change()));
+        all.leg_length_mm.push(all_short(c.legs.lengths * 1e3));
+        all.elapsed_s.push(c.elapsed);
+        all.delta_t_k.push(c.delta_t);
+        all.approach.push(c.approach);
+        all.platform_joints_mm.push(std::array::from_fn(|leg| joint_mm(c, leg)));
+        all.measured.push(all_short(c.reading * 1e6));
+        all.measured_motion.push(motion(c, &c.reading));
+    }
+    all
+}
+
+fn pose(c: &Condition) -> [f64; 6] {
+    let x = c.pose.to_array();
+    std::array::from_fn(|k| if k < 3 { x[k] * 1e3 } else { x[k].to_degrees() })
+}
+
+fn difference(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn joint_mm(c: &Condition, leg: usize) -> [f64; 3] {
+    let joint: Vector3 = c.pose.translation + c.legs.arms[leg];
+    <[f64; 3]>::from(joint * 1e3).map(short)
+}
+
+/// Prediction of a model in measured coordinates, m and rad.
+pub(super) fn predicted(lin: &Linearization, condition: usize) -> Vector6 {
+    let c = &lin.conditions[condition];
+    c.reading - lin.residual(condition).component_div(&c.weight)
+}
+
+/// Motion of the platform at its origin that reads like this: um, urad.
+pub(super) fn motion(c: &Condition, reading: &Vector6) -> [f64; 6] {
+    let twist = c.observer.try_inverse().map_or_else(Vector6::zeros, |h| h * reading);
+    all_short(twist * 1e6)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_conditions_are_all_shown_and_many_evenly() {
+        assert_eq!(shown(0), Vec::<usize>::new());
+        assert_eq!(shown(MOST).len(), MOST);
+        let many = shown(10 * MOST + 1);
+        assert!(many.len() <= MOST && many.windows(2).all(|w| w[1] - w[0] == many[1]));
+    }
+}

@@ -1,0 +1,86 @@
+//! The diagnosis, and what is hidden.
+
+use std::collections::BTreeSet;
+use std::time::Instant;
+
+use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
+use hexbench_model::fit_named::RICHER;
+use hexbench_model::verdict::OUTSIDE;
+use hexbench_pages::{conclusion, confidence, next};
+
+use super::refusal::{Kind, Refusal};
+use super::{Bench, files};
+use crate::wire::{Ask, Diagnosed, Guess, Probability, Revealed};
+
+/// Least probability that is told.
+const WORTH_TELLING: f64 = 0.005;
+
+impl Bench {
+    /// Everything behind the diagnosis of these data.
+    pub(super) fn study(&self, own: &[String]) -> Result<Study, Refusal> {
+        let terms = files::terms_with(own, &self.limits)?;
+        let c = &self.contents;
+        diagnose(&c.hexapod, &c.data, c.holdout.as_ref(), &terms)
+            .map_err(|cause| Refusal::model(&cause, &c.data.source))
+    }
+
+    /// Names the effect that is missing.
+    ///
+    /// # Errors
+    /// [`Refusal`].
+    pub fn diagnose(&self, ask: &Ask) -> Result<Diagnosed, Refusal> {
+        let since = Instant::now();
+        let d = self.study(&ask.own)?.diagnosis;
+        Ok(Diagnosed {
+            word: conclusion::word(d.verdict),
+            sentences: conclusion::sentences(&d),
+            probabilities: probabilities(&d),
+            tick: d.model.iter().map(|id| asked_for(&d, id)).collect(),
+            next: next::proposals(&d),
+            diagnosis: d,
+            milliseconds: since.elapsed().as_secs_f64() * 1e3,
+        })
+    }
+
+    /// Compares a guess with what is hidden.
+    ///
+    /// # Errors
+    /// [`Kind::Conflict`] for measurements whose truth nobody here knows.
+    pub fn reveal(&self, guess: &Guess) -> Result<Revealed, Refusal> {
+        let unknown =
+            || Refusal::new(Kind::Conflict, "nothing is hidden here by the program", "Start a game first.");
+        let truth = self.truth.as_ref().ok_or_else(unknown)?;
+        let hidden: BTreeSet<&str> = truth.hidden.iter().map(|h| in_the_catalogue(&h.id)).collect();
+        let guessed: BTreeSet<&str> = guess.guess.iter().map(String::as_str).collect();
+        Ok(Revealed {
+            right: hidden == guessed,
+            hidden: truth.hidden.clone(),
+            leg_stiffness: truth.leg_stiffness,
+        })
+    }
+}
+
+/// A term of the diagnosis as a selection asks for it.
+fn asked_for(d: &Diagnosis, id: &str) -> String {
+    if d.richer.iter().any(|r| r == id) { format!("{id}{RICHER}") } else { id.to_owned() }
+}
+
+/// What a guess calls an effect: those without a name are all outside.
+fn in_the_catalogue(id: &str) -> &str {
+    if id.starts_with("out:") { OUTSIDE } else { id }
+}
+
+fn probabilities(d: &Diagnosis) -> Vec<Probability> {
+    let alike = |id: &str| {
+        let known = d.candidates.iter().find(|c| c.term == id);
+        known.map(|c| c.indistinguishable.clone()).unwrap_or_default()
+    };
+    let all = confidence::probabilities(d).into_iter().filter(|(_, p)| *p >= WORTH_TELLING);
+    all.map(|(id, probability)| Probability {
+        title: conclusion::in_words(&id).to_owned(),
+        alike: alike(&id),
+        id,
+        probability,
+    })
+    .collect()
+}

@@ -1,0 +1,84 @@
+//! Files to take home.
+
+use hexbench_core::files::text_hash;
+use hexbench_model::diagnose::Diagnosis;
+use hexbench_model::fit_named::refuse_undetermined;
+use hexbench_model::model_file::{DataOrigin, Estimator, Model};
+use hexbench_pages::Subject;
+use hexbench_pages::html::{self, Provenance, ReportError};
+
+use super::refusal::{Kind, Refusal};
+use super::{Bench, files, view};
+use crate::wire::{Export, Exported, Selection, What};
+
+const TOML: &str = "application/toml";
+const CSV: &str = "text/csv";
+
+impl Bench {
+    /// A file to take home.
+    ///
+    /// # Errors
+    /// [`Refusal`], also where there is no such file.
+    pub fn export(&self, export: &Export) -> Result<Exported, Refusal> {
+        let [hexapod, data, holdout] = &self.files.names;
+        let held = || {
+            let missing = || {
+                Refusal::new(Kind::Conflict, "no readings are held out here", "Poses are left out in turn.")
+            };
+            self.files.holdout.clone().ok_or_else(missing)
+        };
+        match export.what {
+            What::Model => Ok(exported("model.toml", TOML, self.model(&export.selection)?)),
+            What::Report => Ok(exported("report.html", "text/html", self.report(&export.selection.own)?)),
+            What::Diagnosis => {
+                Ok(exported("diagnosis.json", "application/json", self.json(&export.selection.own)?))
+            }
+            What::Hexapod => Ok(exported(hexapod, TOML, self.files.hexapod.clone())),
+            What::Measurements => Ok(exported(data, CSV, self.files.data.clone())),
+            What::Holdout => Ok(exported(holdout, CSV, held()?)),
+        }
+    }
+
+    fn model(&self, selection: &Selection) -> Result<String, Refusal> {
+        let terms = files::terms_with(&selection.own, &self.limits)?;
+        let data = &self.contents.data;
+        let chosen = view::selected(&selection.terms, &terms, &data.source)?;
+        let fit = view::judged(&self.task(), &chosen)?.fit;
+        refuse_undetermined(&fit).map_err(|cause| Refusal::model(&cause, &data.source))?;
+        let origin = DataOrigin {
+            file: data.source.clone(),
+            sha256: text_hash(&self.files.data),
+            readings: data.observations.len(),
+        };
+        Ok(Model::new(&self.campaign, &fit, Estimator::Gls, origin).to_toml()?)
+    }
+
+    fn report(&self, own: &[String]) -> Result<String, Refusal> {
+        let study = self.study(own)?;
+        let c = &self.contents;
+        let subject =
+            Subject { hexapod: &c.hexapod, data: &c.data, holdout: c.holdout.as_ref(), study: &study };
+        let texts = [Some(&self.files.hexapod), Some(&self.files.data), self.files.holdout.as_ref()];
+        let named = self.files.names.iter().zip(texts);
+        let read = named.filter_map(|(name, text)| text.map(|t| (name.clone(), text_hash(t))));
+        let own = own.iter().enumerate().map(|(k, text)| (format!("term {}", k + 1), text_hash(text)));
+        let provenance =
+            Provenance { command: "hexbench workbench".to_owned(), files: read.chain(own).collect() };
+        Ok(html::diagnosis(&subject, &provenance)?.to_html().map_err(ReportError::from)?)
+    }
+
+    fn json(&self, own: &[String]) -> Result<String, Refusal> {
+        json(&self.study(own)?.diagnosis)
+    }
+}
+
+fn exported(name: &str, media: &'static str, text: String) -> Exported {
+    Exported { name: name.to_owned(), media, text }
+}
+
+fn json(diagnosis: &Diagnosis) -> Result<String, Refusal> {
+    let failed = |e: serde_json::Error| {
+        Refusal::bad_input(e.to_string(), "Look in the data for readings of the wrong size.")
+    };
+    Ok(serde_json::to_string_pretty(diagnosis).map_err(failed)? + "\n")
+}

@@ -1,0 +1,131 @@
+//! The texts a bench is made from.
+
+use std::sync::Arc;
+
+use hexbench_core::files::{parse_hexapod, read_measurements_from};
+use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::user_term;
+use hexbench_model::{term::Term, terms::catalogue};
+
+use super::cases::Case;
+use super::refusal::{Kind, Refusal};
+use crate::wire::{Limits, Text};
+
+/// What the three files are usually called.
+pub(super) const USUAL_NAMES: [&str; 3] = ["hexapod.toml", "measurements.csv", "holdout.csv"];
+/// Longest name of a file that is shown.
+const LONGEST_NAME: usize = 80;
+
+/// Texts of the three files, and their names for messages.
+#[derive(Debug, Clone)]
+pub(super) struct Files {
+    pub(super) hexapod: String,
+    pub(super) data: String,
+    pub(super) holdout: Option<String>,
+    pub(super) names: [String; 3],
+}
+
+/// The same, read.
+#[derive(Debug)]
+pub(super) struct Contents {
+    pub(super) hexapod: Hexapod,
+    pub(super) data: Dataset,
+    pub(super) holdout: Option<Dataset>,
+    /// What the readers noticed.
+    pub(super) warnings: Vec<String>,
+}
+
+impl Files {
+    /// Those of a bundled case.
+    pub(super) fn of_case(case: &Case) -> Self {
+        Self {
+            hexapod: case.hexapod.to_owned(),
+            data: case.data.to_owned(),
+            holdout: Some(case.holdout.to_owned()),
+            names: USUAL_NAMES.map(str::to_owned),
+        }
+    }
+
+    /// Those somebody has given.
+    pub(super) fn of_texts(hexapod: &Text, data: &Text, holdout: Option<&Text>) -> Self {
+        let held = holdout.map_or(USUAL_NAMES[2], |t| &t.name);
+        Self {
+            hexapod: hexapod.text.clone(),
+            data: data.text.clone(),
+            holdout: holdout.map(|t| t.text.clone()),
+            names: [shown(&hexapod.name), shown(&data.name), shown(held)],
+        }
+    }
+
+    /// Reads and checks all three.
+    pub(super) fn read(&self, limits: &Limits) -> Result<Contents, Refusal> {
+        let [machine, data, holdout] = &self.names;
+        let mut warnings = Vec::new();
+        let mut measurements = |text: &str, name: &str| {
+            let reading = read_measurements_from(text.as_bytes(), name)?;
+            let rows = reading.dataset.observations.len();
+            if rows > limits.rows {
+                let rule = format!("{name} has {rows} readings; at most {} are accepted", limits.rows);
+                return Err(Refusal::new(
+                    Kind::TooLarge,
+                    rule,
+                    "The command line takes files of any length.",
+                ));
+            }
+            warnings.extend(reading.warnings.iter().map(|w| format!("{name}: {w} {}", w.next_step())));
+            Ok(reading.dataset)
+        };
+        Ok(Contents {
+            hexapod: parse_hexapod(&self.hexapod, machine)?,
+            data: measurements(&self.data, data)?,
+            holdout: self.holdout.as_deref().map(|text| measurements(text, holdout)).transpose()?,
+            warnings,
+        })
+    }
+}
+
+/// A name that came from elsewhere: its last part, of printable characters.
+fn shown(name: &str) -> String {
+    let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let printable: String = last.chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
+    if printable.is_empty() { "file".to_owned() } else { printable }
+}
+
+/// The catalogue, with terms of one's own behind it.
+pub(super) fn terms_with(own: &[String], limits: &Limits) -> Result<Vec<Arc<dyn Term>>, Refusal> {
+    if own.len() > limits.own_terms {
+        let rule = format!("{} terms of your own; at most {} are accepted", own.len(), limits.own_terms);
+        return Err(Refusal::new(Kind::TooLarge, rule, "Remove some."));
+    }
+    let mut terms = catalogue();
+    for (number, text) in own.iter().enumerate() {
+        if text.len() > limits.term_bytes {
+            let rule = format!("term file {} is longer than {} bytes", number + 1, limits.term_bytes);
+            return Err(Refusal::new(Kind::TooLarge, rule, "A term file is a few lines."));
+        }
+        let term = user_term::parse(text).map_err(|cause| Refusal::own_term(number, &cause))?;
+        let id = term.info().id;
+        if terms.iter().any(|t| t.info().id == id) {
+            return Err(Refusal::bad_input(
+                format!("the term `{id}` is there twice"),
+                "Give one of them another id.",
+            ));
+        }
+        terms.push(term);
+    }
+    Ok(terms)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_only_ever_shown() {
+        assert_eq!(shown("../../etc/passwd"), "passwd");
+        assert_eq!(shown("C:\\data\\x.csv"), "x.csv");
+        assert_eq!(shown("a\u{1b}[31m\n.csv"), "a[31m.csv");
+        assert_eq!(shown("/"), "file");
+        assert_eq!(shown(&"x".repeat(500)).len(), LONGEST_NAME);
+    }
+}

@@ -1,0 +1,103 @@
+//! Springs with the selected terms: errors, numbers, residuals.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use hexbench_core::Hexapod;
+use hexbench_model::compare::legs::leg_space;
+use hexbench_model::estimate::{Estimate, Estimates, estimates};
+use hexbench_model::fit_named::{Added, look_alikes};
+use hexbench_model::scatter::Scatter;
+use hexbench_model::selection::{Judged, Task};
+use hexbench_model::term::Term;
+use hexbench_pages::conclusion::at_the_noise;
+
+use super::conditions::{motion, predicted};
+use super::digits::{all_short, short};
+use super::refusal::Refusal;
+use crate::wire::{self, Leg, LookAlike, View};
+
+/// Correlation from which two numbers are told to look alike.
+const TOLD: f64 = 0.9;
+/// Most pairs told.
+const MOST_TOLD: usize = 12;
+
+/// The terms of these ids.
+pub(super) fn selected(ids: &[String], all: &[Arc<dyn Term>], data: &str) -> Result<Vec<Added>, Refusal> {
+    let named = |id: &String| Added::named(id, all).map_err(|cause| Refusal::model(&cause, data));
+    ids.iter().map(named).collect()
+}
+
+/// Fits and judges.
+pub(super) fn judged(task: &Task<'_>, terms: &[Added]) -> Result<Judged, Refusal> {
+    task.fit(terms).map_err(|cause| Refusal::model(&cause, &task.data.source))
+}
+
+/// What is seen of a fit; `since` the question was asked.
+pub(super) fn view(
+    task: &Task<'_>,
+    asked: &[String],
+    judged: &Judged,
+    shown: &[usize],
+    since: Instant,
+) -> View {
+    let lin = &judged.linearization;
+    let legs = leg_space(task.campaign, lin);
+    let error = judged.held_out.unwrap_or(judged.fitted);
+    let numbers = estimates(&judged.fit);
+    let predictions: Vec<_> = shown.iter().map(|&i| predicted(lin, i)).collect();
+    let scatter = Scatter::of(&judged.residuals);
+    View {
+        terms: asked.to_vec(),
+        fitted: judged.fitted,
+        holdout: judged.held_out,
+        held_out: task.held_out().word(),
+        times_noise: error.chi2_reduced.sqrt(),
+        at_the_noise: at_the_noise(error.chi2_reduced, error.count),
+        legs: of_legs(&numbers, task.hexapod),
+        parameters: numbers.determined.into_iter().filter(|e| !is_stiffness(&e.name)).collect(),
+        not_determined: numbers.not_determined,
+        look_alikes: alike(judged),
+        residual_um: shown.iter().map(|&i| all_short(legs.elongation[i] * 1e6)).collect(),
+        predicted: predictions.iter().map(|p| all_short(p * 1e6)).collect(),
+        predicted_motion: shown
+            .iter()
+            .zip(&predictions)
+            .map(|(&i, p)| motion(&lin.conditions[i], p))
+            .collect(),
+        scatter: wire::Scatter {
+            histogram: points(scatter.histogram()),
+            quantiles: points(scatter.quantiles()),
+        },
+        milliseconds: since.elapsed().as_secs_f64() * 1e3,
+    }
+}
+
+fn points(all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    all.into_iter().map(|point| point.map(short)).collect()
+}
+
+fn is_stiffness(name: &str) -> bool {
+    (1..=6).any(|leg| name == stiffness_of(leg))
+}
+
+fn stiffness_of(leg: usize) -> String {
+    format!("leg-{leg}.stiffness")
+}
+
+fn of_legs(numbers: &Estimates, hexapod: &Hexapod) -> [Leg; 6] {
+    std::array::from_fn(|leg| {
+        let name = stiffness_of(leg + 1);
+        let known: Option<&Estimate> = numbers.determined.iter().find(|e| e.name == name);
+        Leg {
+            stiffness: known.map(|e| e.value),
+            std: known.map(|e| e.std),
+            nominal: hexapod.nominal_stiffness.map(|k| 1e-6 * k[leg]),
+        }
+    })
+}
+
+fn alike(judged: &Judged) -> Vec<LookAlike> {
+    let pairs = look_alikes(&judged.fit, TOLD).into_iter().filter(|(.., r)| r.is_finite());
+    pairs.take(MOST_TOLD).map(|(a, b, correlation)| LookAlike { a, b, correlation }).collect()
+}

@@ -1,0 +1,64 @@
+//! What the server asks of an engine.
+
+use serde::Serialize;
+
+use crate::bench::{self, Bench, Given, Refusal};
+use crate::wire::{Ask, Export, Guess, Limits, Open, Selection};
+
+/// An engine. [`Bench`] is the one there is; tests bring others, slow ones and ones that fall over.
+///
+/// # Errors
+/// Everything but the catalogue may be refused with a [`Refusal`].
+#[expect(clippy::missing_errors_doc, reason = "said once, above")]
+pub trait Desk: Send + Sync + Sized + 'static {
+    /// Everything there is to choose from.
+    fn catalogue(limits: Limits, given: Option<&Given>) -> impl Serialize;
+    /// Load, read or simulate.
+    fn open(request: &Open, given: Option<&Given>, limits: &Limits) -> Result<Self, Refusal>;
+    /// What it is.
+    fn opened(&self, id: &str) -> Result<impl Serialize, Refusal>;
+    /// Bytes of the files it was made from.
+    fn bytes(&self) -> usize;
+    /// Springs with the selected terms.
+    fn view(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// The diagnosis.
+    fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// A file to take home.
+    fn export(&self, export: &Export) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// What is hidden.
+    fn reveal(&self, guess: &Guess) -> Result<impl Serialize + use<Self>, Refusal>;
+}
+
+impl Desk for Bench {
+    fn catalogue(limits: Limits, given: Option<&Given>) -> impl Serialize {
+        bench::catalogue(limits, given)
+    }
+
+    fn open(request: &Open, given: Option<&Given>, limits: &Limits) -> Result<Self, Refusal> {
+        Self::open(request, given, limits)
+    }
+
+    fn opened(&self, id: &str) -> Result<impl Serialize, Refusal> {
+        self.opened(id)
+    }
+
+    fn bytes(&self) -> usize {
+        self.bytes()
+    }
+
+    fn view(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
+        self.view(selection)
+    }
+
+    fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<>, Refusal> {
+        self.diagnose(ask)
+    }
+
+    fn export(&self, export: &Export) -> Result<impl Serialize + use<>, Refusal> {
+        self.export(export)
+    }
+
+    fn reveal(&self, guess: &Guess) -> Result<impl Serialize + use<>, Refusal> {
+        self.reveal(guess)
+    }
+}

@@ -1,0 +1,246 @@
+//! The bench: what a page is told about measurements, selections, games and files to take home.
+#![allow(clippy::unwrap_used, reason = "a test without its case fails")]
+
+use hexbench_model::model_file::Model;
+use hexbench_workbench::bench::cases::CASES;
+use hexbench_workbench::bench::{Bench, Kind, Refusal};
+use hexbench_workbench::wire::{
+    Ask, Export, Guess, Level, Limits, Open, Opened, Selection, Text, View, What,
+};
+
+const LIMITS: Limits = Limits { bytes: 1 << 25, rows: 2000, own_terms: 8, term_bytes: 1 << 16, benches: 16 };
+
+fn open(request: &Open) -> Result<Bench, Refusal> {
+    Bench::open(request, None, &LIMITS)
+}
+
+fn case(id: &str) -> Bench {
+    open(&Open::Case { id: id.to_owned() }).unwrap()
+}
+
+fn ticked(terms: &[&str]) -> Selection {
+    Selection { terms: terms.iter().map(|&t| t.to_owned()).collect(), own: Vec::new() }
+}
+
+fn held_out(view: &View) -> f64 {
+    view.holdout.unwrap().chi2_reduced
+}
+
+#[test]
+fn every_bundled_case_opens_with_finite_numbers() {
+    for known in &CASES {
+        let opened = case(known.id).opened("x").unwrap();
+        let text = serde_json::to_string(&opened).unwrap();
+        assert!(opened.view.times_noise.is_finite() && opened.readings > 0, "{}", known.id);
+        // JSON has no NaN: it becomes null, which only optional stiffnesses may be.
+        let nulls = text
+            .replace("\"nominal\":null", "")
+            .replace("\"contains\":null", "")
+            .replace("\"seed\":null", "");
+        assert!(!nulls.contains("null") || !opened.view.not_determined.is_empty(), "{}: {nulls}", known.id);
+        lists_agree(&opened);
+    }
+}
+
+fn lists_agree(opened: &Opened) {
+    let (c, v) = (&opened.conditions, &opened.view);
+    let n = c.pose.len();
+    let lengths = [c.wrench.len(), c.leg_force_n.len(), c.platform_joints_mm.len(), c.measured_motion.len()];
+    assert!(lengths.iter().all(|&len| len == n), "{lengths:?} {n}");
+    assert!([v.residual_um.len(), v.predicted.len(), v.predicted_motion.len()].iter().all(|&len| len == n));
+}
+
+#[test]
+fn ticking_the_missing_effect_brings_the_held_out_error_down_to_the_noise() {
+    let bench = case("mujoco-foundation");
+    let (before, after) =
+        (bench.view(&ticked(&[])).unwrap(), bench.view(&ticked(&["base-compliance"])).unwrap());
+    assert!(!before.at_the_noise && after.at_the_noise, "{} {}", before.times_noise, after.times_noise);
+    assert!(held_out(&after) < 0.7 * held_out(&before));
+    let sizes: Vec<&str> = after.parameters.iter().map(|p| p.name.as_str()).collect();
+    assert!(sizes.contains(&"base-compliance.rotation-x"), "{sizes:?}");
+    assert!(after.legs.iter().all(|leg| leg.stiffness.is_some()));
+}
+
+#[test]
+fn a_wrong_term_does_not() {
+    let bench = case("mujoco-foundation");
+    let (before, wrong) =
+        (bench.view(&ticked(&[])).unwrap(), bench.view(&ticked(&["joint-friction"])).unwrap());
+    assert!(held_out(&wrong) > 0.9 * held_out(&before), "{} {}", held_out(&wrong), held_out(&before));
+}
+
+#[test]
+fn an_answer_depends_on_the_question_alone() {
+    let bench = case("two-effects");
+    let first = bench.view(&ticked(&["base-compliance", "load-offset"])).unwrap();
+    bench.view(&ticked(&["creep"])).unwrap();
+    let again = bench.view(&ticked(&["base-compliance", "load-offset"])).unwrap();
+    let text = |v: &View| serde_json::to_string(&View { milliseconds: 0.0, ..v.clone() }).unwrap();
+    assert_eq!(text(&first), text(&again));
+}
+
+#[test]
+fn without_a_holdout_file_poses_are_left_out_in_turn() {
+    let known = CASES[0];
+    let text = |name: &str, text: &str| Text { name: name.to_owned(), text: text.to_owned() };
+    let request = Open::Files {
+        hexapod: text("hexapod.toml", known.hexapod),
+        data: text("measurements.csv", known.data),
+        holdout: None,
+    };
+    let view = open(&request).unwrap().view(&ticked(&["base-compliance"])).unwrap();
+    assert_eq!(view.held_out, "poses left out in turn");
+    assert!(held_out(&view) > view.fitted.chi2_reduced * 0.5);
+}
+
+#[test]
+fn a_fault_in_a_file_is_told_with_its_place() {
+    let known = CASES[0];
+    let spoilt = known.data.replacen("fz_N", "fz_lbf", 1);
+    let text = |name: &str, text: &str| Text { name: name.to_owned(), text: text.to_owned() };
+    let request = |data: &str| Open::Files {
+        hexapod: text("hexapod.toml", known.hexapod),
+        data: text("../../mine.csv", data),
+        holdout: None,
+    };
+    let refusal = open(&request(&spoilt)).unwrap_err();
+    assert_eq!(refusal.kind, Kind::BadInput);
+    assert!(refusal.message.starts_with("mine.csv: line 1, column 11"), "{}", refusal.message);
+    assert!(!refusal.next.is_empty());
+    let header = known.data.lines().next().unwrap();
+    let row = known.data.lines().nth(1).unwrap().strip_prefix("1,1,").unwrap();
+    let rows: Vec<String> = (0..=LIMITS.rows).map(|repeat| format!("1,{repeat},{row}")).collect();
+    let long = format!("{header}\n{}\n", rows.join("\n"));
+    assert_eq!(open(&request(&long)).unwrap_err().kind, Kind::TooLarge);
+}
+
+#[test]
+fn what_cannot_be_answered_is_refused_with_a_reason() {
+    let bench = case("mujoco-foundation");
+    let message = |terms: &[&str]| bench.view(&ticked(terms)).unwrap_err().message;
+    assert!(message(&["base-complience"]).contains("did you mean `base-compliance`"));
+    assert!(message(&["leg-offset"]).contains("cannot be fitted"));
+    assert!(message(&["creep", "creep"]).contains("twice"));
+    assert_eq!(bench.reveal(&Guess { guess: Vec::new() }).unwrap_err().kind, Kind::Conflict);
+    assert_eq!(open(&Open::Case { id: "../etc".to_owned() }).unwrap_err().kind, Kind::Unknown);
+    assert_eq!(open(&Open::Given {}).unwrap_err().kind, Kind::Unknown);
+    let untestable = bench.opened("x").unwrap().untestable;
+    assert!(untestable.iter().any(|u| u.term == "leg-offset"), "{untestable:?}");
+}
+
+const OWN: &str = r#"
+format = "term/1"
+id = "softer-when-loaded"
+title = "Legs soften with the force"
+elongation = "size * (f*abs(f) - f0*abs(f0))"
+[[parameters]]
+name = "size"
+unit = "nm/N"
+scale = 1
+"#;
+
+#[test]
+fn a_formula_of_ones_own_is_a_term_like_any_other() {
+    let bench = case("contact");
+    let own =
+        |text: &str| Selection { terms: vec!["softer-when-loaded".to_owned()], own: vec![text.to_owned()] };
+    let (before, after) = (bench.view(&ticked(&[])).unwrap(), bench.view(&own(OWN)).unwrap());
+    assert!(held_out(&after) < held_out(&before), "{} {}", held_out(&after), held_out(&before));
+    let refusal = bench.view(&own(&OWN.replace("f0)", "f9)"))).unwrap_err();
+    assert!(refusal.message.contains("`f9`"), "{}", refusal.message);
+}
+
+#[test]
+fn a_simulation_is_the_same_for_the_same_seed() {
+    let request = |seed| Open::Simulation {
+        machine: "ring_b".to_owned(),
+        plan: "few-poses".to_owned(),
+        effects: vec!["creep".to_owned()],
+        distance: Some(20.0),
+        seed: Some(seed),
+    };
+    let csv = |seed| {
+        let export = Export { what: What::Measurements, selection: Selection::default() };
+        open(&request(seed)).unwrap().export(&export).unwrap().text
+    };
+    assert_eq!(csv(5), csv(5));
+    assert_ne!(csv(5), csv(6));
+    let opened = open(&request(5)).unwrap().opened("x").unwrap();
+    assert_eq!(opened.contains.unwrap()[0].id, "creep");
+    assert!(!opened.sealed);
+}
+
+#[test]
+fn what_cannot_be_simulated_is_refused() {
+    let request = |machine: &str, effects: &[&str], distance| Open::Simulation {
+        machine: machine.to_owned(),
+        plan: "paper".to_owned(),
+        effects: effects.iter().map(|&e| e.to_owned()).collect(),
+        distance,
+        seed: Some(1),
+    };
+    let kind = |r: Open| open(&r).unwrap_err().kind;
+    assert_eq!(kind(request("tripod", &[], None)), Kind::Unknown);
+    assert_eq!(kind(request("ring_a", &["gremlins"], None)), Kind::Unknown);
+    assert_eq!(kind(request("ring_a", &["creep", "creep"], None)), Kind::BadInput);
+    assert_eq!(kind(request("ring_a", &["creep"], Some(f64::NAN))), Kind::BadInput);
+    assert_eq!(kind(request("ring_a", &["creep"], Some(-1.0))), Kind::BadInput);
+}
+
+#[test]
+fn a_game_hides_its_truth_until_it_is_revealed() {
+    for seed in 0..6 {
+        let bench = open(&Open::Game { level: Level::Honest, seed: Some(seed) }).unwrap();
+        let opened = bench.opened("x").unwrap();
+        assert!(opened.sealed && opened.contains.is_none());
+        let truth = bench.reveal(&Guess { guess: vec!["nothing-of-the-kind".to_owned()] }).unwrap();
+        assert!(!truth.right);
+        let told = serde_json::to_string(&opened).unwrap();
+        for hidden in &truth.hidden {
+            // The list of terms that cannot be tested may name it only for lack of a column.
+            assert!(!told.contains(&hidden.title), "{told}");
+        }
+        let guess = truth.hidden.iter().map(|h| h.id.clone());
+        let guess = guess.map(|id| if id.starts_with("out:") { "outside".to_owned() } else { id }).collect();
+        assert!(bench.reveal(&Guess { guess }).unwrap().right);
+    }
+}
+
+#[test]
+fn the_diagnosis_names_the_effect_and_the_files_can_be_taken_home() {
+    let bench = case("mujoco-foundation");
+    let answer = bench.diagnose(&Ask::default()).unwrap();
+    assert_eq!(
+        (answer.word, answer.diagnosis.added.as_slice()),
+        ("named", &["base-compliance".to_owned()][..])
+    );
+    let take = |what, terms: &[&str]| bench.export(&Export { what, selection: ticked(terms) }).unwrap();
+    let model = Model::from_toml(&take(What::Model, &["base-compliance"]).text).unwrap();
+    assert!(!model.is_absolute());
+    let report = take(What::Report, &[]);
+    assert!(report.text.starts_with("<!doctype html>") && report.text.contains("base-compliance"));
+    let json: serde_json::Value = serde_json::from_str(&take(What::Diagnosis, &[]).text).unwrap();
+    assert_eq!(json["format"], "diagnosis/1");
+    assert_eq!(take(What::Hexapod, &[]).text, CASES[0].hexapod);
+    assert_eq!(take(What::Holdout, &[]).text, CASES[0].holdout);
+}
+
+#[test]
+fn a_bending_foundation_needs_the_richer_form() {
+    let request = Open::Simulation {
+        machine: "ring_b".to_owned(),
+        plan: "rich".to_owned(),
+        effects: vec!["out:base-bending".to_owned()],
+        distance: Some(60.0),
+        seed: Some(3),
+    };
+    let bench = open(&request).unwrap();
+    let error = |terms: &[&str]| held_out(&bench.view(&ticked(terms)).unwrap());
+    let [springs, ideal, richer] =
+        [error(&[]), error(&["base-compliance"]), error(&["base-compliance:richer"])];
+    assert!(richer < ideal && ideal < springs, "{springs} {ideal} {richer}");
+    assert!(bench.view(&ticked(&["base-compliance:richer"])).unwrap().at_the_noise, "{richer}");
+    let refusal = bench.view(&ticked(&["load-tilt:richer"])).map(|v| v.times_noise).unwrap_err();
+    assert!(refusal.message.contains("no richer form"), "{}", refusal.message);
+}

@@ -1,0 +1,75 @@
+//! An engine that does as it is told: answers, refuses, falls over, takes its time.
+
+use std::sync::{Condvar, Mutex, PoisonError};
+
+use hexbench_workbench::bench::{Given, Kind, Refusal};
+use hexbench_workbench::server::Desk;
+use hexbench_workbench::wire::{Ask, Export, Guess, Limits, Open, Selection};
+use serde::Serialize;
+use serde_json::json;
+
+/// Bytes of an export: more than the buffers between server and client hold.
+const EXPORT_BYTES: usize = 32 << 20;
+
+/// Held computations wait for it.
+static GATE: (Mutex<bool>, Condvar) = (Mutex::new(false), Condvar::new());
+
+/// Let held computations wait, or go.
+pub(crate) fn set_gate(open: bool) {
+    *GATE.0.lock().unwrap_or_else(PoisonError::into_inner) = open;
+    GATE.1.notify_all();
+}
+
+fn wait_at_the_gate() {
+    let open = GATE.0.lock().unwrap_or_else(PoisonError::into_inner);
+    drop(GATE.1.wait_while(open, |open| !*open));
+}
+
+/// A bench without physics.
+pub(crate) struct Obedient;
+
+fn refusal(kind: Kind) -> Refusal {
+    Refusal { kind, message: "the engine says no".into(), next: "The engine says what to do.".into() }
+}
+
+impl Desk for Obedient {
+    fn catalogue(limits: Limits, _: Option<&Given>) -> impl Serialize {
+        json!({ "limits": limits })
+    }
+
+    fn open(request: &Open, _: Option<&Given>, _: &Limits) -> Result<Self, Refusal> {
+        match request {
+            Open::Case { id } if id == "falls-over" => panic!("told to fall over"),
+            Open::Case { id } if id == "absent" => Err(refusal(Kind::Unknown)),
+            Open::Files { data, .. } if data.text == "bad" => Err(refusal(Kind::BadInput)),
+            Open::Files { data, .. } if data.text == "long" => Err(refusal(Kind::TooLarge)),
+            _ => Ok(Self),
+        }
+    }
+
+    fn opened(&self, id: &str) -> Result<impl Serialize, Refusal> {
+        Ok(json!({ "id": id }))
+    }
+
+    fn bytes(&self) -> usize {
+        0
+    }
+
+    fn view(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
+        assert!(selection.terms != ["falls-over"], "told to fall over");
+        Ok(json!({ "terms": selection.terms }))
+    }
+
+    fn diagnose(&self, _: &Ask) -> Result<impl Serialize + use<>, Refusal> {
+        wait_at_the_gate();
+        Ok(json!({ "word": "adequate" }))
+    }
+
+    fn export(&self, _: &Export) -> Result<impl Serialize + use<>, Refusal> {
+        Ok("x".repeat(EXPORT_BYTES))
+    }
+
+    fn reveal(&self, _: &Guess) -> Result<impl Serialize + use<>, Refusal> {
+        Err::<(), _>(refusal(Kind::Conflict))
+    }
+}

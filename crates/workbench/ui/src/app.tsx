@@ -1,0 +1,44 @@
+/** The whole page. */
+import { useEffect } from "preact/hooks";
+import { BenchScreen } from "./bench/screen";
+import { BusyLine } from "./busy";
+import { StartScreen } from "./start/screen";
+import type { Store } from "./store";
+import { ThemeSwitch } from "./theme_switch";
+import { Trouble } from "./trouble";
+import { useStore } from "./use_store";
+
+export function App({ store }: { store: Store }) {
+  const state = useStore(store);
+  const { bench, catalogue, problem, busy } = state;
+  const title = bench?.opened.title;
+  useEffect(() => {
+    document.title = title === undefined ? "hexbench workbench" : `${title} - hexbench workbench`;
+  }, [title]);
+  return (
+    <>
+      <header class="top">
+        <h1>{title ?? "hexbench workbench"}</h1>
+        <BusyLine busy={busy} />
+        <nav class="row" aria-label="Page">
+          {bench && (
+            <button type="button" data-testid="close" onClick={() => store.close()}>
+              Load something else
+            </button>
+          )}
+          <ThemeSwitch />
+        </nav>
+      </header>
+      {problem?.place === "page" && <Trouble problem={problem} {...(state.locked ? {} : { dismiss: store.dismiss })} />}
+      <main>
+        {catalogue && bench && (
+          <BenchScreen key={`${bench.opened.title} ${bench.opened.seed}`} store={store} state={state} catalogue={catalogue} bench={bench} />
+        )}
+        {catalogue && !bench && <StartScreen store={store} catalogue={catalogue} state={state} />}
+      </main>
+      <footer>
+        hexbench {catalogue?.version} · <a href="/licences.txt">licences of the parts of this page</a>
+      </footer>
+    </>
+  );
+}

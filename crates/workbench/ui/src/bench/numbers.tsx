@@ -1,0 +1,114 @@
+/** Leg stiffnesses and the numbers of the terms. */
+import { digits, withUncertainty } from "../format";
+import * as History from "../history";
+import type { Leg, LookAlike, View } from "../wire";
+import type { BenchProps } from "./screen";
+import { StiffnessChart } from "./stiffness";
+
+export function NumbersSheet({ bench }: BenchProps) {
+  const springs = History.springs(bench.history).view;
+  const now = History.now(bench.history).view;
+  return (
+    <>
+      <h3>Leg stiffness, N/um, with standard uncertainty (k = 1)</h3>
+      <StiffnessChart springs={springs.legs} now={now.legs} />
+      <LegTable springs={springs.legs} now={now.legs} />
+      {now.terms.length > 0 && <Parameters view={now} />}
+    </>
+  );
+}
+
+const UNKNOWN = "not determined";
+
+function LegTable({ springs, now }: { springs: Leg[]; now: Leg[] }) {
+  const nominal = now.some((leg) => leg.nominal !== null);
+  return (
+    <div class="scroll">
+      <table data-testid="legs">
+        <thead>
+          <tr>
+            <th scope="col">leg</th>
+            {nominal && <th scope="col">nominal</th>}
+            <th scope="col">springs alone</th>
+            <th scope="col">now</th>
+            <th scope="col">change</th>
+          </tr>
+        </thead>
+        <tbody>
+          {now.map((leg, i) => (
+            <tr key={i}>
+              <th scope="row">{i + 1}</th>
+              {nominal && <td>{leg.nominal === null ? "" : digits(leg.nominal, 4)}</td>}
+              <td>{stiffness(springs[i])}</td>
+              <td>{stiffness(leg)}</td>
+              <td>{change(springs[i], leg)}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+function stiffness(leg: Leg | undefined): string {
+  if (leg === undefined || leg.stiffness === null) return UNKNOWN;
+  return leg.std === null ? digits(leg.stiffness, 4) : plusMinus(leg.stiffness, leg.std);
+}
+
+function change(before: Leg | undefined, now: Leg): string {
+  if (before === undefined || before.stiffness === null || now.stiffness === null) return "";
+  const percent = 100 * (now.stiffness / before.stiffness - 1);
+  return Math.abs(percent) < 0.005 ? "none" : `${percent > 0 ? "+" : ""}${digits(percent, 2)} %`;
+}
+
+function plusMinus(value: number, std: number): string {
+  const text = withUncertainty(value, std);
+  return `${text.value} \u00b1 ${text.std}`;
+}
+
+function Parameters({ view }: { view: View }) {
+  const shown = view.parameters.filter(({ name }) => !/^leg-\d\.stiffness$/.test(name));
+  return (
+    <>
+      <h3>Numbers of the terms</h3>
+      <div class="scroll">
+        <table data-testid="parameters">
+          <thead>
+            <tr>
+              <th scope="col">number</th>
+              <th scope="col">value</th>
+              <th scope="col">unit</th>
+              <th scope="col" class="words">
+                remark
+              </th>
+            </tr>
+          </thead>
+          <tbody>
+            {shown.map(({ name, value, std, unit }) => (
+              <tr key={name}>
+                <th scope="row">{name}</th>
+                <td>{plusMinus(value, std)}</td>
+                <td>{unit}</td>
+                <td class="words">{remark(name, view.look_alikes)}</td>
+              </tr>
+            ))}
+            {view.not_determined.map((name) => (
+              <tr key={name}>
+                <th scope="row">{name}</th>
+                <td colspan={2}>{UNKNOWN}</td>
+                <td class="words">these data leave it open</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+    </>
+  );
+}
+
+/** Look-alikes of a number, in words. */
+function remark(name: string, alikes: LookAlike[]): string {
+  const others = alikes.filter(({ a, b }) => a === name || b === name);
+  const names = others.map(({ a, b, correlation }) => `${a === name ? b : a} (correlation ${correlation.toFixed(2)})`);
+  return names.length === 0 ? "" : `hard to tell from ${names.join(", ")}`;
+}

@@ -1,0 +1,143 @@
+/** Residual sheet: elongation of each leg that the model leaves, against anything it may follow. */
+import { useMemo, useState } from "preact/hooks";
+import { Chart } from "../charts/chart";
+import { legNoise } from "../charts/leg_noise";
+import { type Looks, MARKERS } from "../charts/looks";
+import { drawing, type Panel, reachOf, type Sheet } from "../charts/panels";
+import { band, points } from "../charts/series";
+import { VARIABLES, type Variable, varies } from "../charts/variables";
+import { digits } from "../format";
+import * as History from "../history";
+import type { Opened, Six } from "../wire";
+import { Options } from "./options";
+import type { BenchProps } from "./screen";
+
+type Quantity = "left" | "explained";
+type Layout = "each" | "all";
+
+const SPRINGS = "springs alone leave";
+const NAMES: Record<Quantity, string> = { left: "the model leaves now", explained: "the ticked terms explain" };
+const LEGS = [0, 1, 2, 3, 4, 5];
+
+export function ResidualSheet({ bench }: BenchProps) {
+  const { opened, history } = bench;
+  const [x, setX] = useState("leg-force");
+  const [quantity, setQuantity] = useState<Quantity>("left");
+  const [layout, setLayout] = useState<Layout>("each");
+  const variable = VARIABLES.find(({ id }) => id === x) ?? (VARIABLES[0] as Variable);
+  const choices = useMemo(
+    () => VARIABLES.map((one) => ({ id: one.id, title: `${one.title} (${one.unit})`, disabled: !varies(one, opened.conditions) })),
+    [opened.conditions],
+  );
+  const noise = useMemo(() => legNoise(opened), [opened]);
+  const springs = History.springs(history).view.residual_um;
+  const left = History.now(history).view.residual_um;
+  const front = quantity === "left" ? left : explained(springs, left);
+  const reach = useMemo(() => reachOf(springs.flat()), [springs]);
+  const title = `${NAMES[quantity]}, leg elongation in um over ${variable.title} (${variable.unit})`;
+  const draw = (width: number, looks: Looks) => {
+    const data = { opened, variable, springs, front, noise, name: NAMES[quantity], reach: Math.max(reach, reachOf(left.flat())) };
+    return drawing(layout === "each" ? eachLeg(data, looks) : allLegs(data, looks), width, looks);
+  };
+  return (
+    <>
+      <div class="row">
+        <Options label="over" name="variable" value={x} options={choices} set={setX} />
+        <Options
+          label="show"
+          name="quantity"
+          value={quantity}
+          options={[
+            { id: "left", title: "what is left" },
+            { id: "explained", title: "what the ticked terms explain" },
+          ]}
+          set={setQuantity}
+        />
+        <Options
+          label="legs"
+          name="layout"
+          value={layout}
+          options={[
+            { id: "each", title: "each" },
+            { id: "all", title: "all in one" },
+          ]}
+          set={setLayout}
+        />
+      </div>
+      <Chart name="residuals" of={[springs, left]} shape={`${layout} ${x} ${quantity}`} label={title} draw={draw} />
+      <p class="hint">
+        Elongation of the legs in um that the model does not predict{shown(opened)}; the band is the noise of one reading seen by that leg.
+      </p>
+    </>
+  );
+}
+
+interface Data {
+  opened: Opened;
+  variable: Variable;
+  springs: Six[];
+  front: Six[];
+  noise: number[];
+  name: string;
+  reach: number;
+}
+
+function eachLeg(data: Data, looks: Looks): Sheet {
+  const panels = LEGS.map(
+    (leg): Panel => ({
+      title: `leg ${leg + 1} (um)`,
+      reach: data.reach,
+      series: [
+        {
+          ...points(SPRINGS, along(data, data.springs, leg), { colour: looks.before, symbol: "rect", size: 4, opacity: 0.45 }),
+          ...band(data.noise[leg] ?? 0, looks.band),
+        },
+        points(data.name, along(data, data.front, leg), { colour: looks.now }),
+      ],
+    }),
+  );
+  return { ...sheet(data), panels, across: 3, legend: [SPRINGS, data.name] };
+}
+
+function allLegs(data: Data, looks: Looks): Sheet {
+  const mean = Math.sqrt(data.noise.reduce((sum, sigma) => sum + sigma ** 2, 0) / data.noise.length);
+  const back = LEGS.flatMap((leg) => along(data, data.springs, leg));
+  const legs = LEGS.map((leg) =>
+    points(`leg ${leg + 1}`, along(data, data.front, leg), {
+      colour: looks.legs[leg] ?? looks.ink,
+      symbol: MARKERS[leg] ?? "circle",
+      size: 7,
+    }),
+  );
+  const series = [{ ...points(SPRINGS, back, { colour: looks.grey, size: 3, opacity: 0.4 }), ...band(mean, looks.band) }, ...legs];
+  const legend = [SPRINGS, ...LEGS.map((leg) => `leg ${leg + 1}`)];
+  return { ...sheet(data), panels: [{ title: "all legs (um)", reach: data.reach, series }], across: 1, legend };
+}
+
+function sheet({ variable, opened }: Data): Pick<Sheet, "x" | "tooltip"> {
+  const count = opened.conditions.pose.length;
+  return {
+    x: `${variable.title} (${variable.unit})`,
+    tooltip: (series, _, x, y, index) =>
+      `${series}: ${digits(y)} um\n${variable.title} ${digits(x, 4)} ${variable.unit}\n${where(opened, index % count)}`,
+  };
+}
+
+function along({ opened, variable }: Data, residual: Six[], leg: number): number[][] {
+  return residual.map((six, i) => [variable.value(opened.conditions, i, leg), six[leg] ?? 0]);
+}
+
+function explained(springs: Six[], left: Six[]): Six[] {
+  return springs.map((six, i) => six.map((value, leg) => value - (left[i]?.[leg] ?? 0)) as Six);
+}
+
+/** Pose and load of a condition. */
+export function where({ conditions }: Opened, index: number): string {
+  const six = (list: Six[]) => (list[index] ?? []).map((value) => digits(value)).join(", ");
+  return `at [${six(conditions.pose)}] mm, deg\nload [${six(conditions.wrench)}] N, N m`;
+}
+
+function shown({ conditions }: Opened): string {
+  const count = conditions.pose.length;
+  return conditions.of > count ? `, ${count} of ${conditions.of} conditions, evenly chosen` : "";
+}

@@ -1,0 +1,65 @@
+/** Sheets of the bench, one shown at a time. */
+import { useRef, useState } from "preact/hooks";
+import { MachineSheet } from "../machine/sheet";
+import { DiagnosisSheet } from "./diagnosis";
+import { NumbersSheet } from "./numbers";
+import { PredictedSheet } from "./predicted";
+import { ResidualSheet } from "./residuals";
+import { ScatterSheet } from "./scatter";
+import type { BenchProps } from "./screen";
+
+const SHEETS = [
+  { name: "residuals", title: "Residual sheet", Sheet: ResidualSheet },
+  { name: "predicted", title: "Predicted and measured", Sheet: PredictedSheet },
+  { name: "scatter", title: "Is it noise?", Sheet: ScatterSheet },
+  { name: "machine", title: "Machine", Sheet: MachineSheet },
+  { name: "numbers", title: "Numbers", Sheet: NumbersSheet },
+  { name: "diagnosis", title: "Diagnosis", Sheet: DiagnosisSheet },
+] as const;
+
+export function Sheets(props: BenchProps) {
+  const [at, setAt] = useState(0);
+  const list = useRef<HTMLDivElement>(null);
+  const { name, Sheet } = SHEETS[at] ?? SHEETS[0];
+  const onKey = (event: KeyboardEvent) => {
+    const next = moved(event.key, at);
+    if (next === null) return;
+    event.preventDefault();
+    setAt(next);
+    (list.current?.children[next] as HTMLElement | undefined)?.focus();
+  };
+  return (
+    <section class="card">
+      <div role="tablist" aria-label="Sheets" class="tabs" ref={list} onKeyDown={onKey}>
+        {SHEETS.map((sheet, index) => (
+          <button
+            key={sheet.name}
+            type="button"
+            role="tab"
+            id={`tab-${sheet.name}`}
+            data-testid={`tab-${sheet.name}`}
+            aria-selected={index === at}
+            aria-controls="sheet"
+            tabIndex={index === at ? 0 : -1}
+            onClick={() => setAt(index)}
+          >
+            {sheet.title}
+          </button>
+        ))}
+      </div>
+      <div role="tabpanel" id="sheet" aria-labelledby={`tab-${name}`}>
+        <Sheet {...props} />
+      </div>
+    </section>
+  );
+}
+
+/** The sheet a key leads to. */
+function moved(key: string, at: number): number | null {
+  const count = SHEETS.length;
+  if (key === "ArrowRight") return (at + 1) % count;
+  if (key === "ArrowLeft") return (at + count - 1) % count;
+  if (key === "Home") return 0;
+  if (key === "End") return count - 1;
+  return null;
+}

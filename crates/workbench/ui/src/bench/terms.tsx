@@ -1,0 +1,60 @@
+/** Switches of all terms. */
+import { useState } from "preact/hooks";
+import { isRicher, isTicked, now } from "../history";
+import { OwnTerms } from "../own/own_terms";
+import { grouped } from "./groups";
+import type { BenchProps } from "./screen";
+import { TermSwitch } from "./term_switch";
+
+/** `edit` opens a term file in the editor. */
+export function Terms(props: BenchProps & { edit: (text: string) => void }) {
+  const { store, catalogue, bench } = props;
+  const why = new Map(bench.opened.untestable.map(({ term, why }) => [term, why]));
+  const { wanted, trials, history } = bench;
+  const trial = trials?.step === now(history) ? trials.found : {};
+  const open = catalogue.terms.map(({ id }) => id).filter((id) => !why.has(id) && !isTicked(wanted, id));
+  return (
+    <section class="card terms" aria-labelledby="terms-title">
+      <div class="row spread">
+        <h2 id="terms-title">Terms of the model</h2>
+        <button
+          type="button"
+          class="quiet"
+          data-testid="try-each"
+          title="Fits every term once beside those ticked"
+          onClick={() => void store.tryEach(open)}
+        >
+          Try each
+        </button>
+      </div>
+      <p class="hint">Six leg springs always; tick what else is at work.</p>
+      {grouped(catalogue.terms).map(({ title, terms }) => (
+        <Group key={title} title={title} closed={terms.every(({ id }) => why.has(id))}>
+          {terms.map((term) => (
+            <TermSwitch
+              key={term.id}
+              term={term}
+              ticked={isTicked(wanted, term.id)}
+              richer={isRicher(wanted, term.id)}
+              why={why.get(term.id)}
+              trial={trial[term.id]}
+              toggle={(start) => store.toggle(term.id, start)}
+              changeForm={(start) => store.changeForm(term.id, start)}
+            />
+          ))}
+        </Group>
+      ))}
+      <OwnTerms {...props} />
+    </section>
+  );
+}
+
+function Group({ title, closed, children }: { title: string; closed: boolean; children: preact.ComponentChildren }) {
+  const [open, setOpen] = useState(!closed);
+  return (
+    <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
+      <summary>{title}</summary>
+      <ul class="switches">{children}</ul>
+    </details>
+  );
+}

@@ -1,0 +1,56 @@
+/** Colours and markers: those of Okabe and Ito without their yellow, as in the report; lighter ones on a dark page. */
+
+export interface Looks {
+  ink: string;
+  grey: string;
+  grid: string;
+  paper: string;
+  /** What the model leaves now. */
+  now: string;
+  /** The springs alone. */
+  before: string;
+  /** Something to compare with. */
+  third: string;
+  /** Noise. */
+  band: string;
+  /** Six legs. */
+  legs: string[];
+}
+
+const LIGHT: Looks = {
+  ink: "#262626",
+  grey: "#707070",
+  grid: "#e3e3e3",
+  paper: "#ffffff",
+  now: "#0072b2",
+  before: "#d55e00",
+  third: "#009e73",
+  band: "rgba(0, 158, 115, 0.13)",
+  legs: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"],
+};
+
+const DARK: Looks = {
+  ink: "#e8e8e8",
+  grey: "#a8a8a8",
+  grid: "#3a3d42",
+  paper: "#1e2126",
+  now: "#5cb3ee",
+  before: "#f08a3c",
+  third: "#2cc295",
+  band: "rgba(44, 194, 149, 0.16)",
+  legs: ["#5cb3ee", "#f08a3c", "#2cc295", "#e39ac4", "#f2b530", "#b5def7"],
+};
+
+/** Markers of the six legs: told apart without colour. */
+export const MARKERS = [
+  "circle",
+  "rect",
+  "triangle",
+  "diamond",
+  "emptyCircle",
+  "path://M0 0L1 0L5 4L9 0L10 0L10 1L6 5L10 9L10 10L9 10L5 6L1 10L0 10L0 9L4 5L0 1Z",
+];
+
+export function looks(dark: boolean): Looks {
+  return dark ? DARK : LIGHT;
+}

@@ -1,0 +1,138 @@
+/** Small charts side by side in one canvas. */
+import type { Option } from "./echarts";
+import type { Looks } from "./looks";
+
+export interface Panel {
+  title: string;
+  /** One or more series; axes are set here. */
+  series: Option[];
+  /** Half height of an axis about zero; none: as the data are. */
+  reach?: number | undefined;
+}
+
+export interface Sheet {
+  panels: Panel[];
+  /** Title of the x axes. */
+  x: string;
+  /** Panels side by side where there is room. */
+  across: number;
+  /** Colours of series by name, for the legend. */
+  legend: string[];
+  tooltip: (series: string, panel: number, x: number, y: number, index: number) => string;
+  /** Same axis for x and y of a panel. */
+  square?: boolean;
+  /** Higher panels. */
+  tall?: boolean;
+}
+
+const NARROWEST_PX = 150;
+const ROW_PX = 190;
+const LONE_ROW_PX = 360;
+const TOP_PX = 34;
+const BOTTOM_PX = 24;
+const LEFT_PX = 46;
+const TITLE_PX = 26;
+const GAP_PX = 14;
+
+/** Options and height of a sheet of panels. */
+export function drawing(sheet: Sheet, width: number, looks: Looks): { option: Option; height: number } {
+  const columns = Math.max(1, Math.min(sheet.across, Math.floor(width / NARROWEST_PX)));
+  const rows = Math.ceil(sheet.panels.length / columns);
+  const rowHeight = sheet.tall || sheet.panels.length === 1 ? LONE_ROW_PX : ROW_PX;
+  const height = TOP_PX + rows * rowHeight + BOTTOM_PX;
+  const cell = width / columns;
+  const places = sheet.panels.map((_, index) => ({
+    left: Math.round((index % columns) * cell),
+    top: TOP_PX + Math.floor(index / columns) * rowHeight,
+    last: index + columns >= sheet.panels.length,
+  }));
+  const axes = {
+    nameTextStyle: { color: looks.ink },
+    nameMoveOverlap: false,
+    axisLabel: { color: looks.grey, fontSize: 11, hideOverlap: true },
+    axisLine: { onZero: false, lineStyle: { color: looks.grey } },
+    splitLine: { lineStyle: { color: looks.grid } },
+  };
+  const option: Option = {
+    animation: false,
+    textStyle: { fontFamily: "system-ui, sans-serif", color: looks.ink },
+    legend: {
+      data: sheet.legend,
+      top: 0,
+      left: LEFT_PX,
+      itemWidth: 12,
+      itemHeight: 10,
+      textStyle: { color: looks.ink },
+      inactiveColor: looks.grid,
+    },
+    tooltip: {
+      trigger: "item",
+      renderMode: "richText",
+      confine: true,
+      backgroundColor: looks.paper,
+      borderColor: looks.grey,
+      textStyle: { color: looks.ink, fontSize: 12 },
+      formatter: (hit: { seriesName: string; seriesIndex: number; value: number[]; dataIndex: number }) =>
+        sheet.tooltip(hit.seriesName, panelOf(sheet, hit.seriesIndex), hit.value[0] ?? 0, hit.value[1] ?? 0, hit.dataIndex),
+    },
+    title: sheet.panels.map(({ title }, index) => ({
+      text: title,
+      left: (places[index]?.left ?? 0) + LEFT_PX,
+      top: places[index]?.top ?? 0,
+      textStyle: { fontSize: 12, fontWeight: "bold", color: looks.ink },
+      padding: [6, 0],
+    })),
+    grid: places.map(({ left, top }) => ({
+      left: left + LEFT_PX,
+      top: top + TITLE_PX,
+      width: Math.round(cell) - LEFT_PX - GAP_PX,
+      height: rowHeight - TITLE_PX - 22,
+      containLabel: false,
+      outerBoundsMode: "none",
+    })),
+    xAxis: sheet.panels.map((panel, index) => ({
+      ...axes,
+      type: "value",
+      scale: true,
+      gridIndex: index,
+      splitNumber: 4,
+      name: places[index]?.last ? sheet.x : "",
+      nameLocation: "middle",
+      nameGap: 26,
+      ...range(sheet.square ? panel.reach : undefined),
+    })),
+    yAxis: sheet.panels.map((panel, index) => ({
+      ...axes,
+      type: "value",
+      scale: true,
+      gridIndex: index,
+      splitNumber: 4,
+      ...range(panel.reach),
+    })),
+    series: sheet.panels.flatMap(({ series }, index) => series.map((one) => ({ ...one, xAxisIndex: index, yAxisIndex: index }))),
+  };
+  return { option, height };
+}
+
+function panelOf(sheet: Sheet, series: number): number {
+  let before = 0;
+  return sheet.panels.findIndex((panel) => {
+    before += panel.series.length;
+    return series < before;
+  });
+}
+
+/** Limits of an axis about zero; null hands an axis back to the data. */
+function range(reach: number | undefined): Option {
+  return reach === undefined ? { min: null, max: null, interval: null } : { min: -reach, max: reach, interval: reach / 2 };
+}
+
+/** A round number not below the largest magnitude. */
+export function reachOf(values: Iterable<number>): number {
+  let largest = 0;
+  for (const value of values) largest = Math.max(largest, Math.abs(value));
+  if (largest === 0) return 1;
+  const power = 10 ** Math.floor(Math.log10(largest));
+  const steps = [1, 1.2, 1.6, 2, 2.4, 3, 4, 5, 6, 8, 10];
+  return power * (steps.find((step) => step * power >= largest * 1.02) ?? 12);
+}

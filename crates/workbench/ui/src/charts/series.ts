@@ -1,0 +1,46 @@
+/** Series of the page's charts. */
+import type { Option } from "./echarts";
+
+/** From so many points on they are drawn as one path, which is much quicker. */
+const LARGE_FROM = 300;
+
+interface Look {
+  colour: string;
+  symbol?: string;
+  size?: number;
+  opacity?: number;
+}
+
+/** Points; the second rank is drawn small and pale. */
+export function points(name: string, data: number[][], look: Look): Option {
+  return {
+    type: "scatter",
+    name,
+    data,
+    symbol: look.symbol ?? "circle",
+    symbolSize: look.size ?? 6,
+    itemStyle: { color: look.colour, opacity: look.opacity ?? 0.85 },
+    large: data.length > LARGE_FROM,
+    largeThreshold: LARGE_FROM,
+    emphasis: { disabled: true },
+  };
+}
+
+/** A line without markers; null breaks it. */
+export function line(name: string, data: (number | null)[][], colour: string, dash: "solid" | "dashed" | number[] = "solid"): Option {
+  return {
+    type: "line",
+    name,
+    data,
+    symbol: "none",
+    silent: true,
+    lineStyle: { color: colour, width: 1.5, type: dash },
+    itemStyle: { color: colour },
+    emphasis: { disabled: true },
+  };
+}
+
+/** A band between two heights, for the noise. */
+export function band(half: number, colour: string): Option {
+  return { markArea: { silent: true, itemStyle: { color: colour }, data: [[{ yAxis: -half }, { yAxis: half }]] } };
+}

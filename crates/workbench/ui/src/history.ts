@@ -1,0 +1,75 @@
+/** Steps of a bench: what was ticked and what it gave, with a place that undo and redo move. */
+import type { Selection, View } from "./wire";
+
+export interface Step {
+  selection: Selection;
+  view: View;
+}
+
+/** Steps are never lost before the place; those after it go when something new is done. */
+export interface History {
+  steps: Step[];
+  at: number;
+}
+
+export function begin(step: Step): History {
+  return { steps: [step], at: 0 };
+}
+
+/** Adds a step after the place. */
+export function add(history: History, step: Step): History {
+  const steps = [...history.steps.slice(0, history.at + 1), step];
+  return { steps, at: steps.length - 1 };
+}
+
+/** Moves the place; outside the steps nothing changes. */
+export function goTo(history: History, at: number): History {
+  return at >= 0 && at < history.steps.length ? { ...history, at } : history;
+}
+
+export function now(history: History): Step {
+  return history.steps[history.at] as Step;
+}
+
+/** Springs alone: where every bench begins. */
+export function springs(history: History): Step {
+  return history.steps[0] as Step;
+}
+
+/** What changed from one selection to the next, in words. */
+export function changed(from: Selection | undefined, to: Selection): string {
+  if (from === undefined || to.terms.length === 0) return "springs alone";
+  const added = to.terms.filter((id) => !from.terms.includes(id)).map((id) => `+ ${id}`);
+  const removed = from.terms.filter((id) => !to.terms.includes(id)).map((id) => `\u2212 ${id}`);
+  const words = [...added, ...removed].join(" ");
+  return words === "" ? "formula changed" : words;
+}
+
+const RICHER = ":richer";
+
+/** Id of a term without the mark of its richer form. */
+export function plain(id: string): string {
+  return id.endsWith(RICHER) ? id.slice(0, -RICHER.length) : id;
+}
+
+/** Is the term ticked, in either form? */
+export function isTicked(selection: Selection, id: string): boolean {
+  return selection.terms.some((other) => plain(other) === id);
+}
+
+/** Is the term ticked in its richer form? */
+export function isRicher(selection: Selection, id: string): boolean {
+  return selection.terms.includes(id + RICHER);
+}
+
+/** The selection with a term ticked or not. */
+export function toggled(selection: Selection, id: string): Selection {
+  const terms = isTicked(selection, id) ? selection.terms.filter((other) => plain(other) !== id) : [...selection.terms, id];
+  return { ...selection, terms };
+}
+
+/** The selection with a ticked term in its other form. */
+export function otherForm(selection: Selection, id: string): Selection {
+  const other = isRicher(selection, id) ? id : id + RICHER;
+  return { ...selection, terms: selection.terms.map((one) => (plain(one) === id ? other : one)) };
+}

@@ -1,0 +1,80 @@
+/** Turns the camera about a point: mouse or finger, wheel, arrow keys, + and -. */
+import { type PerspectiveCamera, Vector3 } from "three";
+import type { Three } from "../wire";
+
+const TURN_PER_PX = 0.008;
+const TURN_PER_KEY = 0.12;
+const ZOOM_PER_KEY = 1.15;
+const STEEPEST = Math.PI / 2 - 0.02;
+
+export class Orbit {
+  private azimuth = -0.9;
+  private elevation = 0.35;
+  private zoom = 1;
+  private target = new Vector3();
+  private distance = 1;
+  private readonly off = new AbortController();
+
+  constructor(
+    private readonly box: HTMLElement,
+    private readonly changed: () => void,
+  ) {
+    const { signal } = this.off;
+    box.addEventListener("pointerdown", (event) => box.setPointerCapture(event.pointerId), { signal });
+    box.addEventListener("pointermove", (event) => this.drag(event), { signal });
+    box.addEventListener("wheel", (event) => this.wheel(event), { signal, passive: false });
+    box.addEventListener("keydown", (event) => this.key(event), { signal });
+  }
+
+  /** Looks at a point (mm) from a distance. */
+  about(target: Three, distance: number): void {
+    this.target.set(...target);
+    this.distance = distance;
+  }
+
+  place(camera: PerspectiveCamera): void {
+    // A narrow window needs more distance for the same width.
+    const distance = (this.distance / this.zoom) * Math.max(1, 1 / camera.aspect);
+    const flat = Math.cos(this.elevation);
+    const from = new Vector3(flat * Math.cos(this.azimuth), flat * Math.sin(this.azimuth), Math.sin(this.elevation));
+    camera.position.copy(this.target).addScaledVector(from, distance);
+    camera.lookAt(this.target);
+  }
+
+  dispose(): void {
+    this.off.abort();
+  }
+
+  private drag(event: PointerEvent): void {
+    if (!this.box.hasPointerCapture(event.pointerId)) return;
+    this.turn(-event.movementX * TURN_PER_PX, event.movementY * TURN_PER_PX);
+  }
+
+  /** Only once the machine has the focus: else the wheel scrolls the page. */
+  private wheel(event: WheelEvent): void {
+    if (document.activeElement !== this.box) return;
+    event.preventDefault();
+    this.come(Math.exp(-event.deltaY * 1e-3));
+  }
+
+  private key(event: KeyboardEvent): void {
+    const turns: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const turn = turns[event.key];
+    if (turn !== undefined) this.turn(turn[0] * TURN_PER_KEY, turn[1] * TURN_PER_KEY);
+    else if (event.key === "+" || event.key === "=") this.come(ZOOM_PER_KEY);
+    else if (event.key === "-") this.come(1 / ZOOM_PER_KEY);
+    else return;
+    event.preventDefault();
+  }
+
+  private turn(azimuth: number, elevation: number): void {
+    this.azimuth += azimuth;
+    this.elevation = Math.min(STEEPEST, Math.max(-STEEPEST, this.elevation + elevation));
+    this.changed();
+  }
+
+  private come(factor: number): void {
+    this.zoom = Math.min(8, Math.max(0.3, this.zoom * factor));
+    this.changed();
+  }
+}

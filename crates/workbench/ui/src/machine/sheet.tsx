@@ -1,0 +1,152 @@
+/** The machine in three dimensions. */
+import { useMemo, useState } from "preact/hooks";
+import { Options } from "../bench/options";
+import type { BenchProps } from "../bench/screen";
+import { type Looks, looks } from "../charts/looks";
+import { reachOf } from "../charts/panels";
+import { digits } from "../format";
+import * as History from "../history";
+import { useDark } from "../theme";
+import type { Opened, Six, View } from "../wire";
+import { Key } from "./key";
+import type { Moved, Shown } from "./scene";
+import { Stage } from "./stage";
+
+/** Deflections, or what the model misses of them. */
+export type Quantity = "deflections" | "missed";
+
+const LARGEST_EXPONENT = 5.5;
+const ZERO: Six = [0, 0, 0, 0, 0, 0];
+
+export function MachineSheet({ bench }: BenchProps) {
+  const { opened, history } = bench;
+  const springs = History.springs(history).view;
+  const view = History.now(history).view;
+  const dark = useDark();
+  const worst = useMemo(() => worstOf(springs.residual_um), [springs]);
+  const reach = useMemo(() => reachOf(springs.residual_um.flat()), [springs]);
+  const [index, setIndex] = useState(worst);
+  const [quantity, setQuantity] = useState<Quantity>("deflections");
+  const [exponent, setExponent] = useState<Record<Quantity, number>>(() => ({
+    deflections: usualExponent(opened, opened.conditions.measured_motion),
+    missed: usualExponent(opened, missed(opened, springs)),
+  }));
+  const { conditions } = opened;
+  const residual = view.residual_um[index] ?? ZERO;
+  const shown: Shown = {
+    base: opened.base_joints_mm,
+    platform: conditions.platform_joints_mm[index] ?? [],
+    origin: (conditions.pose[index] ?? ZERO).slice(0, 3) as [number, number, number],
+    wrench: conditions.wrench[index] ?? null,
+    moved: moved(quantity, opened, springs, view, index, looks(dark)),
+    factor: 10 ** exponent[quantity],
+    residual,
+    reach,
+  };
+  return (
+    <>
+      <div class="row">
+        <Options
+          label="show"
+          name="machine"
+          value={quantity}
+          options={[
+            { id: "deflections", title: "deflection, measured and predicted" },
+            { id: "missed", title: "what the model misses of it" },
+          ]}
+          set={setQuantity}
+        />
+        <Slider
+          name="condition"
+          title={`condition ${index + 1} of ${conditions.pose.length}`}
+          range={[0, conditions.pose.length - 1, 1]}
+          value={index}
+          set={setIndex}
+        />
+        <Slider
+          name="factor"
+          title={`drawn ${digits(shown.factor, 2)} times too large`}
+          range={[0, LARGEST_EXPONENT, 0.05]}
+          value={exponent[quantity]}
+          set={(value) => setExponent({ ...exponent, [quantity]: value })}
+        />
+        <button type="button" class="quiet" onClick={() => setIndex(worst)}>
+          Where the springs miss most
+        </button>
+      </div>
+      <Stage shown={shown} of={[view, index, quantity, exponent]} dark={dark} />
+      <Key quantity={quantity} reach={reach} />
+      <p class="hint" data-testid="machine-text">
+        Pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}] N, N m. Left in the legs, um: {six(residual)}.
+      </p>
+    </>
+  );
+}
+
+interface SliderProps {
+  name: string;
+  title: string;
+  /** From, to, step. */
+  range: [number, number, number];
+  value: number;
+  set: (value: number) => void;
+}
+
+function Slider({ name, title, range: [min, max, step], value, set }: SliderProps) {
+  return (
+    <label class="slider">
+      <span>{title}</span>
+      <input
+        type="range"
+        min={min}
+        max={max}
+        step={step}
+        value={value}
+        data-testid={name}
+        onInput={(event) => set(Number(event.currentTarget.value))}
+      />
+    </label>
+  );
+}
+
+/** Platforms drawn at a condition; the first carries the legs. */
+function moved(quantity: Quantity, opened: Opened, springs: View, view: View, index: number, looks: Looks): Moved[] {
+  const measured = opened.conditions.measured_motion[index] ?? ZERO;
+  const predicted = view.predicted_motion[index] ?? ZERO;
+  if (quantity === "deflections") {
+    return [
+      { motion: measured, colour: looks.ink },
+      { motion: predicted, colour: looks.now },
+    ];
+  }
+  return [
+    { motion: minus(measured, predicted), colour: looks.now },
+    { motion: minus(measured, springs.predicted_motion[index] ?? ZERO), colour: looks.before },
+  ];
+}
+
+function missed({ conditions }: Opened, view: View): Six[] {
+  return conditions.measured_motion.map((motion, i) => minus(motion, view.predicted_motion[i] ?? ZERO));
+}
+
+function minus(a: Six, b: Six): Six {
+  return a.map((value, k) => value - (b[k] ?? 0)) as Six;
+}
+
+/** The condition with the largest residual. */
+function worstOf(residual: Six[]): number {
+  const sizes = residual.map((six) => Math.hypot(...six));
+  return Math.max(0, sizes.indexOf(Math.max(...sizes)));
+}
+
+/** Power of ten that makes the largest motion a good part of the machine's width. */
+function usualExponent({ base_joints_mm }: Opened, motions: Six[]): number {
+  const radius_um = 1000 * Math.max(1, ...base_joints_mm.map(([x, y]) => Math.hypot(x, y)));
+  const size = ([x, y, z, rx, ry, rz]: Six) => Math.hypot(x, y, z) + radius_um * 0.5e-6 * Math.hypot(rx, ry, rz);
+  const largest_um = Math.max(1e-3, ...motions.map(size));
+  return Math.min(LARGEST_EXPONENT, Math.max(0, Math.log10((0.35 * radius_um) / largest_um)));
+}
+
+function six(values: Six | undefined): string {
+  return (values ?? []).map((value) => digits(value)).join(", ");
+}

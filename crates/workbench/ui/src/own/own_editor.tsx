@@ -1,0 +1,35 @@
+/** The editor of a formula, in the bench. */
+import { useEffect, useRef } from "preact/hooks";
+import type { BenchProps } from "../bench/screen";
+import { Editor } from "./editor";
+
+interface Props extends BenchProps {
+  text: string;
+  close: () => void;
+}
+
+export function OwnEditor({ store, state, catalogue, text, close }: Props) {
+  const box = useRef<HTMLElement>(null);
+  useEffect(() => {
+    box.current?.scrollIntoView({ block: "nearest" });
+    box.current?.querySelector<HTMLElement>("input, textarea")?.focus();
+  }, []);
+  const problem = state.problem?.place === "formula" ? state.problem : null;
+  return (
+    <section class="card" ref={box} aria-label="Formula editor">
+      <h2>A term of your own</h2>
+      <Editor
+        text={text}
+        help={catalogue.formula}
+        problem={problem}
+        put={async (file) => {
+          if (await store.putOwn(file)) close();
+        }}
+        close={() => {
+          if (problem !== null) store.dismiss();
+          close();
+        }}
+      />
+    </section>
+  );
+}

@@ -1,0 +1,62 @@
+/** The training game. */
+import { useState } from "preact/hooks";
+import { Scores } from "../game/scores";
+import type { Score } from "../state";
+import type { Store } from "../store";
+import type { Level } from "../wire";
+import { seedOf } from "./seed";
+
+const LEVELS: { level: Level; title: string; text: string }[] = [
+  { level: "easy", title: "Easy", text: "One effect of the catalogue, easy to see." },
+  { level: "hard", title: "Hard", text: "One or two effects." },
+  { level: "honest", title: "Honest", text: "Anything: nothing at all, one, two, or something the catalogue does not know." },
+];
+
+export function Game({ store, scores }: { store: Store; scores: Score[] }) {
+  const [level, setLevel] = useState<Level>("easy");
+  const [seed, setSeed] = useState("");
+  const submit = (event: Event) => {
+    event.preventDefault();
+    void store.open({ from: "game", level, seed: seedOf(seed) });
+  };
+  return (
+    <form class="card" onSubmit={submit}>
+      <h2>Hide an effect from me</h2>
+      <p>A machine is simulated with something in it that you are not told. Find it, then open the envelope.</p>
+      <fieldset class="checks">
+        <legend class="unseen">Level</legend>
+        {LEVELS.map((one) => (
+          <label key={one.level}>
+            <input
+              type="radio"
+              name="level"
+              checked={level === one.level}
+              data-testid={`level-${one.level}`}
+              onChange={() => setLevel(one.level)}
+            />
+            <span>
+              <strong>{one.title}.</strong> {one.text}
+            </span>
+          </label>
+        ))}
+      </fieldset>
+      <label>
+        <span>Seed</span>{" "}
+        <input
+          type="number"
+          min="0"
+          max={Number.MAX_SAFE_INTEGER}
+          step="1"
+          placeholder="drawn"
+          value={seed}
+          data-testid="game-seed"
+          onInput={(event) => setSeed(event.currentTarget.value)}
+        />
+      </label>
+      <button type="submit" class="main" data-testid="game-start">
+        Begin
+      </button>
+      <Scores scores={scores} />
+    </form>
+  );
+}

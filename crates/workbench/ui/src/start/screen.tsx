@@ -1,0 +1,32 @@
+/** What to work on. */
+import type { State } from "../state";
+import type { Store } from "../store";
+import type { Catalogue } from "../wire";
+import { Cases } from "./cases";
+import { Files } from "./files";
+import { Game } from "./game";
+import { Simulation } from "./simulation";
+
+export interface StartProps {
+  store: Store;
+  catalogue: Catalogue;
+}
+
+export function StartScreen({ store, catalogue, state }: StartProps & { state: State }) {
+  return (
+    <div class="start">
+      <p class="lead">
+        Compare the model of a hexapod with measurements, see where it fails, tick the effect it lacks, and watch the error on readings that
+        no fit has seen fall to the noise.
+      </p>
+      <div class="column">
+        <Cases store={store} catalogue={catalogue} />
+      </div>
+      <div class="column">
+        <Files store={store} catalogue={catalogue} />
+        <Game store={store} scores={state.scores} />
+        <Simulation store={store} catalogue={catalogue} />
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,72 @@
+/** All the page knows. */
+import type { History, Step } from "./history";
+import type { Catalogue, Diagnosed, Level, Open, Opened, Revealed, Selection } from "./wire";
+
+/** Something that went wrong, with what to do. */
+export interface Problem {
+  /** Where it is shown: at the top of the page, or at the form of a formula. */
+  place: "page" | "formula";
+  message: string;
+  next: string;
+  /** Offered as a button. */
+  again?: () => void;
+}
+
+/** Times of the last tick, ms. */
+export interface Tick {
+  total: number;
+  server: number;
+}
+
+/** A loaded bench. */
+export interface Bench {
+  opened: Opened;
+  /** What was asked for, to load it again. */
+  open: Open;
+  history: History;
+  /** What is ticked; ahead of the history while an answer is awaited. */
+  wanted: Selection;
+  /** Diagnosis and the formulas it weighed. */
+  diagnosed: { answer: Diagnosed; own: string[] } | null;
+  revealed: { answer: Revealed; guess: string[] } | null;
+  /** What each term would give if ticked as well, by id; belongs to one step. */
+  trials: { step: Step; found: Record<string, Trial> } | null;
+}
+
+/** A term tried: the held-out error it would give, times the noise. */
+export interface Trial {
+  times: number;
+  atTheNoise: boolean;
+}
+
+/** Games played in this tab. */
+export interface Score {
+  level: Level;
+  right: boolean;
+  /** The diagnosis was asked before the guess. */
+  helped: boolean;
+}
+
+export type Busy = "opening" | "fitting" | "diagnosing" | "exporting" | "revealing" | "trying";
+
+export interface State {
+  catalogue: Catalogue | null;
+  bench: Bench | null;
+  /** What is under way, the newest last. */
+  busy: Busy[];
+  problem: Problem | null;
+  scores: Score[];
+  tick: Tick | null;
+  /** No token: nothing can be asked. */
+  locked: boolean;
+}
+
+export const EMPTY: State = {
+  catalogue: null,
+  bench: null,
+  busy: [],
+  problem: null,
+  scores: [],
+  tick: null,
+  locked: false,
+};

@@ -1,0 +1,343 @@
+/** Holds the state; everything the user does is a method here. */
+import { type Api, aborted, Refusal } from "./api";
+import { download } from "./download";
+import * as History from "./history";
+import * as memory from "./memory";
+import { idOf } from "./own/term_file";
+import { OPEN_ADDRESS, problemOf } from "./problem";
+import { type Bench, type Busy, EMPTY, type Problem, type State, type Trial } from "./state";
+import { untilDrawn } from "./stopwatch";
+import type { Open, Opened, Selection, View, What } from "./wire";
+
+const SPRINGS: Selection = { terms: [], own: [] };
+
+export class Store {
+  private state: State = { ...EMPTY, scores: memory.rememberedScores() };
+  private readonly listeners = new Set<() => void>();
+  /** Requests under way. */
+  private readonly running = new Map<Busy, AbortController>();
+
+  constructor(private readonly api: Api | null) {
+    if (api === null) {
+      this.state.locked = true;
+      this.state.problem = { place: "page", message: "This page has no key.", next: OPEN_ADDRESS };
+    }
+  }
+
+  get = (): State => this.state;
+
+  subscribe = (listener: () => void): (() => void) => {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  };
+
+  private set(change: Partial<State>): void {
+    this.state = { ...this.state, ...change };
+    for (const listener of this.listeners) listener();
+  }
+
+  private setBench(change: Partial<Bench>): void {
+    if (this.state.bench === null) return;
+    this.set({ bench: { ...this.state.bench, ...change } });
+    this.remember();
+  }
+
+  private remember(): void {
+    const bench = this.state.bench;
+    memory.rememberBench(bench && { open: bench.open, selection: bench.wanted });
+  }
+
+  /** Loads the catalogue, and what this tab had open before a reload. */
+  async start(): Promise<void> {
+    if (this.api === null) return;
+    try {
+      this.set({ catalogue: await this.api.catalogue(), problem: null });
+    } catch (error) {
+      this.set({ problem: problemOf(error, "page", () => void this.start()) });
+      return;
+    }
+    const before = memory.rememberedBench();
+    if (before !== null) {
+      // What cannot be opened again is not tried at every reload.
+      memory.rememberBench(null);
+      await this.open(before.open, before.selection);
+    } else if (this.state.catalogue?.given) await this.open({ from: "given" });
+  }
+
+  /** Opens a bench; `selection` is ticked at once. What is open stays until the new one is there. */
+  async open(open: Open, selection: Selection = SPRINGS): Promise<void> {
+    const api = this.api;
+    if (api === null) return;
+    this.callOff();
+    await this.during(
+      "opening",
+      "page",
+      () => this.open(open, selection),
+      async (signal) => {
+        const opened = await api.open(open, signal);
+        this.show(opened, { ...open, ...seedOf(open, opened) } as Open);
+      },
+    );
+    const more = selection.terms.length + selection.own.length > 0;
+    if (more && this.state.bench !== null && this.state.problem === null) await this.select(selection);
+  }
+
+  private show(opened: Opened, open: Open): void {
+    const history = History.begin({ selection: SPRINGS, view: opened.view });
+    this.set({
+      bench: { opened, open, history, wanted: SPRINGS, diagnosed: null, revealed: null, trials: null },
+      tick: null,
+      problem: null,
+    });
+    this.remember();
+  }
+
+  /** Back to the start screen. */
+  close(): void {
+    this.callOff();
+    memory.rememberBench(null);
+    this.set({ bench: null, problem: null });
+  }
+
+  dismiss = (): void => this.set({ problem: null });
+
+  /** Ticks or unticks a term. */
+  toggle(id: string, start = performance.now()): void {
+    const bench = this.state.bench;
+    if (bench !== null) void this.select(History.toggled(bench.wanted, id), "page", start);
+  }
+
+  /** Asks for a ticked term in its richer or its ideal form. */
+  changeForm(id: string, start = performance.now()): void {
+    const bench = this.state.bench;
+    if (bench !== null) void this.select(History.otherForm(bench.wanted, id), "page", start);
+  }
+
+  /** Unticks all. */
+  springsAlone(): void {
+    const bench = this.state.bench;
+    if (bench !== null && bench.wanted.terms.length > 0) void this.select({ ...bench.wanted, terms: [] });
+  }
+
+  /** Asks for the view of a selection; the newest wins. True when it was drawn. */
+  async select(selection: Selection, place: Problem["place"] = "page", start = performance.now()): Promise<boolean> {
+    const signal = this.begin("fitting");
+    this.setBench({ wanted: selection });
+    this.set({ problem: null });
+    try {
+      const view = await this.viewOf(selection, signal);
+      this.draw(selection, view, start);
+      return true;
+    } catch (error) {
+      if (!aborted(error)) this.refuse(error, place, () => void this.select(selection, place));
+      return false;
+    } finally {
+      this.end("fitting", signal);
+    }
+  }
+
+  private draw(selection: Selection, view: View, start: number): void {
+    const bench = this.state.bench;
+    if (bench === null) return;
+    this.setBench({ history: History.add(bench.history, { selection, view }), wanted: selection });
+    untilDrawn(start, view.milliseconds, (total) => this.set({ tick: { total, server: view.milliseconds } }));
+  }
+
+  /** A selection that cannot be fitted is taken back; one that only got no answer stays wanted. */
+  private refuse(error: unknown, place: Problem["place"], again: () => void): void {
+    const bench = this.state.bench;
+    if (bench !== null && error instanceof Refusal && error.status < 500) {
+      this.setBench({ wanted: History.now(bench.history).selection });
+    }
+    this.set({ problem: problemOf(error, place, again) });
+  }
+
+  /** View of a selection; a bench the server no longer keeps is loaded again. */
+  private viewOf(selection: Selection, signal: AbortSignal): Promise<View> {
+    return this.onBench((id, api) => api.view(id, selection, signal), signal);
+  }
+
+  private async onBench<T>(ask: (id: string, api: Api) => Promise<T>, signal?: AbortSignal): Promise<T> {
+    const { bench } = this.state;
+    if (bench === null || this.api === null) throw new Error("no bench is open");
+    try {
+      return await ask(bench.opened.id, this.api);
+    } catch (error) {
+      if (!(error instanceof Refusal) || error.status !== 410) throw error;
+      const opened = await this.api.open(bench.open, signal);
+      this.setBench({ opened: { ...bench.opened, id: opened.id } });
+      return ask(opened.id, this.api);
+    }
+  }
+
+  undo(): void {
+    this.step(-1);
+  }
+
+  redo(): void {
+    this.step(1);
+  }
+
+  private step(by: number): void {
+    const history = this.state.bench?.history;
+    if (history !== undefined) this.goTo(history.at + by);
+  }
+
+  /** Shows a step of the history; nothing is asked, the answer is kept. */
+  goTo(at: number): void {
+    const bench = this.state.bench;
+    if (bench === null) return;
+    this.running.get("fitting")?.abort();
+    const history = History.goTo(bench.history, at);
+    this.setBench({ history, wanted: History.now(history).selection });
+  }
+
+  /** Adds a formula and ticks it, or replaces the one of the same id. */
+  async putOwn(text: string): Promise<boolean> {
+    const bench = this.state.bench;
+    if (bench === null) return false;
+    const id = idOf(text);
+    const own = [...bench.wanted.own.filter((other) => idOf(other) !== id), text];
+    const terms = bench.wanted.terms.includes(id) ? bench.wanted.terms : [...bench.wanted.terms, id];
+    return this.select({ terms, own }, "formula");
+  }
+
+  /** Removes a formula. */
+  dropOwn(id: string): void {
+    const wanted = this.state.bench?.wanted;
+    if (wanted === undefined) return;
+    const own = wanted.own.filter((text) => idOf(text) !== id);
+    void this.select({ terms: wanted.terms.filter((other) => other !== id), own });
+  }
+
+  /** Weighs all explanations. */
+  async diagnose(): Promise<void> {
+    const bench = this.state.bench;
+    if (bench === null) return;
+    const own = bench.wanted.own;
+    await this.during(
+      "diagnosing",
+      "page",
+      () => this.diagnose(),
+      async (signal) => {
+        const answer = await this.onBench((id, api) => api.diagnose(id, own, signal), signal);
+        this.setBench({ diagnosed: { answer, own } });
+      },
+    );
+  }
+
+  /** Asks for the held-out error of every term that could be ticked as well. */
+  async tryEach(ids: string[]): Promise<void> {
+    const bench = this.state.bench;
+    if (bench === null) return;
+    const step = History.now(bench.history);
+    const found: Record<string, Trial> = {};
+    await this.during(
+      "trying",
+      "page",
+      () => this.tryEach(ids),
+      async (signal) => {
+        for (const id of ids) {
+          if (this.state.bench === null || History.now(this.state.bench.history) !== step) return;
+          const view = await this.trial(History.toggled(step.selection, id), signal);
+          if (view !== null) found[id] = { times: view.times_noise, atTheNoise: view.at_the_noise };
+          this.setBench({ trials: { step, found: { ...found } } });
+        }
+      },
+    );
+  }
+
+  /** One trial; a term that cannot be fitted is left out. */
+  private async trial(selection: Selection, signal: AbortSignal): Promise<View | null> {
+    try {
+      return await this.viewOf(selection, signal);
+    } catch (error) {
+      if (error instanceof Refusal && error.status === 422) return null;
+      throw error;
+    }
+  }
+
+  /** Ticks what the diagnosis names. */
+  tickNamed(ids: string[]): void {
+    const bench = this.state.bench;
+    if (bench !== null) void this.select({ ...bench.wanted, terms: ids });
+  }
+
+  /** Takes a file home. */
+  async export(what: What): Promise<void> {
+    const bench = this.state.bench;
+    if (bench === null) return;
+    await this.during(
+      "exporting",
+      "page",
+      () => this.export(what),
+      async () => {
+        const file = await this.onBench((id, api) => api.export(id, what, bench.wanted));
+        download(file.name, file.media, file.text);
+      },
+    );
+  }
+
+  /** Ends a game. */
+  async reveal(guess: string[]): Promise<void> {
+    const bench = this.state.bench;
+    if (bench === null || bench.open.from !== "game") return;
+    const { level } = bench.open;
+    await this.during(
+      "revealing",
+      "page",
+      () => this.reveal(guess),
+      async () => {
+        const answer = await this.onBench((id, api) => api.reveal(id, guess));
+        const scores = [...this.state.scores, { level, right: answer.right, helped: bench.diagnosed !== null }];
+        memory.rememberScores(scores);
+        this.setBench({ revealed: { answer, guess } });
+        this.set({ scores });
+      },
+    );
+  }
+
+  /** Runs something slow: one at a time, with its failure shown. */
+  private async during(
+    busy: Busy,
+    place: Problem["place"],
+    again: () => Promise<void>,
+    work: (signal: AbortSignal) => Promise<void>,
+  ): Promise<void> {
+    const signal = this.begin(busy);
+    this.set({ problem: null });
+    try {
+      await work(signal);
+    } catch (error) {
+      if (!aborted(error)) this.set({ problem: problemOf(error, place, () => void again()) });
+    } finally {
+      this.end(busy, signal);
+    }
+  }
+
+  /** Something is under way; the same thing begun before is called off. */
+  private begin(busy: Busy): AbortSignal {
+    this.running.get(busy)?.abort();
+    const control = new AbortController();
+    this.running.set(busy, control);
+    this.set({ busy: [...this.state.busy.filter((other) => other !== busy), busy] });
+    return control.signal;
+  }
+
+  /** It has come to its end, unless a newer one has taken its place. */
+  private end(busy: Busy, signal: AbortSignal): void {
+    if (this.running.get(busy)?.signal !== signal) return;
+    this.running.delete(busy);
+    this.set({ busy: this.state.busy.filter((other) => other !== busy) });
+  }
+
+  private callOff(): void {
+    for (const control of this.running.values()) control.abort();
+  }
+}
+
+/** A simulation or game is remembered with the seed it was made from, so that it can be made again. */
+function seedOf(open: Open, opened: Opened): { seed?: number } {
+  const seeded = open.from === "simulation" || open.from === "game";
+  return seeded && opened.seed !== null ? { seed: opened.seed } : {};
+}

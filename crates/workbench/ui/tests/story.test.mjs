@@ -1,0 +1,384 @@
+// The story of the workbench in a real browser. HEXBENCH_BINARY names the program: node tests/story.test.mjs
+// Exits 77 when there is no program or no browser.
+import assert from "node:assert/strict";
+import { dirname, join } from "node:path";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import {
+  changedFrom,
+  downloaded,
+  fitsWidth,
+  heldOut,
+  loadCase,
+  missing,
+  openPage,
+  startBrowser,
+  startWorkbench,
+  tabTo,
+  watched,
+} from "./workbench.mjs";
+
+const reason = missing();
+if (reason !== "") {
+  console.log(`The story cannot be played: ${reason}`);
+  process.exit(77);
+}
+
+const CASES = join(dirname(fileURLToPath(import.meta.url)), "../../../../data/cases");
+const CASE = "mujoco-foundation";
+const TERM = "base-compliance";
+
+let workbench;
+let browser;
+before(async () => {
+  workbench = await startWorkbench();
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await workbench?.stop();
+});
+
+test("the model fails, a term is ticked by keyboard, and the held-out error falls to the noise", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  assert.ok(!page.url().includes("token"), "the token stays in the address bar");
+  await tabTo(page, `case-${CASE}`);
+  await page.keyboard.press("Enter");
+  await at("held-out").waitFor();
+  const springs = await heldOut(page);
+  assert.match(await at("held-out-state").textContent(), /not yet/);
+  await tabTo(page, `term-${TERM}`);
+  await page.keyboard.press("Space");
+  const ticked = await changedFrom(page, springs);
+  console.log(`held-out error ${springs.toFixed(3)} -> ${ticked.toFixed(3)} times the noise`);
+  assert.ok(ticked < springs, `${ticked} after, ${springs} before`);
+  assert.match(await at("held-out-state").textContent(), /at the noise/);
+  assert.ok(await at(`term-${TERM}`).isChecked());
+  await at("tick").waitFor();
+  const ticks = await page.evaluate(() => performance.getEntriesByName("tick").map(({ duration, detail }) => ({ duration, ...detail })));
+  assert.equal(ticks.length, 1);
+  console.log(`tick to new error drawn: ${ticks[0].duration.toFixed(0)} ms, of it server ${ticks[0].server.toFixed(1)} ms`);
+  await close();
+});
+
+test("undo and redo bring back what was, without asking again", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  const springs = await heldOut(page);
+  await at(`term-${TERM}`).click();
+  const one = await changedFrom(page, springs);
+  await at("term-creep").click();
+  const two = await changedFrom(page, one);
+  let asked = 0;
+  page.on("request", () => {
+    asked += 1;
+  });
+  await at("undo").click();
+  assert.equal(await heldOut(page), one);
+  await page.keyboard.press("Control+z");
+  assert.equal(await heldOut(page), springs);
+  assert.ok(await at("undo").isDisabled());
+  assert.ok(!(await at(`term-${TERM}`).isChecked()));
+  await page.keyboard.press("Control+Shift+z");
+  assert.equal(await heldOut(page), one);
+  await at("redo").click();
+  assert.equal(await heldOut(page), two);
+  assert.equal(asked, 0);
+  assert.equal(await at("history").locator("li").count(), 3);
+  await at("springs-alone").click();
+  assert.equal(await changedFrom(page, two), springs);
+  await close();
+});
+
+test("model, report and measurements are taken home", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  const springs = await heldOut(page);
+  await at(`term-${TERM}`).click();
+  await changedFrom(page, springs);
+  const model = await downloaded(page, "export-model");
+  assert.match(model.text, /^format = "model\/1"$/m);
+  assert.match(model.text, new RegExp(TERM));
+  const hexapod = await downloaded(page, "export-hexapod");
+  assert.match(hexapod.text, /^format = "hexapod\/1"$/m);
+  const report = await downloaded(page, "export-report");
+  assert.match(report.text, /<title>[^<]*mujoco-foundation[^<]*<\/title>/);
+  const diagnosis = await downloaded(page, "export-diagnosis");
+  assert.equal(JSON.parse(diagnosis.text).format, "diagnosis/1");
+  await close();
+});
+
+test("the diagnosis names the effect and ticks it", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  const springs = await heldOut(page);
+  await at("tab-residuals").focus();
+  await page.keyboard.press("End");
+  await at("diagnose").click();
+  await at("verdict").waitFor();
+  assert.equal(await at("verdict").getAttribute("data-word"), "named");
+  assert.match(await at("verdict").textContent(), new RegExp(TERM));
+  assert.match(await at("probabilities").textContent(), new RegExp(TERM));
+  await at("tick-named").click();
+  assert.ok((await changedFrom(page, springs)) < springs);
+  assert.ok(await at(`term-${TERM}`).isChecked());
+  await close();
+});
+
+test("every sheet draws without a fault", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  await at(`term-${TERM}`).click();
+  for (const [sheet, chart] of [
+    ["predicted", "predicted"],
+    ["scatter", "scatter"],
+    ["machine", "machine"],
+    ["numbers", "stiffness"],
+  ]) {
+    await at(`tab-${sheet}`).click();
+    await at(`chart-${chart}`).locator("canvas").waitFor();
+  }
+  assert.match(await at("parameters").textContent(), new RegExp(`${TERM}\\.rotation-x`));
+  await at("tab-residuals").click();
+  const variables = await at("choose-variable")
+    .locator("option:not([disabled])")
+    .evaluateAll((all) => all.map(({ value }) => value));
+  assert.ok(variables.length > 5, `${variables}`);
+  for (const variable of variables) await at("choose-variable").selectOption(variable);
+  await at("choose-layout").selectOption("all");
+  await at("choose-quantity").selectOption("explained");
+  await at("chart-residuals").locator("canvas").waitFor();
+  await close();
+});
+
+test("a term is asked for in its richer form, and every other term is tried", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  assert.ok(await at("term-joint-geometry").isDisabled());
+  await at("try-each").click();
+  await page.locator(".trial").nth(15).waitFor();
+  const springs = await heldOut(page);
+  await at(`term-${TERM}`).click();
+  const ideal = await changedFrom(page, springs);
+  assert.equal(await page.locator(".trial").count(), 0, "what was tried belongs to another step");
+  await at(`richer-${TERM}`).click();
+  assert.notEqual(await changedFrom(page, ideal), ideal);
+  await at(`term-${TERM}`).click();
+  assert.equal(await changedFrom(page, ideal), springs);
+  await close();
+});
+
+test("a machine is simulated, tells its seed and what was put in, and the same seed gives the same readings", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  const readings = [];
+  for (let i = 0; i < 2; i++) {
+    await page.locator("summary", { hasText: "Effects in it" }).click();
+    await at(`effect-${TERM}`).check();
+    await at("simulation-plan").selectOption("few-poses");
+    await at("simulation-distance").fill("30");
+    await at("simulation-seed").fill("11");
+    await at("simulate").click();
+    await at("held-out").waitFor();
+    assert.match(await page.locator(".about").textContent(), new RegExp(`Seed 11.*${TERM}`));
+    readings.push(await downloaded(page, "export-measurements"));
+    await at("close").click();
+  }
+  assert.deepEqual(readings[0], readings[1]);
+  assert.match(readings[0].text, /^pose,/);
+  await close();
+});
+
+test("the page is dark or light as the system says or as chosen", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url, { colorScheme: "dark" });
+  const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  await at("theme").waitFor();
+  const dark = await paper();
+  await at("theme").selectOption("light");
+  assert.notEqual(await paper(), dark);
+  await page.reload();
+  await at("theme").waitFor();
+  assert.notEqual(await paper(), dark);
+  await at("theme").selectOption("auto");
+  assert.equal(await paper(), dark);
+  await close();
+});
+
+test("without WebGL the machine says so and the rest works", async () => {
+  const plain = await startBrowser(false);
+  const { page, at, close } = await openPage(plain, workbench.url, { refusals: ["WebGL"] });
+  await loadCase(page, CASE);
+  await at("tab-machine").click();
+  await at("no-webgl").waitFor();
+  const springs = await heldOut(page);
+  await at(`term-${TERM}`).click();
+  assert.ok((await changedFrom(page, springs)) < springs);
+  await close();
+  await plain.close();
+});
+
+test("a game is played to its end", async () => {
+  const { at, close } = await openPage(browser, workbench.url);
+  await at("level-easy").check();
+  await at("game-seed").fill("7");
+  await at("game-start").click();
+  await at("guess").waitFor();
+  await at("tab-diagnosis").click();
+  await at("diagnose").click();
+  await at("verdict").waitFor();
+  const named = at("tick-named");
+  if ((await named.count()) > 0) {
+    await named.click();
+    await at("tick").waitFor();
+  }
+  await at("reveal").click();
+  await at("revealed").waitFor();
+  assert.match(await at("revealed").textContent(), /Hidden: .+ You said: /);
+  assert.match(await at("scores").textContent(), /^[01] of 1 right so far, 0 of them without the diagnosis/);
+  await close();
+});
+
+test("a formula of one's own is refused with its place, put right, fitted and saved", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url, { refusals: [422] });
+  await loadCase(page, CASE);
+  const springs = await heldOut(page);
+  await at("own-new").click();
+  await at("own-id").fill("square-spring");
+  await at("own-title").fill("Softer with the square of the force");
+  await at("own-elongation").fill("size * nonsense");
+  await at("own-add").click();
+  const error = at("own-editor").getByTestId("error");
+  await error.waitFor();
+  assert.match(await error.textContent(), /nonsense/);
+  assert.equal(await heldOut(page), springs);
+  await at("own-elongation").fill("size * (f*abs(f) - f0*abs(f0)) / 100");
+  assert.match(await at("own-text").inputValue(), /f\*abs\(f\)/);
+  await at("own-add").click();
+  await at("term-square-spring").waitFor();
+  assert.notEqual(await changedFrom(page, springs), springs);
+  assert.ok(await at("term-square-spring").isChecked());
+  await page.getByRole("button", { name: "Edit" }).click();
+  const file = await downloaded(page, "own-save");
+  assert.equal(file.name, "square-spring.toml");
+  assert.match(file.text, /^format = "term\/1"$/m);
+  await close();
+});
+
+test("files are chosen, a bad one is refused with its line, and nothing is lost", async () => {
+  const { at, close } = await openPage(browser, workbench.url, { refusals: [422] });
+  const folder = join(CASES, CASE);
+  await at("files").setInputFiles([join(folder, "hexapod.toml"), join(folder, "measurements.csv"), join(folder, "holdout.csv")]);
+  assert.equal(await at("role-hexapod.toml").inputValue(), "hexapod");
+  assert.equal(await at("role-measurements.csv").inputValue(), "data");
+  assert.equal(await at("role-holdout.csv").inputValue(), "holdout");
+  await at("files").setInputFiles({ name: "measurements.csv", mimeType: "text/csv", buffer: Buffer.from("pose,a_mm\n1,zero\n") });
+  await at("open-files").click();
+  await at("error").waitFor();
+  assert.match(await at("error").textContent(), /measurements\.csv/);
+  assert.equal(await at("role-holdout.csv").inputValue(), "holdout");
+  await at("files").setInputFiles([join(folder, "measurements.csv")]);
+  await at("open-files").click();
+  await at("held-out").waitFor();
+  await close();
+});
+
+test("names in files are text, never markup", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  const folder = join(CASES, CASE);
+  const { readFile } = await import("node:fs/promises");
+  const machine = (await readFile(join(folder, "hexapod.toml"), "utf8")).replace(
+    /^name = .*$/m,
+    "name = '<img src=x onerror=alert(1)><b>bold</b>'",
+  );
+  await at("files").setInputFiles([
+    { name: "hexapod.toml", mimeType: "text/plain", buffer: Buffer.from(machine) },
+    { name: "<b>measurements</b>.csv", mimeType: "text/csv", buffer: await readFile(join(folder, "measurements.csv")) },
+  ]);
+  await at("open-files").click();
+  await at("held-out").waitFor();
+  assert.match(await page.locator("h1").textContent(), /<b>bold<\/b>/);
+  assert.equal(await page.locator("img, h1 b, .about b").count(), 0);
+  await close();
+});
+
+test("a narrow window needs no scrolling sideways", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url, { viewport: { width: 360, height: 740 } });
+  assert.ok(await fitsWidth(page), "start screen");
+  await loadCase(page, CASE);
+  await at(`term-${TERM}`).click();
+  for (const sheet of ["residuals", "predicted", "scatter", "machine", "numbers", "diagnosis"]) {
+    await at(`tab-${sheet}`).click();
+    assert.ok(await fitsWidth(page), sheet);
+  }
+  await at("own-new").click();
+  assert.ok(await fitsWidth(page), "editor");
+  await close();
+});
+
+test("two tabs do not disturb each other, and a reload brings back what was ticked", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  const second = await watched(await page.context().newPage(), workbench.url);
+  await loadCase(page, CASE);
+  await loadCase(second.page, "mujoco-clean");
+  const [one, two] = [await heldOut(page), await heldOut(second.page)];
+  await at(`term-${TERM}`).click();
+  const ticked = await changedFrom(page, one);
+  assert.equal(await heldOut(second.page), two);
+  assert.ok(!(await second.at(`term-${TERM}`).isChecked()));
+  await page.reload();
+  await at("held-out").waitFor();
+  await page.waitForFunction((term) => document.querySelector(`[data-testid=${term}]`)?.checked, `term-${TERM}`);
+  await page.waitForFunction((old) => Number(document.querySelector("[data-testid=held-out]").dataset.value) === old, ticked);
+  await second.close();
+  await close();
+});
+
+test("a bench the server has dropped is loaded again unasked", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url, { refusals: [410] });
+  await loadCase(page, CASE);
+  const springs = await heldOut(page);
+  const token = await page.evaluate(() => sessionStorage.getItem("hexbench-token"));
+  const { limits } = await page.evaluate(
+    (key) => fetch("/api/catalogue", { headers: { authorization: `Bearer ${key}` } }).then((answer) => answer.json()),
+    token,
+  );
+  for (let i = 0; i < limits.benches; i++) {
+    const status = await page.evaluate(
+      (key) =>
+        fetch("/api/benches", {
+          method: "POST",
+          headers: { authorization: `Bearer ${key}`, "content-type": "application/json" },
+          body: JSON.stringify({ from: "case", id: "paper-protocol" }),
+        }).then((answer) => answer.status),
+      token,
+    );
+    assert.equal(status, 201);
+  }
+  await at(`term-${TERM}`).click();
+  assert.ok((await changedFrom(page, springs)) < springs);
+  await close();
+});
+
+test("without the key the page says which address to open", async () => {
+  const { at, close } = await openPage(browser, new URL("/", workbench.url).href);
+  assert.match(await at("error").textContent(), /address that `hexbench workbench` printed/);
+  await close();
+});
+
+test("files of the command line are open at once, and a server that is gone is told with a way to try again", async () => {
+  const folder = join(CASES, CASE);
+  const own = await startWorkbench(
+    join(folder, "hexapod.toml"),
+    join(folder, "measurements.csv"),
+    "--holdout",
+    join(folder, "holdout.csv"),
+  );
+  const { page, at, close } = await openPage(browser, own.url, { refusals: ["ERR_CONNECTION_REFUSED"] });
+  await at("held-out").waitFor();
+  const springs = await heldOut(page);
+  await own.stop();
+  await at(`term-${TERM}`).click();
+  await at("retry").waitFor();
+  assert.match(await at("error").textContent(), /does not answer/);
+  assert.equal(await heldOut(page), springs);
+  await close();
+});

@@ -1,0 +1,128 @@
+// A workbench and a browser for tests.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { existsSync } from "node:fs";
+import { readFile } from "node:fs/promises";
+import { chromium } from "playwright-core";
+
+const STARTS_WITHIN_MS = 20_000;
+/** Longest wait for anything on the page: a diagnosis of a program that is not optimised, on a busy machine. */
+export const PATIENCE_MS = 120_000;
+
+const BROWSERS = [process.env.HEXBENCH_CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+
+/** Why the tests cannot run here; empty when they can. */
+export function missing() {
+  const binary = process.env.HEXBENCH_BINARY;
+  if (!binary || !existsSync(binary)) return "HEXBENCH_BINARY names no program.";
+  return browserPath() === undefined ? "no Chromium was found; HEXBENCH_CHROMIUM may name one." : "";
+}
+
+function browserPath() {
+  return BROWSERS.find((path) => path && existsSync(path));
+}
+
+/** Starts `hexbench workbench` on a free port; gives its address and a way to end it. */
+export async function startWorkbench(...files) {
+  const child = spawn(process.env.HEXBENCH_BINARY, ["workbench", ...files], { stdio: ["ignore", "pipe", "inherit"] });
+  const url = await new Promise((resolve, reject) => {
+    let said = "";
+    const timer = setTimeout(() => {
+      child.kill("SIGKILL");
+      reject(new Error(`no address within ${STARTS_WITHIN_MS} ms; said: ${said}`));
+    }, STARTS_WITHIN_MS);
+    child.on("exit", (code) => reject(new Error(`ended with ${code}; said: ${said}`)));
+    child.stdout.on("data", (data) => {
+      said += data;
+      const found = /http:\/\/127\.0\.0\.1:\d+\/#token=\S+/.exec(said);
+      if (!found) return;
+      clearTimeout(timer);
+      resolve(found[0]);
+    });
+  });
+  const ended = new Promise((resolve) => child.on("exit", resolve));
+  return {
+    url,
+    stop: async () => {
+      child.kill("SIGINT");
+      await ended;
+    },
+  };
+}
+
+/** A browser; `webgl` in software, or none at all. */
+export function startBrowser(webgl = true) {
+  const graphics = webgl ? ["--enable-unsafe-swiftshader", "--use-angle=swiftshader"] : ["--disable-gpu", "--disable-3d-apis"];
+  const quiet = ["--no-first-run", "--disable-quic", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+  return chromium.launch({ executablePath: browserPath(), args: ["--no-sandbox", ...quiet, ...graphics] });
+}
+
+/** A page in its own profile that notes what must not happen. `refusals`: statuses the test provokes. */
+export async function openPage(browser, url, { refusals = [], ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width: 1300, height: 900 }, acceptDownloads: true, ...options });
+  return watched(await context.newPage(), url, refusals);
+}
+
+/** Opens the address and watches console, errors and requests. */
+export async function watched(page, url, refusals = []) {
+  const faults = [];
+  const origin = new URL(url).origin;
+  page.setDefaultTimeout(PATIENCE_MS);
+  page.on("pageerror", (error) => faults.push(`error: ${error.message}`));
+  page.on("console", (message) => {
+    const provoked = refusals.some((status) => message.text().includes(`status of ${status}`) || message.text().includes(status));
+    if (["error", "warning"].includes(message.type()) && !provoked) faults.push(`console: ${message.text()}`);
+  });
+  page.on("request", (request) => {
+    const address = new URL(request.url());
+    if (!["data:", "blob:"].includes(address.protocol) && address.origin !== origin) faults.push(`foreign request: ${request.url()}`);
+  });
+  await page.goto(url);
+  return {
+    page,
+    at: (id) => page.getByTestId(id),
+    /** Ends the page; fails when it did something it must not. */
+    close: async () => {
+      await page.context().close();
+      assert.deepEqual(faults, []);
+    },
+  };
+}
+
+/** The number at the top. */
+export async function heldOut(page) {
+  return Number(await page.getByTestId("held-out").getAttribute("data-value"));
+}
+
+/** Waits until the number at the top is another. */
+export async function changedFrom(page, before) {
+  await page.waitForFunction((old) => Number(document.querySelector("[data-testid=held-out]")?.getAttribute("data-value")) !== old, before);
+  return heldOut(page);
+}
+
+/** Loads a bundled case. */
+export async function loadCase(page, id) {
+  await page.getByTestId(`case-${id}`).click();
+  await page.getByTestId("chart-residuals").locator("canvas").waitFor();
+}
+
+/** Text of the file that a click brings. */
+export async function downloaded(page, id) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.getByTestId(id).click()]);
+  return { name: download.suggestedFilename(), text: await readFile(await download.path(), "utf8") };
+}
+
+/** Presses Tab until an element has the focus. */
+export async function tabTo(page, id) {
+  const most = 200;
+  for (let i = 0; i < most; i++) {
+    await page.keyboard.press("Tab");
+    if (await page.evaluate((name) => document.activeElement?.getAttribute("data-testid") === name, id)) return;
+  }
+  assert.fail(`${id} is not reached by ${most} presses of Tab`);
+}
+
+/** True when the page is not wider than the window. */
+export function fitsWidth(page) {
+  return page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth);
+}
