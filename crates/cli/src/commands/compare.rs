@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_model::compare::compare;
+use hexbench_model::runs::WithOrigin;
 use hexbench_pages::{comparison, html};
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{PageFiles, Screen, WithOrigin, origin, provenance, write_json};
+use crate::output::{PageFiles, Screen, origin, provenance, write_json};
 
 /// Compare a model with measurements: errors beside the noise, where they sit, what they follow
 #[derive(Debug, Args)]

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
 use hexbench_model::error::ModelError;
+use hexbench_model::runs::WithOrigin;
 use hexbench_model::term::Term;
 use hexbench_model::verdict::Verdict;
 use hexbench_pages::Subject;
@@ -14,7 +15,7 @@ use hexbench_pages::html;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{PageFiles, Screen, WithOrigin, origin, provenance, write_json};
+use crate::output::{PageFiles, Screen, origin, provenance, write_json};
 
 /// Name the physical effect the model lacks, and show the held-out error fall
 #[derive(Debug, Args)]

@@ -8,6 +8,6 @@ pub(crate) mod report;
 mod screen;
 
 pub(crate) use colour::Colour;
-pub(crate) use pages::{PageFiles, WithOrigin, origin, provenance, write_json};
+pub(crate) use pages::{PageFiles, origin, provenance, write_json};
 pub(crate) use progress::Progress;
 pub(crate) use screen::Screen;

@@ -90,14 +90,6 @@ pub(crate) fn origin(
     })
 }
 
-/// A result with where it comes from, key by key.
-#[derive(Serialize)]
-pub(crate) struct WithOrigin<'a, T> {
-    #[serde(flatten)]
-    pub(crate) result: &'a T,
-    pub(crate) run: Origin,
-}
-
 /// Write a result as JSON.
 pub(crate) fn write_json(screen: &Screen, path: &Path, value: &impl Serialize) -> Result<(), Failure> {
     let cause = |e: serde_json::Error| Failure::Output { path: path.to_owned(), cause: e.into() };

@@ -9,4 +9,4 @@ mod between;
 mod saved;
 
 pub use between::{Changed, ErrorChange, Incompatible, ParameterChange, Runs, between};
-pub use saved::{FORMATS, Head, Origin, Run, SavedComparison, SavedDiagnosis, Step};
+pub use saved::{FORMATS, Head, Origin, Run, SavedComparison, SavedDiagnosis, Step, WithOrigin};

@@ -28,6 +28,16 @@ pub struct Origin {
     pub holdout_sha256: Option<String>,
 }
 
+/// A result with where it comes from, as it is written.
+#[derive(Debug, Clone, Serialize)]
+pub struct WithOrigin<'a, T> {
+    /// The result: its keys stand first.
+    #[serde(flatten)]
+    pub result: &'a T,
+    /// Where it comes from.
+    pub run: Origin,
+}
+
 /// What every result says of itself.
 #[derive(Debug, Clone, Deserialize)]
 pub struct Head {
