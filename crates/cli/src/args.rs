@@ -35,6 +35,7 @@ pub(crate) enum Command {
     Poses(commands::poses::Arguments),
     Compare(commands::compare::Arguments),
     Diagnose(commands::diagnose::Arguments),
+    Runs(commands::runs::Arguments),
     Fit(commands::fit::Arguments),
     Predict(commands::predict::Arguments),
     Compensate(commands::compensate::Arguments),

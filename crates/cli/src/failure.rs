@@ -10,6 +10,7 @@ use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
 use hexbench_model::registration::RegistrationError;
+use hexbench_model::runs::Incompatible;
 use hexbench_model::user_term::UserTermError;
 use hexbench_pages::html::ReportError;
 use hexbench_report::plot::PlotError;
@@ -68,6 +69,17 @@ pub(crate) enum Failure {
         /// What is wrong.
         cause: Box<ModelFileError>,
     },
+    /// A result file that is none.
+    #[error("{}: {cause}", path.display())]
+    Result {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: String,
+    },
+    /// Two results that have nothing to do with each other.
+    #[error("{0}")]
+    Runs(Incompatible),
     /// A term file that is none.
     #[error("{}: {cause}", path.display())]
     UserTerm {
@@ -187,6 +199,8 @@ impl Failure {
             | Self::Report(_) => Exit::NotDetermined,
             Self::File(_)
             | Self::ModelFile { .. }
+            | Self::Result { .. }
+            | Self::Runs(_)
             | Self::Row { .. }
             | Self::Balls { .. }
             | Self::SceneState { .. }
@@ -224,6 +238,10 @@ impl Failure {
                 Some("Widen the ranges or limits in the space file, or ask for more poses.".into())
             }
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
+            Self::Result { .. } => {
+                Some("`hexbench diagnose ... --json FILE` and `compare ... --json FILE` write such files.".into())
+            }
+            Self::Runs(_) => Some("Give two results of the same kind about the same machine.".into()),
             Self::UserTerm { .. } => {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())
             }

@@ -36,6 +36,7 @@ pub mod power;
 pub mod predict;
 pub mod registration;
 pub mod residuals;
+pub mod runs;
 mod scan;
 pub mod scatter;
 pub mod search;

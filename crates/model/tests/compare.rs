@@ -12,7 +12,7 @@ use hexbench_model::terms::catalogue;
 
 fn of(case: &str) -> Comparison {
     let (hexapod, data, holdout) = cases::case(case);
-    compare(&hexapod, &data, None, Some(&holdout)).unwrap()
+    compare(&hexapod, &data, None, Some(&holdout)).unwrap().comparison
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn frames_and_joints_of_absolute_poses_are_told_in_one_sentence() {
     let fitted = fit_named(&campaign, &terms).unwrap();
     refuse_undetermined(&fitted).unwrap();
     let model = Model::new(&campaign, &fitted, Estimator::Gls, DataOrigin::default());
-    let c = compare(&hexapod, &data, Some(&model), Some(&holdout)).unwrap();
+    let c = compare(&hexapod, &data, Some(&model), Some(&holdout)).unwrap().comparison;
     assert_eq!(c.design.unobservable.len(), 1);
     assert!(
         c.design.unobservable[0].starts_with("7 combinations of joint-geometry"),

@@ -56,31 +56,54 @@ fn coordinates(paper: &mut Paper, c: &Comparison) {
 
 fn adequacy(paper: &mut Paper, a: &Adequacy) {
     paper.heading("Is the model adequate?", "chance of a worse result if it is right");
-    let tests = [
+    let mut table = Table::default();
+    for (name, t) in tests(a) {
+        table.row([name.to_owned(), statistic(&t), chance(t.p)]);
+    }
+    table.lines().iter().for_each(|line| paper.line(line));
+    paper.paragraph(2, Answer::of(a).sentence());
+}
+
+/// Name and result of every test that the data allow.
+pub(crate) fn tests(a: &Adequacy) -> Vec<(&'static str, Test)> {
+    let all = [
         ("averages against the stated noise", a.lack_of_fit_chi2),
         ("averages against repeats (F)", a.lack_of_fit_f),
         ("repeats against the stated noise", a.repeats_chi2),
     ];
-    let mut table = Table::default();
-    for (name, t) in tests.into_iter().filter_map(|(name, t)| Some((name, t?))) {
-        table.row([name.to_owned(), statistic(&t), chance(t.p)]);
+    all.into_iter().filter_map(|(name, t)| Some((name, t?))).collect()
+}
+
+/// What the tests say of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Answer {
+    Adequate,
+    NotAdequate,
+    Open,
+}
+
+impl Answer {
+    pub(crate) fn of(a: &Adequacy) -> Self {
+        const LEAST_CHANCE: f64 = 0.01;
+        let best =
+            [a.lack_of_fit_f, a.lack_of_fit_chi2].into_iter().flatten().map(|t| t.p).fold(1.0, f64::min);
+        match (best < LEAST_CHANCE, tests(a).is_empty()) {
+            (true, _) => Self::NotAdequate,
+            (_, true) => Self::Open,
+            _ => Self::Adequate,
+        }
     }
-    let lines = table.lines();
-    if lines.is_empty() {
-        paper.paragraph(2, "No noise level is stated and nothing is repeated: nothing can be said.");
-    }
-    for line in &lines {
-        paper.line(line);
-    }
-    let best = [a.lack_of_fit_f, a.lack_of_fit_chi2].into_iter().flatten().map(|t| t.p).fold(1.0, f64::min);
-    if best < 0.01 {
-        paper.paragraph(2, "No: something is missing. `hexbench diagnose` looks for it.");
-    } else if !lines.is_empty() {
-        paper.paragraph(2, "Yes, as far as these readings tell.");
+
+    pub(crate) fn sentence(self) -> &'static str {
+        match self {
+            Self::NotAdequate => "No: something is missing. `hexbench diagnose` looks for it.",
+            Self::Open => "No noise level is stated and nothing is repeated: nothing can be said.",
+            Self::Adequate => "Yes, as far as these readings tell.",
+        }
     }
 }
 
-fn statistic(t: &Test) -> String {
+pub(crate) fn statistic(t: &Test) -> String {
     match t.dof_noise {
         Some(noise) => format!("F({:.0}, {noise:.0}) = {}", t.dof, significant(t.statistic, 3)),
         None => format!("chi2({:.0}) = {}", t.dof, significant(t.statistic, 4)),
@@ -88,7 +111,7 @@ fn statistic(t: &Test) -> String {
 }
 
 /// A chance without false precision.
-fn chance(p: f64) -> String {
+pub(crate) fn chance(p: f64) -> String {
     match p {
         p if p < 1e-12 => "< 1e-12".to_owned(),
         p if p < 1e-3 => format!("{p:.0e}"),
@@ -150,7 +173,7 @@ fn follows(paper: &mut Paper, c: &Comparison) {
     }
 }
 
-fn who(leg: Option<usize>) -> String {
+pub(crate) fn who(leg: Option<usize>) -> String {
     leg.map_or("all legs".to_owned(), |l| format!("leg {l}"))
 }
 

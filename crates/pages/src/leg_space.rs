@@ -4,6 +4,7 @@
 
 use hexbench_core::Vector6;
 use hexbench_model::campaign::Condition;
+use hexbench_model::compare::legs::{LegSpace, leg_space};
 use hexbench_model::error::ModelError;
 use hexbench_model::linearization::Linearization;
 use hexbench_report::number::significant;
@@ -12,19 +13,23 @@ use super::subject::Subject;
 use crate::text::{Paper, Table};
 
 /// Sums of squares per leg under one load.
-struct Row {
-    load: String,
+pub(crate) struct Row {
+    pub(crate) load: String,
     squares: Vector6,
     count: f64,
 }
 
 impl Row {
-    fn root_mean_square(&self) -> Vector6 {
+    fn new(load: String) -> Self {
+        Self { load, squares: Vector6::zeros(), count: 0.0 }
+    }
+
+    pub(crate) fn root_mean_square(&self) -> Vector6 {
         (self.squares / self.count.max(1.0)).map(f64::sqrt)
     }
 
-    fn add(&mut self, squares: &Vector6) {
-        self.squares += squares;
+    fn add(&mut self, elongation: &Vector6) {
+        self.squares += elongation.map(|e| e * e);
         self.count += 1.0;
     }
 }
@@ -33,7 +38,9 @@ impl Row {
 pub(super) fn section(paper: &mut Paper, subject: &Subject<'_>) -> Result<(), ModelError> {
     let mut table = Table::default();
     table.row(["load change", "leg 1", "2", "3", "4", "5", "6", "x noise"]);
-    let (rows, noise) = rows(subject)?;
+    let study = subject.study;
+    let lin = Linearization::at(&study.campaign, &study.outcome.baseline.point)?;
+    let (rows, noise) = by_load(&lin.conditions, &leg_space(&study.campaign, &lin));
     let level = noise.root_mean_square();
     for row in &rows {
         table.row(cells(&row.load, &row.root_mean_square(), Some(&level)));
@@ -49,22 +56,21 @@ fn cells(name: &str, rms: &Vector6, noise: Option<&Vector6>) -> Vec<String> {
     std::iter::once(name.to_owned()).chain(legs).chain([format!("{times:.2}")]).collect()
 }
 
-fn rows(subject: &Subject<'_>) -> Result<(Vec<Row>, Row), ModelError> {
-    let lin = Linearization::at(&subject.study.campaign, &subject.study.outcome.baseline.point)?;
+/// Residual elongations of each load (m), and what noise alone would give.
+pub(crate) fn by_load(conditions: &[Condition], space: &LegSpace) -> (Vec<Row>, Row) {
     let mut rows: Vec<Row> = Vec::new();
-    let mut noise = Row { load: "noise".into(), squares: Vector6::zeros(), count: 0.0 };
-    for (k, reader) in lin.elongation_readers().iter().enumerate() {
-        let Some(legs) = reader.try_inverse() else { continue };
-        let load = load(&lin.conditions[k]);
-        let elongation = (legs * lin.residual(k)).map(|e| e * e);
-        // Whitened noise has unit variance, so that of leg i is the squared length of row i.
-        noise.add(&Vector6::from_fn(|leg, _| legs.row(leg).norm_squared()));
-        match rows.iter_mut().find(|r| r.load == load) {
-            Some(row) => row.add(&elongation),
-            None => rows.push(Row { load, squares: elongation, count: 1.0 }),
-        }
+    let mut noise = Row::new("noise".to_owned());
+    for (k, at) in conditions.iter().enumerate() {
+        noise.add(&space.sigma[k]);
+        let load = load(at);
+        let known = rows.iter().position(|r| r.load == load);
+        let row = known.unwrap_or_else(|| {
+            rows.push(Row::new(load));
+            rows.len() - 1
+        });
+        rows[row].add(&space.elongation[k]);
     }
-    Ok((rows, noise))
+    (rows, noise)
 }
 
 /// `Fx +100 N`: what changes between reference and load.

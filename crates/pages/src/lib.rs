@@ -17,6 +17,7 @@ mod limits;
 pub mod next;
 pub mod notes;
 mod pattern;
+pub mod runs;
 mod size;
 mod stiffness;
 pub mod subject;

@@ -34,10 +34,15 @@ impl Subject<'_> {
 
     /// The same, a line each.
     pub fn lines(&self) -> Vec<String> {
-        let holdout = self.holdout.map(|h| format!("held out {}", describe(h)));
-        let noise = format!("noise {}", noise(&self.study.campaign.noise));
-        std::iter::once(describe(self.data)).chain(holdout).chain([noise]).collect()
+        lines(self.data, self.holdout, &self.study.campaign.noise)
     }
+}
+
+/// Files and noise, a line each.
+pub(crate) fn lines(data: &Dataset, holdout: Option<&Dataset>, level: &Noise) -> Vec<String> {
+    let holdout = holdout.map(|h| format!("held out {}", describe(h)));
+    let noise = format!("noise {}", noise(level));
+    std::iter::once(describe(data)).chain(holdout).chain([noise]).collect()
 }
 
 const LABEL: usize = 12;

@@ -1,7 +1,9 @@
 //! Charts are well-formed, honest about bad numbers, and the same every time.
 #![allow(clippy::unwrap_used, reason = "a test without its chart fails")]
 
-use hexbench_report::plot::{Axis, Bars, Bin, Chart, HeatMap, Panels, PlotError, Reliability, Series};
+use hexbench_report::plot::{
+    Axis, Bars, Bin, Chart, HeatMap, Panels, PlotError, Raster, Reliability, Series,
+};
 
 const TITLE: &str = "Load & <deflection>";
 
@@ -39,12 +41,21 @@ fn reliability(observed: f64) -> Reliability {
     Reliability::new(TITLE, (0..5).map(bin).collect())
 }
 
+fn raster(value: f64) -> Raster {
+    let row = |name: &str| (name.to_owned(), vec![0.5, -1.5, 9.0, value]);
+    Raster::new(TITLE, vec![1.0, 2.0, 4.0])
+        .with_words("longer", "shorter", "condition")
+        .with("first", vec![row("leg 1"), row("leg 2")])
+        .with("second", vec![row("leg 1"), row("leg 2")])
+}
+
 fn all() -> Vec<(&'static str, String)> {
     vec![
         ("chart", chart().to_svg().unwrap()),
         ("panels", Panels::new(TITLE, 2).with(chart()).with(chart()).with(chart()).to_svg().unwrap()),
         ("bars", bars(vec![1.0, -2.0, 3.0]).to_svg().unwrap()),
         ("heat map", heat_map(-0.5).to_svg().unwrap()),
+        ("raster", raster(-5.0).to_svg().unwrap()),
         ("reliability", reliability(0.5).to_svg().unwrap()),
     ]
 }
@@ -54,6 +65,29 @@ fn texts(svg: &str) -> Vec<String> {
     let document = roxmltree::Document::parse(svg).unwrap();
     let found = document.descendants().filter(|n| n.has_tag_name("text"));
     found.map(|n| n.text().unwrap_or("").trim().to_owned()).collect()
+}
+
+/// Every place that a path names, without its relative steps.
+fn places(path: &str) -> Vec<[f64; 2]> {
+    let runs = path.split('M').map(|run| run.split(|c: char| c.is_ascii_alphabetic()).next().unwrap_or(""));
+    let numbers = runs.flat_map(str::split_whitespace).map(|x| x.parse::<f64>().unwrap());
+    numbers.collect::<Vec<_>>().chunks(2).map(|p| [p[0], p[1]]).collect()
+}
+
+#[test]
+fn many_markers_are_one_element() {
+    let points = |n: u32| (0..n).map(|k| [f64::from(k), f64::from(k * k)]).collect();
+    let chart = |n| {
+        let axes = [Axis::new("", ""), Axis::new("", "")];
+        let [x, y] = axes;
+        Chart::new("", x, y)
+            .with(Series::markers("d", points(n)).with_marker_size(2.0))
+            .with(Series::markers("m", points(n)))
+    };
+    let svg = chart(900).to_svg().unwrap();
+    assert!(svg.matches("<path").count() < 12, "{} paths", svg.matches("<path").count());
+    let each = (svg.len() - chart(100).to_svg().unwrap().len()) as f64 / 1600.0;
+    assert!(each < 16.0, "{each} bytes for a marker");
 }
 
 #[test]
@@ -86,6 +120,11 @@ fn nothing_is_drawn_outside_the_sheet_or_at_no_number() {
                 let value: f64 = value.parse().unwrap();
                 assert!((-SLACK..=limit + SLACK).contains(&value), "{name}: {key} = {value} of {limit}");
             }
+            for [x, y] in places(node.attribute("d").unwrap_or("")) {
+                let within =
+                    (-SLACK..=view[2] + SLACK).contains(&x) && (-SLACK..=view[3] + SLACK).contains(&y);
+                assert!(within, "{name}: {x} {y} of {view:?}");
+            }
         }
     }
 }
@@ -115,6 +154,7 @@ fn a_number_that_is_none_is_refused_with_its_place() {
     for refused in [
         bars(vec![1.0, f64::INFINITY, 0.0]).to_svg(),
         heat_map(f64::NAN).to_svg(),
+        raster(f64::INFINITY).to_svg(),
         reliability(f64::NAN).to_svg(),
         Panels::new("", 1).with(chart().with_size(f64::NAN, 1.0)).to_svg(),
     ] {
@@ -153,7 +193,7 @@ fn a_flat_series_and_a_single_point_have_a_place() {
     };
     for y in [0.0, 1e-9, -3.0e8] {
         let svg = flat(y).to_svg().unwrap();
-        assert!(svg.contains("<circle") && !svg.contains("NaN"), "{y}");
+        assert!(svg.contains("stroke-linecap=\"round\"") && !svg.contains("NaN"), "{y}");
     }
 }
 

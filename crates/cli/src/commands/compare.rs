@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_model::compare::compare;
-use hexbench_pages::comparison;
+use hexbench_model::runs::WithOrigin;
+use hexbench_pages::{comparison, html};
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::Screen;
+use crate::output::{PageFiles, Screen, origin, provenance, write_json};
 
 /// Compare a model with measurements: errors beside the noise, where they sit, what they follow
 #[derive(Debug, Args)]
@@ -26,6 +27,8 @@ pub(crate) struct Arguments {
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    #[command(flatten)]
+    page: PageFiles,
     /// Exit with 1 unless the chi-square per degree of freedom is below LIMIT (of the holdout when there is one)
     #[arg(long, value_name = "LIMIT")]
     check: Option<f64>,
@@ -37,14 +40,23 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let data = input::measurements(&arguments.data)?;
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
     let model = arguments.model.as_deref().map(input::model).transpose()?;
-    let result = compare(&hexapod, &data, model.as_ref(), holdout.as_ref())
+    let compared = compare(&hexapod, &data, model.as_ref(), holdout.as_ref())
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
+    let result = &compared.comparison;
     if let Some(path) = &arguments.json {
-        let cause = |e: serde_json::Error| Failure::Output { path: path.clone(), cause: e.into() };
-        screen.write_to(path, &(serde_json::to_string_pretty(&result).map_err(cause)? + "\n"))?;
+        let run =
+            origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
+        write_json(screen, path, &WithOrigin { result, run })?;
     }
+    arguments.page.write(screen, || {
+        let read = [&arguments.hexapod, &arguments.data]
+            .into_iter()
+            .chain(&arguments.model)
+            .chain(&arguments.holdout);
+        Ok(html::comparison(&hexapod, &data, holdout.as_ref(), &compared, &provenance(read)?)?)
+    })?;
     if arguments.json.as_deref() != Some(Path::new("-")) {
-        screen.write(&comparison::page(&result, screen.ink()))?;
+        screen.write(&comparison::page(result, screen.ink()))?;
     }
     let reached = result.holdout.unwrap_or(result.error).chi2_reduced;
     match arguments.check {

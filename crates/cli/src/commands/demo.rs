@@ -1,29 +1,93 @@
-//! `hexbench demo`: the whole story on measurements that come with the program.
+//! `hexbench demo`: the whole story on measurements that come with the program, with its page at the end.
+
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_core::files::{parse_hexapod, read_measurements_from};
+use hexbench_core::files::{parse_hexapod, read_measurements_from, text_hash};
 use hexbench_model::terms::catalogue;
 use hexbench_pages::Subject;
+use hexbench_pages::html::{self, Provenance, ReportError};
+use hexbench_report::html::is_own;
 
 use crate::commands::diagnose::study;
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{Screen, report};
 
 const HEXAPOD: &str = include_str!("../../../../data/cases/mujoco-foundation/hexapod.toml");
 const MEASUREMENTS: &str = include_str!("../../../../data/cases/mujoco-foundation/measurements.csv");
 const HOLDOUT: &str = include_str!("../../../../data/cases/mujoco-foundation/holdout.csv");
+const FILES: [(&str, &str); 3] =
+    [("hexapod.toml", HEXAPOD), ("measurements.csv", MEASUREMENTS), ("holdout.csv", HOLDOUT)];
+
+/// Where the page goes when nobody says.
+const PAGE: &str = "report.html";
 
 /// The whole story on bundled measurements: springs fail, the missing effect is named, the error falls
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {}
+pub(crate) struct Arguments {
+    /// Write the page with charts to FILE instead of report.html
+    #[arg(short, long, value_name = "FILE", conflicts_with = "no_report")]
+    output: Option<PathBuf>,
+    /// Write no page
+    #[arg(long)]
+    no_report: bool,
+}
 
 /// Tell the story.
-pub(crate) fn run(_: &Arguments, screen: &Screen) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = parse_hexapod(HEXAPOD, "hexapod.toml")?;
     let data = read_measurements_from(MEASUREMENTS.as_bytes(), "measurements.csv")?.dataset;
     let holdout = read_measurements_from(HOLDOUT.as_bytes(), "holdout.csv")?.dataset;
     let study = study(&hexapod, &data, Some(&holdout), &catalogue())?;
     let subject = Subject { hexapod: &hexapod, data: &data, holdout: Some(&holdout), study: &study };
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
-    screen.write(&hexbench_pages::demo(&subject, screen.ink()).map_err(failed)?)
+    screen.write(&hexbench_pages::demo(&subject, screen.ink()).map_err(failed)?)?;
+    if arguments.no_report { Ok(()) } else { page(&subject, arguments.output.as_deref(), screen) }
+}
+
+/// The page. One that nobody asked for by name gives way to whatever is in its place, and its absence is no failure.
+fn page(subject: &Subject<'_>, asked: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
+    let path = asked.unwrap_or(Path::new(PAGE));
+    let files = FILES.map(|(name, text)| (format!("{name} (comes with the program)"), text_hash(text)));
+    let provenance = Provenance { command: "hexbench demo".to_owned(), files: files.to_vec() };
+    let page = html::diagnosis(subject, &provenance)?.to_html().map_err(ReportError::from)?;
+    match write(path, &page, screen) {
+        Ok(()) => {
+            let size = page.len().div_ceil(1000);
+            report::note(&format!("The same with charts: {} ({size} kB), for a browser.", path.display()));
+            Ok(())
+        }
+        Err(failure) if asked.is_some() => Err(failure),
+        Err(failure) => {
+            report::warn(&failure.to_string(), "`hexbench demo -o FILE` writes the page elsewhere.");
+            Ok(())
+        }
+    }
+}
+
+fn write(path: &Path, page: &str, screen: &Screen) -> Result<(), Failure> {
+    if path.as_os_str() != "-" && is_foreign(path) {
+        return Err(Failure::Usage {
+            message: format!("{} is there and is no page of hexbench: left as it is", path.display()),
+            next: "Name another file, or move this one away.".to_owned(),
+        });
+    }
+    screen.write_to(path, page)
+}
+
+/// Something is there that this program did not write.
+fn is_foreign(path: &Path) -> bool {
+    match head(path) {
+        Ok(text) => !is_own(&text),
+        Err(cause) => cause.kind() != io::ErrorKind::NotFound && path.exists(),
+    }
+}
+
+/// The beginning of a file: a page says there who wrote it.
+fn head(path: &Path) -> io::Result<String> {
+    const ENOUGH: u64 = 2000;
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)?.take(ENOUGH).read_to_end(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }

@@ -4,18 +4,18 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use hexbench_core::files::content_hash;
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
 use hexbench_model::error::ModelError;
+use hexbench_model::runs::WithOrigin;
 use hexbench_model::term::Term;
 use hexbench_model::verdict::Verdict;
 use hexbench_pages::Subject;
-use hexbench_pages::html::{self, Provenance};
+use hexbench_pages::html;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::Screen;
+use crate::output::{PageFiles, Screen, origin, provenance, write_json};
 
 /// Name the physical effect the model lacks, and show the held-out error fall
 #[derive(Debug, Args)]
@@ -33,9 +33,8 @@ pub(crate) struct Arguments {
     /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the page with charts to FILE: one file for a browser, needs no network
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
+    #[command(flatten)]
+    page: PageFiles,
     /// Every parameter and every detectable size
     #[arg(long, short)]
     verbose: bool,
@@ -73,12 +72,18 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let study = study(&hexapod, &data, holdout.as_ref(), &terms)?;
     let to_stdout = arguments.json.as_deref() == Some(Path::new("-"));
     if let Some(path) = &arguments.json {
-        screen.write_to(path, &json(&study.diagnosis)?)?;
+        let run =
+            origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
+        write_json(screen, path, &WithOrigin { result: &study.diagnosis, run })?;
     }
     let subject = Subject { hexapod: &hexapod, data: &data, holdout: holdout.as_ref(), study: &study };
-    if let Some(path) = &arguments.html {
-        screen.write_to(path, &html::diagnosis(&subject, &provenance(arguments)?)?)?;
-    }
+    arguments.page.write(screen, || {
+        let read = [&arguments.hexapod, &arguments.data]
+            .into_iter()
+            .chain(&arguments.holdout)
+            .chain(&arguments.terms);
+        Ok(html::diagnosis(&subject, &provenance(read)?)?)
+    })?;
     if !to_stdout {
         screen.write(&hexbench_pages::diagnosis(&subject, arguments.verbose, screen.ink()))?;
     }
@@ -94,21 +99,6 @@ pub(crate) fn study(
 ) -> Result<Study, Failure> {
     let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
     diagnose(hexapod, data, holdout, terms).map_err(failed)
-}
-
-/// Command and digests of all files read.
-fn provenance(arguments: &Arguments) -> Result<Provenance, Failure> {
-    let read =
-        [&arguments.hexapod, &arguments.data].into_iter().chain(&arguments.holdout).chain(&arguments.terms);
-    let digest = |path: &PathBuf| Ok((path.display().to_string(), content_hash(path)?));
-    let files = read.map(digest).collect::<Result<_, Failure>>()?;
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    Ok(Provenance { command: format!("hexbench {}", words.join(" ")), files })
-}
-
-fn json(diagnosis: &Diagnosis) -> Result<String, Failure> {
-    let cause = |e: serde_json::Error| Failure::Output { path: "diagnosis.json".into(), cause: e.into() };
-    Ok(serde_json::to_string_pretty(diagnosis).map_err(cause)? + "\n")
 }
 
 fn check(expected: Option<Expected>, diagnosis: &Diagnosis) -> Result<(), Failure> {

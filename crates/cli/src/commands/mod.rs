@@ -12,6 +12,7 @@ pub(crate) mod fit;
 pub(crate) mod poses;
 pub(crate) mod power;
 pub(crate) mod predict;
+pub(crate) mod runs;
 pub(crate) mod simulate;
 pub(crate) mod study;
 pub(crate) mod terms;
@@ -35,6 +36,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Predict(arguments) => predict::run(arguments, &screen),
         Command::Compensate(arguments) => compensate::run(arguments, &screen),
         Command::Diagnose(arguments) => diagnose::run(arguments, &screen),
+        Command::Runs(arguments) => runs::run(arguments, &screen),
         Command::Export(arguments) => export::run(arguments, &screen),
         Command::Transient(arguments) => transient::run(arguments, &screen),
         Command::Design(arguments) => design::run(arguments, &screen),

@@ -1,11 +1,13 @@
-//! Output: where it goes, colour, error reports.
+//! Output: where it goes, colour, pages and charts, error reports.
 
 mod colour;
 mod excerpt;
+mod pages;
 mod progress;
 pub(crate) mod report;
 mod screen;
 
 pub(crate) use colour::Colour;
+pub(crate) use pages::{PageFiles, origin, provenance, write_json};
 pub(crate) use progress::Progress;
 pub(crate) use screen::Screen;

@@ -23,6 +23,11 @@ pub(crate) fn warn(message: &str, next: &str) {
     say(&format!("warning: {message}\n  next: {next}\n"));
 }
 
+/// Tell something that is as it should be.
+pub(crate) fn note(message: &str) {
+    say(&format!("{message}\n"));
+}
+
 /// A closed standard error leaves nobody to tell.
 fn say(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());

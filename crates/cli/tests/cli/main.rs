@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
 
+mod demo;
 mod design;
 mod discriminate;
 mod documents;
@@ -13,6 +14,7 @@ mod pages;
 mod poses;
 mod power;
 mod recovery;
+mod runs;
 mod scenes;
 mod score;
 mod separation;

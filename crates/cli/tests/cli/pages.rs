@@ -28,7 +28,7 @@ fn all_the_details_fit_the_page_too() {
 
 #[test]
 fn the_demo_reads_as_before() {
-    let page = text(hexbench().arg("demo").output().unwrap());
+    let page = text(hexbench().args(["demo", "--no-report"]).output().unwrap());
     assert_narrow(&page, "demo");
     insta::assert_snapshot!("demo", page);
 }
@@ -60,7 +60,7 @@ fn every_effect_can_be_explained() {
 
 #[test]
 fn the_demo_ends_with_the_foundation_named_and_the_error_at_the_noise() {
-    let page = text(hexbench().arg("demo").output().unwrap());
+    let page = text(hexbench().args(["demo", "--no-report"]).output().unwrap());
     let end = page.split("Verdict").last().unwrap();
     let words = end.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("base-compliance") && words.contains("it is at the noise"), "{words}");

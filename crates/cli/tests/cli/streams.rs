@@ -9,20 +9,20 @@ const ESCAPE: char = '\u{1b}';
 
 #[test]
 fn there_is_no_colour_off_a_terminal() {
-    assert!(!text(hexbench().arg("demo").output().unwrap()).contains(ESCAPE));
+    assert!(!text(hexbench().args(["demo", "--no-report"]).output().unwrap()).contains(ESCAPE));
 }
 
 #[test]
 fn colour_can_be_asked_for_and_refused() {
-    let coloured = text(hexbench().args(["demo", "--color", "always"]).output().unwrap());
+    let coloured = text(hexbench().args(["demo", "--no-report", "--color", "always"]).output().unwrap());
     assert!(coloured.contains(ESCAPE));
-    let refused = text(hexbench().args(["demo", "--color", "never"]).output().unwrap());
+    let refused = text(hexbench().args(["demo", "--no-report", "--color", "never"]).output().unwrap());
     assert!(!refused.contains(ESCAPE));
 }
 
 #[test]
 fn no_color_is_respected() {
-    let output = hexbench().arg("demo").env("NO_COLOR", "1").output().unwrap();
+    let output = hexbench().args(["demo", "--no-report"]).env("NO_COLOR", "1").output().unwrap();
     assert!(!text(output).contains(ESCAPE));
 }
 

@@ -176,6 +176,9 @@ fn question(
     })
 }
 
+/// Word for the carrier that is the change of leg force.
+pub(crate) const COMPLIANCE: &str = "compliance";
+
 /// One way to look at the residuals: which legs, and whether their length or their compliance is asked about.
 pub(crate) struct Look<'a> {
     pub(crate) judged: &'a Judged<'a>,
@@ -206,7 +209,7 @@ impl Look<'_> {
 
     /// Word for files.
     pub(crate) fn of(&self) -> &'static str {
-        if self.compliance { "compliance" } else { "length" }
+        if self.compliance { COMPLIANCE } else { "length" }
     }
 }
 

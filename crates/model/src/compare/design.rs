@@ -33,8 +33,8 @@ pub struct Design {
 
 /// Check the design.
 pub fn design(judged: &Judged<'_>) -> Design {
-    let a = columns(&judged.lin, &judged.point);
-    let names = names_at(&judged.point, judged.campaign.is_absolute());
+    let a = columns(&judged.lin, judged.point);
+    let names = names_at(judged.point, judged.campaign.is_absolute());
     let mut triangle = Triangle::new(a.ncols());
     let solution = triangle.push(&a, &judged.lin.residuals()).and_then(|()| triangle.solve());
     let Ok(solution) = solution else {

@@ -24,7 +24,7 @@ use crate::error::ModelError;
 use crate::fit::{Fit, columns, fit_baseline};
 use crate::linearization::{Linearization, Point};
 use crate::model_file::Model;
-use crate::residuals::{ErrorSummary, prediction_errors, residuals, summarise};
+use crate::residuals::{ErrorSummary, Residual, prediction_errors, residuals, summarise};
 use crate::selection::same_kind;
 
 use absorbed::{HiddenBias, hidden_biases};
@@ -33,7 +33,7 @@ use association::{Association, associations};
 use coordinates::{Coordinate, coordinates};
 use design::{Design, design};
 use legs::{LegResidual, LegSpace, leg_space};
-use periodogram::{Peak, peaks};
+use periodogram::{Peak, Spectra};
 use rows::{Outlier, WorstPose, outliers, worst_poses};
 
 /// Result of `compare`.
@@ -75,6 +75,17 @@ pub struct Comparison {
     pub hidden: Vec<HiddenBias>,
 }
 
+/// A comparison with what it was made from, for charts.
+#[derive(Debug, Clone)]
+pub struct Compared {
+    /// What people read.
+    pub comparison: Comparison,
+    /// The readings.
+    pub campaign: Campaign,
+    /// The model compared.
+    pub point: Point,
+}
+
 /// Compare springs fitted to the data, or a saved model, with the data.
 ///
 /// # Errors
@@ -84,17 +95,18 @@ pub fn compare(
     data: &Dataset,
     model: Option<&Model>,
     holdout: Option<&Dataset>,
-) -> Result<Comparison, ModelError> {
+) -> Result<Compared, ModelError> {
     refuse_mixture(data, model, holdout)?;
     let campaign = prepare(hexapod, data)?;
     let point = match model {
         Some(m) => m.point.clone(),
         None => fit_baseline(&campaign)?.point,
     };
-    let judged = Judged::new(&campaign, data, point, model.is_none())?;
-    let held = |h: &Dataset| prediction_errors(hexapod, h, campaign.noise, &judged.point);
+    let judged = Judged::of(&campaign, data, &point, model.is_none())?;
+    let held = |h: &Dataset| prediction_errors(hexapod, h, campaign.noise, &point);
     let holdout = holdout.map(held).transpose()?.map(|rows| summarise(&rows, None));
-    Ok(report(&judged, holdout))
+    let comparison = report(&judged, holdout);
+    Ok(Compared { comparison, campaign, point })
 }
 
 /// The comparison of a fit that is at hand.
@@ -102,7 +114,7 @@ pub fn compare(
 /// # Errors
 /// [`ModelError::SingularPose`].
 pub fn compare_fit(campaign: &Campaign, data: &Dataset, fit: &Fit) -> Result<Comparison, ModelError> {
-    Ok(report(&Judged::new(campaign, data, fit.point.clone(), true)?, None))
+    Ok(report(&Judged::of(campaign, data, &fit.point, true)?, None))
 }
 
 fn refuse_mixture(
@@ -123,28 +135,35 @@ fn refuse_mixture(
 pub struct Judged<'a> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) data: &'a Dataset,
-    pub(crate) point: Point,
-    pub(crate) lin: Linearization,
-    pub(crate) rows: Vec<crate::residuals::Residual>,
+    pub(crate) point: &'a Point,
+    /// The model linearised there.
+    pub lin: Linearization,
+    /// Residuals of single readings, in file order.
+    pub rows: Vec<Residual>,
     /// Rank of what was fitted to these data; zero for a saved model.
     pub(crate) rank: f64,
     /// Orthonormal basis of the columns fitted to these data; empty for a saved model.
     pub(crate) basis: DMatrix<f64>,
     /// Whitened residuals of the averaged readings.
     pub(crate) white: DVector<f64>,
-    pub(crate) space: LegSpace,
+    /// Residuals of the averaged readings as elongations of the legs.
+    pub space: LegSpace,
 }
 
 impl<'a> Judged<'a> {
-    fn new(
+    /// A model beside the readings of a campaign; `fitted`: to these very readings.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn of(
         campaign: &'a Campaign,
         data: &'a Dataset,
-        point: Point,
+        point: &'a Point,
         fitted: bool,
     ) -> Result<Self, ModelError> {
-        let lin = Linearization::at(campaign, &point)?;
+        let lin = Linearization::at(campaign, point)?;
         let rows = residuals(campaign, &data.observations, &lin);
-        let columns = if fitted { columns(&lin, &point) } else { DMatrix::zeros(lin.equations(), 0) };
+        let columns = if fitted { columns(&lin, point) } else { DMatrix::zeros(lin.equations(), 0) };
         let basis = if fitted { orthonormal(&columns) } else { columns };
         let (rank, white) = (basis.ncols() as f64, lin.residuals());
         let space = leg_space(campaign, &lin);
@@ -169,7 +188,7 @@ fn report(judged: &Judged<'_>, holdout: Option<ErrorSummary>) -> Comparison {
         outliers: outliers(judged),
         legs: legs::summaries(judged),
         associations: associations(judged),
-        period: peaks(judged),
+        period: Spectra::of(judged).and_then(|s| s.peak),
         design: design(judged),
         hidden: hidden_biases(judged),
     }

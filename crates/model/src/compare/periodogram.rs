@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Judged;
-use super::association::{Look, added_columns};
+use super::association::{COMPLIANCE, Look, added_columns};
 use crate::period::period_grid;
 
 /// Grid steps per independent frequency.
@@ -38,16 +38,81 @@ pub struct Peak {
     pub false_alarm: f64,
 }
 
-/// The most significant peak over all legs together and each alone, when it is beyond chance.
-pub fn peaks(judged: &Judged<'_>) -> Option<Peak> {
-    if distinct_poses(judged) < FEWEST_POSES {
-        return None;
+/// Periodogram of the residual elongations of one leg, or of all together.
+#[derive(Debug, Clone)]
+pub struct Spectrum {
+    /// Leg from 1; absent for all legs together.
+    pub leg: Option<usize>,
+    /// `length` or `compliance`.
+    pub of: &'static str,
+    /// `[period in mm, F of the sine and cosine against the floating mean]`, the longest period first.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// Periodograms of all legs together and of each alone, each for both carriers.
+#[derive(Debug, Clone)]
+pub struct Spectra {
+    /// All of them.
+    pub all: Vec<Spectrum>,
+    /// The F that noise alone exceeds in one of a hundred such sets.
+    pub level: f64,
+    /// The most significant peak, when it is beyond chance.
+    pub peak: Option<Peak>,
+}
+
+impl Spectrum {
+    fn new(look: &Look<'_>, scanned: &[Scanned]) -> Self {
+        let points = scanned.iter().map(|s| [s.period * 1e3, s.f]).collect();
+        Self { leg: look.leg.map(|l| l + 1), of: look.of(), points }
     }
-    let periods = period_grid(&judged.lin.conditions);
-    let legs: Vec<Option<usize>> = std::iter::once(None).chain((0..6).map(Some)).collect();
-    let looks = legs.iter().flat_map(|leg| [false, true].map(|compliance| (*leg, compliance)));
-    let looked: Vec<Peak> =
-        looks.filter_map(|(leg, compliance)| peak(&Look { judged, leg, compliance }, &periods)).collect();
+
+    /// The same look at another model.
+    pub fn again(&self, judged: &Judged<'_>) -> Option<Self> {
+        let periods = usable_periods(judged)?;
+        let look = Look { judged, leg: self.leg.map(|l| l - 1), compliance: self.of == COMPLIANCE };
+        Some(Self::new(&look, &scan(&look, &periods))).filter(|s| !s.points.is_empty())
+    }
+}
+
+impl Spectra {
+    /// All of them; `None` with too few poses.
+    pub fn of(judged: &Judged<'_>) -> Option<Self> {
+        let periods = usable_periods(judged)?;
+        let scanned: Vec<(Look<'_>, Vec<Scanned>)> = looks(judged)
+            .map(|look| {
+                let scanned = scan(&look, &periods);
+                (look, scanned)
+            })
+            .collect();
+        let looked: Vec<Peak> =
+            scanned.iter().filter_map(|(look, scanned)| peak(look, scanned, &periods)).collect();
+        let count = looked.len().max(1) as f64;
+        let single = -f64::exp_m1(f64::ln_1p(-REPORTED / count) / independent(&periods));
+        let dof = judged.white.len() as f64 - 3.0 - judged.rank;
+        let all = scanned.iter().map(|(look, s)| Spectrum::new(look, s)).filter(|s| !s.points.is_empty());
+        let all: Vec<Spectrum> = all.collect();
+        (dof > 0.0).then(|| Self { all, level: exceeded_with(single, dof), peak: significant(looked) })
+    }
+}
+
+/// The F(2, dof) that chance exceeds with a probability: its law has a closed form.
+fn exceeded_with(probability: f64, dof: f64) -> f64 {
+    0.5 * dof * (probability.powf(-2.0 / dof) - 1.0)
+}
+
+fn usable_periods(judged: &Judged<'_>) -> Option<Vec<f64>> {
+    let enough = distinct_poses(judged) >= FEWEST_POSES;
+    enough.then(|| period_grid(&judged.lin.conditions)).filter(|periods| !periods.is_empty())
+}
+
+/// All legs together and each alone, each for both carriers.
+fn looks<'a>(judged: &'a Judged<'a>) -> impl Iterator<Item = Look<'a>> {
+    let legs = std::iter::once(None).chain((0..6).map(Some));
+    legs.flat_map(move |leg| [false, true].map(|compliance| Look { judged, leg, compliance }))
+}
+
+/// The most significant peak, when it is beyond chance after as many looks.
+fn significant(looked: Vec<Peak>) -> Option<Peak> {
     let count = looked.len() as f64;
     let best = looked
         .into_iter()
@@ -64,24 +129,41 @@ fn distinct_poses(judged: &Judged<'_>) -> usize {
     poses.len()
 }
 
-fn peak(look: &Look<'_>, periods: &[f64]) -> Option<Peak> {
+/// What one period explains.
+#[derive(Clone, Copy)]
+struct Scanned {
+    period: f64,
+    f: f64,
+    /// Chance of such an F at this period alone.
+    single: f64,
+}
+
+/// The periods at which a wave has a test, in their order.
+fn scan(look: &Look<'_>, periods: &[f64]) -> Vec<Scanned> {
     let base = [look.column(|_, _| 1.0)];
     let judged = look.judged;
     let at = |&period: &f64| {
         let wave = |f: fn(f64) -> f64| look.column(|c, l| f(TAU * c.commanded_lengths[l] / period));
         let waves = [wave(f64::sin), wave(f64::cos)];
         let (f, single) = added_columns(judged.white.as_slice(), &base, &waves, judged.rank)?;
-        Some((period, f, single))
+        Some(Scanned { period, f, single })
     };
-    let highest = |all: &[f64]| {
-        let found: Vec<(f64, f64, f64)> = all.par_iter().filter_map(at).collect();
-        found.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))
-    };
-    let (coarse, ..) = highest(periods)?;
-    let (period, f, single) = highest(&around(coarse, periods))?;
-    let independent = (periods.len() as f64 / OVERSAMPLING).max(1.0);
+    periods.par_iter().filter_map(at).collect()
+}
+
+/// Independent frequencies among oversampled ones.
+fn independent(periods: &[f64]) -> f64 {
+    (periods.len() as f64 / OVERSAMPLING).max(1.0)
+}
+
+/// The highest point, refined between its neighbours.
+fn peak(look: &Look<'_>, scanned: &[Scanned], periods: &[f64]) -> Option<Peak> {
+    let by_f = |a: &&Scanned, b: &&Scanned| a.f.total_cmp(&b.f);
+    let coarse = scanned.iter().max_by(by_f)?.period;
+    let near = scan(look, &around(coarse, periods));
+    let Scanned { period, f, single } = *near.iter().max_by(by_f)?;
     // 1 - (1 - p)^M without losing small p.
-    let false_alarm = -f64::exp_m1(independent * f64::ln_1p(-single));
+    let false_alarm = -f64::exp_m1(independent(periods) * f64::ln_1p(-single));
     let leg = look.leg.map(|l| l + 1);
     Some(Peak { leg, of: look.of(), period_mm: period * 1e3, f, false_alarm })
 }
@@ -97,4 +179,19 @@ fn around(period: f64, periods: &[f64]) -> Vec<f64> {
         .map(|k| 1.0 / (1.0 / period + shift(k)))
         .filter(|p| p.is_finite() && *p > 0.0)
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+
+    #[test]
+    fn the_level_of_chance_is_that_of_the_law_of_f() {
+        for (p, dof) in [(0.01, 20.0), (1e-6, 900.0)] {
+            let f = exceeded_with(p, dof);
+            let back = FisherSnedecor::new(2.0, dof).unwrap().sf(f);
+            assert!((back / p - 1.0).abs() < 1e-8, "F(2, {dof}) = {f}: chance {back}, not {p}");
+        }
+    }
 }

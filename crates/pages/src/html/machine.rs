@@ -9,14 +9,14 @@ use hexbench_report::plot::{Edge, Wireframe};
 
 use super::ReportError;
 use super::data::Data;
-use super::figures::{FINAL, MEASURED, SPRINGS};
+use super::figures::MEASURED;
 
 /// Longest drawn displacement of a joint, as a share of the platform radius.
 const DRAWN: f64 = 0.35;
 
-/// The condition at which the springs alone miss most.
-pub(crate) fn section(data: &Data) -> Result<Option<Section>, ReportError> {
-    let lin = &data.before.lin;
+/// The condition that the first model misses most.
+pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
+    let lin = &data.before.judged.lin;
     let miss = |i: &usize| lin.residual(*i).norm();
     let Some(worst) = (0..lin.conditions.len()).max_by(|a, b| miss(a).total_cmp(&miss(b))) else {
         return Ok(None);
@@ -29,26 +29,24 @@ pub(crate) fn section(data: &Data) -> Result<Option<Section>, ReportError> {
         return Ok(None);
     }
     let bodies = Bodies { at, joints: ends(at), factor };
-    let springs = platform_motion(at, &predicted(lin, worst));
     let mut drawing = Wireframe::new("")
         .seen("from the front, a little from above", 25.0, 22.0)
         .seen("from above", 0.0, 90.0)
-        .with("base and unloaded platform", None, bodies.unloaded())
-        .with("springs alone", Some(SPRINGS), bodies.moved(&springs));
-    if let Some(after) = &data.after {
-        let motion = platform_motion(at, &predicted(&after.lin, worst));
-        drawing = drawing.with("with the added effects", Some(FINAL), bodies.moved(&motion));
+        .with("base and unloaded platform", None, bodies.unloaded());
+    for (name, look, seen) in data.models() {
+        let motion = platform_motion(at, &predicted(&seen.judged.lin, worst));
+        drawing = drawing.with(name, Some(look), bodies.moved(&motion));
     }
     drawing = drawing.with("measured", Some(MEASURED), bodies.moved(&measured));
     let caption = format!(
-        "The condition that the springs alone miss most: force change ({}) N, moment change ({}) N m. Deflections are drawn {} \
-         times too large.",
+        "The condition that {} most: force change ({}) N, moment change ({}) N m. Deflections are drawn {} times too large.",
+        data.words.misses,
         list(&(at.wrench.force - at.reference.force)),
         list(&(at.wrench.moment - at.reference.moment)),
         significant(factor, 2)
     );
     let section = Section::new("machine", "The machine under load", "");
-    Ok(Some(section.with(Block::figure(&drawing.to_svg()?, caption))))
+    Ok(Some(section.with(Block::figure(drawing.to_svg()?, caption))))
 }
 
 fn list(v: &Vector3) -> String {

@@ -1,19 +1,29 @@
-//! The diagnosis as a page for a browser.
+//! A diagnosis and a comparison as pages for a browser.
 
+mod comparison;
 mod data;
+mod explained;
 mod figures;
+mod leg_map;
 mod machine;
 mod numbers;
+mod period;
 mod predicted;
 mod residual_sheet;
+mod runs;
 mod scatter;
 mod verdict;
 
+use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::compare::Compared;
 use hexbench_model::error::ModelError;
-use hexbench_report::html::{Page, PageError};
+use hexbench_report::html::{Page, PageError, Section};
 use hexbench_report::plot::PlotError;
 
-use crate::Subject;
+pub use self::runs::runs;
+
+use self::data::Data;
+use crate::{Subject, subject};
 
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]
@@ -40,17 +50,20 @@ pub struct Provenance {
 /// The page of a diagnosis.
 ///
 /// # Errors
-/// [`ReportError`] when a chart or the page cannot be made.
-pub fn diagnosis(subject: &Subject<'_>, provenance: &Provenance) -> Result<String, ReportError> {
+/// [`ReportError`] when a chart cannot be made.
+pub fn diagnosis(subject: &Subject<'_>, provenance: &Provenance) -> Result<Page, ReportError> {
     let d = &subject.study.diagnosis;
-    let data = data::Data::of(subject)?;
+    let data = Data::of_study(subject)?;
     let sections = [
         Some(verdict::verdict(d)),
         Some(verdict::ladder(d)),
         Some(verdict::confidence(d)),
-        Some(predicted::section(subject, &data)?),
+        Some(predicted::section(&data)?),
         machine::section(&data)?,
+        Some(leg_map::section(&data)?),
+        explained::section(&data)?,
         Some(residual_sheet::section(&data)?),
+        period::section(&data)?,
         Some(scatter::section(&data)?),
         numbers::effects(d),
         Some(numbers::stiffness(subject.hexapod, d)),
@@ -58,12 +71,48 @@ pub fn diagnosis(subject: &Subject<'_>, provenance: &Provenance) -> Result<Strin
         numbers::next(d),
         Some(numbers::limits(d)),
         numbers::look_at(d),
-        Some(numbers::provenance(provenance, d)),
+        Some(numbers::provenance(provenance, d.noise.source)),
     ];
-    let page = Page {
-        title: subject.hexapod.name.clone(),
-        subject: subject.lines().join(" · "),
+    Ok(page(subject.hexapod, &subject.lines(), sections))
+}
+
+/// The page of a comparison.
+///
+/// # Errors
+/// [`ReportError`] when a chart cannot be made.
+pub fn comparison(
+    hexapod: &Hexapod,
+    readings: &Dataset,
+    holdout: Option<&Dataset>,
+    compared: &Compared,
+    provenance: &Provenance,
+) -> Result<Page, ReportError> {
+    let c = &compared.comparison;
+    let data = Data::of_comparison(hexapod, readings, holdout, compared)?;
+    let sections = [
+        Some(comparison::verdict(c)),
+        Some(comparison::errors(c)),
+        Some(comparison::coordinates(c)),
+        Some(predicted::section(&data)?),
+        machine::section(&data)?,
+        Some(leg_map::section(&data)?),
+        Some(comparison::follows(c)),
+        Some(residual_sheet::section(&data)?),
+        period::section(&data)?,
+        Some(scatter::section(&data)?),
+        Some(comparison::adequacy(c)),
+        Some(comparison::stands_out(c)),
+        Some(comparison::plan(c)),
+        comparison::hidden(c),
+        Some(numbers::provenance(provenance, c.noise_source)),
+    ];
+    Ok(page(hexapod, &subject::lines(readings, holdout, &compared.campaign.noise), sections))
+}
+
+fn page<const N: usize>(hexapod: &Hexapod, subject: &[String], sections: [Option<Section>; N]) -> Page {
+    Page {
+        title: hexapod.name.clone(),
+        subject: subject.join(" · "),
         sections: sections.into_iter().flatten().collect(),
-    };
-    Ok(page.to_html()?)
+    }
 }

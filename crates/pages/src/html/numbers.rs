@@ -78,7 +78,7 @@ pub(crate) fn correlation(subject: &Subject<'_>) -> Result<Option<Section>, Repo
     let rows = columns.iter().map(|a| columns.iter().map(|b| cell(a.1, b.1).abs()).collect()).collect();
     let map = HeatMap::new("", names.clone(), names, rows).with_decimals(2).with_full_shade_at(1.0);
     let caption = "Absolute correlation of the estimates: near 1, only a combination of the two is known.";
-    Ok(Some(Section::new("correlation", "Correlation", "").with(Block::figure(&map.to_svg()?, caption))))
+    Ok(Some(Section::new("correlation", "Correlation", "").with(Block::figure(map.to_svg()?, caption))))
 }
 
 /// The readings that separate what remains.
@@ -130,10 +130,10 @@ pub(crate) fn look_at(d: &Diagnosis) -> Option<Section> {
 }
 
 /// Versions, files, command.
-pub(crate) fn provenance(p: &Provenance, d: &Diagnosis) -> Section {
-    let program = concat!("hexbench ", env!("CARGO_PKG_VERSION")).to_owned();
+pub(crate) fn provenance(p: &Provenance, noise: &str) -> Section {
     let row = |name: &str, text: &str| vec![Cell::new(name), Cell::words(text)];
-    let head = [row("program", &program), row("command", &p.command), row("noise", d.noise.source)];
+    let head =
+        [row("program", hexbench_report::html::PROGRAM), row("command", &p.command), row("noise", noise)];
     let files = p.files.iter().map(|(file, digest)| row(file, &format!("SHA-256 {digest}")));
     let rows: Vec<Vec<Cell>> = head.into_iter().chain(files).collect();
     Section::new("provenance", "Where this comes from", notes::CONVENTIONS).with(Block::table(["", ""], rows))

@@ -1,74 +1,100 @@
 //! Predicted against measured, coordinate by coordinate, reading by reading.
 
 use hexbench_core::Dataset;
-use hexbench_model::fit::Fit;
-use hexbench_model::residuals::{Residual, prediction_errors};
+use hexbench_model::residuals::Residual;
 use hexbench_report::html::{Block, Section};
 use hexbench_report::plot::{Axis, Chart, Panels, Series};
 
 use super::ReportError;
 use super::data::Data;
-use super::figures::{FINAL, MEASURED, SPRINGS};
-use crate::Subject;
+use super::figures::MEASURED;
 
 /// Readings a panel can show apart.
 const MOST: usize = 120;
 const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 
-/// Readings and what both models say of them.
-struct Shown<'a> {
+/// Readings and what the models say of them.
+struct Told<'a> {
     rows: &'a Dataset,
-    before: Vec<Residual>,
-    after: Option<Vec<Residual>>,
-    what: &'static str,
+    models: Vec<Model>,
+    /// Standard deviation of one reading, m and rad.
+    noise: [f64; 6],
+}
+
+struct Model {
+    name: &'static str,
+    look: usize,
+    errors: Vec<Residual>,
 }
 
 /// Held-out readings where there is a file of them, else the fitted ones.
-pub(crate) fn section(subject: &Subject<'_>, data: &Data) -> Result<Section, ReportError> {
-    let shown = match subject.holdout {
-        Some(held) => held_out(subject, held, data)?,
-        None => Shown {
-            rows: subject.data,
-            before: data.before.readings.clone(),
-            after: data.after.as_ref().map(|a| a.readings.clone()),
-            what: "fitted readings",
-        },
+pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
+    let (rows, what) = match data.holdout {
+        Some(held) => (held, "Held-out readings, which no fit has seen"),
+        None => (data.fitted, "Readings of the data"),
     };
-    let mut panels = Panels::new("", 3).with_panel_size(300.0, 210.0);
-    for k in 0..6 {
-        panels = panels.with(shown.chart(k));
+    let told = told(data, rows)?;
+    let errors = "Measured minus predicted of the same readings; the band is twice the noise of one reading to both sides.";
+    Ok(Section::new("predicted", "Predicted against measured", "")
+        .with(Block::named_figure("values", told.svg(Told::values)?, caption(what, rows)))
+        .with(Block::named_figure("errors", told.svg(Told::errors)?, errors)))
+}
+
+fn caption(what: &str, rows: &Dataset) -> String {
+    let of = if rows.is_absolute() { "; measured pose minus commanded pose" } else { "" };
+    let count = rows.observations.len();
+    let some = if count > MOST { format!("the first {MOST} of {count}") } else { format!("{count}") };
+    format!("{what}, in the order of the file ({some}){of}.")
+}
+
+fn told<'a>(data: &Data<'_>, rows: &'a Dataset) -> Result<Told<'a>, ReportError> {
+    let seen_here = std::ptr::eq(rows, data.fitted);
+    let mut models = Vec::new();
+    for (name, look, seen) in data.models() {
+        let errors = if seen_here { seen.judged.rows.clone() } else { data.errors(seen, rows)? };
+        models.push(Model { name, look, errors });
     }
-    let caption =
-        format!("{} {}, in the order of the file.", shown.rows.observations.len().min(MOST), shown.what);
-    let figure = Block::figure(&panels.to_svg()?, caption);
-    Ok(Section::new("predicted", "Predicted against measured", "").with(figure))
+    Ok(Told { rows, models, noise: data.campaign.noise.sigma() })
 }
 
-fn held_out<'a>(subject: &Subject<'_>, rows: &'a Dataset, data: &Data) -> Result<Shown<'a>, ReportError> {
-    let study = subject.study;
-    let errors = |fit: &Fit| prediction_errors(subject.hexapod, rows, study.campaign.noise, &fit.point);
-    let last = study.fits.last().filter(|_| data.after.is_some());
-    let after = last.map(errors).transpose()?;
-    let what = "held-out readings, which no fit has seen";
-    Ok(Shown { rows, before: errors(&study.outcome.baseline)?, after, what })
-}
+impl Told<'_> {
+    fn svg(&self, chart: fn(&Self, usize) -> Chart) -> Result<String, ReportError> {
+        let panels = Panels::new("", 3).with_panel_size(300.0, 210.0);
+        Ok((0..6).fold(panels, |panels, k| panels.with(chart(self, k))).to_svg()?)
+    }
 
-impl Shown<'_> {
+    fn count(&self) -> usize {
+        self.rows.observations.len().min(MOST)
+    }
+
+    fn frame(k: usize) -> Chart {
+        Chart::new("", Axis::new("reading", ""), Axis::new(NAMES[k], if k < 3 { "um" } else { "urad" }))
+    }
+
     /// One coordinate over the number of the reading.
-    fn chart(&self, k: usize) -> Chart {
-        let unit = if k < 3 { "um" } else { "urad" };
-        let count = self.rows.observations.len().min(MOST);
-        let measured = (0..count).map(|row| [row as f64 + 1.0, self.measured(row, k)]).collect();
-        let predicted = |all: &[Residual]| -> Vec<[f64; 2]> {
+    fn values(&self, k: usize) -> Chart {
+        let measured = (0..self.count()).map(|row| [row as f64 + 1.0, self.measured(row, k)]).collect();
+        let mut chart = Self::frame(k);
+        for model in &self.models {
             let value = |r: &Residual| self.measured(r.row, k) - 1e6 * r.value[k];
-            all.iter().take(MOST).map(|r| [r.row as f64 + 1.0, value(r)]).collect()
-        };
-        let mut chart = Chart::new("", Axis::new("reading", ""), Axis::new(NAMES[k], unit))
-            .with(Series::line("springs alone", predicted(&self.before)).with_look(SPRINGS));
-        if let Some(after) = &self.after {
-            chart = chart.with(Series::line("with the added effects", predicted(after)).with_look(FINAL));
+            let line = model.errors.iter().take(MOST).map(|r| [r.row as f64 + 1.0, value(r)]).collect();
+            chart = chart.with(Series::line(model.name, line).with_look(model.look));
         }
-        chart.with(Series::markers("measured", measured).with_look(MEASURED))
+        chart.with(Series::markers("measured", measured).with_look(MEASURED).with_marker_size(2.4))
+    }
+
+    /// The error of one coordinate over the number of the reading.
+    fn errors(&self, k: usize) -> Chart {
+        let (last, reach) = (self.count() as f64, 2e6 * self.noise[k]);
+        let band = vec![[1.0, -reach, reach], [last, -reach, reach]];
+        let mut chart = Self::frame(k).with(Series::band("twice the noise", band).with_look(MEASURED));
+        for model in &self.models {
+            let error = |r: &Residual| [r.row as f64 + 1.0, 1e6 * r.value[k]];
+            let points = model.errors.iter().take(MOST).map(error).collect();
+            chart =
+                chart.with(Series::markers(model.name, points).with_look(model.look).with_marker_size(2.4));
+        }
+        chart
     }
 
     /// A measured number, um or urad; of an absolute pose what it is beside the commanded one.

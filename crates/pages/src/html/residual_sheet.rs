@@ -1,85 +1,121 @@
-//! The residual sheet: what the springs alone leave, as elongation of each leg, over everything it may follow.
+//! The residual sheet: what the first model leaves, as elongation of each leg, over everything it may follow.
 
 use hexbench_model::campaign::Condition;
 use hexbench_report::html::{Block, Section};
-use hexbench_report::plot::{Axis, Panels};
+use hexbench_report::plot::Axis;
 
 use super::ReportError;
-use super::data::Data;
-use super::figures::Cloud;
+use super::data::{Data, Shown};
+use super::figures::{Dot, EXPLAIN, cloud, panels};
 
 const REMARK: &str =
     "Six legs measure six coordinates, so every residual is six leg elongations: there physics shows.";
 
-/// Per leg over its force and length; all legs over pose, load, time, temperature and approach.
-pub(crate) fn section(data: &Data) -> Result<Section, ReportError> {
-    let section = Section::new("residuals", "Residual sheet", REMARK)
-        .with(by_leg(data, "change of leg force", "N", |c, leg| c.force_change()[leg])?)
-        .with(by_leg(data, "leg length", "mm", |c, leg| 1e3 * c.legs.lengths[leg])?)
-        .with(by_pose(data)?);
-    Ok(match by_conditions(data)? {
-        Some(block) => section.with(block),
-        None => section,
-    })
+/// What has a panel for each leg.
+pub(crate) struct OfLegs {
+    id: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) x: fn(&Condition, usize) -> f64,
 }
 
-fn by_leg(
-    data: &Data,
-    title: &str,
-    unit: &str,
-    x: impl Fn(&Condition, usize) -> f64,
-) -> Result<Block, ReportError> {
-    let mut panels = Panels::new("", 3).with_panel_size(300.0, 190.0);
+pub(crate) const OF_LEGS: [OfLegs; 5] = [
+    OfLegs { id: "force", title: "leg force", unit: "N", x: |c, leg| c.force[leg] },
+    OfLegs {
+        id: "force-change",
+        title: "change of leg force",
+        unit: "N",
+        x: |c, leg| c.force[leg] - c.reference_force[leg],
+    },
+    OfLegs { id: "length", title: "leg length", unit: "mm", x: |c, leg| 1e3 * c.legs.lengths[leg] },
+    OfLegs { id: "time", title: "time since the reference", unit: "s", x: |c, _| c.elapsed },
+    OfLegs { id: "temperature", title: "temperature since the reference", unit: "K", x: |c, _| c.delta_t },
+];
+
+/// What has a panel for all legs together: its name, unit and value.
+type OfAll = (&'static str, &'static str, fn(&Condition) -> f64);
+
+const POSE: [OfAll; 6] = [
+    ("a", "mm", |c| 1e3 * c.pose.to_array()[0]),
+    ("b", "mm", |c| 1e3 * c.pose.to_array()[1]),
+    ("c", "mm", |c| 1e3 * c.pose.to_array()[2]),
+    ("alpha", "deg", |c| c.pose.to_array()[3].to_degrees()),
+    ("beta", "deg", |c| c.pose.to_array()[4].to_degrees()),
+    ("gamma", "deg", |c| c.pose.to_array()[5].to_degrees()),
+];
+
+const LOAD: [OfAll; 3] = [
+    ("change of force", "N", |c| (c.wrench.force - c.reference.force).norm()),
+    ("change of moment", "N m", |c| (c.wrench.moment - c.reference.moment).norm()),
+    ("approach", "", |c| c.approach),
+];
+
+/// Per leg over force, length, time and temperature; all legs over pose, load and approach: as far as they vary.
+pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
+    let mut section = Section::new("residuals", "Residual sheet", REMARK);
+    for one in OF_LEGS.iter().filter(|v| differs_from_the_one_before(data, v)) {
+        section.blocks.extend(by_leg(data, one)?);
+    }
+    let pose = "Residual elongation of all legs over the coordinates of the pose.";
+    section.blocks.extend(by_all(data, "pose", &POSE, pose)?);
+    let load = "Residual elongation of all legs over size of the load change and approach.";
+    section.blocks.extend(by_all(data, "load", &LOAD, load)?);
+    Ok(section)
+}
+
+/// Without a reference load the change of a leg force is the force itself.
+fn differs_from_the_one_before(data: &Data<'_>, v: &OfLegs) -> bool {
+    v.id != "force-change" || data.conditions().any(|s| s.at.reference_force.amax() > 0.0)
+}
+
+pub(crate) fn varies(mut values: impl Iterator<Item = f64>) -> bool {
+    const SAME: f64 = 1e-9;
+    let Some(first) = values.next() else { return false };
+    values.any(|v| (v - first).abs() > SAME * first.abs().max(1.0))
+}
+
+fn by_leg(data: &Data<'_>, v: &OfLegs) -> Result<Option<Block>, ReportError> {
+    if !varies(data.conditions().map(|s| (v.x)(s.at, 0))) {
+        return Ok(None);
+    }
+    let mut sheet = panels();
     for leg in 0..6 {
-        let cloud =
-            Cloud::of(data.conditions().map(|(c, left, fit)| (x(c, leg), left[leg], fit.map(|f| f[leg]))));
+        let dots: Vec<Dot> = data.conditions().map(|s| dot(&s, leg, (v.x)(s.at, leg))).collect();
         let y = Axis::new(format!("leg {}", leg + 1), "um");
-        panels = panels.with(cloud.chart("", Axis::new(title, unit), y));
+        sheet = sheet.with(cloud([data.words.leaves, EXPLAIN], &dots, Axis::new(v.title, v.unit), y));
     }
-    Ok(Block::figure(&panels.to_svg()?, format!("Residual elongation of each leg over its {title}.")))
+    let caption = format!("Residual elongation of each leg over {}.", v.title);
+    Ok(Some(Block::named_figure(v.id, sheet.to_svg()?, caption)))
 }
 
-fn by_pose(data: &Data) -> Result<Block, ReportError> {
-    const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
-    let mut panels = Panels::new("", 3).with_panel_size(300.0, 190.0);
-    for (k, name) in NAMES.iter().enumerate() {
-        let (unit, per_si) = if k < 3 { ("mm", 1e3) } else { ("deg", 1f64.to_degrees()) };
-        panels = panels.with(all_legs(data, |c| per_si * c.pose.to_array()[k]).chart(
-            "",
-            Axis::new(*name, unit),
-            Axis::new("all legs", "um"),
-        ));
-    }
-    Ok(Block::figure(&panels.to_svg()?, "Residual elongation of all legs over each coordinate of the pose."))
+fn dot(shown: &Shown<'_>, leg: usize, x: f64) -> Dot {
+    Dot { x, left: shown.left[leg], explained: shown.explained.map(|e| e[leg]), approach: shown.at.approach }
 }
 
-/// Load, time, temperature and approach, as far as they vary.
-fn by_conditions(data: &Data) -> Result<Option<Block>, ReportError> {
-    type Variable = (&'static str, &'static str, fn(&Condition) -> f64);
-    const ALL: [Variable; 5] = [
-        ("change of force", "N", |c| (c.wrench.force - c.reference.force).norm()),
-        ("change of moment", "N m", |c| (c.wrench.moment - c.reference.moment).norm()),
-        ("time since the reference", "s", |c| c.elapsed),
-        ("temperature since the reference", "K", |c| c.delta_t),
-        ("approach", "", |c| c.approach),
-    ];
-    let mut panels = Panels::new("", 3).with_panel_size(300.0, 190.0);
+/// Those that vary.
+fn by_all(
+    data: &Data<'_>,
+    id: &'static str,
+    all: &[OfAll],
+    caption: &str,
+) -> Result<Option<Block>, ReportError> {
+    let mut sheet = panels();
     let mut drawn = 0;
-    for (name, unit, x) in ALL {
-        let values: Vec<f64> = data.conditions().map(|(c, ..)| x(c)).collect();
-        if values.iter().all(|v| (v - values[0]).abs() <= 1e-9 * values[0].abs()) {
+    for (name, unit, x) in all {
+        if !varies(data.conditions().map(|s| x(s.at))) {
             continue;
         }
-        panels = panels.with(all_legs(data, x).chart("", Axis::new(name, unit), Axis::new("all legs", "um")));
+        let dots: Vec<Dot> = data
+            .conditions_with_all_legs()
+            .flat_map(|s| (0..6).map(|leg| dot(&s, leg, x(s.at))).collect::<Vec<_>>())
+            .collect();
+        sheet = sheet.with(cloud(
+            [data.words.leaves, EXPLAIN],
+            &dots,
+            Axis::new(*name, *unit),
+            Axis::new("all legs", "um"),
+        ));
         drawn += 1;
     }
-    let caption = "Residual elongation of all legs over what else varies from reading to reading.";
-    Ok(if drawn > 0 { Some(Block::figure(&panels.to_svg()?, caption)) } else { None })
-}
-
-fn all_legs(data: &Data, x: impl Fn(&Condition) -> f64) -> Cloud {
-    Cloud::of(data.conditions().flat_map(|(c, left, fit)| {
-        let x = x(c);
-        (0..6).map(move |leg| (x, left[leg], fit.map(|f| f[leg])))
-    }))
+    Ok(if drawn > 0 { Some(Block::named_figure(id, sheet.to_svg()?, caption)) } else { None })
 }

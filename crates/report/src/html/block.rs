@@ -2,15 +2,6 @@
 
 use serde::Serialize;
 
-/// Neutral colours of a chart, and the colours of the page that replace them.
-const THEMED: [(&str, &str); 5] = [
-    ("#262626", "var(--ink)"),
-    ("#000000", "var(--ink)"),
-    ("#707070", "var(--grey)"),
-    ("#E3E3E3", "var(--grid)"),
-    ("#FFFFFF", "var(--paper)"),
-];
-
 /// Part of a section.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
@@ -43,6 +34,8 @@ pub enum Block {
     },
     /// A chart.
     Figure {
+        /// Its name within the section, as in the names of files; empty for the only one.
+        name: String,
         /// The chart, as [`crate::plot`] draws it.
         svg: String,
         /// What it shows.
@@ -108,11 +101,13 @@ impl Block {
         Self::Table { header: header.into_iter().map(Into::into).collect(), rows: rows.into_iter().collect() }
     }
 
-    /// A chart in the colours of the page.
-    pub fn figure(svg: &str, caption: impl Into<String>) -> Self {
-        let themed = THEMED.iter().fold(svg.to_owned(), |text, (from, to)| text.replace(from, to));
-        // An XML declaration has no place within HTML.
-        let start = themed.find("<svg").unwrap_or(0);
-        Self::Figure { svg: themed[start..].to_owned(), caption: caption.into() }
+    /// The only chart of a section.
+    pub fn figure(svg: String, caption: impl Into<String>) -> Self {
+        Self::named_figure("", svg, caption)
+    }
+
+    /// One of several charts of a section: lower-case letters and hyphens.
+    pub fn named_figure(name: impl Into<String>, svg: String, caption: impl Into<String>) -> Self {
+        Self::Figure { name: name.into(), svg, caption: caption.into() }
     }
 }

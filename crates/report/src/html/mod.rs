@@ -3,12 +3,21 @@
 //! Every text is escaped; only charts drawn by [`crate::plot`] enter as they are. Their neutral colours follow the theme.
 
 mod block;
+mod figure;
 
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, context};
 use serde::Serialize;
 
 pub use block::{Block, Cell, Mood};
+
+/// What makes the pages, as they say themselves.
+pub const PROGRAM: &str = concat!("hexbench ", env!("CARGO_PKG_VERSION"));
+
+/// True for a page that this program wrote, in whatever version: such a file may be replaced.
+pub fn is_own(page: &str) -> bool {
+    page.contains("<meta name=\"generator\" content=\"hexbench ")
+}
 
 /// A page of sections.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -46,6 +55,15 @@ impl Section {
         self.blocks.push(block);
         self
     }
+
+    /// Name and chart of a block that is one.
+    fn figure<'a>(&self, block: &'a Block) -> Option<(String, &'a str)> {
+        match block {
+            Block::Figure { name, svg, .. } if name.is_empty() => Some((self.id.to_owned(), svg)),
+            Block::Figure { name, svg, .. } => Some((format!("{}-{name}", self.id), svg)),
+            _ => None,
+        }
+    }
 }
 
 /// A page that could not be written.
@@ -54,6 +72,11 @@ impl Section {
 pub struct PageError(#[from] minijinja::Error);
 
 impl Page {
+    /// Every chart with its name: that of its section, and its own where the section has several.
+    pub fn figures(&self) -> impl Iterator<Item = (String, &str)> {
+        self.sections.iter().flat_map(|section| section.blocks.iter().filter_map(|b| section.figure(b)))
+    }
+
     /// The page as HTML.
     ///
     /// # Errors
@@ -62,11 +85,14 @@ impl Page {
         const NAME: &str = "report.html";
         let mut pages = Environment::new();
         pages.set_auto_escape_callback(|_| AutoEscape::Html);
+        pages.add_filter("themed", |svg: &str, caption: &str| {
+            minijinja::Value::from_safe_string(figure::themed(svg, caption))
+        });
         pages.add_template(NAME, include_str!("../../templates/report.html"))?;
         let style = minijinja::Value::from_safe_string(include_str!("../../templates/report.css").to_owned());
         Ok(pages
             .get_template(NAME)?
-            .render(context! { page => minijinja::Value::from(Serde(self)), style })?)
+            .render(context! { page => minijinja::Value::from(Serde(self)), style, program => PROGRAM })?)
     }
 }
 
@@ -78,12 +104,31 @@ mod tests {
     fn text_is_escaped_and_charts_are_not() {
         let section = Section::new("verdict", "<b>", "")
             .with(Block::paragraph("a < b & \"c\""))
-            .with(Block::figure("<svg fill=\"#262626\"></svg>", "caption"));
+            .with(Block::figure("<svg fill=\"#262626\"><title></title></svg>".to_owned(), "a <caption>"));
         let page = Page { title: "<script>".to_owned(), subject: String::new(), sections: vec![section] };
         let html = page.to_html().unwrap_or_default();
         assert!(!html.contains("<script>") && html.contains("&lt;script&gt;"));
         assert!(html.contains("a &lt; b &amp;"));
-        assert!(html.contains("<svg fill=\"var(--ink)\">"));
+        assert!(html.contains("<svg fill=\"var(--ink)\"><title>a &lt;caption&gt;</title></svg>"), "{html}");
+    }
+
+    #[test]
+    fn charts_are_named_by_their_section_and_keep_their_colours() {
+        let chart = || "<svg fill=\"#262626\"></svg>".to_owned();
+        let residuals = Section::new("residuals", "", "")
+            .with(Block::named_figure("force", chart(), ""))
+            .with(Block::named_figure("length", chart(), ""));
+        let machine = Section::new("machine", "", "").with(Block::figure(chart(), ""));
+        let page = Page { sections: vec![residuals, machine], ..Page::default() };
+        let names: Vec<String> = page.figures().map(|(name, _)| name).collect();
+        assert_eq!(names, ["residuals-force", "residuals-length", "machine"]);
+        assert!(page.figures().all(|(_, svg)| svg == chart()));
+    }
+
+    #[test]
+    fn a_page_knows_its_own() {
+        assert!(is_own(&Page::default().to_html().unwrap_or_default()));
+        assert!(!is_own("<!doctype html><p>hexbench 0.1.0"));
     }
 
     #[test]

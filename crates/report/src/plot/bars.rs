@@ -1,9 +1,7 @@
 //! Groups of bars over names.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
 use super::axis::Axis;
-use super::canvas::{Canvas, Type, svg};
+use super::canvas::{Across, Along, Canvas, Type, svg};
 use super::chart::{MARGIN_PX, title};
 use super::error::{PlotError, finite, length, not_empty, positive};
 use super::frame::{Frame, Rect, most_ticks};
@@ -62,8 +60,8 @@ impl Bars {
     /// [`PlotError::NotFinite`], [`PlotError::Empty`], [`PlotError::Length`].
     pub fn to_svg(&self) -> Result<String, PlotError> {
         self.check()?;
-        let entries: Vec<(&str, Look)> =
-            self.sets.iter().enumerate().map(|(i, s)| (s.name.as_str(), Look::nth(i))).collect();
+        let entries = self.sets.iter().enumerate().map(|(i, s)| (s.name.as_str(), Look::nth(i)));
+        let entries: Vec<(&str, Look)> = entries.filter(|(name, _)| !name.is_empty()).collect();
         svg(self.size_px, &self.title, |canvas| {
             let [width, height] = self.size_px;
             let room = width - 2.0 * MARGIN_PX;
@@ -97,7 +95,7 @@ impl Bars {
         Ok(())
     }
 
-    fn draw(&self, canvas: &Canvas<'_>, outer: Rect) -> Result<(), PlotError> {
+    fn draw(&self, canvas: &Canvas, outer: Rect) -> Result<(), PlotError> {
         const TICK_ROOM_PX: f64 = 28.0;
         let most = most_ticks(outer.bottom - outer.top, TICK_ROOM_PX);
         let [low, high] = self.extent();
@@ -142,7 +140,7 @@ impl Bars {
         10.0 + if self.upright(frame) { self.widest_category() } else { TICK_PX + 4.0 }
     }
 
-    fn draw_bars(&self, canvas: &Canvas<'_>, frame: &Frame) -> Result<(), PlotError> {
+    fn draw_bars(&self, canvas: &Canvas, frame: &Frame) -> Result<(), PlotError> {
         const GROUP_SHARE: f64 = 0.76;
         const BETWEEN_PX: f64 = 1.5;
         let width = GROUP_SHARE / self.sets.len() as f64;
@@ -165,15 +163,15 @@ impl Bars {
         canvas.line(&[[left, zero], [right, zero]], INK, 1.0, None)
     }
 
-    fn draw_categories(&self, canvas: &Canvas<'_>, frame: &Frame) -> Result<(), PlotError> {
+    fn draw_categories(&self, canvas: &Canvas, frame: &Frame) -> Result<(), PlotError> {
         let upright = self.upright(frame);
         for (k, name) in self.categories.iter().enumerate() {
             let x = frame.place([k as f64 + 0.5, 0.0])[0];
             let at = [x, frame.inner.bottom + 6.0];
             let set = if upright {
-                Type::new(TICK_PX).at(HPos::Right, VPos::Center).upright()
+                Type::new(TICK_PX).at(Across::Right, Along::Middle).upright()
             } else {
-                Type::new(TICK_PX).at(HPos::Center, VPos::Top)
+                Type::new(TICK_PX).at(Across::Middle, Along::Top)
             };
             canvas.text(at, name, set)?;
         }
@@ -186,7 +184,7 @@ impl Entry for (&str, Look) {
         self.0
     }
 
-    fn sample(&self, canvas: &Canvas<'_>, [from, to]: [f64; 2], y: f64) -> Result<(), PlotError> {
+    fn sample(&self, canvas: &Canvas, [from, to]: [f64; 2], y: f64) -> Result<(), PlotError> {
         const HALF_PX: f64 = 5.0;
         canvas.rectangle([from + 6.0, y - HALF_PX], [to - 6.0, y + HALF_PX], self.1.colour)
     }

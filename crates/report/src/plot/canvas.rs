@@ -1,39 +1,41 @@
-//! The sheet: lines, areas, markers and text in pixels.
+//! The sheet: lines, areas, markers and text in pixels, written as SVG.
 //!
-//! Plotters places everything on whole units, which makes lines wobble at one unit per pixel; the sheet is therefore
-//! drawn in tenths of a pixel and shown at its true size by its view box.
+//! What follows each other and looks alike becomes one element: a path of many lines or markers, a group of many texts. A page holds
+//! thousands of them and is mailed around.
 
-use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::element::{Circle, DashedPathElement, PathElement, Polygon, Rectangle, Text};
-use plotters::prelude::SVGBackend;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontStyle, FontTransform, IntoFont, RGBColor, ShapeStyle, TextStyle};
+use std::cell::RefCell;
+use std::fmt::Write;
 
 use super::error::PlotError;
-use super::style::{Dash, INK, Marker, PAPER, text_width};
-
-/// Units of the drawing per pixel.
-const UNITS: f64 = 10.0;
+use super::style::{Colour, Dash, INK, Marker, PAPER, text_width};
 
 /// A point in pixels from the upper left corner.
 pub(super) type Point = [f64; 2];
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// Which end of a text stands at its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Across {
+    Left,
+    Middle,
+    Right,
+}
 
-/// A sheet to draw on.
-pub(super) struct Canvas<'a> {
-    area: Area<'a>,
+/// Which height of a text stands at its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Along {
+    Top,
+    Middle,
+    Foot,
 }
 
 /// How a text is set.
 #[derive(Clone, Copy)]
 pub(super) struct Type {
     pub(super) px: f64,
-    pub(super) colour: RGBColor,
+    pub(super) colour: Colour,
     pub(super) bold: bool,
-    pub(super) across: HPos,
-    pub(super) along: VPos,
+    pub(super) across: Across,
+    pub(super) along: Along,
     /// Read from bottom to top.
     pub(super) upright: bool,
 }
@@ -41,113 +43,175 @@ pub(super) struct Type {
 impl Type {
     /// Plain text of a size, its left middle at the given point.
     pub(super) fn new(px: f64) -> Self {
-        Self { px, colour: INK, bold: false, across: HPos::Left, along: VPos::Center, upright: false }
+        Self { px, colour: INK, bold: false, across: Across::Left, along: Along::Middle, upright: false }
     }
 
     pub(super) fn bold(self) -> Self {
         Self { bold: true, ..self }
     }
 
-    pub(super) fn colour(self, colour: RGBColor) -> Self {
+    pub(super) fn colour(self, colour: Colour) -> Self {
         Self { colour, ..self }
     }
 
-    pub(super) fn at(self, across: HPos, along: VPos) -> Self {
+    pub(super) fn at(self, across: Across, along: Along) -> Self {
         Self { across, along, ..self }
     }
 
     pub(super) fn upright(self) -> Self {
         Self { upright: true, ..self }
     }
+
+    /// From the point down to the line the letters stand on, px.
+    fn drop(self) -> f64 {
+        const OF_TOP: f64 = 0.76;
+        const OF_MIDDLE: f64 = 0.35;
+        match self.along {
+            Along::Top => OF_TOP * self.px,
+            Along::Middle => OF_MIDDLE * self.px,
+            Along::Foot => 0.0,
+        }
+    }
+
+    /// Attributes of a group of such texts.
+    fn attributes(self) -> String {
+        let anchor = match self.across {
+            Across::Left => "",
+            Across::Middle => " text-anchor=\"middle\"",
+            Across::Right => " text-anchor=\"end\"",
+        };
+        let weight = if self.bold { " font-weight=\"bold\"" } else { "" };
+        format!(" fill=\"{}\" font-size=\"{}\"{anchor}{weight}", self.colour, short(self.px))
+    }
+}
+
+/// A sheet to draw on.
+pub(super) struct Canvas {
+    ink: RefCell<Ink>,
+}
+
+/// What is drawn, and what is still open: elements that look alike are joined.
+#[derive(Default)]
+struct Ink {
+    svg: String,
+    open: Option<(Kind, String)>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Path,
+    Text,
+}
+
+impl Ink {
+    fn put(&mut self, kind: Kind, attributes: String, content: &str) -> std::fmt::Result {
+        if self.open.as_ref().is_none_or(|(k, a)| *k != kind || *a != attributes) {
+            self.close();
+            match kind {
+                Kind::Path => write!(self.svg, "<path{attributes} d=\"")?,
+                Kind::Text => write!(self.svg, "<g{attributes}>")?,
+            }
+            self.open = Some((kind, attributes));
+        }
+        self.svg.push_str(content);
+        Ok(())
+    }
+
+    fn close(&mut self) {
+        self.svg.push_str(match self.open.take() {
+            Some((Kind::Path, _)) => "\"/>\n",
+            Some((Kind::Text, _)) => "</g>\n",
+            None => "",
+        });
+    }
 }
 
 /// Draws a sheet of the given size (px) and returns its SVG.
 pub(super) fn svg(
-    size: [f64; 2],
+    [width, height]: [f64; 2],
     title: &str,
-    draw: impl FnOnce(&Canvas<'_>) -> Result<(), PlotError>,
+    draw: impl FnOnce(&Canvas) -> Result<(), PlotError>,
 ) -> Result<String, PlotError> {
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, (extent(size[0]), extent(size[1]))).into_drawing_area();
-        area.fill(&PAPER).map_err(failed)?;
-        let canvas = Canvas { area };
-        draw(&canvas)?;
-        canvas.area.present().map_err(failed)?;
-    }
-    Ok(at_true_size(&text, size, title))
-}
-
-/// The drawing with its width and height in pixels and its title for readers who do not see.
-fn at_true_size(drawn: &str, [width, height]: [f64; 2], title: &str) -> String {
-    let body = drawn.split_once('>').map_or("", |(_, body)| body);
-    let (w, h) = (extent(width), extent(height));
-    let title = escaped(title);
-    format!(
+    let canvas = Canvas { ink: RefCell::default() };
+    canvas.rectangle([0.0, 0.0], [width, height], PAPER)?;
+    draw(&canvas)?;
+    let mut ink = canvas.ink.into_inner();
+    ink.close();
+    Ok(format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
-         viewBox=\"0 0 {w} {h}\" role=\"img\">\n<title>{title}</title>{body}"
-    )
+         viewBox=\"0 0 {} {}\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\">\n<title>{}</title>\n{}</svg>\n",
+        short(width),
+        short(height),
+        escaped(title),
+        ink.svg
+    ))
 }
 
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-// Coordinates were checked to be finite and lie on the sheet, a few thousand units wide.
-#[allow(clippy::cast_possible_truncation)]
-fn units(px: f64) -> i32 {
-    (px * UNITS).round() as i32
+/// A number of px to a tenth, without a trailing zero.
+fn short(px: f64) -> String {
+    let text = format!("{px:.1}");
+    let text = text.strip_suffix(".0").unwrap_or(&text);
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-fn extent(px: f64) -> u32 {
-    units(px).unsigned_abs()
+fn place([x, y]: Point) -> String {
+    format!("{} {}", short(x), short(y))
 }
 
-fn place([x, y]: Point) -> (i32, i32) {
-    (units(x), units(y))
+/// `M x y L ...`; the letter of the lines is implied.
+fn through(points: impl IntoIterator<Item = Point>) -> String {
+    let places: Vec<String> = points.into_iter().map(place).collect();
+    format!("M{}", places.join(" "))
 }
 
-#[allow(clippy::needless_pass_by_value, reason = "shape of map_err")]
-fn failed(error: impl std::fmt::Display) -> PlotError {
-    PlotError::Drawing(error.to_string())
+fn stroke(colour: Colour, width: f64, dash: Dash) -> String {
+    let dash = dash
+        .map(|(on, off)| format!(" stroke-dasharray=\"{} {}\"", short(on), short(off)))
+        .unwrap_or_default();
+    format!(" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{}\"{dash}", short(width))
 }
 
-fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
-    ShapeStyle { color: colour.to_rgba(), filled: false, stroke_width: extent(width) }
+fn fill(colour: Colour, opacity: f64) -> String {
+    let opacity = if opacity < 1.0 { format!(" fill-opacity=\"{opacity:.2}\"") } else { String::new() };
+    format!(" fill=\"{colour}\"{opacity}")
 }
 
-impl Canvas<'_> {
+impl Canvas {
+    fn put(&self, kind: Kind, attributes: String, content: &str) -> Result<(), PlotError> {
+        self.ink.borrow_mut().put(kind, attributes, content)?;
+        Ok(())
+    }
+
     /// A line through points.
     pub(super) fn line(
         &self,
         points: &[Point],
-        colour: RGBColor,
+        colour: Colour,
         width: f64,
         dash: Dash,
     ) -> Result<(), PlotError> {
-        let points: Vec<_> = points.iter().copied().map(place).collect();
-        let style = stroke(colour, width);
-        match dash {
-            None => self.area.draw(&PathElement::new(points, style)).map_err(failed),
-            Some((on, off)) => {
-                let dashed = DashedPathElement::new(points, units(on), units(off), style);
-                self.area.draw(&dashed).map_err(failed)
-            }
-        }
+        self.put(Kind::Path, stroke(colour, width, dash), &through(points.iter().copied()))
     }
 
     /// A filled rectangle between two corners.
-    pub(super) fn rectangle(&self, a: Point, b: Point, colour: RGBColor) -> Result<(), PlotError> {
-        let upper_left = [a[0].min(b[0]), a[1].min(b[1])];
-        let lower_right = [a[0].max(b[0]), a[1].max(b[1])];
-        let corners = [place(upper_left), place(lower_right)];
-        self.area.draw(&Rectangle::new(corners, colour.filled())).map_err(failed)
+    pub(super) fn rectangle(&self, a: Point, b: Point, colour: Colour) -> Result<(), PlotError> {
+        self.cell(a, b, colour, 1.0)
+    }
+
+    /// A filled rectangle between two corners, see-through by `opacity`.
+    pub(super) fn cell(&self, a: Point, b: Point, colour: Colour, opacity: f64) -> Result<(), PlotError> {
+        let [x, y] = [a[0].min(b[0]), a[1].min(b[1])];
+        let [width, height] = [(a[0] - b[0]).abs(), (a[1] - b[1]).abs()].map(short);
+        self.put(Kind::Path, fill(colour, opacity), &format!("M{}h{width}v{height}h-{width}z", place([x, y])))
     }
 
     /// A filled area, see-through by `opacity`.
-    pub(super) fn polygon(&self, points: &[Point], colour: RGBColor, opacity: f64) -> Result<(), PlotError> {
-        let points: Vec<_> = points.iter().copied().map(place).collect();
-        self.area.draw(&Polygon::new(points, colour.mix(opacity))).map_err(failed)
+    pub(super) fn polygon(&self, points: &[Point], colour: Colour, opacity: f64) -> Result<(), PlotError> {
+        self.put(Kind::Path, fill(colour, opacity), &format!("{}z", through(points.iter().copied())))
     }
 
     /// A marker about a point; `size` is about its half-width.
@@ -155,20 +219,20 @@ impl Canvas<'_> {
         &self,
         at: Point,
         marker: Marker,
-        colour: RGBColor,
+        colour: Colour,
         size: f64,
     ) -> Result<(), PlotError> {
         const RIM_PX: f64 = 1.5;
         let corner = |x: f64, y: f64| [at[0] + x * size, at[1] + y * size];
         match marker {
-            Marker::Circle => {
-                self.area.draw(&Circle::new(place(at), units(size), colour.filled())).map_err(failed)
-            }
+            Marker::Circle => self.cap(at, "round", colour, size),
             Marker::Ring => {
-                self.area.draw(&Circle::new(place(at), units(size), PAPER.filled())).map_err(failed)?;
-                self.area.draw(&Circle::new(place(at), units(size), stroke(colour, RIM_PX))).map_err(failed)
+                let rim = format!(" fill=\"{PAPER}\" stroke=\"{colour}\" stroke-width=\"{RIM_PX}\"");
+                let (r, d) = (short(size), short(2.0 * size));
+                let ring = format!("M{}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z", place(corner(-1.0, 0.0)));
+                self.put(Kind::Path, rim, &ring)
             }
-            Marker::Square => self.rectangle(corner(-0.9, -0.9), corner(0.9, 0.9), colour),
+            Marker::Square => self.cap(at, "square", colour, 0.9 * size),
             Marker::Triangle => {
                 self.polygon(&[corner(-1.1, 0.85), corner(1.1, 0.85), corner(0.0, -1.15)], colour, 1.0)
             }
@@ -183,18 +247,19 @@ impl Canvas<'_> {
         }
     }
 
+    /// A line without length: nothing but its ends, the shortest way to say a marker.
+    fn cap(&self, at: Point, ends: &str, colour: Colour, size: f64) -> Result<(), PlotError> {
+        let line = format!("{} stroke-linecap=\"{ends}\"", stroke(colour, 2.0 * size, None));
+        self.put(Kind::Path, line, &format!("M{}h0", place(at)))
+    }
+
     /// A line of text. Upright text is turned a quarter to the left; its anchor turns with it.
-    pub(super) fn text(&self, at: Point, text: &str, set: Type) -> Result<(), PlotError> {
-        // The backend divides by this to turn heights of boxes into sizes of fonts.
-        const BOX_PER_EM: f64 = 1.24;
-        let style = if set.bold { FontStyle::Bold } else { FontStyle::Normal };
-        let turn = if set.upright { FontTransform::Rotate270 } else { FontTransform::None };
-        let font = ("Helvetica, Arial, sans-serif", set.px * UNITS * BOX_PER_EM)
-            .into_font()
-            .style(style)
-            .transform(turn);
-        let style = TextStyle::from(font).color(&set.colour).pos(Pos::new(set.across, set.along));
-        self.area.draw(&Text::new(text.to_owned(), place(at), style)).map_err(failed)
+    pub(super) fn text(&self, [x, y]: Point, text: &str, set: Type) -> Result<(), PlotError> {
+        let turn =
+            if set.upright { format!(" transform=\"rotate(-90 {})\"", place([x, y])) } else { String::new() };
+        let [x, foot] = [x, y + set.drop()].map(short);
+        let element = format!("<text x=\"{x}\" y=\"{foot}\"{turn}>{}</text>", escaped(text));
+        self.put(Kind::Text, set.attributes(), &element)
     }
 
     /// Text that is shortened with an ellipsis when it is wider than `room` px.

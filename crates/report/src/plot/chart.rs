@@ -85,7 +85,7 @@ impl Chart {
     }
 
     /// Draws axes and data, without title and legend.
-    pub(super) fn draw(&self, canvas: &Canvas<'_>, outer: Rect) -> Result<(), PlotError> {
+    pub(super) fn draw(&self, canvas: &Canvas, outer: Rect) -> Result<(), PlotError> {
         let frame = self.frame(outer);
         self.draw_in(canvas, &frame)
     }
@@ -101,19 +101,14 @@ impl Chart {
     }
 
     /// Draws axes and data in a frame.
-    pub(super) fn draw_in(&self, canvas: &Canvas<'_>, frame: &Frame) -> Result<(), PlotError> {
+    pub(super) fn draw_in(&self, canvas: &Canvas, frame: &Frame) -> Result<(), PlotError> {
         frame.draw(canvas, &self.x.label(), &self.y.label())?;
         self.looks().try_for_each(|(s, look)| s.draw(canvas, frame, look))
     }
 }
 
 /// Draws a title, if any; returns where the next thing begins.
-pub(super) fn title(
-    canvas: &Canvas<'_>,
-    text: &str,
-    [left, top]: [f64; 2],
-    room: f64,
-) -> Result<f64, PlotError> {
+pub(super) fn title(canvas: &Canvas, text: &str, [left, top]: [f64; 2], room: f64) -> Result<f64, PlotError> {
     if text.is_empty() {
         return Ok(top);
     }

@@ -45,7 +45,7 @@ pub enum PlotError {
     },
     /// The drawing itself failed.
     #[error("the drawing failed: {0}")]
-    Drawing(String),
+    Drawing(#[from] std::fmt::Error),
 }
 
 /// First number of a list that is not finite, as an error.

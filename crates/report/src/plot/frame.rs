@@ -1,9 +1,7 @@
 //! The plotting area with its grid, ticks and axis titles.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
 use super::axis::Scale;
-use super::canvas::{Canvas, Point, Type};
+use super::canvas::{Across, Along, Canvas, Point, Type};
 use super::error::PlotError;
 use super::style::{GREY, GRID, INK, LABEL_PX, TICK_PX, text_width};
 
@@ -48,12 +46,12 @@ impl Frame {
     }
 
     /// Grid, both axes, tick labels and titles.
-    pub(super) fn draw(&self, canvas: &Canvas<'_>, x_title: &str, y_title: &str) -> Result<(), PlotError> {
+    pub(super) fn draw(&self, canvas: &Canvas, x_title: &str, y_title: &str) -> Result<(), PlotError> {
         self.draw_x_ticks(canvas)?;
         self.draw_y_ticks(canvas)?;
         let Rect { left, top, right, bottom } = self.inner;
         canvas.line(&[[left, bottom], [right, bottom]], INK, HAIR_PX, None)?;
-        let set = Type::new(LABEL_PX).at(HPos::Center, VPos::Top);
+        let set = Type::new(LABEL_PX).at(Across::Middle, Along::Top);
         let below = bottom + TICK_GAP_PX + TICK_PX + 7.0;
         canvas.text_within([f64::midpoint(left, right), below], x_title, set, right - left + 40.0)?;
         self.draw_y_title(canvas, y_title, [top, bottom])
@@ -62,35 +60,35 @@ impl Frame {
     /// The title of the y axis, read upwards at the far left.
     pub(super) fn draw_y_title(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &Canvas,
         title: &str,
         [top, bottom]: [f64; 2],
     ) -> Result<(), PlotError> {
-        let set = Type::new(LABEL_PX).at(HPos::Center, VPos::Bottom).upright();
+        let set = Type::new(LABEL_PX).at(Across::Middle, Along::Foot).upright();
         let x = self.inner.left - TICK_GAP_PX - widest_tick(&self.y) - 6.0;
         canvas.text_within([x, f64::midpoint(top, bottom)], title, set, bottom - top + 30.0)
     }
 
-    fn draw_x_ticks(&self, canvas: &Canvas<'_>) -> Result<(), PlotError> {
+    fn draw_x_ticks(&self, canvas: &Canvas) -> Result<(), PlotError> {
         let Rect { left, top, right, bottom } = self.inner;
-        let set = Type::new(TICK_PX).colour(GREY).at(HPos::Center, VPos::Top);
+        let set = Type::new(TICK_PX).colour(GREY).at(Across::Middle, Along::Top);
+        let x = |tick: f64| self.x.place(tick, [left, right]);
         for &tick in &self.x.ticks {
-            let x = self.x.place(tick, [left, right]);
-            canvas.line(&[[x, top], [x, bottom]], GRID, HAIR_PX, None)?;
-            canvas.text([x, bottom + TICK_GAP_PX], &self.x.text(tick), set)?;
+            canvas.line(&[[x(tick), top], [x(tick), bottom]], GRID, HAIR_PX, None)?;
         }
-        Ok(())
+        let text = |tick: &f64| canvas.text([x(*tick), bottom + TICK_GAP_PX], &self.x.text(*tick), set);
+        self.x.ticks.iter().try_for_each(text)
     }
 
-    pub(super) fn draw_y_ticks(&self, canvas: &Canvas<'_>) -> Result<(), PlotError> {
+    pub(super) fn draw_y_ticks(&self, canvas: &Canvas) -> Result<(), PlotError> {
         let Rect { left, top, right, bottom } = self.inner;
-        let set = Type::new(TICK_PX).colour(GREY).at(HPos::Right, VPos::Center);
+        let set = Type::new(TICK_PX).colour(GREY).at(Across::Right, Along::Middle);
+        let y = |tick: f64| self.y.place(tick, [bottom, top]);
         for &tick in &self.y.ticks {
-            let y = self.y.place(tick, [bottom, top]);
-            canvas.line(&[[left, y], [right, y]], GRID, HAIR_PX, None)?;
-            canvas.text([left - TICK_GAP_PX, y], &self.y.text(tick), set)?;
+            canvas.line(&[[left, y(tick)], [right, y(tick)]], GRID, HAIR_PX, None)?;
         }
-        Ok(())
+        let text = |tick: &f64| canvas.text([left - TICK_GAP_PX, y(*tick)], &self.y.text(*tick), set);
+        self.y.ticks.iter().try_for_each(text)
     }
 }
 

@@ -1,12 +1,10 @@
 //! A table whose cells are shaded.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
 use super::axis::number;
-use super::canvas::{Canvas, Type, svg};
+use super::canvas::{Across, Along, Canvas, Type, svg};
 use super::chart::{MARGIN_PX, title};
 use super::error::{PlotError, finite, length, not_empty};
-use super::style::{INK, LABEL_PX, PAPER, TICK_PX, shade, text_width};
+use super::style::{DEEP, INK, LABEL_PX, PAPER, TICK_PX, text_width};
 
 /// A table of numbers, each cell shaded from white (zero) to dark (the largest).
 #[derive(Debug, Clone, PartialEq)]
@@ -113,21 +111,21 @@ impl HeatMap {
         self.full_shade.unwrap_or_else(largest).abs().max(f64::MIN_POSITIVE)
     }
 
-    fn draw_cells(&self, canvas: &Canvas<'_>, [left, top]: [f64; 2]) -> Result<(), PlotError> {
-        const LIGHT_TEXT_FROM: f64 = 0.55;
+    fn draw_cells(&self, canvas: &Canvas, [left, top]: [f64; 2]) -> Result<(), PlotError> {
+        const LIGHT_TEXT_FROM: f64 = 0.62;
         const GAP_PX: f64 = 1.0;
+        const FAINTEST: f64 = 0.035;
         let ([w, h], darkest) = (self.cell_px, self.darkest());
         for (i, row) in self.values.iter().enumerate() {
             for (j, &value) in row.iter().enumerate() {
                 let (x, y) = (left + j as f64 * w, top + i as f64 * h);
                 let share = value.abs() / darkest;
                 // Faint cells stay apart from the paper so that the table shows where nothing is.
-                let floor = 0.035;
-                let colour = shade(floor + (1.0 - floor) * share);
-                canvas.rectangle([x, y], [x + w - GAP_PX, y + h - GAP_PX], colour)?;
+                let shade = FAINTEST + (1.0 - FAINTEST) * share.min(1.0);
+                canvas.cell([x, y], [x + w - GAP_PX, y + h - GAP_PX], DEEP, shade)?;
                 if value != 0.0 {
                     let ink = if share > LIGHT_TEXT_FROM { PAPER } else { INK };
-                    let set = Type::new(TICK_PX).colour(ink).at(HPos::Center, VPos::Center);
+                    let set = Type::new(TICK_PX).colour(ink).at(Across::Middle, Along::Middle);
                     let centre = [x + 0.5 * (w - GAP_PX), y + 0.5 * (h - GAP_PX)];
                     canvas.text(centre, &number(value, self.decimals), set)?;
                 }
@@ -136,14 +134,14 @@ impl HeatMap {
         Ok(())
     }
 
-    fn draw_names(&self, canvas: &Canvas<'_>, [left, top]: [f64; 2]) -> Result<(), PlotError> {
+    fn draw_names(&self, canvas: &Canvas, [left, top]: [f64; 2]) -> Result<(), PlotError> {
         let [w, h] = self.cell_px;
-        let at_row = Type::new(TICK_PX).at(HPos::Right, VPos::Center);
+        let at_row = Type::new(TICK_PX).at(Across::Right, Along::Middle);
         for (i, name) in self.rows.iter().enumerate() {
             canvas.text([left - 7.0, top + (i as f64 + 0.5) * h], name, at_row)?;
         }
-        let flat = Type::new(TICK_PX).at(HPos::Center, VPos::Bottom);
-        let turned = Type::new(TICK_PX).at(HPos::Left, VPos::Center).upright();
+        let flat = Type::new(TICK_PX).at(Across::Middle, Along::Foot);
+        let turned = Type::new(TICK_PX).at(Across::Left, Along::Middle).upright();
         for (j, name) in self.columns.iter().enumerate() {
             let set = if self.upright() { turned } else { flat };
             canvas.text([left + (j as f64 + 0.5) * w, top - 6.0], name, set)?;
@@ -151,19 +149,19 @@ impl HeatMap {
         Ok(())
     }
 
-    fn draw_axis_titles(&self, canvas: &Canvas<'_>, [left, top]: [f64; 2]) -> Result<(), PlotError> {
+    fn draw_axis_titles(&self, canvas: &Canvas, [left, top]: [f64; 2]) -> Result<(), PlotError> {
         let (w, h) = (self.columns.len() as f64 * self.cell_px[0], self.rows.len() as f64 * self.cell_px[1]);
         let set = Type::new(LABEL_PX).bold();
         if !self.row_title.is_empty() {
             let at = [MARGIN_PX + LABEL_PX / 2.0, top + h / 2.0];
-            canvas.text(at, &self.row_title, set.at(HPos::Center, VPos::Center).upright())?;
+            canvas.text(at, &self.row_title, set.at(Across::Middle, Along::Middle).upright())?;
         }
         if self.column_title.is_empty() {
             return Ok(());
         }
         let head = MARGIN_PX + if self.title.is_empty() { 0.0 } else { super::chart::TITLE_ROW_PX };
         let at = [left + w / 2.0, head + LABEL_PX / 2.0];
-        canvas.text(at, &self.column_title, set.at(HPos::Center, VPos::Center))
+        canvas.text(at, &self.column_title, set.at(Across::Middle, Along::Middle))
     }
 }
 

@@ -15,7 +15,7 @@ pub(super) trait Entry {
     /// Its name.
     fn name(&self) -> &str;
     /// Its sample between two ends at a height.
-    fn sample(&self, canvas: &Canvas<'_>, ends: [f64; 2], y: f64) -> Result<(), PlotError>;
+    fn sample(&self, canvas: &Canvas, ends: [f64; 2], y: f64) -> Result<(), PlotError>;
 }
 
 impl Entry for (&Series, Look) {
@@ -23,7 +23,7 @@ impl Entry for (&Series, Look) {
         &self.0.name
     }
 
-    fn sample(&self, canvas: &Canvas<'_>, ends: [f64; 2], y: f64) -> Result<(), PlotError> {
+    fn sample(&self, canvas: &Canvas, ends: [f64; 2], y: f64) -> Result<(), PlotError> {
         self.0.sample(canvas, ends, y, self.1)
     }
 }
@@ -65,7 +65,7 @@ pub(super) fn height<E: Entry>(entries: &[E], room: f64) -> f64 {
 
 /// Draws the legend with its upper left corner at a point.
 pub(super) fn draw<E: Entry>(
-    canvas: &Canvas<'_>,
+    canvas: &Canvas,
     entries: &[E],
     [left, top]: [f64; 2],
     room: f64,

@@ -6,6 +6,7 @@
 //! | [`Panels`] | several charts in a grid with one legend, such as the six coordinates of a deflection |
 //! | [`Bars`] | groups of bars over names |
 //! | [`HeatMap`] | a table whose cells are shaded, such as a confusion matrix |
+//! | [`Raster`] | signed sizes over many columns, such as residuals of every leg in every condition |
 //! | [`Wireframe`] | a machine in space, from several sides |
 //! | [`Reliability`] | stated probability against observed frequency, with counts |
 //!
@@ -33,6 +34,7 @@ mod frame;
 mod heat_map;
 mod legend;
 mod panels;
+mod raster;
 mod reliability;
 mod series;
 mod style;
@@ -44,6 +46,7 @@ pub use chart::Chart;
 pub use error::PlotError;
 pub use heat_map::HeatMap;
 pub use panels::Panels;
+pub use raster::Raster;
 pub use reliability::{Bin, Reliability};
 pub use series::Series;
 pub use wireframe::{Edge, Wireframe};

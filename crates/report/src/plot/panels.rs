@@ -57,7 +57,7 @@ impl Panels {
         })
     }
 
-    fn draw(&self, canvas: &Canvas<'_>, top: f64) -> Result<(), PlotError> {
+    fn draw(&self, canvas: &Canvas, top: f64) -> Result<(), PlotError> {
         for (i, chart) in self.charts.iter().enumerate() {
             let column = i % self.columns;
             let [left, top] = self.corner(i, top);

@@ -61,7 +61,7 @@ impl Reliability {
     }
 
     /// Returns the left edge of the frame.
-    fn draw_points(&self, canvas: &Canvas<'_>, outer: Rect) -> Result<f64, PlotError> {
+    fn draw_points(&self, canvas: &Canvas, outer: Rect) -> Result<f64, PlotError> {
         let axis = Axis::new("", "").with_range(0.0, 1.0).with_ticks(fifths());
         let frame = Frame::new(outer, axis.scale([], 6), axis.scale([], 6)).with_left(outer.left + 58.0);
         frame.draw(canvas, "Stated probability", "Observed frequency")?;
@@ -81,7 +81,7 @@ impl Reliability {
         Ok(frame.inner.left)
     }
 
-    fn draw_counts(&self, canvas: &Canvas<'_>, outer: Rect, left: f64) -> Result<(), PlotError> {
+    fn draw_counts(&self, canvas: &Canvas, outer: Rect, left: f64) -> Result<(), PlotError> {
         let x = Axis::new("", "").with_range(0.0, 1.0).with_ticks(fifths());
         let most = self.bins.iter().map(|b| b.count).max().unwrap_or(0) as f64;
         let y = Axis::new("", "").with_range(0.0, 1.08 * most);

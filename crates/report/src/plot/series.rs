@@ -20,6 +20,7 @@ pub struct Series {
     errors: Vec<f64>,
     look: Option<usize>,
     reference: bool,
+    marker_px: f64,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +53,14 @@ impl Series {
     }
 
     fn new(name: impl Into<String>, kind: Kind) -> Self {
-        Self { name: name.into(), kind, errors: Vec::new(), look: None, reference: false }
+        Self {
+            name: name.into(),
+            kind,
+            errors: Vec::new(),
+            look: None,
+            reference: false,
+            marker_px: MARKER_PX,
+        }
     }
 
     /// Error bars: half-length above and below each point, in the unit of the y axis.
@@ -65,6 +73,12 @@ impl Series {
     #[must_use]
     pub fn with_look(self, number: usize) -> Self {
         Self { look: Some(number), ..self }
+    }
+
+    /// Markers of another half-width, px: small ones for clouds of many.
+    #[must_use]
+    pub fn with_marker_size(self, px: f64) -> Self {
+        Self { marker_px: px, ..self }
     }
 
     /// A grey dashed line to compare with, such as a noise level.
@@ -85,6 +99,7 @@ impl Series {
             length(chart, &format!("the list of errors of \"{}\"", self.name), self.errors.len(), entries)?;
         }
         let what = format!("series \"{}\"", self.name);
+        finite(chart, "the size of a marker", &[self.marker_px])?;
         finite(chart, &what, &self.xs())?;
         finite(chart, &what, &self.ys())?;
         finite(chart, &format!("the errors of {what}"), &self.errors)
@@ -111,7 +126,7 @@ impl Series {
     }
 
     /// Draws the data in a frame.
-    pub(super) fn draw(&self, canvas: &Canvas<'_>, frame: &Frame, look: Look) -> Result<(), PlotError> {
+    pub(super) fn draw(&self, canvas: &Canvas, frame: &Frame, look: Look) -> Result<(), PlotError> {
         match &self.kind {
             Kind::Band(points) => {
                 let low = points.iter().map(|p| frame.place([p[0], p[1]]));
@@ -130,7 +145,7 @@ impl Series {
 
     fn draw_line(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &Canvas,
         frame: &Frame,
         points: &[[f64; 2]],
         look: Look,
@@ -142,7 +157,7 @@ impl Series {
 
     fn draw_markers(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &Canvas,
         frame: &Frame,
         points: &[[f64; 2]],
         look: Look,
@@ -152,13 +167,15 @@ impl Series {
             let [_, bottom] = frame.place([point[0], point[1] - error]);
             error_bar(canvas, x, [top, bottom], look)?;
         }
-        points.iter().try_for_each(|p| canvas.marker(frame.place(*p), look.marker, look.colour, MARKER_PX))
+        points
+            .iter()
+            .try_for_each(|p| canvas.marker(frame.place(*p), look.marker, look.colour, self.marker_px))
     }
 
     /// Its sample in the legend, between two ends at a height.
     pub(super) fn sample(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &Canvas,
         [from, to]: [f64; 2],
         y: f64,
         look: Look,
@@ -183,7 +200,7 @@ impl Series {
 
 /// A vertical bar with caps.
 pub(super) fn error_bar(
-    canvas: &Canvas<'_>,
+    canvas: &Canvas,
     x: f64,
     [top, bottom]: [f64; 2],
     look: Look,
@@ -198,6 +215,6 @@ pub(super) fn error_bar(
 }
 
 /// Half-width of the marker samples, for charts that draw their own markers.
-pub(super) fn marker(canvas: &Canvas<'_>, at: [f64; 2], look: Look, marker: Marker) -> Result<(), PlotError> {
+pub(super) fn marker(canvas: &Canvas, at: [f64; 2], look: Look, marker: Marker) -> Result<(), PlotError> {
     canvas.marker(at, marker, look.colour, MARKER_PX)
 }

@@ -1,28 +1,39 @@
 //! Colours, dashes, markers, sizes of text.
 
-use plotters::style::RGBColor;
+/// Red, green, blue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Colour(u8, u8, u8);
+
+impl std::fmt::Display for Colour {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "#{:02X}{:02X}{:02X}", self.0, self.1, self.2)
+    }
+}
 
 /// Colours of Okabe and Ito without their yellow, which vanishes on white; the darker ones first.
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0x00, 0x72, 0xB2),
-    RGBColor(0xD5, 0x5E, 0x00),
-    RGBColor(0x00, 0x9E, 0x73),
-    RGBColor(0xCC, 0x79, 0xA7),
-    RGBColor(0xE6, 0x9F, 0x00),
-    RGBColor(0x56, 0xB4, 0xE9),
-    RGBColor(0x00, 0x00, 0x00),
+const COLOURS: [Colour; 7] = [
+    Colour(0x00, 0x72, 0xB2),
+    Colour(0xD5, 0x5E, 0x00),
+    Colour(0x00, 0x9E, 0x73),
+    Colour(0xCC, 0x79, 0xA7),
+    Colour(0xE6, 0x9F, 0x00),
+    Colour(0x56, 0xB4, 0xE9),
+    Colour(0x00, 0x00, 0x00),
 ];
 
 /// Text and axes.
-pub(super) const INK: RGBColor = RGBColor(0x26, 0x26, 0x26);
+pub(super) const INK: Colour = Colour(0x26, 0x26, 0x26);
 /// Second-rank text, reference lines.
-pub(super) const GREY: RGBColor = RGBColor(0x70, 0x70, 0x70);
+pub(super) const GREY: Colour = Colour(0x70, 0x70, 0x70);
 /// Grid lines.
-pub(super) const GRID: RGBColor = RGBColor(0xE3, 0xE3, 0xE3);
+pub(super) const GRID: Colour = Colour(0xE3, 0xE3, 0xE3);
 /// Background.
-pub(super) const PAPER: RGBColor = RGBColor(0xFF, 0xFF, 0xFF);
-/// Dark end of the shades of a heat map.
-pub(super) const DEEP: RGBColor = RGBColor(0x00, 0x5A, 0x8F);
+pub(super) const PAPER: Colour = Colour(0xFF, 0xFF, 0xFF);
+/// Full shade of a heat map.
+pub(super) const DEEP: Colour = Colour(0x00, 0x5A, 0x8F);
+
+/// Full shade of the other side of a signed map.
+pub(super) const RUST: Colour = Colour(0xB3, 0x4A, 0x00);
 
 /// Title of a chart, px.
 pub(super) const TITLE_PX: f64 = 14.0;
@@ -52,7 +63,7 @@ const DASHES: [Dash; 5] = [None, Some((7.0, 4.0)), Some((2.5, 3.0)), Some((11.0,
 /// How a series looks: the same number gives the same look everywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Look {
-    pub(super) colour: RGBColor,
+    pub(super) colour: Colour,
     pub(super) marker: Marker,
     pub(super) dash: Dash,
 }
@@ -71,18 +82,6 @@ impl Look {
     pub(super) fn reference() -> Self {
         Self { colour: GREY, marker: Marker::Ring, dash: Some((4.0, 3.0)) }
     }
-}
-
-/// A colour between white (0) and the dark end (1).
-pub(super) fn shade(share: f64) -> RGBColor {
-    let mix = |from: u8, to: u8| {
-        let value = f64::from(from) + share.clamp(0.0, 1.0) * (f64::from(to) - f64::from(from));
-        // Between two bytes, hence itself one.
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let byte = value.round() as u8;
-        byte
-    };
-    RGBColor(mix(PAPER.0, DEEP.0), mix(PAPER.1, DEEP.1), mix(PAPER.2, DEEP.2))
 }
 
 /// Width of a text in px, from the widths of letters in common sans-serif fonts.

@@ -83,7 +83,7 @@ impl Wireframe {
         })
     }
 
-    fn draw(&self, canvas: &Canvas<'_>, top: f64) -> Result<(), PlotError> {
+    fn draw(&self, canvas: &Canvas, top: f64) -> Result<(), PlotError> {
         let scale = self.scale();
         for (k, view) in self.views.iter().enumerate() {
             let corner = [MARGIN_PX + k as f64 * VIEW_PX, top];
@@ -150,7 +150,7 @@ impl Entry for &Body {
         &self.name
     }
 
-    fn sample(&self, canvas: &Canvas<'_>, [from, to]: [f64; 2], y: f64) -> Result<(), PlotError> {
+    fn sample(&self, canvas: &Canvas, [from, to]: [f64; 2], y: f64) -> Result<(), PlotError> {
         let look = self.drawn();
         canvas.line(&[[from, y], [to, y]], look.colour, EDGE_PX, look.dash)
     }

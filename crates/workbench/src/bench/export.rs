@@ -5,7 +5,7 @@ use hexbench_model::diagnose::Diagnosis;
 use hexbench_model::fit_named::refuse_undetermined;
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_pages::Subject;
-use hexbench_pages::html::{self, Provenance};
+use hexbench_pages::html::{self, Provenance, ReportError};
 
 use super::refusal::{Kind, Refusal};
 use super::{Bench, files, view};
@@ -64,7 +64,7 @@ impl Bench {
         let own = own.iter().enumerate().map(|(k, text)| (format!("term {}", k + 1), text_hash(text)));
         let provenance =
             Provenance { command: "hexbench workbench".to_owned(), files: read.chain(own).collect() };
-        Ok(html::diagnosis(&subject, &provenance)?)
+        Ok(html::diagnosis(&subject, &provenance)?.to_html().map_err(ReportError::from)?)
     }
 
     fn json(&self, own: &[String]) -> Result<String, Refusal> {

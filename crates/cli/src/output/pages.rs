@@ -1,0 +1,97 @@
+//! Results as files: JSON, a page for a browser, its charts.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_core::files::{atomic_write, content_hash};
+use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::runs::Origin;
+use hexbench_pages::html::{Provenance, ReportError};
+use hexbench_report::html::{PROGRAM, Page};
+use hexbench_report::png::png;
+use serde::Serialize;
+
+use super::{Screen, report};
+use crate::failure::Failure;
+
+/// Where a page goes.
+#[derive(Debug, Args)]
+pub(crate) struct PageFiles {
+    /// Write the page with charts to FILE: one file for a browser, needs no network
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Write every chart of the page into DIR, as SVG and as PNG
+    #[arg(long, value_name = "DIR")]
+    charts: Option<PathBuf>,
+}
+
+impl PageFiles {
+    /// Make the page if anyone wants it, and write it.
+    pub(crate) fn write(
+        &self,
+        screen: &Screen,
+        page: impl FnOnce() -> Result<Page, Failure>,
+    ) -> Result<(), Failure> {
+        if self.html.is_none() && self.charts.is_none() {
+            return Ok(());
+        }
+        let page = page()?;
+        if let Some(path) = &self.html {
+            screen.write_to(path, &page.to_html().map_err(ReportError::from)?)?;
+        }
+        self.charts.as_deref().map_or(Ok(()), |folder| write_charts(&page, folder))
+    }
+}
+
+/// Every chart under the name it has in the page.
+fn write_charts(page: &Page, folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|cause| Failure::Output { path: folder.to_owned(), cause })?;
+    let mut without_picture = false;
+    for (name, svg) in page.figures() {
+        write(&folder.join(&name).with_extension("svg"), svg.as_bytes())?;
+        match png(svg) {
+            Some(picture) => write(&folder.join(&name).with_extension("png"), &picture)?,
+            None => without_picture = true,
+        }
+    }
+    if without_picture {
+        let next = "Install a font, or make pictures of the SVG files elsewhere.";
+        report::warn("no PNG was written: this system has no font", next);
+    }
+    Ok(())
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    atomic_write(path, |out| out.write_all(bytes))
+        .map_err(|cause| Failure::Output { path: path.to_owned(), cause })
+}
+
+/// The command line and the digests of all files read.
+pub(crate) fn provenance<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Result<Provenance, Failure> {
+    let digest = |path: &PathBuf| Ok((path.display().to_string(), content_hash(path)?));
+    let files = files.into_iter().map(digest).collect::<Result<_, Failure>>()?;
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    Ok(Provenance { command: format!("hexbench {}", words.join(" ")), files })
+}
+
+/// Which machine and files a result is about.
+pub(crate) fn origin(
+    hexapod: (&Hexapod, &Path),
+    data: (&Dataset, &Path),
+    holdout: Option<&Path>,
+) -> Result<Origin, Failure> {
+    Ok(Origin {
+        program: PROGRAM.to_owned(),
+        machine: hexapod.0.name.clone(),
+        measurand: if data.0.is_absolute() { "absolute poses" } else { "deflections" }.to_owned(),
+        hexapod_sha256: content_hash(hexapod.1)?,
+        data_sha256: content_hash(data.1)?,
+        holdout_sha256: holdout.map(content_hash).transpose()?,
+    })
+}
+
+/// Write a result as JSON.
+pub(crate) fn write_json(screen: &Screen, path: &Path, value: &impl Serialize) -> Result<(), Failure> {
+    let cause = |e: serde_json::Error| Failure::Output { path: path.to_owned(), cause: e.into() };
+    screen.write_to(path, &(serde_json::to_string_pretty(value).map_err(cause)? + "\n"))
+}

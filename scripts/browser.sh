@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Tests in a real browser: the pages of the report, and the workbench. Needs node 20, npm with a package index, and Chromium;
+# without them it exits with 77, the reason on standard output.
+set -uo pipefail
+cd "$(dirname "$0")/.." || exit 5
+repository=$PWD
+ui=$repository/crates/workbench/ui
+artefacts=$(realpath -m "${HEXBENCH_ARTEFACTS:-target/artefacts}")
+
+skip() {
+    printf 'skipped: %s\n' "$1"
+    exit 77
+}
+
+fail() {
+    printf 'FAILED: %s\n' "$1" >&2
+    exit 1
+}
+
+find_chromium() {
+    local name
+    for name in "${HEXBENCH_CHROMIUM:-}" chromium chromium-browser google-chrome; do
+        [[ -n $name ]] && command -v "$name" && return
+    done
+    return 1
+}
+
+# What the page of the workbench needs, the driver of browsers among it.
+install_packages() {
+    local stamp=$ui/node_modules/.package-lock-checked log
+    cmp -s "$ui/package-lock.json" "$stamp" && return
+    log=$(mktemp)
+    if ! (cd "$ui" && npm ci --ignore-scripts --no-audit --no-fund) >"$log" 2>&1; then
+        cat "$log"
+        # A lock file that does not fit package.json is a fault of ours, not of the network.
+        grep -qE 'EUSAGE|EINTEGRITY' "$log" && fail "npm ci in $ui"
+        skip "npm ci found no package index, no network perhaps"
+    fi
+    cp "$ui/package-lock.json" "$stamp"
+}
+
+command -v node >/dev/null && command -v npm >/dev/null || skip "node and npm are not installed"
+(($(node -p 'process.versions.node.split(".")[0]') >= 20)) || skip "node is older than 20"
+HEXBENCH_CHROMIUM=$(find_chromium) || skip "Chromium is not installed (HEXBENCH_CHROMIUM may name one)"
+export HEXBENCH_CHROMIUM
+if [[ -f $ui/package-lock.json ]]; then install_packages; fi
+
+if [[ -z ${HEXBENCH_BINARY:-} ]]; then
+    cargo build --locked --quiet || fail "cargo build"
+    HEXBENCH_BINARY=$(realpath -m "${CARGO_TARGET_DIR:-target}")/debug/hexbench
+fi
+export HEXBENCH_BINARY HEXBENCH_ARTEFACTS=$artefacts/browser
+
+# All of them unless some are named.
+tests=("$@")
+if ((${#tests[@]} == 0)); then
+    shopt -s nullglob
+    tests=("$repository"/tests/browser/*.test.mjs "$ui"/tests/*.test.mjs)
+fi
+ended=0
+for file in "${tests[@]}"; do
+    node "$file"
+    case $? in
+    0) ;;
+    77) ((ended == 0)) && ended=77 ;;
+    *) ended=1 ;;
+    esac
+done
+exit "$ended"

@@ -1,0 +1,118 @@
+// Pages of diagnose, compare and runs, opened from disk in a real browser without network.
+// HEXBENCH_BINARY names the program, HEXBENCH_ARTEFACTS a folder for pictures. Exits 77 when something needed is missing.
+import assert from "node:assert/strict";
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { makePages, missing, openFile, startBrowser } from "./pages.mjs";
+
+const reason = missing();
+if (reason !== "") {
+  console.log(`The pages cannot be opened: ${reason}`);
+  process.exit(77);
+}
+
+const NARROW = { width: 360, height: 740 };
+const LEAST_FIGURES = { diagnosis: 12, comparison: 9, runs: 2 };
+/** Least contrast of text and its ground: WCAG 2.2, level AA. */
+const LEAST_CONTRAST = 4.5;
+
+const pictures = process.env.HEXBENCH_ARTEFACTS;
+let pages;
+let browser;
+before(async () => {
+  pages = makePages();
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser?.close();
+  pages?.remove();
+});
+
+for (const name of Object.keys(LEAST_FIGURES)) {
+  test(`${name}: opens from disk, asks for nothing, complains of nothing`, async () => {
+    const { page, faults, close } = await openFile(browser, pages[name]);
+    const figures = await page.locator("figure svg").all();
+    assert.ok(figures.length >= LEAST_FIGURES[name], `${figures.length} figures`);
+    for (const figure of figures) {
+      const box = await figure.boundingBox();
+      assert.ok(box.width > 200 && box.height > 80, `a figure of ${box.width} x ${box.height}`);
+      assert.ok((await figure.locator("title").first().textContent()).length > 10, "a figure without a name");
+    }
+    assert.deepEqual(faults, []);
+    await picture(page, `${name}-light`);
+    await close();
+  });
+
+  test(`${name}: fits a telephone without scrolling sideways`, async () => {
+    const { page, faults, close } = await openFile(browser, pages[name], { viewport: NARROW });
+    const width = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(width <= NARROW.width, `${width} px wide on ${NARROW.width} px`);
+    assert.deepEqual(faults, []);
+    await picture(page, `${name}-narrow`);
+    await close();
+  });
+
+  test(`${name}: the theme is switched by keyboard, and text can be read in both`, async () => {
+    const { page, close } = await openFile(browser, pages[name], { colorScheme: "light" });
+    const light = await colours(page);
+    await page.locator("#auto").focus();
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("ArrowRight");
+    assert.ok(await page.locator("#dark").isChecked());
+    const dark = await colours(page);
+    assert.ok(luminance(light.paper) > 0.8 && luminance(dark.paper) < 0.1, JSON.stringify({ light, dark }));
+    for (const { paper, ...inks } of [light, dark]) {
+      for (const [ink, colour] of Object.entries(inks)) {
+        assert.ok(contrast(paper, colour) >= LEAST_CONTRAST, `${ink}: ${contrast(paper, colour).toFixed(2)}`);
+      }
+    }
+    await picture(page, `${name}-dark`);
+    await close();
+  });
+
+  test(`${name}: prints with every figure, in light colours`, async () => {
+    const { page, close } = await openFile(browser, pages[name], { colorScheme: "dark" });
+    await page.emulateMedia({ media: "print", colorScheme: "dark" });
+    assert.ok(luminance((await colours(page)).paper) > 0.8, "paper is dark");
+    const paper = 700;
+    await page.setViewportSize({ width: paper, height: 1000 });
+    const ends = await page.locator("figure svg, table").evaluateAll((all) => all.map((s) => s.getBoundingClientRect().right));
+    assert.ok(Math.max(...ends) <= paper, `a figure or a table ends at ${Math.max(...ends)} px of ${paper} px`);
+    const pdf = await page.pdf({ format: "A4", path: pictures && join(pictures, `${name}.pdf`) });
+    const sheets = pdf.toString("latin1").match(/\/Type\s*\/Page\b/g)?.length ?? 0;
+    assert.ok(sheets >= 2 && sheets <= 30, `${sheets} sheets`);
+    await close();
+  });
+}
+
+/** Colours of the page as [red, green, blue]: of the ground of a section, and of what is written on it. */
+function colours(page) {
+  return page.evaluate(() => {
+    const numbers = (text) => text.match(/[\d.]+/g).slice(0, 3).map(Number);
+    const style = (selector) => getComputedStyle(document.querySelector(selector));
+    return {
+      paper: numbers(style("section").backgroundColor),
+      text: numbers(style("section").color),
+      remark: numbers(style("figcaption").color),
+      word: numbers(style(".word").color),
+      label: numbers(style("figure svg text").fill),
+    };
+  });
+}
+
+function luminance(rgb) {
+  const linear = rgb.map((x) => x / 255).map((x) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4));
+  return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
+}
+
+function contrast(a, b) {
+  const [low, high] = [luminance(a), luminance(b)].sort((x, y) => x - y);
+  return (high + 0.05) / (low + 0.05);
+}
+
+async function picture(page, name) {
+  if (!pictures) return;
+  mkdirSync(pictures, { recursive: true });
+  await page.screenshot({ path: join(pictures, `${name}.png`), fullPage: true });
+}
