@@ -1,7 +1,7 @@
-# Sourced by the scripts beside it: the packages of package-lock.json, installed once. Exits 77 when node or the package index is missing.
+# Sourced by scripts that need node: the packages of package-lock.json, installed once. Exits 77 when node or the package index is missing.
 
 cannot_run() {
-    printf 'The page cannot be checked: %s\n' "$1"
+    printf 'skipped: %s\n' "$1"
     exit 77
 }
 
