@@ -9,16 +9,15 @@ use hexbench_model::terms::catalogue;
 use hexbench_pages::Subject;
 use hexbench_pages::html::{self, Provenance, ReportError};
 use hexbench_report::html::is_own;
+use hexbench_workbench::bench::cases::{Case, FOUNDATION};
 
 use crate::commands::diagnose::study;
 use crate::failure::Failure;
 use crate::output::{Screen, report};
 
-const HEXAPOD: &str = include_str!("../../../../data/cases/mujoco-foundation/hexapod.toml");
-const MEASUREMENTS: &str = include_str!("../../../../data/cases/mujoco-foundation/measurements.csv");
-const HOLDOUT: &str = include_str!("../../../../data/cases/mujoco-foundation/holdout.csv");
+const CASE: Case = FOUNDATION;
 const FILES: [(&str, &str); 3] =
-    [("hexapod.toml", HEXAPOD), ("measurements.csv", MEASUREMENTS), ("holdout.csv", HOLDOUT)];
+    [("hexapod.toml", CASE.hexapod), ("measurements.csv", CASE.data), ("holdout.csv", CASE.holdout)];
 
 /// Where the page goes when nobody says.
 const PAGE: &str = "report.html";
@@ -36,9 +35,9 @@ pub(crate) struct Arguments {
 
 /// Tell the story.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let hexapod = parse_hexapod(HEXAPOD, "hexapod.toml")?;
-    let data = read_measurements_from(MEASUREMENTS.as_bytes(), "measurements.csv")?.dataset;
-    let holdout = read_measurements_from(HOLDOUT.as_bytes(), "holdout.csv")?.dataset;
+    let hexapod = parse_hexapod(CASE.hexapod, "hexapod.toml")?;
+    let data = read_measurements_from(CASE.data.as_bytes(), "measurements.csv")?.dataset;
+    let holdout = read_measurements_from(CASE.holdout.as_bytes(), "holdout.csv")?.dataset;
     let study = study(&hexapod, &data, Some(&holdout), &catalogue())?;
     let subject = Subject { hexapod: &hexapod, data: &data, holdout: Some(&holdout), study: &study };
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };

@@ -32,13 +32,16 @@ macro_rules! case {
     };
 }
 
+/// The case of the demo.
+pub const FOUNDATION: Case = case!(
+    "mujoco-foundation",
+    "A machine on a table",
+    "14 poses, six loads, two readings each; made by MuJoCo"
+);
+
 /// All bundled cases.
 pub const CASES: [Case; 8] = [
-    case!(
-        "mujoco-foundation",
-        "A machine on a table",
-        "14 poses, six loads, two readings each; made by MuJoCo"
-    ),
+    FOUNDATION,
     case!(
         "mujoco-clean",
         "The same make, another table",
