@@ -25,25 +25,11 @@ find_chromium() {
     return 1
 }
 
-# What the page of the workbench needs, the driver of browsers among it.
-install_packages() {
-    local stamp=$ui/node_modules/.package-lock-checked log
-    cmp -s "$ui/package-lock.json" "$stamp" && return
-    log=$(mktemp)
-    if ! (cd "$ui" && npm ci --ignore-scripts --no-audit --no-fund) >"$log" 2>&1; then
-        cat "$log"
-        # A lock file that does not fit package.json is a fault of ours, not of the network.
-        grep -qE 'EUSAGE|EINTEGRITY' "$log" && fail "npm ci in $ui"
-        skip "npm ci found no package index, no network perhaps"
-    fi
-    cp "$ui/package-lock.json" "$stamp"
-}
-
-command -v node >/dev/null && command -v npm >/dev/null || skip "node and npm are not installed"
-(($(node -p 'process.versions.node.split(".")[0]') >= 20)) || skip "node is older than 20"
 HEXBENCH_CHROMIUM=$(find_chromium) || skip "Chromium is not installed (HEXBENCH_CHROMIUM may name one)"
 export HEXBENCH_CHROMIUM
-if [[ -f $ui/package-lock.json ]]; then install_packages; fi
+# The driver of browsers is among what the page of the workbench needs.
+source "$ui/packages.sh"
+(cd "$ui" && packages) || exit
 
 if [[ -z ${HEXBENCH_BINARY:-} ]]; then
     cargo build --locked --quiet || fail "cargo build"

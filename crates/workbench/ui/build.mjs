@@ -13,7 +13,7 @@ if (!folder) {
 
 /** Packages of which parts end in the bundle, with the files that hold their licences. */
 const bundled = [
-  ["echarts", ["LICENSE", "NOTICE"]],
+  ["echarts", ["LICENSE", "NOTICE", "licenses/LICENSE-d3"]],
   ["zrender", ["LICENSE"]],
   ["tslib", ["LICENSE.txt"]],
   ["three", ["LICENSE"]],

@@ -6,13 +6,13 @@ use std::net::TcpStream;
 use std::thread::{self, sleep};
 use std::time::Duration;
 
-use crate::engine::set_gate;
+use crate::engine::{see_none_held, see_one_held, set_gate};
 use crate::site::{PLACES, Reply, SHORT, Site, answer, get, post};
 
 /// Connections at once: far more than the server under test has places for.
 const CONNECTIONS: usize = 500;
-/// Long enough for a request to reach the engine.
-const MOMENT: Duration = Duration::from_millis(100);
+/// Long enough for a request to reach the queue.
+const MOMENT: Duration = Duration::from_millis(200);
 
 /// The page, then the same again with its tag.
 pub(crate) fn known_page(site: &Site) -> Reply {
@@ -63,6 +63,7 @@ pub(crate) fn unread(site: &Site) -> Reply {
     let path = format!("/api/benches/{}/export", site.open());
     let mut stream = site.connect();
     stream.write_all(&site.bytes(&post(&path, r#"{"what":"model"}"#))).unwrap();
+    stream.peek(&mut [0]).expect("the answer begins");
     sleep(4 * SHORT);
     let mut bytes = vec![];
     let _ = stream.read_to_end(&mut bytes);
@@ -70,12 +71,17 @@ pub(crate) fn unread(site: &Site) -> Reply {
     Reply::summary(if whole { "the whole answer" } else { "broken off" })
 }
 
+fn let_go() {
+    set_gate(true);
+    see_none_held();
+}
+
 /// A diagnosis that waits at the gate.
 fn held(site: &Site) -> TcpStream {
     let path = format!("/api/benches/{}/diagnosis", site.open());
     let mut stream = site.connect();
     stream.write_all(&site.bytes(&post(&path, "{}"))).unwrap();
-    sleep(MOMENT);
+    see_one_held();
     stream
 }
 
@@ -83,7 +89,7 @@ fn held(site: &Site) -> TcpStream {
 pub(crate) fn long_computation(site: &Site) -> Reply {
     set_gate(false);
     let reply = answer(&mut held(site));
-    set_gate(true);
+    let_go();
     reply
 }
 
@@ -92,7 +98,7 @@ pub(crate) fn long_wait(site: &Site) -> Reply {
     set_gate(false);
     let _running = held(site);
     let reply = site.send(&post("/api/benches", r#"{"from":"given"}"#));
-    set_gate(true);
+    let_go();
     reply
 }
 
@@ -105,7 +111,7 @@ pub(crate) fn full_queue(site: &Site) -> Reply {
     waiting.write_all(&site.bytes(&post(&path, "{}"))).unwrap();
     sleep(MOMENT);
     let reply = site.send(&post("/api/benches", r#"{"from":"given"}"#));
-    set_gate(true);
+    let_go();
     reply
 }
 
@@ -117,12 +123,12 @@ pub(crate) fn gone_while_waiting(site: &Site) -> Reply {
     for _ in 0..20 {
         let mut waiting = site.connect();
         waiting.write_all(&site.bytes(&post(&path, "{}"))).unwrap();
-        sleep(MOMENT / 10);
+        sleep(MOMENT / 20);
     }
     drop(running);
     sleep(MOMENT);
-    set_gate(true);
-    site.send(&post("/api/benches", r#"{"from":"given"}"#))
+    let_go();
+    site.patiently(&post("/api/benches", r#"{"from":"given"}"#))
 }
 
 /// All asked, and none closed, before the first answer is read.

@@ -1,6 +1,6 @@
 //! An engine that does as it is told: answers, refuses, falls over, takes its time.
 
-use std::sync::{Condvar, Mutex, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use hexbench_workbench::bench::{Given, Kind, Refusal};
 use hexbench_workbench::server::Desk;
@@ -12,17 +12,40 @@ use serde_json::json;
 const EXPORT_BYTES: usize = 32 << 20;
 
 /// Held computations wait for it.
-static GATE: (Mutex<bool>, Condvar) = (Mutex::new(false), Condvar::new());
+struct Gate {
+    open: bool,
+    before_it: usize,
+}
+
+static GATE: (Mutex<Gate>, Condvar) = (Mutex::new(Gate { open: false, before_it: 0 }), Condvar::new());
+
+fn gate() -> MutexGuard<'static, Gate> {
+    GATE.0.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Let held computations wait, or go.
 pub(crate) fn set_gate(open: bool) {
-    *GATE.0.lock().unwrap_or_else(PoisonError::into_inner) = open;
+    gate().open = open;
     GATE.1.notify_all();
 }
 
+/// Returns when a computation is held.
+pub(crate) fn see_one_held() {
+    drop(GATE.1.wait_while(gate(), |gate| gate.before_it == 0));
+}
+
 fn wait_at_the_gate() {
-    let open = GATE.0.lock().unwrap_or_else(PoisonError::into_inner);
-    drop(GATE.1.wait_while(open, |open| !*open));
+    let mut held = gate();
+    held.before_it += 1;
+    GATE.1.notify_all();
+    let mut passed = GATE.1.wait_while(held, |gate| !gate.open).unwrap_or_else(PoisonError::into_inner);
+    passed.before_it -= 1;
+    GATE.1.notify_all();
+}
+
+/// Returns when none is held any more.
+pub(crate) fn see_none_held() {
+    drop(GATE.1.wait_while(gate(), |gate| gate.before_it > 0));
 }
 
 /// A bench without physics.

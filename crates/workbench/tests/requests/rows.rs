@@ -3,10 +3,8 @@
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
-use std::thread::sleep;
-use std::time::{Duration, Instant};
 
-use crate::site::{PATIENCE, Reply, Site, get};
+use crate::site::{Reply, Site, get};
 use crate::table::{Does, Row, parts};
 
 /// Refused before they are requests: such answers have neither body nor our headers.
@@ -71,14 +69,7 @@ fn faults(row: &Row, reply: &Reply) -> Vec<String> {
 
 /// The catalogue is answered; right after many connections it may take a moment.
 fn goes_on(site: &Site) -> bool {
-    let begin = Instant::now();
-    while begin.elapsed() < PATIENCE {
-        if site.send(&get("/api/catalogue")).answer == "200" {
-            return true;
-        }
-        sleep(Duration::from_millis(20));
-    }
-    false
+    site.patiently(&get("/api/catalogue")).answer == "200"
 }
 
 fn line(row: &Row, reply: &Reply) -> String {

@@ -1,9 +1,9 @@
 //! A server with short limits, and a client that sends exactly what it is given.
 
-use std::io::{Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::net::{Ipv4Addr, TcpStream};
-use std::thread;
-use std::time::Duration;
+use std::thread::{self, sleep};
+use std::time::{Duration, Instant};
 
 use hexbench_workbench::server::{Server, Settings};
 use hexbench_workbench::wire::Limits;
@@ -12,7 +12,7 @@ use crate::engine::Obedient;
 
 /// Time limits of the server under test.
 pub(crate) const SHORT: Duration = Duration::from_millis(300);
-/// No answer takes longer.
+/// No connection without new requests stays longer.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
 /// Bytes of a request the server under test takes.
 pub(crate) const BYTES: usize = 64 << 10;
@@ -109,6 +109,18 @@ impl Site {
         self.exchange(&self.bytes(ask))
     }
 
+    /// Send a request again and again as long as the server is busy.
+    pub(crate) fn patiently(&self, ask: &Ask) -> Reply {
+        let begin = Instant::now();
+        loop {
+            let reply = self.send(ask);
+            if reply.answer != "503" || begin.elapsed() > PATIENCE {
+                return reply;
+            }
+            sleep(SHORT / 10);
+        }
+    }
+
     /// A request with this server's port and token in it.
     pub(crate) fn bytes(&self, ask: &Ask) -> Vec<u8> {
         let head = ask.head.join("\r\n") + "\r\n\r\n";
@@ -118,7 +130,7 @@ impl Site {
 
     /// Open a bench; its id.
     pub(crate) fn open(&self) -> String {
-        let reply = self.send(&post("/api/benches", r#"{"from":"given"}"#));
+        let reply = self.patiently(&post("/api/benches", r#"{"from":"given"}"#));
         assert_eq!(reply.answer, "201", "{reply:?}");
         reply.text("id").expect("an id")
     }
@@ -127,9 +139,13 @@ impl Site {
 /// All that comes until the server closes.
 pub(crate) fn answer(stream: &mut TcpStream) -> Reply {
     let mut bytes = vec![];
-    // A reset at the end takes nothing from what was read before.
-    let _ = stream.read_to_end(&mut bytes);
-    Reply::of(&bytes)
+    match stream.read_to_end(&mut bytes) {
+        Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {
+            Reply::summary("still open")
+        }
+        // A reset at the end takes nothing from what was read before.
+        _ => Reply::of(&bytes),
+    }
 }
 
 /// A request line by line; `{port}` and `{token}` are filled in when it is sent.

@@ -1,5 +1,5 @@
 /** The whole page. */
-import { useEffect } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { BenchScreen } from "./bench/screen";
 import { BusyLine } from "./busy";
 import { StartScreen } from "./start/screen";
@@ -12,13 +12,18 @@ export function App({ store }: { store: Store }) {
   const state = useStore(store);
   const { bench, catalogue, problem, busy } = state;
   const title = bench?.opened.title;
+  const heading = useRef<HTMLHeadingElement>(null);
   useEffect(() => {
     document.title = title === undefined ? "hexbench workbench" : `${title} - hexbench workbench`;
+    // What had the focus is gone: begin at the top of what is new.
+    if (document.activeElement === document.body) heading.current?.focus();
   }, [title]);
   return (
     <>
       <header class="top">
-        <h1>{title ?? "hexbench workbench"}</h1>
+        <h1 ref={heading} tabIndex={-1}>
+          {title ?? "hexbench workbench"}
+        </h1>
         <BusyLine busy={busy} />
         <nav class="row" aria-label="Page">
           {bench && (

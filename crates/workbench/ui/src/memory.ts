@@ -2,7 +2,8 @@
 import type { Score } from "./state";
 import type { Open, Selection } from "./wire";
 
-const BENCH = "hexbench-bench";
+const OPEN = "hexbench-open";
+const SELECTION = "hexbench-selection";
 const SCORES = "hexbench-scores";
 
 export interface Remembered {
@@ -10,13 +11,23 @@ export interface Remembered {
   selection: Selection;
 }
 
-export function rememberBench(bench: Remembered | null): void {
-  if (bench === null) sessionStorage.removeItem(BENCH);
-  else keep(BENCH, bench);
+/** What is loaded; may be large, hence apart from what changes with every tick. */
+export function rememberOpen(open: Open): void {
+  keep(OPEN, open);
+}
+
+export function rememberSelection(selection: Selection): void {
+  keep(SELECTION, selection);
+}
+
+export function forgetBench(): void {
+  sessionStorage.removeItem(OPEN);
+  sessionStorage.removeItem(SELECTION);
 }
 
 export function rememberedBench(): Remembered | null {
-  return read<Remembered>(BENCH);
+  const open = read<Open>(OPEN);
+  return open && { open, selection: read<Selection>(SELECTION) ?? { terms: [], own: [] } };
 }
 
 export function rememberScores(scores: Score[]): void {

@@ -16,7 +16,7 @@ export function problemOf(error: unknown, place: Problem["place"], again?: () =>
   }
   if (error instanceof Refusal) {
     if (error.status === 401) return { place: "page", message: "This page has no valid key.", next: OPEN_ADDRESS };
-    const repeats = error.status === 503 || error.status >= 500;
+    const repeats = error.status === 408 || error.status >= 500;
     return { place: repeats ? "page" : place, message: error.message, next: error.next, ...(repeats ? retry(again) : {}) };
   }
   const message = error instanceof Error ? error.message : String(error);

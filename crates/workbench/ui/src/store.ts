@@ -39,12 +39,7 @@ export class Store {
   private setBench(change: Partial<Bench>): void {
     if (this.state.bench === null) return;
     this.set({ bench: { ...this.state.bench, ...change } });
-    this.remember();
-  }
-
-  private remember(): void {
-    const bench = this.state.bench;
-    memory.rememberBench(bench && { open: bench.open, selection: bench.wanted });
+    if (change.wanted !== undefined) memory.rememberSelection(change.wanted);
   }
 
   /** Loads the catalogue, and what this tab had open before a reload. */
@@ -59,7 +54,7 @@ export class Store {
     const before = memory.rememberedBench();
     if (before !== null) {
       // What cannot be opened again is not tried at every reload.
-      memory.rememberBench(null);
+      memory.forgetBench();
       await this.open(before.open, before.selection);
     } else if (this.state.catalogue?.given) await this.open({ from: "given" });
   }
@@ -89,13 +84,14 @@ export class Store {
       tick: null,
       problem: null,
     });
-    this.remember();
+    memory.rememberOpen(open);
+    memory.rememberSelection(SPRINGS);
   }
 
   /** Back to the start screen. */
   close(): void {
     this.callOff();
-    memory.rememberBench(null);
+    memory.forgetBench();
     this.set({ bench: null, problem: null });
   }
 

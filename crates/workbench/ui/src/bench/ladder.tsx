@@ -1,4 +1,5 @@
 /** The held-out error step by step, with the noise as a line. */
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { times } from "../format";
 import * as History from "../history";
 import type { Bench } from "../state";
@@ -11,6 +12,8 @@ export function Ladder({ store, bench }: { store: Store; bench: Bench }) {
   const { steps, at } = bench.history;
   const widest = Math.max(WIDEST_AT_LEAST, ...steps.map(({ view }) => view.times_noise));
   const share = (multiple: number) => `${(100 * multiple) / widest}%`;
+  const list = useRef<HTMLOListElement>(null);
+  useLayoutEffect(() => showStep(list.current, at), [at]);
   return (
     <section class="card ladder">
       <div class="row spread">
@@ -27,7 +30,7 @@ export function Ladder({ store, bench }: { store: Store; bench: Bench }) {
           </button>
         </div>
       </div>
-      <ol data-testid="history">
+      <ol data-testid="history" ref={list}>
         {steps.map((step, index) => (
           <li key={index} class={index > at ? "undone" : ""}>
             <button type="button" class="step" aria-current={index === at ? "step" : undefined} onClick={() => store.goTo(index)}>
@@ -44,4 +47,13 @@ export function Ladder({ store, bench }: { store: Store; bench: Bench }) {
       <p class="hint">Bars: held-out error in multiples of the noise of one reading. The line is the noise. A step can be chosen.</p>
     </section>
   );
+}
+
+/** Scrolls the list, not the page, to a step. */
+function showStep(list: HTMLOListElement | null, at: number): void {
+  const step = list?.children[at] as HTMLElement | undefined;
+  if (list === null || step === undefined) return;
+  const top = step.offsetTop - list.offsetTop;
+  if (top < list.scrollTop) list.scrollTop = top;
+  else list.scrollTop = Math.max(list.scrollTop, top + step.offsetHeight - list.clientHeight);
 }

@@ -1,5 +1,5 @@
 /** Editor of a term file: the text is what counts, the form shows and writes it. */
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { download } from "../download";
 import type { Problem } from "../state";
 import { Trouble } from "../trouble";
@@ -20,7 +20,7 @@ export function Editor({ text: first, help, problem, put, close }: Props) {
   const [text, setText] = useState(first);
   const area = useRef<HTMLTextAreaElement>(null);
   const term = parsed(text);
-  useEffect(() => showPlace(area.current, problem?.message), [problem]);
+  useLayoutEffect(() => showPlace(area.current, problem?.message), [problem]);
   return (
     <form
       class="editor"

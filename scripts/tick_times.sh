@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Times ticks on the workbench in a real browser and writes docs/workbench-times.md. Needs what scripts/browser.sh needs; means something
+# on a quiet machine only.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+if [[ -z ${HEXBENCH_BINARY:-} ]]; then
+    cargo build --release --locked --quiet
+    HEXBENCH_BINARY=$(realpath "${CARGO_TARGET_DIR:-target}")/release/hexbench
+fi
+export HEXBENCH_BINARY
+node tests/browser/tick_times.mjs docs/workbench-times.md
