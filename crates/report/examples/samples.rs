@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::PathBuf;
 
-use hexbench_report::plot::{Axis, Bars, Bin, Chart, HeatMap, Panels, Reliability, Series};
+use hexbench_report::plot::{Axis, Bars, Bin, Chart, HeatMap, Panels, Raster, Reliability, Series};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder: PathBuf = std::env::args_os().nth(1).ok_or("give a folder")?.into();
@@ -13,6 +13,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("panels", panels().to_svg()?),
         ("bars", bars().to_svg()?),
         ("heat-map", heat_map().to_svg()?),
+        ("raster", raster().to_svg()?),
         ("reliability", reliability().to_svg()?),
     ];
     for (name, svg) in charts {
@@ -102,6 +103,16 @@ fn heat_map() -> HeatMap {
     let values = (0..names.len()).map(|i| (0..names.len()).map(|j| value(i, j)).collect()).collect();
     HeatMap::new("What was hidden and what was named, percent", names.clone(), names, values)
         .with_axis_titles("Hidden", "Named")
+}
+
+fn raster() -> Raster {
+    let row = |leg: u32| {
+        let size = |k: u32| 5.0 * (f64::from(k * leg) / 9.0).sin().powi(3);
+        (format!("leg {leg}"), (0..60).map(size).collect())
+    };
+    Raster::new("Residual elongation over its noise", vec![1.5, 3.0, 4.5])
+        .with_words("longer", "shorter", "condition")
+        .with("springs alone", (1..=6).map(row).collect())
 }
 
 fn reliability() -> Reliability {

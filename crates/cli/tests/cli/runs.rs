@@ -86,7 +86,7 @@ fn what_does_not_belong_together_is_refused() {
         (&other_kind, "only files of the same format are compared"),
         (&other_machine, "are about different machines"),
         (&altered(&a, "diagnosis/1", "diagnosis/2"), "format \"diagnosis/2\" is not read here"),
-        (&altered(&other_kind, "\"readings\"", "{"), "expected `:`"),
+        (&altered(&other_kind, "\"readings\"", "{"), "key must be a string at line"),
         (&folder.path().join("none.json"), "cannot be read"),
     ] {
         let (code, told) = complaint(&a, b);

@@ -12,8 +12,10 @@ const DOT_PX: f64 = 2.4;
 const EXPLAINED_PX: f64 = 1.4;
 /// Points of a line that the eye takes for a curve.
 const MOST_ON_A_LINE: usize = 60;
-/// Ups and downs of a curve, in multiples of its range.
-const CURVED: f64 = 3.0;
+/// Ups and downs of a curve, in multiples of its range: a whole wave has 2.
+const CURVED: f64 = 2.5;
+/// Places without which points are no curve.
+const FEWEST_PLACES: usize = 12;
 
 /// Places closer than this share of the range are one place.
 const SAME: f64 = 1e-3;
@@ -80,9 +82,10 @@ fn curve(points: &[[f64; 2]]) -> Option<Vec<[f64; 2]>> {
     let ends = |i: &usize| i.is_multiple_of(step) || *i + 1 == line.len();
     let same =
         |a: &[f64; 2], b: &[f64; 2]| (b[0] - a[0]).abs() <= SAME * (line[line.len() - 1][0] - line[0][0]);
+    let places: Vec<&[[f64; 2]]> = line.chunk_by(same).collect();
     // Different answers at one place are no curve.
-    let forked = line.chunk_by(same).any(|at| at[at.len() - 1][1] - at[0][1] > FORKED * (high - low));
-    (line.len() > 3 && high > low && !forked && rise <= CURVED * (high - low))
+    let forked = places.iter().any(|at| at[at.len() - 1][1] - at[0][1] > FORKED * (high - low));
+    (places.len() >= FEWEST_PLACES && high > low && !forked && rise <= CURVED * (high - low))
         .then(|| (0..line.len()).filter(ends).map(|i| line[i]).collect())
 }
 

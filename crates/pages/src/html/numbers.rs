@@ -92,17 +92,32 @@ pub(crate) fn next(d: &Diagnosis) -> Option<Section> {
         vec![
             Cell::new(format!("({}) mm, ({}) deg", list(&n.pose[..3]), list(&n.pose[3..]))),
             Cell::new(format!("({}) N, ({}) N m", list(&n.wrench[..3]), list(&n.wrench[3..]))),
+            Cell::new(format!("({}) N, ({}) N m", list(&n.reference[..3]), list(&n.reference[3..]))),
             Cell::new(format!("{:+}", n.approach)),
             Cell::new(significant(n.elapsed_s, 3)),
+            Cell::new(significant(n.delta_t_k, 2)),
+            Cell::new(n.repeats.to_string()),
             Cell::words(n.separates.join(" / ")),
             Cell::new(if odds > 1e4 { "more than 10000".to_owned() } else { significant(odds, 2) }),
         ]
     };
-    let header = ["pose", "wrench", "approach", "wait s", "separates", "expected odds"];
+    let header = [
+        "pose",
+        "wrench",
+        "reference wrench",
+        "approach",
+        "wait s",
+        "warmer K",
+        "times",
+        "separates",
+        "expected odds",
+    ];
+    let words = d.next.iter().filter(|n| !n.text.is_empty()).map(|n| n.text.clone());
     let remark = "Fixed axes, wrench on the platform at the mobile origin.";
     Some(
         Section::new("next", "What to measure next", remark)
-            .with(Block::table(header, d.next.iter().map(row))),
+            .with(Block::table(header, d.next.iter().map(row)))
+            .with(Block::list(words)),
     )
 }
 

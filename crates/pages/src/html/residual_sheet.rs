@@ -44,6 +44,9 @@ const POSE: [OfAll; 6] = [
     ("gamma", "deg", |c| c.pose.to_array()[5].to_degrees()),
 ];
 
+/// Travel of a coordinate of the pose worth a panel, mm and deg: deflections alone move it less.
+const LEAST_TRAVEL: f64 = 0.05;
+
 const LOAD: [OfAll; 3] = [
     ("change of force", "N", |c| (c.wrench.force - c.reference.force).norm()),
     ("change of moment", "N m", |c| (c.wrench.moment - c.reference.moment).norm()),
@@ -57,9 +60,9 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
         section.blocks.extend(by_leg(data, one)?);
     }
     let pose = "Residual elongation of all legs over the coordinates of the pose.";
-    section.blocks.extend(by_all(data, "pose", &POSE, pose)?);
+    section.blocks.extend(by_all(data, "pose", &POSE, LEAST_TRAVEL, pose)?);
     let load = "Residual elongation of all legs over size of the load change and approach.";
-    section.blocks.extend(by_all(data, "load", &LOAD, load)?);
+    section.blocks.extend(by_all(data, "load", &LOAD, 0.0, load)?);
     Ok(section)
 }
 
@@ -92,17 +95,20 @@ fn dot(shown: &Shown<'_>, leg: usize, x: f64) -> Dot {
     Dot { x, left: shown.left[leg], explained: shown.explained.map(|e| e[leg]), approach: shown.at.approach }
 }
 
-/// Those that vary.
+/// Those that vary by more than the least.
 fn by_all(
     data: &Data<'_>,
     id: &'static str,
     all: &[OfAll],
+    least: f64,
     caption: &str,
 ) -> Result<Option<Block>, ReportError> {
     let mut sheet = panels();
     let mut drawn = 0;
     for (name, unit, x) in all {
-        if !varies(data.conditions().map(|s| x(s.at))) {
+        let values = || data.conditions().map(|s| x(s.at));
+        let [low, high] = values().fold([f64::MAX, f64::MIN], |[l, h], v| [l.min(v), h.max(v)]);
+        if !varies(values()) || high - low < least {
             continue;
         }
         let dots: Vec<Dot> = data
