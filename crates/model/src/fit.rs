@@ -141,13 +141,15 @@ fn fit_from(
     loop {
         iteration += 1;
         let solution = step(&state, &point, wanted, &prior)?;
-        let (next, next_state, next_objective) = search(campaign, &point, &solution.x, wanted, objective)?;
+        // Relative to the misfit: a wrong model need not be settled to the last digit.
+        let small = SETTLED_CHI2 * (objective / state.equations() as f64).max(1.0);
+        let most = objective + 0.5 * small;
+        let (next, next_state, next_objective) = search(campaign, &point, &solution.x, wanted, most)?;
         let last_step = (objective - next_objective).abs();
         point = next;
         state = next_state;
         objective = next_objective;
-        // Relative to the misfit: a wrong model need not be settled to the last digit.
-        let settled = last_step < SETTLED_CHI2 * (objective / state.equations() as f64).max(1.0);
+        let settled = last_step < small;
         if settled || iteration == MOST_ITERATIONS {
             let solution = step(&state, &point, wanted, &prior)?;
             let fit = finish(campaign, point, &state, solution, prior, wanted, iteration);
@@ -389,13 +391,13 @@ fn shape_column(state: &Linearization, a: &Active) -> DVector<f64> {
     (at(a.shape * STEP.exp()) - at(a.shape * (-STEP).exp())) / (2.0 * STEP)
 }
 
-/// The best of the full step and its halves.
+/// The full step, or the first of its shorter ones that leaves the objective at `most`; none at all when even the shortest does not.
 fn search(
     campaign: &Campaign,
     point: &Point,
     x: &DVector<f64>,
     wanted: &[Wanted],
-    objective: f64,
+    most: f64,
 ) -> Result<(Point, Linearization, f64), ModelError> {
     let mut factor = 1.0;
     loop {
@@ -405,12 +407,13 @@ fn search(
         match outcome {
             Ok(state) => {
                 let value = state.residuals().norm_squared() + penalty(&next, wanted);
-                if value <= objective + SETTLED_CHI2 * 0.5 {
+                if value <= most {
                     return Ok((next, state, value));
                 }
                 if small {
                     let state = Linearization::at(campaign, point)?;
-                    return Ok((point.clone(), state, objective));
+                    let value = state.residuals().norm_squared() + penalty(point, wanted);
+                    return Ok((point.clone(), state, value));
                 }
             }
             Err(e) if small => return Err(e),

@@ -167,10 +167,19 @@ fn promising_shapes(next: &Wanted, fitted: &Fit, lin: &Linearization) -> Vec<f64
         block.gemm(-1.0, &basis, &overlap, 1.0);
         orthonormal(&block).tr_mul(&residual).norm_squared()
     };
-    let mut scored: Vec<(f64, f64)> = grid.iter().map(|&s| (explained(s), s)).collect();
-    scored.retain(|(gain, _)| gain.is_finite());
-    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
-    scored.into_iter().take(STARTS).map(|(_, shape)| shape).collect()
+    let gains: Vec<f64> = grid.iter().map(|&s| explained(s)).collect();
+    let mut peaks = peaks(&gains);
+    peaks.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
+    peaks.into_iter().take(STARTS).map(|k| grid[k]).collect()
+}
+
+/// Places of the values that no neighbour exceeds: two starts on the same slope would climb the same peak.
+fn peaks(values: &[f64]) -> Vec<usize> {
+    let at = |k: Option<usize>| k.and_then(|k| values.get(k)).copied().unwrap_or(f64::NEG_INFINITY);
+    let is_peak = |&k: &usize| {
+        values[k].is_finite() && values[k] >= at(k.checked_sub(1)) && values[k] > at(Some(k + 1))
+    };
+    (0..values.len()).filter(is_peak).collect()
 }
 
 /// Refuse a fit whose leg stiffnesses, or all parameters of one term, the data leave open.
@@ -231,4 +240,17 @@ pub fn open_parameters(fitted: &Fit) -> Vec<String> {
         open.map(|(_, (name, ..))| format!("{}.{name}", a.id())).collect::<Vec<_>>()
     };
     fitted.point.active.iter().zip(&fitted.offsets).flat_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::peaks;
+
+    #[test]
+    fn a_slope_has_one_peak_and_a_plateau_its_last_place() {
+        assert_eq!(peaks(&[1.0, 2.0, 3.0]), [2]);
+        assert_eq!(peaks(&[3.0, 1.0, 2.0, 2.0, 1.0]), [0, 3]);
+        assert_eq!(peaks(&[f64::NAN, 1.0, f64::INFINITY]), Vec::<usize>::new());
+        assert_eq!(peaks(&[]), Vec::<usize>::new());
+    }
 }
