@@ -222,6 +222,7 @@ fn the_diagnosis_names_the_effect_and_the_files_can_be_taken_home() {
     assert!(report.text.starts_with("<!doctype html>") && report.text.contains("base-compliance"));
     let json: serde_json::Value = serde_json::from_str(&take(What::Diagnosis, &[]).text).unwrap();
     assert_eq!(json["format"], "diagnosis/1");
+    assert_eq!(json["run"]["machine"], bench.opened("x").unwrap().title);
     assert_eq!(take(What::Hexapod, &[]).text, CASES[0].hexapod);
     assert_eq!(take(What::Holdout, &[]).text, CASES[0].holdout);
 }

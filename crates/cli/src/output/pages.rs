@@ -80,14 +80,9 @@ pub(crate) fn origin(
     data: (&Dataset, &Path),
     holdout: Option<&Path>,
 ) -> Result<Origin, Failure> {
-    Ok(Origin {
-        program: PROGRAM.to_owned(),
-        machine: hexapod.0.name.clone(),
-        measurand: if data.0.is_absolute() { "absolute poses" } else { "deflections" }.to_owned(),
-        hexapod_sha256: content_hash(hexapod.1)?,
-        data_sha256: content_hash(data.1)?,
-        holdout_sha256: holdout.map(content_hash).transpose()?,
-    })
+    let [of_hexapod, of_data] = [content_hash(hexapod.1)?, content_hash(data.1)?];
+    let of_holdout = holdout.map(content_hash).transpose()?;
+    Ok(Origin::new(PROGRAM, (hexapod.0, of_hexapod), (data.0, of_data), of_holdout))
 }
 
 /// Write a result as JSON.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use hexbench_core::{Dataset, Hexapod};
 use serde::{Deserialize, Serialize};
 
 use crate::estimate::Estimate;
@@ -26,6 +27,25 @@ pub struct Origin {
     pub data_sha256: String,
     /// SHA-256 of the holdout file, when there was one.
     pub holdout_sha256: Option<String>,
+}
+
+impl Origin {
+    /// Of a machine and its measurements, each with the digest of its file.
+    pub fn new(
+        program: &str,
+        hexapod: (&Hexapod, String),
+        data: (&Dataset, String),
+        holdout_sha256: Option<String>,
+    ) -> Self {
+        Self {
+            program: program.to_owned(),
+            machine: hexapod.0.name.clone(),
+            measurand: if data.0.is_absolute() { "absolute poses" } else { "deflections" }.to_owned(),
+            hexapod_sha256: hexapod.1,
+            data_sha256: data.1,
+            holdout_sha256,
+        }
+    }
 }
 
 /// A result with where it comes from, as it is written.

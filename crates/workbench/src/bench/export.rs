@@ -1,11 +1,13 @@
 //! Files to take home.
 
 use hexbench_core::files::text_hash;
-use hexbench_model::diagnose::Diagnosis;
 use hexbench_model::fit_named::refuse_undetermined;
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::runs::{Origin, WithOrigin};
 use hexbench_pages::Subject;
 use hexbench_pages::html::{self, Provenance, ReportError};
+use hexbench_report::html::PROGRAM;
+use serde::Serialize;
 
 use super::refusal::{Kind, Refusal};
 use super::{Bench, files, view};
@@ -68,7 +70,11 @@ impl Bench {
     }
 
     fn json(&self, own: &[String]) -> Result<String, Refusal> {
-        json(&self.study(own)?.diagnosis)
+        let (c, f) = (&self.contents, &self.files);
+        let hexapod = (&c.hexapod, text_hash(&f.hexapod));
+        let data = (&c.data, text_hash(&f.data));
+        let run = Origin::new(PROGRAM, hexapod, data, f.holdout.as_deref().map(text_hash));
+        json(&WithOrigin { result: &self.study(own)?.diagnosis, run })
     }
 }
 
@@ -76,9 +82,9 @@ fn exported(name: &str, media: &'static str, text: String) -> Exported {
     Exported { name: name.to_owned(), media, text }
 }
 
-fn json(diagnosis: &Diagnosis) -> Result<String, Refusal> {
+fn json(result: &impl Serialize) -> Result<String, Refusal> {
     let failed = |e: serde_json::Error| {
         Refusal::bad_input(e.to_string(), "Look in the data for readings of the wrong size.")
     };
-    Ok(serde_json::to_string_pretty(diagnosis).map_err(failed)? + "\n")
+    Ok(serde_json::to_string_pretty(result).map_err(failed)? + "\n")
 }
