@@ -99,6 +99,7 @@ fn end(paper: &mut Paper, subject: &Subject<'_>) {
     paper.heading("Verdict", "");
     paper.paragraph(2, &format!("{} {}", lacks(&d.added), error_statement(&d.steps)));
     paper.heading("Try next", "");
+    paper.line("  hexbench workbench");
     paper.line("  hexbench diagnose hexapod.toml measurements.csv --holdout holdout.csv");
     paper.line(&format!("  hexbench terms {}", d.added.first().map_or("", String::as_str)));
 }

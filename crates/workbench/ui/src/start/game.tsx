@@ -4,7 +4,7 @@ import { Scores } from "../game/scores";
 import type { Score } from "../state";
 import type { Store } from "../store";
 import type { Level } from "../wire";
-import { seedOf } from "./seed";
+import { Seed, seedOf } from "./seed";
 
 const LEVELS: { level: Level; title: string; text: string }[] = [
   { level: "easy", title: "Easy", text: "One effect of the catalogue, easy to see." },
@@ -40,19 +40,7 @@ export function Game({ store, scores }: { store: Store; scores: Score[] }) {
           </label>
         ))}
       </fieldset>
-      <label>
-        <span>Seed</span>{" "}
-        <input
-          type="number"
-          min="0"
-          max={Number.MAX_SAFE_INTEGER}
-          step="1"
-          placeholder="drawn"
-          value={seed}
-          data-testid="game-seed"
-          onInput={(event) => setSeed(event.currentTarget.value)}
-        />
-      </label>
+      <Seed name="game" value={seed} set={setSeed} />
       <button type="submit" class="main" data-testid="game-start">
         Begin
       </button>

@@ -2,7 +2,7 @@
 import { useState } from "preact/hooks";
 import type { Choice } from "../wire";
 import type { StartProps } from "./screen";
-import { seedOf } from "./seed";
+import { Seed, seedOf } from "./seed";
 
 export function Simulation({ store, catalogue }: StartProps) {
   const [machine, setMachine] = useState(catalogue.machines[0]?.id ?? "");
@@ -33,19 +33,7 @@ export function Simulation({ store, catalogue }: StartProps) {
             onInput={(event) => setDistance(event.currentTarget.value)}
           />
         </label>
-        <label>
-          <span>Seed</span>
-          <input
-            type="number"
-            min="0"
-            max={Number.MAX_SAFE_INTEGER}
-            step="1"
-            placeholder="drawn"
-            value={seed}
-            data-testid="simulation-seed"
-            onInput={(event) => setSeed(event.currentTarget.value)}
-          />
-        </label>
+        <Seed name="simulation" value={seed} set={setSeed} />
       </div>
       <Effects choices={catalogue.effects} chosen={effects} set={setEffects} />
       <button type="submit" class="main" data-testid="simulate">
