@@ -7,7 +7,7 @@ repository=$PWD
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/mujoco
 artefacts=$(realpath -m "${HEXBENCH_ARTEFACTS:-target/artefacts}")
-hexbench=$target/debug/hexbench
+hexbench=${HEXBENCH_BINARY:-$target/debug/hexbench}
 python=$work/venv/bin/python
 witness=$repository/data/witness
 states_per_set=36
@@ -98,7 +98,7 @@ diagnose() {
 mkdir -p "$work" "$artefacts"
 export HEXBENCH_ARTEFACTS=$artefacts
 prepare_python
-cargo build --locked --quiet || fail "cargo build"
+[[ -n ${HEXBENCH_BINARY:-} ]] || cargo build --locked --quiet || fail "cargo build"
 # MuJoCo leaves a log where it runs.
 cd "$work" || exit 5
 compare

@@ -68,6 +68,24 @@ pub enum StudyError {
         /// Number of the shard.
         shard: u64,
     },
+    /// Two folders say different things of one shard.
+    #[error("{}: shard {shard} is whole here and there, and differs", folder.display())]
+    Contradiction {
+        /// The folder that was to be taken over.
+        folder: PathBuf,
+        /// Number of the shard.
+        shard: u64,
+    },
+    /// Shards are missing after all parts were put together.
+    #[error("{missing} of {all} shards are in none of the folders, the first is shard {first}")]
+    Incomplete {
+        /// How many.
+        missing: u64,
+        /// The smallest of them.
+        first: u64,
+        /// All shards of the study.
+        all: u64,
+    },
     /// A chart cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -89,6 +107,14 @@ impl StudyError {
                                    same command again: it goes on where it stopped."
                 .into(),
             Self::Missing { .. } => "Run the same command again: the shard is computed anew.".into(),
+            Self::Contradiction { .. } => {
+                "The same program on the same files gives the same bytes: find out which folder comes from another machine \
+                 or build, and leave it out."
+                    .into()
+            }
+            Self::Incomplete { .. } => {
+                "Give the folder of every part; `hexbench study run` on a part that was stopped finishes it.".into()
+            }
             Self::Plot(_) => "Give more trials.".into(),
         }
     }

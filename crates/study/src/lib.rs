@@ -23,6 +23,7 @@ pub mod draw;
 pub mod error;
 pub mod journal;
 pub mod page;
+pub mod part;
 pub mod plan;
 pub mod read;
 pub mod results;
@@ -33,5 +34,6 @@ pub mod task;
 
 pub use error::StudyError;
 pub use journal::Journal;
+pub use part::Part;
 pub use runner::Runner;
 pub use study::Study;

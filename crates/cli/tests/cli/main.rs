@@ -20,6 +20,7 @@ mod score;
 mod separation;
 mod streams;
 mod study;
+mod study_parts;
 mod support;
 mod validate;
 mod workbench;

@@ -44,6 +44,17 @@ pub struct State {
     pub damaged: u64,
 }
 
+/// What came from another folder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Adopted {
+    /// Shards that were missing here.
+    pub taken: u64,
+    /// Shards that were here already, with the same bytes.
+    pub known: u64,
+    /// Records that were cut or changed, left where they are.
+    pub damaged: u64,
+}
+
 impl Journal {
     /// Opens the journal of a study in a folder, which is made; an empty one begins.
     ///
@@ -103,8 +114,41 @@ impl Journal {
     /// [`StudyError::Write`]; the records before stay.
     pub fn keep(&self, shard: &Shard) -> Result<(), StudyError> {
         let path = self.place(shard.number);
-        let bytes = record::encode(shard, self.origin.digest());
+        let bytes = self.encoded(shard);
         atomic_write(&path, |out| out.write_all(&bytes)).map_err(|cause| StudyError::Write { path, cause })
+    }
+
+    /// Takes over what another folder has done of the same study; what is there already is compared.
+    ///
+    /// # Errors
+    /// [`StudyError::Foreign`] for the journal of another study, [`StudyError::Contradiction`] when two whole records of one shard
+    /// differ, [`StudyError::Read`], [`StudyError::Write`].
+    pub fn adopt(&self, runner: &Runner, folder: &Path) -> Result<Adopted, StudyError> {
+        let journal = folder.join("journal");
+        self.origin.check(folder, &journal.join("study.json"))?;
+        let mut adopted = Adopted::default();
+        for number in 0..runner.shards() {
+            let shard = match self.read_at(&journal, runner, number)? {
+                Found::Missing => continue,
+                Found::Damaged => {
+                    adopted.damaged += 1;
+                    continue;
+                }
+                Found::Whole(shard) => shard,
+            };
+            match self.read(runner, number)? {
+                // Compared as bytes: a number that is not one differs from itself.
+                Found::Whole(own) if self.encoded(&own) == self.encoded(&shard) => adopted.known += 1,
+                Found::Whole(_) => {
+                    return Err(StudyError::Contradiction { folder: folder.to_owned(), shard: number });
+                }
+                _ => {
+                    self.keep(&shard)?;
+                    adopted.taken += 1;
+                }
+            }
+        }
+        Ok(adopted)
     }
 
     /// A shard that is done.
@@ -123,8 +167,16 @@ impl Journal {
         &self.folder
     }
 
+    fn encoded(&self, shard: &Shard) -> Vec<u8> {
+        record::encode(shard, self.origin.digest())
+    }
+
     fn read(&self, runner: &Runner, number: u64) -> Result<Found, StudyError> {
-        let path = self.place(number);
+        self.read_at(&self.folder.join("journal"), runner, number)
+    }
+
+    fn read_at(&self, journal: &Path, runner: &Runner, number: u64) -> Result<Found, StudyError> {
+        let path = journal.join(record_name(number));
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
             Err(cause) if cause.kind() == io::ErrorKind::NotFound => return Ok(Found::Missing),
@@ -135,8 +187,12 @@ impl Journal {
     }
 
     fn place(&self, number: u64) -> PathBuf {
-        self.folder.join("journal").join(format!("{number:08}.shard"))
+        self.folder.join("journal").join(record_name(number))
     }
+}
+
+fn record_name(number: u64) -> String {
+    format!("{number:08}.shard")
 }
 
 enum Found {

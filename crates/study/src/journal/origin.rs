@@ -42,6 +42,12 @@ impl Origin {
         }
     }
 
+    /// Compares itself with what the journal of another folder says.
+    pub(super) fn check(&self, folder: &Path, path: &Path) -> Result<(), StudyError> {
+        let bytes = fs::read(path).map_err(|cause| StudyError::Read { path: path.to_owned(), cause })?;
+        self.compare(folder, &bytes)
+    }
+
     fn write(&self, path: &Path) -> Result<(), StudyError> {
         let text = serde_json::to_string_pretty(self).map_err(io::Error::from);
         let written = text.and_then(|text| atomic_write(path, |out| writeln!(out, "{text}")));
