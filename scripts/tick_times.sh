@@ -4,9 +4,5 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-if [[ -z ${HEXBENCH_BINARY:-} ]]; then
-    cargo build --release --locked --quiet
-    HEXBENCH_BINARY=$(realpath "${CARGO_TARGET_DIR:-target}")/release/hexbench
-fi
-export HEXBENCH_BINARY
+source scripts/release.sh
 node tests/browser/tick_times.mjs docs/workbench-times.md

@@ -13,6 +13,16 @@ pub enum Measurand {
     AbsolutePose,
 }
 
+impl Measurand {
+    /// What readings of this kind are called, in the plural.
+    pub fn readings(self) -> &'static str {
+        match self {
+            Self::DeflectionEuler | Self::DeflectionRotationVector => "deflections",
+            Self::AbsolutePose => "absolute poses",
+        }
+    }
+}
+
 /// One reading. SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Observation {

@@ -111,6 +111,12 @@ pub struct Campaign {
 }
 
 impl Condition {
+    /// Geometric twist of the platform at the mobile origin that reads like this; zero at beta = +-90 deg, where a reading says nothing
+    /// of two rotations.
+    pub fn motion(&self, reading: &Vector6) -> Vector6 {
+        self.observer.try_inverse().map_or_else(Vector6::zeros, |h| h * reading)
+    }
+
     /// Change of leg force between reference and load, N.
     pub fn force_change(&self) -> Vector6 {
         self.force - self.reference_force

@@ -178,6 +178,12 @@ impl Linearization {
         c.reading.component_mul(&c.weight) - self.links[condition].prediction()
     }
 
+    /// Prediction at one condition in measured coordinates, m and rad.
+    pub fn predicted(&self, condition: usize) -> Vector6 {
+        let c = &self.conditions[condition];
+        c.reading - self.residual(condition).component_div(&c.weight)
+    }
+
     /// Whitened residuals, six per condition.
     pub fn residuals(&self) -> DVector<f64> {
         let mut out = DVector::zeros(self.equations());

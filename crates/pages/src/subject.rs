@@ -49,7 +49,7 @@ const LABEL: usize = 12;
 
 /// File, kind and number of readings.
 pub fn describe(data: &Dataset) -> String {
-    let kind = if data.is_absolute() { "absolute poses" } else { "deflections" };
+    let kind = data.measurand.readings();
     format!("{}: {} {kind} at {} poses", data.source, data.observations.len(), poses(data))
 }
 

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use hexbench_core::Measurand;
 use hexbench_pages::text::{Ink, Paper};
 use hexbench_report::number::significant;
 use hexbench_truth::Scene;
@@ -43,7 +42,7 @@ pub(crate) fn page(told: &Told<'_>, ink: Ink) -> String {
 
 fn plan(scene: &Scene) -> String {
     let [training, holdout] = [PartName::Training, PartName::Holdout].map(|name| scene.part(name));
-    let what = if scene.measurand() == Measurand::AbsolutePose { "absolute poses" } else { "deflections" };
+    let what = scene.measurand().readings();
     let counted = |n: u64, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
     format!(
         "{what}: {} at {} to learn from, {} at {} held out",

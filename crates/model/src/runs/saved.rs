@@ -40,7 +40,7 @@ impl Origin {
         Self {
             program: program.to_owned(),
             machine: hexapod.0.name.clone(),
-            measurand: if data.0.is_absolute() { "absolute poses" } else { "deflections" }.to_owned(),
+            measurand: data.0.measurand.readings().to_owned(),
             hexapod_sha256: hexapod.1,
             data_sha256: data.1,
             holdout_sha256,

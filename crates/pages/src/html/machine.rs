@@ -2,7 +2,6 @@
 
 use hexbench_core::{Vector3, Vector6};
 use hexbench_model::campaign::Condition;
-use hexbench_model::linearization::Linearization;
 use hexbench_report::html::{Block, Section};
 use hexbench_report::number::significant;
 use hexbench_report::plot::{Edge, Wireframe};
@@ -22,7 +21,7 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
         return Ok(None);
     };
     let at = &lin.conditions[worst];
-    let measured = platform_motion(at, &at.reading);
+    let measured = at.motion(&at.reading);
     let largest = at.legs.arms.iter().map(|arm| displacement(&measured, arm).norm()).fold(0.0, f64::max);
     let factor = DRAWN * lin.machine.nominal.platform_radius() / largest;
     if !factor.is_finite() {
@@ -34,7 +33,7 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
         .seen("from above", 0.0, 90.0)
         .with("base and unloaded platform", None, bodies.unloaded());
     for (name, look, seen) in data.models() {
-        let motion = platform_motion(at, &predicted(&seen.judged.lin, worst));
+        let motion = at.motion(&seen.judged.lin.predicted(worst));
         drawing = drawing.with(name, Some(look), bodies.moved(&motion));
     }
     drawing = drawing.with("measured", Some(MEASURED), bodies.moved(&measured));
@@ -51,17 +50,6 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Option<Section>, ReportError> {
 
 fn list(v: &Vector3) -> String {
     v.iter().map(|x| significant(*x, 3)).collect::<Vec<_>>().join(", ")
-}
-
-/// Prediction in measured coordinates, m and rad.
-fn predicted(lin: &Linearization, condition: usize) -> Vector6 {
-    let at = &lin.conditions[condition];
-    at.reading - lin.residual(condition).component_div(&at.weight)
-}
-
-/// Twist of the platform at the mobile origin that reads like this.
-fn platform_motion(at: &Condition, reading: &Vector6) -> Vector6 {
-    at.observer.try_inverse().map_or_else(Vector6::zeros, |h| h * reading)
 }
 
 fn displacement(twist: &Vector6, arm: &Vector3) -> Vector3 {

@@ -84,7 +84,7 @@ impl Page<'_> {
             "{} readings of {} at {} for {}; one reading is good to {} um and {} urad ({}); legs of {} N/um. \"Seen\" \
              means: in {} of such campaigns, with a false alarm in {}.",
             rows.len(),
-            if self.plan.rows.is_absolute() { "absolute poses" } else { "deflections" },
+            self.plan.rows.measurand.readings(),
             counted(poses, "pose"),
             self.plan.hexapod.name,
             significant(noise.translation * 1e6, 2),

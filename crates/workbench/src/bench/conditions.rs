@@ -47,16 +47,9 @@ fn joint_mm(c: &Condition, leg: usize) -> [f64; 3] {
     <[f64; 3]>::from(joint * 1e3).map(short)
 }
 
-/// Prediction of a model in measured coordinates, m and rad.
-pub(super) fn predicted(lin: &Linearization, condition: usize) -> Vector6 {
-    let c = &lin.conditions[condition];
-    c.reading - lin.residual(condition).component_div(&c.weight)
-}
-
 /// Motion of the platform at its origin that reads like this: um, urad.
 pub(super) fn motion(c: &Condition, reading: &Vector6) -> [f64; 6] {
-    let twist = c.observer.try_inverse().map_or_else(Vector6::zeros, |h| h * reading);
-    all_short(twist * 1e6)
+    all_short(c.motion(reading) * 1e6)
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use hexbench_model::selection::{Judged, Task};
 use hexbench_model::term::Term;
 use hexbench_pages::conclusion::at_the_noise;
 
-use super::conditions::{motion, predicted};
+use super::conditions::motion;
 use super::digits::{all_short, short};
 use super::refusal::Refusal;
 use crate::wire::{self, Leg, LookAlike, View};
@@ -45,7 +45,7 @@ pub(super) fn view(
     let legs = leg_space(task.campaign, lin);
     let error = judged.held_out.unwrap_or(judged.fitted);
     let numbers = estimates(&judged.fit);
-    let predictions: Vec<_> = shown.iter().map(|&i| predicted(lin, i)).collect();
+    let predictions: Vec<_> = shown.iter().map(|&i| lin.predicted(i)).collect();
     let scatter = Scatter::of(&judged.residuals);
     View {
         terms: asked.to_vec(),
