@@ -34,7 +34,7 @@ pub mod task;
 pub mod work;
 
 pub use error::StudyError;
-pub use journal::Journal;
+pub use journal::{Adopted, Journal};
 pub use part::Part;
 pub use runner::Runner;
 pub use study::Study;
