@@ -5,7 +5,6 @@
 mod args;
 mod commands;
 mod csv;
-mod failure;
 mod input;
 mod output;
 mod page;
@@ -14,13 +13,14 @@ mod states;
 use std::process::ExitCode;
 
 use clap::Parser;
+use hexbench_tasks::failure;
 
 fn main() -> ExitCode {
     let cli = args::Cli::parse();
     match commands::run(&cli) {
         Ok(()) => failure::Exit::Done.into(),
         Err(failure) => {
-            failure.report(cli.colour);
+            output::report::print(&failure, cli.colour);
             failure.exit().into()
         }
     }

@@ -31,9 +31,11 @@ pub mod runner;
 pub mod shard;
 pub mod study;
 pub mod task;
+pub mod work;
 
 pub use error::StudyError;
-pub use journal::Journal;
+pub use journal::{Adopted, Journal};
 pub use part::Part;
 pub use runner::Runner;
 pub use study::Study;
+pub use work::{Division, Share, Todo, Work, divide};

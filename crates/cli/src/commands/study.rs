@@ -3,12 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, value_parser};
-use hexbench_core::files::atomic_write;
 use hexbench_pages::text::{Paper, Table};
-use hexbench_report::png::png;
-use hexbench_study::page::{self, Picture};
-use hexbench_study::results::{self, CellStatistics};
-use hexbench_study::{Journal, Part, Runner, Study, StudyError};
+use hexbench_study::{Part, Work, divide, page};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen, report};
@@ -106,26 +102,23 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 /// Run what is missing, write the results, tell them.
 fn whole(arguments: &Whole, screen: &Screen) -> Result<(), Failure> {
-    let runner = Runner::new(Study::read(&arguments.study)?)?;
-    let journal = Journal::open(&arguments.out, &runner)?;
-    compute(&runner, &journal, |_| true)?;
-    tell(&runner, &journal, arguments.markdown.as_deref(), screen)
+    let work = Work::open(&arguments.study, &arguments.out)?;
+    compute(&work, None)?;
+    tell(&work, arguments.markdown.as_deref(), screen)
 }
 
 /// Who does how much.
 fn plan(arguments: &PlanArguments, screen: &Screen) -> Result<(), Failure> {
-    let runner = Runner::new(Study::read(&arguments.study)?)?;
+    let division = divide(&arguments.study, arguments.parts)?;
     let mut table = Table::default();
     table.row(["part", "shards", "trials"]);
-    for part in Part::all(arguments.parts) {
-        let own: Vec<u64> = (0..runner.shards()).filter(|&n| part.holds(n)).collect();
-        table.row([part.to_string(), own.len().to_string(), trials(&runner, &own).to_string()]);
+    for share in &division.parts {
+        table.row([share.part.clone(), share.shards.to_string(), share.trials.to_string()]);
     }
     let mut paper = Paper::new(screen.ink());
     let study = arguments.study.display();
-    let (shards, trials) = (runner.shards(), runner.study().all_trials());
     paper.heading(
-        &format!("{shards} shards, {trials} trials"),
+        &format!("{} shards, {} trials", division.shards, division.trials),
         "every n-th shard, so that parts take equally long",
     );
     table.lines().iter().for_each(|line| paper.line(line));
@@ -137,9 +130,8 @@ fn plan(arguments: &PlanArguments, screen: &Screen) -> Result<(), Failure> {
 
 /// Compute what is missing of a part.
 fn part(arguments: &RunArguments, screen: &Screen) -> Result<(), Failure> {
-    let runner = Runner::new(Study::read(&arguments.study)?)?;
-    let journal = Journal::open(&arguments.out, &runner)?;
-    compute(&runner, &journal, |shard| arguments.shard.holds(shard))?;
+    let work = Work::open(&arguments.study, &arguments.out)?;
+    compute(&work, Some(arguments.shard))?;
     let (part, folder) = (arguments.shard, arguments.out.display());
     screen.write(&format!(
         "Part {part} is done, in {folder}. `hexbench study merge` puts the parts together.\n"
@@ -148,93 +140,39 @@ fn part(arguments: &RunArguments, screen: &Screen) -> Result<(), Failure> {
 
 /// Take over all parts and write the results.
 fn merge(arguments: &MergeArguments, screen: &Screen) -> Result<(), Failure> {
-    let runner = Runner::new(Study::read(&arguments.study)?)?;
-    let journal = Journal::open(&arguments.out, &runner)?;
+    let work = Work::open(&arguments.study, &arguments.out)?;
     for folder in &arguments.parts {
-        let adopted = journal.adopt(&runner, folder)?;
+        let adopted = work.adopt(folder)?;
         if adopted.damaged > 0 {
             let told = format!("{}: {} records are damaged and left out", folder.display(), adopted.damaged);
             report::warn(&told, "`hexbench study run` on this folder computes them again.");
         }
     }
-    let pending = journal.state(&runner)?.pending;
-    if let Some(&first) = pending.first() {
-        let missing = pending.len() as u64;
-        return Err(StudyError::Incomplete { missing, first, all: runner.shards() }.into());
-    }
-    tell(&runner, &journal, arguments.markdown.as_deref(), screen)
+    work.require_complete()?;
+    tell(&work, arguments.markdown.as_deref(), screen)
 }
 
 /// Write the results of a study that is complete, and tell them.
-fn tell(runner: &Runner, journal: &Journal, markdown: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
-    let out = journal.folder();
-    let cells = write(runner, journal)?;
-    let charts = page::pictures(runner.study(), &cells)?;
-    let text = |folder: &str| page::document(runner.study(), &cells, &charts, folder).to_markdown();
-    write_page(&out.join("study.md"), &out.join("charts"), &text, &charts, screen)?;
-    for (chart, png) in charts.iter().filter_map(|c| Some((c, png(&c.svg)?))) {
-        write_bytes(&out.join("charts").join(format!("{}.png", chart.name)), &png)?;
-    }
-    if let Some(file) = markdown {
-        write_page(file, &file.with_extension(""), &text, &charts, screen)?;
-    }
-    screen.write(&page::summary(runner.study(), &cells).to_text())?;
-    screen.write(&format!("\n{}\n", written(out)))
+fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
+    let progress = Progress::of(work.shards(), "shards written");
+    let cells = work.write_tables(&|| progress.advance(1));
+    progress.done();
+    let cells = cells?;
+    page::write(work.study(), &cells, work.folder(), markdown)?;
+    screen.write(&page::summary(work.study(), &cells).to_text())?;
+    let written: Vec<String> = work.written().iter().map(|path| format!("  {}\n", path.display())).collect();
+    screen.write(&format!("\nWritten:\n{}", written.concat()))
 }
 
-/// The page and its charts as SVG, which are in `folder` beside it.
-fn write_page(
-    file: &Path,
-    folder: &Path,
-    text: &dyn Fn(&str) -> String,
-    charts: &[Picture],
-    screen: &Screen,
-) -> Result<(), Failure> {
-    let beside = folder.file_name().unwrap_or_default().to_string_lossy();
-    Screen::make_folder_of(file)?;
-    screen.write_to(file, &text(&beside))?;
-    for chart in charts {
-        let path = folder.join(format!("{}.svg", chart.name));
-        Screen::make_folder_of(&path)?;
-        screen.write_to(&path, &chart.svg)?;
-    }
-    Ok(())
-}
-
-fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    atomic_write(path, |out| out.write_all(bytes))
-        .map_err(|cause| Failure::Output { path: path.to_owned(), cause })
-}
-
-fn written(out: &Path) -> String {
-    let at = |name: &str| format!("  {}", out.join(name).display());
-    ["Written:".to_owned(), at("study.md"), at(results::CELLS), at(results::TRIALS), at("charts")].join("\n")
-}
-
-/// Trials in these shards.
-fn trials(runner: &Runner, shards: &[u64]) -> u64 {
-    shards.iter().map(|&n| runner.trials_of(n)).map(|t| t.end - t.start).sum()
-}
-
-/// Compute what is missing of the shards that are wanted.
-fn compute(runner: &Runner, journal: &Journal, wanted: impl Fn(u64) -> bool) -> Result<(), Failure> {
-    let state = journal.state(runner)?;
-    if state.damaged > 0 {
-        let told = format!("{} damaged records of the journal are computed again", state.damaged);
+/// Compute what is missing of a part, or of the whole.
+fn compute(work: &Work, part: Option<Part>) -> Result<(), Failure> {
+    let todo = work.todo(part)?;
+    if todo.damaged > 0 {
+        let told = format!("{} damaged records of the journal are computed again", todo.damaged);
         report::warn(&told, "Nothing, if the files were copied or the disk was full.");
     }
-    let own: Vec<u64> = (0..runner.shards()).filter(|&n| wanted(n)).collect();
-    let pending: Vec<u64> = state.pending.into_iter().filter(|&n| wanted(n)).collect();
-    let all = trials(runner, &own);
-    let progress = Progress::of(all, "trials").beginning_at(all - trials(runner, &pending));
-    let done = journal.compute(runner, &pending, &|trials| progress.advance(trials));
+    let progress = Progress::of(todo.trials, "trials").beginning_at(todo.trials - todo.pending_trials);
+    let done = work.compute(&todo.pending, &|trials| progress.advance(trials));
     progress.done();
     Ok(done?)
-}
-
-fn write(runner: &Runner, journal: &Journal) -> Result<Vec<CellStatistics>, Failure> {
-    let progress = Progress::of(runner.shards(), "shards written");
-    let cells = results::write(runner, journal, &|| progress.advance(1));
-    progress.done();
-    Ok(cells?)
 }

@@ -6,6 +6,7 @@ mod laws;
 mod marginal;
 mod response;
 mod sections;
+mod write;
 
 use hexbench_report::Document;
 
@@ -16,6 +17,7 @@ pub use charts::{Picture, pictures};
 pub use equal::{Equal, Matching, equals};
 pub use laws::{Law, laws};
 pub use marginal::{Marginal, marginal};
+pub use write::write;
 
 /// What is told on the screen.
 pub fn summary(study: &Study, cells: &[CellStatistics]) -> Document {

@@ -1,4 +1,4 @@
-//! What can go wrong, the exit code of each, and how it is told.
+//! What can go wrong, the exit code of each, and what to do about it.
 
 use std::io;
 use std::path::PathBuf;
@@ -22,11 +22,9 @@ use hexbench_validation::power::PowerError;
 use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
-use crate::output::{Colour, report};
-
-/// Exit codes of the command.
+/// Exit codes of the command; the Python package has an exception for each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Exit {
+pub enum Exit {
     /// Done.
     Done = 0,
     /// A requested check failed.
@@ -49,7 +47,7 @@ impl From<Exit> for ExitCode {
 
 /// Why a subcommand stopped.
 #[derive(Debug, Error)]
-pub(crate) enum Failure {
+pub enum Failure {
     /// A file that cannot be used.
     #[error("{0}")]
     File(#[from] FileError),
@@ -180,7 +178,7 @@ pub(crate) enum Failure {
 
 impl Failure {
     /// The exit code.
-    pub(crate) fn exit(&self) -> Exit {
+    pub fn exit(&self) -> Exit {
         match self {
             Self::File(error) if error.is_input_output() => Exit::InputOutput,
             Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => {
@@ -215,7 +213,7 @@ impl Failure {
     }
 
     /// What to do about it, one sentence.
-    pub(crate) fn next_step(&self) -> Option<String> {
+    pub fn next_step(&self) -> Option<String> {
         match self {
             Self::File(error) => Some(error.next_step()),
             Self::Model { cause, data } => Some(cause.next_step(data)),
@@ -272,11 +270,6 @@ impl Failure {
                 Some("Check the free space and that the folder may be written to.".into())
             }
         }
-    }
-
-    /// Tell it on standard error.
-    pub(crate) fn report(&self, colour: Colour) {
-        report::print(self, colour);
     }
 }
 
