@@ -17,5 +17,5 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::study::{study_merge, study_plan, study_run_part};
+    use crate::study::{StudyRunner, StudyWork, study_merge, study_plan, study_run_part};
 }
