@@ -72,7 +72,11 @@ pub(crate) fn study_merge(
         let mut all = Adopted::default();
         for part in &parts {
             let Adopted { taken, known, damaged } = work.adopt(part)?;
-            all = Adopted { taken: all.taken + taken, known: all.known + known, damaged: all.damaged + damaged };
+            all = Adopted {
+                taken: all.taken + taken,
+                known: all.known + known,
+                damaged: all.damaged + damaged,
+            };
         }
         work.require_complete()?;
         let cells = work.write_tables(&|| ())?;

@@ -26,8 +26,14 @@ fn side(package: &str) -> Option<Side> {
 }
 
 /// The only packages that may depend on both sides: the proving ground, the sweeps over it, the workbench, and the command.
-const MEETING_PLACES: [&str; 6] =
-    ["hexbench-validation", "hexbench-study", "hexbench-tasks", "hexbench-workbench", "hexbench-python", "hexbench-cli"];
+const MEETING_PLACES: [&str; 6] = [
+    "hexbench-validation",
+    "hexbench-study",
+    "hexbench-tasks",
+    "hexbench-workbench",
+    "hexbench-python",
+    "hexbench-cli",
+];
 
 fn reachable(graph: &Graph, from: &str) -> BTreeSet<String> {
     let mut seen = BTreeSet::new();
