@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::fit::Fit;
 use crate::linearization::Active;
+use crate::model_file::Model;
 use crate::term::Rich;
 
 /// N/m to N/um.
@@ -71,12 +72,40 @@ pub fn estimates(fit: &Fit) -> Estimates {
 
 /// The same with springs from elsewhere.
 pub fn estimates_with(springs: &Springs, fit: &Fit) -> Estimates {
+    let columns = Columns { std: &|k| fit.std(k), is_determined: &|k| fit.is_determined(k) };
+    all_estimates(springs, &fit.point.active, &fit.offsets, &columns)
+}
+
+/// The same of a model that was kept.
+pub fn estimates_of(model: &Model) -> Estimates {
+    let is_determined = |k: usize| model.determined.get(k).copied().unwrap_or(true);
+    let springs = Springs {
+        compliance: model.point.springs,
+        variance: Vector6::from_fn(|leg, _| model.std(leg).powi(2)),
+        determined: std::array::from_fn(is_determined),
+    };
+    let columns = Columns { std: &|k| model.std(k), is_determined: &is_determined };
+    all_estimates(&springs, &model.point.active, &model.offsets(), &columns)
+}
+
+/// What is known of each column of a covariance.
+struct Columns<'a> {
+    std: &'a dyn Fn(usize) -> f64,
+    is_determined: &'a dyn Fn(usize) -> bool,
+}
+
+fn all_estimates(
+    springs: &Springs,
+    active: &[Active],
+    offsets: &[usize],
+    columns: &Columns<'_>,
+) -> Estimates {
     let mut all = Estimates::default();
     for leg in 0..6 {
         stiffness(springs, leg, &mut all);
     }
-    for (a, &offset) in fit.point.active.iter().zip(&fit.offsets) {
-        term_estimates(fit, a, offset, &mut all);
+    for (a, &offset) in active.iter().zip(offsets) {
+        term_estimates(columns, a, offset, &mut all);
     }
     all
 }
@@ -92,21 +121,21 @@ fn stiffness(springs: &Springs, leg: usize, all: &mut Estimates) {
     all.push(name, "N/um", k * STIFFNESS_PER_SI, std * STIFFNESS_PER_SI, determined);
 }
 
-fn term_estimates(fit: &Fit, a: &Active, offset: usize, all: &mut Estimates) {
+fn term_estimates(columns: &Columns<'_>, a: &Active, offset: usize, all: &mut Estimates) {
     let info = a.term.info();
     for (k, p) in info.parameters.iter().enumerate() {
-        let (value, std) = (a.values[k] * p.per_si, fit.std(offset + k) * p.per_si);
-        all.push(format!("{}.{}", info.id, p.name), p.unit, value, std, fit.is_determined(offset + k));
+        let (value, std) = (a.values[k] * p.per_si, (columns.std)(offset + k) * p.per_si);
+        all.push(format!("{}.{}", info.id, p.name), p.unit, value, std, (columns.is_determined)(offset + k));
     }
     for k in info.parameters.len()..a.values.len() {
         let (name, unit, per_si) = rich_parameter(a, k - info.parameters.len());
-        let (value, std) = (a.values[k] * per_si, fit.std(offset + k) * per_si);
-        all.push(format!("{}.{name}", info.id), unit, value, std, fit.is_determined(offset + k));
+        let (value, std) = (a.values[k] * per_si, (columns.std)(offset + k) * per_si);
+        all.push(format!("{}.{name}", info.id), unit, value, std, (columns.is_determined)(offset + k));
     }
     if let Some(shape) = info.shape.filter(|_| !a.term.shape_is_parameter()) {
         // The covariance holds the logarithm of the shape.
-        let std = fit.std(offset + a.values.len()) * a.shape * shape.per_si;
-        let determined = fit.is_determined(offset + a.values.len());
+        let std = (columns.std)(offset + a.values.len()) * a.shape * shape.per_si;
+        let determined = (columns.is_determined)(offset + a.values.len());
         let name = format!("{}.{}", info.id, shape.name);
         all.push(name, shape.unit, a.shape * shape.per_si, std, determined);
     }

@@ -6,7 +6,7 @@
 //! pose at which the legs of the calibrated machine have their commanded lengths plus elongations. It starts at the
 //! commanded pose and finds the solution near it; a hexapod has others, and none is claimed to be the only one.
 
-use hexbench_core::{Dataset, Measurand, Observation, Vector6};
+use hexbench_core::{Dataset, Matrix6, Measurand, Observation, Vector6};
 use thiserror::Error;
 
 use crate::campaign::Campaign;
@@ -28,6 +28,8 @@ pub struct Prediction {
     pub value: [f64; 6],
     /// Standard uncertainty (k = 1) from the covariance of the model; the noise of a future reading is not in it.
     pub sigma: [f64; 6],
+    /// Covariance of the same, m and rad; its diagonal is the square of `sigma`.
+    pub covariance: Matrix6,
 }
 
 /// A row that cannot be predicted.
@@ -138,14 +140,19 @@ fn predictions(
     let jacobian = columns(lin, &model.point);
     let kept = kept_columns(model, uncertain);
     let covariance = model.covariance.select_columns(&kept).select_rows(&kept);
-    let mut all = vec![Prediction { value: [0.0; 6], sigma: [0.0; 6] }; data.observations.len()];
+    let mut all = vec![
+        Prediction { value: [0.0; 6], sigma: [0.0; 6], covariance: Matrix6::zeros() };
+        data.observations.len()
+    ];
     for (i, group) in campaign.groups.iter().enumerate() {
         let j = jacobian.rows(6 * i, 6).select_columns(&kept);
         let spread = &j * &covariance * j.transpose();
         let weight = lin.conditions[i].weight;
         let sigma = std::array::from_fn(|k| spread[(k, k)].max(0.0).sqrt() / weight[k]);
+        let covariance = Matrix6::from_fn(|r, c| spread[(r, c)] / (weight[r] * weight[c]));
         for &row in &group.rows {
-            all[row as usize] = Prediction { value: data.observations[row as usize].measured, sigma };
+            all[row as usize] =
+                Prediction { value: data.observations[row as usize].measured, sigma, covariance };
         }
     }
     all

@@ -6,10 +6,18 @@
 //! - Work runs on threads of its own while Python goes on ([`run`]).
 //! - A failure is the command's, with the same text, as an exception of `hexbench.errors` ([`error`]).
 
+mod arrays;
+mod campaign;
+mod design;
+mod diagnose;
 mod error;
 mod json;
+mod machine;
+mod model;
 mod run;
+mod scene;
 mod study;
+mod terms;
 
 use pyo3::prelude::*;
 
@@ -17,5 +25,19 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
+    use crate::campaign::PyCampaign;
+    #[pymodule_export]
+    use crate::design::{PyPlan, design};
+    #[pymodule_export]
+    use crate::diagnose::{PyComparison, PyDiagnosis, compare, diagnose};
+    #[pymodule_export]
+    use crate::machine::{PyHexapod, write_text};
+    #[pymodule_export]
+    use crate::model::{PyModel, fit};
+    #[pymodule_export]
+    use crate::scene::simulate;
+    #[pymodule_export]
     use crate::study::{StudyRunner, StudyWork, study_merge, study_plan, study_run_part};
+    #[pymodule_export]
+    use crate::terms::terms;
 }

@@ -94,6 +94,16 @@ pub enum Failure {
         /// The row, and why.
         cause: Box<PredictError>,
     },
+    /// A row of a table in memory that cannot be predicted.
+    #[error("{table}: row {row}: {cause}")]
+    MemoryRow {
+        /// What the table is called.
+        table: String,
+        /// The row, from 0.
+        row: u64,
+        /// Why.
+        cause: Box<ModelError>,
+    },
     /// A state of a scene that the simulated world does not have, or that a format cannot express.
     #[error("{}: {place}: {cause}", scene.display())]
     SceneState {
@@ -200,6 +210,7 @@ impl Failure {
             | Self::Result { .. }
             | Self::Runs(_)
             | Self::Row { .. }
+            | Self::MemoryRow { .. }
             | Self::Balls { .. }
             | Self::SceneState { .. }
             | Self::World(_)
@@ -244,6 +255,7 @@ impl Failure {
                 Some("`hexbench fit --help` names the format term/1; correct the file.".into())
             }
             Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
+            Self::MemoryRow { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this row.".into()),
             Self::SceneState { cause: TruthError::Inexpressible { .. }, .. } => {
                 Some("Leave this effect out of sealed/truth.toml for this purpose.".into())
             }

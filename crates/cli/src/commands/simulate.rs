@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_truth::Scene;
-use hexbench_truth::scene::{Bench, Existing, PartName, PlanError};
+use hexbench_tasks::simulate::{self, Choices};
+use hexbench_truth::scene::{Bench, Existing, PartName};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
@@ -40,13 +40,8 @@ pub(crate) struct Arguments {
 
 /// Simulate and tell what was written.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let mut scene = Scene::read_with_seed(&arguments.scene, arguments.seed)?;
-    if let Some(poses) = arguments.poses {
-        scene.plan = scene.plan.with_poses(poses).map_err(|wrong| usage(&wrong))?;
-    }
-    if let Some(repeats) = arguments.repeats {
-        scene.plan = scene.plan.with_repeats(repeats).map_err(|wrong| usage(&wrong))?;
-    }
+    let choices = Choices { seed: arguments.seed, poses: arguments.poses, repeats: arguments.repeats };
+    let scene = simulate::scene(&arguments.scene, choices)?;
     write(&Bench::new(&scene, arguments.noise_free), &arguments.output, arguments.force)?;
     let told = simulated::Told {
         scene: &scene,
@@ -64,12 +59,4 @@ fn write(bench: &Bench<'_>, folder: &Path, force: bool) -> Result<(), Failure> {
     let written = bench.write(folder, existing, &|rows| progress.advance(rows));
     progress.done();
     Ok(written?)
-}
-
-fn usage(wrong: &PlanError) -> Failure {
-    let next = match wrong {
-        PlanError::ListedPoses => "Leave --poses out; --repeats asks for more readings.",
-        PlanError::Size { .. } => "Choose another number for --poses or --repeats.",
-    };
-    Failure::Usage { message: wrong.to_string(), next: next.into() }
 }

@@ -45,6 +45,12 @@ impl Progress {
 
     /// The bar goes away.
     pub(crate) fn done(self) {
+        drop(self);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
 }

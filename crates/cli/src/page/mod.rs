@@ -1,7 +1,6 @@
 //! Pages of text for people: what was simulated, designed, located, validated.
 
 mod calibration;
-pub(crate) mod designed;
 pub(crate) mod discriminated;
 pub(crate) mod located;
 mod recovery;

@@ -5,15 +5,15 @@ use super::{Place, Warning};
 use crate::Observation;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Fingerprints of the rows read so far, instead of the rows' text.
+/// Fingerprints of the rows read so far, instead of the rows themselves.
 #[derive(Debug, Default)]
 pub(crate) struct Fingerprints(Vec<(u64, usize)>);
 
 impl Fingerprints {
-    /// Notes the text of the next row.
-    pub(crate) fn note(&mut self, text: &str) {
+    /// Notes the next row: its text, or all its cells.
+    pub(crate) fn note(&mut self, row: &(impl Hash + ?Sized)) {
         let mut hasher = DefaultHasher::new();
-        text.hash(&mut hasher);
+        row.hash(&mut hasher);
         self.0.push((hasher.finish(), self.0.len()));
     }
 

@@ -30,7 +30,7 @@ pub(crate) struct Plan {
 
 /// What a table is read for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Purpose {
+pub enum Purpose {
     /// Measurements: measured values are required.
     Measurements,
     /// Conditions to predict: poses and loads; measured values are passed over.
@@ -56,7 +56,6 @@ pub(crate) fn read_header(
     purpose: Purpose,
     warnings: &mut Vec<Warning>,
 ) -> Result<Plan, Fault> {
-    refuse_numbers(line)?;
     let mut sources = Vec::with_capacity(line.len());
     for cell in 0..line.len() {
         let text = line.text(cell);
@@ -77,7 +76,8 @@ pub(crate) fn read_header(
     plan(sources, names, purpose).map_err(|problem| Fault::new(line.whole_place(), problem))
 }
 
-fn refuse_numbers(line: &Line<'_>) -> Result<(), Fault> {
+/// A first line that names no columns.
+pub(crate) fn refuse_numbers(line: &Line<'_>) -> Result<(), Fault> {
     let all_numbers = (0..line.len()).all(|cell| line.text(cell).parse::<f64>().is_ok());
     let problem = match line.len() {
         _ if all_numbers => Problem::NoHeader,

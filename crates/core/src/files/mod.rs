@@ -5,6 +5,7 @@
 //! | `measurements.csv` | [`read_measurements`] | [`write_measurements`] |
 //! | poses and loads to predict | [`read_conditions`] | - |
 //! | poses and loads to be measured | [`read_plan`] | - |
+//! | any of these, in memory | [`read_columns`] | [`measurements_to_columns`] |
 //! | `balls.csv`, `balls.toml` | [`read_balls`], [`read_ball_places`] | - |
 //! | `hexapod.toml` | [`read_hexapod`] | [`hexapod_to_toml`], [`write_hexapod`] |
 //! | any other TOML | [`read_toml`] | - |
@@ -29,11 +30,13 @@ mod number;
 mod place;
 mod problem;
 mod read_balls;
+mod read_columns;
 mod read_conditions;
 mod read_hexapod;
 mod read_measurements;
 mod row;
 mod stated_unit;
+mod table;
 mod toml_file;
 mod toml_value;
 mod units;
@@ -44,16 +47,22 @@ mod write_measurements;
 pub use atomic::atomic_write;
 pub use digest::{content_hash, text_hash};
 pub use error::{Fault, FileError};
+pub use header::Purpose;
 pub use nearest::nearest;
 pub use place::Place;
 pub use problem::Problem;
 pub use read_balls::{read_ball_places, read_balls};
+pub use read_columns::{Cells, MemoryColumn, read_columns};
 pub use read_conditions::{read_conditions, read_plan};
 pub use read_hexapod::{parse_hexapod, read_hexapod};
-pub use read_measurements::{Reading, read_measurements, read_measurements_from};
+pub use read_measurements::{read_measurements, read_measurements_from};
+pub use table::Reading;
 pub use toml_file::{Format, read_toml};
 pub use toml_value::{Item, Key, Section};
 pub use units::{Kind, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};
 pub use write_hexapod::{hexapod_to_toml, write_hexapod};
-pub use write_measurements::{MeasurementsWriter, measurements_to_csv, write_measurements};
+pub use write_measurements::{
+    MeasurementsWriter, conditions_to_columns, measurements_to_columns, measurements_to_csv,
+    write_measurements,
+};

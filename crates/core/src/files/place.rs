@@ -3,11 +3,13 @@
 use std::fmt;
 use std::ops::Range;
 
-/// Where in a file: as much as is known, all of it counted from 1 except the bytes.
+/// Where in a file: as much as is known, all of it counted from 1 except the bytes and the rows of a table in memory.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Place {
     /// Line, the first is 1, header and comments included.
     pub line: Option<u64>,
+    /// Row of a table in memory, the first is 0, as arrays count.
+    pub row: Option<usize>,
     /// Column: the number of the cell in a CSV file, of the character in a TOML file.
     pub column: Option<usize>,
     /// Name of the CSV column, or the TOML key, as the file spells it.
@@ -32,6 +34,17 @@ impl Place {
         Self { line: Some(line), span: Some(span), ..Self::default() }
     }
 
+    /// A cell of a table in memory.
+    pub fn cell(row: usize, name: &str, value: &str) -> Self {
+        Self { row: Some(row), ..Self::default() }.with_name(name).with_value(value)
+    }
+
+    /// The same place in a table in memory, which has no lines.
+    #[must_use]
+    pub fn without_line(self) -> Self {
+        Self { line: None, column: None, span: None, ..self }
+    }
+
     /// The same place with the offending text.
     #[must_use]
     pub fn with_value(self, value: &str) -> Self {
@@ -45,18 +58,21 @@ impl Place {
     }
 }
 
-/// `line 3, column 9 (fz_N)`; nothing for the whole file.
+/// `line 3, column 9 (fz_N)`, `row 1 (fz_N)`; nothing for the whole file.
 impl fmt::Display for Place {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(line) = self.line {
             write!(out, "line {line}")?;
+        }
+        if let Some(row) = self.row {
+            write!(out, "row {row}")?;
         }
         if let Some(column) = self.column {
             write!(out, ", column {column}")?;
         }
         match &self.name {
             Some(name) if name.is_empty() => Ok(()),
-            Some(name) if self.line.is_some() => write!(out, " ({name})"),
+            Some(name) if self.line.is_some() || self.row.is_some() => write!(out, " ({name})"),
             Some(name) => out.write_str(name),
             None => Ok(()),
         }

@@ -2,7 +2,8 @@
 
 use super::FileError;
 use super::header::Purpose;
-use super::read_measurements::{Reading, read_named};
+use super::read_measurements::read_named;
+use super::table::Reading;
 use std::path::Path;
 
 /// Reads a table of poses and wrenches to predict: the columns of `measurements.csv` without the measured ones.

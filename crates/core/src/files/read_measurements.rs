@@ -1,29 +1,19 @@
 //! Reading a table of measurements in one pass.
 
-use super::columns::Group;
-use super::duplicates::{Fingerprints, drop_copies};
 use super::error::Fault;
-use super::header::{Plan, Purpose, Source, read_header};
+use super::header::{Purpose, refuse_numbers};
 use super::line::{Line, whole_place};
 use super::lines::{Lines, RawLine};
 use super::number::{Decimals, parse_number};
 use super::row::{defaults, fill, observation};
+use super::table::{Reading, Table};
 use super::warning::Notice;
 use super::{FileError, Place, Problem, Warning};
-use crate::{Dataset, Measurand, Observation};
+use crate::Observation;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::ops::Range;
 use std::path::Path;
-
-/// A table as read, and what the reader noticed on the way.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Reading {
-    /// The measurements, SI.
-    pub dataset: Dataset,
-    /// What was accepted but should be looked at.
-    pub warnings: Vec<Warning>,
-}
 
 const BUFFER_BYTES: usize = 1 << 18;
 
@@ -70,7 +60,7 @@ fn read_table(input: impl BufRead, name: &str, purpose: Purpose) -> Result<Readi
     table.finish(name)
 }
 
-fn start<R: BufRead>(lines: &mut Lines<R>, purpose: Purpose) -> Result<Table, Fault> {
+fn start<R: BufRead>(lines: &mut Lines<R>, purpose: Purpose) -> Result<Csv, Fault> {
     while let Some(raw) = lines.next_line()? {
         if raw.text.trim().is_empty() || raw.text.starts_with('#') {
             continue;
@@ -78,7 +68,7 @@ fn start<R: BufRead>(lines: &mut Lines<R>, purpose: Purpose) -> Result<Table, Fa
         if raw.text.contains('\r') {
             return Err(Fault::new(Place::file(), Problem::CarriageReturnLines));
         }
-        return Table::new(raw, purpose);
+        return Csv::new(raw, purpose);
     }
     Err(Fault::new(Place::file(), Problem::Empty))
 }
@@ -94,49 +84,33 @@ fn is_skipped(text: &str, separator: u8) -> bool {
     }
 }
 
-/// A table while it is read.
-struct Table {
-    purpose: Purpose,
+/// A table while it is read from text.
+struct Csv {
+    table: Table,
     separator: u8,
-    plan: Plan,
-    observations: Vec<Observation>,
-    fingerprints: Fingerprints,
     decimals: Decimals,
-    no_load_difference: Vec<u64>,
-    warnings: Vec<Warning>,
 }
 
-impl Table {
+impl Csv {
     fn new(header: RawLine<'_>, purpose: Purpose) -> Result<Self, Fault> {
         let (separator, name) = separator_of(header.text);
-        let mut warnings = Vec::new();
+        let mut borders = Vec::new();
+        let line = Line::cut(header, separator, &mut borders)?;
+        refuse_numbers(&line)?;
+        let mut table = Table::new(&line, purpose)?;
         if let Some(name) = name {
-            warnings.push(Warning::new(whole_place(&header), Notice::Separator(name)));
+            table.warnings.insert(0, Warning::new(whole_place(&header), Notice::Separator(name)));
         }
-        let plan = read_header(&Line::cut(header, separator, &mut Vec::new())?, purpose, &mut warnings)?;
-        Ok(Self {
-            purpose,
-            separator,
-            plan,
-            warnings,
-            observations: Vec::new(),
-            fingerprints: Fingerprints::default(),
-            decimals: Decimals::default(),
-            no_load_difference: Vec::new(),
-        })
+        Ok(Self { table, separator, decimals: Decimals::default() })
     }
 
     fn add(&mut self, raw: RawLine<'_>, cells: &mut Vec<Range<usize>>) -> Result<(), Fault> {
         let line = Line::cut(raw, self.separator, cells).map_err(|fault| self.cut_off(&raw, fault))?;
         self.refuse_other_length(&line, raw.ended)?;
         let observation = self.observation(&line)?;
-        if self.compares_loads() && observation.wrench == observation.reference {
-            self.no_load_difference.push(raw.number);
-        }
-        self.observations.push(observation);
-        self.fingerprints.note(raw.text);
+        self.table.push(observation, raw.text);
         if !raw.ended {
-            self.warnings.push(Warning::new(whole_place(&raw), Notice::NoFinalNewline));
+            self.table.warnings.push(Warning::new(whole_place(&raw), Notice::NoFinalNewline));
         }
         Ok(())
     }
@@ -147,11 +121,12 @@ impl Table {
             return fault;
         }
         let found = 1 + memchr::memchr_iter(self.separator, raw.text.as_bytes()).count();
-        Fault::new(whole_place(raw), Problem::Truncated { found, expected: self.plan.sources.len() })
+        let expected = self.table.plan.sources.len();
+        Fault::new(whole_place(raw), Problem::Truncated { found, expected })
     }
 
     fn refuse_other_length(&self, line: &Line<'_>, ended: bool) -> Result<(), Fault> {
-        let (found, expected) = (line.len(), self.plan.sources.len());
+        let (found, expected) = (line.len(), self.table.plan.sources.len());
         let problem = match found {
             _ if found == expected => return Ok(()),
             _ if !ended && found < expected => Problem::Truncated { found, expected },
@@ -161,49 +136,24 @@ impl Table {
     }
 
     fn observation(&mut self, line: &Line<'_>) -> Result<Observation, Fault> {
+        let plan = &self.table.plan;
         let mut row = defaults();
-        for (cell, source) in self.plan.sources.iter().enumerate() {
+        for (cell, source) in plan.sources.iter().enumerate() {
             let Some(source) = source else { continue };
             let text = line.text(cell);
             let filled = number_of(text, self.separator, &mut self.decimals, line.number())
                 .and_then(|value| fill(&mut row, source, value));
-            filled.map_err(|problem| self.plan.fault(line, cell, source, problem))?;
+            filled.map_err(|problem| {
+                let place = line.place(cell).with_name(&plan.names[cell]).with_value(text);
+                Fault::new(place, source.sharpened(problem))
+            })?;
         }
-        let running = i64::try_from(self.observations.len() + 1).unwrap_or(i64::MAX);
-        Ok(observation(&row, &self.plan, line.number(), running))
-    }
-
-    fn compares_loads(&self) -> bool {
-        self.purpose == Purpose::Measurements && self.plan.measurand != Measurand::AbsolutePose
+        Ok(observation(&row, plan, line.number(), self.table.running_number()))
     }
 
     fn finish(mut self, name: &str) -> Result<Reading, Fault> {
-        if self.observations.is_empty() {
-            return Err(Fault::new(Place::file(), Problem::NoRows));
-        }
-        if self.purpose == Purpose::Measurements {
-            self.warnings.extend(drop_copies(&mut self.observations, self.fingerprints, self.plan.has_pose));
-        }
-        if self.decimals.has_comma() {
-            self.warnings.push(Warning::new(Place::file(), Notice::DecimalComma));
-        }
-        if !self.no_load_difference.is_empty() {
-            let notice = Notice::NoLoadDifference { lines: self.no_load_difference };
-            self.warnings.push(Warning::new(Place::file(), notice));
-        }
-        let Plan { measurand, columns, .. } = self.plan;
-        let dataset =
-            Dataset { source: name.to_owned(), measurand, columns, observations: self.observations };
-        Ok(Reading { dataset, warnings: self.warnings })
-    }
-}
-
-impl Plan {
-    fn fault(&self, line: &Line<'_>, cell: usize, source: &Source, problem: Problem) -> Fault {
-        let is_name = matches!(problem, Problem::NotANumber) && source.column.group == Group::Number;
-        let problem = if is_name { Problem::NotWhole } else { problem };
-        let place = line.place(cell).with_name(&self.names[cell]).with_value(line.text(cell));
-        Fault::new(place, problem)
+        self.table.decimal_comma = self.decimals.has_comma();
+        self.table.finish(name)
     }
 }
 

@@ -34,6 +34,25 @@ pub fn measurements_to_csv(out: &mut dyn Write, dataset: &Dataset) -> io::Result
     writer.rows(out, &dataset.observations)
 }
 
+/// The same as columns in memory: name with unit, and one number per reading.
+pub fn measurements_to_columns(dataset: &Dataset) -> Vec<(String, Vec<f64>)> {
+    columns_of(dataset, MeasurementsWriter::new(dataset.measurand, dataset.columns).columns)
+}
+
+/// Poses and loads as columns in memory, without what was measured.
+pub fn conditions_to_columns(dataset: &Dataset) -> Vec<(String, Vec<f64>)> {
+    let has = Columns { sigma: false, ..dataset.columns };
+    let mut columns = MeasurementsWriter::new(dataset.measurand, has).columns;
+    columns.retain(|written| !measured_groups(dataset.measurand).contains(&written.column.group));
+    columns_of(dataset, columns)
+}
+
+fn columns_of(dataset: &Dataset, columns: Vec<Written>) -> Vec<(String, Vec<f64>)> {
+    let rows: Vec<Row> = dataset.observations.iter().map(row_of).collect();
+    let values = |w: &Written| rows.iter().map(|row| w.unit.from_si(row[w.column.places.first])).collect();
+    columns.iter().map(|written| (written.column.usual_name(), values(written))).collect()
+}
+
 /// Writes a table part by part, for tables that do not fit into memory.
 #[derive(Debug)]
 pub struct MeasurementsWriter {
@@ -124,6 +143,9 @@ fn row_of(observation: &Observation) -> Row {
     row[APPROACH] = observation.approach;
     row[DELTA_T] = observation.delta_t;
     row[ELAPSED] = observation.elapsed;
+    // Whole numbers below 2^53: the readers take no others.
+    row[POSE_ID] = observation.pose_id as f64;
+    row[REPEAT] = observation.repeat as f64;
     row
 }
 

@@ -1,58 +1,18 @@
 //! The page of `hexbench design`.
 
 use hexbench_core::Wrench;
-use hexbench_design::Visit;
-use hexbench_design::budget::{Amount, Budget};
+use hexbench_design::budget::Amount;
 use hexbench_design::determined::unit_diagonal;
 use hexbench_design::space::Setting;
 use hexbench_model::observability::Observability;
 use hexbench_pages::text::{Ink, Paper, Table};
 use hexbench_report::number;
-use nalgebra::DMatrix;
+
+use super::Designed;
 
 /// Correlations told at most, and the smallest worth telling.
 const MOST_TOLD: usize = 4;
 const WORTH_TELLING: f64 = 0.5;
-
-/// A plan to be shown.
-pub(crate) struct Designed {
-    /// Name of the criterion.
-    pub(crate) criterion: &'static str,
-    /// Its value at the optimum.
-    pub(crate) best: f64,
-    /// Its value for the rounded poses.
-    pub(crate) value: f64,
-    /// Information matrix of the rounded poses.
-    pub(crate) information: DMatrix<f64>,
-    /// The parameters.
-    pub(crate) parameters: Vec<Quantity>,
-    /// Rounded poses with their readings.
-    pub(crate) visits: Vec<Visit>,
-    /// What the readings are taken under.
-    pub(crate) settings: Vec<Setting>,
-    /// What it may cost.
-    pub(crate) budget: Budget,
-    /// Poses chosen from.
-    pub(crate) candidates: Option<usize>,
-    /// Least share of the budget that the best plan needs for the same.
-    pub(crate) efficiency: Option<f64>,
-    /// Starts; those that ended at a plan; those that agree with the best.
-    pub(crate) starts: [usize; 3],
-    /// True when rows are in units of the stated noise.
-    pub(crate) weighted: bool,
-    /// Seed of the starts.
-    pub(crate) seed: u32,
-}
-
-/// A parameter; one column of the regressor is `size` of it.
-pub(crate) struct Quantity {
-    /// Name.
-    pub(crate) name: String,
-    /// Unit.
-    pub(crate) unit: &'static str,
-    /// Size in that unit.
-    pub(crate) size: f64,
-}
 
 impl Designed {
     fn readings(&self) -> usize {
@@ -67,7 +27,7 @@ impl Designed {
 }
 
 /// The page.
-pub(crate) fn designed(plan: &Designed, ink: Ink) -> String {
+pub fn page(plan: &Designed, ink: Ink) -> String {
     let mut paper = Paper::new(ink);
     paper.heading("Plan", "mm and deg; fixed axes");
     poses(&mut paper, plan);

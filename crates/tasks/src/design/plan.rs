@@ -5,17 +5,18 @@ use hexbench_design::regressor::reading;
 use hexbench_design::space::Conditions;
 use hexbench_design::{Space, Visit};
 
-use crate::csv;
+use super::Designed;
 
-/// The table; poses in order, at each the settings in order, of each its repeats.
-pub(super) fn table(space: &Space, visits: &[Visit]) -> String {
-    let rows = Dataset {
-        source: String::new(),
-        measurand: Measurand::DeflectionEuler,
-        columns: columns(&space.conditions),
-        observations: readings(space, visits),
-    };
-    csv::conditions(&rows)
+impl Designed {
+    /// The readings to be taken: poses in order, at each the settings in order, of each its repeats. Nothing is measured yet.
+    pub fn readings_to_take(&self) -> Dataset {
+        Dataset {
+            source: String::new(),
+            measurand: Measurand::DeflectionEuler,
+            columns: columns(&self.space.conditions),
+            observations: readings(&self.space, &self.visits),
+        }
+    }
 }
 
 /// A column is there when the space says something about it.

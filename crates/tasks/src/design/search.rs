@@ -9,14 +9,16 @@ use hexbench_design::refine::{information, refine};
 use hexbench_design::regressor::SettingRegressor;
 use hexbench_design::{Criterion, Problem, Search, Space, Visit};
 
-use super::{Arguments, Named};
-use crate::failure::Failure;
-use crate::output::Progress;
-use crate::page::designed::{Designed, Quantity};
+use super::{Designed, Named, Quantity, Wish};
+use crate::Failure;
+
+/// Hears how many starts there are, and gives what hears of the end of each.
+pub type Begun<'a> = dyn Fn(u64) -> Box<dyn Fn() + Sync> + 'a;
 
 /// What the search is made of.
 pub(super) struct Bench<'a> {
-    pub(super) arguments: &'a Arguments,
+    pub(super) wish: &'a Wish,
+    pub(super) begun: &'a Begun<'a>,
     pub(super) hexapod: &'a Hexapod,
     pub(super) space: &'a Space,
 }
@@ -29,7 +31,7 @@ impl Bench<'_> {
         promised: Vec<Quantity>,
     ) -> Result<Designed, Failure> {
         let usual = if self.space.budget.limit.is_some() { Named::D } else { Named::O1 };
-        let named = self.arguments.criterion.unwrap_or(usual);
+        let named = self.wish.criterion.unwrap_or(usual);
         let criterion = criterion(named, self.hexapod, self.space, regressor)?;
         let found = match self.space.budget.limit {
             None => self.few_poses(regressor, &criterion)?,
@@ -45,6 +47,7 @@ impl Bench<'_> {
             value: criterion.value(&information, readings),
             information,
             parameters: promised,
+            space: self.space.clone(),
             visits,
             settings: self.space.settings(),
             budget: self.space.budget,
@@ -52,24 +55,23 @@ impl Bench<'_> {
             efficiency: found.efficiency,
             starts: found.starts,
             weighted: self.hexapod.metrology.is_some(),
-            seed: self.arguments.seed,
+            seed: self.wish.seed,
         })
     }
 
     /// So many poses, every setting read as often at each.
     fn few_poses<R: SettingRegressor>(&self, regressor: &R, criterion: &Criterion) -> Result<Found, Failure> {
-        let counts = vec![usize::from(self.arguments.repeats); self.space.settings().len()];
+        let counts = vec![usize::from(self.wish.repeats); self.space.settings().len()];
         let problem = Problem {
             hexapod: self.hexapod,
             space: self.space,
             regressor: &regressor.repeated(&counts),
             criterion,
-            poses: usize::from(self.arguments.poses.unwrap_or(3)),
+            poses: usize::from(self.wish.poses.unwrap_or(3)),
             known: None,
         };
-        let (starts, progress) = self.starts(128);
-        let found = problem.search(starts, self.arguments.seed, &|| progress.advance(1));
-        progress.done();
+        let (starts, ended) = self.starts(128);
+        let found = problem.search(starts, self.wish.seed, &*ended);
         let Search { best, starts, ended, agreeing } = found?;
         let visit = |pose: Pose| Visit { pose, counts: counts.clone() };
         Ok(Found {
@@ -87,16 +89,14 @@ impl Bench<'_> {
         regressor: &R,
         criterion: &Criterion,
     ) -> Result<Found, Failure> {
-        let Arguments { seed, candidates: count, .. } = *self.arguments;
+        let Wish { seed, candidates: count, .. } = *self.wish;
         let (hexapod, space) = (self.hexapod, self.space);
         let (mut candidates, mut poses) =
             Candidates::spread(hexapod, space, regressor, amount, usize::from(count), seed)?;
         require_determined(&candidates.whole(), &regressor.names())?;
-        let (starts, progress) = self.starts(16);
-        let found =
-            Exchange::new(&candidates, criterion).search(starts, seed.into(), &|| progress.advance(1));
-        progress.done();
-        let Plan { members, agreeing, .. } = found?;
+        let (starts, ended) = self.starts(16);
+        let Plan { members, agreeing, .. } =
+            Exchange::new(&candidates, criterion).search(starts, seed.into(), &*ended)?;
         let mut visits = candidates.visits(&poses, &members);
         refine(hexapod, space, regressor, criterion, &mut visits)?;
         // The bound counts the refined poses among the candidates.
@@ -105,9 +105,9 @@ impl Bench<'_> {
         Ok(Found { visits, starts: [starts, starts, agreeing], candidates: Some(poses.len()), efficiency })
     }
 
-    fn starts(&self, usual: u16) -> (usize, Progress) {
-        let starts = self.arguments.starts.unwrap_or(usual);
-        (usize::from(starts), Progress::of(starts.into(), "starts"))
+    fn starts(&self, usual: u16) -> (usize, Box<dyn Fn() + Sync>) {
+        let starts = self.wish.starts.unwrap_or(usual);
+        (usize::from(starts), (self.begun)(starts.into()))
     }
 }
 

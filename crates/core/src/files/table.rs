@@ -1,0 +1,97 @@
+//! A table of measurements while it is read, from text or from memory.
+
+use std::hash::Hash;
+
+use super::columns::Group;
+use super::duplicates::{Fingerprints, drop_copies};
+use super::error::Fault;
+use super::header::{Plan, Purpose, Source, read_header};
+use super::line::Line;
+use super::warning::Notice;
+use super::{Place, Problem, Warning};
+use crate::{Dataset, Measurand, Observation};
+
+/// A table as read, and what the reader noticed on the way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// The measurements, SI.
+    pub dataset: Dataset,
+    /// What was accepted but should be looked at.
+    pub warnings: Vec<Warning>,
+}
+
+/// A table while it is read.
+pub(crate) struct Table {
+    purpose: Purpose,
+    pub(crate) plan: Plan,
+    pub(crate) warnings: Vec<Warning>,
+    /// True when numbers were written with a decimal comma.
+    pub(crate) decimal_comma: bool,
+    observations: Vec<Observation>,
+    fingerprints: Fingerprints,
+    no_load_difference: Vec<u64>,
+}
+
+impl Table {
+    /// A table of no rows yet.
+    pub(crate) fn new(header: &Line<'_>, purpose: Purpose) -> Result<Self, Fault> {
+        let mut warnings = Vec::new();
+        let plan = read_header(header, purpose, &mut warnings)?;
+        Ok(Self {
+            purpose,
+            plan,
+            warnings,
+            decimal_comma: false,
+            observations: Vec::new(),
+            fingerprints: Fingerprints::default(),
+            no_load_difference: Vec::new(),
+        })
+    }
+
+    /// Number of the next row, from 1.
+    pub(crate) fn running_number(&self) -> i64 {
+        i64::try_from(self.observations.len() + 1).unwrap_or(i64::MAX)
+    }
+
+    /// Adds a row; `cells` is what two copies have in common.
+    pub(crate) fn push(&mut self, observation: Observation, cells: &(impl Hash + ?Sized)) {
+        if self.compares_loads() && observation.wrench == observation.reference {
+            self.no_load_difference.push(observation.line);
+        }
+        self.observations.push(observation);
+        self.fingerprints.note(cells);
+    }
+
+    fn compares_loads(&self) -> bool {
+        self.purpose == Purpose::Measurements && self.plan.measurand != Measurand::AbsolutePose
+    }
+
+    /// The table, and what was noticed.
+    pub(crate) fn finish(mut self, name: &str) -> Result<Reading, Fault> {
+        if self.observations.is_empty() {
+            return Err(Fault::new(Place::file(), Problem::NoRows));
+        }
+        if self.purpose == Purpose::Measurements {
+            self.warnings.extend(drop_copies(&mut self.observations, self.fingerprints, self.plan.has_pose));
+        }
+        if self.decimal_comma {
+            self.warnings.push(Warning::new(Place::file(), Notice::DecimalComma));
+        }
+        if !self.no_load_difference.is_empty() {
+            let notice = Notice::NoLoadDifference { lines: self.no_load_difference };
+            self.warnings.push(Warning::new(Place::file(), notice));
+        }
+        let Plan { measurand, columns, .. } = self.plan;
+        let dataset =
+            Dataset { source: name.to_owned(), measurand, columns, observations: self.observations };
+        Ok(Reading { dataset, warnings: self.warnings })
+    }
+}
+
+impl Source {
+    /// Text in the column of a whole number is called that.
+    pub(crate) fn sharpened(&self, problem: Problem) -> Problem {
+        let is_name = matches!(problem, Problem::NotANumber) && self.column.group == Group::Number;
+        if is_name { Problem::NotWhole } else { problem }
+    }
+}

@@ -1,0 +1,169 @@
+"""The machine as its drawings describe it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from os import PathLike, fspath
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from hexbench import _native
+from hexbench._tables import Floats, rows
+
+
+class Hexapod:
+    """A hexapod: six base joints, six platform joints, and what else its owner states about it.
+
+    Names and units are those of ``hexapod.toml``. The fixed (base) frame and the mobile (platform) frame coincide at the zero pose.
+
+    Parameters
+    ----------
+    base_joints_mm : array (6, 3)
+        Base joints A_i in the fixed frame, mm.
+    platform_joints_mm : array (6, 3)
+        Platform joints B_i in the mobile frame, mm.
+    name : str
+        What reports call the machine.
+    sigma_translation_um, sigma_rotation_urad : float, optional
+        Standard deviation of ONE reading of a deflection (or of an absolute pose); both or neither.
+    nominal_stiffness_N_per_um : float or six floats, optional
+        Stiffness of the legs by the drawings.
+    min_length_mm, max_length_mm : float, optional
+        Shortest and longest leg length; both or neither.
+    brackets : pairs of leg numbers, optional
+        Legs, from 1, that share a bracket.
+    mounting_plane_z_mm : float, optional
+        Height of the mounting plane in the fixed frame; the mean z of the base joints unless stated.
+    center_of_gravity_mm : three floats, optional
+        Centre of gravity of the payload, mobile frame.
+
+    Raises
+    ------
+    BadInput
+        The rule that is broken, with the text the command has for a hexapod file.
+    """
+
+    _native: _native.Hexapod
+
+    def __init__(
+        self,
+        base_joints_mm: ArrayLike,
+        platform_joints_mm: ArrayLike,
+        *,
+        name: str = "hexapod",
+        sigma_translation_um: float | None = None,
+        sigma_rotation_urad: float | None = None,
+        nominal_stiffness_N_per_um: float | Sequence[float] | None = None,
+        min_length_mm: float | None = None,
+        max_length_mm: float | None = None,
+        brackets: Sequence[Sequence[int]] | None = None,
+        mounting_plane_z_mm: float | None = None,
+        center_of_gravity_mm: Sequence[float] | None = None,
+    ) -> None:
+        sections: dict[str, dict[str, Any]] = {
+            "geometry": {
+                "base_joints_mm": rows(base_joints_mm, 3, "base_joints_mm").tolist(),
+                "platform_joints_mm": rows(platform_joints_mm, 3, "platform_joints_mm").tolist(),
+            },
+            "metrology": {"sigma_translation_um": sigma_translation_um, "sigma_rotation_urad": sigma_rotation_urad},
+            "legs": {
+                "nominal_stiffness_N_per_um": nominal_stiffness_N_per_um,
+                "min_length_mm": min_length_mm,
+                "max_length_mm": max_length_mm,
+                "brackets": brackets,
+            },
+            "base": {"mounting_plane_z_mm": mounting_plane_z_mm},
+            "payload": {"center_of_gravity_mm": center_of_gravity_mm},
+        }
+        self._native = _native.Hexapod.of_text(_toml(name, sections), "hexapod")
+
+    @classmethod
+    def read(cls, path: str | PathLike[str]) -> Hexapod:
+        """Read ``hexapod.toml``.
+
+        Raises
+        ------
+        BadInput
+            What is wrong with the file: line, column, value, rule, next step.
+        InputOutput
+            The file cannot be read.
+        """
+        return cls._of(_native.Hexapod.read(fspath(path)))
+
+    @classmethod
+    def _of(cls, native: _native.Hexapod) -> Hexapod:
+        hexapod = cls.__new__(cls)
+        hexapod._native = native
+        return hexapod
+
+    @property
+    def name(self) -> str:
+        """What reports call the machine."""
+        return self._native.name
+
+    @property
+    def base_joints_mm(self) -> Floats:
+        """Base joints A_i in the fixed frame, mm, shape (6, 3)."""
+        return self._native.base_joints_mm
+
+    @property
+    def platform_joints_mm(self) -> Floats:
+        """Platform joints B_i in the mobile frame, mm, shape (6, 3)."""
+        return self._native.platform_joints_mm
+
+    @property
+    def sigma_translation_um(self) -> float | None:
+        """Standard deviation of one reading of a translation, um; None when it is not stated."""
+        return self._native.sigma_translation_um
+
+    @property
+    def sigma_rotation_urad(self) -> float | None:
+        """Standard deviation of one reading of a rotation, urad; None when it is not stated."""
+        return self._native.sigma_rotation_urad
+
+    def to_toml(self) -> str:
+        """Return the text of ``hexapod.toml``; reading it gives the same machine."""
+        return self._native.to_toml()
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write ``hexapod.toml``, whole or not at all."""
+        _native.write_text(fspath(path), self.to_toml())
+
+    def __repr__(self) -> str:
+        """Return the name of the machine."""
+        return f"Hexapod({self.name!r})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle as the text of the file."""
+        return (_restored, (self.to_toml(),))
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all that is stated."""
+        return isinstance(other, Hexapod) and self.to_toml() == other.to_toml()
+
+    def __hash__(self) -> int:
+        """Hash what is compared."""
+        return hash(self.to_toml())
+
+
+def _restored(text: str) -> Hexapod:
+    return Hexapod._of(_native.Hexapod.of_text(text, "hexapod"))
+
+
+def _toml(name: str, sections: dict[str, dict[str, Any]]) -> str:
+    text = f'format = "hexapod/1"\nname = {json.dumps(str(name), ensure_ascii=False)}\n'
+    for title, keys in sections.items():
+        given = {key: value for key, value in keys.items() if value is not None}
+        if given:
+            text += f"\n[{title}]\n" + "".join(f"{key} = {_value(value)}\n" for key, value in given.items())
+    return text
+
+
+def _value(value: Any) -> str:
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_value(item) for item in value) + "]"
+    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else json.dumps(str(value))

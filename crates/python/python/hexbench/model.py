@@ -1,0 +1,262 @@
+"""Fitting a model, keeping it, and what it predicts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any, Literal, overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hexbench import _native
+from hexbench._tables import POSE, REFERENCE, WRENCH, Floats, one_per_row, rows, spread
+from hexbench.campaign import Campaign, Data, held_out
+from hexbench.machine import Hexapod
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class Model:
+    """A fitted model: leg springs, terms, their covariance, and where they come from; the contents of ``model.toml``."""
+
+    _native: _native.Model
+
+    def __init__(self, native: _native.Model) -> None:
+        """Hold what a fit has made; use :func:`fit` or :meth:`load`."""
+        self._native = native
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Model:
+        """Read ``model.toml``.
+
+        Raises
+        ------
+        BadInput
+            The key that breaks a rule.
+        InputOutput
+            The file cannot be read.
+        """
+        return cls(_native.Model.read(fspath(path)))
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write ``model.toml``, whole or not at all."""
+        _native.write_text(fspath(path), self.to_toml())
+
+    def to_toml(self) -> str:
+        """Return the text of ``model.toml``."""
+        return self._native.to_toml()
+
+    @property
+    def hexapod(self) -> Hexapod:
+        """The machine."""
+        return Hexapod._of(self._native.hexapod)
+
+    @property
+    def terms(self) -> list[str]:
+        """Terms beside the leg springs, as ``fit`` takes them."""
+        return self._native.terms
+
+    @property
+    def absolute(self) -> bool:
+        """True for a model of absolute poses."""
+        return self._native.absolute
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Every number that the data determine, in the unit of :attr:`units`: ``leg-1.stiffness``, ``base-compliance.rotation-x``."""
+        return {name: value for name, value, _, _ in self._native.estimates()}
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of every number."""
+        return {name: unit for name, _, _, unit in self._native.estimates()}
+
+    @property
+    def stds(self) -> dict[str, float]:
+        """Standard uncertainty (k = 1) of every number, in its unit."""
+        return {name: std for name, _, std, _ in self._native.estimates()}
+
+    @property
+    def not_determined(self) -> list[str]:
+        """Names of parameters for which the data give no number."""
+        return self._native.not_determined
+
+    @property
+    def parameters(self) -> pd.DataFrame:
+        """Every number that the data determine: index ``name``, columns ``value``, ``std`` (k = 1), ``unit`` (needs pandas)."""
+        import pandas as pd
+
+        rows = [{"name": n, "value": value, "std": std, "unit": unit} for n, value, std, unit in self._native.estimates()]
+        return pd.DataFrame(rows, columns=["name", "value", "std", "unit"]).set_index("name")
+
+    @property
+    def covariance(self) -> Floats:
+        """Covariance of the fitted numbers in SI units, shape (p, p), in the order of :attr:`covariance_names`.
+
+        Springs stand there as compliances (m/N), shapes by their logarithm.
+        """
+        return self._native.covariance
+
+    @property
+    def covariance_names(self) -> list[str]:
+        """Names of the rows and columns of :attr:`covariance`."""
+        return self._native.covariance_names
+
+    @property
+    def chi2(self) -> float:
+        """Chi-square of the fit."""
+        return self._native.chi2
+
+    @property
+    def degrees_of_freedom(self) -> float:
+        """Degrees of freedom of the fit."""
+        return self._native.degrees_of_freedom
+
+    @property
+    def sigma(self) -> Floats:
+        """Noise of one reading that the fit was weighted by, shape (6,): um and urad."""
+        translation, rotation = self._native.noise
+        return np.array([translation] * 3 + [rotation] * 3)
+
+    @property
+    def noise_source(self) -> str:
+        """Where the noise comes from: ``metrology``, ``sigma columns``, ``repeats``, ``residuals``."""
+        return self._native.noise_source
+
+    @property
+    def summary(self) -> str:
+        """What ``hexbench fit`` prints; empty for a model from a file."""
+        return self._native.summary
+
+    @overload
+    def predict(
+        self,
+        poses: ArrayLike,
+        wrenches: ArrayLike,
+        *,
+        reference: ArrayLike | None = ...,
+        approach: ArrayLike | None = ...,
+        delta_T_K: ArrayLike | None = ...,
+        elapsed_s: ArrayLike | None = ...,
+        covariance: Literal[False] = ...,
+    ) -> Floats: ...
+
+    @overload
+    def predict(
+        self,
+        poses: ArrayLike,
+        wrenches: ArrayLike,
+        *,
+        reference: ArrayLike | None = ...,
+        approach: ArrayLike | None = ...,
+        delta_T_K: ArrayLike | None = ...,
+        elapsed_s: ArrayLike | None = ...,
+        covariance: Literal[True],
+    ) -> tuple[Floats, Floats]: ...
+
+    def predict(
+        self,
+        poses: ArrayLike,
+        wrenches: ArrayLike,
+        *,
+        reference: ArrayLike | None = None,
+        approach: ArrayLike | None = None,
+        delta_T_K: ArrayLike | None = None,
+        elapsed_s: ArrayLike | None = None,
+        covariance: bool = False,
+    ) -> Floats | tuple[Floats, Floats]:
+        """Predict readings that nobody has taken.
+
+        Parameters
+        ----------
+        poses : array (n, 6)
+            Commanded poses: mm and deg (extrinsic X-Y-Z), fixed frame.
+        wrenches : array (n, 6)
+            Loads on the platform at the mobile origin, fixed axes: N and N m.
+        reference : array (n, 6), optional
+            Loads in the reference state; none unless given.
+        approach, delta_T_K, elapsed_s : array (n,) or number, optional
+            Direction of approach (+1, -1), temperature (K) and time (s) against the reference reading.
+        covariance : bool
+            Return the covariance of the prediction too: that of the model, without the noise of a future reading.
+
+        Returns
+        -------
+        array (n, 6)
+            Deflections, loaded minus reference: um and urad. For a model of absolute poses: poses in mm and deg.
+        array (n, 6, 6)
+            With ``covariance=True``: covariance of each row in um and urad.
+
+        Raises
+        ------
+        BadInput
+            A shape, a number that is not finite, a singular pose: with the row, counted from 0.
+        """
+        first = rows(poses, 6, "poses")
+        count = len(first)
+        table = {**spread(POSE, first), **spread(WRENCH, rows(wrenches, 6, "wrenches", count))}
+        if reference is not None:
+            table |= spread(REFERENCE, rows(reference, 6, "reference", count))
+        single = {"approach": approach, "delta_T_K": delta_T_K, "elapsed_s": elapsed_s}
+        table |= {key: one_per_row(value, key, count) for key, value in single.items() if value is not None}
+        if count == 0:
+            values, spreads = np.empty((0, 6)), np.empty((0, 6, 6))
+        else:
+            values, spreads = self._native.predict(list(table), list(table.values()))
+        return (values, spreads) if covariance else values
+
+    def __repr__(self) -> str:
+        """Return machine, terms and chi-square."""
+        added = "".join(f" + {term}" for term in self.terms)
+        return f"Model({self.hexapod.name!r}: springs{added}, chi2/dof {self.chi2 / max(self.degrees_of_freedom, 1.0):.3g})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle as the text of the file."""
+        return (_restored, (self.to_toml(), self.summary))
+
+
+def fit(
+    campaign: Campaign,
+    add: Sequence[str] = (),
+    *,
+    holdout: Data | None = None,
+    terms: Sequence[str | PathLike[str]] = (),
+    estimator: Literal["gls", "paper"] = "gls",
+) -> Model:
+    """Fit leg stiffnesses, and the effects named, to a campaign.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        The measurements.
+    add : sequence of str
+        Terms of the catalogue to fit beside the springs, with ``:richer`` behind a name for its richer form.
+    holdout : path, table or Campaign, optional
+        Readings kept out of the fit, to judge it (:attr:`Model.summary`).
+    terms : sequence of paths
+        Term files of your own (term/1), which are added.
+    estimator : {"gls", "paper"}
+        Generalised least squares, or the paper's unweighted minimum-norm least squares (springs and deflections only).
+
+    Raises
+    ------
+    UsageError
+        A term that does not exist or is named twice.
+    NotDetermined
+        What the data leave open, in words.
+    """
+    if isinstance(add, str):
+        add = (add,)
+    native = _native.fit(campaign._native, list(add), held_out(campaign, holdout), [fspath(t) for t in terms], estimator)
+    return Model(native)
+
+
+def predict(model: Model, poses: ArrayLike, wrenches: ArrayLike, **conditions: Any) -> Any:
+    """Predict readings that nobody has taken: :meth:`Model.predict` as a function."""
+    return model.predict(poses, wrenches, **conditions)
+
+
+def _restored(text: str, summary: str) -> Model:
+    return Model(_native.Model.of_text(text, summary))

@@ -1,0 +1,151 @@
+//! Measurements: from files, from tables in memory, and back.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use hexbench_core::Dataset;
+use hexbench_core::files::{
+    Cells, FileError, MemoryColumn, Purpose, Reading, content_hash, measurements_to_columns,
+    measurements_to_csv, read_columns, read_measurements, read_measurements_from, text_hash,
+};
+use hexbench_tasks::Failure;
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::error::usage;
+use crate::machine::{Machine, Origin, PyHexapod};
+use crate::run::beside;
+
+/// A machine with its measurements.
+#[derive(Debug)]
+pub(crate) struct Measured {
+    pub(crate) machine: Arc<Machine>,
+    pub(crate) data: Dataset,
+    pub(crate) origin: Origin,
+}
+
+/// A campaign.
+#[pyclass(frozen, name = "Campaign", module = "hexbench._native")]
+pub(crate) struct PyCampaign(pub(crate) Arc<Measured>);
+
+/// What a reader noticed, each with its next step.
+type Noticed = Vec<(String, String)>;
+
+#[pymethods]
+impl PyCampaign {
+    /// Read measurements.csv.
+    #[staticmethod]
+    fn read(py: Python<'_>, hexapod: &PyHexapod, path: PathBuf) -> PyResult<(Self, Noticed)> {
+        let machine = Arc::clone(&hexapod.0);
+        beside(py, move || {
+            let reading = read_measurements(&path)?;
+            let origin = Origin { name: path.display().to_string(), sha256: content_hash(&path)? };
+            Ok(Self::of(machine, reading, origin))
+        })
+    }
+
+    /// Read the text of a measurements.csv.
+    #[staticmethod]
+    fn of_text(py: Python<'_>, hexapod: &PyHexapod, text: String, name: String) -> PyResult<Self> {
+        let machine = Arc::clone(&hexapod.0);
+        beside(py, move || {
+            let reading = read_measurements_from(text.as_bytes(), &name)?;
+            Ok(Self::of(machine, reading, Origin { name, sha256: text_hash(&text) }).0)
+        })
+    }
+
+    /// Read columns in memory.
+    #[staticmethod]
+    fn of_columns(
+        py: Python<'_>,
+        hexapod: &PyHexapod,
+        names: Vec<String>,
+        columns: Vec<Bound<'_, PyAny>>,
+        name: String,
+    ) -> PyResult<(Self, Noticed)> {
+        let machine = Arc::clone(&hexapod.0);
+        let columns = memory_columns(py, names, &columns)?;
+        beside(py, move || {
+            let reading = read_columns(&columns, &name, Purpose::Measurements)?;
+            let sha256 = text_hash(&csv(&reading.dataset));
+            Ok(Self::of(machine, reading, Origin { name, sha256 }))
+        })
+    }
+
+    /// Every column of measurements.csv.
+    fn columns<'py>(&self, py: Python<'py>) -> Vec<(String, Bound<'py, PyArray1<f64>>)> {
+        let columns = measurements_to_columns(&self.0.data);
+        columns.into_iter().map(|(name, values)| (name, values.into_pyarray(py))).collect()
+    }
+
+    /// The text of measurements.csv.
+    fn to_csv(&self) -> String {
+        csv(&self.0.data)
+    }
+
+    #[getter]
+    fn readings(&self) -> usize {
+        self.0.data.observations.len()
+    }
+
+    #[getter]
+    fn absolute(&self) -> bool {
+        self.0.data.is_absolute()
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.data.source
+    }
+}
+
+impl PyCampaign {
+    fn of(machine: Arc<Machine>, reading: Reading, origin: Origin) -> (Self, Noticed) {
+        let told =
+            |w: &hexbench_core::files::Warning| (format!("{}: {w}", origin.name), w.next_step().to_owned());
+        let noticed = reading.warnings.iter().map(told).collect();
+        (Self(Arc::new(Measured { machine, data: reading.dataset, origin })), noticed)
+    }
+}
+
+/// The file that would be written. Numbers that a reader has passed can be written.
+fn csv(data: &Dataset) -> String {
+    let mut text = Vec::new();
+    let _ = measurements_to_csv(&mut text, data);
+    String::from_utf8_lossy(&text).into_owned()
+}
+
+/// Columns as Python gives them: an array of floats, or a list of texts.
+fn memory_columns(
+    py: Python<'_>,
+    names: Vec<String>,
+    columns: &[Bound<'_, PyAny>],
+) -> PyResult<Vec<MemoryColumn>> {
+    if names.len() != columns.len() {
+        return Err(usage(py, &format!("{} names for {} columns", names.len(), columns.len()), ""));
+    }
+    let read = |(name, column): (String, &Bound<'_, PyAny>)| {
+        let cells = match column.extract::<PyReadonlyArray1<'_, f64>>() {
+            Ok(array) => Cells::Numbers(array.as_array().iter().copied().collect()),
+            Err(_) => Cells::Texts(column.extract()?),
+        };
+        Ok(MemoryColumn { name, cells })
+    };
+    names.into_iter().zip(columns).map(read).collect()
+}
+
+/// Poses and loads that need no measurement, from columns in memory.
+pub(crate) fn conditions(
+    py: Python<'_>,
+    names: Vec<String>,
+    columns: &[Bound<'_, PyAny>],
+    name: &str,
+) -> PyResult<Dataset> {
+    let columns = memory_columns(py, names, columns)?;
+    let name = name.to_owned();
+    beside(py, move || {
+        read_columns(&columns, &name, Purpose::Conditions)
+            .map(|reading| reading.dataset)
+            .map_err(|cause: FileError| Failure::File(cause))
+    })
+}

@@ -1,0 +1,78 @@
+//! Plans of experiments.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use hexbench_core::Dataset;
+use hexbench_core::files::conditions_to_columns;
+use hexbench_pages::text::Ink;
+use hexbench_tasks::design::{self, Named, Wish, page};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+
+use crate::error::usage;
+use crate::machine::PyHexapod;
+use crate::run::beside;
+
+/// A plan.
+#[pyclass(frozen, name = "Plan", module = "hexbench._native")]
+pub(crate) struct PyPlan {
+    readings: Dataset,
+    #[pyo3(get)]
+    criterion: &'static str,
+    #[pyo3(get)]
+    value: f64,
+    /// Least share of the budget that the best plan needs for the same.
+    #[pyo3(get)]
+    efficiency: Option<f64>,
+    #[pyo3(get)]
+    text: String,
+}
+
+#[pymethods]
+impl PyPlan {
+    /// The readings to be taken: the columns of measurements.csv without the measured ones.
+    fn columns<'py>(&self, py: Python<'py>) -> Vec<(String, Bound<'py, PyArray1<f64>>)> {
+        let columns = conditions_to_columns(&self.readings);
+        columns.into_iter().map(|(name, values)| (name, values.into_pyarray(py))).collect()
+    }
+}
+
+/// Search a plan.
+#[pyfunction]
+pub(crate) fn design(
+    py: Python<'_>,
+    hexapod: &PyHexapod,
+    space: PathBuf,
+    poses: Option<u16>,
+    repeats: u16,
+    readings: Option<u16>,
+    hours: Option<f64>,
+    candidates: u16,
+    criterion: Option<&str>,
+    terms: Vec<String>,
+    starts: Option<u16>,
+    seed: u32,
+) -> PyResult<PyPlan> {
+    let criterion = criterion.map(|name| named(py, name)).transpose()?;
+    let wish = Wish { poses, repeats, readings, hours, candidates, criterion, terms, starts, seed };
+    let machine = Arc::clone(&hexapod.0);
+    beside(py, move || {
+        let found = design::design(&machine.hexapod, &space, &wish, &|_| Box::new(|| ()))?;
+        Ok(PyPlan {
+            readings: found.readings_to_take(),
+            criterion: found.criterion,
+            value: found.value,
+            efficiency: found.efficiency,
+            text: page(&found, Ink::new(false)),
+        })
+    })
+}
+
+fn named(py: Python<'_>, name: &str) -> PyResult<Named> {
+    let found = Named::ALL.into_iter().find(|(known, _)| *known == name);
+    found.map(|(_, criterion)| criterion).ok_or_else(|| {
+        let known = Named::ALL.map(|(known, _)| known).join(", ");
+        usage(py, &format!("there is no criterion \"{name}\""), &format!("Use one of {known}."))
+    })
+}

@@ -1,0 +1,166 @@
+//! Comparisons and diagnoses.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use hexbench_model::compare::{Compared, compare as compared_with};
+use hexbench_model::diagnose::{Study, diagnose as studied};
+use hexbench_model::runs::{Origin, WithOrigin};
+use hexbench_pages::html::{self, Provenance, ReportError};
+use hexbench_pages::text::Ink;
+use hexbench_pages::{Subject, comparison};
+use hexbench_report::html::{PROGRAM, Page};
+use hexbench_tasks::{Failure, input};
+use pyo3::prelude::*;
+use serde::Serialize;
+
+use crate::campaign::{Measured, PyCampaign};
+use crate::error::internal;
+use crate::model::PyModel;
+use crate::run::beside;
+
+/// What a result is about.
+struct About {
+    measured: Arc<Measured>,
+    holdout: Option<Arc<Measured>>,
+}
+
+impl About {
+    fn of(campaign: &PyCampaign, holdout: Option<&PyCampaign>) -> Self {
+        Self { measured: Arc::clone(&campaign.0), holdout: holdout.map(|h| Arc::clone(&h.0)) }
+    }
+
+    fn failure(&self, cause: hexbench_model::error::ModelError) -> Failure {
+        Failure::Model { cause, data: self.measured.data.source.clone() }
+    }
+
+    /// The result as the command writes it.
+    fn json(&self, py: Python<'_>, result: &impl Serialize) -> PyResult<String> {
+        let machine = &self.measured.machine;
+        let run = Origin::new(
+            PROGRAM,
+            (&machine.hexapod, machine.origin.sha256.clone()),
+            (&self.measured.data, self.measured.origin.sha256.clone()),
+            self.holdout.as_ref().map(|h| h.origin.sha256.clone()),
+        );
+        let text = serde_json::to_string_pretty(&WithOrigin { result, run });
+        text.map(|text| text + "\n").map_err(|cause| internal(py, &cause.to_string()))
+    }
+
+    fn provenance(&self, function: &str) -> Provenance {
+        let read = [Some(&self.measured.machine.origin), Some(&self.measured.origin)];
+        let held = self.holdout.as_ref().map(|h| &h.origin);
+        let files = read.into_iter().chain([held]).flatten();
+        Provenance {
+            command: format!("hexbench.{function} in Python"),
+            files: files.map(|origin| (origin.name.clone(), origin.sha256.clone())).collect(),
+        }
+    }
+}
+
+fn page_text(page: &Page) -> Result<String, Failure> {
+    Ok(page.to_html().map_err(ReportError::from)?)
+}
+
+/// A diagnosis.
+#[pyclass(frozen, name = "Diagnosis", module = "hexbench._native")]
+pub(crate) struct PyDiagnosis(Arc<(About, Study)>);
+
+#[pymethods]
+impl PyDiagnosis {
+    /// The text of diagnosis.json.
+    fn json(&self, py: Python<'_>) -> PyResult<String> {
+        self.0.0.json(py, &self.0.1.diagnosis)
+    }
+
+    /// The page of the command.
+    fn text(&self, verbose: bool) -> String {
+        hexbench_pages::diagnosis(&subject(&self.0), verbose, Ink::new(false))
+    }
+
+    /// The page for a browser.
+    fn html(&self, py: Python<'_>) -> PyResult<String> {
+        let both = Arc::clone(&self.0);
+        beside(py, move || page_text(&html::diagnosis(&subject(&both), &both.0.provenance("diagnose"))?))
+    }
+}
+
+fn subject((about, study): &(About, Study)) -> Subject<'_> {
+    Subject {
+        hexapod: &about.measured.machine.hexapod,
+        data: &about.measured.data,
+        holdout: about.holdout.as_ref().map(|h| &h.data),
+        study,
+    }
+}
+
+/// Name the physical effect the model lacks.
+#[pyfunction]
+pub(crate) fn diagnose(
+    py: Python<'_>,
+    campaign: &PyCampaign,
+    holdout: Option<&PyCampaign>,
+    terms: Vec<PathBuf>,
+) -> PyResult<PyDiagnosis> {
+    let about = About::of(campaign, holdout);
+    beside(py, move || {
+        let all = input::catalogue_with(&input::user_terms(&terms)?);
+        let held = about.holdout.as_ref().map(|h| &h.data);
+        let study = studied(&about.measured.machine.hexapod, &about.measured.data, held, &all);
+        let study = study.map_err(|cause| about.failure(cause))?;
+        Ok(PyDiagnosis(Arc::new((about, study))))
+    })
+}
+
+/// A comparison.
+#[pyclass(frozen, name = "Comparison", module = "hexbench._native")]
+pub(crate) struct PyComparison(Arc<(About, Compared)>);
+
+#[pymethods]
+impl PyComparison {
+    /// The text of comparison.json.
+    fn json(&self, py: Python<'_>) -> PyResult<String> {
+        self.0.0.json(py, &self.0.1.comparison)
+    }
+
+    /// The page of the command.
+    fn text(&self) -> String {
+        comparison::page(&self.0.1.comparison, Ink::new(false))
+    }
+
+    /// The page for a browser.
+    fn html(&self, py: Python<'_>) -> PyResult<String> {
+        let both = Arc::clone(&self.0);
+        beside(py, move || {
+            let (about, compared) = both.as_ref();
+            let Measured { machine, data, .. } = about.measured.as_ref();
+            let held = about.holdout.as_ref().map(|h| &h.data);
+            page_text(&html::comparison(
+                &machine.hexapod,
+                data,
+                held,
+                compared,
+                &about.provenance("compare"),
+            )?)
+        })
+    }
+}
+
+/// Compare a model, or springs fitted to the data, with measurements.
+#[pyfunction]
+pub(crate) fn compare(
+    py: Python<'_>,
+    campaign: &PyCampaign,
+    model: Option<&PyModel>,
+    holdout: Option<&PyCampaign>,
+) -> PyResult<PyComparison> {
+    let about = About::of(campaign, holdout);
+    let model = model.map(|m| Arc::clone(&m.model));
+    beside(py, move || {
+        let held = about.holdout.as_ref().map(|h| &h.data);
+        let compared =
+            compared_with(&about.measured.machine.hexapod, &about.measured.data, model.as_deref(), held);
+        let compared = compared.map_err(|cause| about.failure(cause))?;
+        Ok(PyComparison(Arc::new((about, compared))))
+    })
+}

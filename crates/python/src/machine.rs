@@ -1,0 +1,111 @@
+//! The machine.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use hexbench_core::files::{
+    FileError, Kind, atomic_write, content_hash, hexapod_to_toml, parse_hexapod, read_hexapod, text_hash,
+    unit_named,
+};
+use hexbench_core::{Hexapod, Vector3};
+use hexbench_tasks::Failure;
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+use crate::arrays::rows;
+use crate::error::raised;
+
+/// A machine, and the file it comes from.
+#[derive(Debug)]
+pub(crate) struct Machine {
+    pub(crate) hexapod: Hexapod,
+    pub(crate) origin: Origin,
+}
+
+/// Where something comes from: for the foot of a page and for the key `run` of a result.
+#[derive(Debug, Clone)]
+pub(crate) struct Origin {
+    /// Name of the file, or what stands for one.
+    pub(crate) name: String,
+    /// SHA-256 of the file, or of the file that would be written.
+    pub(crate) sha256: String,
+}
+
+/// A hexapod.
+#[pyclass(frozen, name = "Hexapod", module = "hexbench._native")]
+pub(crate) struct PyHexapod(pub(crate) Arc<Machine>);
+
+#[pymethods]
+impl PyHexapod {
+    /// Read hexapod.toml.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let read = || {
+            let hexapod = read_hexapod(&path)?;
+            let origin = Origin { name: path.display().to_string(), sha256: content_hash(&path)? };
+            Ok::<_, FileError>(Self(Arc::new(Machine { hexapod, origin })))
+        };
+        py.detach(read).map_err(|cause| raised(py, &cause.into()))
+    }
+
+    /// Read the text of a hexapod.toml that is in no file: messages name keys, not lines.
+    #[staticmethod]
+    fn of_text(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        let without_line = |cause: FileError| {
+            let place = Box::new(cause.place.without_line());
+            raised(py, &Failure::File(FileError { place, ..cause }))
+        };
+        Ok(Self::of(parse_hexapod(text, name).map_err(without_line)?, name))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.hexapod.name
+    }
+
+    #[getter]
+    fn base_joints_mm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        millimetres(py, &self.0.hexapod.base_joints)
+    }
+
+    #[getter]
+    fn platform_joints_mm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        millimetres(py, &self.0.hexapod.platform_joints)
+    }
+
+    #[getter]
+    fn sigma_translation_um(&self) -> Option<f64> {
+        self.0.hexapod.metrology.map(|m| m.sigma_translation * 1e6)
+    }
+
+    #[getter]
+    fn sigma_rotation_urad(&self) -> Option<f64> {
+        self.0.hexapod.metrology.map(|m| m.sigma_rotation * 1e6)
+    }
+
+    /// The text of hexapod.toml.
+    fn to_toml(&self) -> String {
+        hexapod_to_toml(&self.0.hexapod)
+    }
+}
+
+impl PyHexapod {
+    /// A machine that is in no file.
+    pub(crate) fn of(hexapod: Hexapod, name: &str) -> Self {
+        let sha256 = text_hash(&hexapod_to_toml(&hexapod));
+        Self(Arc::new(Machine { hexapod, origin: Origin { name: name.to_owned(), sha256 } }))
+    }
+}
+
+fn millimetres<'py>(py: Python<'py>, joints: &[Vector3; 6]) -> Bound<'py, PyArray2<f64>> {
+    let unit = unit_named("mm", Kind::Length);
+    let in_mm = |m: f64| unit.map_or(m, |unit| unit.from_si(m));
+    rows(py, joints.iter().map(|joint| [in_mm(joint.x), in_mm(joint.y), in_mm(joint.z)]))
+}
+
+/// Write a text whole or not at all.
+#[pyfunction]
+pub(crate) fn write_text(py: Python<'_>, path: PathBuf, text: &str) -> PyResult<()> {
+    let write = || atomic_write(&path, |out| out.write_all(text.as_bytes()));
+    py.detach(write).map_err(|cause| raised(py, &Failure::Output { path: path.clone(), cause }))
+}

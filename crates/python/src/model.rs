@@ -1,0 +1,190 @@
+//! Fits, models, and what they predict.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use hexbench_model::diagnose::prepare;
+use hexbench_model::estimate::{Estimates, estimates_of};
+use hexbench_model::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::predict::predict;
+use hexbench_model::selection::Task;
+use hexbench_pages::fitted::report;
+use hexbench_pages::text::Ink;
+use hexbench_tasks::fit::{added, fitted};
+use hexbench_tasks::{Failure, input};
+use numpy::{PyArray2, PyArray3};
+use pyo3::prelude::*;
+
+use crate::arrays::{matrices, matrix, rows};
+use crate::campaign::{PyCampaign, conditions};
+use crate::error::{raised, usage};
+use crate::machine::PyHexapod;
+use crate::run::beside;
+
+/// A fitted model.
+#[pyclass(frozen, name = "Model", module = "hexbench._native")]
+pub(crate) struct PyModel {
+    pub(crate) model: Arc<Model>,
+    estimates: Estimates,
+    summary: String,
+}
+
+#[pymethods]
+impl PyModel {
+    /// Read model.toml.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let model = py.detach(|| input::model(&path)).map_err(|failure| raised(py, &failure))?;
+        Ok(Self::of(model, String::new()))
+    }
+
+    /// Read the text of a model.toml.
+    #[staticmethod]
+    fn of_text(py: Python<'_>, text: &str, summary: String) -> PyResult<Self> {
+        let model = input::model_of(text, Path::new("model")).map_err(|failure| raised(py, &failure))?;
+        Ok(Self::of(model, summary))
+    }
+
+    /// The text of model.toml.
+    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+        self.model
+            .to_toml()
+            .map_err(|cause| raised(py, &Failure::ModelFile { path: "model".into(), cause: Box::new(cause) }))
+    }
+
+    /// Name, value, standard uncertainty, unit of every number the data determine.
+    fn estimates(&self) -> Vec<(String, f64, f64, String)> {
+        let all = self.estimates.determined.iter();
+        all.map(|e| (e.name.clone(), e.value, e.std, e.unit.clone())).collect()
+    }
+
+    /// Values (n, 6) and covariances (n, 6, 6) of conditions given as columns.
+    #[expect(clippy::type_complexity, reason = "two arrays")]
+    fn predict<'py>(
+        &self,
+        py: Python<'py>,
+        names: Vec<String>,
+        columns: Vec<Bound<'py, PyAny>>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
+        let data = conditions(py, names, &columns, "poses")?;
+        let model = Arc::clone(&self.model);
+        let found = beside(py, move || {
+            predict(&model, &data.observations).or_else(|wrong| {
+                let row = wrong.line.saturating_sub(2);
+                Err(Failure::MemoryRow { table: "poses".into(), row, cause: Box::new(wrong.cause) })
+            })
+        })?;
+        let absolute = self.model.is_absolute();
+        let value = |x: [f64; 6]| {
+            std::array::from_fn(|k| match (absolute, k < 3) {
+                (false, _) => x[k] * 1e6,
+                (true, true) => x[k] * 1e3,
+                (true, false) => x[k].to_degrees(),
+            })
+        };
+        let values = rows(py, found.iter().map(|p| value(p.value)));
+        Ok((values, matrices(py, found.len(), |n, i, j| found[n].covariance[(i, j)] * 1e12)))
+    }
+
+    #[getter]
+    fn not_determined(&self) -> Vec<String> {
+        self.estimates.not_determined.clone()
+    }
+
+    #[getter]
+    fn covariance<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        matrix(py, &self.model.covariance)
+    }
+
+    #[getter]
+    fn covariance_names(&self) -> Vec<String> {
+        self.model.column_names.clone()
+    }
+
+    #[getter]
+    fn hexapod(&self) -> PyHexapod {
+        PyHexapod::of(self.model.hexapod.clone(), "hexapod")
+    }
+
+    #[getter]
+    fn terms(&self) -> Vec<String> {
+        let name = |a: &hexbench_model::linearization::Active| {
+            format!("{}{}", a.id(), if a.rich { ":richer" } else { "" })
+        };
+        self.model.point.active.iter().map(name).collect()
+    }
+
+    #[getter]
+    fn absolute(&self) -> bool {
+        self.model.is_absolute()
+    }
+
+    #[getter]
+    fn chi2(&self) -> f64 {
+        self.model.chi2
+    }
+
+    #[getter]
+    fn degrees_of_freedom(&self) -> f64 {
+        self.model.dof
+    }
+
+    /// Of a translation (um) and of a rotation (urad).
+    #[getter]
+    fn noise(&self) -> (f64, f64) {
+        (self.model.noise.translation * 1e6, self.model.noise.rotation * 1e6)
+    }
+
+    #[getter]
+    fn noise_source(&self) -> &str {
+        self.model.noise.source.word()
+    }
+
+    #[getter]
+    fn summary(&self) -> &str {
+        &self.summary
+    }
+}
+
+impl PyModel {
+    fn of(model: Model, summary: String) -> Self {
+        let estimates = estimates_of(&model);
+        Self { model: Arc::new(model), estimates, summary }
+    }
+}
+
+/// Fit springs and the terms that are named.
+#[pyfunction]
+pub(crate) fn fit(
+    py: Python<'_>,
+    campaign: &PyCampaign,
+    add: Vec<String>,
+    holdout: Option<&PyCampaign>,
+    terms: Vec<PathBuf>,
+    estimator: &str,
+) -> PyResult<PyModel> {
+    let Some(estimator) = Estimator::named(estimator) else {
+        return Err(usage(
+            py,
+            &format!("there is no estimator \"{estimator}\""),
+            "Use \"gls\" or \"paper\".",
+        ));
+    };
+    let measured = Arc::clone(&campaign.0);
+    let holdout = holdout.map(|h| Arc::clone(&h.0));
+    beside(py, move || {
+        let (hexapod, data) = (&measured.machine.hexapod, &measured.data);
+        let added = added(&add, input::user_terms(&terms)?, estimator)?;
+        let failed = |cause| Failure::Model { cause, data: data.source.clone() };
+        let campaign = prepare(hexapod, data).map_err(failed)?;
+        let task = Task { hexapod, data, campaign: &campaign, holdout: holdout.as_ref().map(|h| &h.data) };
+        let judged = fitted(&task, &added, estimator)?;
+        let summary = report(&task, &judged, estimator, Ink::new(false));
+        let origin = DataOrigin {
+            file: data.source.clone(),
+            sha256: measured.origin.sha256.clone(),
+            readings: data.observations.len(),
+        };
+        Ok(PyModel::of(Model::new(&campaign, &judged.fit, estimator, origin), summary))
+    })
+}

@@ -1,0 +1,28 @@
+//! The virtual bench.
+
+use std::path::PathBuf;
+
+use hexbench_tasks::simulate::{Choices, scene};
+use hexbench_truth::scene::{Bench, Existing};
+use pyo3::prelude::*;
+
+use crate::run::beside;
+
+/// Measure a scene and write the folder that the command writes.
+#[pyfunction]
+pub(crate) fn simulate(
+    py: Python<'_>,
+    folder: PathBuf,
+    output: PathBuf,
+    seed: Option<u64>,
+    poses: Option<u64>,
+    repeats: Option<u64>,
+    noise_free: bool,
+    force: bool,
+) -> PyResult<()> {
+    beside(py, move || {
+        let scene = scene(&folder, Choices { seed, poses, repeats })?;
+        let existing = if force { Existing::Replaced } else { Existing::Refused };
+        Ok(Bench::new(&scene, noise_free).write(&output, existing, &|_| ())?)
+    })
+}

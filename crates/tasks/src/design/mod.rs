@@ -1,0 +1,222 @@
+//! `hexbench design`: which poses and readings determine the parameters best.
+
+mod page;
+mod plan;
+mod search;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use hexbench_core::Hexapod;
+use hexbench_design::budget::{Amount, Budget};
+use hexbench_design::nominal;
+use hexbench_design::regressor::{ModelRegressor, SpringRegressor, Weights};
+use hexbench_design::space::Setting;
+use hexbench_design::space_file::read_space;
+use hexbench_design::{Space, Visit};
+use hexbench_model::fit_named::term_named;
+use hexbench_model::noise::Noise;
+use hexbench_model::term::Term;
+use hexbench_model::terms::catalogue;
+use nalgebra::DMatrix;
+
+use crate::Failure;
+pub use page::page;
+pub use search::Begun;
+use search::Bench;
+
+/// What somebody wants of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wish {
+    /// Number of poses, each read under every load and condition; 3 unless said.
+    pub poses: Option<u16>,
+    /// Readings of each pose under each load and condition.
+    pub repeats: u16,
+    /// Choose so many readings instead.
+    pub readings: Option<u16>,
+    /// Choose readings that together take so many hours.
+    pub hours: Option<f64>,
+    /// Poses to choose readings from.
+    pub candidates: u16,
+    /// What makes a plan good; O1 for poses, D for readings and hours unless said.
+    pub criterion: Option<Named>,
+    /// Terms of the catalogue that the plan has to determine too.
+    pub terms: Vec<String>,
+    /// Searches from different starts; 128 for poses, 16 for readings and hours unless said.
+    pub starts: Option<u16>,
+    /// Seed of the starts.
+    pub seed: u32,
+}
+
+impl Default for Wish {
+    fn default() -> Self {
+        Self {
+            poses: None,
+            repeats: 3,
+            readings: None,
+            hours: None,
+            candidates: 256,
+            criterion: None,
+            terms: Vec::new(),
+            starts: None,
+            seed: 1,
+        }
+    }
+}
+
+/// Criteria by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Named {
+    /// Geometric mean of the singular values, as in the paper.
+    O1,
+    /// Inverse condition number.
+    O2,
+    /// Smallest singular value.
+    O3,
+    /// Smallest singular value times the inverse condition number.
+    O4,
+    /// Inverse sum of the inverse singular values.
+    O5,
+    /// Volume of the confidence ellipsoid.
+    D,
+    /// Mean variance of the parameters.
+    A,
+    /// Longest axis of the confidence ellipsoid.
+    E,
+    /// Mean variance of a prediction over the workspace.
+    I,
+}
+
+impl Named {
+    /// All of them, with their names.
+    pub const ALL: [(&'static str, Self); 9] = [
+        ("o1", Self::O1),
+        ("o2", Self::O2),
+        ("o3", Self::O3),
+        ("o4", Self::O4),
+        ("o5", Self::O5),
+        ("d", Self::D),
+        ("a", Self::A),
+        ("e", Self::E),
+        ("i", Self::I),
+    ];
+}
+
+/// A plan found.
+pub struct Designed {
+    /// Name of the criterion.
+    pub criterion: &'static str,
+    /// Its value at the optimum.
+    pub best: f64,
+    /// Its value for the rounded poses.
+    pub value: f64,
+    /// Information matrix of the rounded poses.
+    pub information: DMatrix<f64>,
+    /// The parameters.
+    pub parameters: Vec<Quantity>,
+    /// Where poses were looked for.
+    pub space: Space,
+    /// Rounded poses with their readings.
+    pub visits: Vec<Visit>,
+    /// What the readings are taken under.
+    pub settings: Vec<Setting>,
+    /// What it may cost.
+    pub budget: Budget,
+    /// Poses chosen from.
+    pub candidates: Option<usize>,
+    /// Least share of the budget that the best plan needs for the same.
+    pub efficiency: Option<f64>,
+    /// Starts; those that ended at a plan; those that agree with the best.
+    pub starts: [usize; 3],
+    /// True when rows are in units of the stated noise.
+    pub weighted: bool,
+    /// Seed of the starts.
+    pub seed: u32,
+}
+
+/// A parameter; one column of the regressor is `size` of it.
+pub struct Quantity {
+    /// Name.
+    pub name: String,
+    /// Unit.
+    pub unit: &'static str,
+    /// Size in that unit.
+    pub size: f64,
+}
+
+/// Searches a plan for a machine within a space file.
+///
+/// # Errors
+/// [`Failure::File`], [`Failure::Usage`], [`Failure::Model`] for a term that does not exist, [`Failure::Design`].
+pub fn design(hexapod: &Hexapod, space: &Path, wish: &Wish, begun: &Begun<'_>) -> Result<Designed, Failure> {
+    let mut space = read_space(space, hexapod)?;
+    if wish.poses.is_some() {
+        space.budget.limit = None;
+    }
+    space.budget.limit = asked(wish)?.or(space.budget.limit);
+    let terms = wanted(&wish.terms)?;
+    let weights = weights(hexapod);
+    let settings = space.settings();
+    let bench = Bench { wish, begun, hexapod, space: &space };
+    if terms.is_empty() {
+        let regressor = SpringRegressor::new(hexapod, &settings, 1, weights);
+        return bench.design(&regressor, springs(hexapod));
+    }
+    let noise = Noise::stated(1.0 / weights.translation, 1.0 / weights.rotation);
+    let nominal = nominal::compliance(hexapod);
+    let regressor = ModelRegressor::new(hexapod, nominal, noise, &terms, &settings, 1)?;
+    let promised = springs(hexapod).into_iter().chain(sized(&terms, regressor.sizes())).collect();
+    bench.design(&regressor, promised)
+}
+
+/// The budget that is asked for.
+fn asked(wish: &Wish) -> Result<Option<Amount>, Failure> {
+    const SECONDS: f64 = 3600.0;
+    match wish.hours {
+        Some(hours) if !(hours.is_finite() && hours > 0.0) => Err(Failure::Usage {
+            message: format!("--hours {hours}: a budget must be positive"),
+            next: "Give the hours that may be spent, for example --hours 3.".into(),
+        }),
+        Some(hours) => Ok(Some(Amount::Time(hours * SECONDS))),
+        None => Ok(wish.readings.map(|n| Amount::Readings(usize::from(n)))),
+    }
+}
+
+/// The stiffnesses of the legs.
+fn springs(hexapod: &Hexapod) -> Vec<Quantity> {
+    let stiffness = nominal::stiffness(hexapod).map(|k| 1e-6 * k);
+    (1..)
+        .zip(stiffness)
+        .map(|(leg, size)| Quantity { name: format!("leg-{leg}.stiffness"), unit: "N/um", size })
+        .collect()
+}
+
+/// The parameters of terms in their natural sizes (SI).
+fn sized(terms: &[Arc<dyn Term>], sizes: impl Iterator<Item = f64>) -> Vec<Quantity> {
+    let own = |t: &Arc<dyn Term>| {
+        let info = t.info();
+        info.parameters
+            .iter()
+            .map(|p| (format!("{}.{}", info.id, p.name), p.unit, p.per_si))
+            .collect::<Vec<_>>()
+    };
+    let all = terms.iter().flat_map(own).zip(sizes);
+    all.map(|((name, unit, per_si), size)| Quantity { name, unit, size: size * per_si }).collect()
+}
+
+fn wanted(ids: &[String]) -> Result<Vec<Arc<dyn Term>>, Failure> {
+    let catalogue = catalogue();
+    let unknown = |cause| Failure::Model { cause, data: String::new() };
+    ids.iter().map(|id| term_named(id, &catalogue).map_err(unknown)).collect()
+}
+
+/// Rows in units of the stated noise, columns in relative changes of the nominal compliance; without a stated noise as in
+/// the paper.
+fn weights(hexapod: &Hexapod) -> Weights {
+    let Some(metrology) = hexapod.metrology else { return Weights::UNWEIGHTED };
+    Weights {
+        translation: 1.0 / metrology.sigma_translation,
+        rotation: 1.0 / metrology.sigma_rotation,
+        compliance: nominal::compliance(hexapod).into(),
+    }
+}

@@ -1,0 +1,42 @@
+//! A scene as somebody wants it measured.
+
+use std::path::Path;
+
+use hexbench_truth::Scene;
+use hexbench_truth::scene::PlanError;
+
+use crate::Failure;
+
+/// What may differ from what the scene says.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Choices {
+    /// Draws plan and noise by this seed.
+    pub seed: Option<u64>,
+    /// Number of training poses, for a scene whose poses are drawn.
+    pub poses: Option<u64>,
+    /// Readings of each training condition.
+    pub repeats: Option<u64>,
+}
+
+/// The scene in a folder, with these choices.
+///
+/// # Errors
+/// [`Failure::File`], [`Failure::Usage`] for a choice that the scene does not leave.
+pub fn scene(folder: &Path, choices: Choices) -> Result<Scene, Failure> {
+    let mut scene = Scene::read_with_seed(folder, choices.seed)?;
+    if let Some(poses) = choices.poses {
+        scene.plan = scene.plan.with_poses(poses).map_err(|wrong| usage(&wrong))?;
+    }
+    if let Some(repeats) = choices.repeats {
+        scene.plan = scene.plan.with_repeats(repeats).map_err(|wrong| usage(&wrong))?;
+    }
+    Ok(scene)
+}
+
+fn usage(wrong: &PlanError) -> Failure {
+    let next = match wrong {
+        PlanError::ListedPoses => "Leave --poses out; --repeats asks for more readings.",
+        PlanError::Size { .. } => "Choose another number for --poses or --repeats.",
+    };
+    Failure::Usage { message: wrong.to_string(), next: next.into() }
+}
