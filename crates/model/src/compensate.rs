@@ -7,7 +7,7 @@
 //!
 //! The wanted pose and the command are poses of the mobile frame in the fixed frame of the machine.
 
-use hexbench_core::{Measurand, Observation, Pose, Vector6, Wrench};
+use hexbench_core::{Matrix6, Measurand, Observation, Pose, Vector6, Wrench};
 
 use crate::error::ModelError;
 use crate::model_file::Model;
@@ -103,12 +103,13 @@ fn absolute(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>, 
     let mut bare = model.clone();
     bare.point.machine.metrology_frame = nalgebra::Isometry3::identity();
     bare.point.machine.target_frame = nalgebra::Isometry3::identity();
-    predict_as(&bare, commands, Measurand::AbsolutePose, Uncertain::Platform)
+    Ok(without_covariance(predict_as(&bare, commands, Measurand::AbsolutePose, Uncertain::Platform)?))
 }
 
 fn deflected(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>, PredictError> {
-    let predicted =
-        |rows: &[Observation]| predict_as(model, rows, Measurand::DeflectionEuler, Uncertain::Platform);
+    let predicted = |rows: &[Observation]| {
+        predict_as(model, rows, Measurand::DeflectionEuler, Uncertain::Platform).map(without_covariance)
+    };
     // From the unloaded machine to the reference, then from there to the load.
     let to_reference: Vec<Observation> = commands
         .iter()
@@ -131,6 +132,10 @@ fn deflected(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>,
         }
     };
     Ok((0..commands.len()).map(sum).collect())
+}
+
+fn without_covariance(predicted: Vec<(Prediction, Matrix6)>) -> Vec<Prediction> {
+    predicted.into_iter().map(|(reading, _)| reading).collect()
 }
 
 /// `found - wanted`, angles within half a turn.

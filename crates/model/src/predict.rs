@@ -28,8 +28,6 @@ pub struct Prediction {
     pub value: [f64; 6],
     /// Standard uncertainty (k = 1) from the covariance of the model; the noise of a future reading is not in it.
     pub sigma: [f64; 6],
-    /// Covariance of the same, m and rad; its diagonal is the square of `sigma`.
-    pub covariance: Matrix6,
 }
 
 /// A row that cannot be predicted.
@@ -47,6 +45,17 @@ pub struct PredictError {
 /// # Errors
 /// [`PredictError`] with the first row that is singular or does not settle.
 pub fn predict(model: &Model, rows: &[Observation]) -> Result<Vec<Prediction>, PredictError> {
+    Ok(predict_with_covariance(model, rows)?.into_iter().map(|(reading, _)| reading).collect())
+}
+
+/// The same with the covariance of each row (m, rad), whose diagonal is the square of `sigma`.
+///
+/// # Errors
+/// As [`predict`].
+pub fn predict_with_covariance(
+    model: &Model,
+    rows: &[Observation],
+) -> Result<Vec<(Prediction, Matrix6)>, PredictError> {
     predict_as(model, rows, model.measurand, Uncertain::Reading)
 }
 
@@ -66,7 +75,7 @@ pub(crate) fn predict_as(
     rows: &[Observation],
     measurand: Measurand,
     uncertain: Uncertain,
-) -> Result<Vec<Prediction>, PredictError> {
+) -> Result<Vec<(Prediction, Matrix6)>, PredictError> {
     if rows.is_empty() {
         return Ok(Vec::new());
     }
@@ -85,7 +94,7 @@ fn settle(
     rows: &[Observation],
     measurand: Measurand,
     uncertain: Uncertain,
-) -> Result<Vec<Prediction>, ModelError> {
+) -> Result<Vec<(Prediction, Matrix6)>, ModelError> {
     let mut data = dataset(model, rows, measurand);
     let mut last_step = f64::INFINITY;
     for _ in 0..MOST_ROUNDS {
@@ -136,14 +145,12 @@ fn predictions(
     lin: &Linearization,
     data: &Dataset,
     uncertain: Uncertain,
-) -> Vec<Prediction> {
+) -> Vec<(Prediction, Matrix6)> {
     let jacobian = columns(lin, &model.point);
     let kept = kept_columns(model, uncertain);
     let covariance = model.covariance.select_columns(&kept).select_rows(&kept);
-    let mut all = vec![
-        Prediction { value: [0.0; 6], sigma: [0.0; 6], covariance: Matrix6::zeros() };
-        data.observations.len()
-    ];
+    let nothing = Prediction { value: [0.0; 6], sigma: [0.0; 6] };
+    let mut all = vec![(nothing, Matrix6::zeros()); data.observations.len()];
     for (i, group) in campaign.groups.iter().enumerate() {
         let j = jacobian.rows(6 * i, 6).select_columns(&kept);
         let spread = &j * &covariance * j.transpose();
@@ -151,8 +158,8 @@ fn predictions(
         let sigma = std::array::from_fn(|k| spread[(k, k)].max(0.0).sqrt() / weight[k]);
         let covariance = Matrix6::from_fn(|r, c| spread[(r, c)] / (weight[r] * weight[c]));
         for &row in &group.rows {
-            all[row as usize] =
-                Prediction { value: data.observations[row as usize].measured, sigma, covariance };
+            let value = data.observations[row as usize].measured;
+            all[row as usize] = (Prediction { value, sigma }, covariance);
         }
     }
     all

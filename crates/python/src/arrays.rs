@@ -17,11 +17,11 @@ pub(crate) fn rows<const N: usize>(
 }
 
 /// An array of shape (n, 6, 6).
-pub(crate) fn matrices<'py>(
-    py: Python<'py>,
+pub(crate) fn matrices(
+    py: Python<'_>,
     count: usize,
     element: impl Fn(usize, usize, usize) -> f64,
-) -> Bound<'py, PyArray3<f64>> {
+) -> Bound<'_, PyArray3<f64>> {
     Array3::from_shape_fn((count, 6, 6), |(n, i, j)| element(n, i, j)).into_pyarray(py)
 }
 

@@ -83,16 +83,19 @@ impl PyCampaign {
         csv(&self.0.data)
     }
 
+    /// Number of readings.
     #[getter]
     fn readings(&self) -> usize {
         self.0.data.observations.len()
     }
 
+    /// True for absolute poses.
     #[getter]
     fn absolute(&self) -> bool {
         self.0.data.is_absolute()
     }
 
+    /// What messages call the data.
     #[getter]
     fn name(&self) -> &str {
         &self.0.data.source

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use hexbench_core::Dataset;
 use hexbench_core::files::conditions_to_columns;
 use hexbench_pages::text::Ink;
-use hexbench_tasks::design::{self, Named, Wish, page};
+use hexbench_tasks::design::{Named, Wish, design as searched, page};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 
@@ -18,13 +18,16 @@ use crate::run::beside;
 #[pyclass(frozen, name = "Plan", module = "hexbench._native")]
 pub(crate) struct PyPlan {
     readings: Dataset,
+    /// What makes the plan good.
     #[pyo3(get)]
     criterion: &'static str,
+    /// Value of the criterion.
     #[pyo3(get)]
     value: f64,
     /// Least share of the budget that the best plan needs for the same.
     #[pyo3(get)]
     efficiency: Option<f64>,
+    /// The page of the command.
     #[pyo3(get)]
     text: String,
 }
@@ -38,27 +41,35 @@ impl PyPlan {
     }
 }
 
+/// What is wanted of a plan.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Wanted {
+    poses: Option<u16>,
+    repeats: u16,
+    readings: Option<u16>,
+    hours: Option<f64>,
+    candidates: u16,
+    criterion: Option<String>,
+    terms: Vec<String>,
+    starts: Option<u16>,
+    seed: u32,
+}
+
 /// Search a plan.
 #[pyfunction]
 pub(crate) fn design(
     py: Python<'_>,
     hexapod: &PyHexapod,
     space: PathBuf,
-    poses: Option<u16>,
-    repeats: u16,
-    readings: Option<u16>,
-    hours: Option<f64>,
-    candidates: u16,
-    criterion: Option<&str>,
-    terms: Vec<String>,
-    starts: Option<u16>,
-    seed: u32,
+    wanted: Wanted,
 ) -> PyResult<PyPlan> {
-    let criterion = criterion.map(|name| named(py, name)).transpose()?;
+    let Wanted { poses, repeats, readings, hours, candidates, criterion, terms, starts, seed } = wanted;
+    let criterion = criterion.map(|name| named(py, &name)).transpose()?;
     let wish = Wish { poses, repeats, readings, hours, candidates, criterion, terms, starts, seed };
     let machine = Arc::clone(&hexapod.0);
     beside(py, move || {
-        let found = design::design(&machine.hexapod, &space, &wish, &|_| Box::new(|| ()))?;
+        let found = searched(&machine.hexapod, &space, &wish, &|_| Box::new(|| ()))?;
         Ok(PyPlan {
             readings: found.readings_to_take(),
             criterion: found.criterion,

@@ -6,6 +6,8 @@
 //! - Work runs on threads of its own while Python goes on ([`run`]).
 //! - A failure is the command's, with the same text, as an exception of `hexbench.errors` ([`error`]).
 
+#![allow(clippy::needless_pass_by_value, reason = "arguments from Python arrive as values")]
+
 mod arrays;
 mod campaign;
 mod design;
@@ -24,6 +26,9 @@ use pyo3::prelude::*;
 /// Native half of the package hexbench.
 #[pymodule]
 mod _native {
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "Python's name")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
     use crate::campaign::PyCampaign;
     #[pymodule_export]

@@ -58,26 +58,31 @@ impl PyHexapod {
         Ok(Self::of(parse_hexapod(text, name).map_err(without_line)?, name))
     }
 
+    /// What reports call the machine.
     #[getter]
     fn name(&self) -> &str {
         &self.0.hexapod.name
     }
 
+    /// Base joints, fixed frame, (6, 3).
     #[getter]
     fn base_joints_mm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         millimetres(py, &self.0.hexapod.base_joints)
     }
 
+    /// Platform joints, mobile frame, (6, 3).
     #[getter]
     fn platform_joints_mm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         millimetres(py, &self.0.hexapod.platform_joints)
     }
 
+    /// Standard deviation of one reading of a translation.
     #[getter]
     fn sigma_translation_um(&self) -> Option<f64> {
         self.0.hexapod.metrology.map(|m| m.sigma_translation * 1e6)
     }
 
+    /// Standard deviation of one reading of a rotation.
     #[getter]
     fn sigma_rotation_urad(&self) -> Option<f64> {
         self.0.hexapod.metrology.map(|m| m.sigma_rotation * 1e6)

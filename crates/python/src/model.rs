@@ -6,7 +6,7 @@ use std::sync::Arc;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::estimate::{Estimates, estimates_of};
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
-use hexbench_model::predict::predict;
+use hexbench_model::predict::predict_with_covariance;
 use hexbench_model::selection::Task;
 use hexbench_pages::fitted::report;
 use hexbench_pages::text::Ink;
@@ -69,43 +69,48 @@ impl PyModel {
         let data = conditions(py, names, &columns, "poses")?;
         let model = Arc::clone(&self.model);
         let found = beside(py, move || {
-            predict(&model, &data.observations).or_else(|wrong| {
+            predict_with_covariance(&model, &data.observations).map_err(|wrong| {
                 let row = wrong.line.saturating_sub(2);
-                Err(Failure::MemoryRow { table: "poses".into(), row, cause: Box::new(wrong.cause) })
+                Failure::MemoryRow { table: "poses".into(), row, cause: Box::new(wrong.cause) }
             })
         })?;
         let absolute = self.model.is_absolute();
-        let value = |x: [f64; 6]| {
+        let value = |x: [f64; 6]| -> [f64; 6] {
             std::array::from_fn(|k| match (absolute, k < 3) {
                 (false, _) => x[k] * 1e6,
                 (true, true) => x[k] * 1e3,
                 (true, false) => x[k].to_degrees(),
             })
         };
-        let values = rows(py, found.iter().map(|p| value(p.value)));
-        Ok((values, matrices(py, found.len(), |n, i, j| found[n].covariance[(i, j)] * 1e12)))
+        let values = rows(py, found.iter().map(|(reading, _)| value(reading.value)));
+        Ok((values, matrices(py, found.len(), |n, i, j| found[n].1[(i, j)] * 1e12)))
     }
 
+    /// Names of parameters without a number.
     #[getter]
     fn not_determined(&self) -> Vec<String> {
         self.estimates.not_determined.clone()
     }
 
+    /// Covariance, SI, (p, p).
     #[getter]
     fn covariance<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         matrix(py, &self.model.covariance)
     }
 
+    /// Names of its rows.
     #[getter]
     fn covariance_names(&self) -> Vec<String> {
         self.model.column_names.clone()
     }
 
+    /// The machine.
     #[getter]
     fn hexapod(&self) -> PyHexapod {
         PyHexapod::of(self.model.hexapod.clone(), "hexapod")
     }
 
+    /// Terms beside the springs.
     #[getter]
     fn terms(&self) -> Vec<String> {
         let name = |a: &hexbench_model::linearization::Active| {
@@ -114,16 +119,19 @@ impl PyModel {
         self.model.point.active.iter().map(name).collect()
     }
 
+    /// True for absolute poses.
     #[getter]
     fn absolute(&self) -> bool {
         self.model.is_absolute()
     }
 
+    /// Chi-square of the fit.
     #[getter]
     fn chi2(&self) -> f64 {
         self.model.chi2
     }
 
+    /// Its degrees of freedom.
     #[getter]
     fn degrees_of_freedom(&self) -> f64 {
         self.model.dof
@@ -135,11 +143,13 @@ impl PyModel {
         (self.model.noise.translation * 1e6, self.model.noise.rotation * 1e6)
     }
 
+    /// Where the noise comes from.
     #[getter]
     fn noise_source(&self) -> &str {
         self.model.noise.source.word()
     }
 
+    /// What the command prints of the fit.
     #[getter]
     fn summary(&self) -> &str {
         &self.summary

@@ -88,7 +88,7 @@ fn table(columns: &[MemoryColumn], purpose: Purpose) -> Result<Table, Fault> {
     refuse_other_lengths(first, columns)?;
     for row in 0..first.cells.len() {
         let read = read_row(columns, &table, row)?;
-        table.push(read, &Cell { columns, row });
+        table.push(&read, &Cell { columns, row });
     }
     Ok(table)
 }

@@ -108,7 +108,7 @@ impl Csv {
         let line = Line::cut(raw, self.separator, cells).map_err(|fault| self.cut_off(&raw, fault))?;
         self.refuse_other_length(&line, raw.ended)?;
         let observation = self.observation(&line)?;
-        self.table.push(observation, raw.text);
+        self.table.push(&observation, raw.text);
         if !raw.ended {
             self.table.warnings.push(Warning::new(whole_place(&raw), Notice::NoFinalNewline));
         }

@@ -54,11 +54,11 @@ impl Table {
     }
 
     /// Adds a row; `cells` is what two copies have in common.
-    pub(crate) fn push(&mut self, observation: Observation, cells: &(impl Hash + ?Sized)) {
+    pub(crate) fn push(&mut self, observation: &Observation, cells: &(impl Hash + ?Sized)) {
         if self.compares_loads() && observation.wrench == observation.reference {
             self.no_load_difference.push(observation.line);
         }
-        self.observations.push(observation);
+        self.observations.push(*observation);
         self.fingerprints.note(cells);
     }
 

@@ -36,7 +36,7 @@ pub fn measurements_to_csv(out: &mut dyn Write, dataset: &Dataset) -> io::Result
 
 /// The same as columns in memory: name with unit, and one number per reading.
 pub fn measurements_to_columns(dataset: &Dataset) -> Vec<(String, Vec<f64>)> {
-    columns_of(dataset, MeasurementsWriter::new(dataset.measurand, dataset.columns).columns)
+    columns_of(dataset, &MeasurementsWriter::new(dataset.measurand, dataset.columns).columns)
 }
 
 /// Poses and loads as columns in memory, without what was measured.
@@ -44,10 +44,10 @@ pub fn conditions_to_columns(dataset: &Dataset) -> Vec<(String, Vec<f64>)> {
     let has = Columns { sigma: false, ..dataset.columns };
     let mut columns = MeasurementsWriter::new(dataset.measurand, has).columns;
     columns.retain(|written| !measured_groups(dataset.measurand).contains(&written.column.group));
-    columns_of(dataset, columns)
+    columns_of(dataset, &columns)
 }
 
-fn columns_of(dataset: &Dataset, columns: Vec<Written>) -> Vec<(String, Vec<f64>)> {
+fn columns_of(dataset: &Dataset, columns: &[Written]) -> Vec<(String, Vec<f64>)> {
     let rows: Vec<Row> = dataset.observations.iter().map(row_of).collect();
     let values = |w: &Written| rows.iter().map(|row| w.unit.from_si(row[w.column.places.first])).collect();
     columns.iter().map(|written| (written.column.usual_name(), values(written))).collect()

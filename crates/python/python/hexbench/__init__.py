@@ -1,1 +1,49 @@
-"""x"""
+"""Virtual testbench for the elastostatics of hexapods: simulate, compare, fit, diagnose, design, predict.
+
+>>> import hexbench
+>>> campaign = hexbench.load("hexapod.toml", "measurements.csv")          # doctest: +SKIP
+>>> diagnosis = hexbench.diagnose(campaign, holdout="holdout.csv")        # doctest: +SKIP
+>>> diagnosis.verdict, diagnosis.added                                    # doctest: +SKIP
+('named', ['base-compliance'])
+
+Poses are [a, b, c] in mm and [alpha, beta, gamma] in deg (extrinsic X-Y-Z) of the mobile frame in the fixed frame; wrenches
+are [fx, fy, fz] in N and [mx, my, mz] in N m on the platform, at the mobile origin, in fixed axes; deflections are loaded
+minus reference, in um and urad. Names and units are those of the files.
+"""
+
+from hexbench._native import __version__
+from hexbench.campaign import Campaign, load
+from hexbench.designing import Plan, design
+from hexbench.diagnosing import Comparison, Diagnosis, compare, diagnose, terms
+from hexbench.errors import BadInput, HexbenchError, HexbenchWarning, InputOutput, NotDetermined, UsageError
+from hexbench.estimator import HexapodModel
+from hexbench.machine import Hexapod
+from hexbench.model import Model, fit, predict
+from hexbench.scenes import Scene, Simulation, simulate
+
+__all__ = [
+    "BadInput",
+    "Campaign",
+    "Comparison",
+    "Diagnosis",
+    "Hexapod",
+    "HexapodModel",
+    "HexbenchError",
+    "HexbenchWarning",
+    "InputOutput",
+    "Model",
+    "NotDetermined",
+    "Plan",
+    "Scene",
+    "Simulation",
+    "UsageError",
+    "__version__",
+    "compare",
+    "design",
+    "diagnose",
+    "fit",
+    "load",
+    "predict",
+    "simulate",
+    "terms",
+]

@@ -76,7 +76,7 @@ def _text(value: Any) -> str:
 
 def _array(value: Any, place: str) -> NDArray[Any]:
     if isinstance(value, np.ma.MaskedArray):
-        return np.asarray(value.astype(np.float64).filled(np.nan))
+        return np.asarray(np.ma.filled(value.astype(np.float64), np.nan))
     try:
         return np.asarray(value)
     except (TypeError, ValueError) as cause:
@@ -88,7 +88,8 @@ def rows(value: Any, width: int, name: str, count: int | None = None) -> Floats:
     array = _numbers(value, name)
     if array.ndim != 2 or array.shape[1] != width or count not in (None, array.shape[0]):
         expected = f"({'n' if count is None else count}, {width})"
-        raise BadInput(f"{name}: expected shape {expected}, found {array.shape}", f"Give one row of {width} numbers per reading.")
+        next_step = f"Give one row of {width} numbers per reading."
+        raise BadInput(f"{name}: expected shape {expected}, found {array.shape}", next_step)
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
@@ -98,7 +99,8 @@ def one_per_row(value: Any, name: str, count: int) -> Floats:
     if array.ndim == 0:
         return np.full(count, float(array))
     if array.shape != (count,):
-        raise BadInput(f"{name}: expected shape ({count},), found {array.shape}", "Give one number per reading, or one for all.")
+        next_step = "Give one number per reading, or one for all."
+        raise BadInput(f"{name}: expected shape ({count},), found {array.shape}", next_step)
     return np.ascontiguousarray(array, dtype=np.float64)
 
 

@@ -9,7 +9,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hexbench import _native
-from hexbench._tables import ABSOLUTE, DEFLECTION, POSE, REFERENCE, SIGMA, WRENCH, Floats, Table, columns_of, one_per_row, rows, spread
+from hexbench._tables import (
+    ABSOLUTE,
+    DEFLECTION,
+    POSE,
+    REFERENCE,
+    SIGMA,
+    WRENCH,
+    Floats,
+    Table,
+    columns_of,
+    one_per_row,
+    rows,
+    spread,
+)
 from hexbench._warn import warn
 from hexbench.errors import UsageError
 from hexbench.machine import Hexapod
@@ -27,12 +40,12 @@ class Campaign:
     Made by :func:`load`, :meth:`from_arrays` or :func:`hexbench.simulate`; never changed afterwards.
     """
 
-    _native: _native.Campaign
+    _made: _native.Campaign
     hexapod: Hexapod
 
     def __init__(self, native: _native.Campaign, hexapod: Hexapod) -> None:
         """Hold what the readers have made; use :func:`load` or :meth:`from_arrays`."""
-        self._native = native
+        self._made = native
         self.hexapod = hexapod
 
     @classmethod
@@ -64,8 +77,8 @@ class Campaign:
         wrenches : array (n, 6)
             Load on the platform at the mobile origin, fixed axes: [fx, fy, fz] in N, [mx, my, mz] in N m.
         measured : array (n, 6)
-            Deflections, loaded minus reference: [da, db, dc] in um, differences of the Euler angles in urad. With ``absolute=True``
-            poses as measured, in mm and deg.
+            Deflections, loaded minus reference: [da, db, dc] in um, differences of the Euler angles in urad. With
+            ``absolute=True`` poses as measured, in mm and deg.
         reference : array (n, 6), optional
             Load in the reference state, in N and N m; no load unless given.
         approach : array (n,), optional
@@ -103,20 +116,20 @@ class Campaign:
     @property
     def absolute(self) -> bool:
         """True when absolute poses were measured, False for deflections."""
-        return self._native.absolute
+        return self._made.absolute
 
     @property
     def name(self) -> str:
         """What messages call the data: the name of the file, when there is one."""
-        return self._native.name
+        return self._made.name
 
     def __len__(self) -> int:
         """Return the number of readings."""
-        return self._native.readings
+        return self._made.readings
 
     def to_columns(self) -> dict[str, Floats]:
         """Return every column of ``measurements.csv`` under its name, each of shape (n,)."""
-        return dict(self._native.columns())
+        return dict(self._made.columns())
 
     def to_pandas(self) -> pd.DataFrame:
         """Return the measurements as a DataFrame with the columns of ``measurements.csv`` (needs pandas)."""
@@ -127,7 +140,7 @@ class Campaign:
 
     def to_csv(self) -> str:
         """Return the text of ``measurements.csv``, in the units of the format."""
-        return self._native.to_csv()
+        return self._made.to_csv()
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write ``measurements.csv``, whole or not at all."""
@@ -175,8 +188,8 @@ def load(hexapod: Hexapod | str | PathLike[str], data: Data) -> Campaign:
     hexapod : Hexapod or path
         The machine, or its ``hexapod.toml``.
     data : path or table
-        ``measurements.csv``, or a table with its columns: a pandas or polars DataFrame, a mapping of names to arrays, a structured
-        array. Units are in the names (``da_um``, ``da_mm``, ...).
+        ``measurements.csv``, or a table with its columns: a pandas or polars DataFrame, a mapping of names to arrays, a
+        structured array. Units are in the names (``da_um``, ``da_mm``, ...).
 
     Returns
     -------
@@ -200,7 +213,7 @@ def load(hexapod: Hexapod | str | PathLike[str], data: Data) -> Campaign:
 
 def held_out(campaign: Campaign, holdout: Data | None) -> _native.Campaign | None:
     """Return readings kept out of a fit, of the campaign's machine."""
-    return None if holdout is None else _loaded(campaign.hexapod, holdout, "holdout")._native
+    return None if holdout is None else _loaded(campaign.hexapod, holdout, "holdout")._made
 
 
 def _loaded(hexapod: Hexapod, data: Data, name: str) -> Campaign:
@@ -208,7 +221,7 @@ def _loaded(hexapod: Hexapod, data: Data, name: str) -> Campaign:
         return data
     if not isinstance(data, (str, PathLike)):
         return _of_table(hexapod, data, name)
-    native, noticed = _native.Campaign.read(hexapod._native, fspath(data))
+    native, noticed = _native.Campaign.read(hexapod._made, fspath(data))
     warn(noticed, stacklevel=4)
     return Campaign(native, hexapod)
 
@@ -217,10 +230,10 @@ def _of_table(hexapod: Hexapod, table: Any, name: str) -> Campaign:
     if not isinstance(hexapod, Hexapod):
         raise UsageError(f"expected a Hexapod, found {type(hexapod).__name__}", "Hexapod.read(path) makes one.")
     names, columns = columns_of(table, name)
-    native, noticed = _native.Campaign.of_columns(hexapod._native, names, columns, name)
+    native, noticed = _native.Campaign.of_columns(hexapod._made, names, columns, name)
     warn(noticed, stacklevel=4)
     return Campaign(native, hexapod)
 
 
 def _restored(hexapod: Hexapod, text: str, name: str) -> Campaign:
-    return Campaign(_native.Campaign.of_text(hexapod._native, text, name), hexapod)
+    return Campaign(_native.Campaign.of_text(hexapod._made, text, name), hexapod)

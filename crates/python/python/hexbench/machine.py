@@ -16,7 +16,8 @@ from hexbench._tables import Floats, rows
 class Hexapod:
     """A hexapod: six base joints, six platform joints, and what else its owner states about it.
 
-    Names and units are those of ``hexapod.toml``. The fixed (base) frame and the mobile (platform) frame coincide at the zero pose.
+    Names and units are those of ``hexapod.toml``. The fixed (base) frame and the mobile (platform) frame coincide at the zero
+    pose.
 
     Parameters
     ----------
@@ -45,7 +46,7 @@ class Hexapod:
         The rule that is broken, with the text the command has for a hexapod file.
     """
 
-    _native: _native.Hexapod
+    _made: _native.Hexapod
 
     def __init__(
         self,
@@ -77,7 +78,7 @@ class Hexapod:
             "base": {"mounting_plane_z_mm": mounting_plane_z_mm},
             "payload": {"center_of_gravity_mm": center_of_gravity_mm},
         }
-        self._native = _native.Hexapod.of_text(_toml(name, sections), "hexapod")
+        self._made = _native.Hexapod.of_text(_toml(name, sections), "hexapod")
 
     @classmethod
     def read(cls, path: str | PathLike[str]) -> Hexapod:
@@ -95,37 +96,37 @@ class Hexapod:
     @classmethod
     def _of(cls, native: _native.Hexapod) -> Hexapod:
         hexapod = cls.__new__(cls)
-        hexapod._native = native
+        hexapod._made = native
         return hexapod
 
     @property
     def name(self) -> str:
         """What reports call the machine."""
-        return self._native.name
+        return self._made.name
 
     @property
     def base_joints_mm(self) -> Floats:
         """Base joints A_i in the fixed frame, mm, shape (6, 3)."""
-        return self._native.base_joints_mm
+        return self._made.base_joints_mm
 
     @property
     def platform_joints_mm(self) -> Floats:
         """Platform joints B_i in the mobile frame, mm, shape (6, 3)."""
-        return self._native.platform_joints_mm
+        return self._made.platform_joints_mm
 
     @property
     def sigma_translation_um(self) -> float | None:
         """Standard deviation of one reading of a translation, um; None when it is not stated."""
-        return self._native.sigma_translation_um
+        return self._made.sigma_translation_um
 
     @property
     def sigma_rotation_urad(self) -> float | None:
         """Standard deviation of one reading of a rotation, urad; None when it is not stated."""
-        return self._native.sigma_rotation_urad
+        return self._made.sigma_rotation_urad
 
     def to_toml(self) -> str:
         """Return the text of ``hexapod.toml``; reading it gives the same machine."""
-        return self._native.to_toml()
+        return self._made.to_toml()
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write ``hexapod.toml``, whole or not at all."""

@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 class Model:
     """A fitted model: leg springs, terms, their covariance, and where they come from; the contents of ``model.toml``."""
 
-    _native: _native.Model
+    _made: _native.Model
 
     def __init__(self, native: _native.Model) -> None:
         """Hold what a fit has made; use :func:`fit` or :meth:`load`."""
-        self._native = native
+        self._made = native
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Model:
@@ -46,49 +46,49 @@ class Model:
 
     def to_toml(self) -> str:
         """Return the text of ``model.toml``."""
-        return self._native.to_toml()
+        return self._made.to_toml()
 
     @property
     def hexapod(self) -> Hexapod:
         """The machine."""
-        return Hexapod._of(self._native.hexapod)
+        return Hexapod._of(self._made.hexapod)
 
     @property
     def terms(self) -> list[str]:
         """Terms beside the leg springs, as ``fit`` takes them."""
-        return self._native.terms
+        return self._made.terms
 
     @property
     def absolute(self) -> bool:
         """True for a model of absolute poses."""
-        return self._native.absolute
+        return self._made.absolute
 
     @property
     def values(self) -> dict[str, float]:
-        """Every number that the data determine, in the unit of :attr:`units`: ``leg-1.stiffness``, ``base-compliance.rotation-x``."""
-        return {name: value for name, value, _, _ in self._native.estimates()}
+        """Every number that the data determine, in the unit of :attr:`units`: ``leg-1.stiffness`` and so on."""
+        return {name: value for name, value, _, _ in self._made.estimates()}
 
     @property
     def units(self) -> dict[str, str]:
         """The unit of every number."""
-        return {name: unit for name, _, _, unit in self._native.estimates()}
+        return {name: unit for name, _, _, unit in self._made.estimates()}
 
     @property
     def stds(self) -> dict[str, float]:
         """Standard uncertainty (k = 1) of every number, in its unit."""
-        return {name: std for name, _, std, _ in self._native.estimates()}
+        return {name: std for name, _, std, _ in self._made.estimates()}
 
     @property
     def not_determined(self) -> list[str]:
         """Names of parameters for which the data give no number."""
-        return self._native.not_determined
+        return self._made.not_determined
 
     @property
     def parameters(self) -> pd.DataFrame:
         """Every number that the data determine: index ``name``, columns ``value``, ``std`` (k = 1), ``unit`` (needs pandas)."""
         import pandas as pd
 
-        rows = [{"name": n, "value": value, "std": std, "unit": unit} for n, value, std, unit in self._native.estimates()]
+        rows = [{"name": n, "value": value, "std": std, "unit": unit} for n, value, std, unit in self._made.estimates()]
         return pd.DataFrame(rows, columns=["name", "value", "std", "unit"]).set_index("name")
 
     @property
@@ -97,38 +97,38 @@ class Model:
 
         Springs stand there as compliances (m/N), shapes by their logarithm.
         """
-        return self._native.covariance
+        return self._made.covariance
 
     @property
     def covariance_names(self) -> list[str]:
         """Names of the rows and columns of :attr:`covariance`."""
-        return self._native.covariance_names
+        return self._made.covariance_names
 
     @property
     def chi2(self) -> float:
         """Chi-square of the fit."""
-        return self._native.chi2
+        return self._made.chi2
 
     @property
     def degrees_of_freedom(self) -> float:
         """Degrees of freedom of the fit."""
-        return self._native.degrees_of_freedom
+        return self._made.degrees_of_freedom
 
     @property
     def sigma(self) -> Floats:
         """Noise of one reading that the fit was weighted by, shape (6,): um and urad."""
-        translation, rotation = self._native.noise
+        translation, rotation = self._made.noise
         return np.array([translation] * 3 + [rotation] * 3)
 
     @property
     def noise_source(self) -> str:
         """Where the noise comes from: ``metrology``, ``sigma columns``, ``repeats``, ``residuals``."""
-        return self._native.noise_source
+        return self._made.noise_source
 
     @property
     def summary(self) -> str:
         """What ``hexbench fit`` prints; empty for a model from a file."""
-        return self._native.summary
+        return self._made.summary
 
     @overload
     def predict(
@@ -204,7 +204,7 @@ class Model:
         if count == 0:
             values, spreads = np.empty((0, 6)), np.empty((0, 6, 6))
         else:
-            values, spreads = self._native.predict(list(table), list(table.values()))
+            values, spreads = self._made.predict(list(table), list(table.values()))
         return (values, spreads) if covariance else values
 
     def __repr__(self) -> str:
@@ -249,7 +249,7 @@ def fit(
     """
     if isinstance(add, str):
         add = (add,)
-    native = _native.fit(campaign._native, list(add), held_out(campaign, holdout), [fspath(t) for t in terms], estimator)
+    native = _native.fit(campaign._made, list(add), held_out(campaign, holdout), [fspath(t) for t in terms], estimator)
     return Model(native)
 
 

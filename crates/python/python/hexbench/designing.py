@@ -1,0 +1,132 @@
+"""Plans of experiments: which poses and loads determine the parameters best."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from os import PathLike, fspath
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hexbench import _native
+from hexbench._bounds import whole
+from hexbench._tables import POSE, Floats
+from hexbench.errors import UsageError
+from hexbench.machine import Hexapod
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class Plan:
+    """Readings to be taken."""
+
+    def __init__(self, native: _native.Plan) -> None:
+        """Hold what :func:`design` has found."""
+        self._made = native
+
+    @property
+    def criterion(self) -> str:
+        """What makes the plan good."""
+        return self._made.criterion
+
+    @property
+    def value(self) -> float:
+        """Value of the criterion for the plan, whose poses are rounded to um and 0.001 deg; larger is better."""
+        return self._made.value
+
+    @property
+    def efficiency(self) -> float | None:
+        """Least share of the budget that the best plan over the candidates needs for the same; None where no bound is known."""
+        return self._made.efficiency
+
+    def to_columns(self) -> dict[str, Floats]:
+        """Return the columns of ``measurements.csv`` without the measured ones, each of shape (n,)."""
+        return dict(self._made.columns())
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return the readings to be taken as a DataFrame, one row each (needs pandas)."""
+        import pandas as pd
+
+        return pd.DataFrame(self.to_columns()).astype({"pose": "int64", "repeat": "int64"})
+
+    @property
+    def poses(self) -> Floats:
+        """The different poses, shape (p, 6): mm and deg, fixed frame."""
+        columns = self.to_columns()
+        _, first = np.unique(columns["pose"], return_index=True)
+        return np.column_stack([columns[name] for name in POSE])[np.sort(first)]
+
+    def __len__(self) -> int:
+        """Return the number of readings."""
+        return len(self.to_columns()["pose"])
+
+    def __str__(self) -> str:
+        """Return the page of ``hexbench design``."""
+        return self._made.text
+
+    def __repr__(self) -> str:
+        """Return size, criterion and value."""
+        return f"Plan({len(self)} readings at {len(self.poses)} poses, {self.criterion} = {self.value:.6g})"
+
+
+def design(
+    hexapod: Hexapod,
+    space: str | PathLike[str],
+    *,
+    poses: int | None = None,
+    repeats: int = 3,
+    readings: int | None = None,
+    hours: float | None = None,
+    candidates: int = 256,
+    criterion: str | None = None,
+    add: Sequence[str] = (),
+    starts: int | None = None,
+    seed: int = 1,
+) -> Plan:
+    """Choose the poses that determine stiffnesses (and effects) best: ``hexbench design``.
+
+    Parameters
+    ----------
+    hexapod : Hexapod
+        The machine.
+    space : path
+        Where poses may lie and which loads there are: space.toml.
+    poses : int, optional
+        Number of poses (1 to 60), each read under every load and condition; 3 unless said.
+    repeats : int
+        Readings of each pose under each load and condition.
+    readings : int, optional
+        Choose so many readings (1 to 2000) instead of poses that are all read alike.
+    hours : float, optional
+        Choose readings that together take so many hours.
+    candidates : int
+        Poses to choose readings from.
+    criterion : str, optional
+        o1 ... o5, d, a, e or i; o1 for poses, d for readings and hours unless said.
+    add : sequence of str
+        Terms that the plan has to determine too.
+    starts : int, optional
+        Searches from different starts: 128 for poses, 16 for readings and hours unless said.
+    seed : int
+        Seed of the starts.
+
+    Raises
+    ------
+    BadInput, UsageError, NotDetermined
+        With the text of the command.
+    """
+    if sum(x is not None for x in (poses, readings, hours)) > 1:
+        raise UsageError("poses, readings and hours exclude each other", "Give one of them.")
+    wanted = {
+        "poses": whole(poses, "poses", 1, 60),
+        "repeats": whole(repeats, "repeats", 1, 1000),
+        "readings": whole(readings, "readings", 1, 2000),
+        "hours": None if hours is None else float(hours),
+        "candidates": whole(candidates, "candidates", 1, 8192),
+        "criterion": criterion,
+        "terms": [add] if isinstance(add, str) else list(add),
+        "starts": whole(starts, "starts", 1, 4096),
+        "seed": whole(seed, "seed", 0, 2**32 - 1),
+    }
+    return Plan(_native.design(hexapod._made, fspath(space), wanted))

@@ -1,0 +1,198 @@
+"""Comparing a model with measurements, and naming what it lacks."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from html import escape
+from os import PathLike, fspath
+from typing import Any
+
+from hexbench import _native
+from hexbench.campaign import Campaign, Data, held_out
+from hexbench.model import Model
+
+
+class Comparison:
+    """A model beside measurements: errors against the noise, where they sit, what they follow.
+
+    The keys of ``comparison.json`` are attributes (:attr:`error`, :attr:`holdout`) or in :meth:`to_dict`.
+    """
+
+    #: Chi-square per degree of freedom, root mean squares (um, urad), on the readings compared.
+    error: dict[str, Any]
+    #: The same on readings that no fit has seen; None without them.
+    holdout: dict[str, Any] | None
+
+    def __init__(self, native: _native.Comparison) -> None:
+        """Hold what :func:`compare` has found."""
+        self._made = native
+        found = self.to_dict()
+        self.error = found["error"]
+        self.holdout = found["holdout"]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all numbers, with the keys of ``comparison.json``."""
+        return _dictionary(self.to_json())
+
+    def to_json(self) -> str:
+        """Return the text of ``comparison.json``."""
+        return self._made.json()
+
+    def to_html(self, path: str | PathLike[str]) -> None:
+        """Write the page with charts: one file for a browser, needs no network."""
+        _native.write_text(fspath(path), self._made.html())
+
+    def __str__(self) -> str:
+        """Return the page of ``hexbench compare``."""
+        return self._made.text()
+
+    def __repr__(self) -> str:
+        """Return the size of the error."""
+        held = "" if self.holdout is None else f", held out {self.holdout['chi2_reduced']:.3g}"
+        return f"Comparison(chi2/dof {self.error['chi2_reduced']:.3g}{held})"
+
+
+class Diagnosis:
+    """The verdict on a campaign. Attributes are the keys of ``diagnosis.json``, with its names and units."""
+
+    #: ``diagnosis/1``.
+    format: str
+    #: ``adequate``, ``named``, ``ambiguous`` or ``outside``.
+    verdict: str
+    #: Effects named, in the order in which they were added.
+    added: list[str]
+    #: Terms of the fitted model that the numbers belong to.
+    model: list[str]
+    #: Terms of the model that needed their richer form.
+    richer: list[str]
+    #: Probability of every first addition, of ``outside`` and of ``none``; best first.
+    candidates: list[dict[str, Any]]
+    #: Probability that an effect is at work at all.
+    present: dict[str, float]
+    #: Smallest set of effects that holds 95 % of the probability.
+    credible_set: list[str]
+    #: Errors, fitted and held out, of every step of the model; springs alone first.
+    steps: list[dict[str, Any]]
+    #: How the held-out error was obtained.
+    holdout: str
+    #: The noise of one reading: ``translation_um``, ``rotation_urad``, ``source``.
+    noise: dict[str, Any]
+    #: ``name``, ``value``, ``std`` (k = 1), ``unit`` of every number of the model.
+    parameters: list[dict[str, Any]]
+    #: Names of parameters for which the data give no number.
+    not_determined: list[str]
+    #: Terms that the data cannot test, and why.
+    untestable: list[dict[str, Any]]
+    #: Smallest sizes that this campaign would show.
+    detectable: list[dict[str, Any]]
+    #: Readings that would separate the rivals.
+    next: list[dict[str, Any]]
+    #: What those readings promise, pair by pair.
+    separation: list[dict[str, Any]]
+    #: What an effect does to the leg stiffnesses when it is left out.
+    absorbed: list[dict[str, Any]]
+    #: Readings far from every prediction; ``row`` is the line of measurements.csv (of a table in memory: its row and two).
+    suspects: list[dict[str, Any]]
+    #: The unexplained pattern, or None.
+    outside: dict[str, Any] | None
+    #: Things to know before trusting the numbers.
+    warnings: list[str]
+    #: Program, machine and digests of the files.
+    run: dict[str, Any]
+
+    def __init__(self, native: _native.Diagnosis) -> None:
+        """Hold what :func:`diagnose` has found."""
+        self._made = native
+        self.__dict__.update(self.to_dict())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all of it, with exactly the keys of ``diagnosis.json``."""
+        return _dictionary(self.to_json())
+
+    def to_json(self) -> str:
+        """Return the text of ``diagnosis.json``."""
+        return self._made.json()
+
+    def to_html(self, path: str | PathLike[str]) -> None:
+        """Write the page with charts: one file for a browser, needs no network."""
+        _native.write_text(fspath(path), self._made.html())
+
+    def text(self, verbose: bool = False) -> str:
+        """Return the page of ``hexbench diagnose``; ``verbose`` with every parameter and every detectable size."""
+        return self._made.text(verbose)
+
+    def __str__(self) -> str:
+        """Return the page of ``hexbench diagnose``."""
+        return self.text()
+
+    def __repr__(self) -> str:
+        """Return the verdict and the best candidates."""
+        best = ", ".join(f"{c['term']} {c['probability']:.2f}" for c in self.candidates[:3])
+        return f"Diagnosis({self.verdict}{''.join(f' {a}' for a in self.added)}; {best})"
+
+    def _repr_html_(self) -> str:
+        likely = [(escape(c["term"]), c["probability"]) for c in self.candidates if c["probability"] >= 0.001]
+        rows = "".join(f"<tr><td>{term}</td><td>{probability:.3f}</td></tr>" for term, probability in likely)
+        named = " ".join(escape(a) for a in self.added)
+        return f"<b>{escape(self.verdict)}</b> {named}<table><tr><th>effect</th><th>probability</th></tr>{rows}</table>"
+
+
+def compare(campaign: Campaign, model: Model | None = None, *, holdout: Data | None = None) -> Comparison:
+    """Compare a model with measurements.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        The measurements.
+    model : Model, optional
+        Compared as it is; without it leg springs are fitted to the data.
+    holdout : path, table or Campaign, optional
+        Readings that no fit has seen, compared too.
+
+    Raises
+    ------
+    BadInput, NotDetermined
+        With the text of the command.
+    """
+    native = None if model is None else model._made
+    return Comparison(_native.compare(campaign._made, native, held_out(campaign, holdout)))
+
+
+def diagnose(campaign: Campaign, *, holdout: Data | None = None, terms: Sequence[str | PathLike[str]] = ()) -> Diagnosis:
+    """Name the physical effect that the model lacks, and show the held-out error fall.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        The measurements.
+    holdout : path, table or Campaign, optional
+        Readings kept out of every fit; without them poses are left out in turn.
+    terms : sequence of paths
+        Term files of your own (term/1) that compete with the catalogue.
+
+    Returns
+    -------
+    Diagnosis
+        ``verdict`` is ``adequate``, ``named``, ``ambiguous`` or ``outside``; bad news is a result, not an exception.
+
+    Raises
+    ------
+    BadInput, NotDetermined
+        When nothing can be computed.
+    """
+    return Diagnosis(_native.diagnose(campaign._made, held_out(campaign, holdout), [fspath(t) for t in terms]))
+
+
+def terms() -> list[dict[str, Any]]:
+    """Return the catalogue of effects.
+
+    Each has ``id``, ``title``, ``physics``, ``equation``, ``source``, ``shows`` (what the data must contain), ``breaker``
+    (what to vary to see it alone), ``parameters`` (``name``, ``unit``) and ``shape`` (``name``, ``unit``, or None).
+    """
+    return _native.terms()
+
+
+def _dictionary(text: str) -> dict[str, Any]:
+    found: Mapping[str, Any] = json.loads(text)
+    return dict(found)

@@ -1,0 +1,118 @@
+"""The identification as an estimator: fit, predict, score."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hexbench._tables import POSE, REFERENCE, WRENCH, Floats, columns_of, is_table, rows
+from hexbench.campaign import Campaign, load
+from hexbench.errors import UsageError
+from hexbench.machine import Hexapod
+from hexbench.model import Model, fit
+
+_COVARIATES = ("approach", "delta_T_K", "elapsed_s")
+
+
+class HexapodModel:
+    """Leg springs and named effects as an estimator with ``fit``, ``predict`` and ``score``, as scikit-learn knows them.
+
+    ``X`` is an array (n, 12), poses (mm, deg) then wrenches (N, N m), or (n, 18) with reference wrenches behind; or a table
+    whose columns are named as in ``measurements.csv``, with ``approach``, ``delta_T_K`` and ``elapsed_s`` where there are
+    such. ``y`` is an array (n, 6): deflections, loaded minus reference, in um and urad. Poses in the fixed frame, loads at
+    the mobile origin in fixed axes.
+
+    Parameters
+    ----------
+    hexapod : Hexapod
+        The machine.
+    terms : sequence of str
+        Effects fitted beside the springs, as :func:`hexbench.fit` takes them.
+
+    Attributes
+    ----------
+    model_ : Model
+        What :meth:`fit` has found.
+    """
+
+    model_: Model
+
+    def __init__(self, hexapod: Hexapod, terms: Sequence[str] = ()) -> None:
+        """Keep the parameters as they are; nothing is checked before :meth:`fit`."""
+        self.hexapod = hexapod
+        self.terms = terms
+
+    def fit(self, X: Any, y: ArrayLike) -> HexapodModel:
+        """Fit springs and terms to deflections ``y`` (n, 6) under the conditions ``X``."""
+        conditions = _conditions(X)
+        campaign = Campaign.from_arrays(self.hexapod, measured=y, **conditions)
+        self.model_ = fit(campaign, self.terms)
+        return self
+
+    def fit_campaign(self, campaign: Campaign) -> HexapodModel:
+        """Fit springs and terms to a campaign, with all its columns."""
+        self.model_ = fit(load(self.hexapod, campaign), self.terms)
+        return self
+
+    def predict(self, X: Any) -> Floats:
+        """Return the deflections (n, 6) under the conditions ``X``, um and urad."""
+        return self._fitted().predict(**_conditions(X), covariance=False)
+
+    def score(self, X: Any, y: ArrayLike) -> float:
+        """Return the share of the weighted variance of ``y`` that is predicted: 1 is perfect, 0 is no better than the mean.
+
+        ``1 - sum(((y - predict(X)) / sigma)^2) / sum(((y - mean(y)) / sigma)^2)`` over all rows and columns, with the noise
+        ``sigma`` of the fit (:attr:`Model.sigma`): a coefficient of determination in units of the noise.
+        """
+        measured = rows(y, 6, "y")
+        sigma = self._fitted().sigma
+        error = (measured - self.predict(X)) / sigma
+        spread = (measured - measured.mean(axis=0)) / sigma
+        return float(1.0 - np.sum(error**2) / np.sum(spread**2))
+
+    def get_params(self, deep: bool = True) -> dict[str, Any]:
+        """Return the parameters of the constructor."""
+        return {"hexapod": self.hexapod, "terms": self.terms}
+
+    def set_params(self, **params: Any) -> HexapodModel:
+        """Set parameters of the constructor."""
+        known = self.get_params()
+        for name, value in params.items():
+            if name not in known:
+                raise UsageError(f"HexapodModel has no parameter {name!r}", f"It has {', '.join(known)}.")
+            setattr(self, name, value)
+        return self
+
+    def _fitted(self) -> Model:
+        if not hasattr(self, "model_"):
+            raise UsageError("this HexapodModel is not fitted", "Call fit(X, y) first.")
+        return self.model_
+
+    def __repr__(self) -> str:
+        """Return the parameters."""
+        return f"HexapodModel({self.hexapod!r}, terms={self.terms!r})"
+
+
+def _conditions(X: Any) -> dict[str, Any]:
+    if is_table(X):
+        return _of_table(X)
+    array = np.asarray(X) if not isinstance(X, np.ndarray) else X
+    width = 18 if array.ndim == 2 and array.shape[1] == 18 else 12
+    checked = rows(X, width, "X")
+    parts = {"poses": checked[:, :6], "wrenches": checked[:, 6:12], "reference": checked[:, 12:]}
+    return {name: part for name, part in parts.items() if part.shape[1]}
+
+
+def _of_table(X: Any) -> dict[str, Any]:
+    names, columns = columns_of(X, "X")
+    table = dict(zip(names, columns, strict=True))
+    missing = [name for name in (*POSE, *WRENCH) if name not in table]
+    if missing:
+        raise UsageError(f"X: required columns are missing: {', '.join(missing)}", "Name the columns as in measurements.csv.")
+    has_reference = all(name in table for name in REFERENCE)
+    groups = {"poses": POSE, "wrenches": WRENCH} | ({"reference": REFERENCE} if has_reference else {})
+    conditions = {key: rows(np.column_stack([table[n] for n in group]), 6, key) for key, group in groups.items()}
+    return conditions | {name: np.asarray(table[name]) for name in _COVARIATES if name in table}

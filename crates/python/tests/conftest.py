@@ -1,0 +1,43 @@
+"""What the tests share: the command, the cases that come with the repository."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import hexbench
+
+ROOT = Path(__file__).resolve().parents[3]
+CASES = ROOT / "data" / "cases"
+SCENES = ROOT / "scenes"
+
+Command = Callable[..., "subprocess.CompletedProcess[str]"]
+
+
+@pytest.fixture(scope="session")
+def command() -> Command:
+    """Run the command; HEXBENCH_BINARY names it."""
+    binary = os.environ["HEXBENCH_BINARY"]
+
+    def run(*words: object, code: int = 0) -> subprocess.CompletedProcess[str]:
+        done = subprocess.run([binary, *map(str, words)], capture_output=True, text=True, check=False)
+        assert done.returncode == code, done.stderr
+        return done
+
+    return run
+
+
+def case(name: str) -> list[Path]:
+    """Return hexapod, measurements and holdout of a case."""
+    return [CASES / name / file for file in ("hexapod.toml", "measurements.csv", "holdout.csv")]
+
+
+@pytest.fixture(scope="session")
+def foundation() -> hexbench.Campaign:
+    """Return the case whose foundation yields."""
+    hexapod, data, _ = case("mujoco-foundation")
+    return hexbench.load(hexapod, data)

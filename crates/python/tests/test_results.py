@@ -1,0 +1,185 @@
+"""Results are those of the command, to the byte or the last digit that it prints."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from conftest import ROOT, SCENES, Command, case
+
+import hexbench
+
+KEYS = {
+    "format", "verdict", "added", "model", "richer", "candidates", "present", "credible_set", "steps", "holdout", "noise",
+    "parameters", "not_determined", "untestable", "detectable", "next", "separation", "absorbed", "suspects", "outside",
+    "warnings", "run",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["mujoco-foundation", "mujoco-clean"])
+def test_a_diagnosis_is_that_of_the_command_byte_for_byte(name: str, command: Command) -> None:
+    hexapod, data, holdout = case(name)
+    told = command("diagnose", hexapod, data, "--holdout", holdout, "--json", "-").stdout
+    diagnosis = hexbench.diagnose(hexbench.load(hexapod, data), holdout=holdout)
+    assert diagnosis.to_json() == told
+    assert diagnosis.to_dict() == json.loads(told)
+    assert {key: getattr(diagnosis, key) for key in KEYS} == diagnosis.to_dict()
+    assert set(hexbench.Diagnosis.__annotations__) - {"_made"} == KEYS
+    page = command("diagnose", hexapod, data, "--holdout", holdout, "--color", "never").stdout
+    assert str(diagnosis) == page
+    assert diagnosis.verdict in repr(diagnosis) and len(repr(diagnosis)) < 200
+    assert diagnosis.verdict in diagnosis._repr_html_()
+
+
+def test_a_table_in_memory_is_diagnosed_as_its_file() -> None:
+    hexapod, data, holdout = case("mujoco-foundation")
+    of_file = hexbench.diagnose(hexbench.load(hexapod, data), holdout=holdout).to_dict()
+    frame = pd.read_csv(data, comment="#", float_precision="round_trip")
+    held = pd.read_csv(holdout, comment="#", float_precision="round_trip")
+    of_frame = hexbench.diagnose(hexbench.load(hexapod, frame), holdout=held).to_dict()
+    of_file.pop("run"), of_frame.pop("run")
+    assert of_frame == of_file
+
+
+def test_the_page_of_a_diagnosis_is_that_of_the_command_but_for_who_made_it(tmp_path: Path, command: Command) -> None:
+    hexapod, data, _ = case("paper-protocol")
+    command("compare", hexapod, data, "--html", tmp_path / "command.html")
+    hexbench.compare(hexbench.load(hexapod, data)).to_html(tmp_path / "python.html")
+    ours, theirs = ((tmp_path / f"{who}.html").read_text().splitlines() for who in ("python", "command"))
+    different = [(a, b) for a, b in zip(ours, theirs, strict=True) if a != b]
+    assert len(different) == 1 and "hexbench.compare in Python" in different[0][0], different
+    hexbench.diagnose(hexbench.load(hexapod, data)).to_html(tmp_path / "diagnosis.html")
+    assert "hexbench.diagnose in Python" in (tmp_path / "diagnosis.html").read_text()
+
+
+def test_a_comparison_is_that_of_the_command_byte_for_byte(command: Command, tmp_path: Path) -> None:
+    hexapod, data, holdout = case("mujoco-foundation")
+    command("fit", hexapod, data, "-o", tmp_path / "model.toml")
+    campaign = hexbench.load(hexapod, data)
+    told = command("compare", hexapod, data, "--holdout", holdout, "--json", "-").stdout
+    found = hexbench.compare(campaign, holdout=holdout)
+    assert found.to_json() == told
+    assert found.holdout == json.loads(told)["holdout"]
+    told = command("compare", hexapod, data, "--model", tmp_path / "model.toml", "--json", "-").stdout
+    assert hexbench.compare(campaign, hexbench.Model.load(tmp_path / "model.toml")).to_json() == told
+    assert str(found) == command("compare", hexapod, data, "--holdout", holdout, "--color", "never").stdout
+
+
+@pytest.mark.parametrize(("name", "add"), [("mujoco-foundation", ["base-compliance"]), ("absolute-pitch", ["leg-offset"])])
+def test_a_fit_and_its_predictions_are_those_of_the_command(
+    name: str, add: list[str], command: Command, tmp_path: Path
+) -> None:
+    hexapod, data, holdout = case(name)
+    wanted = [word for term in add for word in ("--add", term)]
+    path = tmp_path / "model.toml"
+    page = command("fit", hexapod, data, *wanted, "--holdout", holdout, "-o", path, "--color", "never").stdout
+    model = hexbench.fit(hexbench.load(hexapod, data), add, holdout=holdout)
+    assert model.to_toml() == path.read_text()
+    assert model.summary == page
+    assert model.terms == add
+    kept = hexbench.Model.load(path)
+    assert kept.to_toml() == path.read_text() and kept.values == model.values
+    _same_predictions(model, holdout, command, path, tmp_path)
+
+
+def _same_predictions(model: hexbench.Model, rows: Path, command: Command, path: Path, folder: Path) -> None:
+    command("predict", path, rows, "-o", folder / "predicted.csv")
+    expected = pd.read_csv(folder / "predicted.csv")
+    held = hexbench.load(model.hexapod, rows)
+    columns = held.to_columns()
+    more = {key: columns[key] for key in ("approach", "delta_T_K", "elapsed_s") if key in columns}
+    if "ref_fx_N" in columns:
+        more["reference"] = np.column_stack([columns[n] for n in columns if n.startswith("ref_")])
+    values, covariance = model.predict(held.poses, held.wrenches, covariance=True, **more)
+    names = [n for n in expected.columns if n.startswith("predicted_")] or [
+        "da_um", "db_um", "dc_um", "dalpha_urad", "dbeta_urad", "dgamma_urad",
+    ]  # fmt: skip
+    # The command prints six decimals of um and urad, nine of mm, eleven of deg: half of the last one.
+    last_digit = np.array([0.51e-9] * 3 + [0.51e-11] * 3) if model.absolute else 0.51e-6
+    assert np.all(np.abs(values - expected[names].to_numpy()) <= last_digit)
+    sigma = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
+    stated = expected[[n for n in expected.columns if n.startswith("sigma_")]].to_numpy()
+    assert np.all(np.abs(sigma - stated) <= 0.51e-6)
+    assert np.array_equal(model.predict(held.poses, held.wrenches, **more), values)
+
+
+def test_parameters_and_covariance_belong_together() -> None:
+    hexapod, data, _ = case("mujoco-foundation")
+    model = hexbench.fit(hexbench.load(hexapod, data), ["base-compliance"])
+    table = model.parameters
+    assert list(table.columns) == ["value", "std", "unit"] and table.loc["leg-1.stiffness", "unit"] == "N/um"
+    assert dict(table["value"]) == model.values and dict(table["std"]) == model.stds
+    covariance = model.covariance
+    assert covariance.shape == (len(model.covariance_names),) * 2
+    assert np.array_equal(covariance, covariance.T)
+    # c = 1/k: std(c) = std(k) / k^2, in m/N.
+    for leg in range(6):
+        k, std = 1e6 * table.loc[f"leg-{leg + 1}.stiffness", ["value", "std"]].to_numpy(dtype=float)
+        assert np.isclose(np.sqrt(covariance[leg, leg]), std / k**2, rtol=1e-12)
+
+
+def test_the_papers_estimator_is_that_of_the_command(command: Command, tmp_path: Path) -> None:
+    hexapod, data, _ = case("paper-protocol")
+    command("fit", hexapod, data, "--estimator", "paper", "-o", tmp_path / "model.toml")
+    assert hexbench.fit(hexbench.load(hexapod, data), estimator="paper").to_toml() == (tmp_path / "model.toml").read_text()
+
+
+@pytest.mark.parametrize("scene", ["paper", "cubic"])
+def test_a_simulation_writes_the_bytes_of_the_command(scene: str, command: Command, tmp_path: Path) -> None:
+    ours, theirs = tmp_path / "ours" / "x", tmp_path / "theirs" / "x"
+    command("simulate", SCENES / scene, "-o", theirs, "--seed", 11)
+    made = hexbench.simulate(SCENES / scene, seed=11, folder=ours)
+    files = sorted(p.relative_to(theirs) for p in theirs.rglob("*") if p.is_file())
+    assert files == sorted(p.relative_to(ours) for p in ours.rglob("*") if p.is_file())
+    for file in files:
+        assert (ours / file).read_bytes() == (theirs / file).read_bytes(), file
+    assert made.truth == json.loads((theirs / "sealed" / "truth.json").read_text())
+    nowhere = hexbench.Scene(SCENES / scene).simulate(seed=11)
+    assert nowhere.campaign.to_csv() == made.campaign.to_csv()
+    assert "truth" not in repr(made)
+    with pytest.raises(hexbench.UsageError, match="the folder is not empty"):
+        hexbench.simulate(SCENES / scene, folder=ours)
+
+
+def test_a_plan_is_that_of_the_command(command: Command, tmp_path: Path) -> None:
+    hexapod, space = SCENES / "paper" / "hexapod.toml", ROOT / "data" / "designs" / "paper-space.toml"
+    path = tmp_path / "plan.csv"
+    page = command("design", hexapod, space, "--starts", 4, "--seed", 2, "-o", path, "--color", "never").stdout
+    plan = hexbench.design(hexbench.Hexapod.read(hexapod), space, starts=4, seed=2)
+    assert str(plan) == page
+    expected = pd.read_csv(path)
+    assert list(plan.to_columns()) == list(expected.columns)
+    # Rounding to um and 0.001 deg, then the digits of the file.
+    assert np.allclose(plan.to_pandas().to_numpy(dtype=float), expected.to_numpy(dtype=float), rtol=0, atol=1e-9)
+    assert plan.poses.shape == (3, 6) and len(plan) == len(expected)
+
+
+def test_the_catalogue_is_that_of_the_command(command: Command) -> None:
+    listed = command("terms").stdout
+    told = hexbench.terms()
+    assert len(told) >= 20
+    for term in told:
+        assert term["id"] in listed
+        assert all(set(p) == {"name", "unit"} for p in term["parameters"])
+
+
+def test_a_study_in_parts_has_the_bytes_of_the_command(command: Command, tmp_path: Path) -> None:
+    from hexbench import _native
+
+    study = tmp_path / "study.toml"
+    study.write_text(
+        'format = "study/1"\ntitle = "shared"\nseed = 3\ntrials = 2900\ntask = "springs"\n'
+        '[axes]\ngeometry = ["ring_a"]\nplan = ["random"]\nposes = [3]\nnoise_scale = [1, 2]\n'
+    )
+    command("study", study, "-o", tmp_path / "whole")
+    plan = _native.study_plan(study, 2)
+    assert [p["part"] for p in plan["parts"]] == ["1/2", "2/2"]
+    folders = [tmp_path / "part-1", tmp_path / "part-2"]
+    done = [_native.study_run_part(study, p["part"], f) for p, f in zip(plan["parts"], folders, strict=True)]
+    assert sum(d["computed_trials"] for d in done) == plan["trials"] == 5800
+    assert _native.study_run_part(study, "1/2", folders[0])["computed_shards"] == 0
+    merged = _native.study_merge(study, folders, tmp_path / "merged")
+    assert merged["taken"] == plan["shards"]
+    for file in ("trials.parquet", "cells.csv", "study.md"):
+        assert (tmp_path / "merged" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes(), file
