@@ -45,6 +45,7 @@ pub(crate) enum Command {
     Discriminate(commands::discriminate::Arguments),
     Power(commands::power::Arguments),
     Study(commands::study::Arguments),
+    Regress(commands::regress::Arguments),
     Terms(commands::terms::Arguments),
     Validate(commands::validate::Arguments),
     Workbench(commands::workbench::Arguments),

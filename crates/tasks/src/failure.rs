@@ -19,6 +19,7 @@ use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
 use hexbench_validation::paper::PaperError;
 use hexbench_validation::power::PowerError;
+use hexbench_validation::regress::baseline::BaselineError;
 use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
@@ -153,6 +154,9 @@ pub enum Failure {
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
+    /// A baseline that cannot be used or written.
+    #[error("{0}")]
+    Baseline(#[from] BaselineError),
     /// A plan whose power cannot be told.
     #[error("{0}")]
     Power(#[from] PowerError),
@@ -195,7 +199,8 @@ impl Failure {
                 exit_of(cause)
             }
             Self::Study(cause) => exit_of_study(cause),
-            Self::Usage { .. } => Exit::Usage,
+            Self::Usage { .. } | Self::Baseline(BaselineError::NoReason) => Exit::Usage,
+            Self::Baseline(cause) if cause.is_input_output() => Exit::InputOutput,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
@@ -213,6 +218,7 @@ impl Failure {
             | Self::MemoryRow { .. }
             | Self::Balls { .. }
             | Self::SceneState { .. }
+            | Self::Baseline(_)
             | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
             Self::UserTerm { .. }
@@ -234,6 +240,7 @@ impl Failure {
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Study(cause) => Some(cause.next_step()),
             Self::Check(_) => None,
+            Self::Baseline(cause) => Some(cause.next_step().into()),
             Self::Design(DesignError::NeverDetermined { .. }) => Some(
                 "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
                  effect."
