@@ -46,6 +46,7 @@ pub(crate) enum Command {
     Power(commands::power::Arguments),
     Study(commands::study::Arguments),
     Terms(commands::terms::Arguments),
+    Challenge(commands::challenge::Arguments),
     Validate(commands::validate::Arguments),
     Workbench(commands::workbench::Arguments),
     Completions(commands::completions::Arguments),

@@ -25,9 +25,10 @@ fn side(package: &str) -> Option<Side> {
     }
 }
 
-/// The only packages that may depend on both sides: the proving ground, the sweeps over it, the workbench, and the command.
-const MEETING_PLACES: [&str; 4] =
-    ["hexbench-validation", "hexbench-study", "hexbench-workbench", "hexbench-cli"];
+/// The only packages that may depend on both sides: the proving ground, the sweeps and the challenges built on it,
+/// the workbench, and the command.
+const MEETING_PLACES: [&str; 5] =
+    ["hexbench-validation", "hexbench-study", "hexbench-challenge", "hexbench-workbench", "hexbench-cli"];
 
 fn reachable(graph: &Graph, from: &str) -> BTreeSet<String> {
     let mut seen = BTreeSet::new();

@@ -51,7 +51,7 @@ pub use read_balls::{read_ball_places, read_balls};
 pub use read_conditions::{read_conditions, read_plan};
 pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_measurements::{Reading, read_measurements, read_measurements_from};
-pub use toml_file::{Format, read_toml};
+pub use toml_file::{Format, read_toml, read_toml_text};
 pub use toml_value::{Item, Key, Section};
 pub use units::{Kind, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};
