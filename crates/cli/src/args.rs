@@ -47,6 +47,7 @@ pub(crate) enum Command {
     Study(commands::study::Arguments),
     Regress(commands::regress::Arguments),
     Terms(commands::terms::Arguments),
+    Challenge(commands::challenge::Arguments),
     Validate(commands::validate::Arguments),
     Workbench(commands::workbench::Arguments),
     Completions(commands::completions::Arguments),

@@ -4,8 +4,10 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use hexbench_challenge::ChallengeError;
 use hexbench_core::files::FileError;
 use hexbench_design::DesignError;
+use hexbench_entrant::EntrantError;
 use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
@@ -143,6 +145,9 @@ pub enum Failure {
     /// A study that cannot go on.
     #[error("{0}")]
     Study(StudyError),
+    /// A challenge that cannot go on.
+    #[error("{0}")]
+    Challenge(ChallengeError),
     /// Wrong usage that only shows after parsing.
     #[error("{message}")]
     Usage {
@@ -199,6 +204,7 @@ impl Failure {
                 exit_of(cause)
             }
             Self::Study(cause) => exit_of_study(cause),
+            Self::Challenge(cause) => exit_of_challenge(cause),
             Self::Usage { .. } | Self::Baseline(BaselineError::NoReason) => Exit::Usage,
             Self::Baseline(cause) if cause.is_input_output() => Exit::InputOutput,
             Self::Check(_) => Exit::CheckFailed,
@@ -239,6 +245,7 @@ impl Failure {
             }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Study(cause) => Some(cause.next_step()),
+            Self::Challenge(cause) => Some(cause.next_step()),
             Self::Check(_) => None,
             Self::Baseline(cause) => Some(cause.next_step().into()),
             Self::Design(DesignError::NeverDetermined { .. }) => Some(
@@ -312,6 +319,40 @@ impl From<StudyError> for Failure {
             StudyError::Plot(plot) => Self::Plot(plot),
             other => Self::Study(other),
         }
+    }
+}
+
+impl From<ChallengeError> for Failure {
+    fn from(error: ChallengeError) -> Self {
+        match error {
+            ChallengeError::File(file) => Self::File(file),
+            other => Self::Challenge(other),
+        }
+    }
+}
+
+impl From<EntrantError> for Failure {
+    fn from(error: EntrantError) -> Self {
+        match error {
+            EntrantError::File(file) => Self::File(file),
+            EntrantError::Model(cause) => Self::Model { cause, data: "measurements.csv".into() },
+            EntrantError::Row(cause) => Self::Row { path: "predict.csv".into(), cause: Box::new(cause) },
+            EntrantError::Write { path, cause } => Self::Output { path, cause },
+        }
+    }
+}
+
+fn exit_of_challenge(cause: &ChallengeError) -> Exit {
+    match cause {
+        ChallengeError::NotEmpty(_)
+        | ChallengeError::NoSuite { .. }
+        | ChallengeError::NoProgram(_)
+        | ChallengeError::OtherProgram { .. }
+        | ChallengeError::SameName(_)
+        | ChallengeError::Unsupported => Exit::Usage,
+        ChallengeError::Case { .. } => Exit::NotDetermined,
+        _ if cause.is_input_output() => Exit::InputOutput,
+        _ => Exit::BadInput,
     }
 }
 

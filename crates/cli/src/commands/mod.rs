@@ -1,5 +1,6 @@
 //! One file per subcommand, each with its `Arguments` and `run`.
 
+pub(crate) mod challenge;
 pub(crate) mod compare;
 pub(crate) mod compensate;
 pub(crate) mod completions;
@@ -46,6 +47,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Study(arguments) => study::run(arguments, &screen),
         Command::Regress(arguments) => regress::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
+        Command::Challenge(arguments) => challenge::run(arguments, &screen),
         Command::Validate(arguments) => validate::run(arguments, &screen),
         Command::Workbench(arguments) => workbench::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),

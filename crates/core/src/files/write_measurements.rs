@@ -66,6 +66,13 @@ impl MeasurementsWriter {
         Self { columns: written.collect() }
     }
 
+    /// A table of poses and loads without measured values: what `read_conditions` reads.
+    pub fn conditions(columns: Columns) -> Self {
+        let mut writer = Self::new(Measurand::DeflectionEuler, Columns { sigma: false, ..columns });
+        writer.columns.retain(|written| !matches!(written.column.group, Group::Deflection | Group::Euler));
+        writer
+    }
+
     /// The line with the names of the columns.
     ///
     /// # Errors
