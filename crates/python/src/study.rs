@@ -1,7 +1,7 @@
 //! Sweeps: how a study divides, one part of it, all parts together.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use hexbench_study::journal::record;
 use hexbench_study::{Adopted, Part, Runner, Study, Work, divide, page};
@@ -101,10 +101,18 @@ impl StudyRunner {
     }
 }
 
-/// The folder of a study that takes records from elsewhere, in use by this object alone.
+/// The folder of a study that takes records from elsewhere, in use by this object alone until it is closed.
 #[pyclass(frozen, module = "hexbench._native")]
 pub(crate) struct StudyWork {
-    work: Arc<Work>,
+    /// None when it is closed.
+    work: Mutex<Option<Arc<Work>>>,
+}
+
+impl StudyWork {
+    fn open(&self, py: Python<'_>) -> PyResult<Arc<Work>> {
+        let work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        work.clone().ok_or_else(|| usage(py, "the folder is closed", ""))
+    }
 }
 
 #[pymethods]
@@ -112,17 +120,23 @@ impl StudyWork {
     #[new]
     fn new(py: Python<'_>, study: PathBuf, folder: PathBuf) -> PyResult<Self> {
         let work = beside(py, move || Ok(Work::open(&study, &folder)?))?;
-        Ok(Self { work: Arc::new(work) })
+        Ok(Self { work: Mutex::new(Some(Arc::new(work))) })
+    }
+
+    /// Lets the folder go, for other runs.
+    fn close(&self) {
+        self.work.lock().unwrap_or_else(PoisonError::into_inner).take();
     }
 
     /// What the whole is, and what of it is still to do.
     fn todo<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let work = Arc::clone(&self.work);
+        let work = self.open(py)?;
+        let shards = work.shards();
         let todo = beside(py, move || Ok(work.todo(None)?))?;
         loaded(
             py,
             &json!({
-                "shards": self.work.shards(),
+                "shards": shards,
                 "trials": todo.trials,
                 "pending_shards": todo.pending,
                 "pending_trials": todo.pending_trials,
@@ -133,13 +147,13 @@ impl StudyWork {
 
     /// Keeps the record of a shard.
     fn keep(&self, py: Python<'_>, shard: u64, record: &[u8]) -> PyResult<()> {
-        let (work, record) = (Arc::clone(&self.work), record.to_vec());
+        let (work, record) = (self.open(py)?, record.to_vec());
         beside(py, move || Ok(work.keep_record(shard, &record)?))
     }
 
     /// Writes the results of a study that is complete.
     fn write(&self, py: Python<'_>, markdown: Option<PathBuf>) -> PyResult<Py<PyAny>> {
-        let work = Arc::clone(&self.work);
+        let work = self.open(py)?;
         let told = beside(py, move || results(&work, markdown.as_deref()))?;
         Ok(loaded(py, &told)?.unbind())
     }

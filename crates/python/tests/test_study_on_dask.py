@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from conftest import SCENES
 
 from hexbench import errors, study
 
@@ -23,7 +24,7 @@ STUDY = """
 format = "study/1"
 title = "springs on a cluster"
 seed = 5
-trials = 12000
+trials = 2900
 task = "springs"
 [axes]
 geometry = ["../machines/own.toml", "ring_a"]
@@ -33,21 +34,27 @@ noise_scale = [1, 2]
 """
 
 
-@pytest.fixture
-def study_file(tmp_path: Path, scenes: Path) -> Path:
-    """Return a study whose machine is in another folder."""
-    for folder in ["machines", "studies"]:
-        (tmp_path / folder).mkdir()
-    (tmp_path / "machines" / "own.toml").write_bytes((scenes / "paper" / "hexapod.toml").read_bytes())
-    path = tmp_path / "studies" / "study.toml"
+def written(folder: Path) -> Path:
+    """Write a study whose machine is in another folder."""
+    for name in ["machines", "studies"]:
+        (folder / name).mkdir()
+    (folder / "machines" / "own.toml").write_bytes((SCENES / "paper" / "hexapod.toml").read_bytes())
+    path = folder / "studies" / "study.toml"
     path.write_text(STUDY)
     return path
 
 
 @pytest.fixture
-def here(study_file: Path, tmp_path: Path) -> dict[str, bytes]:
+def study_file(tmp_path: Path) -> Path:
+    """Return a study of 24 shards."""
+    return written(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def here(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
     """Return the results of this machine."""
-    return bytes_of(study.run(None, study_file, tmp_path / "here").folder)
+    folder = tmp_path_factory.mktemp("here")
+    return bytes_of(study.run(None, written(folder), folder / "results").folder)
 
 
 def bytes_of(folder: Path) -> dict[str, bytes]:
@@ -189,9 +196,9 @@ def test_an_error_of_a_worker_reaches_the_caller_with_its_text(
 
 
 def test_a_file_named_absolutely_is_refused_before_anything_is_sent(
-    cluster: Cluster, study_file: Path, tmp_path: Path, scenes: Path
+    cluster: Cluster, study_file: Path, tmp_path: Path
 ) -> None:
-    machine = (scenes / "paper" / "hexapod.toml").resolve()
+    machine = (SCENES / "paper" / "hexapod.toml").resolve()
     study_file.write_text(STUDY.replace("../machines/own.toml", machine.as_posix()))
     with pytest.raises(errors.UsageError, match="absolute"):
         study.run(cluster.client, study_file, tmp_path / "dask")

@@ -16,6 +16,7 @@ The workers need the package ``hexbench`` in the same version, and nothing else:
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import posixpath
@@ -32,7 +33,7 @@ from hexbench import _native
 from hexbench.errors import HexbenchError, InputOutput, UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Generator, Iterator, Sequence
 
     import pandas as pd
     from distributed import Client, Future
@@ -157,22 +158,23 @@ def run(
         BadInput: the study cannot be used, or the folder belongs to another one.
         InputOutput: the folder cannot be written, the cluster is gone, or no worker has been there for too long.
     """
-    work = _native.StudyWork(os.fspath(study), os.fspath(folder))
-    todo = work.todo()
-    pending, shards = todo["pending_shards"], todo["shards"]
-    tell = progress or _line
-    done = shards - len(pending)
-    tell(done, shards)
-    for number, record in _records(client, Path(study), pending, retries, patience):
-        work.keep(number, record)
-        done += 1
+    with contextlib.closing(_native.StudyWork(os.fspath(study), os.fspath(folder))) as work:
+        todo = work.todo()
+        pending, shards = todo["pending_shards"], todo["shards"]
+        tell = progress or _line
+        done = shards - len(pending)
         tell(done, shards)
-    return _results(work.write(_path(markdown)))
+        with contextlib.closing(_records(client, Path(study), pending, retries, patience)) as records:
+            for number, record in records:
+                work.keep(number, record)
+                done += 1
+                tell(done, shards)
+        return _results(work.write(_path(markdown)))
 
 
 def _records(
     client: Client | None, study: Path, pending: list[int], retries: int, patience: float
-) -> Iterator[tuple[int, bytes]]:
+) -> Generator[tuple[int, bytes]]:
     """Yield the number and the record of every pending shard, in the order in which they are done."""
     if not pending:
         return
