@@ -146,3 +146,20 @@ def test_choices_out_of_bounds_are_refused(choice: dict[str, Any]) -> None:
 
     with pytest.raises(hexbench.UsageError):
         hexbench.simulate(SCENES / "paper-rich", **choice)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_campaigns_of_any_size_are_computed_or_refused() -> None:
+    rng = np.random.default_rng(20261123)
+    used = [0, 0]
+    for _ in range(30):
+        chosen = rng.choice(len(CAMPAIGN), size=rng.integers(2, 40))
+        scales = [float(10.0 ** rng.choice([0, 0, 0, -200, -9, 3, 9, 200, 300])) for _ in range(3)]
+        arrays = [a[chosen] * s for a, s in zip((CAMPAIGN.poses, CAMPAIGN.wrenches, CAMPAIGN.measured), scales, strict=True)]
+
+        def campaign() -> hexbench.Campaign:
+            return hexbench.Campaign.from_arrays(HEXAPOD, *arrays)  # noqa: B023
+
+        used[0] += _tried(lambda: hexbench.fit(campaign(), ["leg-backlash"]))  # noqa: B023
+        used[1] += _tried(lambda: (hexbench.diagnose(campaign()), hexbench.compare(campaign())))  # noqa: B023
+    assert min(used) > 5, used

@@ -27,7 +27,7 @@ def _study(folder: Path, trials: int) -> Path:
 
 
 def test_another_thread_runs_meanwhile(tmp_path: Path) -> None:
-    study = _study(tmp_path, 40_000)
+    study = _study(tmp_path, 10_000)
     ticks, over = [0], threading.Event()
 
     def tick() -> None:
@@ -78,7 +78,7 @@ def _in_child(folder: str) -> str:
 
 
 def _run_study(folder: Path) -> str:
-    return str(_native.study_run_part(_study(folder, 5000), "1/1", folder / "out")["computed_trials"])
+    return str(_native.study_run_part(_study(folder, 1500), "1/1", folder / "out")["computed_trials"])
 
 
 @pytest.mark.parametrize("way", ["fork", "spawn"])

@@ -144,9 +144,11 @@ def test_nullable_object_and_polars_like_columns_are_read() -> None:
 
 
 def test_a_campaign_keeps_its_numbers_through_pickle_and_file(tmp_path: Path) -> None:
-    hexapod, data, _ = case("absolute-pitch")
+    hexapod, data, _ = case("mujoco-foundation")
     campaign = hexbench.load(hexapod, data)
-    assert pickle.loads(pickle.dumps(campaign)).to_csv() == campaign.to_csv()
+    again = pickle.loads(pickle.dumps(campaign))
+    assert again.to_csv() == campaign.to_csv()
+    assert hexbench.diagnose(again).to_json() == hexbench.diagnose(campaign).to_json()
     campaign.save(tmp_path / "m.csv")
     assert hexbench.load(hexapod, tmp_path / "m.csv").to_csv() == campaign.to_csv()
 
