@@ -50,6 +50,8 @@ pub struct Outcome {
     pub natural: Natural,
     /// Linearisation at the best fit.
     pub lin: Linearization,
+    /// Rounds of linearisation and search made.
+    pub rounds: usize,
 }
 
 /// Search the best explanation of a campaign among `terms` and patterns.
@@ -79,7 +81,8 @@ pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Outcome, 
         let settled = history.last() == Some(&names) && scan == effort.scan;
         history.push(names);
         if settled || history.len() >= MOST_ROUNDS {
-            return Ok(Outcome { candidates, untestable, sets, gram, baseline, best, natural, lin });
+            let rounds = history.len();
+            return Ok(Outcome { candidates, untestable, sets, gram, baseline, best, natural, lin, rounds });
         }
         effort = Effort { rich: true, scan };
     }

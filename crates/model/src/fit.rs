@@ -60,6 +60,8 @@ pub struct Fit {
     pub solution: Solution,
     /// Gauss-Newton iterations made.
     pub iterations: usize,
+    /// Points tried on the way, those of shortened steps included: each cost one linearisation of the campaign.
+    pub tried: usize,
     /// False when the iterations ran out first.
     pub settled: bool,
     /// Change of chi-square in the last iteration.
@@ -125,6 +127,13 @@ pub fn fit(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Res
     fit_from(campaign, wanted, point, state)
 }
 
+/// What a fit has cost so far.
+#[derive(Debug, Clone, Copy, Default)]
+struct Effort {
+    iterations: usize,
+    tried: usize,
+}
+
 /// The same from a point where the campaign has been linearised already.
 fn fit_from(
     campaign: &Campaign,
@@ -137,22 +146,23 @@ fn fit_from(
         return Err(ModelError::NoLoad);
     }
     let mut objective = state.residuals().norm_squared() + penalty(&point, wanted);
-    let mut iteration = 0;
+    let mut effort = Effort::default();
     loop {
-        iteration += 1;
+        effort.iterations += 1;
         let solution = step(&state, &point, wanted, &prior)?;
         // Relative to the misfit: a wrong model need not be settled to the last digit.
         let small = SETTLED_CHI2 * (objective / state.equations() as f64).max(1.0);
         let most = objective + 0.5 * small;
-        let (next, next_state, next_objective) = search(campaign, &point, &solution.x, wanted, most)?;
+        let (next, next_state, next_objective) =
+            search(campaign, &point, &solution.x, wanted, most, &mut effort)?;
         let last_step = (objective - next_objective).abs();
         point = next;
         state = next_state;
         objective = next_objective;
         let settled = last_step < small;
-        if settled || iteration == MOST_ITERATIONS {
+        if settled || effort.iterations == MOST_ITERATIONS {
             let solution = step(&state, &point, wanted, &prior)?;
-            let fit = finish(campaign, point, &state, solution, prior, wanted, iteration);
+            let fit = finish(campaign, point, &state, solution, prior, wanted, effort);
             return Ok(Fit { settled, last_step, ..fit });
         }
     }
@@ -398,10 +408,12 @@ fn search(
     x: &DVector<f64>,
     wanted: &[Wanted],
     most: f64,
+    effort: &mut Effort,
 ) -> Result<(Point, Linearization, f64), ModelError> {
     let mut factor = 1.0;
     loop {
         let next = moved(campaign, point, x, factor);
+        effort.tried += 1;
         let outcome = Linearization::at(campaign, &next);
         let small = factor < 1e-3;
         match outcome {
@@ -458,7 +470,7 @@ fn finish(
     solution: Solution,
     prior: DVector<f64>,
     wanted: &[Wanted],
-    iterations: usize,
+    Effort { iterations, tried }: Effort,
 ) -> Fit {
     let mut offsets = Vec::new();
     let mut at = common(campaign);
@@ -479,6 +491,7 @@ fn finish(
         prior,
         solution,
         iterations,
+        tried,
         settled: true,
         last_step: 0.0,
     }

@@ -155,6 +155,7 @@ impl PaperFit {
             lack_of_fit_dof: state.equations() as f64 - rank,
             solution,
             iterations: 1,
+            tried: 1,
             settled: true,
             last_step: 0.0,
         })

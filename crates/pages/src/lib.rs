@@ -17,6 +17,7 @@ mod limits;
 pub mod next;
 pub mod notes;
 mod pattern;
+mod readings;
 pub mod runs;
 mod size;
 mod stiffness;
@@ -24,6 +25,7 @@ pub mod subject;
 pub mod text;
 
 pub use demo::demo;
+pub use readings::readings;
 pub use subject::Subject;
 
 use crate::text::{Ink, Paper};

@@ -42,7 +42,7 @@ mod _native {
     #[pymodule_export]
     use crate::scene::simulate;
     #[pymodule_export]
-    use crate::study::{study_merge, study_plan, study_run_part};
+    use crate::study::{StudyRunner, StudyWork, study_merge, study_plan, study_run_part};
     #[pymodule_export]
     use crate::terms::terms;
 }

@@ -1,14 +1,18 @@
 //! Sweeps: how a study divides, one part of it, all parts together.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use hexbench_study::{Adopted, Part, Work, divide, page};
+use hexbench_study::journal::record;
+use hexbench_study::{Adopted, Part, Runner, Study, Work, divide, page};
 use hexbench_tasks::Failure;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde_json::json;
 
-use crate::error::usage;
+use crate::error::{internal, usage};
 use crate::json::loaded;
 use crate::run::{beside, threads};
 
@@ -57,6 +61,103 @@ pub(crate) fn study_run_part<'py>(
     )
 }
 
+/// A study that computes records of its shards, for a folder elsewhere.
+#[pyclass(frozen, module = "hexbench._native")]
+pub(crate) struct StudyRunner {
+    runner: Arc<Runner>,
+    pool: Arc<ThreadPool>,
+}
+
+#[pymethods]
+impl StudyRunner {
+    #[new]
+    fn new(py: Python<'_>, study: PathBuf, threads: usize) -> PyResult<Self> {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = Arc::new(pool.map_err(|cause| internal(py, &cause.to_string()))?);
+        let runner = {
+            let pool = Arc::clone(&pool);
+            beside(py, move || Ok(pool.install(|| Runner::new(Study::read(&study)?))?))?
+        };
+        Ok(Self { runner: Arc::new(runner), pool })
+    }
+
+    /// Computes shards and gives the record of each.
+    fn run<'py>(&self, py: Python<'py>, shards: Vec<u64>) -> PyResult<Vec<Bound<'py, PyBytes>>> {
+        if let Some(strange) = shards.iter().find(|n| **n >= self.runner.shards()) {
+            let all = self.runner.shards();
+            return Err(usage(
+                py,
+                &format!("shard {strange}: the study has shards 0 to {}", all.saturating_sub(1)),
+                "",
+            ));
+        }
+        let (runner, pool) = (Arc::clone(&self.runner), Arc::clone(&self.pool));
+        let records: Vec<Vec<u8>> =
+            beside(
+                py,
+                move || Ok(pool.install(|| shards.par_iter().map(|&n| record(&runner, n)).collect())),
+            )?;
+        Ok(records.iter().map(|bytes| PyBytes::new(py, bytes)).collect())
+    }
+}
+
+/// The folder of a study that takes records from elsewhere, in use by this object alone.
+#[pyclass(frozen, module = "hexbench._native")]
+pub(crate) struct StudyWork {
+    work: Arc<Work>,
+}
+
+#[pymethods]
+impl StudyWork {
+    #[new]
+    fn new(py: Python<'_>, study: PathBuf, folder: PathBuf) -> PyResult<Self> {
+        let work = beside(py, move || Ok(Work::open(&study, &folder)?))?;
+        Ok(Self { work: Arc::new(work) })
+    }
+
+    /// What the whole is, and what of it is still to do.
+    fn todo<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let work = Arc::clone(&self.work);
+        let todo = beside(py, move || Ok(work.todo(None)?))?;
+        loaded(
+            py,
+            &json!({
+                "shards": self.work.shards(),
+                "trials": todo.trials,
+                "pending_shards": todo.pending,
+                "pending_trials": todo.pending_trials,
+                "damaged": todo.damaged,
+            }),
+        )
+    }
+
+    /// Keeps the record of a shard.
+    fn keep(&self, py: Python<'_>, shard: u64, record: &[u8]) -> PyResult<()> {
+        let (work, record) = (Arc::clone(&self.work), record.to_vec());
+        beside(py, move || Ok(work.keep_record(shard, &record)?))
+    }
+
+    /// Writes the results of a study that is complete.
+    fn write(&self, py: Python<'_>, markdown: Option<PathBuf>) -> PyResult<Py<PyAny>> {
+        let work = Arc::clone(&self.work);
+        let told = beside(py, move || results(&work, markdown.as_deref()))?;
+        Ok(loaded(py, &told)?.unbind())
+    }
+}
+
+/// Writes the results of a study that is complete, and tells where they are and what they say.
+fn results(work: &Work, markdown: Option<&Path>) -> Result<serde_json::Value, Failure> {
+    work.require_complete()?;
+    let cells = work.write_tables(&|| ())?;
+    page::write(work.study(), &cells, work.folder(), markdown)?;
+    Ok(json!({
+        "folder": work.folder(),
+        "shards": work.shards(),
+        "written": work.written(),
+        "summary": page::summary(work.study(), &cells).to_text(),
+    }))
+}
+
 /// Puts parts together and writes the results.
 #[pyfunction]
 #[pyo3(signature = (study, parts, folder, markdown=None))]
@@ -78,18 +179,11 @@ pub(crate) fn study_merge(
                 damaged: all.damaged + damaged,
             };
         }
-        work.require_complete()?;
-        let cells = work.write_tables(&|| ())?;
-        page::write(work.study(), &cells, work.folder(), markdown.as_deref())?;
-        Ok::<_, Failure>(json!({
-            "folder": work.folder(),
-            "shards": work.shards(),
-            "taken": all.taken,
-            "known": all.known,
-            "damaged": all.damaged,
-            "written": work.written(),
-            "summary": page::summary(work.study(), &cells).to_text(),
-        }))
+        let mut told = results(&work, markdown.as_deref())?;
+        for (key, shards) in [("taken", all.taken), ("known", all.known), ("damaged", all.damaged)] {
+            told[key] = shards.into();
+        }
+        Ok::<_, Failure>(told)
     })?;
     loaded(py, &told)
 }

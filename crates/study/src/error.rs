@@ -76,6 +76,14 @@ pub enum StudyError {
         /// Number of the shard.
         shard: u64,
     },
+    /// A record that came from elsewhere is not what it should be.
+    #[error(
+        "what came as the record of shard {shard} is not one: it was cut or changed, or belongs to another study or version"
+    )]
+    Garbled {
+        /// Number of the shard.
+        shard: u64,
+    },
     /// Shards are missing after all parts were put together.
     #[error("{missing} of {all} shards are in none of the folders, the first is shard {first}")]
     Incomplete {
@@ -111,6 +119,9 @@ impl StudyError {
                 "The same program on the same files gives the same bytes: find out which folder comes from another machine \
                  or build, and leave it out."
                     .into()
+            }
+            Self::Garbled { .. } => {
+                "See that every worker has the same version of hexbench and reads the same files.".into()
             }
             Self::Incomplete { .. } => {
                 "Give the folder of every part; `hexbench study run` on a part that was stopped finishes it.".into()

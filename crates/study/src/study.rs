@@ -53,6 +53,8 @@ pub struct Study {
     pub axes: Axes,
     /// SHA-256 of the study file and of every file it names, under their names in the study.
     pub inputs: BTreeMap<String, String>,
+    /// Every file it was read from beside the study file itself, relative to its folder.
+    pub files: Vec<String>,
 }
 
 /// Name of the study file itself among the inputs.

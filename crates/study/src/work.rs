@@ -24,6 +24,8 @@ pub struct Division {
     pub trials: u64,
     /// SHA-256 of the study file and of every file it names.
     pub inputs: std::collections::BTreeMap<String, String>,
+    /// Every file it was read from beside the study file itself, relative to its folder.
+    pub files: Vec<String>,
     /// The parts in order.
     pub parts: Vec<Share>,
 }
@@ -54,6 +56,7 @@ pub fn divide(study: &Path, parts: u64) -> Result<Division, StudyError> {
         shards: runner.shards(),
         trials: runner.study().all_trials(),
         inputs: runner.study().inputs.clone(),
+        files: runner.study().files.clone(),
         parts: Part::all(parts).map(share).collect(),
     })
 }
@@ -107,6 +110,14 @@ impl Work {
     /// [`StudyError::Write`]; what was kept before stays.
     pub fn compute(&self, shards: &[u64], done: &(dyn Fn(u64) + Sync)) -> Result<(), StudyError> {
         self.journal.compute(&self.runner, shards, done)
+    }
+
+    /// Keeps the record of a shard that [`record`](crate::journal::record) made elsewhere.
+    ///
+    /// # Errors
+    /// As [`Journal::keep_record`].
+    pub fn keep_record(&self, shard: u64, record: &[u8]) -> Result<(), StudyError> {
+        self.journal.keep_record(&self.runner, shard, record)
     }
 
     /// Takes over what another folder has done.

@@ -4,8 +4,10 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use hexbench_challenge::ChallengeError;
 use hexbench_core::files::FileError;
 use hexbench_design::DesignError;
+use hexbench_entrant::EntrantError;
 use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
@@ -19,6 +21,7 @@ use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
 use hexbench_validation::paper::PaperError;
 use hexbench_validation::power::PowerError;
+use hexbench_validation::regress::baseline::BaselineError;
 use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
@@ -142,6 +145,9 @@ pub enum Failure {
     /// A study that cannot go on.
     #[error("{0}")]
     Study(StudyError),
+    /// A challenge that cannot go on.
+    #[error("{0}")]
+    Challenge(ChallengeError),
     /// Wrong usage that only shows after parsing.
     #[error("{message}")]
     Usage {
@@ -153,6 +159,9 @@ pub enum Failure {
     /// The answer is not the expected one.
     #[error("check failed: {0}")]
     Check(String),
+    /// A baseline that cannot be used or written.
+    #[error("{0}")]
+    Baseline(#[from] BaselineError),
     /// A plan whose power cannot be told.
     #[error("{0}")]
     Power(#[from] PowerError),
@@ -195,7 +204,9 @@ impl Failure {
                 exit_of(cause)
             }
             Self::Study(cause) => exit_of_study(cause),
-            Self::Usage { .. } => Exit::Usage,
+            Self::Challenge(cause) => exit_of_challenge(cause),
+            Self::Usage { .. } | Self::Baseline(BaselineError::NoReason) => Exit::Usage,
+            Self::Baseline(cause) if cause.is_input_output() => Exit::InputOutput,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
@@ -213,6 +224,7 @@ impl Failure {
             | Self::MemoryRow { .. }
             | Self::Balls { .. }
             | Self::SceneState { .. }
+            | Self::Baseline(_)
             | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
             Self::UserTerm { .. }
@@ -233,7 +245,9 @@ impl Failure {
             }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
             Self::Study(cause) => Some(cause.next_step()),
+            Self::Challenge(cause) => Some(cause.next_step()),
             Self::Check(_) => None,
+            Self::Baseline(cause) => Some(cause.next_step().into()),
             Self::Design(DesignError::NeverDetermined { .. }) => Some(
                 "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
                  effect."
@@ -305,6 +319,40 @@ impl From<StudyError> for Failure {
             StudyError::Plot(plot) => Self::Plot(plot),
             other => Self::Study(other),
         }
+    }
+}
+
+impl From<ChallengeError> for Failure {
+    fn from(error: ChallengeError) -> Self {
+        match error {
+            ChallengeError::File(file) => Self::File(file),
+            other => Self::Challenge(other),
+        }
+    }
+}
+
+impl From<EntrantError> for Failure {
+    fn from(error: EntrantError) -> Self {
+        match error {
+            EntrantError::File(file) => Self::File(file),
+            EntrantError::Model(cause) => Self::Model { cause, data: "measurements.csv".into() },
+            EntrantError::Row(cause) => Self::Row { path: "predict.csv".into(), cause: Box::new(cause) },
+            EntrantError::Write { path, cause } => Self::Output { path, cause },
+        }
+    }
+}
+
+fn exit_of_challenge(cause: &ChallengeError) -> Exit {
+    match cause {
+        ChallengeError::NotEmpty(_)
+        | ChallengeError::NoSuite { .. }
+        | ChallengeError::NoProgram(_)
+        | ChallengeError::OtherProgram { .. }
+        | ChallengeError::SameName(_)
+        | ChallengeError::Unsupported => Exit::Usage,
+        ChallengeError::Case { .. } => Exit::NotDetermined,
+        _ if cause.is_input_output() => Exit::InputOutput,
+        _ => Exit::BadInput,
     }
 }
 

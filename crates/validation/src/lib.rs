@@ -10,6 +10,7 @@ pub mod paper;
 pub mod power;
 pub mod proportion;
 pub mod recovery;
+pub mod regress;
 pub mod sheet;
 pub mod trial;
 

@@ -55,16 +55,21 @@ impl Trial {
 
 /// Right, honest or wrong about hidden effects; those outside the catalogue begin with `out:`.
 pub fn outcome(hidden: &[&str], d: &Diagnosis) -> Outcome {
+    outcome_of(hidden, d.verdict, &d.added, &d.credible_set)
+}
+
+/// The same for an answer from anywhere: the verdict, the effects named, and those not excluded.
+pub fn outcome_of(hidden: &[&str], verdict: Verdict, added: &[String], credible_set: &[String]) -> Outcome {
     let outside = hidden.iter().any(|id| id.starts_with("out:"));
-    let same = d.added.len() == hidden.len() && hidden.iter().all(|id| d.added.iter().any(|a| a == id));
-    let right = match d.verdict {
+    let same = added.len() == hidden.len() && hidden.iter().all(|id| added.iter().any(|a| a == id));
+    let right = match verdict {
         Verdict::Outside => outside,
         Verdict::Adequate => hidden.is_empty(),
         Verdict::Named => !outside && !hidden.is_empty() && same,
         Verdict::Ambiguous => false,
     };
-    let kept = |id: &&str| d.credible_set.iter().chain(&d.added).any(|c| c == id);
-    let honest = d.verdict == Verdict::Ambiguous && !outside && !hidden.is_empty() && hidden.iter().all(kept);
+    let kept = |id: &&str| credible_set.iter().chain(added).any(|c| c == id);
+    let honest = verdict == Verdict::Ambiguous && !outside && !hidden.is_empty() && hidden.iter().all(kept);
     match (right, honest) {
         (true, _) => Outcome::Right,
         (_, true) => Outcome::Honest,

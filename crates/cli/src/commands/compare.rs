@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use hexbench_model::compare::compare;
 use hexbench_model::runs::WithOrigin;
-use hexbench_pages::{comparison, html};
+use hexbench_pages::{comparison, html, readings};
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{PageFiles, Screen, origin, provenance, write_json};
+use crate::output::{PageFiles, Screen, TableFile, origin, provenance, write_json};
 
 /// Compare a model with measurements: errors beside the noise, where they sit, what they follow
 #[derive(Debug, Args)]
@@ -27,11 +27,21 @@ pub(crate) struct Arguments {
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write every reading beside the model to FILE, for pandas, polars or xarray: .parquet or .csv
+    #[arg(long, value_name = "FILE")]
+    table: Option<TableFile>,
     #[command(flatten)]
     page: PageFiles,
     /// Exit with 1 unless the chi-square per degree of freedom is below LIMIT (of the holdout when there is one)
     #[arg(long, value_name = "LIMIT")]
     check: Option<f64>,
+}
+
+impl Arguments {
+    /// The files read.
+    fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.hexapod, &self.data].into_iter().chain(&self.model).chain(&self.holdout)
+    }
 }
 
 /// Compare and tell.
@@ -40,20 +50,21 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let data = input::measurements(&arguments.data)?;
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
     let model = arguments.model.as_deref().map(input::model).transpose()?;
-    let compared = compare(&hexapod, &data, model.as_ref(), holdout.as_ref())
-        .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
+    let failed = |cause| Failure::Model { cause, data: data.source.clone() };
+    let compared = compare(&hexapod, &data, model.as_ref(), holdout.as_ref()).map_err(failed)?;
     let result = &compared.comparison;
     if let Some(path) = &arguments.json {
         let run =
             origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
         write_json(screen, path, &WithOrigin { result, run })?;
     }
+    if let Some(file) = &arguments.table {
+        let frame = readings(&hexapod, &data, holdout.as_ref(), &compared).map_err(failed)?;
+        file.write(frame, arguments.files())?;
+    }
     arguments.page.write(screen, || {
-        let read = [&arguments.hexapod, &arguments.data]
-            .into_iter()
-            .chain(&arguments.model)
-            .chain(&arguments.holdout);
-        Ok(html::comparison(&hexapod, &data, holdout.as_ref(), &compared, &provenance(read)?)?)
+        let provenance = provenance(arguments.files())?;
+        Ok(html::comparison(&hexapod, &data, holdout.as_ref(), &compared, &provenance)?)
     })?;
     if arguments.json.as_deref() != Some(Path::new("-")) {
         screen.write(&comparison::page(result, screen.ink()))?;

@@ -1,5 +1,6 @@
 //! One file per subcommand, each with its `Arguments` and `run`.
 
+pub(crate) mod challenge;
 pub(crate) mod compare;
 pub(crate) mod compensate;
 pub(crate) mod completions;
@@ -12,6 +13,7 @@ pub(crate) mod fit;
 pub(crate) mod poses;
 pub(crate) mod power;
 pub(crate) mod predict;
+pub(crate) mod regress;
 pub(crate) mod runs;
 pub(crate) mod simulate;
 pub(crate) mod study;
@@ -43,7 +45,9 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Discriminate(arguments) => discriminate::run(arguments, &screen),
         Command::Power(arguments) => power::run(arguments, &screen),
         Command::Study(arguments) => study::run(arguments, &screen),
+        Command::Regress(arguments) => regress::run(arguments, &screen),
         Command::Terms(arguments) => terms::run(arguments, &screen),
+        Command::Challenge(arguments) => challenge::run(arguments, &screen),
         Command::Validate(arguments) => validate::run(arguments, &screen),
         Command::Workbench(arguments) => workbench::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),

@@ -1,4 +1,4 @@
-//! Output: where it goes, colour, pages and charts, error reports.
+//! Output: where it goes, colour, pages and charts, tables, error reports.
 
 mod colour;
 mod excerpt;
@@ -6,8 +6,10 @@ mod pages;
 mod progress;
 pub(crate) mod report;
 mod screen;
+mod table;
 
 pub(crate) use colour::Colour;
 pub(crate) use pages::{PageFiles, origin, provenance, write_json};
 pub(crate) use progress::Progress;
 pub(crate) use screen::Screen;
+pub(crate) use table::TableFile;

@@ -4,7 +4,9 @@ mod calibration;
 pub(crate) mod discriminated;
 pub(crate) mod located;
 mod recovery;
+mod regress;
 pub(crate) mod simulated;
 
 pub(crate) use calibration::calibration;
 pub(crate) use recovery::recovery;
+pub(crate) use regress::regress;

@@ -22,5 +22,6 @@ mod streams;
 mod study;
 mod study_parts;
 mod support;
+mod tables;
 mod validate;
 mod workbench;

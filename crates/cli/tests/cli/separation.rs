@@ -25,10 +25,12 @@ fn side(package: &str) -> Option<Side> {
     }
 }
 
-/// The only packages that may depend on both sides: the proving ground, the sweeps over it, the workbench, and the command.
-const MEETING_PLACES: [&str; 6] = [
+/// The only packages that may depend on both sides: the proving ground, the sweeps and the challenges built on it, what the command and
+/// the Python package do alike, both of these, and the workbench.
+const MEETING_PLACES: [&str; 7] = [
     "hexbench-validation",
     "hexbench-study",
+    "hexbench-challenge",
     "hexbench-tasks",
     "hexbench-workbench",
     "hexbench-python",

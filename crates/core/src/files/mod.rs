@@ -57,7 +57,7 @@ pub use read_conditions::{read_conditions, read_plan};
 pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_measurements::{read_measurements, read_measurements_from};
 pub use table::Reading;
-pub use toml_file::{Format, read_toml};
+pub use toml_file::{Format, read_toml, read_toml_text};
 pub use toml_value::{Item, Key, Section};
 pub use units::{Kind, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};

@@ -33,7 +33,19 @@ pub fn read_toml<T>(
     parsed.map_err(|fault| fault.in_file(path))
 }
 
-/// The same from text.
+/// The same from text; `name` stands for the file in messages.
+///
+/// # Errors
+/// As [`read_toml`].
+pub fn read_toml_text<T>(
+    text: &str,
+    name: &Path,
+    format: Format,
+    make: impl FnOnce(&Section<'_>) -> Result<T, Fault>,
+) -> Result<T, FileError> {
+    parse_toml(text, format, make).map_err(|fault| fault.in_file(name))
+}
+
 pub(crate) fn parse_toml<T>(
     text: &str,
     format: Format,

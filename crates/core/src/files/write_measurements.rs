@@ -66,13 +66,39 @@ impl MeasurementsWriter {
         Self { columns: written.collect() }
     }
 
+    /// A table of poses and loads without measured values: what `read_conditions` reads.
+    pub fn conditions(columns: Columns) -> Self {
+        let mut writer = Self::new(Measurand::DeflectionEuler, Columns { sigma: false, ..columns });
+        writer.columns.retain(|written| !matches!(written.column.group, Group::Deflection | Group::Euler));
+        writer
+    }
+
     /// The line with the names of the columns.
     ///
     /// # Errors
     /// What the destination reports.
     pub fn header(&self, out: &mut dyn Write) -> io::Result<()> {
-        let names: Vec<String> = self.columns.iter().map(|written| written.column.usual_name()).collect();
-        writeln!(out, "{}", names.join(","))
+        writeln!(out, "{}", self.names().collect::<Vec<_>>().join(","))
+    }
+
+    /// Names of the columns.
+    pub fn names(&self) -> impl Iterator<Item = String> {
+        self.columns.iter().map(|written| written.column.usual_name())
+    }
+
+    /// Unit of a column as a name has it, empty for plain numbers.
+    pub fn unit(&self, column: usize) -> &'static str {
+        self.columns[column].unit.name
+    }
+
+    /// Number of a row in a column, in its unit; what the row numbers are (`pose`, `repeat`) included.
+    pub fn value(&self, column: usize, row: &Observation) -> f64 {
+        let Written { column, unit } = &self.columns[column];
+        match column.places.first {
+            POSE_ID => row.pose_id as f64,
+            REPEAT => row.repeat as f64,
+            place => unit.from_si(row_of(row)[place]),
+        }
     }
 
     /// Some rows, which go below those written before.

@@ -195,7 +195,7 @@ fn report(judged: &Judged<'_>, holdout: Option<ErrorSummary>) -> Comparison {
 }
 
 /// Names of the six measured coordinates, without unit.
-pub(crate) fn coordinate_names(measurand: Measurand) -> [&'static str; 6] {
+pub fn coordinate_names(measurand: Measurand) -> [&'static str; 6] {
     match measurand {
         Measurand::DeflectionEuler => ["da", "db", "dc", "dalpha", "dbeta", "dgamma"],
         Measurand::DeflectionRotationVector => ["da", "db", "dc", "drx", "dry", "drz"],

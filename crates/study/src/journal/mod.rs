@@ -28,6 +28,11 @@ use lock::Lock;
 pub use origin::FORMAT;
 use origin::Origin;
 
+/// Computes a shard and gives its record as a journal keeps it, for a journal elsewhere; it carries its own SHA-256.
+pub fn record(runner: &Runner, number: u64) -> Vec<u8> {
+    record::encode(&runner.run(number), Origin::of(runner.study()).digest())
+}
+
 /// The journal of a study, in use by this run alone.
 pub struct Journal {
     folder: PathBuf,
@@ -149,6 +154,25 @@ impl Journal {
             }
         }
         Ok(adopted)
+    }
+
+    /// Keeps the record of a shard that was computed elsewhere ([`record`]); one that is here already is compared.
+    ///
+    /// # Errors
+    /// [`StudyError::Garbled`] when it is not the whole record of this shard of this study, [`StudyError::Contradiction`],
+    /// [`StudyError::Write`].
+    pub fn keep_record(&self, runner: &Runner, number: u64, bytes: &[u8]) -> Result<(), StudyError> {
+        let garbled = StudyError::Garbled { shard: number };
+        if number >= runner.shards() {
+            return Err(garbled);
+        }
+        let empty = Shard::empty(number, runner.trials_of(number), runner.columns());
+        let shard = record::decode(bytes, empty, self.origin.digest()).ok_or(garbled)?;
+        match self.read(runner, number)? {
+            Found::Whole(own) if self.encoded(&own) == bytes => Ok(()),
+            Found::Whole(_) => Err(StudyError::Contradiction { folder: self.folder.clone(), shard: number }),
+            _ => self.keep(&shard),
+        }
     }
 
     /// A shard that is done.

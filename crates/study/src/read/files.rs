@@ -1,6 +1,6 @@
 //! The files that a study names.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use hexbench_core::Hexapod;
@@ -15,8 +15,24 @@ use rand_pcg::Pcg64;
 use super::axes::{AxesTable, GeometryName, PlanName};
 use crate::axes::{Axes, Drawings, Geometry, PlanChoice, PlanSource};
 
-/// SHA-256 of what was read, under the names in the study.
-type Inputs = BTreeMap<String, String>;
+/// What was read, under the names in the study.
+#[derive(Default)]
+pub(super) struct Inputs {
+    /// SHA-256 of it.
+    pub(super) digests: BTreeMap<String, String>,
+    /// The files among it, those that a file names included.
+    pub(super) files: BTreeSet<String>,
+}
+
+impl Inputs {
+    /// Notes a file beside the study and tells where it is.
+    fn file(&mut self, folder: &Path, name: &str) -> Result<PathBuf, FileError> {
+        let path = folder.join(name);
+        self.digests.insert(name.to_owned(), content_hash(&path)?);
+        self.files.insert(name.to_owned());
+        Ok(path)
+    }
+}
 
 /// The axes with everything their files say.
 pub(super) fn complete(
@@ -41,12 +57,6 @@ pub(super) fn complete(
     })
 }
 
-fn known(folder: &Path, name: &str, inputs: &mut Inputs) -> Result<PathBuf, FileError> {
-    let path = folder.join(name);
-    inputs.insert(name.to_owned(), content_hash(&path)?);
-    Ok(path)
-}
-
 fn geometry(
     name: GeometryName,
     space: Option<&str>,
@@ -56,12 +66,12 @@ fn geometry(
     let (name, source) = match name {
         GeometryName::Family(family) => (family.to_owned(), Drawings::Family(family)),
         GeometryName::File(file) => {
-            let hexapod = read_hexapod(&known(folder, &file, inputs)?)?;
+            let hexapod = read_hexapod(&inputs.file(folder, &file)?)?;
             (file, Drawings::File(Box::new(hexapod)))
         }
     };
     let Some(file) = space else { return Ok(Geometry { name, source, space: None }) };
-    let path = known(folder, file, inputs)?;
+    let path = inputs.file(folder, file)?;
     let space = match &source {
         Drawings::File(hexapod) => read_space(&path, hexapod)?,
         // The space asks the machine for its stroke only, which no family states.
@@ -78,7 +88,7 @@ fn plan(name: PlanName, folder: &Path, inputs: &mut Inputs) -> Result<PlanChoice
     Ok(match name {
         PlanName::Known(name, source) => PlanChoice { name, source },
         PlanName::Table(name) => {
-            let reading = read_conditions(&known(folder, &name, inputs)?)?;
+            let reading = read_conditions(&inputs.file(folder, &name)?)?;
             let rows = reading.dataset.observations.iter().map(Row::from).collect();
             PlanChoice { name, source: PlanSource::Rows(rows) }
         }
@@ -89,7 +99,7 @@ fn plan(name: PlanName, folder: &Path, inputs: &mut Inputs) -> Result<PlanChoice
 /// The readings to learn from of a scene; its machine and its hidden effects are left aside.
 fn of_scene(name: &str, folder: &Path, inputs: &mut Inputs) -> Result<PlanSource, FileError> {
     let file = format!("{}/scene.toml", name.trim_end_matches('/'));
-    let path = known(folder, &file, inputs)?;
+    let path = inputs.file(folder, &file)?;
     let scene = Scene::read(&folder.join(name))?;
     if scene.measurand() == hexbench_core::Measurand::AbsolutePose {
         let problem = Problem::Rule {
@@ -100,6 +110,7 @@ fn of_scene(name: &str, folder: &Path, inputs: &mut Inputs) -> Result<PlanSource
     }
     let rows = scene.plan().training;
     // The rows come from several files: what counts is what they say together.
-    inputs.insert(format!("{name} (rows)"), text_hash(&format!("{rows:?}")));
+    inputs.digests.insert(format!("{name} (rows)"), text_hash(&format!("{rows:?}")));
+    inputs.files.extend(scene.files.iter().map(|file| format!("{}/{file}", name.trim_end_matches('/'))));
     Ok(PlanSource::Rows(rows))
 }

@@ -3,7 +3,6 @@
 mod axes;
 mod files;
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use hexbench_core::files::{Fault, FileError, Format, Item, Key, Problem, Section, content_hash, read_toml};
@@ -53,7 +52,8 @@ impl Study {
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let d = read_toml(path, FORMAT, description)?;
         let folder = path.parent().unwrap_or(Path::new("."));
-        let mut inputs = BTreeMap::from([(STUDY_FILE.to_owned(), content_hash(path)?)]);
+        let mut inputs = files::Inputs::default();
+        inputs.digests.insert(STUDY_FILE.to_owned(), content_hash(path)?);
         let axes = files::complete(d.axes, d.space.as_deref(), folder, &mut inputs)?;
         Ok(Self {
             title: d.title,
@@ -63,7 +63,8 @@ impl Study {
             redraw: d.redraw,
             starts: d.starts,
             axes,
-            inputs,
+            inputs: inputs.digests,
+            files: inputs.files.into_iter().collect(),
         })
     }
 }

@@ -4,16 +4,15 @@
 //! results are equal bytes. Results that a trial does not have are null.
 
 use std::io::{self, Write};
-use std::sync::Arc;
 
-use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
-use parquet::column::writer::ColumnWriter;
+use hexbench_tables::parquet::{
+    File, Group, KeyValue, ParquetError, Physical, ROWS, begin, counts, double, int64, numbers, optional,
+    other, required, text,
+};
+use parquet::basic::Encoding;
 use parquet::data_type::ByteArray;
-use parquet::errors::ParquetError;
-use parquet::file::metadata::KeyValue;
-use parquet::file::properties::{WriterProperties, WriterPropertiesBuilder, WriterVersion};
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
-use parquet::schema::types::{ColumnPath, Type, TypePtr};
+use parquet::file::properties::{WriterProperties, WriterPropertiesBuilder};
+use parquet::schema::types::{ColumnPath, TypePtr};
 
 use crate::cells::{AXES, AxisLevels};
 use crate::columns::{Column, Kind};
@@ -22,23 +21,20 @@ use crate::shard::{EMPTY, Shard, Values};
 
 /// Format of the table.
 const FORMAT: &str = "study-trials/1";
-/// Rows of a row group.
-const ROWS: usize = 1 << 16;
 
 /// The table while it is written: at most one row group is in memory.
 pub(super) struct Table<'a> {
     runner: &'a Runner,
     levels: [AxisLevels; AXES],
-    file: SerializedFileWriter<&'a mut (dyn Write + Send)>,
+    file: File<'a>,
     buffer: Shard,
 }
 
 impl<'a> Table<'a> {
     pub(super) fn begin(runner: &'a Runner, out: &'a mut (dyn Write + Send)) -> io::Result<Self> {
         let levels = runner.study().axes.levels();
-        let schema = schema(&levels, runner.columns()).map_err(other)?;
-        let properties = Arc::new(properties(runner)?);
-        let file = SerializedFileWriter::new(out, schema, properties).map_err(other)?;
+        let fields = fields_of(&levels, runner.columns()).map_err(other)?;
+        let file = begin(out, "trials", fields, properties(runner)?)?;
         Ok(Self { runner, levels, file, buffer: Shard::empty(0, 0..0, runner.columns()) })
     }
 
@@ -93,10 +89,7 @@ struct Head<'a> {
 }
 
 impl Head<'_> {
-    fn write(
-        &self,
-        group: &mut SerializedRowGroupWriter<'_, &mut (dyn Write + Send)>,
-    ) -> Result<(), ParquetError> {
+    fn write(&self, group: &mut Group<'_, '_>) -> Result<(), ParquetError> {
         let study = self.runner.study();
         let places: Vec<(usize, u64)> = self.trials.clone().map(|t| study.place(t)).collect();
         let whole = |n: u64| i64::try_from(n).unwrap_or(i64::MAX);
@@ -127,96 +120,33 @@ fn short(x: f64) -> f64 {
     format!("{x:.11e}").parse().unwrap_or(x)
 }
 
-type Group<'g, 'a> = SerializedRowGroupWriter<'g, &'a mut (dyn Write + Send)>;
-
-fn write_column(
-    group: &mut Group<'_, '_>,
-    fill: impl FnOnce(&mut ColumnWriter<'_>) -> Result<usize, ParquetError>,
-) -> Result<(), ParquetError> {
-    let missing = || ParquetError::General("the schema has fewer columns".into());
-    let mut column = group.next_column()?.ok_or_else(missing)?;
-    fill(column.untyped())?;
-    column.close()
-}
-
-fn mismatch() -> ParquetError {
-    ParquetError::General("the schema has another type".into())
-}
-
-fn int64(group: &mut Group<'_, '_>, values: &[i64]) -> Result<(), ParquetError> {
-    write_column(group, |column| match column {
-        ColumnWriter::Int64ColumnWriter(typed) => typed.write_batch(values, None, None),
-        _ => Err(mismatch()),
-    })
-}
-
-fn double(group: &mut Group<'_, '_>, values: &[f64]) -> Result<(), ParquetError> {
-    write_column(group, |column| match column {
-        ColumnWriter::DoubleColumnWriter(typed) => typed.write_batch(values, None, None),
-        _ => Err(mismatch()),
-    })
-}
-
-fn text(group: &mut Group<'_, '_>, values: &[ByteArray], levels: Option<&[i16]>) -> Result<(), ParquetError> {
-    write_column(group, |column| match column {
-        ColumnWriter::ByteArrayColumnWriter(typed) => typed.write_batch(values, levels, None),
-        _ => Err(mismatch()),
-    })
-}
-
-/// Numbers, NaN as null.
-fn numbers(group: &mut Group<'_, '_>, values: &[f64]) -> Result<(), ParquetError> {
-    let levels: Vec<i16> = values.iter().map(|x| i16::from(!x.is_nan())).collect();
-    let present: Vec<f64> = values.iter().copied().filter(|x| !x.is_nan()).collect();
-    write_column(group, |column| match column {
-        ColumnWriter::DoubleColumnWriter(typed) => typed.write_batch(&present, Some(&levels), None),
-        _ => Err(mismatch()),
-    })
-}
-
 /// Counts or words, [`EMPTY`] as null.
 fn codes(group: &mut Group<'_, '_>, values: &[u8], kind: &Kind) -> Result<(), ParquetError> {
     let levels: Vec<i16> = values.iter().map(|code| i16::from(*code != EMPTY)).collect();
     let present = values.iter().filter(|code| **code != EMPTY);
     let Kind::Word(words) = kind else {
-        let counts: Vec<i32> = present.map(|code| i32::from(*code)).collect();
-        return write_column(group, |column| match column {
-            ColumnWriter::Int32ColumnWriter(typed) => typed.write_batch(&counts, Some(&levels), None),
-            _ => Err(mismatch()),
-        });
+        return counts(group, &present.map(|code| i32::from(*code)).collect::<Vec<_>>(), &levels);
     };
     let words: Vec<ByteArray> = words.iter().map(|word| word.clone().into_bytes().into()).collect();
     let present: Vec<ByteArray> = present.filter_map(|code| words.get(usize::from(*code)).cloned()).collect();
     text(group, &present, Some(&levels))
 }
 
-fn schema(levels: &[AxisLevels; AXES], columns: &[Column]) -> Result<TypePtr, ParquetError> {
-    let mut fields = Vec::new();
-    for name in ["cell", "trial", "block"] {
-        fields.push(field(name, Physical::INT64, Repetition::REQUIRED)?);
-    }
-    for axis in levels {
-        let kind = if axis.numbers().is_some() { Physical::DOUBLE } else { Physical::BYTE_ARRAY };
-        fields.push(field(axis.name, kind, Repetition::REQUIRED)?);
-    }
-    for name in ["sigma_translation_um", "sigma_rotation_urad"] {
-        fields.push(field(name, Physical::DOUBLE, Repetition::REQUIRED)?);
-    }
-    for column in columns {
-        let kind = match column.kind {
-            Kind::Number => Physical::DOUBLE,
-            Kind::Count => Physical::INT32,
-            Kind::Word(_) => Physical::BYTE_ARRAY,
-        };
-        fields.push(field(&column.name, kind, Repetition::OPTIONAL)?);
-    }
-    Ok(Arc::new(Type::group_type_builder("trials").with_fields(fields).build()?))
-}
-
-fn field(name: &str, kind: Physical, repetition: Repetition) -> Result<TypePtr, ParquetError> {
-    let text = (kind == Physical::BYTE_ARRAY).then_some(LogicalType::String);
-    let built = Type::primitive_type_builder(name, kind).with_repetition(repetition).with_logical_type(text);
-    Ok(Arc::new(built.build()?))
+fn fields_of(levels: &[AxisLevels; AXES], columns: &[Column]) -> Result<Vec<TypePtr>, ParquetError> {
+    let axis = |axis: &AxisLevels| match axis.numbers() {
+        Some(_) => required(axis.name, Physical::DOUBLE),
+        None => required(axis.name, Physical::BYTE_ARRAY),
+    };
+    let result = |column: &Column| match column.kind {
+        Kind::Number => optional(&column.name, Physical::DOUBLE),
+        Kind::Count => optional(&column.name, Physical::INT32),
+        Kind::Word(_) => optional(&column.name, Physical::BYTE_ARRAY),
+    };
+    let numbers = ["cell", "trial", "block"].into_iter().map(|name| required(name, Physical::INT64));
+    let sigmas = ["sigma_translation_um", "sigma_rotation_urad"]
+        .into_iter()
+        .map(|name| required(name, Physical::DOUBLE));
+    numbers.chain(levels.iter().map(axis)).chain(sigmas).chain(columns.iter().map(result)).collect()
 }
 
 fn properties(runner: &Runner) -> io::Result<WriterProperties> {
@@ -239,15 +169,9 @@ fn properties(runner: &Runner) -> io::Result<WriterProperties> {
         let path = ColumnPath::from(column.name.as_str());
         builder.set_column_dictionary_enabled(path.clone(), false).set_column_encoding(path, Encoding::PLAIN)
     };
-    let builder = WriterProperties::builder()
-        .set_writer_version(WriterVersion::PARQUET_1_0)
-        .set_compression(Compression::ZSTD(ZstdLevel::default()))
-        .set_created_by(format!("hexbench {}", env!("CARGO_PKG_VERSION")))
-        .set_max_row_group_row_count(Some(ROWS))
-        .set_key_value_metadata(Some(metadata));
     // Numbers that are all different gain nothing from a dictionary.
     let noisy = runner.columns().iter().filter(|c| c.kind == Kind::Number);
-    Ok(noisy.fold(builder, plain).build())
+    Ok(noisy.fold(hexbench_tables::parquet::properties(metadata), plain).build())
 }
 
 /// Name, unit and meaning of every column.
@@ -269,15 +193,4 @@ fn fields(runner: &Runner) -> serde_json::Value {
     };
     let results = runner.columns().iter().map(|c| one((&c.name, c.unit, c.meaning)));
     head.into_iter().chain(axes).map(one).chain(results).collect::<serde_json::Map<_, _>>().into()
-}
-
-fn other(cause: ParquetError) -> io::Error {
-    match cause {
-        // A full disk must be told as such.
-        ParquetError::External(inner) => match inner.downcast::<io::Error>() {
-            Ok(cause) => *cause,
-            Err(inner) => io::Error::other(inner),
-        },
-        cause => io::Error::other(cause),
-    }
 }

@@ -38,6 +38,8 @@ use crate::{Mechanism, World, campaign::Plan, metrology::Frames};
 pub struct Scene {
     /// Name of its folder.
     pub name: String,
+    /// Files it was read from, relative to its folder.
+    pub files: Vec<String>,
     /// One line.
     pub title: String,
     /// What it shows.

@@ -113,6 +113,11 @@ impl PlanTable {
         })
     }
 
+    /// Files it names.
+    pub(super) fn files(&self) -> impl Iterator<Item = &str> {
+        self.conditions.iter().flatten().flatten().map(String::as_str)
+    }
+
     fn rows(&self, folder: &Path, files: &[Option<String>; 2]) -> Result<ScenePlan, FileError> {
         let read = |file: &Option<String>| match file {
             Some(name) => read_conditions(&folder.join(name)).map(|reading| rows_of(&reading.dataset)),

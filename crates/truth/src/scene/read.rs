@@ -9,6 +9,9 @@ use hexbench_core::{
 
 use super::{Instrument, Scene, Streams, plan_table::PlanTable, sealed::read_truth};
 
+/// Name of the description in the folder.
+const SCENE_FILE: &str = "scene.toml";
+
 const SCENE: Format = Format {
     name: "scene/1",
     keys: &[
@@ -50,16 +53,19 @@ impl Scene {
     /// # Errors
     /// As [`Scene::read`].
     pub fn read_with_seed(folder: &Path, seed: Option<u64>) -> Result<Self, FileError> {
-        let file = folder.join("scene.toml");
+        let file = folder.join(SCENE_FILE);
         let d = read_toml(&file, SCENE, description)?;
         let hexapod = read_hexapod(&folder.join(&d.hexapod))?;
         let sealed = read_truth(&folder.join(&d.truth))?;
         let seed = seed.unwrap_or(d.seed);
+        let mut files = vec![SCENE_FILE.to_owned(), d.hexapod, d.truth];
+        files.extend(d.plan.files().map(str::to_owned));
         let plan = d.plan.complete(folder, &file, &hexapod, Streams::new(seed))?;
         // Balls that determine no pose are refused while reading: only other instruments state nothing here.
         let hexapod = Hexapod { metrology: d.instrument.metrology(plan.measurand()).ok(), ..hexapod };
         Ok(Self {
             name: name_of(folder),
+            files,
             title: d.title,
             shows: d.shows,
             source: d.source,

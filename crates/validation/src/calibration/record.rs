@@ -62,14 +62,17 @@ impl Record {
     /// # Errors
     /// [`TrialError::Model`].
     pub fn of(case: &Case) -> Result<Self, TrialError> {
-        let trial = Trial::run(case)?;
-        let fate = Fate::of(&trial);
+        Ok(Self::of_trial(case, &Trial::run(case)?))
+    }
+
+    /// Compares the answer to a case with its truth.
+    pub fn of_trial(case: &Case, trial: &Trial) -> Self {
         let Trial { hidden, study } = trial;
         let d = &study.diagnosis;
         let first = |name: &str| d.candidates.iter().find(|c| c.term == name).map_or(0.0, |c| c.probability);
         let best = d.candidates.first();
         let chi2 = |step: Option<&hexbench_model::diagnose::StepReport>| Some(step?.holdout?.chi2_reduced);
-        Ok(Self {
+        Self {
             id: case.spec.id.clone(),
             kind: case.spec.kind,
             family: case.spec.family,
@@ -78,20 +81,20 @@ impl Record {
             distance: case.spec.distance,
             total_distance: case.truth["distance"].as_f64().unwrap_or(0.0),
             verdict: d.verdict,
-            fate,
+            fate: Fate::of(trial),
             added: d.added.clone(),
             model: d.model.clone(),
             best: best.map_or((NONE.to_owned(), 1.0), |c| (c.term.clone(), c.probability)),
             present: d.present.clone(),
             outside: first(OUTSIDE),
             none: first(NONE),
-            confidence: confidence(&study),
-            truth: probability_of(&study, &hidden),
+            confidence: confidence(study),
+            truth: probability_of(study, hidden),
             credible: d.credible_set.clone(),
             holdout: [chi2(d.steps.first()), chi2(d.steps.last())],
-            stiffness_z: stiffness_z(&study, case),
-            hidden,
-        })
+            stiffness_z: stiffness_z(study, case),
+            hidden: hidden.clone(),
+        }
     }
 
     /// True when the catalogue lacks what is hidden.

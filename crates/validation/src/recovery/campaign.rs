@@ -56,7 +56,7 @@ pub fn run(subject: &Subject, index: usize, seed: u64) -> Result<Found, TrialErr
     let noiseless = recover(subject, &scene)?;
     let data = &scene.case.measurements;
     let (campaign, fit) = right_fit(subject, scene.hexapod(), data)?;
-    let misfit = chance_of_larger(fit.chi2, fit.dof) < MISFIT_CHANCE;
+    let misfit = is_misfit(&fit);
     let all = if misfit { Vec::new() } else { pulls(&scene, &fit) };
     let geometry = combinations(&scene, &fit);
     Ok(Found {
@@ -74,6 +74,11 @@ pub fn run(subject: &Subject, index: usize, seed: u64) -> Result<Found, TrialErr
         holdout_before: holdout(&scene, &campaign, &fit_baseline(&campaign)?)?,
         holdout_after: holdout(&scene, &campaign, &fit)?,
     })
+}
+
+/// True when a fit is so far from its readings that its uncertainties are void.
+pub fn is_misfit(fit: &Fit) -> bool {
+    chance_of_larger(fit.chi2, fit.dof) < MISFIT_CHANCE
 }
 
 fn of(pulls: &[Pull], group: Group) -> Tally {
@@ -114,7 +119,11 @@ fn predicted(scene: &Scene, campaign: &Campaign, fit: &Fit) -> Result<Tally, Mod
     Ok(Tally::interval(chance >= 0.05))
 }
 
-fn holdout(scene: &Scene, campaign: &Campaign, fit: &Fit) -> Result<f64, ModelError> {
+/// Held-out chi-square per number.
+///
+/// # Errors
+/// As [`prediction_errors`].
+pub fn holdout(scene: &Scene, campaign: &Campaign, fit: &Fit) -> Result<f64, ModelError> {
     let errors = prediction_errors(scene.hexapod(), &scene.case.holdout, campaign.noise, &fit.point)?;
     Ok(summarise(&errors, None).chi2_reduced)
 }

@@ -5,6 +5,7 @@ pub(crate) mod discriminate;
 pub(crate) mod paper;
 pub(crate) mod power;
 pub(crate) mod recovery;
+pub(crate) mod regress;
 
 use clap::{Args, Subcommand};
 
@@ -28,6 +29,7 @@ enum Study {
     Calibration(calibration::Arguments),
     Discriminate(discriminate::Arguments),
     Power(power::Arguments),
+    Regress(regress::Arguments),
 }
 
 /// Run the study.
@@ -38,5 +40,6 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Calibration(arguments) => calibration::run(arguments, screen),
         Study::Discriminate(arguments) => discriminate::run(arguments, screen),
         Study::Power(arguments) => power::run(arguments, screen),
+        Study::Regress(arguments) => regress::run(arguments, screen),
     }
 }

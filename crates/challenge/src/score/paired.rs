@@ -1,0 +1,79 @@
+//! Programs against the best of them, case by case: what all cases have in common falls out.
+
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use super::EntrantScore;
+use super::case::CaseScore;
+use super::figures::{Mean, mean};
+
+/// Errors below count as this: a ratio needs numbers above zero.
+const LEAST: f64 = 1e-9;
+
+/// Geometric mean of errors against the best, on the cases for which all that state anything do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ratios {
+    /// Cases compared.
+    pub cases: usize,
+    /// One for each program: ratio and its 95 % interval (Student's t of the logarithms); the best has 1 without interval.
+    pub of: Vec<Option<(f64, Option<[f64; 2]>)>>,
+}
+
+/// Differences of mean scores against the best, on the cases for which all that state anything do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Differences {
+    /// Cases compared.
+    pub cases: usize,
+    /// One for each program: mean difference with its standard error; the best has 0.
+    pub of: Vec<Option<Mean>>,
+}
+
+impl Ratios {
+    /// Compares an error of every case.
+    pub fn of(entrants: &[EntrantScore], error: impl Fn(&CaseScore) -> Option<f64>) -> Self {
+        let compared = Compared::of(entrants, |c| error(c).map(|e| e.max(LEAST).ln()));
+        let ratio = |m: Mean| {
+            let interval = m.standard_error.filter(|se| *se > 0.0).and_then(|se| {
+                let law = StudentsT::new(0.0, 1.0, m.of as f64 - 1.0).ok()?;
+                let half = law.inverse_cdf(0.975) * se;
+                Some([(m.mean - half).exp(), (m.mean + half).exp()])
+            });
+            (m.mean.exp(), interval)
+        };
+        Self { cases: compared.cases, of: compared.differences.into_iter().map(|d| d.map(ratio)).collect() }
+    }
+}
+
+impl Differences {
+    /// Compares a score of every case.
+    pub fn of(entrants: &[EntrantScore], score: impl Fn(&CaseScore) -> Option<f64>) -> Self {
+        let compared = Compared::of(entrants, score);
+        Self { cases: compared.cases, of: compared.differences }
+    }
+}
+
+struct Compared {
+    cases: usize,
+    differences: Vec<Option<Mean>>,
+}
+
+impl Compared {
+    fn of(entrants: &[EntrantScore], score: impl Fn(&CaseScore) -> Option<f64>) -> Self {
+        let all: Vec<Vec<Option<f64>>> =
+            entrants.iter().map(|e| e.cases.iter().map(&score).collect()).collect();
+        let stating: Vec<&Vec<Option<f64>>> = all.iter().filter(|s| s.iter().any(Option::is_some)).collect();
+        let length = all.first().map_or(0, Vec::len);
+        let common: Vec<usize> =
+            (0..length).filter(|&k| stating.iter().all(|scores| scores[k].is_some())).collect();
+        let on_common =
+            |scores: &Vec<Option<f64>>| common.iter().filter_map(|&k| scores[k]).collect::<Vec<f64>>();
+        let mean_of = |scores: &Vec<f64>| scores.iter().sum::<f64>();
+        let columns: Vec<Vec<f64>> = all.iter().map(on_common).collect();
+        let full = columns.iter().filter(|c| !c.is_empty() && c.len() == common.len());
+        let best = full.min_by(|a, b| mean_of(a).total_cmp(&mean_of(b))).cloned().unwrap_or_default();
+        let against = |column: &Vec<f64>| {
+            let differences: Vec<f64> = column.iter().zip(&best).map(|(x, b)| x - b).collect();
+            mean(&differences).filter(|_| column.len() == best.len())
+        };
+        Self { cases: common.len(), differences: columns.iter().map(against).collect() }
+    }
+}

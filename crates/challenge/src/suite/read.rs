@@ -1,0 +1,170 @@
+//! Reading a suite file.
+
+use std::path::Path;
+
+use hexbench_core::files::{Fault, FileError, Format, Item, Key, Problem, Section, nearest, read_toml_text};
+use hexbench_truth::campaign::{Kind, PlanKind, machines};
+use hexbench_truth::mechanisms::REGISTRY;
+
+use super::{Portion, Suite};
+
+const FORMAT: Format = Format {
+    name: "challenge-suite/1",
+    keys: &[
+        Key::plain("format"),
+        Key::plain("name"),
+        Key::plain("version"),
+        Key::plain("title"),
+        Key::plain("seed"),
+        Key::plain("cases"),
+    ],
+};
+
+const PORTION: &[Key] = &[
+    Key::plain("kind"),
+    Key::plain("count"),
+    Key::plain("distance"),
+    Key::plain("effects"),
+    Key::plain("plan"),
+    Key::plain("machine"),
+    Key::plain("repeats"),
+];
+
+/// Most cases of a suite: each is a folder, and its name has three digits or four.
+const MOST_CASES: usize = 5000;
+/// Distances beyond are another machine, not an effect.
+const MOST_DISTANCE: f64 = 1000.0;
+
+pub(super) fn suite(text: &str, file: &Path) -> Result<Suite, FileError> {
+    read_toml_text(text, file, FORMAT, whole)
+}
+
+fn whole(top: &Section<'_>) -> Result<Suite, Fault> {
+    let name = top.require("name")?;
+    let list = top.require("cases")?;
+    let portions = list.entries()?.iter().map(portion).collect::<Result<Vec<_>, _>>()?;
+    let suite = Suite {
+        name: plain_name(name)?,
+        version: top.require("version")?.whole(1)?,
+        title: top.require("title")?.string()?.to_owned(),
+        seed: top.require("seed")?.whole(0)?,
+        sha256: String::new(),
+        portions,
+    };
+    match suite.cases() {
+        0 => Err(rule(list, "a suite has a case at least", "Add a table such as [cases.clean].")),
+        n if n > MOST_CASES => {
+            Err(rule(list, &format!("{n} cases; at most {MOST_CASES}"), "Lower the counts."))
+        }
+        _ => Ok(suite),
+    }
+}
+
+/// A name that is safe as a file's.
+fn plain_name(item: &Item<'_>) -> Result<String, Fault> {
+    let name = item.string()?;
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    if name.is_empty() || !name.chars().all(plain) {
+        return Err(rule(
+            item,
+            "a name has small letters, digits and hyphens",
+            "Write for example \"my-suite\".",
+        ));
+    }
+    Ok(name.to_owned())
+}
+
+fn portion(item: &Item<'_>) -> Result<Portion, Fault> {
+    let t = item.section("[cases.GROUP]", PORTION)?;
+    let kind = named(t.require("kind")?, "kind", &Kind::ALL.map(Kind::name))?;
+    let portion = Portion {
+        group: item.key().to_owned(),
+        kind: Kind::ALL[kind],
+        count: usize::try_from(t.require("count")?.whole(1)?).unwrap_or(usize::MAX),
+        distance: t.get("distance").map(distance).transpose()?,
+        effects: t.get("effects").map_or(Ok(Vec::new()), effects)?,
+        plan: t.get("plan").map(plan).transpose()?,
+        machine: t.get("machine").map(machine).transpose()?,
+        repeats: t.get("repeats").map(|n| n.whole(1)).transpose()?,
+    };
+    refuse_contradictions(&t, &portion)?;
+    Ok(portion)
+}
+
+/// What the generator would pass over in silence is said instead.
+fn refuse_contradictions(t: &Section<'_>, portion: &Portion) -> Result<(), Fault> {
+    let absolute = portion.kind == Kind::Absolute;
+    let without_size = absolute || portion.kind == Kind::Clean;
+    if let Some(item) = t.get("distance").filter(|_| without_size) {
+        let broken = "the effects of this kind have no distance to be scaled to";
+        return Err(rule(item, broken, "Remove this key."));
+    }
+    if let Some(item) = t.get("effects").filter(|_| portion.kind == Kind::Clean) {
+        return Err(rule(item, "a clean case has no effect", "Remove this key, or write kind = \"single\"."));
+    }
+    let other_plan = portion.plan.is_some_and(|p| (p == PlanKind::Absolute) != absolute);
+    match t.get("plan").filter(|_| other_plan) {
+        Some(item) => Err(rule(
+            item,
+            "absolute poses belong to the kind \"absolute\", and to no other",
+            "Remove this key, or choose another plan.",
+        )),
+        None => Ok(()),
+    }
+}
+
+fn distance(item: &Item<'_>) -> Result<[f64; 2], Fault> {
+    let [low, high] = if item.is_list() {
+        item.numbers::<2>("a smallest and a largest distance")?
+    } else {
+        [item.number()?; 2]
+    };
+    if low > 0.0 && low <= high && high <= MOST_DISTANCE {
+        return Ok([low, high]);
+    }
+    Err(rule(
+        item,
+        &format!("distances rise, are positive and at most {MOST_DISTANCE}"),
+        "Write for example [8, 60]: the least and the greatest visibility in standard deviations.",
+    ))
+}
+
+fn effects(item: &Item<'_>) -> Result<Vec<Vec<&'static str>>, Fault> {
+    let list = item.list()?;
+    if list.is_empty() {
+        return Err(rule(item, "the list is empty", "Name an effect, or remove the key."));
+    }
+    list.iter().map(together).collect()
+}
+
+/// `base-compliance`, or several joined by `+`.
+fn together(item: &Item<'_>) -> Result<Vec<&'static str>, Fault> {
+    let ids: Vec<&'static str> = REGISTRY.iter().map(|e| e.id).collect();
+    item.string()?.split('+').map(|word| Ok(ids[position(item, word.trim(), "effect", &ids)?])).collect()
+}
+
+fn plan(item: &Item<'_>) -> Result<PlanKind, Fault> {
+    Ok(PlanKind::ALL[named(item, "plan", &PlanKind::ALL.map(PlanKind::name))?])
+}
+
+fn machine(item: &Item<'_>) -> Result<&'static str, Fault> {
+    Ok(machines::FAMILIES[named(item, "family of machines", machines::FAMILIES)?])
+}
+
+fn named(item: &Item<'_>, what: &str, names: &[&str]) -> Result<usize, Fault> {
+    position(item, item.string()?, what, names)
+}
+
+fn position(item: &Item<'_>, word: &str, what: &str, names: &[&str]) -> Result<usize, Fault> {
+    names.iter().position(|name| *name == word).ok_or_else(|| {
+        let next = match nearest(word, names.iter().copied()) {
+            Some(near) => format!("Write \"{near}\"."),
+            None => format!("Write one of {}.", names.join(", ")),
+        };
+        rule(item, &format!("no {what} is called \"{word}\""), &next)
+    })
+}
+
+fn rule(item: &Item<'_>, broken: &str, next: &str) -> Fault {
+    item.fault(Problem::Rule { rule: broken.into(), next: next.into() })
+}

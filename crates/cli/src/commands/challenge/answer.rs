@@ -1,0 +1,38 @@
+//! `hexbench challenge answer CASE OUT`: the bench's own entrants.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use hexbench_entrant::{Method, answer};
+
+use crate::failure::Failure;
+
+/// Answer one case, as any entrant does: from its public files alone
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder of the case
+    case: PathBuf,
+    /// Folder for the answer
+    out: PathBuf,
+    /// How it is answered
+    #[arg(long, value_enum, default_value_t = Chosen::Hexbench)]
+    method: Chosen,
+}
+
+/// Methods by name.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Chosen {
+    /// The whole diagnosis: effects, averaged stiffnesses, predictions with their uncertainty
+    Hexbench,
+    /// The paper's estimator: six springs by unweighted least squares, deflections only
+    Paper,
+}
+
+/// Answer the case.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let method = match arguments.method {
+        Chosen::Hexbench => Method::Hexbench,
+        Chosen::Paper => Method::Paper,
+    };
+    Ok(answer(&arguments.case, &arguments.out, method)?)
+}

@@ -1,0 +1,45 @@
+//! `hexbench challenge make SUITE -o DIR`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use hexbench_challenge::{Suite, make};
+
+use crate::failure::Failure;
+use crate::output::{Progress, Screen};
+
+/// Make the cases of a suite, with their truth sealed apart; the same suite and seed give the same bytes
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// A bundled suite (springs-and-effects) or a suite file
+    suite: String,
+    /// Folder for the challenge; it must be empty or absent
+    #[arg(short = 'o', long, value_name = "DIR")]
+    out: PathBuf,
+    /// Another seed than that of the suite: cases that nobody has seen
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+}
+
+/// Make the challenge and say what to hand out.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let suite = Suite::named(&arguments.suite)?;
+    let suite = match arguments.seed {
+        Some(seed) => suite.with_seed(seed),
+        None => suite,
+    };
+    let progress = Progress::of(suite.cases() as u64, "cases");
+    let made = make(&suite, &arguments.out, &|| progress.advance(1));
+    progress.done();
+    let manifest = made?;
+    let out = arguments.out.display();
+    screen.write(&format!(
+        "{} cases of {} version {}, seed {}.\n\
+         To hand out: {out}/cases and {out}/README.md. Keep {out}/sealed and {out}/challenge.toml: with its seed anyone can\n\
+         make the truth again.\n",
+        manifest.cases.len(),
+        manifest.suite,
+        manifest.version,
+        manifest.seed,
+    ))
+}

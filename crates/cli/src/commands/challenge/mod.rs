@@ -1,0 +1,42 @@
+//! `hexbench challenge`: cases with a sealed truth for algorithms in any language; one file for each step.
+
+mod answer;
+mod make;
+mod run;
+mod score;
+
+use clap::{Args, Subcommand};
+
+use crate::failure::Failure;
+use crate::output::Screen;
+
+/// Put algorithms in any language to the test: make cases, run programs under limits, score their answers
+#[derive(Debug, Args)]
+#[command(
+    arg_required_else_help = true,
+    after_help = "What an entrant reads and writes is in the README.md of every challenge and in docs/challenges.md."
+)]
+pub(crate) struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    step: Step,
+}
+
+/// The steps.
+#[derive(Debug, Subcommand)]
+enum Step {
+    Make(make::Arguments),
+    Run(run::Arguments),
+    Score(score::Arguments),
+    Answer(answer::Arguments),
+}
+
+/// Do the step.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    match &arguments.step {
+        Step::Make(arguments) => make::run(arguments, screen),
+        Step::Run(arguments) => run::run(arguments, screen),
+        Step::Score(arguments) => score::run(arguments, screen),
+        Step::Answer(arguments) => answer::run(arguments),
+    }
+}

@@ -1,0 +1,52 @@
+//! `hexbench challenge score DIR ANSWERS...`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use hexbench_challenge::Challenge;
+use hexbench_challenge::score::{Scores, page, score};
+
+use crate::failure::Failure;
+use crate::output::{Screen, write_json};
+
+/// Compare answers with the truth: errors, coverage, proper scores, programs side by side
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The challenge, with its sealed part
+    challenge: PathBuf,
+    /// Folders of answers, one for each program
+    #[arg(required = true)]
+    answers: Vec<PathBuf>,
+    /// Write every figure and every case to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write the page to FILE as Markdown
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    /// Exit with 1 when any case of any program has no answer
+    #[arg(long)]
+    check: bool,
+}
+
+/// Score and tell.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let challenge = Challenge::open(&arguments.challenge)?;
+    let scores = score(&challenge, &arguments.answers)?;
+    if let Some(path) = &arguments.json {
+        write_json(screen, path, &scores)?;
+    }
+    if let Some(path) = &arguments.markdown {
+        screen.write_to(path, &page(&scores).to_markdown())?;
+    }
+    if arguments.json.as_ref().is_none_or(|path| path.as_os_str() != "-") {
+        screen.write(&page(&scores).to_text())?;
+    }
+    check(arguments.check, &scores)
+}
+
+fn check(asked: bool, scores: &Scores) -> Result<(), Failure> {
+    match scores.failed() {
+        failed if asked && failed > 0 => Err(Failure::Check(format!("{failed} cases have no answer"))),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,157 @@
+//! `hexbench regress`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_validation::regress::baseline::{Baseline, Update, made};
+use hexbench_validation::regress::comparison::{Comparison, compare};
+use hexbench_validation::regress::date::today;
+use hexbench_validation::regress::gathered::pool;
+use hexbench_validation::regress::junit::junit;
+use hexbench_validation::regress::limit::Limit;
+use hexbench_validation::regress::limits::limits;
+use hexbench_validation::regress::rule::Verdict;
+use hexbench_validation::regress::suite::{BASELINE_RUNS, SEED, Suite};
+use hexbench_validation::regress::summary::{headline, markdown};
+use hexbench_validation::regress::trials::{Trials, run as run_suite};
+
+use crate::failure::Failure;
+use crate::output::{Progress, Screen, write_json};
+use crate::page;
+
+/// The baseline of the full suite.
+pub(crate) const COMMITTED: &str = "data/regress/baseline.json";
+/// The program that is compared.
+pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Compare accuracy, honesty, diagnosis and effort with a committed baseline: fail when a change is more than chance
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Baseline to compare with, or to write with --update
+    #[arg(long, value_name = "FILE", default_value = COMMITTED)]
+    baseline: PathBuf,
+    /// Seed of everything that is drawn; another one gives other campaigns of the same kind
+    #[arg(long, value_name = "S", default_value_t = SEED)]
+    seed: u64,
+    /// Run a small suite, which needs a baseline of its own
+    #[arg(long)]
+    quick: bool,
+    /// Show every limit
+    #[arg(long)]
+    all: bool,
+    /// Write the limits as JUnit XML to FILE, one test case each
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Write all figures to FILE, `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write a short page of Markdown to FILE, `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    /// Make this program's figures the baseline
+    #[arg(long, requires = "reason", conflicts_with_all = ["junit", "json", "markdown", "all"])]
+    update: bool,
+    /// Why the baseline changes; kept in it
+    #[arg(long, value_name = "TEXT", requires = "update")]
+    reason: Option<String>,
+    /// Runs behind a new baseline, with seeds that follow each other
+    #[arg(long, value_name = "N", requires = "update", default_value_t = BASELINE_RUNS as u32,
+          value_parser = clap::value_parser!(u32).range(1..=100))]
+    runs: u32,
+}
+
+/// Compare with the baseline, or make a new one.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let suite = if arguments.quick { Suite::quick() } else { Suite::full() };
+    let limits = limits(&suite);
+    match &arguments.reason {
+        Some(reason) => update(arguments, &suite, &limits, reason, screen),
+        None => check(arguments, &suite, &limits, screen),
+    }
+}
+
+fn check(arguments: &Arguments, suite: &Suite, limits: &[Limit], screen: &Screen) -> Result<(), Failure> {
+    let baseline = Baseline::read_for(&arguments.baseline, suite, limits)?;
+    let trials = with_progress(suite, &[arguments.seed]);
+    let first = trials.first().ok_or_else(|| Failure::Check("nothing was run".into()))?;
+    let comparison = compare(suite, limits, (first, arguments.seed), &baseline, VERSION);
+    write(arguments, &comparison, screen)?;
+    let failed: Vec<&str> = comparison.of(Verdict::Worse).map(|f| f.title.as_str()).collect();
+    match failed.split_first() {
+        None => Ok(()),
+        Some((first, [])) => Err(Failure::Check(format!("{first}: worse than chance explains"))),
+        Some((first, others)) => Err(Failure::Check(format!(
+            "{first}, and {} more limits: worse than chance explains",
+            others.len()
+        ))),
+    }
+}
+
+fn write(arguments: &Arguments, comparison: &Comparison, screen: &Screen) -> Result<(), Failure> {
+    let to_screen = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
+    if let Some(path) = &arguments.junit {
+        let cause = |e: hexbench_validation::regress::junit::XmlError| Failure::Output {
+            path: path.clone(),
+            cause: std::io::Error::other(e),
+        };
+        screen.write_to(path, &junit(comparison).map_err(cause)?)?;
+    }
+    if let Some(path) = &arguments.json {
+        write_json(screen, path, comparison)?;
+    }
+    if let Some(path) = &arguments.markdown {
+        screen.write_to(path, &markdown(comparison))?;
+    }
+    if to_screen(&arguments.json) || to_screen(&arguments.markdown) || to_screen(&arguments.junit) {
+        return Ok(());
+    }
+    screen.write(&page::regress(comparison, arguments.all, screen.ink()))
+}
+
+fn update(
+    arguments: &Arguments,
+    suite: &Suite,
+    limits: &[Limit],
+    reason: &str,
+    screen: &Screen,
+) -> Result<(), Failure> {
+    if reason.trim().is_empty() {
+        return Err(hexbench_validation::regress::baseline::BaselineError::NoReason.into());
+    }
+    let kept =
+        if arguments.baseline.exists() { Baseline::read(&arguments.baseline)?.history } else { Vec::new() };
+    Screen::make_folder_of(&arguments.baseline)?;
+    let runs = arguments.runs as usize;
+    let seeds: Vec<u64> = (0..u64::from(arguments.runs)).map(|k| arguments.seed.wrapping_add(k)).collect();
+    let trials = with_progress(suite, &seeds);
+    let update = Update {
+        date: today(),
+        hexbench: VERSION.to_owned(),
+        seed: arguments.seed,
+        runs,
+        reason: reason.trim().to_owned(),
+    };
+    let baseline = made(suite, limits, &pool(limits, &trials), update, kept)?;
+    baseline.write(&arguments.baseline)?;
+    let first = trials.first().map(|t| compare(suite, limits, (t, arguments.seed), &baseline, VERSION));
+    let told = first.map(|c| headline(&c)).unwrap_or_default();
+    screen.write(&format!(
+        "{}: {} runs of suite {}/{}, update {}.\nIts first run beside all of them: {told}\n",
+        arguments.baseline.display(),
+        baseline.runs,
+        baseline.suite,
+        baseline.suite_version,
+        baseline.history.len(),
+    ))
+}
+
+/// One run for each seed; campaigns without noise are the same in all and made once.
+fn with_progress(suite: &Suite, seeds: &[u64]) -> Vec<Trials> {
+    let others = suite.without_machines();
+    let suites: Vec<&Suite> = (0..seeds.len()).map(|k| if k == 0 { suite } else { &others }).collect();
+    let progress = Progress::of(suites.iter().map(|s| s.campaigns() as u64).sum(), "campaigns");
+    let step = || progress.advance(1);
+    let trials = suites.iter().zip(seeds).map(|(suite, seed)| run_suite(suite, *seed, &step)).collect();
+    progress.done();
+    trials
+}

@@ -1,0 +1,123 @@
+//! `hexbench validate regress`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_validation::regress::baseline::Baseline;
+use hexbench_validation::regress::comparison::compare;
+use hexbench_validation::regress::document::document;
+use hexbench_validation::regress::gathered::gather;
+use hexbench_validation::regress::limit::Limit;
+use hexbench_validation::regress::limits::limits;
+use hexbench_validation::regress::planted;
+use hexbench_validation::regress::suite::Suite;
+use hexbench_validation::regress::trials::{Trials, run as run_suite};
+use hexbench_validation::regress::unchanged::{Unchanged, logged};
+
+use crate::commands::regress::{COMMITTED, VERSION};
+use crate::failure::Failure;
+use crate::output::{Progress, Screen};
+
+/// Patches of the planted faults.
+const PATCHES: &str = "data/regress/faults";
+
+/// Say how far `regress` can be trusted: unchanged runs with fresh seeds must pass, planted faults must not
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Unchanged runs, each with a seed of its own
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    runs: u32,
+    /// Seed of the first run; the others follow
+    #[arg(long, value_name = "S", default_value_t = 1001)]
+    seed: u64,
+    /// Baseline to compare with
+    #[arg(long, value_name = "FILE", default_value = COMMITTED)]
+    baseline: PathBuf,
+    /// Run the small suite
+    #[arg(long)]
+    quick: bool,
+    /// Log of runs, one line each; runs in it are not repeated
+    #[arg(long, value_name = "FILE")]
+    log: Option<PathBuf>,
+    /// Folder with a result for each planted fault, as `scripts/planted_faults.sh` writes them
+    #[arg(long, value_name = "DIR")]
+    faults: Option<PathBuf>,
+    /// Write the page docs/regress.md to FILE
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+}
+
+/// Run, log, tell; write the page.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let suite = if arguments.quick { Suite::quick() } else { Suite::full() };
+    let limits = limits(&suite);
+    let baseline = Baseline::read_for(&arguments.baseline, &suite, &limits)?;
+    let runs = unchanged(arguments, &suite, &limits, &baseline)?;
+    if let Some(path) = &arguments.markdown {
+        let planted = match &arguments.faults {
+            Some(results) => {
+                planted::read(Path::new(PATCHES), results).map_err(|cause| unreadable(results, cause))?
+            }
+            None => Vec::new(),
+        };
+        let trials = run_suite(&suite, arguments.seed, &|| ());
+        let counts = gather(&limits, &trials).iter().map(|g| g.sample.count()).collect();
+        screen.write_to(path, &document(&suite, &limits, &baseline, &runs, &planted, &counts))?;
+    }
+    let failed: Vec<&Unchanged> = runs.iter().filter(|r| !r.worse.is_empty()).collect();
+    let lines = failed.iter().map(|r| format!("seed {}: {}\n", r.seed, r.worse.join("; ")));
+    screen.write(&format!(
+        "{} of {} unchanged runs fail.\n{}",
+        failed.len(),
+        runs.len(),
+        lines.collect::<String>()
+    ))
+}
+
+/// Runs of the log and those that are missing in it, by seed.
+fn unchanged(
+    arguments: &Arguments,
+    suite: &Suite,
+    limits: &[Limit],
+    baseline: &Baseline,
+) -> Result<Vec<Unchanged>, Failure> {
+    let known = match &arguments.log {
+        Some(path) => logged(path, baseline).map_err(|cause| unreadable(path, cause))?,
+        None => Vec::new(),
+    };
+    // Campaigns without noise are the same in every run.
+    let machines =
+        run_suite(&Suite { fits: 0, portions: Vec::new(), ..suite.clone() }, arguments.seed, &|| ());
+    let progress = Progress::of(u64::from(arguments.runs), "runs");
+    let mut runs = Vec::new();
+    for seed in (0..u64::from(arguments.runs)).map(|k| arguments.seed.wrapping_add(k)) {
+        let run = match known.iter().find(|r| r.seed == seed) {
+            Some(run) => run.clone(),
+            None => fresh(arguments, (suite, &machines), limits, baseline, seed)?,
+        };
+        runs.push(run);
+        progress.advance(1);
+    }
+    progress.done();
+    Ok(runs)
+}
+
+fn fresh(
+    arguments: &Arguments,
+    (suite, machines): (&Suite, &Trials),
+    limits: &[Limit],
+    baseline: &Baseline,
+    seed: u64,
+) -> Result<Unchanged, Failure> {
+    let noisy = run_suite(&suite.without_machines(), seed, &|| ());
+    let trials = Trials { machines: machines.machines.clone(), ..noisy };
+    let run = Unchanged::of(&compare(suite, limits, (&trials, seed), baseline, VERSION), baseline);
+    if let Some(path) = &arguments.log {
+        run.append(path).map_err(|cause| Failure::Output { path: path.clone(), cause })?;
+    }
+    Ok(run)
+}
+
+fn unreadable(path: &Path, cause: std::io::Error) -> Failure {
+    Failure::Unreadable { path: path.to_owned(), cause }
+}

@@ -1,0 +1,50 @@
+//! Results as tables for other programs.
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use hexbench_core::files::atomic_write;
+use hexbench_report::html::PROGRAM;
+use hexbench_tables::{Frame, Kind};
+
+use super::provenance;
+use crate::failure::Failure;
+
+/// A file for a table; the end of its name tells how it is written.
+#[derive(Debug, Clone)]
+pub(crate) struct TableFile {
+    path: PathBuf,
+    kind: Kind,
+}
+
+impl FromStr for TableFile {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let path = PathBuf::from(text);
+        let kind = Kind::of(&path).ok_or("the name of a table ends in .parquet or .csv")?;
+        Ok(Self { path, kind })
+    }
+}
+
+impl TableFile {
+    /// Write a table made from these files; command, version and digests go into it where the format has a place.
+    pub(crate) fn write<'a>(
+        &self,
+        mut frame: Frame,
+        read: impl IntoIterator<Item = &'a PathBuf>,
+    ) -> Result<(), Failure> {
+        let from = provenance(read)?;
+        frame.origin.push(("program".into(), PROGRAM.to_owned()));
+        frame.origin.push(("command".into(), from.command));
+        let digest = |(path, sha256): (String, String)| (format!("sha256:{}", name(&path)), sha256);
+        frame.origin.extend(from.files.into_iter().map(digest));
+        atomic_write(&self.path, |out| frame.write(self.kind, out))
+            .map_err(|cause| Failure::Output { path: self.path.clone(), cause })
+    }
+}
+
+/// Name of a file without its folder.
+fn name(path: &str) -> String {
+    Path::new(path).file_name().map_or_else(|| path.to_owned(), |name| name.to_string_lossy().into_owned())
+}

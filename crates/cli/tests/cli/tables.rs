@@ -1,0 +1,104 @@
+//! Tables for other programs: every number is the one the page and the JSON tell.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use crate::support::{hexbench, hexbench_in, root, text};
+
+/// Numbers are written with all digits; what is left is rounding of sums and of changes of unit.
+const ROUNDING: f64 = 1e-9;
+
+/// Columns of a table by name.
+struct Table(HashMap<String, Vec<String>>);
+
+impl Table {
+    fn read(path: &Path) -> Self {
+        let text = std::fs::read_to_string(path).unwrap();
+        let mut lines = text.lines();
+        let names: Vec<String> = lines.next().unwrap().split(',').map(str::to_owned).collect();
+        let mut columns: HashMap<String, Vec<String>> =
+            names.iter().map(|n| (n.clone(), Vec::new())).collect();
+        for line in lines {
+            let cells: Vec<&str> = line.split(',').collect();
+            assert_eq!(cells.len(), names.len(), "{line}");
+            names
+                .iter()
+                .zip(cells)
+                .for_each(|(name, cell)| columns.get_mut(name).unwrap().push(cell.to_owned()));
+        }
+        Self(columns)
+    }
+
+    fn words(&self, name: &str) -> &[String] {
+        self.0.get(name).unwrap_or_else(|| panic!("no column {name} among {:?}", self.0.keys()))
+    }
+
+    fn numbers(&self, name: &str) -> Vec<f64> {
+        self.words(name).iter().map(|cell| cell.parse().unwrap()).collect()
+    }
+}
+
+fn lines(case: &str, file: &str) -> usize {
+    let path = root().join("data/cases").join(case).join(file);
+    std::fs::read_to_string(path).unwrap().lines().count() - 1
+}
+
+fn table(case: &str, more: &[&str]) -> (Table, serde_json::Value) {
+    let folder = tempfile::tempdir().unwrap();
+    let [csv, json] = ["readings.csv", "comparison.json"].map(|name| folder.path().join(name));
+    let mut command = hexbench_in(case);
+    command.args(["compare", "hexapod.toml", "measurements.csv"]).args(more);
+    command.arg("--table").arg(&csv).arg("--json").arg(&json);
+    text(command.output().unwrap());
+    (Table::read(&csv), serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap())
+}
+
+#[test]
+fn the_table_of_readings_adds_up_to_what_the_comparison_says() {
+    let (table, json) = table("contact", &["--holdout", "holdout.csv"]);
+    let part = table.words("part");
+    let of = |name: &str| part.iter().filter(|p| *p == name).count();
+    assert_eq!(of("measurements"), lines("contact", "measurements.csv"));
+    assert_eq!(of("holdout"), lines("contact", "holdout.csv"));
+    let (mut fitted, mut held) = (0.0, 0.0);
+    for name in ["da_um", "db_um", "dc_um", "dalpha_urad", "dbeta_urad", "dgamma_urad"] {
+        let [measured, predicted, residual, sigma] =
+            ["", "predicted_", "residual_", "sigma_"].map(|prefix| table.numbers(&format!("{prefix}{name}")));
+        let plain = name.split_once('_').unwrap().0;
+        let whitened = table.numbers(&format!("whitened_{plain}"));
+        for row in 0..part.len() {
+            let left = measured[row] - predicted[row];
+            assert!(
+                (left - residual[row]).abs() < ROUNDING * measured[row].abs().max(1.0),
+                "{name} row {row}"
+            );
+            assert!((whitened[row] * sigma[row] - residual[row]).abs() < ROUNDING, "{name} row {row}");
+            *(if part[row] == "holdout" { &mut held } else { &mut fitted }) += whitened[row].powi(2);
+        }
+    }
+    // Six springs were fitted to six numbers of each reading.
+    let said = |where_: &str| json[where_]["chi2_reduced"].as_f64().unwrap();
+    let [dof, count] = [6.0 * of("measurements") as f64 - 6.0, 6.0 * of("holdout") as f64];
+    assert!((fitted / dof / said("error") - 1.0).abs() < ROUNDING, "{} {}", fitted / dof, said("error"));
+    assert!((held / count / said("holdout") - 1.0).abs() < ROUNDING, "{} {}", held / count, said("holdout"));
+}
+
+#[test]
+fn absolute_poses_have_a_table_too() {
+    let (table, _) = table("absolute-pitch", &[]);
+    let (measured, predicted) = (table.numbers("measured_a_mm"), table.numbers("predicted_a_mm"));
+    let residual = table.numbers("residual_a_um");
+    for row in 0..measured.len() {
+        let left = (measured[row] - predicted[row]) * 1e3;
+        // Millimetres with all digits of a double hold a micrometre to 1e-9.
+        assert!((left - residual[row]).abs() < 1e-6, "row {row}: {left} {}", residual[row]);
+    }
+}
+
+#[test]
+fn a_table_of_another_kind_is_refused_before_anything_is_computed() {
+    let output = hexbench().args(["compare", "a", "b", "--table", "x.xlsx"]).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains(".parquet or .csv"), "{told}");
+}

@@ -1,0 +1,248 @@
+//! The committed baseline: samples of every limit, and why it is what it is.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+
+use hexbench_core::files::atomic_write;
+use serde::{Deserialize, Serialize};
+
+use super::gathered::Gathered;
+use super::limit::Limit;
+use super::sample::Sample;
+use super::suite::Suite;
+
+/// Name and version of the file format.
+pub const FORMAT: &str = "regress-baseline/1";
+
+/// What runs are compared with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Baseline {
+    /// [`FORMAT`].
+    pub format: String,
+    /// Name of the suite.
+    pub suite: String,
+    /// Version of the suite.
+    pub suite_version: u32,
+    /// Version of hexbench.
+    pub hexbench: String,
+    /// Seed of the first run behind it; the others follow.
+    pub seed: u64,
+    /// Runs behind it.
+    pub runs: usize,
+    /// Updates, the latest last.
+    pub history: Vec<Update>,
+    /// Samples by limit.
+    pub limits: BTreeMap<String, Entry>,
+}
+
+/// When, by which version and why a baseline was made.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Update {
+    /// Year, month and day, UTC.
+    pub date: String,
+    /// Version of hexbench.
+    pub hexbench: String,
+    /// Seed of the first run.
+    pub seed: u64,
+    /// How many runs.
+    pub runs: usize,
+    /// Why.
+    pub reason: String,
+}
+
+/// One limit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// Of all runs behind the baseline.
+    #[serde(flatten)]
+    pub sample: Sample,
+    /// Fingerprint of the values of the first run.
+    pub first: String,
+}
+
+/// Why a baseline cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum BaselineError {
+    /// There is none, or it cannot be read.
+    #[error("{path}: cannot be read: {cause}")]
+    Unreadable {
+        /// The file.
+        path: String,
+        /// Why not.
+        cause: io::Error,
+    },
+    /// Not JSON, or not what a baseline has.
+    #[error("{path}: is no baseline: {cause}")]
+    Malformed {
+        /// The file.
+        path: String,
+        /// Line, column and reason.
+        cause: serde_json::Error,
+    },
+    /// Another format.
+    #[error("{path}: has the format `{found}` instead of `{FORMAT}`")]
+    Format {
+        /// The file.
+        path: String,
+        /// What it says.
+        found: String,
+    },
+    /// Made for something else.
+    #[error("{path}: was made by suite `{found}`, and this is suite `{wanted}`")]
+    OtherSuite {
+        /// The file.
+        path: String,
+        /// Suite and version in it.
+        found: String,
+        /// Suite and version that run.
+        wanted: String,
+    },
+    /// A limit that is missing or left over.
+    #[error("{path}: {what} the limit `{id}`")]
+    Limits {
+        /// The file.
+        path: String,
+        /// `lacks` or `has, and the suite has not,`.
+        what: &'static str,
+        /// Of the limit.
+        id: String,
+    },
+    /// Numbers that contradict each other.
+    #[error("{path}: limit `{id}`: {fault}")]
+    Impossible {
+        /// The file.
+        path: String,
+        /// Of the limit.
+        id: String,
+        /// What is wrong.
+        fault: String,
+    },
+    /// A reason that says nothing.
+    #[error("a baseline is not changed without a reason")]
+    NoReason,
+    /// It cannot be written.
+    #[error("{path}: cannot be written: {cause}")]
+    Unwritable {
+        /// The file.
+        path: String,
+        /// Why not.
+        cause: io::Error,
+    },
+}
+
+impl BaselineError {
+    /// What to do about it.
+    pub fn next_step(&self) -> &'static str {
+        match self {
+            Self::Unreadable { .. } => {
+                "Name it with --baseline, or make one with `hexbench regress --update --reason TEXT`."
+            }
+            Self::Malformed { .. } | Self::Format { .. } | Self::Impossible { .. } => {
+                "Take the file from version control again, or move it away and make a new one with --update --reason TEXT."
+            }
+            Self::OtherSuite { .. } | Self::Limits { .. } => {
+                "Make a baseline for this suite: `hexbench regress --update --reason TEXT` (with --quick for the quick suite)."
+            }
+            Self::NoReason => "Give --reason TEXT: what changed, and why it is meant.",
+            Self::Unwritable { .. } => "Check the folder, the free space and the permission to write.",
+        }
+    }
+
+    /// True when the file system stands in the way, and not what the file says.
+    pub fn is_input_output(&self) -> bool {
+        matches!(self, Self::Unreadable { .. } | Self::Unwritable { .. })
+    }
+}
+
+/// A new baseline; `kept` is the history of the one before.
+///
+/// # Errors
+/// [`BaselineError::NoReason`].
+pub fn made(
+    suite: &Suite,
+    limits: &[Limit],
+    gathered: &[Gathered],
+    update: Update,
+    kept: Vec<Update>,
+) -> Result<Baseline, BaselineError> {
+    if update.reason.trim().is_empty() {
+        return Err(BaselineError::NoReason);
+    }
+    let entry = |(limit, g): (&Limit, &Gathered)| {
+        (limit.id.clone(), Entry { sample: g.sample.clone(), first: g.fingerprint.clone() })
+    };
+    Ok(Baseline {
+        format: FORMAT.to_owned(),
+        suite: suite.name.to_owned(),
+        suite_version: suite.version,
+        hexbench: update.hexbench.clone(),
+        seed: update.seed,
+        runs: update.runs,
+        limits: limits.iter().zip(gathered).map(entry).collect(),
+        history: kept.into_iter().chain([update]).collect(),
+    })
+}
+
+impl Baseline {
+    /// Reads a baseline of any suite.
+    ///
+    /// # Errors
+    /// [`BaselineError::Unreadable`], [`BaselineError::Malformed`], [`BaselineError::Format`], [`BaselineError::Impossible`].
+    pub fn read(path: &Path) -> Result<Self, BaselineError> {
+        let name = || path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|cause| BaselineError::Unreadable { path: name(), cause })?;
+        let malformed = |cause| BaselineError::Malformed { path: name(), cause };
+        let any: serde_json::Value = serde_json::from_str(&text).map_err(malformed)?;
+        if let Some(found) = any["format"].as_str().filter(|f| *f != FORMAT) {
+            return Err(BaselineError::Format { path: name(), found: found.to_owned() });
+        }
+        let read: Self = serde_json::from_str(&text).map_err(malformed)?;
+        for (id, entry) in &read.limits {
+            if let Some(fault) = entry.sample.fault() {
+                return Err(BaselineError::Impossible { path: name(), id: id.clone(), fault });
+            }
+        }
+        Ok(read)
+    }
+
+    /// The same, and it must be one of this suite with these limits.
+    ///
+    /// # Errors
+    /// As [`Baseline::read`]; [`BaselineError::OtherSuite`], [`BaselineError::Limits`].
+    pub fn read_for(path: &Path, suite: &Suite, limits: &[Limit]) -> Result<Self, BaselineError> {
+        let read = Self::read(path)?;
+        let name = || path.display().to_string();
+        if (read.suite.as_str(), read.suite_version) != (suite.name, suite.version) {
+            let found = format!("{}/{}", read.suite, read.suite_version);
+            let wanted = format!("{}/{}", suite.name, suite.version);
+            return Err(BaselineError::OtherSuite { path: name(), found, wanted });
+        }
+        let empty = |limit: &&Limit| Sample::of(limit.test, &[]);
+        let fits = |limit: &&Limit| {
+            read.limits.get(&limit.id).is_some_and(|entry| entry.sample.is_like(&empty(limit)))
+        };
+        if let Some(limit) = limits.iter().find(|limit| !fits(limit)) {
+            return Err(BaselineError::Limits { path: name(), what: "lacks", id: limit.id.clone() });
+        }
+        let known = |id: &&String| limits.iter().any(|limit| limit.id == **id);
+        if let Some(id) = read.limits.keys().find(|id| !known(id)) {
+            let what = "has, and the suite has not,";
+            return Err(BaselineError::Limits { path: name(), what, id: id.clone() });
+        }
+        Ok(read)
+    }
+
+    /// Writes it whole or not at all.
+    ///
+    /// # Errors
+    /// [`BaselineError::Unwritable`].
+    pub fn write(&self, path: &Path) -> Result<(), BaselineError> {
+        let cause = |cause| BaselineError::Unwritable { path: path.display().to_string(), cause };
+        let text = serde_json::to_string_pretty(self).map_err(|e| cause(e.into()))? + "\n";
+        atomic_write(path, |out| out.write_all(text.as_bytes())).map_err(cause)
+    }
+}

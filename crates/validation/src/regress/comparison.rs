@@ -1,0 +1,172 @@
+//! A run beside its baseline.
+
+use serde::{Deserialize, Serialize};
+
+use super::baseline::{Baseline, Update};
+use super::figure::{figure, notice};
+use super::gathered::{Gathered, gather};
+use super::limit::{Group, Limit};
+use super::notice::noticed;
+use super::rule::{FALSE_ALARM, Verdict, judge};
+use super::sample::Sample;
+use super::suite::Suite;
+use super::trials::Trials;
+
+/// What became of one limit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Finding {
+    /// As in the baseline.
+    pub id: String,
+    /// What it is about.
+    pub group: Group,
+    /// Name of the test case.
+    pub title: String,
+    /// Why it exists.
+    pub why: String,
+    /// The figure now.
+    pub now: String,
+    /// The figure of the baseline.
+    pub before: String,
+    /// The figure from which a run fails in nine cases of ten.
+    pub notices: String,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Probability of a change for the worse this large by chance; `None` where chance takes no part.
+    pub chance: Option<f64>,
+    /// True when every value is that of the baseline's first run, to the last bit; `None` with another seed.
+    pub same_values: Option<bool>,
+    /// What is known of the run.
+    pub sample: Sample,
+}
+
+/// A run beside its baseline, limit by limit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Comparison {
+    /// `regress/1`.
+    pub format: String,
+    /// Name of the suite.
+    pub suite: String,
+    /// Its version.
+    pub suite_version: u32,
+    /// Version of hexbench that ran.
+    pub hexbench: String,
+    /// Seed of the run.
+    pub seed: u64,
+    /// Campaigns of the run.
+    pub campaigns: usize,
+    /// The last update of the baseline.
+    pub baseline: Option<Update>,
+    /// Probability that an unchanged program fails.
+    pub false_alarm: f64,
+    /// Share of it that each limit in which chance takes part has.
+    pub level: f64,
+    /// One for each limit.
+    pub findings: Vec<Finding>,
+    /// Campaigns without an answer, and why.
+    pub without_answer: Vec<String>,
+}
+
+/// Share of the probability of a false alarm that each limit has in which chance takes part.
+pub fn level(limits: &[Limit]) -> f64 {
+    FALSE_ALARM / limits.iter().filter(|l| l.test.is_random()).count().max(1) as f64
+}
+
+/// Compares the trials of a run with a baseline that was read for the same suite and limits.
+pub fn compare(
+    suite: &Suite,
+    limits: &[Limit],
+    (trials, seed): (&Trials, u64),
+    baseline: &Baseline,
+    hexbench: &str,
+) -> Comparison {
+    let level = level(limits);
+    let same_seed = seed == baseline.seed;
+    let gathered = gather(limits, trials);
+    let find = |(limit, now): (&Limit, &Gathered)| {
+        let before = &baseline.limits.get(&limit.id)?;
+        let mut found = finding(limit, &now.sample, &before.sample, level);
+        found.same_values = same_seed.then(|| now.fingerprint == before.first);
+        Some(found)
+    };
+    Comparison {
+        format: "regress/1".to_owned(),
+        suite: suite.name.to_owned(),
+        suite_version: suite.version,
+        hexbench: hexbench.to_owned(),
+        seed,
+        campaigns: suite.campaigns(),
+        baseline: baseline.history.last().cloned(),
+        false_alarm: FALSE_ALARM,
+        level,
+        findings: limits.iter().zip(&gathered).filter_map(find).collect(),
+        without_answer: trials.failures.clone(),
+    }
+}
+
+fn finding(limit: &Limit, now: &Sample, before: &Sample, level: f64) -> Finding {
+    let judged = judge(limit.test, now, before, level);
+    let least = noticed(limit.test, now.count(), before, level);
+    Finding {
+        id: limit.id.clone(),
+        group: limit.group,
+        title: limit.title.clone(),
+        why: limit.why.clone(),
+        now: figure(limit.test, now),
+        before: figure(limit.test, before),
+        notices: notice(limit.test, least, before),
+        verdict: judged.verdict,
+        chance: judged.chance,
+        same_values: None,
+        sample: now.clone(),
+    }
+}
+
+impl Finding {
+    /// Why it failed, in figures.
+    pub fn complaint(&self) -> String {
+        let chance = self.chance.map(|p| format!("; by chance {}", probability(p))).unwrap_or_default();
+        format!("now {}, baseline {}{chance}", self.now, self.before)
+    }
+}
+
+/// A probability with one digit, small ones as a power of ten.
+pub fn probability(p: f64) -> String {
+    if p >= 0.01 { format!("{p:.2}") } else { format!("{p:.0e}") }
+}
+
+impl Comparison {
+    /// Limits with a verdict.
+    pub fn of(&self, verdict: Verdict) -> impl Iterator<Item = &Finding> {
+        self.findings.iter().filter(move |f| f.verdict == verdict)
+    }
+
+    /// True when a limit is worse than chance explains.
+    pub fn fails(&self) -> bool {
+        self.of(Verdict::Worse).next().is_some()
+    }
+
+    /// Limits whose values are those of the baseline's first run to the last bit; `None` with another seed.
+    pub fn same_values(&self) -> Option<usize> {
+        let all: Option<Vec<bool>> = self.findings.iter().map(|f| f.same_values).collect();
+        Some(all?.into_iter().filter(|same| *same).count())
+    }
+
+    /// Findings, the least probable first; those without chance that fail come before all.
+    pub fn by_chance(&self) -> Vec<&Finding> {
+        let key = |f: &Finding| match (f.verdict, f.chance) {
+            (Verdict::Worse, None) => -1.0,
+            (Verdict::Worse, Some(p)) => p - 0.5,
+            (_, Some(p)) => p,
+            (_, None) => 2.0,
+        };
+        let mut all: Vec<&Finding> = self.findings.iter().collect();
+        all.sort_by(|a, b| key(a).total_cmp(&key(b)));
+        all
+    }
+
+    /// Smallest probability among the limits in which chance takes part, and its limit.
+    pub fn least_probable(&self) -> Option<(f64, &Finding)> {
+        let all = self.findings.iter().filter_map(|f| Some((f.chance?, f)));
+        all.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+}

@@ -1,0 +1,43 @@
+//! Samples of all limits, from the trials of one run or of several.
+
+use hexbench_core::files::text_hash;
+
+use super::limit::Limit;
+use super::sample::Sample;
+use super::trials::Trials;
+
+/// Hexadecimal digits of a fingerprint: enough to tell two runs apart, no protection against forgery.
+const FINGERPRINT: usize = 12;
+
+/// Sample of one limit with a fingerprint of the values behind it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gathered {
+    /// The sample.
+    pub sample: Sample,
+    /// The same for the same values, to the last bit.
+    pub fingerprint: String,
+}
+
+/// Samples of every limit, in the order of the limits.
+pub fn gather(limits: &[Limit], trials: &Trials) -> Vec<Gathered> {
+    limits.iter().map(|limit| of(limit, &(limit.values)(trials))).collect()
+}
+
+/// The same over several runs together; the fingerprints are those of the first.
+pub fn pool(limits: &[Limit], runs: &[Trials]) -> Vec<Gathered> {
+    let one = |limit: &Limit| {
+        let values: Vec<f64> = runs.iter().flat_map(|t| (limit.values)(t)).collect();
+        let first = runs.first().map(|t| fingerprint(&(limit.values)(t))).unwrap_or_default();
+        Gathered { sample: Sample::of(limit.test, &values), fingerprint: first }
+    };
+    limits.iter().map(one).collect()
+}
+
+fn of(limit: &Limit, values: &[f64]) -> Gathered {
+    Gathered { sample: Sample::of(limit.test, values), fingerprint: fingerprint(values) }
+}
+
+fn fingerprint(values: &[f64]) -> String {
+    let bits: Vec<String> = values.iter().map(|v| format!("{:016x}", v.to_bits())).collect();
+    text_hash(&bits.concat()).chars().take(FINGERPRINT).collect()
+}

@@ -1,0 +1,61 @@
+//! What change a limit would notice: the smallest one that fails a run with a probability of 90 %.
+
+use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, FisherSnedecor, StudentsT};
+
+use super::limit::Test;
+use super::rule::{RATIO, Verdict, degrees, deviation, judge};
+use super::sample::Sample;
+
+/// Probability with which the change is noticed.
+pub const POWER: f64 = 0.9;
+
+/// The mean (of errors and counts: the factor) at which a run of `count` values fails with probability [`POWER`]; `None` where
+/// nothing would be noticed.
+pub fn noticed(test: Test, count: u64, before: &Sample, level: f64) -> Option<f64> {
+    if count == 0 || before.count() < 2 {
+        return None;
+    }
+    match test {
+        Test::Share => share(count, before, level),
+        Test::Size { .. } => Some(size(test, count, before, level)),
+        Test::Spread => spread(count, before, level),
+        Test::Exact => Some(RATIO),
+        Test::Bound => Some(1.0),
+    }
+}
+
+/// Share whose binomial law has at least the critical number of hits with probability [`POWER`].
+fn share(count: u64, before: &Sample, level: f64) -> Option<f64> {
+    let fails = |hits: u64| {
+        judge(Test::Share, &Sample::Share { hits, of: count }, before, level).verdict == Verdict::Worse
+    };
+    let critical = (1..=count).find(|&hits| fails(hits))?;
+    let noticed = |p: f64| Binomial::new(p, count).is_ok_and(|law| law.sf(critical - 1) >= POWER);
+    Some(bisected(0.0, 1.0, noticed))
+}
+
+fn size(test: Test, count: u64, before: &Sample, level: f64) -> f64 {
+    let scale = deviation(test, before) * (1.0 / count as f64 + 1.0 / before.count() as f64).sqrt();
+    let quantile = |p: f64| {
+        StudentsT::new(0.0, 1.0, before.count() as f64 - 1.0).map_or(f64::NAN, |law| law.inverse_cdf(p))
+    };
+    (scale * (quantile(1.0 - level) + quantile(POWER))).exp()
+}
+
+fn spread(count: u64, before: &Sample, level: f64) -> Option<f64> {
+    let [nu1, nu0] = degrees(count, before);
+    let law = FisherSnedecor::new(nu1, nu0).ok()?;
+    let critical = bisected(1.0, 1e3, |ratio| 2.0 * law.sf(ratio) <= level);
+    let noticed = bisected(1.0, 1e4, |ratio| law.sf(critical / ratio) >= POWER);
+    Some(noticed * before.moments().0)
+}
+
+/// The smallest argument for which a monotone statement is true, to a few digits.
+fn bisected(low: f64, high: f64, is_true: impl Fn(f64) -> bool) -> f64 {
+    const STEPS: usize = 40;
+    let halved = |(low, high): (f64, f64), _| {
+        let middle = f64::midpoint(low, high);
+        if is_true(middle) { (low, middle) } else { (middle, high) }
+    };
+    (0..STEPS).fold((low, high), halved).1
+}

@@ -1,0 +1,88 @@
+//! What is run: which machines, effects and plans, how many of each.
+
+use hexbench_truth::campaign::Kind;
+
+use crate::calibration::Portion;
+use crate::recovery::scene::{Subject, subjects};
+
+/// Version of the suites: another one when anything that is drawn or measured changes, so that old baselines are refused.
+pub const VERSION: u32 = 1;
+/// Seed unless another is given, and of the first run behind a baseline.
+pub const SEED: u64 = 1;
+/// Runs behind a baseline: with so many its own luck is small beside that of the run compared with it.
+pub const BASELINE_RUNS: usize = 8;
+/// Seed of the machines of fits without noise: the same in every run, since without noise nothing averages out.
+pub const MACHINES_SEED: u64 = 20_261;
+/// Distances of the effects hidden from the diagnosis, log-uniform: from hardly visible to clear.
+pub const DISTANCES: [f64; 2] = [6.0, 40.0];
+
+/// What one run does.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Suite {
+    /// `full` or `quick`.
+    pub name: &'static str,
+    /// [`VERSION`].
+    pub version: u32,
+    /// What is hidden in the campaigns that are fitted by the right model.
+    pub subjects: Vec<Subject>,
+    /// Noisy campaigns of each subject.
+    pub fits: usize,
+    /// Campaigns of each subject without noise.
+    pub machines: usize,
+    /// Campaigns that are diagnosed.
+    pub portions: Vec<Portion>,
+}
+
+/// Diagnoses of the full suite: every effect twice alone, and what else a diagnosis can meet.
+const DIAGNOSED: [Portion; 7] = [
+    Portion { kind: Kind::Single, trials: 32 },
+    Portion { kind: Kind::Pair, trials: 12 },
+    Portion { kind: Kind::Outside, trials: 14 },
+    Portion { kind: Kind::Clean, trials: 16 },
+    Portion { kind: Kind::SeedProtocol, trials: 10 },
+    Portion { kind: Kind::Absolute, trials: 6 },
+    Portion { kind: Kind::RichForm, trials: 6 },
+];
+/// Diagnoses of the quick suite.
+const FEW_DIAGNOSED: [Portion; 3] = [
+    Portion { kind: Kind::Single, trials: 4 },
+    Portion { kind: Kind::Outside, trials: 2 },
+    Portion { kind: Kind::Clean, trials: 2 },
+];
+/// Subjects of the quick suite: springs, a linear effect, one with a shape, one of absolute poses.
+const FEW_SUBJECTS: [&str; 4] = ["springs", "target-offset", "creep", "leg-offset"];
+
+impl Suite {
+    /// The suite that a baseline is committed for.
+    pub fn full() -> Self {
+        let portions = DIAGNOSED.to_vec();
+        Self { name: "full", version: VERSION, subjects: subjects(), fits: 9, machines: 3, portions }
+    }
+
+    /// A small one that shows how everything works; it notices gross faults only.
+    pub fn quick() -> Self {
+        let chosen = subjects().into_iter().filter(|s| FEW_SUBJECTS.contains(&s.name)).collect();
+        let portions = FEW_DIAGNOSED.to_vec();
+        Self { name: "quick", version: VERSION, subjects: chosen, fits: 3, machines: 1, portions }
+    }
+
+    /// The same without the campaigns that have no noise, and are thus the same in every run.
+    #[must_use]
+    pub fn without_machines(&self) -> Self {
+        Self { machines: 0, ..self.clone() }
+    }
+
+    /// Campaigns of one run.
+    pub fn campaigns(&self) -> usize {
+        let diagnosed: usize = self.portions.iter().map(|p| p.trials).sum();
+        self.subjects.len() * (self.fits + self.machines) + diagnosed
+    }
+}
+
+/// Seed of one part of a run; neighbouring seeds share nothing (Steele, Lea and Flood 2014, `SplitMix`).
+pub fn seed_of(run: u64, part: u64) -> u64 {
+    let mut z = run.wrapping_add((part + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
