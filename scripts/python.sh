@@ -55,7 +55,8 @@ assemble
 export PYTHONPATH=$work/package MYPYPATH=$work/package
 cd "$work" || exit 5
 "$python" -m pytest --quiet -p no:cacheprovider "$sources/tests" "$@" || fail "pytest"
-"$python" -m mypy --strict --no-error-summary --cache-dir "$work/mypy" -p hexbench || fail "mypy"
-"$python" -m mypy --strict --no-error-summary --cache-dir "$work/mypy" "$sources"/examples/*.py || fail "mypy of the examples"
-"$python" -m ruff check --quiet --no-cache --config "$repository/scripts/ruff.toml" "$sources/python" "$sources/examples" ||
+types=("$python" -m mypy --config-file "$sources/pyproject.toml" --no-error-summary --cache-dir "$work/mypy")
+"${types[@]}" -p hexbench || fail "mypy"
+"${types[@]}" "$sources"/examples/*.py || fail "mypy of the examples"
+"$python" -m ruff check --quiet --no-cache --config "$sources/ruff.toml" "$sources/python" "$sources/examples" ||
     fail "ruff"

@@ -114,6 +114,20 @@ class Plan:
     def text(self) -> str: ...
     def columns(self) -> list[tuple[str, NDArray[np.float64]]]: ...
 
+class StudyRunner:
+    """A study that computes records of its shards, for a folder elsewhere."""
+
+    def __init__(self, study: str | PathLike[str], threads: int) -> None: ...
+    def run(self, shards: Sequence[int]) -> list[bytes]: ...
+
+class StudyWork:
+    """The folder of a study that takes records from elsewhere, in use by this object alone."""
+
+    def __init__(self, study: str | PathLike[str], folder: str | PathLike[str]) -> None: ...
+    def todo(self) -> dict[str, Any]: ...
+    def keep(self, shard: int, record: bytes) -> None: ...
+    def write(self, markdown: str | PathLike[str] | None) -> dict[str, Any]: ...
+
 def fit(campaign: Campaign, add: Sequence[str], holdout: Campaign | None, terms: Sequence[str], estimator: str) -> Model:
     """Fit springs and the terms that are named."""
 
@@ -141,5 +155,10 @@ def study_plan(study: str | PathLike[str], parts: int) -> dict[str, Any]:
 def study_run_part(study: str | PathLike[str], part: str, folder: str | PathLike[str]) -> dict[str, Any]:
     """Compute what is missing of a part."""
 
-def study_merge(study: str | PathLike[str], parts: Sequence[str | PathLike[str]], folder: str | PathLike[str], markdown: str | PathLike[str] | None = None) -> dict[str, Any]:
+def study_merge(
+    study: str | PathLike[str],
+    parts: Sequence[str | PathLike[str]],
+    folder: str | PathLike[str],
+    markdown: str | PathLike[str] | None = None,
+) -> dict[str, Any]:
     """Put parts together and write the results."""
