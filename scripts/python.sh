@@ -45,7 +45,9 @@ assemble() {
     mkdir -p "$work/package"
     cp -r "$sources/python/hexbench" "$work/package/hexbench"
     rm -rf "$work/package/hexbench/__pycache__" "$work"/package/hexbench/_native.*.so
-    cp "$target/debug/deps/libhexbench_native.so" "$work/package/hexbench/_native.abi3.so" || fail "the library is not where it should be"
+    local library=$target/debug/deps/libhexbench_native.so
+    [[ -f $library ]] || library=${library%.so}.dylib
+    cp "$library" "$work/package/hexbench/_native.abi3.so" || fail "the library is not where it should be"
 }
 
 mkdir -p "$work"
