@@ -45,7 +45,9 @@ assemble() {
     mkdir -p "$work/package"
     cp -r "$sources/python/hexbench" "$work/package/hexbench"
     rm -rf "$work/package/hexbench/__pycache__" "$work"/package/hexbench/_native.*.so
-    cp "$target/debug/deps/libhexbench_native.so" "$work/package/hexbench/_native.abi3.so" || fail "the library is not where it should be"
+    local library=$target/debug/deps/libhexbench_native.so
+    [[ -f $library ]] || library=${library%.so}.dylib
+    cp "$library" "$work/package/hexbench/_native.abi3.so" || fail "the library is not where it should be"
 }
 
 mkdir -p "$work"
@@ -55,7 +57,8 @@ assemble
 export PYTHONPATH=$work/package MYPYPATH=$work/package
 cd "$work" || exit 5
 "$python" -m pytest --quiet -p no:cacheprovider "$sources/tests" "$@" || fail "pytest"
-"$python" -m mypy --strict --no-error-summary --cache-dir "$work/mypy" -p hexbench || fail "mypy"
-"$python" -m mypy --strict --no-error-summary --cache-dir "$work/mypy" "$sources"/examples/*.py || fail "mypy of the examples"
-"$python" -m ruff check --quiet --no-cache --config "$repository/scripts/ruff.toml" "$sources/python" "$sources/examples" ||
+types=("$python" -m mypy --config-file "$sources/pyproject.toml" --no-error-summary --cache-dir "$work/mypy")
+"${types[@]}" -p hexbench || fail "mypy"
+"${types[@]}" "$sources"/examples/*.py || fail "mypy of the examples"
+"$python" -m ruff check --quiet --no-cache --config "$sources/ruff.toml" "$sources/python" "$sources/examples" ||
     fail "ruff"

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use hexbench_core::Dataset;
 use hexbench_core::files::{
     Cells, FileError, MemoryColumn, Purpose, Reading, content_hash, measurements_to_columns,
-    measurements_to_csv, read_columns, read_measurements, read_measurements_from, text_hash,
+    measurements_to_csv, read_columns, read_measurements, read_measurements_from,
 };
 use hexbench_tasks::Failure;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
@@ -44,14 +44,27 @@ impl PyCampaign {
         })
     }
 
-    /// Read the text of a measurements.csv.
+    /// Read the text of a measurements.csv, which came from `origin`.
     #[staticmethod]
-    fn of_text(py: Python<'_>, hexapod: &PyHexapod, text: String, name: String) -> PyResult<Self> {
+    fn of_text(
+        py: Python<'_>,
+        hexapod: &PyHexapod,
+        text: String,
+        name: String,
+        origin: (String, String),
+    ) -> PyResult<Self> {
         let machine = Arc::clone(&hexapod.0);
         beside(py, move || {
             let reading = read_measurements_from(text.as_bytes(), &name)?;
-            Ok(Self::of(machine, reading, Origin { name, sha256: text_hash(&text) }).0)
+            let origin = Origin { name: origin.0, sha256: origin.1 };
+            Ok(Self::of(machine, reading, origin).0)
         })
+    }
+
+    /// Name and SHA-256 of the file it comes from, or of the one that would be written.
+    #[getter]
+    fn origin(&self) -> (String, String) {
+        self.0.origin.pair()
     }
 
     /// Read columns in memory.
@@ -67,8 +80,8 @@ impl PyCampaign {
         let columns = memory_columns(py, names, &columns)?;
         beside(py, move || {
             let reading = read_columns(&columns, &name, Purpose::Measurements)?;
-            let sha256 = text_hash(&csv(&reading.dataset));
-            Ok(Self::of(machine, reading, Origin { name, sha256 }))
+            let origin = Origin::in_memory(&name, &csv(&reading.dataset));
+            Ok(Self::of(machine, reading, origin))
         })
     }
 

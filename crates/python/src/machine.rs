@@ -31,6 +31,18 @@ pub(crate) struct Origin {
     pub(crate) sha256: String,
 }
 
+impl Origin {
+    /// Of something that is in no file: `text` is what would be written.
+    pub(crate) fn in_memory(name: &str, text: &str) -> Self {
+        Self { name: name.to_owned(), sha256: text_hash(text) }
+    }
+
+    /// Both.
+    pub(crate) fn pair(&self) -> (String, String) {
+        (self.name.clone(), self.sha256.clone())
+    }
+}
+
 /// A hexapod.
 #[pyclass(frozen, name = "Hexapod", module = "hexbench._native")]
 pub(crate) struct PyHexapod(pub(crate) Arc<Machine>);
@@ -48,14 +60,24 @@ impl PyHexapod {
         py.detach(read).map_err(|cause| raised(py, &cause.into()))
     }
 
-    /// Read the text of a hexapod.toml that is in no file: messages name keys, not lines.
+    /// Read the text of a hexapod.toml that is in no file: messages name keys, not lines. `origin` is kept when there is one.
     #[staticmethod]
-    fn of_text(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+    #[pyo3(signature = (text, name, origin=None))]
+    fn of_text(py: Python<'_>, text: &str, name: &str, origin: Option<(String, String)>) -> PyResult<Self> {
         let without_line = |cause: FileError| {
             let place = Box::new(cause.place.without_line());
             raised(py, &Failure::File(FileError { place, ..cause }))
         };
-        Ok(Self::of(parse_hexapod(text, name).map_err(without_line)?, name))
+        let hexapod = parse_hexapod(text, name).map_err(without_line)?;
+        let kept = origin.map(|(name, sha256)| Origin { name, sha256 });
+        let origin = kept.unwrap_or_else(|| Origin::in_memory(name, &hexapod_to_toml(&hexapod)));
+        Ok(Self(Arc::new(Machine { hexapod, origin })))
+    }
+
+    /// Name and SHA-256 of the file it comes from, or of the one that would be written.
+    #[getter]
+    fn origin(&self) -> (String, String) {
+        self.0.origin.pair()
     }
 
     /// What reports call the machine.
@@ -97,8 +119,8 @@ impl PyHexapod {
 impl PyHexapod {
     /// A machine that is in no file.
     pub(crate) fn of(hexapod: Hexapod, name: &str) -> Self {
-        let sha256 = text_hash(&hexapod_to_toml(&hexapod));
-        Self(Arc::new(Machine { hexapod, origin: Origin { name: name.to_owned(), sha256 } }))
+        let origin = Origin::in_memory(name, &hexapod_to_toml(&hexapod));
+        Self(Arc::new(Machine { hexapod, origin }))
     }
 }
 

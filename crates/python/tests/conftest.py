@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-import hexbench
 
 ROOT = Path(__file__).resolve().parents[3]
 CASES = ROOT / "data" / "cases"
@@ -37,7 +36,6 @@ def case(name: str) -> list[Path]:
 
 
 @pytest.fixture(scope="session")
-def foundation() -> hexbench.Campaign:
-    """Return the case whose foundation yields."""
-    hexapod, data, _ = case("mujoco-foundation")
-    return hexbench.load(hexapod, data)
+def scenes() -> Path:
+    """Return the folder of the scenes."""
+    return SCENES

@@ -18,7 +18,7 @@ ALL = sorted(folder.name for folder in CASES.iterdir() if folder.is_dir())
 def test_a_case_read_by_pandas_is_the_case_read_from_its_file(name: str) -> None:
     hexapod, data, _ = case(name)
     of_file = hexbench.load(hexapod, data)
-    frame = pd.read_csv(data, comment="#", float_precision="round_trip")
+    frame = pd.read_csv(data, comment="#")
     of_frame = hexbench.load(hexapod, frame)
     assert of_frame.to_csv() == of_file.to_csv()
     pd.testing.assert_frame_equal(of_file.to_pandas(), of_frame.to_pandas(), check_exact=True)
@@ -30,24 +30,31 @@ def test_a_case_read_by_pandas_is_the_case_read_from_its_file(name: str) -> None
 def test_arrays_and_columns_hold_the_numbers_of_the_file(name: str) -> None:
     hexapod, data, _ = case(name)
     campaign = hexbench.load(hexapod, data)
-    frame = pd.read_csv(data, comment="#", float_precision="round_trip")
+    frame = pd.read_csv(data, comment="#")
     for column, values in campaign.to_columns().items():
         assert np.array_equal(values, frame[column].to_numpy(dtype=float)), column
     columns = campaign.to_columns()
     keys = {key: columns[key] for key in ("approach", "delta_T_K", "elapsed_s", "pose", "repeat") if key in columns}
-    reference = np.column_stack([columns[f"ref_{n}"] for n in ("fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm")]) if (
-        "ref_fx_N" in columns
-    ) else None
+    reference = (
+        np.column_stack([columns[f"ref_{n}"] for n in ("fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm")])
+        if ("ref_fx_N" in columns)
+        else None
+    )
     made = hexbench.Campaign.from_arrays(
-        campaign.hexapod, campaign.poses, campaign.wrenches, campaign.measured, reference=reference,
-        absolute=campaign.absolute, **keys,
+        campaign.hexapod,
+        campaign.poses,
+        campaign.wrenches,
+        campaign.measured,
+        reference=reference,
+        absolute=campaign.absolute,
+        **keys,
     )
     assert made.to_csv() == campaign.to_csv()
 
 
 def test_units_in_the_names_are_understood_in_tables_too() -> None:
     hexapod, data, _ = case("contact")
-    frame = pd.read_csv(data, comment="#", float_precision="round_trip")
+    frame = pd.read_csv(data, comment="#")
     metres = frame.drop(columns="a_mm").assign(a_m=frame["a_mm"] / 1e3)
     read = hexbench.load(hexapod, metres).poses
     assert np.allclose(read, hexbench.load(hexapod, frame).poses, rtol=4 * np.finfo(float).eps, atol=0)
@@ -100,7 +107,7 @@ FAULTS = "nan infinite word empty half-pose approach angle missing group unit mi
 @pytest.mark.parametrize("fault", FAULTS.split())
 def test_a_table_is_refused_with_the_text_of_the_command(fault: str, tmp_path: Path, command: Command) -> None:
     hexapod, data, _ = case("contact")
-    frame = _break(pd.read_csv(data, comment="#", float_precision="round_trip"), fault.replace("-", " "))
+    frame = _break(pd.read_csv(data, comment="#"), fault.replace("-", " "))
     path = _as_csv(frame, tmp_path)
     told = command("diagnose", hexapod, path, code=3).stderr
     with pytest.raises(hexbench.BadInput) as of_file:
@@ -128,7 +135,7 @@ def test_what_the_reader_notices_is_a_warning() -> None:
 
 def test_nullable_object_and_polars_like_columns_are_read() -> None:
     hexapod, data, _ = case("contact")
-    frame = pd.read_csv(data, comment="#", float_precision="round_trip")
+    frame = pd.read_csv(data, comment="#")
     expected = hexbench.load(hexapod, frame).to_csv()
     for kind in ("Float64", object, "string"):
         assert hexbench.load(hexapod, frame.astype(kind)).to_csv() == expected, kind
@@ -137,9 +144,11 @@ def test_nullable_object_and_polars_like_columns_are_read() -> None:
 
 
 def test_a_campaign_keeps_its_numbers_through_pickle_and_file(tmp_path: Path) -> None:
-    hexapod, data, _ = case("absolute-pitch")
+    hexapod, data, _ = case("mujoco-foundation")
     campaign = hexbench.load(hexapod, data)
-    assert pickle.loads(pickle.dumps(campaign)).to_csv() == campaign.to_csv()
+    again = pickle.loads(pickle.dumps(campaign))
+    assert again.to_csv() == campaign.to_csv()
+    assert hexbench.diagnose(again).to_json() == hexbench.diagnose(campaign).to_json()
     campaign.save(tmp_path / "m.csv")
     assert hexbench.load(hexapod, tmp_path / "m.csv").to_csv() == campaign.to_csv()
 
@@ -147,8 +156,11 @@ def test_a_campaign_keeps_its_numbers_through_pickle_and_file(tmp_path: Path) ->
 def test_a_hexapod_from_arrays_is_that_of_its_file(tmp_path: Path) -> None:
     of_file = hexbench.Hexapod.read(SOURCE)
     made = hexbench.Hexapod(
-        of_file.base_joints_mm, of_file.platform_joints_mm, name=of_file.name,
-        sigma_translation_um=of_file.sigma_translation_um, sigma_rotation_urad=of_file.sigma_rotation_urad,
+        of_file.base_joints_mm,
+        of_file.platform_joints_mm,
+        name=of_file.name,
+        sigma_translation_um=of_file.sigma_translation_um,
+        sigma_rotation_urad=of_file.sigma_rotation_urad,
     )
     assert made.to_toml() == of_file.to_toml()
     assert pickle.loads(pickle.dumps(made)) == made

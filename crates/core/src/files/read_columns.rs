@@ -88,7 +88,7 @@ fn table(columns: &[MemoryColumn], purpose: Purpose) -> Result<Table, Fault> {
     refuse_other_lengths(first, columns)?;
     for row in 0..first.cells.len() {
         let read = read_row(columns, &table, row)?;
-        table.push(&read, &Cell { columns, row });
+        table.push(&read, &RowCells { columns, row });
     }
     Ok(table)
 }
@@ -118,12 +118,12 @@ fn read_row(columns: &[MemoryColumn], table: &Table, row: usize) -> Result<Obser
 }
 
 /// All cells of a row.
-struct Cell<'a> {
+struct RowCells<'a> {
     columns: &'a [MemoryColumn],
     row: usize,
 }
 
-impl Hash for Cell<'_> {
+impl Hash for RowCells<'_> {
     fn hash<H: Hasher>(&self, hasher: &mut H) {
         for column in self.columns {
             match &column.cells {

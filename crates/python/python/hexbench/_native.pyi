@@ -1,6 +1,7 @@
 """Native half of hexbench: plain numbers, arrays and texts in the units of the files. Use the classes of ``hexbench``."""
 
 from collections.abc import Mapping, Sequence
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,9 @@ class Hexapod:
     @staticmethod
     def read(path: str) -> Hexapod: ...
     @staticmethod
-    def of_text(text: str, name: str) -> Hexapod: ...
+    def of_text(text: str, name: str, origin: tuple[str, str] | None = None) -> Hexapod: ...
+    @property
+    def origin(self) -> tuple[str, str]: ...
     @property
     def name(self) -> str: ...
     @property
@@ -33,7 +36,9 @@ class Campaign:
     @staticmethod
     def read(hexapod: Hexapod, path: str) -> tuple[Campaign, list[tuple[str, str]]]: ...
     @staticmethod
-    def of_text(hexapod: Hexapod, text: str, name: str) -> Campaign: ...
+    def of_text(hexapod: Hexapod, text: str, name: str, origin: tuple[str, str]) -> Campaign: ...
+    @property
+    def origin(self) -> tuple[str, str]: ...
     @staticmethod
     def of_columns(
         hexapod: Hexapod, names: Sequence[str], columns: Sequence[NDArray[np.float64] | list[str]], name: str
@@ -109,6 +114,20 @@ class Plan:
     def text(self) -> str: ...
     def columns(self) -> list[tuple[str, NDArray[np.float64]]]: ...
 
+class StudyRunner:
+    """A study that computes records of its shards, for a folder elsewhere."""
+
+    def __init__(self, study: str | PathLike[str], threads: int) -> None: ...
+    def run(self, shards: Sequence[int]) -> list[bytes]: ...
+
+class StudyWork:
+    """The folder of a study that takes records from elsewhere, in use by this object alone."""
+
+    def __init__(self, study: str | PathLike[str], folder: str | PathLike[str]) -> None: ...
+    def todo(self) -> dict[str, Any]: ...
+    def keep(self, shard: int, record: bytes) -> None: ...
+    def write(self, markdown: str | PathLike[str] | None) -> dict[str, Any]: ...
+
 def fit(campaign: Campaign, add: Sequence[str], holdout: Campaign | None, terms: Sequence[str], estimator: str) -> Model:
     """Fit springs and the terms that are named."""
 
@@ -121,7 +140,7 @@ def diagnose(campaign: Campaign, holdout: Campaign | None, terms: Sequence[str])
 def design(hexapod: Hexapod, space: str, wanted: Mapping[str, Any]) -> Plan:
     """Search a plan."""
 
-def simulate(folder: str, output: str, wanted: Mapping[str, Any]) -> None:
+def simulate(folder: str | PathLike[str], output: str, wanted: Mapping[str, Any]) -> None:
     """Measure a scene and write the folder that the command writes."""
 
 def terms() -> list[dict[str, Any]]:
@@ -130,11 +149,16 @@ def terms() -> list[dict[str, Any]]:
 def write_text(path: str, text: str) -> None:
     """Write a text whole or not at all."""
 
-def study_plan(study: str, parts: int) -> dict[str, Any]:
+def study_plan(study: str | PathLike[str], parts: int) -> dict[str, Any]:
     """How a study divides into parts."""
 
-def study_run_part(study: str, part: str, folder: str) -> dict[str, Any]:
+def study_run_part(study: str | PathLike[str], part: str, folder: str | PathLike[str]) -> dict[str, Any]:
     """Compute what is missing of a part."""
 
-def study_merge(study: str, parts: Sequence[str], folder: str, markdown: str | None = None) -> dict[str, Any]:
+def study_merge(
+    study: str | PathLike[str],
+    parts: Sequence[str | PathLike[str]],
+    folder: str | PathLike[str],
+    markdown: str | PathLike[str] | None = None,
+) -> dict[str, Any]:
     """Put parts together and write the results."""

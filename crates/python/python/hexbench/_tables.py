@@ -56,7 +56,7 @@ def _named(data: Any) -> tuple[list[Any], list[Any]]:
 
 
 def _cells(column: Any, place: str) -> Floats | list[str]:
-    array = _array(column, place)
+    array = as_array(column, place)
     if array.ndim != 1:
         raise BadInput(f"{place}: expected one value per reading, found shape {array.shape}", "Give one-dimensional columns.")
     if array.dtype.kind in "fiu":
@@ -74,7 +74,8 @@ def _text(value: Any) -> str:
     return "" if missing else str(value)
 
 
-def _array(value: Any, place: str) -> NDArray[Any]:
+def as_array(value: Any, place: str) -> NDArray[Any]:
+    """Return whatever NumPy makes of a value."""
     if isinstance(value, np.ma.MaskedArray):
         return np.asarray(np.ma.filled(value.astype(np.float64), np.nan))
     try:
@@ -105,7 +106,7 @@ def one_per_row(value: Any, name: str, count: int) -> Floats:
 
 
 def _numbers(value: Any, name: str) -> NDArray[Any]:
-    array = _array(value, name)
+    array = as_array(value, name)
     if array.dtype.kind == "O":
         try:
             array = array.astype(np.float64)

@@ -174,7 +174,7 @@ class Campaign:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as the texts of the files."""
-        return (_restored, (self.hexapod, self.to_csv(), self.name))
+        return (_restored, (self.hexapod, self.to_csv(), self.name, self._made.origin))
 
 
 _DEFLECTIONS = {*DEFLECTION, "drx_urad", "dry_urad", "drz_urad"}
@@ -218,7 +218,8 @@ def held_out(campaign: Campaign, holdout: Data | None) -> _native.Campaign | Non
 
 def _loaded(hexapod: Hexapod, data: Data, name: str) -> Campaign:
     if isinstance(data, Campaign):
-        return data
+        same = data.hexapod == hexapod
+        return data if same else _restored(hexapod, data.to_csv(), data.name, data._made.origin)
     if not isinstance(data, (str, PathLike)):
         return _of_table(hexapod, data, name)
     native, noticed = _native.Campaign.read(hexapod._made, fspath(data))
@@ -235,5 +236,5 @@ def _of_table(hexapod: Hexapod, table: Any, name: str) -> Campaign:
     return Campaign(native, hexapod)
 
 
-def _restored(hexapod: Hexapod, text: str, name: str) -> Campaign:
-    return Campaign(_native.Campaign.of_text(hexapod._made, text, name), hexapod)
+def _restored(hexapod: Hexapod, text: str, name: str, origin: tuple[str, str]) -> Campaign:
+    return Campaign(_native.Campaign.of_text(hexapod._made, text, name, origin), hexapod)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hexbench._tables import POSE, REFERENCE, WRENCH, Floats, columns_of, is_table, rows
+from hexbench._tables import POSE, REFERENCE, WRENCH, Floats, as_array, columns_of, is_table, rows
 from hexbench.campaign import Campaign, load
 from hexbench.errors import UsageError
 from hexbench.machine import Hexapod
@@ -99,7 +99,7 @@ class HexapodModel:
 def _conditions(X: Any) -> dict[str, Any]:
     if is_table(X):
         return _of_table(X)
-    array = np.asarray(X) if not isinstance(X, np.ndarray) else X
+    array = as_array(X, "X")
     width = 18 if array.ndim == 2 and array.shape[1] == 18 else 12
     checked = rows(X, width, "X")
     parts = {"poses": checked[:, :6], "wrenches": checked[:, 6:12], "reference": checked[:, 12:]}

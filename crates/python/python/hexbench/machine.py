@@ -138,7 +138,7 @@ class Hexapod:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as the text of the file."""
-        return (_restored, (self.to_toml(),))
+        return (_restored, (self.to_toml(), self._made.origin))
 
     def __eq__(self, other: object) -> bool:
         """Compare all that is stated."""
@@ -149,8 +149,8 @@ class Hexapod:
         return hash(self.to_toml())
 
 
-def _restored(text: str) -> Hexapod:
-    return Hexapod._of(_native.Hexapod.of_text(text, "hexapod"))
+def _restored(text: str, origin: tuple[str, str]) -> Hexapod:
+    return Hexapod._of(_native.Hexapod.of_text(text, "hexapod", origin))
 
 
 def _toml(name: str, sections: dict[str, dict[str, Any]]) -> str:

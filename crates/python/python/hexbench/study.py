@@ -141,9 +141,9 @@ def run(
 ) -> Results:
     """Run a study on a Dask cluster, or here, and write its results.
 
-    Every shard that arrives is kept in ``folder/journal``. A run that was stopped or killed goes on where it was when it is called
-    again. A task whose worker was killed is done again by another one. The results do not depend on any of this: they are the
-    bytes of ``hexbench study STUDY -o FOLDER``.
+    Every shard that arrives is kept in ``folder/journal``. A run that was stopped or killed goes on where it was when it is
+    called again. A task whose worker was killed is done again by another one. The results do not depend on any of this: they
+    are the bytes of ``hexbench study STUDY -o FOLDER``.
 
     Args:
         client: client of a cluster whose workers have this version of hexbench; None computes on this machine's threads.
