@@ -30,6 +30,8 @@ pub struct Manifest {
     pub suite_sha256: String,
     /// Version of the program that made it.
     pub hexbench: String,
+    /// Groups of the suite, in its order.
+    pub groups: Vec<String>,
     /// Ids of the cases, in order.
     pub cases: Vec<String>,
     /// SHA-256 of every public and sealed file, by its path in the folder.
@@ -46,6 +48,7 @@ impl Manifest {
             seed: suite.seed,
             suite_sha256: suite.sha256.clone(),
             hexbench: env!("CARGO_PKG_VERSION").to_owned(),
+            groups: suite.portions.iter().map(|p| p.group.clone()).collect(),
             cases,
             files,
         }

@@ -48,7 +48,7 @@ impl Processes {
     }
 
     /// Ends them until there is none.
-    pub(super) fn end_strays(&mut self, root: &Path) {
+    pub(super) fn end_strays(root: &Path) {
         for _ in 0..MOST_ROUNDS {
             let found = named(root);
             if found.is_empty() {

@@ -75,7 +75,7 @@ pub fn score(challenge: &Challenge, answers: &[PathBuf]) -> Result<Scores, Chall
         challenge_sha256: challenge.sha256().to_owned(),
         made_by: manifest.hexbench.clone(),
         hexbench: env!("CARGO_PKG_VERSION"),
-        groups: groups(&keys),
+        groups: groups(challenge, &keys),
         entrants,
     })
 }
@@ -95,9 +95,8 @@ fn refuse_same_names(entrants: &[EntrantScore]) -> Result<(), ChallengeError> {
     }
 }
 
-/// Groups by name, with the number of cases.
-fn groups(keys: &[Key]) -> Vec<(String, usize)> {
-    let names: BTreeSet<&str> = keys.iter().map(|k| k.truth.group.as_str()).collect();
-    let size = |name: &str| keys.iter().filter(|k| k.truth.group == name).count();
-    names.into_iter().map(|name| (name.to_owned(), size(name))).collect()
+/// Groups in the order of the suite, with the number of cases.
+fn groups(challenge: &Challenge, keys: &[Key]) -> Vec<(String, usize)> {
+    let size = |name: &String| keys.iter().filter(|k| k.truth.group == *name).count();
+    challenge.manifest().groups.iter().map(|name| (name.clone(), size(name))).collect()
 }

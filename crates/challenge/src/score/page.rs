@@ -50,12 +50,18 @@ not stated.";
 
 type Cell = fn(&Figures) -> String;
 
-const BY_GROUP: [(&str, &str, Cell); 3] = [
+const BY_GROUP: [(&str, &str, Cell); 5] = [
     ("Error against the truth, in noise", "Median over the cases of the group.", |f| {
         number(f.error_in_noise)
     }),
     ("Error of the leg stiffnesses, %", "Median over the cases of the group.", |f| {
         percent(f.stiffness_error)
+    }),
+    ("95 % intervals of leg stiffnesses that hold, %", "All legs of the group.", |f| {
+        share(f.stiffness_covered)
+    }),
+    ("95 % intervals of predictions that hold, %", "All numbers of the group.", |f| {
+        share(f.predictions_covered)
     }),
     ("Diagnoses", "Right / honest / wrong.", |f| counts(f.outcomes)),
 ];

@@ -89,14 +89,12 @@ fn limits(arguments: &Arguments) -> Result<Limits, Failure> {
 
 fn told(summary: &Summary, name: &str) -> String {
     let failed: Vec<_> = summary.fresh.iter().filter_map(|r| Some((&r.case, r.failure.as_ref()?))).collect();
-    let mut text = format!(
+    let head = format!(
         "{name}: {} cases answered, {} failed, {} answered before.\n",
         summary.fresh.len() - failed.len(),
         failed.len(),
         summary.known
     );
-    for (case, why) in failed {
-        text += &format!("  {case}: {why}\n");
-    }
-    text
+    let lines = failed.into_iter().map(|(case, why)| format!("  {case}: {why}\n"));
+    std::iter::once(head).chain(lines).collect()
 }
