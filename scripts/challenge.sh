@@ -50,4 +50,11 @@ run paper "$hexbench" challenge answer --method paper
 run scipy env OPENBLAS_NUM_THREADS=1 "$python" "$repository/scripts/entrants/scipy_entrant.py"
 run shell "$repository/scripts/entrants/shell_entrant.sh"
 "$hexbench" challenge score "$work/$suite" "$work"/answers/{hexbench,paper,scipy,shell} \
-    --json "$work/scores.json" --markdown docs/challenge.md
+    --json "$work/scores.json" --markdown "$work/challenge.md" || fail "challenge score"
+{
+    cat "$work/challenge.md"
+    printf '\n## Again\n\n`scripts/challenge.sh` makes the challenge, runs the entrants and writes this page; do not edit it.\n'
+    printf 'Versions: %s, %s; %s. Times are wall times of one case\n' "$("$hexbench" --version)" "$("$python" --version)" \
+        "$(paste -sd ' ' "$requirements")"
+    printf 'after the other on %s cores.\nWhat the figures mean and what they show is in [challenges.md](challenges.md).\n' "$(nproc)"
+} >docs/challenge.md

@@ -18,8 +18,7 @@ use super::scratch::bytes_in;
 const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(20)];
 /// Time between two looks at what was written, and at processes that left the group.
 const SLOW: Duration = Duration::from_millis(250);
-/// Signals of the system's own limits: CPU time, size of a file.
-const SIGXCPU: i32 = 24;
+/// Signal of the system's own limit of the size of a file.
 const SIGXFSZ: i32 = 25;
 
 /// Starts a program in a group of its own and watches it; `root` is the folder it may write to. When this returns, neither the
@@ -101,7 +100,6 @@ impl Watch<'_> {
 fn ended(broken: Option<End>, status: ExitStatus) -> (End, Option<i32>) {
     match (broken, status.code(), status.signal()) {
         (Some(end), ..) => (end, None),
-        (None, _, Some(SIGXCPU)) => (End::TimeLimit, None),
         (None, _, Some(SIGXFSZ)) => (End::OutputLimit, None),
         (None, None, Some(signal)) => (End::Killed, Some(signal)),
         (None, code, _) => (End::Exited, code),

@@ -1,5 +1,6 @@
 //! What was answered against what was hidden, for several programs beside each other.
 
+mod better;
 mod case;
 mod entrant;
 mod figures;
@@ -21,7 +22,7 @@ pub use figures::{Figures, Interval, Mean};
 pub use forecast::Forecast;
 pub use key::Key;
 pub use page::page;
-pub use paired::{Differences, Ratios};
+pub use paired::{Differences, Ratio, Ratios};
 
 /// Name and version of the format.
 const FORMAT: &str = "challenge-scores/1";

@@ -61,7 +61,8 @@ fn nothing_that_a_program_started_outlives_it() {
     let in_its_group = format!("sleep {WORD} & (sleep {WORD} &); {WRITE}");
     let in_a_session_of_its_own =
         format!("setsid sleep {WORD} & (setsid sh -c 'sleep {WORD} & sleep {WORD}' &); sleep 0.1; {WRITE}");
-    for script in [in_its_group, in_a_session_of_its_own] {
+    let without_surroundings = format!("env -i setsid sleep {WORD} & sleep 0.1; {WRITE}");
+    for script in [in_its_group, in_a_session_of_its_own, without_surroundings] {
         let record = Bench::of(ONE).record(&script, USUAL);
         assert_eq!(record.failure, None, "{script}");
         assert_eq!(living(WORD), 0, "{script}");
