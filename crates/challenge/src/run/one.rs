@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use hexbench_core::files::atomic_write;
+use tempfile::TempDir;
 
 use super::record::{End, Record};
 use super::scratch::Scratch;
@@ -40,8 +41,16 @@ pub(super) fn answer(
     let record =
         kept(challenge, id, &scratch, watched, part.path()).map_err(ChallengeError::writing(part.path()))?;
     let place = cases.join(id);
-    fs::rename(part.keep(), &place).map_err(ChallengeError::writing(&place))?;
+    put(part, &place).map_err(ChallengeError::writing(&place))?;
     Ok(record)
+}
+
+/// An answer takes the place of an unreadable one, whole or not at all.
+fn put(part: TempDir, place: &Path) -> io::Result<()> {
+    if place.exists() {
+        fs::remove_dir_all(place)?;
+    }
+    fs::rename(part.keep(), place)
 }
 
 /// Copies the answer, what was printed and the record.

@@ -7,14 +7,14 @@ use std::time::{Duration, Instant};
 use hexbench_challenge::ChallengeError;
 use hexbench_challenge::run::{End, Limits, Manner, Program, run};
 
-use crate::support::{Bench, EVERY_SORT, MANNER, ONE, entrant};
+use crate::support::{Bench, EVERY_SORT, MANNER, ONE, entrant, files};
 
 const USUAL: Limits = Limits { time_s: 20.0, memory_mb: 500, output_mb: 20 };
 const SHORT: Limits = Limits { time_s: 0.4, ..USUAL };
 /// An answer that passes the run; whether it can be read is seen when it is scored.
 const WRITE: &str = "echo row > \"$2/predictions.csv\"";
-/// Processes are started, watched and ended within this, on a busy machine too.
-const SOON: Duration = Duration::from_secs(10);
+/// Processes are started, watched and ended within this, on a busy machine too; left alone, they would sleep for longer.
+const SOON: Duration = Duration::from_secs(60);
 
 /// Command lines of all living processes that hold a word.
 #[cfg(target_os = "linux")]
@@ -181,6 +181,19 @@ fn answers_of_another_program_limit_or_challenge_are_not_mixed() {
     let other = Bench::of(EVERY_SORT);
     let challenge = refused(&other.challenge, WRITE, USUAL);
     assert!(matches!(challenge, ChallengeError::OtherChallenge { .. }), "{challenge}");
+}
+
+#[test]
+fn a_folder_that_holds_no_answers_is_left_alone() {
+    let bench = Bench::of(ONE);
+    let before = files(&bench.place());
+    for again in [false, true] {
+        let manner = Manner { again, ..MANNER };
+        let refused =
+            run(&bench.challenge, &entrant(WRITE, Path::new("sh"), USUAL), &bench.place(), manner, &|| ());
+        assert!(matches!(refused, Err(ChallengeError::NotEmpty(_))), "{refused:?}");
+    }
+    assert!(files(&bench.place()) == before);
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! `hexbench challenge run DIR -o ANSWERS --name NAME -- PROGRAM ARGS...`.
 
-use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
@@ -54,11 +53,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         program: Program::find(&arguments.program)?,
         limits: limits(arguments)?,
     };
-    let jobs = NonZero::new(usize::from(arguments.jobs)).map_or(1, NonZero::get);
+    let manner = Manner { jobs: usize::from(arguments.jobs), again: arguments.again };
     let progress = Progress::of(challenge.manifest().cases.len() as u64, "cases");
     let done = || progress.advance(1);
-    let summary =
-        run_cases(&challenge, &entrant, &arguments.out, Manner { jobs, again: arguments.again }, &done);
+    let summary = run_cases(&challenge, &entrant, &arguments.out, manner, &done);
     progress.done();
     screen.write(&told(&summary?, &entrant.name))
 }
