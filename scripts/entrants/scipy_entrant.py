@@ -1,8 +1,8 @@
 """An entrant in NumPy and SciPy: six springs by least squares, and one effect beside them chosen by BIC.
 
-Kinematics, effects and statistics are written from the published equations, linear at the commanded pose. Probabilities are BIC weights
-over "none", each effect alone, and "outside": a model nobody knows that would explain everything with a dozen numbers. Deflections
-only. Called as: scipy_entrant.py CASE OUT
+Kinematics, effects and statistics are written from the published equations, linear at the commanded pose. Probabilities are BIC
+weights over "none", each effect alone, and "outside": a model nobody knows that would explain everything with a dozen numbers.
+Deflections only. Called as: scipy_entrant.py CASE OUT
 """
 
 import csv
@@ -259,8 +259,10 @@ class Fit:
     def with_sigma(self, rows: Rows) -> tuple[Array, Array]:
         """Predictions and their standard uncertainty."""
         step = 1e-5
-        columns = [(self.predicted(rows, self.x + d) - self.predicted(rows, self.x - d)) / (2 * step)
-                   for d in step * np.eye(len(self.x))]
+        columns = [
+            (self.predicted(rows, self.x + d) - self.predicted(rows, self.x - d)) / (2 * step)
+            for d in step * np.eye(len(self.x))
+        ]
         slope = np.stack(columns, axis=2)
         variance = np.einsum("nki,ij,nkj->nk", slope, self.covariance, slope)
         return self.predicted(rows, self.x), np.sqrt(np.maximum(variance, 1e-30))
@@ -277,8 +279,8 @@ def fitted(effect: Effect | None, start: list[float], rows: Rows, readings: Arra
 
 
 def probabilities(fits: dict[str, Fit], numbers: int) -> dict[str, float]:
-    """BIC weights, "outside" among them."""
-    bic = {name: fit.bic for name, fit in fits.items()}
+    """BIC weights, "outside" among them; all effects together count as much as "none" beforehand."""
+    bic = {name: fit.bic + (0.0 if name == "none" else 2.0 * np.log(len(fits) - 1)) for name, fit in fits.items()}
     bic["outside"] = numbers + (6 + UNKNOWN_PARAMETERS) * np.log(numbers)
     least = min(bic.values())
     weights = {name: float(np.exp(-0.5 * (value - least))) for name, value in bic.items()}
@@ -294,7 +296,8 @@ def diagnosis(probability: dict[str, float]) -> dict:
         if held < NAMED:
             kept.append(name)
             held += p
-    verdict = "ambiguous" if share < NAMED else {"none": "adequate", "outside": "outside"}.get(best, "named")
+    sure = {"none": ("adequate", 0.5), "outside": ("outside", 0.5)}.get(best, ("named", NAMED))
+    verdict = sure[0] if share >= sure[1] else "ambiguous"
     return {
         "format": "diagnosis/1",
         "verdict": verdict,

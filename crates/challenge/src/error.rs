@@ -79,9 +79,6 @@ pub enum ChallengeError {
     /// Two entrants of one name.
     #[error("two of the folders hold answers named \"{0}\"")]
     SameName(String),
-    /// A system on which limits cannot be kept.
-    #[error("programs cannot be run under limits on this system; it needs a Unix")]
-    Unsupported,
     /// A program that could not be started or watched.
     #[error("case {case}: the program could not be started or watched: {cause}")]
     Start {
@@ -133,7 +130,6 @@ impl ChallengeError {
             Self::NoProgram(_) => "Give a path, or a name that is found on the PATH.".into(),
             Self::Busy(_) => "Wait for it to end, or name another folder.".into(),
             Self::SameName(_) => "Run one of them again with another --name.".into(),
-            Self::Unsupported => "Run it on Linux; answers can be scored anywhere.".into(),
             Self::Start { .. } => {
                 "Check that sh is there, and the free space of the folder for temporary files.".into()
             }

@@ -1,5 +1,11 @@
 //! Names of the files of a challenge and of answers.
 
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use crate::ChallengeError;
+
 /// Folder of the public cases.
 pub(crate) const CASES: &str = "cases";
 /// Folder of the truth.
@@ -31,3 +37,16 @@ pub(crate) const DIAGNOSIS: &str = "diagnosis.json";
 pub(crate) const ANSWER: [&str; 3] = [PREDICTIONS, PARAMETERS, DIAGNOSIS];
 /// How a run went.
 pub(crate) const RUN: &str = "run.json";
+
+/// Refuses a folder that holds anything but what is known.
+pub(crate) fn refuse_content(folder: &Path, known: &[&str]) -> Result<(), ChallengeError> {
+    let foreign = |entry: io::Result<fs::DirEntry>| {
+        entry.is_ok_and(|e| !known.iter().any(|name| e.file_name() == *name))
+    };
+    match fs::read_dir(folder).map(|mut entries| entries.any(foreign)) {
+        Ok(true) => Err(ChallengeError::NotEmpty(folder.to_owned())),
+        Ok(false) => Ok(()),
+        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(cause) => Err(ChallengeError::Write { path: folder.to_owned(), cause }),
+    }
+}

@@ -23,6 +23,7 @@ mod make;
 mod manifest;
 pub mod run;
 pub mod score;
+mod stored;
 mod suite;
 mod truth;
 

@@ -17,7 +17,9 @@ use hexbench_core::files::{
     MeasurementsWriter, atomic_write, hexapod_to_toml, measurements_to_csv, text_hash,
 };
 
-use crate::folder::{CASES, HEXAPOD, MEASURED, MEASUREMENTS, PREDICT, README, SEALED, TRUE_READINGS, TRUTH};
+use crate::folder::{
+    CASES, HEXAPOD, MEASURED, MEASUREMENTS, PREDICT, README, SEALED, TRUE_READINGS, TRUTH, refuse_content,
+};
 use crate::{ChallengeError, Drawn, MANIFEST, Manifest, Suite, draw};
 
 /// The contract for entrants, as it stands in every challenge.
@@ -29,7 +31,7 @@ const CONTRACT: &str = include_str!("entrants.md");
 /// # Errors
 /// [`ChallengeError::NotEmpty`], [`ChallengeError::Case`], [`ChallengeError::Write`].
 pub fn make(suite: &Suite, folder: &Path, done: &(dyn Fn() + Sync)) -> Result<Manifest, ChallengeError> {
-    refuse_content(folder)?;
+    refuse_content(folder, &[])?;
     let cases = draw(suite, done)?;
     let mut files = BTreeMap::new();
     let mut keep = |name: String, text: &str| -> Result<(), ChallengeError> {
@@ -79,15 +81,6 @@ fn asked(rows: &Dataset) -> io::Result<String> {
         writer.rows(&mut bytes, std::slice::from_ref(row))?;
     }
     String::from_utf8(bytes).map_err(io::Error::other)
-}
-
-fn refuse_content(folder: &Path) -> Result<(), ChallengeError> {
-    match fs::read_dir(folder).map(|mut entries| entries.next().is_some()) {
-        Ok(true) => Err(ChallengeError::NotEmpty(folder.to_owned())),
-        Ok(false) => Ok(()),
-        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(()),
-        Err(cause) => Err(ChallengeError::Write { path: folder.to_owned(), cause }),
-    }
 }
 
 /// Writes a file whole, its folder too.

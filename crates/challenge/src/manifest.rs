@@ -5,12 +5,11 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::stored::{Stored, read_toml};
 use crate::{ChallengeError, Suite};
 
 /// Name of the file.
 pub const MANIFEST: &str = "challenge.toml";
-/// Name and version of the format.
-const FORMAT: &str = "challenge/1";
 
 /// What a challenge is made of.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -30,35 +29,40 @@ pub struct Manifest {
     pub suite_sha256: String,
     /// Version of the program that made it.
     pub hexbench: String,
+    /// Groups of the suite, in its order.
+    pub groups: Vec<String>,
     /// Ids of the cases, in order.
     pub cases: Vec<String>,
     /// SHA-256 of every public and sealed file, by its path in the folder.
     pub files: BTreeMap<String, String>,
 }
 
+impl Stored for Manifest {
+    const FORMAT: &'static str = "challenge/1";
+
+    fn format(&self) -> &str {
+        &self.format
+    }
+}
+
 impl Manifest {
     pub(crate) fn new(suite: &Suite, cases: Vec<String>, files: BTreeMap<String, String>) -> Self {
         Self {
-            format: FORMAT.to_owned(),
+            format: Self::FORMAT.to_owned(),
             suite: suite.name.clone(),
             version: suite.version,
             title: suite.title.clone(),
             seed: suite.seed,
             suite_sha256: suite.sha256.clone(),
             hexbench: env!("CARGO_PKG_VERSION").to_owned(),
+            groups: suite.portions.iter().map(|p| p.group.clone()).collect(),
             cases,
             files,
         }
     }
 
     pub(crate) fn read(path: &Path) -> Result<(Self, String), ChallengeError> {
-        let text = std::fs::read_to_string(path).map_err(ChallengeError::reading(path))?;
-        let malformed = |why: String| ChallengeError::Malformed { path: path.to_owned(), why };
-        let manifest: Self = toml::from_str(&text).map_err(|e| malformed(e.to_string().trim().to_owned()))?;
-        if manifest.format != FORMAT {
-            return Err(malformed(format!("the format must be \"{FORMAT}\", found \"{}\"", manifest.format)));
-        }
-        Ok((manifest, text))
+        read_toml(path)
     }
 
     pub(crate) fn text(&self) -> Result<String, toml::ser::Error> {

@@ -6,10 +6,8 @@ use hexbench_truth::campaign::Case;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use crate::stored::{Stored, json, read_json};
 use crate::{ChallengeError, Portion};
-
-/// Name and version of the format.
-const FORMAT: &str = "challenge-truth/1";
 
 /// What was hidden in a case, and how it was made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,6 +50,14 @@ pub struct Noise {
     pub rotation_urad: f64,
 }
 
+impl Stored for Truth {
+    const FORMAT: &'static str = "challenge-truth/1";
+
+    fn format(&self) -> &str {
+        &self.format
+    }
+}
+
 impl Noise {
     /// Standard deviations of the six numbers, m and rad.
     pub fn sigma(self) -> [f64; 6] {
@@ -65,7 +71,7 @@ impl Truth {
         const N_PER_UM: f64 = 1e-6;
         let spec = &case.spec;
         Self {
-            format: FORMAT.to_owned(),
+            format: Self::FORMAT.to_owned(),
             id: id.to_owned(),
             group: portion.group.clone(),
             kind: spec.kind.name().to_owned(),
@@ -88,17 +94,10 @@ impl Truth {
     /// # Errors
     /// [`ChallengeError::Read`], [`ChallengeError::Malformed`].
     pub(crate) fn read(path: &Path) -> Result<Self, ChallengeError> {
-        let text = std::fs::read_to_string(path).map_err(ChallengeError::reading(path))?;
-        let malformed = |why: String| ChallengeError::Malformed { path: path.to_owned(), why };
-        let truth: Self = serde_json::from_str(&text).map_err(|e| malformed(e.to_string()))?;
-        if truth.format != FORMAT {
-            return Err(malformed(format!("the format must be \"{FORMAT}\", found \"{}\"", truth.format)));
-        }
-        Ok(truth)
+        read_json(path)
     }
 
     pub(crate) fn text(&self) -> String {
-        // Plain numbers and words: nothing in it that JSON lacks.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        json(self)
     }
 }

@@ -9,6 +9,7 @@ use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::paper::fit_paper;
 use hexbench_model::predict::{Prediction, predict};
 use hexbench_model::terms::catalogue;
+use hexbench_model::verdict::Verdict;
 
 use crate::{Case, EntrantError};
 
@@ -19,13 +20,32 @@ pub(crate) struct Answer {
     pub(crate) diagnosis: Option<Diagnosis>,
 }
 
-/// The whole diagnosis; predictions are those of its last model.
+/// The whole diagnosis; predictions are those of its last model. Where something outside the catalogue is at work, their uncertainty
+/// holds what the model misses.
 pub(crate) fn hexbench(case: &Case) -> Result<Answer, EntrantError> {
     let study = diagnose(&case.hexapod, &case.measurements, None, &catalogue())?;
     let last = study.fits.last().unwrap_or(&study.outcome.baseline);
-    let predictions = predictions(case, &study.campaign, last, Estimator::Gls)?;
+    let mut predictions = predictions(case, &study.campaign, last, Estimator::Gls)?;
     let diagnosis = study.diagnosis;
+    if diagnosis.verdict == Verdict::Outside {
+        let missed = missed(&diagnosis, &study.campaign.noise.sigma());
+        predictions.iter_mut().for_each(|p| widen(p, &missed));
+    }
     Ok(Answer { parameters: diagnosis.parameters.clone(), predictions, diagnosis: Some(diagnosis) })
+}
+
+/// What a model that is known to lack something misses of readings left out of its fit, beyond their noise; m and rad. It will miss as
+/// much of the readings to come: `sigma sqrt(chi2 - 1)`.
+fn missed(diagnosis: &Diagnosis, noise: &[f64; 6]) -> [f64; 6] {
+    let left_out = diagnosis.steps.last().and_then(|step| step.holdout);
+    let excess = left_out.map_or(0.0, |error| (error.chi2_reduced - 1.0).max(0.0).sqrt());
+    noise.map(|sigma| sigma * excess)
+}
+
+fn widen(prediction: &mut Prediction, missed: &[f64; 6]) {
+    for (sigma, more) in prediction.sigma.iter_mut().zip(missed) {
+        *sigma = sigma.hypot(*more);
+    }
 }
 
 /// The paper's estimator; it knows springs only and says nothing about effects.
@@ -48,3 +68,6 @@ fn predictions(
     let model = Model::new(campaign, fit, estimator, DataOrigin::default());
     Ok(predict(&model, &case.asked.observations)?)
 }
+
+#[cfg(test)]
+mod tests;

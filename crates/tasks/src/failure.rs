@@ -348,8 +348,7 @@ fn exit_of_challenge(cause: &ChallengeError) -> Exit {
         | ChallengeError::NoSuite { .. }
         | ChallengeError::NoProgram(_)
         | ChallengeError::OtherProgram { .. }
-        | ChallengeError::SameName(_)
-        | ChallengeError::Unsupported => Exit::Usage,
+        | ChallengeError::SameName(_) => Exit::Usage,
         ChallengeError::Case { .. } => Exit::NotDetermined,
         _ if cause.is_input_output() => Exit::InputOutput,
         _ => Exit::BadInput,

@@ -9,7 +9,7 @@ use super::AnswerFault;
 use crate::folder::DIAGNOSIS;
 
 const FORMAT: &str = "diagnosis/1";
-/// Digits may be rounded: so far may probabilities sum beside 1.
+/// Digits may be rounded, sums too: so far may probabilities be beside 1.
 const ROUNDING: f64 = 1e-3;
 
 /// What is said about a case; other keys of the file are passed over.
@@ -50,7 +50,7 @@ pub(super) fn read(text: &str) -> Result<Said, AnswerFault> {
         if !names.insert(candidate.term.as_str()) {
             return Err(AnswerFault::new(DIAGNOSIS, &place, "this candidate is given twice"));
         }
-        if !(0.0..=1.0).contains(&candidate.probability) {
+        if !(0.0..=1.0 + ROUNDING).contains(&candidate.probability) {
             let rule = format!("{}: a probability is between 0 and 1", candidate.probability);
             return Err(AnswerFault::new(DIAGNOSIS, &place, &rule));
         }

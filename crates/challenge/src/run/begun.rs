@@ -1,13 +1,14 @@
 //! Whose answers a folder holds: `answers.json`.
 
 use std::fs::{self, File, TryLockError};
-use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use super::{Entrant, Limits};
+use crate::folder::refuse_content;
 use crate::make::write;
+use crate::stored::{Stored, json, read_json};
 use crate::{Challenge, ChallengeError};
 
 /// Name of the file.
@@ -16,8 +17,6 @@ pub const ANSWERS: &str = "answers.json";
 const CASES: &str = "cases";
 /// Held by the run at work.
 const LOCK: &str = ".lock";
-/// Name and version of the format.
-const FORMAT: &str = "answers/1";
 
 /// Who answered, how it was called, which challenge, under which limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -41,10 +40,18 @@ pub struct Begun {
     pub system: String,
 }
 
+impl Stored for Begun {
+    const FORMAT: &'static str = "answers/1";
+
+    fn format(&self) -> &str {
+        &self.format
+    }
+}
+
 impl Begun {
     pub(super) fn new(challenge: &Challenge, entrant: &Entrant) -> Self {
         Self {
-            format: FORMAT.to_owned(),
+            format: Self::FORMAT.to_owned(),
             name: entrant.name.clone(),
             program: entrant.program.line().to_vec(),
             suite: challenge.manifest().suite.clone(),
@@ -60,14 +67,7 @@ impl Begun {
     /// # Errors
     /// [`ChallengeError::Read`], [`ChallengeError::Malformed`].
     pub fn read(folder: &Path) -> Result<Self, ChallengeError> {
-        let path = folder.join(ANSWERS);
-        let text = fs::read_to_string(&path).map_err(ChallengeError::reading(&path))?;
-        let malformed = |why: String| ChallengeError::Malformed { path: path.clone(), why };
-        let begun: Self = serde_json::from_str(&text).map_err(|e| malformed(e.to_string()))?;
-        if begun.format != FORMAT {
-            return Err(malformed(format!("the format must be \"{FORMAT}\", found \"{}\"", begun.format)));
-        }
-        Ok(begun)
+        read_json(&folder.join(ANSWERS))
     }
 
     /// Refuses answers to another challenge.
@@ -75,37 +75,46 @@ impl Begun {
     /// # Errors
     /// [`ChallengeError::OtherChallenge`].
     pub(crate) fn check(&self, folder: &Path, challenge: &Challenge) -> Result<(), ChallengeError> {
-        if self.challenge_sha256 == challenge.sha256() {
+        self.refuse_unless(folder, challenge.sha256(), challenge.name())
+    }
+
+    fn refuse_unless(&self, folder: &Path, sha256: &str, ours: String) -> Result<(), ChallengeError> {
+        if self.challenge_sha256 == sha256 {
             return Ok(());
         }
-        let theirs = format!("{} version {}, {:.12}", self.suite, self.version, self.challenge_sha256);
-        Err(ChallengeError::OtherChallenge { folder: folder.to_owned(), theirs, ours: challenge.name() })
+        Err(ChallengeError::OtherChallenge { folder: folder.to_owned(), theirs: self.challenge(), ours })
+    }
+
+    /// Suite, version and digest of the challenge, for messages.
+    fn challenge(&self) -> String {
+        format!("{} version {}, {:.12}", self.suite, self.version, self.challenge_sha256)
     }
 
     /// Makes a folder that of this run: empty, or with answers of the same run that go on. The lock ends with the process.
     pub(super) fn settle(&self, folder: &Path, again: bool) -> Result<File, ChallengeError> {
-        fs::create_dir_all(cases_folder(folder)).map_err(ChallengeError::writing(folder))?;
+        let (path, cases) = (folder.join(ANSWERS), cases_folder(folder));
+        let is_known = path.exists();
+        if !is_known {
+            // Nothing of a folder that is not ours is touched, the challenge itself for example.
+            refuse_content(folder, &[LOCK])?;
+        }
+        fs::create_dir_all(folder).map_err(ChallengeError::writing(folder))?;
         let lock = lock(folder)?;
-        let path = folder.join(ANSWERS);
-        if path.exists() && !again {
+        if is_known && !again {
             self.refuse_others(folder)?;
         } else {
-            let cases = cases_folder(folder);
-            fs::remove_dir_all(&cases).map_err(ChallengeError::writing(&cases))?;
-            fs::create_dir_all(&cases).map_err(ChallengeError::writing(&cases))?;
-            let text = serde_json::to_string_pretty(self).map_err(io::Error::other);
-            write(&path, &(text.map_err(ChallengeError::writing(&path))? + "\n"))?;
+            write(&path, &json(self))?;
+            if cases.exists() {
+                fs::remove_dir_all(&cases).map_err(ChallengeError::writing(&cases))?;
+            }
         }
+        fs::create_dir_all(&cases).map_err(ChallengeError::writing(&cases))?;
         Ok(lock)
     }
 
     fn refuse_others(&self, folder: &Path) -> Result<(), ChallengeError> {
         let there = Self::read(folder)?;
-        if there.challenge_sha256 != self.challenge_sha256 {
-            let theirs = format!("{} version {}, {:.12}", there.suite, there.version, there.challenge_sha256);
-            let ours = format!("{} version {}, {:.12}", self.suite, self.version, self.challenge_sha256);
-            return Err(ChallengeError::OtherChallenge { folder: folder.to_owned(), theirs, ours });
-        }
+        there.refuse_unless(folder, &self.challenge_sha256, self.challenge())?;
         let what = if there.program != self.program {
             format!("there the program is {}", there.program.join(" "))
         } else if there.name != self.name {

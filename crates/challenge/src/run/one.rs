@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use hexbench_core::files::atomic_write;
+use tempfile::TempDir;
 
 use super::record::{End, Record};
 use super::scratch::Scratch;
@@ -34,14 +35,22 @@ pub(super) fn answer(
 ) -> Result<Record, ChallengeError> {
     let start = |cause| ChallengeError::Start { case: id.to_owned(), cause };
     let scratch = Scratch::with_case(&challenge.case(id)).map_err(start)?;
-    let watched = watched(entrant, &scratch)?.map_err(start)?;
+    let watched = watched(entrant, &scratch).map_err(start)?;
     let part =
         tempfile::Builder::new().prefix(PART).tempdir_in(cases).map_err(ChallengeError::writing(cases))?;
     let record =
         kept(challenge, id, &scratch, watched, part.path()).map_err(ChallengeError::writing(part.path()))?;
     let place = cases.join(id);
-    fs::rename(part.keep(), &place).map_err(ChallengeError::writing(&place))?;
+    put(part, &place).map_err(ChallengeError::writing(&place))?;
     Ok(record)
+}
+
+/// An answer takes the place of an unreadable one, whole or not at all.
+fn put(part: TempDir, place: &Path) -> io::Result<()> {
+    if place.exists() {
+        fs::remove_dir_all(place)?;
+    }
+    fs::rename(part.keep(), place)
 }
 
 /// Copies the answer, what was printed and the record.
@@ -69,9 +78,23 @@ fn kept(
     for name in PRINTED {
         scratch.keep_printed(name, to)?;
     }
+    if let (End::Exited, Some(why), Some(said)) = (record.end, &mut record.failure, complaint(to)) {
+        *why = format!("{why}: {said}");
+    }
     atomic_write(&to.join(RUN), |out| out.write_all(record.text().as_bytes()))?;
     open_to_readers(to)?;
     Ok(record)
+}
+
+/// What a program says of its failure: the first line of its errors that is neither indented nor the head of a trace.
+fn complaint(folder: &Path) -> Option<String> {
+    const LONGEST: usize = 160;
+    let text = fs::read(folder.join(PRINTED[1])).ok()?;
+    let text = String::from_utf8_lossy(&text);
+    let telling =
+        |line: &&str| !line.is_empty() && !line.starts_with([' ', '\t']) && !line.starts_with("Traceback");
+    let line = text.lines().find(telling)?;
+    Some(line.chars().filter(|c| !c.is_control()).take(LONGEST).collect())
 }
 
 fn failure(watched: Watched) -> Option<String> {
@@ -99,13 +122,13 @@ fn open_to_readers(_: &Path) -> io::Result<()> {
 }
 
 #[cfg(unix)]
-fn watched(entrant: &Entrant, scratch: &Scratch) -> Result<io::Result<Watched>, ChallengeError> {
-    Ok(command(entrant, scratch).and_then(|c| super::supervise::watch(c, &entrant.limits, scratch.root())))
+fn watched(entrant: &Entrant, scratch: &Scratch) -> io::Result<Watched> {
+    super::supervise::watch(command(entrant, scratch)?, &entrant.limits, scratch.root())
 }
 
 #[cfg(not(unix))]
-fn watched(_: &Entrant, _: &Scratch) -> Result<io::Result<Watched>, ChallengeError> {
-    Err(ChallengeError::Unsupported)
+fn watched(_: &Entrant, _: &Scratch) -> io::Result<Watched> {
+    Err(io::Error::new(io::ErrorKind::Unsupported, "limits can be kept on Unix systems only"))
 }
 
 /// Sets the limits of the system, then becomes the program.

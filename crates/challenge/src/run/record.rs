@@ -6,9 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ChallengeError;
 use crate::folder::RUN;
-
-/// Name and version of the format.
-const FORMAT: &str = "run/1";
+use crate::stored::{Stored, json, read_json};
 
 /// How a run of one case went.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -51,10 +49,18 @@ pub enum End {
     OutputLimit,
 }
 
+impl Stored for Record {
+    const FORMAT: &'static str = "run/1";
+
+    fn format(&self) -> &str {
+        &self.format
+    }
+}
+
 impl Record {
     pub(super) fn new(case: &str, case_sha256: String, end: End, code: Option<i32>) -> Self {
         Self {
-            format: FORMAT.to_owned(),
+            format: Self::FORMAT.to_owned(),
             case: case.to_owned(),
             case_sha256,
             end,
@@ -71,18 +77,10 @@ impl Record {
     /// # Errors
     /// [`ChallengeError::Read`], [`ChallengeError::Malformed`].
     pub fn read(folder: &Path) -> Result<Self, ChallengeError> {
-        let path = folder.join(RUN);
-        let text = std::fs::read_to_string(&path).map_err(ChallengeError::reading(&path))?;
-        let malformed = |why: String| ChallengeError::Malformed { path: path.clone(), why };
-        let record: Self = serde_json::from_str(&text).map_err(|e| malformed(e.to_string()))?;
-        if record.format != FORMAT {
-            return Err(malformed(format!("the format must be \"{FORMAT}\", found \"{}\"", record.format)));
-        }
-        Ok(record)
+        read_json(&folder.join(RUN))
     }
 
     pub(super) fn text(&self) -> String {
-        // Plain numbers and words: nothing in it that JSON lacks.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        json(self)
     }
 }

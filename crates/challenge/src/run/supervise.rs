@@ -18,8 +18,7 @@ use super::scratch::bytes_in;
 const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(20)];
 /// Time between two looks at what was written, and at processes that left the group.
 const SLOW: Duration = Duration::from_millis(250);
-/// Signals of the system's own limits: CPU time, size of a file.
-const SIGXCPU: i32 = 24;
+/// Signal of the system's own limit of the size of a file.
 const SIGXFSZ: i32 = 25;
 
 /// Starts a program in a group of its own and watches it; `root` is the folder it may write to. When this returns, neither the
@@ -31,7 +30,8 @@ pub(super) fn watch(mut command: Command, limits: &Limits, root: &Path) -> io::R
     let broken = watch.until_it_ends();
     let wall_s = begun.elapsed().as_secs_f64();
     let status = watch.end()?;
-    let (end, code) = ended(broken?, status);
+    let broken = broken?.or_else(|| watch.has_written_too_much().then_some(End::OutputLimit));
+    let (end, code) = ended(broken, status);
     Ok(Watched { end, code, wall_s, peak_memory_bytes: watch.processes.peak() })
 }
 
@@ -79,7 +79,12 @@ impl Watch<'_> {
         }
         self.looked = Instant::now();
         self.processes.look_for_strays(self.root);
-        (bytes_in(self.root) > self.limits.output_bytes()).then_some(End::OutputLimit)
+        self.has_written_too_much().then_some(End::OutputLimit)
+    }
+
+    /// A file stops at the limit, so that reaching it counts.
+    fn has_written_too_much(&self) -> bool {
+        bytes_in(self.root) >= self.limits.output_bytes()
     }
 
     /// Ends the group, what left it, and reaps the program.
@@ -87,7 +92,7 @@ impl Watch<'_> {
         // An error means that there is no group any more.
         let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
         let status = self.child.wait();
-        self.processes.end_strays(self.root);
+        Processes::end_strays(self.root);
         status
     }
 }
@@ -95,7 +100,6 @@ impl Watch<'_> {
 fn ended(broken: Option<End>, status: ExitStatus) -> (End, Option<i32>) {
     match (broken, status.code(), status.signal()) {
         (Some(end), ..) => (end, None),
-        (None, _, Some(SIGXCPU)) => (End::TimeLimit, None),
         (None, _, Some(SIGXFSZ)) => (End::OutputLimit, None),
         (None, None, Some(signal)) => (End::Killed, Some(signal)),
         (None, code, _) => (End::Exited, code),
@@ -118,7 +122,7 @@ impl Processes {
 
     fn look_for_strays(&mut self, _: &Path) {}
 
-    fn end_strays(&mut self, _: &Path) {}
+    fn end_strays(_: &Path) {}
 
     fn peak(&self) -> Option<u64> {
         None

@@ -1,8 +1,8 @@
 //! The processes of a program on Linux: what they hold, and those that left its group.
 //!
-//! Children are found from their parent. One that let its parent die, or began a session of its own, is found by its environment:
-//! it names the folder of this run. A process that also cleans its environment is not found; the system's limits on its CPU time,
-//! memory and files stay with it.
+//! Children are found from their parent. One that let its parent die, or began a session of its own, is found by its environment,
+//! which names the folder of this run, or by its working directory. A process that leaves both behind is not found; the
+//! system's limits on its CPU time, memory and files stay with it.
 
 use std::fs;
 use std::path::Path;
@@ -42,13 +42,13 @@ impl Processes {
         now
     }
 
-    /// Finds the processes whose environment names the folder of this run.
+    /// Finds the processes that belong to the folder of this run.
     pub(super) fn look_for_strays(&mut self, root: &Path) {
         self.strays = named(root);
     }
 
     /// Ends them until there is none.
-    pub(super) fn end_strays(&mut self, root: &Path) {
+    pub(super) fn end_strays(root: &Path) {
         for _ in 0..MOST_ROUNDS {
             let found = named(root);
             if found.is_empty() {
@@ -91,14 +91,16 @@ fn children(pid: i32) -> Vec<i32> {
     lists.iter().flat_map(|list| list.split_whitespace()).filter_map(|word| word.parse().ok()).collect()
 }
 
-/// Living processes with a variable of the environment that names the folder.
+/// Living processes that stand in the folder, or with a variable of the environment that names it.
 fn named(root: &Path) -> Vec<i32> {
     let wanted = format!("TMPDIR={}/", root.display()).into_bytes();
     let Ok(entries) = fs::read_dir("/proc") else { return Vec::new() };
     let pids = entries.flatten().filter_map(|entry| entry.file_name().to_str()?.parse::<i32>().ok());
     let is_ours = |pid: &i32| {
         let environment = fs::read(format!("/proc/{pid}/environ")).unwrap_or_default();
-        environment.split(|byte| *byte == 0).any(|variable| variable.starts_with(&wanted))
+        let stands_in =
+            fs::read_link(format!("/proc/{pid}/cwd")).is_ok_and(|folder| folder.starts_with(root));
+        stands_in || environment.split(|byte| *byte == 0).any(|variable| variable.starts_with(&wanted))
     };
     pids.filter(is_ours).collect()
 }

@@ -46,7 +46,7 @@ impl EntrantScore {
             limits: begun.limits,
             system: begun.system,
             all: Figures::of(&cases),
-            groups: super::groups(keys).into_iter().map(of_group).collect(),
+            groups: super::groups(challenge, keys).into_iter().map(of_group).collect(),
             cases,
         })
     }

@@ -74,6 +74,7 @@ mod tests {
     #[test]
     fn in_the_long_run_nobody_does_better_than_by_stating_the_true_chances() {
         const TRUE: [f64; 3] = [0.6, 0.1, 0.3];
+        const SCATTER: f64 = 0.02;
         let mut rng = Pcg64::seed_from_u64(7);
         let mut draw = || {
             let x: f64 = rng.random();
@@ -88,7 +89,6 @@ mod tests {
             assert!(best[0] < other[0] && best[1] < other[1], "{rival:?}: {other:?}, the truth {best:?}");
         }
         // -sum p ln p and 1 - sum p^2, within the scatter of so many draws.
-        const SCATTER: f64 = 0.02;
         let entropy: f64 = -TRUE.iter().map(|p| p * p.ln()).sum::<f64>();
         let gini = 1.0 - TRUE.iter().map(|p| p * p).sum::<f64>();
         assert!((best[0] - entropy).abs() < SCATTER && (best[1] - gini).abs() < SCATTER, "{best:?}");

@@ -1,5 +1,6 @@
 //! What was answered against what was hidden, for several programs beside each other.
 
+mod better;
 mod case;
 mod entrant;
 mod figures;
@@ -21,7 +22,7 @@ pub use figures::{Figures, Interval, Mean};
 pub use forecast::Forecast;
 pub use key::Key;
 pub use page::page;
-pub use paired::{Differences, Ratios};
+pub use paired::{Differences, Ratio, Ratios};
 
 /// Name and version of the format.
 const FORMAT: &str = "challenge-scores/1";
@@ -75,7 +76,7 @@ pub fn score(challenge: &Challenge, answers: &[PathBuf]) -> Result<Scores, Chall
         challenge_sha256: challenge.sha256().to_owned(),
         made_by: manifest.hexbench.clone(),
         hexbench: env!("CARGO_PKG_VERSION"),
-        groups: groups(&keys),
+        groups: groups(challenge, &keys),
         entrants,
     })
 }
@@ -95,9 +96,8 @@ fn refuse_same_names(entrants: &[EntrantScore]) -> Result<(), ChallengeError> {
     }
 }
 
-/// Groups by name, with the number of cases.
-fn groups(keys: &[Key]) -> Vec<(String, usize)> {
-    let names: BTreeSet<&str> = keys.iter().map(|k| k.truth.group.as_str()).collect();
-    let size = |name: &str| keys.iter().filter(|k| k.truth.group == name).count();
-    names.into_iter().map(|name| (name.to_owned(), size(name))).collect()
+/// Groups in the order of the suite, with the number of cases.
+fn groups(challenge: &Challenge, keys: &[Key]) -> Vec<(String, usize)> {
+    let size = |name: &String| keys.iter().filter(|k| k.truth.group == *name).count();
+    challenge.manifest().groups.iter().map(|name| (name.clone(), size(name))).collect()
 }

@@ -4,7 +4,7 @@ use hexbench_report::document::Document;
 use hexbench_report::number::significant;
 
 use super::figures::{Figures, Interval, Mean};
-use super::paired::{Differences, Ratios};
+use super::paired::{Differences, Ratio, Ratios};
 use super::{EntrantScore, Scores};
 
 /// What is not stated.
@@ -29,6 +29,7 @@ pub fn page(scores: &Scores) -> Document {
         });
         table(&mut page, scores, "group (cases)", rows.collect());
     }
+    better(&mut page, scores);
     failures(&mut page, scores);
     page.heading(2, "How it was run");
     page.list(scores.entrants.iter().map(how));
@@ -50,12 +51,18 @@ not stated.";
 
 type Cell = fn(&Figures) -> String;
 
-const BY_GROUP: [(&str, &str, Cell); 3] = [
+const BY_GROUP: [(&str, &str, Cell); 5] = [
     ("Error against the truth, in noise", "Median over the cases of the group.", |f| {
         number(f.error_in_noise)
     }),
     ("Error of the leg stiffnesses, %", "Median over the cases of the group.", |f| {
         percent(f.stiffness_error)
+    }),
+    ("95 % intervals of leg stiffnesses that hold, %", "All legs of the group.", |f| {
+        share(f.stiffness_covered)
+    }),
+    ("95 % intervals of predictions that hold, %", "All numbers of the group.", |f| {
+        share(f.predictions_covered)
     }),
     ("Diagnoses", "Right / honest / wrong.", |f| counts(f.outcomes)),
 ];
@@ -135,14 +142,15 @@ fn with_error(mean: Option<Mean>) -> String {
 }
 
 fn ratios(compared: &Ratios) -> Vec<String> {
-    let told = |r: &Option<(f64, Option<[f64; 2]>)>| match r {
-        None => DASH.to_owned(),
-        Some((ratio, None)) => significant(*ratio, 2),
-        Some((ratio, Some([low, high]))) => {
-            format!("{} ({} .. {})", significant(*ratio, 2), significant(*low, 2), significant(*high, 2))
-        }
-    };
-    compared.of.iter().map(told).collect()
+    compared.of.iter().map(|r| r.map_or(DASH.to_owned(), told_ratio)).collect()
+}
+
+pub(super) fn told_ratio((ratio, interval): Ratio) -> String {
+    let short = |x: f64| significant(x, 2);
+    match interval {
+        None => short(ratio),
+        Some([low, high]) => format!("{} ({} .. {})", short(ratio), short(low), short(high)),
+    }
 }
 
 fn differences(compared: &Differences) -> Vec<String> {
@@ -152,6 +160,20 @@ fn differences(compared: &Differences) -> Vec<String> {
         .iter()
         .map(|d| if d.as_ref().is_some_and(best) { "0".to_owned() } else { with_error(*d) })
         .collect()
+}
+
+fn better(page: &mut Document, scores: &Scores) {
+    let [first, rivals @ ..] = scores.entrants.as_slice() else { return };
+    if rivals.is_empty() {
+        return;
+    }
+    page.heading(2, format!("Where another is ahead of {}", first.name));
+    page.paragraph(
+        "Geometric mean of its errors over those of the first entrant, on the cases of a group that both answered, with the 95 % interval; \
+         an interval that holds 1 may be chance. And groups in which it is right more often.",
+    );
+    let found = super::better::found(scores, first, rivals);
+    if found.is_empty() { page.paragraph("Nowhere.") } else { page.list(found) }
 }
 
 fn failures(page: &mut Document, scores: &Scores) {

@@ -9,13 +9,35 @@ use super::figures::{Mean, mean};
 /// Errors below count as this: a ratio needs numbers above zero.
 const LEAST: f64 = 1e-9;
 
+/// A ratio of geometric means and its 95 % interval; no interval for a single case or the same numbers.
+pub type Ratio = (f64, Option<[f64; 2]>);
+
+/// Geometric mean of an error of one program over that of another, on the cases for which both state it; and the count of cases.
+pub(super) fn ratio_of(pairs: impl Iterator<Item = (Option<f64>, Option<f64>)>) -> Option<(Ratio, usize)> {
+    let differences: Vec<f64> = pairs.filter_map(|(a, b)| Some(logarithm(a?) - logarithm(b?))).collect();
+    mean(&differences).map(|m| (ratio(m), m.of))
+}
+
+fn logarithm(error: f64) -> f64 {
+    error.max(LEAST).ln()
+}
+
+fn ratio(m: Mean) -> Ratio {
+    let interval = m.standard_error.filter(|se| *se > 0.0).and_then(|se| {
+        let law = StudentsT::new(0.0, 1.0, m.of as f64 - 1.0).ok()?;
+        let half = law.inverse_cdf(0.975) * se;
+        Some([(m.mean - half).exp(), (m.mean + half).exp()])
+    });
+    (m.mean.exp(), interval)
+}
+
 /// Geometric mean of errors against the best, on the cases for which all that state anything do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ratios {
     /// Cases compared.
     pub cases: usize,
     /// One for each program: ratio and its 95 % interval (Student's t of the logarithms); the best has 1 without interval.
-    pub of: Vec<Option<(f64, Option<[f64; 2]>)>>,
+    pub of: Vec<Option<Ratio>>,
 }
 
 /// Differences of mean scores against the best, on the cases for which all that state anything do.
@@ -30,15 +52,7 @@ pub struct Differences {
 impl Ratios {
     /// Compares an error of every case.
     pub fn of(entrants: &[EntrantScore], error: impl Fn(&CaseScore) -> Option<f64>) -> Self {
-        let compared = Compared::of(entrants, |c| error(c).map(|e| e.max(LEAST).ln()));
-        let ratio = |m: Mean| {
-            let interval = m.standard_error.filter(|se| *se > 0.0).and_then(|se| {
-                let law = StudentsT::new(0.0, 1.0, m.of as f64 - 1.0).ok()?;
-                let half = law.inverse_cdf(0.975) * se;
-                Some([(m.mean - half).exp(), (m.mean + half).exp()])
-            });
-            (m.mean.exp(), interval)
-        };
+        let compared = Compared::of(entrants, |c| error(c).map(logarithm));
         Self { cases: compared.cases, of: compared.differences.into_iter().map(|d| d.map(ratio)).collect() }
     }
 }

@@ -1,6 +1,5 @@
 //! `hexbench challenge run DIR -o ANSWERS --name NAME -- PROGRAM ARGS...`.
 
-use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
@@ -54,11 +53,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         program: Program::find(&arguments.program)?,
         limits: limits(arguments)?,
     };
-    let jobs = NonZero::new(usize::from(arguments.jobs)).map_or(1, NonZero::get);
+    let manner = Manner { jobs: usize::from(arguments.jobs), again: arguments.again };
     let progress = Progress::of(challenge.manifest().cases.len() as u64, "cases");
     let done = || progress.advance(1);
-    let summary =
-        run_cases(&challenge, &entrant, &arguments.out, Manner { jobs, again: arguments.again }, &done);
+    let summary = run_cases(&challenge, &entrant, &arguments.out, manner, &done);
     progress.done();
     screen.write(&told(&summary?, &entrant.name))
 }
@@ -89,14 +87,12 @@ fn limits(arguments: &Arguments) -> Result<Limits, Failure> {
 
 fn told(summary: &Summary, name: &str) -> String {
     let failed: Vec<_> = summary.fresh.iter().filter_map(|r| Some((&r.case, r.failure.as_ref()?))).collect();
-    let mut text = format!(
+    let head = format!(
         "{name}: {} cases answered, {} failed, {} answered before.\n",
         summary.fresh.len() - failed.len(),
         failed.len(),
         summary.known
     );
-    for (case, why) in failed {
-        text += &format!("  {case}: {why}\n");
-    }
-    text
+    let lines = failed.into_iter().map(|(case, why)| format!("  {case}: {why}\n"));
+    std::iter::once(head).chain(lines).collect()
 }

@@ -1,0 +1,161 @@
+//! `hexbench challenge`: made, run and scored by the command, with its own entrants.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::support::{hexbench, root, text};
+
+const SUITE: &str = "format = \"challenge-suite/1\"\nname = \"tiny\"\nversion = 3\ntitle = \"Small\"\nseed = 4\n\
+    [cases.clean]\nkind = \"clean\"\ncount = 1\nplan = \"few-poses\"\nmachine = \"ring_a\"\n\
+    [cases.one]\nkind = \"single\"\ncount = 1\neffects = [\"base-compliance\"]\ndistance = 30\nplan = \"few-poses\"\nmachine = \"ring_a\"\n";
+
+/// Reduced chi-square of 180 numbers: 1, give or take.
+const NOISE: std::ops::Range<f64> = 0.6..1.5;
+
+struct Bench {
+    folder: TempDir,
+}
+
+impl Bench {
+    /// The tiny suite, made.
+    fn new() -> Self {
+        let bench = Self { folder: tempfile::tempdir().unwrap() };
+        fs::write(bench.path("suite.toml"), SUITE).unwrap();
+        bench.make("challenge", &[]).assert().success();
+        bench
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn make(&self, name: &str, more: &[&str]) -> assert_cmd::Command {
+        let mut command = hexbench();
+        command
+            .args(["challenge", "make"])
+            .arg(self.path("suite.toml"))
+            .arg("-o")
+            .arg(self.path(name))
+            .args(more);
+        command
+    }
+
+    fn run(&self, name: &str, program: &[&str]) -> assert_cmd::Command {
+        let mut command = hexbench();
+        command.args(["challenge", "run"]).arg(self.path("challenge")).arg("-o").arg(self.path(name));
+        command.args(["--name", name, "--"]).args(program);
+        command
+    }
+
+    fn score(&self, names: &[&str], more: &[&str]) -> Output {
+        let mut command = hexbench();
+        command.args(["challenge", "score"]).arg(self.path("challenge"));
+        command.args(names.iter().map(|name| self.path(name))).args(more);
+        command.output().unwrap()
+    }
+
+    fn json(&self, names: &[&str]) -> Value {
+        serde_json::from_str(&text(self.score(names, &["--json", "-"]))).unwrap()
+    }
+}
+
+fn own() -> &'static str {
+    env!("CARGO_BIN_EXE_hexbench")
+}
+
+fn shell() -> String {
+    root().join("scripts/entrants/shell_entrant.sh").display().to_string()
+}
+
+#[test]
+fn entrants_of_two_languages_stand_side_by_side() {
+    let bench = Bench::new();
+    bench.run("ours", &[own(), "challenge", "answer"]).assert().success();
+    bench.run("paper", &[own(), "challenge", "answer", "--method", "paper"]).assert().success();
+    bench.run("shell", &[&shell()]).assert().success();
+    let scores = bench.json(&["ours", "paper", "shell"]);
+    let of = |k: usize, key: &str| scores["entrants"][k]["all"][key].clone();
+    for k in 0..3 {
+        assert_eq!(of(k, "answered"), 2, "{scores:#}");
+    }
+    assert_eq!(of(0, "outcomes"), serde_json::json!([2, 0, 0]));
+    assert!(NOISE.contains(&of(0, "chi2_reduced").as_f64().unwrap()), "{}", of(0, "chi2_reduced"));
+    assert!(of(1, "outcomes").is_null() && of(2, "stiffness_error").is_null());
+    let error = |k: usize| of(k, "error_in_noise").as_f64().unwrap();
+    assert!(error(0) < error(1) && error(1) < error(2), "{} {} {}", error(0), error(1), error(2));
+    let markdown = bench.path("page.md");
+    let page = text(bench.score(&["ours", "shell"], &["--markdown", markdown.to_str().unwrap(), "--check"]));
+    assert!(page.contains("cases answered") && page.contains("2 of 2"), "{page}");
+    assert!(fs::read_to_string(markdown).unwrap().starts_with("# Challenge tiny, version 3\n"));
+}
+
+#[test]
+fn our_entrants_need_the_public_files_of_a_case_and_nothing_else() {
+    let bench = Bench::new();
+    let [alone, out] = ["alone", "out"].map(|name| bench.path(name));
+    fs::create_dir(&out).unwrap();
+    fs::rename(bench.path("challenge/cases/case-001"), &alone).unwrap();
+    fs::remove_dir_all(bench.path("challenge")).unwrap();
+    hexbench().args(["challenge", "answer"]).args([&alone, &out]).assert().success();
+    for name in ["parameters.json", "predictions.csv", "diagnosis.json"] {
+        assert!(out.join(name).is_file(), "{name}");
+    }
+    let printed = hexbench().args(["challenge", "answer"]).args([&out, &alone]).output().unwrap();
+    let error = String::from_utf8(printed.stderr).unwrap();
+    assert!(
+        printed.status.code() == Some(5) && error.contains("hexapod.toml: there is no such file"),
+        "{error}"
+    );
+}
+
+#[test]
+fn the_command_gives_the_same_bytes_twice_and_others_for_another_seed() {
+    let bench = Bench::new();
+    bench.make("again", &[]).assert().success();
+    bench.make("other", &["--seed", "5"]).assert().success();
+    let manifest = |name: &str| fs::read(bench.path(name).join("challenge.toml")).unwrap();
+    assert!(manifest("challenge") == manifest("again") && manifest("challenge") != manifest("other"));
+    bench.make("again", &[]).assert().code(2);
+}
+
+#[test]
+fn what_goes_wrong_has_its_exit_code_and_next_step() {
+    let bench = Bench::new();
+    let failed = |output: Output, code: i32, expected: &str| {
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(code) && error.contains(expected), "{code} {expected}: {error}");
+        assert!(error.contains("next: "), "{error}");
+    };
+    let out = bench.path("x");
+    let unknown = hexbench().args(["challenge", "make", "no-such-suite", "-o"]).arg(&out).output().unwrap();
+    failed(unknown, 2, "there is no suite \"no-such-suite\"");
+    failed(bench.run("x", &["no-such-program"]).output().unwrap(), 2, "there is no program");
+    failed(bench.run("x|y", &["sh"]).output().unwrap(), 2, "none of them |");
+    failed(bench.score(&["nobody"], &[]), 5, "answers.json: cannot be read");
+    fs::write(bench.path("suite.toml"), SUITE.replace("clean\"", "claen\"")).unwrap();
+    failed(bench.make("x", &[]).output().unwrap(), 3, "line 7");
+    bench.run("none", &["true"]).assert().success();
+    let unchecked = text(bench.score(&["none"], &[]));
+    assert!(unchecked.contains("0 of 2") && unchecked.contains("it wrote no predictions.csv"), "{unchecked}");
+    assert_eq!(bench.score(&["none"], &["--check"]).status.code(), Some(1));
+    spoil(&bench.path("challenge/sealed/case-002/truth.json"));
+    failed(bench.score(&["none"], &[]), 3, "truth.json: it was changed");
+}
+
+fn spoil(path: &Path) {
+    let text = fs::read_to_string(path).unwrap();
+    fs::write(path, text.replace("\"kind\"", "\"kin\"")).unwrap();
+}
+
+#[test]
+fn the_documented_formats_are_those_of_the_bundled_contract() {
+    let page = fs::read_to_string(root().join("docs/challenges.md")).unwrap();
+    let contract = fs::read_to_string(root().join("crates/challenge/src/entrants.md")).unwrap();
+    for block in contract.split("```").skip(1).step_by(2).filter(|b| b.starts_with("json")) {
+        assert!(page.contains(block.trim()), "docs/challenges.md lacks {block}");
+    }
+}
