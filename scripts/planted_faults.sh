@@ -20,7 +20,7 @@ root=$PWD
 profile=${HEXBENCH_PROFILE:-release}
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 export CARGO_TARGET_DIR
-program=$CARGO_TARGET_DIR/$([[ $profile == dev ]] && echo debug || echo "$profile")/hexbench
+program=$CARGO_TARGET_DIR/$([[ $profile == dev ]] && echo debug || echo "$profile")/hexbench-planted
 faults=("$@")
 if ((${#faults[@]} == 0)); then
     for patch in data/regress/faults/*.patch; do faults+=("$(basename "$patch" .patch)"); done
@@ -30,6 +30,10 @@ fi
 rm -rf "$out/sources"
 mkdir "$out/sources"
 cp -a Cargo.toml Cargo.lock crates data scenes docs "$out/sources/"
+# A name of its own: nobody takes a faulty program for the real one.
+sed -i '/^\[\[bin\]\]/,$ s/^name = "hexbench"$/name = "hexbench-planted"/' "$out/sources/crates/cli/Cargo.toml"
+# What an earlier call built with a fault is older than these.
+sed -n 's|^+++ b/||p' data/regress/faults/*.patch | sort -u | (cd "$out/sources" && xargs touch)
 
 unseen=()
 for fault in "${faults[@]}"; do

@@ -14,6 +14,7 @@ mod pages;
 mod poses;
 mod power;
 mod recovery;
+mod regress;
 mod runs;
 mod scenes;
 mod score;

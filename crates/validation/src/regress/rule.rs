@@ -149,7 +149,8 @@ mod tests {
     #[test]
     fn shares_agree_with_hypergeometric_sums_of_exact_integers() {
         // sum(comb(29, k) * comb(871, 100 - k) for k in range(9, 30)) / comb(900, 100) in Python 3, and of 40 hits from 20 on.
-        for (hits, before, expected) in [(9, 20, 2.707_570_301_076_7e-3), (20, 20, 2.943457873222414e-10)] {
+        for (hits, before, expected) in [(9, 20, 2.707_570_301_076_7e-3), (20, 20, 2.943_457_873_222_414e-10)]
+        {
             let found = judge(Test::Share, &share(hits, 100), &share(before, 800), LEVEL);
             let chance = found.chance.unwrap();
             assert!((chance / expected - 1.0).abs() < DIGITS, "{chance} instead of {expected}");
@@ -161,7 +162,7 @@ mod tests {
     fn twice_the_errors_of_many_campaigns_are_worse_and_half_of_them_better() {
         let test = Test::Size { range: [1e-9, 10.0], least: 0.1, unit: crate::regress::limit::Unit::Percent };
         let sample = |factor: f64, n: usize| {
-            let values: Vec<f64> = (0..n).map(|k| factor * (f64::from(k as u32 % 7) - 3.0).exp()).collect();
+            let values: Vec<f64> = (0..n).map(|k| factor * ((k % 7) as f64 - 3.0).exp()).collect();
             Sample::of(test, &values)
         };
         let verdict = |factor: f64| judge(test, &sample(factor, 700), &sample(0.1, 5600), LEVEL).verdict;
