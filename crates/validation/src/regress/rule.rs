@@ -9,7 +9,8 @@
 //!   freedom; `s` is that of the baseline. Errors are heavy-tailed, their logarithms are not.
 //! - Pulls: the ratio of two mean squares follows the F law. One campaign gives one value, the mean square of its numbers in their
 //!   covariance; since these are neither normal nor of equal count, the degrees of freedom are those that give the variance `v`
-//!   seen in the baseline, `2 n m^2 / v` (Satterthwaite 1946). A variance that moved away from 1 either way is a change for the
+//!   seen in the baseline, `2 n m^2 / v` (Satterthwaite 1946), with two standard errors of `v` on top: a baseline whose pulls
+//!   happen to scatter little would otherwise raise false alarms. A variance that moved away from 1 either way is a change for the
 //!   worse.
 //! - Without noise: no chance. The same machines are fitted in every run, and what is left is the linearisation of the model on
 //!   them: [`RATIO`]. Where it is rounding, its derived bound must hold.
@@ -111,7 +112,9 @@ fn spreads(now: &Sample, before: &Sample) -> [f64; 2] {
 /// Degrees of freedom of so many values now, and of the baseline.
 pub(super) fn degrees(now: u64, before: &Sample) -> [f64; 2] {
     let (mean, variance) = before.moments();
-    let each = 2.0 * mean * mean / variance.max(f64::MIN_POSITIVE);
+    // The variance of chi-square pulls of some six numbers has a relative standard error of 2 / sqrt(n).
+    let caution = 1.0 + 4.0 / (before.count() as f64).sqrt();
+    let each = 2.0 * mean * mean / (caution * variance).max(f64::MIN_POSITIVE);
     [now, before.count()].map(|n| (each * n as f64).clamp(1.0, 1e6))
 }
 
