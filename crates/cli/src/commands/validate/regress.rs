@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_validation::regress::baseline::Baseline;
-use hexbench_validation::regress::document::document;
+use hexbench_validation::regress::document::{Proof, document};
 use hexbench_validation::regress::gathered::gather;
 use hexbench_validation::regress::limit::Limit;
 use hexbench_validation::regress::limits::limits;
@@ -60,8 +60,16 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             None => Vec::new(),
         };
         let trials = run_suite(&suite, arguments.seed, &|| ());
-        let counts = gather(&limits, &trials).iter().map(|g| g.sample.count()).collect();
-        screen.write_to(path, &document(&suite, &limits, &baseline, &runs, &planted, &counts))?;
+        let counts: Vec<u64> = gather(&limits, &trials).iter().map(|g| g.sample.count()).collect();
+        let proof = Proof {
+            suite: &suite,
+            limits: &limits,
+            counts: &counts,
+            baseline: &baseline,
+            runs: &runs,
+            planted: &planted,
+        };
+        screen.write_to(path, &document(&proof))?;
     }
     let failed: Vec<&Unchanged> = runs.iter().filter(|r| !r.worse.is_empty()).collect();
     let lines = failed.iter().map(|r| format!("seed {}: {}\n", r.seed, r.worse.join("; ")));
