@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
-# Plants one fault at a time (data/regress/faults/*.patch) in a copy of the sources, builds it, runs `hexbench regress` against the
-# committed baseline, and keeps the result of each in DIR as JSON. Fails when a patch no longer applies, a build fails, or one of
-# the first three faults goes unseen.
+# Plants one fault at a time (data/regress/faults/*.patch) in a copy of the sources, builds the suite of `hexbench regress`, runs it
+# beside the committed baseline, and keeps the result of each in DIR as JSON. Fails when a patch no longer applies, a build fails,
+# or one of the first three faults goes unseen.
 #
 #     scripts/planted_faults.sh DIR [FAULT...]
 #
-# HEXBENCH_PROFILE=dev builds faster and runs slower (default: release). The copy lives in DIR/sources; builds share the target
-# directory.
+# The copy lives in DIR/sources; builds share the target directory. `none` plants nothing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if (($# < 1)); then
@@ -17,10 +16,8 @@ mkdir -p "$1"
 out=$(realpath "$1")
 shift
 root=$PWD
-profile=${HEXBENCH_PROFILE:-release}
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 export CARGO_TARGET_DIR
-program=$CARGO_TARGET_DIR/$([[ $profile == dev ]] && echo debug || echo "$profile")/hexbench
 faults=("$@")
 if ((${#faults[@]} == 0)); then
     for patch in data/regress/faults/*.patch; do faults+=("$(basename "$patch" .patch)"); done
@@ -30,23 +27,29 @@ fi
 rm -rf "$out/sources"
 mkdir "$out/sources"
 cp -a Cargo.toml Cargo.lock crates data scenes docs "$out/sources/"
+# What an earlier call built with a fault is older than these.
+sed -n 's|^+++ b/||p' data/regress/faults/*.patch | sort -u | (cd "$out/sources" && xargs touch)
+
+plant() {
+    [[ $fault == none ]] || (cd "$out/sources" && patch --strip=1 --fuzz=0 --quiet "$@" <"$root/data/regress/faults/$fault.patch")
+}
 
 unseen=()
 for fault in "${faults[@]}"; do
-    patch=$root/data/regress/faults/$fault.patch
-    printf '== %s: %s\n' "$fault" "$(head -n 1 "$patch")"
-    (cd "$out/sources" && patch --strip=1 --fuzz=0 --quiet <"$patch")
-    (cd "$out/sources" && cargo build --profile "$profile" --locked --quiet -p hexbench-cli)
+    printf '== %s\n' "$fault"
+    plant
+    (cd "$out/sources" && cargo build --release --locked --quiet -p hexbench-validation --example regress)
     code=0
-    "$program" regress --baseline "$root/data/regress/baseline.json" --json "$out/$fault.json" || code=$?
+    "$CARGO_TARGET_DIR/release/examples/regress" "$root/data/regress/baseline.json" "$out/$fault.json" || code=$?
     printf '   exit code %d\n' "$code"
-    (cd "$out/sources" && patch --strip=1 --fuzz=0 --quiet --reverse <"$patch")
+    plant --reverse
     case $code in
     0) unseen+=("$fault") ;;
     1) ;;
     *) exit "$code" ;;
     esac
 done
+rm -rf "$out/sources"
 
 printf '\n%d of %d faults are seen.\n' "$((${#faults[@]} - ${#unseen[@]}))" "${#faults[@]}"
 for fault in ${unseen[@]+"${unseen[@]}"}; do

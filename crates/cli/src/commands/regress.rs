@@ -22,7 +22,7 @@ use crate::page;
 /// The baseline of the full suite.
 pub(crate) const COMMITTED: &str = "data/regress/baseline.json";
 /// The program that is compared.
-pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Compare accuracy, honesty, diagnosis and effort with a committed baseline: fail when a change is more than chance
 #[derive(Debug, Args)]

@@ -15,6 +15,7 @@ mod pages;
 mod poses;
 mod power;
 mod recovery;
+mod regress;
 mod runs;
 mod scenes;
 mod score;

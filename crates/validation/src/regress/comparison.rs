@@ -79,9 +79,21 @@ pub fn compare(
     baseline: &Baseline,
     hexbench: &str,
 ) -> Comparison {
+    let gathered = gather(limits, trials);
+    let without_answer = trials.failures.clone();
+    Comparison { without_answer, ..of_samples(suite, limits, (&gathered, seed), baseline, hexbench) }
+}
+
+/// The same from what is kept of the trials.
+pub fn of_samples(
+    suite: &Suite,
+    limits: &[Limit],
+    (gathered, seed): (&[Gathered], u64),
+    baseline: &Baseline,
+    hexbench: &str,
+) -> Comparison {
     let level = level(limits);
     let same_seed = seed == baseline.seed;
-    let gathered = gather(limits, trials);
     let find = |(limit, now): (&Limit, &Gathered)| {
         let before = &baseline.limits.get(&limit.id)?;
         let mut found = finding(limit, &now.sample, &before.sample, level);
@@ -98,8 +110,8 @@ pub fn compare(
         baseline: baseline.history.last().cloned(),
         false_alarm: FALSE_ALARM,
         level,
-        findings: limits.iter().zip(&gathered).filter_map(find).collect(),
-        without_answer: trials.failures.clone(),
+        findings: limits.iter().zip(gathered).filter_map(find).collect(),
+        without_answer: Vec::new(),
     }
 }
 

@@ -1,4 +1,4 @@
-//! A comparison as JUnit XML: one test case for each limit.
+//! A comparison as `JUnit` XML: one test case for each limit.
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 

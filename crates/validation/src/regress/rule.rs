@@ -9,7 +9,8 @@
 //!   freedom; `s` is that of the baseline. Errors are heavy-tailed, their logarithms are not.
 //! - Pulls: the ratio of two mean squares follows the F law. One campaign gives one value, the mean square of its numbers in their
 //!   covariance; since these are neither normal nor of equal count, the degrees of freedom are those that give the variance `v`
-//!   seen in the baseline, `2 n m^2 / v` (Satterthwaite 1946). A variance that moved away from 1 either way is a change for the
+//!   seen in the baseline, `2 n m^2 / v` (Satterthwaite 1946), with two standard errors of `v` on top: a baseline whose pulls
+//!   happen to scatter little would otherwise raise false alarms. A variance that moved away from 1 either way is a change for the
 //!   worse.
 //! - Without noise: no chance. The same machines are fitted in every run, and what is left is the linearisation of the model on
 //!   them: [`RATIO`]. Where it is rounding, its derived bound must hold.
@@ -111,7 +112,9 @@ fn spreads(now: &Sample, before: &Sample) -> [f64; 2] {
 /// Degrees of freedom of so many values now, and of the baseline.
 pub(super) fn degrees(now: u64, before: &Sample) -> [f64; 2] {
     let (mean, variance) = before.moments();
-    let each = 2.0 * mean * mean / variance.max(f64::MIN_POSITIVE);
+    // The variance of chi-square pulls of some six numbers has a relative standard error of 2 / sqrt(n).
+    let caution = 1.0 + 4.0 / (before.count() as f64).sqrt();
+    let each = 2.0 * mean * mean / (caution * variance).max(f64::MIN_POSITIVE);
     [now, before.count()].map(|n| (each * n as f64).clamp(1.0, 1e6))
 }
 
@@ -149,7 +152,8 @@ mod tests {
     #[test]
     fn shares_agree_with_hypergeometric_sums_of_exact_integers() {
         // sum(comb(29, k) * comb(871, 100 - k) for k in range(9, 30)) / comb(900, 100) in Python 3, and of 40 hits from 20 on.
-        for (hits, before, expected) in [(9, 20, 2.707_570_301_076_7e-3), (20, 20, 2.943457873222414e-10)] {
+        for (hits, before, expected) in [(9, 20, 2.707_570_301_076_7e-3), (20, 20, 2.943_457_873_222_414e-10)]
+        {
             let found = judge(Test::Share, &share(hits, 100), &share(before, 800), LEVEL);
             let chance = found.chance.unwrap();
             assert!((chance / expected - 1.0).abs() < DIGITS, "{chance} instead of {expected}");
@@ -161,7 +165,7 @@ mod tests {
     fn twice_the_errors_of_many_campaigns_are_worse_and_half_of_them_better() {
         let test = Test::Size { range: [1e-9, 10.0], least: 0.1, unit: crate::regress::limit::Unit::Percent };
         let sample = |factor: f64, n: usize| {
-            let values: Vec<f64> = (0..n).map(|k| factor * (f64::from(k as u32 % 7) - 3.0).exp()).collect();
+            let values: Vec<f64> = (0..n).map(|k| factor * ((k % 7) as f64 - 3.0).exp()).collect();
             Sample::of(test, &values)
         };
         let verdict = |factor: f64| judge(test, &sample(factor, 700), &sample(0.1, 5600), LEVEL).verdict;

@@ -4,17 +4,16 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_validation::regress::baseline::Baseline;
-use hexbench_validation::regress::comparison::compare;
-use hexbench_validation::regress::document::document;
+use hexbench_validation::regress::document::{Proof, document};
 use hexbench_validation::regress::gathered::gather;
 use hexbench_validation::regress::limit::Limit;
 use hexbench_validation::regress::limits::limits;
 use hexbench_validation::regress::planted;
 use hexbench_validation::regress::suite::Suite;
 use hexbench_validation::regress::trials::{Trials, run as run_suite};
-use hexbench_validation::regress::unchanged::{Unchanged, logged};
+use hexbench_validation::regress::unchanged::{Kept, Unchanged, logged, machines};
 
-use crate::commands::regress::{COMMITTED, VERSION};
+use crate::commands::regress::COMMITTED;
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
 
@@ -61,8 +60,16 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             None => Vec::new(),
         };
         let trials = run_suite(&suite, arguments.seed, &|| ());
-        let counts = gather(&limits, &trials).iter().map(|g| g.sample.count()).collect();
-        screen.write_to(path, &document(&suite, &limits, &baseline, &runs, &planted, &counts))?;
+        let counts: Vec<u64> = gather(&limits, &trials).iter().map(|g| g.sample.count()).collect();
+        let proof = Proof {
+            suite: &suite,
+            limits: &limits,
+            counts: &counts,
+            baseline: &baseline,
+            runs: &runs,
+            planted: &planted,
+        };
+        screen.write_to(path, &document(&proof))?;
     }
     let failed: Vec<&Unchanged> = runs.iter().filter(|r| !r.worse.is_empty()).collect();
     let lines = failed.iter().map(|r| format!("seed {}: {}\n", r.seed, r.worse.join("; ")));
@@ -82,20 +89,18 @@ fn unchanged(
     baseline: &Baseline,
 ) -> Result<Vec<Unchanged>, Failure> {
     let known = match &arguments.log {
-        Some(path) => logged(path, baseline).map_err(|cause| unreadable(path, cause))?,
+        Some(path) => logged(path, suite, limits).map_err(|cause| unreadable(path, cause))?,
         None => Vec::new(),
     };
-    // Campaigns without noise are the same in every run.
-    let machines =
-        run_suite(&Suite { fits: 0, portions: Vec::new(), ..suite.clone() }, arguments.seed, &|| ());
+    let machines = machines(suite);
     let progress = Progress::of(u64::from(arguments.runs), "runs");
     let mut runs = Vec::new();
     for seed in (0..u64::from(arguments.runs)).map(|k| arguments.seed.wrapping_add(k)) {
-        let run = match known.iter().find(|r| r.seed == seed) {
+        let kept = match known.iter().find(|run| run.seed == seed) {
             Some(run) => run.clone(),
-            None => fresh(arguments, (suite, &machines), limits, baseline, seed)?,
+            None => fresh(arguments, suite, limits, &machines, seed)?,
         };
-        runs.push(run);
+        runs.push(Unchanged::of(&kept, suite, limits, baseline));
         progress.advance(1);
     }
     progress.done();
@@ -104,18 +109,16 @@ fn unchanged(
 
 fn fresh(
     arguments: &Arguments,
-    (suite, machines): (&Suite, &Trials),
+    suite: &Suite,
     limits: &[Limit],
-    baseline: &Baseline,
+    machines: &Trials,
     seed: u64,
-) -> Result<Unchanged, Failure> {
-    let noisy = run_suite(&suite.without_machines(), seed, &|| ());
-    let trials = Trials { machines: machines.machines.clone(), ..noisy };
-    let run = Unchanged::of(&compare(suite, limits, (&trials, seed), baseline, VERSION), baseline);
+) -> Result<Kept, Failure> {
+    let kept = Kept::run(suite, limits, machines, seed);
     if let Some(path) = &arguments.log {
-        run.append(path).map_err(|cause| Failure::Output { path: path.clone(), cause })?;
+        kept.append(path).map_err(|cause| Failure::Output { path: path.clone(), cause })?;
     }
-    Ok(run)
+    Ok(kept)
 }
 
 fn unreadable(path: &Path, cause: std::io::Error) -> Failure {

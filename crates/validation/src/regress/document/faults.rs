@@ -1,0 +1,35 @@
+//! Planted faults.
+
+use hexbench_report::Document;
+
+use crate::regress::planted::Planted;
+use crate::regress::rule::Verdict;
+use crate::regress::summary::row;
+
+/// Failed limits listed for a planted fault.
+const LISTED: usize = 4;
+
+/// What was planted, whether it was noticed, and by what.
+pub(super) fn section(page: &mut Document, planted: &[Planted]) {
+    if planted.is_empty() {
+        return;
+    }
+    let seen = planted.iter().filter(|p| p.failed() > 0).count();
+    page.heading(2, "Planted faults");
+    page.paragraph(format!(
+        "`scripts/planted_faults.sh` plants one fault at a time in a copy of the sources (`data/regress/faults`), builds it and runs \
+         `hexbench regress`. {seen} of {} are seen.",
+        planted.len()
+    ));
+    let of = |p: &Planted| {
+        let exit = if p.comparison.fails() { "1" } else { "0" };
+        vec![p.name.clone(), p.text.clone(), exit.to_owned(), p.failed().to_string()]
+    };
+    page.table(["fault", "what it does", "exit code", "limits that fail"], planted.iter().map(of));
+    page.paragraph(format!("The {LISTED} plainest of the limits that fail:"));
+    for p in planted.iter().filter(|p| p.failed() > 0) {
+        page.heading(3, p.name.clone());
+        let failed = p.comparison.by_chance().into_iter().filter(|f| f.verdict == Verdict::Worse);
+        page.table(["limit", "now", "baseline", "by chance"], failed.take(LISTED).map(row));
+    }
+}

@@ -1,0 +1,130 @@
+//! Answers of the diagnosis, and the probabilities stated with them.
+
+use hexbench_model::verdict::Verdict;
+use hexbench_truth::campaign::Kind;
+
+use super::{ROUGH, share, told};
+use crate::calibration::{Fate, Record, is_well_visible};
+use crate::regress::limit::{Group, Limit, Test, Unit};
+
+/// Nats between a stated probability and the truth: from 99.9 % to what no search weighs.
+const NATS: Test = Test::Size { range: [1e-3, 14.0], least: ROUGH, unit: Unit::Plain };
+/// Stated probability from which an answer counts as sure.
+const SURE: f64 = 0.9;
+
+/// Share of bad answers among some of the records.
+fn bad(
+    (id, title, why): (&str, &str, &str),
+    among: fn(&Record) -> bool,
+    is_bad: fn(&Record) -> bool,
+) -> Limit {
+    Limit::new((id, Group::Diagnosis), title, why, Test::Share, move |t| {
+        told(t, |r| among(r).then(|| share(is_bad(r))))
+    })
+}
+
+/// What is said.
+pub(super) fn answers() -> Vec<Limit> {
+    vec![
+        bad(
+            ("false-names", "effects named that are not there", "Sends people to repair what is not broken."),
+            |_| true,
+            |r| r.fate == Fate::FalseName,
+        ),
+        bad(
+            (
+                "false-outside",
+                "\"outside\" said wrongly",
+                "Sends people to look for physics that is not there.",
+            ),
+            |r| !r.is_outside(),
+            |r| r.verdict == Verdict::Outside,
+        ),
+        bad(
+            ("false-statements", "answers that state something false", "Ambiguous is honest, wrong is not."),
+            |_| true,
+            |r| r.fate >= Fate::Incomplete,
+        ),
+        bad(
+            (
+                "not-right",
+                "answers other than exactly the truth",
+                "The usefulness of the diagnosis in one figure.",
+            ),
+            |_| true,
+            |r| r.fate != Fate::Right,
+        ),
+        bad(
+            ("single-not-named", "one well visible effect, not named", "The plainest case."),
+            |r| r.kind == Kind::Single && is_well_visible(r),
+            |r| r.fate != Fate::Right,
+        ),
+        bad(
+            ("pair-not-named", "two well visible effects, not both named", "Effects hide each other."),
+            |r| r.kind == Kind::Pair && is_well_visible(r),
+            |r| r.fate != Fate::Right,
+        ),
+        bad(
+            (
+                "outside-not-noticed",
+                "something well visible outside the catalogue, not noticed",
+                "\"It is none of the effects I know\" must be a possible answer.",
+            ),
+            |r| r.is_outside() && is_well_visible(r),
+            |r| r.fate != Fate::Right,
+        ),
+        bad(
+            ("clean-not-adequate", "nothing hidden, but not called adequate", "A sound machine must pass."),
+            |r| r.hidden.is_empty(),
+            |r| r.fate != Fate::Right,
+        ),
+        bad(
+            (
+                "missed",
+                "springs called adequate although an effect is well visible",
+                "A clean bill of health for a machine that is not sound.",
+            ),
+            |r| !r.hidden.is_empty() && is_well_visible(r),
+            |r| r.fate == Fate::Missed,
+        ),
+        bad(
+            (
+                "undecided",
+                "ambiguous without the truth among what is kept",
+                "Ambiguous must still hold the truth.",
+            ),
+            |_| true,
+            |r| r.fate == Fate::Undecided,
+        ),
+    ]
+}
+
+/// How sure it is said.
+pub(super) fn probabilities() -> Vec<Limit> {
+    let group = Group::Probabilities;
+    let wrong_though_sure =
+        |r: &Record| r.confidence.filter(|p| *p >= SURE).map(|_| share(r.fate != Fate::Right));
+    vec![
+        Limit::new(
+            ("sure-but-wrong", group),
+            "answers stated with 90 % or more that are not the truth",
+            "A stated probability is a promise.",
+            Test::Share,
+            move |t| told(t, wrong_though_sure),
+        ),
+        Limit::new(
+            ("credible-sets", group),
+            "credible sets of 95 % without the truth, where it is well visible",
+            "People keep the set and rule out the rest.",
+            Test::Share,
+            |t| told(t, |r| is_well_visible(r).then(|| share(!r.is_covered()))),
+        ),
+        Limit::new(
+            ("log-score", group),
+            "nats between the probability stated for the truth and certainty",
+            "The logarithmic score punishes both wrong certainty and needless doubt.",
+            NATS,
+            |t| told(t, |r| Some(-r.truth.max(f64::MIN_POSITIVE).ln())),
+        ),
+    ]
+}

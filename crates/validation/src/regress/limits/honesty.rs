@@ -1,0 +1,107 @@
+//! Uncertainties against errors.
+
+use super::{CHI2, fits, fits_of, share, slug, told};
+use crate::calibration::{Fate, Record};
+use crate::recovery::scene::Subject;
+use crate::regress::distance::Distance;
+use crate::regress::fitted::Fitted;
+use crate::regress::limit::{Group, Limit, Test};
+
+fn outside(distance: Option<Distance>) -> Option<f64> {
+    distance.map(|d| share(d.is_outside()))
+}
+
+/// Over all campaigns.
+pub(super) fn general() -> Vec<Limit> {
+    let group = Group::Honesty;
+    let per_number = |d: Option<Distance>| d.map(|d| d.per_number());
+    vec![
+        Limit::new(
+            ("stiffness-pulls", group),
+            "leg stiffness: mean squared pull of six legs in their covariance",
+            "An honest covariance gives 1; a factor 1.5 on it gives 1.5.",
+            Test::Spread,
+            move |t| fits(t, |f| per_number(f.springs)),
+        ),
+        Limit::new(
+            ("all-pulls", group),
+            "all numbers: mean squared pull in their covariance",
+            "Leg stiffness and effects together: what is wrong with every uncertainty shows here first.",
+            Test::Spread,
+            |t| fits(t, both),
+        ),
+        Limit::new(
+            ("stiffness-coverage", group),
+            "leg stiffness: truth outside the 95 % region of six legs",
+            "A region that claims 95 % must hold the truth in 95 % of the campaigns.",
+            Test::Share,
+            |t| fits(t, |f| outside(f.springs)),
+        ),
+        Limit::new(
+            ("effect-pulls", group),
+            "effects: mean squared pull in their covariance",
+            "The same for the numbers of effects.",
+            Test::Spread,
+            move |t| fits(t, |f| per_number(f.effect)),
+        ),
+        Limit::new(
+            ("effect-coverage", group),
+            "effects: truth outside the 95 % region of their numbers",
+            "The same for the numbers of effects.",
+            Test::Share,
+            |t| fits(t, |f| outside(f.effect)),
+        ),
+        Limit::new(
+            ("prediction-coverage", group),
+            "predictions: held-out readings outside their 95 % region",
+            "Noise and uncertainty of the model together must say how far off a prediction can be.",
+            Test::Share,
+            |t| fits(t, |f| Some(share(f.prediction_missed))),
+        ),
+        Limit::new(
+            ("fit-chi2", group),
+            "chi-square of the right model on what it was fitted to",
+            "A solver that stops early, or a term that is slightly wrong, leaves more than the noise.",
+            CHI2,
+            |t| fits(t, |f| Some(f.chi2_reduced)),
+        ),
+        Limit::new(
+            ("misfits", group),
+            "campaigns that the right model does not fit",
+            "A misfit has no uncertainties; it would leave the other limits of honesty unseen.",
+            Test::Share,
+            |t| fits(t, |f| Some(share(f.misfit))),
+        ),
+        Limit::new(
+            ("stiffness-pulls-after-diagnosis", group),
+            "leg stiffness after a right diagnosis: mean squared pull",
+            "What people read comes from the diagnosis, averaged over shapes and chosen by the search.",
+            Test::Spread,
+            |t| told(t, |r| (r.fate == Fate::Right).then(|| mean_square(r)).flatten()),
+        ),
+    ]
+}
+
+fn mean_square(r: &Record) -> Option<f64> {
+    let all: Vec<f64> = r.stiffness_z.iter().flatten().map(|z| z * z).collect();
+    (!all.is_empty() && !r.is_outside()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+}
+
+/// Leg compliances and the numbers of the effect.
+fn both(f: &Fitted) -> Option<f64> {
+    match (f.springs, f.effect) {
+        (Some(a), Some(b)) => Some(a.and(b).per_number()),
+        (a, b) => a.or(b).map(|d| d.per_number()),
+    }
+}
+
+/// Numbers of one subject.
+pub(super) fn of_subject(s: Subject) -> Limit {
+    Limit::new(
+        (format!("pulls:{}", slug(s.name)), Group::Honesty),
+        format!("{}: mean squared pull of all numbers", s.name),
+        "Each effect has columns of its own: their uncertainties can be wrong for one effect alone.",
+        Test::Spread,
+        move |t| fits_of(t, s, both),
+    )
+}
