@@ -20,12 +20,14 @@ mod pattern;
 mod readings;
 pub mod runs;
 mod size;
+mod spread;
 mod stiffness;
 pub mod subject;
 pub mod text;
 
 pub use demo::demo;
 pub use readings::readings;
+pub use spread::spread;
 pub use subject::Subject;
 
 use crate::text::{Ink, Paper};

@@ -9,9 +9,10 @@ use hexbench_report::number::significant;
 use hexbench_report::plot::{Axis, Chart, Panels, Series};
 
 use super::ReportError;
-use super::data::{Data, Seen, spread};
+use super::data::{Data, Seen};
 use super::figures::{Dot, cloud, is_curve, panels, residuals};
 use super::residual_sheet::{OF_LEGS, varies};
+use crate::spread;
 
 /// Conditions of a panel.
 const MOST: usize = 100;

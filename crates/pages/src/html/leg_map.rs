@@ -5,8 +5,9 @@ use hexbench_report::html::{Block, Section};
 use hexbench_report::plot::{HeatMap, Raster};
 
 use super::ReportError;
-use super::data::{Data, Seen, spread};
+use super::data::{Data, Seen};
 use crate::leg_space::by_load;
+use crate::spread;
 
 /// Columns that the map shows apart.
 const MOST: usize = 210;

@@ -3,6 +3,7 @@
 use hexbench_core::{Vector3, Vector6};
 use hexbench_model::campaign::Condition;
 use hexbench_model::linearization::Linearization;
+use hexbench_pages::spread;
 
 use super::digits::{all_short, short};
 use crate::wire::Conditions;
@@ -10,9 +11,9 @@ use crate::wire::Conditions;
 /// Most conditions shown: more than an eye can tell apart, few enough to be drawn at once.
 const MOST: usize = 1000;
 
-/// Indices of the conditions shown, evenly chosen among `count`.
+/// Indices of the conditions shown among `count`.
 pub(super) fn shown(count: usize) -> Vec<usize> {
-    (0..count).step_by(count.div_ceil(MOST).max(1)).collect()
+    spread(count, MOST).collect()
 }
 
 /// Columns of the conditions shown, on the machine as drawn.
@@ -57,10 +58,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn few_conditions_are_all_shown_and_many_evenly() {
+    fn few_conditions_are_all_shown_and_of_many_both_that_alternate() {
         assert_eq!(shown(0), Vec::<usize>::new());
         assert_eq!(shown(MOST).len(), MOST);
-        let many = shown(10 * MOST + 1);
-        assert!(many.len() <= MOST && many.windows(2).all(|w| w[1] - w[0] == many[1]));
+        let many = shown(10 * MOST);
+        let odd = many.iter().filter(|i| *i % 2 == 1).count();
+        assert!(many.len() == MOST && (MOST / 3..2 * MOST / 3).contains(&odd), "{odd} of {}", many.len());
     }
 }

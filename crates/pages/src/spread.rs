@@ -1,0 +1,32 @@
+//! Few of many.
+
+/// At most so many of `n` indices, one of each equal stretch. Where in its stretch an index lies wanders (by the golden ratio), so
+/// that what alternates in a file, such as the approach, is not lost.
+pub fn spread(n: usize, most: usize) -> impl Iterator<Item = usize> {
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    let count = n.min(most);
+    let stretch = n as f64 / count.max(1) as f64;
+    // Between 0 and n.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let index = move |k: usize| ((k as f64 + (k as f64 * GOLDEN).fract()) * stretch) as usize;
+    (0..count).map(move |k| if n > most { index(k) } else { k })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spread;
+
+    #[test]
+    fn thinning_keeps_what_alternates() {
+        let kept: Vec<usize> = spread(1000, 100).collect();
+        assert!(kept.is_sorted_by(|a, b| a < b) && kept.len() == 100 && kept[99] < 1000, "{kept:?}");
+        let odd = kept.iter().filter(|i| *i % 2 == 1).count();
+        assert!((35..=65).contains(&odd), "{odd} of 100 are odd");
+    }
+
+    #[test]
+    fn few_are_all_kept() {
+        assert!(spread(7, 100).eq(0..7));
+        assert_eq!(spread(0, 100).count(), 0);
+    }
+}
