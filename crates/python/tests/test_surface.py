@@ -35,7 +35,7 @@ def test_the_stub_has_every_name_of_the_native_module_and_no_other() -> None:
     for name, inside in stub.items():
         thing = getattr(_native, name)
         if inspect.isclass(thing):
-            assert inside == _public(thing), name
+            assert {n for n in inside if not n.startswith("_")} == _public(thing), name
 
 
 def test_every_public_name_has_a_docstring() -> None:

@@ -61,12 +61,7 @@ def _cells(column: Any, place: str) -> Floats | list[str]:
         raise BadInput(f"{place}: expected one value per reading, found shape {array.shape}", "Give one-dimensional columns.")
     if array.dtype.kind in "fiu":
         return np.ascontiguousarray(array, dtype=np.float64)
-    return [_text(value) for value in _values(column, array)]
-
-
-def _values(column: Any, array: NDArray[Any]) -> Iterable[Any]:
-    # Of categories and nullable columns the array of objects is the readable one.
-    return array if array.dtype.kind == "O" else (column if hasattr(column, "__iter__") else array.tolist())
+    return [_text(value) for value in array.tolist()]
 
 
 def _text(value: Any) -> str:
