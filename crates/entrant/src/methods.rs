@@ -29,7 +29,9 @@ pub(crate) fn hexbench(case: &Case) -> Result<Answer, EntrantError> {
     let diagnosis = study.diagnosis;
     if diagnosis.verdict == Verdict::Outside {
         let missed = missed(&diagnosis, &study.campaign.noise.sigma());
-        predictions.iter_mut().for_each(|p| widen(p, &missed));
+        for prediction in &mut predictions {
+            widen(prediction, &missed);
+        }
     }
     Ok(Answer { parameters: diagnosis.parameters.clone(), predictions, diagnosis: Some(diagnosis) })
 }

@@ -16,7 +16,7 @@ const MEASURES: [Measure; 2] = [
 pub(super) fn found(scores: &Scores, first: &EntrantScore, rivals: &[EntrantScore]) -> Vec<String> {
     let of_rival = |rival: &EntrantScore| {
         let groups = scores.groups.iter().enumerate();
-        groups.flat_map(|(g, (name, _))| in_group(name, g, first, rival)).collect::<Vec<_>>()
+        groups.flat_map(|(g, group)| in_group(&group.name, g, first, rival)).collect::<Vec<_>>()
     };
     rivals.iter().flat_map(of_rival).collect()
 }
@@ -29,7 +29,7 @@ fn in_group(group: &str, index: usize, first: &EntrantScore, rival: &EntrantScor
         let told = || format!("{name}, {group}, {what}: {} times {other}, {cases} cases", told_ratio(ratio));
         (ratio.0 < 1.0).then(told)
     };
-    let right = |e: &EntrantScore| e.groups[index].1.outcomes.map_or(0, |counts| counts[0]);
+    let right = |e: &EntrantScore| e.groups[index].figures.outcomes.map_or(0, |counts| counts[0]);
     let (own, others) = (right(rival), right(first));
     let more = format!("{name}, {group}, diagnoses: right in {own}, {other} in {others}");
     MEASURES.iter().filter_map(ahead).chain((own > others).then_some(more)).collect()

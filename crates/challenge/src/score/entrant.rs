@@ -5,6 +5,7 @@ use std::path::Path;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::Group;
 use super::case::CaseScore;
 use super::figures::Figures;
 use super::key::Key;
@@ -26,9 +27,18 @@ pub struct EntrantScore {
     /// Figures over all cases.
     pub all: Figures,
     /// Figures over each group, in the order of the groups.
-    pub groups: Vec<(String, Figures)>,
+    pub groups: Vec<GroupScore>,
     /// Every case.
     pub cases: Vec<CaseScore>,
+}
+
+/// Figures over a group of cases.
+#[derive(Debug, Clone, Serialize)]
+pub struct GroupScore {
+    /// Its name in the suite.
+    pub name: String,
+    /// The figures.
+    pub figures: Figures,
 }
 
 impl EntrantScore {
@@ -36,9 +46,9 @@ impl EntrantScore {
         let begun = Begun::read(folder)?;
         begun.check(folder, challenge)?;
         let cases: Vec<CaseScore> = keys.par_iter().map(|key| case(key, &cases_folder(folder))).collect();
-        let of_group = |(name, _): (String, usize)| {
+        let of_group = |Group { name, .. }: Group| {
             let figures = Figures::of(cases.iter().filter(|c| c.group == name));
-            (name, figures)
+            GroupScore { name, figures }
         };
         Ok(Self {
             name: begun.name,

@@ -17,7 +17,7 @@ use serde::Serialize;
 
 use crate::{Challenge, ChallengeError};
 pub use case::{CaseScore, LegScore, PredictionScore};
-pub use entrant::EntrantScore;
+pub use entrant::{EntrantScore, GroupScore};
 pub use figures::{Figures, Interval, Mean};
 pub use forecast::Forecast;
 pub use key::Key;
@@ -47,7 +47,7 @@ pub struct Scores {
     /// Version of the program that scored.
     pub hexbench: &'static str,
     /// Groups of cases, in the order in which they are shown, with their sizes.
-    pub groups: Vec<(String, usize)>,
+    pub groups: Vec<Group>,
     /// One for each program, in the order given.
     pub entrants: Vec<EntrantScore>,
 }
@@ -81,6 +81,15 @@ pub fn score(challenge: &Challenge, answers: &[PathBuf]) -> Result<Scores, Chall
     })
 }
 
+/// A group of cases.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Group {
+    /// Its name in the suite.
+    pub name: String,
+    /// Its size.
+    pub cases: usize,
+}
+
 impl Scores {
     /// Cases that are no answer, of all programs.
     pub fn failed(&self) -> usize {
@@ -97,7 +106,8 @@ fn refuse_same_names(entrants: &[EntrantScore]) -> Result<(), ChallengeError> {
 }
 
 /// Groups in the order of the suite, with the number of cases.
-fn groups(challenge: &Challenge, keys: &[Key]) -> Vec<(String, usize)> {
+fn groups(challenge: &Challenge, keys: &[Key]) -> Vec<Group> {
     let size = |name: &String| keys.iter().filter(|k| k.truth.group == *name).count();
-    challenge.manifest().groups.iter().map(|name| (name.clone(), size(name))).collect()
+    let group = |name: &String| Group { name: name.clone(), cases: size(name) };
+    challenge.manifest().groups.iter().map(group).collect()
 }

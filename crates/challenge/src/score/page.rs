@@ -5,7 +5,7 @@ use hexbench_report::number::significant;
 
 use super::figures::{Figures, Interval, Mean};
 use super::paired::{Differences, Ratio, Ratios};
-use super::{EntrantScore, Scores};
+use super::{EntrantScore, Group, Scores};
 
 /// What is not stated.
 const DASH: &str = "-";
@@ -23,9 +23,9 @@ pub fn page(scores: &Scores) -> Document {
     page.heading(2, "By group of cases");
     for (title, words, cell) in BY_GROUP {
         page.paragraph(format!("{title}. {words}"));
-        let rows = scores.groups.iter().enumerate().map(|(g, (name, size))| {
-            let label = format!("{name} ({size})");
-            row(&label, scores, |e| cell(&e.groups[g].1))
+        let rows = scores.groups.iter().enumerate().map(|(g, Group { name, cases })| {
+            let label = format!("{name} ({cases})");
+            row(&label, scores, |e| cell(&e.groups[g].figures))
         });
         table(&mut page, scores, "group (cases)", rows.collect());
     }
@@ -68,7 +68,7 @@ const BY_GROUP: [(&str, &str, Cell); 5] = [
 ];
 
 fn cases(scores: &Scores) -> usize {
-    scores.groups.iter().map(|g| g.1).sum()
+    scores.groups.iter().map(|g| g.cases).sum()
 }
 
 fn whole(scores: &Scores) -> Vec<Vec<String>> {

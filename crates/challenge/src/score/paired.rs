@@ -76,8 +76,9 @@ impl Compared {
             entrants.iter().map(|e| e.cases.iter().map(&score).collect()).collect();
         let stating: Vec<&Vec<Option<f64>>> = all.iter().filter(|s| s.iter().any(Option::is_some)).collect();
         let length = all.first().map_or(0, Vec::len);
-        let common: Vec<usize> =
-            (0..length).filter(|&k| stating.iter().all(|scores| scores[k].is_some())).collect();
+        let common: Vec<usize> = (0..length)
+            .filter(|&k| !stating.is_empty() && stating.iter().all(|scores| scores[k].is_some()))
+            .collect();
         let on_common =
             |scores: &Vec<Option<f64>>| common.iter().filter_map(|&k| scores[k]).collect::<Vec<f64>>();
         let mean_of = |scores: &Vec<f64>| scores.iter().sum::<f64>();

@@ -14,7 +14,7 @@ const SHORT: Limits = Limits { time_s: 0.4, ..USUAL };
 /// An answer that passes the run; whether it can be read is seen when it is scored.
 const WRITE: &str = "echo row > \"$2/predictions.csv\"";
 /// Processes are started, watched and ended within this, on a busy machine too; left alone, they would sleep for longer.
-const SOON: Duration = Duration::from_secs(60);
+const SOON: Duration = Duration::from_mins(1);
 
 /// Command lines of all living processes that hold a word.
 #[cfg(target_os = "linux")]
