@@ -3,8 +3,8 @@
 //! Python's half (`crates/python/python/hexbench`) has the classes people use, with their documentation and types; what is here
 //! takes plain numbers, arrays and texts, and computes. Units are those of the files: mm, deg, N, N m, um, urad.
 //!
-//! - Work runs on threads of its own while Python goes on ([`run`]).
-//! - A failure is the command's, with the same text, as an exception of `hexbench.errors` ([`error`]).
+//! - Work runs on threads of its own while Python goes on (`run`).
+//! - A failure is the command's, with the same text, as an exception of `hexbench.errors` (`error`).
 
 #![allow(clippy::needless_pass_by_value, reason = "arguments from Python arrive as values")]
 

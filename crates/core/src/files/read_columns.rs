@@ -144,7 +144,8 @@ mod tests {
 
     /// The columns of a CSV text, numbers where every cell is one.
     fn columns(text: &str) -> Vec<MemoryColumn> {
-        let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+        let lines = text.lines().filter(|line| !line.is_empty());
+        let mut lines = lines.map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
         let names = lines.next().unwrap();
         let rows: Vec<_> = lines.collect();
         let of = |k: usize| {
