@@ -90,8 +90,8 @@ impl Begun {
         format!("{} version {}, {:.12}", self.suite, self.version, self.challenge_sha256)
     }
 
-    /// Makes a folder that of this run: empty, or with answers of the same run that go on. The lock ends with the process.
-    pub(super) fn settle(&self, folder: &Path, again: bool) -> Result<File, ChallengeError> {
+    /// Makes a folder that of this run: empty, or with answers of the same run that go on.
+    pub(super) fn settle(&self, folder: &Path, again: bool) -> Result<Lock, ChallengeError> {
         let (path, cases) = (folder.join(ANSWERS), cases_folder(folder));
         let is_known = path.exists();
         if !is_known {
@@ -134,12 +134,23 @@ pub(crate) fn cases_folder(answers: &Path) -> PathBuf {
     answers.join(CASES)
 }
 
-fn lock(folder: &Path) -> Result<File, ChallengeError> {
+/// A lock on a folder of answers; it ends with the process, however that ends.
+pub(super) struct Lock(File);
+
+impl Drop for Lock {
+    /// Said aloud: a program that another thread is just starting holds a copy of the file for a moment, and the lock with it.
+    fn drop(&mut self) {
+        // What cannot be unlocked is unlocked when the file is closed.
+        let _ = self.0.unlock();
+    }
+}
+
+fn lock(folder: &Path) -> Result<Lock, ChallengeError> {
     let path = folder.join(LOCK);
     let open = File::options().write(true).create(true).truncate(false).open(&path);
     let file = open.map_err(ChallengeError::writing(&path))?;
     match file.try_lock() {
-        Ok(()) => Ok(file),
+        Ok(()) => Ok(Lock(file)),
         Err(TryLockError::WouldBlock) => Err(ChallengeError::Busy(folder.to_owned())),
         Err(TryLockError::Error(cause)) => Err(ChallengeError::Write { path, cause }),
     }
