@@ -176,7 +176,8 @@ fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport])
 fn candidates(judgement: &Judgement, outcome: &Outcome) -> Vec<CandidateReport> {
     let report = |(term, probability): &(String, f64)| CandidateReport {
         term: term.clone(),
-        probability: *probability,
+        // A sum of shares may pass one by its rounding.
+        probability: probability.min(1.0),
         indistinguishable: look_alikes(term, outcome),
     };
     let mut reports: Vec<CandidateReport> = judgement.first.iter().map(report).collect();
