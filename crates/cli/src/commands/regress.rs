@@ -39,7 +39,7 @@ pub(crate) struct Arguments {
     /// Show every limit
     #[arg(long)]
     all: bool,
-    /// Write the limits as JUnit XML to FILE, one test case each
+    /// Write the limits as `JUnit` XML to FILE, one test case each
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
     /// Write all figures to FILE, `-` for standard output

@@ -5,6 +5,8 @@ use hexbench_report::number::significant;
 use super::limit::{Test, Unit};
 use super::sample::Sample;
 
+/// Factor beyond which it does not matter how much would be noticed.
+const LARGEST_FACTOR: f64 = 100.0;
 /// Digits of a figure.
 const DIGITS: i32 = 3;
 
@@ -26,6 +28,9 @@ pub fn figure(test: Test, sample: &Sample) -> String {
 /// What a limit would notice, in the words of its figure; `reference` is the baseline.
 pub fn notice(test: Test, noticed: Option<f64>, reference: &Sample) -> String {
     let Some(value) = noticed else { return "nothing".to_owned() };
+    if matches!(test, Test::Size { .. }) && value > LARGEST_FACTOR {
+        return format!("nothing below x {LARGEST_FACTOR}");
+    }
     match test {
         Test::Share => format!("{} %", percent(value)),
         Test::Size { .. } => {

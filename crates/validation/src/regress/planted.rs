@@ -3,8 +3,13 @@
 use std::io;
 use std::path::Path;
 
-use super::comparison::Comparison;
+use super::baseline::Baseline;
+use super::comparison::{Comparison, of_samples};
+use super::gathered::Gathered;
+use super::limit::Limit;
 use super::rule::Verdict;
+use super::sample::Sample;
+use super::suite::Suite;
 
 /// One planted fault.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +18,7 @@ pub struct Planted {
     pub name: String,
     /// What it does, from the head of the patch.
     pub text: String,
-    /// The run with it.
+    /// The run with it, judged beside the present baseline.
     pub comparison: Comparison,
 }
 
@@ -29,7 +34,12 @@ impl Planted {
 ///
 /// # Errors
 /// Those of the files; [`io::ErrorKind::InvalidData`] for a result that is none.
-pub fn read(patches: &Path, results: &Path) -> io::Result<Vec<Planted>> {
+pub fn read(
+    (patches, results): (&Path, &Path),
+    suite: &Suite,
+    limits: &[Limit],
+    baseline: &Baseline,
+) -> io::Result<Vec<Planted>> {
     let mut files: Vec<_> =
         std::fs::read_dir(patches)?.map(|f| f.map(|f| f.path())).collect::<Result<_, _>>()?;
     files.retain(|path| path.extension().is_some_and(|e| e == "patch"));
@@ -43,8 +53,17 @@ pub fn read(patches: &Path, results: &Path) -> io::Result<Vec<Planted>> {
         }
         let text = std::fs::read_to_string(&patch)?.lines().next().unwrap_or_default().to_owned();
         let invalid = |e| io::Error::new(io::ErrorKind::InvalidData, e);
-        let comparison = serde_json::from_str(&std::fs::read_to_string(&result)?).map_err(invalid)?;
+        let run: Comparison = serde_json::from_str(&std::fs::read_to_string(&result)?).map_err(invalid)?;
+        let samples: Vec<Gathered> = limits.iter().map(|limit| sample_of(limit, &run)).collect();
+        let comparison = of_samples(suite, limits, (&samples, run.seed), baseline, &run.hexbench);
         all.push(Planted { name, text, comparison });
     }
     Ok(all)
+}
+
+/// Sample of a limit in a run; nothing when the run did not have it.
+fn sample_of(limit: &Limit, run: &Comparison) -> Gathered {
+    let found = run.findings.iter().find(|f| f.id == limit.id).map(|f| f.sample.clone());
+    let sample = found.unwrap_or_else(|| Sample::of(limit.test, &[]));
+    Gathered { sample, fingerprint: String::new() }
 }

@@ -54,9 +54,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let runs = unchanged(arguments, &suite, &limits, &baseline)?;
     if let Some(path) = &arguments.markdown {
         let planted = match &arguments.faults {
-            Some(results) => {
-                planted::read(Path::new(PATCHES), results).map_err(|cause| unreadable(results, cause))?
-            }
+            Some(results) => planted::read((Path::new(PATCHES), results), &suite, &limits, &baseline)
+                .map_err(|cause| unreadable(results, cause))?,
             None => Vec::new(),
         };
         let trials = run_suite(&suite, arguments.seed, &|| ());

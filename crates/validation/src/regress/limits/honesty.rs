@@ -1,8 +1,10 @@
 //! Uncertainties against errors.
+//!
+//! Over all effects together: the few campaigns of one effect, with an outlier now and then, follow no law of which the tail
+//! could be trusted.
 
-use super::{CHI2, fits, fits_of, share, slug, told};
+use super::{CHI2, fits, share, told};
 use crate::calibration::{Fate, Record};
-use crate::recovery::scene::Subject;
 use crate::regress::distance::Distance;
 use crate::regress::fitted::Fitted;
 use crate::regress::limit::{Group, Limit, Test};
@@ -93,15 +95,4 @@ fn both(f: &Fitted) -> Option<f64> {
         (Some(a), Some(b)) => Some(a.and(b).per_number()),
         (a, b) => a.or(b).map(|d| d.per_number()),
     }
-}
-
-/// Numbers of one subject.
-pub(super) fn of_subject(s: Subject) -> Limit {
-    Limit::new(
-        (format!("pulls:{}", slug(s.name)), Group::Honesty),
-        format!("{}: mean squared pull of all numbers", s.name),
-        "Each effect has columns of its own: their uncertainties can be wrong for one effect alone.",
-        Test::Spread,
-        move |t| fits_of(t, s, both),
-    )
 }

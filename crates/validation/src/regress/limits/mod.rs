@@ -28,7 +28,6 @@ pub fn limits(suite: &Suite) -> Vec<Limit> {
     let mut all = accuracy::general();
     all.extend(suite.subjects.iter().filter(|s| !s.effects.is_empty()).map(|&s| accuracy::of_effect(s)));
     all.extend(honesty::general());
-    all.extend(suite.subjects.iter().map(|&s| honesty::of_subject(s)));
     all.extend(diagnosis::answers());
     all.extend(diagnosis::probabilities());
     all.extend(suite.subjects.iter().flat_map(|&s| exact::of_subject(s)));
