@@ -82,11 +82,10 @@ def test_cells_of_a_study_are_a_cube_of_xarray(swept: study.Results) -> None:
     cells = pd.read_csv(swept.folder / "cells.csv")
     cube = cells.set_index(AXES).to_xarray()
     assert dict(cube.sizes) == {"geometry": 2, "poses": 3, "noise_scale": 2}
-    error = cube["stiffness_error_rms_percent"] if "stiffness_error_rms_percent" in cube else None
-    assert error is not None, list(cube)
-    # Twice the noise, twice the error; the same trials.
+    error = cube["stiffness_error_rms_percent"]
+    # Twice the noise, twice the error, up to the chance of twenty trials: each error is sure to about 10 %.
     ratio = error.sel(noise_scale=1.0) / error.sel(noise_scale=0.5)
-    np.testing.assert_allclose(ratio, 2.0, rtol=0.1)
+    assert ((ratio > 1.4) & (ratio < 2.8)).all(), ratio
     assert not cells.isna().all().any(), "a column without a single value"
 
 
