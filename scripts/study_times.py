@@ -1,4 +1,4 @@
-"""Time and peak memory of one study: one process, two processes, and a Dask cluster of two workers; all must give the same bytes.
+"""Time and peak memory of one study on one process, on two, and on a Dask cluster; all must give the same bytes.
 
     scripts/study_times.sh [STUDY]          writes docs/study-times.md
 """
@@ -8,21 +8,23 @@ from __future__ import annotations
 import hashlib
 import os
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import distributed
-
 from hexbench import study
 
+ONE = "one process"
 RESULTS = ["trials.parquet", "cells.csv", "study.md"]
 WORKERS = 2
+#: Rounds over all ways; the page tells the median time and the largest memory.
+ROUNDS = 3
 
 
 @dataclass
@@ -33,7 +35,6 @@ class Run:
     seconds: float
     memory: dict[str, float]
     folder: Path
-    merge: float = 0.0
     digest: str = field(init=False)
 
     def __post_init__(self) -> None:
@@ -67,6 +68,7 @@ class Watch:
                     continue
 
     def end(self) -> dict[str, float]:
+        """Stop and return the peaks."""
         self.over.set()
         self.thread.join()
         return self.peaks
@@ -85,12 +87,14 @@ def together(commands: dict[str, list[str]]) -> tuple[float, dict[str, float]]:
 
 
 def one(program: str, path: Path, folder: Path) -> Run:
+    """Run the whole study in one process."""
     words = [program, "study", str(path), "-o", str(folder)]
     seconds, memory = together({"process": words})
-    return Run("one process", seconds, memory, folder)
+    return Run(ONE, seconds, memory, folder)
 
 
 def two(program: str, path: Path, folder: Path) -> Run:
+    """Run two parts side by side, then merge them."""
     parts = {f"part {n}": folder.with_name(f"part-{n}") for n in (1, 2)}
     commands = {
         name: [program, "study", "run", str(path), "-o", str(part), "--shard", f"{name[-1]}/2"]
@@ -99,7 +103,7 @@ def two(program: str, path: Path, folder: Path) -> Run:
     seconds, memory = together(commands)
     merge = [program, "study", "merge", str(path), *map(str, parts.values()), "-o", str(folder)]
     merging, of_merge = together({"merge": merge})
-    return Run("two processes, then merge", seconds + merging, memory | of_merge, folder, merging)
+    return Run("two processes, then merge", seconds + merging, memory | of_merge, folder)
 
 
 def cluster(path: Path, folder: Path) -> Run:
@@ -111,57 +115,60 @@ def cluster(path: Path, folder: Path) -> Run:
         client.wait_for_workers(WORKERS)
         pids = client.run(os.getpid)
         names = {f"worker {n}": pid for n, pid in enumerate(pids.values(), start=1)}
-        before = {name: peak(pid) for name, pid in names.items()}
         watch = Watch(names | {"caller and scheduler": os.getpid()})
         start = time.perf_counter()
         study.run(client, path, folder)
         seconds = time.perf_counter() - start
         memory = watch.end()
-    idle = ", ".join(f"{mb:.0f}" for mb in before.values())
-    return Run(f"Dask, two workers (idle: {idle} MB)", seconds, memory, folder)
+    return Run("Dask, two workers", seconds, memory, folder)
 
 
-def row(run: Run, alone: float) -> str:
-    ideal = alone if run.name == "one process" else alone / 2
-    memory = ", ".join(f"{name} {mb:.0f}" for name, mb in run.memory.items())
-    return f"| {run.name} | {run.seconds:.1f} | {run.seconds / ideal:.2f} | {memory} | `{run.digest}` |"
+def row(runs: list[Run], alone: float) -> str:
+    """Return a row of the table from the rounds of one way; `alone` is the time of one process, s."""
+    seconds = [run.seconds for run in runs]
+    middle = statistics.median(seconds)
+    ideal = alone if runs[0].name == ONE else alone / 2
+    memory = ", ".join(f"{name} {max(run.memory[name] for run in runs):.0f}" for name in runs[0].memory)
+    spread = f"{min(seconds):.1f} .. {max(seconds):.1f}"
+    return f"| {runs[0].name} | {middle:.1f} ({spread}) | {middle / ideal:.2f} | {memory} | `{runs[0].digest}` |"
 
 
-def document(path: Path, runs: list[Run]) -> str:
+def document(path: Path, ways: list[list[Run]]) -> str:
+    """Return the page; results that differ end the program."""
+    if len({run.digest for runs in ways for run in runs}) > 1:
+        sys.exit(f"the results differ: {[[run.digest for run in runs] for runs in ways]}")
     trials = study.plan(path)["trials"]
-    alone = runs[0].seconds
-    same = len({run.digest for run in runs}) == 1
+    alone = statistics.median(run.seconds for run in ways[0])
     lines = [
         "# One study on one process, on two, and on a cluster",
         "",
         f"`{path}`, {trials} trials, every process and every worker on one thread, {os.cpu_count()} cores. Written by",
-        "`scripts/study_times.sh`. Times include reading the study, finding its designed plans (in every process) and writing the",
-        "results. The ideal of two is half the time of one. Memory is the peak of the resident set.",
+        f"`scripts/study_times.sh`: median (least .. most) of {ROUNDS} rounds, reading the study and writing the results included.",
+        "The ideal of two is half the time of one; a few percent are the machine's. Memory is the peak of the resident set.",
         "",
         "| | time, s | of the ideal | peak memory, MB | SHA-256 of the results |",
         "|---|---:|---:|---|---|",
-        *(row(run, alone) for run in runs),
+        *(row(runs, alone) for runs in ways),
         "",
-        "All results are the same bytes." if same else "**The results differ.**",
+        "All results of all rounds are the same bytes.",
         "",
     ]
-    if not same:
-        print("\n".join(lines))
-        sys.exit("the results differ")
     return "\n".join(lines)
 
 
 def main() -> None:
+    """Measure all ways in turn and write the page."""
     path, program, target = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3])
     scratch = Path(tempfile.mkdtemp(prefix="hexbench-study-"))
-    ways: list[Callable[[], Run]] = [
-        lambda: one(program, path, scratch / "one"),
-        lambda: two(program, path, scratch / "two" / "whole"),
-        lambda: cluster(path, scratch / "dask"),
-    ]
-    (scratch / "two").mkdir()
+    runs: list[list[Run]] = [[], [], []]
     try:
-        target.write_text(document(path, [way() for way in ways]))
+        for number in range(ROUNDS):
+            folder = scratch / str(number)
+            (folder / "two").mkdir(parents=True)
+            runs[0].append(one(program, path, folder / "one"))
+            runs[1].append(two(program, path, folder / "two" / "whole"))
+            runs[2].append(cluster(path, folder / "dask"))
+        target.write_text(document(path, runs))
     finally:
         shutil.rmtree(scratch)
     print(target.read_text())

@@ -7,8 +7,7 @@ study=${1:-data/studies/many-springs.toml}
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/study-times
 # The library of the whole workspace, so that nothing is built twice.
-cargo build --release --locked --quiet --workspace --bins
-cargo build --release --locked --quiet --workspace --example hexbench_module
+cargo build --release --locked --quiet --workspace --bins --example hexbench_module
 [[ -x $work/venv/bin/python ]] || python3 -m venv "$work/venv"
 "$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check -r scripts/python-requirements.txt
 rm -rf "$work/package"
