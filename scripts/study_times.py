@@ -143,7 +143,7 @@ def document(path: Path, ways: list[list[Run]]) -> str:
         "# One study on one process, on two, and on a cluster",
         "",
         f"`{path}`, {trials} trials, every process and every worker on one thread, {os.cpu_count()} cores. Written by",
-        f"`scripts/study_times.sh`: median (least .. most) of {ROUNDS} rounds, reading the study and writing the results included.",
+        f"`scripts/study_times.sh`: median (least .. most) of {ROUNDS} rounds, with reading the study and writing the results.",
         "The ideal of two is half the time of one; a few percent are the machine's. Memory is the peak of the resident set.",
         "",
         "| | time, s | of the ideal | peak memory, MB | SHA-256 of the results |",
