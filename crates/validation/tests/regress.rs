@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
-use hexbench_validation::Proportion;
+use hexbench_core::statistics::Proportion;
 use hexbench_validation::regress::baseline::{Baseline, Update, made};
 use hexbench_validation::regress::comparison::{Comparison, compare};
 use hexbench_validation::regress::gathered::pool;

@@ -1,7 +1,7 @@
 //! One case of one program in numbers.
 
 use hexbench_core::Measurand;
-use hexbench_validation::Proportion;
+use hexbench_core::statistics::Proportion;
 use hexbench_validation::trial::{Outcome, outcome_of};
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! Figures over some cases of one program.
 
-use hexbench_validation::Proportion;
+use hexbench_core::statistics::Proportion;
 use serde::Serialize;
 
 use super::case::{COVERAGE_FACTOR, CaseScore};

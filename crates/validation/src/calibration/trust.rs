@@ -1,9 +1,9 @@
 //! Figures that say how far an answer can be trusted.
 
+use hexbench_core::statistics::Proportion;
 use hexbench_model::verdict::Verdict;
 
 use super::{Fate, Record};
-use crate::proportion::Proportion;
 
 /// Share of trials with an effect named that is not there which must not be exceeded.
 pub const MOST_FALSE_NAMES: f64 = 0.01;

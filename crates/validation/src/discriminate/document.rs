@@ -1,8 +1,9 @@
 //! The study as a document.
 
+use hexbench_core::statistics::Proportion;
+
 use super::sheets::{asked, before, open, proposed, share, told};
 use super::{Discrimination, READINGS, Record};
-use crate::proportion::Proportion;
 use crate::trial::Outcome;
 
 /// The document.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use hexbench_core::statistics::Proportion;
 use hexbench_core::{Dataset, Observation, Vector6};
 use hexbench_design::power::Test;
 use hexbench_model::diagnose::{diagnose, prepare};
@@ -21,7 +22,6 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::PowerPlan;
-use crate::Proportion;
 use crate::calibration::Fate;
 use crate::trial::Trial;
 

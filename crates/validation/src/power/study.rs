@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use hexbench_core::statistics::Proportion;
 use hexbench_design::DesignError;
 use hexbench_design::power::{Effect, Planned, Settings, Study, Subject, Test, study};
 use hexbench_model::error::ModelError;
@@ -13,7 +14,6 @@ use serde::Serialize;
 use super::PowerPlan;
 use super::simulate::{Bench, Simulated};
 use super::usual::{Usual, usual};
-use crate::Proportion;
 
 /// Seeds of what belongs to one effect.
 const STREAMS_PER_EFFECT: u128 = 1 << 40;
