@@ -195,7 +195,7 @@ fn without_a_change_the_rule_fails_no_more_often_than_its_level() {
         let fails = |_| {
             let before = drawn(kind, BEFORE, &mut rng);
             let now = drawn(kind, NOW, &mut rng);
-            judge(kind.0, &now, &before, LEVEL).verdict == Verdict::Worse
+            judge(kind.0, &now, &before, BEFORE / NOW, LEVEL).verdict == Verdict::Worse
         };
         let hits = (0..DRAWS).map(fails).filter(|fails| *fails).count();
         let found = Proportion { hits, of: DRAWS };
@@ -215,7 +215,7 @@ fn a_change_of_the_stated_size_is_noticed_in_nine_cases_of_ten() {
             let size = noticed(kind.0, NOW as u64, &before, LEVEL).unwrap();
             let changed = if matches!(kind.0, Test::Size { .. }) { kind.2 * size } else { size };
             let now = drawn((kind.0, kind.1, changed), NOW, &mut rng);
-            judge(kind.0, &now, &before, LEVEL).verdict == Verdict::Worse
+            judge(kind.0, &now, &before, BEFORE / NOW, LEVEL).verdict == Verdict::Worse
         };
         let hits = (0..DRAWS / 8).filter(notices).count();
         let share = hits as f64 / (DRAWS / 8) as f64;
