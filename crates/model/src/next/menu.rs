@@ -5,11 +5,13 @@
 //! along every axis, none so large that a leg carries more than it has carried. Both ways to approach, waits (longer ones too) and
 //! temperatures vary where one of the explanations depends on them.
 
-use hexbench_core::{Measurand, Observation, Pose, Vector6, Wrench};
+use hexbench_core::{Hexapod, Measurand, Observation, Pose, Vector6, Wrench};
 
 use super::kind::{round_down, snapped, step};
-use crate::campaign::{Campaign, Condition};
+use crate::campaign::Campaign;
+use crate::error::ModelError;
 use crate::fit::Fit;
+use crate::kinematics::Legs;
 use crate::term::Need;
 
 /// Poses inside the range, beside its middle and its ends.
@@ -27,20 +29,19 @@ const LONGER: f64 = 5.0;
 /// A leg may carry so much more than it has carried: rounding, and poses beside the middle.
 const LEG_FORCE_SLACK: f64 = 1.05;
 
-/// Readings to choose from; `fits` tell on what the explanations depend, `conditions` where the machine has been.
-pub(super) fn menu(campaign: &Campaign, conditions: &[Condition], fits: &[&Fit]) -> Vec<Observation> {
-    let Some(first) = campaign.groups.first().map(|g| g.mean) else { return Vec::new() };
+/// Readings to choose from; `fits` tell on what the explanations depend.
+pub(super) fn menu(campaign: &Campaign, fits: &[&Fit]) -> Result<Vec<Observation>, ModelError> {
+    let Some(first) = campaign.groups.first().map(|g| g.mean) else { return Ok(Vec::new()) };
     let needs = Needs::of(campaign, fits);
-    let loads = loads(campaign, conditions);
+    let strongest = strongest(campaign)?;
+    let loads = loads(campaign, strongest);
     let states = needs.states(campaign);
     let count = (MOST_READINGS / (loads.len() * states.len()).max(1)).max(FEWEST_POSES);
-    let strongest = strongest(conditions) * LEG_FORCE_SLACK;
     let mut menu = Vec::new();
     for pose in poses(campaign).into_iter().take(count) {
-        let Some(legs) = conditions.first().and(legs(campaign, &pose)) else { continue };
+        let Some(legs) = legs(campaign, &pose) else { continue };
         for wrench in &loads {
-            let carried = |w: &Wrench| legs.forces(&w.to_vector()).amax();
-            if carried(wrench).max(carried(&first.reference)) > strongest {
+            if carried(&legs, [wrench, &first.reference]) > strongest * LEG_FORCE_SLACK {
                 continue;
             }
             for &(approach, elapsed, delta_t) in &states {
@@ -51,20 +52,28 @@ pub(super) fn menu(campaign: &Campaign, conditions: &[Condition], fits: &[&Fit])
             }
         }
     }
-    menu
+    Ok(menu)
 }
 
-fn legs(campaign: &Campaign, pose: &Pose) -> Option<crate::kinematics::Legs> {
+fn legs(campaign: &Campaign, pose: &Pose) -> Option<Legs> {
     let hexapod = &campaign.hexapod;
-    let legs = crate::kinematics::Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose).ok()?;
+    let legs = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose).ok()?;
     let fits = hexapod.stroke.is_none_or(|[low, high]| legs.lengths.iter().all(|q| (low..=high).contains(q)));
     fits.then_some(legs)
 }
 
-/// Largest force that any leg has carried, N.
-fn strongest(conditions: &[Condition]) -> f64 {
-    let of = |c: &Condition| c.path.reference.amax().max(c.path.load.amax());
-    conditions.iter().map(of).fold(0.0, f64::max)
+/// Largest force in a leg under some wrenches, N.
+fn carried(legs: &Legs, wrenches: [&Wrench; 2]) -> f64 {
+    wrenches.map(|w| legs.forces(&w.to_vector()).amax()).into_iter().fold(0.0, f64::max)
+}
+
+/// Largest force that any leg of the nominal machine has carried, N: the menu is held against it without any effect, too.
+fn strongest(campaign: &Campaign) -> Result<f64, ModelError> {
+    let Hexapod { base_joints, platform_joints, .. } = &campaign.hexapod;
+    campaign.groups.iter().map(|g| &g.mean).try_fold(0.0, |most: f64, o| {
+        let legs = Legs::at(base_joints, platform_joints, &o.pose)?;
+        Ok(most.max(carried(&legs, [&o.wrench, &o.reference])))
+    })
 }
 
 /// On which covariates the explanations depend, and the file has.
@@ -160,7 +169,7 @@ fn halton(index: usize, k: usize) -> f64 {
 }
 
 /// The campaign's own loads, and two sizes of force and moment along every axis on top of the reference.
-fn loads(campaign: &Campaign, conditions: &[Condition]) -> Vec<Wrench> {
+fn loads(campaign: &Campaign, strongest: f64) -> Vec<Wrench> {
     let rows = || campaign.groups.iter().map(|g| &g.mean);
     let mut loads: Vec<Wrench> = Vec::new();
     for row in rows().filter(|r| same(&r.reference, &campaign.groups[0].mean.reference)) {
@@ -176,7 +185,6 @@ fn loads(campaign: &Campaign, conditions: &[Condition]) -> Vec<Wrench> {
     let arm = 0.5 * campaign.hexapod.platform_radius();
     let moment = rows().map(moment_change).fold(0.0, f64::max).max(force * arm);
     let Some(legs) = legs(campaign, &Pose::default()) else { return loads };
-    let strongest = strongest(conditions);
     for axis in 0..6 {
         for sign in [1.0, -1.0] {
             let wanted = sign * if axis < 3 { force } else { moment };
