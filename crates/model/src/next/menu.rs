@@ -1,11 +1,12 @@
 //! The readings that are tried: what the campaign shows the machine can do, in round numbers.
 //!
 //! Poses lie in the range of the campaign, never narrower than a tenth of the platform radius and three degrees: its middle, the
-//! ends of each coordinate, and a low-discrepancy sequence (Halton 1960). Loads are those of the campaign, and forces and moments
-//! along every axis, none so large that a leg carries more than it has carried. Both ways to approach, waits (longer ones too) and
-//! temperatures vary where one of the explanations depends on them.
+//! ends of each coordinate, and a scrambled Sobol sequence (Owen 1995, Burley 2020). Loads are those of the campaign, and forces
+//! and moments along every axis, none so large that a leg carries more than it has carried. Both ways to approach, waits (longer
+//! ones too) and temperatures vary where one of the explanations depends on them.
 
 use hexbench_core::{Hexapod, Measurand, Observation, Pose, Vector6, Wrench};
+use sobol_burley::sample;
 
 use super::kind::{round_down, snapped, step};
 use crate::campaign::Campaign;
@@ -15,7 +16,9 @@ use crate::kinematics::Legs;
 use crate::term::Need;
 
 /// Poses inside the range, beside its middle and its ends.
-const INNER_POSES: usize = 11;
+const INNER_POSES: u32 = 11;
+/// Scrambling of their sequence: the same campaign gives the same poses.
+const SCRAMBLING: u32 = 0;
 /// Readings tried, about.
 const MOST_READINGS: usize = 500;
 /// Poses tried at least.
@@ -135,7 +138,7 @@ fn poses(campaign: &Campaign) -> Vec<Pose> {
     for sign in [1.0, -1.0] {
         shares.extend((0..6).map(|k| std::array::from_fn(|i| if i == k { sign } else { 0.0 })));
     }
-    let inner = (1..=INNER_POSES).map(|i| std::array::from_fn(|k| 2.0 * halton(i, k) - 1.0));
+    let inner = (0..INNER_POSES).map(inner_shares);
     // Few poses must still be different in everything: ends and inner ones in turn.
     let mut mixed = vec![shares[0]];
     let mut ends = shares.into_iter().skip(1);
@@ -156,16 +159,9 @@ pub(super) fn half_ranges(campaign: &Campaign) -> [f64; 6] {
     })
 }
 
-/// Element of the Halton sequence in base of the k-th prime.
-fn halton(index: usize, k: usize) -> f64 {
-    let base: usize = [2, 3, 5, 7, 11, 13][k];
-    let (mut fraction, mut value, mut i) = (1.0, 0.0, index);
-    while i > 0 {
-        fraction /= base as f64;
-        value += fraction * (i % base) as f64;
-        i /= base;
-    }
-    value
+/// A pose inside the range, as shares of its half, -1 to 1.
+fn inner_shares(index: u32) -> [f64; 6] {
+    [0, 1, 2, 3, 4, 5].map(|dimension| 2.0 * f64::from(sample(index, dimension, SCRAMBLING)) - 1.0)
 }
 
 /// The campaign's own loads, and two sizes of force and moment along every axis on top of the reference.
