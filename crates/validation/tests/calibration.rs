@@ -1,8 +1,8 @@
 //! A small study of calibration: the rates the diagnosis promises, and the same bytes on any number of threads.
 #![allow(clippy::unwrap_used, reason = "a test without its condition fails")]
 
+use hexbench_core::statistics::Proportion;
 use hexbench_truth::campaign::Kind;
-use hexbench_validation::Proportion;
 use hexbench_validation::calibration::{
     Calibration, Fate, MOST_FALSE_NAMES, Protocol, Record, calibrate, credible_coverage, document,
     false_names, false_outside, is_well_visible, pictures, stiffness_coverage, trials_csv,

@@ -6,11 +6,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use hexbench_core::Observation;
+use hexbench_core::statistics::Proportion;
 use hexbench_design::power::{Settings, Verdict};
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
 use hexbench_truth::Scene;
-use hexbench_validation::Proportion;
 use hexbench_validation::power::{Power, PowerPlan, Simulated, Simulation, plan_of, run};
 
 /// Chance that a test here fails although everything is right, shared out among its comparisons.

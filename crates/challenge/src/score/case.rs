@@ -1,7 +1,7 @@
 //! One case of one program in numbers.
 
 use hexbench_core::Measurand;
-use hexbench_validation::Proportion;
+use hexbench_core::statistics::{Proportion, root_mean_square};
 use hexbench_validation::trial::{Outcome, outcome_of};
 use serde::Serialize;
 
@@ -96,8 +96,7 @@ impl CaseScore {
 
     /// Root mean square of the relative errors of the legs stated.
     pub fn stiffness_error(&self) -> Option<f64> {
-        let squares: Vec<f64> = self.legs.iter().flatten().map(|l| l.relative_error.powi(2)).collect();
-        (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+        root_mean_square(self.legs.iter().flatten().map(|l| l.relative_error))
     }
 }
 

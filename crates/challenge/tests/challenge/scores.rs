@@ -9,8 +9,8 @@ use hexbench_challenge::run::Limits;
 use hexbench_challenge::score::{EntrantScore, page, score};
 use hexbench_challenge::{ChallengeError, Truth};
 use hexbench_core::files::read_measurements;
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Measurand};
-use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
@@ -49,7 +49,7 @@ impl<'a> Prepared<'a> {
     /// Writes an answer to every case.
     fn answers(bench: &'a Bench, make: Make) -> PathBuf {
         let folder = bench.folder.path().join("prepared");
-        let mut prepared = Self { bench, folder, rng: Pcg64::seed_from_u64(5) };
+        let mut prepared = Self { bench, folder, rng: stream(5, Purpose::Test, []) };
         for id in bench.challenge.manifest().cases.clone() {
             prepared.answer(&id, make);
         }

@@ -14,7 +14,7 @@ use hexbench_core::files::atomic_write;
 use crate::error::StudyError;
 use crate::journal::Journal;
 use crate::runner::Runner;
-pub use statistics::{Answers, CellStatistics, Springs, Welford};
+pub use statistics::{Answers, CellStatistics, Springs};
 pub use table::cells_csv;
 
 /// Name of the table of trials.

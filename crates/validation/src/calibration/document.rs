@@ -1,5 +1,6 @@
 //! The study as a document.
 
+use hexbench_core::statistics::Proportion;
 use hexbench_truth::campaign::Kind;
 
 use super::sheets::{self, percent};
@@ -9,7 +10,6 @@ use super::{
     false_names_among_named, false_outside, is_well_visible, stiffness_coverage,
 };
 use crate::calibration::Fate;
-use crate::proportion::Proportion;
 
 /// The document: figures, tables and the charts of a folder beside it.
 pub fn document(study: &Calibration, charts: &str) -> String {

@@ -1,7 +1,8 @@
 //! Tables of the study.
 
+use hexbench_core::statistics::Proportion;
+
 use super::{Confusion, Discrimination, Record};
-use crate::proportion::Proportion;
 use crate::sheet::Sheet;
 use crate::trial::Outcome;
 

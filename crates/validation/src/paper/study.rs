@@ -1,5 +1,6 @@
 //! The whole study.
 
+use hexbench_core::streams::{Purpose, derived_seed};
 use hexbench_model::verdict::Verdict;
 
 use super::bench::{Bench, identification, validation};
@@ -114,7 +115,7 @@ fn best_sets(bench: &Bench) -> Result<[(f64, PoseSet); 2], PaperError> {
 /// The richer plan with other poses and other noise.
 fn again(seed: u64, motion: [f64; 3]) -> Result<Vec<(Verdict, Vec<String>)>, PaperError> {
     let one = |k: u64| {
-        let bench = Bench::new(seed.wrapping_add(k));
+        let bench = Bench::new(derived_seed(seed, Purpose::PaperAgain, [k]));
         let found = on_the_richer_plan(&bench, &bench.world(vec![skew_support(motion)]))?;
         Ok((found.verdict, found.added))
     };

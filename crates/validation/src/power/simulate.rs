@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use hexbench_core::statistics::Proportion;
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Observation, Vector6};
 use hexbench_design::power::Test;
 use hexbench_model::diagnose::{diagnose, prepare};
@@ -16,12 +18,10 @@ use hexbench_truth::metrology::{Frames, Noise};
 use hexbench_truth::{Mechanism, TruthError, World};
 use nalgebra::DVector;
 use rand_distr::{Distribution, StandardNormal};
-use rand_pcg::Pcg64;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::PowerPlan;
-use crate::Proportion;
 use crate::calibration::Fate;
 use crate::trial::Trial;
 
@@ -77,6 +77,9 @@ pub struct Simulated {
     pub answers: Option<Answers>,
 }
 
+/// Which noise campaigns get: what they are for, the number of their effect.
+pub(super) type NoiseOf = (Purpose, u64);
+
 /// The machine of a plan in the simulated world.
 pub(super) struct Bench<'a> {
     plan: &'a PowerPlan,
@@ -97,9 +100,9 @@ impl<'a> Bench<'a> {
         campaign.ideal(&self.rows, self.plan.rows.measurand)
     }
 
-    /// Readings with the noise of a stream; without stream as they are.
-    fn data(&self, ideal: &[Vector6], stream: Option<u128>) -> Dataset {
-        let mut rng = stream.map(|stream| Pcg64::new(u128::from(self.seed), stream));
+    /// Readings with the noise of a campaign; without noise as they are.
+    fn data(&self, ideal: &[Vector6], noise: Option<(NoiseOf, usize)>) -> Dataset {
+        let mut rng = noise.map(|((purpose, effect), k)| stream(self.seed, purpose, [effect, k as u64]));
         let mut noise = |row: usize| match &mut rng {
             Some(rng) => {
                 Vector6::from_fn(|_, _| StandardNormal.sample(rng)).component_mul(&self.plan.sigma(row))
@@ -126,12 +129,12 @@ impl<'a> Bench<'a> {
         &self,
         ideal: &[Vector6],
         tests: &[Option<&Test>],
-        first_stream: u128,
+        noise: NoiseOf,
         campaigns: usize,
         done: &(dyn Fn() + Sync),
     ) -> Result<Vec<Proportion>, ModelError> {
         let one = |k: usize| -> Result<Vec<bool>, ModelError> {
-            let residuals = self.residuals(&self.data(ideal, Some(first_stream + k as u128)))?;
+            let residuals = self.residuals(&self.data(ideal, Some((noise, k))))?;
             done();
             Ok(tests.iter().map(|t| t.is_some_and(|t| t.sees(&residuals))).collect())
         };
@@ -166,13 +169,13 @@ impl<'a> Bench<'a> {
         id: &'static str,
         ideal: &[Vector6],
         terms: &[Arc<dyn Term>],
-        first_stream: u128,
+        noise: NoiseOf,
         campaigns: usize,
         done: &(dyn Fn() + Sync),
     ) -> Answers {
         let machine = self.plan.machine();
         let one = |k: usize| {
-            let data = self.data(ideal, Some(first_stream + k as u128));
+            let data = self.data(ideal, Some((noise, k)));
             let study = diagnose(&machine, &data, None, terms);
             done();
             study.map_or((NO_ANSWER.to_owned(), None), |study| said(&Trial { hidden: vec![id], study }))

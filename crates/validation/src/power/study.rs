@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use hexbench_core::statistics::Proportion;
+use hexbench_core::streams::Purpose;
 use hexbench_design::DesignError;
 use hexbench_design::power::{Effect, Planned, Settings, Study, Subject, Test, study};
 use hexbench_model::error::ModelError;
@@ -13,14 +15,6 @@ use serde::Serialize;
 use super::PowerPlan;
 use super::simulate::{Bench, Simulated};
 use super::usual::{Usual, usual};
-use crate::Proportion;
-
-/// Seeds of what belongs to one effect.
-const STREAMS_PER_EFFECT: u128 = 1 << 40;
-/// Campaigns without effects.
-const CLEAN: u128 = 0;
-/// Noise at the usual size, apart from that at the size that is seen.
-const USUAL: u128 = 1 << 39;
 
 /// How much is simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -121,7 +115,8 @@ fn checks(
     let bench = Bench::new(plan, power.study.settings.seed);
     let campaigns = power.simulation.campaigns;
     let tests: Vec<_> = power.study.tests.iter().map(Option::as_ref).collect();
-    let clean = bench.seen(&bench.ideal(Vec::new())?, &tests, CLEAN, campaigns, done)?;
+    let clean =
+        bench.seen(&bench.ideal(Vec::new())?, &tests, (Purpose::PowerCleanNoise, 0), campaigns, done)?;
     let effects = power.study.effects.iter().enumerate();
     let check = |(k, effect): (usize, &Effect)| -> Result<Check, PowerError> {
         let alarms = Check { false_alarms: tests[k].map(|_| clean[k]), ..Check::default() };
@@ -157,21 +152,22 @@ struct One<'a> {
 impl One<'_> {
     fn check(&self, test: Option<&Test>) -> Result<(Option<Simulated>, Option<Simulated>), PowerError> {
         let Some(test) = test else { return Ok((None, None)) };
-        let usual = self.at(test, 1.0, USUAL, false)?;
+        let usual = self.at(test, 1.0, Purpose::PowerUsualNoise, false)?;
         let seen_at = self.effect.shows().then_some(self.effect.seen_at.middle);
         let diagnoses = self.power.simulation.diagnoses;
-        let when_seen = seen_at.map(|scale| self.at(test, scale, 0, diagnoses)).transpose()?;
+        let when_seen =
+            seen_at.map(|scale| self.at(test, scale, Purpose::PowerSeenNoise, diagnoses)).transpose()?;
         Ok((Some(usual), when_seen))
     }
 
-    fn at(&self, test: &Test, scale: f64, stream: u128, diagnoses: bool) -> Result<Simulated, PowerError> {
+    fn at(&self, test: &Test, scale: f64, noise: Purpose, diagnoses: bool) -> Result<Simulated, PowerError> {
         let mechanism = self.usual.mechanisms[self.effect.example_index].scaled(scale);
         let ideal = self.bench.ideal(vec![mechanism])?;
-        let stream = stream + STREAMS_PER_EFFECT * (1 + self.index as u128);
+        let noise = (noise, self.index as u64);
         let campaigns = self.power.simulation.campaigns;
-        let seen = self.bench.seen(&ideal, &[Some(test)], stream, campaigns, self.done)?[0];
+        let seen = self.bench.seen(&ideal, &[Some(test)], noise, campaigns, self.done)?[0];
         let answers = diagnoses
-            .then(|| self.bench.answers(self.effect.term, &ideal, self.terms, stream, campaigns, self.done));
+            .then(|| self.bench.answers(self.effect.term, &ideal, self.terms, noise, campaigns, self.done));
         let (left, bias_percent) = self.bench.without_noise(&ideal)?;
         Ok(Simulated { scale, seen, chance_by_the_world: test.chance(&left), bias_percent, answers })
     }

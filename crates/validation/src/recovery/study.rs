@@ -1,5 +1,7 @@
 //! The whole study: campaigns of every subject, gathered into rows, and the bounds that are broken.
 
+use hexbench_core::statistics::{mean, median};
+use hexbench_core::streams::{Purpose, derived_seed};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -133,9 +135,10 @@ pub fn run(settings: Settings, step: impl Fn() + Sync) -> Study {
         step();
         result
     };
+    let seed = derived_seed(settings.seed, Purpose::RecoveryDiagnoses, []);
     let named: Vec<(usize, Result<Named, TrialError>)> = jobs(settings.diagnoses)
         .into_par_iter()
-        .map(|(s, i)| (s, counted(naming::run(&all[s], i, settings.seed.wrapping_add(1)))))
+        .map(|(s, i)| (s, counted(naming::run(&all[s], i, seed))))
         .collect();
     gather(settings, &all, &found, &named)
 }
@@ -202,7 +205,7 @@ fn row(subject: &Subject, rows: usize, found: &[&Found], named: &[&Named]) -> Ro
         sizes: over(|f| f.sizes),
         shapes: over(|f| f.shapes),
         misfits: found.iter().filter(|f| f.misfit).count(),
-        open: found.iter().map(|f| f.open as f64).sum::<f64>() / found.len().max(1) as f64,
+        open: mean(found.iter().map(|f| f.open as f64)).unwrap_or(0.0),
         predicted: over(|f| f.predicted),
         holdout_before: median(found.iter().map(|f| f.holdout_before)).unwrap_or(f64::NAN),
         holdout_after: median(found.iter().map(|f| f.holdout_after)).unwrap_or(f64::NAN),
@@ -213,10 +216,4 @@ fn row(subject: &Subject, rows: usize, found: &[&Found], named: &[&Named]) -> Ro
         wrong_wins_holdout: rivals.iter().filter(|r| r.holdout_wrong < r.holdout_right).count(),
         compared: rivals.len(),
     }
-}
-
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut all: Vec<f64> = values.collect();
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).copied()
 }

@@ -42,6 +42,8 @@ changed, with `n1` campaigns now and `n0` in the baseline:
   Too wide is a fault as well as too narrow: what moves away from 1 is worse. Pulls are judged over all effects together and not effect
   by effect: the few campaigns of one effect, with an outlier now and then, have no tail that could be trusted. (Judged one by one,
   nine campaigns beside seventy-two, they made 2 of the 100 unchanged runs below fail; the runs were then judged again without.)
+- **No values**: some limits look at campaigns that chance chooses, those well visible. Of the values of the baseline's `R` runs and of
+  this one, each is as probably in any of them: this one has none with probability `(R / (R + 1))^n0` at most.
 - **Without noise** chance takes no part: the same machines are fitted in every run, whatever its seed. An error may grow by half
   and no more; solvers stop within a hundredth of a percent of the same point, so that this is no rounding. Where world and
   model agree to rounding, the bound derived for it must hold (see [recovery.md](recovery.md)).
