@@ -26,6 +26,18 @@ pub enum Verdict {
     Outside,
 }
 
+impl Verdict {
+    /// One word, as in the files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Adequate => "adequate",
+            Self::Named => "named",
+            Self::Ambiguous => "ambiguous",
+            Self::Outside => "outside",
+        }
+    }
+}
+
 /// Probabilities by name, and what follows from them.
 #[derive(Debug, Clone)]
 pub struct Judgement {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use hexbench_report::render::plain;
 use hexbench_study::journal::record;
 use hexbench_study::{Adopted, Part, Runner, Study, Work, divide, page};
 use hexbench_tasks::Failure;
@@ -131,12 +132,13 @@ impl StudyWork {
     /// What the whole is, and what of it is still to do.
     fn todo<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let work = self.open(py)?;
-        let shards = work.shards();
+        let (shards, files) = (work.shards(), work.study().files.clone());
         let todo = beside(py, move || Ok(work.todo(None)?))?;
         loaded(
             py,
             &json!({
                 "shards": shards,
+                "files": files,
                 "trials": todo.trials,
                 "pending_shards": todo.pending,
                 "pending_trials": todo.pending_trials,
@@ -168,7 +170,7 @@ fn results(work: &Work, markdown: Option<&Path>) -> Result<serde_json::Value, Fa
         "folder": work.folder(),
         "shards": work.shards(),
         "written": work.written(),
-        "summary": page::summary(work.study(), &cells).to_text(),
+        "summary": plain(&page::summary(work.study(), &cells)),
     }))
 }
 

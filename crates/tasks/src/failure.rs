@@ -14,7 +14,7 @@ use hexbench_model::predict::PredictError;
 use hexbench_model::registration::RegistrationError;
 use hexbench_model::runs::Incompatible;
 use hexbench_model::user_term::UserTermError;
-use hexbench_pages::html::ReportError;
+use hexbench_report::charts::ReportError;
 use hexbench_report::plot::PlotError;
 use hexbench_study::StudyError;
 use hexbench_truth::TruthError;

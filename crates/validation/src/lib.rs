@@ -11,9 +11,7 @@ pub mod power;
 pub mod proportion;
 pub mod recovery;
 pub mod regress;
-pub mod sheet;
 pub mod trial;
 
 pub use proportion::Proportion;
-pub use sheet::Sheet;
 pub use trial::{Outcome, Trial, TrialError};

@@ -6,6 +6,7 @@
 use hexbench_model::diagnose::Diagnosis;
 use hexbench_model::estimate::Estimate;
 use hexbench_model::residuals::ErrorSummary;
+use hexbench_report::Page;
 use serde::{Deserialize, Serialize};
 
 /// Answer to `GET /api/catalogue`: what there is to choose from.
@@ -333,31 +334,14 @@ pub struct Ask {
 pub struct Diagnosed {
     /// `named`, `ambiguous`, `adequate`, `outside`.
     pub word: &'static str,
-    /// The verdict in a sentence or two.
-    pub sentences: Vec<String>,
-    /// Probability that each is at work, most probable first.
-    pub probabilities: Vec<Probability>,
+    /// Everything the diagnosis says, as every other medium says it.
+    pub page: Page,
     /// What to tick to see the model it settled on, `:richer` included.
     pub tick: Vec<String>,
-    /// What to measure next, a sentence each; empty when nothing is open.
-    pub next: Vec<String>,
     /// Everything, as `diagnose --json` writes it.
     pub diagnosis: Diagnosis,
     /// Time taken on the server, ms.
     pub milliseconds: f64,
-}
-
-/// An explanation and how sure it is.
-#[derive(Debug, Clone, Serialize)]
-pub struct Probability {
-    /// Id of the term, `none` or `outside`.
-    pub id: String,
-    /// In words.
-    pub title: String,
-    /// 0 to 1.
-    pub probability: f64,
-    /// Ids of terms that look the same in these data.
-    pub alike: Vec<String>,
 }
 
 /// Body of `POST /api/benches/{id}/export`.

@@ -1,6 +1,6 @@
 //! Scores as a page: text or Markdown, programs side by side.
 
-use hexbench_report::document::Document;
+use hexbench_report::Page;
 use hexbench_report::number::significant;
 
 use super::figures::{Figures, Interval, Mean};
@@ -13,8 +13,8 @@ const DASH: &str = "-";
 const MOST_TOLD: usize = 12;
 
 /// The page: the whole, each group, failures, how it was run.
-pub fn page(scores: &Scores) -> Document {
-    let mut page = Document::default();
+pub fn page(scores: &Scores) -> Page {
+    let mut page = Page::default();
     page.heading(1, format!("Challenge {}, version {}", scores.suite, scores.version));
     page.paragraph(format!("{}. {} cases, seed {}.", scores.title, cases(scores), scores.seed));
     page.heading(2, "Side by side");
@@ -104,7 +104,7 @@ fn whole(scores: &Scores) -> Vec<Vec<String>> {
     ]
 }
 
-fn table(page: &mut Document, scores: &Scores, corner: &str, rows: Vec<Vec<String>>) {
+fn table(page: &mut Page, scores: &Scores, corner: &str, rows: Vec<Vec<String>>) {
     let names = scores.entrants.iter().map(|e| e.name.clone());
     page.table(std::iter::once(corner.to_owned()).chain(names), rows);
 }
@@ -162,7 +162,7 @@ fn differences(compared: &Differences) -> Vec<String> {
         .collect()
 }
 
-fn better(page: &mut Document, scores: &Scores) {
+fn better(page: &mut Page, scores: &Scores) {
     let [first, rivals @ ..] = scores.entrants.as_slice() else { return };
     if rivals.is_empty() {
         return;
@@ -176,7 +176,7 @@ fn better(page: &mut Document, scores: &Scores) {
     if found.is_empty() { page.paragraph("Nowhere.") } else { page.list(found) }
 }
 
-fn failures(page: &mut Document, scores: &Scores) {
+fn failures(page: &mut Page, scores: &Scores) {
     let failed: Vec<String> = scores.entrants.iter().flat_map(told_failures).collect();
     if !failed.is_empty() {
         page.heading(2, "Cases without answer");

@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         return Ok(());
     }
     let told = located::Told { found: &found, places: &places, stated: sigma, output: &arguments.output };
-    screen.write(&located::page(&told, screen.ink()))
+    screen.show(&located::page(&told))
 }
 
 fn given_sigma(arguments: &Arguments) -> Result<Option<f64>, Failure> {

@@ -9,8 +9,9 @@ use hexbench_design::nominal;
 use hexbench_design::power::Settings;
 use hexbench_model::fit_named::term_named;
 use hexbench_model::term::Term;
+use hexbench_report::render::markdown;
 use hexbench_validation::power::{
-    Page, Power, PowerPlan, Simulation, most_campaigns, pictures, run as study,
+    PlanReport, Power, PowerPlan, Simulation, most_campaigns, pictures, run as study,
 };
 
 use crate::failure::Failure;
@@ -54,9 +55,6 @@ pub(crate) struct Arguments {
     /// The noise will be estimated from the repeats of the plan
     #[arg(long)]
     noise_from_repeats: bool,
-    /// Every parameter of every effect
-    #[arg(long, short)]
-    verbose: bool,
     /// Write all figures to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -100,11 +98,12 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     known(&arguments.effects, &terms)?;
     let plan = plan(arguments)?;
     let power = with_progress(arguments, &plan, &terms)?;
-    let page = Page { plan: &plan, power: &power, only: &arguments.effects, verbose: arguments.verbose };
+    let page =
+        PlanReport { plan: &plan, power: &power, only: &arguments.effects, verbose: screen.is_verbose() };
     write(arguments, &page, screen)?;
     match arguments.json.as_deref() {
         Some(path) if path == Path::new("-") => Ok(()),
-        _ => screen.write(&page.document().to_text()),
+        _ => screen.show(&page.document()),
     }
 }
 
@@ -178,12 +177,12 @@ fn with_progress(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>
     Ok(power?)
 }
 
-fn write(arguments: &Arguments, page: &Page<'_>, screen: &Screen) -> Result<(), Failure> {
+fn write(arguments: &Arguments, page: &PlanReport<'_>, screen: &Screen) -> Result<(), Failure> {
     if let Some(path) = &arguments.json {
         screen.write_to(path, &json(page.power)?)?;
     }
     if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &page.document().to_markdown())?;
+        screen.write_to(path, &markdown(&page.document()))?;
     }
     let Some(path) = &arguments.svg else { return Ok(()) };
     let charts = pictures(page.power)?;

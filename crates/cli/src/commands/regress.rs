@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use hexbench_report::render::markdown;
 use hexbench_validation::regress::baseline::{Baseline, Update, made};
 use hexbench_validation::regress::comparison::{Comparison, compare};
 use hexbench_validation::regress::date::today;
@@ -12,12 +13,11 @@ use hexbench_validation::regress::limit::Limit;
 use hexbench_validation::regress::limits::limits;
 use hexbench_validation::regress::rule::Verdict;
 use hexbench_validation::regress::suite::{BASELINE_RUNS, SEED, Suite};
-use hexbench_validation::regress::summary::{headline, markdown};
+use hexbench_validation::regress::summary::{self, headline};
 use hexbench_validation::regress::trials::{Trials, run as run_suite};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen, write_json};
-use crate::page;
 
 /// The baseline of the full suite.
 pub(crate) const COMMITTED: &str = "data/regress/baseline.json";
@@ -88,6 +88,7 @@ fn check(arguments: &Arguments, suite: &Suite, limits: &[Limit], screen: &Screen
 }
 
 fn write(arguments: &Arguments, comparison: &Comparison, screen: &Screen) -> Result<(), Failure> {
+    let page = summary::page(comparison, arguments.all);
     let to_screen = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
     if let Some(path) = &arguments.junit {
         let cause = |e: hexbench_validation::regress::junit::XmlError| Failure::Output {
@@ -100,12 +101,12 @@ fn write(arguments: &Arguments, comparison: &Comparison, screen: &Screen) -> Res
         write_json(screen, path, comparison)?;
     }
     if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &markdown(comparison))?;
+        screen.write_to(path, &markdown(&page))?;
     }
     if to_screen(&arguments.json) || to_screen(&arguments.markdown) || to_screen(&arguments.junit) {
         return Ok(());
     }
-    screen.write(&page::regress(comparison, arguments.all, screen.ink()))
+    screen.show(&page)
 }
 
 fn update(

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, value_parser};
-use hexbench_pages::text::{Paper, Table};
+use hexbench_report::{Block, Page, Section, Table};
+use hexbench_study::work::Share;
 use hexbench_study::{Part, Work, divide, page};
 
 use crate::failure::Failure;
@@ -110,22 +111,18 @@ fn whole(arguments: &Whole, screen: &Screen) -> Result<(), Failure> {
 /// Who does how much.
 fn plan(arguments: &PlanArguments, screen: &Screen) -> Result<(), Failure> {
     let division = divide(&arguments.study, arguments.parts)?;
-    let mut table = Table::default();
-    table.row(["part", "shards", "trials"]);
-    for share in &division.parts {
-        table.row([share.part.clone(), share.shards.to_string(), share.trials.to_string()]);
-    }
-    let mut paper = Paper::new(screen.ink());
+    let share = |share: &Share| [share.part.clone(), share.shards.to_string(), share.trials.to_string()];
+    let table = Table::named(["part", "shards", "trials"]).rows(division.parts.iter().map(share));
     let study = arguments.study.display();
-    paper.heading(
-        &format!("{} shards, {} trials", division.shards, division.trials),
-        "every n-th shard, so that parts take equally long",
+    let commands = format!(
+        "hexbench study run {study} -o part-I --shard I/{}\nhexbench study merge {study} -o whole part-*",
+        arguments.parts
     );
-    table.lines().iter().for_each(|line| paper.line(line));
-    paper.heading("On each machine, then on one", "");
-    paper.line(&format!("  hexbench study run {study} -o part-I --shard I/{}", arguments.parts));
-    paper.line(&format!("  hexbench study merge {study} -o whole part-*"));
-    screen.write(&paper.into_text())
+    let parts = Section::new(format!("{} shards, {} trials", division.shards, division.trials))
+        .remark("every n-th shard, so that parts take equally long")
+        .table(table);
+    let next = Section::new("On each machine, then on one").with(Block::code(commands));
+    screen.show(&Page::default().with(parts).with(next))
 }
 
 /// Compute what is missing of a part.
@@ -159,7 +156,7 @@ fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Fai
     progress.done();
     let cells = cells?;
     page::write(work.study(), &cells, work.folder(), markdown)?;
-    screen.write(&page::summary(work.study(), &cells).to_text())?;
+    screen.show(&page::summary(work.study(), &cells))?;
     let written: Vec<String> = work.written().iter().map(|path| format!("  {}\n", path.display())).collect();
     screen.write(&format!("\nWritten:\n{}", written.concat()))
 }

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use hexbench_core::files::atomic_write;
-use hexbench_report::html::PROGRAM;
-use hexbench_tables::{Frame, Kind};
+use hexbench_report::render::PROGRAM;
+use hexbench_report::table::{Frame, Kind};
 
 use super::provenance;
 use crate::failure::Failure;

@@ -141,17 +141,8 @@ impl Journal {
                 }
                 Found::Whole(shard) => shard,
             };
-            match self.read(runner, number)? {
-                // Compared as bytes: a number that is not one differs from itself.
-                Found::Whole(own) if self.encoded(&own) == self.encoded(&shard) => adopted.known += 1,
-                Found::Whole(_) => {
-                    return Err(StudyError::Contradiction { folder: folder.to_owned(), shard: number });
-                }
-                _ => {
-                    self.keep(&shard)?;
-                    adopted.taken += 1;
-                }
-            }
+            *(if self.settle(runner, &shard, folder)? { &mut adopted.taken } else { &mut adopted.known }) +=
+                1;
         }
         Ok(adopted)
     }
@@ -168,10 +159,18 @@ impl Journal {
         }
         let empty = Shard::empty(number, runner.trials_of(number), runner.columns());
         let shard = record::decode(bytes, empty, self.origin.digest()).ok_or(garbled)?;
-        match self.read(runner, number)? {
-            Found::Whole(own) if self.encoded(&own) == bytes => Ok(()),
-            Found::Whole(_) => Err(StudyError::Contradiction { folder: self.folder.clone(), shard: number }),
-            _ => self.keep(&shard),
+        self.settle(runner, &shard, &self.folder).map(drop)
+    }
+
+    /// Keeps a shard from elsewhere (`folder`) unless it is here already with the same bytes; true when it was missing.
+    fn settle(&self, runner: &Runner, shard: &Shard, folder: &Path) -> Result<bool, StudyError> {
+        match self.read(runner, shard.number)? {
+            // Compared as bytes: a number that is not one differs from itself.
+            Found::Whole(own) if self.encoded(&own) == self.encoded(shard) => Ok(false),
+            Found::Whole(_) => {
+                Err(StudyError::Contradiction { folder: folder.to_owned(), shard: shard.number })
+            }
+            _ => self.keep(shard).map(|()| true),
         }
     }
 

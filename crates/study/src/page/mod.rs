@@ -8,7 +8,7 @@ mod response;
 mod sections;
 mod write;
 
-use hexbench_report::Document;
+use hexbench_report::Page;
 
 use crate::results::CellStatistics;
 use crate::study::Study;
@@ -20,8 +20,8 @@ pub use marginal::{Marginal, marginal};
 pub use write::write;
 
 /// What is told on the screen.
-pub fn summary(study: &Study, cells: &[CellStatistics]) -> Document {
-    let mut page = Document::default();
+pub fn summary(study: &Study, cells: &[CellStatistics]) -> Page {
+    let mut page = Page::default();
     sections::head(&mut page, study, cells);
     sections::by_axis(&mut page, study, cells, None);
     sections::conclusions(&mut page, study, cells);
@@ -29,8 +29,8 @@ pub fn summary(study: &Study, cells: &[CellStatistics]) -> Document {
 }
 
 /// The whole page; charts are in `folder` beside it.
-pub fn document(study: &Study, cells: &[CellStatistics], pictures: &[Picture], folder: &str) -> Document {
-    let mut page = Document::default();
+pub fn document(study: &Study, cells: &[CellStatistics], pictures: &[Picture], folder: &str) -> Page {
+    let mut page = Page::default();
     sections::head(&mut page, study, cells);
     sections::axes(&mut page, study);
     let charts: Vec<(&Picture, String)> =

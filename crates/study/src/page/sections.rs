@@ -1,6 +1,6 @@
 //! The sections of the page.
 
-use hexbench_report::Document;
+use hexbench_report::Page;
 
 use super::charts::{Picture, spoken};
 use super::equal::{Equal, Matching, equals};
@@ -16,7 +16,7 @@ use crate::study::{Study, Task};
 const FEW_CELLS: usize = 60;
 
 /// Title, what was run, how much of it has an answer.
-pub(super) fn head(page: &mut Document, study: &Study, cells: &[CellStatistics]) {
+pub(super) fn head(page: &mut Page, study: &Study, cells: &[CellStatistics]) {
     page.heading(1, study.title.clone());
     let what = match study.task {
         Task::Springs => "six stiffnesses are fitted and compared with the truth",
@@ -45,7 +45,7 @@ pub(super) fn head(page: &mut Document, study: &Study, cells: &[CellStatistics])
 }
 
 /// The axes with their values.
-pub(super) fn axes(page: &mut Document, study: &Study) {
+pub(super) fn axes(page: &mut Page, study: &Study) {
     page.heading(2, "Axes");
     let values = |axis: &AxisLevels| axis.levels.iter().map(Level::text).collect::<Vec<_>>().join(", ");
     let rows = study
@@ -58,7 +58,7 @@ pub(super) fn axes(page: &mut Document, study: &Study) {
 }
 
 /// Laws of powers, and how many random poses designed ones are worth.
-pub(super) fn conclusions(page: &mut Document, study: &Study, cells: &[CellStatistics]) {
+pub(super) fn conclusions(page: &mut Page, study: &Study, cells: &[CellStatistics]) {
     let (laws, equals) = (laws(study, cells), equals(study, cells));
     if !laws.is_empty() {
         page.heading(2, "How the stiffness error scales");
@@ -77,7 +77,7 @@ pub(super) fn conclusions(page: &mut Document, study: &Study, cells: &[CellStati
     }
 }
 
-fn law_table(page: &mut Document, laws: &[Law]) {
+fn law_table(page: &mut Page, laws: &[Law]) {
     let axes = laws[0].exponents.iter().map(|(name, _)| (*name).to_owned());
     let header: Vec<String> =
         std::iter::once("plan".to_owned()).chain(axes).chain(["left over".to_owned()]).collect();
@@ -89,7 +89,7 @@ fn law_table(page: &mut Document, laws: &[Law]) {
     page.table(header, laws.iter().map(row).collect::<Vec<_>>());
 }
 
-fn equal_table(page: &mut Document, equals: &[Equal]) {
+fn equal_table(page: &mut Page, equals: &[Equal]) {
     let row = |e: &Equal| {
         let matching = match e.random_poses {
             Matching::About(n) => format!("{n:.1}"),
@@ -112,7 +112,7 @@ fn equal_table(page: &mut Document, equals: &[Equal]) {
 
 /// A table for each axis with more than one value: by a second axis with charts, else by itself.
 pub(super) fn by_axis(
-    page: &mut Document,
+    page: &mut Page,
     study: &Study,
     cells: &[CellStatistics],
     charts: Option<&[(&Picture, String)]>,
@@ -158,7 +158,7 @@ fn results(study: &Study, cell: &CellStatistics) -> Vec<String> {
 }
 
 /// Every cell, when there are few.
-pub(super) fn all_cells(page: &mut Document, study: &Study, cells: &[CellStatistics]) {
+pub(super) fn all_cells(page: &mut Page, study: &Study, cells: &[CellStatistics]) {
     if cells.len() > FEW_CELLS {
         return;
     }
@@ -176,7 +176,7 @@ pub(super) fn all_cells(page: &mut Document, study: &Study, cells: &[CellStatist
 }
 
 /// What the numbers mean.
-pub(super) fn reading(page: &mut Document, study: &Study) {
+pub(super) fn reading(page: &mut Page, study: &Study) {
     page.heading(2, "How to read it");
     let together = "A table over one axis takes all trials with the same value together, whatever their values on the \
                     others: the factorial is full, so that values may be compared.";

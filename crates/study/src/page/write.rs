@@ -1,5 +1,6 @@
 //! The page and its charts, into files.
 
+use hexbench_report::render::markdown as markdown_of;
 use std::fs;
 use std::path::Path;
 
@@ -23,7 +24,7 @@ pub fn write(
     markdown: Option<&Path>,
 ) -> Result<(), StudyError> {
     let pictures = pictures(study, cells)?;
-    let text = |folder: &str| document(study, cells, &pictures, folder).to_markdown();
+    let text = |folder: &str| markdown_of(&document(study, cells, &pictures, folder));
     page(&folder.join("study.md"), &folder.join("charts"), &text, &pictures)?;
     for (picture, png) in pictures.iter().filter_map(|p| Some((p, png(&p.svg)?))) {
         file(&folder.join("charts").join(format!("{}.png", picture.name)), &png)?;

@@ -1,6 +1,7 @@
 //! `cells.csv`.
 
-use hexbench_validation::Sheet;
+use hexbench_report::Table;
+use hexbench_report::table::csv;
 
 use crate::columns::Status;
 use crate::results::CellStatistics;
@@ -15,13 +16,8 @@ pub fn cells_csv(study: &Study, cells: &[CellStatistics]) -> String {
         Task::Springs => &SPRINGS,
         Task::Diagnose => &DIAGNOSE,
     };
-    let header: Vec<&str> = std::iter::once("cell")
-        .chain(axes)
-        .chain(SIGMAS)
-        .chain(counts)
-        .chain(results.iter().copied())
-        .collect();
-    let mut sheet = Sheet::new(&header);
+    let header = std::iter::once("cell").chain(axes).chain(SIGMAS).chain(counts);
+    let mut table = Table::named(header.chain(results.iter().copied()));
     for found in cells {
         let cell = study.axes.cell(found.cell);
         let at = levels.iter().zip(cell.position).map(|(axis, k)| axis.levels[k].text());
@@ -32,9 +28,9 @@ pub fn cells_csv(study: &Study, cells: &[CellStatistics]) -> String {
             Task::Diagnose => diagnose(found),
         };
         let row = std::iter::once(found.cell.to_string()).chain(at).chain(sigmas).chain(counted(found));
-        sheet.row(row.chain(values.into_iter().map(number)));
+        table.row(row.chain(values.into_iter().map(number)));
     }
-    sheet.csv()
+    csv::text(&table)
 }
 
 const SIGMAS: [&str; 2] = ["sigma_translation_um", "sigma_rotation_urad"];

@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use hexbench_tables::parquet::{
+use hexbench_report::table::parquet::{
     File, Group, KeyValue, ParquetError, Physical, ROWS, begin, counts, double, int64, numbers, optional,
     other, required, text,
 };
@@ -171,7 +171,7 @@ fn properties(runner: &Runner) -> io::Result<WriterProperties> {
     };
     // Numbers that are all different gain nothing from a dictionary.
     let noisy = runner.columns().iter().filter(|c| c.kind == Kind::Number);
-    Ok(noisy.fold(hexbench_tables::parquet::properties(metadata), plain).build())
+    Ok(noisy.fold(hexbench_report::table::parquet::properties(metadata), plain).build())
 }
 
 /// Name, unit and meaning of every column.

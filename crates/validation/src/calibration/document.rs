@@ -1,5 +1,6 @@
-//! The study as a document.
+//! The study as a page.
 
+use hexbench_report::{Block, Figure, Page, Section, Table};
 use hexbench_truth::campaign::Kind;
 
 use super::sheets::{self, percent};
@@ -11,23 +12,35 @@ use super::{
 use crate::calibration::Fate;
 use crate::proportion::Proportion;
 
-/// The document: figures, tables and the charts of a folder beside it.
-pub fn document(study: &Calibration, charts: &str) -> String {
+/// The page: figures, tables and the charts of a folder beside it.
+pub fn page(study: &Calibration, charts: &str) -> Page {
     let records = &study.records;
-    let parts = [
-        introduction(study),
-        headline(records),
-        section("What became of the truths", FATES, &sheets::fates(records).markdown()),
-        picture("What was hidden and what was said", charts, "confusion.svg", &confusion_words()),
-        reliability(records, charts),
-        power(records, charts),
-        outside(records, charts),
-        section("Credible sets", COVERAGE, &sheets::coverage(records).markdown()),
-        section("Numbers of the final model", NUMBERS, &sheets::numbers(records).markdown()),
-        section("Where it goes wrong", MISTAKES, &sheets::mistakes_sheet(records).markdown()),
-        again(study),
-    ];
-    parts.join("\n")
+    let chart = |title: &str, file: &str, words: String| {
+        let figure = Figure::in_file(format!("{charts}/{file}"), title);
+        Section::new(title).paragraph(words).with(Block::Figure(figure)).detail()
+    };
+    let section = |title: &str, words: &str, table: Table| Section::new(title).paragraph(words).table(table);
+    Page::new("How far the diagnosis can be trusted")
+        .with(introduction(study).detail())
+        .with(Section::new("In short").list(headlines(records)))
+        .with(section("What became of the truths", FATES, sheets::fates(records)))
+        .with(chart("What was hidden and what was said", "confusion.svg", confusion_words()))
+        .with(reliability(
+            records,
+            charts,
+            chart("Do probabilities mean what they say", "reliability.svg", RELIABILITY.to_owned()),
+        ))
+        .with(power(records, chart("How large an effect must be", "power.svg", POWER.to_owned())))
+        .with(outside(records, chart("Noticing what the catalogue lacks", "outside.svg", OUTSIDE.to_owned())))
+        .with(section("Credible sets", COVERAGE, sheets::coverage(records)).detail())
+        .with(section("Numbers of the final model", NUMBERS, sheets::numbers(records)).detail())
+        .with(section("Where it goes wrong", MISTAKES, sheets::mistakes_table(records)))
+        .with(Section::new("Without an answer").list(study.failures.iter().map(failure)).unless_empty())
+        .with(again(study).detail())
+}
+
+fn failure(f: &super::study::Failure) -> String {
+    format!("{}-{:04}: {}", f.kind.name(), f.index, f.cause)
 }
 
 /// The figures everything else explains, one sentence each.
@@ -82,36 +95,40 @@ fn told(p: Proportion) -> String {
     format!("{} of {} ({} %, {})", p.hits, p.of, percent(p.rate()), sheets::bounds(p))
 }
 
-fn introduction(study: &Calibration) -> String {
+fn introduction(study: &Calibration) -> Section {
     let [low, high] = DISTANCES;
     let counts: Vec<String> =
         study.protocol.portions.iter().map(|p| format!("{} {}", p.trials, p.kind.name())).collect();
-    format!(
-        "# How far the diagnosis can be trusted\n\n\
-         Written by `hexbench validate calibration --markdown FILE`; do not edit.\n\n\
-         {} simulated campaigns with a known truth went through the diagnosis (seed {}; {} gave no answer): {}.\n\n\
-         - Machines: seven families, from the rings of the paper to irregular ones. Plans: the rich plan with tilts and \
-         lateral loads in 60 %, else other loads, few poses, vertical loads only or no reference load; the plan of the \
-         paper (kind seed-protocol); absolute poses.\n\
-         - Size: the *distance* of an effect is the length of its signature in standard deviations of the noise, after \
-         six springs have explained what they can: the square root of the noncentrality of a chi-square test. Each \
-         effect is scaled to a distance drawn log-uniformly from {low} to {high}; a campaign in which no sensible size \
-         reaches it is drawn again with another machine and plan. Effects of absolute campaigns have their usual size.\n\
-         - Kinds: single (one effect of the catalogue), pair (two), outside (one the catalogue lacks), clean (none), \
-         seed-protocol (one, under the plan of the paper), absolute (joint geometry, alone or with one more), rich-form \
-         (a base or plate that yields as a full 6x6 compliance; the right answer is its name).\n\
-         - Bounds of shares are exact binomial 95 % bounds (Clopper and Pearson).\n",
-        study.protocol.trials(),
-        study.protocol.seed,
-        study.failures.len(),
-        counts.join(", "),
-    )
+    Section::lead()
+        .paragraph("Written by `hexbench validate calibration --markdown FILE`; do not edit.")
+        .paragraph(format!(
+            "{} simulated campaigns with a known truth went through the diagnosis (seed {}; {} gave no answer): {}.",
+            study.protocol.trials(),
+            study.protocol.seed,
+            study.failures.len(),
+            counts.join(", "),
+        ))
+        .list([
+            "Machines: seven families, from the rings of the paper to irregular ones. Plans: the rich plan with tilts and lateral \
+             loads in 60 %, else other loads, few poses, vertical loads only or no reference load; the plan of the paper (kind \
+             seed-protocol); absolute poses."
+                .to_owned(),
+            format!(
+                "Size: the *distance* of an effect is the length of its signature in standard deviations of the noise, after six \
+                 springs have explained what they can: the square root of the noncentrality of a chi-square test. Each effect is \
+                 scaled to a distance drawn log-uniformly from {low} to {high}; a campaign in which no sensible size reaches it is \
+                 drawn again with another machine and plan. Effects of absolute campaigns have their usual size."
+            ),
+            "Kinds: single (one effect of the catalogue), pair (two), outside (one the catalogue lacks), clean (none), \
+             seed-protocol (one, under the plan of the paper), absolute (joint geometry, alone or with one more), rich-form (a \
+             base or plate that yields as a full 6x6 compliance; the right answer is its name)."
+                .to_owned(),
+            "Bounds of shares are exact binomial 95 % bounds (Clopper and Pearson).".to_owned(),
+        ])
 }
 
-fn headline(records: &[Record]) -> String {
-    let lines: Vec<String> = headlines(records).iter().map(|line| format!("- {line}\n")).collect();
-    format!("## In short\n\n{}", lines.concat())
-}
+/// Stated probabilities from which bins are listed.
+const NEARLY_SURE: f64 = 0.9;
 
 const FATES: &str = "Right: exactly the truth is said. Honest: ambiguous, with the whole truth among what is kept. \
 Undecided: ambiguous without that, or although nothing or something outside is hidden. Missed: the springs are called \
@@ -129,14 +146,6 @@ their own stated standard deviations; answers \"outside\" come with a model that
 const MISTAKES: &str = "Answers that state something false, in groups, the largest first; with the highest probability \
 that was stated for such an answer. Any trial can be written out as files with `--case`.";
 
-fn section(title: &str, words: &str, table: &str) -> String {
-    format!("## {title}\n\n{words}\n\n{table}")
-}
-
-fn picture(title: &str, charts: &str, file: &str, words: &str) -> String {
-    format!("## {title}\n\n{words}\n\n![{title}]({charts}/{file})\n")
-}
-
 fn confusion_words() -> String {
     format!(
         "Kinds single, rich-form, outside and clean; effects at distance {WELL_VISIBLE} or more. Rows sum to 100 %; a \
@@ -144,62 +153,58 @@ fn confusion_words() -> String {
     )
 }
 
-/// Stated probabilities from which bins are listed in the document.
-const NEARLY_SURE: f64 = 0.9;
+const RELIABILITY: &str = "Of all claims stated with about the same probability, how many came true. Exactly what is named: the \
+verdict \"named\", with the probability of exactly this set of effects. Any verdict: the same, or nothing hidden, or something outside. \
+First candidate: the best first addition, where that is an effect. Presence: every effect the file can test, alone or with others. Beside \
+\"outside\", presence says what helps to fit an unknown effect, not what is at work: do not read it as such.";
 
-fn reliability(records: &[Record], charts: &str) -> String {
-    let title = "Do probabilities mean what they say";
-    let words = "Of all claims stated with about the same probability, how many came true. Exactly what is named: the \
-        verdict \"named\", with the probability of exactly this set of effects. Any verdict: the same, or \
-        nothing hidden, or something outside. First candidate: the best first \
-        addition, where that is an effect. Presence: every effect the file can test, alone or with others. Beside \
-        \"outside\", presence says what helps to fit an unknown effect, not what is at work: do not read it as such.\n\n\
-        The shares depend on the mix of truths. Counted once each (\"as drawn\"), few campaigns are clean \
-        and many effects are too small to see, so that \"nothing hidden\" must come true less often than stated. The second line \
-        and the lower half of the table weigh the trials to the shares the diagnosis itself expects before any data (\"as expected\": none 45 %, \
-        one 38 %, two 13 %, outside 4 %); the sizes stay as drawn. Calibration error: mean distance of stated from observed over the bins. \
-        Scores: 0 is perfect.";
-    [
-        picture(title, charts, "reliability.svg", words),
-        sheets::all_scores(records).markdown(),
-        "Where 90 % or more was stated, every trial counted once:\n".to_owned(),
-        sheets::reliability(records, NEARLY_SURE).markdown(),
-        format!("![Presence of an effect by kind]({charts}/reliability-by-kind.svg)\n"),
-        sheets::scores_by_kind(records).markdown(),
-    ]
-    .join("\n")
+const MIX: &str = "The shares depend on the mix of truths. Counted once each (\"as drawn\"), few campaigns are clean and many effects are \
+too small to see, so that \"nothing hidden\" must come true less often than stated. The second line and the lower half of the table weigh \
+the trials to the shares the diagnosis itself expects before any data (\"as expected\": none 45 %, one 38 %, two 13 %, outside 4 %); the \
+sizes stay as drawn. Calibration error: mean distance of stated from observed over the bins. Scores: 0 is perfect.";
+
+const POWER: &str = "Share of the trials of kind single in which exactly the hidden effect is named, and in which the answer is that or \
+honestly ambiguous. The rest below the dashed line says \"adequate\" or is undecided; only what lies above the dashed line is a false \
+statement.";
+
+const OUTSIDE: &str = "Share of the trials of kind outside in which \"outside\" is said. An answer that names effects of the catalogue \
+instead is above the dashed line; between the lines the springs are called adequate.";
+
+fn reliability(records: &[Record], charts: &str, section: Section) -> Section {
+    let by_kind =
+        Figure::in_file(format!("{charts}/reliability-by-kind.svg"), "Presence of an effect by kind");
+    section
+        .paragraph(MIX)
+        .table(sheets::all_scores(records))
+        .paragraph("Where 90 % or more was stated, every trial counted once:")
+        .table(sheets::reliability(records, NEARLY_SURE))
+        .with(Block::Figure(by_kind))
+        .table(sheets::scores_by_kind(records))
 }
 
-fn power(records: &[Record], charts: &str) -> String {
-    let words = "Share of the trials of kind single in which exactly the hidden effect is named, and in which the answer \
-        is that or honestly ambiguous. The rest below the dashed line says \"adequate\" or is undecided; only what lies \
-        above the dashed line is a false statement.";
-    let table = sheets::right_by_size(&Curve::of_each(records, Kind::Single)).markdown();
-    let paper = "Under the plan of the paper (kind seed-protocol), percent right:";
-    let paper_table = sheets::right_by_size(&Curve::of_each(records, Kind::SeedProtocol)).markdown();
-    let title = "How large an effect must be";
-    format!(
-        "{}\nPercent right by distance:\n\n{table}\n{paper}\n\n{paper_table}",
-        picture(title, charts, "power.svg", words)
-    )
+fn power(records: &[Record], section: Section) -> Section {
+    let right = |kind| sheets::right_by_size(&Curve::of_each(records, kind));
+    section
+        .paragraph("Percent right by distance:")
+        .table(right(Kind::Single))
+        .paragraph("Under the plan of the paper (kind seed-protocol), percent right:")
+        .table(right(Kind::SeedProtocol))
 }
 
-fn outside(records: &[Record], charts: &str) -> String {
-    let words = "Share of the trials of kind outside in which \"outside\" is said. An answer that names effects of the \
-        catalogue instead is above the dashed line; between the lines the springs are called adequate.";
-    let title = "Noticing what the catalogue lacks";
-    let table = sheets::right_by_size(&Curve::of_each(records, Kind::Outside)).markdown();
-    format!("{}\nPercent right by distance:\n\n{table}", picture(title, charts, "outside.svg", words))
+fn outside(records: &[Record], section: Section) -> Section {
+    let table = sheets::right_by_size(&Curve::of_each(records, Kind::Outside));
+    section.paragraph("Percent right by distance:").table(table)
 }
 
-fn again(study: &Calibration) -> String {
-    format!(
-        "## Again\n\n```text\nhexbench validate calibration --seed {} --trials {} -o DIR --markdown docs/calibration.md\n\
-         hexbench validate calibration --seed {} --case pair-0007 -o DIR\n```\n\n\
-         The first writes every trial (`trials.csv`), the tables, the charts and this page; the second writes one \
-         campaign as files for `hexbench diagnose`. The same seed gives the same bytes on any number of threads.\n",
-        study.protocol.seed,
-        study.protocol.trials(),
-        study.protocol.seed
-    )
+fn again(study: &Calibration) -> Section {
+    let (seed, trials) = (study.protocol.seed, study.protocol.trials());
+    Section::new("Again")
+        .with(Block::code(format!(
+            "hexbench validate calibration --seed {seed} --trials {trials} -o DIR --markdown docs/calibration.md\n\
+             hexbench validate calibration --seed {seed} --case pair-0007 -o DIR"
+        )))
+        .paragraph(
+            "The first writes every trial (`trials.csv`), the tables, the charts and this page; the second writes one campaign as \
+             files for `hexbench diagnose`. The same seed gives the same bytes on any number of threads.",
+        )
 }

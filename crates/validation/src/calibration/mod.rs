@@ -22,7 +22,7 @@ mod trust;
 pub use charts::{Picture, pictures};
 pub use claim::{Claim, Claims, Mix};
 pub use confusion::{Confusion, WELL_VISIBLE, is_well_visible};
-pub use document::{document, headlines};
+pub use document::{headlines, page};
 pub use fate::Fate;
 pub use mistake::{Group, mistakes};
 pub use power::{Curve, SIZES, Step};

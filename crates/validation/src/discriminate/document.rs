@@ -1,25 +1,34 @@
-//! The study as a document.
+//! The study as a page.
+
+use hexbench_report::{Block, Page, Section};
 
 use super::sheets::{asked, before, open, proposed, share, told};
 use super::{Discrimination, READINGS, Record};
 use crate::proportion::Proportion;
 use crate::trial::Outcome;
 
-/// The document.
-pub fn document(study: &Discrimination) -> String {
-    let headlines: Vec<String> = headlines(study).iter().map(|line| format!("- {line}\n")).collect();
-    [
-        introduction(study),
-        format!("## In short\n\n{}", headlines.concat()),
-        section("The confusing plans alone", BEFORE, &before(study).markdown()),
-        section("After the readings that the diagnosis proposes", PROPOSED, &proposed(study).markdown()),
-        section("After readings chosen for the pair", &asked_words(), &asked(study).markdown()),
-        format!(
-            "## Run it again\n\n```text\nhexbench validate discriminate --trials {} --seed {}\n```\n",
-            study.protocol.trials, study.protocol.seed
-        ),
-    ]
-    .join("\n")
+/// The page.
+pub fn page(study: &Discrimination) -> Page {
+    let again = format!(
+        "hexbench validate discriminate --trials {} --seed {}",
+        study.protocol.trials, study.protocol.seed
+    );
+    Page::new("Whether proposed readings tell effects apart")
+        .with(introduction(study).detail())
+        .with(Section::new("In short").list(headlines(study)))
+        .with(Section::new("The confusing plans alone").paragraph(BEFORE).table(before(study)).detail())
+        .with(
+            Section::new("After the readings that the diagnosis proposes")
+                .paragraph(PROPOSED)
+                .table(proposed(study)),
+        )
+        .with(
+            Section::new("After readings chosen for the pair")
+                .paragraph(asked_words())
+                .table(asked(study))
+                .detail(),
+        )
+        .with(Section::new("Run it again").with(Block::code(again)).detail())
 }
 
 /// The figures everything else explains, one sentence each.
@@ -81,23 +90,25 @@ fn versus(
     )
 }
 
-fn introduction(study: &Discrimination) -> String {
-    format!(
-        "# Whether proposed readings tell effects apart\n\n\
-         Written by `hexbench validate discriminate --markdown FILE`; do not edit.\n\n\
-         {} pairs of effects that look alike, {} simulated campaigns each (seed {}; {} gave no answer). In each \
-         one of the two effects, at random, is hidden in a machine of one of seven families, at a distance of 8 to 20 standard deviations \
-         from what free leg springs can imitate, and measured by a plan that confuses the two. The diagnosis gives a first answer. \
-         The proposed readings are then taken on the same simulated machine, with new noise, added to the measurements, and \
-         everything is diagnosed again; beside it as many readings drawn at random from the same menu of poses, loads and \
-         conditions. The menu itself is broad: what a random reading of it shows is no straw man.\n\n\
-         Right: exactly the hidden effect is named. Honest: ambiguous, and the hidden effect is not excluded. Wrong: anything else. No \
-         held-out file: poses are left out in turn. Shares with exact binomial 95 % bounds (Clopper and Pearson).\n",
-        study.pairs.len(),
-        study.protocol.trials,
-        study.protocol.seed,
-        study.failures,
-    )
+fn introduction(study: &Discrimination) -> Section {
+    Section::lead()
+        .paragraph("Written by `hexbench validate discriminate --markdown FILE`; do not edit.")
+        .paragraph(format!(
+            "{} pairs of effects that look alike, {} simulated campaigns each (seed {}; {} gave no answer). In each one of the \
+             two effects, at random, is hidden in a machine of one of seven families, at a distance of 8 to 20 standard \
+             deviations from what free leg springs can imitate, and measured by a plan that confuses the two. The diagnosis gives \
+             a first answer. The proposed readings are then taken on the same simulated machine, with new noise, added to the \
+             measurements, and everything is diagnosed again; beside it as many readings drawn at random from the same menu of \
+             poses, loads and conditions. The menu itself is broad: what a random reading of it shows is no straw man.",
+            study.pairs.len(),
+            study.protocol.trials,
+            study.protocol.seed,
+            study.failures,
+        ))
+        .paragraph(
+            "Right: exactly the hidden effect is named. Honest: ambiguous, and the hidden effect is not excluded. Wrong: anything \
+             else. No held-out file: poses are left out in turn. Shares with exact binomial 95 % bounds (Clopper and Pearson).",
+        )
 }
 
 const BEFORE: &str = "Three poses near the middle, three readings of each condition.";
@@ -110,8 +121,4 @@ fn asked_words() -> String {
         "All trials, whatever the first answer: at most {READINGS} readings chosen by what separates the two effects of the pair alone, \
          as `hexbench discriminate --data` does."
     )
-}
-
-fn section(title: &str, words: &str, table: &str) -> String {
-    format!("## {title}\n\n{words}\n\n{table}")
 }

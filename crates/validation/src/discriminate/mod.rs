@@ -10,6 +10,6 @@ mod trial;
 
 pub use bench::Bench;
 pub use confusion::{CONFUSIONS, Confusion};
-pub use document::{document, headlines};
+pub use document::{headlines, page};
 pub use study::{Discrimination, Protocol, SEED, discriminate};
 pub use trial::{READINGS, Record};

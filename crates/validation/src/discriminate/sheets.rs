@@ -2,7 +2,8 @@
 
 use super::{Confusion, Discrimination, Record};
 use crate::proportion::Proportion;
-use crate::sheet::Sheet;
+use hexbench_report::Table;
+
 use crate::trial::Outcome;
 
 /// What was said at one stage of a trial.
@@ -19,41 +20,41 @@ pub fn open(records: &[Record]) -> impl Iterator<Item = &Record> {
 }
 
 /// By the confusing plans alone.
-pub fn before(study: &Discrimination) -> Sheet {
-    let mut sheet = Sheet::new(&["effects", "plan", "trials", "right", "honest", "wrong"]);
+pub fn before(study: &Discrimination) -> Table {
+    let mut table = Table::named(["effects", "plan", "trials", "right", "honest", "wrong"]).words_in(1);
     for (confusion, records) in &study.pairs {
         let of = |o| told(share(records, |r| r.before, o));
         let start = [confusion.name(), confusion.plan.to_owned(), records.len().to_string()];
-        sheet.row(start.into_iter().chain([Outcome::Right, Outcome::Honest, Outcome::Wrong].map(of)));
+        table.row(start.into_iter().chain([Outcome::Right, Outcome::Honest, Outcome::Wrong].map(of)));
     }
-    sheet
+    table
 }
 
 /// After the readings that the diagnosis proposes, where it proposes any, beside as many at random.
-pub fn proposed(study: &Discrimination) -> Sheet {
-    let mut sheet = compared("open answers");
+pub fn proposed(study: &Discrimination) -> Table {
+    let mut table = compared("open answers");
     for_each(study, |name, records| {
         let records: Vec<&Record> = open(records).collect();
         let readings = records.iter().map(|r| r.readings).sum::<usize>() as f64 / records.len().max(1) as f64;
-        sheet.row(row(name, &records, readings, |r| r.proposed, |r| r.proposed_random));
+        table.row(row(name, &records, readings, |r| r.proposed, |r| r.proposed_random));
     });
-    sheet
+    table
 }
 
 /// After readings chosen for the pair, beside as many at random.
-pub fn asked(study: &Discrimination) -> Sheet {
-    let mut sheet = compared("trials");
+pub fn asked(study: &Discrimination) -> Table {
+    let mut table = compared("trials");
     for_each(study, |name, records| {
         let records: Vec<&Record> = records.iter().collect();
         let readings =
             records.iter().map(|r| r.asked_readings).sum::<usize>() as f64 / records.len().max(1) as f64;
-        sheet.row(row(name, &records, readings, |r| r.asked, |r| r.asked_random));
+        table.row(row(name, &records, readings, |r| r.asked, |r| r.asked_random));
     });
-    sheet
+    table
 }
 
-fn compared(trials: &str) -> Sheet {
-    Sheet::new(&[
+fn compared(trials: &str) -> Table {
+    Table::named([
         "effects",
         trials,
         "readings",

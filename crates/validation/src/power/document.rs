@@ -1,7 +1,7 @@
 //! The power of a plain and of a rich plan as a document.
 
 use hexbench_design::power::{Effect, Planned, Verdict};
-use hexbench_report::Document;
+use hexbench_report::Page;
 use hexbench_report::number::significant;
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{Bench, PartName};
@@ -9,7 +9,7 @@ use hexbench_truth::scene::{Bench, PartName};
 use super::faint::{Faint, faint};
 use super::page::{LOOK_ALIKE, look_alikes};
 use super::tables::percent;
-use super::{Page, Power, PowerError, PowerPlan, Simulated};
+use super::{PlanReport, Power, PowerError, PowerPlan, Simulated};
 use crate::Proportion;
 use crate::recovery::correspondence::CORRESPONDENCES;
 
@@ -57,8 +57,8 @@ pub fn plan_of(scene: &Scene) -> Result<PowerPlan, PowerError> {
 }
 
 /// The document; `again` is the command that writes it, `charts` the folder beside it.
-pub fn document(plain: &Studied, rich: &Studied, charts: &str, again: &str) -> Document {
-    let mut page = Document::default();
+pub fn document(plain: &Studied, rich: &Studied, charts: &str, again: &str) -> Page {
+    let mut page = Page::default();
     page.heading(1, "What a plan can see");
     page.paragraph("Written by `hexbench validate power --markdown FILE`; do not edit.");
     page.paragraph(
@@ -80,7 +80,7 @@ pub fn document(plain: &Studied, rich: &Studied, charts: &str, again: &str) -> D
         one_plan(&mut page, studied, charts);
     }
     page.heading(2, "How it is reckoned");
-    page.list(Page { plan: &rich.plan, power: &rich.power, only: &[], verbose: false }.notes());
+    page.list(PlanReport { plan: &rich.plan, power: &rich.power, only: &[], verbose: false }.notes());
     page.heading(2, "Where the two worlds write an effect differently");
     page.list(
         CORRESPONDENCES
@@ -96,9 +96,9 @@ pub fn document(plain: &Studied, rich: &Studied, charts: &str, again: &str) -> D
     page
 }
 
-fn one_plan(page: &mut Document, studied: &Studied, charts: &str) {
+fn one_plan(page: &mut Page, studied: &Studied, charts: &str) {
     page.heading(2, format!("The plan `{}`", studied.name));
-    let own = Page { plan: &studied.plan, power: &studied.power, only: &[], verbose: false };
+    let own = PlanReport { plan: &studied.plan, power: &studied.power, only: &[], verbose: false };
     page.paragraph(own.subject());
     page.paragraph(own.summary());
     let figure = |file: &str| format!("{charts}/{}-{file}", studied.name);
@@ -266,7 +266,7 @@ fn checked(studied: &Studied) -> Vec<Checked<'_>> {
 }
 
 /// How well reckoning and counting agree, and where they do not.
-fn agreement(page: &mut Document, studied: &[&Studied]) {
+fn agreement(page: &mut Page, studied: &[&Studied]) {
     let all: Vec<Checked<'_>> = studied.iter().flat_map(|s| checked(s)).collect();
     if all.is_empty() {
         return;

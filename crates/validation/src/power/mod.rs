@@ -18,7 +18,7 @@ mod usual;
 pub use charts::pictures;
 pub use document::{Studied, document, plan_of};
 pub use faint::Faint;
-pub use page::Page;
+pub use page::PlanReport;
 pub use plan::PowerPlan;
 pub use simulate::{Answers, Simulated};
 pub use study::{Check, Power, PowerError, Simulation, most_campaigns, run};

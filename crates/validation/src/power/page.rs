@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use hexbench_design::power::{Effect, NOTHING, Verdict};
 use hexbench_model::noise::NoiseSource;
-use hexbench_report::Document;
+use hexbench_report::Page;
 use hexbench_report::number::significant;
 
 use super::tables::{self, percent};
@@ -14,7 +14,7 @@ use super::{Power, PowerPlan};
 pub(super) const LOOK_ALIKE: f64 = 0.95;
 
 /// What is told.
-pub struct Page<'a> {
+pub struct PlanReport<'a> {
     /// The plan.
     pub plan: &'a PowerPlan,
     /// Its power.
@@ -25,10 +25,10 @@ pub struct Page<'a> {
     pub verbose: bool,
 }
 
-impl Page<'_> {
+impl PlanReport<'_> {
     /// The page.
-    pub fn document(&self) -> Document {
-        let mut page = Document::default();
+    pub fn document(&self) -> Page {
+        let mut page = Page::default();
         page.heading(1, "What this plan sees");
         page.paragraph(self.subject());
         page.paragraph(self.summary());
@@ -39,14 +39,14 @@ impl Page<'_> {
     }
 
     /// Tables, without title and notes, under headings of a level.
-    pub(super) fn body(&self, page: &mut Document, level: usize) {
+    pub(super) fn body(&self, page: &mut Page, level: usize) {
         if self.told().any(|(_, e)| leaves_something(e)) {
             self.seen(page, level);
         }
         self.blind(page, level);
     }
 
-    fn seen(&self, page: &mut Document, level: usize) {
+    fn seen(&self, page: &mut Page, level: usize) {
         page.heading(level, "Smallest size that is seen");
         page.table(tables::SIZES, self.each(tables::sizes));
         page.heading(level, "What springs make of it");
@@ -151,7 +151,7 @@ impl Page<'_> {
         self.told().map(|(_, e)| e).filter(|e| bias(e) > 0.5).max_by(|a, b| bias(a).total_cmp(&bias(b)))
     }
 
-    fn taken_for(&self, page: &mut Document, level: usize) {
+    fn taken_for(&self, page: &mut Page, level: usize) {
         page.heading(level, "What it would be taken for");
         page.paragraph(
             "Of 100 campaigns with the effect at the size that is seen, how often it explains best itself, how often \
@@ -168,7 +168,7 @@ impl Page<'_> {
         });
     }
 
-    fn checks(&self, page: &mut Document, level: usize) {
+    fn checks(&self, page: &mut Page, level: usize) {
         let n = self.power.simulation.campaigns;
         if n == 0 {
             return;
@@ -193,7 +193,7 @@ impl Page<'_> {
         }
     }
 
-    fn answers(&self, page: &mut Document, level: usize) {
+    fn answers(&self, page: &mut Page, level: usize) {
         let answers = |(k, e): (usize, &Effect)| tables::answers(e, &self.power.checks[k]);
         let rows: Vec<Vec<String>> = self.told().filter_map(answers).collect();
         if rows.is_empty() {
@@ -208,7 +208,7 @@ impl Page<'_> {
         page.table(tables::ANSWERS, rows);
     }
 
-    fn blind(&self, page: &mut Document, level: usize) {
+    fn blind(&self, page: &mut Page, level: usize) {
         let mut reasons: BTreeMap<String, Vec<&str>> = BTreeMap::new();
         for (_, e) in self.told() {
             if let Some(why) = why_never(e) {

@@ -1,55 +1,46 @@
 //! The study as tables of text, for the screen and for the document.
 
+use hexbench_report::{Section, Table};
+
 use super::noiseless::Bounded;
 use super::study::{Row, Study};
 use super::tally::Coverage;
 
-/// A titled table; the first column names the row.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Table {
-    /// What it shows.
-    pub title: &'static str,
-    /// How to read it, one sentence.
-    pub remark: &'static str,
-    /// Heads of the columns.
-    pub header: Vec<&'static str>,
-    /// Cells, row by row.
-    pub rows: Vec<Vec<String>>,
-}
-
 /// Without noise, intervals, effects named, sums.
-pub fn tables(study: &Study) -> [Table; 4] {
+pub fn tables(study: &Study) -> [Section; 4] {
     [noiseless(study), intervals(study), naming(study), sums(study)]
 }
 
-fn noiseless(study: &Study) -> Table {
+fn noiseless(study: &Study) -> Section {
     let cells = |row: &Row| {
         let both = [row.noiseless_stiffness, row.noiseless_effect];
         named(row, both.into_iter().flat_map(error_and_bound))
     };
-    Table {
-        title: "Without noise",
-        remark: "relative error closest to its bound; the bound follows from what the model linearises",
-        header: vec!["hidden", "stiffness", "bound", "effect", "bound"],
-        rows: study.rows.iter().map(cells).collect(),
-    }
+    Section::new("Without noise")
+        .remark("relative error closest to its bound; the bound follows from what the model linearises")
+        .table(
+            Table::named(["hidden", "stiffness", "bound", "effect", "bound"])
+                .rows(study.rows.iter().map(cells)),
+        )
 }
 
 fn error_and_bound(bounded: Option<Bounded>) -> [String; 2] {
     bounded.map_or([dash(), dash()], |b| [format!("{:.1e}", b.error), format!("{:.1e}", b.bound)])
 }
 
-fn intervals(study: &Study) -> Table {
+fn intervals(study: &Study) -> Section {
     let cells = |row: &Row| {
         let pulled = [row.stiffness, row.sizes].into_iter().flat_map(share_and_pull);
         named(row, pulled.chain([share(row.shapes)]))
     };
-    Table {
-        title: "95 % intervals",
-        remark: "share that covers the truth, mean and standard deviation of (estimate - truth) / uncertainty",
-        header: vec!["hidden", "stiffness", "mean/sd", "effect", "mean/sd", "shape"],
-        rows: study.rows.iter().map(cells).collect(),
-    }
+    Section::new("95 % intervals")
+        .remark(
+            "share that covers the truth, mean and standard deviation of (estimate - truth) / uncertainty",
+        )
+        .table(
+            Table::named(["hidden", "stiffness", "mean/sd", "effect", "mean/sd", "shape"])
+                .rows(study.rows.iter().map(cells)),
+        )
 }
 
 fn share_and_pull(coverage: Option<Coverage>) -> [String; 2] {
@@ -61,7 +52,7 @@ fn share(coverage: Option<Coverage>) -> String {
     coverage.map_or_else(dash, |c| format!("{:.3}", c.share))
 }
 
-fn naming(study: &Study) -> Table {
+fn naming(study: &Study) -> Section {
     let cells = |row: &Row| {
         let [right, honest, wrong] = row.named;
         let number = |x: f64| format!("{x:.2}");
@@ -77,16 +68,13 @@ fn naming(study: &Study) -> Table {
             ],
         )
     };
-    Table {
-        title: "Named, and held out",
-        remark: "answers right/honest/wrong; median held-out chi-square per number; how often the best wrong terms win by \
-                 evidence/by prediction/of; share of held-out sets within their 95 % region",
-        header: vec!["hidden", "named", "springs", "right", "wrong", "wrong wins", "predicted"],
-        rows: study.rows.iter().map(cells).collect(),
-    }
+    Section::new("Named, and held out")
+        .remark("answers right/honest/wrong; median held-out chi-square per number; how often the best wrong terms win by \
+                 evidence/by prediction/of; share of held-out sets within their 95 % region")
+        .table(Table::named(["hidden", "named", "springs", "right", "wrong", "wrong wins", "predicted"]).rows(study.rows.iter().map(cells)))
 }
 
-fn sums(study: &Study) -> Table {
+fn sums(study: &Study) -> Section {
     let kinds = [
         ("leg stiffness", study.stiffness),
         ("sizes of effects", study.sizes),
@@ -107,12 +95,12 @@ fn sums(study: &Study) -> Table {
             c.intervals.to_string(),
         ]
     };
-    Table {
-        title: "All together",
-        remark: "share of 95 % intervals that cover the truth, and what chance allows",
-        header: vec!["intervals of", "cover", "allowed", "campaigns", "intervals"],
-        rows: kinds.into_iter().filter_map(|(what, c)| c.map(|c| row((what, c)))).collect(),
-    }
+    Section::new("All together")
+        .remark("share of 95 % intervals that cover the truth, and what chance allows")
+        .table(
+            Table::named(["intervals of", "cover", "allowed", "campaigns", "intervals"])
+                .rows(kinds.into_iter().filter_map(|(what, c)| c.map(|c| row((what, c))))),
+        )
 }
 
 fn named(row: &Row, cells: impl IntoIterator<Item = String>) -> Vec<String> {

@@ -1,8 +1,9 @@
-//! A comparison as a short page of Markdown, as it fits the summary of a job.
+//! A comparison as a page: for the terminal, and as Markdown for the summary of a job.
 
-use hexbench_report::Document;
+use hexbench_report::{Page, Section, Table};
 
 use super::comparison::{Comparison, Finding, probability};
+use super::limit::Group;
 use super::rule::Verdict;
 
 /// Limits shown beside those that fail or improved.
@@ -46,37 +47,44 @@ pub fn rule(c: &Comparison) -> String {
     )
 }
 
-/// The page: failures with what to do, what improved, the least probable others.
-pub fn markdown(c: &Comparison) -> String {
-    let mut page = Document::default();
+/// The page: failures with what to do, what improved, the least probable others or every limit.
+pub fn page(c: &Comparison, all: bool) -> Page {
     let sign = if c.fails() { "failed" } else { "passed" };
-    page.heading(2, format!("Accuracy regression: {sign}"));
-    page.paragraph(headline(c));
-    page.paragraph(against(c));
-    section(&mut page, "Worse than chance explains", c.of(Verdict::Worse).collect());
-    if c.fails() {
-        let mut steps: Vec<&str> = c.of(Verdict::Worse).map(|f| f.group.next_step()).collect();
-        steps.dedup();
-        page.list(steps);
-        page.paragraph("Meant? `hexbench regress --update --reason TEXT` makes this the baseline.");
-    }
-    section(&mut page, "Better than chance explains", c.of(Verdict::Better).collect());
-    let others = c.by_chance().into_iter().filter(|f| f.verdict == Verdict::Same);
-    section(&mut page, "The least probable of the others", others.take(SHOWN).collect());
-    if !c.without_answer.is_empty() {
-        page.heading(3, "Campaigns without an answer");
-        page.list(c.without_answer.iter().take(SHOWN).cloned());
-    }
-    page.paragraph(rule(c));
-    page.to_markdown()
+    let worse: Vec<&Finding> = c.of(Verdict::Worse).collect();
+    let meant = "Meant? `hexbench regress --update --reason TEXT` makes this the baseline.";
+    let page = Page::new(format!("Accuracy regression: {sign}"))
+        .with(Section::lead().paragraph(headline(c)).paragraph(against(c)))
+        .with(section("Worse than chance explains", worse.clone()))
+        .with(Section::new("What to do").list(steps(&worse)).paragraph(meant).when(c.fails()))
+        .with(
+            section("Better than chance explains", c.of(Verdict::Better).collect())
+                .map(|s| s.remark("`hexbench regress --update --reason TEXT` makes them the baseline")),
+        );
+    let page = if all {
+        let of_group = |group: &Group| c.findings.iter().filter(|f| f.group == *group).collect();
+        Group::ALL.iter().fold(page, |page, group| page.with(section(group.word(), of_group(group))))
+    } else {
+        let others = c.by_chance().into_iter().filter(|f| f.verdict == Verdict::Same).take(SHOWN).collect();
+        page.with(
+            section("The least probable of the others", others).map(|s| s.remark("--all shows every limit")),
+        )
+    };
+    let unanswered = c.without_answer.iter().take(SHOWN).cloned();
+    page.with(Section::new("Campaigns without an answer").list(unanswered).unless_empty())
+        .with(Section::new("The rule").paragraph(rule(c)))
 }
 
-fn section(page: &mut Document, title: &str, findings: Vec<&Finding>) {
-    if findings.is_empty() {
-        return;
-    }
-    page.heading(3, title);
-    page.table(["limit", "now", "baseline", "by chance"], findings.into_iter().map(row));
+/// Why each failed limit matters, and the next step of each group.
+fn steps(worse: &[&Finding]) -> Vec<String> {
+    let mut steps: Vec<String> = worse.iter().map(|f| f.group.next_step().to_owned()).collect();
+    steps.dedup();
+    worse.iter().map(|f| format!("{}: {}", f.title, f.why)).chain(steps).collect()
+}
+
+fn section(title: &str, findings: Vec<&Finding>) -> Option<Section> {
+    let table = Table::named(["limit", "now", "baseline", "by chance", "would notice"]);
+    let rows = findings.iter().map(|f| row(f).into_iter().chain([f.notices.clone()]).collect::<Vec<_>>());
+    (!findings.is_empty()).then(|| Section::new(title).table(table.rows(rows)))
 }
 
 /// Title, figures and probability of a finding.

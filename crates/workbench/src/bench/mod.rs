@@ -25,7 +25,7 @@ use hexbench_model::diagnose::prepare;
 use hexbench_model::linearization::{Linearization, Point};
 use hexbench_model::selection::Task;
 use hexbench_model::terms;
-use hexbench_pages::subject::{describe, noise};
+use hexbench_report::words::subject::{describe, noise};
 
 use self::files::{Contents, Files};
 use self::simulate::{Request, Truth};

@@ -1,18 +1,20 @@
 //! `hexbench validate calibration`.
 
 use std::ffi::OsStr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use hexbench_report::render::markdown;
+use hexbench_report::table::csv;
+use hexbench_report::{Block, Entry, Section};
 use hexbench_truth::campaign::Kind;
 use hexbench_validation::calibration::{
-    self, Calibration, Curve, MOST_FALSE_NAMES, Protocol, SEED, document, false_names, pictures, sheets,
+    self, Calibration, Curve, MOST_FALSE_NAMES, Protocol, SEED, false_names, page, pictures, sheets,
     trials_csv,
 };
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
-use crate::page;
 
 /// Say how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
 #[derive(Debug, Args)]
@@ -49,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     };
     let study = with_progress(protocol);
     let written = write(&study, arguments, screen)?;
-    screen.write(&page::calibration(&study, &written, screen.ink()))?;
+    screen.show(&page(&study, "charts").with(files(&written)))?;
     check(arguments.check, &study)
 }
 
@@ -60,6 +62,17 @@ fn with_progress(protocol: Protocol) -> Calibration {
     study
 }
 
+/// Folder by folder.
+fn files(written: &[PathBuf]) -> Section {
+    let folder = |group: &[PathBuf]| {
+        let names: Vec<_> = group.iter().filter_map(|p| p.file_name()).map(|n| n.to_string_lossy()).collect();
+        let folder = group[0].parent().unwrap_or(Path::new("")).join("");
+        Entry::new(folder.display().to_string(), names.join(", "))
+    };
+    let groups = written.chunk_by(|a, b| a.parent() == b.parent());
+    Section::new("Written").with(Block::entries(groups.map(folder)))
+}
+
 /// Returns the paths written.
 fn write(study: &Calibration, arguments: &Arguments, screen: &Screen) -> Result<Vec<PathBuf>, Failure> {
     let out = &arguments.out;
@@ -67,10 +80,10 @@ fn write(study: &Calibration, arguments: &Arguments, screen: &Screen) -> Result<
     files.extend(tables(study).map(|(name, text)| (out.join(name), text)));
     let charts = pictures(&study.records)?;
     files.extend(charts.iter().map(|c| (out.join(c.file), c.svg.clone())));
-    if let Some(markdown) = &arguments.markdown {
-        let folder = markdown.with_extension("");
+    if let Some(path) = &arguments.markdown {
+        let folder = path.with_extension("");
         let beside = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
-        files.push((markdown.clone(), document(study, &beside)));
+        files.push((path.clone(), markdown(&page(study, &beside))));
         files.extend(charts.into_iter().map(|c| (folder.join(c.file), c.svg)));
     }
     for (path, text) in &files {
@@ -95,9 +108,9 @@ fn tables(study: &Calibration) -> impl Iterator<Item = (&'static str, String)> {
         ("power.csv", sheets::power(&curves)),
         ("coverage.csv", sheets::coverage(records)),
         ("numbers.csv", sheets::numbers(records)),
-        ("mistakes.csv", sheets::mistakes_sheet(records)),
+        ("mistakes.csv", sheets::mistakes_table(records)),
     ];
-    all.into_iter().map(|(name, sheet)| (name, sheet.csv()))
+    all.into_iter().map(|(name, table)| (name, csv::text(&table)))
 }
 
 fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {

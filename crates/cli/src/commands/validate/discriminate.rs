@@ -3,10 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_pages::text::{Paper, Table};
-use hexbench_validation::discriminate::{
-    CONFUSIONS, Protocol, SEED, discriminate, document, headlines, sheets,
-};
+use hexbench_report::render::markdown;
+use hexbench_validation::discriminate::{CONFUSIONS, Protocol, SEED, discriminate, page};
 
 use crate::failure::Failure;
 
@@ -38,26 +36,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let progress = Progress::of((protocol.trials * CONFUSIONS.len()) as u64, "trials");
     let study = discriminate(protocol, &CONFUSIONS, &|| progress.advance(1));
     progress.done();
-    let mut paper = Paper::new(screen.ink());
-    paper.heading("Readings that tell effects apart", &format!("seed {}", protocol.seed));
-    for line in headlines(&study) {
-        paper.hanging("  -", 4, &line);
-    }
-    paper.heading(
-        "Open answers",
-        "share of right answers after the readings proposed, and after as many at random",
-    );
-    let mut table = Table::default();
-    table.row(["effects", "open", "proposed", "random"]);
-    for row in sheets::proposed(&study).rows {
-        // Name, trials, and the two shares without their bounds.
-        let cell = |k: usize| row[k].split(" (").next().unwrap_or_default().to_owned();
-        table.row([0, 1, 4, 5].map(cell));
-    }
-    table.lines().iter().for_each(|line| paper.line(line));
-    screen.write(&paper.into_text())?;
+    let page = page(&study);
+    screen.show(&page)?;
     arguments.markdown.as_ref().map_or(Ok(()), |path| {
         Screen::make_folder_of(path)?;
-        screen.write_to(path, &document(&study))
+        screen.write_to(path, &markdown(&page))
     })
 }

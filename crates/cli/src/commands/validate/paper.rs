@@ -29,5 +29,5 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             screen.write_to(&path, &text)?;
         }
     }
-    screen.write(&report::page(&study).to_text())
+    screen.show(&report::page(&study))
 }

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_design::power::Settings;
-use hexbench_report::Document;
+use hexbench_report::Page;
+use hexbench_report::render::markdown;
 use hexbench_truth::Scene;
 use hexbench_validation::power::{
     Simulation, Studied, document, most_campaigns, pictures, plan_of, run as study,
@@ -50,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let (plain, rich) = (one(&arguments.plain)?, one(&arguments.rich)?);
     progress.done();
     write(arguments, &plain, &rich, screen)?;
-    screen.write(&page(arguments, &plain, &rich, "power").to_text())
+    screen.show(&page(arguments, &plain, &rich, "power"))
 }
 
 fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen) -> Result<(), Failure> {
@@ -58,7 +59,7 @@ fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen
     let folder = path.with_extension("");
     let beside = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
     Screen::make_folder_of(path)?;
-    screen.write_to(path, &page(arguments, plain, rich, &beside).to_markdown())?;
+    screen.write_to(path, &markdown(&page(arguments, plain, rich, &beside)))?;
     for studied in [plain, rich] {
         for chart in pictures(&studied.power)? {
             let file = folder.join(format!("{}-{}", studied.name, chart.file));
@@ -69,7 +70,7 @@ fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen
     Ok(())
 }
 
-fn page(arguments: &Arguments, plain: &Studied, rich: &Studied, charts: &str) -> Document {
+fn page(arguments: &Arguments, plain: &Studied, rich: &Studied, charts: &str) -> Page {
     let again = format!(
         "hexbench validate power --campaigns {} --seed {} --markdown docs/power.md",
         arguments.campaigns, arguments.seed

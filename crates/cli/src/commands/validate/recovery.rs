@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_validation::recovery::document::document;
+use hexbench_report::render::markdown;
+use hexbench_validation::recovery::document::page;
 use hexbench_validation::recovery::study::{self, Settings, Study};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
-use crate::page;
 
 /// Hide effects in simulated campaigns, and see that they are found with honest uncertainty
 #[derive(Debug, Args)]
@@ -45,10 +45,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         screen.write_to(path, &json(&study)?)?;
     }
     if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &document(&study))?;
+        screen.write_to(path, &markdown(&page(&study)))?;
     }
     if arguments.json.as_deref().is_none_or(|path| path.as_os_str() != "-") {
-        screen.write(&page::recovery(&study, screen.ink()))?;
+        screen.show(&page(&study))?;
     }
     check(arguments.check, &study)
 }

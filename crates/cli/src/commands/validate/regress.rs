@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use hexbench_report::render::markdown;
 use hexbench_validation::regress::baseline::Baseline;
-use hexbench_validation::regress::document::{Proof, document};
+use hexbench_validation::regress::document::{Proof, page};
 use hexbench_validation::regress::gathered::gather;
 use hexbench_validation::regress::limit::Limit;
 use hexbench_validation::regress::limits::limits;
@@ -68,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             runs: &runs,
             planted: &planted,
         };
-        screen.write_to(path, &document(&proof))?;
+        screen.write_to(path, &markdown(&page(&proof)))?;
     }
     let failed: Vec<&Unchanged> = runs.iter().filter(|r| !r.worse.is_empty()).collect();
     let lines = failed.iter().map(|r| format!("seed {}: {}\n", r.seed, r.worse.join("; ")));

@@ -1,12 +1,12 @@
 //! Every difference to the paper, with its reason.
 
-use hexbench_report::Document;
+use hexbench_report::Page;
 
 use super::super::study::Reproduction;
 use super::number;
 
 /// What differs and why; what cannot be reproduced.
-pub(super) fn section(page: &mut Document, study: &Reproduction) {
+pub(super) fn section(page: &mut Page, study: &Reproduction) {
     page.heading(2, "Differences, one sentence each");
     page.list([
         "Geometry: the paper's is confidential; ours was chosen to agree with its dc (14.5 um without noise on our validation poses, 13.5 um measured on its own).".to_owned(),

@@ -9,7 +9,8 @@ mod differences;
 mod question;
 mod sections;
 
-use hexbench_report::Document;
+use hexbench_report::Page;
+use hexbench_report::render::markdown;
 
 use super::error::PaperError;
 use super::study::Reproduction;
@@ -18,8 +19,8 @@ use super::study::Reproduction;
 const FOLDER: &str = "paper";
 
 /// The page.
-pub fn page(study: &Reproduction) -> Document {
-    let mut page = Document::default();
+pub fn page(study: &Reproduction) -> Page {
+    let mut page = Page::default();
     sections::opening(&mut page, study);
     sections::poses(&mut page, study);
     sections::measurement(&mut page, study);
@@ -37,7 +38,7 @@ pub fn page(study: &Reproduction) -> Document {
 /// # Errors
 /// [`PaperError::Plot`] when a number of the study cannot be drawn, [`PaperError::Table`].
 pub fn files(study: &Reproduction) -> Result<Vec<(String, String)>, PaperError> {
-    let mut files = vec![("paper.md".to_owned(), page(study).to_markdown())];
+    let mut files = vec![("paper.md".to_owned(), markdown(&page(study)))];
     let inside = |(name, text): (&str, String)| (format!("{FOLDER}/{name}"), text);
     files.extend(charts::all(study)?.into_iter().map(inside));
     files.extend(data::all(study)?.into_iter().map(inside));

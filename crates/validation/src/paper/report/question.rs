@@ -1,7 +1,7 @@
 //! The question the paper leaves open: what is missing, and which measurement would have shown it.
 
 use hexbench_model::verdict::Verdict;
-use hexbench_report::Document;
+use hexbench_report::Page;
 
 use super::super::bench::effective_load;
 use super::super::missing::{Finding, Step};
@@ -10,7 +10,7 @@ use super::super::study::Reproduction;
 use super::{COORDINATES, chance, number};
 
 /// Which effect could leave such errors.
-pub(super) fn suspects(page: &mut Document, study: &Reproduction) {
+pub(super) fn suspects(page: &mut Page, study: &Reproduction) {
     page.heading(2, "What could be missing");
     page.paragraph(
         "Each effect is made as large as it must be for the paper's estimator, on the paper's plan, to miss the validation poses by the \
@@ -36,7 +36,7 @@ pub(super) fn suspects(page: &mut Document, study: &Reproduction) {
 }
 
 /// The experiment with the effect in the world and not in the model.
-pub(super) fn hidden(page: &mut Document, study: &Reproduction) {
+pub(super) fn hidden(page: &mut Page, study: &Reproduction) {
     page.heading(2, "The support gives, and the model does not know");
     let [x, y, z] = study.support_motion.map(|d| d * 1e6);
     page.paragraph(format!(
@@ -84,7 +84,7 @@ pub(super) fn hidden(page: &mut Document, study: &Reproduction) {
 }
 
 /// What a diagnosis says by the paper's plan and by a richer one.
-pub(super) fn diagnosis(page: &mut Document, study: &Reproduction) {
+pub(super) fn diagnosis(page: &mut Page, study: &Reproduction) {
     page.heading(2, "Which measurement would have shown it");
     let (poor, rich) = (&study.poor, &study.rich);
     let row = |plan: &str, f: &Finding| {

@@ -1,6 +1,6 @@
 //! The paper's procedure, its tables beside ours.
 
-use hexbench_report::Document;
+use hexbench_report::Page;
 
 use super::super::bench::{effective_load, sigma};
 use super::super::published::{
@@ -11,7 +11,7 @@ use super::super::study::Reproduction;
 use super::{COORDINATES, chance, number};
 
 /// What this is, and the paper's first two steps.
-pub(super) fn opening(page: &mut Document, study: &Reproduction) {
+pub(super) fn opening(page: &mut Page, study: &Reproduction) {
     page.heading(1, "The paper, reproduced");
     page.paragraph(
         "V. J. Kalas, A. Vissiere, T. Roux, O. Company, S. Krut and F. Pierrot, \"A new efficient stiffness evaluation \
@@ -45,7 +45,7 @@ pub(super) fn opening(page: &mut Document, study: &Reproduction) {
 }
 
 /// Step 3: Table 1 and fig. 7.
-pub(super) fn poses(page: &mut Document, study: &Reproduction) {
+pub(super) fn poses(page: &mut Page, study: &Reproduction) {
     page.heading(2, "Step 3: poses of the largest observability index (Table 1)");
     let (published, best) = (&study.published_set, &study.best_sets[0].1);
     let best_rows = in_order(best);
@@ -82,7 +82,7 @@ fn in_order(set: &PoseSet) -> [[f64; 4]; 3] {
     poses
 }
 
-fn poses_in_words(page: &mut Document, study: &Reproduction) {
+fn poses_in_words(page: &mut Page, study: &Reproduction) {
     let [(_, wide), (narrow, narrower)] = &study.best_sets;
     let turned = in_order(narrower)[0][3];
     page.paragraph(format!(
@@ -109,7 +109,7 @@ fn poses_in_words(page: &mut Document, study: &Reproduction) {
 }
 
 /// Step 4: the instrument and fig. 8.
-pub(super) fn measurement(page: &mut Document, study: &Reproduction) {
+pub(super) fn measurement(page: &mut Page, study: &Reproduction) {
     page.heading(2, "Step 4: deflections by a coordinate measuring machine");
     let s = sigma().map(|x| x * 1e6);
     page.paragraph(format!(
@@ -146,7 +146,7 @@ pub(super) fn measurement(page: &mut Document, study: &Reproduction) {
 }
 
 /// Step 5: Table 2.
-pub(super) fn stiffness(page: &mut Document, study: &Reproduction) {
+pub(super) fn stiffness(page: &mut Page, study: &Reproduction) {
     page.heading(2, "Step 5: leg stiffness (Table 2), N/um");
     let outcomes = [&study.springs.paper, &study.springs.weighted].map(|o| o.identified.stiffness());
     let row = |leg: usize| {
@@ -173,7 +173,7 @@ pub(super) fn stiffness(page: &mut Document, study: &Reproduction) {
 }
 
 /// Tables 3 and 4, figs. 9 and 10.
-pub(super) fn prediction(page: &mut Document, study: &Reproduction) {
+pub(super) fn prediction(page: &mut Page, study: &Reproduction) {
     page.heading(2, "Validation: prediction at other poses (Tables 3 and 4)");
     page.paragraph(
         "Five poses along X and five along Y, 0, 15 and 30 mm to both sides, one reading each. Root mean square of measured minus \

@@ -1,6 +1,6 @@
 //! Planted faults.
 
-use hexbench_report::Document;
+use hexbench_report::Page;
 
 use crate::regress::comparison::probability;
 use crate::regress::planted::Planted;
@@ -11,7 +11,7 @@ use crate::regress::summary::row;
 const LISTED: usize = 5;
 
 /// What was planted, whether it was noticed, and by what.
-pub(super) fn section(page: &mut Document, planted: &[Planted]) {
+pub(super) fn section(page: &mut Page, planted: &[Planted]) {
     if planted.is_empty() {
         return;
     }
@@ -32,7 +32,7 @@ pub(super) fn section(page: &mut Document, planted: &[Planted]) {
     page.list(planted.iter().filter(|p| p.failed() == 0).map(not_seen));
 }
 
-fn seen_by(page: &mut Document, planted: &Planted) {
+fn seen_by(page: &mut Page, planted: &Planted) {
     page.heading(3, planted.name.clone());
     let failed = planted.comparison.by_chance().into_iter().filter(|f| f.verdict == Verdict::Worse);
     page.table(["limit", "now", "baseline", "by chance"], failed.take(LISTED).map(row));

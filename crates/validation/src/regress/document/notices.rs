@@ -1,6 +1,6 @@
 //! What each limit would notice, and why it exists.
 
-use hexbench_report::Document;
+use hexbench_report::Page;
 
 use super::Proof;
 use crate::regress::comparison::{level, probability};
@@ -10,7 +10,7 @@ use crate::regress::notice::{POWER, noticed};
 use crate::regress::rule::FALSE_ALARM;
 
 /// A table for each group, then the reasons.
-pub(super) fn section(page: &mut Document, proof: &Proof<'_>) {
+pub(super) fn section(page: &mut Page, proof: &Proof<'_>) {
     let level = level(proof.limits);
     page.heading(2, "What each limit would notice");
     page.paragraph(format!(

@@ -1,6 +1,6 @@
 //! Runs of the unchanged program.
 
-use hexbench_report::Document;
+use hexbench_report::Page;
 
 use super::random;
 use crate::proportion::Proportion;
@@ -15,7 +15,7 @@ const BORDERS: [f64; 5] = [1.0, 10.0, 100.0, 1000.0, 10_000.0];
 const LISTED: usize = 5;
 
 /// How many failed, and how probable the least probable limit of each run was.
-pub(super) fn section(page: &mut Document, runs: &[Unchanged], limits: &[Limit]) {
+pub(super) fn section(page: &mut Page, runs: &[Unchanged], limits: &[Limit]) {
     let (Some(first), Some(last)) = (runs.first(), runs.last()) else { return };
     page.heading(2, "Runs of the unchanged program");
     page.paragraph(told(runs, limits));
