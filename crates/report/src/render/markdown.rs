@@ -14,10 +14,14 @@ pub fn markdown(page: &Page) -> String {
 }
 
 fn section(section: &Section) -> Vec<String> {
+    let blocks: Vec<String> = section.blocks.iter().filter_map(block).collect();
+    if blocks.is_empty() && !section.blocks.is_empty() {
+        return Vec::new();
+    }
     let heading = format!("{} {}", "#".repeat(section.depth + 1), section.title);
     let heading = (!section.title.is_empty()).then_some(heading);
     let remark = (!section.remark.is_empty()).then(|| hung("", "", &sentence(&section.remark)));
-    heading.into_iter().chain(remark).chain(section.blocks.iter().filter_map(block)).collect()
+    heading.into_iter().chain(remark).chain(blocks).collect()
 }
 
 fn block(block: &Block) -> Option<String> {
@@ -60,9 +64,9 @@ fn hung(first: &str, rest: &str, text: &str) -> String {
 
 /// A remark as a sentence: a capital first letter, unless it begins with a unit or a name, and a full stop.
 pub(super) fn sentence(remark: &str) -> String {
-    const LONGEST_UNIT: usize = 4;
+    const UNITS: [&str; 5] = ["um", "mm", "urad", "deg", "m"];
     let first = remark.split_whitespace().next().unwrap_or("");
-    let is_word = first.len() > LONGEST_UNIT && first.chars().all(char::is_alphabetic);
+    let is_word = !UNITS.contains(&first) && first.chars().all(char::is_alphabetic);
     let mut letters = remark.chars();
     let head = letters.next().map(|c| if is_word { c.to_uppercase().collect() } else { c.to_string() });
     let stop = if remark.ends_with(['.', '?', ':']) { "" } else { "." };
@@ -126,6 +130,7 @@ mod tests {
     fn a_remark_becomes_a_sentence() {
         assert_eq!(sentence("elongation of each leg, um"), "Elongation of each leg, um.");
         assert_eq!(sentence("um and deg"), "um and deg.");
+        assert_eq!(sentence("on held-out poses"), "On held-out poses.");
         assert_eq!(sentence("`hexbench terms` explains"), "`hexbench terms` explains.");
     }
 }

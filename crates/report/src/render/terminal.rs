@@ -16,6 +16,8 @@ pub struct Terminal {
 
 /// Columns of the longest bar.
 const BAR: usize = 24;
+/// Columns that a bar of share one keeps in a wide table.
+const SHORTEST_BAR: usize = 6;
 /// Fewest columns that a wrapped last column of a table keeps.
 const NARROWEST: usize = 24;
 
@@ -138,12 +140,15 @@ impl Writer {
             Some(brief) if !self.with.verbose => brief.min(table.rows.len()),
             _ => table.rows.len(),
         };
-        let grid = Grid::new(table, shown, self.with, WIDTH - indent);
-        for line in grid.lines(self.with.style) {
-            self.line(&format!("{}{line}", " ".repeat(indent)));
+        let blanks = " ".repeat(indent);
+        if shown > 0 {
+            let grid = Grid::new(table, shown, self.with, WIDTH - indent);
+            grid.lines(self.with.style).iter().for_each(|line| self.line(&format!("{blanks}{line}")));
         }
-        if shown < table.rows.len() {
-            self.line(&format!("{}and {} more (--verbose)", " ".repeat(indent), table.rows.len() - shown));
+        match table.rows.len() - shown {
+            0 => {}
+            more if shown == 0 => self.line(&format!("{blanks}One by one, {more} rows: --verbose")),
+            more => self.line(&format!("{blanks}and {more} more (--verbose)")),
         }
     }
 }
@@ -196,11 +201,13 @@ impl<'a> Grid<'a> {
         self.rows.iter().map(cell).max().unwrap_or(0).max(heading)
     }
 
-    /// A last column of words gives way where the table is too wide.
+    /// A last column of words or bars gives way where the table is too wide.
     fn fit(&mut self, room: usize) {
         let wide = self.widths.iter().map(|w| w + 2).sum::<usize>().saturating_sub(2);
+        let bars = self.rows.iter().any(|row| matches!(row.last(), Some(Cell::Bar { .. })));
+        let narrowest = if bars { SHORTEST_BAR } else { NARROWEST };
         if let (Some(last), Some(true)) = (self.widths.last_mut(), self.words.last()) {
-            *last = last.saturating_sub(wide.saturating_sub(room)).max(NARROWEST.min(*last));
+            *last = last.saturating_sub(wide.saturating_sub(room)).max(narrowest.min(*last));
         }
     }
 
