@@ -112,11 +112,11 @@ pub enum Open {
     /// Files the page has read; their names are only shown.
     Files {
         /// hexapod.toml
-        hexapod: Text,
+        hexapod: FileText,
         /// measurements.csv
-        data: Text,
+        data: FileText,
         /// holdout.csv
-        holdout: Option<Text>,
+        holdout: Option<FileText>,
     },
     /// A machine simulated on the spot.
     Simulation {
@@ -155,7 +155,7 @@ pub enum Level {
 /// A file as text.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Text {
+pub struct FileText {
     /// Its name, for messages; never used to find a file.
     pub name: String,
     /// What is in it.

@@ -5,7 +5,7 @@ use hexbench_model::model_file::Model;
 use hexbench_workbench::bench::cases::CASES;
 use hexbench_workbench::bench::{Bench, Kind, Refusal};
 use hexbench_workbench::wire::{
-    Ask, Export, Guess, Level, Limits, Open, Opened, Selection, Text, View, What,
+    Ask, Export, FileText, Guess, Level, Limits, Open, Opened, Selection, View, What,
 };
 
 const LIMITS: Limits = Limits { bytes: 1 << 25, rows: 2000, own_terms: 8, term_bytes: 1 << 16, benches: 16 };
@@ -83,7 +83,7 @@ fn an_answer_depends_on_the_question_alone() {
 #[test]
 fn without_a_holdout_file_poses_are_left_out_in_turn() {
     let known = CASES[0];
-    let text = |name: &str, text: &str| Text { name: name.to_owned(), text: text.to_owned() };
+    let text = |name: &str, text: &str| FileText { name: name.to_owned(), text: text.to_owned() };
     let request = Open::Files {
         hexapod: text("hexapod.toml", known.hexapod),
         data: text("measurements.csv", known.data),
@@ -98,7 +98,7 @@ fn without_a_holdout_file_poses_are_left_out_in_turn() {
 fn a_fault_in_a_file_is_told_with_its_place() {
     let known = CASES[0];
     let spoilt = known.data.replacen("fz_N", "fz_lbf", 1);
-    let text = |name: &str, text: &str| Text { name: name.to_owned(), text: text.to_owned() };
+    let text = |name: &str, text: &str| FileText { name: name.to_owned(), text: text.to_owned() };
     let request = |data: &str| Open::Files {
         hexapod: text("hexapod.toml", known.hexapod),
         data: text("../../mine.csv", data),
