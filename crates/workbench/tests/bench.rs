@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test without its case fails")]
 
 use hexbench_model::model_file::Model;
+use hexbench_model::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
 use hexbench_workbench::bench::{Bench, Kind, Refusal};
 use hexbench_workbench::wire::{
@@ -213,7 +214,7 @@ fn the_diagnosis_names_the_effect_and_the_files_can_be_taken_home() {
     let answer = bench.diagnose(&Ask::default()).unwrap();
     assert_eq!(
         (answer.word, answer.diagnosis.added.as_slice()),
-        ("named", &["base-compliance".to_owned()][..])
+        (Verdict::Named, &["base-compliance".to_owned()][..])
     );
     let take = |what, terms: &[&str]| bench.export(&Export { what, selection: ticked(terms) }).unwrap();
     let model = Model::from_toml(&take(What::Model, &["base-compliance"]).text).unwrap();

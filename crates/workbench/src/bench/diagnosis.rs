@@ -32,7 +32,7 @@ impl Bench {
         let since = Instant::now();
         let d = self.study(&ask.own)?.diagnosis;
         Ok(Diagnosed {
-            word: conclusion::word(d.verdict),
+            word: d.verdict,
             sentences: conclusion::sentences(&d),
             probabilities: probabilities(&d),
             tick: d.model.iter().map(|id| asked_for(&d, id)).collect(),
