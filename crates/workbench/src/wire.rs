@@ -20,6 +20,8 @@ pub struct Catalogue {
     pub version: &'static str,
     /// Terms of the model, in the order of the catalogue.
     pub terms: Vec<TermCard>,
+    /// Chapters of the catalogue, in the order in which they are shown.
+    pub chapters: Vec<&'static str>,
     /// Bundled measurements.
     pub cases: Vec<Choice>,
     /// Families of machines that can be simulated.
@@ -44,6 +46,8 @@ pub struct TermCard {
     pub id: String,
     /// A few words.
     pub title: String,
+    /// One of [`Catalogue::chapters`].
+    pub chapter: &'static str,
     /// One or two sentences.
     pub physics: String,
     /// First-order equation.

@@ -4,7 +4,7 @@
 use hexbench_model::model_file::Model;
 use hexbench_model::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
-use hexbench_workbench::bench::{Bench, Kind, Refusal};
+use hexbench_workbench::bench::{Bench, Kind, Refusal, catalogue};
 use hexbench_workbench::wire::{
     Ask, Export, FileText, Guess, Level, Limits, Open, Opened, Selection, View, What,
 };
@@ -25,6 +25,16 @@ fn ticked(terms: &[&str]) -> Selection {
 
 fn held_out(view: &View) -> f64 {
     view.holdout.unwrap().chi2_reduced
+}
+
+#[test]
+fn the_page_gets_the_terms_in_chapters_as_a_machine_is_built() {
+    let page = catalogue(LIMITS, None);
+    assert_eq!(page.chapters.first(), Some(&"Structure"));
+    assert_eq!(page.chapters.last(), Some(&"Absolute poses"));
+    for term in &page.terms {
+        assert!(page.chapters.contains(&term.chapter), "{} would not be shown: {}", term.id, term.chapter);
+    }
 }
 
 #[test]

@@ -17,6 +17,8 @@ export type Catalogue = {
   version: string;
   /** Terms of the model, in the order of the catalogue. */
   terms: Array<TermCard>;
+  /** Chapters of the catalogue, in the order in which they are shown. */
+  chapters: Array<string>;
   /** Bundled measurements. */
   cases: Array<Choice>;
   /** Families of machines that can be simulated. */
@@ -83,6 +85,8 @@ export type TermCard = {
   id: string;
   /** A few words. */
   title: string;
+  /** One of `Catalogue::chapters`. */
+  chapter: string;
   /** One or two sentences. */
   physics: string;
   /** First-order equation. */
