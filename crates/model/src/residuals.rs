@@ -31,6 +31,7 @@ pub struct Residual {
 
 /// Size of a set of residuals.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct ErrorSummary {
     /// Sum of squared whitened residuals per degree of freedom (per number for held-out data).
     pub chi2_reduced: f64,
@@ -62,6 +63,7 @@ impl ErrorSummary {
 
 /// Root mean square in the units people read.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Rms {
     /// Over the three translations, um.
     pub translation_um: f64,

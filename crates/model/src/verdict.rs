@@ -14,6 +14,7 @@ const CREDIBLE: f64 = 0.95;
 
 /// What the data say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// The springs explain the data to within the noise.

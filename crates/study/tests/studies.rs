@@ -3,6 +3,7 @@
 
 mod common;
 
+use hexbench_report::render::plain;
 use std::fs::{self, File};
 
 use hexbench_study::columns::Status;
@@ -79,7 +80,7 @@ fn designed_poses_are_worth_more_than_as_many_random_ones() {
     let (runner, cells) = run(folder.path(), rest);
     let equal = equals(runner.study(), &cells);
     assert_eq!(equal.len(), 3);
-    let page = hexbench_study::page::summary(runner.study(), &cells).to_text();
+    let page = plain(&hexbench_study::page::summary(runner.study(), &cells));
     assert!(page.contains("random poses as good"), "{page}");
     for e in &equal {
         let worth = match e.random_poses {
@@ -199,7 +200,7 @@ fn trials_without_an_answer_are_counted_and_have_no_results() {
     let (runner, cells) = run(folder.path(), rest);
     assert_eq!(cells[0].done(), 40);
     assert_eq!(cells[1].by_status[Status::NotVisible as usize], 40);
-    let page = hexbench_study::page::summary(runner.study(), &cells).to_text();
+    let page = plain(&hexbench_study::page::summary(runner.study(), &cells));
     assert!(page.contains("effect not visible: 40"), "{page}");
     let table = fs::read_to_string(folder.path().join(CELLS)).unwrap();
     assert!(table.lines().nth(2).unwrap().ends_with(",40,0,0,40,,,,,,,,,"), "{table}");

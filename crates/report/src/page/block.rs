@@ -6,6 +6,7 @@ use super::Table;
 
 /// Part of a section.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Block {
     /// The answer: a word in color, then sentences.
@@ -49,6 +50,7 @@ pub enum Block {
 
 /// Color of a word, a bar or a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum Mood {
     /// Settled, at the noise.
@@ -61,6 +63,7 @@ pub enum Mood {
 
 /// A name and what is said of it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Entry {
     /// The name.
     pub label: String,
@@ -77,6 +80,7 @@ impl Entry {
 
 /// A chart, drawn by [`crate::plot`].
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Figure {
     /// Its name within the section, as in the names of files; empty for the only one.
     pub name: String,

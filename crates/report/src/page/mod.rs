@@ -14,6 +14,7 @@ pub use table::{Cell, Column, Table};
 
 /// A page of sections.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Page {
     /// Its title.
     pub title: String,
@@ -25,6 +26,7 @@ pub struct Page {
 
 /// A titled part of a page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Section {
     /// Anchor within the page: lower-case letters and hyphens.
     pub id: String,

@@ -6,6 +6,7 @@ use super::Mood;
 
 /// Columns and rows; a title may stand above.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Table {
     /// What stands above it; empty for none.
     pub title: String,
@@ -19,6 +20,7 @@ pub struct Table {
 
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Column {
     /// Its heading.
     pub title: String,
@@ -30,6 +32,7 @@ pub struct Column {
 
 /// A cell.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 #[serde(untagged)]
 pub enum Cell {
     /// Words or a number written out.

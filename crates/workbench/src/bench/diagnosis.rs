@@ -37,7 +37,7 @@ impl Bench {
         let page = words::diagnosis(&self.subject(&study));
         let d = study.diagnosis;
         Ok(Diagnosed {
-            word: d.verdict.word(),
+            word: d.verdict,
             page,
             tick: d.model.iter().map(|id| asked_for(&d, id)).collect(),
             diagnosis: d,
