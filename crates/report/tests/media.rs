@@ -26,8 +26,8 @@ fn cases() -> Vec<Case> {
     let read = |folder: &PathBuf| Case {
         name: folder.file_name().unwrap().to_string_lossy().into_owned(),
         hexapod: read_hexapod(&folder.join("hexapod.toml")).unwrap(),
-        data: read_measurements(&folder.join("measurements.csv")).unwrap(),
-        holdout: read_measurements(&folder.join("holdout.csv")).unwrap(),
+        data: read_measurements(&folder.join("measurements.csv")).unwrap().dataset,
+        holdout: read_measurements(&folder.join("holdout.csv")).unwrap().dataset,
     };
     folders.iter().map(read).collect()
 }
