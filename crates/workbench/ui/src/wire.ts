@@ -342,14 +342,10 @@ export type Ask = {
 export type Diagnosed = {
   /** The verdict. */
   word: Verdict;
-  /** The verdict in a sentence or two. */
-  sentences: Array<string>;
-  /** Probability that each is at work, most probable first. */
-  probabilities: Array<Probability>;
+  /** Everything the diagnosis says, as every other medium says it. */
+  page: Page;
   /** What to tick to see the model it settled on, `:richer` included. */
   tick: Array<string>;
-  /** What to measure next, a sentence each; empty when nothing is open. */
-  next: Array<string>;
   /** Everything, as `diagnose --json` writes it. */
   diagnosis: Diagnosis;
   /** Time taken on the server, ms. */
@@ -364,6 +360,41 @@ export type AbsorbedReport = {
   bias_of_leg_stiffness_percent: [number | null, number | null, number | null, number | null, number | null, number | null];
 };
 
+/** Part of a section. */
+export type Block = {
+  "kind": "verdict";
+  /** The word. */
+  word: string;
+  /** Its color. */
+  mood: Mood;
+  /** One paragraph each. */
+  sentences: Array<string>;
+} | {
+  "kind": "paragraph";
+  /** The text. */
+  text: string;
+  /** Its color, if any. */
+  mood: Mood | null;
+} | {
+  "kind": "list";
+  /** The lines. */
+  items: Array<string>;
+} | {
+  "kind": "entries";
+  /** Number of a numbered group of entries. */
+  number: number | null;
+  /** The entries. */
+  entries: Array<Entry>;
+} | {
+  "kind": "code";
+  /** The lines. */
+  text: string;
+} | {
+  "kind": "table"
+} & Table | {
+  "kind": "figure"
+} & Figure;
+
 /** One candidate. */
 export type CandidateReport = {
   /** Id of the term, `outside` or `none`. */
@@ -372,6 +403,24 @@ export type CandidateReport = {
   probability: number;
   /** Terms whose signature is the same in these data. */
   indistinguishable: Array<string>;
+};
+
+/** A cell. */
+export type Cell = string | {
+  /** Its length. */
+  bar: number;
+  /** Its color, if any. */
+  mood: Mood | null;
+};
+
+/** A column. */
+export type Column = {
+  /** Its heading. */
+  title: string;
+  /** Words are set left and may wrap, numbers right. */
+  words: boolean;
+  /** Left out where there is little room. */
+  detail: boolean;
 };
 
 /** Smallest size of one parameter that a test sees with the wanted power. */
@@ -434,6 +483,29 @@ export type Diagnosis = {
   warnings: Array<string>;
 };
 
+/** A name and what is said of it. */
+export type Entry = {
+  /** The name. */
+  label: string;
+  /** What is said. */
+  text: string;
+};
+
+/** A chart, drawn by `crate::plot`. */
+export type Figure = {
+  /** Its name within the section, as in the names of files; empty for the only one. */
+  name: string;
+  /** The chart; empty where only the file is named. */
+  svg: string;
+  /** The file of the chart beside the page, for media that only name it. */
+  file: string | null;
+  /** What it shows. */
+  caption: string;
+};
+
+/** Color of a word, a bar or a line. */
+export type Mood = "good" | "doubt" | "bad";
+
 /** A proposed reading. */
 export type NextReport = {
   /** `[a, b, c]` in mm, `[alpha, beta, gamma]` in deg. */
@@ -485,16 +557,30 @@ export type OutsideReport = {
   text: string;
 };
 
-/** An explanation and how sure it is. */
-export type Probability = {
-  /** Id of the term, `none` or `outside`. */
-  id: string;
-  /** In words. */
+/** A page of sections. */
+export type Page = {
+  /** Its title. */
   title: string;
-  /** 0 to 1. */
-  probability: number;
-  /** Ids of terms that look the same in these data. */
-  alike: Array<string>;
+  /** What it is about: machine, files, noise. */
+  subject: Array<Entry>;
+  /** From top to bottom. */
+  sections: Array<Section>;
+};
+
+/** A titled part of a page. */
+export type Section = {
+  /** Anchor within the page: lower-case letters and hyphens. */
+  id: string;
+  /** Depth of its heading below the title: 1, or 2 within a section. */
+  depth: number;
+  /** Heading; empty for what stands right below the title. */
+  title: string;
+  /** Small print beside the heading; may be empty. */
+  remark: string;
+  /** Left out where there is little room. */
+  detail: boolean;
+  /** What it says. */
+  blocks: Array<Block>;
 };
 
 /** What the proposed readings promise for two rivals. */
@@ -531,6 +617,18 @@ export type Suspect = {
   row: number;
   /** Largest whitened residual. */
   z: number;
+};
+
+/** Columns and rows; a title may stand above. */
+export type Table = {
+  /** What stands above it; empty for none. */
+  title: string;
+  /** The columns. */
+  columns: Array<Column>;
+  /** Cells, row by row; cells missing at the end of a row are empty. */
+  rows: Array<Array<Cell>>;
+  /** Rows that every medium shows, the others are detail; none: all. */
+  brief: number | null;
 };
 
 /** A term that cannot be tested. */

@@ -141,7 +141,10 @@ test("the workbench says word for word what the report says, of every bundled ca
     const report = await downloaded(page, "export-report");
     const reader = await browser.newPage();
     await reader.setContent(report.text);
-    const parts = await reader.locator("section:not(:has(figure)):not(#provenance)").locator("h2, p, li, dt, dd, td, caption").allTextContents();
+    const parts = await reader
+      .locator("section:not(:has(figure)):not(#provenance)")
+      .locator("h2, p, li, dt, dd, td, caption")
+      .allTextContents();
     await reader.close();
     const wanted = parts.map(plain).filter((part) => part !== "");
     assert.ok(wanted.length > 30, `${name}: ${wanted.length} parts`);

@@ -89,7 +89,11 @@ function Rows({ table }: { table: Table }) {
         )}
         <tbody>
           {table.rows.map((row, index) => (
-            <tr key={index}>{row.map((cell, column) => <Content key={column} cell={cell} words={words(column)} />)}</tr>
+            <tr key={index}>
+              {row.map((cell, column) => (
+                <Content key={column} cell={cell} words={words(column)} />
+              ))}
+            </tr>
           ))}
         </tbody>
       </table>

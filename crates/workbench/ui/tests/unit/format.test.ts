@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { digits, percent, withUncertainty } from "../../src/format";
+import { digits, withUncertainty } from "../../src/format";
 
 test("numbers keep their significant digits", () => {
   assert.equal(digits(1.5234), "1.52");
@@ -16,8 +16,3 @@ test("a value ends where its uncertainty ends", () => {
   assert.deepEqual(withUncertainty(0.00001, 0.2), { value: "0.00", std: "0.20" });
 });
 
-test("a probability is never said to be certain", () => {
-  assert.equal(percent(0.999), "> 99 %");
-  assert.equal(percent(0.001), "< 1 %");
-  assert.equal(percent(0.5), "50 %");
-});
