@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use hexbench_study::journal::record;
-use hexbench_study::{Adopted, Part, Runner, Study, Work, divide, page};
+use hexbench_experiments::sweep::journal::record;
+use hexbench_experiments::sweep::{Adopted, Part, Runner, Study, Work, divide, page};
 use hexbench_tasks::Failure;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

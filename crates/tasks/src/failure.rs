@@ -4,10 +4,15 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use hexbench_challenge::ChallengeError;
 use hexbench_core::files::FileError;
 use hexbench_design::DesignError;
 use hexbench_entrant::EntrantError;
+use hexbench_experiments::challenge::ChallengeError;
+use hexbench_experiments::paper::PaperError;
+use hexbench_experiments::power::PowerError;
+use hexbench_experiments::regress::baseline::BaselineError;
+use hexbench_experiments::sweep::StudyError;
+use hexbench_experiments::trial::TrialError;
 use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
@@ -16,13 +21,8 @@ use hexbench_model::runs::Incompatible;
 use hexbench_model::user_term::UserTermError;
 use hexbench_pages::html::ReportError;
 use hexbench_report::plot::PlotError;
-use hexbench_study::StudyError;
 use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
-use hexbench_validation::paper::PaperError;
-use hexbench_validation::power::PowerError;
-use hexbench_validation::regress::baseline::BaselineError;
-use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
 /// Exit codes of the command; the Python package has an exception for each.

@@ -7,11 +7,11 @@ use clap::Args;
 use hexbench_core::{Hexapod, Measurand, Metrology};
 use hexbench_design::nominal;
 use hexbench_design::power::Settings;
-use hexbench_model::fit_named::term_named;
-use hexbench_model::term::Term;
-use hexbench_validation::power::{
+use hexbench_experiments::power::{
     Page, Power, PowerPlan, Simulation, most_campaigns, pictures, run as study,
 };
+use hexbench_model::fit_named::term_named;
+use hexbench_model::term::Term;
 
 use crate::failure::Failure;
 use crate::input;

@@ -3,17 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_validation::regress::baseline::{Baseline, Update, made};
-use hexbench_validation::regress::comparison::{Comparison, compare};
-use hexbench_validation::regress::date::today;
-use hexbench_validation::regress::gathered::pool;
-use hexbench_validation::regress::junit::junit;
-use hexbench_validation::regress::limit::Limit;
-use hexbench_validation::regress::limits::limits;
-use hexbench_validation::regress::rule::Verdict;
-use hexbench_validation::regress::suite::{BASELINE_RUNS, SEED, Suite};
-use hexbench_validation::regress::summary::{headline, markdown};
-use hexbench_validation::regress::trials::{Trials, run as run_suite};
+use hexbench_experiments::regress::baseline::{Baseline, Update, made};
+use hexbench_experiments::regress::comparison::{Comparison, compare};
+use hexbench_experiments::regress::date::today;
+use hexbench_experiments::regress::gathered::pool;
+use hexbench_experiments::regress::junit::junit;
+use hexbench_experiments::regress::limit::Limit;
+use hexbench_experiments::regress::limits::limits;
+use hexbench_experiments::regress::rule::Verdict;
+use hexbench_experiments::regress::suite::{BASELINE_RUNS, SEED, Suite};
+use hexbench_experiments::regress::summary::{headline, markdown};
+use hexbench_experiments::regress::trials::{Trials, run as run_suite};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen, write_json};
@@ -90,7 +90,7 @@ fn check(arguments: &Arguments, suite: &Suite, limits: &[Limit], screen: &Screen
 fn write(arguments: &Arguments, comparison: &Comparison, screen: &Screen) -> Result<(), Failure> {
     let to_screen = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
     if let Some(path) = &arguments.junit {
-        let cause = |e: hexbench_validation::regress::junit::XmlError| Failure::Output {
+        let cause = |e: hexbench_experiments::regress::junit::XmlError| Failure::Output {
             path: path.clone(),
             cause: std::io::Error::other(e),
         };
@@ -116,7 +116,7 @@ fn update(
     screen: &Screen,
 ) -> Result<(), Failure> {
     if reason.trim().is_empty() {
-        return Err(hexbench_validation::regress::baseline::BaselineError::NoReason.into());
+        return Err(hexbench_experiments::regress::baseline::BaselineError::NoReason.into());
     }
     let kept =
         if arguments.baseline.exists() { Baseline::read(&arguments.baseline)?.history } else { Vec::new() };

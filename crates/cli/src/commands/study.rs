@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, value_parser};
+use hexbench_experiments::sweep::{Part, Work, divide, page};
 use hexbench_pages::text::{Paper, Table};
-use hexbench_study::{Part, Work, divide, page};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen, report};

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use hexbench_experiments::calibration::{Calibration, Fate, Record, headlines};
 use hexbench_pages::text::{Ink, Paper, Table};
 use hexbench_truth::campaign::Kind;
-use hexbench_validation::calibration::{Calibration, Fate, Record, headlines};
 
 /// Groups of false answers that get a line.
 const GROUPS: usize = 8;
@@ -51,7 +51,7 @@ fn fates(paper: &mut Paper, records: &[Record]) {
 }
 
 fn mistakes(paper: &mut Paper, records: &[Record]) {
-    let groups = hexbench_validation::calibration::mistakes(records);
+    let groups = hexbench_experiments::calibration::mistakes(records);
     if groups.is_empty() {
         return;
     }

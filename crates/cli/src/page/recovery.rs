@@ -1,8 +1,8 @@
 //! The page of `hexbench validate recovery`.
 
+use hexbench_experiments::recovery::study::Study;
+use hexbench_experiments::recovery::tables::{summary, tables};
 use hexbench_pages::text::{Ink, Paper, Table};
-use hexbench_validation::recovery::study::Study;
-use hexbench_validation::recovery::tables::{summary, tables};
 
 /// Tables, broken bounds, and a line that sums up.
 pub(crate) fn recovery(study: &Study, ink: Ink) -> String {

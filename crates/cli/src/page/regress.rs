@@ -1,10 +1,10 @@
 //! The page of `hexbench regress`.
 
+use hexbench_experiments::regress::comparison::{Comparison, Finding, probability};
+use hexbench_experiments::regress::limit::Group;
+use hexbench_experiments::regress::rule::Verdict;
+use hexbench_experiments::regress::summary::{against, headline, rule};
 use hexbench_pages::text::{Ink, Paper};
-use hexbench_validation::regress::comparison::{Comparison, Finding, probability};
-use hexbench_validation::regress::limit::Group;
-use hexbench_validation::regress::rule::Verdict;
-use hexbench_validation::regress::summary::{against, headline, rule};
 
 /// Limits shown beside those that fail or improved.
 const SHOWN: usize = 5;

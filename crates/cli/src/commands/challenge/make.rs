@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_challenge::{Suite, make};
+use hexbench_experiments::challenge::{Suite, make};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
-use hexbench_challenge::Challenge;
-use hexbench_challenge::run::{Entrant, Limits, Manner, Program, Summary, run as run_cases};
+use hexbench_experiments::challenge::Challenge;
+use hexbench_experiments::challenge::run::{Entrant, Limits, Manner, Program, Summary, run as run_cases};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};

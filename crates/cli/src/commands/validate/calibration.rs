@@ -4,11 +4,11 @@ use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_truth::campaign::Kind;
-use hexbench_validation::calibration::{
+use hexbench_experiments::calibration::{
     self, Calibration, Curve, MOST_FALSE_NAMES, Protocol, SEED, document, false_names, pictures, sheets,
     trials_csv,
 };
+use hexbench_truth::campaign::Kind;
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_pages::text::{Paper, Table};
-use hexbench_validation::discriminate::{
+use hexbench_experiments::discriminate::{
     CONFUSIONS, Protocol, SEED, discriminate, document, headlines, sheets,
 };
+use hexbench_pages::text::{Paper, Table};
 
 use crate::failure::Failure;
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_validation::paper::{Reproduction, report};
+use hexbench_experiments::paper::{Reproduction, report};
 
 use crate::failure::Failure;
 use crate::output::Screen;

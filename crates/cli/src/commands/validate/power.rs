@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_design::power::Settings;
-use hexbench_report::Document;
-use hexbench_truth::Scene;
-use hexbench_validation::power::{
+use hexbench_experiments::power::{
     Simulation, Studied, document, most_campaigns, pictures, plan_of, run as study,
 };
+use hexbench_report::Document;
+use hexbench_truth::Scene;
 
 use crate::failure::Failure;
 use crate::input;

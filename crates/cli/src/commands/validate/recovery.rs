@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_validation::recovery::document::document;
-use hexbench_validation::recovery::study::{self, Settings, Study};
+use hexbench_experiments::recovery::document::document;
+use hexbench_experiments::recovery::study::{self, Settings, Study};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};

@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_validation::regress::baseline::Baseline;
-use hexbench_validation::regress::document::{Proof, document};
-use hexbench_validation::regress::gathered::gather;
-use hexbench_validation::regress::limit::Limit;
-use hexbench_validation::regress::limits::limits;
-use hexbench_validation::regress::planted;
-use hexbench_validation::regress::suite::Suite;
-use hexbench_validation::regress::trials::{Trials, run as run_suite};
-use hexbench_validation::regress::unchanged::{Kept, Unchanged, logged, machines};
+use hexbench_experiments::regress::baseline::Baseline;
+use hexbench_experiments::regress::document::{Proof, document};
+use hexbench_experiments::regress::gathered::gather;
+use hexbench_experiments::regress::limit::Limit;
+use hexbench_experiments::regress::limits::limits;
+use hexbench_experiments::regress::planted;
+use hexbench_experiments::regress::suite::Suite;
+use hexbench_experiments::regress::trials::{Trials, run as run_suite};
+use hexbench_experiments::regress::unchanged::{Kept, Unchanged, logged, machines};
 
 use crate::commands::regress::COMMITTED;
 use crate::failure::Failure;

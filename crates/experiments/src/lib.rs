@@ -1,0 +1,31 @@
+//! The proving ground: simulated campaigns with a known truth go through the identification, and what it says is compared
+//! with what was hidden.
+//!
+//! | experiment | question |
+//! |---|---|
+//! | [`recovery`] | is what was hidden found, with honest uncertainty? |
+//! | [`calibration`] | how far can the stated probabilities be trusted? |
+//! | [`discriminate`] | do the proposed readings tell effects apart? |
+//! | [`power`] | which effects does a plan show? |
+//! | [`regress`] | did a change make anything worse? |
+//! | [`paper`] | what is behind the errors of the paper? |
+//! | [`sweep`] | which choice of an experiment is worth what? |
+//! | [`challenge`] | how do algorithms in other languages compare? |
+//!
+//! It holds no physics of its own: campaigns come from `hexbench_truth`, answers from `hexbench_model`.
+
+pub mod calibration;
+pub mod challenge;
+pub mod discriminate;
+pub mod paper;
+pub mod power;
+pub mod proportion;
+pub mod recovery;
+pub mod regress;
+pub mod sheet;
+pub mod sweep;
+pub mod trial;
+
+pub use proportion::Proportion;
+pub use sheet::Sheet;
+pub use trial::{Outcome, Trial, TrialError};

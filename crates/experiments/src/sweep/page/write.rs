@@ -1,0 +1,55 @@
+//! The page and its charts, into files.
+
+use std::fs;
+use std::path::Path;
+
+use hexbench_core::files::atomic_write;
+use hexbench_report::png::png;
+
+use super::{Picture, document, pictures};
+use crate::sweep::error::StudyError;
+use crate::sweep::results::CellStatistics;
+use crate::sweep::study::Study;
+
+/// Writes `study.md` and `charts` (SVG, and PNG where the system has a font) into a folder, and the page once more as
+/// `markdown` with its charts beside it, when that is wanted.
+///
+/// # Errors
+/// [`StudyError::Plot`], [`StudyError::Write`].
+pub fn write(
+    study: &Study,
+    cells: &[CellStatistics],
+    folder: &Path,
+    markdown: Option<&Path>,
+) -> Result<(), StudyError> {
+    let pictures = pictures(study, cells)?;
+    let text = |folder: &str| document(study, cells, &pictures, folder).to_markdown();
+    page(&folder.join("study.md"), &folder.join("charts"), &text, &pictures)?;
+    for (picture, png) in pictures.iter().filter_map(|p| Some((p, png(&p.svg)?))) {
+        file(&folder.join("charts").join(format!("{}.png", picture.name)), &png)?;
+    }
+    markdown.map_or(Ok(()), |path| page(path, &path.with_extension(""), &text, &pictures))
+}
+
+/// The page and its charts as SVG, which are in `folder` beside it.
+fn page(
+    path: &Path,
+    folder: &Path,
+    text: &dyn Fn(&str) -> String,
+    pictures: &[Picture],
+) -> Result<(), StudyError> {
+    let beside = folder.file_name().unwrap_or_default().to_string_lossy();
+    file(path, text(&beside).as_bytes())?;
+    for picture in pictures {
+        file(&folder.join(format!("{}.svg", picture.name)), picture.svg.as_bytes())?;
+    }
+    Ok(())
+}
+
+fn file(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
+    let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
+    folder
+        .map_or(Ok(()), fs::create_dir_all)
+        .and_then(|()| atomic_write(path, |out| out.write_all(bytes)))
+        .map_err(|cause| StudyError::Write { path: path.to_owned(), cause })
+}

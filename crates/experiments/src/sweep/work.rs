@@ -1,0 +1,174 @@
+//! Work on a study in a folder: how it divides, what is still to do, what other folders have done, the results.
+//!
+//! One `Work` holds the folder's lock. Whoever drives it decides which shards are computed when, and may stop between them.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::sweep::error::StudyError;
+use crate::sweep::journal::{Adopted, Journal};
+use crate::sweep::part::Part;
+use crate::sweep::results::{self, CellStatistics};
+use crate::sweep::runner::Runner;
+use crate::sweep::study::Study;
+
+/// How a study divides into parts.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Division {
+    /// One line about the study.
+    pub title: String,
+    /// Shards of the whole.
+    pub shards: u64,
+    /// Trials of the whole.
+    pub trials: u64,
+    /// SHA-256 of the study file and of every file it names.
+    pub inputs: std::collections::BTreeMap<String, String>,
+    /// Every file it was read from beside the study file itself, relative to its folder.
+    pub files: Vec<String>,
+    /// The parts in order.
+    pub parts: Vec<Share>,
+}
+
+/// How much a part is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Share {
+    /// `i/n`.
+    pub part: String,
+    /// Its shards.
+    pub shards: u64,
+    /// Their trials.
+    pub trials: u64,
+}
+
+/// Tells how a study divides into so many parts.
+///
+/// # Errors
+/// The study file cannot be used, or a designed plan has no answer.
+pub fn divide(study: &Path, parts: u64) -> Result<Division, StudyError> {
+    let runner = Runner::new(Study::read(study)?)?;
+    let share = |part: Part| {
+        let own: Vec<u64> = (0..runner.shards()).filter(|&n| part.holds(n)).collect();
+        Share { part: part.to_string(), shards: own.len() as u64, trials: trials(&runner, &own) }
+    };
+    Ok(Division {
+        title: runner.study().title.clone(),
+        shards: runner.shards(),
+        trials: runner.study().all_trials(),
+        inputs: runner.study().inputs.clone(),
+        files: runner.study().files.clone(),
+        parts: Part::all(parts).map(share).collect(),
+    })
+}
+
+/// A study and its folder, in use by this run alone.
+pub struct Work {
+    runner: Runner,
+    journal: Journal,
+}
+
+/// What is still to do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Todo {
+    /// Shards to be computed, in order.
+    pub pending: Vec<u64>,
+    /// Trials that are wanted, those done before among them.
+    pub trials: u64,
+    /// Trials of the pending shards.
+    pub pending_trials: u64,
+    /// Records of the whole journal that were cut or changed.
+    pub damaged: u64,
+}
+
+impl Work {
+    /// Reads the study and opens its folder, which is made.
+    ///
+    /// # Errors
+    /// As [`Study::read`], [`Runner::new`], [`Journal::open`].
+    pub fn open(study: &Path, folder: &Path) -> Result<Self, StudyError> {
+        let runner = Runner::new(Study::read(study)?)?;
+        let journal = Journal::open(folder, &runner)?;
+        Ok(Self { runner, journal })
+    }
+
+    /// What of a part, or of the whole, is still to do.
+    ///
+    /// # Errors
+    /// [`StudyError::Read`].
+    pub fn todo(&self, part: Option<Part>) -> Result<Todo, StudyError> {
+        let wanted = |n: &u64| part.is_none_or(|part| part.holds(*n));
+        let own: Vec<u64> = (0..self.runner.shards()).filter(wanted).collect();
+        let state = self.journal.state(&self.runner)?;
+        let pending: Vec<u64> = state.pending.into_iter().filter(wanted).collect();
+        let [all, left] = [&own, &pending].map(|shards| trials(&self.runner, shards));
+        Ok(Todo { pending, trials: all, pending_trials: left, damaged: state.damaged })
+    }
+
+    /// Computes shards and keeps each; `done` hears how many trials are done.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`]; what was kept before stays.
+    pub fn compute(&self, shards: &[u64], done: &(dyn Fn(u64) + Sync)) -> Result<(), StudyError> {
+        self.journal.compute(&self.runner, shards, done)
+    }
+
+    /// Keeps the record of a shard that [`record`](crate::sweep::journal::record) made elsewhere.
+    ///
+    /// # Errors
+    /// As [`Journal::keep_record`].
+    pub fn keep_record(&self, shard: u64, record: &[u8]) -> Result<(), StudyError> {
+        self.journal.keep_record(&self.runner, shard, record)
+    }
+
+    /// Takes over what another folder has done.
+    ///
+    /// # Errors
+    /// As [`Journal::adopt`].
+    pub fn adopt(&self, folder: &Path) -> Result<Adopted, StudyError> {
+        self.journal.adopt(&self.runner, folder)
+    }
+
+    /// Refuses a journal in which shards are missing.
+    ///
+    /// # Errors
+    /// [`StudyError::Incomplete`], [`StudyError::Read`].
+    pub fn require_complete(&self) -> Result<(), StudyError> {
+        let pending = self.journal.state(&self.runner)?.pending;
+        pending.first().map_or(Ok(()), |&first| {
+            let missing = pending.len() as u64;
+            Err(StudyError::Incomplete { missing, first, all: self.runner.shards() })
+        })
+    }
+
+    /// Writes both tables; `done` hears of each shard.
+    ///
+    /// # Errors
+    /// As [`results::write`].
+    pub fn write_tables(&self, done: &dyn Fn()) -> Result<Vec<CellStatistics>, StudyError> {
+        results::write(&self.runner, &self.journal, done)
+    }
+
+    /// The study.
+    pub fn study(&self) -> &Study {
+        self.runner.study()
+    }
+
+    /// Shards of the whole.
+    pub fn shards(&self) -> u64 {
+        self.runner.shards()
+    }
+
+    /// Folder of the results.
+    pub fn folder(&self) -> &Path {
+        self.journal.folder()
+    }
+
+    /// Files and folders of the results.
+    pub fn written(&self) -> Vec<PathBuf> {
+        ["study.md", results::CELLS, results::TRIALS, "charts"].map(|name| self.folder().join(name)).into()
+    }
+}
+
+fn trials(runner: &Runner, shards: &[u64]) -> u64 {
+    shards.iter().map(|&n| runner.trials_of(n)).map(|t| t.end - t.start).sum()
+}

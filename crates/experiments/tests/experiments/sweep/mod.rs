@@ -1,0 +1,5 @@
+//! Sweeps: what their numbers must be.
+
+mod closed_form;
+mod studies;
+mod support;
