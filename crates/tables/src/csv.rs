@@ -16,11 +16,21 @@ pub(super) fn write(frame: &Frame, out: &mut (dyn Write + Send)) -> io::Result<(
                 Values::Numbers(all) => number(out, all[row])?,
                 Values::Integers(all) => write!(out, "{}", all[row])?,
                 Values::Words(all) => out.write_all(all[row].as_bytes())?,
+                Values::Texts(all) => text(out, &all[row])?,
             }
         }
         out.write_all(b"\n")?;
     }
     Ok(())
+}
+
+/// In quotes where it has to be (RFC 4180).
+fn text(out: &mut dyn Write, words: &str) -> io::Result<()> {
+    if words.contains(['"', ',', '\n', '\r']) {
+        write!(out, "\"{}\"", words.replace('"', "\"\""))
+    } else {
+        out.write_all(words.as_bytes())
+    }
 }
 
 /// The shortest decimals that read back as the same number; nothing for none.
@@ -37,6 +47,16 @@ fn number(out: &mut dyn Write, x: f64) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use crate::{Column, Frame, Kind, Values};
+
+    #[test]
+    fn words_with_commas_and_quotes_stay_in_their_cell() {
+        let texts = ["plain", "one, two", "\"no\""].map(str::to_owned).to_vec();
+        let (unit, meaning) = (String::new(), String::new());
+        let column = Column { name: "why".into(), unit, meaning, values: Values::Texts(texts) };
+        let mut out = Vec::new();
+        Frame { columns: vec![column], ..Frame::default() }.write(Kind::Csv, &mut out).unwrap();
+        assert_eq!(String::from_utf8(out).unwrap(), "why\nplain\n\"one, two\"\n\"\"\"no\"\"\"\n");
+    }
 
     #[test]
     fn numbers_read_back_as_they_were_and_missing_ones_are_empty() {
