@@ -12,11 +12,15 @@
 //! | [`sweep`] | which choice of an experiment is worth what? |
 //! | [`challenge`] | how do algorithms in other languages compare? |
 //!
+//! All of them run on one bench ([`harness`]) and keep what is done in one kind of journal ([`journal`]).
 //! It holds no physics of its own: campaigns come from `hexbench_truth`, answers from `hexbench_model`.
 
 pub mod calibration;
 pub mod challenge;
 pub mod discriminate;
+pub mod error;
+pub mod harness;
+pub mod journal;
 pub mod paper;
 pub mod power;
 pub mod proportion;
@@ -26,6 +30,7 @@ pub mod sheet;
 pub mod sweep;
 pub mod trial;
 
+pub use error::ExperimentError;
 pub use proportion::Proportion;
 pub use sheet::Sheet;
 pub use trial::{Outcome, Trial, TrialError};

@@ -6,9 +6,10 @@ use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::Verdict;
 use hexbench_truth::TruthError;
 use hexbench_truth::campaign::Case;
+use serde::{Deserialize, Serialize};
 
 /// How the answer of a diagnosis compares with the truth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Outcome {
     /// Exactly the hidden effects are named; nothing when there are none; "outside" when the catalogue lacks one.
     Right,
@@ -16,6 +17,17 @@ pub enum Outcome {
     Honest,
     /// Anything else.
     Wrong,
+}
+
+impl Outcome {
+    /// A word for tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Honest => "honest",
+            Self::Wrong => "wrong",
+        }
+    }
 }
 
 /// A case and what was said about it.

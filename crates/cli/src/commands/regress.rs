@@ -13,10 +13,10 @@ use hexbench_experiments::regress::limits::limits;
 use hexbench_experiments::regress::rule::Verdict;
 use hexbench_experiments::regress::suite::{BASELINE_RUNS, SEED, Suite};
 use hexbench_experiments::regress::summary::{headline, markdown};
-use hexbench_experiments::regress::trials::{Trials, run as run_suite};
+use hexbench_experiments::regress::trials::Runs;
 
 use crate::failure::Failure;
-use crate::output::{Progress, Screen, write_json};
+use crate::output::{Screen, TrialFiles, write_json};
 use crate::page;
 
 /// The baseline of the full suite.
@@ -58,6 +58,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", requires = "update", default_value_t = BASELINE_RUNS as u32,
           value_parser = clap::value_parser!(u32).range(1..=100))]
     runs: u32,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 /// Compare with the baseline, or make a new one.
@@ -72,7 +74,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn check(arguments: &Arguments, suite: &Suite, limits: &[Limit], screen: &Screen) -> Result<(), Failure> {
     let baseline = Baseline::read_for(&arguments.baseline, suite, limits)?;
-    let trials = with_progress(suite, &[arguments.seed]);
+    let run = Runs::new(suite, arguments.seed, 1);
+    let trials = run.of_each(arguments.kept.run(&run)?);
     let first = trials.first().ok_or_else(|| Failure::Check("nothing was run".into()))?;
     let comparison = compare(suite, limits, (first, arguments.seed), &baseline, VERSION);
     write(arguments, &comparison, screen)?;
@@ -122,8 +125,8 @@ fn update(
         if arguments.baseline.exists() { Baseline::read(&arguments.baseline)?.history } else { Vec::new() };
     Screen::make_folder_of(&arguments.baseline)?;
     let runs = arguments.runs as usize;
-    let seeds: Vec<u64> = (0..u64::from(arguments.runs)).map(|k| arguments.seed.wrapping_add(k)).collect();
-    let trials = with_progress(suite, &seeds);
+    let all = Runs::new(suite, arguments.seed, runs);
+    let trials = all.of_each(arguments.kept.run(&all)?);
     let update = Update {
         date: today(),
         hexbench: VERSION.to_owned(),
@@ -143,15 +146,4 @@ fn update(
         baseline.suite_version,
         baseline.history.len(),
     ))
-}
-
-/// One run for each seed; campaigns without noise are the same in all and made once.
-fn with_progress(suite: &Suite, seeds: &[u64]) -> Vec<Trials> {
-    let others = suite.without_machines();
-    let suites: Vec<&Suite> = (0..seeds.len()).map(|k| if k == 0 { suite } else { &others }).collect();
-    let progress = Progress::of(suites.iter().map(|s| s.campaigns() as u64).sum(), "campaigns");
-    let step = || progress.advance(1);
-    let trials = suites.iter().zip(seeds).map(|(suite, seed)| run_suite(suite, *seed, &step)).collect();
-    progress.done();
-    trials
 }

@@ -68,7 +68,7 @@ fn failures(paper: &mut Paper, study: &Calibration) {
         return;
     }
     paper.heading("Without an answer", "");
-    for f in &study.failures {
-        paper.hanging("  -", 4, &format!("{}-{:04}: {}", f.kind.name(), f.index, f.cause));
+    for (name, why) in &study.failures {
+        paper.hanging("  -", 4, &format!("{name}: {why}"));
     }
 }

@@ -2,11 +2,12 @@
 
 use hexbench_model::diagnose::Diagnosis;
 use hexbench_model::verdict::Verdict;
+use serde::{Deserialize, Serialize};
 
 use crate::trial::{Outcome, Trial};
 
 /// What became of the hidden truth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Fate {
     /// Exactly the truth is said.
     Right,

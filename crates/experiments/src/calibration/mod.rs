@@ -29,7 +29,7 @@ pub use power::{Curve, SIZES, Step};
 pub use protocol::{DISTANCES, Portion, Protocol, SEED};
 pub use record::Record;
 pub use reliability::{BORDERS, Bin, Scores, bins, scores};
-pub use study::{Calibration, Failure, calibrate, case};
+pub use study::{Calibration, case};
 pub use trials_csv::trials_csv;
 pub use trust::{
     CREDIBLE, HeldOut, MOST_FALSE_NAMES, credible_coverage, false_names, false_names_among_named,

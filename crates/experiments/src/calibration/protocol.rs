@@ -63,8 +63,10 @@ impl Protocol {
         self.portions.iter().map(|p| p.trials).sum()
     }
 
-    /// Kind and number within the kind of every trial.
-    pub(super) fn jobs(&self) -> Vec<(Kind, usize)> {
-        self.portions.iter().flat_map(|p| (0..p.trials).map(|index| (p.kind, index))).collect()
+    /// Kind and number within the kind of a trial.
+    pub(super) fn job(&self, number: u64) -> (Kind, usize) {
+        let mut jobs = self.portions.iter().flat_map(|p| (0..p.trials).map(|index| (p.kind, index)));
+        let number = usize::try_from(number).unwrap_or(usize::MAX);
+        jobs.nth(number).unwrap_or((Kind::Single, number))
     }
 }

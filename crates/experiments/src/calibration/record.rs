@@ -5,25 +5,29 @@ use std::collections::{BTreeMap, BTreeSet};
 use hexbench_model::diagnose::Study;
 use hexbench_model::verdict::{NONE, OUTSIDE, Verdict};
 use hexbench_truth::campaign::{Case, Kind, PlanKind};
+use serde::{Deserialize, Serialize};
 
 use super::Fate;
+use crate::harness::words::{self, Word};
 use crate::trial::{Trial, TrialError};
 
 /// What was hidden in a campaign, and what was said about it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Kind and number, as the folder of the case would be called.
     pub id: String,
     /// Kind of the campaign.
     pub kind: Kind,
     /// Family of the machine.
-    pub family: &'static str,
+    #[serde(with = "words")]
+    pub family: Word,
     /// Plan of the measurements.
     pub plan: PlanKind,
     /// Seed of the case itself.
     pub seed: u64,
     /// Ids of the hidden effects as the catalogue calls them; `out:` in front of those it lacks.
-    pub hidden: Vec<&'static str>,
+    #[serde(with = "words::list")]
+    pub hidden: Vec<Word>,
     /// Distance each effect was scaled to; none where effects have their usual size.
     pub distance: Option<f64>,
     /// Distance of the effects together, 0 without effects.

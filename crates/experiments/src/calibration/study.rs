@@ -1,9 +1,10 @@
 //! Running the protocol.
 
 use hexbench_truth::campaign::{Case, Kind};
-use rayon::prelude::*;
 
 use super::{DISTANCES, Protocol, Record};
+use crate::harness::{self, Field, Gathered};
+use crate::journal::Identity;
 use crate::trial::TrialError;
 
 /// All trials of a protocol.
@@ -13,19 +14,17 @@ pub struct Calibration {
     pub protocol: Protocol,
     /// Trials with an answer, in the order of the protocol.
     pub records: Vec<Record>,
-    /// Trials without one.
-    pub failures: Vec<Failure>,
+    /// Trials without one: name and reason.
+    pub failures: Vec<(String, String)>,
 }
 
-/// A trial without an answer.
-#[derive(Debug)]
-pub struct Failure {
-    /// Kind of the campaign.
-    pub kind: Kind,
-    /// Number within the kind.
-    pub index: usize,
-    /// Why.
-    pub cause: TrialError,
+impl Calibration {
+    /// What the trials of a protocol gave.
+    pub fn of(protocol: Protocol, gathered: Gathered<Record>) -> Self {
+        let name = |n| harness::Protocol::name(&protocol, n);
+        let failures = gathered.failures().map(|(n, why)| (name(n), why.clone())).collect();
+        Self { records: gathered.answers.into_iter().flatten().collect(), failures, protocol }
+    }
 }
 
 /// The campaign of one trial.
@@ -36,21 +35,50 @@ pub fn case(kind: Kind, index: usize, seed: u64) -> Result<Case, TrialError> {
     Ok(Case::draw(kind, index, seed, Some(DISTANCES))?)
 }
 
-/// Runs every trial; `done` is called after each. One stream of random numbers per trial: the same seed gives the same
-/// records on any number of threads.
-pub fn calibrate(protocol: Protocol, done: &(dyn Fn() + Sync)) -> Calibration {
-    let one = |&(kind, index): &(Kind, usize)| {
-        let record = case(kind, index, protocol.seed).and_then(|case| Record::of(&case));
-        done();
-        record.map_err(|cause| Failure { kind, index, cause })
-    };
-    let answers: Vec<Result<Record, Failure>> = protocol.jobs().par_iter().map(one).collect();
-    let (mut records, mut failures) = (Vec::new(), Vec::new());
-    for answer in answers {
-        match answer {
-            Ok(record) => records.push(record),
-            Err(failure) => failures.push(failure),
-        }
+impl harness::Protocol for Protocol {
+    type Record = Record;
+    type Error = TrialError;
+
+    fn identity(&self) -> Identity {
+        let portions = self.portions.iter().map(|p| format!("{} {}", p.kind.name(), p.trials));
+        let portions = portions.collect::<Vec<_>>().join(", ");
+        let settings = [("portions", portions), ("seed", self.seed.to_string())];
+        Identity::new("calibration", "calibration-trials/1", settings)
     }
-    Calibration { protocol, records, failures }
+
+    fn trials(&self) -> u64 {
+        self.trials() as u64
+    }
+
+    fn trial(&self, number: u64) -> Result<Record, TrialError> {
+        let (kind, index) = self.job(number);
+        Record::of(&case(kind, index, self.seed)?)
+    }
+
+    fn name(&self, number: u64) -> String {
+        let (kind, index) = self.job(number);
+        format!("{}-{index:04}", kind.name())
+    }
+
+    fn fields(&self) -> Vec<Field<Record>> {
+        let p = |name| (name, "1");
+        vec![
+            Field::text("hidden", "hidden effects", Record::hidden_words),
+            Field::text("family", "family of the machine", |r: &Record| r.family),
+            Field::text("plan", "plan of the measurements", |r: &Record| r.plan.name()),
+            Field::number(p("distance"), "distance of the effects together", |r: &Record| r.total_distance),
+            Field::text("answer", "effects named, or the verdict", Record::answer),
+            Field::text("fate", "what became of the truth", |r: &Record| r.fate.word()),
+            Field::number(p("confidence"), "probability of exactly the verdict", |r: &Record| r.confidence),
+            Field::number(p("truth"), "probability of exactly the truth", |r: &Record| r.truth),
+            Field::number(p("outside"), "probability of something outside the catalogue", |r: &Record| {
+                r.outside
+            }),
+            Field::number(p("none"), "probability of no effect", |r: &Record| r.none),
+            Field::number(p("holdout_springs"), "held-out chi-square per number, springs", |r: &Record| {
+                r.holdout[0]
+            }),
+            Field::number(p("holdout_final"), "the same of the final model", |r: &Record| r.holdout[1]),
+        ]
+    }
 }

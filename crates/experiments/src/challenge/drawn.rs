@@ -8,6 +8,7 @@ use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 use crate::challenge::{ChallengeError, Portion, Suite, Truth};
+use crate::harness::{Progress, each};
 
 /// A case of a challenge, ready to be written.
 #[derive(Debug)]
@@ -26,12 +27,11 @@ pub struct Drawn {
     pub truth: Truth,
 }
 
-/// All cases of a suite, shuffled so that their order tells nothing; `done` is called after each. The same suite gives the same
-/// cases on any number of threads.
+/// All cases of a suite, shuffled so that their order tells nothing. The same suite gives the same cases on any number of threads.
 ///
 /// # Errors
 /// [`ChallengeError::Case`] for a case whose effects show in no plan and machine tried.
-pub fn draw(suite: &Suite, done: &(dyn Fn() + Sync)) -> Result<Vec<Drawn>, ChallengeError> {
+pub fn draw(suite: &Suite, progress: &dyn Progress) -> Result<Vec<Drawn>, ChallengeError> {
     let mut jobs: Vec<(usize, usize)> = Vec::new();
     for (k, portion) in suite.portions.iter().enumerate() {
         jobs.extend((0..portion.count).map(|index| (k, index)));
@@ -44,10 +44,11 @@ pub fn draw(suite: &Suite, done: &(dyn Fn() + Sync)) -> Result<Vec<Drawn>, Chall
             let case = built(portion, index, seed_of(suite.seed, k)).map_err(|cause| {
                 ChallengeError::Case { group: portion.group.clone(), number: index + 1, cause }
             })?;
-            done();
+            progress.advance(1);
             drawn(format!("case-{:0digits$}", number + 1), portion, index, case)
         };
-    jobs.par_iter().enumerate().map(one).collect()
+    progress.begin(jobs.len() as u64, 0);
+    each(jobs.par_iter().enumerate(), progress, one)
 }
 
 /// Stream of the order of the cases.

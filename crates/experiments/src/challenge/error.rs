@@ -7,6 +7,8 @@ use hexbench_core::files::FileError;
 use hexbench_truth::TruthError;
 use thiserror::Error;
 
+use crate::error::ExperimentError;
+
 /// Why a challenge cannot go on. What a program under test does wrong is never one of these: that is a result.
 #[derive(Debug, Error)]
 pub enum ChallengeError {
@@ -76,6 +78,9 @@ pub enum ChallengeError {
     /// Another run is at work.
     #[error("{} is in use by another run", .0.display())]
     Busy(PathBuf),
+    /// It was told to stop.
+    #[error(transparent)]
+    Experiment(#[from] ExperimentError),
     /// Two entrants of one name.
     #[error("two of the folders hold answers named \"{0}\"")]
     SameName(String),
@@ -129,6 +134,7 @@ impl ChallengeError {
             Self::OtherProgram { .. } => "Name another folder, or add --again to replace them.".into(),
             Self::NoProgram(_) => "Give a path, or a name that is found on the PATH.".into(),
             Self::Busy(_) => "Wait for it to end, or name another folder.".into(),
+            Self::Experiment(error) => error.next_step(),
             Self::SameName(_) => "Run one of them again with another --name.".into(),
             Self::Start { .. } => {
                 "Check that sh is there, and the free space of the folder for temporary files.".into()

@@ -21,18 +21,18 @@ use crate::challenge::folder::{
     CASES, HEXAPOD, MEASURED, MEASUREMENTS, PREDICT, README, SEALED, TRUE_READINGS, TRUTH, refuse_content,
 };
 use crate::challenge::{ChallengeError, Drawn, MANIFEST, Manifest, Suite, draw};
+use crate::harness::Progress;
 
 /// The contract for entrants, as it stands in every challenge.
 const CONTRACT: &str = include_str!("entrants.md");
 
-/// Makes a challenge in a folder, which must be empty or absent; `done` is called after each case. The same suite and seed
-/// give the same bytes.
+/// Makes a challenge in a folder, which must be empty or absent. The same suite and seed give the same bytes.
 ///
 /// # Errors
 /// [`ChallengeError::NotEmpty`], [`ChallengeError::Case`], [`ChallengeError::Write`].
-pub fn make(suite: &Suite, folder: &Path, done: &(dyn Fn() + Sync)) -> Result<Manifest, ChallengeError> {
+pub fn make(suite: &Suite, folder: &Path, progress: &dyn Progress) -> Result<Manifest, ChallengeError> {
     refuse_content(folder, &[])?;
-    let cases = draw(suite, done)?;
+    let cases = draw(suite, progress)?;
     let mut files = BTreeMap::new();
     let mut keep = |name: String, text: &str| -> Result<(), ChallengeError> {
         write(&folder.join(&name), text)?;

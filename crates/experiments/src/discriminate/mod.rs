@@ -11,5 +11,5 @@ mod trial;
 pub use bench::Bench;
 pub use confusion::{CONFUSIONS, Confusion};
 pub use document::{document, headlines};
-pub use study::{Discrimination, Protocol, SEED, discriminate};
+pub use study::{Discrimination, Protocol, SEED, Trials};
 pub use trial::{READINGS, Record};

@@ -1,8 +1,9 @@
 //! Running the protocol.
 
-use rayon::prelude::*;
-
 use super::{Confusion, Record};
+use crate::harness::{self, Answer, Field, Gathered};
+use crate::journal::Identity;
+use crate::trial::{Outcome, TrialError};
 
 /// Seed of the committed figures.
 pub const SEED: u64 = 20_261;
@@ -26,7 +27,23 @@ impl Default for Protocol {
     }
 }
 
-/// All trials.
+/// Trials of pairs of effects.
+pub struct Trials<'a> {
+    /// How many, and the seed.
+    pub protocol: Protocol,
+    /// The pairs.
+    pub confusions: &'a [Confusion],
+}
+
+impl Trials<'_> {
+    /// Pair, and number within it, of a trial.
+    fn place(&self, number: u64) -> (usize, usize) {
+        let number = usize::try_from(number).unwrap_or(usize::MAX);
+        (number / self.protocol.trials, number % self.protocol.trials)
+    }
+}
+
+/// What all trials gave.
 #[derive(Debug)]
 pub struct Discrimination {
     /// What was run.
@@ -38,32 +55,72 @@ pub struct Discrimination {
 }
 
 impl Discrimination {
+    /// What the trials of a protocol gave.
+    pub fn of(trials: &Trials<'_>, gathered: &Gathered<Record>) -> Self {
+        let own = |answers: &[Answer<Record>]| answers.iter().flatten().cloned().collect();
+        let pairs = trials.confusions.iter().copied();
+        let records = gathered.answers.chunks(trials.protocol.trials).map(own);
+        Self {
+            protocol: trials.protocol,
+            pairs: pairs.zip(records).collect(),
+            failures: gathered.failures().count(),
+        }
+    }
+
     /// The trials of all pairs.
     pub fn records(&self) -> Vec<Record> {
         self.pairs.iter().flat_map(|(_, records)| records.iter().cloned()).collect()
     }
 }
 
-/// Runs every trial; `done` is called after each. One stream of random numbers per trial: the same seed gives the same records on
-/// any number of threads.
-pub fn discriminate(
-    protocol: Protocol,
-    confusions: &[Confusion],
-    done: &(dyn Fn() + Sync),
-) -> Discrimination {
-    let jobs: Vec<(usize, usize)> =
-        (0..confusions.len()).flat_map(|c| (0..protocol.trials).map(move |t| (c, t))).collect();
-    let one = |&(c, t): &(usize, usize)| {
-        let attempts = (0..ATTEMPTS).map(|a| ATTEMPTS * (protocol.trials.max(TRIALS) * c + t) + a);
-        let record = attempts.map(|n| Record::of(&confusions[c], n, protocol.seed)).find_map(Result::ok);
-        done();
-        record
-    };
-    let records: Vec<Option<Record>> = jobs.par_iter().map(one).collect();
-    let failures = records.iter().filter(|r| r.is_none()).count();
-    let of = |c: usize| {
-        let own = &records[c * protocol.trials..(c + 1) * protocol.trials];
-        (confusions[c], own.iter().flatten().cloned().collect())
-    };
-    Discrimination { protocol, pairs: (0..confusions.len()).map(of).collect(), failures }
+impl harness::Protocol for Trials<'_> {
+    type Record = Record;
+    type Error = TrialError;
+
+    fn identity(&self) -> Identity {
+        let Protocol { seed, trials } = self.protocol;
+        let pairs = self.confusions.iter().map(Confusion::name).collect::<Vec<_>>().join(", ");
+        let settings = [("pairs", pairs), ("trials", trials.to_string()), ("seed", seed.to_string())];
+        Identity::new("discriminate", "discriminate-trials/1", settings)
+    }
+
+    fn trials(&self) -> u64 {
+        (self.confusions.len() * self.protocol.trials) as u64
+    }
+
+    /// The last failure when no machine tried shows the effect.
+    fn trial(&self, number: u64) -> Result<Record, TrialError> {
+        let (c, t) = self.place(number);
+        let first = ATTEMPTS * (self.protocol.trials.max(TRIALS) * c + t);
+        let attempt = |n| Record::of(&self.confusions[c], n, self.protocol.seed);
+        (first + 1..first + ATTEMPTS).fold(attempt(first), |made, n| made.or_else(|_| attempt(n)))
+    }
+
+    fn name(&self, number: u64) -> String {
+        let (c, t) = self.place(number);
+        format!("{}-{t}", self.confusions[c].name())
+    }
+
+    fn fields(&self) -> Vec<Field<Record>> {
+        let stage = |name, meaning, of: fn(&Record) -> Outcome| {
+            Field::text(name, meaning, move |r: &Record| of(r).word())
+        };
+        vec![
+            Field::text("hidden", "the hidden effect", |r: &Record| r.hidden),
+            Field::text("family", "family of the machine", |r: &Record| r.family),
+            stage("before", "by the confusing plan alone", |r| r.before),
+            stage("proposed", "with the readings proposed", |r| r.proposed),
+            stage("proposed_random", "with as many at random", |r| r.proposed_random),
+            stage("asked", "with readings chosen for the pair", |r| r.asked),
+            stage("asked_random", "with as many at random", |r| r.asked_random),
+            Field::number(("readings", "1"), "readings proposed", |r: &Record| r.readings as f64),
+            Field::number(("asked_readings", "1"), "readings chosen for the pair", |r: &Record| {
+                r.asked_readings as f64
+            }),
+            Field::number(("promised", "1"), "promised chance to favour the truth", |r: &Record| r.promised),
+            Field::number(("favoured", "1"), "1 where all readings favour it", |r: &Record| {
+                f64::from(u8::from(r.favoured))
+            }),
+        ]
+    }
 }

@@ -10,9 +10,11 @@ use hexbench_model::terms::catalogue;
 use hexbench_truth::campaign::machines::FAMILIES;
 use rand::RngExt;
 use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 use super::{Bench, Confusion};
+use crate::harness::words::{self, Word};
 use crate::trial::{Outcome, TrialError, outcome};
 
 /// Further readings that are taken.
@@ -21,12 +23,14 @@ pub const READINGS: usize = 3;
 const DISTANCES: [f64; 2] = [8.0, 20.0];
 
 /// What was said before and after further readings.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// The hidden effect.
-    pub hidden: &'static str,
+    #[serde(with = "words")]
+    pub hidden: Word,
     /// Family of the machine.
-    pub family: &'static str,
+    #[serde(with = "words")]
+    pub family: Word,
     /// By the confusing plan alone.
     pub before: Outcome,
     /// With the readings that the diagnosis proposes; as before where it proposes none.

@@ -28,7 +28,7 @@ pub struct Bench {
     /// The machine as drawn.
     pub hexapod: Hexapod,
     balls: Balls,
-    seed: u64,
+    pub(super) seed: u64,
 }
 
 /// Which covariates a file carries beside poses and loads.

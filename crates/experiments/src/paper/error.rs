@@ -13,6 +13,9 @@ pub enum PaperError {
     /// The readings could not be explained.
     #[error("the readings could not be explained: {0}")]
     Model(#[from] ModelError),
+    /// A repetition under other noise has no answer.
+    #[error("{0}")]
+    Campaign(String),
     /// No search for poses ended where every leg is within its stroke.
     #[error("none of {starts} searches found three poses within a stroke of {stroke_mm:.1} mm")]
     NoPoses {

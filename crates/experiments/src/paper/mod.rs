@@ -13,9 +13,11 @@
 //! | springs and predictions | [`identify`] |
 //! | errors that noise alone explains | [`chances`] |
 //! | what could be missing | [`suspects`], [`missing`] |
+//! | the same again under other noise | [`Again`] |
 //! | figures | [`curves`] |
 //! | the page, its charts and tables | [`report`] |
 
+mod again;
 pub mod bench;
 pub mod chances;
 pub mod curves;
@@ -29,5 +31,6 @@ pub mod search;
 mod study;
 pub mod suspects;
 
+pub use again::{Again, Named};
 pub use error::PaperError;
 pub use study::Reproduction;

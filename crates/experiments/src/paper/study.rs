@@ -1,7 +1,6 @@
 //! The whole study.
 
-use hexbench_model::verdict::Verdict;
-
+use super::again::{Again, Named};
 use super::bench::{Bench, identification, validation};
 use super::chances::{Repetitions, repetitions};
 use super::curves::{Compared, IndexOverLoad, Linearity, figure_7, figure_8, figures_9_and_10};
@@ -11,13 +10,12 @@ use super::missing::{Finding, on_the_papers_plan, on_the_richer_plan};
 use super::published::{BEST_POSES, PREDICTION_ERROR};
 use super::search::{PoseSet, best_poses, stroke};
 use super::suspects::{Suspect, bias, skew_support, support_motion, suspects};
+use crate::harness::Gathered;
 
 /// Searches for poses, each from its own start.
 const STARTS: u32 = 24;
 /// Repetitions of the experiment with fresh noise.
 const REPETITIONS: usize = 2000;
-/// Other noise under which the richer plan is tried again.
-const OTHER_SEEDS: u64 = 12;
 /// Three poses along X without rotation, for comparison.
 const UNTURNED: [[f64; 4]; 3] = [[-30.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0], [30.0, 0.0, 0.0, 0.0]];
 
@@ -57,31 +55,47 @@ pub struct Reproduction {
     /// Diagnosis by the richer plan.
     pub rich: Finding,
     /// Verdicts of the richer plan under other noise, and what was named.
-    pub again: Vec<(Verdict, Vec<String>)>,
+    pub again: Vec<Named>,
 }
 
 impl Reproduction {
-    /// Runs the study; equal seeds give equal results.
+    /// Runs the study; equal seeds give equal results. `trials` runs those of the richer plan under other noise.
     ///
     /// # Errors
-    /// [`PaperError`].
-    pub fn run(seed: u64) -> Result<Self, PaperError> {
+    /// [`PaperError`], and what `trials` says.
+    pub fn run<E: From<PaperError>>(
+        seed: u64,
+        trials: impl FnOnce(&Again) -> Result<Gathered<Named>, E>,
+    ) -> Result<Self, E> {
         let bench = Bench::new(seed);
+        let springs = Experiment::run(&bench, &bench.world(Vec::new()))?;
+        let support_motion = support_motion(&bench, &springs.paper.expected)?;
+        let again = trials(&Again { seed, support_motion })?;
+        if let Some((_, why)) = again.failures().next() {
+            return Err(PaperError::Campaign(why.clone()).into());
+        }
+        Ok(Self::of(bench, springs, support_motion, again.answers.into_iter().flatten().collect())?)
+    }
+
+    fn of(
+        bench: Bench,
+        springs: Experiment,
+        support_motion: [f64; 3],
+        again: Vec<Named>,
+    ) -> Result<Self, PaperError> {
         let [published_set, unturned] =
             [PoseSet::of(&bench.hexapod, BEST_POSES)?, PoseSet::of(&bench.hexapod, UNTURNED)?];
         let best_sets = best_sets(&bench)?;
         let world = bench.world(Vec::new());
-        let springs = Experiment::run(&bench, &world)?;
         let data = [&springs.identification, &springs.validation];
         let noise = springs.paper.expected;
-        let support_motion = support_motion(&bench, &noise)?;
         let yielding = bench.world(vec![skew_support(support_motion)]);
         let hidden_bias = bias(&bench, skew_support(support_motion))?;
         let hidden = Experiment::run(&bench, &yielding)?;
         let sets = [("Table 1", &published_set), ("best found", &best_sets[0].1), ("no rotation", &unturned)];
         Ok(Self {
-            seed,
-            repetitions: repetitions(&bench, data, REPETITIONS, &PREDICTION_ERROR, seed)?,
+            seed: bench.seed,
+            repetitions: repetitions(&bench, data, REPETITIONS, &PREDICTION_ERROR, bench.seed)?,
             index_over_load: figure_7(&bench.hexapod, sets)?,
             linearity: figure_8(&bench, &world)?,
             compared: figures_9_and_10(&bench, &springs.paper.identified, &springs.validation)?,
@@ -91,7 +105,7 @@ impl Reproduction {
             hidden_compared: figures_9_and_10(&bench, &hidden.paper.identified, &hidden.validation)?,
             poor: on_the_papers_plan(&bench, &hidden)?,
             rich: on_the_richer_plan(&bench, &yielding)?,
-            again: again(seed, support_motion)?,
+            again,
             published_set,
             best_sets,
             springs,
@@ -109,14 +123,4 @@ fn best_sets(bench: &Bench) -> Result<[(f64, PoseSet); 2], PaperError> {
     let all = validation.max(stroke(&bench.hexapod, &poses(identification())));
     let best = |stroke| Ok::<_, PaperError>((stroke, best_poses(&bench.hexapod, stroke, STARTS, 1)?));
     Ok([best(all)?, best(validation)?])
-}
-
-/// The richer plan with other poses and other noise.
-fn again(seed: u64, motion: [f64; 3]) -> Result<Vec<(Verdict, Vec<String>)>, PaperError> {
-    let one = |k: u64| {
-        let bench = Bench::new(seed.wrapping_add(k));
-        let found = on_the_richer_plan(&bench, &bench.world(vec![skew_support(motion)]))?;
-        Ok((found.verdict, found.added))
-    };
-    (1..=OTHER_SEEDS).map(one).collect()
 }

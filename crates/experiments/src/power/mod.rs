@@ -5,6 +5,7 @@
 //! how often the same test sees it, how often it sees something in campaigns without effects, what the diagnosis calls it, and
 //! how far the leg stiffnesses go astray when it is left out.
 
+mod campaigns;
 mod charts;
 mod document;
 mod faint;
@@ -15,11 +16,12 @@ mod study;
 mod tables;
 mod usual;
 
+pub use campaigns::{Campaigns, Record};
 pub use charts::pictures;
 pub use document::{Studied, document, plan_of};
 pub use faint::Faint;
 pub use page::Page;
 pub use plan::PowerPlan;
-pub use simulate::{Answers, Simulated};
-pub use study::{Check, Power, PowerError, Simulation, most_campaigns, run};
+pub use simulate::{Answers, Said, Simulated};
+pub use study::{Check, Power, PowerError, Simulation};
 pub use usual::{Usual, usual};

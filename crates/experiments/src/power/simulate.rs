@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use hexbench_core::{Dataset, Observation, Vector6};
-use hexbench_design::power::Test;
 use hexbench_model::diagnose::{diagnose, prepare};
 use hexbench_model::error::ModelError;
 use hexbench_model::fit::fit_baseline;
@@ -17,7 +16,6 @@ use hexbench_truth::{Mechanism, TruthError, World};
 use nalgebra::DVector;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::PowerPlan;
@@ -42,14 +40,23 @@ pub struct Answers {
     pub other: usize,
 }
 
+/// An answer in one word, and what became of the truth; no fate when there is no answer.
+pub type Said = (String, Option<Fate>);
+
 impl Answers {
+    pub(super) fn of_all<'a>(all: impl Iterator<Item = &'a Said>) -> Self {
+        let mut answers = Self::default();
+        all.for_each(|said| answers.add(said));
+        answers
+    }
+
     /// Campaigns.
     pub fn of(&self) -> usize {
         self.right + self.honest + self.adequate + self.wrong + self.other
     }
 
-    fn add(&mut self, (word, fate): (String, Option<Fate>)) {
-        *self.said.entry(word).or_default() += 1;
+    fn add(&mut self, (word, fate): &Said) {
+        *self.said.entry(word.clone()).or_default() += 1;
         let place = match fate {
             Some(Fate::Right) => &mut self.right,
             Some(Fate::Honest) => &mut self.honest,
@@ -98,7 +105,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Readings with the noise of a stream; without stream as they are.
-    fn data(&self, ideal: &[Vector6], stream: Option<u128>) -> Dataset {
+    pub(super) fn data(&self, ideal: &[Vector6], stream: Option<u128>) -> Dataset {
         let mut rng = stream.map(|stream| Pcg64::new(u128::from(self.seed), stream));
         let mut noise = |row: usize| match &mut rng {
             Some(rng) => {
@@ -115,28 +122,10 @@ impl<'a> Bench<'a> {
     }
 
     /// Whitened residuals of springs fitted to readings.
-    fn residuals(&self, data: &Dataset) -> Result<DVector<f64>, ModelError> {
+    pub(super) fn residuals(&self, data: &Dataset) -> Result<DVector<f64>, ModelError> {
         let campaign = prepare(&self.plan.machine(), data)?;
         let fit = fit_baseline(&campaign)?;
         Ok(Linearization::at(&campaign, &fit.point)?.residuals())
-    }
-
-    /// In how many campaigns each test sees something.
-    pub(super) fn seen(
-        &self,
-        ideal: &[Vector6],
-        tests: &[Option<&Test>],
-        first_stream: u128,
-        campaigns: usize,
-        done: &(dyn Fn() + Sync),
-    ) -> Result<Vec<Proportion>, ModelError> {
-        let one = |k: usize| -> Result<Vec<bool>, ModelError> {
-            let residuals = self.residuals(&self.data(ideal, Some(first_stream + k as u128)))?;
-            done();
-            Ok(tests.iter().map(|t| t.is_some_and(|t| t.sees(&residuals))).collect())
-        };
-        let all = (0..campaigns).into_par_iter().map(one).collect::<Result<Vec<_>, _>>()?;
-        Ok((0..tests.len()).map(|t| Proportion::count(&all, |seen| seen[t])).collect())
     }
 
     /// Length of what ideal readings have beyond those of the plain machine, in units of the noise.
@@ -160,36 +149,21 @@ impl<'a> Bench<'a> {
         Ok((Linearization::at(&campaign, &fit.point)?.residuals(), bias))
     }
 
-    /// What the diagnosis says.
-    pub(super) fn answers(
-        &self,
-        id: &'static str,
-        ideal: &[Vector6],
-        terms: &[Arc<dyn Term>],
-        first_stream: u128,
-        campaigns: usize,
-        done: &(dyn Fn() + Sync),
-    ) -> Answers {
-        let machine = self.plan.machine();
-        let one = |k: usize| {
-            let data = self.data(ideal, Some(first_stream + k as u128));
-            let study = diagnose(&machine, &data, None, terms);
-            done();
-            study.map_or((NO_ANSWER.to_owned(), None), |study| said(&Trial { hidden: vec![id], study }))
-        };
-        let all: Vec<_> = (0..campaigns).into_par_iter().map(one).collect();
-        let mut answers = Answers::default();
-        for answer in all {
-            answers.add(answer);
-        }
-        answers
+    /// What the diagnosis says of readings in which an effect is hidden.
+    pub(super) fn answer(&self, id: &'static str, data: &Dataset, terms: &[Arc<dyn Term>]) -> Said {
+        let study = diagnose(&self.plan.machine(), data, None, terms);
+        study.map_or((NO_ANSWER.to_owned(), None), |study| said(&Trial { hidden: vec![id], study }))
+    }
+
+    pub(super) fn plan(&self) -> &PowerPlan {
+        self.plan
     }
 }
 
 /// Word for a diagnosis that could not be made.
 const NO_ANSWER: &str = "no answer";
 
-fn said(trial: &Trial) -> (String, Option<Fate>) {
+fn said(trial: &Trial) -> Said {
     let fate = Fate::of(trial);
     let d = &trial.study.diagnosis;
     let word = match d.verdict {

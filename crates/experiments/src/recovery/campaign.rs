@@ -6,6 +6,7 @@ use hexbench_model::error::ModelError;
 use hexbench_model::fit::{Fit, fit_baseline};
 use hexbench_model::noise::scatter;
 use hexbench_model::residuals::{prediction_errors, summarise, survival};
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::geometry::{Combinations, combinations};
@@ -19,7 +20,7 @@ use crate::TrialError;
 const MISFIT_CHANCE: f64 = 1e-4;
 
 /// What one campaign shows.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Found {
     /// Recovery without noise.
     pub noiseless: Noiseless,

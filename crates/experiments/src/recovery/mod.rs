@@ -8,7 +8,7 @@
 //! - [`geometry`]: the 42 numbers of the geometry and which combinations of them absolute poses show.
 //! - [`naming`]: the diagnosis of a clear effect, and its best wrong rival.
 //! - [`correspondence`]: which number of the model stands for which number of the world.
-//! - [`study`]: all of it; [`check`]: its bounds; [`tables`], [`document`]: its pages.
+//! - [`protocol`]: the trials; [`study`]: what they show; [`check`]: its bounds; [`tables`], [`document`]: its pages.
 //!
 //! What the tables do not hide: a shape (exponent, time constant, pitch) is fitted by its logarithm, its interval is a factor;
 //! numbers that the data leave open get no interval and are not counted; a fit whose chi-square is improbable (1e-4) is not
@@ -21,6 +21,7 @@ pub mod document;
 pub mod geometry;
 pub mod naming;
 pub mod noiseless;
+pub mod protocol;
 pub mod pulls;
 pub mod scene;
 pub mod study;

@@ -7,6 +7,7 @@ use hexbench_model::fit::{Wanted, fit};
 use hexbench_model::residuals::{prediction_errors, summarise};
 use hexbench_model::search::Set;
 use hexbench_model::verdict::Verdict;
+use serde::{Deserialize, Serialize};
 
 use super::scene::{Scene, Subject};
 use super::tally::Tally;
@@ -16,7 +17,7 @@ use crate::{Outcome, Trial, TrialError};
 pub const CLEAR_DISTANCE: f64 = 22.0;
 
 /// What the diagnosis made of one campaign.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Named {
     /// Right, honest or wrong.
     pub outcome: Outcome,
@@ -31,10 +32,8 @@ pub struct Named {
 }
 
 /// The best explanation by terms that leaves a hidden effect out.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Rival {
-    /// Its terms.
-    pub terms: Vec<&'static str>,
     /// Evidence of the right terms over it, nats.
     pub evidence: f64,
     /// Held-out chi-square per number of the right terms.
@@ -85,10 +84,9 @@ fn rival(subject: &Subject, scene: &Scene, trial: &Trial) -> Result<Option<Rival
         !found.is_empty()
             && (subject.effects.is_empty() || subject.effects.iter().any(|id| !found.contains(id)))
     };
-    let wrong = sets.iter().find_map(|s| Some((s, ids(s).filter(|found| misses(found))?)));
-    let (Some(right), Some((wrong, terms))) = (right, wrong) else { return Ok(None) };
+    let wrong = sets.iter().find(|s| ids(s).is_some_and(|found| misses(&found)));
+    let (Some(right), Some(wrong)) = (right, wrong) else { return Ok(None) };
     Ok(Some(Rival {
-        terms,
         evidence: right.log_weight - wrong.log_weight,
         holdout_right: holdout(scene, trial, right)?,
         holdout_wrong: holdout(scene, trial, wrong)?,

@@ -32,7 +32,7 @@ use hexbench_model::fit::Fit;
 use hexbench_model::kinematics::euler_rate_matrix;
 use hexbench_model::linearization::Linearization;
 use nalgebra::{Matrix3, Matrix6, Rotation3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::geometry::combinations;
 use super::pulls::{Group, Pull, pulls, right_fit};
@@ -46,7 +46,7 @@ const NO_NOISE: Metrology = Metrology { sigma_translation: 1e-12, sigma_rotation
 const ROUNDINGS: f64 = 64.0;
 
 /// An error with its bound; of several, the one closest to its bound.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bounded {
     /// Relative error.
     pub error: f64,
@@ -68,7 +68,7 @@ impl Bounded {
 }
 
 /// Errors of a fit to ideal readings.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Noiseless {
     /// Leg stiffness.
     pub stiffness: Option<Bounded>,

@@ -1,14 +1,15 @@
 //! The whole study: campaigns of every subject, gathered into rows, and the bounds that are broken.
 
-use rayon::prelude::*;
 use serde::Serialize;
 
-use super::campaign::{self, Found};
-use super::naming::{self, Named, Rival};
+use super::campaign::Found;
+use super::naming::{Named, Rival};
 use super::noiseless::Bounded;
+use super::protocol::{Record, Recovery};
 use super::scene::{Subject, subjects};
 use super::tally::{Coverage, Tally};
-use crate::{Outcome, TrialError};
+use crate::Outcome;
+use crate::harness::Gathered;
 
 /// What is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -113,83 +114,54 @@ pub struct Study {
     pub broken: Vec<String>,
 }
 
-/// Runs the study; `step` is called after every campaign and diagnosis, from any thread.
-///
-/// The same settings give the same study on any number of threads.
-pub fn run(settings: Settings, step: impl Fn() + Sync) -> Study {
-    let all = subjects();
-    let jobs = |count: usize| -> Vec<(usize, usize)> {
-        (0..all.len()).flat_map(|s| (0..count).map(move |i| (s, i))).collect()
-    };
-    let counted = |result| {
-        step();
-        result
-    };
-    let found: Vec<(usize, Result<Found, TrialError>)> = jobs(settings.per_subject())
-        .into_par_iter()
-        .map(|(s, i)| (s, counted(campaign::run(&all[s], i, settings.seed))))
-        .collect();
-    let counted = |result| {
-        step();
-        result
-    };
-    let named: Vec<(usize, Result<Named, TrialError>)> = jobs(settings.diagnoses)
-        .into_par_iter()
-        .map(|(s, i)| (s, counted(naming::run(&all[s], i, settings.seed.wrapping_add(1)))))
-        .collect();
-    gather(settings, &all, &found, &named)
+impl Study {
+    /// Everything the trials of the study show.
+    pub fn of(protocol: &Recovery, gathered: &Gathered<Record>) -> Self {
+        let good: Vec<&Found> = gathered.records().filter_map(Record::found).collect();
+        let answers: Vec<&Named> = gathered.records().filter_map(Record::named).collect();
+        let over = |of: fn(&Found) -> Tally| good.iter().map(|f| of(f)).sum::<Tally>().coverage(1);
+        let after = |right_only: bool| {
+            let kept = answers.iter().filter(|n| !right_only || n.outcome == Outcome::Right);
+            kept.map(|n| n.stiffness).sum::<Tally>().coverage(1)
+        };
+        let sure = answers.iter().filter(|n| n.sure);
+        let name = |number| protocol.subjects[protocol.place(number).0].name;
+        let mut study = Self {
+            format: "recovery/1",
+            settings: protocol.settings,
+            rows: rows(protocol, gathered),
+            stiffness: over(|f| f.stiffness),
+            sizes: over(|f| f.sizes),
+            shapes: over(|f| f.shapes),
+            stiffness_by_repeats: over(|f| f.stiffness_by_repeats),
+            noise_by_repeats: over(|f| f.noise_by_repeats),
+            noise_by_residuals: over(|f| f.noise_by_residuals),
+            stiffness_after_search: after(false),
+            stiffness_after_right_search: after(true),
+            sure: [sure.clone().count(), sure.filter(|n| n.outcome == Outcome::Wrong).count()],
+            failures: gathered.failures().map(|(n, why)| format!("{}: {why}", name(n))).collect(),
+            bounds: 0,
+            broken: Vec::new(),
+        };
+        let checks = super::check::checks(&study);
+        study.bounds = checks.len();
+        study.broken = checks.into_iter().filter_map(|c| (!c.holds).then_some(c.text)).collect();
+        study
+    }
 }
 
-type Results<T> = [(usize, Result<T, TrialError>)];
-
-fn gather(settings: Settings, all: &[Subject], found: &Results<Found>, named: &Results<Named>) -> Study {
-    let good: Vec<&Found> = found.iter().filter_map(|(_, r)| r.as_ref().ok()).collect();
-    let answers: Vec<&Named> = named.iter().filter_map(|(_, r)| r.as_ref().ok()).collect();
-    let over = |of: fn(&Found) -> Tally| good.iter().map(|f| of(f)).sum::<Tally>().coverage(1);
-    let after = |right_only: bool| {
-        let kept = answers.iter().filter(|n| !right_only || n.outcome == Outcome::Right);
-        kept.map(|n| n.stiffness).sum::<Tally>().coverage(1)
-    };
-    let sure = answers.iter().filter(|n| n.sure);
-    let mut study = Study {
-        format: "recovery/1",
-        settings,
-        rows: all
-            .iter()
-            .enumerate()
-            .map(|(s, subject)| row(subject, all.len(), &mine(found, s), &mine(named, s)))
-            .collect(),
-        stiffness: over(|f| f.stiffness),
-        sizes: over(|f| f.sizes),
-        shapes: over(|f| f.shapes),
-        stiffness_by_repeats: over(|f| f.stiffness_by_repeats),
-        noise_by_repeats: over(|f| f.noise_by_repeats),
-        noise_by_residuals: over(|f| f.noise_by_residuals),
-        stiffness_after_search: after(false),
-        stiffness_after_right_search: after(true),
-        sure: [sure.clone().count(), sure.filter(|n| n.outcome == Outcome::Wrong).count()],
-        failures: failures(all, found).into_iter().chain(failures(all, named)).collect(),
-        bounds: 0,
-        broken: Vec::new(),
-    };
-    let checks = super::check::checks(&study);
-    study.bounds = checks.len();
-    study.broken = checks.into_iter().filter_map(|c| (!c.holds).then_some(c.text)).collect();
-    study
+fn rows(protocol: &Recovery, gathered: &Gathered<Record>) -> Vec<Row> {
+    let subjects = &protocol.subjects;
+    let mut own: Vec<Vec<&Record>> = vec![Vec::new(); subjects.len()];
+    for (number, record) in gathered.numbered() {
+        own[protocol.place(number).0].push(record);
+    }
+    subjects.iter().zip(&own).map(|(subject, records)| row(subject, subjects.len(), records)).collect()
 }
 
-fn mine<T>(results: &Results<T>, subject: usize) -> Vec<&T> {
-    results.iter().filter(|(s, _)| *s == subject).filter_map(|(_, r)| r.as_ref().ok()).collect()
-}
-
-fn failures<T>(all: &[Subject], results: &Results<T>) -> Vec<String> {
-    let told = |(s, r): &(usize, Result<T, TrialError>)| {
-        r.as_ref().err().map(|why| format!("{}: {why}", all[*s].name))
-    };
-    results.iter().filter_map(told).collect()
-}
-
-fn row(subject: &Subject, rows: usize, found: &[&Found], named: &[&Named]) -> Row {
+fn row(subject: &Subject, rows: usize, records: &[&Record]) -> Row {
+    let found: Vec<&Found> = records.iter().filter_map(|r| r.found()).collect();
+    let named: Vec<&Named> = records.iter().filter_map(|r| r.named()).collect();
     let over = |of: fn(&Found) -> Tally| found.iter().map(|f| of(f)).sum::<Tally>().coverage(rows);
     let count = |outcome: Outcome| named.iter().filter(|n| n.outcome == outcome).count();
     let rivals: Vec<&Rival> = named.iter().filter_map(|n| n.rival.as_ref()).collect();

@@ -1,6 +1,6 @@
 //! Counting intervals that cover the truth, with the bounds that chance allows.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{Binomial, DiscreteCDF};
 
 /// Half-width of a 95 % interval in standard uncertainties.
@@ -12,7 +12,7 @@ pub const NOMINAL: f64 = 0.95;
 pub const CHANCE: f64 = 1e-3;
 
 /// Pulls of a kind of numbers, counted campaign by campaign.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tally {
     campaigns: u64,
     intervals: u64,

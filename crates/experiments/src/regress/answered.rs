@@ -1,12 +1,13 @@
 //! One campaign through the diagnosis, in the numbers that limits are made of.
 
 use hexbench_truth::campaign::Case;
+use serde::{Deserialize, Serialize};
 
 use crate::calibration::Record;
 use crate::trial::{Trial, TrialError};
 
 /// What was said about a campaign, and what it cost.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Answered {
     /// The answer beside the truth.
     pub record: Record,

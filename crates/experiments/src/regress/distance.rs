@@ -5,6 +5,7 @@
 
 use hexbench_model::fit::Fit;
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::recovery::geometry::Combinations;
@@ -14,7 +15,7 @@ use crate::recovery::scene::Scene;
 const OUTSIDE: f64 = 0.05;
 
 /// Squared distance of several numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Distance {
     /// `d^2`.
     pub chi2: f64,

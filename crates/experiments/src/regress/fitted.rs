@@ -3,6 +3,7 @@
 use hexbench_model::estimate::estimates;
 use hexbench_model::fit::Fit;
 use hexbench_model::residuals::survival;
+use serde::{Deserialize, Serialize};
 
 use super::distance::{Distance, of_effects, of_springs};
 use crate::TrialError;
@@ -15,7 +16,7 @@ use crate::recovery::scene::{Scene, Subject};
 const MISSED: f64 = 0.05;
 
 /// What one campaign shows.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fitted {
     /// Root mean square of the relative errors of the leg stiffnesses.
     pub stiffness_error: Option<f64>,

@@ -1,11 +1,10 @@
 //! Why a study stopped.
 
-use std::io;
-use std::path::PathBuf;
-
 use hexbench_core::files::FileError;
 use hexbench_design::DesignError;
 use hexbench_report::plot::PlotError;
+
+use crate::error::ExperimentError;
 
 /// A study that cannot go on. What is in the journal stays there.
 #[derive(Debug, thiserror::Error)]
@@ -25,75 +24,9 @@ pub enum StudyError {
         /// What stands in the way.
         cause: DesignError,
     },
-    /// The folder holds something else.
-    #[error("{}: the folder is not empty and holds no study", .0.display())]
-    NotEmpty(PathBuf),
-    /// Another run works in the folder.
-    #[error("{}: another run works in this folder{}", folder.display(), holder.map(|pid| format!(" (process {pid})")).unwrap_or_default())]
-    Busy {
-        /// The folder.
-        folder: PathBuf,
-        /// Number of the process, when it is known.
-        holder: Option<u32>,
-    },
-    /// The journal belongs to another study, or to another state of it.
-    #[error("{}: {what}", folder.display())]
-    Foreign {
-        /// The folder.
-        folder: PathBuf,
-        /// What does not fit.
-        what: String,
-    },
-    /// The journal cannot be read.
-    #[error("{}: cannot be read: {cause}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        cause: io::Error,
-    },
-    /// A result or a record cannot be written.
-    #[error("{}: cannot be written: {cause}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        cause: io::Error,
-    },
-    /// A shard that the results need is not in the journal.
-    #[error("{}: shard {shard} is missing or damaged", folder.display())]
-    Missing {
-        /// The folder.
-        folder: PathBuf,
-        /// Number of the shard.
-        shard: u64,
-    },
-    /// Two folders say different things of one shard.
-    #[error("{}: shard {shard} is whole here and there, and differs", folder.display())]
-    Contradiction {
-        /// The folder that was to be taken over.
-        folder: PathBuf,
-        /// Number of the shard.
-        shard: u64,
-    },
-    /// A record that came from elsewhere is not what it should be.
-    #[error(
-        "what came as the record of shard {shard} is not one: it was cut or changed, or belongs to another study or version"
-    )]
-    Garbled {
-        /// Number of the shard.
-        shard: u64,
-    },
-    /// Shards are missing after all parts were put together.
-    #[error("{missing} of {all} shards are in none of the folders, the first is shard {first}")]
-    Incomplete {
-        /// How many.
-        missing: u64,
-        /// The smallest of them.
-        first: u64,
-        /// All shards of the study.
-        all: u64,
-    },
+    /// The folder or its journal is of no use.
+    #[error(transparent)]
+    Experiment(#[from] ExperimentError),
     /// A chart cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -105,37 +38,8 @@ impl StudyError {
         match self {
             Self::File(error) => error.next_step(),
             Self::Design { .. } => "Widen the space, or change the numbers of poses.".into(),
-            Self::NotEmpty(_) => "Name another folder.".into(),
-            Self::Busy { .. } => "Wait for it to end, or name another folder.".into(),
-            Self::Foreign { .. } => {
-                "Name another folder, or go back to the study and the program that began this one.".into()
-            }
-            Self::Read { .. } => "Check that the file may be read.".into(),
-            Self::Write { .. } => "Check the free space and that the folder may be written to, then run the \
-                                   same command again: it goes on where it stopped."
-                .into(),
-            Self::Missing { .. } => "Run the same command again: the shard is computed anew.".into(),
-            Self::Contradiction { .. } => {
-                "The same program on the same files gives the same bytes: find out which folder comes from another machine \
-                 or build, and leave it out."
-                    .into()
-            }
-            Self::Garbled { .. } => {
-                "See that every worker has the same version of hexbench and reads the same files.".into()
-            }
-            Self::Incomplete { .. } => {
-                "Give the folder of every part; `hexbench study run` on a part that was stopped finishes it.".into()
-            }
+            Self::Experiment(error) => error.next_step(),
             Self::Plot(_) => "Give more trials.".into(),
-        }
-    }
-
-    /// True when the trouble is with the disk rather than with what a file says.
-    pub fn is_input_output(&self) -> bool {
-        match self {
-            Self::File(error) => error.is_input_output(),
-            Self::Busy { .. } | Self::Read { .. } | Self::Write { .. } | Self::Missing { .. } => true,
-            _ => false,
         }
     }
 }

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! - A trial draws from streams of its own ([`draw`]): results depend neither on threads nor on the order of the work.
-//! - A shard is in the journal whole or not at all; what is missing or damaged is computed again ([`journal`]).
+//! - A shard is in the journal whole or not at all; what is missing or damaged is computed again ([`crate::journal`]).
 //! - The results are a pure function of the shards in order ([`results`]): computed at once, after any number of
 //!   interruptions, or on several machines, they are the same bytes.
 
@@ -19,7 +19,6 @@ pub mod cells;
 pub mod columns;
 pub mod draw;
 pub mod error;
-pub mod journal;
 pub mod page;
 pub mod part;
 pub mod plan;
@@ -32,7 +31,6 @@ pub mod task;
 pub mod work;
 
 pub use error::StudyError;
-pub use journal::{Adopted, Journal};
 pub use part::Part;
 pub use runner::Runner;
 pub use study::Study;

@@ -6,6 +6,9 @@ use std::collections::BTreeMap;
 use hexbench_core::{Hexapod, Pose};
 use hexbench_design::Space;
 
+use crate::error::ExperimentError;
+use crate::harness::{Progress, Sharded};
+use crate::journal::{Identity, Shards};
 use crate::sweep::axes::{Noises, PlanSource};
 use crate::sweep::bench;
 use crate::sweep::cells::Cell;
@@ -13,8 +16,11 @@ use crate::sweep::columns::{Column, Status, columns};
 use crate::sweep::error::StudyError;
 use crate::sweep::plan::designed_poses;
 use crate::sweep::shard::Shard;
-use crate::sweep::study::{Study, Task};
+use crate::sweep::study::{STUDY_FILE, Study, Task};
 use crate::sweep::task::{diagnose, springs};
+
+/// Format of the journal: of its records, and of how results are drawn and computed.
+pub const FORMAT: &str = "study-journal/1";
 
 /// What a designed plan depends on: geometry, plan, poses, and the noise where its two levels are given.
 type DesignKey = [usize; 4];
@@ -57,17 +63,6 @@ impl Runner {
         &self.columns
     }
 
-    /// Number of shards.
-    pub fn shards(&self) -> u64 {
-        self.study.all_trials().div_ceil(self.study.task.trials_of_a_shard())
-    }
-
-    /// Trials of a shard.
-    pub fn trials_of(&self, shard: u64) -> std::ops::Range<u64> {
-        let size = self.study.task.trials_of_a_shard();
-        shard * size..((shard + 1) * size).min(self.study.all_trials())
-    }
-
     /// Poses of a designed plan; empty for other plans.
     ///
     /// # Errors
@@ -87,14 +82,29 @@ impl Runner {
         }
     }
 
-    /// Computes a shard: a pure function of the study and the number.
-    pub fn run(&self, shard: u64) -> Shard {
-        let mut done = Shard::empty(shard, self.trials_of(shard), &self.columns);
+    /// A shard whose results are still to come.
+    pub fn empty(&self, shard: u64) -> Shard {
+        Shard::empty(shard, self.shards().trials_of(shard), &self.columns)
+    }
+}
+
+impl Sharded for Runner {
+    fn identity(&self) -> Identity {
+        Identity { name: STUDY_FILE, format: FORMAT, inputs: self.study.inputs.clone() }
+    }
+
+    fn shards(&self) -> Shards {
+        Shards { trials: self.study.all_trials(), size: self.study.task.trials_of_a_shard() }
+    }
+
+    fn content(&self, shard: u64, progress: &dyn Progress) -> Result<Vec<u8>, ExperimentError> {
+        let mut done = self.empty(shard);
         match self.study.task {
             Task::Springs => springs::run(self, &mut done),
             Task::Diagnose => diagnose::run(self, &mut done),
         }
-        done
+        progress.advance(done.trials.end - done.trials.start);
+        Ok(done.to_bytes())
     }
 }
 

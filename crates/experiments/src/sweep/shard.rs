@@ -110,4 +110,55 @@ impl Shard {
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, Values::len)
     }
+
+    /// As a journal keeps it: column after column, numbers as 8 B each (little-endian), codes as 1 B each.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        for column in &self.columns {
+            match column {
+                Values::Numbers(values) => values.iter().for_each(|x| bytes.extend(x.to_le_bytes())),
+                Values::Codes(codes) => bytes.extend(codes),
+            }
+        }
+        bytes
+    }
+
+    /// An empty shard filled with what [`Self::to_bytes`] gave; none when the length does not fit.
+    pub fn filled(mut self, mut rest: &[u8]) -> Option<Self> {
+        let rows = usize::try_from(self.trials.end - self.trials.start).ok()?;
+        for column in &mut self.columns {
+            let size = if matches!(column, Values::Numbers(_)) { 8 } else { 1 };
+            let (own, others) = rest.split_at_checked(rows.checked_mul(size)?)?;
+            match column {
+                Values::Numbers(values) => {
+                    values.extend(own.as_chunks::<8>().0.iter().map(|b| f64::from_le_bytes(*b)));
+                }
+                Values::Codes(codes) => codes.extend(own),
+            }
+            rest = others;
+        }
+        rest.is_empty().then_some(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::columns::columns;
+    use crate::sweep::study::Task;
+
+    #[test]
+    fn a_shard_comes_back_bit_by_bit() {
+        let empty = || Shard::empty(7, 14..16, &columns(Task::Springs));
+        let mut shard = empty();
+        let numbers = [0.25, -1.0, 3.0, 1e-9, 5.0, 6.0].map(Value::Number);
+        shard.push(numbers.into_iter().chain([Value::Code(5)]).chain([0.1, 0.2, 0.3].map(Value::Number)));
+        shard.push_failed(Status::NotVisible);
+        let bytes = shard.to_bytes();
+        let back = empty().filled(&bytes).unwrap();
+        assert_eq!(back.to_bytes(), bytes);
+        assert_eq!(back.columns[1].numbers()[0].to_bits(), 0.25_f64.to_bits());
+        assert!(back.columns[1].numbers()[1].is_nan());
+        assert!(empty().filled(&bytes[1..]).is_none());
+    }
 }

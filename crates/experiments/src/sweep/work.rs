@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use crate::error::ExperimentError;
+use crate::harness::{self, Progress, Sharded};
+use crate::journal::{Journal, Shards};
 use crate::sweep::error::StudyError;
-use crate::sweep::journal::{Adopted, Journal};
 use crate::sweep::part::Part;
 use crate::sweep::results::{self, CellStatistics};
 use crate::sweep::runner::Runner;
@@ -47,13 +49,14 @@ pub struct Share {
 /// The study file cannot be used, or a designed plan has no answer.
 pub fn divide(study: &Path, parts: u64) -> Result<Division, StudyError> {
     let runner = Runner::new(Study::read(study)?)?;
+    let shards = runner.shards();
     let share = |part: Part| {
-        let own: Vec<u64> = (0..runner.shards()).filter(|&n| part.holds(n)).collect();
-        Share { part: part.to_string(), shards: own.len() as u64, trials: trials(&runner, &own) }
+        let own: Vec<u64> = (0..shards.count()).filter(|&n| part.holds(n)).collect();
+        Share { part: part.to_string(), shards: own.len() as u64, trials: shards.trials_in(&own) }
     };
     Ok(Division {
         title: runner.study().title.clone(),
-        shards: runner.shards(),
+        shards: shards.count(),
         trials: runner.study().all_trials(),
         inputs: runner.study().inputs.clone(),
         files: runner.study().files.clone(),
@@ -87,56 +90,40 @@ impl Work {
     /// As [`Study::read`], [`Runner::new`], [`Journal::open`].
     pub fn open(study: &Path, folder: &Path) -> Result<Self, StudyError> {
         let runner = Runner::new(Study::read(study)?)?;
-        let journal = Journal::open(folder, &runner)?;
+        let journal = Journal::open(folder, runner.identity(), runner.shards())?;
         Ok(Self { runner, journal })
     }
 
     /// What of a part, or of the whole, is still to do.
     ///
     /// # Errors
-    /// [`StudyError::Read`].
-    pub fn todo(&self, part: Option<Part>) -> Result<Todo, StudyError> {
+    /// [`ExperimentError::Read`].
+    pub fn todo(&self, part: Option<Part>) -> Result<Todo, ExperimentError> {
         let wanted = |n: &u64| part.is_none_or(|part| part.holds(*n));
-        let own: Vec<u64> = (0..self.runner.shards()).filter(wanted).collect();
-        let state = self.journal.state(&self.runner)?;
+        let own: Vec<u64> = (0..self.shards().count()).filter(wanted).collect();
+        let state = self.journal.state()?;
         let pending: Vec<u64> = state.pending.into_iter().filter(wanted).collect();
-        let [all, left] = [&own, &pending].map(|shards| trials(&self.runner, shards));
+        let [all, left] = [&own, &pending].map(|shards| self.shards().trials_in(shards));
         Ok(Todo { pending, trials: all, pending_trials: left, damaged: state.damaged })
     }
 
-    /// Computes shards and keeps each; `done` hears how many trials are done.
+    /// Computes shards and keeps each.
     ///
     /// # Errors
-    /// [`StudyError::Write`]; what was kept before stays.
-    pub fn compute(&self, shards: &[u64], done: &(dyn Fn(u64) + Sync)) -> Result<(), StudyError> {
-        self.journal.compute(&self.runner, shards, done)
-    }
-
-    /// Keeps the record of a shard that [`record`](crate::sweep::journal::record) made elsewhere.
-    ///
-    /// # Errors
-    /// As [`Journal::keep_record`].
-    pub fn keep_record(&self, shard: u64, record: &[u8]) -> Result<(), StudyError> {
-        self.journal.keep_record(&self.runner, shard, record)
-    }
-
-    /// Takes over what another folder has done.
-    ///
-    /// # Errors
-    /// As [`Journal::adopt`].
-    pub fn adopt(&self, folder: &Path) -> Result<Adopted, StudyError> {
-        self.journal.adopt(&self.runner, folder)
+    /// As [`harness::compute`].
+    pub fn compute(&self, shards: &[u64], progress: &dyn Progress) -> Result<(), ExperimentError> {
+        harness::compute(&self.journal, &self.runner, shards, progress)
     }
 
     /// Refuses a journal in which shards are missing.
     ///
     /// # Errors
-    /// [`StudyError::Incomplete`], [`StudyError::Read`].
-    pub fn require_complete(&self) -> Result<(), StudyError> {
-        let pending = self.journal.state(&self.runner)?.pending;
+    /// [`ExperimentError::Incomplete`], [`ExperimentError::Read`].
+    pub fn require_complete(&self) -> Result<(), ExperimentError> {
+        let pending = self.journal.state()?.pending;
         pending.first().map_or(Ok(()), |&first| {
             let missing = pending.len() as u64;
-            Err(StudyError::Incomplete { missing, first, all: self.runner.shards() })
+            Err(ExperimentError::Incomplete { missing, first, all: self.shards().count() })
         })
     }
 
@@ -144,7 +131,7 @@ impl Work {
     ///
     /// # Errors
     /// As [`results::write`].
-    pub fn write_tables(&self, done: &dyn Fn()) -> Result<Vec<CellStatistics>, StudyError> {
+    pub fn write_tables(&self, done: &dyn Fn()) -> Result<Vec<CellStatistics>, ExperimentError> {
         results::write(&self.runner, &self.journal, done)
     }
 
@@ -153,9 +140,14 @@ impl Work {
         self.runner.study()
     }
 
-    /// Shards of the whole.
-    pub fn shards(&self) -> u64 {
+    /// How the whole is divided.
+    pub fn shards(&self) -> Shards {
         self.runner.shards()
+    }
+
+    /// What is done, for records and folders from elsewhere.
+    pub fn journal(&self) -> &Journal {
+        &self.journal
     }
 
     /// Folder of the results.
@@ -167,8 +159,4 @@ impl Work {
     pub fn written(&self) -> Vec<PathBuf> {
         ["study.md", results::CELLS, results::TRIALS, "charts"].map(|name| self.folder().join(name)).into()
     }
-}
-
-fn trials(runner: &Runner, shards: &[u64]) -> u64 {
-    shards.iter().map(|&n| runner.trials_of(n)).map(|t| t.end - t.start).sum()
 }

@@ -2,9 +2,10 @@
 
 use hexbench_experiments::Proportion;
 use hexbench_experiments::calibration::{
-    Calibration, Fate, MOST_FALSE_NAMES, Protocol, Record, calibrate, credible_coverage, document,
-    false_names, false_outside, is_well_visible, pictures, stiffness_coverage, trials_csv,
+    Calibration, Fate, MOST_FALSE_NAMES, Protocol, Record, credible_coverage, document, false_names,
+    false_outside, is_well_visible, pictures, stiffness_coverage, trials_csv,
 };
+use hexbench_experiments::harness::{self, Silent};
 use hexbench_truth::campaign::Kind;
 
 /// Enough for every kind to occur; a larger study is a command.
@@ -19,7 +20,9 @@ const MOST_FALSE_OUTSIDE: f64 = 0.02;
 
 fn study(threads: usize, trials: usize) -> Calibration {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| calibrate(Protocol::default().with_trials(trials), &|| {}))
+    let protocol = Protocol::default().with_trials(trials);
+    let gathered = pool.install(|| harness::run(&protocol, None, &Silent)).unwrap();
+    Calibration::of(protocol, gathered)
 }
 
 fn assert_not_above(found: Proportion, limit: f64, what: &str) {

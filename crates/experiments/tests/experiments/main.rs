@@ -4,6 +4,7 @@
 mod calibration;
 mod challenge;
 mod discriminate;
+mod interrupted;
 mod paper;
 mod power;
 mod recovery;

@@ -4,10 +4,11 @@ use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::paper::identify::pooled;
 use hexbench_experiments::paper::published::{PREDICTION_ERROR, STIFFNESS_N_PER_UM};
 use hexbench_experiments::paper::report::{files, page};
-use hexbench_experiments::paper::{Reproduction, bench};
+use hexbench_experiments::paper::{PaperError, Reproduction, bench};
 use hexbench_model::verdict::Verdict;
 
 /// Set to write the committed page and its charts instead of comparing them.
@@ -20,7 +21,10 @@ const WIDEST: usize = 80;
 /// One run of the study serves all tests.
 fn study() -> &'static Reproduction {
     static STUDY: OnceLock<Reproduction> = OnceLock::new();
-    STUDY.get_or_init(|| Reproduction::run(1).unwrap())
+    STUDY.get_or_init(|| {
+        Reproduction::run(1, |again| Ok::<_, PaperError>(harness::run(again, None, &Silent).unwrap()))
+            .unwrap()
+    })
 }
 
 #[test]

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use hexbench_core::Observation;
 use hexbench_design::power::{Settings, Verdict};
 use hexbench_experiments::Proportion;
-use hexbench_experiments::power::{Power, PowerPlan, Simulated, Simulation, plan_of, run};
+use hexbench_experiments::harness::{self, Silent};
+use hexbench_experiments::power::{Campaigns, Power, PowerPlan, Simulated, Simulation, plan_of};
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
 use hexbench_truth::Scene;
@@ -28,7 +29,13 @@ fn settings() -> Settings {
 }
 
 fn studied(plan: &PowerPlan, ids: &[&str], campaigns: usize, diagnoses: bool) -> Power {
-    run(plan, &terms(ids), settings(), Simulation { campaigns, diagnoses }, &[], &|| ()).unwrap()
+    simulate(plan, &terms(ids), Simulation { campaigns, diagnoses })
+}
+
+fn simulate(plan: &PowerPlan, terms: &[Arc<dyn Term>], simulation: Simulation) -> Power {
+    let all = Campaigns::new(plan, terms, settings(), simulation, &[]).unwrap();
+    let gathered = harness::run(&all, None, &Silent).unwrap();
+    all.power(&gathered).unwrap()
 }
 
 /// Name, reckoned chance and simulation of everything that was simulated.
@@ -118,9 +125,7 @@ fn a_noise_estimated_from_repeats_is_paid_for_as_reckoned() {
 
 #[test]
 fn the_plan_of_the_paper_is_blind_and_the_rich_one_sees() {
-    let study = |scene| {
-        run(&plan(scene), &catalogue(), settings(), Simulation::default(), &[], &|| ()).unwrap().study
-    };
+    let study = |scene| simulate(&plan(scene), &catalogue(), Simulation::default()).study;
     let (paper, rich) = (study("paper"), study("paper-rich"));
     let usual = |s: &hexbench_design::power::Study, least: f64| {
         s.effects.iter().filter(|e| e.power_at_usual_size.middle >= least).count()

@@ -3,11 +3,13 @@
 use std::collections::BTreeSet;
 
 use hexbench_core::{Hexapod, Metrology};
+use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::recovery::correspondence::CORRESPONDENCES;
 use hexbench_experiments::recovery::geometry::combinations;
+use hexbench_experiments::recovery::protocol::Recovery;
 use hexbench_experiments::recovery::pulls::right_fit;
 use hexbench_experiments::recovery::scene::{Scene, Subject, subjects};
-use hexbench_experiments::recovery::study::{Settings, run};
+use hexbench_experiments::recovery::study::{Settings, Study};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::estimate::parameter_names;
 use hexbench_model::fit::fit_baseline;
@@ -22,16 +24,21 @@ fn subject(name: &str) -> Subject {
     subjects().into_iter().find(|s| s.name == name).unwrap()
 }
 
+fn run(settings: Settings) -> Study {
+    let protocol = Recovery::new(settings);
+    Study::of(&protocol, &harness::run(&protocol, None, &Silent).unwrap())
+}
+
 #[test]
 fn a_small_study_holds_its_bounds_and_repeats_itself_on_one_thread() {
     let settings = Settings { campaigns: FEW * subjects().len(), diagnoses: 0, seed: 5 };
-    let study = run(settings, || ());
+    let study = run(settings);
     assert!(study.broken.is_empty(), "{} bounds, broken: {:#?}", study.bounds, study.broken);
     assert!(study.bounds > 60, "only {} bounds", study.bounds);
     let few = Settings { campaigns: 1, ..settings };
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let bytes = |study| serde_json::to_string(&study).unwrap();
-    assert_eq!(bytes(run(few, || ())), bytes(alone.install(|| run(few, || ()))));
+    assert_eq!(bytes(run(few)), bytes(alone.install(|| run(few))));
 }
 
 #[test]

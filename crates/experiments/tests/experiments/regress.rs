@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use hexbench_experiments::Proportion;
+use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::regress::baseline::{Baseline, Update, made};
 use hexbench_experiments::regress::comparison::{Comparison, compare};
 use hexbench_experiments::regress::gathered::pool;
@@ -15,7 +16,7 @@ use hexbench_experiments::regress::rule::{Verdict, judge};
 use hexbench_experiments::regress::sample::Sample;
 use hexbench_experiments::regress::suite::Suite;
 use hexbench_experiments::regress::summary::markdown;
-use hexbench_experiments::regress::trials::{Trials, run};
+use hexbench_experiments::regress::trials::{Runs, Trials};
 use rand::RngExt;
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
 use rand_pcg::Pcg64;
@@ -24,17 +25,20 @@ fn update(reason: &str) -> Update {
     Update { date: "2026-01-02".into(), hexbench: "0".into(), seed: 1, runs: 3, reason: reason.into() }
 }
 
+fn runs(suite: &Suite, seed: u64, count: usize) -> Vec<Trials> {
+    let runs = Runs::new(suite, seed, count);
+    runs.of_each(harness::run(&runs, None, &Silent).unwrap())
+}
+
 /// A baseline of three runs of the quick suite, and its first run.
 fn baseline() -> &'static (Baseline, Trials) {
     static MADE: OnceLock<(Baseline, Trials)> = OnceLock::new();
     MADE.get_or_init(|| {
         let suite = Suite::quick();
-        let later = |seed| run(&suite.without_machines(), seed, &|| ());
-        let runs = [run(&suite, 1, &|| ()), later(2), later(3)];
+        let runs = runs(&suite, 1, 3);
         let limits = limits(&suite);
         let baseline = made(&suite, &limits, &pool(&limits, &runs), update("first"), Vec::new()).unwrap();
-        let [first, ..] = runs;
-        (baseline, first)
+        (baseline, runs[0].clone())
     })
 }
 
@@ -54,7 +58,7 @@ fn the_same_run_passes_with_the_same_values_and_another_seed_passes_on_any_numbe
     assert_eq!(first.same_values(), Some(first.findings.len()));
     let of = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        beside(&pool.install(|| run(&Suite::quick(), 9, &|| ())), 9)
+        beside(&pool.install(|| runs(&Suite::quick(), 9, 1))[0], 9)
     };
     let [one, three] = [1, 3].map(of);
     assert_eq!(serde_json::to_string(&one).unwrap(), serde_json::to_string(&three).unwrap());

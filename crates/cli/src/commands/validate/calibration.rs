@@ -11,7 +11,7 @@ use hexbench_experiments::calibration::{
 use hexbench_truth::campaign::Kind;
 
 use crate::failure::Failure;
-use crate::output::{Progress, Screen};
+use crate::output::{Screen, TrialFiles};
 use crate::page;
 
 /// Say how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
@@ -30,11 +30,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
     /// Write the files of this one trial instead, such as `pair-0007`
-    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "markdown", "check"])]
+    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "markdown", "check", "journal", "table"])]
     case: Option<String>,
     /// Exit with 1 when effects that are not there are named in clearly more than 1 % of the trials
     #[arg(long)]
     check: bool,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 /// Run the study, write its files, tell the main figures.
@@ -47,17 +49,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Some(trials) => protocol.with_trials(trials as usize),
         None => protocol,
     };
-    let study = with_progress(protocol);
+    let gathered = arguments.kept.run(&protocol)?;
+    let study = Calibration::of(protocol, gathered);
     let written = write(&study, arguments, screen)?;
     screen.write(&page::calibration(&study, &written, screen.ink()))?;
     check(arguments.check, &study)
-}
-
-fn with_progress(protocol: Protocol) -> Calibration {
-    let progress = Progress::of(protocol.trials() as u64, "trials");
-    let study = calibration::calibrate(protocol, &|| progress.advance(1));
-    progress.done();
-    study
 }
 
 /// Returns the paths written.

@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_experiments::discriminate::{
-    CONFUSIONS, Protocol, SEED, discriminate, document, headlines, sheets,
+    CONFUSIONS, Discrimination, Protocol, SEED, Trials, document, headlines, sheets,
 };
 use hexbench_pages::text::{Paper, Table};
 
 use crate::failure::Failure;
 
-use crate::output::{Progress, Screen};
+use crate::output::{Screen, TrialFiles};
 
 /// Say whether the proposed readings tell effects apart: they are taken on simulated machines with a known truth
 #[derive(Debug, Args)]
@@ -24,6 +24,8 @@ pub(crate) struct Arguments {
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 fn trials(text: &str) -> Result<usize, String> {
@@ -35,9 +37,8 @@ fn trials(text: &str) -> Result<usize, String> {
 /// Run the study, tell the figures, write the document.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let protocol = Protocol { seed: arguments.seed, trials: arguments.trials };
-    let progress = Progress::of((protocol.trials * CONFUSIONS.len()) as u64, "trials");
-    let study = discriminate(protocol, &CONFUSIONS, &|| progress.advance(1));
-    progress.done();
+    let trials = Trials { protocol, confusions: &CONFUSIONS };
+    let study = Discrimination::of(&trials, &arguments.kept.run(&trials)?);
     let mut paper = Paper::new(screen.ink());
     paper.heading("Readings that tell effects apart", &format!("seed {}", protocol.seed));
     for line in headlines(&study) {

@@ -5,15 +5,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_design::power::Settings;
-use hexbench_experiments::power::{
-    Simulation, Studied, document, most_campaigns, pictures, plan_of, run as study,
-};
+use hexbench_experiments::power::{Campaigns, Simulation, Studied, document, pictures, plan_of};
 use hexbench_report::Document;
 use hexbench_truth::Scene;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{Progress, Screen};
+use crate::output::{Screen, TrialFiles};
 
 /// Say which effects the plan of the paper and a richer one can see: reckoned, and counted in the simulated world
 #[derive(Debug, Args)]
@@ -33,22 +31,24 @@ pub(crate) struct Arguments {
     /// Write the page as Markdown to FILE, its charts to a folder beside it
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 /// Study both plans, print the page, write the files.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let terms = input::catalogue_with(&[]);
     let simulation = Simulation { campaigns: arguments.campaigns as usize, diagnoses: true };
-    let progress = Progress::of(2 * most_campaigns(terms.len(), simulation) as u64, "campaigns");
     let one = |folder: &Path| -> Result<Studied, Failure> {
         let scene = Scene::read(folder)?;
         let plan = plan_of(&scene)?;
         let settings = Settings { seed: arguments.seed, ..Settings::default() };
-        let power = study(&plan, &terms, settings, simulation, &[], &|| progress.advance(1))?;
+        let all = Campaigns::new(&plan, &terms, settings, simulation, &[])?;
+        let gathered = arguments.kept.of_one(&scene.name).run(&all)?;
+        let power = all.power(&gathered)?;
         Ok(Studied::new(&scene.name, plan, power)?)
     };
     let (plain, rich) = (one(&arguments.plain)?, one(&arguments.rich)?);
-    progress.done();
     write(arguments, &plain, &rich, screen)?;
     screen.write(&page(arguments, &plain, &rich, "power").to_text())
 }

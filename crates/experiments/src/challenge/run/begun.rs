@@ -1,6 +1,6 @@
 //! Whose answers a folder holds: `answers.json`.
 
-use std::fs::{self, File, TryLockError};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -10,6 +10,7 @@ use crate::challenge::folder::refuse_content;
 use crate::challenge::make::write;
 use crate::challenge::stored::{Stored, json, read_json};
 use crate::challenge::{Challenge, ChallengeError};
+use crate::journal::{Lock, Locked};
 
 /// Name of the file.
 pub const ANSWERS: &str = "answers.json";
@@ -99,7 +100,10 @@ impl Begun {
             refuse_content(folder, &[LOCK])?;
         }
         fs::create_dir_all(folder).map_err(ChallengeError::writing(folder))?;
-        let lock = lock(folder)?;
+        let lock = Lock::take(&folder.join(LOCK)).map_err(|locked| match locked {
+            Locked::By(_) => ChallengeError::Busy(folder.to_owned()),
+            Locked::Not(path, cause) => ChallengeError::Write { path, cause },
+        })?;
         if is_known && !again {
             self.refuse_others(folder)?;
         } else {
@@ -132,26 +136,4 @@ impl Begun {
 /// Folder of the answered cases.
 pub(crate) fn cases_folder(answers: &Path) -> PathBuf {
     answers.join(CASES)
-}
-
-/// A lock on a folder of answers; it ends with the process, however that ends.
-pub(super) struct Lock(File);
-
-impl Drop for Lock {
-    /// Said aloud: a program that another thread is just starting holds a copy of the file for a moment, and the lock with it.
-    fn drop(&mut self) {
-        // What cannot be unlocked is unlocked when the file is closed.
-        let _ = self.0.unlock();
-    }
-}
-
-fn lock(folder: &Path) -> Result<Lock, ChallengeError> {
-    let path = folder.join(LOCK);
-    let open = File::options().write(true).create(true).truncate(false).open(&path);
-    let file = open.map_err(ChallengeError::writing(&path))?;
-    match file.try_lock() {
-        Ok(()) => Ok(Lock(file)),
-        Err(TryLockError::WouldBlock) => Err(ChallengeError::Busy(folder.to_owned())),
-        Err(TryLockError::Error(cause)) => Err(ChallengeError::Write { path, cause }),
-    }
 }

@@ -27,6 +27,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use crate::challenge::{Challenge, ChallengeError};
+use crate::harness::{Progress, each, on_threads};
 pub(crate) use begun::cases_folder;
 pub use begun::{ANSWERS, Begun};
 pub use limits::Limits;
@@ -65,40 +66,34 @@ pub struct Summary {
     pub fresh: Vec<Record>,
 }
 
-/// Runs a program over the cases that it has not answered; `done` is called after each.
+/// Runs a program over the cases that it has not answered.
 ///
 /// # Errors
-/// [`ChallengeError`] when the challenge changed, the folder belongs to another run, or a file cannot be written. What the
-/// program does wrong is a record.
+/// [`ChallengeError`] when the challenge changed, the folder belongs to another run, a file cannot be written, or the progress asks
+/// for a stop. What the program does wrong is a record.
 pub fn run(
     challenge: &Challenge,
     entrant: &Entrant,
     answers: &Path,
     manner: Manner,
-    done: &(dyn Fn() + Sync),
+    progress: &dyn Progress,
 ) -> Result<Summary, ChallengeError> {
     challenge.verify_public()?;
     let begun = Begun::new(challenge, entrant);
     let _lock = begun.settle(answers, manner.again)?;
     let cases = cases_folder(answers);
     remove_remains(&cases).map_err(ChallengeError::writing(&cases))?;
-    let pending: Vec<&String> = challenge
-        .manifest()
-        .cases
-        .iter()
-        .filter(|id| !is_answered(&cases.join(id), &challenge.case_sha256(id)))
-        .collect();
+    let ids = &challenge.manifest().cases;
+    let is_open = |id: &String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
+    let pending: Vec<&String> = ids.iter().filter(|id| is_open(id)).collect();
+    progress.begin(ids.len() as u64, (ids.len() - pending.len()) as u64);
     let one = |id: &&String| {
         let record = one::answer(challenge, entrant, id, &cases)?;
-        done();
-        Ok(record)
+        progress.advance(1);
+        Ok::<_, ChallengeError>(record)
     };
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(manner.jobs).build();
-    let fresh = match threads {
-        Ok(pool) => pool.install(|| pending.par_iter().map(one).collect::<Result<Vec<_>, ChallengeError>>()),
-        Err(_) => pending.iter().map(one).collect(),
-    }?;
-    Ok(Summary { known: challenge.manifest().cases.len() - pending.len(), fresh })
+    let fresh = on_threads(manner.jobs, || each(pending.par_iter(), progress, one))?;
+    Ok(Summary { known: ids.len() - pending.len(), fresh })
 }
 
 /// Removes what a killed run was about to keep.

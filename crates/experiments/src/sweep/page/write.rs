@@ -7,6 +7,7 @@ use hexbench_core::files::atomic_write;
 use hexbench_report::png::png;
 
 use super::{Picture, document, pictures};
+use crate::error::ExperimentError;
 use crate::sweep::error::StudyError;
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::Study;
@@ -15,7 +16,7 @@ use crate::sweep::study::Study;
 /// `markdown` with its charts beside it, when that is wanted.
 ///
 /// # Errors
-/// [`StudyError::Plot`], [`StudyError::Write`].
+/// [`StudyError::Plot`], [`ExperimentError::Write`].
 pub fn write(
     study: &Study,
     cells: &[CellStatistics],
@@ -28,7 +29,7 @@ pub fn write(
     for (picture, png) in pictures.iter().filter_map(|p| Some((p, png(&p.svg)?))) {
         file(&folder.join("charts").join(format!("{}.png", picture.name)), &png)?;
     }
-    markdown.map_or(Ok(()), |path| page(path, &path.with_extension(""), &text, &pictures))
+    Ok(markdown.map_or(Ok(()), |path| page(path, &path.with_extension(""), &text, &pictures))?)
 }
 
 /// The page and its charts as SVG, which are in `folder` beside it.
@@ -37,7 +38,7 @@ fn page(
     folder: &Path,
     text: &dyn Fn(&str) -> String,
     pictures: &[Picture],
-) -> Result<(), StudyError> {
+) -> Result<(), ExperimentError> {
     let beside = folder.file_name().unwrap_or_default().to_string_lossy();
     file(path, text(&beside).as_bytes())?;
     for picture in pictures {
@@ -46,10 +47,10 @@ fn page(
     Ok(())
 }
 
-fn file(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
+fn file(path: &Path, bytes: &[u8]) -> Result<(), ExperimentError> {
     let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
     folder
         .map_or(Ok(()), fs::create_dir_all)
         .and_then(|()| atomic_write(path, |out| out.write_all(bytes)))
-        .map_err(|cause| StudyError::Write { path: path.to_owned(), cause })
+        .map_err(ExperimentError::writing(path))
 }

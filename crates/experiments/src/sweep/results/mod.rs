@@ -11,8 +11,9 @@ mod trials;
 
 use hexbench_core::files::atomic_write;
 
-use crate::sweep::error::StudyError;
-use crate::sweep::journal::Journal;
+use crate::error::ExperimentError;
+use crate::harness::Sharded;
+use crate::journal::Journal;
 use crate::sweep::runner::Runner;
 pub use statistics::{Answers, CellStatistics, Springs, Welford};
 pub use table::cells_csv;
@@ -25,15 +26,22 @@ pub const CELLS: &str = "cells.csv";
 /// Writes both tables from the shards of a journal, one shard in memory at a time; `done` hears of each.
 ///
 /// # Errors
-/// [`StudyError::Write`], [`StudyError::Missing`], [`StudyError::Read`].
-pub fn write(runner: &Runner, journal: &Journal, done: &dyn Fn()) -> Result<Vec<CellStatistics>, StudyError> {
+/// [`ExperimentError::Write`], [`ExperimentError::Missing`], [`ExperimentError::Read`].
+pub fn write(
+    runner: &Runner,
+    journal: &Journal,
+    done: &dyn Fn(),
+) -> Result<Vec<CellStatistics>, ExperimentError> {
     let path = journal.folder().join(TRIALS);
     let mut cells: Vec<CellStatistics> = Vec::new();
     let mut failed = None;
     let written = atomic_write(&path, |out| {
         let mut table = trials::Table::begin(runner, out)?;
-        for number in 0..runner.shards() {
-            let shard = match journal.shard(runner, number) {
+        for number in 0..runner.shards().count() {
+            let content = journal.content(number);
+            let filled = content
+                .and_then(|bytes| runner.empty(number).filled(&bytes).ok_or_else(|| journal.missing(number)));
+            let shard = match filled {
                 Ok(shard) => shard,
                 Err(cause) => {
                     failed = Some(cause);
@@ -48,12 +56,12 @@ pub fn write(runner: &Runner, journal: &Journal, done: &dyn Fn()) -> Result<Vec<
     });
     match (written, failed) {
         (_, Some(missing)) => return Err(missing),
-        (Err(cause), None) => return Err(StudyError::Write { path, cause }),
+        (Err(cause), None) => return Err(ExperimentError::Write { path, cause }),
         (Ok(()), None) => {}
     }
     let path = journal.folder().join(CELLS);
     let text = cells_csv(runner.study(), &cells);
     let written = atomic_write(&path, |out| out.write_all(text.as_bytes()));
-    written.map_err(|cause| StudyError::Write { path, cause })?;
+    written.map_err(ExperimentError::writing(&path))?;
     Ok(cells)
 }

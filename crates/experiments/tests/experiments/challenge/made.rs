@@ -4,6 +4,7 @@ use std::fs;
 
 use hexbench_core::files::{read_conditions, read_hexapod, read_measurements};
 use hexbench_experiments::challenge::{Challenge, ChallengeError, make};
+use hexbench_experiments::harness::Silent;
 
 use super::support::{Bench, EVERY_SORT, ONE, files, suite};
 
@@ -13,7 +14,7 @@ fn the_same_suite_and_seed_give_the_same_bytes_on_any_number_of_threads() {
     let made = |name: &str, threads: usize, seed: u64| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let place = folder.path().join(name);
-        pool.install(|| make(&suite(EVERY_SORT).with_seed(seed), &place, &|| ())).unwrap();
+        pool.install(|| make(&suite(EVERY_SORT).with_seed(seed), &place, &Silent)).unwrap();
         files(&place)
     };
     let one = made("one", 1, 11);
@@ -105,7 +106,7 @@ fn a_file_that_changed_is_named() {
 fn a_folder_with_something_in_it_is_left_alone() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("mine.txt"), "x").unwrap();
-    let made = make(&suite(ONE), folder.path(), &|| ());
+    let made = make(&suite(ONE), folder.path(), &Silent);
     assert!(matches!(made, Err(ChallengeError::NotEmpty(_))));
     assert_eq!(files(folder.path()).len(), 1);
 }

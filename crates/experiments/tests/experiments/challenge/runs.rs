@@ -4,8 +4,12 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use hexbench_experiments::ExperimentError;
 use hexbench_experiments::challenge::ChallengeError;
 use hexbench_experiments::challenge::run::{End, Limits, Manner, Program, run};
+use hexbench_experiments::harness::{Progress, Silent};
+
+use crate::interrupted::StopAfter;
 
 use super::support::{Bench, EVERY_SORT, MANNER, ONE, entrant, files};
 
@@ -163,8 +167,19 @@ fn a_run_goes_on_where_it_was_and_begins_anew_when_asked() {
     assert!(!bench.answers().join("cases/.part-killed").exists());
     let again = Manner { again: true, ..MANNER };
     let summary =
-        run(&bench.challenge, &entrant(&script, &log, USUAL), &bench.answers(), again, &|| ()).unwrap();
+        run(&bench.challenge, &entrant(&script, &log, USUAL), &bench.answers(), again, &Silent).unwrap();
     assert_eq!((summary.fresh.len(), calls()), (5, 12));
+}
+
+#[test]
+fn a_run_that_is_stopped_goes_on_with_the_cases_that_are_left() {
+    let bench = Bench::of(EVERY_SORT);
+    let entrant = entrant(WRITE, Path::new("sh"), USUAL);
+    let over = |progress: &dyn Progress| run(&bench.challenge, &entrant, &bench.answers(), MANNER, progress);
+    let stopped = over(&StopAfter::new(2));
+    assert!(matches!(stopped, Err(ChallengeError::Experiment(ExperimentError::Stopped))), "{stopped:?}");
+    let rest = over(&Silent).unwrap();
+    assert!(rest.known >= 2 && rest.known + rest.fresh.len() == 5, "{rest:?}");
 }
 
 #[test]
@@ -173,7 +188,7 @@ fn answers_of_another_program_limit_or_challenge_are_not_mixed() {
     bench.record(WRITE, USUAL);
     let zero = Path::new("sh");
     let refused = |challenge, script: &str, limits| {
-        run(challenge, &entrant(script, zero, limits), &bench.answers(), MANNER, &|| ()).unwrap_err()
+        run(challenge, &entrant(script, zero, limits), &bench.answers(), MANNER, &Silent).unwrap_err()
     };
     let program = refused(&bench.challenge, "exit 0", USUAL);
     assert!(matches!(program, ChallengeError::OtherProgram { .. }), "{program}");
@@ -190,7 +205,7 @@ fn a_folder_that_holds_no_answers_is_left_alone() {
     for again in [false, true] {
         let manner = Manner { again, ..MANNER };
         let refused =
-            run(&bench.challenge, &entrant(WRITE, Path::new("sh"), USUAL), &bench.place(), manner, &|| ());
+            run(&bench.challenge, &entrant(WRITE, Path::new("sh"), USUAL), &bench.place(), manner, &Silent);
         assert!(matches!(refused, Err(ChallengeError::NotEmpty(_))), "{refused:?}");
     }
     assert!(files(&bench.place()) == before);
@@ -201,7 +216,7 @@ fn a_changed_case_is_not_answered() {
     let bench = Bench::of(ONE);
     fs::write(bench.place().join("cases/case-001/predict.csv"), "row\n").unwrap();
     let refused =
-        run(&bench.challenge, &entrant(WRITE, Path::new("sh"), USUAL), &bench.answers(), MANNER, &|| ());
+        run(&bench.challenge, &entrant(WRITE, Path::new("sh"), USUAL), &bench.answers(), MANNER, &Silent);
     assert!(matches!(refused, Err(ChallengeError::Tampered { .. })), "{refused:?}");
 }
 

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use hexbench_experiments::challenge::run::{Entrant, Limits, Manner, Program, Record, run};
 use hexbench_experiments::challenge::{Challenge, Suite, make};
+use hexbench_experiments::harness::Silent;
 use tempfile::TempDir;
 
 /// One case without effect.
@@ -35,7 +36,7 @@ impl Bench {
     pub(crate) fn of(cases: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let place = folder.path().join("challenge");
-        make(&suite(cases), &place, &|| ()).unwrap();
+        make(&suite(cases), &place, &Silent).unwrap();
         let challenge = Challenge::open(&place).unwrap();
         Self { folder, challenge }
     }
@@ -51,7 +52,7 @@ impl Bench {
     /// Runs a shell script, which has the case in $1, the folder to write to in $2 and `zero` in $0.
     pub(crate) fn run_with(&self, script: &str, zero: &Path, limits: Limits) -> Vec<Record> {
         let entrant = entrant(script, zero, limits);
-        run(&self.challenge, &entrant, &self.answers(), MANNER, &|| ()).unwrap().fresh
+        run(&self.challenge, &entrant, &self.answers(), MANNER, &Silent).unwrap().fresh
     }
 
     /// The record of the only case.

@@ -2,4 +2,4 @@
 
 mod closed_form;
 mod studies;
-mod support;
+pub(crate) mod support;

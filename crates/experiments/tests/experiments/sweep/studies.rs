@@ -2,11 +2,14 @@
 
 use std::fs::{self, File};
 
+use hexbench_experiments::ExperimentError;
+use hexbench_experiments::harness::{Sharded, Silent, compute};
+use hexbench_experiments::journal::Journal;
 use hexbench_experiments::recovery::tally::bounds;
+use hexbench_experiments::sweep::Runner;
 use hexbench_experiments::sweep::columns::Status;
 use hexbench_experiments::sweep::page::{Matching, equals, laws};
 use hexbench_experiments::sweep::results::{self, CELLS, CellStatistics, TRIALS};
-use hexbench_experiments::sweep::{Journal, Runner, StudyError};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 
@@ -15,11 +18,15 @@ use super::support::study;
 const SMALL: &str = "trials = 700\ntask = \"springs\"\nredraw = 50\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"random\"]\n\
                      poses = [3]\nnoise_scale = [1, 2, 4]\n";
 
+fn open(folder: &std::path::Path, runner: &Runner) -> Result<Journal, ExperimentError> {
+    Journal::open(folder, runner.identity(), runner.shards())
+}
+
 fn run(folder: &std::path::Path, rest: &str) -> (Runner, Vec<CellStatistics>) {
     let runner = Runner::new(study(rest)).unwrap();
-    let journal = Journal::open(folder, &runner).unwrap();
-    let state = journal.state(&runner).unwrap();
-    journal.compute(&runner, &state.pending, &|_| {}).unwrap();
+    let journal = open(folder, &runner).unwrap();
+    let state = journal.state().unwrap();
+    compute(&journal, &runner, &state.pending, &Silent).unwrap();
     let cells = results::write(&runner, &journal, &|| {}).unwrap();
     (runner, cells)
 }
@@ -102,8 +109,8 @@ fn records_that_are_missing_or_damaged_are_computed_again_and_the_bytes_are_the_
     fs::remove_file(broken.path().join(TRIALS)).unwrap();
 
     let runner = Runner::new(study(SMALL)).unwrap();
-    let journal = Journal::open(broken.path(), &runner).unwrap();
-    let state = journal.state(&runner).unwrap();
+    let journal = open(broken.path(), &runner).unwrap();
+    let state = journal.state().unwrap();
     assert_eq!((state.pending.as_slice(), state.damaged), ([0, 1].as_slice(), 1));
     assert!(!remains.exists());
     drop(journal);
@@ -115,10 +122,10 @@ fn records_that_are_missing_or_damaged_are_computed_again_and_the_bytes_are_the_
 fn results_are_not_written_from_part_of_the_shards() {
     let folder = tempfile::tempdir().unwrap();
     let runner = Runner::new(study(SMALL)).unwrap();
-    let journal = Journal::open(folder.path(), &runner).unwrap();
-    journal.compute(&runner, &[0, 2], &|_| {}).unwrap();
+    let journal = open(folder.path(), &runner).unwrap();
+    compute(&journal, &runner, &[0, 2], &Silent).unwrap();
     let missing = results::write(&runner, &journal, &|| {}).unwrap_err();
-    assert!(matches!(missing, StudyError::Missing { shard: 1, .. }), "{missing}");
+    assert!(matches!(missing, ExperimentError::Missing { shard: 1, .. }), "{missing}");
     assert!(!folder.path().join(TRIALS).exists());
 }
 
@@ -128,12 +135,12 @@ fn shards_computed_elsewhere_and_put_together_give_the_same_bytes() {
         (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     run(whole.path(), SMALL);
     let runner = Runner::new(study(SMALL)).unwrap();
-    Journal::open(here.path(), &runner).unwrap().compute(&runner, &[2, 0], &|_| {}).unwrap();
-    Journal::open(there.path(), &runner).unwrap().compute(&runner, &[1], &|_| {}).unwrap();
+    compute(&open(here.path(), &runner).unwrap(), &runner, &[2, 0], &Silent).unwrap();
+    compute(&open(there.path(), &runner).unwrap(), &runner, &[1], &Silent).unwrap();
     let record = "journal/00000001.shard";
     fs::copy(there.path().join(record), here.path().join(record)).unwrap();
-    let journal = Journal::open(here.path(), &runner).unwrap();
-    assert_eq!(journal.state(&runner).unwrap().pending, Vec::<u64>::new());
+    let journal = open(here.path(), &runner).unwrap();
+    assert_eq!(journal.state().unwrap().pending, Vec::<u64>::new());
     results::write(&runner, &journal, &|| {}).unwrap();
     assert!(bytes(whole.path()) == bytes(here.path()));
 }
@@ -142,14 +149,14 @@ fn shards_computed_elsewhere_and_put_together_give_the_same_bytes() {
 fn one_run_at_a_time_works_in_a_folder() {
     let folder = tempfile::tempdir().unwrap();
     let runner = Runner::new(study(SMALL)).unwrap();
-    let first = Journal::open(folder.path(), &runner).unwrap();
-    let second = Journal::open(folder.path(), &runner).err().unwrap();
+    let first = open(folder.path(), &runner).unwrap();
+    let second = open(folder.path(), &runner).err().unwrap();
     assert!(
-        matches!(second, StudyError::Busy { holder: Some(pid), .. } if pid == std::process::id()),
+        matches!(second, ExperimentError::Busy { holder: Some(pid), .. } if pid == std::process::id()),
         "{second}"
     );
     drop(first);
-    assert!(Journal::open(folder.path(), &runner).is_ok());
+    assert!(open(folder.path(), &runner).is_ok());
 }
 
 #[test]
