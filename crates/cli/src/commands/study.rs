@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, value_parser};
+use hexbench_experiments::harness::Progress as _;
+use hexbench_experiments::sweep::work::Share;
+use hexbench_experiments::sweep::{Part, Work, divide, page};
 use hexbench_report::{Block, Page, Section, Table};
-use hexbench_study::work::Share;
-use hexbench_study::{Part, Work, divide, page};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen, report};
@@ -139,7 +140,7 @@ fn part(arguments: &RunArguments, screen: &Screen) -> Result<(), Failure> {
 fn merge(arguments: &MergeArguments, screen: &Screen) -> Result<(), Failure> {
     let work = Work::open(&arguments.study, &arguments.out)?;
     for folder in &arguments.parts {
-        let adopted = work.adopt(folder)?;
+        let adopted = work.journal().adopt(folder)?;
         if adopted.damaged > 0 {
             let told = format!("{}: {} records are damaged and left out", folder.display(), adopted.damaged);
             report::warn(&told, "`hexbench study run` on this folder computes them again.");
@@ -151,7 +152,7 @@ fn merge(arguments: &MergeArguments, screen: &Screen) -> Result<(), Failure> {
 
 /// Write the results of a study that is complete, and tell them.
 fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
-    let progress = Progress::of(work.shards(), "shards written");
+    let progress = Progress::of(work.shards().count(), "shards written");
     let cells = work.write_tables(&|| progress.advance(1));
     progress.done();
     let cells = cells?;
@@ -164,12 +165,8 @@ fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Fai
 /// Compute what is missing of a part, or of the whole.
 fn compute(work: &Work, part: Option<Part>) -> Result<(), Failure> {
     let todo = work.todo(part)?;
-    if todo.damaged > 0 {
-        let told = format!("{} damaged records of the journal are computed again", todo.damaged);
-        report::warn(&told, "Nothing, if the files were copied or the disk was full.");
-    }
-    let progress = Progress::of(todo.trials, "trials").beginning_at(todo.trials - todo.pending_trials);
-    let done = work.compute(&todo.pending, &|trials| progress.advance(trials));
-    progress.done();
-    Ok(done?)
+    let progress = Progress::of(0, "trials");
+    progress.damaged(todo.damaged);
+    progress.begin(todo.trials, todo.trials - todo.pending_trials);
+    Ok(work.compute(&todo.pending, &progress)?)
 }

@@ -1,5 +1,6 @@
 //! A table as comma-separated values.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 use super::{Frame, Values};
@@ -14,15 +15,16 @@ pub fn text(table: &Table) -> String {
 
 /// One line of cells; those with a comma, a quote or an end of line are quoted.
 pub fn line<'a>(cells: impl IntoIterator<Item = &'a str>) -> String {
-    let cells: Vec<String> = cells.into_iter().map(quoted).collect();
+    let cells: Vec<Cow<'_, str>> = cells.into_iter().map(quoted).collect();
     cells.join(",") + "\n"
 }
 
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
+/// In quotes where it has to be (RFC 4180).
+fn quoted(cell: &str) -> Cow<'_, str> {
+    if cell.contains(['"', ',', '\n', '\r']) {
+        Cow::Owned(format!("\"{}\"", cell.replace('"', "\"\"")))
     } else {
-        cell.to_owned()
+        Cow::Borrowed(cell)
     }
 }
 
@@ -37,6 +39,7 @@ pub(super) fn write(frame: &Frame, out: &mut (dyn Write + Send)) -> io::Result<(
                 Values::Numbers(all) => number(out, all[row])?,
                 Values::Integers(all) => write!(out, "{}", all[row])?,
                 Values::Words(all) => out.write_all(all[row].as_bytes())?,
+                Values::Texts(all) => out.write_all(quoted(&all[row]).as_bytes())?,
             }
         }
         out.write_all(b"\n")?;
@@ -63,6 +66,16 @@ mod tests {
     fn cells_that_hold_a_comma_or_a_quote_are_quoted() {
         let table = crate::page::Table::named(["what", "n"]).rows([["a, b", "3"], ["\"c\"", "4"]]);
         assert_eq!(super::text(&table), "what,n\n\"a, b\",3\n\"\"\"c\"\"\",4\n");
+    }
+
+    #[test]
+    fn words_with_commas_and_quotes_stay_in_their_cell() {
+        let texts = ["plain", "one, two", "\"no\""].map(str::to_owned).to_vec();
+        let (unit, meaning) = (String::new(), String::new());
+        let column = Column { name: "why".into(), unit, meaning, values: Values::Texts(texts) };
+        let mut out = Vec::new();
+        Frame { columns: vec![column], ..Frame::default() }.write(Kind::Csv, &mut out).unwrap();
+        assert_eq!(String::from_utf8(out).unwrap(), "why\nplain\n\"one, two\"\n\"\"\"no\"\"\"\n");
     }
 
     #[test]

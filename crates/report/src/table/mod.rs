@@ -18,6 +18,8 @@ pub enum Values {
     Integers(Vec<i64>),
     /// Words.
     Words(Vec<&'static str>),
+    /// Words of any origin.
+    Texts(Vec<String>),
 }
 
 impl Values {
@@ -26,6 +28,7 @@ impl Values {
             Self::Numbers(all) => all.len(),
             Self::Integers(all) => all.len(),
             Self::Words(all) => all.len(),
+            Self::Texts(all) => all.len(),
         }
     }
 }

@@ -79,7 +79,7 @@ fn field_of(column: &Column) -> Result<TypePtr, ParquetError> {
     match column.values {
         Values::Numbers(_) => optional(&column.name, Physical::DOUBLE),
         Values::Integers(_) => required(&column.name, Physical::INT64),
-        Values::Words(_) => required(&column.name, Physical::BYTE_ARRAY),
+        Values::Words(_) | Values::Texts(_) => required(&column.name, Physical::BYTE_ARRAY),
     }
 }
 
@@ -115,6 +115,10 @@ fn values(
         Values::Integers(all) => int64(group, &all[rows]),
         Values::Words(all) => {
             let words: Vec<ByteArray> = all[rows].iter().map(|word| ByteArray::from(*word)).collect();
+            text(group, &words, None)
+        }
+        Values::Texts(all) => {
+            let words: Vec<ByteArray> = all[rows].iter().map(|word| ByteArray::from(word.as_str())).collect();
             text(group, &words, None)
         }
     }

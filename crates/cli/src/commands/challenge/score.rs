@@ -4,8 +4,8 @@ use hexbench_report::render::markdown;
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_challenge::Challenge;
-use hexbench_challenge::score::{Scores, page, score};
+use hexbench_experiments::challenge::Challenge;
+use hexbench_experiments::challenge::score::{Scores, page, score};
 
 use crate::failure::Failure;
 use crate::output::{Screen, write_json};

@@ -4,17 +4,17 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use hexbench_experiments::calibration::{
+    self, Calibration, Curve, MOST_FALSE_NAMES, Protocol, SEED, false_names, page, pictures, sheets,
+    trials_csv,
+};
 use hexbench_report::render::markdown;
 use hexbench_report::table::csv;
 use hexbench_report::{Block, Entry, Section};
 use hexbench_truth::campaign::Kind;
-use hexbench_validation::calibration::{
-    self, Calibration, Curve, MOST_FALSE_NAMES, Protocol, SEED, false_names, page, pictures, sheets,
-    trials_csv,
-};
 
 use crate::failure::Failure;
-use crate::output::{Progress, Screen};
+use crate::output::{Screen, TrialFiles};
 
 /// Say how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
 #[derive(Debug, Args)]
@@ -32,11 +32,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
     /// Write the files of this one trial instead, such as `pair-0007`
-    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "markdown", "check"])]
+    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "markdown", "check", "journal", "table"])]
     case: Option<String>,
     /// Exit with 1 when effects that are not there are named in clearly more than 1 % of the trials
     #[arg(long)]
     check: bool,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 /// Run the study, write its files, tell the main figures.
@@ -49,17 +51,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Some(trials) => protocol.with_trials(trials as usize),
         None => protocol,
     };
-    let study = with_progress(protocol);
+    let gathered = arguments.kept.run(&protocol)?;
+    let study = Calibration::of(protocol, gathered);
     let written = write(&study, arguments, screen)?;
     screen.show(&page(&study, "charts").with(files(&written)))?;
     check(arguments.check, &study)
-}
-
-fn with_progress(protocol: Protocol) -> Calibration {
-    let progress = Progress::of(protocol.trials() as u64, "trials");
-    let study = calibration::calibrate(protocol, &|| progress.advance(1));
-    progress.done();
-    study
 }
 
 /// Folder by folder.

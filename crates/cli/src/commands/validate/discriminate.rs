@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use hexbench_experiments::discriminate::{CONFUSIONS, Discrimination, Protocol, SEED, Trials, page};
 use hexbench_report::render::markdown;
-use hexbench_validation::discriminate::{CONFUSIONS, Protocol, SEED, discriminate, page};
 
 use crate::failure::Failure;
 
-use crate::output::{Progress, Screen};
+use crate::output::{Screen, TrialFiles};
 
 /// Say whether the proposed readings tell effects apart: they are taken on simulated machines with a known truth
 #[derive(Debug, Args)]
@@ -22,6 +22,8 @@ pub(crate) struct Arguments {
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 fn trials(text: &str) -> Result<usize, String> {
@@ -33,9 +35,8 @@ fn trials(text: &str) -> Result<usize, String> {
 /// Run the study, tell the figures, write the document.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let protocol = Protocol { seed: arguments.seed, trials: arguments.trials };
-    let progress = Progress::of((protocol.trials * CONFUSIONS.len()) as u64, "trials");
-    let study = discriminate(protocol, &CONFUSIONS, &|| progress.advance(1));
-    progress.done();
+    let trials = Trials { protocol, confusions: &CONFUSIONS };
+    let study = Discrimination::of(&trials, &arguments.kept.run(&trials)?);
     let page = page(&study);
     screen.show(&page)?;
     arguments.markdown.as_ref().map_or(Ok(()), |path| {

@@ -15,4 +15,3 @@ test("a value ends where its uncertainty ends", () => {
   assert.deepEqual(withUncertainty(-5432.1, 120), { value: "\u22125430", std: "120" });
   assert.deepEqual(withUncertainty(0.00001, 0.2), { value: "0.00", std: "0.20" });
 });
-
