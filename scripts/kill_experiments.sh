@@ -39,7 +39,7 @@ awk -F, 'NR == 1 { print "row,da_um,db_um,dc_um,dalpha_urad,dbeta_urad,dgamma_ur
     "$1/predict.csv" > "$2/predictions.csv"
 SH
     chmod +x "$work/entrant.sh"
-    "$hexbench" challenge make springs-and-effects -o "$work/challenge" > "$work/made.txt"
+    "$hexbench" challenge make springs-and-effects -o "$work/suite" > "$work/made.txt"
     "$hexbench" regress --quick --update --reason "a run that is killed" --runs 2 --baseline "$work/baseline.json" > "$work/made.txt"
 }
 
@@ -47,7 +47,7 @@ SH
 command_of() {
     local to=$2 kept=(--journal "$2-kept" --table "$2/trials.csv")
     case $1 in
-    recovery) line=(validate recovery --campaigns 230 --diagnoses 2 --json "$to/all.json" --markdown "$to/page.md" "${kept[@]}") ;;
+    recovery) line=(validate recovery --campaigns 115 --diagnoses 1 --json "$to/all.json" --markdown "$to/page.md" "${kept[@]}") ;;
     calibration) line=(validate calibration --trials 100 -o "$to/files" --markdown "$to/page.md" "${kept[@]}") ;;
     discriminate) line=(validate discriminate --trials 8 --markdown "$to/page.md" "${kept[@]}") ;;
     power) line=(validate power --campaigns 6 --markdown "$to/page.md" "${kept[@]}") ;;
@@ -55,7 +55,7 @@ command_of() {
     regress) line=(regress --quick --seed 5 --baseline "$work/baseline.json" --json "$to/all.json" "${kept[@]}") ;;
     validate-regress) line=(validate regress --quick --runs 3 --baseline "$work/baseline.json" --markdown "$to/page.md" "${kept[@]}") ;;
     study) line=(study "$work/study.toml" -o "$2-kept" --markdown "$to/page.md") ;;
-    challenge) line=(challenge run "$work/challenge" -o "$2-kept" --name none -- "$work/entrant.sh") ;;
+    challenge) line=(challenge run "$work/suite" -o "$2-kept" --name none -- "$work/entrant.sh") ;;
     *) echo "there is no experiment $1" >&2 && exit 2 ;;
     esac
 }
@@ -82,7 +82,7 @@ kill_at_random() { # experiment, folder of the results, longest time until the k
     command_of "$1" "$2"
     "$hexbench" "${line[@]}" > "$work/printed.txt" 2>&1 &
     local pid=$!
-    sleep "$(awk -v most="$3" -v r="$RANDOM" 'BEGIN { print most * (0.2 + 0.8 * r / 32768) }')"
+    sleep "$(awk -v most="$3" -v r="$RANDOM" 'BEGIN { print most * (0.5 + 0.5 * r / 32768) }')"
     kill -KILL "$pid" 2> "$work/killed.txt" || true
     local code=0
     wait "$pid" 2> "$work/killed.txt" || code=$?
@@ -102,10 +102,14 @@ for name in "${experiments[@]}"; do
     mv "$work/$name" "$work/$name-unbroken"
     rm -rf "$work/$name-kept"
     hit=0
+    kept=0
     for ((k = 0; k < kills; k++)); do
-        kill_at_random "$name" "$work/$name" "$(awk "BEGIN { print $took * 0.9 / $kills }")"
-        echo "  kill $((k + 1)): $(find "$work/$name-kept" -name '*.shard' -o -name run.json 2> "$work/printed.txt" | wc -l) records" >&2
+        # The later, the less is left to be done.
+        kill_at_random "$name" "$work/$name" "$(awk "BEGIN { print $took * 0.9 * ($kills - $k) / $kills }")"
+        kept=$(find "$work/$name-kept" \( -name '*.shard' -o -name run.json \) 2> "$work/printed.txt" | wc -l || true)
+        echo "  kill $((k + 1)): $kept records" >&2
     done
+    ((hit && kept)) || { echo "$name: $hit kills and $kept records show nothing" >&2 && exit 1; }
     once "$name" "$work/$name" env RAYON_NUM_THREADS=1
     diff -r "$work/$name-unbroken" "$work/$name"
     echo "$name: $hit kills, resumed on 1 thread: the same bytes"

@@ -17,7 +17,6 @@ mod sharded;
 mod table;
 pub(crate) mod words;
 
-use std::ops::Range;
 use std::path::Path;
 
 use serde::Serialize;
@@ -73,7 +72,8 @@ pub fn run<P: Protocol>(
 ) -> Result<Gathered<P::Record>, ExperimentError> {
     let Some(folder) = folder else {
         progress.begin(protocol.trials(), 0);
-        return trials(protocol, 0..protocol.trials(), progress).map(Gathered::new);
+        let one = |number| Ok::<_, ExperimentError>(answer(protocol, number, progress));
+        return each(0..protocol.trials(), progress, one).map(Gathered::new);
     };
     let rows = Rows(protocol);
     let journal = Journal::open(folder, rows.identity(), rows.shards())?;
@@ -91,16 +91,11 @@ pub fn run<P: Protocol>(
     Ok(Gathered::new(all))
 }
 
-fn trials<P: Protocol>(
-    protocol: &P,
-    numbers: Range<u64>,
-    progress: &dyn Progress,
-) -> Result<Vec<Answer<P::Record>>, ExperimentError> {
-    each(numbers, progress, |number| {
-        let answer = protocol.trial(number).map_err(|why| why.to_string());
-        progress.advance(1);
-        Ok(answer)
-    })
+/// One trial, watched.
+fn answer<P: Protocol>(protocol: &P, number: u64, progress: &dyn Progress) -> Answer<P::Record> {
+    let answer = protocol.trial(number).map_err(|why| why.to_string());
+    progress.advance(1);
+    answer
 }
 
 /// Shards of a protocol: the answers in the order of the trials.
@@ -116,7 +111,16 @@ impl<P: Protocol> Sharded for Rows<'_, P> {
     }
 
     fn content(&self, shard: u64, progress: &dyn Progress) -> Result<Vec<u8>, ExperimentError> {
-        let answers = trials(self.0, self.shards().trials_of(shard), progress)?;
+        // One after the other: threads that help each other would have many shards half done when a run is killed.
+        let unless_stopped = |number| {
+            if progress.is_stopped() {
+                Err(ExperimentError::Stopped)
+            } else {
+                Ok(answer(self.0, number, progress))
+            }
+        };
+        let answers: Vec<Answer<P::Record>> =
+            self.shards().trials_of(shard).map(unless_stopped).collect::<Result<_, _>>()?;
         postcard::to_stdvec(&answers).map_err(|why| ExperimentError::Unkept(why.to_string()))
     }
 }
