@@ -207,10 +207,7 @@ impl Failure {
             Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => {
                 exit_of(cause)
             }
-            Self::Experiment(ExperimentError::NotEmpty { .. }) => Exit::Usage,
-            Self::Experiment(cause) if cause.is_input_output() => Exit::InputOutput,
-            Self::Experiment(_) => Exit::BadInput,
-            Self::Study(_) => Exit::NotDetermined,
+            Self::Experiment(cause) => exit_of_experiment(cause),
             Self::Challenge(cause) => exit_of_challenge(cause),
             Self::Usage { .. } | Self::Baseline(BaselineError::NoReason) => Exit::Usage,
             Self::Baseline(cause) if cause.is_input_output() => Exit::InputOutput,
@@ -218,6 +215,7 @@ impl Failure {
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::Power(_)
+            | Self::Study(_)
             | Self::Design(_)
             | Self::Reproduction(_)
             | Self::Trial(_)
@@ -326,7 +324,7 @@ impl From<StudyError> for Failure {
             StudyError::File(file) => Self::File(file),
             StudyError::Plot(plot) => Self::Plot(plot),
             StudyError::Experiment(error) => Self::Experiment(error),
-            other => Self::Study(other),
+            StudyError::Design { .. } => Self::Study(error),
         }
     }
 }
@@ -360,6 +358,14 @@ fn exit_of_challenge(cause: &ChallengeError) -> Exit {
         | ChallengeError::OtherProgram { .. }
         | ChallengeError::SameName(_) => Exit::Usage,
         ChallengeError::Case { .. } => Exit::NotDetermined,
+        _ if cause.is_input_output() => Exit::InputOutput,
+        _ => Exit::BadInput,
+    }
+}
+
+fn exit_of_experiment(cause: &ExperimentError) -> Exit {
+    match cause {
+        ExperimentError::NotEmpty { .. } => Exit::Usage,
         _ if cause.is_input_output() => Exit::InputOutput,
         _ => Exit::BadInput,
     }

@@ -49,8 +49,7 @@ impl<R> Field<R> {
 /// The table of the trials of an experiment: number, name, why there is no answer, then the fields of the records.
 pub fn table<P: Protocol>(protocol: &P, gathered: &Gathered<P::Record>) -> Frame {
     let identity = protocol.identity();
-    let numbers = 0..gathered.answers.len();
-    let names = numbers.clone().map(|n| protocol.name(n as u64)).collect();
+    let names = (0..protocol.trials()).map(|n| protocol.name(n)).collect();
     let failures = gathered.answers.iter().map(|a| a.as_ref().err().cloned().unwrap_or_default());
     let column = |name: &str, unit: &str, meaning: &str, values| Column {
         name: name.into(),
@@ -63,7 +62,7 @@ pub fn table<P: Protocol>(protocol: &P, gathered: &Gathered<P::Record>) -> Frame
             "trial",
             "1",
             "number of the trial, from 0",
-            Values::Integers(numbers.map(|n| n as i64).collect()),
+            Values::Integers((0..).take(gathered.answers.len()).collect()),
         ),
         column("name", "", "what the trial is called", Values::Texts(names)),
         column(

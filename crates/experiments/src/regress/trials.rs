@@ -61,24 +61,24 @@ pub struct Runs<'a> {
     suite: &'a Suite,
     /// Seed of the first run; the others follow.
     seed: u64,
-    runs: usize,
+    count: usize,
     jobs: Vec<Job>,
 }
 
 impl<'a> Runs<'a> {
     /// So many runs with seeds that follow each other.
-    pub fn new(suite: &'a Suite, seed: u64, runs: usize) -> Self {
-        Self { suite, seed, runs, jobs: jobs(suite) }
+    pub fn new(suite: &'a Suite, seed: u64, count: usize) -> Self {
+        Self { suite, seed, count, jobs: jobs(suite) }
     }
 
     /// The seeds in order.
     pub fn seeds(&self) -> impl Iterator<Item = u64> {
-        (0..self.runs as u64).map(|run| self.seed.wrapping_add(run))
+        (0..self.count as u64).map(|run| self.seed.wrapping_add(run))
     }
 
     /// What each run gave; only the first has campaigns without noise.
     pub fn of_each(&self, gathered: Gathered<Record>) -> Vec<Trials> {
-        let mut runs: Vec<Trials> = vec![Trials::default(); self.runs];
+        let mut runs: Vec<Trials> = vec![Trials::default(); self.count];
         for (number, answer) in (0..).zip(gathered.answers) {
             let (run, job) = self.place(number);
             runs[run].add(job, answer);
@@ -108,7 +108,7 @@ impl Protocol for Runs<'_> {
     }
 
     fn trials(&self) -> u64 {
-        (self.jobs.len() + (self.runs - 1) * self.suite.without_machines().campaigns()) as u64
+        (self.jobs.len() + (self.count - 1) * self.suite.without_machines().campaigns()) as u64
     }
 
     fn trial(&self, number: u64) -> Result<Record, TrialError> {

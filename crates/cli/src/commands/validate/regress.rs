@@ -54,7 +54,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let all = Runs::new(&suite, arguments.seed, arguments.runs as usize);
     let mut trials = all.of_each(arguments.kept.run(&all)?);
     if let [first, others @ ..] = &mut trials[..] {
-        others.iter_mut().for_each(|run| run.machines.clone_from(&first.machines));
+        for run in others {
+            run.machines.clone_from(&first.machines);
+        }
     }
     let beside = |(trials, seed)| Unchanged::from(&compare(&suite, &limits, (trials, seed), &baseline, ""));
     let runs: Vec<Unchanged> = trials.iter().zip(all.seeds()).map(beside).collect();
