@@ -2,8 +2,8 @@
 
 use hexbench_experiments::Proportion;
 use hexbench_experiments::calibration::{
-    Calibration, Fate, MOST_FALSE_NAMES, Protocol, Record, credible_coverage, document, false_names,
-    false_outside, is_well_visible, pictures, stiffness_coverage, trials_csv,
+    Calibration, Fate, MOST_FALSE_NAMES, Protocol, Record, credible_coverage, false_names, false_outside,
+    is_well_visible, page, pictures, stiffness_coverage, trials_csv,
 };
 use hexbench_experiments::harness::{self, Silent};
 use hexbench_truth::campaign::Kind;
@@ -59,7 +59,7 @@ fn the_same_seed_gives_the_same_study_on_any_number_of_threads() {
     const FEW: usize = 12;
     let [one, three] = [1, 3].map(|threads| study(threads, FEW));
     assert_eq!(trials_csv(&one.records), trials_csv(&three.records));
-    assert_eq!(document(&one, "charts"), document(&three, "charts"));
+    assert_eq!(page(&one, "charts"), page(&three, "charts"));
     assert_eq!(pictures(&one.records).unwrap(), pictures(&three.records).unwrap());
     let kinds: Vec<Kind> = one.records.iter().map(|r| r.kind).collect();
     assert!(Kind::ALL.iter().all(|k| kinds.contains(k)), "{kinds:?}");

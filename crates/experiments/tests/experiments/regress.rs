@@ -15,8 +15,9 @@ use hexbench_experiments::regress::notice::{POWER, noticed};
 use hexbench_experiments::regress::rule::{Verdict, judge};
 use hexbench_experiments::regress::sample::Sample;
 use hexbench_experiments::regress::suite::Suite;
-use hexbench_experiments::regress::summary::markdown;
+use hexbench_experiments::regress::summary::page;
 use hexbench_experiments::regress::trials::{Runs, Trials};
+use hexbench_report::render::plain;
 use rand::RngExt;
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
 use rand_pcg::Pcg64;
@@ -54,7 +55,7 @@ fn failed(trials: &Trials) -> Vec<String> {
 #[test]
 fn the_same_run_passes_with_the_same_values_and_another_seed_passes_on_any_number_of_threads() {
     let first = beside(&baseline().1, 1);
-    assert!(!first.fails(), "{}", markdown(&first));
+    assert!(!first.fails(), "{}", plain(&page(&first, false)));
     assert_eq!(first.same_values(), Some(first.findings.len()));
     let of = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -62,7 +63,7 @@ fn the_same_run_passes_with_the_same_values_and_another_seed_passes_on_any_numbe
     };
     let [one, three] = [1, 3].map(of);
     assert_eq!(serde_json::to_string(&one).unwrap(), serde_json::to_string(&three).unwrap());
-    assert!(!one.fails(), "{}", markdown(&one));
+    assert!(!one.fails(), "{}", plain(&page(&one, false)));
     assert_eq!(one.same_values(), None);
     assert!(one.findings.iter().any(|f| f.chance.is_some_and(|p| p < 1.0)), "nothing was drawn");
 }
