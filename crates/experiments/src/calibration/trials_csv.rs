@@ -1,6 +1,6 @@
 //! Every trial as a line of a table.
 
-use std::fmt::Write;
+use hexbench_core::files::CsvText;
 
 use super::Record;
 
@@ -13,28 +13,26 @@ const WORTH_WRITING: f64 = 1e-3;
 
 /// The table of all records; lists within a cell are joined by `+`.
 pub fn trials_csv(records: &[Record]) -> String {
-    let mut text = format!("{HEADER}\n");
-    for record in records {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{}", line(record));
-    }
-    text
+    let mut text = CsvText::new(HEADER.split(','));
+    records.iter().for_each(|record| text.row(cells(record)));
+    text.into_text()
 }
 
-fn line(r: &Record) -> String {
+fn cells(r: &Record) -> Vec<String> {
     let mut cells: Vec<String> =
         [&r.id, r.kind.name(), &r.hidden_words(), r.family, r.plan.name()].map(str::to_owned).to_vec();
     cells.extend([maybe(r.distance), number(r.total_distance)]);
-    cells.extend([verdict(r), r.fate.word().to_owned(), r.added.join("+"), r.model.join("+")]);
+    cells.extend([
+        r.verdict.word().to_owned(),
+        r.fate.word().to_owned(),
+        r.added.join("+"),
+        r.model.join("+"),
+    ]);
     cells.extend([r.best.0.clone(), number(r.best.1), number(r.truth), number(r.outside), number(r.none)]);
     cells.extend([maybe(r.confidence), r.credible.join("+"), present(r)]);
     cells.extend(r.holdout.iter().chain(&r.stiffness_z).map(|&x| maybe(x)));
     cells.push(r.seed.to_string());
-    cells.join(",")
-}
-
-fn verdict(r: &Record) -> String {
-    format!("{:?}", r.verdict).to_lowercase()
+    cells
 }
 
 fn present(r: &Record) -> String {

@@ -1,35 +1,21 @@
 //! A table as comma-separated values.
 
-use std::borrow::Cow;
 use std::io::{self, Write};
 
+use hexbench_core::files::{CsvText, csv_cell};
+
 use super::{Frame, Values};
-use crate::page::Table;
+use crate::page::{Cell, Table};
 
 /// A table of texts with its header.
 pub fn text(table: &Table) -> String {
-    let header = line(table.columns.iter().map(|c| c.title.as_str()));
-    let rows = table.rows.iter().map(|row| line(row.iter().map(crate::page::Cell::text)));
-    std::iter::once(header).chain(rows).collect()
-}
-
-/// One line of cells; those with a comma, a quote or an end of line are quoted.
-pub fn line<'a>(cells: impl IntoIterator<Item = &'a str>) -> String {
-    let cells: Vec<Cow<'_, str>> = cells.into_iter().map(quoted).collect();
-    cells.join(",") + "\n"
-}
-
-/// In quotes where it has to be (RFC 4180).
-fn quoted(cell: &str) -> Cow<'_, str> {
-    if cell.contains(['"', ',', '\n', '\r']) {
-        Cow::Owned(format!("\"{}\"", cell.replace('"', "\"\"")))
-    } else {
-        Cow::Borrowed(cell)
-    }
+    let mut text = CsvText::new(table.columns.iter().map(|c| &c.title));
+    table.rows.iter().for_each(|row| text.row(row.iter().map(Cell::text)));
+    text.into_text()
 }
 
 pub(super) fn write(frame: &Frame, out: &mut (dyn Write + Send)) -> io::Result<()> {
-    out.write_all(line(frame.columns.iter().map(|column| column.name.as_str())).as_bytes())?;
+    out.write_all(CsvText::new(frame.columns.iter().map(|column| &column.name)).into_text().as_bytes())?;
     for row in 0..frame.rows() {
         for (k, column) in frame.columns.iter().enumerate() {
             if k > 0 {
@@ -39,7 +25,7 @@ pub(super) fn write(frame: &Frame, out: &mut (dyn Write + Send)) -> io::Result<(
                 Values::Numbers(all) => number(out, all[row])?,
                 Values::Integers(all) => write!(out, "{}", all[row])?,
                 Values::Words(all) => out.write_all(all[row].as_bytes())?,
-                Values::Texts(all) => out.write_all(quoted(&all[row]).as_bytes())?,
+                Values::Texts(all) => out.write_all(csv_cell(&all[row]).as_bytes())?,
             }
         }
         out.write_all(b"\n")?;
@@ -61,22 +47,6 @@ fn number(out: &mut dyn Write, x: f64) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use crate::table::{Column, Frame, Kind, Values};
-
-    #[test]
-    fn cells_that_hold_a_comma_or_a_quote_are_quoted() {
-        let table = crate::page::Table::named(["what", "n"]).rows([["a, b", "3"], ["\"c\"", "4"]]);
-        assert_eq!(super::text(&table), "what,n\n\"a, b\",3\n\"\"\"c\"\"\",4\n");
-    }
-
-    #[test]
-    fn words_with_commas_and_quotes_stay_in_their_cell() {
-        let texts = ["plain", "one, two", "\"no\""].map(str::to_owned).to_vec();
-        let (unit, meaning) = (String::new(), String::new());
-        let column = Column { name: "why".into(), unit, meaning, values: Values::Texts(texts) };
-        let mut out = Vec::new();
-        Frame { columns: vec![column], ..Frame::default() }.write(Kind::Csv, &mut out).unwrap();
-        assert_eq!(String::from_utf8(out).unwrap(), "why\nplain\n\"one, two\"\n\"\"\"no\"\"\"\n");
-    }
 
     #[test]
     fn numbers_read_back_as_they_were_and_missing_ones_are_empty() {

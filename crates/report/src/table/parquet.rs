@@ -216,7 +216,7 @@ mod tests {
     use parquet::record::RowAccessor;
 
     use super::*;
-    use crate::Kind;
+    use crate::table::Kind;
 
     fn frame(rows: usize) -> Frame {
         let column = |name: &str, values| Column {

@@ -3,7 +3,7 @@
 use std::io;
 
 use hexbench_core::Dataset;
-use hexbench_core::files::{hexapod_to_toml, measurements_to_csv};
+use hexbench_core::files::{CsvText, hexapod_to_toml, measurements_to_csv};
 
 use super::super::curves::{Compared, Linearity};
 use super::super::missing::Finding;
@@ -47,8 +47,9 @@ fn readings(dataset: &Dataset) -> io::Result<String> {
 
 /// Lines of a file under its header.
 fn csv(header: &str, rows: impl IntoIterator<Item = Vec<String>>) -> String {
-    let lines = rows.into_iter().map(|row| row.join(","));
-    std::iter::once(header.to_owned()).chain(lines).collect::<Vec<_>>().join("\n") + "\n"
+    let mut text = CsvText::new(header.split(','));
+    rows.into_iter().for_each(|row| text.row(row));
+    text.into_text()
 }
 
 fn exact(values: &[f64]) -> impl Iterator<Item = String> {
