@@ -1,9 +1,10 @@
 //! The study as a page.
 
+use hexbench_report::number::hundredths;
 use hexbench_report::{Block, Figure, Page, Section, Table};
 use hexbench_truth::campaign::Kind;
 
-use super::sheets::{self, percent};
+use super::sheets;
 use super::trust::{CREDIBLE, MOST_FALSE_NAMES};
 use super::{
     Calibration, Curve, DISTANCES, Record, WELL_VISIBLE, credible_coverage, false_names,
@@ -56,8 +57,8 @@ pub fn headlines(records: &[Record]) -> Vec<String> {
         format!(
             "An effect that is not there was named in {}; at most {} % with 95 % confidence (limit {} %).",
             told(of_all),
-            percent(of_all.upper_bound()),
-            percent(MOST_FALSE_NAMES)
+            hundredths(of_all.upper_bound()),
+            hundredths(MOST_FALSE_NAMES)
         ),
         format!(
             "Of the answers that name anything, {} name something false.",
@@ -79,7 +80,7 @@ pub fn headlines(records: &[Record]) -> Vec<String> {
         ),
         format!(
             "Credible sets (which claim {} %) hold the whole truth in {}, where it is well visible in {}.",
-            percent(CREDIBLE),
+            hundredths(CREDIBLE),
             told(credible_coverage(records)),
             told(credible_coverage(records.iter().filter(|r| is_well_visible(r))))
         ),
@@ -92,7 +93,7 @@ pub fn headlines(records: &[Record]) -> Vec<String> {
 
 /// `9 of 2002 (0.4 %, 0.2 .. 0.9)`.
 fn told(p: Proportion) -> String {
-    format!("{} of {} ({} %, {})", p.hits, p.of, percent(p.rate()), sheets::bounds(p))
+    format!("{} of {} ({} %, {})", p.hits, p.of, hundredths(p.rate()), sheets::bounds(p))
 }
 
 fn introduction(study: &Calibration) -> Section {

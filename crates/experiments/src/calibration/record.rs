@@ -134,9 +134,7 @@ impl Record {
     pub fn answer(&self) -> String {
         match self.verdict {
             Verdict::Named => self.added.join("+"),
-            Verdict::Adequate => "adequate".to_owned(),
-            Verdict::Ambiguous => "ambiguous".to_owned(),
-            Verdict::Outside => OUTSIDE.to_owned(),
+            verdict => verdict.word().to_owned(),
         }
     }
 }

@@ -6,6 +6,7 @@ use super::trust::{HeldOut, credible_coverage, stiffness_coverage};
 use super::{Claims, Confusion, Curve, Fate, Mix, Record, bins, is_well_visible, mistakes, scores};
 use crate::proportion::Proportion;
 use hexbench_report::Table;
+use hexbench_report::number::hundredths;
 
 /// Most groups of wrong answers that get a line.
 const MOST_GROUPS: usize = 20;
@@ -93,7 +94,7 @@ pub fn reliability(records: &[Record], from: f64) -> Table {
             let Proportion { hits, of } = bin.came_true;
             let range = format!("{:.0} .. {:.0} %", 100.0 * bin.range[0], 100.0 * bin.range[1]);
             let mut row = vec![claims.title().to_owned(), range, of.to_string(), hits.to_string()];
-            row.extend([percent(bin.stated), percent(bin.came_true.rate()), bounds(bin.came_true)]);
+            row.extend([hundredths(bin.stated), hundredths(bin.came_true.rate()), bounds(bin.came_true)]);
             table.row(row);
         }
     }
@@ -106,7 +107,7 @@ pub fn power(curves: &[Curve]) -> Table {
         Table::named(["hidden", "distance", "trials", "right %", "right or honest %", "missed %"]);
     for curve in curves {
         for step in &curve.steps {
-            let share = |fates: &[Fate]| percent(step.share(fates).rate());
+            let share = |fates: &[Fate]| hundredths(step.share(fates).rate());
             let range = format!("{} .. {}", step.range[0], step.range[1]);
             let of = step.share(&[]).of.to_string();
             let shares = [share(&[Fate::Right]), share(&[Fate::Right, Fate::Honest]), share(&[Fate::Missed])];
@@ -143,7 +144,7 @@ pub fn coverage(records: &[Record]) -> Table {
     let mut line = |title: &str, of: Vec<&Record>| {
         let all = credible_coverage(of.iter().copied());
         let visible = credible_coverage(of.iter().copied().filter(|r| is_well_visible(r)));
-        let cells = [percent(all.rate()), bounds(all), visible.of.to_string(), percent(visible.rate())];
+        let cells = [hundredths(all.rate()), bounds(all), visible.of.to_string(), hundredths(visible.rate())];
         table.row([title.to_owned(), all.of.to_string()].into_iter().chain(cells));
     };
     for kind in Kind::ALL {
@@ -171,7 +172,7 @@ pub fn numbers(records: &[Record]) -> Table {
         let stiffness = stiffness_coverage(of());
         let chi2 = [held.springs_median, held.median, held.high].map(|x| format!("{x:.2}"));
         let row = [fate.word().to_owned(), held.trials.to_string()].into_iter().chain(chi2);
-        table.row(row.chain([stiffness.of.to_string(), percent(stiffness.rate()), bounds(stiffness)]));
+        table.row(row.chain([stiffness.of.to_string(), hundredths(stiffness.rate()), bounds(stiffness)]));
     }
     table
 }
@@ -207,11 +208,7 @@ fn of_kind(records: &[Record], kind: Kind) -> impl Iterator<Item = &Record> {
     records.iter().filter(move |r| r.kind == kind)
 }
 
-pub(super) fn percent(share: f64) -> String {
-    if share.is_finite() { format!("{:.1}", 100.0 * share) } else { "-".to_owned() }
-}
-
 pub(super) fn bounds(p: Proportion) -> String {
     let [low, high] = p.interval();
-    format!("{} .. {}", percent(low), percent(high))
+    format!("{} .. {}", hundredths(low), hundredths(high))
 }

@@ -2,13 +2,12 @@
 
 use hexbench_design::power::{Effect, Planned, Verdict};
 use hexbench_report::Page;
-use hexbench_report::number::significant;
+use hexbench_report::number::{percent, significant};
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{Bench, PartName};
 
 use super::faint::{Faint, faint};
 use super::page::{LOOK_ALIKE, look_alikes};
-use super::tables::percent;
 use super::{PlanReport, Power, PowerError, PowerPlan, Simulated};
 use crate::Proportion;
 use crate::recovery::correspondence::CORRESPONDENCES;

@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use hexbench_design::power::{Effect, NOTHING, Verdict};
 use hexbench_model::noise::NoiseSource;
 use hexbench_report::Page;
-use hexbench_report::number::significant;
+use hexbench_report::number::{percent, significant};
 
-use super::tables::{self, percent};
+use super::tables;
 use super::{Power, PowerPlan};
 
 /// Cosine beyond which signatures count as alike.

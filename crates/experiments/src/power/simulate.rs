@@ -168,9 +168,7 @@ fn said(trial: &Trial) -> Said {
     let d = &trial.study.diagnosis;
     let word = match d.verdict {
         Verdict::Named => d.added.join("+"),
-        Verdict::Adequate => "adequate".to_owned(),
-        Verdict::Ambiguous => "ambiguous".to_owned(),
-        Verdict::Outside => "outside".to_owned(),
+        verdict => verdict.word().to_owned(),
     };
     (word, Some(fate))
 }

@@ -1,7 +1,7 @@
 //! Rows of the tables of a plan's power.
 
 use hexbench_design::power::{Alike, Effect, NOTHING, Range};
-use hexbench_report::number::significant;
+use hexbench_report::number::{percent, significant};
 
 use super::{Check, Simulated};
 use crate::Proportion;
@@ -110,19 +110,9 @@ pub(super) fn largest(six: &[f64; 6]) -> f64 {
     six.iter().copied().fold(0.0, |m: f64, x| if x.abs() > m.abs() { x } else { m })
 }
 
-/// `3 %`; nothing is certain.
-pub(super) fn percent(share: f64) -> String {
-    format!("{} %", number(share))
-}
-
 /// A share in percent without the sign.
 fn number(share: f64) -> String {
-    match 100.0 * share {
-        p if p <= 0.0 => "0".to_owned(),
-        p if p < 0.95 => "< 1".to_owned(),
-        p if p > 99.5 && share < 1.0 => "> 99".to_owned(),
-        p => format!("{p:.0}"),
-    }
+    percent(share).trim_end_matches(" %").to_owned()
 }
 
 /// `15`, or `7 (3..12)` where directions or shapes differ.

@@ -1,6 +1,6 @@
 //! Figures of samples as people read them.
 
-use hexbench_report::number::significant;
+use hexbench_report::number::{hundredths, significant};
 
 use super::limit::{Test, Unit};
 use super::sample::Sample;
@@ -16,7 +16,7 @@ pub fn figure(test: Test, sample: &Sample) -> String {
         Sample::Share { of: 0, .. } | Sample::Size { n: 0, .. } | Sample::Spread { n: 0, .. } => {
             "none".to_owned()
         }
-        Sample::Share { hits, of } => format!("{hits} of {of} ({} %)", percent(hits as f64 / of as f64)),
+        Sample::Share { hits, of } => format!("{hits} of {of} ({} %)", hundredths(hits as f64 / of as f64)),
         Sample::Size { n, .. } => format!("{} (n = {n})", mean(test, sample.moments().0.exp())),
         Sample::Spread { n, .. } => format!("{:.2} (n = {n})", sample.moments().0),
         Sample::Exact { ref values } if values.is_empty() => "none".to_owned(),
@@ -32,7 +32,7 @@ pub fn notice(test: Test, noticed: Option<f64>, reference: &Sample) -> String {
         return format!("nothing below x {LARGEST_FACTOR}");
     }
     match test {
-        Test::Share => format!("{} %", percent(value)),
+        Test::Share => format!("{} %", hundredths(value)),
         Test::Size { .. } => {
             format!("{} (x {value:.2})", mean(test, reference.moments().0.exp() * value))
         }
@@ -51,10 +51,6 @@ fn mean(test: Test, value: f64) -> String {
 
 fn small(value: f64) -> String {
     if value < 1e-3 { exact(value) } else { significant(value, DIGITS) }
-}
-
-fn percent(share: f64) -> String {
-    format!("{:.1}", 100.0 * share)
 }
 
 fn exact(value: f64) -> String {

@@ -76,7 +76,7 @@ pub fn page(c: &Comparison, all: bool) -> Page {
 
 /// Why each failed limit matters, and the next step of each group.
 fn steps(worse: &[&Finding]) -> Vec<String> {
-    let mut steps: Vec<String> = worse.iter().map(|f| f.group.next_step().to_owned()).collect();
+    let mut steps: Vec<String> = worse.iter().map(|f| format!("next: {}", f.group.next_step())).collect();
     steps.dedup();
     worse.iter().map(|f| format!("{}: {}", f.title, f.why)).chain(steps).collect()
 }

@@ -1,5 +1,6 @@
 //! A page in every medium.
 
+mod grid;
 mod html;
 mod layout;
 mod markdown;

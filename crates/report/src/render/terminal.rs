@@ -1,9 +1,10 @@
 //! A page for a terminal: text of 80 columns.
 
-use crate::page::{Block, Cell, Entry, Page, Section, Table};
+use crate::page::{Block, Entry, Page, Section, Table};
 
 use super::TextStyle;
-use super::layout::{WIDTH, bar, length, padded, wrapped};
+use super::grid::Grid;
+use super::layout::{WIDTH, length, padded, wrapped};
 
 /// How a page is shown on a terminal.
 #[derive(Debug, Clone, Copy, Default)]
@@ -13,13 +14,6 @@ pub struct Terminal {
     /// Every row and column, detail included.
     pub verbose: bool,
 }
-
-/// Columns of the longest bar.
-const BAR: usize = 24;
-/// Columns that a bar of share one keeps in a wide table.
-const SHORTEST_BAR: usize = 6;
-/// Fewest columns that a wrapped last column of a table keeps.
-const NARROWEST: usize = 24;
 
 /// The page as text.
 pub fn terminal(page: &Page, with: Terminal) -> String {
@@ -142,8 +136,9 @@ impl Writer {
         };
         let blanks = " ".repeat(indent);
         if shown > 0 {
-            let grid = Grid::new(table, shown, self.with, WIDTH - indent);
-            grid.lines(self.with.style).iter().for_each(|line| self.line(&format!("{blanks}{line}")));
+            let Terminal { style, verbose } = self.with;
+            let lines = Grid::lines(table, shown, verbose, WIDTH - indent, style);
+            lines.iter().for_each(|line| self.line(&format!("{blanks}{line}")));
         }
         match table.rows.len() - shown {
             0 => {}
@@ -166,83 +161,6 @@ fn label_width<'a>(groups: impl IntoIterator<Item = (Option<usize>, &'a [Entry])
         longest + 2 + if number.is_some() { NUMBERED } else { PLAIN }
     };
     groups.into_iter().map(width).max().unwrap_or(0).min(WIDEST)
-}
-
-/// The cells of a table that are shown, with the widths of their columns.
-struct Grid<'a> {
-    rows: Vec<Vec<&'a Cell>>,
-    header: Option<Vec<&'a str>>,
-    words: Vec<bool>,
-    widths: Vec<usize>,
-}
-
-impl<'a> Grid<'a> {
-    fn new(table: &'a Table, shown: usize, with: Terminal, room: usize) -> Self {
-        let kept: Vec<usize> =
-            (0..table.columns.len()).filter(|&k| with.verbose || !table.columns[k].detail).collect();
-        let rows: Vec<Vec<&Cell>> =
-            table.rows[..shown].iter().map(|row| kept.iter().filter_map(|&k| row.get(k)).collect()).collect();
-        let header =
-            table.has_header().then(|| kept.iter().map(|&k| table.columns[k].title.as_str()).collect());
-        let words = kept.iter().map(|&k| table.columns[k].words).collect();
-        let mut grid = Self { rows, header, words, widths: Vec::new() };
-        grid.widths = (0..kept.len()).map(|k| grid.width(k)).collect();
-        grid.fit(room);
-        grid
-    }
-
-    fn width(&self, column: usize) -> usize {
-        let heading = self.header.as_ref().map_or(0, |h| length(h[column]));
-        let cell = |row: &Vec<&Cell>| match row.get(column) {
-            Some(Cell::Text(text)) => length(text),
-            Some(Cell::Bar { .. }) => BAR,
-            None => 0,
-        };
-        self.rows.iter().map(cell).max().unwrap_or(0).max(heading)
-    }
-
-    /// A last column of words or bars gives way where the table is too wide.
-    fn fit(&mut self, room: usize) {
-        let wide = self.widths.iter().map(|w| w + 2).sum::<usize>().saturating_sub(2);
-        let bars = self.rows.iter().any(|row| matches!(row.last(), Some(Cell::Bar { .. })));
-        let narrowest = if bars { SHORTEST_BAR } else { NARROWEST };
-        if let (Some(last), Some(true)) = (self.widths.last_mut(), self.words.last()) {
-            *last = last.saturating_sub(wide.saturating_sub(room)).max(narrowest.min(*last));
-        }
-    }
-
-    fn lines(&self, style: TextStyle) -> Vec<String> {
-        let heading = self.header.iter().map(|titles| {
-            let cells = titles.iter().enumerate().map(|(k, t)| padded(t, self.widths[k], self.words[k]));
-            cells.collect::<Vec<_>>().join("  ")
-        });
-        heading.chain(self.rows.iter().flat_map(|row| self.row(row, style))).collect()
-    }
-
-    /// A row; the last column of words may take several lines.
-    fn row(&self, row: &[&Cell], style: TextStyle) -> Vec<String> {
-        let last = self.widths.len().saturating_sub(1);
-        let mut line: Vec<String> = Vec::new();
-        let mut below = Vec::new();
-        for (k, cell) in row.iter().enumerate() {
-            line.push(match cell {
-                Cell::Text(text) if k == last && self.words[k] && length(text) > self.widths[k] => {
-                    let mut lines = wrapped(text, self.widths[k]);
-                    below = lines.split_off(1.min(lines.len()));
-                    lines.concat()
-                }
-                Cell::Text(text) => padded(text, self.widths[k], self.words[k]),
-                Cell::Bar { bar: share, mood } => {
-                    let bar = bar(*share, self.widths[k].min(BAR));
-                    let gap = " ".repeat(self.widths[k].saturating_sub(length(&bar)));
-                    style.mood(*mood, &bar) + &gap
-                }
-            });
-        }
-        let indent: usize = self.widths[..last].iter().map(|w| w + 2).sum();
-        let below = below.into_iter().map(|text| format!("{}{text}", " ".repeat(indent)));
-        std::iter::once(line.join("  ")).chain(below).collect()
-    }
 }
 
 #[cfg(test)]

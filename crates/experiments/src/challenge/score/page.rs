@@ -56,7 +56,7 @@ const BY_GROUP: [(&str, &str, Cell); 5] = [
         number(f.error_in_noise)
     }),
     ("Error of the leg stiffnesses, %", "Median over the cases of the group.", |f| {
-        percent(f.stiffness_error)
+        number(f.stiffness_error.map(|share| 100.0 * share))
     }),
     ("95 % intervals of leg stiffnesses that hold, %", "All legs of the group.", |f| {
         share(f.stiffness_covered)
@@ -83,7 +83,7 @@ fn whole(scores: &Scores) -> Vec<Vec<String>> {
     };
     vec![
         plain("cases answered", |f| format!("{} of {}", f.answered, f.cases)),
-        plain("leg stiffness: error, %", |f| percent(f.stiffness_error)),
+        plain("leg stiffness: error, %", |f| number(f.stiffness_error.map(|share| 100.0 * share))),
         compared("leg stiffness: times the best", stiffness.cases, ratios(&stiffness)),
         plain("leg stiffness: z, root mean square", |f| number(f.stiffness_z)),
         plain("leg stiffness: 95 % intervals hold, %", |f| share(f.stiffness_covered)),
@@ -115,10 +115,6 @@ fn row(label: &str, scores: &Scores, cell: impl Fn(&EntrantScore) -> String) -> 
 
 fn number(value: Option<f64>) -> String {
     value.map_or(DASH.to_owned(), |x| significant(x, 3))
-}
-
-fn percent(share: Option<f64>) -> String {
-    number(share.map(|s| 100.0 * s))
 }
 
 fn share(interval: Option<Interval>) -> String {

@@ -90,8 +90,13 @@ pub(super) fn diagnosis(page: &mut Page, study: &Reproduction) {
     let row = |plan: &str, f: &Finding| {
         let [fitted, held_out] = f.readings;
         let (best, probability) = f.candidates.first().cloned().unwrap_or_default();
-        let cells =
-            [fitted.to_string(), held_out.to_string(), word(f.verdict).to_owned(), best, chance(probability)];
+        let cells = [
+            fitted.to_string(),
+            held_out.to_string(),
+            f.verdict.word().to_owned(),
+            best,
+            chance(probability),
+        ];
         std::iter::once(plan.to_owned()).chain(cells).collect()
     };
     page.table(
@@ -122,13 +127,4 @@ fn step(step: &Step) -> Vec<String> {
     let errors = step.error.iter().enumerate().map(|(k, x)| number(*x, if k < 3 { 2 } else { 1 }));
     let tail = [number(step.chi2_reduced, 2), chance(step.chance)];
     std::iter::once(name).chain(errors).chain(tail).collect()
-}
-
-fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Adequate => "adequate",
-        Verdict::Named => "named",
-        Verdict::Ambiguous => "ambiguous",
-        Verdict::Outside => "outside",
-    }
 }

@@ -32,7 +32,7 @@ fn alone(x: f64) -> [f64; 3] {
     [x, f64::NAN, f64::NAN]
 }
 
-fn percent(share: [f64; 3]) -> [f64; 3] {
+fn in_percent(share: [f64; 3]) -> [f64; 3] {
     share.map(|x| 100.0 * x)
 }
 
@@ -58,7 +58,7 @@ static SPRINGS: [Response; 3] = [
         title: "Coverage of 95 % intervals",
         short: "coverage, %",
         unit: "%",
-        of: |c| percent(c.coverage()),
+        of: |c| in_percent(c.coverage()),
         is_share: true,
     },
 ];
@@ -69,7 +69,7 @@ static DIAGNOSE: [Response; 3] = [
         title: "Right",
         short: "right, %",
         unit: "%",
-        of: |c| percent(c.share(0)),
+        of: |c| in_percent(c.share(0)),
         is_share: true,
     },
     Response {
@@ -77,7 +77,7 @@ static DIAGNOSE: [Response; 3] = [
         title: "Honest",
         short: "honest, %",
         unit: "%",
-        of: |c| percent(c.share(1)),
+        of: |c| in_percent(c.share(1)),
         is_share: true,
     },
     Response {
@@ -85,7 +85,7 @@ static DIAGNOSE: [Response; 3] = [
         title: "Wrong",
         short: "wrong, %",
         unit: "%",
-        of: |c| percent(c.share(2)),
+        of: |c| in_percent(c.share(2)),
         is_share: true,
     },
 ];
