@@ -2,12 +2,13 @@
 
 use hexbench_design::power::{Effect, Planned, Verdict};
 use hexbench_report::Page;
-use hexbench_report::number::{percent, significant};
+use hexbench_report::number::significant;
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{Bench, PartName};
 
 use super::faint::{Faint, faint};
 use super::page::{LOOK_ALIKE, look_alikes};
+use super::tables::chance;
 use super::{PlanReport, Power, PowerError, PowerPlan, Simulated};
 use crate::Proportion;
 use crate::recovery::correspondence::CORRESPONDENCES;
@@ -115,7 +116,7 @@ fn shown(power: &Power) -> impl Iterator<Item = &Effect> {
 fn chances(power: &Power) -> String {
     let all = || shown(power).map(|e| e.power_at_usual_size.middle);
     let (low, high) = (all().fold(1.0, f64::min), all().fold(0.0, f64::max));
-    format!("{} to {}", percent(low).trim_end_matches(" %"), percent(high))
+    format!("{} to {}", chance(low).trim_end_matches(" %"), chance(high))
 }
 
 fn count(power: &Power, verdict: Verdict) -> usize {
@@ -189,7 +190,7 @@ fn never(plain: &Studied, rich: &Studied) -> String {
         match (hides(plain, k), hides(rich, k)) {
             (true, true) => always.push(f.what),
             (true, false) => {
-                here.push(format!("{} (the rich plan sees it in {})", f.what, percent(rich.faint[k].chance)));
+                here.push(format!("{} (the rich plan sees it in {})", f.what, chance(rich.faint[k].chance)));
             }
             _ => {}
         }
@@ -220,7 +221,7 @@ fn faint_rows(studied: &Studied) -> Vec<Vec<String>> {
             studied.name.clone(),
             format!("{:.2} %", 100.0 * f.absorbed),
             format!("{:.2}", f.distance),
-            percent(f.chance),
+            chance(f.chance),
             format!("{:.1} %", f.bias_percent),
         ]
     };
@@ -245,9 +246,9 @@ impl Checked<'_> {
             self.plan,
             self.effect.term,
             significant(self.simulated.scale, 2),
-            percent(self.reckoned),
-            percent(self.simulated.chance_by_the_world),
-            percent(self.simulated.seen.rate()),
+            chance(self.reckoned),
+            chance(self.simulated.chance_by_the_world),
+            chance(self.simulated.seen.rate()),
         )
     }
 }
@@ -284,7 +285,7 @@ fn agreement(page: &mut Page, studied: &[&Studied]) {
         all.iter().filter(agrees).count(),
         all.len(),
         all.iter().filter(own).count(),
-        percent(FALSE_DISAGREEMENT),
+        chance(FALSE_DISAGREEMENT),
         100.0 * total.rate(),
     ));
     let off: Vec<String> = all.iter().filter(|c| !agrees(c)).map(Checked::sentence).collect();

@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use hexbench_design::power::{Effect, NOTHING, Verdict};
 use hexbench_model::noise::NoiseSource;
 use hexbench_report::Page;
-use hexbench_report::number::{percent, significant};
+use hexbench_report::number::significant;
 
-use super::tables;
+use super::tables::{self, chance};
 use super::{Power, PowerPlan};
 
 /// Cosine beyond which signatures count as alike.
@@ -91,8 +91,8 @@ impl PlanReport<'_> {
             significant(noise.rotation * 1e6, 2),
             source(noise.source),
             significant(stiffness, 2),
-            percent(settings.power),
-            percent(settings.alarm),
+            chance(settings.power),
+            chance(settings.alarm),
         )
     }
 
@@ -111,7 +111,7 @@ impl PlanReport<'_> {
         sentences.extend(self.most_absorbed().map(|worst| {
             format!(
                 "Springs absorb {} of {}: left out at its usual size, it moves a leg stiffness by {} %.",
-                percent(worst.absorbed),
+                chance(worst.absorbed),
                 worst.term,
                 significant(tables::largest(&worst.bias_at_usual_size_percent).abs(), 2)
             )
@@ -128,10 +128,10 @@ impl PlanReport<'_> {
             e.term,
             significant(e.usual_size, 2),
             e.unit,
-            percent(e.power_at_usual_size.middle),
+            chance(e.power_at_usual_size.middle),
             significant(size, 2),
             e.unit,
-            percent(self.power.study.settings.power),
+            chance(self.power.study.settings.power),
         )
     }
 
@@ -141,7 +141,7 @@ impl PlanReport<'_> {
         let sentence = |(k, e): (usize, &Effect)| {
             let own = *alike.taken_for[k].get(k)?;
             let (other, share) = alike.mistaken(k).into_iter().find(|(name, _)| *name != NOTHING)?;
-            (share > own).then(|| format!("{} would be taken for {other} ({})", e.term, percent(share)))
+            (share > own).then(|| format!("{} would be taken for {other} ({})", e.term, chance(share)))
         };
         self.told().filter_map(sentence).collect()
     }

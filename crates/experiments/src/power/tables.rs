@@ -1,7 +1,7 @@
 //! Rows of the tables of a plan's power.
 
 use hexbench_design::power::{Alike, Effect, NOTHING, Range};
-use hexbench_report::number::{percent, significant};
+use hexbench_report::number::significant;
 
 use super::{Check, Simulated};
 use crate::Proportion;
@@ -40,7 +40,7 @@ pub(super) fn springs(e: &Effect) -> Vec<String> {
     let bias = |b: &[f64; 6]| format!("{} %", significant(largest(b), 2));
     vec![
         e.term.to_owned(),
-        percent(e.absorbed),
+        chance(e.absorbed),
         bias(&e.bias_at_usual_size_percent),
         e.bias_when_seen_percent.as_ref().map_or(NONE.to_owned(), bias),
     ]
@@ -110,9 +110,19 @@ pub(super) fn largest(six: &[f64; 6]) -> f64 {
     six.iter().copied().fold(0.0, |m: f64, x| if x.abs() > m.abs() { x } else { m })
 }
 
+/// `3 %`; a chance is never certain, a count of none is none.
+pub(super) fn chance(share: f64) -> String {
+    format!("{} %", number(share))
+}
+
 /// A share in percent without the sign.
 fn number(share: f64) -> String {
-    percent(share).trim_end_matches(" %").to_owned()
+    match 100.0 * share {
+        p if p <= 0.0 => "0".to_owned(),
+        p if p < 0.95 => "< 1".to_owned(),
+        p if p > 99.5 && share < 1.0 => "> 99".to_owned(),
+        p => format!("{p:.0}"),
+    }
 }
 
 /// `15`, or `7 (3..12)` where directions or shapes differ.

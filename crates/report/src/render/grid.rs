@@ -83,9 +83,15 @@ impl<'a> Grid<'a> {
         let heading = longest_word(&self.columns[column].title);
         match (self.holds_bars(column), self.columns[column].words) {
             (true, _) => SHORTEST_BAR,
-            (_, true) => self.natural(column).min(NARROWEST).max(heading),
+            (_, true) => self.natural(column).min(NARROWEST).max(heading).max(self.longest_piece(column)),
             _ => self.content(column).max(heading),
         }
+    }
+
+    /// Length of the longest part of a cell that does not break.
+    fn longest_piece(&self, column: usize) -> usize {
+        let cells = self.rows.iter().filter_map(|row| row[column].map(Cell::text));
+        cells.flat_map(|text| breakable(text, 0).split_whitespace().map(length).max()).max().unwrap_or(0)
     }
 
     fn total(&self) -> usize {
@@ -162,6 +168,14 @@ impl<'a> Grid<'a> {
     }
 }
 
+/// A text whose words longer than `width` may break behind a dot: names of parameters are long.
+fn breakable(text: &str, width: usize) -> String {
+    let word = |word: &str| {
+        if length(word) > width { word.replace('.', ". ").trim_end().to_owned() } else { word.to_owned() }
+    };
+    text.split(' ').map(word).collect::<Vec<_>>().join(" ")
+}
+
 fn longest_word(text: &str) -> usize {
     text.split_whitespace().map(length).max().unwrap_or(0)
 }
@@ -181,9 +195,9 @@ mod tests {
         let columns = [Column::words("model"), Column::number("translation um"), Column::number("x noise")];
         let table = Table::new(columns).rows([["springs alone", "0.65", "1.52"]]);
         let narrow = lines(&table, 34);
-        assert_eq!(narrow[0].trim_end(), "model          translation      x");
-        assert_eq!(narrow[1].trim_end(), "                        um  noise");
-        assert_eq!(narrow[2].trim_end(), "springs alone         0.65   1.52");
+        assert_eq!(narrow[0].trim_end(), "model          translation       x");
+        assert_eq!(narrow[1].trim_end(), "                        um   noise");
+        assert_eq!(narrow[2].trim_end(), "springs alone         0.65    1.52");
     }
 
     #[test]
@@ -194,6 +208,17 @@ mod tests {
         };
         assert!(lines(&table(12), 40)[1].ends_with(&"#".repeat(21)));
         assert!(!lines(&table(33), 40)[1].contains('#'));
+    }
+
+    #[test]
+    fn a_long_name_breaks_behind_its_dot() {
+        let table =
+            Table::named(["parameter", "value"]).rows([["base-compliance.translation-x", "1.25 +- 0.5"]]);
+        let narrow = lines(&table, 32);
+        assert!(
+            narrow[1].starts_with("base-compliance. ") && narrow[2].starts_with("translation-x "),
+            "{narrow:?}"
+        );
     }
 
     #[test]

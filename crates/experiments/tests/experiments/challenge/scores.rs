@@ -1,6 +1,6 @@
 //! Perfect answers score perfectly, worse ones worse, unreadable ones not at all.
 
-use hexbench_report::render::plain;
+use hexbench_report::render::markdown;
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -206,9 +206,9 @@ fn what_is_not_said_is_not_scored() {
     let f = &scores.entrants[0].all;
     assert_eq!((f.stiffness_error, f.stiffness_covered, f.outcomes, f.log), (None, None, None, None));
     assert!(f.answered == 1 && f.error_in_noise.is_some());
-    let text = plain(&page(&scores));
+    let text = markdown(&page(&scores));
     let line = text.lines().find(|l| l.contains("right / honest / wrong")).unwrap();
-    assert!(line.trim_end().ends_with('-'), "{line}");
+    assert!(line.trim_end().ends_with("- |"), "{line}");
 }
 
 #[test]
@@ -298,7 +298,7 @@ fn programs_stand_side_by_side_with_the_best_as_measure() {
         })
         .collect();
     let scores = score(&bench.challenge, &folders).unwrap();
-    let text = plain(&page(&scores));
+    let text = markdown(&page(&scores));
     let line = text.lines().find(|l| l.contains("predictions: times the best")).unwrap();
     assert!(line.contains("(5 cases)") && line.contains(" 1.0 "), "{line}");
     assert!(line.contains("2.0 (") && line.contains("8.0 ("), "{line}");
