@@ -1,4 +1,4 @@
-//! Nouns and units of hexapod elastostatics, and the files that carry them. No physics.
+//! Nouns and units of hexapod elastostatics, the files that carry them, random streams and statistics. No physics.
 //!
 //! Conventions (every public item follows them unless it says otherwise):
 //!
@@ -12,6 +12,8 @@ pub mod dataset;
 pub mod files;
 pub mod hexapod;
 pub mod pose;
+pub mod statistics;
+pub mod streams;
 pub mod wrench;
 
 pub use balls::{BallPlace, BallPlaces, BallRecord};

@@ -19,6 +19,7 @@
 //! the units of the parameters; the columns of `J` here belong to relative changes, see [`crate::regressor`].
 
 use hexbench_core::Hexapod;
+use hexbench_core::statistics::mean;
 use nalgebra::{DMatrix, DVector};
 
 use crate::regressor::PoseRegressor;
@@ -178,7 +179,7 @@ fn of_cholesky(information: &DMatrix<f64>, value: impl Fn(&DVector<f64>) -> f64)
 
 /// Mean logarithm of the eigenvalues from the diagonal of the Cholesky factor.
 fn mean_log(diagonal: &DVector<f64>) -> f64 {
-    2.0 * diagonal.iter().map(|x| x.ln()).sum::<f64>() / diagonal.len().max(1) as f64
+    2.0 * mean(diagonal.iter().map(|x| x.ln())).unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Where poses and loads may be chosen.
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Hexapod, Pose, Vector3, Wrench};
 use hexbench_model::kinematics::{Legs, euler_rate_matrix};
+use rand::RngExt;
 use sobol_burley::sample;
 
 use crate::{Budget, DesignError};
@@ -127,8 +129,9 @@ impl Space {
         const PATIENCE: usize = 1000;
         const SEQUENCE: u32 = 1 << 16;
         let tried = PATIENCE * count.max(10);
-        let sequences =
-            (0..).flat_map(|again: u32| (0..SEQUENCE).map(move |i| (i, seed.wrapping_add(again))));
+        let again = |number: u64| stream(seed.into(), Purpose::SobolScrambling, [number]).random();
+        let scrambles = std::iter::once(seed).chain((1..).map(again));
+        let sequences = scrambles.flat_map(|scramble| (0..SEQUENCE).map(move |index| (index, scramble)));
         let (mut poses, mut broken) = (Vec::with_capacity(count), "travel");
         for (index, scramble) in sequences.take(tried) {
             let pose = self.pose(index, scramble);

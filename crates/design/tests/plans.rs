@@ -1,12 +1,13 @@
 //! Plans out of candidates: as good as enumeration, never beyond the budget, bounded by the approximate plan.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_design::exchange::bound::efficiency;
 use hexbench_design::exchange::{Candidates, Exchange, Plan};
 use hexbench_design::{Criterion, DesignError};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
-use rand::{RngExt, SeedableRng};
+use rand::RngExt;
 use rand_pcg::Pcg64;
 
 /// Values that agree to this share are one optimum, found by two ways of adding.
@@ -16,7 +17,7 @@ const BOUND_REACHED: f64 = 2e-4;
 
 /// Random readings of two rows and three parameters at `poses` poses under two settings.
 fn drawn(poses: usize, seed: u64, costs: [f64; 2], pose_cost: f64, budget: f64) -> Candidates {
-    let mut rng = Pcg64::seed_from_u64(seed);
+    let mut rng = stream(seed, Purpose::Test, []);
     let mut information = || {
         let rows = DMatrix::from_fn(2, 3, |_, _| rng.random_range(-1.0..1.0));
         rows.tr_mul(&rows)
@@ -152,7 +153,7 @@ proptest! {
         let cost = candidates.cost_of(&plan.members);
         prop_assert!(cost <= budget * (1.0 + 1e-9), "{cost} of {budget}");
         let found = value(&candidates, &Criterion::D, &plan.members);
-        let mut rng = Pcg64::seed_from_u64(seed);
+        let mut rng = stream(seed, Purpose::Test, []);
         for _ in 0..200 {
             let drawn = random_plan(&candidates, &mut rng);
             let worth = value(&candidates, &Criterion::D, &drawn);

@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vector3, Vector6, Wrench};
 use hexbench_design::power::{Planned, Settings, Study, Subject, Test, Verdict, study};
 use hexbench_model::noise::{Noise, NoiseSource};
@@ -12,7 +13,6 @@ use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
 use nalgebra::DVector;
 use rand_distr::{Distribution, StandardNormal};
-use rand_pcg::Pcg64;
 
 /// Shares may miss what was reckoned by four standard deviations, one in 16000 by chance.
 const SIGMAS: f64 = 4.0;
@@ -137,7 +137,7 @@ fn a_test_over_many_shapes_keeps_its_level_and_its_power() {
 
 /// Share of noisy residuals about a mean in which a test sees something.
 fn share_seen(test: &Test, mean: &DVector<f64>, noise_dof: f64, draws: usize) -> f64 {
-    let mut rng = Pcg64::new(7, 7);
+    let mut rng = stream(7, Purpose::Test, [7]);
     let law = rand_distr::ChiSquared::new(noise_dof.min(1e9)).unwrap();
     let mut seen = 0;
     for _ in 0..draws {

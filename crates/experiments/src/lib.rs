@@ -23,12 +23,11 @@ pub mod harness;
 pub mod journal;
 pub mod paper;
 pub mod power;
-pub mod proportion;
 pub mod recovery;
 pub mod regress;
 pub mod sweep;
 pub mod trial;
 
 pub use error::ExperimentError;
-pub use proportion::Proportion;
+pub use hexbench_core::statistics::Proportion;
 pub use trial::{Outcome, Trial, TrialError};

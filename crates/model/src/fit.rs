@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use hexbench_core::statistics::median;
 use nalgebra::{DMatrix, DVector};
 
 use crate::campaign::Campaign;
@@ -94,13 +95,12 @@ impl Fit {
 
 /// Sizes natural to a machine and campaign.
 pub fn natural(point: &Point, lin: &Linearization) -> Natural {
-    let mut c: Vec<f64> = point.springs.iter().map(|c| c.abs()).collect();
-    c.sort_by(f64::total_cmp);
+    let typical = median(point.springs.iter().map(|c| c.abs())).unwrap_or(0.0);
     let n = (6 * lin.conditions.len()).max(1) as f64;
     let force = lin.conditions.iter().map(|c| c.force_change().norm_squared()).sum::<f64>() / n;
     let hexapod = &lin.machine.nominal;
     Natural {
-        compliance: f64::midpoint(c[2], c[3]).max(1e-12),
+        compliance: typical.max(1e-12),
         force: force.sqrt().max(1e-6),
         radius: hexapod.platform_radius().max(1e-6),
         length: lin.machine.home_lengths.mean().max(1e-6),

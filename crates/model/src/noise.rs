@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use hexbench_core::statistics::Welford;
 use hexbench_core::{Dataset, Hexapod, Observation};
 
 /// Where the noise level comes from.
@@ -110,42 +111,23 @@ fn from_columns(rows: &[Observation]) -> Noise {
 
 /// Pooled scatter of readings that share pose, loads and approach; temperature and time are ignored.
 pub fn scatter(rows: &[Observation]) -> Scatter {
-    let mut groups: HashMap<[u64; 19], Moments> = HashMap::new();
+    let mut groups: HashMap<[u64; 19], [Welford; 6]> = HashMap::new();
     for row in rows {
-        groups.entry(key(row)).or_default().add(&row.measured);
+        let group = groups.entry(key(row)).or_default();
+        group.iter_mut().zip(row.measured).for_each(|(all, x)| all.add(x));
     }
     let mut sums = [0.0; 6];
     let mut dof = 0.0;
     // The order of a hash map is not fixed: sort so that sums are the same in every run.
-    let mut moments: Vec<Moments> = groups.into_values().filter(|m| m.n > 1.0).collect();
-    moments.sort_by(|a, b| a.squares[0].total_cmp(&b.squares[0]).then(a.mean[0].total_cmp(&b.mean[0])));
+    let mut moments: Vec<[Welford; 6]> = groups.into_values().filter(|m| m[0].count() > 1).collect();
+    let squares = |m: &[Welford; 6]| m[0].sum_of_squares();
+    moments.sort_by(|a, b| squares(a).total_cmp(&squares(b)).then(a[0].mean().total_cmp(&b[0].mean())));
     for m in moments {
-        dof += m.n - 1.0;
-        for k in 0..6 {
-            sums[k] += m.squares[k];
-        }
+        dof += (m[0].count() - 1) as f64;
+        sums.iter_mut().zip(m).for_each(|(sum, one)| *sum += one.sum_of_squares());
     }
     let pooled = |range: std::ops::Range<usize>| sums[range].iter().sum::<f64>() / (3.0 * dof).max(1.0);
     Scatter { variance_translation: pooled(0..3), variance_rotation: pooled(3..6), dof: 3.0 * dof }
-}
-
-/// Running mean and sum of squares (Welford).
-#[derive(Default)]
-struct Moments {
-    n: f64,
-    mean: [f64; 6],
-    squares: [f64; 6],
-}
-
-impl Moments {
-    fn add(&mut self, x: &[f64; 6]) {
-        self.n += 1.0;
-        for k in 0..6 {
-            let d = x[k] - self.mean[k];
-            self.mean[k] += d / self.n;
-            self.squares[k] += d * (x[k] - self.mean[k]);
-        }
-    }
 }
 
 fn key(row: &Observation) -> [u64; 19] {

@@ -1,5 +1,6 @@
 //! Observability indices: how well poses and loads let the parameters be seen.
 
+use hexbench_core::statistics::mean;
 use serde::Serialize;
 
 /// Singular values of a regressor and the indices of the literature made of them.
@@ -25,8 +26,7 @@ impl Observability {
         let mut s: Vec<f64> = values.into_iter().collect();
         s.sort_by(|a, b| b.total_cmp(a));
         let (first, last) = (s.first().copied().unwrap_or(0.0), s.last().copied().unwrap_or(0.0));
-        let p = s.len().max(1) as f64;
-        let mean_log = s.iter().map(|x| x.ln()).sum::<f64>() / p;
+        let mean_log = mean(s.iter().map(|x| x.ln())).unwrap_or(0.0);
         Self {
             o1: mean_log.exp() / (poses.max(1) as f64).sqrt(),
             o2: last / first,

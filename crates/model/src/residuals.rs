@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use hexbench_core::statistics::{mean, median};
 use hexbench_core::{Dataset, Hexapod, Matrix6, Observation, Vector6};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -93,16 +94,23 @@ pub fn residuals(campaign: &Campaign, rows: &[Observation], lin: &Linearization)
 /// Summarise residuals; `dof` of the chi-square, or their number when `None`.
 pub fn summarise(residuals: &[Residual], dof: Option<f64>) -> ErrorSummary {
     let n = residuals.len().max(1) as f64;
-    let square = |k: usize| residuals.iter().map(|r| r.value[k] * r.value[k]).sum::<f64>() / n;
+    let square = |k: usize| mean(residuals.iter().map(|r| r.value[k] * r.value[k])).unwrap_or(0.0);
     let mean_square: [f64; 6] = std::array::from_fn(square);
     let chi2: f64 = residuals.iter().map(|r| r.whitened.norm_squared()).sum();
-    let root = |from: usize| (mean_square[from..from + 3].iter().sum::<f64>() / 3.0).sqrt() * 1e6;
+    let root = |from: usize| mean(mean_square[from..from + 3].iter().copied()).unwrap_or(0.0).sqrt() * 1e6;
     ErrorSummary {
         chi2_reduced: chi2 / dof.unwrap_or(6.0 * n).max(1.0),
         rms: Rms { translation_um: root(0), rotation_urad: root(3) },
         per_coordinate: mean_square.map(|s| s.sqrt() * 1e6),
         count: 6 * residuals.len(),
     }
+}
+
+/// Median of the squared length of whitened residuals over what noise alone would give, so that a bad model does not
+/// make every reading suspect.
+pub(crate) fn typical_square(rows: &[Residual]) -> f64 {
+    const MEDIAN_OF_SIX: f64 = 5.348;
+    median(rows.iter().map(|r| r.whitened.norm_squared())).unwrap_or(0.0) / MEDIAN_OF_SIX
 }
 
 /// Prediction errors of a fitted model on other readings.

@@ -3,6 +3,8 @@
 use std::{fmt::Write, sync::Arc, time::Instant};
 
 use hexbench_core::files::CsvText;
+use hexbench_core::statistics::quantile;
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Hexapod, Vector6};
 use hexbench_truth::{
     Situation, Statics, TruthError, World,
@@ -11,7 +13,6 @@ use hexbench_truth::{
     world::Reading,
 };
 use rand::RngExt;
-use rand_pcg::Pcg64;
 
 /// One situation in which the worlds are compared.
 #[derive(Debug, Clone)]
@@ -63,7 +64,7 @@ impl Case {
     /// Case `index` of a seed. Consecutive ones walk through all effects and all families of machines; sizes, poses, loads
     /// and the approach to the load are drawn.
     pub fn draw(index: usize, seed: u64) -> Self {
-        let mut rng = Pcg64::new(u128::from(seed), index as u128);
+        let mut rng = stream(seed, Purpose::WorldsSituation, [index as u64]);
         let effects = REGISTRY.len() + 1;
         let family = machines::FAMILIES[index % machines::FAMILIES.len()];
         let hexapod = machines::draw(family, &mut rng);
@@ -82,7 +83,7 @@ impl Case {
     /// The machine with its effect in the first world.
     pub fn world(&self) -> World {
         let world = World::new(self.hexapod.clone(), &self.stiffness);
-        let mut rng = Pcg64::new(u128::from(self.seed), self.index as u128 + (1 << 64));
+        let mut rng = stream(self.seed, Purpose::WorldsEffect, [self.index as u64]);
         match self.effect {
             None => world,
             Some(effect) => world.with((effect.draw)(&self.hexapod, &mut rng)),
@@ -153,10 +154,8 @@ pub fn csv(comparisons: &[Comparison]) -> String {
 pub fn summary(comparisons: &[Comparison]) -> String {
     let mut text = format!("{} cases{:>23}{:>12}{:>12}\n", comparisons.len(), "median", "99 %", "largest");
     let mut line = |name: &str, value: fn(&Comparison) -> f64| {
-        let mut values: Vec<f64> = comparisons.iter().map(value).collect();
-        values.sort_by(f64::total_cmp);
-        let at = |percent: usize| values.get(values.len() * percent / 100);
-        if let (Some(q50), Some(q99), Some(most)) = (at(50), at(99), values.last()) {
+        let at = |share: f64| quantile(comparisons.iter().map(value), share);
+        if let (Some(q50), Some(q99), Some(most)) = (at(0.5), at(0.99), at(1.0)) {
             let _ = writeln!(text, "{name:<22}{q50:>12.1e}{q99:>12.1e}{most:>12.1e}");
         }
     };

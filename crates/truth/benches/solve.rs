@@ -3,9 +3,9 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Pose, Wrench};
 use hexbench_truth::{Situation, World, campaign::machines, mechanisms};
-use rand_pcg::Pcg64;
 
 fn situation() -> Situation {
     Situation::new(
@@ -19,7 +19,8 @@ fn solve(c: &mut Criterion) {
     let plain = machine();
     c.bench_function("plain", |b| b.iter(|| plain.pose(black_box(&situation()))));
     for id in ["leg-nonlinearity", "joint-friction", "base-compliance", "platform-compliance"] {
-        let effect = mechanisms::effect(id).map(|e| (e.draw)(&plain.hexapod, &mut Pcg64::new(1, 1)));
+        let effect =
+            mechanisms::effect(id).map(|e| (e.draw)(&plain.hexapod, &mut stream(1, Purpose::Test, [1])));
         let Ok(effect) = effect else { continue };
         let world = machine().with(effect);
         c.bench_function(id, |b| b.iter(|| world.pose(black_box(&situation()))));

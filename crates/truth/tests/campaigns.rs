@@ -1,11 +1,11 @@
 //! Campaigns are reproducible, and their effects as visible as asked for.
 #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_truth::{
     World,
     campaign::{Case, CaseSpec, Kind, machines},
 };
-use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 fn cases(threads: usize) -> Vec<Case> {
@@ -41,7 +41,7 @@ fn effects_have_the_distance_asked_for() {
 fn every_family_of_machines_holds_its_platform() {
     for family in machines::FAMILIES {
         for seed in 0..20 {
-            let mut rng = Pcg64::new(seed, 1);
+            let mut rng = stream(seed, Purpose::Test, [1]);
             let hexapod = machines::draw(family, &mut rng);
             let stiffness = machines::leg_stiffness(family, &mut rng);
             let world = World::new(hexapod.clone(), &stiffness);

@@ -2,6 +2,7 @@
 //! bring the models to rest.
 #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Pose, Wrench};
 use hexbench_truth::{
     Situation, TruthError, World,
@@ -9,7 +10,6 @@ use hexbench_truth::{
     mechanisms::{self, REGISTRY},
     mjcf,
 };
-use rand_pcg::Pcg64;
 use serde_json::{Value, json};
 
 const STIFFNESS: [f64; 6] = [4e6, 3.5e6, 4.2e6, 3.1e6, 2.9e6, 3.8e6];
@@ -54,7 +54,8 @@ fn count(model: &str, piece: &str) -> usize {
 #[test]
 fn every_effect_is_either_written_or_refused_by_name() {
     for effect in REGISTRY {
-        let world = world().with((effect.draw)(&RING_B.hexapod("ring_b"), &mut Pcg64::new(5, 1)));
+        let world =
+            world().with((effect.draw)(&RING_B.hexapod("ring_b"), &mut stream(5, Purpose::Test, [1])));
         let written = mjcf::export(&world, &situation());
         match written {
             Ok(_) => assert!(!REFUSED.contains(&effect.id), "{} was written", effect.id),

@@ -1,6 +1,7 @@
 //! Laws that any equilibrium obeys, checked by routes of their own.
 #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Hexapod, Matrix3, Matrix6, Pose, Vector3, Vector6, Wrench};
 use hexbench_truth::{
     LegMemory, Mechanism, Situation, TruthError, World,
@@ -10,7 +11,6 @@ use hexbench_truth::{
         PlatformCompliance, REGISTRY, Shows, TargetOffset,
     },
 };
-use rand_pcg::Pcg64;
 
 const STIFFNESS: [f64; 6] = [4.2e6, 3.8e6, 2.8e6, 4.3e6, 3.7e6, 3.6e6];
 
@@ -163,7 +163,8 @@ fn structures_that_store_energy_have_a_symmetric_compliance() {
     for effect in
         REGISTRY.iter().filter(|e| !NOT_LINEAR.contains(&e.id) && !LOAD_IS_ELSEWHERE.contains(&e.id))
     {
-        let world = ring().with((effect.draw)(&ring().hexapod, &mut Pcg64::new(5, 9)).scaled(3.0));
+        let world =
+            ring().with((effect.draw)(&ring().hexapod, &mut stream(5, Purpose::Test, [9])).scaled(3.0));
         let at = |wrench: [f64; 6]| {
             let rest = Situation::new(pose(), Wrench::from_array(wrench));
             world.reading(&rest).unwrap().equilibrium.platform
@@ -223,7 +224,7 @@ fn an_offset_target_sees_the_rotation_between_the_states() {
 #[test]
 fn only_friction_remembers_the_path() {
     for effect in REGISTRY {
-        let world = ring().with((effect.draw)(&ring().hexapod, &mut Pcg64::new(3, 5)));
+        let world = ring().with((effect.draw)(&ring().hexapod, &mut stream(3, Purpose::Test, [5])));
         let up = world.deflection(&situation()).unwrap();
         let down = world.deflection(&Situation { approach: -1.0, ..situation() }).unwrap();
         let change = (up - down).amax();
@@ -276,7 +277,7 @@ fn a_mirrored_load_on_a_mirror_symmetric_machine_gives_the_mirrored_deflection()
         let with = |stiffness: [f64; 6]| {
             let hexapod = machines::RING_A.hexapod("ring_a");
             let effect = hexbench_truth::mechanisms::effect(id).unwrap();
-            let mechanism = (effect.draw)(&hexapod, &mut Pcg64::new(2, 2)).scaled(3.0);
+            let mechanism = (effect.draw)(&hexapod, &mut stream(2, Purpose::Test, [2])).scaled(3.0);
             World::new(hexapod, &stiffness).with(mechanism)
         };
         let one = with(STIFFNESS).deflection(&situation()).unwrap();
@@ -307,7 +308,7 @@ fn the_choice_of_the_fixed_frame_does_not_matter() {
 fn an_effect_of_no_size_leaves_the_baseline_and_one_of_usual_size_does_not() {
     let bare = ring();
     for effect in REGISTRY {
-        let usual = (effect.draw)(&bare.hexapod, &mut Pcg64::new(7, 7));
+        let usual = (effect.draw)(&bare.hexapod, &mut stream(7, Purpose::Test, [7]));
         let read = |world: &World| match effect.shows {
             Shows::Absolute => world.pose(&situation()).unwrap().to_vector(),
             _ => world.deflection(&situation()).unwrap(),
@@ -361,7 +362,7 @@ fn newton_takes_few_steps() {
         [("leg-nonlinearity", 4), ("joint-friction", 4), ("base-compliance", 5), ("bracket-compliance", 5)];
     for (id, most) in MOST {
         let effect = hexbench_truth::mechanisms::effect(id).unwrap();
-        let world = ring().with((effect.draw)(&ring().hexapod, &mut Pcg64::new(1, 1)));
+        let world = ring().with((effect.draw)(&ring().hexapod, &mut stream(1, Purpose::Test, [1])));
         let steps = world.reading(&Situation::new(pose(), wrench())).unwrap().equilibrium.iterations;
         assert!(steps <= most, "{id}: {steps}");
     }

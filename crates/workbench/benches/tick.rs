@@ -5,13 +5,13 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use hexbench_core::files::{hexapod_to_toml, measurements_to_csv};
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_truth::campaign::{Campaign, Plan, PlanKind, Poses, machines, measure};
 use hexbench_truth::metrology::{Frames, Noise};
 use hexbench_truth::{World, mechanisms};
 use hexbench_workbench::bench::Bench;
 use hexbench_workbench::wire::{FileText, Limits, Open, Selection};
-use rand_pcg::Pcg64;
 
 const LIMITS: Limits = Limits { bytes: 1 << 26, rows: 50_000, own_terms: 8, term_bytes: 1 << 16, benches: 4 };
 /// Loads and readings at each pose of a rich plan.
@@ -19,7 +19,7 @@ const AT_A_POSE: u64 = 24;
 
 /// Readings at `readings / 24` poses, every condition different from the others, and as many poses held out.
 fn bench(readings: u64, with_holdout: bool) -> Bench {
-    let mut rng = Pcg64::new(7, 0);
+    let mut rng = stream(7, Purpose::Test, [0]);
     let mut hexapod = machines::draw("ring_b", &mut rng);
     hexapod.metrology = Some(Noise::default().metrology());
     let mut schemes = PlanKind::Rich.schemes(&hexapod, &mut rng);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Hexapod, Metrology, Observation, Vector6, Wrench};
 use hexbench_model::evidence::WIDEST;
 use hexbench_model::fit_named::term_named;
@@ -9,8 +10,7 @@ use hexbench_model::noise::{Noise, NoiseSource};
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
 use nalgebra::{DMatrix, DVector};
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64;
+use rand::RngExt;
 
 use super::{Contest, Plan, menu};
 use crate::regressor::ModelRegressor;
@@ -125,7 +125,7 @@ fn a_plan_holds_the_worst_pair_further_apart_than_random_plans() {
     assert_eq!(plan.readings.iter().map(|r| r.repeats).sum::<usize>(), READINGS);
     let least = |d: &[super::Distance]| d.iter().map(|d| d.value).fold(f64::INFINITY, f64::min);
     let informations = contest.informations(&menu).unwrap();
-    let mut rng = Pcg64::seed_from_u64(4);
+    let mut rng = stream(4, Purpose::Test, []);
     let mut random = || {
         let drawn: Vec<usize> = (0..READINGS).map(|_| rng.random_range(0..menu.len())).collect();
         let total =

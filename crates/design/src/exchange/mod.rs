@@ -14,6 +14,7 @@ mod plan;
 
 pub use candidates::Candidates;
 
+use hexbench_core::streams::{Purpose, stream};
 use nalgebra::DMatrix;
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -65,12 +66,12 @@ impl<'a> Exchange<'a> {
     /// # Errors
     /// [`DesignError::NotDetermined`].
     pub fn search(&self, starts: usize, seed: u64, done: &(dyn Fn() + Sync)) -> Result<Plan, DesignError> {
-        let end = |start: u128| {
-            let plan = self.climb(self.start(&mut Pcg64::new(u128::from(seed), start)));
+        let end = |start: u64| {
+            let plan = self.climb(self.start(&mut stream(seed, Purpose::ExchangeStart, [start])));
             done();
             plan
         };
-        let ends: Vec<Plan> = (0..starts as u128).into_par_iter().map(end).collect();
+        let ends: Vec<Plan> = (0..starts as u64).into_par_iter().map(end).collect();
         // The first of equals, so that the order of threads does not matter.
         let best = ends.iter().cloned().reduce(|a, b| if b.value > a.value { b } else { a });
         let determines = |plan: &Plan| undetermined(&self.candidates.sum(&plan.members)).is_empty();

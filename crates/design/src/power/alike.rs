@@ -1,11 +1,11 @@
 //! What looks like what, and what is taken for what.
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_model::candidates::{Candidate, Collector, Kind};
 use hexbench_model::evidence::Gram;
 use hexbench_model::search::Search;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution, StandardNormal};
-use rand_pcg::Pcg64;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -117,9 +117,7 @@ impl Evidence {
 
     /// The candidate that explains best, if any.
     fn winner(&self, rest: &DVector<f64>, seed: u64, [row, draw]: [usize; 2]) -> Option<usize> {
-        const STREAM: u128 = 1 << 80;
-        let stream = STREAM + ((row as u128) << 40) + draw as u128;
-        let mut rng = Pcg64::new(u128::from(seed), stream);
+        let mut rng = stream(seed, Purpose::PowerConfusion, [row as u64, draw as u64]);
         let y = rest.map(|x| -> f64 { x + Distribution::<f64>::sample(&StandardNormal, &mut rng) });
         let mut gram = self.gram.clone();
         gram.b = self.columns.tr_mul(&y);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use hexbench_core::statistics::root_mean_square;
 use hexbench_model::candidates::sizes;
 use hexbench_model::evidence::WIDEST;
 use hexbench_model::term::Term;
@@ -53,8 +54,7 @@ impl Subject {
     pub fn size(&self, example: &Example) -> f64 {
         let parameters = self.term.info().parameters;
         let alike = parameters.iter().zip(&example.values).filter(|(p, _)| p.unit == parameters[0].unit);
-        let squares: Vec<f64> = alike.map(|(p, v)| (v * p.per_si).powi(2)).collect();
-        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+        root_mean_square(alike.map(|(p, v)| v * p.per_si)).unwrap_or(0.0)
     }
 
     /// Whitened signature of an example `scale` times as large, springs included.

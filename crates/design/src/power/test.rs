@@ -1,5 +1,7 @@
 //! The test for one effect: what is measured, what noise alone gives, what an effect gives.
 
+use hexbench_core::statistics::quantile;
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_model::candidates::{orthonormal, sizes};
 use hexbench_model::evidence::WIDEST;
 use hexbench_model::power::Law;
@@ -55,7 +57,8 @@ impl Test {
         let mut noise = Noise::new(&directions, noise_dof, settings.seed);
         let way = Way::Draws(noise.along(POWER_DRAWS), noise.levels(POWER_DRAWS));
         let drops = noise.largest(&places, THRESHOLD_DRAWS);
-        Some(Self { directions, groups: places, threshold: quantile(drops, 1.0 - settings.alarm), way })
+        let threshold = quantile(drops, 1.0 - settings.alarm)?;
+        Some(Self { directions, groups: places, threshold, way })
     }
 
     /// Drop of chi-square that counts as seen.
@@ -148,9 +151,8 @@ struct Noise {
 
 impl Noise {
     fn new(directions: &DMatrix<f64>, level_dof: f64, seed: u64) -> Self {
-        const STREAM: u128 = 90;
         let mixing = directions.tr_mul(&orthonormal(directions));
-        Self { mixing, level_dof, rng: Pcg64::new(u128::from(seed), STREAM) }
+        Self { mixing, level_dof, rng: stream(seed, Purpose::PowerTest, []) }
     }
 
     /// So many draws, one in each column.
@@ -179,12 +181,4 @@ impl Noise {
         }
         drops
     }
-}
-
-fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
-    values.sort_by(f64::total_cmp);
-    // A share of the count is an index once it is cut.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between zero and the count")]
-    let index = (share * values.len() as f64) as usize;
-    values.get(index.min(values.len().saturating_sub(1))).copied().unwrap_or(f64::INFINITY)
 }

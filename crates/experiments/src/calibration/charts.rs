@@ -1,11 +1,11 @@
 //! The charts of the study.
 
+use hexbench_core::statistics::Proportion;
 use hexbench_report::plot::{Axis, Chart, HeatMap, Panels, PlotError, Series};
 use hexbench_truth::campaign::Kind;
 
 use super::sheets::visible_confusion;
 use super::{Bin, Claim, Claims, Curve, DISTANCES, Fate, Mix, Record, Step, WELL_VISIBLE, bins};
-use crate::proportion::Proportion;
 
 /// Claims below which a bin is not drawn: its bounds would span most of the diagram.
 const LEAST_CLAIMS: usize = 10;

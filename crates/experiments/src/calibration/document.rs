@@ -10,8 +10,8 @@ use super::{
     Calibration, Curve, DISTANCES, Record, WELL_VISIBLE, credible_coverage, false_names,
     false_names_among_named, false_outside, is_well_visible, stiffness_coverage,
 };
+use crate::Proportion;
 use crate::calibration::Fate;
-use crate::proportion::Proportion;
 
 /// The page: figures, tables and the charts of a folder beside it.
 pub fn page(study: &Calibration, charts: &str) -> Page {

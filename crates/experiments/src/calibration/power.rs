@@ -1,9 +1,9 @@
 //! What becomes of an effect as it grows.
 
+use hexbench_core::statistics::Proportion;
 use hexbench_truth::campaign::Kind;
 
 use super::{Fate, Record};
-use crate::proportion::Proportion;
 
 /// Borders of the distances, about equal steps of their logarithm.
 pub const SIZES: [f64; 7] = [2.0, 3.5, 6.0, 10.0, 18.0, 33.0, 60.0];

@@ -1,7 +1,8 @@
 //! Stated against observed: reliability bins and scores of probabilities.
 
+use hexbench_core::statistics::Proportion;
+
 use super::Claim;
-use crate::proportion::Proportion;
 
 /// Borders of the bins: finer towards certainty, where a mistake costs most.
 pub const BORDERS: [f64; 13] = [0.0, 0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95, 0.99, 1.0];

@@ -4,7 +4,7 @@ use hexbench_truth::campaign::Kind;
 
 use super::trust::{HeldOut, credible_coverage, stiffness_coverage};
 use super::{Claims, Confusion, Curve, Fate, Mix, Record, bins, is_well_visible, mistakes, scores};
-use crate::proportion::Proportion;
+use crate::Proportion;
 use hexbench_report::Table;
 use hexbench_report::number::hundredths;
 

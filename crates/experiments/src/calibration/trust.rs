@@ -1,9 +1,9 @@
 //! Figures that say how far an answer can be trusted.
 
+use hexbench_core::statistics::{Proportion, quantile};
 use hexbench_model::verdict::Verdict;
 
 use super::{Fate, Record};
-use crate::proportion::Proportion;
 
 /// Share of trials with an effect named that is not there which must not be exceeded.
 pub const MOST_FALSE_NAMES: f64 = 0.01;
@@ -59,12 +59,7 @@ impl HeldOut {
     pub fn of<'a>(records: impl IntoIterator<Item = &'a Record>) -> Option<Self> {
         let pairs: Vec<[f64; 2]> =
             records.into_iter().filter_map(|r| Some([r.holdout[0]?, r.holdout[1]?])).collect();
-        let quantile = |step: usize, share: f64| {
-            let mut all: Vec<f64> = pairs.iter().map(|p| p[step]).collect();
-            all.sort_by(f64::total_cmp);
-            all.into_iter().enumerate().find(|(k, _)| (k + 1) as f64 >= share * pairs.len() as f64)
-        };
-        let value = |step, share| quantile(step, share).map(|(_, x)| x);
+        let value = |step: usize, share: f64| quantile(pairs.iter().map(|p| p[step]), share);
         Some(Self {
             trials: pairs.len(),
             springs_median: value(0, 0.5)?,

@@ -1,10 +1,10 @@
 //! Drawing the cases of a suite.
 
+use hexbench_core::streams::{Purpose, derived_seed, stream};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_truth::TruthError;
 use hexbench_truth::campaign::{Case, CaseSpec, Row};
 use rand::seq::SliceRandom;
-use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 use crate::challenge::{ChallengeError, Portion, Suite, Truth};
@@ -36,7 +36,7 @@ pub fn draw(suite: &Suite, progress: &dyn Progress) -> Result<Vec<Drawn>, Challe
     for (k, portion) in suite.portions.iter().enumerate() {
         jobs.extend((0..portion.count).map(|index| (k, index)));
     }
-    jobs.shuffle(&mut Pcg64::new(u128::from(suite.seed), SHUFFLE));
+    jobs.shuffle(&mut stream(suite.seed, Purpose::ChallengeOrder, []));
     let digits = if jobs.len() < 1000 { 3 } else { 4 };
     let one =
         |(number, &(k, index)): (usize, &(usize, usize))| {
@@ -51,13 +51,9 @@ pub fn draw(suite: &Suite, progress: &dyn Progress) -> Result<Vec<Drawn>, Challe
     each(jobs.par_iter().enumerate(), progress, one)
 }
 
-/// Stream of the order of the cases.
-const SHUFFLE: u128 = 0x5107;
-
 /// Every group has cases of its own, also where two ask for the same kind.
 fn seed_of(seed: u64, portion: usize) -> u64 {
-    const APART: u64 = 1_000_003;
-    seed.wrapping_add(APART.wrapping_mul(portion as u64))
+    derived_seed(seed, Purpose::ChallengeGroup, [portion as u64])
 }
 
 /// The `index`-th case of a portion: some effects do not show in some plans or machines, then others are tried.

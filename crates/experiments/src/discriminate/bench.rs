@@ -1,5 +1,6 @@
 //! One simulated bench with a hidden effect, on which further readings can be taken.
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod, Observation};
 use hexbench_truth::campaign::{Campaign, Row, Yardstick, machines, measure};
 use hexbench_truth::metrology::{Frames, Noise};
@@ -31,8 +32,9 @@ impl Bench {
         distance: f64,
         seed: u64,
     ) -> Result<Self, TruthError> {
-        let stream = |n: u128| Pcg64::new(u128::from(seed), n);
-        let (mut of_machine, mut of_plan, mut of_effect) = (stream(1), stream(2), stream(3));
+        let of = |purpose| stream(seed, purpose, []);
+        let (mut of_machine, mut of_plan) = (of(Purpose::ConfusionMachine), of(Purpose::ConfusionPlan));
+        let (mut of_effect, mut of_noise) = (of(Purpose::ConfusionEffect), of(Purpose::ConfusionNoise));
         let noise = Noise::default();
         let mut hexapod = machines::draw(family, &mut of_machine);
         hexapod.metrology = Some(noise.metrology());
@@ -46,7 +48,7 @@ impl Bench {
         let mut world = bare.world.without_effects();
         world.mechanisms = vec![usual.scaled(scale)];
         let campaign = Campaign { world, ..bare };
-        let measurements = measure(&campaign, &rows, scheme.measurand, "measurements.csv", &mut stream(4))?;
+        let measurements = measure(&campaign, &rows, scheme.measurand, "measurements.csv", &mut of_noise)?;
         Ok(Self { hexapod, measurements, campaign })
     }
 

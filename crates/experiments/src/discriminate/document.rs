@@ -2,9 +2,10 @@
 
 use hexbench_report::{Block, Page, Section};
 
+use hexbench_core::statistics::{Proportion, mean};
+
 use super::sheets::{asked, before, open, proposed, share, told};
 use super::{Discrimination, READINGS, Record};
-use crate::proportion::Proportion;
 use crate::trial::Outcome;
 
 /// The page.
@@ -61,7 +62,7 @@ pub fn headlines(study: &Discrimination) -> Vec<String> {
         ),
         format!(
             "Those readings promise that the evidence will favour the truth over the other of the pair in {:.0} % on average; it does so in {}.",
-            100.0 * all().map(|r| r.promised).sum::<f64>() / records.len().max(1) as f64,
+            100.0 * mean(all().map(|r| r.promised)).unwrap_or(0.0),
             told(Proportion::count(all(), |r| r.favoured))
         ),
         versus(

@@ -1,7 +1,7 @@
 //! Tables of the study.
 
 use super::{Confusion, Discrimination, Record};
-use crate::proportion::Proportion;
+use crate::Proportion;
 use hexbench_report::Table;
 
 use crate::trial::Outcome;

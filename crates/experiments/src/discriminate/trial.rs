@@ -1,5 +1,6 @@
 //! One trial: diagnosed, measured further, diagnosed again.
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Observation, Pose, Wrench};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::diagnose::{Diagnosis, NextReport, Study, diagnose, prepare};
@@ -9,7 +10,6 @@ use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
 use hexbench_truth::campaign::machines::FAMILIES;
 use rand::RngExt;
-use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -57,7 +57,7 @@ impl Record {
     /// # Errors
     /// [`TrialError`].
     pub fn of(confusion: &Confusion, index: usize, seed: u64) -> Result<Self, TrialError> {
-        let mut rng = Pcg64::new(u128::from(seed), index as u128);
+        let mut rng = stream(seed, Purpose::ConfusionTrial, [index as u64]);
         let hidden = confusion.between[rng.random_range(0..2)];
         let family = FAMILIES[rng.random_range(0..FAMILIES.len())];
         let [low, high] = DISTANCES;
@@ -69,7 +69,7 @@ impl Record {
         let said = |study: &Study| outcome(&[hidden], &study.diagnosis);
         let measured = |further: &[Observation]| -> Result<Dataset, TrialError> {
             // The same noise whatever is measured.
-            let mut noise = Pcg64::new(u128::from(seed), (1 << 64) + index as u128);
+            let mut noise = stream(seed, Purpose::ConfusionFurtherNoise, [index as u64]);
             Ok(bench.with(further, &mut noise)?)
         };
         let after = |further: &[Observation]| -> Result<Outcome, TrialError> {

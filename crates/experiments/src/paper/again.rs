@@ -1,5 +1,6 @@
 //! The richer plan with other poses and other noise: is the missing effect named again?
 
+use hexbench_core::streams::{Purpose, derived_seed};
 use hexbench_model::verdict::Verdict;
 
 use super::bench::Bench;
@@ -42,13 +43,13 @@ impl Protocol for Again {
     }
 
     fn trial(&self, number: u64) -> Result<Named, PaperError> {
-        let bench = Bench::new(self.seed.wrapping_add(number + 1));
+        let bench = Bench::new(derived_seed(self.seed, Purpose::PaperAgain, [number + 1]));
         let found = on_the_richer_plan(&bench, &bench.world(vec![skew_support(self.support_motion)]))?;
         Ok((found.verdict, found.added))
     }
 
     fn name(&self, number: u64) -> String {
-        format!("seed {}", self.seed.wrapping_add(number + 1))
+        format!("other noise {}", number + 1)
     }
 
     fn fields(&self) -> Vec<Field<Named>> {

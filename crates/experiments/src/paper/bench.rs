@@ -1,5 +1,6 @@
 //! The simulated experiment: the paper-like machine, its loads, and a coordinate measuring machine that reads balls.
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vector6, Wrench};
 use hexbench_truth::campaign::{PlanKind, Row, machines::RING_A};
 use hexbench_truth::metrology::Balls;
@@ -52,7 +53,7 @@ impl Bench {
         effects.into_iter().fold(bare, World::with)
     }
 
-    /// Deflections as the instrument gives them; equal streams give equal noise whatever the world.
+    /// Deflections as the instrument gives them; equal numbers give equal noise whatever the world.
     ///
     /// # Errors
     /// As [`World::deflection`].
@@ -62,9 +63,9 @@ impl Bench {
         rows: &[Row],
         covariates: Covariates,
         source: &str,
-        stream: u64,
+        number: u64,
     ) -> Result<Dataset, TruthError> {
-        let mut rng = Pcg64::new(u128::from(self.seed), u128::from(stream));
+        let mut rng = stream(self.seed, Purpose::PaperNoise, [number]);
         let read = |(i, row): (usize, &Row)| {
             let ideal = world.deflection(&row.situation)?;
             let measured = self.read_balls(&row.situation.pose, &ideal, &mut rng)?;
@@ -151,9 +152,9 @@ pub fn validation() -> Vec<Row> {
 /// the paper turned its machine, and its held-out part.
 ///
 /// Turning is what tells a base that yields, in fixed axes, from a plate that yields, in the platform's.
-pub fn richer_plan(bench: &Bench, stream: u64) -> [Vec<Row>; 2] {
+pub fn richer_plan(bench: &Bench) -> [Vec<Row>; 2] {
     const TURN: f64 = 2.0;
-    let mut rng = Pcg64::new(u128::from(bench.seed), u128::from(stream));
+    let mut rng = stream(bench.seed, Purpose::PaperPlan, []);
     let plan = PlanKind::Rich.draw(&bench.hexapod, &mut rng);
     let turned = |row: Row| {
         let mut situation = row.situation;

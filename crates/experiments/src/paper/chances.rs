@@ -1,5 +1,7 @@
 //! How often noise alone gives the paper's errors, over many repetitions of its experiment.
 
+use hexbench_core::statistics::quantile;
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Vector6};
 use hexbench_model::error::ModelError;
 use hexbench_model::paper::regressor;
@@ -35,18 +37,17 @@ pub fn repetitions(
     error: &[f64; 6],
     seed: u64,
 ) -> Result<Repetitions, PaperError> {
-    const STREAM: u128 = 77;
     let [fitted, held_out] = [regressor(&bench.hexapod, data[0])?, regressor(&bench.hexapod, data[1])?];
     let inverse = fitted.pseudo_inverse(0.0).map_err(|_| ModelError::NoLoad)?;
     let gain = &held_out * inverse;
-    let mut rng = Pcg64::new(u128::from(seed), STREAM);
+    let mut rng = stream(seed, Purpose::PaperRepetitions, []);
     let errors: Vec<[f64; 6]> = (0..count).map(|_| one(&gain, &mut rng)).collect();
     let limit = pooled(error, 0);
     let large = errors.iter().filter(|e| pooled(e, 0) >= limit).count();
     Ok(Repetitions {
         count,
-        median: quantile(&errors, 0.5),
-        upper: quantile(&errors, 0.95),
+        median: quantiles(&errors, 0.5),
+        upper: quantiles(&errors, 0.95),
         share_as_large: large as f64 / count.max(1) as f64,
     })
 }
@@ -65,13 +66,7 @@ fn noise(rows: usize, rng: &mut Pcg64) -> DVector<f64> {
     })
 }
 
-fn quantile(errors: &[[f64; 6]], share: f64) -> [f64; 6] {
-    // An index into the list.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let index = (share * errors.len().saturating_sub(1) as f64).round() as usize;
-    std::array::from_fn(|k| {
-        let mut sorted: Vec<f64> = errors.iter().map(|e| e[k]).collect();
-        sorted.sort_by(f64::total_cmp);
-        sorted.get(index).copied().unwrap_or(0.0)
-    })
+/// Quantile of each coordinate.
+fn quantiles(errors: &[[f64; 6]], share: f64) -> [f64; 6] {
+    std::array::from_fn(|k| quantile(errors.iter().map(|e| e[k]), share).unwrap_or(0.0))
 }

@@ -1,5 +1,6 @@
 //! From readings to leg stiffnesses, and from these to predictions.
 
+use hexbench_core::statistics::root_mean_square;
 use hexbench_core::{Dataset, Matrix6, Vector6};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::error::ModelError;
@@ -108,5 +109,5 @@ pub fn rms(values: impl IntoIterator<Item = Vector6>) -> [f64; 6] {
 
 /// Root mean square of three of six such numbers: the translations (0) or the rotations (1).
 pub fn pooled(rms: &[f64; 6], part: usize) -> f64 {
-    (rms[3 * part..3 * part + 3].iter().map(|x| x * x).sum::<f64>() / 3.0).sqrt()
+    root_mean_square(rms[3 * part..3 * part + 3].iter().copied()).unwrap_or(0.0)
 }

@@ -10,7 +10,6 @@ use super::bench::{Bench, Covariates, richer_plan};
 use super::error::PaperError;
 use super::experiment::Experiment;
 
-const PLAN: u64 = 3;
 const TRAINING: u64 = 4;
 const HOLDOUT: u64 = 5;
 
@@ -55,7 +54,7 @@ pub fn on_the_papers_plan(bench: &Bench, experiment: &Experiment) -> Result<Find
 /// # Errors
 /// [`PaperError`].
 pub fn on_the_richer_plan(bench: &Bench, world: &World) -> Result<Finding, PaperError> {
-    let [training, holdout] = richer_plan(bench, PLAN);
+    let [training, holdout] = richer_plan(bench);
     let read = |rows: &[_], source, stream| bench.measure(world, rows, Covariates::All, source, stream);
     let (readings, held_out) = (read(&training, "training", TRAINING)?, read(&holdout, "held out", HOLDOUT)?);
     finding(bench, &readings, &held_out)

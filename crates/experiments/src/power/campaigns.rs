@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use hexbench_core::Vector6;
 use hexbench_core::files::text_hash;
+use hexbench_core::streams::Purpose;
 use hexbench_design::power::{Planned, Settings, Study, Subject, Test, study};
 use hexbench_model::error::ModelError;
 use hexbench_model::term::Term;
@@ -11,19 +12,12 @@ use hexbench_truth::TruthError;
 use serde::{Deserialize, Serialize};
 
 use super::PowerPlan;
-use super::simulate::{Answers, Bench, Said, Simulated};
+use super::simulate::{Answers, Bench, NoiseOf, Said, Simulated};
 use super::study::{Check, Power, PowerError, Simulation};
 use super::usual::{Usual, usual};
 use crate::Proportion;
 use crate::harness::{Answer, Field, Gathered, Protocol};
 use crate::journal::Identity;
-
-/// Seeds of what belongs to one effect.
-const STREAMS_PER_EFFECT: u128 = 1 << 40;
-/// Campaigns without effects.
-const CLEAN: u128 = 0;
-/// Noise at the usual size, apart from that at the size that is seen.
-const USUAL: u128 = 1 << 39;
 
 /// A plan as reckoned, and the campaigns that check it.
 pub struct Campaigns<'a> {
@@ -41,14 +35,14 @@ struct Part {
     /// What is simulated: number of the effect and multiple of its usual size; `None`: nothing is hidden.
     effect: Option<(usize, f64)>,
     ideal: Vec<Vector6>,
-    stream: u128,
+    noise: NoiseOf,
     is_diagnosed: bool,
 }
 
 impl Part {
     /// True at the usual size of an effect.
     fn is_usual(&self) -> bool {
-        self.stream & USUAL != 0
+        self.noise.0 == Purpose::PowerUsualNoise
     }
 }
 
@@ -85,7 +79,12 @@ impl<'a> Campaigns<'a> {
         let mut all = Self { bench, terms, study, simulation, checks, parts: Vec::new() };
         if simulation.campaigns > 0 {
             let ideal = all.bench.ideal(Vec::new())?;
-            all.parts.push(Part { effect: None, ideal, stream: CLEAN, is_diagnosed: false });
+            all.parts.push(Part {
+                effect: None,
+                ideal,
+                noise: (Purpose::PowerCleanNoise, 0),
+                is_diagnosed: false,
+            });
             (0..all.checks.len()).for_each(|k| all.add(k, &known, only));
         }
         Ok(all)
@@ -115,14 +114,13 @@ impl<'a> Campaigns<'a> {
             return Ok(Vec::new());
         }
         let seen_at = effect.shows().then_some(effect.seen_at.middle);
-        let part = |(scale, stream, is_diagnosed): (f64, u128, bool)| {
+        let part = |(scale, noise, is_diagnosed): (f64, Purpose, bool)| {
             let mechanism = usual.mechanisms[effect.example_index].scaled(scale);
             let ideal = self.bench.ideal(vec![mechanism])?;
-            let stream = stream + STREAMS_PER_EFFECT * (1 + k as u128);
-            Ok(Part { effect: Some((k, scale)), ideal, stream, is_diagnosed })
+            Ok(Part { effect: Some((k, scale)), ideal, noise: (noise, k as u64), is_diagnosed })
         };
-        let seen = seen_at.map(|scale| (scale, 0, self.simulation.diagnoses));
-        std::iter::once((1.0, USUAL, false)).chain(seen).map(part).collect()
+        let seen = seen_at.map(|scale| (scale, Purpose::PowerSeenNoise, self.simulation.diagnoses));
+        std::iter::once((1.0, Purpose::PowerUsualNoise, false)).chain(seen).map(part).collect()
     }
 
     /// The power of the plan with what the campaigns showed.
@@ -169,10 +167,10 @@ impl<'a> Campaigns<'a> {
     }
 
     /// Part, and number within it, of a trial.
-    fn place(&self, number: u64) -> (&Part, u128) {
+    fn place(&self, number: u64) -> (&Part, u64) {
         let campaigns = self.simulation.campaigns as u64;
         let part = usize::try_from(number / campaigns).unwrap_or(usize::MAX);
-        (&self.parts[part], u128::from(number % campaigns))
+        (&self.parts[part], number % campaigns)
     }
 }
 
@@ -201,7 +199,7 @@ impl Protocol for Campaigns<'_> {
 
     fn trial(&self, number: u64) -> Result<Record, ModelError> {
         let (part, k) = self.place(number);
-        let data = self.bench.data(&part.ideal, Some(part.stream + k));
+        let data = self.bench.data(&part.ideal, Some((part.noise, k)));
         let residuals = self.bench.residuals(&data)?;
         let seen = self.tests(part).iter().map(|t| t.as_ref().is_some_and(|t| t.sees(&residuals))).collect();
         let asked = part.effect.filter(|_| part.is_diagnosed);

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use hexbench_core::statistics::Proportion;
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Observation, Vector6};
 use hexbench_model::diagnose::{diagnose, prepare};
 use hexbench_model::error::ModelError;
@@ -15,11 +17,9 @@ use hexbench_truth::metrology::{Frames, Noise};
 use hexbench_truth::{Mechanism, TruthError, World};
 use nalgebra::DVector;
 use rand_distr::{Distribution, StandardNormal};
-use rand_pcg::Pcg64;
 use serde::Serialize;
 
 use super::PowerPlan;
-use crate::Proportion;
 use crate::calibration::Fate;
 use crate::trial::Trial;
 
@@ -84,6 +84,9 @@ pub struct Simulated {
     pub answers: Option<Answers>,
 }
 
+/// Which noise campaigns get: what they are for, the number of their effect.
+pub(super) type NoiseOf = (Purpose, u64);
+
 /// The machine of a plan in the simulated world.
 pub(super) struct Bench<'a> {
     plan: &'a PowerPlan,
@@ -104,9 +107,9 @@ impl<'a> Bench<'a> {
         campaign.ideal(&self.rows, self.plan.rows.measurand)
     }
 
-    /// Readings with the noise of a stream; without stream as they are.
-    pub(super) fn data(&self, ideal: &[Vector6], stream: Option<u128>) -> Dataset {
-        let mut rng = stream.map(|stream| Pcg64::new(u128::from(self.seed), stream));
+    /// Readings with the noise of a campaign; without noise as they are.
+    pub(super) fn data(&self, ideal: &[Vector6], noise: Option<(NoiseOf, u64)>) -> Dataset {
+        let mut rng = noise.map(|((purpose, effect), k)| stream(self.seed, purpose, [effect, k]));
         let mut noise = |row: usize| match &mut rng {
             Some(rng) => {
                 Vector6::from_fn(|_, _| StandardNormal.sample(rng)).component_mul(&self.plan.sigma(row))

@@ -1,10 +1,10 @@
 //! Rows of the tables of a plan's power.
 
+use hexbench_core::statistics::Proportion;
 use hexbench_design::power::{Alike, Effect, NOTHING, Range};
 use hexbench_report::number::significant;
 
 use super::{Check, Simulated};
-use crate::Proportion;
 
 /// Header of [`sizes`].
 pub(super) const SIZES: [&str; 6] = ["effect", "usual", "chance %", "seen from", "unit", "x usual"];

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use hexbench_core::Hexapod;
+use hexbench_core::statistics::root_mean_square;
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_design::power::{Example, Reference, Subject};
 use hexbench_model::term::Term;
 use hexbench_truth::Mechanism;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
-use rand_pcg::Pcg64;
 
 use crate::recovery::correspondence::{Equivalent, equivalent};
 
@@ -28,13 +29,13 @@ pub struct Usual {
 /// of those drawn, so that they differ in direction and shape only.
 pub fn usual(term: &Arc<dyn Term>, hexapod: &Hexapod, seed: u64) -> Option<Usual> {
     let index = REGISTRY.iter().position(|e| e.id == term.info().id && e.shows != Shows::Outside)?;
-    let mut rng = Pcg64::new(u128::from(seed), index as u128);
+    let mut rng = stream(seed, Purpose::PowerEffects, [index as u64]);
     let drawn: Vec<Box<dyn Mechanism>> =
         (0..DRAWS).map(|_| (REGISTRY[index].draw)(hexapod, &mut rng)).collect();
     let examples = drawn.iter().map(|m| example(m.as_ref(), hexapod)).collect::<Option<Vec<_>>>()?;
     let mut subject = Subject { term: Arc::clone(term), examples, reference: Reference::Usual };
     let sizes: Vec<f64> = subject.examples.iter().map(|e| subject.size(e)).collect();
-    let usual = (sizes.iter().map(|s| s * s).sum::<f64>() / DRAWS as f64).sqrt();
+    let usual = root_mean_square(sizes.iter().copied())?;
     let factors: Vec<f64> = sizes.iter().map(|s| usual / s).collect();
     for (example, factor) in subject.examples.iter_mut().zip(&factors) {
         example.values.iter_mut().for_each(|v| *v *= factor);

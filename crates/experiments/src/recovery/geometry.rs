@@ -12,6 +12,7 @@
 //! platform) never show.
 
 use hexbench_core::Vector3;
+use hexbench_core::statistics::root_mean_square;
 use hexbench_model::fit::Fit;
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen};
 
@@ -47,7 +48,7 @@ pub fn combinations(scene: &Scene, fit: &Fit) -> Option<Combinations> {
     });
     let eigen = SymmetricEigen::new(covariance);
     let spread: Vec<f64> = eigen.eigenvalues.iter().map(|l| l.max(0.0).sqrt()).collect();
-    let size = (truth.iter().map(|x| x * x).sum::<f64>() / truth.len() as f64).sqrt();
+    let size = root_mean_square(truth.iter().copied())?;
     let unit = fit.prior[columns[0]] / size;
     let of = |k: usize| [eigen.eigenvectors.column(k).dot(&miss) * unit, spread[k] * unit];
     let (determined, open): (Vec<usize>, Vec<usize>) =

@@ -1,5 +1,6 @@
 //! Recovery as an experiment: noisy campaigns of every subject, then diagnoses of every subject.
 
+use hexbench_core::streams::{Purpose, derived_seed};
 use serde::{Deserialize, Serialize};
 
 use super::campaign::{self, Found};
@@ -68,7 +69,11 @@ impl Protocol for Recovery {
         if number < self.fitted() as u64 {
             return Ok(Record::Fitted(Box::new(campaign::run(subject, index, seed)?)));
         }
-        Ok(Record::Diagnosed(naming::run(subject, index, seed.wrapping_add(1))?))
+        Ok(Record::Diagnosed(naming::run(
+            subject,
+            index,
+            derived_seed(seed, Purpose::RecoveryDiagnoses, []),
+        )?))
     }
 
     fn name(&self, number: u64) -> String {

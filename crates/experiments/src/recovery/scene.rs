@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod, Metrology, Observation, Vector6};
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
@@ -10,7 +11,6 @@ use hexbench_truth::mechanisms::{REGISTRY, Shows, build};
 use hexbench_truth::metrology::Noise;
 use hexbench_truth::{Situation, TruthError};
 use rand::RngExt;
-use rand_pcg::Pcg64;
 use serde_json::json;
 
 use super::correspondence::{Equivalent, equivalent};
@@ -163,8 +163,7 @@ impl Scene {
 
 fn spec(subject: &Subject, index: usize, seed: u64, attempt: u64, distance: Option<f64>) -> CaseSpec {
     let name = subject.name.bytes().fold(0_u64, |h, b| h.wrapping_mul(131).wrapping_add(u64::from(b)));
-    let stream = (u128::from(name) << 64) | (u128::from(attempt) << 48) | index as u128;
-    let mut rng = Pcg64::new(u128::from(seed), stream);
+    let mut rng = stream(seed, Purpose::RecoveryCampaign, [name, attempt, index as u64]);
     let plan = match (subject.absolute, subject.effects.is_empty()) {
         (true, _) => PlanKind::Absolute,
         (false, true) if index % 4 == 3 => PlanKind::Paper,

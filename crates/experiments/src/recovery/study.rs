@@ -1,5 +1,6 @@
 //! The whole study: campaigns of every subject, gathered into rows, and the bounds that are broken.
 
+use hexbench_core::statistics::{mean, median};
 use serde::Serialize;
 
 use super::campaign::Found;
@@ -174,7 +175,7 @@ fn row(subject: &Subject, rows: usize, records: &[&Record]) -> Row {
         sizes: over(|f| f.sizes),
         shapes: over(|f| f.shapes),
         misfits: found.iter().filter(|f| f.misfit).count(),
-        open: found.iter().map(|f| f.open as f64).sum::<f64>() / found.len().max(1) as f64,
+        open: mean(found.iter().map(|f| f.open as f64)).unwrap_or(0.0),
         predicted: over(|f| f.predicted),
         holdout_before: median(found.iter().map(|f| f.holdout_before)).unwrap_or(f64::NAN),
         holdout_after: median(found.iter().map(|f| f.holdout_after)).unwrap_or(f64::NAN),
@@ -185,10 +186,4 @@ fn row(subject: &Subject, rows: usize, records: &[&Record]) -> Row {
         wrong_wins_holdout: rivals.iter().filter(|r| r.holdout_wrong < r.holdout_right).count(),
         compared: rivals.len(),
     }
-}
-
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut all: Vec<f64> = values.collect();
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).copied()
 }

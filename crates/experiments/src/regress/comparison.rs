@@ -94,9 +94,10 @@ pub fn of_samples(
 ) -> Comparison {
     let level = level(limits);
     let same_seed = seed == baseline.seed;
+    let runs = baseline.history.last().map_or(1, |update| update.runs);
     let find = |(limit, now): (&Limit, &Gathered)| {
         let before = &baseline.limits.get(&limit.id)?;
-        let mut found = finding(limit, &now.sample, &before.sample, level);
+        let mut found = finding(limit, &now.sample, &before.sample, runs, level);
         found.same_values = same_seed.then(|| now.fingerprint == before.first);
         Some(found)
     };
@@ -115,8 +116,8 @@ pub fn of_samples(
     }
 }
 
-fn finding(limit: &Limit, now: &Sample, before: &Sample, level: f64) -> Finding {
-    let judged = judge(limit.test, now, before, level);
+fn finding(limit: &Limit, now: &Sample, before: &Sample, runs: usize, level: f64) -> Finding {
+    let judged = judge(limit.test, now, before, runs, level);
     let least = noticed(limit.test, now.count(), before, level);
     Finding {
         id: limit.id.clone(),

@@ -1,5 +1,6 @@
 //! One noisy campaign through the fit of the right model, in the numbers that limits are made of.
 
+use hexbench_core::statistics::{mean, root_mean_square};
 use hexbench_model::estimate::estimates;
 use hexbench_model::fit::Fit;
 use hexbench_model::residuals::survival;
@@ -85,9 +86,7 @@ fn relative(pull: &Pull) -> f64 {
 }
 
 fn stiffness_error(pulls: &[Pull]) -> Option<f64> {
-    let squares: Vec<f64> =
-        pulls.iter().filter(|p| p.known.group == Group::Stiffness).map(|p| relative(p).powi(2)).collect();
-    mean(&squares).map(f64::sqrt)
+    root_mean_square(pulls.iter().filter(|p| p.known.group == Group::Stiffness).map(relative))
 }
 
 fn effect_error(pulls: &[Pull], geometry: Option<&Combinations>) -> Option<f64> {
@@ -95,10 +94,5 @@ fn effect_error(pulls: &[Pull], geometry: Option<&Combinations>) -> Option<f64> 
         Some(found) => found.misses.iter().map(|[miss, _]| miss.abs()).collect(),
         None => pulls.iter().filter(|p| p.known.group != Group::Stiffness).map(relative).collect(),
     };
-    let logarithms: Vec<f64> = errors.iter().map(|e| e.max(f64::EPSILON).ln()).collect();
-    mean(&logarithms).map(f64::exp)
-}
-
-fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    mean(errors.iter().map(|e| e.max(f64::EPSILON).ln())).map(f64::exp)
 }

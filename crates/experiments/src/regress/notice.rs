@@ -27,7 +27,7 @@ pub fn noticed(test: Test, count: u64, before: &Sample, level: f64) -> Option<f6
 /// Share whose binomial law has at least the critical number of hits with probability [`POWER`].
 fn share(count: u64, before: &Sample, level: f64) -> Option<f64> {
     let fails = |hits: u64| {
-        judge(Test::Share, &Sample::Share { hits, of: count }, before, level).verdict == Verdict::Worse
+        judge(Test::Share, &Sample::Share { hits, of: count }, before, 1, level).verdict == Verdict::Worse
     };
     let critical = (1..=count).find(|&hits| fails(hits))?;
     let noticed = |p: f64| Binomial::new(p, count).is_ok_and(|law| law.sf(critical - 1) >= POWER);

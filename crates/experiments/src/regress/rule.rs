@@ -12,6 +12,8 @@
 //!   seen in the baseline, `2 n m^2 / v` (Satterthwaite 1946), with two standard errors of `v` on top: a baseline whose pulls
 //!   happen to scatter little would otherwise raise false alarms. A variance that moved away from 1 either way is a change for the
 //!   worse.
+//! - No values at all: some limits look at campaigns that chance chooses (those well visible). Of the `n0` values of `R` runs and
+//!   those of this one, each is as probably in any run, so that this one has none with probability `(R / (R + 1))^n0` at most.
 //! - Without noise: no chance. The same machines are fitted in every run, and what is left is the linearisation of the model on
 //!   them: [`RATIO`]. Where it is rounding, its derived bound must hold.
 //!
@@ -50,18 +52,17 @@ pub struct Judged {
     pub chance: Option<f64>,
 }
 
-/// Compares a sample with the baseline's of the same kind; `level` is the limit's share of [`FALSE_ALARM`].
-pub fn judge(test: Test, now: &Sample, before: &Sample, level: f64) -> Judged {
+/// Compares a sample with the baseline's of the same kind, gathered in so many runs; `level` is the limit's share of
+/// [`FALSE_ALARM`].
+pub fn judge(test: Test, now: &Sample, before: &Sample, runs: usize, level: f64) -> Judged {
     if let (Sample::Exact { values: now }, Sample::Exact { values: before }) = (now, before) {
         return exact(test, now, before);
     }
     if before.count() < 2 {
         return Judged { verdict: Verdict::Same, chance: Some(1.0) };
     }
-    if now.count() == 0 {
-        return Judged { verdict: Verdict::Worse, chance: Some(0.0) };
-    }
     let [worse, better] = match test {
+        _ if now.count() == 0 => [none(before, runs), 1.0],
         Test::Share => shares(now, before),
         Test::Spread => spreads(now, before),
         _ => sizes(test, now, before),
@@ -72,6 +73,11 @@ pub fn judge(test: Test, now: &Sample, before: &Sample, level: f64) -> Judged {
         _ => Verdict::Same,
     };
     Judged { verdict, chance: Some(worse) }
+}
+
+/// Probability that a run has no values when so many runs have those of the baseline.
+fn none(before: &Sample, runs: usize) -> f64 {
+    (runs as f64 / (runs + 1) as f64).powf(before.count() as f64)
 }
 
 /// Probabilities of so many hits or more, and of so few or fewer.
@@ -143,6 +149,7 @@ mod tests {
     use super::*;
 
     const LEVEL: f64 = 1e-5;
+    const RUNS: usize = 8;
     const DIGITS: f64 = 1e-6;
 
     fn share(hits: u64, of: u64) -> Sample {
@@ -154,7 +161,7 @@ mod tests {
         // sum(comb(29, k) * comb(871, 100 - k) for k in range(9, 30)) / comb(900, 100) in Python 3, and of 40 hits from 20 on.
         for (hits, before, expected) in [(9, 20, 2.707_570_301_076_7e-3), (20, 20, 2.943_457_873_222_414e-10)]
         {
-            let found = judge(Test::Share, &share(hits, 100), &share(before, 800), LEVEL);
+            let found = judge(Test::Share, &share(hits, 100), &share(before, 800), RUNS, LEVEL);
             let chance = found.chance.unwrap();
             assert!((chance / expected - 1.0).abs() < DIGITS, "{chance} instead of {expected}");
             assert_eq!(found.verdict == Verdict::Worse, expected < LEVEL);
@@ -168,7 +175,8 @@ mod tests {
             let values: Vec<f64> = (0..n).map(|k| factor * ((k % 7) as f64 - 3.0).exp()).collect();
             Sample::of(test, &values)
         };
-        let verdict = |factor: f64| judge(test, &sample(factor, 700), &sample(0.1, 5600), LEVEL).verdict;
+        let verdict =
+            |factor: f64| judge(test, &sample(factor, 700), &sample(0.1, 5600), RUNS, LEVEL).verdict;
         assert_eq!([0.05, 0.1, 0.2].map(verdict), [Verdict::Better, Verdict::Same, Verdict::Worse]);
     }
 
@@ -177,7 +185,7 @@ mod tests {
         let sample =
             |m: f64, n: u64| Sample::Spread { n, sum: m * n as f64, squares: 1.33 * m * m * n as f64 };
         let verdict =
-            |m1: f64, m0: f64| judge(Test::Spread, &sample(m1, 300), &sample(m0, 2400), LEVEL).verdict;
+            |m1: f64, m0: f64| judge(Test::Spread, &sample(m1, 300), &sample(m0, 2400), RUNS, LEVEL).verdict;
         assert_eq!(verdict(1.5, 1.0), Verdict::Worse);
         assert_eq!(verdict(0.6, 1.0), Verdict::Worse);
         assert_eq!(verdict(1.05, 1.0), Verdict::Same);
@@ -188,19 +196,27 @@ mod tests {
     fn errors_without_noise_may_not_grow_by_half_nor_vanish_from_sight() {
         let sample = |values: &[Option<f64>]| Sample::Exact { values: values.to_vec() };
         let before = sample(&[Some(1e-4), Some(2e-4)]);
-        let verdict = |now: &[Option<f64>]| judge(Test::Exact, &sample(now), &before, LEVEL).verdict;
+        let verdict = |now: &[Option<f64>]| judge(Test::Exact, &sample(now), &before, RUNS, LEVEL).verdict;
         assert_eq!(verdict(&[Some(1.4e-4), Some(2e-4)]), Verdict::Same);
         assert_eq!(verdict(&[Some(1.6e-4), Some(2e-4)]), Verdict::Worse);
         assert_eq!(verdict(&[Some(1e-4), None]), Verdict::Worse);
         assert_eq!(verdict(&[Some(1e-4)]), Verdict::Worse);
         assert_eq!(verdict(&[Some(1e-5), Some(1e-5)]), Verdict::Better);
-        let bound = |v: f64| judge(Test::Bound, &sample(&[Some(v)]), &sample(&[Some(0.1)]), LEVEL).verdict;
+        let bound =
+            |v: f64| judge(Test::Bound, &sample(&[Some(v)]), &sample(&[Some(0.1)]), RUNS, LEVEL).verdict;
         assert_eq!([0.9, 1.1].map(bound), [Verdict::Same, Verdict::Worse]);
     }
 
     #[test]
-    fn no_values_where_the_baseline_has_some_are_worse() {
-        assert_eq!(judge(Test::Share, &share(0, 0), &share(2, 800), LEVEL).verdict, Verdict::Worse);
-        assert_eq!(judge(Test::Share, &share(0, 0), &share(0, 0), LEVEL).verdict, Verdict::Same);
+    fn no_values_where_the_baseline_has_many_are_worse() {
+        assert_eq!(judge(Test::Share, &share(0, 0), &share(2, 800), RUNS, LEVEL).verdict, Verdict::Worse);
+        assert_eq!(judge(Test::Share, &share(0, 0), &share(0, 0), RUNS, LEVEL).verdict, Verdict::Same);
+    }
+
+    #[test]
+    fn no_values_where_the_baseline_has_few_may_be_chance() {
+        // Four values in three runs: one more run has none of them with probability (3/4)^4.
+        let found = judge(Test::Share, &share(0, 0), &share(1, 4), 3, LEVEL);
+        assert_eq!((found.verdict, found.chance), (Verdict::Same, Some(81.0 / 256.0)));
     }
 }

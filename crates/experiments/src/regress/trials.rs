@@ -1,20 +1,17 @@
 //! The trials of a suite: every campaign on its own stream of random numbers.
 
+use hexbench_core::streams::{Purpose, derived_seed};
 use hexbench_truth::campaign::{Case, Kind};
 use serde::{Deserialize, Serialize};
 
 use super::answered::Answered;
 use super::fitted::Fitted;
-use super::suite::{DISTANCES, MACHINES_SEED, Suite, seed_of};
+use super::suite::{DISTANCES, MACHINES_SEED, Suite};
 use crate::TrialError;
 use crate::harness::{Answer, Field, Gathered, Protocol};
 use crate::journal::Identity;
 use crate::recovery::noiseless::{Noiseless, recover};
 use crate::recovery::scene::{Scene, Subject};
-
-/// Parts of a run, each with a seed of its own.
-const FITS: u64 = 0;
-const DIAGNOSES: u64 = 1;
 
 /// A campaign of a subject: what it gave, or nothing.
 #[derive(Debug, Clone)]
@@ -155,9 +152,12 @@ impl Job {
     fn run(self, seed: u64) -> Result<Record, TrialError> {
         match self {
             Self::Machine(s, i) => Ok(Record::Machine(machine(&s, i)?)),
-            Self::Fit(s, i) => Ok(Record::Fit(Fitted::run(&s, i, seed_of(seed, FITS))?)),
+            Self::Fit(s, i) => {
+                Ok(Record::Fit(Fitted::run(&s, i, derived_seed(seed, Purpose::RegressFits, []))?))
+            }
             Self::Diagnose(kind, i) => {
-                let case = Case::draw(kind, i, seed_of(seed, DIAGNOSES), Some(DISTANCES))?;
+                let case =
+                    Case::draw(kind, i, derived_seed(seed, Purpose::RegressDiagnoses, []), Some(DISTANCES))?;
                 Ok(Record::Answer(Box::new(Answered::to(&case)?)))
             }
         }

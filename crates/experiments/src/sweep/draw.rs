@@ -12,7 +12,7 @@
 //! Cells with the same geometry thus see the same machines, and a plan of more random poses begins with those of a smaller
 //! one: differences between cells are differences of the choice. Noise is never shared.
 
-use hexbench_truth::scene::stream;
+use hexbench_core::streams::{self, stream};
 use rand_pcg::Pcg64;
 
 /// What a stream decides.
@@ -36,7 +36,5 @@ pub enum Purpose {
 
 /// The stream of a purpose: `of` is the number of the geometry, effect or cell, `number` that of the block or trial.
 pub fn drawn(seed: u64, purpose: Purpose, of: usize, number: u64) -> Pcg64 {
-    // Apart from the streams of scenes with the same seed.
-    const STUDY: u64 = 0x0053_5455_4459;
-    stream([seed, STUDY, purpose as u64, of as u64, number])
+    stream(seed, streams::Purpose::Study, [purpose as u64, of as u64, number])
 }

@@ -1,5 +1,6 @@
 //! The readings of a cell on a drawn machine.
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Hexapod, Measurand, Pose, Wrench};
 use hexbench_design::nominal;
 use hexbench_design::regressor::{SpringRegressor, Weights};
@@ -22,7 +23,7 @@ pub fn usual_space(hexapod: &Hexapod) -> Space {
     let si = |k: usize| if k < 3 { half[k] * 1e-3 } else { half[k].to_radians() };
     let high: [f64; 6] = std::array::from_fn(si);
     // The generator decides nothing of this plan but its poses, which are not drawn here.
-    let rich = PlanKind::Rich.schemes(hexapod, &mut Pcg64::new(0, 0)).training;
+    let rich = PlanKind::Rich.schemes(hexapod, &mut stream(0, Purpose::Example, [])).training;
     let loading = |load: &Wrench| Loading { reference: rich.reference, load: *load };
     Space {
         low: high.map(|x| -x),

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use hexbench_core::Observation;
+use hexbench_core::statistics::Proportion;
 use hexbench_design::power::{Settings, Verdict};
 use hexbench_experiments::Proportion;
 use hexbench_experiments::harness::{self, Silent};

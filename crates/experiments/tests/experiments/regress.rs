@@ -195,11 +195,11 @@ fn drawn((test, law, mean): (Test, Law, f64), n: usize, rng: &mut Pcg64) -> Samp
 #[test]
 fn without_a_change_the_rule_fails_no_more_often_than_its_level() {
     for (k, kind) in kinds().into_iter().enumerate() {
-        let mut rng = Pcg64::new(7, k as u128);
+        let mut rng = stream(7, Purpose::Test, [k as u64]);
         let fails = |_| {
             let before = drawn(kind, BEFORE, &mut rng);
             let now = drawn(kind, NOW, &mut rng);
-            judge(kind.0, &now, &before, LEVEL).verdict == Verdict::Worse
+            judge(kind.0, &now, &before, BEFORE / NOW, LEVEL).verdict == Verdict::Worse
         };
         let hits = (0..DRAWS).map(fails).filter(|fails| *fails).count();
         let found = Proportion { hits, of: DRAWS };
@@ -213,13 +213,13 @@ fn a_change_of_the_stated_size_is_noticed_in_nine_cases_of_ten() {
     // The baseline is drawn too, so that the stated size moves with it; and no more than a tenth fewer may be noticed.
     const LEAST: f64 = POWER - 0.05;
     for (k, kind) in kinds().into_iter().enumerate() {
-        let mut rng = Pcg64::new(8, k as u128);
+        let mut rng = stream(8, Purpose::Test, [k as u64]);
         let notices = |_: &usize| {
             let before = drawn(kind, BEFORE, &mut rng);
             let size = noticed(kind.0, NOW as u64, &before, LEVEL).unwrap();
             let changed = if matches!(kind.0, Test::Size { .. }) { kind.2 * size } else { size };
             let now = drawn((kind.0, kind.1, changed), NOW, &mut rng);
-            judge(kind.0, &now, &before, LEVEL).verdict == Verdict::Worse
+            judge(kind.0, &now, &before, BEFORE / NOW, LEVEL).verdict == Verdict::Worse
         };
         let hits = (0..DRAWS / 8).filter(notices).count();
         let share = hits as f64 / (DRAWS / 8) as f64;

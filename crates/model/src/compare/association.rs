@@ -8,6 +8,7 @@
 //! The regression is made on the whitened readings, where noise is independent, beside everything the fit has absorbed, so
 //! F is exact for Gaussian noise. The questions overlap; the diagnosis weighs effects against each other.
 
+use hexbench_core::statistics::{mean, root_mean_square};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
@@ -283,8 +284,8 @@ pub(crate) fn square(a: &[f64]) -> f64 {
 
 /// Mean and root mean square deviation; `None` when the values do not vary.
 fn centre_and_spread(x: &[f64]) -> Option<(f64, f64)> {
-    let mean = x.iter().sum::<f64>() / x.len().max(1) as f64;
-    let spread = (x.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / x.len().max(1) as f64).sqrt();
+    let mean = mean(x.iter().copied())?;
+    let spread = root_mean_square(x.iter().map(|v| v - mean))?;
     let varies = spread > 1e-9 * x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     varies.then_some((mean, spread))
 }

@@ -1,5 +1,6 @@
 //! Error of every measured coordinate beside the noise, and its bias.
 
+use hexbench_core::statistics::{mean, root_mean_square, standard_deviation};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -32,8 +33,7 @@ pub fn coordinates(judged: &Judged<'_>) -> Vec<Coordinate> {
 }
 
 fn coordinate(judged: &Judged<'_>, k: usize, name: &'static str, noise: f64) -> Coordinate {
-    let n = judged.rows.len().max(1) as f64;
-    let rms = (judged.rows.iter().map(|r| r.value[k].powi(2)).sum::<f64>() / n).sqrt();
+    let rms = root_mean_square(judged.rows.iter().map(|r| r.value[k])).unwrap_or(0.0);
     let groups = &judged.campaign.groups;
     let means: Vec<f64> = (0..groups.len()).map(|i| judged.lin.residual(i)[k] * groups[i].sigma[k]).collect();
     let (bias, t, p) = bias(&means);
@@ -44,12 +44,11 @@ fn coordinate(judged: &Judged<'_>, k: usize, name: &'static str, noise: f64) -> 
 /// Mean, t-value and two-sided p of a sample against zero.
 fn bias(x: &[f64]) -> (f64, Option<f64>, Option<f64>) {
     let n = x.len() as f64;
-    let mean = x.iter().sum::<f64>() / n.max(1.0);
-    if x.len() < 3 {
+    let mean = mean(x.iter().copied()).unwrap_or(0.0);
+    let Some(deviation) = standard_deviation(x.iter().copied()).filter(|_| x.len() > 2) else {
         return (mean, None, None);
-    }
-    let variance = x.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0);
-    let t = mean / (variance / n).sqrt();
+    };
+    let t = mean * n.sqrt() / deviation;
     let law = StudentsT::new(0.0, 1.0, n - 1.0).ok().filter(|_| t.is_finite());
     (mean, Some(t).filter(|t| t.is_finite()), law.map(|law| 2.0 * law.sf(t.abs())))
 }

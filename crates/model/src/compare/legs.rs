@@ -3,6 +3,7 @@
 //! `e = L H^-1 r` with `r` the residual of the averaged readings, `H` the observer (measured coordinates from twist) and
 //! `L` the geometric leg Jacobian; the covariance of `e` follows from that of the reading.
 
+use hexbench_core::statistics::root_mean_square;
 use hexbench_core::{Matrix6, Vector6};
 use serde::Serialize;
 
@@ -45,9 +46,7 @@ pub fn leg_space(campaign: &Campaign, lin: &Linearization) -> LegSpace {
 
 /// Root mean square of every leg.
 pub fn summaries(judged: &Judged<'_>) -> Vec<LegResidual> {
-    let rms = |all: &[Vector6], leg: usize| {
-        1e6 * (all.iter().map(|e| e[leg] * e[leg]).sum::<f64>() / all.len().max(1) as f64).sqrt()
-    };
+    let rms = |all: &[Vector6], leg: usize| 1e6 * root_mean_square(all.iter().map(|e| e[leg])).unwrap_or(0.0);
     let one = |leg: usize| LegResidual {
         leg: leg + 1,
         rms_um: rms(&judged.space.elongation, leg),

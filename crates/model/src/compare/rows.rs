@@ -6,13 +6,12 @@ use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::Judged;
+use crate::residuals::typical_square;
 
 /// Poses listed.
 const POSES: usize = 5;
 /// Chance that a clean file of any size has a candidate.
 const CHANCE: f64 = 0.01;
-/// Median of a chi-square with six degrees of freedom.
-const MEDIAN_OF_SIX: f64 = 5.348;
 
 /// A pose with a large error.
 #[derive(Debug, Clone, Serialize)]
@@ -66,9 +65,7 @@ pub fn worst_poses(judged: &Judged<'_>) -> Vec<WorstPose> {
 /// model does not make every reading suspect.
 pub fn outliers(judged: &Judged<'_>) -> Vec<Outlier> {
     let Ok(law) = ChiSquared::new(6.0) else { return Vec::new() };
-    let mut squares: Vec<f64> = judged.rows.iter().map(|r| r.whitened.norm_squared()).collect();
-    squares.sort_by(f64::total_cmp);
-    let typical = (squares.get(squares.len() / 2).copied().unwrap_or(0.0) / MEDIAN_OF_SIX).max(1.0);
+    let typical = typical_square(&judged.rows).max(1.0);
     let n = judged.rows.len() as f64;
     let candidate = |r: &crate::residuals::Residual| {
         let p = (n * law.sf(r.whitened.norm_squared() / typical)).min(1.0);

@@ -10,7 +10,7 @@ use crate::diagnosis::Outcome;
 use crate::fit::Fit;
 use crate::noise::{NoiseSource, scatter};
 use crate::pattern::{Course, LegPattern, Pattern};
-use crate::residuals::Residual;
+use crate::residuals::{Residual, typical_square};
 use crate::verdict::{Judgement, Verdict};
 
 /// Chance that a clean file of any size has a suspect reading.
@@ -30,15 +30,6 @@ pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<Suspect> {
     let scale = typical_square(rows).max(1.0);
     let far = rows.iter().filter(|r| r.whitened.norm_squared() > limit * scale);
     far.map(|r| Suspect { row: data.observations[r.row].line, z: r.whitened.amax() }).collect()
-}
-
-/// Median of the squared length of whitened residuals over what noise alone would give, so that a bad model does not
-/// make every reading suspect.
-pub(super) fn typical_square(rows: &[Residual]) -> f64 {
-    const MEDIAN_OF_SIX: f64 = 5.348;
-    let mut squares: Vec<f64> = rows.iter().map(|r| r.whitened.norm_squared()).collect();
-    squares.sort_by(f64::total_cmp);
-    squares.get(squares.len() / 2).copied().unwrap_or(0.0) / MEDIAN_OF_SIX
 }
 
 pub(super) fn outside(judgement: &Judgement, outcome: &Outcome) -> Option<OutsideReport> {

@@ -1,19 +1,24 @@
 //! The readings that are tried: what the campaign shows the machine can do, in round numbers.
 //!
 //! Poses lie in the range of the campaign, never narrower than a tenth of the platform radius and three degrees: its middle, the
-//! ends of each coordinate, and a low-discrepancy sequence (Halton 1960). Loads are those of the campaign, and forces and moments
-//! along every axis, none so large that a leg carries more than it has carried. Both ways to approach, waits (longer ones too) and
-//! temperatures vary where one of the explanations depends on them.
+//! ends of each coordinate, and a scrambled Sobol sequence (Owen 1995, Burley 2020). Loads are those of the campaign, and forces
+//! and moments along every axis, none so large that a leg carries more than it has carried. Both ways to approach, waits (longer
+//! ones too) and temperatures vary where one of the explanations depends on them.
 
-use hexbench_core::{Measurand, Observation, Pose, Vector6, Wrench};
+use hexbench_core::{Hexapod, Measurand, Observation, Pose, Vector6, Wrench};
+use sobol_burley::sample;
 
 use super::kind::{round_down, snapped, step};
-use crate::campaign::{Campaign, Condition};
+use crate::campaign::Campaign;
+use crate::error::ModelError;
 use crate::fit::Fit;
+use crate::kinematics::Legs;
 use crate::term::Need;
 
 /// Poses inside the range, beside its middle and its ends.
-const INNER_POSES: usize = 11;
+const INNER_POSES: u32 = 11;
+/// Scrambling of their sequence: the same campaign gives the same poses.
+const SCRAMBLING: u32 = 0;
 /// Readings tried, about.
 const MOST_READINGS: usize = 500;
 /// Poses tried at least.
@@ -27,20 +32,19 @@ const LONGER: f64 = 5.0;
 /// A leg may carry so much more than it has carried: rounding, and poses beside the middle.
 const LEG_FORCE_SLACK: f64 = 1.05;
 
-/// Readings to choose from; `fits` tell on what the explanations depend, `conditions` where the machine has been.
-pub(super) fn menu(campaign: &Campaign, conditions: &[Condition], fits: &[&Fit]) -> Vec<Observation> {
-    let Some(first) = campaign.groups.first().map(|g| g.mean) else { return Vec::new() };
+/// Readings to choose from; `fits` tell on what the explanations depend.
+pub(super) fn menu(campaign: &Campaign, fits: &[&Fit]) -> Result<Vec<Observation>, ModelError> {
+    let Some(first) = campaign.groups.first().map(|g| g.mean) else { return Ok(Vec::new()) };
     let needs = Needs::of(campaign, fits);
-    let loads = loads(campaign, conditions);
+    let strongest = strongest(campaign)?;
+    let loads = loads(campaign, strongest);
     let states = needs.states(campaign);
     let count = (MOST_READINGS / (loads.len() * states.len()).max(1)).max(FEWEST_POSES);
-    let strongest = strongest(conditions) * LEG_FORCE_SLACK;
     let mut menu = Vec::new();
     for pose in poses(campaign).into_iter().take(count) {
-        let Some(legs) = conditions.first().and(legs(campaign, &pose)) else { continue };
+        let Some(legs) = legs(campaign, &pose) else { continue };
         for wrench in &loads {
-            let carried = |w: &Wrench| legs.forces(&w.to_vector()).amax();
-            if carried(wrench).max(carried(&first.reference)) > strongest {
+            if carried(&legs, [wrench, &first.reference]) > strongest * LEG_FORCE_SLACK {
                 continue;
             }
             for &(approach, elapsed, delta_t) in &states {
@@ -51,20 +55,28 @@ pub(super) fn menu(campaign: &Campaign, conditions: &[Condition], fits: &[&Fit])
             }
         }
     }
-    menu
+    Ok(menu)
 }
 
-fn legs(campaign: &Campaign, pose: &Pose) -> Option<crate::kinematics::Legs> {
+fn legs(campaign: &Campaign, pose: &Pose) -> Option<Legs> {
     let hexapod = &campaign.hexapod;
-    let legs = crate::kinematics::Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose).ok()?;
+    let legs = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose).ok()?;
     let fits = hexapod.stroke.is_none_or(|[low, high]| legs.lengths.iter().all(|q| (low..=high).contains(q)));
     fits.then_some(legs)
 }
 
-/// Largest force that any leg has carried, N.
-fn strongest(conditions: &[Condition]) -> f64 {
-    let of = |c: &Condition| c.path.reference.amax().max(c.path.load.amax());
-    conditions.iter().map(of).fold(0.0, f64::max)
+/// Largest force in a leg under some wrenches, N.
+fn carried(legs: &Legs, wrenches: [&Wrench; 2]) -> f64 {
+    wrenches.map(|w| legs.forces(&w.to_vector()).amax()).into_iter().fold(0.0, f64::max)
+}
+
+/// Largest force that any leg of the nominal machine has carried, N: the menu is held against it without any effect, too.
+fn strongest(campaign: &Campaign) -> Result<f64, ModelError> {
+    let Hexapod { base_joints, platform_joints, .. } = &campaign.hexapod;
+    campaign.groups.iter().map(|g| &g.mean).try_fold(0.0, |most: f64, o| {
+        let legs = Legs::at(base_joints, platform_joints, &o.pose)?;
+        Ok(most.max(carried(&legs, [&o.wrench, &o.reference])))
+    })
 }
 
 /// On which covariates the explanations depend, and the file has.
@@ -126,7 +138,7 @@ fn poses(campaign: &Campaign) -> Vec<Pose> {
     for sign in [1.0, -1.0] {
         shares.extend((0..6).map(|k| std::array::from_fn(|i| if i == k { sign } else { 0.0 })));
     }
-    let inner = (1..=INNER_POSES).map(|i| std::array::from_fn(|k| 2.0 * halton(i, k) - 1.0));
+    let inner = (0..INNER_POSES).map(inner_shares);
     // Few poses must still be different in everything: ends and inner ones in turn.
     let mut mixed = vec![shares[0]];
     let mut ends = shares.into_iter().skip(1);
@@ -147,20 +159,13 @@ pub(super) fn half_ranges(campaign: &Campaign) -> [f64; 6] {
     })
 }
 
-/// Element of the Halton sequence in base of the k-th prime.
-fn halton(index: usize, k: usize) -> f64 {
-    let base: usize = [2, 3, 5, 7, 11, 13][k];
-    let (mut fraction, mut value, mut i) = (1.0, 0.0, index);
-    while i > 0 {
-        fraction /= base as f64;
-        value += fraction * (i % base) as f64;
-        i /= base;
-    }
-    value
+/// A pose inside the range, as shares of its half, -1 to 1.
+fn inner_shares(index: u32) -> [f64; 6] {
+    [0, 1, 2, 3, 4, 5].map(|dimension| 2.0 * f64::from(sample(index, dimension, SCRAMBLING)) - 1.0)
 }
 
 /// The campaign's own loads, and two sizes of force and moment along every axis on top of the reference.
-fn loads(campaign: &Campaign, conditions: &[Condition]) -> Vec<Wrench> {
+fn loads(campaign: &Campaign, strongest: f64) -> Vec<Wrench> {
     let rows = || campaign.groups.iter().map(|g| &g.mean);
     let mut loads: Vec<Wrench> = Vec::new();
     for row in rows().filter(|r| same(&r.reference, &campaign.groups[0].mean.reference)) {
@@ -176,7 +181,6 @@ fn loads(campaign: &Campaign, conditions: &[Condition]) -> Vec<Wrench> {
     let arm = 0.5 * campaign.hexapod.platform_radius();
     let moment = rows().map(moment_change).fold(0.0, f64::max).max(force * arm);
     let Some(legs) = legs(campaign, &Pose::default()) else { return loads };
-    let strongest = strongest(conditions);
     for axis in 0..6 {
         for sign in [1.0, -1.0] {
             let wanted = sign * if axis < 3 { force } else { moment };

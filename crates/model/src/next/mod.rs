@@ -28,7 +28,6 @@ use self::separation::Pair;
 use crate::campaign::Campaign;
 use crate::error::ModelError;
 use crate::fit::Fit;
-use crate::linearization::Linearization;
 
 /// Odds at which an explanation counts as excluded.
 pub const EXCLUDED_ODDS: f64 = 20.0;
@@ -108,10 +107,11 @@ pub enum Effort {
 /// # Errors
 /// [`ModelError::SingularPose`].
 pub fn menu(campaign: &Campaign, rivals: &[Rival]) -> Result<Vec<Observation>, ModelError> {
-    let Some(first) = rivals.first() else { return Ok(Vec::new()) };
-    let conditions = Linearization::at(campaign, &first.fit.point)?.conditions;
+    if rivals.is_empty() {
+        return Ok(Vec::new());
+    }
     let fits: Vec<&Fit> = rivals.iter().map(|r| &r.fit).collect();
-    Ok(menu::menu(campaign, &conditions, &fits))
+    menu::menu(campaign, &fits)
 }
 
 /// The readings out of `menu` that best separate the rivals.

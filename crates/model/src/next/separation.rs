@@ -6,10 +6,9 @@
 //! `sum (lambda - 1 + delta^2 - ln lambda) / 2`. Sources: Lindley 1956, Annals of Mathematical Statistics 27 (information of an
 //! experiment); Box and Hill 1967, Technometrics 9 (discrimination among models).
 
+use hexbench_core::streams::{Purpose, stream};
 use nalgebra::{DMatrix, DVector};
-use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
-use rand_pcg::Pcg64;
 
 /// Simulated outcomes behind a chance.
 const OUTCOMES: u32 = 2000;
@@ -63,7 +62,7 @@ impl Pair {
 
     /// Share of simulated outcomes, half of them of either, whose Bayes factor favours the truth.
     fn right(&self) -> f64 {
-        let mut rng = Pcg64::seed_from_u64(SEED);
+        let mut rng = stream(SEED, Purpose::SeparationOutcomes, []);
         let mut hits = 0_u32;
         for outcome in 0..OUTCOMES {
             let from_a = outcome % 2 == 0;

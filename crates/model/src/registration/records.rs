@@ -1,5 +1,6 @@
 //! All records of a file: poses, their covariances, the noise of a coordinate, balls that moved.
 
+use hexbench_core::statistics::median;
 use hexbench_core::{BallPlace, BallPlaces, BallRecord, Matrix3, Matrix6, Pose, Vector3};
 
 use super::{DistanceResidual, Rigid, distances, rigid};
@@ -164,7 +165,7 @@ fn from_residuals(fits: &[Fit]) -> Option<f64> {
     let squares =
         |fit: &Fit| fit.platform.sum_of_squares() + fit.base.as_ref().map_or(0.0, Rigid::sum_of_squares);
     let freedom = dof(fits.first()?) as f64;
-    let middle = median(fits.iter().map(|fit| squares(fit) / freedom).collect())?;
+    let middle = median(fits.iter().map(|fit| squares(fit) / freedom))?;
     let median_over_mean = (1.0 - 2.0 / (9.0 * freedom)).powi(3);
     Some((middle / median_over_mean).sqrt())
 }
@@ -177,20 +178,13 @@ fn from_spread(fits: &[Fit]) -> Option<f64> {
     let pairs = fits.first().filter(|_| fits.len() >= FEWEST_RECORDS)?.distances.len();
     let spread = |pair: usize| {
         let residuals: Vec<f64> = fits.iter().map(|fit| fit.distances[pair].residual).collect();
-        let middle = median(residuals.clone())?;
-        median(residuals.iter().map(|r| (r - middle).abs()).collect())
+        let middle = median(residuals.iter().copied())?;
+        median(residuals.iter().map(|r| (r - middle).abs()))
     };
     let squares = (0..pairs).map(|pair| spread(pair).map(|d| (d / DEVIATION_OF_A_NORMAL).powi(2)));
     let sum: f64 = squares.sum::<Option<f64>>()?;
     // A distance has twice the variance of a coordinate.
     Some((sum / (2 * pairs) as f64).sqrt())
-}
-
-/// Middle value, or the mean of the two middle ones.
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    let (upper, lower) = (values.get(values.len() / 2)?, values.get((values.len() - 1) / 2)?);
-    Some(0.5 * (upper + lower))
 }
 
 fn located(record: &BallRecord, fit: &Fit, places: &Places, sigma: f64) -> Located {

@@ -19,6 +19,7 @@
 
 mod group;
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Hexapod, Observation, Vector3, Vector6};
 use rand::distr::Distribution;
 use rand_distr::StandardNormal;
@@ -86,7 +87,7 @@ impl SpringTrials {
     pub fn run(&self, count: usize, seed: u64) -> Vec<Vector6> {
         let mut fitted = vec![Vector6::zeros(); count];
         fitted.par_chunks_mut(PIECE).enumerate().for_each(|(piece, fitted)| {
-            let mut rng = Pcg64::new(u128::from(seed), piece as u128);
+            let mut rng = stream(seed, Purpose::SpringTrials, [piece as u64]);
             for fitted in fitted.chunks_mut(LANES) {
                 let relative = if self.tolerance > 0.0 {
                     self.own_machines(&mut rng)

@@ -1,5 +1,6 @@
 //! One case: a hidden truth and the measurements made of it.
 
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod, Vector6};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -109,14 +110,12 @@ impl CaseSpec {
     /// The `index`-th case of a kind, drawn from a seed; another `attempt` keeps the effect and changes the rest.
     pub fn draw(kind: Kind, index: usize, seed: u64, attempt: u64, distance: Option<[f64; 2]>) -> Self {
         const PATIENCE: u64 = 4;
-        let stream = 1000 * (index as u64) + 10 * kind as u64;
-        let mut fixed = Pcg64::new(u128::from(seed), u128::from(stream));
+        let mut fixed = stream(seed, Purpose::CaseEffects, [kind as u64, index as u64]);
         let easy = attempt >= PATIENCE;
         // Legs neither pull nor reverse under the paper's loads: what needs that gives way to the next effect.
         let hopeless = usize::from(kind == Kind::SeedProtocol && easy) * 2;
         let effects = draw_effects(kind, index + hopeless, &mut fixed);
-        let mut rng =
-            Pcg64::new(u128::from(seed).wrapping_add(u128::from(attempt) << 64), u128::from(stream + 1));
+        let mut rng = stream(seed, Purpose::CaseSpec, [kind as u64, index as u64, attempt]);
         Self {
             id: format!("{}-{index:04}", kind.name()),
             kind,
@@ -138,10 +137,10 @@ impl CaseSpec {
     /// # Errors
     /// [`TruthError::NotVisible`] when an effect does not show in this plan; else as [`World::reading`].
     pub fn build(&self) -> Result<Case, TruthError> {
-        let mut streams = (1..=5).map(|stream| Pcg64::new(u128::from(self.seed), stream));
-        let mut next = || streams.next().unwrap_or_else(|| Pcg64::new(u128::from(self.seed), 0));
-        let (mut of_machine, mut of_plan, mut of_effects, mut of_noise, mut of_frames) =
-            (next(), next(), next(), next(), next());
+        let of = |purpose| stream(self.seed, purpose, []);
+        let (mut of_machine, mut of_plan) = (of(Purpose::CaseMachine), of(Purpose::CasePlan));
+        let mut of_effects = of(Purpose::CaseEffectShapes);
+        let (mut of_noise, mut of_frames) = (of(Purpose::CaseNoise), of(Purpose::CaseFrames));
         let mut hexapod = machines::draw(self.family, &mut of_machine);
         hexapod.metrology = Some(self.noise.metrology());
         let stiffness = machines::leg_stiffness(self.family, &mut of_machine);

@@ -4,6 +4,7 @@
 //! stiffness would explain (in absolute mode, also other frames of the instrument); the length of the rest is the
 //! *distance*: the square root of the noncentrality of a chi-square test for the effect.
 
+use hexbench_core::statistics::root_mean_square;
 use hexbench_core::{Measurand, Pose, Vector6};
 
 use super::{Campaign, Row, absolute};
@@ -187,9 +188,8 @@ fn norm(v: &[f64]) -> f64 {
 
 /// Root mean square of translations (m) and of rotations (rad) over readings.
 pub fn rms(readings: &[Vector6]) -> (f64, f64) {
-    let mean = |rows: std::ops::Range<usize>| {
-        let sum: f64 = readings.iter().flat_map(|r| rows.clone().map(|k| r[k] * r[k])).sum();
-        (sum / (3 * readings.len().max(1)) as f64).sqrt()
+    let of = |rows: std::ops::Range<usize>| {
+        root_mean_square(readings.iter().flat_map(|r| rows.clone().map(|k| r[k]))).unwrap_or(0.0)
     };
-    (mean(0..3), mean(3..6))
+    (of(0..3), of(3..6))
 }

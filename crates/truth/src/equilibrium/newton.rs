@@ -186,8 +186,8 @@ fn largest(values: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use hexbench_core::streams::{Purpose, stream};
     use hexbench_core::{Pose, Wrench};
-    use rand_pcg::Pcg64;
 
     use super::*;
     use crate::{Moment, Phase, Situation, World, campaign::machines::RING_B, mechanisms::REGISTRY};
@@ -217,7 +217,7 @@ mod tests {
         let situation = Situation::new(pose, wrench);
         for effect in REGISTRY {
             let world = World::new(hexapod.clone(), &[4e6; 6])
-                .with((effect.draw)(&hexapod, &mut Pcg64::new(1, 1)).scaled(3.0));
+                .with((effect.draw)(&hexapod, &mut stream(1, Purpose::Test, [1])).scaled(3.0));
             let lengths = world.reading(&situation).unwrap().equilibrium.elongations;
             let moment = Moment {
                 hexapod: &hexapod,

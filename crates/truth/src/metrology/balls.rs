@@ -132,6 +132,8 @@ fn mean(points: &[Vector3]) -> Vector3 {
 
 #[cfg(test)]
 mod tests {
+    use hexbench_core::streams::{Purpose, stream};
+
     use super::*;
 
     fn pose() -> Pose {
@@ -141,7 +143,7 @@ mod tests {
     #[test]
     fn three_balls_without_noise_give_the_pose_and_no_reflection() {
         let balls = Balls::triangle(0.12, 0.0);
-        let found = balls.register(&balls.measure(&pose(), &mut Pcg64::new(1, 1))).unwrap();
+        let found = balls.register(&balls.measure(&pose(), &mut stream(1, Purpose::Test, [1]))).unwrap();
         assert!((found.pose.to_vector() - pose().to_vector()).amax() < 1e-13, "{found:?}");
         assert!(found.rms < 1e-15);
     }
@@ -152,7 +154,7 @@ mod tests {
     fn noise_of_a_deflection_is_that_of_the_closed_form() {
         const PAIRS: u32 = 4000;
         let balls = Balls::triangle(0.12, 1e-6);
-        let (rest, mut rng) = (Pose::default(), Pcg64::new(2, 2));
+        let (rest, mut rng) = (Pose::default(), stream(2, Purpose::Test, [2]));
         let mut read = || balls.register(&balls.measure(&rest, &mut rng)).unwrap().pose.to_vector();
         let sums = (0..PAIRS).map(|_| (read() - read()).map(|x| x * x)).sum::<hexbench_core::Vector6>();
         let found = (sums / f64::from(PAIRS)).map(f64::sqrt) * 1e6;
@@ -169,7 +171,7 @@ mod tests {
     #[test]
     fn balls_on_a_line_or_missing_are_refused() {
         let line = Balls { centres: (0..3).map(|i| Vector3::x() * f64::from(i)).collect(), sigma: 0.0 };
-        let seen = line.measure(&pose(), &mut Pcg64::new(1, 1));
+        let seen = line.measure(&pose(), &mut stream(1, Purpose::Test, [1]));
         assert!(matches!(line.register(&seen), Err(TruthError::Balls { .. })));
         assert!(matches!(line.register(&seen[..2]), Err(TruthError::Balls { found: 2, .. })));
     }

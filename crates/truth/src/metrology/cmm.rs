@@ -163,6 +163,7 @@ fn of_angles(pose: &Pose, twist: &Matrix6) -> Matrix6 {
 #[cfg(test)]
 mod tests {
     use hexbench_core::Vector6;
+    use hexbench_core::streams::{Purpose, stream};
 
     use super::*;
 
@@ -195,7 +196,7 @@ mod tests {
 
     /// Whitened errors have unit covariance: mean of the chi-square and the mean square in every direction.
     fn stated_covariance_is_true(base: bool) {
-        let (cmm, frames, mut rng) = (cmm(base), frames(), Pcg64::new(4, 4));
+        let (cmm, frames, mut rng) = (cmm(base), frames(), stream(4, Purpose::Test, [4]));
         let truth = if base { pose() } else { frames.seen(&pose()) };
         let mut squares = Vector6::zeros();
         for _ in 0..RECORDS {
@@ -242,7 +243,7 @@ mod tests {
                 base.sigma = 0.0;
             }
             let at = Surroundings { elapsed: 200.0, delta_t: 0.0 };
-            let record = cmm.record(&frames(), &pose(), at, &mut Pcg64::new(1, 1));
+            let record = cmm.record(&frames(), &pose(), at, &mut stream(1, Purpose::Test, [1]));
             cmm.locate(&record).unwrap().pose.to_vector()
         };
         assert!((quiet(true) - pose().to_vector()).amax() < 1e-13);
@@ -255,7 +256,7 @@ mod tests {
         let cmm =
             Cmm { scale_per_k: 1e-5, platform: Balls { sigma: 0.0, ..cmm(false).platform }, ..cmm(false) };
         let at = Surroundings { elapsed: 0.0, delta_t: 2.0 };
-        let see = |at| cmm.record(&frames(), &pose(), at, &mut Pcg64::new(1, 1)).platform[0];
+        let see = |at| cmm.record(&frames(), &pose(), at, &mut stream(1, Purpose::Test, [1])).platform[0];
         let ratio = see(at).norm() / see(Surroundings::default()).norm();
         assert!((ratio - 1.0 - 2e-5).abs() < 1e-12, "{ratio}");
     }

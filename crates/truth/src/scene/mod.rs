@@ -27,7 +27,7 @@ pub use folder::{Existing, SimulationError};
 pub use instrument::Instrument;
 pub use part::{Part, PartName};
 pub use plan::{PlanError, ScenePlan};
-pub use streams::{Purpose, Streams, stream};
+pub use streams::{Purpose, Streams};
 
 use hexbench_core::{Hexapod, Measurand, Pose};
 

@@ -1,6 +1,9 @@
 //! One random stream for every purpose and number.
 
+use hexbench_core::streams::{self, stream};
 use rand_pcg::Pcg64;
+
+use super::PartName;
 
 /// What a stream decides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -8,23 +11,27 @@ pub enum Purpose {
     /// Loads of the plan.
     Loads,
     /// A pose of a part.
-    Pose(super::PartName),
+    Pose(PartName),
     /// Approach and surroundings of a condition of a part.
-    Surroundings(super::PartName),
+    Surroundings(PartName),
     /// Noise of a row of a part.
-    Noise(super::PartName),
+    Noise(PartName),
     /// Frames of the instrument.
     Frames,
 }
 
 impl Purpose {
-    fn number(self) -> u64 {
+    fn in_core(self) -> streams::Purpose {
+        use streams::Purpose as P;
         match self {
-            Self::Loads => 1,
-            Self::Frames => 2,
-            Self::Pose(part) => 10 + part as u64,
-            Self::Surroundings(part) => 20 + part as u64,
-            Self::Noise(part) => 30 + part as u64,
+            Self::Loads => P::SceneLoads,
+            Self::Frames => P::SceneFrames,
+            Self::Pose(PartName::Training) => P::SceneTrainingPose,
+            Self::Pose(PartName::Holdout) => P::SceneHoldoutPose,
+            Self::Surroundings(PartName::Training) => P::SceneTrainingSurroundings,
+            Self::Surroundings(PartName::Holdout) => P::SceneHoldoutSurroundings,
+            Self::Noise(PartName::Training) => P::SceneTrainingNoise,
+            Self::Noise(PartName::Holdout) => P::SceneHoldoutNoise,
         }
     }
 }
@@ -43,36 +50,14 @@ impl Streams {
 
     /// The stream of a purpose and a number.
     pub fn of(self, purpose: Purpose, number: u64) -> Pcg64 {
-        stream([self.seed, purpose.number(), number])
+        stream(self.seed, purpose.in_core(), [number])
     }
-}
-
-/// The random stream of some numbers: a seed, what the stream decides, for which row or trial.
-///
-/// All are mixed into the state, because generators of this kind whose streams differ by the increment alone are not
-/// independent.
-pub fn stream<const N: usize>(numbers: [u64; N]) -> Pcg64 {
-    let [mut state, last] = [numbers.first(), numbers.last()].map(|n| n.copied().unwrap_or(0));
-    state = mixed(state);
-    for &number in numbers.iter().skip(1) {
-        state = mixed(state ^ mixed(number));
-    }
-    Pcg64::new(u128::from(state) << 64 | u128::from(mixed(!state)), u128::from(mixed(state ^ last)))
-}
-
-/// One step of `SplitMix64` (Steele, Lea, Flood, OOPSLA 2014): a bijection whose output bits all depend on all input bits.
-fn mixed(word: u64) -> u64 {
-    let mut z = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]
 mod tests {
     use rand_distr::{Distribution, StandardNormal};
 
-    use super::super::PartName;
     use super::*;
 
     /// First normal values of neighbouring streams: mean, variance and correlation within 4.5 standard errors.

@@ -1,6 +1,7 @@
 //! Machines simulated on the spot: what is asked for, or what is hidden in a game.
 
 use hexbench_core::files::{hexapod_to_toml, measurements_to_csv};
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_truth::TruthError;
 use hexbench_truth::campaign::{Case, CaseSpec, Kind, PlanKind, machines::FAMILIES};
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
@@ -134,7 +135,7 @@ fn kind(plan: PlanKind, effects: &[&'static str]) -> Kind {
 /// Measures a machine in which something is hidden, or nothing.
 pub(super) fn game(level: Level, seed: Option<u64>) -> Result<(Files, Truth), Refusal> {
     let seed = seed.unwrap_or_else(|| rand::rng().random_range(..1_000_000));
-    let mut rng = Pcg64::new(u128::from(seed), 0);
+    let mut rng = stream(seed, Purpose::WorkbenchGame, []);
     let kind = *choose(kinds(level), &mut rng);
     let index = rng.random_range(0..1000);
     let first = if level == Level::Easy { EASY_ATTEMPT } else { 0 };

@@ -1,5 +1,7 @@
 //! One case of one program in numbers.
 
+use hexbench_core::statistics::root_mean_square;
+
 use crate::Proportion;
 use crate::trial::{Outcome, outcome_of};
 use hexbench_core::Measurand;
@@ -96,8 +98,7 @@ impl CaseScore {
 
     /// Root mean square of the relative errors of the legs stated.
     pub fn stiffness_error(&self) -> Option<f64> {
-        let squares: Vec<f64> = self.legs.iter().flatten().map(|l| l.relative_error.powi(2)).collect();
-        (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+        root_mean_square(self.legs.iter().flatten().map(|l| l.relative_error))
     }
 }
 

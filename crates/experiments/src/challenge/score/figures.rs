@@ -1,5 +1,7 @@
 //! Figures over some cases of one program.
 
+use hexbench_core::statistics::{self, median, root_mean_square};
+
 use crate::Proportion;
 use serde::Serialize;
 
@@ -81,7 +83,7 @@ impl Figures {
             cases: cases.len(),
             answered: cases.iter().filter(|c| c.failure.is_none()).count(),
             stiffness_error: median(of(&CaseScore::stiffness_error)),
-            stiffness_z: root_mean_square(&z),
+            stiffness_z: root_mean_square(z.iter().copied()),
             stiffness_covered: interval(within),
             chi2_reduced: prediction(|p| p.chi2_reduced),
             error_in_noise: prediction(|p| p.error_in_noise),
@@ -112,26 +114,10 @@ fn outcomes(cases: &[&CaseScore]) -> Option<[usize; 3]> {
     (counts.iter().sum::<usize>() > 0).then_some(counts)
 }
 
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    match values.len() {
-        0 => None,
-        n if n % 2 == 1 => Some(values[middle]),
-        _ => Some(f64::midpoint(values[middle - 1], values[middle])),
-    }
-}
-
-fn root_mean_square(values: &[f64]) -> Option<f64> {
-    let sum: f64 = values.iter().map(|x| x * x).sum();
-    (!values.is_empty()).then(|| (sum / values.len() as f64).sqrt())
-}
-
 /// Mean and standard error.
 pub(super) fn mean(values: &[f64]) -> Option<Mean> {
+    let all = || values.iter().copied();
     let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
-    let standard_error = (values.len() > 1).then(|| (squares / (n - 1.0) / n).sqrt());
-    (!values.is_empty()).then_some(Mean { mean, standard_error, of: values.len() })
+    let standard_error = statistics::standard_deviation(all()).map(|deviation| deviation / n.sqrt());
+    statistics::mean(all()).map(|mean| Mean { mean, standard_error, of: values.len() })
 }

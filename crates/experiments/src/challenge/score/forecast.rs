@@ -50,8 +50,8 @@ impl Forecast {
 
 #[cfg(test)]
 mod tests {
-    use rand::{RngExt, SeedableRng};
-    use rand_pcg::Pcg64;
+    use hexbench_core::streams::{Purpose, stream};
+    use rand::RngExt;
 
     use super::*;
 
@@ -75,7 +75,7 @@ mod tests {
     fn in_the_long_run_nobody_does_better_than_by_stating_the_true_chances() {
         const TRUE: [f64; 3] = [0.6, 0.1, 0.3];
         const SCATTER: f64 = 0.02;
-        let mut rng = Pcg64::seed_from_u64(7);
+        let mut rng = stream(7, Purpose::Test, []);
         let mut draw = || {
             let x: f64 = rng.random();
             usize::from(x > TRUE[0]) + usize::from(x > TRUE[0] + TRUE[1])

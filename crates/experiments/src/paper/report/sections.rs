@@ -1,5 +1,6 @@
 //! The paper's procedure, its tables beside ours.
 
+use hexbench_core::statistics::mean;
 use hexbench_report::Page;
 
 use super::super::bench::{effective_load, sigma};
@@ -159,10 +160,8 @@ pub(super) fn stiffness(page: &mut Page, study: &Reproduction) {
     };
     let header = ["leg", "Table 2 = true", "paper's fit", "sigma", "z", "weighted fit", "sigma", "z"];
     page.table(header, (0..6).map(row));
-    let percent = |o: &[[f64; 2]; 6]| {
-        let mean = o.iter().map(|[k, s]| 100.0 * s / k).sum::<f64>() / 6.0;
-        number(mean, 1)
-    };
+    let percent =
+        |o: &[[f64; 2]; 6]| number(mean(o.iter().map(|[k, s]| 100.0 * s / k)).unwrap_or(f64::NAN), 1);
     page.paragraph(format!(
         "z is the error in units of sigma. The paper prints five digits and no uncertainty. With this instrument its estimator knows \
          a stiffness to {} %: it adds squares of metres and of radians, and here 1 urad weighs as much as 1 um although the instrument \

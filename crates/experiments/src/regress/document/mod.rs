@@ -78,6 +78,9 @@ fn rule() -> Section {
             "**Without noise** chance takes no part: the same machines are fitted in every run, whatever its seed. An error may grow \
              by half and no more; solvers stop within a hundredth of a percent of the same point, so that this is no rounding. \
              Where world and model agree to rounding, the bound derived for it must hold (see [recovery.md](recovery.md)).",
+            "**No values**: some limits look at campaigns that chance chooses, those well visible. Of the values of the baseline's \
+             `R` runs and of this one, each is as probably in any of them: this one has none with probability `(R / (R + 1))^n0` at \
+             most.",
             "**Effort** is counted (iterations, linearizations, sets), never timed.",
         ])
         .paragraph(

@@ -1,9 +1,9 @@
 //! Runs of the unchanged program.
 
+use hexbench_core::statistics::Proportion;
 use hexbench_report::Page;
 
 use super::random;
-use crate::proportion::Proportion;
 use crate::regress::comparison::{level, probability};
 use crate::regress::limit::Limit;
 use crate::regress::rule::FALSE_ALARM;

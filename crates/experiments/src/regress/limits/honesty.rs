@@ -3,6 +3,8 @@
 //! Over all effects together: the few campaigns of one effect, with an outlier now and then, follow no law of which the tail
 //! could be trusted.
 
+use hexbench_core::statistics::mean;
+
 use super::{CHI2, fits, share, told};
 use crate::calibration::{Fate, Record};
 use crate::regress::distance::Distance;
@@ -85,8 +87,7 @@ pub(super) fn general() -> Vec<Limit> {
 }
 
 fn mean_square(r: &Record) -> Option<f64> {
-    let all: Vec<f64> = r.stiffness_z.iter().flatten().map(|z| z * z).collect();
-    (!all.is_empty() && !r.is_outside()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+    mean(r.stiffness_z.iter().flatten().map(|z| z * z)).filter(|_| !r.is_outside())
 }
 
 /// Leg compliances and the numbers of the effect.

@@ -7,10 +7,10 @@ use hexbench_core::Hexapod;
 use hexbench_core::files::{
     Fault, FileError, Place, Problem, content_hash, read_conditions, read_hexapod, text_hash,
 };
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_design::space_file::read_space;
 use hexbench_truth::campaign::{Row, machines};
 use hexbench_truth::scene::Scene;
-use rand_pcg::Pcg64;
 
 use super::axes::{AxesTable, GeometryName, PlanName};
 use crate::sweep::axes::{Axes, Drawings, Geometry, PlanChoice, PlanSource};
@@ -81,7 +81,7 @@ fn geometry(
 }
 
 fn example(family: &str) -> Hexapod {
-    machines::draw(family, &mut Pcg64::new(0, 0))
+    machines::draw(family, &mut stream(0, Purpose::Example, []))
 }
 
 fn plan(name: PlanName, folder: &Path, inputs: &mut Inputs) -> Result<PlanChoice, FileError> {

@@ -1,5 +1,6 @@
 //! `cells.csv`.
 
+use hexbench_core::statistics::Welford;
 use hexbench_report::Table;
 use hexbench_report::table::csv;
 
@@ -69,13 +70,13 @@ fn springs(found: &CellStatistics) -> Vec<f64> {
     let s = &found.springs;
     let mut all = vec![s.errors.mean(), s.errors.std(), s.errors.rms()];
     all.extend(found.coverage());
-    all.extend(s.holdout.iter().map(super::Welford::rms));
+    all.extend(s.holdout.iter().map(Welford::rms));
     all
 }
 
 fn diagnose(found: &CellStatistics) -> Vec<f64> {
     let mut all: Vec<f64> = (0..3).flat_map(|outcome| found.share(outcome)).collect();
-    all.extend(found.answers.holdout.iter().map(super::Welford::mean));
+    all.extend(found.answers.holdout.iter().map(Welford::mean));
     all
 }
 

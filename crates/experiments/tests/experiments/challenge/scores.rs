@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use hexbench_core::files::read_measurements;
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Measurand};
 use hexbench_experiments::challenge::answer::columns;
 use hexbench_experiments::challenge::run::Limits;
@@ -50,7 +51,7 @@ impl<'a> Prepared<'a> {
     /// Writes an answer to every case.
     fn answers(bench: &'a Bench, make: Make) -> PathBuf {
         let folder = bench.folder.path().join("prepared");
-        let mut prepared = Self { bench, folder, rng: Pcg64::seed_from_u64(5) };
+        let mut prepared = Self { bench, folder, rng: stream(5, Purpose::Test, []) };
         for id in bench.challenge.manifest().cases.clone() {
             prepared.answer(&id, make);
         }
