@@ -142,7 +142,7 @@ impl<'a> Grid<'a> {
             None => Vec::new(),
             Some(Cell::Text(text)) if length(text) <= width => vec![padded(text, width, left)],
             Some(Cell::Text(text)) => {
-                wrapped(text, width).iter().map(|line| padded(line, width, left)).collect()
+                wrapped(&breakable(text, width), width).iter().map(|line| padded(line, width, left)).collect()
             }
             Some(Cell::Bar { bar: share, mood }) => {
                 let bar = bar(*share, width.min(BAR));
