@@ -3,32 +3,18 @@
 # output. Arguments go to scripts/benchmark.py, for example --starts 100 --campaigns 100000 for a quick look.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 5
+source scripts/python_environment.sh
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/benchmark
 python=$work/venv/bin/python
 requirements=scripts/benchmark-requirements.txt
-
-skip() {
-    printf 'skipped: %s\n' "$1"
-    exit 77
-}
-
-prepare_python() {
-    cmp --silent "$requirements" "$work/venv/installed.txt" && return
-    command -v python3 >/dev/null || skip "python3 is not installed"
-    python3 -m venv --clear "$work/venv" >"$work/venv.log" 2>&1 ||
-        skip "python3 -m venv does not work here (Debian has it in python3-venv); see $work/venv.log"
-    "$python" -m pip install --quiet --disable-pip-version-check -r "$requirements" >"$work/pip.log" 2>&1 ||
-        skip "pip cannot install the pinned packages, no network perhaps; see $work/pip.log"
-    cp "$requirements" "$work/venv/installed.txt"
-}
 
 build() {
     cargo build --locked --quiet --release -p hexbench-design --example benchmark "$@" || exit 1
 }
 
 mkdir -p "$work"
-prepare_python
+prepare_python "$work" "$requirements"
 build
 RUSTFLAGS="-C target-cpu=native" build --target-dir "$work/native"
 # One thread on both sides.

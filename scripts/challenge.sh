@@ -4,6 +4,7 @@
 # are then less comparable.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 5
+source scripts/python_environment.sh
 suite=springs-and-effects
 repository=$PWD
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
@@ -13,26 +14,6 @@ requirements=$repository/scripts/entrants/requirements.txt
 jobs=${HEXBENCH_JOBS:-1}
 hexbench=${HEXBENCH_BINARY:-$target/release/hexbench}
 
-skip() {
-    printf 'skipped: %s\n' "$1"
-    exit 77
-}
-
-fail() {
-    printf 'FAILED: %s\n' "$1" >&2
-    exit 1
-}
-
-prepare_python() {
-    cmp --silent "$requirements" "$work/venv/installed.txt" && return
-    command -v python3 >/dev/null || skip "python3 is not installed"
-    python3 -m venv --clear "$work/venv" >"$work/venv.log" 2>&1 ||
-        skip "python3 -m venv does not work here (Debian has it in python3-venv); see $work/venv.log"
-    "$python" -m pip install --quiet --disable-pip-version-check -r "$requirements" >"$work/pip.log" 2>&1 ||
-        skip "pip cannot install the pinned packages, no network perhaps; see $work/pip.log"
-    cp "$requirements" "$work/venv/installed.txt"
-}
-
 run() {
     local name=$1
     shift
@@ -40,7 +21,7 @@ run() {
 }
 
 mkdir -p "$work"
-prepare_python
+prepare_python "$work" "$requirements"
 [[ -n ${HEXBENCH_BINARY:-} ]] || cargo build --locked --quiet --release || fail "cargo build"
 [[ ${1:-} == --keep ]] || rm -rf "${work:?}/answers"
 rm -rf "${work:?}/$suite"

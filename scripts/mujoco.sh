@@ -3,6 +3,7 @@
 # measurements made by MuJoCo diagnosed. Exit code 77: skipped, the reason on standard output. docs/witnesses.md says more.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 5
+source scripts/python_environment.sh
 repository=$PWD
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/mujoco
@@ -14,27 +15,6 @@ states_per_set=36
 # Scenes of other machines whose effects MJCF can express.
 scenes=(paper paper-rich rubin-camera rubin-m2)
 states_per_scene=12
-
-skip() {
-    printf 'skipped: %s\n' "$1"
-    exit 77
-}
-
-fail() {
-    printf 'FAILED: %s\n' "$1" >&2
-    exit 1
-}
-
-prepare_python() {
-    local requirements=$repository/scripts/mujoco-requirements.txt
-    cmp --silent "$requirements" "$work/venv/installed.txt" && return
-    command -v python3 >/dev/null || skip "python3 is not installed"
-    python3 -m venv --clear "$work/venv" >"$work/venv.log" 2>&1 ||
-        skip "python3 -m venv does not work here (Debian has it in python3-venv); see $work/venv.log"
-    "$python" -m pip install --quiet --disable-pip-version-check -r "$requirements" >"$work/pip.log" 2>&1 ||
-        skip "pip cannot install the pinned packages, no network perhaps; see $work/pip.log"
-    cp "$requirements" "$work/venv/installed.txt"
-}
 
 # Models and states of a scene: export_states SCENE COUNT FOLDER
 export_states() {
@@ -97,7 +77,7 @@ diagnose() {
 
 mkdir -p "$work" "$artefacts"
 export HEXBENCH_ARTEFACTS=$artefacts
-prepare_python
+prepare_python "$work" "$repository/scripts/mujoco-requirements.txt"
 [[ -n ${HEXBENCH_BINARY:-} ]] || cargo build --locked --quiet || fail "cargo build"
 # MuJoCo leaves a log where it runs.
 cd "$work" || exit 5

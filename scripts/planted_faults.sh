@@ -38,7 +38,7 @@ unseen=()
 for fault in "${faults[@]}"; do
     printf '== %s\n' "$fault"
     plant
-    (cd "$out/sources" && cargo build --release --locked --quiet -p hexbench-validation --example regress)
+    (cd "$out/sources" && cargo build --release --locked --quiet -p hexbench-experiments --example regress)
     code=0
     "$CARGO_TARGET_DIR/release/examples/regress" "$root/data/regress/baseline.json" "$out/$fault.json" || code=$?
     printf '   exit code %d\n' "$code"

@@ -16,4 +16,4 @@ for patch in data/regress/faults/*.patch; do
     [[ -s $out/$fault.json ]] || missing+=("$fault")
 done
 ((${#missing[@]} == 0)) || scripts/planted_faults.sh "$out" "${missing[@]}"
-"$program" validate regress --runs "$runs" --log "$out/runs.jsonl" --faults "$out" --markdown docs/regress.md
+"$program" validate regress --runs "$runs" --journal "$out/runs" --faults "$out" --markdown docs/regress.md

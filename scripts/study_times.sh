@@ -3,15 +3,13 @@
 # For a quiet machine with two cores or more. The command and the Python package are built for release.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source scripts/python_environment.sh
 study=${1:-data/studies/many-springs.toml}
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/study-times
 # The library of the whole workspace, so that nothing is built twice.
 cargo build --release --locked --quiet --workspace --bins --example hexbench_module
-[[ -x $work/venv/bin/python ]] || python3 -m venv "$work/venv"
-"$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check -r scripts/python-requirements.txt
-rm -rf "$work/package"
-mkdir -p "$work/package"
-cp -r crates/python/python/hexbench "$work/package/"
-cp "$target/release/deps/libhexbench_native.so" "$work/package/hexbench/_native.abi3.so"
+mkdir -p "$work"
+prepare_python "$work" scripts/python-requirements.txt
+assemble_package "$work/package" "$target/release/deps"
 PYTHONPATH=$work/package "$work/venv/bin/python" scripts/study_times.py "$study" "$target/release/hexbench" docs/study-times.md

@@ -22,6 +22,9 @@ pub(crate) struct Cli {
         display_order = 100
     )]
     pub(crate) colour: Colour,
+    /// Every row, column and section of a page, details included
+    #[arg(long, short, global = true, display_order = 101)]
+    pub(crate) verbose: bool,
     /// What to do.
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -1,7 +1,6 @@
 //! Tables the command writes: the columns of a conditions file, then results.
 
-use std::fmt::Write;
-
+use hexbench_core::files::CsvText;
 use hexbench_core::{Dataset, Observation};
 
 /// Unit of a result column.
@@ -24,72 +23,57 @@ impl Unit {
     }
 
     /// Decimals reach a picometre and a picoradian, so that rounding never shows.
-    fn write(self, text: &mut String, si: f64) {
+    fn text(self, si: f64) -> String {
         let number = match self {
             Self::Mm => format!("{:.9}", si * 1e3),
             Self::Deg => format!("{:.11}", si.to_degrees()),
             Self::Um | Self::Urad => format!("{:.6}", si * 1e6),
         };
         let minus_zero = number.starts_with('-') && number.chars().all(|c| matches!(c, '-' | '0' | '.'));
-        text.push_str(&number[usize::from(minus_zero)..]);
+        number[usize::from(minus_zero)..].to_owned()
     }
 }
 
 /// A conditions file.
 pub(crate) fn conditions(rows: &Dataset) -> String {
-    let mut text = conditions_header(rows) + "\n";
-    for row in &rows.observations {
-        condition(&mut text, rows, row);
-        text.push('\n');
-    }
-    text
+    let mut text = CsvText::new(conditions_header(rows));
+    rows.observations.iter().for_each(|row| text.row(condition(rows, row)));
+    text.into_text()
 }
 
 /// Header of the columns that say what a row is about.
-pub(crate) fn conditions_header(rows: &Dataset) -> String {
-    let mut text =
-        "pose,repeat,a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm".to_owned();
+pub(crate) fn conditions_header(rows: &Dataset) -> Vec<&'static str> {
     let c = rows.columns;
-    let optional = [
-        (c.reference, ",ref_fx_N,ref_fy_N,ref_fz_N,ref_mx_Nm,ref_my_Nm,ref_mz_Nm"),
-        (c.approach, ",approach"),
-        (c.delta_t, ",delta_T_K"),
-        (c.elapsed, ",elapsed_s"),
-    ];
-    optional.iter().filter(|o| o.0).for_each(|o| text.push_str(o.1));
-    text
+    let pose = ["pose", "repeat", "a_mm", "b_mm", "c_mm", "alpha_deg", "beta_deg", "gamma_deg"];
+    let wrench = ["fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm"];
+    let reference = ["ref_fx_N", "ref_fy_N", "ref_fz_N", "ref_mx_Nm", "ref_my_Nm", "ref_mz_Nm"];
+    let optional = [(c.approach, "approach"), (c.delta_t, "delta_T_K"), (c.elapsed, "elapsed_s")];
+    let reference = reference.into_iter().filter(|_| c.reference);
+    let optional = optional.into_iter().filter_map(|(there, name)| there.then_some(name));
+    pose.into_iter().chain(wrench).chain(reference).chain(optional).collect()
 }
 
 /// The same columns of one row.
-pub(crate) fn condition(text: &mut String, rows: &Dataset, o: &Observation) {
-    let _ = write!(text, "{},{}", o.pose_id, o.repeat);
-    values(text, &o.pose.to_array(), [Unit::Mm, Unit::Deg]);
-    plain(text, &o.wrench.to_array());
+pub(crate) fn condition(rows: &Dataset, o: &Observation) -> Vec<String> {
     let c = rows.columns;
-    if c.reference {
-        plain(text, &o.reference.to_array());
-    }
+    let plain = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>();
     let optional = [(c.approach, o.approach), (c.delta_t, o.delta_t), (c.elapsed, o.elapsed)];
-    optional.iter().filter(|x| x.0).for_each(|x| plain(text, &[x.1]));
-}
-
-fn plain(text: &mut String, numbers: &[f64]) {
-    for x in numbers {
-        let _ = write!(text, ",{x}");
-    }
+    let reference = if c.reference { plain(&o.reference.to_array()) } else { Vec::new() };
+    [o.pose_id.to_string(), o.repeat.to_string()]
+        .into_iter()
+        .chain(values(&o.pose.to_array(), [Unit::Mm, Unit::Deg]))
+        .chain(plain(&o.wrench.to_array()))
+        .chain(reference)
+        .chain(optional.iter().filter(|x| x.0).map(|x| x.1.to_string()))
+        .collect()
 }
 
 /// Names of six results: three translations, three rotations.
-pub(crate) fn names(text: &mut String, prefix: &str, names: &[&str; 6], units: [Unit; 2]) {
-    for (k, name) in names.iter().enumerate() {
-        let _ = write!(text, ",{prefix}{name}_{}", units[k / 3].name());
-    }
+pub(crate) fn names(prefix: &str, names: &[&str; 6], units: [Unit; 2]) -> Vec<String> {
+    names.iter().enumerate().map(|(k, name)| format!("{prefix}{name}_{}", units[k / 3].name())).collect()
 }
 
 /// Six results: three translations (m), three rotations (rad).
-pub(crate) fn values(text: &mut String, si: &[f64; 6], units: [Unit; 2]) {
-    for (k, value) in si.iter().enumerate() {
-        text.push(',');
-        units[k / 3].write(text, *value);
-    }
+pub(crate) fn values(si: &[f64; 6], units: [Unit; 2]) -> Vec<String> {
+    si.iter().enumerate().map(|(k, value)| units[k / 3].text(*value)).collect()
 }

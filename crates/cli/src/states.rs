@@ -1,7 +1,6 @@
 //! A table of states of rest: what was done, and where the simulated world came to rest.
 
-use std::fmt::Write;
-
+use hexbench_core::files::CsvText;
 use hexbench_core::{Columns, Dataset, Measurand, Observation, Pose};
 use hexbench_truth::campaign::Row;
 use hexbench_truth::equilibrium::Equilibrium;
@@ -31,23 +30,18 @@ impl States {
             columns,
             observations: Vec::new(),
         };
-        let mut text = csv::conditions_header(&dataset);
-        text.push_str(",part,model");
-        csv::names(&mut text, "rest_", &["a", "b", "c", "alpha", "beta", "gamma"], [Unit::Mm, Unit::Deg]);
-        for leg in 1..=6 {
-            let _ = write!(text, ",force_{leg}_N");
-        }
-        text.push('\n');
+        let pose = csv::names("rest_", &["a", "b", "c", "alpha", "beta", "gamma"], [Unit::Mm, Unit::Deg]);
+        let conditions =
+            csv::conditions_header(&dataset).into_iter().chain(["part", "model"]).map(str::to_owned);
+        let forces = (1..=6).map(|leg| format!("force_{leg}_N"));
+        let mut text = CsvText::new(conditions.chain(pose).chain(forces));
         for (observation, part, model, pose, forces) in &self.rows {
-            csv::condition(&mut text, &dataset, observation);
-            let _ = write!(text, ",{},{model}", name(*part));
-            csv::values(&mut text, &pose.to_array(), [Unit::Mm, Unit::Deg]);
-            for force in forces {
-                let _ = write!(text, ",{force}");
-            }
-            text.push('\n');
+            let what = [name(*part).to_owned(), model.clone()];
+            let pose = csv::values(&pose.to_array(), [Unit::Mm, Unit::Deg]);
+            let forces = forces.iter().map(ToString::to_string);
+            text.row(csv::condition(&dataset, observation).into_iter().chain(what).chain(pose).chain(forces));
         }
-        text
+        text.into_text()
     }
 }
 

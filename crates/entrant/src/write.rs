@@ -1,11 +1,10 @@
 //! The files of an answer.
 
-use std::fmt::Write;
 use std::io;
 use std::path::Path;
 
 use hexbench_core::Measurand;
-use hexbench_core::files::atomic_write;
+use hexbench_core::files::{CsvText, atomic_write};
 use hexbench_model::predict::Prediction;
 use serde::Serialize;
 
@@ -43,24 +42,19 @@ pub(crate) fn answer(out: &Path, case: &Case, answer: &Answer) -> Result<(), Ent
 /// Deflections in um and urad, poses in mm and deg, uncertainties in um and urad; every digit that is needed.
 fn predictions(rows: &[Prediction], measurand: Measurand) -> String {
     let (values, sigmas) = columns(measurand);
-    let mut table = format!("row,{values},{sigmas}\n");
+    let header = values.split(',').chain(sigmas.split(','));
+    let mut table = CsvText::new(std::iter::once("row").chain(header));
     let unit = |k: usize, value: f64| match (measurand, k < 3) {
         (Measurand::AbsolutePose, true) => value * 1e3,
         (Measurand::AbsolutePose, false) => value.to_degrees(),
         _ => value * 1e6,
     };
     for (number, row) in (1..).zip(rows) {
-        // Writing to a String cannot fail.
-        let _ = write!(table, "{number}");
-        for (k, value) in row.value.iter().enumerate() {
-            let _ = write!(table, ",{}", unit(k, *value));
-        }
-        for sigma in row.sigma {
-            let _ = write!(table, ",{}", (sigma * 1e6).max(LEAST_SIGMA));
-        }
-        table.push('\n');
+        let values = row.value.iter().enumerate().map(|(k, value)| unit(k, *value).to_string());
+        let sigmas = row.sigma.iter().map(|sigma| (sigma * 1e6).max(LEAST_SIGMA).to_string());
+        table.row(std::iter::once(u64::to_string(&number)).chain(values).chain(sigmas));
     }
-    table
+    table.into_text()
 }
 
 /// A row whose reading the model fixes at zero still has an uncertainty above it, um and urad.

@@ -13,6 +13,7 @@ const STIFFNESS_PER_SI: f64 = 1e-6;
 
 /// One number of a fitted model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Estimate {
     /// `leg-1.stiffness`, `base-compliance.rotation-x`, ...
     pub name: String,

@@ -14,6 +14,7 @@ pub const POWER: f64 = 0.9;
 
 /// Smallest size of one parameter that a test sees with the wanted power.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Detectable {
     /// Id of the term.
     pub term: String,

@@ -32,6 +32,7 @@ pub struct Residual {
 
 /// Size of a set of residuals.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct ErrorSummary {
     /// Sum of squared whitened residuals per degree of freedom (per number for held-out data).
     pub chi2_reduced: f64,
@@ -43,8 +44,27 @@ pub struct ErrorSummary {
     pub count: usize,
 }
 
+/// Least excess of the held-out chi-square that counts as above the noise.
+const LEAST_EXCESS: f64 = 0.2;
+/// Standard deviations of a reduced chi-square that chance allows.
+const CHANCE: f64 = 3.1;
+
+impl ErrorSummary {
+    /// The error as a multiple of the noise.
+    pub fn times_noise(&self) -> f64 {
+        self.chi2_reduced.sqrt()
+    }
+
+    /// True when the error is what the noise gives, a little model uncertainty included.
+    pub fn is_at_the_noise(&self) -> bool {
+        let spread = CHANCE * (2.0 / self.count.max(1) as f64).sqrt();
+        self.chi2_reduced < 1.0 + spread.max(LEAST_EXCESS)
+    }
+}
+
 /// Root mean square in the units people read.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Rms {
     /// Over the three translations, um.
     pub translation_um: f64,
@@ -206,4 +226,19 @@ fn folds(campaign: &Campaign) -> Vec<usize> {
     let poses: Vec<usize> = campaign.groups.iter().map(number).collect();
     let count = known.len().clamp(1, MOST_FOLDS);
     poses.into_iter().map(|pose| pose % count).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_held_out_numbers_allow_more_scatter() {
+        let rms = Rms { translation_um: 1.0, rotation_urad: 1.0 };
+        let at = |chi2_reduced, count| {
+            ErrorSummary { chi2_reduced, rms, per_coordinate: [1.0; 6], count }.is_at_the_noise()
+        };
+        assert!(at(1.3, 180) && !at(1.4, 180));
+        assert!(at(1.5, 60) && !at(1.3, 100_000));
+    }
 }

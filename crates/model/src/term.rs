@@ -69,6 +69,8 @@ pub struct TermInfo {
     pub id: &'static str,
     /// A few words.
     pub title: &'static str,
+    /// Part of the machine or of the measurement it belongs to.
+    pub chapter: Chapter,
     /// What happens physically, one or two sentences.
     pub physics: &'static str,
     /// First-order equation.
@@ -87,6 +89,40 @@ pub struct TermInfo {
     pub needs: &'static [Need],
     /// The richer form.
     pub rich: Rich,
+}
+
+/// Part of the machine or of the measurement an effect belongs to, in the order in which a bench is built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Chapter {
+    /// Foundation and platform.
+    Structure,
+    /// What lies between the two joints of a leg.
+    Legs,
+    /// Joints and what carries them.
+    Joints,
+    /// What hangs on the platform.
+    Load,
+    /// The instrument and its targets.
+    Metrology,
+    /// What shows in absolute poses only.
+    AbsolutePoses,
+    /// Terms from files of the user.
+    Own,
+}
+
+impl Chapter {
+    /// A word or two for people.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Structure => "Structure",
+            Self::Legs => "Legs",
+            Self::Joints => "Joints and brackets",
+            Self::Load => "Load",
+            Self::Metrology => "Metrology",
+            Self::AbsolutePoses => "Absolute poses",
+            Self::Own => "Your own formulas",
+        }
+    }
 }
 
 /// One linear parameter.

@@ -14,6 +14,7 @@ const CREDIBLE: f64 = 0.95;
 
 /// What the data say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// The springs explain the data to within the noise.
@@ -24,6 +25,18 @@ pub enum Verdict {
     Ambiguous,
     /// Something outside the catalogue is at work.
     Outside,
+}
+
+impl Verdict {
+    /// One word, as in the files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Adequate => "adequate",
+            Self::Named => "named",
+            Self::Ambiguous => "ambiguous",
+            Self::Outside => "outside",
+        }
+    }
 }
 
 /// Probabilities by name, and what follows from them.

@@ -97,11 +97,19 @@ pub fn sentence(weights: &[f64], names: &[String]) -> String {
 }
 
 /// `a, b and c`.
-pub fn joined(words: &[String]) -> String {
+pub fn joined<S: AsRef<str>>(words: &[S]) -> String {
+    joined_with(words, "and")
+}
+
+/// `a, b or c`.
+pub fn joined_with<S: AsRef<str>>(words: &[S], last_joint: &str) -> String {
     match words {
         [] => String::new(),
-        [one] => one.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+        [one] => one.as_ref().to_owned(),
+        [head @ .., last] => {
+            let head: Vec<&str> = head.iter().map(AsRef::as_ref).collect();
+            format!("{} {last_joint} {}", head.join(", "), last.as_ref())
+        }
     }
 }
 
@@ -132,6 +140,12 @@ fn reduced(null_space: &DMatrix<f64>) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lists_read_as_sentences() {
+        assert_eq!(joined(&["a"]), "a");
+        assert_eq!(joined_with(&["a", "b", "c"], "or"), "a, b or c");
+    }
 
     fn names() -> Vec<String> {
         (1..=6).map(|l| format!("leg {l}")).chain(["creep.fraction".to_owned()]).collect()

@@ -15,7 +15,7 @@ use hexbench_model::campaign::{Campaign, Condition};
 use hexbench_model::chain::Action;
 use hexbench_model::linearization::{Active, Linearization, Point, actions, parameter_count};
 use hexbench_model::machine::Machine;
-use hexbench_model::term::{Rich, Term};
+use hexbench_model::term::{Chapter, Need, Rich, Term};
 use hexbench_model::terms::catalogue;
 
 /// Ids in the order of the design's table.
@@ -109,6 +109,16 @@ fn every_term_says_what_it_is_where_it_comes_from_and_how_to_see_it() {
             i.source
         );
         assert!(!i.parameters.is_empty(), "{}", i.id);
+    }
+}
+
+#[test]
+fn what_shows_in_absolute_poses_only_has_its_own_chapter() {
+    for term in catalogue() {
+        let i = term.info();
+        let absolute = i.needs.contains(&Need::Absolute);
+        assert_eq!(absolute, i.chapter == Chapter::AbsolutePoses, "{}", i.id);
+        assert!(i.chapter != Chapter::Own, "{}", i.id);
     }
 }
 

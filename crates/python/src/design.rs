@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use hexbench_core::Dataset;
 use hexbench_core::files::conditions_to_columns;
-use hexbench_pages::text::Ink;
+use hexbench_report::render::plain;
 use hexbench_tasks::design::{Named, Wish, design as searched, page};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
@@ -75,7 +75,7 @@ pub(crate) fn design(
             criterion: found.criterion,
             value: found.value,
             efficiency: found.efficiency,
-            text: page(&found, Ink::new(false)),
+            text: plain(&page(&found)),
         })
     })
 }

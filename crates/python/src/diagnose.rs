@@ -6,10 +6,10 @@ use std::sync::Arc;
 use hexbench_model::compare::{Compared, compare as compared_with};
 use hexbench_model::diagnose::{Study, diagnose as studied};
 use hexbench_model::runs::{Origin, WithOrigin};
-use hexbench_pages::html::{self, Provenance, ReportError};
-use hexbench_pages::text::Ink;
-use hexbench_pages::{Subject, comparison};
-use hexbench_report::html::{PROGRAM, Page};
+use hexbench_report::Page;
+use hexbench_report::charts::{self, ReportError};
+use hexbench_report::render::{PROGRAM, Terminal, html, plain, terminal};
+use hexbench_report::words::{self, Provenance, Subject, subject};
 use hexbench_tasks::{Failure, input};
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -59,7 +59,7 @@ impl About {
 }
 
 fn page_text(page: &Page) -> Result<String, Failure> {
-    Ok(page.to_html().map_err(ReportError::from)?)
+    Ok(html(page).map_err(ReportError::from)?)
 }
 
 /// A diagnosis.
@@ -75,17 +75,17 @@ impl PyDiagnosis {
 
     /// The page of the command.
     fn text(&self, verbose: bool) -> String {
-        hexbench_pages::diagnosis(&subject(&self.0), verbose, Ink::new(false))
+        terminal(&words::diagnosis(&subject_of(&self.0)), Terminal { verbose, ..Terminal::default() })
     }
 
     /// The page for a browser.
     fn html(&self, py: Python<'_>) -> PyResult<String> {
         let both = Arc::clone(&self.0);
-        beside(py, move || page_text(&html::diagnosis(&subject(&both), &both.0.provenance("diagnose"))?))
+        beside(py, move || page_text(&charts::diagnosis(&subject_of(&both), &both.0.provenance("diagnose"))?))
     }
 }
 
-fn subject((about, study): &(About, Study)) -> Subject<'_> {
+fn subject_of((about, study): &(About, Study)) -> Subject<'_> {
     Subject {
         hexapod: &about.measured.machine.hexapod,
         data: &about.measured.data,
@@ -125,7 +125,10 @@ impl PyComparison {
 
     /// The page of the command.
     fn text(&self) -> String {
-        comparison::page(&self.0.1.comparison, Ink::new(false))
+        let (About { measured, holdout }, compared) = self.0.as_ref();
+        let held = holdout.as_ref().map(|h| &h.data);
+        let about = subject::entries(&measured.data, held, &compared.campaign.noise);
+        plain(&words::comparison(&measured.machine.hexapod.name, about, &compared.comparison))
     }
 
     /// The page for a browser.
@@ -135,7 +138,7 @@ impl PyComparison {
             let (about, compared) = both.as_ref();
             let Measured { machine, data, .. } = about.measured.as_ref();
             let held = about.holdout.as_ref().map(|h| &h.data);
-            page_text(&html::comparison(
+            page_text(&charts::comparison(
                 &machine.hexapod,
                 data,
                 held,

@@ -8,8 +8,8 @@ use hexbench_model::estimate::{Estimates, estimates_of};
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::predict::predict_with_covariance;
 use hexbench_model::selection::Task;
-use hexbench_pages::fitted::report;
-use hexbench_pages::text::Ink;
+use hexbench_report::render::plain;
+use hexbench_report::words;
 use hexbench_tasks::fit::{added, fitted};
 use hexbench_tasks::{Failure, input};
 use numpy::{PyArray2, PyArray3};
@@ -189,7 +189,7 @@ pub(crate) fn fit(
         let campaign = prepare(hexapod, data).map_err(failed)?;
         let task = Task { hexapod, data, campaign: &campaign, holdout: holdout.as_ref().map(|h| &h.data) };
         let judged = fitted(&task, &added, estimator)?;
-        let summary = report(&task, &judged, estimator, Ink::new(false));
+        let summary = plain(&words::fitted::page(&task, &judged, estimator));
         let origin = DataOrigin {
             file: data.source.clone(),
             sha256: measured.origin.sha256.clone(),

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use hexbench_study::journal::record;
-use hexbench_study::{Adopted, Part, Runner, Study, Work, divide, page};
+use hexbench_experiments::harness::{Sharded, Silent, record};
+use hexbench_experiments::journal::Adopted;
+use hexbench_experiments::sweep::{Part, Runner, Study, Work, divide, page};
+use hexbench_report::render::plain;
 use hexbench_tasks::Failure;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -45,7 +47,7 @@ pub(crate) fn study_run_part<'py>(
     })?;
     for some in todo.pending.chunks(SHARDS_PER_THREAD * threads(py)?) {
         let (work, some) = (Arc::clone(&work), some.to_vec());
-        beside(py, move || Ok(work.compute(&some, &|_| ())?))?;
+        beside(py, move || Ok(work.compute(&some, &Silent)?))?;
         py.check_signals()?;
     }
     loaded(
@@ -83,8 +85,8 @@ impl StudyRunner {
 
     /// Computes shards and gives the record of each.
     fn run<'py>(&self, py: Python<'py>, shards: Vec<u64>) -> PyResult<Vec<Bound<'py, PyBytes>>> {
-        if let Some(strange) = shards.iter().find(|n| **n >= self.runner.shards()) {
-            let all = self.runner.shards();
+        if let Some(strange) = shards.iter().find(|n| **n >= self.runner.shards().count()) {
+            let all = self.runner.shards().count();
             return Err(usage(
                 py,
                 &format!("shard {strange}: the study has shards 0 to {}", all.saturating_sub(1)),
@@ -92,11 +94,9 @@ impl StudyRunner {
             ));
         }
         let (runner, pool) = (Arc::clone(&self.runner), Arc::clone(&self.pool));
-        let records: Vec<Vec<u8>> =
-            beside(
-                py,
-                move || Ok(pool.install(|| shards.par_iter().map(|&n| record(&runner, n)).collect())),
-            )?;
+        let one = move |&n: &u64| record(&*runner, n);
+        let all = move || Ok(pool.install(|| shards.par_iter().map(one).collect::<Result<_, _>>())?);
+        let records: Vec<Vec<u8>> = beside(py, all)?;
         Ok(records.iter().map(|bytes| PyBytes::new(py, bytes)).collect())
     }
 }
@@ -131,12 +131,13 @@ impl StudyWork {
     /// What the whole is, and what of it is still to do.
     fn todo<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let work = self.open(py)?;
-        let shards = work.shards();
+        let (shards, files) = (work.shards().count(), work.study().files.clone());
         let todo = beside(py, move || Ok(work.todo(None)?))?;
         loaded(
             py,
             &json!({
                 "shards": shards,
+                "files": files,
                 "trials": todo.trials,
                 "pending_shards": todo.pending,
                 "pending_trials": todo.pending_trials,
@@ -148,7 +149,7 @@ impl StudyWork {
     /// Keeps the record of a shard.
     fn keep(&self, py: Python<'_>, shard: u64, record: &[u8]) -> PyResult<()> {
         let (work, record) = (self.open(py)?, record.to_vec());
-        beside(py, move || Ok(work.keep_record(shard, &record)?))
+        beside(py, move || Ok(work.journal().keep_record(shard, &record)?))
     }
 
     /// Writes the results of a study that is complete.
@@ -166,9 +167,9 @@ fn results(work: &Work, markdown: Option<&Path>) -> Result<serde_json::Value, Fa
     page::write(work.study(), &cells, work.folder(), markdown)?;
     Ok(json!({
         "folder": work.folder(),
-        "shards": work.shards(),
+        "shards": work.shards().count(),
         "written": work.written(),
-        "summary": page::summary(work.study(), &cells).to_text(),
+        "summary": plain(&page::summary(work.study(), &cells)),
     }))
 }
 
@@ -186,7 +187,7 @@ pub(crate) fn study_merge(
         let work = Work::open(&study, &folder)?;
         let mut all = Adopted::default();
         for part in &parts {
-            let Adopted { taken, known, damaged } = work.adopt(part)?;
+            let Adopted { taken, known, damaged } = work.journal().adopt(part)?;
             all = Adopted {
                 taken: all.taken + taken,
                 known: all.known + known,

@@ -188,7 +188,7 @@ def test_an_error_of_a_worker_reaches_the_caller_with_its_text(
     cluster: Cluster, study_file: Path, tmp_path: Path
 ) -> None:
     # The worker reads another machine than the caller: a file that changed in between.
-    source = study._Source.read(study_file)
+    source = study._Source.read(study_file, study.plan(study_file)["files"])
     broken = study._Source({**source.files, source.study: b"format = 1"}, source.study, "another")
     future = cluster.client.submit(study._compute, broken, [0], pure=False)
     with pytest.raises(errors.BadInput, match="format"):

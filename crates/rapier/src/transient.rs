@@ -1,7 +1,6 @@
 //! How the machine settles after a load step, with true masses.
 
-use std::fmt::Write;
-
+use hexbench_core::files::CsvText;
 use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
 use hexbench_truth::{LegMemory, Moment, Newton, Phase, Setup, Situation, Statics, TruthError, World};
 
@@ -224,15 +223,14 @@ fn observed(samples: &[Sample], modes: &Modes) -> Option<f64> {
 
 /// The trace as a table, units in the names.
 pub fn csv(samples: &[Sample]) -> String {
-    let mut text = "time_s,da_um,db_um,dc_um,dalpha_urad,dbeta_urad,dgamma_urad".to_owned();
-    // Writing to a string cannot fail.
-    (1..=6).for_each(|i| _ = write!(text, ",force_{i}_N"));
-    text.push('\n');
+    let deflections =
+        ["da_um", "db_um", "dc_um", "dalpha_urad", "dbeta_urad", "dgamma_urad"].map(str::to_owned);
+    let forces = (1..=6).map(|i| format!("force_{i}_N"));
+    let mut text = CsvText::new(std::iter::once("time_s".to_owned()).chain(deflections).chain(forces));
     for s in samples {
-        let _ = write!(text, "{:.7}", s.time);
-        s.deflection.iter().for_each(|d| _ = write!(text, ",{:.6}", d * 1e6));
-        s.forces.iter().for_each(|f| _ = write!(text, ",{f:.6}"));
-        text.push('\n');
+        let deflections = s.deflection.iter().map(|d| format!("{:.6}", d * 1e6));
+        let forces = s.forces.iter().map(|f| format!("{f:.6}"));
+        text.row(std::iter::once(format!("{:.7}", s.time)).chain(deflections).chain(forces));
     }
-    text
+    text.into_text()
 }

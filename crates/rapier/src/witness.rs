@@ -2,6 +2,7 @@
 
 use std::{fmt::Write, sync::Arc, time::Instant};
 
+use hexbench_core::files::CsvText;
 use hexbench_core::statistics::quantile;
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Hexapod, Vector6};
@@ -134,23 +135,19 @@ fn parts(d: &Vector6) -> [f64; 2] {
 
 /// One line for each comparison.
 pub fn csv(comparisons: &[Comparison]) -> String {
-    let mut text = "case,family,effect,deflection_um,translation,rotation,force,seconds\n".to_owned();
+    let header = ["case", "family", "effect", "deflection_um", "translation", "rotation", "force", "seconds"];
+    let mut text = CsvText::new(header);
     for c in comparisons {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{},{},{},{:.6},{:.3e},{:.3e},{:.3e},{:.4}",
-            c.index,
-            c.family,
-            c.effect,
-            c.deflection * 1e6,
-            c.translation,
-            c.rotation,
-            c.force,
-            c.seconds
-        );
+        let head = [
+            c.index.to_string(),
+            c.family.to_string(),
+            c.effect.to_string(),
+            format!("{:.6}", c.deflection * 1e6),
+        ];
+        let shares = [c.translation, c.rotation, c.force].map(|x| format!("{x:.3e}"));
+        text.row(head.into_iter().chain(shares).chain([format!("{:.4}", c.seconds)]));
     }
-    text
+    text.into_text()
 }
 
 /// Median, 99 % quantile and largest value of each quantity, as a page.

@@ -1,12 +1,16 @@
-//! Pages and charts of the bench, as text, Markdown, HTML and SVG.
+//! Pages and charts of the bench.
 //!
-//! Takes plain numbers and knows neither world: what is drawn was computed elsewhere, in the units that the axis titles
-//! state. Nothing here writes a file.
+//! A [`page::Page`] says what there is to say, once: [`words`] writes its sections, [`charts`] adds charts to them, [`render`] shows it
+//! in every medium. [`plot`] draws a chart as SVG, [`table`] writes numbers for other programs. Nothing here computes or judges; what is
+//! shown was computed by the model, in the units that titles state. Nothing here writes a file.
 
-pub mod document;
-pub mod html;
+pub mod charts;
 pub mod number;
+pub mod page;
 pub mod plot;
 pub mod png;
+pub mod render;
+pub mod table;
+pub mod words;
 
-pub use document::Document;
+pub use page::{Block, Cell, Column, Entry, Figure, Mood, Page, Section, Table};

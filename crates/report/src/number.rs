@@ -31,6 +31,16 @@ pub fn percent(p: f64) -> String {
     }
 }
 
+/// A share in percent with one decimal, without its sign; a dash for none.
+pub fn hundredths(share: f64) -> String {
+    if share.is_finite() { format!("{:.1}", 100.0 * share) } else { "-".to_owned() }
+}
+
+/// A multiple of the noise with the digits that matter.
+pub fn multiple(times: f64) -> String {
+    if times < 10.0 { format!("{times:.2}") } else { format!("{times:.0}") }
+}
+
 /// Power of ten of the first digit, after rounding to two digits (9.96 counts as 10).
 fn exponent(value: f64) -> i32 {
     let text = format!("{:.1e}", value.abs());

@@ -4,25 +4,26 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use hexbench_challenge::ChallengeError;
 use hexbench_core::files::FileError;
 use hexbench_design::DesignError;
 use hexbench_entrant::EntrantError;
+use hexbench_experiments::ExperimentError;
+use hexbench_experiments::challenge::ChallengeError;
+use hexbench_experiments::paper::PaperError;
+use hexbench_experiments::power::PowerError;
+use hexbench_experiments::regress::baseline::BaselineError;
+use hexbench_experiments::sweep::StudyError;
+use hexbench_experiments::trial::TrialError;
 use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
 use hexbench_model::registration::RegistrationError;
 use hexbench_model::runs::Incompatible;
 use hexbench_model::user_term::UserTermError;
-use hexbench_pages::html::ReportError;
+use hexbench_report::charts::ReportError;
 use hexbench_report::plot::PlotError;
-use hexbench_study::StudyError;
 use hexbench_truth::TruthError;
 use hexbench_truth::scene::SimulationError;
-use hexbench_validation::paper::PaperError;
-use hexbench_validation::power::PowerError;
-use hexbench_validation::regress::baseline::BaselineError;
-use hexbench_validation::trial::TrialError;
 use thiserror::Error;
 
 /// Exit codes of the command; the Python package has an exception for each.
@@ -142,6 +143,9 @@ pub enum Failure {
     /// A design problem without an answer.
     #[error("{0}")]
     Design(#[from] DesignError),
+    /// An experiment that cannot go on.
+    #[error("{0}")]
+    Experiment(#[from] ExperimentError),
     /// A study that cannot go on.
     #[error("{0}")]
     Study(StudyError),
@@ -167,7 +171,7 @@ pub enum Failure {
     Power(#[from] PowerError),
     /// A study without an answer.
     #[error("{0}")]
-    Reproduction(PaperError),
+    Reproduction(#[from] PaperError),
     /// A simulated campaign without an answer.
     #[error("{0}")]
     Trial(TrialError),
@@ -203,7 +207,7 @@ impl Failure {
             Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => {
                 exit_of(cause)
             }
-            Self::Study(cause) => exit_of_study(cause),
+            Self::Experiment(cause) => exit_of_experiment(cause),
             Self::Challenge(cause) => exit_of_challenge(cause),
             Self::Usage { .. } | Self::Baseline(BaselineError::NoReason) => Exit::Usage,
             Self::Baseline(cause) if cause.is_input_output() => Exit::InputOutput,
@@ -211,6 +215,7 @@ impl Failure {
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
             Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::Power(_)
+            | Self::Study(_)
             | Self::Design(_)
             | Self::Reproduction(_)
             | Self::Trial(_)
@@ -244,6 +249,7 @@ impl Failure {
                 Some("Check the poses, loads and effects of the scene: this state does not exist.".into())
             }
             Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
+            Self::Experiment(cause) => Some(cause.next_step()),
             Self::Study(cause) => Some(cause.next_step()),
             Self::Challenge(cause) => Some(cause.next_step()),
             Self::Check(_) => None,
@@ -317,7 +323,8 @@ impl From<StudyError> for Failure {
         match error {
             StudyError::File(file) => Self::File(file),
             StudyError::Plot(plot) => Self::Plot(plot),
-            other => Self::Study(other),
+            StudyError::Experiment(error) => Self::Experiment(error),
+            StudyError::Design { .. } => Self::Study(error),
         }
     }
 }
@@ -326,6 +333,7 @@ impl From<ChallengeError> for Failure {
     fn from(error: ChallengeError) -> Self {
         match error {
             ChallengeError::File(file) => Self::File(file),
+            ChallengeError::Experiment(error) => Self::Experiment(error),
             other => Self::Challenge(other),
         }
     }
@@ -355,10 +363,9 @@ fn exit_of_challenge(cause: &ChallengeError) -> Exit {
     }
 }
 
-fn exit_of_study(cause: &StudyError) -> Exit {
+fn exit_of_experiment(cause: &ExperimentError) -> Exit {
     match cause {
-        StudyError::NotEmpty(_) => Exit::Usage,
-        StudyError::Design { .. } => Exit::NotDetermined,
+        ExperimentError::NotEmpty { .. } => Exit::Usage,
         _ if cause.is_input_output() => Exit::InputOutput,
         _ => Exit::BadInput,
     }

@@ -11,7 +11,7 @@ use hexbench_truth::campaign::{Campaign, Plan, PlanKind, Poses, machines, measur
 use hexbench_truth::metrology::{Frames, Noise};
 use hexbench_truth::{World, mechanisms};
 use hexbench_workbench::bench::Bench;
-use hexbench_workbench::wire::{Limits, Open, Selection, Text};
+use hexbench_workbench::wire::{FileText, Limits, Open, Selection};
 
 const LIMITS: Limits = Limits { bytes: 1 << 26, rows: 50_000, own_terms: 8, term_bytes: 1 << 16, benches: 4 };
 /// Loads and readings at each pose of a rich plan.
@@ -46,9 +46,9 @@ fn opened(hexapod: &Hexapod, data: &Dataset, holdout: Option<&Dataset>) -> Bench
     let csv = |rows: &Dataset| {
         let mut text = Vec::new();
         measurements_to_csv(&mut text, rows).unwrap();
-        Text { name: "measurements.csv".to_owned(), text: String::from_utf8(text).unwrap() }
+        FileText { name: "measurements.csv".to_owned(), text: String::from_utf8(text).unwrap() }
     };
-    let machine = Text { name: "hexapod.toml".to_owned(), text: hexapod_to_toml(hexapod) };
+    let machine = FileText { name: "hexapod.toml".to_owned(), text: hexapod_to_toml(hexapod) };
     let request = Open::Files { hexapod: machine, data: csv(data), holdout: holdout.map(csv) };
     Bench::open(&request, None, &LIMITS).unwrap()
 }

@@ -6,15 +6,23 @@
 use hexbench_model::diagnose::Diagnosis;
 use hexbench_model::estimate::Estimate;
 use hexbench_model::residuals::ErrorSummary;
+use hexbench_model::verdict::Verdict;
+use hexbench_report::Page;
 use serde::{Deserialize, Serialize};
+
+#[cfg(test)]
+mod typescript;
 
 /// Answer to `GET /api/catalogue`: what there is to choose from.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Catalogue {
     /// Version of the program.
     pub version: &'static str,
     /// Terms of the model, in the order of the catalogue.
     pub terms: Vec<TermCard>,
+    /// Chapters of the catalogue, in the order in which they are shown.
+    pub chapters: Vec<&'static str>,
     /// Bundled measurements.
     pub cases: Vec<Choice>,
     /// Families of machines that can be simulated.
@@ -33,11 +41,14 @@ pub struct Catalogue {
 
 /// A term of the model.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct TermCard {
     /// Kebab-case id.
     pub id: String,
     /// A few words.
     pub title: String,
+    /// One of [`Catalogue::chapters`].
+    pub chapter: &'static str,
     /// One or two sentences.
     pub physics: String,
     /// First-order equation.
@@ -52,6 +63,7 @@ pub struct TermCard {
 
 /// A name and a unit.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct NamedUnit {
     /// Name.
     pub name: String,
@@ -61,6 +73,7 @@ pub struct NamedUnit {
 
 /// Something to choose.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Choice {
     /// What is sent back.
     pub id: String,
@@ -72,6 +85,7 @@ pub struct Choice {
 
 /// What a formula may use.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct FormulaHelp {
     /// Names and meanings, with units.
     pub variables: Vec<Choice>,
@@ -85,6 +99,7 @@ pub struct FormulaHelp {
 
 /// What the server accepts.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Limits {
     /// Bytes of a request.
     pub bytes: usize,
@@ -100,6 +115,7 @@ pub struct Limits {
 
 /// Body of `POST /api/benches`.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(tag = "from", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Open {
     /// Measurements that come with the program.
@@ -112,11 +128,11 @@ pub enum Open {
     /// Files the page has read; their names are only shown.
     Files {
         /// hexapod.toml
-        hexapod: Text,
+        hexapod: FileText,
         /// measurements.csv
-        data: Text,
+        data: FileText,
         /// holdout.csv
-        holdout: Option<Text>,
+        holdout: Option<FileText>,
     },
     /// A machine simulated on the spot.
     Simulation {
@@ -142,6 +158,7 @@ pub enum Open {
 
 /// How hard a game is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum Level {
     /// One effect of the catalogue, easy to see.
@@ -154,8 +171,9 @@ pub enum Level {
 
 /// A file as text.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(deny_unknown_fields)]
-pub struct Text {
+pub struct FileText {
     /// Its name, for messages; never used to find a file.
     pub name: String,
     /// What is in it.
@@ -164,6 +182,7 @@ pub struct Text {
 
 /// Answer to `POST /api/benches` (201).
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Opened {
     /// Names it in later requests.
     pub id: String,
@@ -195,6 +214,7 @@ pub struct Opened {
 
 /// Noise of one reading.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Noise {
     /// Of a translation, um.
     pub translation_um: f64,
@@ -206,6 +226,7 @@ pub struct Noise {
 
 /// A term the data cannot speak about.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Untestable {
     /// Its id.
     pub term: String,
@@ -216,6 +237,7 @@ pub struct Untestable {
 /// Conditions (readings averaged where all that was set is equal), one entry per condition shown in every list. Deflections are
 /// loaded minus reference; of an absolute pose what is measured beside what is commanded.
 #[derive(Debug, Clone, Default, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Conditions {
     /// How many there are; those shown are evenly chosen.
     pub of: usize,
@@ -243,6 +265,7 @@ pub struct Conditions {
 
 /// Body of `POST /api/benches/{id}/view`: the model asked about.
 #[derive(Debug, Clone, Default, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(deny_unknown_fields)]
 pub struct Selection {
     /// Ids in the order of ticking, of the catalogue and of one's own; `:richer` behind an id asks for the richer form.
@@ -255,6 +278,7 @@ pub struct Selection {
 
 /// Answer to `POST /api/benches/{id}/view`: springs and the selected terms, fitted to the data.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct View {
     /// The selection, in its order.
     pub terms: Vec<String>,
@@ -290,6 +314,7 @@ pub struct View {
 
 /// Stiffness of one leg, N/um; absent where the data leave it open.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Leg {
     /// Stiffness.
     pub stiffness: Option<f64>,
@@ -301,6 +326,7 @@ pub struct Leg {
 
 /// Two numbers with correlated estimates.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct LookAlike {
     /// One.
     pub a: String,
@@ -312,6 +338,7 @@ pub struct LookAlike {
 
 /// Residuals of single readings in units of the noise.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Scatter {
     /// Outline of the histogram: residual, share per unit.
     pub histogram: Vec<[f64; 2]>,
@@ -321,6 +348,7 @@ pub struct Scatter {
 
 /// Body of `POST /api/benches/{id}/diagnosis`.
 #[derive(Debug, Clone, Default, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(deny_unknown_fields)]
 pub struct Ask {
     /// Term files of one's own that compete.
@@ -330,38 +358,23 @@ pub struct Ask {
 
 /// Answer to `POST /api/benches/{id}/diagnosis`.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Diagnosed {
-    /// `named`, `ambiguous`, `adequate`, `outside`.
-    pub word: &'static str,
-    /// The verdict in a sentence or two.
-    pub sentences: Vec<String>,
-    /// Probability that each is at work, most probable first.
-    pub probabilities: Vec<Probability>,
+    /// The verdict.
+    pub word: Verdict,
+    /// Everything the diagnosis says, as every other medium says it.
+    pub page: Page,
     /// What to tick to see the model it settled on, `:richer` included.
     pub tick: Vec<String>,
-    /// What to measure next, a sentence each; empty when nothing is open.
-    pub next: Vec<String>,
     /// Everything, as `diagnose --json` writes it.
     pub diagnosis: Diagnosis,
     /// Time taken on the server, ms.
     pub milliseconds: f64,
 }
 
-/// An explanation and how sure it is.
-#[derive(Debug, Clone, Serialize)]
-pub struct Probability {
-    /// Id of the term, `none` or `outside`.
-    pub id: String,
-    /// In words.
-    pub title: String,
-    /// 0 to 1.
-    pub probability: f64,
-    /// Ids of terms that look the same in these data.
-    pub alike: Vec<String>,
-}
-
 /// Body of `POST /api/benches/{id}/export`.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(deny_unknown_fields)]
 pub struct Export {
     /// What.
@@ -373,6 +386,7 @@ pub struct Export {
 
 /// What can be taken home.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum What {
     /// model.toml of the selection.
@@ -391,6 +405,7 @@ pub enum What {
 
 /// Answer to `POST /api/benches/{id}/export`.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Exported {
     /// Name for the file.
     pub name: String,
@@ -402,6 +417,7 @@ pub struct Exported {
 
 /// Body of `POST /api/benches/{id}/reveal`.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(deny_unknown_fields)]
 pub struct Guess {
     /// Ids of terms; `outside` for something the catalogue does not know; empty: nothing is hidden.
@@ -410,6 +426,7 @@ pub struct Guess {
 
 /// Answer to `POST /api/benches/{id}/reveal`.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Revealed {
     /// True when the guess names all that is hidden and nothing else.
     pub right: bool,
@@ -421,6 +438,7 @@ pub struct Revealed {
 
 /// An effect in a simulated machine.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Hidden {
     /// Its id; `out:...` when the catalogue lacks it.
     pub id: String,
@@ -430,6 +448,7 @@ pub struct Hidden {
 
 /// Body of every refusal.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Refused {
     /// What is wrong.
     pub error: String,

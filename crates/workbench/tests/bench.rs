@@ -2,10 +2,11 @@
 #![allow(clippy::unwrap_used, reason = "a test without its case fails")]
 
 use hexbench_model::model_file::Model;
+use hexbench_model::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
-use hexbench_workbench::bench::{Bench, Kind, Refusal};
+use hexbench_workbench::bench::{Bench, Kind, Refusal, catalogue};
 use hexbench_workbench::wire::{
-    Ask, Export, Guess, Level, Limits, Open, Opened, Selection, Text, View, What,
+    Ask, Export, FileText, Guess, Level, Limits, Open, Opened, Selection, View, What,
 };
 
 const LIMITS: Limits = Limits { bytes: 1 << 25, rows: 2000, own_terms: 8, term_bytes: 1 << 16, benches: 16 };
@@ -24,6 +25,16 @@ fn ticked(terms: &[&str]) -> Selection {
 
 fn held_out(view: &View) -> f64 {
     view.holdout.unwrap().chi2_reduced
+}
+
+#[test]
+fn the_page_gets_the_terms_in_chapters_as_a_machine_is_built() {
+    let page = catalogue(LIMITS, None);
+    assert_eq!(page.chapters.first(), Some(&"Structure"));
+    assert_eq!(page.chapters.last(), Some(&"Absolute poses"));
+    for term in &page.terms {
+        assert!(page.chapters.contains(&term.chapter), "{} would not be shown: {}", term.id, term.chapter);
+    }
 }
 
 #[test]
@@ -83,7 +94,7 @@ fn an_answer_depends_on_the_question_alone() {
 #[test]
 fn without_a_holdout_file_poses_are_left_out_in_turn() {
     let known = CASES[0];
-    let text = |name: &str, text: &str| Text { name: name.to_owned(), text: text.to_owned() };
+    let text = |name: &str, text: &str| FileText { name: name.to_owned(), text: text.to_owned() };
     let request = Open::Files {
         hexapod: text("hexapod.toml", known.hexapod),
         data: text("measurements.csv", known.data),
@@ -98,7 +109,7 @@ fn without_a_holdout_file_poses_are_left_out_in_turn() {
 fn a_fault_in_a_file_is_told_with_its_place() {
     let known = CASES[0];
     let spoilt = known.data.replacen("fz_N", "fz_lbf", 1);
-    let text = |name: &str, text: &str| Text { name: name.to_owned(), text: text.to_owned() };
+    let text = |name: &str, text: &str| FileText { name: name.to_owned(), text: text.to_owned() };
     let request = |data: &str| Open::Files {
         hexapod: text("hexapod.toml", known.hexapod),
         data: text("../../mine.csv", data),
@@ -213,7 +224,7 @@ fn the_diagnosis_names_the_effect_and_the_files_can_be_taken_home() {
     let answer = bench.diagnose(&Ask::default()).unwrap();
     assert_eq!(
         (answer.word, answer.diagnosis.added.as_slice()),
-        ("named", &["base-compliance".to_owned()][..])
+        (Verdict::Named, &["base-compliance".to_owned()][..])
     );
     let take = |what, terms: &[&str]| bench.export(&Export { what, selection: ticked(terms) }).unwrap();
     let model = Model::from_toml(&take(What::Model, &["base-compliance"]).text).unwrap();

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use hexbench_model::compare::compare;
 use hexbench_model::runs::WithOrigin;
-use hexbench_pages::{comparison, html, readings};
+use hexbench_report::words::{readings, subject};
+use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
 use crate::input;
@@ -64,10 +65,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     arguments.page.write(screen, || {
         let provenance = provenance(arguments.files())?;
-        Ok(html::comparison(&hexapod, &data, holdout.as_ref(), &compared, &provenance)?)
+        Ok(charts::comparison(&hexapod, &data, holdout.as_ref(), &compared, &provenance)?)
     })?;
-    if arguments.json.as_deref() != Some(Path::new("-")) {
-        screen.write(&comparison::page(result, screen.ink()))?;
+    if arguments.json.as_deref() != Some(Path::new("-")) && !arguments.page.to_stdout() {
+        let about = subject::entries(&data, holdout.as_ref(), &compared.campaign.noise);
+        screen.show(&words::comparison(&hexapod.name, about, result))?;
     }
     let reached = result.holdout.unwrap_or(result.error).chi2_reduced;
     match arguments.check {

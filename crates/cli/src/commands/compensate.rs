@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use hexbench_core::files::CsvText;
 use hexbench_model::compensate::compensate;
 
 use crate::csv::{self, Unit};
@@ -35,20 +36,15 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let corrections = compensate(&model, &rows.observations)
         .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) })?;
     let (pose, small) = ([Unit::Mm, Unit::Deg], [Unit::Um, Unit::Urad]);
-    let mut text = csv::conditions_header(&rows);
-    csv::names(&mut text, "wanted_", &AXES, pose);
-    csv::names(&mut text, "uncorrected_d", &AXES, small);
-    csv::names(&mut text, "remaining_d", &AXES, small);
-    csv::names(&mut text, "sigma_", &AXES, small);
-    text.push('\n');
+    let results = [("wanted_", pose), ("uncorrected_d", small), ("remaining_d", small), ("sigma_", small)];
+    let results = results.into_iter().flat_map(|(prefix, units)| csv::names(prefix, &AXES, units));
+    let conditions = csv::conditions_header(&rows).into_iter().map(str::to_owned);
+    let mut text = CsvText::new(conditions.chain(results));
     for (row, c) in rows.observations.iter().zip(&corrections) {
         let commanded = hexbench_core::Observation { pose: c.command, ..*row };
-        csv::condition(&mut text, &rows, &commanded);
-        csv::values(&mut text, &row.pose.to_array(), pose);
-        csv::values(&mut text, &c.without, small);
-        csv::values(&mut text, &c.remaining, small);
-        csv::values(&mut text, &c.sigma, small);
-        text.push('\n');
+        let wanted = csv::values(&row.pose.to_array(), pose);
+        let errors = [c.without, c.remaining, c.sigma].into_iter().flat_map(|x| csv::values(&x, small));
+        text.row(csv::condition(&rows, &commanded).into_iter().chain(wanted).chain(errors));
     }
-    screen.write_to(&arguments.output, &text)
+    screen.write_to(&arguments.output, &text.into_text())
 }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use hexbench_core::files::{parse_hexapod, read_measurements_from, text_hash};
 use hexbench_model::terms::catalogue;
-use hexbench_pages::Subject;
-use hexbench_pages::html::{self, Provenance, ReportError};
-use hexbench_report::html::is_own;
+use hexbench_report::charts::{self, ReportError};
+use hexbench_report::render::{html, is_own};
+use hexbench_report::words::{self, Provenance, Subject};
 use hexbench_workbench::bench::cases::{Case, FOUNDATION};
 
 use crate::commands::diagnose::study;
@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let study = study(&hexapod, &data, Some(&holdout), &catalogue())?;
     let subject = Subject { hexapod: &hexapod, data: &data, holdout: Some(&holdout), study: &study };
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
-    screen.write(&hexbench_pages::demo(&subject, screen.ink()).map_err(failed)?)?;
+    screen.show(&words::demo(&subject).map_err(failed)?)?;
     if arguments.no_report { Ok(()) } else { page(&subject, arguments.output.as_deref(), screen) }
 }
 
@@ -50,7 +50,7 @@ fn page(subject: &Subject<'_>, asked: Option<&Path>, screen: &Screen) -> Result<
     let path = asked.unwrap_or(Path::new(PAGE));
     let files = FILES.map(|(name, text)| (format!("{name} (comes with the program)"), text_hash(text)));
     let provenance = Provenance { command: "hexbench demo".to_owned(), files: files.to_vec() };
-    let page = html::diagnosis(subject, &provenance)?.to_html().map_err(ReportError::from)?;
+    let page = html(&charts::diagnosis(subject, &provenance)?).map_err(ReportError::from)?;
     match write(path, &page, screen) {
         Ok(()) => {
             let size = page.len().div_ceil(1000);

@@ -95,7 +95,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let progress = Progress::of(starts, "starts");
         Box::new(move || progress.advance(1))
     })?;
-    screen.write(&design::page(&found, screen.ink()))?;
+    screen.show(&design::page(&found))?;
     let written = |path: &PathBuf| screen.write_to(path, &csv::conditions(&found.readings_to_take()));
     arguments.output.as_ref().map_or(Ok(()), written)
 }

@@ -10,8 +10,8 @@ use hexbench_model::error::ModelError;
 use hexbench_model::runs::WithOrigin;
 use hexbench_model::term::Term;
 use hexbench_model::verdict::Verdict;
-use hexbench_pages::Subject;
-use hexbench_pages::html;
+use hexbench_report::words::Subject;
+use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
 use crate::input;
@@ -35,9 +35,6 @@ pub(crate) struct Arguments {
     json: Option<PathBuf>,
     #[command(flatten)]
     page: PageFiles,
-    /// Every parameter and every detectable size
-    #[arg(long, short)]
-    verbose: bool,
     /// Exit with 1 unless this is the verdict
     #[arg(long, value_name = "VERDICT", num_args = 0..=1, require_equals = true, default_missing_value = "adequate")]
     check: Option<Expected>,
@@ -70,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
     let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
     let study = study(&hexapod, &data, holdout.as_ref(), &terms)?;
-    let to_stdout = arguments.json.as_deref() == Some(Path::new("-"));
+    let to_stdout = arguments.json.as_deref() == Some(Path::new("-")) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
         let run =
             origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
@@ -82,10 +79,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             .into_iter()
             .chain(&arguments.holdout)
             .chain(&arguments.terms);
-        Ok(html::diagnosis(&subject, &provenance(read)?)?)
+        Ok(charts::diagnosis(&subject, &provenance(read)?)?)
     })?;
     if !to_stdout {
-        screen.write(&hexbench_pages::diagnosis(&subject, arguments.verbose, screen.ink()))?;
+        screen.show(&words::diagnosis(&subject))?;
     }
     check(arguments.check, &study.diagnosis)
 }
@@ -105,6 +102,5 @@ fn check(expected: Option<Expected>, diagnosis: &Diagnosis) -> Result<(), Failur
     let Some(expected) = expected.map(Expected::verdict).filter(|e| *e != diagnosis.verdict) else {
         return Ok(());
     };
-    let word = |v: Verdict| hexbench_pages::conclusion::word(v);
-    Err(Failure::Check(format!("the verdict is {}, not {}", word(diagnosis.verdict), word(expected))))
+    Err(Failure::Check(format!("the verdict is {}, not {}", diagnosis.verdict.word(), expected.word())))
 }

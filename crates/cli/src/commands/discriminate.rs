@@ -81,7 +81,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         screen.write_to(path, &found.json()?)?;
     }
     if !to_stdout {
-        screen.write(&discriminated(&found, screen.ink()))?;
+        screen.show(&discriminated(&found))?;
     }
     arguments.output.as_ref().map_or(Ok(()), |path| screen.write_to(path, &table(&found)))
 }

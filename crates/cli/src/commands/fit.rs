@@ -9,7 +9,7 @@ use hexbench_model::diagnose::prepare;
 use hexbench_model::error::ModelError;
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::selection::Task;
-use hexbench_pages::fitted::report;
+use hexbench_report::words::fitted;
 use hexbench_tasks::fit::{added, fitted};
 
 use crate::failure::Failure;
@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let campaign = prepare(&hexapod, &data).map_err(failed)?;
     let task = Task { hexapod: &hexapod, data: &data, campaign: &campaign, holdout: holdout.as_ref() };
     let judged = fitted(&task, &added, estimator)?;
-    screen.write(&report(&task, &judged, estimator, screen.ink()))?;
+    screen.show(&fitted::page(&task, &judged, estimator))?;
     let Some(path) = &arguments.output else { return Ok(()) };
     let model = Model::new(&campaign, &judged.fit, estimator, origin(&arguments.data, &data)?);
     let unsaved = |cause| Failure::ModelFile { path: path.clone(), cause: Box::new(cause) };

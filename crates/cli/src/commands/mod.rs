@@ -28,7 +28,7 @@ use crate::output::Screen;
 
 /// Run the subcommand.
 pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
-    let screen = Screen::stdout(cli.colour);
+    let screen = Screen::stdout(cli.colour, cli.verbose);
     match &cli.command {
         Command::Demo(arguments) => demo::run(arguments, &screen),
         Command::Simulate(arguments) => simulate::run(arguments, &screen),

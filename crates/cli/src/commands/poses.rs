@@ -1,11 +1,10 @@
 //! `hexbench poses BALLS.csv --balls balls.toml`.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
 use hexbench_core::BallRecord;
-use hexbench_core::files::{nearest, read_ball_places, read_balls};
+use hexbench_core::files::{CsvText, nearest, read_ball_places, read_balls};
 use hexbench_model::registration::{Located, Places, Registered, register_all};
 use hexbench_report::number::significant;
 
@@ -52,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         return Ok(());
     }
     let told = located::Told { found: &found, places: &places, stated: sigma, output: &arguments.output };
-    screen.write(&located::page(&told, screen.ink()))
+    screen.show(&located::page(&told))
 }
 
 fn given_sigma(arguments: &Arguments) -> Result<Option<f64>, Failure> {
@@ -105,32 +104,31 @@ fn warn(path: &Path, found: &Registered) {
 
 /// The poses as a table whose columns are those of absolute measurements, with all correlations.
 fn table(found: &Registered) -> String {
-    let mut text = String::from("record");
-    csv::names(&mut text, "measured_", &NAMES, [Unit::Mm, Unit::Deg]);
-    csv::names(&mut text, "sigma_", &NAMES, [Unit::Um, Unit::Urad]);
-    for (i, j) in pairs() {
-        let _ = write!(text, ",x_corr_{}_{}", NAMES[i], NAMES[j]);
-    }
-    text.push_str(",x_rms_um,x_worst_first,x_worst_second,x_worst_distance_um,x_moved\n");
-    for pose in &found.poses {
-        row(&mut text, pose);
-    }
-    text
+    let poses = csv::names("measured_", &NAMES, [Unit::Mm, Unit::Deg]);
+    let sigmas = csv::names("sigma_", &NAMES, [Unit::Um, Unit::Urad]);
+    let correlations = pairs().map(|(i, j)| format!("x_corr_{}_{}", NAMES[i], NAMES[j]));
+    let rest =
+        ["x_rms_um", "x_worst_first", "x_worst_second", "x_worst_distance_um", "x_moved"].map(str::to_owned);
+    let header = poses.into_iter().chain(sigmas).chain(correlations).chain(rest);
+    let mut text = CsvText::new(std::iter::once("record".to_owned()).chain(header));
+    found.poses.iter().for_each(|pose| text.row(row(pose)));
+    text.into_text()
 }
 
-fn row(text: &mut String, pose: &Located) {
-    text.push_str(&pose.id);
-    csv::values(text, &pose.pose.to_array(), [Unit::Mm, Unit::Deg]);
+fn row(pose: &Located) -> Vec<String> {
     let sigma: [f64; 6] = std::array::from_fn(|k| pose.covariance[(k, k)].sqrt());
-    csv::values(text, &sigma, [Unit::Um, Unit::Urad]);
-    for (i, j) in pairs() {
+    let correlation = |(i, j): (usize, usize)| {
         let scale = sigma[i] * sigma[j];
-        let correlation = if scale > 0.0 { pose.covariance[(i, j)] / scale } else { 0.0 };
-        let _ = write!(text, ",{correlation:.6}");
-    }
+        format!("{:.6}", if scale > 0.0 { pose.covariance[(i, j)] / scale } else { 0.0 })
+    };
     let (first, second, distance) = pose.worst.clone().unwrap_or_default();
-    let (rms, distance) = (pose.rms * 1e6, distance * 1e6);
-    let _ = writeln!(text, ",{rms:.6},{first},{second},{distance:.6},{}", u8::from(pose.moved));
+    let [rms, distance] = [pose.rms, distance].map(|x| format!("{:.6}", x * 1e6));
+    std::iter::once(pose.id.clone())
+        .chain(csv::values(&pose.pose.to_array(), [Unit::Mm, Unit::Deg]))
+        .chain(csv::values(&sigma, [Unit::Um, Unit::Urad]))
+        .chain(pairs().map(correlation))
+        .chain([rms, first, second, distance, u8::from(pose.moved).to_string()])
+        .collect()
 }
 
 fn pairs() -> impl Iterator<Item = (usize, usize)> {

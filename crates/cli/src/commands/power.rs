@@ -7,15 +7,14 @@ use clap::Args;
 use hexbench_core::{Hexapod, Measurand, Metrology};
 use hexbench_design::nominal;
 use hexbench_design::power::Settings;
+use hexbench_experiments::power::{Campaigns, PlanReport, Power, PowerPlan, Simulation, pictures};
 use hexbench_model::fit_named::term_named;
 use hexbench_model::term::Term;
-use hexbench_validation::power::{
-    Page, Power, PowerPlan, Simulation, most_campaigns, pictures, run as study,
-};
+use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{Progress, Screen};
+use crate::output::{Screen, TrialFiles};
 
 /// See which effects a plan would show, from which size on, and what it would take them for
 #[derive(Debug, Args)]
@@ -54,9 +53,6 @@ pub(crate) struct Arguments {
     /// The noise will be estimated from the repeats of the plan
     #[arg(long)]
     noise_from_repeats: bool,
-    /// Every parameter of every effect
-    #[arg(long, short)]
-    verbose: bool,
     /// Write all figures to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -66,6 +62,8 @@ pub(crate) struct Arguments {
     /// Write the page as Markdown to FILE
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 /// Noise of one reading, m and rad.
@@ -99,12 +97,13 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
     known(&arguments.effects, &terms)?;
     let plan = plan(arguments)?;
-    let power = with_progress(arguments, &plan, &terms)?;
-    let page = Page { plan: &plan, power: &power, only: &arguments.effects, verbose: arguments.verbose };
+    let power = studied(arguments, &plan, &terms)?;
+    let page =
+        PlanReport { plan: &plan, power: &power, only: &arguments.effects, verbose: screen.is_verbose() };
     write(arguments, &page, screen)?;
     match arguments.json.as_deref() {
         Some(path) if path == Path::new("-") => Ok(()),
-        _ => screen.write(&page.document().to_text()),
+        _ => screen.show(&page.document()),
     }
 }
 
@@ -162,7 +161,7 @@ fn stiffness(given_n_per_um: Option<f64>, hexapod: &Hexapod) -> [f64; 6] {
     given_n_per_um.map_or_else(|| nominal::stiffness(hexapod), |k| [k * 1e6; 6])
 }
 
-fn with_progress(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -> Result<Power, Failure> {
+fn studied(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -> Result<Power, Failure> {
     let settings = Settings {
         alarm: arguments.alarm,
         power: arguments.power,
@@ -171,19 +170,17 @@ fn with_progress(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>
     };
     let campaigns = arguments.simulate.map_or(0, |n| n as usize);
     let simulation = Simulation { campaigns, diagnoses: campaigns > 0 };
-    let simulated = if arguments.effects.is_empty() { terms.len() } else { arguments.effects.len() };
-    let progress = Progress::of(most_campaigns(simulated, simulation) as u64, "campaigns");
-    let power = study(plan, terms, settings, simulation, &arguments.effects, &|| progress.advance(1));
-    progress.done();
-    Ok(power?)
+    let all = Campaigns::new(plan, terms, settings, simulation, &arguments.effects)?;
+    let gathered = arguments.kept.run(&all)?;
+    Ok(all.power(&gathered)?)
 }
 
-fn write(arguments: &Arguments, page: &Page<'_>, screen: &Screen) -> Result<(), Failure> {
+fn write(arguments: &Arguments, page: &PlanReport<'_>, screen: &Screen) -> Result<(), Failure> {
     if let Some(path) = &arguments.json {
         screen.write_to(path, &json(page.power)?)?;
     }
     if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &page.document().to_markdown())?;
+        screen.write_to(path, &markdown(&page.document()))?;
     }
     let Some(path) = &arguments.svg else { return Ok(()) };
     let charts = pictures(page.power)?;

@@ -1,10 +1,10 @@
 //! `hexbench predict model.toml POSES.csv`.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_core::Measurand;
+use hexbench_core::files::CsvText;
 use hexbench_model::predict::predict;
 
 use crate::csv::{self, Unit};
@@ -32,17 +32,15 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) })?;
     let units = if model.is_absolute() { [Unit::Mm, Unit::Deg] } else { [Unit::Um, Unit::Urad] };
     let names = names(model.measurand);
-    let mut text = csv::conditions_header(&rows);
-    csv::names(&mut text, "", &names, units);
-    csv::names(&mut text, "sigma_", &sigma_names(&names), [Unit::Um, Unit::Urad]);
-    text.push('\n');
+    let small = [Unit::Um, Unit::Urad];
+    let (values, sigmas) = (csv::names("", &names, units), csv::names("sigma_", &sigma_names(&names), small));
+    let conditions = csv::conditions_header(&rows).into_iter().map(str::to_owned);
+    let mut text = CsvText::new(conditions.chain(values).chain(sigmas));
     for (row, p) in rows.observations.iter().zip(&predictions) {
-        csv::condition(&mut text, &rows, row);
-        csv::values(&mut text, &p.value, units);
-        csv::values(&mut text, &p.sigma, [Unit::Um, Unit::Urad]);
-        let _ = writeln!(text);
+        let (values, sigmas) = (csv::values(&p.value, units), csv::values(&p.sigma, small));
+        text.row(csv::condition(&rows, row).into_iter().chain(values).chain(sigmas));
     }
-    screen.write_to(&arguments.output, &text)
+    screen.write_to(&arguments.output, &text.into_text())
 }
 
 fn names(measurand: Measurand) -> [&'static str; 6] {

@@ -3,21 +3,21 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_validation::regress::baseline::{Baseline, Update, made};
-use hexbench_validation::regress::comparison::{Comparison, compare};
-use hexbench_validation::regress::date::today;
-use hexbench_validation::regress::gathered::pool;
-use hexbench_validation::regress::junit::junit;
-use hexbench_validation::regress::limit::Limit;
-use hexbench_validation::regress::limits::limits;
-use hexbench_validation::regress::rule::Verdict;
-use hexbench_validation::regress::suite::{BASELINE_RUNS, SEED, Suite};
-use hexbench_validation::regress::summary::{headline, markdown};
-use hexbench_validation::regress::trials::{Trials, run as run_suite};
+use hexbench_experiments::regress::baseline::{Baseline, Update, made};
+use hexbench_experiments::regress::comparison::{Comparison, compare};
+use hexbench_experiments::regress::date::today;
+use hexbench_experiments::regress::gathered::pool;
+use hexbench_experiments::regress::junit::junit;
+use hexbench_experiments::regress::limit::Limit;
+use hexbench_experiments::regress::limits::limits;
+use hexbench_experiments::regress::rule::Verdict;
+use hexbench_experiments::regress::suite::{BASELINE_RUNS, SEED, Suite};
+use hexbench_experiments::regress::summary::{self, headline};
+use hexbench_experiments::regress::trials::Runs;
+use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
-use crate::output::{Progress, Screen, write_json};
-use crate::page;
+use crate::output::{Screen, TrialFiles, write_json};
 
 /// The baseline of the full suite.
 pub(crate) const COMMITTED: &str = "data/regress/baseline.json";
@@ -58,6 +58,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", requires = "update", default_value_t = BASELINE_RUNS as u32,
           value_parser = clap::value_parser!(u32).range(1..=100))]
     runs: u32,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 /// Compare with the baseline, or make a new one.
@@ -72,7 +74,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn check(arguments: &Arguments, suite: &Suite, limits: &[Limit], screen: &Screen) -> Result<(), Failure> {
     let baseline = Baseline::read_for(&arguments.baseline, suite, limits)?;
-    let trials = with_progress(suite, &[arguments.seed]);
+    let run = Runs::new(suite, arguments.seed, 1);
+    let trials = run.of_each(arguments.kept.run(&run)?);
     let first = trials.first().ok_or_else(|| Failure::Check("nothing was run".into()))?;
     let comparison = compare(suite, limits, (first, arguments.seed), &baseline, VERSION);
     write(arguments, &comparison, screen)?;
@@ -88,9 +91,10 @@ fn check(arguments: &Arguments, suite: &Suite, limits: &[Limit], screen: &Screen
 }
 
 fn write(arguments: &Arguments, comparison: &Comparison, screen: &Screen) -> Result<(), Failure> {
+    let page = summary::page(comparison, arguments.all);
     let to_screen = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
     if let Some(path) = &arguments.junit {
-        let cause = |e: hexbench_validation::regress::junit::XmlError| Failure::Output {
+        let cause = |e: hexbench_experiments::regress::junit::XmlError| Failure::Output {
             path: path.clone(),
             cause: std::io::Error::other(e),
         };
@@ -100,12 +104,12 @@ fn write(arguments: &Arguments, comparison: &Comparison, screen: &Screen) -> Res
         write_json(screen, path, comparison)?;
     }
     if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &markdown(comparison))?;
+        screen.write_to(path, &markdown(&page))?;
     }
     if to_screen(&arguments.json) || to_screen(&arguments.markdown) || to_screen(&arguments.junit) {
         return Ok(());
     }
-    screen.write(&page::regress(comparison, arguments.all, screen.ink()))
+    screen.show(&page)
 }
 
 fn update(
@@ -116,14 +120,14 @@ fn update(
     screen: &Screen,
 ) -> Result<(), Failure> {
     if reason.trim().is_empty() {
-        return Err(hexbench_validation::regress::baseline::BaselineError::NoReason.into());
+        return Err(hexbench_experiments::regress::baseline::BaselineError::NoReason.into());
     }
     let kept =
         if arguments.baseline.exists() { Baseline::read(&arguments.baseline)?.history } else { Vec::new() };
     Screen::make_folder_of(&arguments.baseline)?;
     let runs = arguments.runs as usize;
-    let seeds: Vec<u64> = (0..u64::from(arguments.runs)).map(|k| arguments.seed.wrapping_add(k)).collect();
-    let trials = with_progress(suite, &seeds);
+    let all = Runs::new(suite, arguments.seed, runs);
+    let trials = all.of_each(arguments.kept.run(&all)?);
     let update = Update {
         date: today(),
         hexbench: VERSION.to_owned(),
@@ -143,15 +147,4 @@ fn update(
         baseline.suite_version,
         baseline.history.len(),
     ))
-}
-
-/// One run for each seed; campaigns without noise are the same in all and made once.
-fn with_progress(suite: &Suite, seeds: &[u64]) -> Vec<Trials> {
-    let others = suite.without_machines();
-    let suites: Vec<&Suite> = (0..seeds.len()).map(|k| if k == 0 { suite } else { &others }).collect();
-    let progress = Progress::of(suites.iter().map(|s| s.campaigns() as u64).sum(), "campaigns");
-    let step = || progress.advance(1);
-    let trials = suites.iter().zip(seeds).map(|(suite, seed)| run_suite(suite, *seed, &step)).collect();
-    progress.done();
-    trials
 }

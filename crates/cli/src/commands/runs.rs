@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_model::runs::{FORMATS, Head, Run, SavedComparison, SavedDiagnosis, between};
-use hexbench_pages::html;
+use hexbench_report::{charts, words};
 use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
@@ -33,11 +33,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(path) = &arguments.json {
         write_json(screen, path, &runs)?;
     }
-    arguments.page.write(screen, || Ok(html::runs(&runs, &provenance([&arguments.a, &arguments.b])?)?))?;
+    arguments.page.write(screen, || Ok(charts::runs(&runs, &provenance([&arguments.a, &arguments.b])?)?))?;
     if arguments.json.as_deref() != Some(Path::new("-")) {
-        screen.write(&hexbench_pages::runs::page(&runs, screen.ink()))?;
+        screen.show(&words::runs(&runs))?;
     }
-    if arguments.check && hexbench_pages::runs::changed(&runs) {
+    if arguments.check && runs.has_changed() {
         return Err(Failure::Check("the two runs differ".to_owned()));
     }
     Ok(())

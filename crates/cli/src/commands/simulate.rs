@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         noise_free: arguments.noise_free,
         reveal: arguments.reveal,
     };
-    screen.write(&simulated::page(&told, screen.ink()))
+    screen.show(&simulated::page(&told))
 }
 
 fn write(bench: &Bench<'_>, folder: &Path, force: bool) -> Result<(), Failure> {

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, value_parser};
-use hexbench_pages::text::{Paper, Table};
-use hexbench_study::{Part, Work, divide, page};
+use hexbench_experiments::harness::Progress as _;
+use hexbench_experiments::sweep::work::Share;
+use hexbench_experiments::sweep::{Part, Work, divide, page};
+use hexbench_report::{Block, Page, Section, Table};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen, report};
@@ -110,22 +112,18 @@ fn whole(arguments: &Whole, screen: &Screen) -> Result<(), Failure> {
 /// Who does how much.
 fn plan(arguments: &PlanArguments, screen: &Screen) -> Result<(), Failure> {
     let division = divide(&arguments.study, arguments.parts)?;
-    let mut table = Table::default();
-    table.row(["part", "shards", "trials"]);
-    for share in &division.parts {
-        table.row([share.part.clone(), share.shards.to_string(), share.trials.to_string()]);
-    }
-    let mut paper = Paper::new(screen.ink());
+    let share = |share: &Share| [share.part.clone(), share.shards.to_string(), share.trials.to_string()];
+    let table = Table::named(["part", "shards", "trials"]).rows(division.parts.iter().map(share));
     let study = arguments.study.display();
-    paper.heading(
-        &format!("{} shards, {} trials", division.shards, division.trials),
-        "every n-th shard, so that parts take equally long",
+    let commands = format!(
+        "hexbench study run {study} -o part-I --shard I/{}\nhexbench study merge {study} -o whole part-*",
+        arguments.parts
     );
-    table.lines().iter().for_each(|line| paper.line(line));
-    paper.heading("On each machine, then on one", "");
-    paper.line(&format!("  hexbench study run {study} -o part-I --shard I/{}", arguments.parts));
-    paper.line(&format!("  hexbench study merge {study} -o whole part-*"));
-    screen.write(&paper.into_text())
+    let parts = Section::new(format!("{} shards, {} trials", division.shards, division.trials))
+        .remark("every n-th shard, so that parts take equally long")
+        .table(table);
+    let next = Section::new("On each machine, then on one").with(Block::code(commands));
+    screen.show(&Page::default().with(parts).with(next))
 }
 
 /// Compute what is missing of a part.
@@ -142,7 +140,7 @@ fn part(arguments: &RunArguments, screen: &Screen) -> Result<(), Failure> {
 fn merge(arguments: &MergeArguments, screen: &Screen) -> Result<(), Failure> {
     let work = Work::open(&arguments.study, &arguments.out)?;
     for folder in &arguments.parts {
-        let adopted = work.adopt(folder)?;
+        let adopted = work.journal().adopt(folder)?;
         if adopted.damaged > 0 {
             let told = format!("{}: {} records are damaged and left out", folder.display(), adopted.damaged);
             report::warn(&told, "`hexbench study run` on this folder computes them again.");
@@ -154,12 +152,12 @@ fn merge(arguments: &MergeArguments, screen: &Screen) -> Result<(), Failure> {
 
 /// Write the results of a study that is complete, and tell them.
 fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
-    let progress = Progress::of(work.shards(), "shards written");
+    let progress = Progress::of(work.shards().count(), "shards written");
     let cells = work.write_tables(&|| progress.advance(1));
     progress.done();
     let cells = cells?;
     page::write(work.study(), &cells, work.folder(), markdown)?;
-    screen.write(&page::summary(work.study(), &cells).to_text())?;
+    screen.show(&page::summary(work.study(), &cells))?;
     let written: Vec<String> = work.written().iter().map(|path| format!("  {}\n", path.display())).collect();
     screen.write(&format!("\nWritten:\n{}", written.concat()))
 }
@@ -167,12 +165,8 @@ fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Fai
 /// Compute what is missing of a part, or of the whole.
 fn compute(work: &Work, part: Option<Part>) -> Result<(), Failure> {
     let todo = work.todo(part)?;
-    if todo.damaged > 0 {
-        let told = format!("{} damaged records of the journal are computed again", todo.damaged);
-        report::warn(&told, "Nothing, if the files were copied or the disk was full.");
-    }
-    let progress = Progress::of(todo.trials, "trials").beginning_at(todo.trials - todo.pending_trials);
-    let done = work.compute(&todo.pending, &|trials| progress.advance(trials));
-    progress.done();
-    Ok(done?)
+    let progress = Progress::of(0, "trials");
+    progress.damaged(todo.damaged);
+    progress.begin(todo.trials, todo.trials - todo.pending_trials);
+    Ok(work.compute(&todo.pending, &progress)?)
 }

@@ -7,7 +7,8 @@ use hexbench_core::files::nearest;
 use hexbench_model::error::ModelError;
 use hexbench_model::term::{Term, TermInfo};
 use hexbench_model::terms::catalogue;
-use hexbench_pages::{effect, effects};
+use hexbench_report::render::markdown;
+use hexbench_report::words::{effect, effects};
 
 use crate::failure::Failure;
 use crate::output::Screen;
@@ -25,12 +26,11 @@ pub(crate) struct Arguments {
 /// Print the list, one effect, or the Markdown page.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let terms = catalogue();
-    let text = match &arguments.term {
-        Some(id) => effect::text(find(&terms, id)?, screen.ink()),
-        None if arguments.markdown => effects::markdown(&terms),
-        None => effects::list(&terms, screen.ink()),
-    };
-    screen.write(&text)
+    match &arguments.term {
+        Some(id) => screen.show(&effect::page(find(&terms, id)?)),
+        None if arguments.markdown => screen.write(&markdown(&effects::catalogue(&terms))),
+        None => screen.show(&effects::list(&terms)),
+    }
 }
 
 fn find<'a>(terms: &'a [Arc<dyn Term>], id: &str) -> Result<&'a TermInfo, Failure> {

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
-use hexbench_pages::text::{Ink, Paper, Table};
+
 use hexbench_rapier::parts::Inertia;
 use hexbench_rapier::transient::{LoadStep, SETTLED, Transient, csv, nominal, settle, static_deflection};
-use hexbench_report::number;
+use hexbench_report::{Block, Page, Section, Table, number};
 
 use crate::failure::Failure;
 use crate::input;
@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         damping_ratio: arguments.damping_ratio,
     };
     let transient = settle(&setup, &step)?;
-    screen.write(&page(&transient, &standing, screen.ink()))?;
+    screen.show(&page(&transient, &standing))?;
     arguments.output.as_ref().map_or(Ok(()), |path| screen.write_to(path, &csv(&transient.samples)))
 }
 
@@ -94,26 +94,25 @@ fn stiffness(arguments: &Arguments, hexapod: &Hexapod) -> Result<[f64; 6], Failu
     })
 }
 
-fn page(transient: &Transient, standing: &Vector6, ink: Ink) -> String {
-    let mut paper = Paper::new(ink);
+fn page(transient: &Transient, standing: &Vector6) -> Page {
     let hz = transient.modes.frequencies_hz().map(|f| number::significant(f, 4)).join("  ");
-    paper.heading("Natural frequencies", "linear leg springs, platform and legs with mass");
-    paper.line(&format!("  {hz}  Hz"));
     let seen = transient.observed_frequency_hz.map_or_else(
         || "The load hardly made the lowest mode swing, or it is damped too much.".to_owned(),
         |f| format!("The lowest mode was seen to swing at {} Hz.", number::significant(f, 4)),
     );
-    paper.paragraph(2, &seen);
-    paper.heading("After the load step", "without gravity; um and urad");
-    let percent = 100.0 * SETTLED;
     let time = number::significant(transient.settling_time, 3);
-    paper.paragraph(2, &format!("Settled within {percent:.0} % of the deflection after {time} s."));
-    let mut table = Table::default();
-    table.row(["", "da", "db", "dc", "dalpha", "dbeta", "dgamma"]);
-    for (name, deflection) in [("end of the trace", &transient.limit()), ("static equilibrium", standing)] {
+    let row = |(name, deflection): (&str, &Vector6)| {
         let cells = deflection.iter().map(|d| format!("{:.3}", d * 1e6 + 0.0));
-        table.row(std::iter::once(name.to_owned()).chain(cells));
-    }
-    table.lines().iter().for_each(|line| paper.line(line));
-    paper.into_text()
+        std::iter::once(name.to_owned()).chain(cells).collect::<Vec<_>>()
+    };
+    let rows = [("end of the trace", &transient.limit()), ("static equilibrium", standing)].map(row);
+    let modes = Section::new("Natural frequencies")
+        .remark("linear leg springs, platform and legs with mass")
+        .with(Block::code(format!("{hz}  Hz")))
+        .paragraph(seen);
+    let step = Section::new("After the load step")
+        .remark("without gravity; um and urad")
+        .paragraph(format!("Settled within {:.0} % of the deflection after {time} s.", 100.0 * SETTLED))
+        .table(Table::named(["", "da", "db", "dc", "dalpha", "dbeta", "dgamma"]).rows(rows));
+    Page::default().with(modes).with(step)
 }

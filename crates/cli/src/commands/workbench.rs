@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use hexbench_workbench::bench::Given;
 use hexbench_workbench::server::{Server, Settings};
-use hexbench_workbench::wire::Text;
+use hexbench_workbench::wire::FileText;
 
 use crate::failure::Failure;
 use crate::input;
@@ -56,8 +56,8 @@ fn given(arguments: &Arguments) -> Result<Option<Given>, Failure> {
     Ok(Some(Given { hexapod: text(hexapod)?, data: text(data)?, holdout }))
 }
 
-fn text(path: &Path) -> Result<Text, Failure> {
+fn text(path: &Path) -> Result<FileText, Failure> {
     let text = std::fs::read_to_string(path)
         .map_err(|cause| Failure::Unreadable { path: path.to_owned(), cause })?;
-    Ok(Text { name: path.display().to_string(), text })
+    Ok(FileText { name: path.display().to_string(), text })
 }

@@ -7,9 +7,11 @@ mod progress;
 pub(crate) mod report;
 mod screen;
 mod table;
+mod trials;
 
 pub(crate) use colour::Colour;
 pub(crate) use pages::{PageFiles, origin, provenance, write_json};
 pub(crate) use progress::Progress;
 pub(crate) use screen::Screen;
 pub(crate) use table::TableFile;
+pub(crate) use trials::TrialFiles;

@@ -6,9 +6,11 @@ use clap::Args;
 use hexbench_core::files::{atomic_write, content_hash};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::runs::Origin;
-use hexbench_pages::html::{Provenance, ReportError};
-use hexbench_report::html::{PROGRAM, Page};
+use hexbench_report::Page;
+use hexbench_report::charts::ReportError;
 use hexbench_report::png::png;
+use hexbench_report::render::{PROGRAM, html, markdown};
+use hexbench_report::words::Provenance;
 use serde::Serialize;
 
 use super::{Screen, report};
@@ -20,24 +22,35 @@ pub(crate) struct PageFiles {
     /// Write the page with charts to FILE: one file for a browser, needs no network
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
+    /// Write the page as Markdown to FILE, or to standard output (-)
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
     /// Write every chart of the page into DIR, as SVG and as PNG
     #[arg(long, value_name = "DIR")]
     charts: Option<PathBuf>,
 }
 
 impl PageFiles {
+    /// True when the page itself goes to standard output.
+    pub(crate) fn to_stdout(&self) -> bool {
+        [&self.html, &self.markdown].into_iter().flatten().any(|path| path.as_os_str() == "-")
+    }
+
     /// Make the page if anyone wants it, and write it.
     pub(crate) fn write(
         &self,
         screen: &Screen,
         page: impl FnOnce() -> Result<Page, Failure>,
     ) -> Result<(), Failure> {
-        if self.html.is_none() && self.charts.is_none() {
+        if self.html.is_none() && self.markdown.is_none() && self.charts.is_none() {
             return Ok(());
         }
         let page = page()?;
         if let Some(path) = &self.html {
-            screen.write_to(path, &page.to_html().map_err(ReportError::from)?)?;
+            screen.write_to(path, &html(&page).map_err(ReportError::from)?)?;
+        }
+        if let Some(path) = &self.markdown {
+            screen.write_to(path, &markdown(&page))?;
         }
         self.charts.as_deref().map_or(Ok(()), |folder| write_charts(&page, folder))
     }
@@ -47,9 +60,9 @@ impl PageFiles {
 fn write_charts(page: &Page, folder: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|cause| Failure::Output { path: folder.to_owned(), cause })?;
     let mut without_picture = false;
-    for (name, svg) in page.figures() {
-        write(&folder.join(&name).with_extension("svg"), svg.as_bytes())?;
-        match png(svg) {
+    for (name, figure) in page.figures() {
+        write(&folder.join(&name).with_extension("svg"), figure.svg.as_bytes())?;
+        match png(&figure.svg) {
             Some(picture) => write(&folder.join(&name).with_extension("png"), &picture)?,
             None => without_picture = true,
         }

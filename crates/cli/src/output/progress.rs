@@ -3,7 +3,10 @@
 use std::sync::Once;
 use std::time::{Duration, Instant};
 
+use hexbench_experiments::harness;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::report;
 
 /// Work shorter than this needs no bar.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -27,14 +30,6 @@ impl Progress {
         Self { bar, begun: Instant::now(), shown: Once::new() }
     }
 
-    /// So many steps were done before: they say nothing about the time the others will take.
-    #[must_use]
-    pub(crate) fn beginning_at(self, steps: u64) -> Self {
-        self.bar.set_position(steps);
-        self.bar.reset_eta();
-        self
-    }
-
     /// Some steps more are done.
     pub(crate) fn advance(&self, steps: u64) {
         self.bar.inc(steps);
@@ -46,6 +41,26 @@ impl Progress {
     /// The bar goes away.
     pub(crate) fn done(self) {
         drop(self);
+    }
+}
+
+impl harness::Progress for Progress {
+    /// What was done before says nothing about the time the others will take.
+    fn begin(&self, trials: u64, known: u64) {
+        self.bar.set_length(trials);
+        self.bar.set_position(known);
+        self.bar.reset_eta();
+    }
+
+    fn damaged(&self, records: u64) {
+        if records > 0 {
+            let told = format!("{records} damaged records of the journal are computed again");
+            report::warn(&told, "Nothing, if the files were copied or the disk was full.");
+        }
+    }
+
+    fn advance(&self, trials: u64) {
+        self.advance(trials);
     }
 }
 

@@ -4,7 +4,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use hexbench_core::files::atomic_write;
-use hexbench_pages::text::Ink;
+use hexbench_report::Page;
+use hexbench_report::render::{Terminal, TextStyle, terminal};
 
 use super::Colour;
 use crate::failure::Failure;
@@ -13,20 +14,25 @@ use crate::failure::Failure;
 #[derive(Debug)]
 pub(crate) struct Screen {
     stdout: io::Stdout,
-    ink: Ink,
+    terminal: Terminal,
 }
 
 impl Screen {
     /// Standard output, coloured when it is a terminal.
-    pub(crate) fn stdout(colour: Colour) -> Self {
+    pub(crate) fn stdout(colour: Colour, verbose: bool) -> Self {
         let stdout = io::stdout();
-        let ink = Ink::new(colour.on(&stdout));
-        Self { stdout, ink }
+        let style = TextStyle::new(colour.on(&stdout));
+        Self { stdout, terminal: Terminal { style, verbose } }
     }
 
-    /// How to paint words for it.
-    pub(crate) fn ink(&self) -> Ink {
-        self.ink
+    /// True when details are wanted.
+    pub(crate) fn is_verbose(&self) -> bool {
+        self.terminal.verbose
+    }
+
+    /// Show a page.
+    pub(crate) fn show(&self, page: &Page) -> Result<(), Failure> {
+        self.write(&terminal(page, self.terminal))
     }
 
     /// Write text. A reader that has gone away, as in `hexbench ... | head`, is no failure.

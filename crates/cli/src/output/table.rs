@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use hexbench_core::files::atomic_write;
-use hexbench_report::html::PROGRAM;
-use hexbench_tables::{Frame, Kind};
+use hexbench_report::render::PROGRAM;
+use hexbench_report::table::{Frame, Kind};
 
 use super::provenance;
 use crate::failure::Failure;
@@ -39,8 +39,20 @@ impl TableFile {
         frame.origin.push(("command".into(), from.command));
         let digest = |(path, sha256): (String, String)| (format!("sha256:{}", name(&path)), sha256);
         frame.origin.extend(from.files.into_iter().map(digest));
+        self.write_as_it_is(&frame)
+    }
+
+    /// Write a table that says itself what it was made from.
+    pub(crate) fn write_as_it_is(&self, frame: &Frame) -> Result<(), Failure> {
         atomic_write(&self.path, |out| frame.write(self.kind, out))
             .map_err(|cause| Failure::Output { path: self.path.clone(), cause })
+    }
+
+    /// A file beside this one for one of several tables: `trials.csv` becomes `trials-NAME.csv`.
+    pub(crate) fn of_one(&self, name: &str) -> Self {
+        let [stem, end] = [self.path.file_stem(), self.path.extension()]
+            .map(|part| part.unwrap_or_default().to_string_lossy().into_owned());
+        Self { path: self.path.with_file_name(format!("{stem}-{name}.{end}")), ..*self }
     }
 }
 

@@ -3,15 +3,14 @@
 use hexbench_core::Observation;
 use hexbench_design::discriminate::Distance;
 use hexbench_model::next::Separation;
-use hexbench_pages::next::{self, settings, way};
-use hexbench_pages::text::{Ink, Paper};
 use hexbench_report::number::{percent, significant};
+use hexbench_report::words::next::{self, settings, way};
+use hexbench_report::{Block, Entry, Page, Section};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
 
-const LABEL: usize = 16;
 /// Decimal logarithms of odds beyond which a number says no more.
 const OVERWHELMING: f64 = 4.0;
 
@@ -134,68 +133,47 @@ impl Planned {
 }
 
 /// The page.
-pub(crate) fn discriminated(found: &Discriminated, ink: Ink) -> String {
-    let mut paper = Paper::new(ink);
-    let (heading, remark) = match &found.data {
-        None => ("Plan", "readings that tell the effects apart".to_owned()),
-        Some(data) => ("Next readings", format!("beside {data}")),
+pub(crate) fn discriminated(found: &Discriminated) -> Page {
+    let breakers = found.breakers.iter().map(|(id, breaker)| Entry::new(id, breaker));
+    Page::default()
+        .with(readings(found))
+        .with(separation(found))
+        .with(Section::new("What shows each effect").with(Block::entries(breakers)))
+        .with(assumptions(found))
+}
+
+fn readings(found: &Discriminated) -> Section {
+    let section = match &found.data {
+        None => Section::new("Plan").remark("readings that tell the effects apart"),
+        Some(data) => Section::new("Next readings").remark(format!("beside {data}")),
     };
-    paper.heading(heading, &remark);
-    for (k, reading) in found.readings.iter().enumerate() {
-        planned(&mut paper, k + 1, reading, k == 0 || differs(found, k));
-    }
-    if found.readings.is_empty() {
-        paper.paragraph(2, "No reading of this space tells these effects apart beside the data in hand.");
-    }
+    let none = "No reading of this space tells these effects apart beside the data in hand.";
     let frames = "Wrench on the platform at the mobile origin, fixed axes; loaded minus reference.";
-    paper.hanging("  frames", LABEL, frames);
-    paper.heading("How well they separate", &format!("{} readings", found.count()));
-    separation(&mut paper, found);
-    paper.heading("What shows each effect", "");
-    for (id, breaker) in &found.breakers {
-        paper.hanging(&format!("  {id}"), 2 * LABEL, breaker);
-    }
-    assumptions(&mut paper, found);
-    paper.into_text()
+    let all = found.readings.iter().enumerate();
+    section
+        .with_all(
+            all.map(|(k, reading)| Block::numbered(k + 1, planned(reading, k == 0 || differs(found, k)))),
+        )
+        .with(found.readings.is_empty().then(|| Block::paragraph(none)))
+        .with(Block::entries([Entry::new("frames", frames)]))
 }
 
 fn differs(found: &Discriminated, k: usize) -> bool {
     found.readings[k].observation.reference != found.readings[0].observation.reference
 }
 
-fn planned(paper: &mut Paper, number: usize, reading: &Planned, with_reference: bool) {
+fn planned(reading: &Planned, with_reference: bool) -> Vec<Entry> {
     let o = &reading.observation;
-    let mut label = format!("  {number}");
-    if !reading.words.is_empty() {
-        paper.hanging(&format!("{label:<5}in words"), LABEL, &reading.words);
-        label.clear();
-    }
-    paper.hanging(&format!("{label:<5}pose"), LABEL, &next::pose(&settings(o)));
-    paper.hanging("     load", LABEL, &next::load(&o.wrench.to_array()));
-    if with_reference && o.reference.to_array().iter().any(|x| *x != 0.0) {
-        paper.hanging("     reference", LABEL, &next::load(&o.reference.to_array()));
-    }
-    paper.hanging("     way", LABEL, &way(o.approach, o.elapsed, o.delta_t, reading.repeats));
+    let words = (!reading.words.is_empty()).then(|| Entry::new("in words", &reading.words));
+    let reference = with_reference && o.reference.to_array().iter().any(|x| *x != 0.0);
+    let reference = reference.then(|| Entry::new("reference", next::load(&o.reference.to_array())));
+    let pose = Entry::new("pose", next::pose(&settings(o)));
+    let load = Entry::new("load", next::load(&o.wrench.to_array()));
+    let way = Entry::new("way", way(o.approach, o.elapsed, o.delta_t, reading.repeats));
+    words.into_iter().chain([pose, load]).chain(reference).chain([way]).collect()
 }
 
-fn separation(paper: &mut Paper, found: &Discriminated) {
-    for p in &found.pairs {
-        paper.line(&format!("  {}", p.between.join(" or ")));
-        if let Some(odds) = p.in_hand {
-            let [a, b] = &p.between;
-            let (odds, first, second) = if odds < 0.0 { (-odds, b, a) } else { (odds, a, b) };
-            paper.hanging("     in hand", LABEL, &format!("odds 10^{odds:.1} for {first} against {second}"));
-        }
-        if let Some(before) = &p.before {
-            paper.hanging("     before", LABEL, &promise(before));
-        }
-        let needed = match p.readings_needed {
-            Some(1) => "20:1 after the first reading".to_owned(),
-            Some(n) => format!("20:1 after {n} such readings"),
-            None => "20:1 only after more readings".to_owned(),
-        };
-        paper.hanging("     chosen", LABEL, &format!("{}; {needed}", promise(&p.after)));
-    }
+fn separation(found: &Discriminated) -> Section {
     let words = if found.data.is_some() {
         "Odds by the data in hand; expected odds for the truth by the readings chosen, if the first is true and if the second is; \
          chance that they favour the truth."
@@ -203,7 +181,28 @@ fn separation(paper: &mut Paper, found: &Discriminated) {
         "Expected ratio of likelihoods for the truth, if the first is true and if the second is, the wrong one and the springs fitted \
          as well as they can; chance that it favours the truth."
     };
-    paper.paragraph(2, words);
+    Section::new("How well they separate")
+        .remark(format!("{} readings", found.count()))
+        .with_all(found.pairs.iter().map(|p| Block::entries(pair(p))))
+        .paragraph(words)
+}
+
+fn pair(p: &Pair) -> Vec<Entry> {
+    let [a, b] = &p.between;
+    let in_hand = p.in_hand.map(|odds| {
+        let (odds, first, second) = if odds < 0.0 { (-odds, b, a) } else { (odds, a, b) };
+        Entry::new("in hand", format!("odds 10^{odds:.1} for {first} against {second}"))
+    });
+    let needed = match p.readings_needed {
+        Some(1) => "20:1 after the first reading".to_owned(),
+        Some(n) => format!("20:1 after {n} such readings"),
+        None => "20:1 only after more readings".to_owned(),
+    };
+    std::iter::once(Entry::new("between", p.between.join(" or ")))
+        .chain(in_hand)
+        .chain(p.before.as_ref().map(|before| Entry::new("before", promise(before))))
+        .chain([Entry::new("chosen", format!("{}; {needed}", promise(&p.after)))])
+        .collect()
 }
 
 /// `expected odds 10^1.2 and 10^0.8, right in 85 %`.
@@ -216,17 +215,17 @@ fn promise(p: &Promise) -> String {
     format!("expected odds {both}, right in {}", percent(p.right))
 }
 
-fn assumptions(paper: &mut Paper, found: &Discriminated) {
+fn assumptions(found: &Discriminated) -> Section {
     let chosen = format!("Chosen from {} readings (seed {}).", found.candidates, found.seed);
     if found.sizes.is_empty() {
-        paper.heading("How it was chosen", "");
-        return paper.paragraph(2, &chosen);
+        return Section::new("How it was chosen").paragraph(chosen);
     }
-    paper.heading("Sizes assumed", "shown by readings spread evenly over the space, beside free springs");
-    for (id, parameters) in &found.sizes {
+    let entry = |(id, parameters): &(String, Vec<Size>)| {
         let one = |(name, value, unit): &Size| format!("{name} {} {unit}", significant(*value, 2));
-        let all: Vec<String> = parameters.iter().map(one).collect();
-        paper.hanging(&format!("  {id}"), 2 * LABEL, &all.join(", "));
-    }
-    paper.paragraph(2, &format!("Larger effects are easier to tell apart. {chosen}"));
+        Entry::new(id, parameters.iter().map(one).collect::<Vec<_>>().join(", "))
+    };
+    Section::new("Sizes assumed")
+        .remark("shown by readings spread evenly over the space, beside free springs")
+        .with(Block::entries(found.sizes.iter().map(entry)))
+        .paragraph(format!("Larger effects are easier to tell apart. {chosen}"))
 }

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use hexbench_model::registration::{Located, Places, Registered};
-use hexbench_pages::text::{Ink, Paper};
 use hexbench_report::number::significant;
+use hexbench_report::{Block, Entry, Page, Section};
 
 /// What the page is about.
 pub(crate) struct Told<'a> {
@@ -18,26 +18,22 @@ pub(crate) struct Told<'a> {
     pub(crate) output: &'a Path,
 }
 
-/// Column at which values begin.
-const INDENT: usize = 14;
-
 /// The page.
-pub(crate) fn page(told: &Told<'_>, ink: Ink) -> String {
-    let mut paper = Paper::new(ink);
+pub(crate) fn page(told: &Told<'_>) -> Page {
     let Registered { poses, .. } = told.found;
-    paper.heading("Poses from balls", "");
-    let mut line = |label: &str, text: &str| paper.hanging(&format!("  {label}"), INDENT, text);
-    line("records", &poses.len().to_string());
-    line("balls", &balls(told.places));
-    line("noise", &noise(told));
-    line("one pose", &one_pose(poses));
     let moved = poses.iter().filter(|pose| pose.moved).count();
-    line(
-        "moved",
-        &if moved == 0 { "no ball beyond the noise".into() } else { format!("a ball, in {moved} records") },
-    );
-    line("written", &told.output.display().to_string());
-    paper.into_text()
+    let moved =
+        if moved == 0 { "no ball beyond the noise".into() } else { format!("a ball, in {moved} records") };
+    let entries = [
+        ("records", poses.len().to_string()),
+        ("balls", balls(told.places)),
+        ("noise", noise(told)),
+        ("one pose", one_pose(poses)),
+        ("moved", moved),
+        ("written", told.output.display().to_string()),
+    ];
+    let entries = entries.map(|(label, text)| Entry::new(label, text));
+    Page::default().with(Section::new("Poses from balls").with(Block::entries(entries)))
 }
 
 fn balls(places: &Places) -> String {

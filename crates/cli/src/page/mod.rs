@@ -1,12 +1,5 @@
-//! Pages of text for people: what was simulated, designed, located, validated.
+//! Pages of the command itself: what was simulated, located, chosen.
 
-mod calibration;
 pub(crate) mod discriminated;
 pub(crate) mod located;
-mod recovery;
-mod regress;
 pub(crate) mod simulated;
-
-pub(crate) use calibration::calibration;
-pub(crate) use recovery::recovery;
-pub(crate) use regress::regress;

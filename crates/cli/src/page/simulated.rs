@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use hexbench_pages::text::{Ink, Paper};
 use hexbench_report::number::significant;
+use hexbench_report::{Block, Entry, Page, Section};
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{Instrument, PartName};
 
@@ -19,25 +19,22 @@ pub(crate) struct Told<'a> {
     pub(crate) reveal: bool,
 }
 
-/// Column at which values begin.
-const INDENT: usize = 14;
-
 /// The page. What is hidden stays hidden unless asked for.
-pub(crate) fn page(told: &Told<'_>, ink: Ink) -> String {
-    let mut paper = Paper::new(ink);
+pub(crate) fn page(told: &Told<'_>) -> Page {
     let scene = told.scene;
-    paper.heading("Simulated", &scene.title);
-    let mut line = |label: &str, text: &str| paper.hanging(&format!("  {label}"), INDENT, text);
-    line("machine", &scene.hexapod.name);
-    line("plan", &plan(scene));
-    line("noise", &noise(told));
-    line("seed", &scene.seed.to_string());
-    line("written", &format!("{} in {}", files(scene), told.folder.display()));
-    line("hidden", &hidden(told));
-    paper.heading("Next", "");
-    paper.line(&format!("  cd {}", told.folder.display()));
-    paper.line(&format!("  {}", next(scene)));
-    paper.into_text()
+    let entries = [
+        ("machine", scene.hexapod.name.clone()),
+        ("plan", plan(scene)),
+        ("noise", noise(told)),
+        ("seed", scene.seed.to_string()),
+        ("written", format!("{} in {}", files(scene), told.folder.display())),
+        ("hidden", hidden(told)),
+    ];
+    let entries = entries.map(|(label, text)| Entry::new(label, text));
+    let commands = format!("cd {}\n{}", told.folder.display(), next(scene));
+    Page::default()
+        .with(Section::new("Simulated").remark(&scene.title).with(Block::entries(entries)))
+        .with(Section::new("Next").with(Block::code(commands)))
 }
 
 fn plan(scene: &Scene) -> String {

@@ -75,7 +75,7 @@ fn a_saved_model_is_compared_on_a_page_under_its_name() {
     let html = comparison("mujoco-foundation", &["--model", model.to_str().unwrap()]);
     assert_sound(&html, "model", 8);
     assert!(html.contains("Compared: leg springs + base-compliance") && html.contains("the model leaves"));
-    assert!(html.contains("as saved, nothing fitted here") && html.contains("model.toml"));
+    assert!(html.contains("As saved, nothing fitted here") && html.contains("model.toml"));
 }
 
 #[test]

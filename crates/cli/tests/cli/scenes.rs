@@ -143,7 +143,7 @@ fn without_noise_repeats_are_equal() {
     let folder = tempfile::tempdir().unwrap();
     let data = folder.path().join("data");
     let page = simulate(&root().join("scenes/hidden-4"), &data, &["--noise-free"]);
-    assert!(page.contains("noise       none"), "{page}");
+    assert!(page.contains("noise    none"), "{page}");
     let table = String::from_utf8(read(&data.join("measurements.csv"))).unwrap();
     let without_repeat = |line: &str| {
         let cells: Vec<&str> = line.split(',').collect();

@@ -25,17 +25,10 @@ fn side(package: &str) -> Option<Side> {
     }
 }
 
-/// The only packages that may depend on both sides: the proving ground, the sweeps and the challenges built on it, what the command and
-/// the Python package do alike, both of these, and the workbench.
-const MEETING_PLACES: [&str; 7] = [
-    "hexbench-validation",
-    "hexbench-study",
-    "hexbench-challenge",
-    "hexbench-tasks",
-    "hexbench-workbench",
-    "hexbench-python",
-    "hexbench-cli",
-];
+/// The only packages that may depend on both sides: the experiments, what the command and the Python package do
+/// alike, both of these, and the workbench.
+const MEETING_PLACES: [&str; 5] =
+    ["hexbench-experiments", "hexbench-tasks", "hexbench-workbench", "hexbench-python", "hexbench-cli"];
 
 fn reachable(graph: &Graph, from: &str) -> BTreeSet<String> {
     let mut seen = BTreeSet::new();

@@ -18,6 +18,7 @@
 mod atomic;
 mod column_name;
 mod columns;
+mod csv_text;
 mod digest;
 mod duplicates;
 mod error;
@@ -45,6 +46,7 @@ mod write_hexapod;
 mod write_measurements;
 
 pub use atomic::atomic_write;
+pub use csv_text::{CsvText, csv_cell};
 pub use digest::{content_hash, text_hash};
 pub use error::{Fault, FileError};
 pub use header::Purpose;

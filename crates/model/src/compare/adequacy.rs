@@ -34,6 +34,43 @@ pub struct Adequacy {
     pub repeats_chi2: Option<Test>,
 }
 
+/// What the tests say of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// The error is noise, as far as the readings tell.
+    Adequate,
+    /// Something is missing.
+    NotAdequate,
+    /// Nothing can be said: no noise level is stated and nothing is repeated.
+    Open,
+}
+
+/// Chance below which a model is not adequate.
+const LEAST_CHANCE: f64 = 0.01;
+
+impl Adequacy {
+    /// Name and result of every test that the data allow.
+    pub fn tests(&self) -> impl Iterator<Item = (&'static str, Test)> {
+        let all = [
+            ("averages against the stated noise", self.lack_of_fit_chi2),
+            ("averages against repeats (F)", self.lack_of_fit_f),
+            ("repeats against the stated noise", self.repeats_chi2),
+        ];
+        all.into_iter().filter_map(|(name, t)| Some((name, t?)))
+    }
+
+    /// What they say together.
+    pub fn answer(&self) -> Answer {
+        let of_fit = [self.lack_of_fit_f, self.lack_of_fit_chi2].into_iter().flatten();
+        let least = of_fit.map(|t| t.p).fold(1.0, f64::min);
+        match self.tests().next() {
+            _ if least < LEAST_CHANCE => Answer::NotAdequate,
+            None => Answer::Open,
+            Some(_) => Answer::Adequate,
+        }
+    }
+}
+
 /// All tests the data allow.
 pub fn adequacy(judged: &Judged<'_>) -> Adequacy {
     let lack = judged.lin.residuals().norm_squared();

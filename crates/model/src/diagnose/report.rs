@@ -11,6 +11,7 @@ use crate::verdict::Verdict;
 
 /// Result of `diagnose`.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Diagnosis {
     /// `diagnosis/1`.
     pub format: &'static str,
@@ -58,6 +59,7 @@ pub struct Diagnosis {
 
 /// One candidate.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct CandidateReport {
     /// Id of the term, `outside` or `none`.
     pub term: String,
@@ -69,6 +71,7 @@ pub struct CandidateReport {
 
 /// One step of the model.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct StepReport {
     /// Terms beside the springs.
     pub terms: Vec<String>,
@@ -84,6 +87,7 @@ pub struct StepReport {
 
 /// Noise of one reading.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct NoiseReport {
     /// Of a translation, um.
     pub translation_um: f64,
@@ -95,6 +99,7 @@ pub struct NoiseReport {
 
 /// A term that cannot be tested.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct UntestableReport {
     /// Its id.
     pub term: String,
@@ -104,6 +109,7 @@ pub struct UntestableReport {
 
 /// A proposed reading.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct NextReport {
     /// `[a, b, c]` in mm, `[alpha, beta, gamma]` in deg.
     pub pose: [f64; 6],
@@ -131,6 +137,7 @@ pub struct NextReport {
 
 /// What the proposed readings promise for two rivals.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct SeparationReport {
     /// The rivals.
     pub between: [String; 2],
@@ -144,6 +151,7 @@ pub struct SeparationReport {
 
 /// Bias of the leg stiffnesses without a term.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct AbsorbedReport {
     /// The term.
     pub term: String,
@@ -153,6 +161,7 @@ pub struct AbsorbedReport {
 
 /// A suspicious reading.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Suspect {
     /// Line of the file.
     pub row: u64,
@@ -162,6 +171,7 @@ pub struct Suspect {
 
 /// An unexplained pattern.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct OutsideReport {
     /// Leg from 1; absent when all legs follow it.
     pub leg: Option<usize>,

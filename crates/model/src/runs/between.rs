@@ -108,6 +108,19 @@ pub struct Runs {
     pub warnings: Vec<String>,
 }
 
+impl Runs {
+    /// True when the answers differ.
+    pub fn has_other_answer(&self) -> bool {
+        self.a.verdict != self.b.verdict || self.a.added != self.b.added
+    }
+
+    /// True when anything differs beyond chance: the answer, the error, a number.
+    pub fn has_changed(&self) -> bool {
+        let error = self.error.is_some_and(|e| e.changed == Changed::Yes);
+        self.has_other_answer() || error || self.parameters.iter().any(|p| p.changed == Changed::Yes)
+    }
+}
+
 /// Put two results beside each other.
 ///
 /// # Errors

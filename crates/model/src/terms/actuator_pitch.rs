@@ -19,7 +19,7 @@ use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
 use crate::period::period_grid;
-use crate::term::{Need, Rich, Scale, Shape, Term, TermInfo, each};
+use crate::term::{Chapter, Need, Rich, Scale, Shape, Term, TermInfo, each};
 
 const WAVES: [&str; 12] = [
     "leg-1-sine",
@@ -42,6 +42,7 @@ pub(super) struct ActuatorPitch;
 static INFO: TermInfo = TermInfo {
     id: "actuator-pitch",
     title: "Periodic error of the leads",
+    chapter: Chapter::AbsolutePoses,
     physics: "Each screw has an error that repeats with its pitch; amplitude and phase belong to the leg, the pitch is common.",
     equation: "e_i = a_i sin(2 pi (q_i - q_home,i) / pitch) + b_i cos(2 pi (q_i - q_home,i) / pitch)",
     source: "ISO 230-2:2014; ISO 3408-3:2006 (ball screws, periodic lead deviation)",

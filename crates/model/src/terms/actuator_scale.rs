@@ -14,7 +14,7 @@ use hexbench_core::Vector6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{LEGS, Need, Rich, Scale, Term, TermInfo, each};
+use crate::term::{Chapter, LEGS, Need, Rich, Scale, Term, TermInfo, each};
 
 /// Encoders or leads have a gain error.
 pub(super) struct ActuatorScale;
@@ -22,6 +22,7 @@ pub(super) struct ActuatorScale;
 static INFO: TermInfo = TermInfo {
     id: "actuator-scale",
     title: "Encoders or leads have a gain error",
+    chapter: Chapter::AbsolutePoses,
     physics: "Each leg moves by a little more or less than commanded.",
     equation: "e_i = gain_i (q_i - q_home,i)",
     source: "ISO 230-2:2014 (positioning accuracy of linear axes)",

@@ -16,7 +16,7 @@ use crate::body::YieldingBody;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
 /// The foundation yields.
 pub(super) struct BaseCompliance;
@@ -24,6 +24,7 @@ pub(super) struct BaseCompliance;
 static INFO: TermInfo = TermInfo {
     id: "base-compliance",
     title: "The foundation yields",
+    chapter: Chapter::Structure,
     physics: "The base with all six base joints moves as a rigid body on six springs at the centre of the base-joint plane.",
     equation: "[v_P; w] = C [F; M_P], M_P = M + (t - P) x F; the platform follows",
     source: "Kalas et al. 2018, list of suspects; Wallace, TPOINT (mount and pier flexure)",

@@ -14,7 +14,7 @@ use hexbench_core::Vector6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
 /// Joint mounts yield sideways.
 pub(super) struct BracketCompliance;
@@ -22,6 +22,7 @@ pub(super) struct BracketCompliance;
 static INFO: TermInfo = TermInfo {
     id: "bracket-compliance",
     title: "Joint mounts yield sideways",
+    chapter: Chapter::Joints,
     physics: "The mounts of the base joints are softer along the base plane than along its normal.",
     equation: "e = c_lat (n_x^2 + n_y^2) (f - f0)",
     source: "Kalas et al. 2018, list of suspects: incomplete stiffness model",

@@ -12,7 +12,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Need, Parameter, Rich, Scale, Shape, Term, TermInfo};
+use crate::term::{Chapter, Need, Parameter, Rich, Scale, Shape, Term, TermInfo};
 
 /// The legs creep under load.
 pub(super) struct Creep;
@@ -20,6 +20,7 @@ pub(super) struct Creep;
 static INFO: TermInfo = TermInfo {
     id: "creep",
     title: "The legs creep under load",
+    chapter: Chapter::Legs,
     physics: "The compliance of every leg grows while the load rests on it.",
     equation: "e = chi c_i (f - f0) (1 - exp(-elapsed / tau))",
     source: "Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976, ch. 5",

@@ -15,7 +15,7 @@ use hexbench_core::Vector6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Need, Parameter, Rich, Scale, Shape, Term, TermInfo};
+use crate::term::{Chapter, Need, Parameter, Rich, Scale, Shape, Term, TermInfo};
 
 /// Dry friction in legs and joints.
 pub(super) struct JointFriction;
@@ -23,6 +23,7 @@ pub(super) struct JointFriction;
 static INFO: TermInfo = TermInfo {
     id: "joint-friction",
     title: "Dry friction in legs and joints",
+    chapter: Chapter::Joints,
     physics: "A slider beside each leg spring holds up to f_c against the last motion, so the spring force lags behind the leg force and depends on the way the load was reached.",
     equation: "e = c (play(f) - play(f0)), play(f) kept within f -+ f_c along the path 0, f0, (overshoot), f",
     source: "Visintin, Differential Models of Hysteresis, 1994 (play operator); Armstrong-Helouvry et al., Automatica 30, 1994",

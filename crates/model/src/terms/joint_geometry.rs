@@ -18,7 +18,7 @@ use hexbench_core::{Vector3, Vector6};
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Need, Rich, Scale, Term, TermInfo, each};
+use crate::term::{Chapter, Need, Rich, Scale, Term, TermInfo, each};
 
 const JOINTS: [&str; 36] = [
     "base-1-x",
@@ -65,6 +65,7 @@ pub(super) struct JointGeometry;
 static INFO: TermInfo = TermInfo {
     id: "joint-geometry",
     title: "Joints are not where the drawing says",
+    chapter: Chapter::AbsolutePoses,
     physics: "Base and platform joints deviate from their nominal places (36 coordinates). Twelve combinations are the same as moving the metrology and the target frame and cannot be told from them.",
     equation: "e = n . dA - (R' n) . dB",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 7; Daney 2003, Mech. Mach. Theory 38 (calibration of a Gough platform)",

@@ -16,7 +16,7 @@ use nalgebra::Matrix3x6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
 /// Flexure joints resist rotation.
 pub(super) struct JointRotationStiffness;
@@ -24,6 +24,7 @@ pub(super) struct JointRotationStiffness;
 static INFO: TermInfo = TermInfo {
     id: "joint-rotation-stiffness",
     title: "Flexure joints resist rotation",
+    chapter: Chapter::Joints,
     physics: "Flexure joints bend when a leg changes direction: at the base end against the base, at the platform end against the platform.",
     equation: "K = sum k_b G_b' G_b + k_p G_p' G_p, with dn = G_b [v; w] and R d(R' n) = G_p [v; w]",
     source: "Smith, Flexures, 2000; Dehaeze, PhD thesis 2021, ch. 5 (flexible joints of a Stewart platform)",

@@ -11,7 +11,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
 /// Tension differs from compression.
 pub(super) struct LegAsymmetry;
@@ -19,6 +19,7 @@ pub(super) struct LegAsymmetry;
 static INFO: TermInfo = TermInfo {
     id: "leg-asymmetry",
     title: "Tension differs from compression",
+    chapter: Chapter::Legs,
     physics: "A leg is more compliant when it is pulled than when it is pushed.",
     equation: "e = c_t (max(f, 0) - max(f0, 0))",
     source: "Kalas et al. 2018, future work: legs in tension",

@@ -12,7 +12,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
 /// Play in the legs.
 pub(super) struct LegBacklash;
@@ -20,6 +20,7 @@ pub(super) struct LegBacklash;
 static INFO: TermInfo = TermInfo {
     id: "leg-backlash",
     title: "Play in the legs",
+    chapter: Chapter::Legs,
     physics: "A leg jumps through its play when its force changes sign.",
     equation: "e = gap/2 (sgn f - sgn f0)",
     source: "Kalas et al. 2018: a preload was needed to suppress the play in the actuators",

@@ -14,7 +14,7 @@ use hexbench_core::Vector6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Need, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
 
 /// Two legs share a bracket.
 pub(super) struct LegCoupling;
@@ -22,6 +22,7 @@ pub(super) struct LegCoupling;
 static INFO: TermInfo = TermInfo {
     id: "leg-coupling",
     title: "Two legs share a bracket",
+    chapter: Chapter::Joints,
     physics: "The force of one leg moves the joint of its neighbour on the same bracket.",
     equation: "e_i += c_x (n_i . n_j) (f_j - f0_j) for each pair",
     source: "Klimchik et al. 2014, Mech. Mach. Theory 81 (coupled compliances)",

@@ -12,7 +12,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
 /// Leg compliance grows with leg length.
 pub(super) struct LegLengthCompliance;
@@ -20,6 +20,7 @@ pub(super) struct LegLengthCompliance;
 static INFO: TermInfo = TermInfo {
     id: "leg-length-compliance",
     title: "Leg compliance grows with leg length",
+    chapter: Chapter::Legs,
     physics: "The screw or rod of a leg yields more the further the leg is extended.",
     equation: "e = s (q - q_home) (f - f0)",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (stiffness of actuated links)",

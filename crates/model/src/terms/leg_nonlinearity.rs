@@ -13,7 +13,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Shape, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Shape, Term, TermInfo};
 
 /// Nonlinear leg spring.
 pub(super) struct LegNonlinearity;
@@ -21,6 +21,7 @@ pub(super) struct LegNonlinearity;
 static INFO: TermInfo = TermInfo {
     id: "leg-nonlinearity",
     title: "Nonlinear leg spring",
+    chapter: Chapter::Legs,
     physics: "Rolling contacts stiffen under load (Hertz, p = 2/3); other parts soften. The size is the extra elongation at 100 N.",
     equation: "e = e100 (sgn(f) |f / 100 N|^p - the same at f0)",
     source: "Johnson, Contact Mechanics, 1985, ch. 4; Harris and Kotzalas, Rolling Bearing Analysis, 2006",

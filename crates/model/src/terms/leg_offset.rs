@@ -14,7 +14,7 @@ use hexbench_core::Vector6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{LEGS, Need, Rich, Scale, Term, TermInfo, each};
+use crate::term::{Chapter, LEGS, Need, Rich, Scale, Term, TermInfo, each};
 
 /// Zero lengths of the legs are off.
 pub(super) struct LegOffset;
@@ -22,6 +22,7 @@ pub(super) struct LegOffset;
 static INFO: TermInfo = TermInfo {
     id: "leg-offset",
     title: "Zero lengths of the legs are off",
+    chapter: Chapter::AbsolutePoses,
     physics: "Each leg is longer or shorter than its encoder says by a constant.",
     equation: "e_i = offset_i",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 7 (calibration)",

@@ -15,7 +15,7 @@ use hexbench_core::Vector3;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Need, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
 
 /// The legs are not massless.
 pub(super) struct LegWeight;
@@ -23,6 +23,7 @@ pub(super) struct LegWeight;
 static INFO: TermInfo = TermInfo {
     id: "leg-weight",
     title: "The legs are not massless",
+    chapter: Chapter::AbsolutePoses,
     physics: "Half the weight of each uniform leg rests on its platform joint and half on its base joint; gravity points along -z.",
     equation: "dF at every platform joint = -w/2 z",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (gravity of the links)",

@@ -14,7 +14,7 @@ use hexbench_core::Vector3;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
 /// The load acts beside the mobile origin.
 pub(super) struct LoadOffset;
@@ -22,6 +22,7 @@ pub(super) struct LoadOffset;
 static INFO: TermInfo = TermInfo {
     id: "load-offset",
     title: "The load acts beside the mobile origin",
+    chapter: Chapter::Load,
     physics: "The load acts at a point of the platform other than the mobile origin.",
     equation: "dM = (R r') x F, in both states",
     source: "Kalas et al. 2018, experimental setup (stacked masses)",

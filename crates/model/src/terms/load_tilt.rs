@@ -14,7 +14,7 @@ use hexbench_core::Vector3;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
 /// The load is not quite aligned.
 pub(super) struct LoadTilt;
@@ -22,6 +22,7 @@ pub(super) struct LoadTilt;
 static INFO: TermInfo = TermInfo {
     id: "load-tilt",
     title: "The load is not quite aligned",
+    chapter: Chapter::Load,
     physics: "All loads are turned by two small angles, about the x and the y axis of the fixed frame.",
     equation: "dF = [theta_x, theta_y, 0] x F, in both states",
     source: "JCGM 100:2008 (GUM), F.2.4 (misalignment of a quantity)",

@@ -15,7 +15,7 @@ use hexbench_core::Matrix6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Need, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
 
 /// The measurement drifts with time.
 pub(super) struct MetrologyDrift;
@@ -23,6 +23,7 @@ pub(super) struct MetrologyDrift;
 static INFO: TermInfo = TermInfo {
     id: "metrology-drift",
     title: "The measurement drifts with time",
+    chapter: Chapter::Metrology,
     physics: "The measuring machine drifts steadily between the reference and the loaded reading.",
     equation: "dX = rates * elapsed",
     source: "Wallace, TPOINT; JCGM 100:2008 (GUM), F.1.1.2 (drift between observations)",

@@ -16,7 +16,7 @@ use crate::body::YieldingBody;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
 /// The platform plate yields.
 pub(super) struct PlatformCompliance;
@@ -24,6 +24,7 @@ pub(super) struct PlatformCompliance;
 static INFO: TermInfo = TermInfo {
     id: "platform-compliance",
     title: "The platform plate yields",
+    chapter: Chapter::Structure,
     physics: "The plate between the legs and the measured targets moves as a rigid body on six springs at the mobile origin, mobile axes.",
     equation: "[v; w] = R C R' [F; M]",
     source: "Dasgupta and Mruthyunjaya 2000, Mech. Mach. Theory 35 (platform flexibility)",

@@ -14,7 +14,7 @@ use hexbench_core::{Matrix6, Vector3};
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
 /// The measured point is not the mobile origin.
 pub(super) struct TargetOffset;
@@ -22,6 +22,7 @@ pub(super) struct TargetOffset;
 static INFO: TermInfo = TermInfo {
     id: "target-offset",
     title: "The measured point is not the mobile origin",
+    chapter: Chapter::Metrology,
     physics: "The targets are registered to a point beside the mobile origin, so rotations show as translations.",
     equation: "dt = (R_loaded - R_ref) r'",
     source: "Kalas et al. 2018, fig. 5 (balls registered against reference holes)",

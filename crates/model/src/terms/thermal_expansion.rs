@@ -12,7 +12,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Need, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
 
 /// The legs grow with temperature.
 pub(super) struct ThermalExpansion;
@@ -20,6 +20,7 @@ pub(super) struct ThermalExpansion;
 static INFO: TermInfo = TermInfo {
     id: "thermal-expansion",
     title: "The legs grow with temperature",
+    chapter: Chapter::Legs,
     physics: "Every leg grows in proportion to its length and to the change of temperature.",
     equation: "e = alpha q delta_T",
     source: "Mayr et al. 2012, CIRP Annals 61 (thermal issues in machine tools)",

@@ -35,7 +35,7 @@ use crate::chain::Action;
 use crate::formula::{Formula, FormulaError};
 use crate::intern;
 use crate::machine::Machine;
-use crate::term::{Need, Parameter, Rich, Shape, Term, TermInfo};
+use crate::term::{Chapter, Need, Parameter, Rich, Shape, Term, TermInfo};
 
 use file::File;
 pub use help::{EXAMPLE, Variable, functions, units, variables};
@@ -238,6 +238,7 @@ fn info(file: &File, parameters: &[Parameter], shape: Option<Shape>, effect: &Ef
     TermInfo {
         id: intern::text(&file.id),
         title: intern::text(&file.title),
+        chapter: Chapter::Own,
         physics: intern::text(&file.physics),
         equation: intern::text(&equation),
         source: "a term file of the user",

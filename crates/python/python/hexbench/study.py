@@ -164,7 +164,7 @@ def run(
         tell = progress or _line
         done = shards - len(pending)
         tell(done, shards)
-        with contextlib.closing(_records(client, Path(study), pending, retries, patience)) as records:
+        with contextlib.closing(_records(client, Path(study), todo["files"], pending, retries, patience)) as records:
             for number, record in records:
                 work.keep(number, record)
                 done += 1
@@ -173,7 +173,7 @@ def run(
 
 
 def _records(
-    client: Client | None, study: Path, pending: list[int], retries: int, patience: float
+    client: Client | None, study: Path, files: list[str], pending: list[int], retries: int, patience: float
 ) -> Generator[tuple[int, bytes]]:
     """Yield the number and the record of every pending shard, in the order in which they are done."""
     if not pending:
@@ -184,7 +184,7 @@ def _records(
         for some in _chunks(pending, 4 * threads):
             yield from zip(some, runner.run(some), strict=True)
         return
-    source = _Source.read(study)
+    source = _Source.read(study, files)
     threads = max(1, sum(client.nthreads().values()))
     size = min(MOST_SHARDS, max(1, len(pending) // (TASKS_PER_THREAD * threads)))
     tasks: dict[Future, list[int]] = {}
@@ -243,8 +243,7 @@ class _Source:
     digest: str
 
     @classmethod
-    def read(cls, study: Path) -> _Source:
-        named = plan(study)["files"]
+    def read(cls, study: Path, named: list[str]) -> _Source:
         for name in named:
             if posixpath.isabs(name) or Path(name).is_absolute():
                 next_step = "Name files relative to the study file: workers on other machines get copies of them."

@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// Kinds of cases, named as in the truth files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Kind {
     /// One effect of the catalogue.
     Single,

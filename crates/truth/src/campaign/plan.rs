@@ -52,7 +52,7 @@ impl From<&Observation> for Row {
 }
 
 /// Makes of plans.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum PlanKind {
     /// 18 poses with tilts, six loads along and about all axes, two readings each.
     Rich,

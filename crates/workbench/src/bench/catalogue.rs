@@ -1,6 +1,8 @@
 //! What there is to choose from.
 
-use hexbench_model::term::{Rich, TermInfo};
+use std::collections::BTreeSet;
+
+use hexbench_model::term::{Chapter, Rich, TermInfo};
 use hexbench_model::terms;
 use hexbench_model::user_term::{self, Variable};
 
@@ -9,9 +11,12 @@ use crate::wire::{Catalogue, Choice, FormulaHelp, Limits, NamedUnit, TermCard};
 
 /// Terms, cases, machines, plans, effects, the language of formulas.
 pub fn catalogue(limits: Limits, given: Option<&Given>) -> Catalogue {
+    let terms = terms::catalogue();
+    let chapters: BTreeSet<Chapter> = terms.iter().map(|t| t.info().chapter).collect();
     Catalogue {
         version: env!("CARGO_PKG_VERSION"),
-        terms: terms::catalogue().iter().map(|t| card(t.info())).collect(),
+        terms: terms.iter().map(|t| card(t.info())).collect(),
+        chapters: chapters.into_iter().map(Chapter::title).collect(),
         cases: cases::choices(),
         machines: simulate::machines(),
         plans: simulate::plans(),
@@ -33,6 +38,7 @@ fn card(info: &TermInfo) -> TermCard {
     TermCard {
         id: info.id.to_owned(),
         title: info.title.to_owned(),
+        chapter: info.chapter.title(),
         physics: info.physics.to_owned(),
         equation: info.equation.to_owned(),
         shows: info.shows.to_owned(),

@@ -3,7 +3,7 @@
 use hexbench_core::{Vector3, Vector6};
 use hexbench_model::campaign::Condition;
 use hexbench_model::linearization::Linearization;
-use hexbench_pages::spread;
+use hexbench_report::words::spread;
 
 use super::digits::{all_short, short};
 use crate::wire::Conditions;

@@ -6,14 +6,11 @@ use std::time::Instant;
 use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
 use hexbench_model::fit_named::RICHER;
 use hexbench_model::verdict::OUTSIDE;
-use hexbench_pages::{conclusion, confidence, next};
+use hexbench_report::words::{self, Subject};
 
 use super::refusal::{Kind, Refusal};
 use super::{Bench, files};
-use crate::wire::{Ask, Diagnosed, Guess, Probability, Revealed};
-
-/// Least probability that is told.
-const WORTH_TELLING: f64 = 0.005;
+use crate::wire::{Ask, Diagnosed, Guess, Revealed};
 
 impl Bench {
     /// Everything behind the diagnosis of these data.
@@ -24,19 +21,25 @@ impl Bench {
             .map_err(|cause| Refusal::model(&cause, &c.data.source))
     }
 
+    /// What a page about these data is about.
+    pub(super) fn subject<'a>(&'a self, study: &'a Study) -> Subject<'a> {
+        let c = &self.contents;
+        Subject { hexapod: &c.hexapod, data: &c.data, holdout: c.holdout.as_ref(), study }
+    }
+
     /// Names the effect that is missing.
     ///
     /// # Errors
     /// [`Refusal`].
     pub fn diagnose(&self, ask: &Ask) -> Result<Diagnosed, Refusal> {
         let since = Instant::now();
-        let d = self.study(&ask.own)?.diagnosis;
+        let study = self.study(&ask.own)?;
+        let page = words::diagnosis(&self.subject(&study));
+        let d = study.diagnosis;
         Ok(Diagnosed {
-            word: conclusion::word(d.verdict),
-            sentences: conclusion::sentences(&d),
-            probabilities: probabilities(&d),
+            word: d.verdict,
+            page,
             tick: d.model.iter().map(|id| asked_for(&d, id)).collect(),
-            next: next::proposals(&d),
             diagnosis: d,
             milliseconds: since.elapsed().as_secs_f64() * 1e3,
         })
@@ -68,19 +71,4 @@ fn asked_for(d: &Diagnosis, id: &str) -> String {
 /// What a guess calls an effect: those without a name are all outside.
 fn in_the_catalogue(id: &str) -> &str {
     if id.starts_with("out:") { OUTSIDE } else { id }
-}
-
-fn probabilities(d: &Diagnosis) -> Vec<Probability> {
-    let alike = |id: &str| {
-        let known = d.candidates.iter().find(|c| c.term == id);
-        known.map(|c| c.indistinguishable.clone()).unwrap_or_default()
-    };
-    let all = confidence::probabilities(d).into_iter().filter(|(_, p)| *p >= WORTH_TELLING);
-    all.map(|(id, probability)| Probability {
-        title: conclusion::in_words(&id).to_owned(),
-        alike: alike(&id),
-        id,
-        probability,
-    })
-    .collect()
 }

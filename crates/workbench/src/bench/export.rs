@@ -4,9 +4,9 @@ use hexbench_core::files::text_hash;
 use hexbench_model::fit_named::refuse_undetermined;
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::runs::{Origin, WithOrigin};
-use hexbench_pages::Subject;
-use hexbench_pages::html::{self, Provenance, ReportError};
-use hexbench_report::html::PROGRAM;
+use hexbench_report::charts::{self, ReportError};
+use hexbench_report::render::{PROGRAM, html};
+use hexbench_report::words::Provenance;
 use serde::Serialize;
 
 use super::refusal::{Kind, Refusal};
@@ -57,16 +57,13 @@ impl Bench {
 
     fn report(&self, own: &[String]) -> Result<String, Refusal> {
         let study = self.study(own)?;
-        let c = &self.contents;
-        let subject =
-            Subject { hexapod: &c.hexapod, data: &c.data, holdout: c.holdout.as_ref(), study: &study };
         let texts = [Some(&self.files.hexapod), Some(&self.files.data), self.files.holdout.as_ref()];
         let named = self.files.names.iter().zip(texts);
         let read = named.filter_map(|(name, text)| text.map(|t| (name.clone(), text_hash(t))));
         let own = own.iter().enumerate().map(|(k, text)| (format!("term {}", k + 1), text_hash(text)));
         let provenance =
             Provenance { command: "hexbench workbench".to_owned(), files: read.chain(own).collect() };
-        Ok(html::diagnosis(&subject, &provenance)?.to_html().map_err(ReportError::from)?)
+        Ok(html(&charts::diagnosis(&self.subject(&study), &provenance)?).map_err(ReportError::from)?)
     }
 
     fn json(&self, own: &[String]) -> Result<String, Refusal> {

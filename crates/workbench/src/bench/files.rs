@@ -9,7 +9,7 @@ use hexbench_model::{term::Term, terms::catalogue};
 
 use super::cases::Case;
 use super::refusal::{Kind, Refusal};
-use crate::wire::{Limits, Text};
+use crate::wire::{FileText, Limits};
 
 /// What the three files are usually called.
 pub(super) const USUAL_NAMES: [&str; 3] = ["hexapod.toml", "measurements.csv", "holdout.csv"];
@@ -47,7 +47,7 @@ impl Files {
     }
 
     /// Those somebody has given.
-    pub(super) fn of_texts(hexapod: &Text, data: &Text, holdout: Option<&Text>) -> Self {
+    pub(super) fn of_texts(hexapod: &FileText, data: &FileText, holdout: Option<&FileText>) -> Self {
         let held = holdout.map_or(USUAL_NAMES[2], |t| &t.name);
         Self {
             hexapod: hexapod.text.clone(),

@@ -25,21 +25,21 @@ use hexbench_model::diagnose::prepare;
 use hexbench_model::linearization::{Linearization, Point};
 use hexbench_model::selection::Task;
 use hexbench_model::terms;
-use hexbench_pages::subject::{describe, noise};
+use hexbench_report::words::subject::{describe, noise};
 
 use self::files::{Contents, Files};
 use self::simulate::{Request, Truth};
-use crate::wire::{Limits, Noise, Open, Opened, Selection, Text, Untestable, View};
+use crate::wire::{FileText, Limits, Noise, Open, Opened, Selection, Untestable, View};
 
 /// Files given on the command line, as text.
 #[derive(Debug, Clone)]
 pub struct Given {
     /// hexapod.toml
-    pub hexapod: Text,
+    pub hexapod: FileText,
     /// measurements.csv
-    pub data: Text,
+    pub data: FileText,
     /// holdout.csv
-    pub holdout: Option<Text>,
+    pub holdout: Option<FileText>,
 }
 
 /// A campaign on the bench.

@@ -4,7 +4,7 @@ use hexbench_core::files::FileError;
 use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::user_term::UserTermError;
-use hexbench_pages::html::ReportError;
+use hexbench_report::charts::ReportError;
 use hexbench_truth::TruthError;
 
 /// What kind of refusal.

@@ -10,7 +10,6 @@ use hexbench_model::fit_named::{Added, look_alikes};
 use hexbench_model::scatter::Scatter;
 use hexbench_model::selection::{Judged, Task};
 use hexbench_model::term::Term;
-use hexbench_pages::conclusion::at_the_noise;
 
 use super::conditions::motion;
 use super::digits::{all_short, short};
@@ -52,8 +51,8 @@ pub(super) fn view(
         fitted: judged.fitted,
         holdout: judged.held_out,
         held_out: task.held_out().word(),
-        times_noise: error.chi2_reduced.sqrt(),
-        at_the_noise: at_the_noise(error.chi2_reduced, error.count),
+        times_noise: error.times_noise(),
+        at_the_noise: error.is_at_the_noise(),
         legs: of_legs(&numbers, task.hexapod),
         parameters: numbers.determined.into_iter().filter(|e| !is_stiffness(&e.name)).collect(),
         not_determined: numbers.not_determined,

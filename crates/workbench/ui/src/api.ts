@@ -1,5 +1,5 @@
 /** Requests to the server, and what can go wrong with them. */
-import type { Catalogue, Diagnosed, Exported, Open, Opened, Revealed, Selection, View, What } from "./wire";
+import type { Ask, Catalogue, Diagnosed, Export, Exported, Guess, Open, Opened, Refused, Revealed, Selection, View, What } from "./wire";
 
 /** The server's answer was no. */
 export class Refusal extends Error {
@@ -37,15 +37,15 @@ export class Api {
   }
 
   diagnose(bench: string, own: string[], signal?: AbortSignal): Promise<Diagnosed> {
-    return this.ask("POST", `/api/benches/${bench}/diagnosis`, { own }, signal);
+    return this.ask("POST", `/api/benches/${bench}/diagnosis`, { own } satisfies Ask, signal);
   }
 
   export(bench: string, what: What, selection: Selection): Promise<Exported> {
-    return this.ask("POST", `/api/benches/${bench}/export`, { what, ...selection });
+    return this.ask("POST", `/api/benches/${bench}/export`, { what, ...selection } satisfies Export);
   }
 
   reveal(bench: string, guess: string[]): Promise<Revealed> {
-    return this.ask("POST", `/api/benches/${bench}/reveal`, { guess });
+    return this.ask("POST", `/api/benches/${bench}/reveal`, { guess } satisfies Guess);
   }
 
   /** One request; a busy server is asked once more after the time it names. */
@@ -83,7 +83,7 @@ export function aborted(error: unknown): boolean {
 }
 
 async function refusal(answer: Response): Promise<Refusal> {
-  const body = await answer.json().catch(() => ({}));
+  const body: Partial<Refused> = await answer.json().catch(() => ({}));
   return new Refusal(answer.status, body.error ?? `The server refused (${answer.status}).`, body.next ?? "");
 }
 

@@ -23,13 +23,6 @@ export function times(value: number): string {
   return value < 10 ? value.toFixed(2) : digits(value);
 }
 
-/** A probability: whole percents, with the ends said as such. */
-export function percent(share: number): string {
-  if (share > 0.99) return "> 99 %";
-  if (share < 0.01) return "< 1 %";
-  return `${Math.round(100 * share)} %`;
-}
-
 /** Power of ten of the first digit after rounding. */
 function sizeOf(value: number, significant: number): number {
   return Number(value.toExponential(significant - 1).split("e")[1]);

@@ -1,186 +1,690 @@
-/** What page and server say to each other; the same shapes as `crates/workbench/src/wire.rs`. Units are in the names. */
+/**
+ * What page and server say to each other. Units are in the names; numbers are in the frames of the files.
+ *
+ * Written from crates/workbench/src/wire.rs; to change it, change that file and run
+ * HEXBENCH_BLESS=1 cargo test -p hexbench-workbench --lib wire
+ */
 
 /** Six numbers: a coordinate, a load component or a leg each. */
 export type Six = [number, number, number, number, number, number];
+
+/** Three numbers: a point or a direction. */
 export type Three = [number, number, number];
 
-export interface Choice {
-  id: string;
-  title: string;
-  text: string;
-}
+/** Answer to `GET /api/catalogue`: what there is to choose from. */
+export type Catalogue = {
+  /** Version of the program. */
+  version: string;
+  /** Terms of the model, in the order of the catalogue. */
+  terms: Array<TermCard>;
+  /** Chapters of the catalogue, in the order in which they are shown. */
+  chapters: Array<string>;
+  /** Bundled measurements. */
+  cases: Array<Choice>;
+  /** Families of machines that can be simulated. */
+  machines: Array<Choice>;
+  /** Plans of a simulated campaign. */
+  plans: Array<Choice>;
+  /** Effects that can be put into a simulated machine; those outside the catalogue begin with `out:`. */
+  effects: Array<Choice>;
+  /** The files named on the command line, when there are any; opened by `{"from": "given"}`. */
+  given: Choice | null;
+  /** What a formula of one's own may use. */
+  formula: FormulaHelp;
+  /** What the server accepts. */
+  limits: Limits;
+};
 
-export interface TermCard {
+/** Something to choose. */
+export type Choice = {
+  /** What is sent back. */
   id: string;
+  /** What people read. */
   title: string;
+  /** A sentence more; may be empty. */
+  text: string;
+};
+
+/** What a formula may use. */
+export type FormulaHelp = {
+  /** Names and meanings, with units. */
+  variables: Array<Choice>;
+  /** Names of functions. */
+  functions: Array<string>;
+  /** Units a parameter may have. */
+  units: Array<string>;
+  /** A term file to begin with. */
+  example: string;
+};
+
+/** What the server accepts. */
+export type Limits = {
+  /** Bytes of a request. */
+  bytes: number;
+  /** Readings of a file. */
+  rows: number;
+  /** Terms of one's own in a request. */
+  own_terms: number;
+  /** Bytes of a term of one's own. */
+  term_bytes: number;
+  /** Benches kept; the one unused for longest gives way. */
+  benches: number;
+};
+
+/** A name and a unit. */
+export type NamedUnit = {
+  /** Name. */
+  name: string;
+  /** Unit. */
+  unit: string;
+};
+
+/** A term of the model. */
+export type TermCard = {
+  /** Kebab-case id. */
+  id: string;
+  /** A few words. */
+  title: string;
+  /** One of `Catalogue::chapters`. */
+  chapter: string;
+  /** One or two sentences. */
   physics: string;
+  /** First-order equation. */
   equation: string;
+  /** What the data must contain for it to show. */
   shows: string;
   /** True when it has a richer form, asked for by `:richer` behind the id. */
   richer: boolean;
-  parameters: { name: string; unit: string }[];
-}
+  /** Names of its parameters with their units. */
+  parameters: Array<NamedUnit>;
+};
 
-export interface FormulaHelp {
-  variables: Choice[];
-  functions: string[];
-  units: string[];
-  example: string;
-}
+/** Body of `POST /api/benches`. */
+export type Open = {
+  "from": "case";
+  /** One of `Catalogue::cases`. */
+  id: string;
+} | {
+  "from": "given";
+} | {
+  "from": "files";
+  /** hexapod.toml */
+  hexapod: FileText;
+  /** measurements.csv */
+  data: FileText;
+  /** holdout.csv */
+  holdout: FileText | null;
+} | {
+  "from": "simulation";
+  /** One of `Catalogue::machines`. */
+  machine: string;
+  /** One of `Catalogue::plans`. */
+  plan: string;
+  /** Ids of `Catalogue::effects`. */
+  effects: Array<string>;
+  /** How far each effect stands out of what the springs can absorb, in units of the noise; none: its usual size. */
+  distance: number | null;
+  /** Decides machine, plan and noise; none: drawn. */
+  seed: number | null;
+} | {
+  "from": "game";
+  /** How hard. */
+  level: Level;
+  /** Decides everything; none: drawn. */
+  seed: number | null;
+};
 
-export interface Limits {
-  bytes: number;
-  rows: number;
-  own_terms: number;
-  term_bytes: number;
-  benches: number;
-}
-
-export interface Catalogue {
-  version: string;
-  terms: TermCard[];
-  cases: Choice[];
-  machines: Choice[];
-  plans: Choice[];
-  effects: Choice[];
-  formula: FormulaHelp;
-  limits: Limits;
-  /** The files of the command line, when there are any. */
-  given: Choice | null;
-}
-
-export interface FileText {
+/** A file as text. */
+export type FileText = {
+  /** Its name, for messages; never used to find a file. */
   name: string;
+  /** What is in it. */
   text: string;
-}
+};
 
+/** How hard a game is. */
 export type Level = "easy" | "hard" | "honest";
 
-export type Open =
-  | { from: "case"; id: string }
-  | { from: "given" }
-  | { from: "files"; hexapod: FileText; data: FileText; holdout: FileText | null }
-  | { from: "simulation"; machine: string; plan: string; effects: string[]; distance: number | null; seed: number | null }
-  | { from: "game"; level: Level; seed: number | null };
+/** Body of `POST /api/benches/{id}/view`: the model asked about. */
+export type Selection = {
+  /** Ids in the order of ticking, of the catalogue and of one's own; `:richer` behind an id asks for the richer form. */
+  terms: Array<string>;
+  /** Term files (term/1) of one's own, as text. */
+  own: Array<string>;
+};
 
-export interface Noise {
+/** Answer to `POST /api/benches/{id}/view`: springs and the selected terms, fitted to the data. */
+export type View = {
+  /** The selection, in its order. */
+  terms: Array<string>;
+  /** Error on the readings fitted. */
+  fitted: ErrorSummary;
+  /** Error on held-out readings; absent where none can be held out. */
+  holdout: ErrorSummary | null;
+  /** `holdout file` or `poses left out in turn`. */
+  held_out: string;
+  /** Held-out error (else fitted) as a multiple of the noise. */
+  times_noise: number;
+  /** True when that is what noise alone gives. */
+  at_the_noise: boolean;
+  /** Numbers of the terms. */
+  parameters: Array<Estimate>;
+  /** Leg stiffness, N/um. */
+  legs: [Leg, Leg, Leg, Leg, Leg, Leg];
+  /** Names of what the data leave open. */
+  not_determined: Array<string>;
+  /** Pairs of numbers that can hardly be told apart. */
+  look_alikes: Array<LookAlike>;
+  /** Elongation of each leg the model leaves, um, per condition shown. */
+  residual_um: Array<Six>;
+  /** Prediction in measured coordinates, um and urad, per condition shown. */
+  predicted: Array<Six>;
+  /** Prediction as motion of the platform, um and urad, per condition shown. */
+  predicted_motion: Array<Six>;
+  /** Are the residuals noise? */
+  scatter: Scatter;
+  /** Time taken on the server, ms. */
+  milliseconds: number;
+};
+
+/** Size of a set of residuals. */
+export type ErrorSummary = {
+  /** Sum of squared whitened residuals per degree of freedom (per number for held-out data). */
+  chi2_reduced: number;
+  /** Root mean square of the residuals. */
+  rms: Rms;
+  /** Root mean square of each coordinate: um for translations, urad for rotations. */
+  per_coordinate: Six;
+  /** Scalar residuals behind it. */
+  count: number;
+};
+
+/** One number of a fitted model. */
+export type Estimate = {
+  /** `leg-1.stiffness`, `base-compliance.rotation-x`, ... */
+  name: string;
+  /** Value. */
+  value: number;
+  /** Standard uncertainty (k = 1). */
+  std: number;
+  /** Unit of both. */
+  unit: string;
+};
+
+/** Stiffness of one leg, N/um; absent where the data leave it open. */
+export type Leg = {
+  /** Stiffness. */
+  stiffness: number | null;
+  /** Standard uncertainty (k = 1). */
+  std: number | null;
+  /** As the machine's file states it. */
+  nominal: number | null;
+};
+
+/** Two numbers with correlated estimates. */
+export type LookAlike = {
+  /** One. */
+  a: string;
+  /** The other. */
+  b: string;
+  /** Correlation of the estimates. */
+  correlation: number;
+};
+
+/** Root mean square in the units people read. */
+export type Rms = {
+  /** Over the three translations, um. */
   translation_um: number;
+  /** Over the three rotations, urad. */
   rotation_urad: number;
-  source: string;
-}
+};
 
-export interface Hidden {
+/** Residuals of single readings in units of the noise. */
+export type Scatter = {
+  /** Outline of the histogram: residual, share per unit. */
+  histogram: Array<[number, number]>;
+  /** Normal plot: expected of noise, found. */
+  quantiles: Array<[number, number]>;
+};
+
+/** Answer to `POST /api/benches` (201). */
+export type Opened = {
+  /** Names it in later requests. */
   id: string;
+  /** Name of the machine. */
   title: string;
-}
+  /** A line each: files, readings, noise. */
+  about: Array<string>;
+  /** What a simulation was made from, to make it again. */
+  seed: number | null;
+  /** What was put in, unless it is hidden; empty when nothing was, absent for measurements. */
+  contains: Array<Hidden> | null;
+  /** True for a game: what is in it is told by `reveal` only. */
+  sealed: boolean;
+  /** True for absolute poses, false for deflections. */
+  absolute: boolean;
+  /** Readings fitted. */
+  readings: number;
+  /** Standard deviation of one reading. */
+  noise: Noise;
+  /** Why a term cannot be tested with these data; terms not listed can. */
+  untestable: Array<Untestable>;
+  /** Base joints, mm, fixed frame. */
+  base_joints_mm: [Three, Three, Three, Three, Three, Three];
+  /** Where and how was measured. */
+  conditions: Conditions;
+  /** The springs alone. */
+  view: View;
+};
 
-/** One entry per condition shown, in every list. */
-export interface Conditions {
+/**
+ * Conditions (readings averaged where all that was set is equal), one entry per condition shown in every list. Deflections are
+ * loaded minus reference; of an absolute pose what is measured beside what is commanded.
+ */
+export type Conditions = {
+  /** How many there are; those shown are evenly chosen. */
   of: number;
   /** a, b, c (mm), alpha, beta, gamma (deg). */
-  pose: Six[];
+  pose: Array<Six>;
   /** Change of the wrench: N, N m. */
-  wrench: Six[];
-  leg_force_n: Six[];
-  leg_length_mm: Six[];
-  elapsed_s: number[];
-  delta_t_k: number[];
-  approach: number[];
-  platform_joints_mm: Three[][];
-  /** a, b, c (um), alpha, beta, gamma (urad). */
-  measured: Six[];
-  /** Motion of the platform at its origin, fixed axes: um, urad. */
-  measured_motion: Six[];
-}
+  wrench: Array<Six>;
+  /** Change of the leg forces, N, tension positive. */
+  leg_force_n: Array<Six>;
+  /** Leg lengths, mm. */
+  leg_length_mm: Array<Six>;
+  /** Time since the reference, s. */
+  elapsed_s: Array<number>;
+  /** Temperature since the reference, K. */
+  delta_t_k: Array<number>;
+  /** 1 or -1. */
+  approach: Array<number>;
+  /** Platform joints before the load, mm, fixed frame. */
+  platform_joints_mm: Array<[Three, Three, Three, Three, Three, Three]>;
+  /** Measured: a, b, c (um), alpha, beta, gamma (urad). */
+  measured: Array<Six>;
+  /** The same as motion of the platform at its origin, fixed axes: um, urad (rotation vector). */
+  measured_motion: Array<Six>;
+};
 
-export interface Opened {
+/** An effect in a simulated machine. */
+export type Hidden = {
+  /** Its id; `out:...` when the catalogue lacks it. */
   id: string;
+  /** In words. */
   title: string;
-  about: string[];
-  seed: number | null;
-  contains: Hidden[] | null;
-  sealed: boolean;
-  absolute: boolean;
-  readings: number;
-  noise: Noise;
-  untestable: { term: string; why: string }[];
-  base_joints_mm: Three[];
-  conditions: Conditions;
-  view: View;
-}
+};
 
-/** What is fitted: ids in the order of ticking, and term files of one's own. */
-export interface Selection {
-  terms: string[];
-  own: string[];
-}
+/** Noise of one reading. */
+export type Noise = {
+  /** Of a translation, um. */
+  translation_um: number;
+  /** Of a rotation, urad. */
+  rotation_urad: number;
+  /** Where it comes from. */
+  source: string;
+};
 
-export interface ErrorSummary {
-  chi2_reduced: number;
-  rms: { translation_um: number; rotation_urad: number };
-  per_coordinate: Six;
-  count: number;
-}
+/** A term the data cannot speak about. */
+export type Untestable = {
+  /** Its id. */
+  term: string;
+  /** Why. */
+  why: string;
+};
 
-export interface Estimate {
-  name: string;
-  value: number;
-  std: number;
+/** Body of `POST /api/benches/{id}/diagnosis`. */
+export type Ask = {
+  /** Term files of one's own that compete. */
+  own: Array<string>;
+};
+
+/** Answer to `POST /api/benches/{id}/diagnosis`. */
+export type Diagnosed = {
+  /** The verdict. */
+  word: Verdict;
+  /** Everything the diagnosis says, as every other medium says it. */
+  page: Page;
+  /** What to tick to see the model it settled on, `:richer` included. */
+  tick: Array<string>;
+  /** Everything, as `diagnose --json` writes it. */
+  diagnosis: Diagnosis;
+  /** Time taken on the server, ms. */
+  milliseconds: number;
+};
+
+/** Bias of the leg stiffnesses without a term. */
+export type AbsorbedReport = {
+  /** The term. */
+  term: string;
+  /** Stiffness without it over stiffness with it, minus one, percent; absent where not determined. */
+  bias_of_leg_stiffness_percent: [number | null, number | null, number | null, number | null, number | null, number | null];
+};
+
+/** Part of a section. */
+export type Block = {
+  "kind": "verdict";
+  /** The word. */
+  word: string;
+  /** Its color. */
+  mood: Mood;
+  /** One paragraph each. */
+  sentences: Array<string>;
+} | {
+  "kind": "paragraph";
+  /** The text. */
+  text: string;
+  /** Its color, if any. */
+  mood: Mood | null;
+} | {
+  "kind": "list";
+  /** The lines. */
+  items: Array<string>;
+} | {
+  "kind": "entries";
+  /** Number of a numbered group of entries. */
+  number: number | null;
+  /** The entries. */
+  entries: Array<Entry>;
+} | {
+  "kind": "code";
+  /** The lines. */
+  text: string;
+} | {
+  "kind": "table"
+} & Table | {
+  "kind": "figure"
+} & Figure;
+
+/** One candidate. */
+export type CandidateReport = {
+  /** Id of the term, `outside` or `none`. */
+  term: string;
+  /** Probability as the first addition. */
+  probability: number;
+  /** Terms whose signature is the same in these data. */
+  indistinguishable: Array<string>;
+};
+
+/** A cell. */
+export type Cell = string | {
+  /** Its length. */
+  bar: number;
+  /** Its color, if any. */
+  mood: Mood | null;
+};
+
+/** A column. */
+export type Column = {
+  /** Its heading. */
+  title: string;
+  /** Words are set left and may wrap, numbers right. */
+  words: boolean;
+  /** Left out where there is little room. */
+  detail: boolean;
+};
+
+/** Smallest size of one parameter that a test sees with the wanted power. */
+export type Detectable = {
+  /** Id of the term. */
+  term: string;
+  /** The parameter. */
+  parameter: string;
+  /** Unit of the size. */
   unit: string;
-}
+  /** The size; absent when no size shows at all. */
+  size_at_90_percent_power: number | null;
+};
 
-/** N/um; null where the data leave it open. */
-export interface Leg {
-  stiffness: number | null;
-  std: number | null;
-  nominal: number | null;
-}
+/** Result of `diagnose`. */
+export type Diagnosis = {
+  /** `diagnosis/1`. */
+  format: string;
+  /** The verdict. */
+  verdict: Verdict;
+  /** Effects named, in the order in which they were added. */
+  added: Array<string>;
+  /** Terms of the fitted model the numbers below belong to; equals `added` for a named verdict. */
+  model: Array<string>;
+  /** Terms of the model that needed their richer form. */
+  richer: Array<string>;
+  /** Probability of every first addition, of `outside` and of `none`. */
+  candidates: Array<CandidateReport>;
+  /** Probability that an effect is present at all, alone or beside others. */
+  present: {
+    [key in string]: number
+  };
+  /** Smallest set of effects that holds 95 % of the probability. */
+  credible_set: Array<string>;
+  /** Error per step of the model, springs alone first. */
+  steps: Array<StepReport>;
+  /** How the held-out error was obtained. */
+  holdout: string;
+  /** The noise level used. */
+  noise: NoiseReport;
+  /** Numbers of the fitted model. */
+  parameters: Array<Estimate>;
+  /** Names of parameters that the data do not determine. */
+  not_determined: Array<string>;
+  /** Terms that the file cannot test. */
+  untestable: Array<UntestableReport>;
+  /** Smallest sizes this campaign would show. */
+  detectable: Array<Detectable>;
+  /** Readings that would separate the rivals. */
+  next: Array<NextReport>;
+  /** What those readings promise, pair by pair. */
+  separation: Array<SeparationReport>;
+  /** What an effect does to the leg stiffnesses when it is left out. */
+  absorbed: Array<AbsorbedReport>;
+  /** Readings far from every prediction. */
+  suspects: Array<Suspect>;
+  /** The unexplained pattern. */
+  outside: OutsideReport | null;
+  /** Things to know before trusting the numbers. */
+  warnings: Array<string>;
+};
 
-export interface LookAlike {
-  a: string;
-  b: string;
-  correlation: number;
-}
+/** A name and what is said of it. */
+export type Entry = {
+  /** The name. */
+  label: string;
+  /** What is said. */
+  text: string;
+};
 
-export interface View {
-  terms: string[];
-  fitted: ErrorSummary;
+/** A chart, drawn by `crate::plot`. */
+export type Figure = {
+  /** Its name within the section, as in the names of files; empty for the only one. */
+  name: string;
+  /** The chart; empty where only the file is named. */
+  svg: string;
+  /** The file of the chart beside the page, for media that only name it. */
+  file: string | null;
+  /** What it shows. */
+  caption: string;
+};
+
+/** Color of a word, a bar or a line. */
+export type Mood = "good" | "doubt" | "bad";
+
+/** A proposed reading. */
+export type NextReport = {
+  /** `[a, b, c]` in mm, `[alpha, beta, gamma]` in deg. */
+  pose: Six;
+  /** `[fx, fy, fz]` in N, `[mx, my, mz]` in N m. */
+  wrench: Six;
+  /** Reference wrench, same units. */
+  reference: Six;
+  /** +1 or -1. */
+  approach: number;
+  /** Wait before the loaded reading, s. */
+  elapsed_s: number;
+  /** Temperature of the structure against the reference reading, K. */
+  delta_T_K: number;
+  /** How often to read it. */
+  repeats: number;
+  /** The rivals it separates most. */
+  separates: [string, string];
+  /**
+   * What it adds to the expected logarithm of the Bayes factor between them, under the one of the two for which that is less;
+   * nats.
+   */
+  gain: number;
+  /** What sort of reading it is, in words. */
+  text: string;
+};
+
+/** Noise of one reading. */
+export type NoiseReport = {
+  /** Of a translation, um. */
+  translation_um: number;
+  /** Of a rotation, urad. */
+  rotation_urad: number;
+  /** Where it comes from. */
+  source: string;
+};
+
+/** An unexplained pattern. */
+export type OutsideReport = {
+  /** Leg from 1; absent when all legs follow it. */
+  leg: number | null;
+  /** What it follows. */
+  variable: string | null;
+  /** `linear`, `quadratic`, `step`, `periodic`. */
+  pattern: string | null;
+  /** Period in mm. */
+  period: number | null;
+  /** A sentence. */
+  text: string;
+};
+
+/** A page of sections. */
+export type Page = {
+  /** Its title. */
+  title: string;
+  /** What it is about: machine, files, noise. */
+  subject: Array<Entry>;
+  /** From top to bottom. */
+  sections: Array<Section>;
+};
+
+/** A titled part of a page. */
+export type Section = {
+  /** Anchor within the page: lower-case letters and hyphens. */
+  id: string;
+  /** Depth of its heading below the title: 1, or 2 within a section. */
+  depth: number;
+  /** Heading; empty for what stands right below the title. */
+  title: string;
+  /** Small print beside the heading; may be empty. */
+  remark: string;
+  /** Left out where there is little room. */
+  detail: boolean;
+  /** What it says. */
+  blocks: Array<Block>;
+};
+
+/** What the proposed readings promise for two rivals. */
+export type SeparationReport = {
+  /** The rivals. */
+  between: [string, string];
+  /** Expected decimal logarithm of the Bayes factor for the truth, when the first is true and when the second is. */
+  log10_bayes_factor: [number, number];
+  /** Chance that the readings favour the truth. */
+  right: number;
+  /** Readings after which the wrong one is on average excluded at 20:1; absent when more are needed. */
+  readings_needed: number | null;
+};
+
+/** One step of the model. */
+export type StepReport = {
+  /** Terms beside the springs. */
+  terms: Array<string>;
+  /** Error on held-out poses. */
   holdout: ErrorSummary | null;
-  held_out: string;
-  times_noise: number;
-  at_the_noise: boolean;
-  parameters: Estimate[];
-  legs: Leg[];
-  not_determined: string[];
-  look_alikes: LookAlike[];
-  residual_um: Six[];
-  predicted: Six[];
-  predicted_motion: Six[];
-  scatter: { histogram: [number, number][]; quantiles: [number, number][] };
-  milliseconds: number;
-}
+  /** Sum of squared whitened residuals per degree of freedom (per number for held-out data). */
+  chi2_reduced: number;
+  /** Root mean square of the residuals. */
+  rms: Rms;
+  /** Root mean square of each coordinate: um for translations, urad for rotations. */
+  per_coordinate: Six;
+  /** Scalar residuals behind it. */
+  count: number;
+};
 
-export interface Diagnosed {
-  word: "named" | "ambiguous" | "adequate" | "outside";
-  sentences: string[];
-  probabilities: { id: string; title: string; probability: number; alike: string[] }[];
-  /** What to tick to see the model it settled on. */
-  tick: string[];
-  next: string[];
-  diagnosis: Record<string, unknown>;
-  milliseconds: number;
-}
+/** A suspicious reading. */
+export type Suspect = {
+  /** Line of the file. */
+  row: number;
+  /** Largest whitened residual. */
+  z: number;
+};
 
+/** Columns and rows; a title may stand above. */
+export type Table = {
+  /** What stands above it; empty for none. */
+  title: string;
+  /** The columns. */
+  columns: Array<Column>;
+  /** Cells, row by row; cells missing at the end of a row are empty. */
+  rows: Array<Array<Cell>>;
+  /** Rows that every medium shows, the others are detail; none: all. */
+  brief: number | null;
+};
+
+/** A term that cannot be tested. */
+export type UntestableReport = {
+  /** Its id. */
+  term: string;
+  /** The reason. */
+  why: string;
+};
+
+/** What the data say. */
+export type Verdict = "adequate" | "named" | "ambiguous" | "outside";
+
+/** Body of `POST /api/benches/{id}/export`. */
+export type Export = {
+  /** What. */
+  what: What;
+  /** Ids in the order of ticking, of the catalogue and of one's own; `:richer` behind an id asks for the richer form. */
+  terms: Array<string>;
+  /** Term files (term/1) of one's own, as text. */
+  own: Array<string>;
+};
+
+/** What can be taken home. */
 export type What = "model" | "report" | "diagnosis" | "hexapod" | "measurements" | "holdout";
 
-export interface Exported {
+/** Answer to `POST /api/benches/{id}/export`. */
+export type Exported = {
+  /** Name for the file. */
   name: string;
+  /** Media type. */
   media: string;
+  /** What is in it. */
   text: string;
-}
+};
 
-export interface Revealed {
+/** Body of `POST /api/benches/{id}/reveal`. */
+export type Guess = {
+  /** Ids of terms; `outside` for something the catalogue does not know; empty: nothing is hidden. */
+  guess: Array<string>;
+};
+
+/** Answer to `POST /api/benches/{id}/reveal`. */
+export type Revealed = {
+  /** True when the guess names all that is hidden and nothing else. */
   right: boolean;
-  hidden: Hidden[];
-  leg_stiffness: number[];
-}
+  /** What is hidden. */
+  hidden: Array<Hidden>;
+  /** True leg stiffness, N/um. */
+  leg_stiffness: Six;
+};
+
+/** Body of every refusal. */
+export type Refused = {
+  /** What is wrong. */
+  error: string;
+  /** What to do. */
+  next: string;
+};

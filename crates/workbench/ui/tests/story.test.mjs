@@ -1,6 +1,7 @@
 // The story of the workbench in a real browser. HEXBENCH_BINARY names the program: node tests/story.test.mjs
 // Exits 77 when there is no program or no browser.
 import assert from "node:assert/strict";
+import { readdirSync, statSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
@@ -27,6 +28,9 @@ if (reason !== "") {
 const CASES = join(dirname(fileURLToPath(import.meta.url)), "../../../../data/cases");
 const CASE = "mujoco-foundation";
 const TERM = "base-compliance";
+
+/** Letters and digits alone: blanks and the case of a first letter are layout. */
+const plain = (text) => text.toLowerCase().replace(/[^\p{L}\p{N}%±<>+]+/gu, "");
 
 let workbench;
 let browser;
@@ -118,10 +122,35 @@ test("the diagnosis names the effect and ticks it", async () => {
   await at("verdict").waitFor();
   assert.equal(await at("verdict").getAttribute("data-word"), "named");
   assert.match(await at("verdict").textContent(), new RegExp(TERM));
-  assert.match(await at("probabilities").textContent(), new RegExp(TERM));
+  assert.match(await at("section-confidence").textContent(), new RegExp(TERM));
   await at("tick-named").click();
   assert.ok((await changedFrom(page, springs)) < springs);
   assert.ok(await at(`term-${TERM}`).isChecked());
+  await close();
+});
+
+test("the workbench says word for word what the report says, of every bundled case", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  for (const name of readdirSync(CASES).filter((entry) => statSync(join(CASES, entry)).isDirectory())) {
+    await page.goto(workbench.url);
+    await loadCase(page, name);
+    await at("tab-diagnosis").click();
+    await at("diagnose").click();
+    await at("section-conventions").waitFor();
+    const said = plain((await at("said").allTextContents()).join(" "));
+    const report = await downloaded(page, "export-report");
+    const reader = await browser.newPage();
+    await reader.setContent(report.text);
+    const parts = await reader
+      .locator("section:not(:has(figure)):not(#provenance)")
+      .locator("h2, p, li, dt, dd, td, caption")
+      .allTextContents();
+    await reader.close();
+    const wanted = parts.map(plain).filter((part) => part !== "");
+    assert.ok(wanted.length > 30, `${name}: ${wanted.length} parts`);
+    for (const part of wanted) assert.ok(said.includes(part), `${name}: the workbench does not say: ${part}`);
+    console.log(`${name}: ${wanted.length} parts of the report stand in the workbench`);
+  }
   await close();
 });
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_challenge::{Suite, make};
+use hexbench_experiments::challenge::{Suite, make};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
@@ -28,10 +28,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Some(seed) => suite.with_seed(seed),
         None => suite,
     };
-    let progress = Progress::of(suite.cases() as u64, "cases");
-    let made = make(&suite, &arguments.out, &|| progress.advance(1));
+    let progress = Progress::of(0, "cases");
+    let manifest = make(&suite, &arguments.out, &progress)?;
     progress.done();
-    let manifest = made?;
     let out = arguments.out.display();
     screen.write(&format!(
         "{} cases of {} version {}, seed {}.\n\

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
-use hexbench_challenge::Challenge;
-use hexbench_challenge::run::{Entrant, Limits, Manner, Program, Summary, run as run_cases};
+use hexbench_experiments::challenge::Challenge;
+use hexbench_experiments::challenge::run::{Entrant, Limits, Manner, Program, Summary, run as run_cases};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
@@ -54,9 +54,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         limits: limits(arguments)?,
     };
     let manner = Manner { jobs: usize::from(arguments.jobs), again: arguments.again };
-    let progress = Progress::of(challenge.manifest().cases.len() as u64, "cases");
-    let done = || progress.advance(1);
-    let summary = run_cases(&challenge, &entrant, &arguments.out, manner, &done);
+    let progress = Progress::of(0, "cases");
+    let summary = run_cases(&challenge, &entrant, &arguments.out, manner, &progress);
     progress.done();
     screen.write(&told(&summary?, &entrant.name))
 }

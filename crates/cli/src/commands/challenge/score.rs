@@ -1,10 +1,11 @@
 //! `hexbench challenge score DIR ANSWERS...`.
 
+use hexbench_report::render::markdown;
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_challenge::Challenge;
-use hexbench_challenge::score::{Scores, page, score};
+use hexbench_experiments::challenge::Challenge;
+use hexbench_experiments::challenge::score::{Scores, page, score};
 
 use crate::failure::Failure;
 use crate::output::{Screen, write_json};
@@ -36,10 +37,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         write_json(screen, path, &scores)?;
     }
     if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &page(&scores).to_markdown())?;
+        screen.write_to(path, &markdown(&page(&scores)))?;
     }
     if arguments.json.as_ref().is_none_or(|path| path.as_os_str() != "-") {
-        screen.write(&page(&scores).to_text())?;
+        screen.show(&page(&scores))?;
     }
     check(arguments.check, &scores)
 }

@@ -1,18 +1,20 @@
 //! `hexbench validate calibration`.
 
 use std::ffi::OsStr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_truth::campaign::Kind;
-use hexbench_validation::calibration::{
-    self, Calibration, Curve, MOST_FALSE_NAMES, Protocol, SEED, document, false_names, pictures, sheets,
+use hexbench_experiments::calibration::{
+    self, Calibration, Curve, MOST_FALSE_NAMES, Protocol, SEED, false_names, page, pictures, sheets,
     trials_csv,
 };
+use hexbench_report::render::markdown;
+use hexbench_report::table::csv;
+use hexbench_report::{Block, Entry, Section};
+use hexbench_truth::campaign::Kind;
 
 use crate::failure::Failure;
-use crate::output::{Progress, Screen};
-use crate::page;
+use crate::output::{Screen, TrialFiles};
 
 /// Say how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
 #[derive(Debug, Args)]
@@ -30,11 +32,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
     /// Write the files of this one trial instead, such as `pair-0007`
-    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "markdown", "check"])]
+    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "markdown", "check", "journal", "table"])]
     case: Option<String>,
     /// Exit with 1 when effects that are not there are named in clearly more than 1 % of the trials
     #[arg(long)]
     check: bool,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 /// Run the study, write its files, tell the main figures.
@@ -47,17 +51,22 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Some(trials) => protocol.with_trials(trials as usize),
         None => protocol,
     };
-    let study = with_progress(protocol);
+    let gathered = arguments.kept.run(&protocol)?;
+    let study = Calibration::of(protocol, gathered);
     let written = write(&study, arguments, screen)?;
-    screen.write(&page::calibration(&study, &written, screen.ink()))?;
+    screen.show(&page(&study, "charts").with(files(&written)))?;
     check(arguments.check, &study)
 }
 
-fn with_progress(protocol: Protocol) -> Calibration {
-    let progress = Progress::of(protocol.trials() as u64, "trials");
-    let study = calibration::calibrate(protocol, &|| progress.advance(1));
-    progress.done();
-    study
+/// Folder by folder.
+fn files(written: &[PathBuf]) -> Section {
+    let folder = |group: &[PathBuf]| {
+        let names: Vec<_> = group.iter().filter_map(|p| p.file_name()).map(|n| n.to_string_lossy()).collect();
+        let folder = group[0].parent().unwrap_or(Path::new("")).join("");
+        Entry::new(folder.display().to_string(), names.join(", "))
+    };
+    let groups = written.chunk_by(|a, b| a.parent() == b.parent());
+    Section::new("Written").with(Block::entries(groups.map(folder)))
 }
 
 /// Returns the paths written.
@@ -67,10 +76,10 @@ fn write(study: &Calibration, arguments: &Arguments, screen: &Screen) -> Result<
     files.extend(tables(study).map(|(name, text)| (out.join(name), text)));
     let charts = pictures(&study.records)?;
     files.extend(charts.iter().map(|c| (out.join(c.file), c.svg.clone())));
-    if let Some(markdown) = &arguments.markdown {
-        let folder = markdown.with_extension("");
+    if let Some(path) = &arguments.markdown {
+        let folder = path.with_extension("");
         let beside = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
-        files.push((markdown.clone(), document(study, &beside)));
+        files.push((path.clone(), markdown(&page(study, &beside))));
         files.extend(charts.into_iter().map(|c| (folder.join(c.file), c.svg)));
     }
     for (path, text) in &files {
@@ -95,9 +104,9 @@ fn tables(study: &Calibration) -> impl Iterator<Item = (&'static str, String)> {
         ("power.csv", sheets::power(&curves)),
         ("coverage.csv", sheets::coverage(records)),
         ("numbers.csv", sheets::numbers(records)),
-        ("mistakes.csv", sheets::mistakes_sheet(records)),
+        ("mistakes.csv", sheets::mistakes_table(records)),
     ];
-    all.into_iter().map(|(name, sheet)| (name, sheet.csv()))
+    all.into_iter().map(|(name, table)| (name, csv::text(&table)))
 }
 
 fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {

@@ -3,14 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_pages::text::{Paper, Table};
-use hexbench_validation::discriminate::{
-    CONFUSIONS, Protocol, SEED, discriminate, document, headlines, sheets,
-};
+use hexbench_experiments::discriminate::{CONFUSIONS, Discrimination, Protocol, SEED, Trials, page};
+use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 
-use crate::output::{Progress, Screen};
+use crate::output::{Screen, TrialFiles};
 
 /// Say whether the proposed readings tell effects apart: they are taken on simulated machines with a known truth
 #[derive(Debug, Args)]
@@ -24,6 +22,8 @@ pub(crate) struct Arguments {
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 fn trials(text: &str) -> Result<usize, String> {
@@ -35,29 +35,12 @@ fn trials(text: &str) -> Result<usize, String> {
 /// Run the study, tell the figures, write the document.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let protocol = Protocol { seed: arguments.seed, trials: arguments.trials };
-    let progress = Progress::of((protocol.trials * CONFUSIONS.len()) as u64, "trials");
-    let study = discriminate(protocol, &CONFUSIONS, &|| progress.advance(1));
-    progress.done();
-    let mut paper = Paper::new(screen.ink());
-    paper.heading("Readings that tell effects apart", &format!("seed {}", protocol.seed));
-    for line in headlines(&study) {
-        paper.hanging("  -", 4, &line);
-    }
-    paper.heading(
-        "Open answers",
-        "share of right answers after the readings proposed, and after as many at random",
-    );
-    let mut table = Table::default();
-    table.row(["effects", "open", "proposed", "random"]);
-    for row in sheets::proposed(&study).rows {
-        // Name, trials, and the two shares without their bounds.
-        let cell = |k: usize| row[k].split(" (").next().unwrap_or_default().to_owned();
-        table.row([0, 1, 4, 5].map(cell));
-    }
-    table.lines().iter().for_each(|line| paper.line(line));
-    screen.write(&paper.into_text())?;
+    let trials = Trials { protocol, confusions: &CONFUSIONS };
+    let study = Discrimination::of(&trials, &arguments.kept.run(&trials)?);
+    let page = page(&study);
+    screen.show(&page)?;
     arguments.markdown.as_ref().map_or(Ok(()), |path| {
         Screen::make_folder_of(path)?;
-        screen.write_to(path, &document(&study))
+        screen.write_to(path, &markdown(&page))
     })
 }

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_validation::paper::{Reproduction, report};
+use hexbench_experiments::paper::{Reproduction, report};
 
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{Screen, TrialFiles};
 
 /// Repeat the paper on a simulated machine: its tables beside ours, and what its remaining error is made of
 #[derive(Debug, Args)]
@@ -17,17 +17,19 @@ pub(crate) struct Arguments {
     /// Folder for the page, the charts, the readings and the numbers behind every table and figure
     #[arg(short = 'o', long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 /// Run the study, print the page, write the files.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let study = Reproduction::run(arguments.seed).map_err(Failure::Reproduction)?;
+    let study = Reproduction::run(arguments.seed, |again| arguments.kept.run(again))?;
     if let Some(folder) = &arguments.out {
-        for (name, text) in report::files(&study).map_err(Failure::Reproduction)? {
+        for (name, text) in report::files(&study)? {
             let path = folder.join(name);
             Screen::make_folder_of(&path)?;
             screen.write_to(&path, &text)?;
         }
     }
-    screen.write(&report::page(&study).to_text())
+    screen.show(&report::page(&study))
 }

@@ -5,15 +5,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_design::power::Settings;
-use hexbench_report::Document;
+use hexbench_experiments::power::{Campaigns, Simulation, Studied, document, pictures, plan_of};
+use hexbench_report::Page;
+use hexbench_report::render::markdown;
 use hexbench_truth::Scene;
-use hexbench_validation::power::{
-    Simulation, Studied, document, most_campaigns, pictures, plan_of, run as study,
-};
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{Progress, Screen};
+use crate::output::{Screen, TrialFiles};
 
 /// Say which effects the plan of the paper and a richer one can see: reckoned, and counted in the simulated world
 #[derive(Debug, Args)]
@@ -33,24 +32,26 @@ pub(crate) struct Arguments {
     /// Write the page as Markdown to FILE, its charts to a folder beside it
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
 /// Study both plans, print the page, write the files.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let terms = input::catalogue_with(&[]);
     let simulation = Simulation { campaigns: arguments.campaigns as usize, diagnoses: true };
-    let progress = Progress::of(2 * most_campaigns(terms.len(), simulation) as u64, "campaigns");
     let one = |folder: &Path| -> Result<Studied, Failure> {
         let scene = Scene::read(folder)?;
         let plan = plan_of(&scene)?;
         let settings = Settings { seed: arguments.seed, ..Settings::default() };
-        let power = study(&plan, &terms, settings, simulation, &[], &|| progress.advance(1))?;
+        let all = Campaigns::new(&plan, &terms, settings, simulation, &[])?;
+        let gathered = arguments.kept.of_one(&scene.name).run(&all)?;
+        let power = all.power(&gathered)?;
         Ok(Studied::new(&scene.name, plan, power)?)
     };
     let (plain, rich) = (one(&arguments.plain)?, one(&arguments.rich)?);
-    progress.done();
     write(arguments, &plain, &rich, screen)?;
-    screen.write(&page(arguments, &plain, &rich, "power").to_text())
+    screen.show(&page(arguments, &plain, &rich, "power"))
 }
 
 fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen) -> Result<(), Failure> {
@@ -58,7 +59,7 @@ fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen
     let folder = path.with_extension("");
     let beside = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
     Screen::make_folder_of(path)?;
-    screen.write_to(path, &page(arguments, plain, rich, &beside).to_markdown())?;
+    screen.write_to(path, &markdown(&page(arguments, plain, rich, &beside)))?;
     for studied in [plain, rich] {
         for chart in pictures(&studied.power)? {
             let file = folder.join(format!("{}-{}", studied.name, chart.file));
@@ -69,7 +70,7 @@ fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen
     Ok(())
 }
 
-fn page(arguments: &Arguments, plain: &Studied, rich: &Studied, charts: &str) -> Document {
+fn page(arguments: &Arguments, plain: &Studied, rich: &Studied, charts: &str) -> Page {
     let again = format!(
         "hexbench validate power --campaigns {} --seed {} --markdown docs/power.md",
         arguments.campaigns, arguments.seed

@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_validation::recovery::document::document;
-use hexbench_validation::recovery::study::{self, Settings, Study};
+use hexbench_experiments::recovery::document::page;
+use hexbench_experiments::recovery::protocol::Recovery;
+use hexbench_experiments::recovery::study::{Settings, Study};
+use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
-use crate::output::{Progress, Screen};
-use crate::page;
+use crate::output::{Screen, TrialFiles};
 
 /// Hide effects in simulated campaigns, and see that they are found with honest uncertainty
 #[derive(Debug, Args)]
@@ -31,6 +32,8 @@ pub(crate) struct Arguments {
     /// Exit with 1 when a bound is broken
     #[arg(long)]
     check: bool,
+    #[command(flatten)]
+    trials: TrialFiles,
 }
 
 /// Run the study, write its files, tell it.
@@ -40,24 +43,18 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         diagnoses: arguments.diagnoses as usize,
         seed: arguments.seed,
     };
-    let study = with_progress(settings);
+    let protocol = Recovery::new(settings);
+    let study = Study::of(&protocol, &arguments.trials.run(&protocol)?);
     if let Some(path) = &arguments.json {
         screen.write_to(path, &json(&study)?)?;
     }
     if let Some(path) = &arguments.markdown {
-        screen.write_to(path, &document(&study))?;
+        screen.write_to(path, &markdown(&page(&study)))?;
     }
     if arguments.json.as_deref().is_none_or(|path| path.as_os_str() != "-") {
-        screen.write(&page::recovery(&study, screen.ink()))?;
+        screen.show(&page(&study))?;
     }
     check(arguments.check, &study)
-}
-
-fn with_progress(settings: Settings) -> Study {
-    let progress = Progress::of(settings.steps() as u64, "campaigns");
-    let study = study::run(settings, || progress.advance(1));
-    progress.done();
-    study
 }
 
 fn json(study: &Study) -> Result<String, Failure> {

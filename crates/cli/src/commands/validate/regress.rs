@@ -3,19 +3,20 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_validation::regress::baseline::Baseline;
-use hexbench_validation::regress::document::{Proof, document};
-use hexbench_validation::regress::gathered::gather;
-use hexbench_validation::regress::limit::Limit;
-use hexbench_validation::regress::limits::limits;
-use hexbench_validation::regress::planted;
-use hexbench_validation::regress::suite::Suite;
-use hexbench_validation::regress::trials::{Trials, run as run_suite};
-use hexbench_validation::regress::unchanged::{Kept, Unchanged, logged, machines};
+use hexbench_experiments::regress::baseline::Baseline;
+use hexbench_experiments::regress::comparison::compare;
+use hexbench_experiments::regress::document::{Proof, page};
+use hexbench_experiments::regress::gathered::gather;
+use hexbench_experiments::regress::limits::limits;
+use hexbench_experiments::regress::planted;
+use hexbench_experiments::regress::suite::Suite;
+use hexbench_experiments::regress::trials::Runs;
+use hexbench_experiments::regress::unchanged::Unchanged;
+use hexbench_report::render::markdown;
 
 use crate::commands::regress::COMMITTED;
 use crate::failure::Failure;
-use crate::output::{Progress, Screen};
+use crate::output::{Screen, TrialFiles};
 
 /// Patches of the planted faults.
 const PATCHES: &str = "data/regress/faults";
@@ -35,31 +36,37 @@ pub(crate) struct Arguments {
     /// Run the small suite
     #[arg(long)]
     quick: bool,
-    /// Log of runs, one line each; runs in it are not repeated
-    #[arg(long, value_name = "FILE")]
-    log: Option<PathBuf>,
     /// Folder with a result for each planted fault, as `scripts/planted_faults.sh` writes them
     #[arg(long, value_name = "DIR")]
     faults: Option<PathBuf>,
     /// Write the page docs/regress.md to FILE
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
+    #[command(flatten)]
+    kept: TrialFiles,
 }
 
-/// Run, log, tell; write the page.
+/// Run, tell; write the page.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let suite = if arguments.quick { Suite::quick() } else { Suite::full() };
     let limits = limits(&suite);
     let baseline = Baseline::read_for(&arguments.baseline, &suite, &limits)?;
-    let runs = unchanged(arguments, &suite, &limits, &baseline)?;
+    let all = Runs::new(&suite, arguments.seed, arguments.runs as usize);
+    let mut trials = all.of_each(arguments.kept.run(&all)?);
+    if let [first, others @ ..] = &mut trials[..] {
+        for run in others {
+            run.machines.clone_from(&first.machines);
+        }
+    }
+    let beside = |(trials, seed)| Unchanged::from(&compare(&suite, &limits, (trials, seed), &baseline, ""));
+    let runs: Vec<Unchanged> = trials.iter().zip(all.seeds()).map(beside).collect();
     if let Some(path) = &arguments.markdown {
         let planted = match &arguments.faults {
             Some(results) => planted::read((Path::new(PATCHES), results), &suite, &limits, &baseline)
                 .map_err(|cause| unreadable(results, cause))?,
             None => Vec::new(),
         };
-        let trials = run_suite(&suite, arguments.seed, &|| ());
-        let counts: Vec<u64> = gather(&limits, &trials).iter().map(|g| g.sample.count()).collect();
+        let counts: Vec<u64> = gather(&limits, &trials[0]).iter().map(|g| g.sample.count()).collect();
         let proof = Proof {
             suite: &suite,
             limits: &limits,
@@ -68,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             runs: &runs,
             planted: &planted,
         };
-        screen.write_to(path, &document(&proof))?;
+        screen.write_to(path, &markdown(&page(&proof)))?;
     }
     let failed: Vec<&Unchanged> = runs.iter().filter(|r| !r.worse.is_empty()).collect();
     let lines = failed.iter().map(|r| format!("seed {}: {}\n", r.seed, r.worse.join("; ")));
@@ -78,46 +85,6 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         runs.len(),
         lines.collect::<String>()
     ))
-}
-
-/// Runs of the log and those that are missing in it, by seed.
-fn unchanged(
-    arguments: &Arguments,
-    suite: &Suite,
-    limits: &[Limit],
-    baseline: &Baseline,
-) -> Result<Vec<Unchanged>, Failure> {
-    let known = match &arguments.log {
-        Some(path) => logged(path, suite, limits).map_err(|cause| unreadable(path, cause))?,
-        None => Vec::new(),
-    };
-    let machines = machines(suite);
-    let progress = Progress::of(u64::from(arguments.runs), "runs");
-    let mut runs = Vec::new();
-    for seed in (0..u64::from(arguments.runs)).map(|k| arguments.seed.wrapping_add(k)) {
-        let kept = match known.iter().find(|run| run.seed == seed) {
-            Some(run) => run.clone(),
-            None => fresh(arguments, suite, limits, &machines, seed)?,
-        };
-        runs.push(Unchanged::of(&kept, suite, limits, baseline));
-        progress.advance(1);
-    }
-    progress.done();
-    Ok(runs)
-}
-
-fn fresh(
-    arguments: &Arguments,
-    suite: &Suite,
-    limits: &[Limit],
-    machines: &Trials,
-    seed: u64,
-) -> Result<Kept, Failure> {
-    let kept = Kept::run(suite, limits, machines, seed);
-    if let Some(path) = &arguments.log {
-        kept.append(path).map_err(|cause| Failure::Output { path: path.clone(), cause })?;
-    }
-    Ok(kept)
 }
 
 fn unreadable(path: &Path, cause: std::io::Error) -> Failure {

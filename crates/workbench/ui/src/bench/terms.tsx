@@ -28,7 +28,7 @@ export function Terms(props: BenchProps & { edit: (text: string) => void }) {
         </button>
       </div>
       <p class="hint">Six leg springs always; tick what else is at work.</p>
-      {grouped(catalogue.terms).map(({ title, terms }) => (
+      {grouped(catalogue).map(({ title, terms }) => (
         <Group key={title} title={title} closed={terms.every(({ id }) => why.has(id))}>
           {terms.map((term) => (
             <TermSwitch

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { digits, percent, withUncertainty } from "../../src/format";
+import { digits, withUncertainty } from "../../src/format";
 
 test("numbers keep their significant digits", () => {
   assert.equal(digits(1.5234), "1.52");
@@ -14,10 +14,4 @@ test("a value ends where its uncertainty ends", () => {
   assert.deepEqual(withUncertainty(3.72159, 0.00951), { value: "3.7216", std: "0.0095" });
   assert.deepEqual(withUncertainty(-5432.1, 120), { value: "\u22125430", std: "120" });
   assert.deepEqual(withUncertainty(0.00001, 0.2), { value: "0.00", std: "0.20" });
-});
-
-test("a probability is never said to be certain", () => {
-  assert.equal(percent(0.999), "> 99 %");
-  assert.equal(percent(0.001), "< 1 %");
-  assert.equal(percent(0.5), "50 %");
 });

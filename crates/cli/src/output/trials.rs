@@ -1,0 +1,39 @@
+//! The trials of an experiment: watched, kept in a journal, written as a table.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use hexbench_experiments::harness::{self, Gathered, Protocol};
+
+use super::{Progress, TableFile};
+use crate::failure::Failure;
+
+/// What becomes of the trials.
+#[derive(Debug, Args)]
+pub(crate) struct TrialFiles {
+    /// Keep every trial in DIR as soon as it is done: given again, a run that was killed goes on and ends with the same bytes
+    #[arg(long, value_name = "DIR")]
+    journal: Option<PathBuf>,
+    /// Write one row per trial to FILE, whose name ends in .parquet or .csv
+    #[arg(long, value_name = "FILE")]
+    table: Option<TableFile>,
+}
+
+impl TrialFiles {
+    /// Run the trials that are missing, and write the table.
+    pub(crate) fn run<P: Protocol>(&self, protocol: &P) -> Result<Gathered<P::Record>, Failure> {
+        let progress = Progress::of(0, "trials");
+        let gathered = harness::run(protocol, self.journal.as_deref(), &progress)?;
+        progress.done();
+        if let Some(table) = &self.table {
+            table.write_as_it_is(&harness::table(protocol, &gathered))?;
+        }
+        Ok(gathered)
+    }
+
+    /// The same for one of several experiments of a command: its journal and its table have its name.
+    pub(crate) fn of_one(&self, name: &str) -> Self {
+        let journal = self.journal.as_ref().map(|folder| folder.join(name));
+        Self { journal, table: self.table.as_ref().map(|table| table.of_one(name)) }
+    }
+}

@@ -1,0 +1,56 @@
+//! Comma-separated text, written in one place (RFC 4180).
+
+use std::borrow::Cow;
+
+/// A table as comma-separated text: a header, then rows. Cells with a comma, a quote or an end of line are quoted.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct CsvText {
+    text: String,
+}
+
+impl CsvText {
+    /// A table without rows.
+    pub fn new<S: AsRef<str>>(header: impl IntoIterator<Item = S>) -> Self {
+        let mut table = Self::default();
+        table.row(header);
+        table
+    }
+
+    /// Adds a row.
+    pub fn row<S: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = S>) {
+        for (k, cell) in cells.into_iter().enumerate() {
+            if k > 0 {
+                self.text.push(',');
+            }
+            self.text.push_str(&csv_cell(cell.as_ref()));
+        }
+        self.text.push('\n');
+    }
+
+    /// The text.
+    pub fn into_text(self) -> String {
+        self.text
+    }
+}
+
+/// A cell as it stands in a file.
+pub fn csv_cell(text: &str) -> Cow<'_, str> {
+    if text.contains(['"', ',', '\n', '\r']) {
+        Cow::Owned(format!("\"{}\"", text.replace('"', "\"\"")))
+    } else {
+        Cow::Borrowed(text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CsvText;
+
+    #[test]
+    fn cells_that_hold_a_comma_or_a_quote_are_quoted() {
+        let mut table = CsvText::new(["what", "n"]);
+        table.row(["a, b", "3"]);
+        table.row(["\"c\"", "4"]);
+        assert_eq!(table.into_text(), "what,n\n\"a, b\",3\n\"\"\"c\"\"\",4\n");
+    }
+}

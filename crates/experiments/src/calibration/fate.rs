@@ -1,0 +1,70 @@
+//! What became of a truth: finer than right, honest and wrong.
+
+use hexbench_model::diagnose::Diagnosis;
+use hexbench_model::verdict::Verdict;
+use serde::{Deserialize, Serialize};
+
+use crate::trial::{Outcome, Trial};
+
+/// What became of the hidden truth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Fate {
+    /// Exactly the truth is said.
+    Right,
+    /// Ambiguous, the truth among what is kept.
+    Honest,
+    /// Ambiguous, without the truth among what is kept, or although there is nothing or something outside.
+    Undecided,
+    /// The springs are called adequate although something is hidden.
+    Missed,
+    /// Only true effects are named, but not all of them.
+    Incomplete,
+    /// "Outside" is said, but all that is hidden is in the catalogue, or nothing is.
+    FalseOutside,
+    /// An effect is named that is not there.
+    FalseName,
+}
+
+impl Fate {
+    /// All fates, best first.
+    pub const ALL: [Self; 7] = [
+        Self::Right,
+        Self::Honest,
+        Self::Undecided,
+        Self::Missed,
+        Self::Incomplete,
+        Self::FalseOutside,
+        Self::FalseName,
+    ];
+
+    /// A word for tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Honest => "honest",
+            Self::Undecided => "undecided",
+            Self::Missed => "missed",
+            Self::Incomplete => "incomplete",
+            Self::FalseOutside => "false outside",
+            Self::FalseName => "false name",
+        }
+    }
+
+    /// Fate of a trial.
+    pub fn of(trial: &Trial) -> Self {
+        let d = &trial.study.diagnosis;
+        match (trial.outcome(), d.verdict) {
+            (Outcome::Right, _) => Self::Right,
+            (Outcome::Honest, _) => Self::Honest,
+            (Outcome::Wrong, Verdict::Ambiguous) => Self::Undecided,
+            (Outcome::Wrong, Verdict::Adequate) => Self::Missed,
+            (Outcome::Wrong, Verdict::Outside) => Self::FalseOutside,
+            (Outcome::Wrong, Verdict::Named) if invents(d, &trial.hidden) => Self::FalseName,
+            (Outcome::Wrong, Verdict::Named) => Self::Incomplete,
+        }
+    }
+}
+
+fn invents(d: &Diagnosis, hidden: &[&str]) -> bool {
+    d.added.iter().any(|id| !hidden.contains(&id.as_str()))
+}

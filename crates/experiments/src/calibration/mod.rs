@@ -1,0 +1,37 @@
+//! How far the stated probabilities can be trusted.
+//!
+//! Campaigns with a known truth are drawn by a frozen protocol: effects, sizes, plans, machines, noise. Each goes through the
+//! diagnosis, and what was stated is held against what was true: of all claims made with probability `p`, a share `p`
+//! should come true; an effect that is not there should hardly ever be named.
+
+mod charts;
+mod claim;
+mod confusion;
+mod document;
+mod fate;
+mod mistake;
+mod power;
+mod protocol;
+mod record;
+mod reliability;
+pub mod sheets;
+mod study;
+mod trials_csv;
+mod trust;
+
+pub use charts::{Picture, pictures};
+pub use claim::{Claim, Claims, Mix};
+pub use confusion::{Confusion, WELL_VISIBLE, is_well_visible};
+pub use document::{headlines, page};
+pub use fate::Fate;
+pub use mistake::{Group, mistakes};
+pub use power::{Curve, SIZES, Step};
+pub use protocol::{DISTANCES, Portion, Protocol, SEED};
+pub use record::Record;
+pub use reliability::{BORDERS, Bin, Scores, bins, scores};
+pub use study::{Calibration, case};
+pub use trials_csv::trials_csv;
+pub use trust::{
+    CREDIBLE, HeldOut, MOST_FALSE_NAMES, credible_coverage, false_names, false_names_among_named,
+    false_outside, stiffness_coverage,
+};

@@ -1,0 +1,176 @@
+//! One trial in numbers.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use hexbench_model::diagnose::Study;
+use hexbench_model::verdict::{NONE, OUTSIDE, Verdict};
+use hexbench_truth::campaign::{Case, Kind, PlanKind};
+use serde::{Deserialize, Serialize};
+
+use super::Fate;
+use crate::harness::words::{self, Word};
+use crate::trial::{Trial, TrialError};
+
+/// What was hidden in a campaign, and what was said about it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Kind and number, as the folder of the case would be called.
+    pub id: String,
+    /// Kind of the campaign.
+    pub kind: Kind,
+    /// Family of the machine.
+    #[serde(with = "words")]
+    pub family: Word,
+    /// Plan of the measurements.
+    pub plan: PlanKind,
+    /// Seed of the case itself.
+    pub seed: u64,
+    /// Ids of the hidden effects as the catalogue calls them; `out:` in front of those it lacks.
+    #[serde(with = "words::list")]
+    pub hidden: Vec<Word>,
+    /// Distance each effect was scaled to; none where effects have their usual size.
+    pub distance: Option<f64>,
+    /// Distance of the effects together, 0 without effects.
+    pub total_distance: f64,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// What became of the truth.
+    pub fate: Fate,
+    /// Effects named.
+    pub added: Vec<String>,
+    /// Terms of the fitted model.
+    pub model: Vec<String>,
+    /// The best first addition (an effect, `outside` or `none`) and its probability.
+    pub best: (String, f64),
+    /// Probability that an effect is present at all.
+    pub present: BTreeMap<String, f64>,
+    /// Probability of something outside the catalogue.
+    pub outside: f64,
+    /// Probability of no effect.
+    pub none: f64,
+    /// Probability of exactly what the verdict says; none when it is ambiguous.
+    pub confidence: Option<f64>,
+    /// Probability of exactly the truth.
+    pub truth: f64,
+    /// Effects that hold 95 % of the probability.
+    pub credible: Vec<String>,
+    /// Reduced chi-square on held-out poses: springs alone, and the final model.
+    pub holdout: [Option<f64>; 2],
+    /// Errors of the leg stiffnesses of the final model, in standard deviations.
+    pub stiffness_z: [Option<f64>; 6],
+}
+
+impl Record {
+    /// Diagnoses a case and compares the answer with the truth.
+    ///
+    /// # Errors
+    /// [`TrialError::Model`].
+    pub fn of(case: &Case) -> Result<Self, TrialError> {
+        Ok(Self::of_trial(case, &Trial::run(case)?))
+    }
+
+    /// Compares the answer to a case with its truth.
+    pub fn of_trial(case: &Case, trial: &Trial) -> Self {
+        let Trial { hidden, study } = trial;
+        let d = &study.diagnosis;
+        let first = |name: &str| d.candidates.iter().find(|c| c.term == name).map_or(0.0, |c| c.probability);
+        let best = d.candidates.first();
+        let chi2 = |step: Option<&hexbench_model::diagnose::StepReport>| Some(step?.holdout?.chi2_reduced);
+        Self {
+            id: case.spec.id.clone(),
+            kind: case.spec.kind,
+            family: case.spec.family,
+            plan: case.spec.plan,
+            seed: case.spec.seed,
+            distance: case.spec.distance,
+            total_distance: case.truth["distance"].as_f64().unwrap_or(0.0),
+            verdict: d.verdict,
+            fate: Fate::of(trial),
+            added: d.added.clone(),
+            model: d.model.clone(),
+            best: best.map_or((NONE.to_owned(), 1.0), |c| (c.term.clone(), c.probability)),
+            present: d.present.clone(),
+            outside: first(OUTSIDE),
+            none: first(NONE),
+            confidence: confidence(study),
+            truth: probability_of(study, hidden),
+            credible: d.credible_set.clone(),
+            holdout: [chi2(d.steps.first()), chi2(d.steps.last())],
+            stiffness_z: stiffness_z(study, case),
+            hidden: hidden.clone(),
+        }
+    }
+
+    /// True when the catalogue lacks what is hidden.
+    pub fn is_outside(&self) -> bool {
+        self.hidden.iter().any(|id| id.starts_with("out:"))
+    }
+
+    /// True when an effect, `outside` or `none` is part of the truth.
+    pub fn holds(&self, name: &str) -> bool {
+        match name {
+            OUTSIDE => self.is_outside(),
+            NONE => self.hidden.is_empty(),
+            _ => self.hidden.contains(&name),
+        }
+    }
+
+    /// True when the credible set, or what is named for sure, holds all of the truth.
+    pub fn is_covered(&self) -> bool {
+        let kept = |name: &str| self.credible.iter().chain(&self.added).any(|c| c == name);
+        match (self.is_outside(), self.hidden.is_empty()) {
+            (true, _) => kept(OUTSIDE),
+            (_, true) => kept(NONE),
+            _ => self.hidden.iter().all(|id| kept(id)),
+        }
+    }
+
+    /// The hidden effects in one word, `none` when there are none.
+    pub fn hidden_words(&self) -> String {
+        if self.hidden.is_empty() { NONE.to_owned() } else { self.hidden.join("+") }
+    }
+
+    /// The answer in one word: the effects named, or the verdict.
+    pub fn answer(&self) -> String {
+        match self.verdict {
+            Verdict::Named => self.added.join("+"),
+            verdict => verdict.word().to_owned(),
+        }
+    }
+}
+
+fn confidence(study: &Study) -> Option<f64> {
+    let d = &study.diagnosis;
+    let added: Vec<&str> = d.added.iter().map(String::as_str).collect();
+    match d.verdict {
+        Verdict::Named => Some(probability_of(study, &added)),
+        Verdict::Adequate => Some(probability_of(study, &[])),
+        Verdict::Outside => Some(probability_of(study, &["out:"])),
+        Verdict::Ambiguous => None,
+    }
+}
+
+/// Probability that exactly these effects are at work; of anything outside when one of them is.
+fn probability_of(study: &Study, effects: &[&str]) -> f64 {
+    let d = &study.diagnosis;
+    if effects.iter().any(|id| id.starts_with("out:")) {
+        return d.candidates.iter().filter(|c| c.term == OUTSIDE).map(|c| c.probability).sum();
+    }
+    let wanted: BTreeSet<&str> = effects.iter().copied().collect();
+    let sets = &study.outcome.sets;
+    let members = |s: &hexbench_model::search::Set| -> Option<BTreeSet<&str>> {
+        s.members.iter().map(|&m| study.outcome.candidates[m].id()).collect()
+    };
+    let exactly = sets.sets.iter().filter(|s| members(s).is_some_and(|m| m == wanted));
+    exactly.map(|s| sets.probability(s)).sum()
+}
+
+fn stiffness_z(study: &Study, case: &Case) -> [Option<f64>; 6] {
+    const N_PER_UM: f64 = 1e-6;
+    std::array::from_fn(|leg| {
+        let name = format!("leg-{}.stiffness", leg + 1);
+        let estimate = study.diagnosis.parameters.iter().find(|p| p.name == name)?;
+        let true_stiffness = N_PER_UM / case.campaign.world.leg_compliance[leg];
+        (estimate.std > 0.0).then(|| (estimate.value - true_stiffness) / estimate.std)
+    })
+}

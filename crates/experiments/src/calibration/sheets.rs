@@ -1,0 +1,214 @@
+//! The tables of the study.
+
+use hexbench_truth::campaign::Kind;
+
+use super::trust::{HeldOut, credible_coverage, stiffness_coverage};
+use super::{Claims, Confusion, Curve, Fate, Mix, Record, bins, is_well_visible, mistakes, scores};
+use crate::Proportion;
+use hexbench_report::Table;
+use hexbench_report::number::hundredths;
+
+/// Most groups of wrong answers that get a line.
+const MOST_GROUPS: usize = 20;
+/// Trials named for each group.
+const EXAMPLES: usize = 3;
+
+/// What became of the truths of each kind.
+pub fn fates(records: &[Record]) -> Table {
+    let words = Fate::ALL.map(Fate::word);
+    let mut table = Table::named(["kind", "trials"].into_iter().chain(words));
+    let mut line = |title: &str, of: Vec<&Record>| {
+        let count = |fate| of.iter().filter(|r| r.fate == fate).count().to_string();
+        table.row([title.to_owned(), of.len().to_string()].into_iter().chain(Fate::ALL.map(count)));
+    };
+    for kind in Kind::ALL {
+        line(kind.name(), of_kind(records, kind).collect());
+    }
+    line("all", records.iter().collect());
+    table
+}
+
+/// Hidden effect against answer, counts; well-visible effects in plans made to see them.
+pub fn confusion(records: &[Record]) -> Table {
+    let confusion = visible_confusion(records);
+    let answers: Vec<&str> = confusion.answers.iter().map(String::as_str).collect();
+    let mut table = Table::named(std::iter::once("hidden").chain(answers));
+    for (hidden, counts) in confusion.hidden.iter().zip(&confusion.counts) {
+        table.row(std::iter::once(hidden.clone()).chain(counts.iter().map(ToString::to_string)));
+    }
+    table
+}
+
+/// The confusion behind [`confusion`].
+pub fn visible_confusion(records: &[Record]) -> Confusion {
+    const KINDS: [Kind; 4] = [Kind::Single, Kind::RichForm, Kind::Outside, Kind::Clean];
+    Confusion::of(records.iter().filter(|r| KINDS.contains(&r.kind) && is_well_visible(r)))
+}
+
+/// Scores of each kind of claim, with truths as drawn and as the diagnosis expects them.
+pub fn all_scores(records: &[Record]) -> Table {
+    let mut table = Table::named(SCORES).words_in(1);
+    for (name, mix) in [("as drawn", Mix::as_drawn()), ("as expected", Mix::as_expected(records))] {
+        for claims in Claims::ALL {
+            score_row(claims, name, records.iter(), &mix).into_iter().for_each(|row| table.row(row));
+        }
+    }
+    table
+}
+
+/// Scores of the verdicts and of presence by kind of campaign, as drawn.
+pub fn scores_by_kind(records: &[Record]) -> Table {
+    let mut table = Table::named(SCORES).words_in(1);
+    for claims in [Claims::Named, Claims::Verdict, Claims::Presence] {
+        for kind in Kind::ALL {
+            score_row(claims, kind.name(), of_kind(records, kind), &Mix::as_drawn())
+                .into_iter()
+                .for_each(|row| table.row(row));
+        }
+    }
+    table
+}
+
+const SCORES: [&str; 8] =
+    ["claim", "truths", "claims", "stated", "observed", "Brier", "log score", "calibration error"];
+
+fn score_row<'a>(
+    claims: Claims,
+    truths: &str,
+    records: impl Iterator<Item = &'a Record>,
+    mix: &Mix,
+) -> Option<Vec<String>> {
+    let s = scores(&claims.of(records, mix))?;
+    let mut row = vec![claims.title().to_owned(), truths.to_owned(), s.claims.to_string()];
+    row.extend([s.stated, s.observed, s.brier, s.log, s.calibration_error].map(|x| format!("{x:.3}")));
+    Some(row)
+}
+
+/// Stated probability against observed share, bin by bin, from a stated probability on; as drawn.
+pub fn reliability(records: &[Record], from: f64) -> Table {
+    let header = ["claim", "bin", "claims", "came true", "stated %", "observed %", "95 % bounds"];
+    let mut table = Table::named(header).words_in(1);
+    for claims in Claims::ALL {
+        let bins = bins(&claims.of(records, &Mix::as_drawn()));
+        for bin in bins.iter().filter(|b| b.range[0] >= from) {
+            let Proportion { hits, of } = bin.came_true;
+            let range = format!("{:.0} .. {:.0} %", 100.0 * bin.range[0], 100.0 * bin.range[1]);
+            let mut row = vec![claims.title().to_owned(), range, of.to_string(), hits.to_string()];
+            row.extend([hundredths(bin.stated), hundredths(bin.came_true.rate()), bounds(bin.came_true)]);
+            table.row(row);
+        }
+    }
+    table
+}
+
+/// Share right, and right or honest, of every effect at every size.
+pub fn power(curves: &[Curve]) -> Table {
+    let mut table =
+        Table::named(["hidden", "distance", "trials", "right %", "right or honest %", "missed %"]);
+    for curve in curves {
+        for step in &curve.steps {
+            let share = |fates: &[Fate]| hundredths(step.share(fates).rate());
+            let range = format!("{} .. {}", step.range[0], step.range[1]);
+            let of = step.share(&[]).of.to_string();
+            let shares = [share(&[Fate::Right]), share(&[Fate::Right, Fate::Honest]), share(&[Fate::Missed])];
+            table.row([curve.title.clone(), range, of].into_iter().chain(shares));
+        }
+    }
+    table
+}
+
+/// Share right at every size, one line for each effect: percent of the trials there.
+pub fn right_by_size(curves: &[Curve]) -> Table {
+    let ranges = super::SIZES.windows(2).map(|s| format!("{} .. {}", s[0], s[1]));
+    let mut table = Table::named(std::iter::once("distance".to_owned()).chain(ranges));
+    for curve in curves {
+        let cell = |s: &super::Step| {
+            let right = s.share(&[Fate::Right]);
+            if right.of == 0 { "-".to_owned() } else { format!("{:.0}", 100.0 * right.rate()) }
+        };
+        table.row(std::iter::once(curve.title.clone()).chain(curve.steps.iter().map(cell)));
+    }
+    table
+}
+
+/// Whether credible sets hold the truth, by kind.
+pub fn coverage(records: &[Record]) -> Table {
+    let mut table = Table::named([
+        "kind",
+        "credible sets",
+        "hold the truth %",
+        "95 % bounds",
+        "of them well visible",
+        "hold the truth %",
+    ]);
+    let mut line = |title: &str, of: Vec<&Record>| {
+        let all = credible_coverage(of.iter().copied());
+        let visible = credible_coverage(of.iter().copied().filter(|r| is_well_visible(r)));
+        let cells = [hundredths(all.rate()), bounds(all), visible.of.to_string(), hundredths(visible.rate())];
+        table.row([title.to_owned(), all.of.to_string()].into_iter().chain(cells));
+    };
+    for kind in Kind::ALL {
+        line(kind.name(), of_kind(records, kind).collect());
+    }
+    line("all", records.iter().collect());
+    table
+}
+
+/// Numbers of the final model, by what became of the truth: held-out chi-square and leg stiffnesses.
+pub fn numbers(records: &[Record]) -> Table {
+    let mut table = Table::named([
+        "fate",
+        "trials",
+        "held-out chi2, springs: median",
+        "final model: median",
+        "95 % below",
+        "stiffnesses",
+        "within 1.96 std %",
+        "95 % bounds",
+    ]);
+    for fate in Fate::ALL {
+        let of = || records.iter().filter(move |r| r.fate == fate);
+        let Some(held) = HeldOut::of(of()) else { continue };
+        let stiffness = stiffness_coverage(of());
+        let chi2 = [held.springs_median, held.median, held.high].map(|x| format!("{x:.2}"));
+        let row = [fate.word().to_owned(), held.trials.to_string()].into_iter().chain(chi2);
+        table.row(row.chain([stiffness.of.to_string(), hundredths(stiffness.rate()), bounds(stiffness)]));
+    }
+    table
+}
+
+/// The largest groups of answers that state something false.
+pub fn mistakes_table(records: &[Record]) -> Table {
+    let mut table = Table::named([
+        "hidden",
+        "answer",
+        "trials",
+        "highest probability stated",
+        "examples: distance, plan, machine",
+    ])
+    .words_in(1)
+    .words_in(4);
+    for group in mistakes(records).iter().take(MOST_GROUPS) {
+        let confidence = group.trials.first().and_then(|r| r.confidence).unwrap_or(0.0);
+        let examples: Vec<String> = group.trials.iter().take(EXAMPLES).map(|r| example(r)).collect();
+        let cells = [group.trials.len().to_string(), format!("{confidence:.3}"), examples.join("; ")];
+        table.row([group.hidden.clone(), group.answer.clone()].into_iter().chain(cells));
+    }
+    table
+}
+
+fn example(r: &Record) -> String {
+    let distance = r.distance.unwrap_or(r.total_distance);
+    let pair =
+        if r.kind == Kind::Pair { format!(" {} -> {}", r.hidden_words(), r.answer()) } else { String::new() };
+    format!("{}{pair} ({distance:.0}, {}, {})", r.id, r.plan.name(), r.family)
+}
+
+fn of_kind(records: &[Record], kind: Kind) -> impl Iterator<Item = &Record> {
+    records.iter().filter(move |r| r.kind == kind)
+}
+
+pub(super) fn bounds(p: Proportion) -> String {
+    let [low, high] = p.interval();
+    format!("{} .. {}", hundredths(low), hundredths(high))
+}

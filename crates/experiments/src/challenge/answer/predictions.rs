@@ -1,0 +1,270 @@
+//! `predictions.csv`: one row for each of `predict.csv`.
+
+use hexbench_core::Measurand;
+
+use super::AnswerFault;
+use crate::challenge::folder::PREDICTIONS;
+
+/// What is predicted for one row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Predicted {
+    /// m and rad.
+    pub value: [f64; 6],
+    /// Standard uncertainty, m and rad, when stated.
+    pub sigma: Option<[f64; 6]>,
+}
+
+/// A metre or a radian of deflection, ten metres or a full turn of pose: beyond, the unit is wrong. In units of the columns.
+const LARGEST: [f64; 2] = [1e6, 1e4];
+
+/// Names of the value columns and of those of their uncertainty.
+pub fn columns(measurand: Measurand) -> [[&'static str; 6]; 2] {
+    match measurand {
+        Measurand::DeflectionEuler => [
+            ["da_um", "db_um", "dc_um", "dalpha_urad", "dbeta_urad", "dgamma_urad"],
+            [
+                "sigma_da_um",
+                "sigma_db_um",
+                "sigma_dc_um",
+                "sigma_dalpha_urad",
+                "sigma_dbeta_urad",
+                "sigma_dgamma_urad",
+            ],
+        ],
+        Measurand::DeflectionRotationVector => [
+            ["da_um", "db_um", "dc_um", "drx_urad", "dry_urad", "drz_urad"],
+            [
+                "sigma_da_um",
+                "sigma_db_um",
+                "sigma_dc_um",
+                "sigma_drx_urad",
+                "sigma_dry_urad",
+                "sigma_drz_urad",
+            ],
+        ],
+        Measurand::AbsolutePose => [
+            [
+                "predicted_a_mm",
+                "predicted_b_mm",
+                "predicted_c_mm",
+                "predicted_alpha_deg",
+                "predicted_beta_deg",
+                "predicted_gamma_deg",
+            ],
+            [
+                "sigma_a_um",
+                "sigma_b_um",
+                "sigma_c_um",
+                "sigma_alpha_urad",
+                "sigma_beta_urad",
+                "sigma_gamma_urad",
+            ],
+        ],
+    }
+}
+
+const MICRO: f64 = 1e-6;
+
+fn to_si(measurand: Measurand, k: usize) -> f64 {
+    match (measurand, k < 3) {
+        (Measurand::AbsolutePose, true) => 1e-3,
+        (Measurand::AbsolutePose, false) => 1f64.to_radians(),
+        _ => MICRO,
+    }
+}
+
+pub(super) fn read(text: &str, rows: usize, measurand: Measurand) -> Result<Vec<Predicted>, AnswerFault> {
+    let mut lines =
+        (1..).zip(text.trim_start_matches('\u{feff}').lines()).filter(|(_, l)| !l.trim().is_empty());
+    let Some((_, first)) = lines.next() else {
+        return Err(AnswerFault::new(PREDICTIONS, "", "the file is empty"));
+    };
+    let header = Header::read(first, measurand)?;
+    let mut found: Vec<Option<Predicted>> = vec![None; rows];
+    for (number, line) in lines {
+        let (row, predicted) = header.row(number, line, rows)?;
+        if found[row].replace(predicted).is_some() {
+            let rule = format!("row {} is predicted twice", row + 1);
+            return Err(AnswerFault::new(PREDICTIONS, &format!("line {number}"), &rule));
+        }
+    }
+    let missing = found.iter().position(Option::is_none);
+    match missing {
+        Some(row) => {
+            let all = found.iter().filter(|p| p.is_none()).count();
+            let rule = format!("{all} of {rows} rows are missing, the first is row {}", row + 1);
+            Err(AnswerFault::new(PREDICTIONS, "", &rule))
+        }
+        None => Ok(found.into_iter().flatten().collect()),
+    }
+}
+
+/// Which cell holds what.
+struct Header {
+    names: Vec<String>,
+    row: usize,
+    value: [usize; 6],
+    sigma: Option<[usize; 6]>,
+    measurand: Measurand,
+}
+
+impl Header {
+    fn read(line: &str, measurand: Measurand) -> Result<Self, AnswerFault> {
+        let names: Vec<String> = line.split(',').map(|name| name.trim().to_owned()).collect();
+        let fault = |rule: String| AnswerFault::new(PREDICTIONS, "line 1", &rule);
+        let [values, sigmas] = columns(measurand);
+        for (k, name) in names.iter().enumerate() {
+            let known = name == "row" || values.iter().chain(&sigmas).any(|c| c == name);
+            if !known {
+                return Err(fault(format!(
+                    "unknown column \"{name}\"; the columns are row,{}",
+                    values.join(",")
+                )));
+            }
+            if names[..k].contains(name) {
+                return Err(fault(format!("the column {name} is there twice")));
+            }
+        }
+        let place = |wanted: &str| names.iter().position(|name| name == wanted);
+        let need =
+            |wanted: &str| place(wanted).ok_or_else(|| fault(format!("the column {wanted} is missing")));
+        let six = |wanted: [&str; 6]| -> Result<[usize; 6], AnswerFault> {
+            let mut places = [0; 6];
+            for (at, name) in places.iter_mut().zip(wanted) {
+                *at = need(name)?;
+            }
+            Ok(places)
+        };
+        let has_sigma = sigmas.iter().any(|name| place(name).is_some());
+        Ok(Self {
+            row: need("row")?,
+            value: six(values)?,
+            sigma: has_sigma.then(|| six(sigmas)).transpose()?,
+            measurand,
+            names,
+        })
+    }
+
+    /// Index of the row, from 0, and what is predicted for it.
+    fn row(&self, number: usize, line: &str, rows: usize) -> Result<(usize, Predicted), AnswerFault> {
+        let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+        let at_line = format!("line {number}");
+        if cells.len() != self.names.len() {
+            let rule = format!("the row has {} cells, the header {}", cells.len(), self.names.len());
+            return Err(AnswerFault::new(PREDICTIONS, &at_line, &rule));
+        }
+        let row =
+            cells[self.row].parse::<usize>().ok().filter(|n| (1..=rows).contains(n)).ok_or_else(|| {
+                let rule =
+                    format!("\"{}\" is no row of predict.csv; they are 1 to {rows}", shown(cells[self.row]));
+                AnswerFault::new(PREDICTIONS, &at_line, &rule)
+            })?;
+        let mut value = [0.0; 6];
+        for (k, v) in value.iter_mut().enumerate() {
+            *v = self.number(&at_line, &cells, self.value[k], &|x| x.abs() <= self.largest())?
+                * to_si(self.measurand, k);
+        }
+        let mut sigma = self.sigma.map(|_| [0.0; 6]);
+        if let (Some(places), Some(sigma)) = (self.sigma, &mut sigma) {
+            for (s, place) in sigma.iter_mut().zip(places) {
+                *s = self.number(&at_line, &cells, place, &|x| x > 0.0 && x <= LARGEST[0])? * MICRO;
+            }
+        }
+        Ok((row - 1, Predicted { value, sigma }))
+    }
+
+    fn largest(&self) -> f64 {
+        LARGEST[usize::from(self.measurand == Measurand::AbsolutePose)]
+    }
+
+    fn number(
+        &self,
+        at_line: &str,
+        cells: &[&str],
+        place: usize,
+        rule: &dyn Fn(f64) -> bool,
+    ) -> Result<f64, AnswerFault> {
+        let fault = |rule: &str| {
+            let at = format!("{at_line}, column {} ({})", place + 1, self.names[place]);
+            AnswerFault::new(PREDICTIONS, &at, &format!("\"{}\": {rule}", shown(cells[place])))
+        };
+        let number: f64 = cells[place].parse().map_err(|_| fault("this is not a number"))?;
+        if !number.is_finite() {
+            return Err(fault("NaN and infinity are not predictions"));
+        }
+        if !rule(number) {
+            let is_sigma = self.names[place].starts_with("sigma_");
+            return Err(fault(if is_sigma {
+                "a standard uncertainty is positive, and below a metre"
+            } else {
+                "the number is too large; probably the unit is wrong"
+            }));
+        }
+        Ok(number)
+    }
+}
+
+/// Text from outside, short enough for a message.
+fn shown(text: &str) -> String {
+    const MOST: usize = 40;
+    text.chars().take(MOST).map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEADER: &str = "row,da_um,db_um,dc_um,dalpha_urad,dbeta_urad,dgamma_urad";
+
+    fn in_micro(si: f64) -> i64 {
+        format!("{:.0}", si * 1e6).parse().unwrap()
+    }
+
+    fn of(text: &str) -> Result<Vec<Predicted>, AnswerFault> {
+        read(text, 2, Measurand::DeflectionEuler)
+    }
+
+    #[test]
+    fn rows_come_in_any_order_and_columns_too() {
+        let found = of(&format!("{HEADER}\n2,1,2,3,4,5,6\r\n1,7,8,9,10,11,12\n\n")).unwrap();
+        assert_eq!(found[0].value.map(in_micro), [7, 8, 9, 10, 11, 12]);
+        let turned = "dgamma_urad,dbeta_urad,dalpha_urad,dc_um,db_um,da_um,row";
+        let found = of(&format!("{turned}\n6,5,4,3,2,1,1\n6,5,4,3,2,1,2\n")).unwrap();
+        assert_eq!(found[1].value.map(in_micro), [1, 2, 3, 4, 5, 6]);
+    }
+
+    #[test]
+    fn poses_are_in_mm_and_deg_and_their_uncertainty_in_um_and_urad() {
+        let [values, sigmas] = columns(Measurand::AbsolutePose);
+        let text = format!("row,{},{}\n1,1,2,3,180,5,6,1,1,1,2,2,2\n", values.join(","), sigmas.join(","));
+        let found = read(&text, 1, Measurand::AbsolutePose).unwrap()[0];
+        assert!(
+            (found.value[0] - 1e-3).abs() < 1e-15 && (found.value[3] - std::f64::consts::PI).abs() < 1e-15
+        );
+        assert!((found.sigma.unwrap()[5] - 2e-6).abs() < 1e-18);
+    }
+
+    #[test]
+    fn every_fault_has_its_place() {
+        let good = "1,1,2,3,4,5,6\n2,1,2,3,4,5,6\n";
+        for (text, expected) in [
+            (String::new(), "the file is empty"),
+            (format!("{HEADER}\n"), "2 of 2 rows are missing, the first is row 1"),
+            (format!("{HEADER}\n1,1,2,3,4,5,6\n"), "1 of 2 rows are missing, the first is row 2"),
+            (format!("{HEADER}\n{good}1,1,2,3,4,5,6\n"), "line 4: row 1 is predicted twice"),
+            (format!("{HEADER}\n{good}3,1,2,3,4,5,6\n"), "line 4: \"3\" is no row of predict.csv"),
+            (format!("{HEADER}\n1,1,2\n"), "line 2: the row has 3 cells, the header 7"),
+            (format!("{HEADER}\n1,1,nan,3,4,5,6\n"), "line 2, column 3 (db_um): \"nan\": NaN"),
+            (format!("{HEADER}\n1,1,2,inf,4,5,6\n"), "line 2, column 4 (dc_um): \"inf\": NaN and infinity"),
+            (format!("{HEADER}\n1,1,x,3,4,5,6\n"), "\"x\": this is not a number"),
+            (format!("{HEADER}\n1,1,2,3,4,5,1e300\n"), "(dgamma_urad): \"1e300\": the number is too large"),
+            (format!("{HEADER},sigma_da_um\n{good}"), "the column sigma_db_um is missing"),
+            (good.to_owned(), "unknown column \"1\""),
+            (HEADER.replace("dc_um", "db_um"), "the column db_um is there twice"),
+            (HEADER.replace(",dc_um", ""), "the column dc_um is missing"),
+        ] {
+            let found = of(&text).unwrap_err().to_string();
+            assert!(found.starts_with(PREDICTIONS) && found.contains(expected), "{text}: {found}");
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Drawing the cases of a suite.
+
+use hexbench_core::streams::{Purpose, derived_seed, stream};
+use hexbench_core::{Dataset, Hexapod};
+use hexbench_truth::TruthError;
+use hexbench_truth::campaign::{Case, CaseSpec, Row};
+use rand::seq::SliceRandom;
+use rayon::prelude::*;
+
+use crate::challenge::{ChallengeError, Portion, Suite, Truth};
+use crate::harness::{Progress, each};
+
+/// A case of a challenge, ready to be written.
+#[derive(Debug)]
+pub struct Drawn {
+    /// A name that tells nothing.
+    pub id: String,
+    /// The machine as its drawings describe it.
+    pub hexapod: Hexapod,
+    /// Readings to learn from.
+    pub measurements: Dataset,
+    /// Held-out readings as the instrument gave them.
+    pub measured: Dataset,
+    /// The same without noise.
+    pub true_readings: Dataset,
+    /// What was hidden.
+    pub truth: Truth,
+}
+
+/// All cases of a suite, shuffled so that their order tells nothing. The same suite gives the same cases on any number of threads.
+///
+/// # Errors
+/// [`ChallengeError::Case`] for a case whose effects show in no plan and machine tried.
+pub fn draw(suite: &Suite, progress: &dyn Progress) -> Result<Vec<Drawn>, ChallengeError> {
+    let mut jobs: Vec<(usize, usize)> = Vec::new();
+    for (k, portion) in suite.portions.iter().enumerate() {
+        jobs.extend((0..portion.count).map(|index| (k, index)));
+    }
+    jobs.shuffle(&mut stream(suite.seed, Purpose::ChallengeOrder, []));
+    let digits = if jobs.len() < 1000 { 3 } else { 4 };
+    let one =
+        |(number, &(k, index)): (usize, &(usize, usize))| {
+            let portion = &suite.portions[k];
+            let case = built(portion, index, seed_of(suite.seed, k)).map_err(|cause| {
+                ChallengeError::Case { group: portion.group.clone(), number: index + 1, cause }
+            })?;
+            progress.advance(1);
+            drawn(format!("case-{:0digits$}", number + 1), portion, index, case)
+        };
+    progress.begin(jobs.len() as u64, 0);
+    each(jobs.par_iter().enumerate(), progress, one)
+}
+
+/// Every group has cases of its own, also where two ask for the same kind.
+fn seed_of(seed: u64, portion: usize) -> u64 {
+    derived_seed(seed, Purpose::ChallengeGroup, [portion as u64])
+}
+
+/// The `index`-th case of a portion: some effects do not show in some plans or machines, then others are tried.
+fn built(portion: &Portion, index: usize, seed: u64) -> Result<Case, TruthError> {
+    const ATTEMPTS: u64 = 12;
+    let attempt = |n| spec(portion, index, seed, n).build();
+    (1..ATTEMPTS).fold(attempt(0), |made, n| made.or_else(|_| attempt(n)))
+}
+
+fn spec(portion: &Portion, index: usize, seed: u64, attempt: u64) -> CaseSpec {
+    let drawn = CaseSpec::draw(portion.kind, index, seed, attempt, portion.distance);
+    let chosen = portion.effects.get(index % portion.effects.len().max(1));
+    CaseSpec {
+        effects: chosen.cloned().unwrap_or(drawn.effects),
+        plan: portion.plan.unwrap_or(drawn.plan),
+        family: portion.machine.unwrap_or(drawn.family),
+        ..drawn
+    }
+}
+
+fn drawn(id: String, portion: &Portion, index: usize, mut case: Case) -> Result<Drawn, ChallengeError> {
+    if let Some(most) = portion.repeats {
+        case.measurements.observations.retain(|o| u64::try_from(o.repeat).is_ok_and(|n| n <= most));
+    }
+    let failed = |cause| ChallengeError::Case { group: portion.group.clone(), number: index + 1, cause };
+    let true_readings = without_noise(&case).map_err(failed)?;
+    let truth = Truth::of(&id, portion, &case);
+    let hexapod = Hexapod { name: id.clone(), ..case.hexapod };
+    Ok(Drawn { id, hexapod, measurements: case.measurements, measured: case.holdout, true_readings, truth })
+}
+
+fn without_noise(case: &Case) -> Result<Dataset, TruthError> {
+    let holdout = &case.holdout;
+    let rows: Vec<Row> = holdout.observations.iter().map(Row::from).collect();
+    let ideal = case.campaign.ideal(&rows, holdout.measurand)?;
+    let mut readings = holdout.clone();
+    for (observation, value) in readings.observations.iter_mut().zip(ideal) {
+        observation.measured = value.into();
+    }
+    Ok(readings)
+}

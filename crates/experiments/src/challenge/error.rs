@@ -1,0 +1,165 @@
+//! Why a challenge cannot be made, run or scored.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use hexbench_core::files::FileError;
+use hexbench_truth::TruthError;
+use thiserror::Error;
+
+use crate::error::ExperimentError;
+
+/// Why a challenge cannot go on. What a program under test does wrong is never one of these: that is a result.
+#[derive(Debug, Error)]
+pub enum ChallengeError {
+    /// A file that cannot be used.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// No suite of this name, and no such file.
+    #[error("there is no suite \"{name}\", neither bundled nor as a file")]
+    NoSuite {
+        /// As written.
+        name: String,
+        /// Names of the bundled ones.
+        known: Vec<&'static str>,
+    },
+    /// A case that no draw made visible.
+    #[error("case {number} of [cases.{group}] cannot be simulated: {cause}")]
+    Case {
+        /// Table of the suite.
+        group: String,
+        /// Number within it, from 1.
+        number: usize,
+        /// Why.
+        cause: TruthError,
+    },
+    /// A folder that holds something else.
+    #[error("{} is not empty", .0.display())]
+    NotEmpty(PathBuf),
+    /// A file whose content is not what this program writes.
+    #[error("{}: {why}", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        why: String,
+    },
+    /// A file that changed after the challenge was made.
+    #[error("{}: {found}; its SHA-256 was {expected}", path.display())]
+    Tampered {
+        /// The file.
+        path: PathBuf,
+        /// What is there instead.
+        found: String,
+        /// Digest when it was made.
+        expected: String,
+    },
+    /// Answers to another challenge.
+    #[error("{}: these answers were made for another challenge (suite {theirs}, this is {ours})", folder.display())]
+    OtherChallenge {
+        /// Folder of the answers.
+        folder: PathBuf,
+        /// Suite, version and digest there.
+        theirs: String,
+        /// Suite, version and digest here.
+        ours: String,
+    },
+    /// Answers of another program, or under other limits.
+    #[error("{}: these are answers of another run: {what}", folder.display())]
+    OtherProgram {
+        /// Folder of the answers.
+        folder: PathBuf,
+        /// What differs.
+        what: String,
+    },
+    /// A program that is not there.
+    #[error("there is no program \"{0}\"")]
+    NoProgram(String),
+    /// Another run is at work.
+    #[error("{} is in use by another run", .0.display())]
+    Busy(PathBuf),
+    /// It was told to stop.
+    #[error(transparent)]
+    Experiment(#[from] ExperimentError),
+    /// Two entrants of one name.
+    #[error("two of the folders hold answers named \"{0}\"")]
+    SameName(String),
+    /// A program that could not be started or watched.
+    #[error("case {case}: the program could not be started or watched: {cause}")]
+    Start {
+        /// Its case.
+        case: String,
+        /// Why.
+        cause: io::Error,
+    },
+    /// A file that cannot be read.
+    #[error("{}: cannot be read: {cause}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
+    /// A file that cannot be written.
+    #[error("{}: cannot be written: {cause}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
+}
+
+impl ChallengeError {
+    /// What to do about it, one sentence.
+    pub fn next_step(&self) -> String {
+        match self {
+            Self::File(error) => error.next_step(),
+            Self::NoSuite { known, .. } => {
+                format!("Bundled is {}; or give the path of a suite file.", known.join(", "))
+            }
+            Self::Case { .. } => {
+                "Ask for a larger distance, another plan or another effect: in this way it does not show."
+                    .into()
+            }
+            Self::NotEmpty(_) => "Name another folder, or empty this one.".into(),
+            Self::Malformed { .. } => "Restore the file, or make it anew with the same command.".into(),
+            Self::Tampered { .. } => {
+                "Restore the file, or make the challenge anew: the same suite and seed give the same bytes."
+                    .into()
+            }
+            Self::OtherChallenge { .. } => {
+                "Give the challenge they were made for, or run the program again.".into()
+            }
+            Self::OtherProgram { .. } => "Name another folder, or add --again to replace them.".into(),
+            Self::NoProgram(_) => "Give a path, or a name that is found on the PATH.".into(),
+            Self::Busy(_) => "Wait for it to end, or name another folder.".into(),
+            Self::Experiment(error) => error.next_step(),
+            Self::SameName(_) => "Run one of them again with another --name.".into(),
+            Self::Start { .. } => {
+                "Check that sh is there, and the free space of the folder for temporary files.".into()
+            }
+            Self::Read { .. } => "Check the name, and that it may be read.".into(),
+            Self::Write { .. } => "Check the free space and that the folder may be written to.".into(),
+        }
+    }
+
+    /// True when the trouble is with the disk rather than with what a file says.
+    pub fn is_input_output(&self) -> bool {
+        match self {
+            Self::File(error) => error.is_input_output(),
+            Self::Busy(_) | Self::Start { .. } | Self::Read { .. } | Self::Write { .. } => true,
+            _ => false,
+        }
+    }
+
+    pub(crate) fn reading(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        move |cause| Self::Read { path, cause }
+    }
+
+    pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        move |cause| Self::Write { path, cause }
+    }
+}

@@ -1,0 +1,71 @@
+//! `challenge.toml`: what a challenge is made of, with the digest of every file.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::challenge::stored::{Stored, read_toml};
+use crate::challenge::{ChallengeError, Suite};
+
+/// Name of the file.
+pub const MANIFEST: &str = "challenge.toml";
+
+/// What a challenge is made of.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// `challenge/1`.
+    pub format: String,
+    /// Name of the suite.
+    pub suite: String,
+    /// Its version.
+    pub version: u64,
+    /// What it asks.
+    pub title: String,
+    /// Seed of everything that was drawn.
+    pub seed: u64,
+    /// SHA-256 of the suite's file.
+    pub suite_sha256: String,
+    /// Version of the program that made it.
+    pub hexbench: String,
+    /// Groups of the suite, in its order.
+    pub groups: Vec<String>,
+    /// Ids of the cases, in order.
+    pub cases: Vec<String>,
+    /// SHA-256 of every public and sealed file, by its path in the folder.
+    pub files: BTreeMap<String, String>,
+}
+
+impl Stored for Manifest {
+    const FORMAT: &'static str = "challenge/1";
+
+    fn format(&self) -> &str {
+        &self.format
+    }
+}
+
+impl Manifest {
+    pub(crate) fn new(suite: &Suite, cases: Vec<String>, files: BTreeMap<String, String>) -> Self {
+        Self {
+            format: Self::FORMAT.to_owned(),
+            suite: suite.name.clone(),
+            version: suite.version,
+            title: suite.title.clone(),
+            seed: suite.seed,
+            suite_sha256: suite.sha256.clone(),
+            hexbench: env!("CARGO_PKG_VERSION").to_owned(),
+            groups: suite.portions.iter().map(|p| p.group.clone()).collect(),
+            cases,
+            files,
+        }
+    }
+
+    pub(crate) fn read(path: &Path) -> Result<(Self, String), ChallengeError> {
+        read_toml(path)
+    }
+
+    pub(crate) fn text(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(self)
+    }
+}

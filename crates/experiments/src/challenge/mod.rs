@@ -1,0 +1,35 @@
+//! Challenges: cases with a sealed truth for algorithms in any language.
+//!
+//! ```text
+//! suite.toml --make--> DIR/cases (public)   --run-->  ANSWERS  --score-->  figures side by side
+//!                      DIR/sealed (truth)   ------------------------^
+//! ```
+//!
+//! An algorithm is a program that is called with a case folder and a folder for its answer. What it sees is a copy of the
+//! public files; what it says is compared with what was hidden, a diagnosis as in the other experiments.
+//!
+//! - [`Suite`]: which cases, a frozen protocol; [`make()`] writes the challenge, [`Challenge`] opens and checks it.
+//! - [`run`]: a program under limits of time, memory and output, case by case, resumable.
+//! - [`answer`]: what a program wrote, read strictly.
+//! - [`score`]: errors, coverage, proper scores, several programs beside each other.
+
+pub mod answer;
+mod drawn;
+mod error;
+mod folder;
+mod made;
+mod make;
+mod manifest;
+pub mod run;
+pub mod score;
+mod stored;
+mod suite;
+mod truth;
+
+pub use drawn::{Drawn, draw};
+pub use error::ChallengeError;
+pub use made::Challenge;
+pub use make::make;
+pub use manifest::{MANIFEST, Manifest};
+pub use suite::{BUNDLED, Bundled, Portion, Suite};
+pub use truth::{Noise, Truth};

@@ -1,0 +1,113 @@
+//! Running a program over the cases of a challenge.
+//!
+//! ```text
+//! ANSWERS/answers.json            who answered, how it was called, which challenge, which limits
+//! ANSWERS/cases/case-001/         what it wrote, run.json, stdout.txt, stderr.txt
+//! ```
+//!
+//! Each case is answered in a fresh folder that holds a copy of its public files; nothing the program is given leads to
+//! the truth. That keeps honest programs honest; it is no prison for one that searches the disk. A case is kept whole or not at
+//! all, so that a run that is stopped goes on where it was.
+
+mod begun;
+mod limits;
+mod one;
+mod program;
+mod record;
+mod scratch;
+#[cfg(unix)]
+mod supervise;
+#[cfg(target_os = "linux")]
+mod tree;
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::challenge::{Challenge, ChallengeError};
+use crate::harness::{Progress, each, on_threads};
+pub(crate) use begun::cases_folder;
+pub use begun::{ANSWERS, Begun};
+pub use limits::Limits;
+pub use program::Program;
+pub use record::{End, Record};
+
+/// A program, its name and its limits.
+#[derive(Debug, Clone)]
+pub struct Entrant {
+    /// Name in the tables.
+    pub name: String,
+    /// How it is called.
+    pub program: Program,
+    /// What it may use.
+    pub limits: Limits,
+}
+
+/// How to go about it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Manner {
+    /// Cases at once.
+    pub jobs: usize,
+    /// Answer again what is answered.
+    pub again: bool,
+}
+
+/// Beginning of the name of an answer that is not whole yet.
+const PART: &str = ".part-";
+
+/// What a run did.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Summary {
+    /// Cases answered before.
+    pub known: usize,
+    /// Records of this run, in the order of the cases.
+    pub fresh: Vec<Record>,
+}
+
+/// Runs a program over the cases that it has not answered.
+///
+/// # Errors
+/// [`ChallengeError`] when the challenge changed, the folder belongs to another run, a file cannot be written, or the progress asks
+/// for a stop. What the program does wrong is a record.
+pub fn run(
+    challenge: &Challenge,
+    entrant: &Entrant,
+    answers: &Path,
+    manner: Manner,
+    progress: &dyn Progress,
+) -> Result<Summary, ChallengeError> {
+    challenge.verify_public()?;
+    let begun = Begun::new(challenge, entrant);
+    let _lock = begun.settle(answers, manner.again)?;
+    let cases = cases_folder(answers);
+    remove_remains(&cases).map_err(ChallengeError::writing(&cases))?;
+    let ids = &challenge.manifest().cases;
+    let is_open = |id: &String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
+    let pending: Vec<&String> = ids.iter().filter(|id| is_open(id)).collect();
+    progress.begin(ids.len() as u64, (ids.len() - pending.len()) as u64);
+    let one = |id: &&String| {
+        let record = one::answer(challenge, entrant, id, &cases)?;
+        progress.advance(1);
+        Ok::<_, ChallengeError>(record)
+    };
+    let fresh = on_threads(manner.jobs, || each(pending.par_iter(), progress, one))?;
+    Ok(Summary { known: ids.len() - pending.len(), fresh })
+}
+
+/// Removes what a killed run was about to keep.
+fn remove_remains(cases: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(cases)? {
+        let entry = entry?;
+        if entry.file_name().to_string_lossy().starts_with(PART) {
+            fs::remove_dir_all(entry.path())?;
+        }
+    }
+    Ok(())
+}
+
+/// True when there is a record made from these very files.
+fn is_answered(folder: &Path, case_sha256: &str) -> bool {
+    Record::read(folder).is_ok_and(|record| record.case_sha256 == case_sha256)
+}

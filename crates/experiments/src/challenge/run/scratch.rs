@@ -1,0 +1,95 @@
+//! The fresh folder in which one case is answered.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use hexbench_core::files::atomic_write;
+use tempfile::TempDir;
+
+use crate::challenge::folder::PUBLIC;
+
+/// Longest text of a program's own that is kept.
+const KEPT_BYTES: u64 = 16_384;
+/// Longest file of an answer.
+pub(crate) const LONGEST_ANSWER: u64 = 16_000_000;
+
+/// A folder with a copy of a case; it goes away when dropped.
+pub(super) struct Scratch {
+    folder: TempDir,
+}
+
+impl Scratch {
+    pub(super) fn with_case(public: &Path) -> io::Result<Self> {
+        let scratch = Self { folder: tempfile::Builder::new().prefix("hexbench-case-").tempdir()? };
+        for folder in [scratch.case(), scratch.out(), scratch.work()] {
+            fs::create_dir(folder)?;
+        }
+        for name in PUBLIC {
+            fs::copy(public.join(name), scratch.case().join(name))?;
+        }
+        Ok(scratch)
+    }
+
+    /// All of it.
+    pub(super) fn root(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// What is read.
+    pub(super) fn case(&self) -> PathBuf {
+        self.root().join("case")
+    }
+
+    /// What is written.
+    pub(super) fn out(&self) -> PathBuf {
+        self.root().join("out")
+    }
+
+    /// Where the program stands.
+    pub(super) fn work(&self) -> PathBuf {
+        self.root().join("work")
+    }
+
+    /// A file for what the program prints.
+    pub(super) fn printed(&self, name: &str) -> PathBuf {
+        self.root().join(name)
+    }
+
+    /// Copies a file of the answer; false when the program did not write it. A link is not followed: it could lead anywhere.
+    pub(super) fn take(&self, name: &str, to: &Path) -> io::Result<bool> {
+        let path = self.out().join(name);
+        match fs::symlink_metadata(&path) {
+            Ok(found) if !found.is_file() => Err(io::Error::other(format!("{name} is not an ordinary file"))),
+            Ok(found) if found.len() > LONGEST_ANSWER => {
+                Err(io::Error::other(format!("{name} is longer than {LONGEST_ANSWER} bytes")))
+            }
+            Ok(_) => fs::copy(&path, to.join(name)).map(|_| true),
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(false),
+            Err(cause) => Err(cause),
+        }
+    }
+
+    /// Keeps the beginning of what the program printed.
+    pub(super) fn keep_printed(&self, name: &str, to: &Path) -> io::Result<()> {
+        let mut text = Vec::new();
+        let file = File::open(self.printed(name))?;
+        let all = file.metadata()?.len();
+        file.take(KEPT_BYTES).read_to_end(&mut text)?;
+        if all > KEPT_BYTES {
+            text.extend(format!("\n[cut here: {all} bytes were printed]\n").as_bytes());
+        }
+        atomic_write(&to.join(name), |out| out.write_all(&text))
+    }
+}
+
+/// Bytes of all files in a folder, links not followed.
+pub(super) fn bytes_in(folder: &Path) -> u64 {
+    let Ok(entries) = fs::read_dir(folder) else { return 0 };
+    let size = |entry: fs::DirEntry| match entry.metadata() {
+        Ok(found) if found.is_dir() => bytes_in(&entry.path()),
+        Ok(found) => found.len(),
+        Err(_) => 0,
+    };
+    entries.flatten().map(size).sum()
+}

@@ -1,0 +1,157 @@
+//! One case of one program in numbers.
+
+use hexbench_core::statistics::root_mean_square;
+
+use crate::Proportion;
+use crate::trial::{Outcome, outcome_of};
+use hexbench_core::Measurand;
+use serde::Serialize;
+
+use super::forecast::Forecast;
+use super::key::Key;
+use crate::challenge::answer::{Answer, Number, Predicted, Said};
+
+/// Half-width of a 95 % interval in standard uncertainties.
+pub(super) const COVERAGE_FACTOR: f64 = 1.959_963_984_540_054;
+
+/// One case of one program in numbers; what it does not say is absent.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CaseScore {
+    /// Id of the case.
+    pub id: String,
+    /// Group of the suite.
+    pub group: String,
+    /// Hidden effects.
+    pub effects: Vec<String>,
+    /// Why there is no answer.
+    pub failure: Option<String>,
+    /// Stiffness of each leg.
+    pub legs: [Option<LegScore>; 6],
+    /// Predictions of held-out readings.
+    pub prediction: Option<PredictionScore>,
+    /// `right`, `honest` or `wrong`.
+    pub outcome: Option<&'static str>,
+    /// Scores of the stated probabilities; only where at most one thing is hidden.
+    pub forecast: Option<Forecast>,
+    /// Wall time, s.
+    pub wall_s: Option<f64>,
+    /// Peak memory, MB.
+    #[serde(rename = "peak_memory_MB")]
+    pub peak_memory_mb: Option<f64>,
+}
+
+/// Stiffness of one leg against the true one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LegScore {
+    /// Stated over true, minus one.
+    pub relative_error: f64,
+    /// Error in stated standard uncertainties.
+    pub z: Option<f64>,
+}
+
+/// Predictions of held-out readings.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PredictionScore {
+    /// Mean square of prediction minus reading, in standard deviations of one reading; 1 is noise.
+    pub chi2_reduced: f64,
+    /// Root mean square of prediction minus truth, in standard deviations of one reading; 0 is perfect.
+    pub error_in_noise: f64,
+    /// Root mean square of prediction minus truth, translations.
+    pub rms_um: f64,
+    /// Root mean square of prediction minus truth, rotations.
+    pub rms_urad: f64,
+    /// Stated 95 % intervals that hold the truth.
+    pub covered: Option<Proportion>,
+}
+
+impl CaseScore {
+    /// A case without answer.
+    pub(super) fn failed(key: &Key, why: String) -> Self {
+        Self {
+            id: key.truth.id.clone(),
+            group: key.truth.group.clone(),
+            effects: key.truth.effects.clone(),
+            failure: Some(why),
+            legs: [None; 6],
+            prediction: None,
+            outcome: None,
+            forecast: None,
+            wall_s: None,
+            peak_memory_mb: None,
+        }
+    }
+
+    /// Compares an answer with the truth.
+    pub fn of(key: &Key, answer: &Answer) -> Self {
+        Self {
+            failure: None,
+            legs: std::array::from_fn(|leg| leg_score(key, &answer.parameters, leg)),
+            prediction: Some(prediction_score(key, &answer.predictions)),
+            outcome: answer.said.as_ref().map(|said| word(outcome(key, said))),
+            forecast: answer
+                .said
+                .as_ref()
+                .and_then(|said| Forecast::of(&key.truth.effects, &said.candidates)),
+            ..Self::failed(key, String::new())
+        }
+    }
+
+    /// Root mean square of the relative errors of the legs stated.
+    pub fn stiffness_error(&self) -> Option<f64> {
+        root_mean_square(self.legs.iter().flatten().map(|l| l.relative_error))
+    }
+}
+
+fn leg_score(key: &Key, numbers: &[Number], leg: usize) -> Option<LegScore> {
+    let name = crate::challenge::answer::stiffness_of(leg);
+    let stated = numbers.iter().find(|n| n.name == name)?;
+    let true_stiffness = key.truth.leg_stiffness_n_per_um[leg];
+    let error = stated.value - true_stiffness;
+    Some(LegScore { relative_error: error / true_stiffness, z: stated.std.map(|std| error / std) })
+}
+
+fn prediction_score(key: &Key, predictions: &[Predicted]) -> PredictionScore {
+    let sigma = key.truth.noise.sigma();
+    let (mut of_reading, mut of_truth, mut squares) = (0.0, 0.0, [0.0; 2]);
+    let mut covered = Proportion::default();
+    for (p, (measured, truth)) in predictions.iter().zip(key.measured.iter().zip(&key.true_readings)) {
+        for k in 0..6 {
+            let error = difference(key.measurand, k, p.value[k], truth[k]);
+            of_reading += (difference(key.measurand, k, p.value[k], measured[k]) / sigma[k]).powi(2);
+            of_truth += (error / sigma[k]).powi(2);
+            squares[k / 3] += error.powi(2);
+            if let Some(stated) = p.sigma {
+                covered.of += 1;
+                covered.hits += usize::from(error.abs() <= COVERAGE_FACTOR * stated[k]);
+            }
+        }
+    }
+    let numbers = (6 * predictions.len()) as f64;
+    let rms = squares.map(|s| (s / (0.5 * numbers)).sqrt() * 1e6);
+    PredictionScore {
+        chi2_reduced: of_reading / numbers,
+        error_in_noise: (of_truth / numbers).sqrt(),
+        rms_um: rms[0],
+        rms_urad: rms[1],
+        covered: (covered.of > 0).then_some(covered),
+    }
+}
+
+/// Prediction minus value; angles of poses the short way round.
+fn difference(measurand: Measurand, k: usize, predicted: f64, value: f64) -> f64 {
+    let plain = predicted - value;
+    if measurand == Measurand::AbsolutePose && k >= 3 { plain.sin().atan2(plain.cos()) } else { plain }
+}
+
+fn outcome(key: &Key, said: &Said) -> Outcome {
+    let hidden: Vec<&str> = key.truth.effects.iter().map(String::as_str).collect();
+    outcome_of(&hidden, said.verdict, &said.added, &said.credible_set)
+}
+
+fn word(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Right => "right",
+        Outcome::Honest => "honest",
+        Outcome::Wrong => "wrong",
+    }
+}

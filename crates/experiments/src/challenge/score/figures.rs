@@ -1,0 +1,123 @@
+//! Figures over some cases of one program.
+
+use hexbench_core::statistics::{self, median, root_mean_square};
+
+use crate::Proportion;
+use serde::Serialize;
+
+use super::case::{COVERAGE_FACTOR, CaseScore};
+
+/// A share with its exact binomial 95 % bounds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Interval {
+    /// How often it held.
+    pub hits: usize,
+    /// Of how many.
+    pub of: usize,
+    /// Clopper and Pearson; the numbers of one case are not independent, so the truth is somewhat wider.
+    pub bounds: [f64; 2],
+}
+
+/// A mean and its standard error over cases.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Mean {
+    /// Mean.
+    pub mean: f64,
+    /// Standard error; absent for a single case.
+    pub standard_error: Option<f64>,
+    /// Cases.
+    pub of: usize,
+}
+
+/// Figures over some cases; absent where nothing is stated.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Figures {
+    /// Cases.
+    pub cases: usize,
+    /// Cases with an answer that could be read.
+    pub answered: usize,
+    /// Median over cases of the root mean square relative error of the leg stiffnesses.
+    pub stiffness_error: Option<f64>,
+    /// Root mean square error of leg stiffnesses in stated standard uncertainties; 1 is honest.
+    pub stiffness_z: Option<f64>,
+    /// Stated 95 % intervals that hold the true stiffness.
+    pub stiffness_covered: Option<Interval>,
+    /// Median over cases of chi-square against the readings, per number.
+    pub chi2_reduced: Option<f64>,
+    /// Median over cases of the error against the truth, in noise.
+    pub error_in_noise: Option<f64>,
+    /// Median over cases of the error of translations.
+    pub rms_um: Option<f64>,
+    /// Median over cases of the error of rotations.
+    pub rms_urad: Option<f64>,
+    /// Stated 95 % intervals that hold the true reading.
+    pub predictions_covered: Option<Interval>,
+    /// Cases with a diagnosis that is right, honest, wrong.
+    pub outcomes: Option<[usize; 3]>,
+    /// Logarithmic score of stated probabilities, nats.
+    pub log: Option<Mean>,
+    /// Brier score of stated probabilities.
+    pub brier: Option<Mean>,
+    /// Median wall time of a case, s.
+    pub wall_s: Option<f64>,
+    /// Longest wall time of a case, s.
+    pub longest_s: Option<f64>,
+    /// Most memory of a case, MB.
+    #[serde(rename = "peak_memory_MB")]
+    pub peak_memory_mb: Option<f64>,
+}
+
+impl Figures {
+    /// Figures over cases.
+    pub fn of<'a>(cases: impl IntoIterator<Item = &'a CaseScore>) -> Self {
+        let cases: Vec<&CaseScore> = cases.into_iter().collect();
+        let of =
+            |f: &dyn Fn(&CaseScore) -> Option<f64>| cases.iter().filter_map(|c| f(c)).collect::<Vec<f64>>();
+        let prediction =
+            |f: fn(&super::PredictionScore) -> f64| median(of(&|c| c.prediction.as_ref().map(f)));
+        let z: Vec<f64> = cases.iter().flat_map(|c| c.legs.iter().flatten().filter_map(|l| l.z)).collect();
+        let within = Proportion::count(&z, |z| z.abs() <= COVERAGE_FACTOR);
+        let predicted = cases.iter().filter_map(|c| c.prediction.as_ref()?.covered);
+        let most = |values: Vec<f64>| values.into_iter().reduce(f64::max);
+        Self {
+            cases: cases.len(),
+            answered: cases.iter().filter(|c| c.failure.is_none()).count(),
+            stiffness_error: median(of(&CaseScore::stiffness_error)),
+            stiffness_z: root_mean_square(z.iter().copied()),
+            stiffness_covered: interval(within),
+            chi2_reduced: prediction(|p| p.chi2_reduced),
+            error_in_noise: prediction(|p| p.error_in_noise),
+            rms_um: prediction(|p| p.rms_um),
+            rms_urad: prediction(|p| p.rms_urad),
+            predictions_covered: interval(together(predicted)),
+            outcomes: outcomes(&cases),
+            log: mean(&of(&|c| c.forecast.map(|f| f.log))),
+            brier: mean(&of(&|c| c.forecast.map(|f| f.brier))),
+            wall_s: median(of(&|c| c.wall_s)),
+            longest_s: most(of(&|c| c.wall_s)),
+            peak_memory_mb: most(of(&|c| c.peak_memory_mb)),
+        }
+    }
+}
+
+fn together(parts: impl Iterator<Item = Proportion>) -> Proportion {
+    parts.fold(Proportion::default(), |all, p| Proportion { hits: all.hits + p.hits, of: all.of + p.of })
+}
+
+fn interval(p: Proportion) -> Option<Interval> {
+    (p.of > 0).then(|| Interval { hits: p.hits, of: p.of, bounds: p.interval() })
+}
+
+fn outcomes(cases: &[&CaseScore]) -> Option<[usize; 3]> {
+    let count = |word| cases.iter().filter(|c| c.outcome == Some(word)).count();
+    let counts = ["right", "honest", "wrong"].map(count);
+    (counts.iter().sum::<usize>() > 0).then_some(counts)
+}
+
+/// Mean and standard error.
+pub(super) fn mean(values: &[f64]) -> Option<Mean> {
+    let all = || values.iter().copied();
+    let n = values.len() as f64;
+    let standard_error = statistics::standard_deviation(all()).map(|deviation| deviation / n.sqrt());
+    statistics::mean(all()).map(|mean| Mean { mean, standard_error, of: values.len() })
+}

@@ -1,0 +1,205 @@
+//! Scores as a page: text or Markdown, programs side by side.
+
+use hexbench_report::Page;
+use hexbench_report::number::significant;
+
+use super::figures::{Figures, Interval, Mean};
+use super::paired::{Differences, Ratio, Ratios};
+use super::{EntrantScore, Group, Scores};
+
+/// What is not stated.
+const DASH: &str = "-";
+/// Failures told one by one of each program.
+const MOST_TOLD: usize = 12;
+
+/// The page: the whole, each group, failures, how it was run.
+pub fn page(scores: &Scores) -> Page {
+    let mut page = Page::default();
+    page.heading(1, format!("Challenge {}, version {}", scores.suite, scores.version));
+    page.paragraph(format!("{}. {} cases, seed {}.", scores.title, cases(scores), scores.seed));
+    page.heading(2, "Side by side");
+    table(&mut page, scores, "", whole(scores));
+    page.paragraph(EXPLAINED);
+    page.heading(2, "By group of cases");
+    for (title, words, cell) in BY_GROUP {
+        page.paragraph(format!("{title}. {words}"));
+        let rows = scores.groups.iter().enumerate().map(|(g, Group { name, cases })| {
+            let label = format!("{name} ({cases})");
+            row(&label, scores, |e| cell(&e.groups[g].figures))
+        });
+        table(&mut page, scores, "group (cases)", rows.collect());
+    }
+    better(&mut page, scores);
+    failures(&mut page, scores);
+    page.heading(2, "How it was run");
+    page.list(scores.entrants.iter().map(how));
+    page.paragraph(format!(
+        "Challenge made by hexbench {}, scored by hexbench {}; SHA-256 of challenge.toml: {}.",
+        scores.made_by, scores.hexbench, scores.challenge_sha256
+    ));
+    page
+}
+
+const EXPLAINED: &str = "Errors of stiffness: root mean square over the legs of a case, median over cases. Chi-square: held-out \
+readings minus prediction in standard deviations of one reading, per number; 1 is noise. Error against the truth: prediction minus the \
+noise-free reading, in the same unit; 0 is perfect. \"Times the best\": geometric mean over the cases that all answered, with its 95 % \
+interval from the differences case by case. Intervals: how many of the stated 95 % intervals hold the truth, with exact binomial bounds \
+(legs and readings of a case are not independent, so these are somewhat narrow). Right: exactly what is hidden is said; honest: ambiguous, \
+with all that is hidden among what is kept; wrong: anything else. Log and Brier scores: of the stated probabilities where at most \
+one effect is hidden, with the standard error; 0 is perfect. Above the best: mean difference case by case, with its standard error. A dash: \
+not stated.";
+
+type Cell = fn(&Figures) -> String;
+
+const BY_GROUP: [(&str, &str, Cell); 5] = [
+    ("Error against the truth, in noise", "Median over the cases of the group.", |f| {
+        number(f.error_in_noise)
+    }),
+    ("Error of the leg stiffnesses, %", "Median over the cases of the group.", |f| {
+        number(f.stiffness_error.map(|share| 100.0 * share))
+    }),
+    ("95 % intervals of leg stiffnesses that hold, %", "All legs of the group.", |f| {
+        share(f.stiffness_covered)
+    }),
+    ("95 % intervals of predictions that hold, %", "All numbers of the group.", |f| {
+        share(f.predictions_covered)
+    }),
+    ("Diagnoses", "Right / honest / wrong.", |f| counts(f.outcomes)),
+];
+
+fn cases(scores: &Scores) -> usize {
+    scores.groups.iter().map(|g| g.cases).sum()
+}
+
+fn whole(scores: &Scores) -> Vec<Vec<String>> {
+    let entrants = &scores.entrants;
+    let stiffness = Ratios::of(entrants, super::CaseScore::stiffness_error);
+    let prediction = Ratios::of(entrants, |c| c.prediction.map(|p| p.error_in_noise));
+    let log = Differences::of(entrants, |c| c.forecast.map(|f| f.log));
+    let brier = Differences::of(entrants, |c| c.forecast.map(|f| f.brier));
+    let plain = |label: &str, cell: Cell| row(label, scores, |e| cell(&e.all));
+    let compared = |label: &str, cases: usize, cells: Vec<String>| {
+        std::iter::once(format!("{label} ({cases} cases)")).chain(cells).collect::<Vec<String>>()
+    };
+    vec![
+        plain("cases answered", |f| format!("{} of {}", f.answered, f.cases)),
+        plain("leg stiffness: error, %", |f| number(f.stiffness_error.map(|share| 100.0 * share))),
+        compared("leg stiffness: times the best", stiffness.cases, ratios(&stiffness)),
+        plain("leg stiffness: z, root mean square", |f| number(f.stiffness_z)),
+        plain("leg stiffness: 95 % intervals hold, %", |f| share(f.stiffness_covered)),
+        plain("predictions: chi-square", |f| number(f.chi2_reduced)),
+        plain("predictions: error against the truth, in noise", |f| number(f.error_in_noise)),
+        compared("predictions: times the best", prediction.cases, ratios(&prediction)),
+        plain("predictions: error, um", |f| number(f.rms_um)),
+        plain("predictions: error, urad", |f| number(f.rms_urad)),
+        plain("predictions: 95 % intervals hold, %", |f| share(f.predictions_covered)),
+        plain("diagnoses: right / honest / wrong", |f| counts(f.outcomes)),
+        plain("probabilities: log score, nats", |f| with_error(f.log)),
+        compared("probabilities: log above the best", log.cases, differences(&log)),
+        plain("probabilities: Brier score", |f| with_error(f.brier)),
+        compared("probabilities: Brier above the best", brier.cases, differences(&brier)),
+        plain("time of a case, median, s", |f| number(f.wall_s)),
+        plain("time of a case, longest, s", |f| number(f.longest_s)),
+        plain("memory, most, MB", |f| f.peak_memory_mb.map_or(DASH.into(), |mb| format!("{mb:.0}"))),
+    ]
+}
+
+fn table(page: &mut Page, scores: &Scores, corner: &str, rows: Vec<Vec<String>>) {
+    let names = scores.entrants.iter().map(|e| e.name.clone());
+    page.table(std::iter::once(corner.to_owned()).chain(names), rows);
+}
+
+fn row(label: &str, scores: &Scores, cell: impl Fn(&EntrantScore) -> String) -> Vec<String> {
+    std::iter::once(label.to_owned()).chain(scores.entrants.iter().map(cell)).collect()
+}
+
+fn number(value: Option<f64>) -> String {
+    value.map_or(DASH.to_owned(), |x| significant(x, 3))
+}
+
+fn share(interval: Option<Interval>) -> String {
+    let told = |i: Interval| {
+        let [low, high] = i.bounds.map(|b| format!("{:.1}", 100.0 * b));
+        format!("{:.1} ({low} .. {high})", 100.0 * i.hits as f64 / i.of as f64)
+    };
+    interval.map_or(DASH.to_owned(), told)
+}
+
+fn counts(outcomes: Option<[usize; 3]>) -> String {
+    outcomes.map_or(DASH.to_owned(), |[right, honest, wrong]| format!("{right} / {honest} / {wrong}"))
+}
+
+fn with_error(mean: Option<Mean>) -> String {
+    let told = |m: Mean| match m.standard_error {
+        Some(se) => format!("{:.2} +- {se:.2}", m.mean),
+        None => format!("{:.2}", m.mean),
+    };
+    mean.map_or(DASH.to_owned(), told)
+}
+
+fn ratios(compared: &Ratios) -> Vec<String> {
+    compared.of.iter().map(|r| r.map_or(DASH.to_owned(), told_ratio)).collect()
+}
+
+pub(super) fn told_ratio((ratio, interval): Ratio) -> String {
+    let short = |x: f64| significant(x, 2);
+    match interval {
+        None => short(ratio),
+        Some([low, high]) => format!("{} ({} .. {})", short(ratio), short(low), short(high)),
+    }
+}
+
+fn differences(compared: &Differences) -> Vec<String> {
+    let best = |m: &Mean| m.mean == 0.0 && m.standard_error == Some(0.0);
+    compared
+        .of
+        .iter()
+        .map(|d| if d.as_ref().is_some_and(best) { "0".to_owned() } else { with_error(*d) })
+        .collect()
+}
+
+fn better(page: &mut Page, scores: &Scores) {
+    let [first, rivals @ ..] = scores.entrants.as_slice() else { return };
+    if rivals.is_empty() {
+        return;
+    }
+    page.heading(2, format!("Where another is ahead of {}", first.name));
+    page.paragraph(
+        "Geometric mean of its errors over those of the first entrant, on the cases of a group that both answered, with the 95 % interval; \
+         an interval that holds 1 may be chance. And groups in which it is right more often.",
+    );
+    let found = super::better::found(scores, first, rivals);
+    if found.is_empty() { page.paragraph("Nowhere.") } else { page.list(found) }
+}
+
+fn failures(page: &mut Page, scores: &Scores) {
+    let failed: Vec<String> = scores.entrants.iter().flat_map(told_failures).collect();
+    if !failed.is_empty() {
+        page.heading(2, "Cases without answer");
+        page.list(failed);
+    }
+}
+
+fn told_failures(entrant: &EntrantScore) -> Vec<String> {
+    let all: Vec<String> =
+        entrant.failures().map(|(id, why)| format!("{}, {id}: {why}", entrant.name)).collect();
+    let more = all.len().saturating_sub(MOST_TOLD);
+    let rest = (more > 0).then(|| format!("{}: {more} more", entrant.name));
+    all.into_iter().take(MOST_TOLD).chain(rest).collect()
+}
+
+/// Name, call and limits; of a path only the name, which means something elsewhere.
+fn how(entrant: &EntrantScore) -> String {
+    let short = |word: &String| word.rsplit('/').next().unwrap_or(word).to_owned();
+    let words: Vec<String> = entrant.program.iter().map(short).collect();
+    let l = entrant.limits;
+    format!(
+        "{}: `{} CASE OUT`; at most {} s, {} MB of memory, {} MB of output a case; {}",
+        entrant.name,
+        words.join(" "),
+        l.time_s,
+        l.memory_mb,
+        l.output_mb,
+        entrant.system
+    )
+}

@@ -1,0 +1,62 @@
+//! The bundled suites stay as they are; what is wrong with a suite is said with its place.
+
+use std::path::Path;
+
+use super::{BUNDLED, Suite};
+use crate::challenge::ChallengeError;
+
+/// Name, version, SHA-256 of the file, number of cases.
+const FROZEN: [(&str, u64, &str, usize); 1] =
+    [("springs-and-effects", 2, "e158df7523be8d32dfe1954f0378da33fe30010a20e2c7c5c45c95cb1b23edcc", 84)];
+
+fn suite(text: &str) -> Result<Suite, ChallengeError> {
+    Suite::from_text(text, Path::new("suite.toml"))
+}
+
+fn message(cases: &str) -> String {
+    let text = format!(
+        "format = \"challenge-suite/1\"\nname = \"tiny\"\nversion = 1\ntitle = \"t\"\nseed = 3\n{cases}\n"
+    );
+    suite(&text).unwrap_err().to_string()
+}
+
+#[test]
+fn a_bundled_suite_that_changes_has_another_version() {
+    for (bundled, (name, version, sha256, cases)) in BUNDLED.iter().zip(FROZEN) {
+        let found = suite(bundled.text).unwrap();
+        assert_eq!((bundled.name, found.name.as_str()), (name, name));
+        assert!(
+            found.version == version && found.sha256 == sha256,
+            "data/challenges/{name}.toml is frozen. Answers that were scored under version {version} would no longer be \
+             comparable: restore the file (git checkout), or make it version {} and put that and the digest {} here.",
+            version + 1,
+            found.sha256
+        );
+        assert_eq!(found.cases(), cases);
+    }
+}
+
+#[test]
+fn a_suite_says_where_it_is_wrong() {
+    for (cases, expected) in [
+        ("", "the key \"cases\" is missing"),
+        ("[cases]", "a suite has a case at least"),
+        ("[cases.a]\nkind = \"clean\"", "the key \"count\" is missing"),
+        ("[cases.a]\nkind = \"claen\"\ncount = 1", "no kind is called \"claen\""),
+        ("[cases.a]\nkind = \"clean\"\ncount = 0", "must be a whole number from 1"),
+        ("[cases.a]\nkind = \"clean\"\ncount = 1\ndistance = 5", "have no distance"),
+        ("[cases.a]\nkind = \"single\"\ncount = 1\ndistance = [9, 5]", "distances rise"),
+        ("[cases.a]\nkind = \"single\"\ncount = 1\neffects = [\"crep\"]", "no effect is called \"crep\""),
+        ("[cases.a]\nkind = \"single\"\ncount = 1\nplan = \"absolute\"", "belong to the kind \"absolute\""),
+        ("[cases.a]\nkind = \"single\"\ncount = 6000", "at most 5000"),
+    ] {
+        let found = message(cases);
+        assert!(found.contains(expected) && found.contains("suite.toml"), "{cases}: {found}");
+    }
+}
+
+#[test]
+fn a_suite_that_is_not_there_is_told_with_those_that_are() {
+    let error = Suite::named("sprigns").unwrap_err();
+    assert!(error.next_step().contains("springs-and-effects"), "{}", error.next_step());
+}

@@ -1,0 +1,103 @@
+//! What was hidden in a case: `truth.json`.
+
+use std::path::Path;
+
+use hexbench_truth::campaign::Case;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::challenge::stored::{Stored, json, read_json};
+use crate::challenge::{ChallengeError, Portion};
+
+/// What was hidden in a case, and how it was made.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Truth {
+    /// `challenge-truth/1`.
+    pub format: String,
+    /// Id of the case.
+    pub id: String,
+    /// Group of the suite.
+    pub group: String,
+    /// Kind of campaign.
+    pub kind: String,
+    /// Ids of the hidden effects; those outside the catalogue begin with `out:`.
+    pub effects: Vec<String>,
+    /// Stiffness of each leg, N/um.
+    #[serde(rename = "leg_stiffness_N_per_um")]
+    pub leg_stiffness_n_per_um: [f64; 6],
+    /// Standard deviation of one reading.
+    pub noise: Noise,
+    /// Length of the signature of all effects in standard deviations of the noise, beside six springs.
+    pub distance: f64,
+    /// Family of the machine.
+    pub machine: String,
+    /// Make of the plan.
+    pub plan: String,
+    /// Seed of the case.
+    pub seed: u64,
+    /// Numbers of the effects as the simulated world names them, SI.
+    pub parameters: Map<String, Value>,
+}
+
+/// Standard deviation of one reading.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Noise {
+    /// Of each translation, um.
+    pub translation_um: f64,
+    /// Of each rotation, urad.
+    pub rotation_urad: f64,
+}
+
+impl Stored for Truth {
+    const FORMAT: &'static str = "challenge-truth/1";
+
+    fn format(&self) -> &str {
+        &self.format
+    }
+}
+
+impl Noise {
+    /// Standard deviations of the six numbers, m and rad.
+    pub fn sigma(self) -> [f64; 6] {
+        let (t, r) = (self.translation_um * 1e-6, self.rotation_urad * 1e-6);
+        [t, t, t, r, r, r]
+    }
+}
+
+impl Truth {
+    pub(crate) fn of(id: &str, portion: &Portion, case: &Case) -> Self {
+        const N_PER_UM: f64 = 1e-6;
+        let spec = &case.spec;
+        Self {
+            format: Self::FORMAT.to_owned(),
+            id: id.to_owned(),
+            group: portion.group.clone(),
+            kind: spec.kind.name().to_owned(),
+            effects: spec.hidden_effects().into_iter().map(str::to_owned).collect(),
+            leg_stiffness_n_per_um: case.campaign.world.leg_compliance.map(|c| N_PER_UM / c),
+            noise: Noise {
+                translation_um: spec.noise.sigma_translation * 1e6,
+                rotation_urad: spec.noise.sigma_rotation * 1e6,
+            },
+            distance: case.truth["distance"].as_f64().unwrap_or(0.0),
+            machine: spec.family.to_owned(),
+            plan: spec.plan.name().to_owned(),
+            seed: spec.seed,
+            parameters: case.truth["parameters"].as_object().cloned().unwrap_or_default(),
+        }
+    }
+
+    /// Reads `truth.json`.
+    ///
+    /// # Errors
+    /// [`ChallengeError::Read`], [`ChallengeError::Malformed`].
+    pub(crate) fn read(path: &Path) -> Result<Self, ChallengeError> {
+        read_json(path)
+    }
+
+    pub(crate) fn text(&self) -> String {
+        json(self)
+    }
+}

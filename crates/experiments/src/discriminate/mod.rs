@@ -1,0 +1,15 @@
+//! Whether proposed readings bring the right answer: effects that a plan confuses are diagnosed, the proposed readings are taken
+//! on the same simulated machine, and everything is diagnosed again, beside as many readings at random.
+
+mod bench;
+mod confusion;
+mod document;
+pub mod sheets;
+mod study;
+mod trial;
+
+pub use bench::Bench;
+pub use confusion::{CONFUSIONS, Confusion};
+pub use document::{headlines, page};
+pub use study::{Discrimination, Protocol, SEED, Trials};
+pub use trial::{READINGS, Record};

@@ -1,0 +1,126 @@
+//! Running the protocol.
+
+use super::{Confusion, Record};
+use crate::harness::{self, Answer, Field, Gathered};
+use crate::journal::Identity;
+use crate::trial::{Outcome, TrialError};
+
+/// Seed of the committed figures.
+pub const SEED: u64 = 20_261;
+/// Campaigns per pair in the committed figures.
+const TRIALS: usize = 200;
+/// Machines tried for one trial: not every effect shows on every machine.
+const ATTEMPTS: usize = 8;
+
+/// What is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Protocol {
+    /// Decides everything that is drawn.
+    pub seed: u64,
+    /// Campaigns per pair.
+    pub trials: usize,
+}
+
+impl Default for Protocol {
+    fn default() -> Self {
+        Self { seed: SEED, trials: TRIALS }
+    }
+}
+
+/// Trials of pairs of effects.
+pub struct Trials<'a> {
+    /// How many, and the seed.
+    pub protocol: Protocol,
+    /// The pairs.
+    pub confusions: &'a [Confusion],
+}
+
+impl Trials<'_> {
+    /// Pair, and number within it, of a trial.
+    fn place(&self, number: u64) -> (usize, usize) {
+        let number = usize::try_from(number).unwrap_or(usize::MAX);
+        (number / self.protocol.trials, number % self.protocol.trials)
+    }
+}
+
+/// What all trials gave.
+#[derive(Debug)]
+pub struct Discrimination {
+    /// What was run.
+    pub protocol: Protocol,
+    /// Every pair with its trials.
+    pub pairs: Vec<(Confusion, Vec<Record>)>,
+    /// Trials without an answer.
+    pub failures: usize,
+}
+
+impl Discrimination {
+    /// What the trials of a protocol gave.
+    pub fn of(trials: &Trials<'_>, gathered: &Gathered<Record>) -> Self {
+        let own = |answers: &[Answer<Record>]| answers.iter().flatten().cloned().collect();
+        let pairs = trials.confusions.iter().copied();
+        let records = gathered.answers.chunks(trials.protocol.trials).map(own);
+        Self {
+            protocol: trials.protocol,
+            pairs: pairs.zip(records).collect(),
+            failures: gathered.failures().count(),
+        }
+    }
+
+    /// The trials of all pairs.
+    pub fn records(&self) -> Vec<Record> {
+        self.pairs.iter().flat_map(|(_, records)| records.iter().cloned()).collect()
+    }
+}
+
+impl harness::Protocol for Trials<'_> {
+    type Record = Record;
+    type Error = TrialError;
+
+    fn identity(&self) -> Identity {
+        let Protocol { seed, trials } = self.protocol;
+        let pairs = self.confusions.iter().map(Confusion::name).collect::<Vec<_>>().join(", ");
+        let settings = [("pairs", pairs), ("trials", trials.to_string()), ("seed", seed.to_string())];
+        Identity::new("discriminate", "discriminate-trials/1", settings)
+    }
+
+    fn trials(&self) -> u64 {
+        (self.confusions.len() * self.protocol.trials) as u64
+    }
+
+    /// The last failure when no machine tried shows the effect.
+    fn trial(&self, number: u64) -> Result<Record, TrialError> {
+        let (c, t) = self.place(number);
+        let first = ATTEMPTS * (self.protocol.trials.max(TRIALS) * c + t);
+        let attempt = |n| Record::of(&self.confusions[c], n, self.protocol.seed);
+        (first + 1..first + ATTEMPTS).fold(attempt(first), |made, n| made.or_else(|_| attempt(n)))
+    }
+
+    fn name(&self, number: u64) -> String {
+        let (c, t) = self.place(number);
+        format!("{}-{t}", self.confusions[c].name())
+    }
+
+    fn fields(&self) -> Vec<Field<Record>> {
+        let stage = |name, meaning, of: fn(&Record) -> Outcome| {
+            Field::text(name, meaning, move |r: &Record| of(r).word())
+        };
+        vec![
+            Field::text("hidden", "the hidden effect", |r: &Record| r.hidden),
+            Field::text("family", "family of the machine", |r: &Record| r.family),
+            stage("before", "by the confusing plan alone", |r| r.before),
+            stage("proposed", "with the readings proposed", |r| r.proposed),
+            stage("proposed_random", "with as many at random", |r| r.proposed_random),
+            stage("asked", "with readings chosen for the pair", |r| r.asked),
+            stage("asked_random", "with as many at random", |r| r.asked_random),
+            Field::number(("readings", "1"), "readings proposed", |r: &Record| r.readings as f64),
+            Field::number(("asked_readings", "1"), "readings chosen for the pair", |r: &Record| {
+                r.asked_readings as f64
+            }),
+            Field::number(("promised", "1"), "promised chance to favour the truth", |r: &Record| r.promised),
+            Field::number(("favoured", "1"), "1 where all readings favour it", |r: &Record| {
+                f64::from(u8::from(r.favoured))
+            }),
+        ]
+    }
+}

@@ -1,0 +1,126 @@
+//! The one bench of all experiments: a job list, a progress, a way to fail, a record of every trial, a journal.
+//!
+//! ```text
+//! Protocol: trial 0 .. n --draw, identify, compare--> Record --shard after shard--> journal
+//!           journal, in the order of the trials --> Gathered --> figures, page;  --> table of trials
+//! ```
+//!
+//! - A trial is a pure function of the protocol and its number: it draws from streams of its own. What is gathered depends neither
+//!   on threads nor on the order of the work nor on interruptions.
+//! - A trial without an answer is a result with its reason; an error is what ends an experiment.
+//! - With a journal every shard is kept as soon as it is done; a run that is killed goes on where it was.
+
+mod gathered;
+mod loops;
+mod progress;
+mod sharded;
+mod table;
+pub(crate) mod words;
+
+use std::path::Path;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::error::ExperimentError;
+use crate::journal::{Identity, Journal, Shards};
+pub use gathered::{Answer, Gathered};
+pub(crate) use loops::{each, on_threads};
+pub use progress::{Progress, Silent};
+pub use sharded::{Sharded, compute, record};
+pub use table::{Cell, Field, table};
+
+/// An experiment: numbered trials, what is recorded of each, and what a row of its table shows.
+pub trait Protocol: Sync {
+    /// What is known of a trial afterwards; kept exactly, to the last bit of every number.
+    type Record: Serialize + DeserializeOwned + Send;
+    /// Why a trial has no answer.
+    type Error: std::fmt::Display;
+
+    /// Everything the trials depend on.
+    fn identity(&self) -> Identity;
+
+    /// How many trials there are.
+    fn trials(&self) -> u64;
+
+    /// Draws a campaign, identifies, compares with the truth.
+    ///
+    /// # Errors
+    /// The campaign cannot be made or identified: a result too, kept as its reason.
+    fn trial(&self, number: u64) -> Result<Self::Record, Self::Error>;
+
+    /// Name of a trial in tables.
+    fn name(&self, number: u64) -> String;
+
+    /// What a row of the table of trials shows of a record.
+    fn fields(&self) -> Vec<Field<Self::Record>>;
+
+    /// Trials kept as one: some tenths of a second of work, so that little is lost when a run is killed.
+    fn trials_of_a_shard(&self) -> u64 {
+        4
+    }
+}
+
+/// Runs what is missing of an experiment, keeps it in the journal of a folder where one is given, and gathers all.
+///
+/// # Errors
+/// [`ExperimentError`] when the folder is of no use or the progress asks for a stop; what is kept stays.
+pub fn run<P: Protocol>(
+    protocol: &P,
+    folder: Option<&Path>,
+    progress: &dyn Progress,
+) -> Result<Gathered<P::Record>, ExperimentError> {
+    let Some(folder) = folder else {
+        progress.begin(protocol.trials(), 0);
+        let one = |number| Ok::<_, ExperimentError>(answer(protocol, number, progress));
+        return each(0..protocol.trials(), progress, one).map(Gathered::new);
+    };
+    let rows = Rows(protocol);
+    let journal = Journal::open(folder, rows.identity(), rows.shards())?;
+    let state = journal.state()?;
+    progress.damaged(state.damaged);
+    progress.begin(protocol.trials(), protocol.trials() - rows.shards().trials_in(&state.pending));
+    compute(&journal, &rows, &state.pending, progress)?;
+    let mut all = Vec::new();
+    for shard in 0..rows.shards().count() {
+        let content = journal.content(shard)?;
+        let own: Vec<Answer<P::Record>> =
+            postcard::from_bytes(&content).map_err(|_| journal.missing(shard))?;
+        all.extend(own);
+    }
+    Ok(Gathered::new(all))
+}
+
+/// One trial, watched.
+fn answer<P: Protocol>(protocol: &P, number: u64, progress: &dyn Progress) -> Answer<P::Record> {
+    let answer = protocol.trial(number).map_err(|why| why.to_string());
+    progress.advance(1);
+    answer
+}
+
+/// Shards of a protocol: the answers in the order of the trials.
+struct Rows<'a, P>(&'a P);
+
+impl<P: Protocol> Sharded for Rows<'_, P> {
+    fn identity(&self) -> Identity {
+        self.0.identity()
+    }
+
+    fn shards(&self) -> Shards {
+        Shards { trials: self.0.trials(), size: self.0.trials_of_a_shard() }
+    }
+
+    fn content(&self, shard: u64, progress: &dyn Progress) -> Result<Vec<u8>, ExperimentError> {
+        // One after the other: threads that help each other would have many shards half done when a run is killed.
+        let unless_stopped = |number| {
+            if progress.is_stopped() {
+                Err(ExperimentError::Stopped)
+            } else {
+                Ok(answer(self.0, number, progress))
+            }
+        };
+        let answers: Vec<Answer<P::Record>> =
+            self.shards().trials_of(shard).map(unless_stopped).collect::<Result<_, _>>()?;
+        postcard::to_stdvec(&answers).map_err(|why| ExperimentError::Unkept(why.to_string()))
+    }
+}

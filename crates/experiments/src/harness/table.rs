@@ -1,0 +1,93 @@
+//! The table of trials: one row each, whatever the experiment.
+
+use hexbench_report::table::{Column, Frame, Values};
+
+use super::{Gathered, Protocol};
+
+/// A value of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cell {
+    /// NaN for none.
+    Number(f64),
+    /// Empty for none.
+    Text(String),
+}
+
+/// A column of the table of trials: of numbers when it has a unit (`1` for a number without), else of words.
+pub struct Field<R> {
+    /// Name with its unit: `error_um`.
+    pub name: String,
+    /// Unit.
+    pub unit: &'static str,
+    /// What it is, in one sentence.
+    pub meaning: &'static str,
+    value: Box<dyn Fn(&R) -> Cell>,
+}
+
+impl<R> Field<R> {
+    /// A column of numbers.
+    pub fn number<N: Into<Option<f64>>>(
+        (name, unit): (impl Into<String>, &'static str),
+        meaning: &'static str,
+        value: impl Fn(&R) -> N + 'static,
+    ) -> Self {
+        let value = Box::new(move |record: &R| Cell::Number(value(record).into().unwrap_or(f64::NAN)));
+        Self { name: name.into(), unit, meaning, value }
+    }
+
+    /// A column of words.
+    pub fn text<S: Into<String>>(
+        name: &str,
+        meaning: &'static str,
+        value: impl Fn(&R) -> S + 'static,
+    ) -> Self {
+        let value = Box::new(move |record: &R| Cell::Text(value(record).into()));
+        Self { name: name.to_owned(), unit: "", meaning, value }
+    }
+}
+
+/// The table of the trials of an experiment: number, name, why there is no answer, then the fields of the records.
+pub fn table<P: Protocol>(protocol: &P, gathered: &Gathered<P::Record>) -> Frame {
+    let identity = protocol.identity();
+    let names = (0..protocol.trials()).map(|n| protocol.name(n)).collect();
+    let failures = gathered.answers.iter().map(|a| a.as_ref().err().cloned().unwrap_or_default());
+    let column = |name: &str, unit: &str, meaning: &str, values| Column {
+        name: name.into(),
+        unit: unit.into(),
+        meaning: meaning.into(),
+        values,
+    };
+    let mut columns = vec![
+        column(
+            "trial",
+            "1",
+            "number of the trial, from 0",
+            Values::Integers((0..).take(gathered.answers.len()).collect()),
+        ),
+        column("name", "", "what the trial is called", Values::Texts(names)),
+        column(
+            "failure",
+            "",
+            "why the trial has no answer; empty when it has one",
+            Values::Texts(failures.collect()),
+        ),
+    ];
+    let filled =
+        |field: Field<P::Record>| column(&field.name, field.unit, field.meaning, values(&field, gathered));
+    columns.extend(protocol.fields().into_iter().map(filled));
+    Frame { format: identity.format, origin: identity.inputs.into_iter().collect(), columns }
+}
+
+fn values<R>(field: &Field<R>, gathered: &Gathered<R>) -> Values {
+    let cells =
+        gathered.answers.iter().map(|answer| answer.as_ref().ok().map(|record| (field.value)(record)));
+    if field.unit.is_empty() {
+        Values::Texts(
+            cells.map(|cell| if let Some(Cell::Text(text)) = cell { text } else { String::new() }).collect(),
+        )
+    } else {
+        Values::Numbers(
+            cells.map(|cell| if let Some(Cell::Number(x)) = cell { x } else { f64::NAN }).collect(),
+        )
+    }
+}

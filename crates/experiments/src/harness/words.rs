@@ -1,0 +1,36 @@
+//! Names that stand in the program itself, read back from a journal: machines, and effects of the simulated world.
+
+use hexbench_truth::campaign::machines::FAMILIES;
+use hexbench_truth::mechanisms::REGISTRY;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// A name of the program. By this name the derivation of `Deserialize` does not take it for borrowed text.
+pub(crate) type Word = &'static str;
+
+fn known<E: Error>(name: &str) -> Result<Word, E> {
+    let mut all = FAMILIES.iter().copied().chain(REGISTRY.iter().map(|effect| effect.id));
+    all.find(|known| *known == name)
+        .ok_or_else(|| E::custom(format!("\"{name}\" is no machine and no effect")))
+}
+
+pub(crate) fn serialize<S: Serializer>(name: &str, to: S) -> Result<S::Ok, S::Error> {
+    name.serialize(to)
+}
+
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Word, D::Error> {
+    known(&String::deserialize(from)?)
+}
+
+/// Several of them.
+pub(crate) mod list {
+    use super::{Deserialize, Deserializer, Serialize, Serializer, Word, known};
+
+    pub(crate) fn serialize<S: Serializer>(names: &[Word], to: S) -> Result<S::Ok, S::Error> {
+        names.serialize(to)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Word>, D::Error> {
+        Vec::<String>::deserialize(from)?.iter().map(|name| known(name)).collect()
+    }
+}

@@ -1,0 +1,239 @@
+//! What of an experiment is done, on disk.
+//!
+//! ```text
+//! DIR/journal/NAME.json       whose journal this is: what its trials depend on, format, program
+//! DIR/journal/lock            held by the run at work
+//! DIR/journal/00000042.shard  the results of some consecutive trials
+//! ```
+//!
+//! A record is written beside its place and renamed, so that it is there whole or not at all, whenever the run is killed. It ends
+//! with its SHA-256: one that was cut or changed later, by a copy between machines for example, is recognised and
+//! computed again. Records are independent of each other: those of several machines may be put into one folder.
+
+mod lock;
+mod origin;
+mod record;
+mod shards;
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use hexbench_core::files::atomic_write;
+
+use crate::error::ExperimentError;
+pub(crate) use lock::{Lock, Locked};
+pub use origin::Identity;
+use origin::Origin;
+pub use shards::Shards;
+
+/// The record of a shard that was computed for a journal elsewhere; it carries its own SHA-256.
+pub fn record(identity: Identity, shards: Shards, number: u64, content: &[u8]) -> Vec<u8> {
+    record::encode(&head(&Origin::of(identity), shards, number), content)
+}
+
+/// The journal of an experiment, in use by this run alone.
+pub struct Journal {
+    folder: PathBuf,
+    origin: Origin,
+    shards: Shards,
+    _lock: Lock,
+}
+
+/// What is in a journal.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct State {
+    /// Shards still to be computed, in order.
+    pub pending: Vec<u64>,
+    /// Records that were cut or changed, among the pending ones.
+    pub damaged: u64,
+}
+
+/// What came from another folder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Adopted {
+    /// Shards that were missing here.
+    pub taken: u64,
+    /// Shards that were here already, with the same bytes.
+    pub known: u64,
+    /// Records that were cut or changed, left where they are.
+    pub damaged: u64,
+}
+
+impl Journal {
+    /// Opens the journal of an experiment in a folder, which is made; an empty one begins.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Busy`], [`ExperimentError::Foreign`], [`ExperimentError::NotEmpty`], [`ExperimentError::Write`].
+    pub fn open(folder: &Path, identity: Identity, shards: Shards) -> Result<Self, ExperimentError> {
+        let own = folder.join("journal");
+        refuse_other_content(folder, &own, identity.name)?;
+        fs::create_dir_all(&own).map_err(ExperimentError::writing(&own))?;
+        let lock = Lock::take(&own.join("lock")).map_err(|locked| locked.of(folder))?;
+        let origin = Origin::of(identity);
+        origin.settle(folder, &own)?;
+        remove_remains(&own).map_err(ExperimentError::writing(&own))?;
+        Ok(Self { folder: folder.to_owned(), origin, shards, _lock: lock })
+    }
+
+    /// Reads every record and tells which are missing.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Read`].
+    pub fn state(&self) -> Result<State, ExperimentError> {
+        let mut state = State::default();
+        for number in 0..self.shards.count() {
+            match self.read(number)? {
+                Found::Whole(_) => continue,
+                Found::Damaged => state.damaged += 1,
+                Found::Missing => {}
+            }
+            state.pending.push(number);
+        }
+        Ok(state)
+    }
+
+    /// Keeps what a shard holds.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Write`]; the records before stay.
+    pub fn keep(&self, number: u64, content: &[u8]) -> Result<(), ExperimentError> {
+        self.put(number, &record::encode(&self.head(number), content))
+    }
+
+    /// Takes over what another folder has done of the same experiment; what is there already is compared.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Foreign`] for the journal of another experiment, [`ExperimentError::Contradiction`] when two whole
+    /// records of one shard differ, [`ExperimentError::Read`], [`ExperimentError::Write`].
+    pub fn adopt(&self, folder: &Path) -> Result<Adopted, ExperimentError> {
+        let journal = folder.join("journal");
+        self.origin.check(folder, &journal)?;
+        let mut adopted = Adopted::default();
+        for number in 0..self.shards.count() {
+            match self.read_at(&journal, number)? {
+                Found::Missing => {}
+                Found::Damaged => adopted.damaged += 1,
+                Found::Whole(bytes) if self.take(folder, number, &bytes)? => adopted.taken += 1,
+                Found::Whole(_) => adopted.known += 1,
+            }
+        }
+        Ok(adopted)
+    }
+
+    /// Keeps the record of a shard that was computed elsewhere ([`record()`]); one that is here already is compared.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Garbled`] when it is not the whole record of this shard of this experiment,
+    /// [`ExperimentError::Contradiction`], [`ExperimentError::Write`].
+    pub fn keep_record(&self, number: u64, bytes: &[u8]) -> Result<(), ExperimentError> {
+        if number >= self.shards.count() || record::decode(bytes, &self.head(number)).is_none() {
+            return Err(ExperimentError::Garbled { shard: number });
+        }
+        self.take(&self.folder, number, bytes).map(drop)
+    }
+
+    /// What a shard that is done holds.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Missing`], [`ExperimentError::Read`].
+    pub fn content(&self, number: u64) -> Result<Vec<u8>, ExperimentError> {
+        if let Found::Whole(bytes) = self.read(number)?
+            && let Some(content) = record::decode(&bytes, &self.head(number))
+        {
+            return Ok(content.to_vec());
+        }
+        Err(self.missing(number))
+    }
+
+    /// A shard that the results need and that is not there.
+    pub fn missing(&self, number: u64) -> ExperimentError {
+        ExperimentError::Missing { folder: self.folder.clone(), shard: number }
+    }
+
+    /// Folder of the results.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// How the trials are divided.
+    pub fn shards(&self) -> Shards {
+        self.shards
+    }
+
+    /// Keeps a whole record from elsewhere; false when it was here already.
+    fn take(&self, from: &Path, number: u64, bytes: &[u8]) -> Result<bool, ExperimentError> {
+        match self.read(number)? {
+            Found::Whole(own) if own == bytes => Ok(false),
+            Found::Whole(_) => Err(ExperimentError::Contradiction { folder: from.to_owned(), shard: number }),
+            _ => self.put(number, bytes).map(|()| true),
+        }
+    }
+
+    fn put(&self, number: u64, bytes: &[u8]) -> Result<(), ExperimentError> {
+        let path = self.folder.join("journal").join(record_name(number));
+        atomic_write(&path, |out| out.write_all(bytes)).map_err(ExperimentError::writing(&path))
+    }
+
+    fn read(&self, number: u64) -> Result<Found, ExperimentError> {
+        self.read_at(&self.folder.join("journal"), number)
+    }
+
+    fn read_at(&self, journal: &Path, number: u64) -> Result<Found, ExperimentError> {
+        let path = journal.join(record_name(number));
+        match fs::read(&path) {
+            Ok(bytes) if record::decode(&bytes, &self.head(number)).is_some() => Ok(Found::Whole(bytes)),
+            Ok(bytes) if record::is_of_fewer_trials(&bytes, &self.head(number)) => Ok(Found::Missing),
+            Ok(_) => Ok(Found::Damaged),
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(Found::Missing),
+            Err(cause) => Err(ExperimentError::Read { path, cause }),
+        }
+    }
+
+    fn head(&self, number: u64) -> Vec<u8> {
+        head(&self.origin, self.shards, number)
+    }
+}
+
+fn head(origin: &Origin, shards: Shards, number: u64) -> Vec<u8> {
+    record::head(origin.digest(), number, &shards.trials_of(number))
+}
+
+fn record_name(number: u64) -> String {
+    format!("{number:08}.shard")
+}
+
+enum Found {
+    /// With the bytes of the record.
+    Whole(Vec<u8>),
+    Damaged,
+    Missing,
+}
+
+/// A folder without journal must be empty.
+fn refuse_other_content(
+    folder: &Path,
+    journal: &Path,
+    experiment: &'static str,
+) -> Result<(), ExperimentError> {
+    if journal.exists() {
+        return Ok(());
+    }
+    match fs::read_dir(folder).map(|mut entries| entries.next().is_some()) {
+        Ok(true) => Err(ExperimentError::NotEmpty { folder: folder.to_owned(), experiment }),
+        Ok(false) => Ok(()),
+        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(cause) => Err(ExperimentError::writing(folder)(cause)),
+    }
+}
+
+/// Removes what a killed run was about to write.
+fn remove_remains(journal: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(journal)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|e| e == "part") {
+            fs::remove_file(path)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,33 @@
+//! The proving ground: simulated campaigns with a known truth go through the identification, and what it says is compared
+//! with what was hidden.
+//!
+//! | experiment | question |
+//! |---|---|
+//! | [`recovery`] | is what was hidden found, with honest uncertainty? |
+//! | [`calibration`] | how far can the stated probabilities be trusted? |
+//! | [`discriminate`] | do the proposed readings tell effects apart? |
+//! | [`power`] | which effects does a plan show? |
+//! | [`regress`] | did a change make anything worse? |
+//! | [`paper`] | what is behind the errors of the paper? |
+//! | [`sweep`] | which choice of an experiment is worth what? |
+//! | [`challenge`] | how do algorithms in other languages compare? |
+//!
+//! All of them run on one bench ([`harness`]) and keep what is done in one kind of journal ([`journal`]).
+//! It holds no physics of its own: campaigns come from `hexbench_truth`, answers from `hexbench_model`.
+
+pub mod calibration;
+pub mod challenge;
+pub mod discriminate;
+pub mod error;
+pub mod harness;
+pub mod journal;
+pub mod paper;
+pub mod power;
+pub mod recovery;
+pub mod regress;
+pub mod sweep;
+pub mod trial;
+
+pub use error::ExperimentError;
+pub use hexbench_core::statistics::Proportion;
+pub use trial::{Outcome, Trial, TrialError};

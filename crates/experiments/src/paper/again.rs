@@ -1,0 +1,67 @@
+//! The richer plan with other poses and other noise: is the missing effect named again?
+
+use hexbench_core::streams::{Purpose, derived_seed};
+use hexbench_model::verdict::Verdict;
+
+use super::bench::Bench;
+use super::error::PaperError;
+use super::missing::on_the_richer_plan;
+use super::suspects::skew_support;
+use crate::harness::{Field, Protocol};
+use crate::journal::Identity;
+
+/// Other noise under which the richer plan is tried again.
+const OTHER_SEEDS: u64 = 12;
+
+/// Verdict, and what was named.
+pub type Named = (Verdict, Vec<String>);
+
+/// The diagnosis of a support that gives, over and over.
+#[derive(Debug, Clone, Copy)]
+pub struct Again {
+    /// Seed of the study.
+    pub seed: u64,
+    /// How far the support gives along X, Y and Z under the load of the paper, m.
+    pub support_motion: [f64; 3],
+}
+
+impl Protocol for Again {
+    type Record = Named;
+    type Error = PaperError;
+
+    fn identity(&self) -> Identity {
+        let motion = self.support_motion.map(|x| x.to_string()).join(", ");
+        Identity::new(
+            "paper",
+            "paper-trials/1",
+            [("seed", self.seed.to_string()), ("support_motion", motion)],
+        )
+    }
+
+    fn trials(&self) -> u64 {
+        OTHER_SEEDS
+    }
+
+    fn trial(&self, number: u64) -> Result<Named, PaperError> {
+        let bench = Bench::new(derived_seed(self.seed, Purpose::PaperAgain, [number + 1]));
+        let found = on_the_richer_plan(&bench, &bench.world(vec![skew_support(self.support_motion)]))?;
+        Ok((found.verdict, found.added))
+    }
+
+    fn name(&self, number: u64) -> String {
+        format!("other noise {}", number + 1)
+    }
+
+    fn fields(&self) -> Vec<Field<Named>> {
+        vec![
+            Field::text("verdict", "what the diagnosis said", |(verdict, _): &Named| {
+                format!("{verdict:?}").to_lowercase()
+            }),
+            Field::text("named", "effects named", |(_, named): &Named| named.join("+")),
+        ]
+    }
+
+    fn trials_of_a_shard(&self) -> u64 {
+        1
+    }
+}

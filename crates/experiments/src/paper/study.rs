@@ -1,0 +1,126 @@
+//! The whole study.
+
+use super::again::{Again, Named};
+use super::bench::{Bench, identification, validation};
+use super::chances::{Repetitions, repetitions};
+use super::curves::{Compared, IndexOverLoad, Linearity, figure_7, figure_8, figures_9_and_10};
+use super::error::PaperError;
+use super::experiment::Experiment;
+use super::missing::{Finding, on_the_papers_plan, on_the_richer_plan};
+use super::published::{BEST_POSES, PREDICTION_ERROR};
+use super::search::{PoseSet, best_poses, stroke};
+use super::suspects::{Suspect, bias, skew_support, support_motion, suspects};
+use crate::harness::Gathered;
+
+/// Searches for poses, each from its own start.
+const STARTS: u32 = 24;
+/// Repetitions of the experiment with fresh noise.
+const REPETITIONS: usize = 2000;
+/// Three poses along X without rotation, for comparison.
+const UNTURNED: [[f64; 4]; 3] = [[-30.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0], [30.0, 0.0, 0.0, 0.0]];
+
+/// Everything the study finds.
+#[derive(Debug)]
+pub struct Reproduction {
+    /// Seed of all noise.
+    pub seed: u64,
+    /// The machine and its instrument.
+    pub bench: Bench,
+    /// The pose set of Table 1.
+    pub published_set: PoseSet,
+    /// Best sets found, with the stroke allowed in m: of all poses of the paper, and of its validation poses.
+    pub best_sets: [(f64, PoseSet); 2],
+    /// Springs are all there is.
+    pub springs: Experiment,
+    /// The same with fresh noise, over and over.
+    pub repetitions: Repetitions,
+    /// Fig. 7.
+    pub index_over_load: Vec<IndexOverLoad>,
+    /// Fig. 8.
+    pub linearity: Linearity,
+    /// Figs. 9 and 10 with springs alone.
+    pub compared: [Vec<Compared>; 2],
+    /// What could be missing.
+    pub suspects: Vec<Suspect>,
+    /// How far the chosen support gives, m.
+    pub support_motion: [f64; 3],
+    /// Error that the paper's estimator then makes on average, um and urad.
+    pub hidden_expected: [f64; 6],
+    /// The support gives, and the model does not know.
+    pub hidden: Experiment,
+    /// Figs. 9 and 10 with the hidden effect.
+    pub hidden_compared: [Vec<Compared>; 2],
+    /// Diagnosis by the paper's plan.
+    pub poor: Finding,
+    /// Diagnosis by the richer plan.
+    pub rich: Finding,
+    /// Verdicts of the richer plan under other noise, and what was named.
+    pub again: Vec<Named>,
+}
+
+impl Reproduction {
+    /// Runs the study; equal seeds give equal results. `trials` runs those of the richer plan under other noise.
+    ///
+    /// # Errors
+    /// [`PaperError`], and what `trials` says.
+    pub fn run<E: From<PaperError>>(
+        seed: u64,
+        trials: impl FnOnce(&Again) -> Result<Gathered<Named>, E>,
+    ) -> Result<Self, E> {
+        let bench = Bench::new(seed);
+        let springs = Experiment::run(&bench, &bench.world(Vec::new()))?;
+        let support_motion = support_motion(&bench, &springs.paper.expected)?;
+        let again = trials(&Again { seed, support_motion })?;
+        if let Some((_, why)) = again.failures().next() {
+            return Err(PaperError::Campaign(why.clone()).into());
+        }
+        Ok(Self::of(bench, springs, support_motion, again.answers.into_iter().flatten().collect())?)
+    }
+
+    fn of(
+        bench: Bench,
+        springs: Experiment,
+        support_motion: [f64; 3],
+        again: Vec<Named>,
+    ) -> Result<Self, PaperError> {
+        let [published_set, unturned] =
+            [PoseSet::of(&bench.hexapod, BEST_POSES)?, PoseSet::of(&bench.hexapod, UNTURNED)?];
+        let best_sets = best_sets(&bench)?;
+        let world = bench.world(Vec::new());
+        let data = [&springs.identification, &springs.validation];
+        let noise = springs.paper.expected;
+        let yielding = bench.world(vec![skew_support(support_motion)]);
+        let hidden_bias = bias(&bench, skew_support(support_motion))?;
+        let hidden = Experiment::run(&bench, &yielding)?;
+        let sets = [("Table 1", &published_set), ("best found", &best_sets[0].1), ("no rotation", &unturned)];
+        Ok(Self {
+            seed: bench.seed,
+            repetitions: repetitions(&bench, data, REPETITIONS, &PREDICTION_ERROR, bench.seed)?,
+            index_over_load: figure_7(&bench.hexapod, sets)?,
+            linearity: figure_8(&bench, &world)?,
+            compared: figures_9_and_10(&bench, &springs.paper.identified, &springs.validation)?,
+            suspects: suspects(&bench, &noise)?,
+            hidden_expected: std::array::from_fn(|k| hidden_bias[k].hypot(noise[k])),
+            support_motion,
+            hidden_compared: figures_9_and_10(&bench, &hidden.paper.identified, &hidden.validation)?,
+            poor: on_the_papers_plan(&bench, &hidden)?,
+            rich: on_the_richer_plan(&bench, &yielding)?,
+            again,
+            published_set,
+            best_sets,
+            springs,
+            hidden,
+            bench,
+        })
+    }
+}
+
+fn best_sets(bench: &Bench) -> Result<[(f64, PoseSet); 2], PaperError> {
+    let poses = |rows: Vec<hexbench_truth::campaign::Row>| -> Vec<_> {
+        rows.iter().map(|r| r.situation.pose).collect()
+    };
+    let validation = stroke(&bench.hexapod, &poses(validation()));
+    let all = validation.max(stroke(&bench.hexapod, &poses(identification())));
+    let best = |stroke| Ok::<_, PaperError>((stroke, best_poses(&bench.hexapod, stroke, STARTS, 1)?));
+    Ok([best(all)?, best(validation)?])
+}

@@ -1,0 +1,234 @@
+//! All simulated campaigns of a plan, as one experiment.
+
+use std::sync::Arc;
+
+use hexbench_core::Vector6;
+use hexbench_core::files::text_hash;
+use hexbench_core::streams::Purpose;
+use hexbench_design::power::{Planned, Settings, Study, Subject, Test, study};
+use hexbench_model::error::ModelError;
+use hexbench_model::term::Term;
+use hexbench_truth::TruthError;
+use serde::{Deserialize, Serialize};
+
+use super::PowerPlan;
+use super::simulate::{Answers, Bench, NoiseOf, Said, Simulated};
+use super::study::{Check, Power, PowerError, Simulation};
+use super::usual::{Usual, usual};
+use crate::Proportion;
+use crate::harness::{Answer, Field, Gathered, Protocol};
+use crate::journal::Identity;
+
+/// A plan as reckoned, and the campaigns that check it.
+pub struct Campaigns<'a> {
+    bench: Bench<'a>,
+    terms: &'a [Arc<dyn Term>],
+    study: Study,
+    simulation: Simulation,
+    /// One for each effect.
+    checks: Vec<Check>,
+    parts: Vec<Part>,
+}
+
+/// Equal campaigns but for the noise.
+struct Part {
+    /// What is simulated: number of the effect and multiple of its usual size; `None`: nothing is hidden.
+    effect: Option<(usize, f64)>,
+    ideal: Vec<Vector6>,
+    noise: NoiseOf,
+    is_diagnosed: bool,
+}
+
+impl Part {
+    /// True at the usual size of an effect.
+    fn is_usual(&self) -> bool {
+        self.noise.0 == Purpose::PowerUsualNoise
+    }
+}
+
+/// What one campaign showed.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Record {
+    /// Whether the tests of the effects saw something, each where nothing is hidden, else that of the hidden one.
+    pub seen: Vec<bool>,
+    /// Answer of the diagnosis, where it was asked.
+    pub said: Option<Said>,
+}
+
+impl<'a> Campaigns<'a> {
+    /// Reckons the power of a plan, and lists the campaigns for the effects in `only`, for all when it is empty.
+    ///
+    /// # Errors
+    /// [`PowerError`].
+    pub fn new(
+        plan: &'a PowerPlan,
+        terms: &'a [Arc<dyn Term>],
+        settings: Settings,
+        simulation: Simulation,
+        only: &[String],
+    ) -> Result<Self, PowerError> {
+        let planned = Planned::new(&plan.hexapod, &plan.rows, plan.springs(), plan.noise)?;
+        let known: Vec<Option<Usual>> =
+            terms.iter().map(|t| usual(t, &plan.hexapod, settings.seed)).collect();
+        let subject = |(term, known): (&Arc<dyn Term>, &Option<Usual>)| {
+            known.as_ref().map_or_else(|| Subject::natural(term, &planned), |u| u.subject.clone())
+        };
+        let study = study(&planned, terms.iter().zip(&known).map(subject).collect(), settings);
+        let checks = vec![Check::default(); study.effects.len()];
+        let bench = Bench::new(plan, settings.seed);
+        let mut all = Self { bench, terms, study, simulation, checks, parts: Vec::new() };
+        if simulation.campaigns > 0 {
+            let ideal = all.bench.ideal(Vec::new())?;
+            all.parts.push(Part {
+                effect: None,
+                ideal,
+                noise: (Purpose::PowerCleanNoise, 0),
+                is_diagnosed: false,
+            });
+            (0..all.checks.len()).for_each(|k| all.add(k, &known, only));
+        }
+        Ok(all)
+    }
+
+    /// Adds the campaigns of an effect, or why there are none.
+    fn add(&mut self, k: usize, known: &[Option<Usual>], only: &[String]) {
+        let term = self.study.effects[k].term;
+        if !only.is_empty() && !only.iter().any(|id| id == term) {
+            return;
+        }
+        let place = self.terms.iter().position(|t| t.info().id == term);
+        let parts = match place.and_then(|p| known[p].as_ref()) {
+            Some(usual) => self.parts_of(k, usual).map_err(|why| why.to_string()),
+            None => Err("the simulated world has no such effect".to_owned()),
+        };
+        match parts {
+            Ok(parts) => self.parts.extend(parts),
+            Err(why) => self.checks[k].why_not = Some(why),
+        }
+    }
+
+    /// At the usual size, and at the size that is seen where there is one.
+    fn parts_of(&self, k: usize, usual: &Usual) -> Result<Vec<Part>, TruthError> {
+        let effect = &self.study.effects[k];
+        if self.study.tests[k].is_none() {
+            return Ok(Vec::new());
+        }
+        let seen_at = effect.shows().then_some(effect.seen_at.middle);
+        let part = |(scale, noise, is_diagnosed): (f64, Purpose, bool)| {
+            let mechanism = usual.mechanisms[effect.example_index].scaled(scale);
+            let ideal = self.bench.ideal(vec![mechanism])?;
+            Ok(Part { effect: Some((k, scale)), ideal, noise: (noise, k as u64), is_diagnosed })
+        };
+        let seen = seen_at.map(|scale| (scale, Purpose::PowerSeenNoise, self.simulation.diagnoses));
+        std::iter::once((1.0, Purpose::PowerUsualNoise, false)).chain(seen).map(part).collect()
+    }
+
+    /// The power of the plan with what the campaigns showed.
+    ///
+    /// # Errors
+    /// [`PowerError::Campaign`], [`PowerError::Model`].
+    pub fn power(mut self, gathered: &Gathered<Record>) -> Result<Power, PowerError> {
+        if let Some((_, why)) = gathered.failures().next() {
+            return Err(PowerError::Campaign(why.clone()));
+        }
+        let parts = std::mem::take(&mut self.parts);
+        for (part, answers) in parts.iter().zip(gathered.answers.chunks(self.simulation.campaigns.max(1))) {
+            self.tell(part, answers)?;
+        }
+        let Self { study, simulation, checks, .. } = self;
+        Ok(Power { format: "power/1", study, simulation, checks })
+    }
+
+    fn tell(&mut self, part: &Part, answers: &[Answer<Record>]) -> Result<(), PowerError> {
+        let records = || answers.iter().flatten();
+        let seen = |k: usize| Proportion::count(records(), |r| r.seen[k]);
+        let Some((k, scale)) = part.effect else {
+            for (k, check) in self.checks.iter_mut().enumerate() {
+                check.false_alarms = self.study.tests[k].is_some().then(|| seen(k));
+            }
+            return Ok(());
+        };
+        let (left, bias_percent) = self.bench.without_noise(&part.ideal)?;
+        let chance = self.study.tests[k].as_ref().map_or(f64::NAN, |test| test.chance(&left));
+        let simulated = Simulated {
+            scale,
+            seen: seen(0),
+            chance_by_the_world: chance,
+            bias_percent,
+            answers: part.is_diagnosed.then(|| Answers::of_all(records().filter_map(|r| r.said.as_ref()))),
+        };
+        let check = &mut self.checks[k];
+        *(if part.is_usual() { &mut check.usual } else { &mut check.when_seen }) = Some(simulated);
+        Ok(())
+    }
+
+    fn tests(&self, part: &Part) -> &[Option<Test>] {
+        part.effect.map_or(&self.study.tests[..], |(k, _)| &self.study.tests[k..=k])
+    }
+
+    /// Part, and number within it, of a trial.
+    fn place(&self, number: u64) -> (&Part, u64) {
+        let campaigns = self.simulation.campaigns as u64;
+        let part = usize::try_from(number / campaigns).unwrap_or(usize::MAX);
+        (&self.parts[part], number % campaigns)
+    }
+}
+
+impl Protocol for Campaigns<'_> {
+    type Record = Record;
+    type Error = ModelError;
+
+    fn identity(&self) -> Identity {
+        let Simulation { campaigns, diagnoses } = self.simulation;
+        let parts: Vec<String> = (0..self.parts.len()).map(|k| self.part_name(&self.parts[k])).collect();
+        let terms: Vec<String> = self.terms.iter().map(|t| format!("{:?}", t.info())).collect();
+        let settings = [
+            ("campaigns", campaigns.to_string()),
+            ("diagnoses", diagnoses.to_string()),
+            ("settings", format!("{:?}", self.study.settings)),
+            ("effects", text_hash(&parts.join(", "))),
+            ("plan", text_hash(&format!("{:?}", self.bench.plan()))),
+            ("terms", text_hash(&terms.join(", "))),
+        ];
+        Identity::new("power", "power-trials/1", settings)
+    }
+
+    fn trials(&self) -> u64 {
+        (self.parts.len() * self.simulation.campaigns) as u64
+    }
+
+    fn trial(&self, number: u64) -> Result<Record, ModelError> {
+        let (part, k) = self.place(number);
+        let data = self.bench.data(&part.ideal, Some((part.noise, k)));
+        let residuals = self.bench.residuals(&data)?;
+        let seen = self.tests(part).iter().map(|t| t.as_ref().is_some_and(|t| t.sees(&residuals))).collect();
+        let asked = part.effect.filter(|_| part.is_diagnosed);
+        let said = asked.map(|(k, _)| self.bench.answer(self.study.effects[k].term, &data, self.terms));
+        Ok(Record { seen, said })
+    }
+
+    fn name(&self, number: u64) -> String {
+        let (part, k) = self.place(number);
+        format!("{}-{k}", self.part_name(part))
+    }
+
+    fn fields(&self) -> Vec<Field<Record>> {
+        vec![
+            Field::number(("seen", "1"), "tests that saw something", |r: &Record| {
+                r.seen.iter().filter(|seen| **seen).count() as f64
+            }),
+            Field::text("answer", "what the diagnosis said, where it was asked", |r: &Record| {
+                r.said.as_ref().map_or(String::new(), |said| said.0.clone())
+            }),
+        ]
+    }
+}
+
+impl Campaigns<'_> {
+    fn part_name(&self, part: &Part) -> String {
+        match part.effect {
+            None => "no effect".to_owned(),
+            Some((k, scale)) => format!("{} x {scale}", self.study.effects[k].term),
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! The power of a plain and of a rich plan as a document.
+
+use hexbench_design::power::{Effect, Planned, Verdict};
+use hexbench_report::Page;
+use hexbench_report::number::significant;
+use hexbench_truth::Scene;
+use hexbench_truth::scene::{Bench, PartName};
+
+use super::faint::{Faint, faint};
+use super::page::{LOOK_ALIKE, look_alikes};
+use super::tables::chance;
+use super::{PlanReport, Power, PowerError, PowerPlan, Simulated};
+use crate::Proportion;
+use crate::recovery::correspondence::CORRESPONDENCES;
+
+/// A plan of a scene and its power.
+pub struct Studied {
+    /// Name of the scene.
+    pub name: String,
+    /// The plan.
+    pub plan: PowerPlan,
+    /// Its power.
+    pub power: Power,
+    /// Condition number of the spring columns at unit length.
+    pub condition: f64,
+    /// Effects that hide in the springs.
+    pub faint: Vec<Faint>,
+}
+
+impl Studied {
+    /// Puts a studied plan together.
+    ///
+    /// # Errors
+    /// [`PowerError`].
+    pub fn new(name: &str, plan: PowerPlan, power: Power) -> Result<Self, PowerError> {
+        let planned = Planned::new(&plan.hexapod, &plan.rows, plan.springs(), plan.noise)?;
+        let (condition, faint) = (planned.condition(), faint(&plan)?);
+        Ok(Self { name: name.to_owned(), plan, power, condition, faint })
+    }
+}
+
+/// The training part of a scene as a plan for its machine with its true stiffnesses.
+///
+/// # Errors
+/// [`PowerError`].
+pub fn plan_of(scene: &Scene) -> Result<PowerPlan, PowerError> {
+    let bench = Bench::new(scene, true);
+    let part = scene.part(PartName::Training);
+    let measured = bench.measure(PartName::Training, 0..part.len())?;
+    let rows = hexbench_core::Dataset {
+        source: scene.name.clone(),
+        measurand: scene.measurand(),
+        columns: bench.columns(),
+        observations: measured.iter().map(|m| m.observation).collect(),
+    };
+    PowerPlan::new(scene.hexapod.clone(), rows, scene.leg_stiffness).ok_or(PowerError::NoNoise)
+}
+
+/// The document; `again` is the command that writes it, `charts` the folder beside it.
+pub fn document(plain: &Studied, rich: &Studied, charts: &str, again: &str) -> Page {
+    let mut page = Page::default();
+    page.heading(1, "What a plan can see");
+    page.paragraph("Written by `hexbench validate power --markdown FILE`; do not edit.");
+    page.paragraph(
+        "Before anything is measured, a plan (poses, loads, repeats) decides which effects it can show. Two plans for the \
+         same machine and the same instrument: that of the paper, and one of many poses with tilts and loads along and about \
+         all axes. Every chance is reckoned by the linear model and then counted in the simulated world, which shares no \
+         physics with it.",
+    );
+    page.heading(2, "Three facts");
+    page.list([well_conditioned_yet_blind(plain), rich_sees(plain, rich), never(plain, rich)]);
+    page.table(FAINT, [plain, rich].into_iter().flat_map(faint_rows).collect::<Vec<_>>());
+    page.paragraph(
+        "absorbed: share of the signature (its sum of squares) that other leg stiffnesses explain. distance: length of the \
+         rest in standard deviations. chance: of a test made for exactly this rest, at 1 % false alarm. bias: of the leg \
+         stiffness that goes most astray.",
+    );
+    agreement(&mut page, &[plain, rich]);
+    for studied in [plain, rich] {
+        one_plan(&mut page, studied, charts);
+    }
+    page.heading(2, "How it is reckoned");
+    page.list(PlanReport { plan: &rich.plan, power: &rich.power, only: &[], verbose: false }.notes());
+    page.heading(2, "Where the two worlds write an effect differently");
+    page.list(
+        CORRESPONDENCES
+            .iter()
+            .filter(|c| !c.differs.is_empty())
+            .map(|c| format!("{}: {}.", c.effect, c.differs)),
+    );
+    page.heading(2, "Again");
+    page.paragraph(format!(
+        "`{again}`. For a plan of your own: `hexbench power hexapod.toml plan.csv --simulate`. The same seed gives the same \
+         bytes on any number of threads."
+    ));
+    page
+}
+
+fn one_plan(page: &mut Page, studied: &Studied, charts: &str) {
+    page.heading(2, format!("The plan `{}`", studied.name));
+    let own = PlanReport { plan: &studied.plan, power: &studied.power, only: &[], verbose: false };
+    page.paragraph(own.subject());
+    page.paragraph(own.summary());
+    let figure = |file: &str| format!("{charts}/{}-{file}", studied.name);
+    page.figure(figure("power.svg"), "Chance to see each effect over its size, reckoned and simulated");
+    own.body(page, 3);
+    page.figure(figure("taken-for.svg"), "Which effect explains best what another leaves");
+    page.figure(figure("cosine.svg"), "Cosines of the signatures after the springs have taken their share");
+}
+
+fn shown(power: &Power) -> impl Iterator<Item = &Effect> {
+    power.study.effects.iter().filter(|e| e.parameters_determined > 0)
+}
+
+/// `1 to 61 %` of the chances to see the usual size.
+fn chances(power: &Power) -> String {
+    let all = || shown(power).map(|e| e.power_at_usual_size.middle);
+    let (low, high) = (all().fold(1.0, f64::min), all().fold(0.0, f64::max));
+    format!("{} to {}", chance(low).trim_end_matches(" %"), chance(high))
+}
+
+fn count(power: &Power, verdict: Verdict) -> usize {
+    power.study.effects.iter().filter(|e| e.verdict == verdict).count()
+}
+
+/// Largest cosine of every effect with another one.
+fn nearest(power: &Power) -> Vec<f64> {
+    let cosine = &power.study.alike.cosine;
+    let others = |k: usize| (0..cosine.len()).filter(move |&j| j != k);
+    let own = |k: usize| others(k).map(|j| cosine[k][j]).fold(0.0, f64::max);
+    (0..cosine.len()).filter(|&k| cosine[k][k] > 0.0).map(own).collect()
+}
+
+/// Cosine from which effects of the paper's plan count as like others.
+const LIKE: f64 = 0.86;
+
+fn well_conditioned_yet_blind(plain: &Studied) -> String {
+    let power = &plain.power;
+    let likeness = nearest(power);
+    let alike: Vec<f64> = likeness.iter().copied().filter(|c| *c >= LIKE).collect();
+    let (low, high) = (alike.iter().copied().fold(1.0, f64::min), alike.iter().copied().fold(0.0, f64::max));
+    format!(
+        "The plan of the paper is well conditioned, and blind. The condition number of its springs is {}; yet an effect of \
+         usual size is seen in {} of the campaigns, depending on the effect: {} of {} effects are seen in nine of ten, and {} \
+         leave no trace at all. What does show looks alike: {} of {} signatures have another one of cosine {low:.2} to \
+         {high:.2} after the springs; {} pairs reach {LOOK_ALIKE}.",
+        significant(plain.condition, 2),
+        chances(power),
+        count(power, Verdict::Seen),
+        power.study.effects.len(),
+        count(power, Verdict::NoTrace) + count(power, Verdict::Absorbed),
+        alike.len(),
+        likeness.len(),
+        look_alikes(power).len(),
+    )
+}
+
+fn rich_sees(plain: &Studied, rich: &Studied) -> String {
+    let power = &rich.power;
+    let half = |p: &Power| shown(p).filter(|e| e.power_at_usual_size.middle >= 0.5).count();
+    let pairs = look_alikes(power);
+    format!(
+        "The rich plan ({} readings instead of {}, condition number {}) sees {} of {} effects at their usual size in nine of \
+         ten campaigns and {} in half of them (the plain plan: {} and {}); at twice that size {}. {} left of {}{}.",
+        rich.plan.rows.observations.len(),
+        plain.plan.rows.observations.len(),
+        significant(rich.condition, 2),
+        count(power, Verdict::Seen),
+        power.study.effects.len(),
+        half(power),
+        count(&plain.power, Verdict::Seen),
+        half(&plain.power),
+        shown(power).filter(|e| e.seen_at.middle <= 2.0).count(),
+        if pairs.len() == 1 {
+            "One pair that looks alike is".to_owned()
+        } else {
+            format!("{} pairs that look alike are", pairs.len())
+        },
+        look_alikes(&plain.power).len(),
+        if pairs.is_empty() { String::new() } else { format!(": {}", pairs.join("; ")) },
+    )
+}
+
+fn never(plain: &Studied, rich: &Studied) -> String {
+    let absolute = rich.power.study.untestable.len();
+    let blind: Vec<&str> = plain.power.study.effects.iter().filter(|e| !e.shows()).map(|e| e.term).collect();
+    let hides = |s: &Studied, k: usize| s.faint[k].chance < HIDDEN_CHANCE;
+    let (mut always, mut here) = (Vec::new(), Vec::new());
+    for (k, f) in plain.faint.iter().enumerate() {
+        match (hides(plain, k), hides(rich, k)) {
+            (true, true) => always.push(f.what),
+            (true, false) => {
+                here.push(format!("{} (the rich plan sees it in {})", f.what, chance(rich.faint[k].chance)));
+            }
+            _ => {}
+        }
+    }
+    format!(
+        "Some effects never show. {absolute} of the catalogue need absolute poses; {} no trace under the loads of the paper. \
+         Others are the same as springs of other stiffness: the fit takes them for stiffness, no residual tells, and the \
+         stiffness is wrong by the bias. In both plans: {}. In the plan of the paper: {}.",
+        if blind.is_empty() {
+            "no other leaves".to_owned()
+        } else {
+            format!("{} leave", blind.join(" and "))
+        },
+        always.join("; "),
+        here.join("; "),
+    )
+}
+
+/// An effect that is seen less often than this hides: hardly more often than noise alone would raise an alarm.
+const HIDDEN_CHANCE: f64 = 0.05;
+
+const FAINT: [&str; 6] = ["hidden in the world", "plan", "absorbed", "distance", "chance", "bias"];
+
+fn faint_rows(studied: &Studied) -> Vec<Vec<String>> {
+    let row = |f: &Faint| {
+        vec![
+            f.what.to_owned(),
+            studied.name.clone(),
+            format!("{:.2} %", 100.0 * f.absorbed),
+            format!("{:.2}", f.distance),
+            chance(f.chance),
+            format!("{:.1} %", f.bias_percent),
+        ]
+    };
+    studied.faint.iter().map(row).collect()
+}
+
+/// Chance that any of the comparisons below is called a disagreement although there is none.
+const FALSE_DISAGREEMENT: f64 = 0.01;
+
+/// One simulated share beside what was reckoned.
+struct Checked<'a> {
+    plan: &'a str,
+    effect: &'a Effect,
+    reckoned: f64,
+    simulated: &'a Simulated,
+}
+
+impl Checked<'_> {
+    fn sentence(&self) -> String {
+        format!(
+            "{}, {}, {} times the usual size: reckoned {}, with the world's own signature {}, simulated {}",
+            self.plan,
+            self.effect.term,
+            significant(self.simulated.scale, 2),
+            chance(self.reckoned),
+            chance(self.simulated.chance_by_the_world),
+            chance(self.simulated.seen.rate()),
+        )
+    }
+}
+
+fn checked(studied: &Studied) -> Vec<Checked<'_>> {
+    let wanted = studied.power.study.settings.power;
+    let effects = studied.power.study.effects.iter().zip(&studied.power.checks);
+    let mut all = Vec::new();
+    for (effect, check) in effects {
+        let of = |reckoned, simulated| Checked { plan: &studied.name, effect, reckoned, simulated };
+        all.extend(check.usual.iter().map(|s| of(effect.power_at_usual_size.middle, s)));
+        all.extend(check.when_seen.iter().map(|s| of(wanted, s)));
+    }
+    all
+}
+
+/// How well reckoning and counting agree, and where they do not.
+fn agreement(page: &mut Page, studied: &[&Studied]) {
+    let all: Vec<Checked<'_>> = studied.iter().flat_map(|s| checked(s)).collect();
+    if all.is_empty() {
+        return;
+    }
+    let error = FALSE_DISAGREEMENT / all.len() as f64;
+    let agrees = |c: &&Checked<'_>| c.simulated.seen.is_compatible_with(c.reckoned, error);
+    let own = |c: &&Checked<'_>| c.simulated.seen.is_compatible_with(c.simulated.chance_by_the_world, error);
+    let alarms = || studied.iter().flat_map(|s| &s.power.checks).filter_map(|c| c.false_alarms);
+    let total =
+        alarms().fold(Proportion::default(), |t, p| Proportion { hits: t.hits + p.hits, of: t.of + p.of });
+    page.heading(2, "Reckoned and simulated");
+    page.paragraph(format!(
+        "{} of {} simulated shares agree with the reckoned chance; {} with the chance reckoned with what the effect leaves \
+         in the simulated world without noise. (Exact binomial bounds that let one false disagreement among all of them pass \
+         with a chance of {}.) The tests raise a false alarm in {:.2} % of the campaigns without effects.",
+        all.iter().filter(agrees).count(),
+        all.len(),
+        all.iter().filter(own).count(),
+        chance(FALSE_DISAGREEMENT),
+        100.0 * total.rate(),
+    ));
+    let off: Vec<String> = all.iter().filter(|c| !agrees(c)).map(Checked::sentence).collect();
+    if !off.is_empty() {
+        page.paragraph(
+            "Those that disagree with the reckoned chance are effects so large that their signature no longer grows in \
+             proportion to their size, or that the two worlds write differently (see below):",
+        );
+        page.list(off);
+    }
+}

@@ -1,0 +1,309 @@
+//! The power of one plan on a page.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use hexbench_design::power::{Effect, NOTHING, Verdict};
+use hexbench_model::noise::NoiseSource;
+use hexbench_report::Page;
+use hexbench_report::number::significant;
+
+use super::tables::{self, chance};
+use super::{Power, PowerPlan};
+
+/// Cosine beyond which signatures count as alike.
+pub(super) const LOOK_ALIKE: f64 = 0.95;
+
+/// What is told.
+pub struct PlanReport<'a> {
+    /// The plan.
+    pub plan: &'a PowerPlan,
+    /// Its power.
+    pub power: &'a Power,
+    /// Ids of the effects to tell; all when empty.
+    pub only: &'a [String],
+    /// Every parameter.
+    pub verbose: bool,
+}
+
+impl PlanReport<'_> {
+    /// The page.
+    pub fn document(&self) -> Page {
+        let mut page = Page::default();
+        page.heading(1, "What this plan sees");
+        page.paragraph(self.subject());
+        page.paragraph(self.summary());
+        self.body(&mut page, 2);
+        page.heading(2, "How it is reckoned");
+        page.list(self.notes());
+        page
+    }
+
+    /// Tables, without title and notes, under headings of a level.
+    pub(super) fn body(&self, page: &mut Page, level: usize) {
+        if self.told().any(|(_, e)| leaves_something(e)) {
+            self.seen(page, level);
+        }
+        self.blind(page, level);
+    }
+
+    fn seen(&self, page: &mut Page, level: usize) {
+        page.heading(level, "Smallest size that is seen");
+        page.table(tables::SIZES, self.each(tables::sizes));
+        page.heading(level, "What springs make of it");
+        page.paragraph(
+            "absorbed: share of the signature (its sum of squares) that other leg stiffnesses explain. bias: the leg \
+             whose stiffness goes most astray when the effect is left out, at the usual size and at the size that is seen.",
+        );
+        page.table(tables::SPRINGS, self.each(tables::springs));
+        self.taken_for(page, level);
+        self.checks(page, level);
+        if self.verbose {
+            page.heading(level, "Every parameter alone");
+            let rows = self.told().flat_map(|(_, e)| tables::parameters(e)).collect::<Vec<_>>();
+            page.table(tables::PARAMETERS, rows);
+        }
+    }
+
+    fn told(&self) -> impl Iterator<Item = (usize, &Effect)> {
+        let wanted = |e: &Effect| self.only.is_empty() || self.only.iter().any(|id| id == e.term);
+        self.power.study.effects.iter().enumerate().filter(move |(_, e)| wanted(e))
+    }
+
+    fn each(&self, row: fn(&Effect) -> Vec<String>) -> Vec<Vec<String>> {
+        self.told().filter(|(_, e)| leaves_something(e)).map(|(_, e)| row(e)).collect()
+    }
+
+    /// What is read, how well, of what machine.
+    pub(super) fn subject(&self) -> String {
+        let rows = &self.plan.rows.observations;
+        let poses = rows.iter().map(|o| o.pose_id).collect::<BTreeSet<_>>().len();
+        let noise = &self.plan.noise;
+        let stiffness = self.plan.stiffness.iter().sum::<f64>() / 6.0 * 1e-6;
+        let settings = &self.power.study.settings;
+        format!(
+            "{} readings of {} at {} for {}; one reading is good to {} um and {} urad ({}); legs of {} N/um. \"Seen\" \
+             means: in {} of such campaigns, with a false alarm in {}.",
+            rows.len(),
+            self.plan.rows.measurand.readings(),
+            counted(poses, "pose"),
+            self.plan.hexapod.name,
+            significant(noise.translation * 1e6, 2),
+            significant(noise.rotation * 1e6, 2),
+            source(noise.source),
+            significant(stiffness, 2),
+            chance(settings.power),
+            chance(settings.alarm),
+        )
+    }
+
+    /// The answer in some sentences.
+    pub(super) fn summary(&self) -> String {
+        let all: Vec<&Effect> = self.told().map(|(_, e)| e).collect();
+        let mut sentences = vec![match all[..] {
+            [] => "This plan can test none of these effects.".to_owned(),
+            [one] => self.sentence(one),
+            _ => counts(&all),
+        }];
+        let wrong = self.wrongly_taken();
+        if !wrong.is_empty() {
+            sentences.push(wrong.join("; ") + ".");
+        }
+        sentences.extend(self.most_absorbed().map(|worst| {
+            format!(
+                "Springs absorb {} of {}: left out at its usual size, it moves a leg stiffness by {} %.",
+                chance(worst.absorbed),
+                worst.term,
+                significant(tables::largest(&worst.bias_at_usual_size_percent).abs(), 2)
+            )
+        }));
+        sentences.join(" ")
+    }
+
+    fn sentence(&self, e: &Effect) -> String {
+        let Some(size) = e.size_seen() else {
+            return format!("This plan never sees {}.", e.term);
+        };
+        format!(
+            "This plan sees {} of usual size ({} {}) in {} of the campaigns, and from {} {} on in {}.",
+            e.term,
+            significant(e.usual_size, 2),
+            e.unit,
+            chance(e.power_at_usual_size.middle),
+            significant(size, 2),
+            e.unit,
+            chance(self.power.study.settings.power),
+        )
+    }
+
+    /// Effects whose best explanation is mostly another effect.
+    fn wrongly_taken(&self) -> Vec<String> {
+        let alike = &self.power.study.alike;
+        let sentence = |(k, e): (usize, &Effect)| {
+            let own = *alike.taken_for[k].get(k)?;
+            let (other, share) = alike.mistaken(k).into_iter().find(|(name, _)| *name != NOTHING)?;
+            (share > own).then(|| format!("{} would be taken for {other} ({})", e.term, chance(share)))
+        };
+        self.told().filter_map(sentence).collect()
+    }
+
+    fn most_absorbed(&self) -> Option<&Effect> {
+        let bias = |e: &Effect| tables::largest(&e.bias_at_usual_size_percent).abs();
+        self.told().map(|(_, e)| e).filter(|e| bias(e) > 0.5).max_by(|a, b| bias(a).total_cmp(&bias(b)))
+    }
+
+    fn taken_for(&self, page: &mut Page, level: usize) {
+        page.heading(level, "What it would be taken for");
+        page.paragraph(
+            "Of 100 campaigns with the effect at the size that is seen, how often it explains best itself, how often \
+             nothing but springs, how often another effect: by the evidence of the diagnosis with one effect at most.",
+        );
+        let alike = &self.power.study.alike;
+        let rows = self.told().filter(|(_, e)| e.shows()).map(|(k, e)| tables::taken_for(alike, k, e));
+        page.table(tables::TAKEN_FOR, rows.collect::<Vec<_>>());
+        let pairs = look_alikes(self.power);
+        page.paragraph(if pairs.is_empty() {
+            format!("No two signatures are alike after the springs (cosine {LOOK_ALIKE} or more).")
+        } else {
+            format!("Alike after the springs (cosine {LOOK_ALIKE} or more): {}.", pairs.join("; "))
+        });
+    }
+
+    fn checks(&self, page: &mut Page, level: usize) {
+        let n = self.power.simulation.campaigns;
+        if n == 0 {
+            return;
+        }
+        page.heading(level, "The same in the simulated world");
+        page.paragraph(format!(
+            "{n} campaigns of every effect and size, at finite deflection and with effects of the world's own making. \
+             Reckoned and simulated chance, percent, with exact 95 % bounds; \"world\" is the chance reckoned with what \
+             the effect leaves in the simulated world without noise; false alarms are of campaigns without effects."
+        ));
+        let wanted = self.power.study.settings.power;
+        let both = |(k, e)| tables::check(e, &self.power.checks[k], wanted);
+        page.table(tables::CHECK, self.told().flat_map(both).collect::<Vec<_>>());
+        self.answers(page, level);
+        let lost = |(k, e): (usize, &Effect)| {
+            Some(format!("{}: {}", e.term, self.power.checks[k].why_not.as_ref()?))
+        };
+        let lost: Vec<String> = self.told().filter_map(lost).collect();
+        if !lost.is_empty() {
+            page.paragraph("Not simulated:");
+            page.list(lost);
+        }
+    }
+
+    fn answers(&self, page: &mut Page, level: usize) {
+        let answers = |(k, e): (usize, &Effect)| tables::answers(e, &self.power.checks[k]);
+        let rows: Vec<Vec<String>> = self.told().filter_map(answers).collect();
+        if rows.is_empty() {
+            return;
+        }
+        page.heading(level, "What the whole diagnosis says");
+        page.paragraph(
+            "The same campaigns with the effect at the size that is seen, percent. right: exactly it is named. among: \
+             ambiguous, with it among what is kept. adequate: springs alone. wrong: another name, or \"outside\". \
+             The diagnosis asks for 95 % probability before it names, so it needs more than a test does.",
+        );
+        page.table(tables::ANSWERS, rows);
+    }
+
+    fn blind(&self, page: &mut Page, level: usize) {
+        let mut reasons: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+        for (_, e) in self.told() {
+            if let Some(why) = why_never(e) {
+                reasons.entry(why).or_default().push(e.term);
+            }
+        }
+        let wanted = |id: &str| self.only.is_empty() || self.only.iter().any(|o| o == id);
+        for u in self.power.study.untestable.iter().filter(|u| wanted(u.term)) {
+            reasons.entry(untestable(&u.why)).or_default().push(u.term);
+        }
+        if reasons.is_empty() {
+            return;
+        }
+        page.heading(level, "Never seen by this plan");
+        page.list(reasons.iter().map(|(why, terms)| format!("{why}: {}.", terms.join(", "))));
+    }
+
+    /// What a reader should know about the figures.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let mut notes = vec![
+            "An effect is tested by the drop of chi-square that its determined parameters bring beside six springs: \
+             chi-square with as many degrees of freedom, noncentral when the effect is there."
+                .to_owned(),
+            "Usual sizes are those the simulated world draws; of 33 effects that differ in direction (and shape) the middle \
+             one is told, and the range over all. For terms of your own: their natural size, at every shape."
+                .to_owned(),
+            "The size is the root mean square of the parameters that have the unit told. A size that is more than twice what \
+             is natural to machine and plan makes no sense and counts as never seen."
+                .to_owned(),
+            "A shape (exponent, time constant, friction force) is not known beforehand: all of its grid are tried, the best \
+             counts, and the threshold is raised by simulation until noise alone passes it only as often as allowed."
+                .to_owned(),
+        ];
+        if self.plan.noise.source == NoiseSource::Repeats {
+            notes.push(format!(
+                "The noise is estimated from the repeats ({:.0} degrees of freedom): F instead of chi-square.",
+                self.plan.noise.dof
+            ));
+        }
+        notes.push(format!("Seed {}.", self.power.study.settings.seed));
+        notes
+    }
+}
+
+fn counts(all: &[&Effect]) -> String {
+    let count = |wanted: Verdict| all.iter().filter(|e| e.verdict == wanted).count();
+    let (seen, larger) = (count(Verdict::Seen), count(Verdict::SeenWhenLarger));
+    format!(
+        "This plan sees {seen} of {} effects at their usual size, {larger} when they are larger than usual, {} never.",
+        all.len(),
+        all.len() - seen - larger
+    )
+}
+
+/// True for effects of which springs leave something at all.
+fn leaves_something(e: &Effect) -> bool {
+    !matches!(e.verdict, Verdict::NoTrace | Verdict::Absorbed)
+}
+
+/// Pairs of effects whose signatures are alike.
+pub(super) fn look_alikes(power: &Power) -> Vec<String> {
+    let alike = &power.study.alike;
+    let n = alike.terms.len();
+    let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+    let like = pairs.filter(|&(i, j)| alike.cosine[i][j] >= LOOK_ALIKE);
+    like.map(|(i, j)| format!("{} and {}", alike.terms[i], alike.terms[j])).collect()
+}
+
+fn why_never(e: &Effect) -> Option<String> {
+    match e.verdict {
+        Verdict::Seen | Verdict::SeenWhenLarger => None,
+        Verdict::TooFaint => Some("No size that makes physical sense shows".to_owned()),
+        Verdict::Absorbed => Some("Springs of other stiffness explain all of it".to_owned()),
+        Verdict::NoTrace => Some("It does not act in these poses and loads".to_owned()),
+    }
+}
+
+fn untestable(why: &str) -> String {
+    if why.contains("absolute poses (") {
+        return "Cannot be tested with deflections, only with absolute poses".to_owned();
+    }
+    let mut letters = why.chars();
+    let first = letters.next().map(char::to_uppercase).into_iter().flatten();
+    first.chain(letters).collect()
+}
+
+fn source(source: NoiseSource) -> &'static str {
+    match source {
+        NoiseSource::Columns => "sigma columns of the plan",
+        NoiseSource::Metrology => "as stated",
+        NoiseSource::Repeats => "to be estimated from repeats",
+        NoiseSource::Residuals => "unknown",
+    }
+}
+
+fn counted(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}

@@ -1,0 +1,177 @@
+//! Campaigns of a plan in the simulated world.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use hexbench_core::statistics::Proportion;
+use hexbench_core::streams::{Purpose, stream};
+use hexbench_core::{Dataset, Observation, Vector6};
+use hexbench_model::diagnose::{diagnose, prepare};
+use hexbench_model::error::ModelError;
+use hexbench_model::fit::fit_baseline;
+use hexbench_model::linearization::Linearization;
+use hexbench_model::term::Term;
+use hexbench_model::verdict::Verdict;
+use hexbench_truth::campaign::{Campaign, Row};
+use hexbench_truth::metrology::{Frames, Noise};
+use hexbench_truth::{Mechanism, TruthError, World};
+use nalgebra::DVector;
+use rand_distr::{Distribution, StandardNormal};
+use serde::Serialize;
+
+use super::PowerPlan;
+use crate::calibration::Fate;
+use crate::trial::Trial;
+
+/// What the diagnosis said in campaigns with one effect.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct Answers {
+    /// Campaigns by answer: names of effects joined by `+`, `outside`, `ambiguous`, `adequate`.
+    pub said: BTreeMap<String, usize>,
+    /// Exactly the effect is named.
+    pub right: usize,
+    /// Ambiguous, the effect among what is kept.
+    pub honest: usize,
+    /// The springs are called adequate.
+    pub adequate: usize,
+    /// An effect is named that is not there, or "outside" is said.
+    pub wrong: usize,
+    /// Ambiguous without the effect among what is kept, or no answer at all.
+    pub other: usize,
+}
+
+/// An answer in one word, and what became of the truth; no fate when there is no answer.
+pub type Said = (String, Option<Fate>);
+
+impl Answers {
+    pub(super) fn of_all<'a>(all: impl Iterator<Item = &'a Said>) -> Self {
+        let mut answers = Self::default();
+        all.for_each(|said| answers.add(said));
+        answers
+    }
+
+    /// Campaigns.
+    pub fn of(&self) -> usize {
+        self.right + self.honest + self.adequate + self.wrong + self.other
+    }
+
+    fn add(&mut self, (word, fate): &Said) {
+        *self.said.entry(word.clone()).or_default() += 1;
+        let place = match fate {
+            Some(Fate::Right) => &mut self.right,
+            Some(Fate::Honest) => &mut self.honest,
+            Some(Fate::Missed) => &mut self.adequate,
+            Some(Fate::FalseName | Fate::FalseOutside | Fate::Incomplete) => &mut self.wrong,
+            Some(Fate::Undecided) | None => &mut self.other,
+        };
+        *place += 1;
+    }
+}
+
+/// What campaigns with an effect of one size gave.
+#[derive(Debug, Clone, Serialize)]
+pub struct Simulated {
+    /// Multiple of the usual size.
+    pub scale: f64,
+    /// Campaigns in which the test saw the effect.
+    pub seen: Proportion,
+    /// Chance to see what the effect leaves in the world without noise: it differs from what the model expects where the
+    /// effect does not grow in proportion or has another form.
+    pub chance_by_the_world: f64,
+    /// Change of the leg stiffnesses without noise when the effect is left out, percent.
+    pub bias_percent: [f64; 6],
+    /// Answers of the whole diagnosis, where asked for.
+    pub answers: Option<Answers>,
+}
+
+/// Which noise campaigns get: what they are for, the number of their effect.
+pub(super) type NoiseOf = (Purpose, u64);
+
+/// The machine of a plan in the simulated world.
+pub(super) struct Bench<'a> {
+    plan: &'a PowerPlan,
+    rows: Vec<Row>,
+    seed: u64,
+}
+
+impl<'a> Bench<'a> {
+    pub(super) fn new(plan: &'a PowerPlan, seed: u64) -> Self {
+        Self { plan, rows: plan.rows.observations.iter().map(Row::from).collect(), seed }
+    }
+
+    /// What an ideal instrument reads of a machine with these effects, m and rad.
+    pub(super) fn ideal(&self, effects: Vec<Box<dyn Mechanism>>) -> Result<Vec<Vector6>, TruthError> {
+        let mut world = World::new(self.plan.hexapod.clone(), &self.plan.stiffness);
+        world.mechanisms = effects;
+        let campaign = Campaign { world, frames: Frames::default(), noise: Noise::default() };
+        campaign.ideal(&self.rows, self.plan.rows.measurand)
+    }
+
+    /// Readings with the noise of a campaign; without noise as they are.
+    pub(super) fn data(&self, ideal: &[Vector6], noise: Option<(NoiseOf, u64)>) -> Dataset {
+        let mut rng = noise.map(|((purpose, effect), k)| stream(self.seed, purpose, [effect, k]));
+        let mut noise = |row: usize| match &mut rng {
+            Some(rng) => {
+                Vector6::from_fn(|_, _| StandardNormal.sample(rng)).component_mul(&self.plan.sigma(row))
+            }
+            None => Vector6::zeros(),
+        };
+        let read = |(row, (o, value)): (usize, (&Observation, &Vector6))| Observation {
+            measured: (value + noise(row)).into(),
+            ..*o
+        };
+        let observations = self.plan.rows.observations.iter().zip(ideal).enumerate().map(read).collect();
+        Dataset { observations, ..self.plan.rows.clone() }
+    }
+
+    /// Whitened residuals of springs fitted to readings.
+    pub(super) fn residuals(&self, data: &Dataset) -> Result<DVector<f64>, ModelError> {
+        let campaign = prepare(&self.plan.machine(), data)?;
+        let fit = fit_baseline(&campaign)?;
+        Ok(Linearization::at(&campaign, &fit.point)?.residuals())
+    }
+
+    /// Length of what ideal readings have beyond those of the plain machine, in units of the noise.
+    pub(super) fn length_of_change(&self, ideal: &[Vector6]) -> Result<f64, TruthError> {
+        let plain = self.ideal(Vec::new())?;
+        let whitened =
+            |(row, (a, b)): (usize, (&Vector6, &Vector6))| (a - b).component_div(&self.plan.sigma(row));
+        Ok(ideal.iter().zip(&plain).enumerate().map(|x| whitened(x).norm_squared()).sum::<f64>().sqrt())
+    }
+
+    /// What springs fitted to ideal readings leave (whitened residuals), and how their stiffness changes, percent.
+    pub(super) fn without_noise(&self, ideal: &[Vector6]) -> Result<(DVector<f64>, [f64; 6]), ModelError> {
+        let campaign = hexbench_model::campaign::Campaign::with_noise(
+            &self.plan.machine(),
+            &self.data(ideal, None),
+            self.plan.noise,
+        )?;
+        let fit = fit_baseline(&campaign)?;
+        let fitted = |leg: usize| 1.0 / fit.point.springs[leg];
+        let bias = std::array::from_fn(|leg| 100.0 * (fitted(leg) / self.plan.stiffness[leg] - 1.0));
+        Ok((Linearization::at(&campaign, &fit.point)?.residuals(), bias))
+    }
+
+    /// What the diagnosis says of readings in which an effect is hidden.
+    pub(super) fn answer(&self, id: &'static str, data: &Dataset, terms: &[Arc<dyn Term>]) -> Said {
+        let study = diagnose(&self.plan.machine(), data, None, terms);
+        study.map_or((NO_ANSWER.to_owned(), None), |study| said(&Trial { hidden: vec![id], study }))
+    }
+
+    pub(super) fn plan(&self) -> &PowerPlan {
+        self.plan
+    }
+}
+
+/// Word for a diagnosis that could not be made.
+const NO_ANSWER: &str = "no answer";
+
+fn said(trial: &Trial) -> Said {
+    let fate = Fate::of(trial);
+    let d = &trial.study.diagnosis;
+    let word = match d.verdict {
+        Verdict::Named => d.added.join("+"),
+        verdict => verdict.word().to_owned(),
+    };
+    (word, Some(fate))
+}

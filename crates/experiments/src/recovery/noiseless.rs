@@ -1,0 +1,193 @@
+//! Recovery without noise, against a bound that follows from what the model linearises.
+//!
+//! Least squares carry an error `d` of the predicted readings (whitened, all conditions in one vector) into a parameter by a
+//! row of the pseudo-inverse, whose length is the parameter's standard uncertainty. By Cauchy and Schwarz, whatever the
+//! direction of the error,
+//!
+//! ```text
+//! |estimate - truth| <= std |d|
+//! ```
+//!
+//! What remains in `d`: let `nu` be the relative change of the leg Jacobian between the commanded pose and the loaded (or the
+//! reference) pose, `nu = |H J (L - L_cmd) H^-1|` for motions and likewise for forces (the larger of the two, both in the
+//! measure of the readings), of order load / (k leg length). The model takes forces where they act (one
+//! step of refinement leaves `nu^2` of them) and linearises the motion halfway between the two states (which leaves `nu^2 / 24`
+//! and less of it): springs are right to *second* order. It knows where the reference state is only by the springs, and takes
+//! effects where the machine was commanded: what an effect adds is right to *first* order, and so is the response of the
+//! springs to it. With `s` the length of the springs' response to load and reference and `e` that of the effect,
+//!
+//! ```text
+//! |d_i| <= nu_i^2 s_i + (nu_i + u_i / travel + t_i) e_i
+//! ```
+//!
+//! `u / travel`, deflection over leg travel, is there for effects that follow the leg length; `t` is the part in which the
+//! forms of world and model differ: the world's drift of Euler angles and the model's turn about fixed axes, `|E(angles) - I|`.
+//!
+//! Absolute poses have no linearisation to be wrong: at the measured pose the closure `q(pose) - q_commanded = e` is exact, in
+//! the world as in the model. What remains is rounding of lengths, and that is their bound; it proves nothing on independence.
+
+use hexbench_core::{Metrology, Pose, Vector6};
+use hexbench_model::campaign::{self, Condition};
+use hexbench_model::fit::Fit;
+use hexbench_model::kinematics::euler_rate_matrix;
+use hexbench_model::linearization::Linearization;
+use nalgebra::{Matrix3, Matrix6, Rotation3};
+use serde::{Deserialize, Serialize};
+
+use super::geometry::combinations;
+use super::pulls::{Group, Pull, pulls, right_fit};
+use super::scene::{Scene, Subject};
+use crate::TrialError;
+
+/// Noise stated to the fit of ideal readings: so small that it goes on until its steps are rounding, and that no prior is
+/// heard.
+const NO_NOISE: Metrology = Metrology { sigma_translation: 1e-12, sigma_rotation: 6e-12 };
+/// Roundings of one leg length between world and model: pose, rotation, frames, closure.
+const ROUNDINGS: f64 = 64.0;
+
+/// An error with its bound; of several, the one closest to its bound.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Bounded {
+    /// Relative error.
+    pub error: f64,
+    /// What the linearisation allows.
+    pub bound: f64,
+}
+
+impl Bounded {
+    /// True when the error is within its bound.
+    pub fn holds(&self) -> bool {
+        self.error <= self.bound
+    }
+
+    /// The one closer to its bound.
+    #[must_use]
+    pub fn worse(self, other: Self) -> Self {
+        if other.error * self.bound > self.error * other.bound { other } else { self }
+    }
+}
+
+/// Errors of a fit to ideal readings.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Noiseless {
+    /// Leg stiffness.
+    pub stiffness: Option<Bounded>,
+    /// Sizes and shapes of the effects.
+    pub effect: Option<Bounded>,
+}
+
+/// Fits ideal readings by the right model.
+///
+/// # Errors
+/// As [`Scene::ideal_of_same_form`] and `fit_named`.
+pub fn recover(subject: &Subject, scene: &Scene) -> Result<Noiseless, TrialError> {
+    let data = scene.ideal_of_same_form()?;
+    let (campaign, fit) = right_fit(subject, &scene.hexapod_stating(Some(NO_NOISE)), &data)?;
+    let lin = Linearization::at(&campaign, &fit.point)?;
+    let error =
+        if subject.absolute { rounding(&lin) } else { linearisation_error(&lin, &fit, &campaign.groups) };
+    let of = |group: fn(Group) -> bool| {
+        let all = pulls(scene, &fit).into_iter().filter(|p| group(p.known.group));
+        all.map(|p| bounded(&p, error)).reduce(Bounded::worse)
+    };
+    let effect = match combinations(scene, &fit) {
+        None => of(|g| g != Group::Stiffness),
+        Some(found) => found.misses.iter().map(|m| combined(m, error)).reduce(Bounded::worse),
+    };
+    Ok(Noiseless { stiffness: of(|g| g == Group::Stiffness), effect })
+}
+
+/// Relative error of one number, and `std |d|` in the same measure.
+fn bounded(pull: &Pull, error: f64) -> Bounded {
+    let truth = pull.known.value.abs();
+    Bounded {
+        error: (pull.estimate.value - pull.known.value).abs() / truth,
+        bound: pull.estimate.std * error / truth,
+    }
+}
+
+/// The same of a combination of geometry numbers.
+fn combined([miss, std]: &[f64; 2], error: f64) -> Bounded {
+    Bounded { error: miss.abs(), bound: std * error }
+}
+
+/// `|d|` of a campaign of deflections.
+fn linearisation_error(lin: &Linearization, fit: &Fit, groups: &[campaign::Group]) -> f64 {
+    let readers = lin.elongation_readers();
+    let effects = effect_lengths(lin, fit);
+    let travel = travel(lin);
+    let of = |i: usize| {
+        let at = &lin.conditions[i];
+        let response = |force: &Vector6| (readers[i] * fit.point.springs.component_mul(force)).norm();
+        let both = response(&at.force) + response(&at.reference_force);
+        let change = response(&at.force_change()).max(f64::MIN_POSITIVE);
+        let by_force = readers[i] * Matrix6::from_diagonal(&fit.point.springs);
+        let (nu, moved) = jacobian_change(lin, at, &groups[i].mean.pose, &by_force);
+        let loose = nu + moved / travel + form(fit, at);
+        // An effect acts in both states; its column is the difference of the two.
+        nu * nu * both + loose * effects[i] * (both / change).max(1.0)
+    };
+    (0..lin.conditions.len()).map(|i| of(i).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Whitened length of what the effects add at every condition, parameter by parameter.
+fn effect_lengths(lin: &Linearization, fit: &Fit) -> Vec<f64> {
+    let mut all = vec![0.0; lin.conditions.len()];
+    for a in &fit.point.active {
+        let block = lin.term_block(a.term.as_ref(), a.rich, a.shape);
+        for (i, length) in all.iter_mut().enumerate() {
+            let column = |k: usize| block.view((6 * i, k), (6, 1)).norm() * a.values[k].abs();
+            *length += (0..a.values.len()).map(column).sum::<f64>();
+        }
+    }
+    all
+}
+
+/// Root mean square extension of the legs, m.
+fn travel(lin: &Linearization) -> f64 {
+    let sum: f64 = lin.conditions.iter().map(|c| c.extension.norm_squared()).sum();
+    (sum / (6 * lin.conditions.len()) as f64).sqrt()
+}
+
+/// Relative change of the leg Jacobian on the way from the commanded pose, and the largest leg elongation on it, m.
+/// `by_force`: whitened reading per leg force.
+fn jacobian_change(
+    lin: &Linearization,
+    at: &Condition,
+    commanded: &Pose,
+    by_force: &Matrix6<f64>,
+) -> (f64, f64) {
+    let Ok(start) = lin.machine.legs(commanded) else { return (f64::INFINITY, f64::INFINITY) };
+    let reader = Matrix6::from_diagonal(&at.weight) * at.observer;
+    let size = |metric: &Matrix6<f64>, change: &Matrix6<f64>| {
+        let back = metric.try_inverse().unwrap_or_else(Matrix6::zeros);
+        (metric * change * back).singular_values().max()
+    };
+    let motion = at.observer.try_inverse().unwrap_or_else(Matrix6::zeros) * at.reading;
+    let ends = [-0.5, 0.5].map(|share| lin.machine.legs(&displaced(&at.pose, &(share * motion))));
+    let change = ends.iter().flatten().map(|end| {
+        let change = end.leg_jacobian - start.leg_jacobian;
+        let of_motion = size(&reader, &(start.platform_jacobian * change));
+        let of_forces = size(by_force, &(start.platform_jacobian.transpose() * change.transpose()));
+        (of_motion.max(of_forces), (end.lengths - start.lengths).amax())
+    });
+    change.fold((0.0, 0.0), |(a, b), (x, y)| (a.max(x), b.max(y)))
+}
+
+fn displaced(pose: &Pose, twist: &Vector6) -> Pose {
+    let turn = Rotation3::new(twist.fixed_rows::<3>(3).into_owned());
+    Pose::from_rotation(pose.translation + twist.fixed_rows::<3>(0), &(turn.matrix() * pose.rotation()))
+}
+
+/// How far the forms of world and model differ at a condition.
+fn form(fit: &Fit, at: &Condition) -> f64 {
+    let drifts = fit.point.active.iter().any(|a| a.id() == "metrology-drift");
+    if drifts { (euler_rate_matrix(&at.pose.angles) - Matrix3::identity()).norm() } else { 0.0 }
+}
+
+/// `|d|` of absolute poses: lengths rounded, seen as readings.
+fn rounding(lin: &Linearization) -> f64 {
+    let readers = lin.elongation_readers();
+    let of = |i: usize| readers[i].norm() * ROUNDINGS * f64::EPSILON * lin.conditions[i].legs.lengths.max();
+    (0..readers.len()).map(|i| of(i).powi(2)).sum::<f64>().sqrt()
+}

@@ -1,0 +1,48 @@
+//! What each limit would notice, and why it exists.
+
+use hexbench_report::Page;
+
+use super::Proof;
+use crate::regress::comparison::{level, probability};
+use crate::regress::figure::{figure, notice};
+use crate::regress::limit::{Group, Limit};
+use crate::regress::notice::{POWER, noticed};
+use crate::regress::rule::FALSE_ALARM;
+
+/// A table for each group, then the reasons.
+pub(super) fn section(page: &mut Page, proof: &Proof<'_>) {
+    let level = level(proof.limits);
+    page.heading(2, "What each limit would notice");
+    page.paragraph(format!(
+        "An unchanged program fails with a probability of at most {} % for each run; each of the limits with chance has an equal share \
+         of it, {}. The last column: the figure at which a run fails with a probability of {} %. Small samples notice large changes \
+         only: that is why each effect also has limits without noise.",
+        100.0 * FALSE_ALARM,
+        probability(level),
+        100.0 * POWER
+    ));
+    for group in Group::ALL {
+        page.heading(3, capital(group.word()));
+        page.table(["limit", "in a run", "baseline", "would notice"], rows(proof, group, level));
+    }
+    page.heading(3, "Why");
+    // Limits of one effect say the same for each.
+    let general = proof.limits.iter().filter(|l| !l.id.contains(':'));
+    page.list(general.map(|l| format!("{}: {}", l.title, l.why)));
+}
+
+fn rows(proof: &Proof<'_>, group: Group, level: f64) -> Vec<Vec<String>> {
+    let of = |(limit, count): (&Limit, &u64)| {
+        let before = &proof.baseline.limits.get(&limit.id)?.sample;
+        let least = noticed(limit.test, *count, before, level);
+        let n = if limit.test.is_random() { count.to_string() } else { "-".to_owned() };
+        Some(vec![limit.title.clone(), n, figure(limit.test, before), notice(limit.test, least, before)])
+    };
+    let counted = proof.limits.iter().zip(proof.counts);
+    counted.filter(|(limit, _)| limit.group == group).filter_map(of).collect()
+}
+
+fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}

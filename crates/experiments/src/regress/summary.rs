@@ -1,0 +1,94 @@
+//! A comparison as a page: for the terminal, and as Markdown for the summary of a job.
+
+use hexbench_report::{Page, Section, Table};
+
+use super::comparison::{Comparison, Finding, probability};
+use super::limit::Group;
+use super::rule::Verdict;
+
+/// Limits shown beside those that fail or improved.
+const SHOWN: usize = 5;
+
+/// One line: what was compared and what came of it.
+pub fn headline(c: &Comparison) -> String {
+    let worse = c.of(Verdict::Worse).count();
+    let better = c.of(Verdict::Better).count();
+    let verdict = match (worse, better) {
+        (0, 0) => "no change beyond chance".to_owned(),
+        (0, n) => format!("{n} better than the baseline beyond chance: consider --update"),
+        (n, _) => format!("{n} worse than the baseline beyond chance"),
+    };
+    format!("{} limits over {} campaigns, seed {}: {verdict}.", c.findings.len(), c.campaigns, c.seed)
+}
+
+/// What the run was compared with.
+pub fn against(c: &Comparison) -> String {
+    let Some(update) = &c.baseline else { return String::new() };
+    let same = c.same_values().map_or_else(String::new, |n| {
+        format!(" {n} of {} limits have the same values as its first run, bit for bit.", c.findings.len())
+    });
+    format!(
+        "Baseline of {}, hexbench {}, {} runs from seed {}: {}.{same}",
+        update.date,
+        update.hexbench,
+        update.runs,
+        update.seed,
+        update.reason.trim().trim_end_matches('.'),
+    )
+}
+
+/// The rule in one sentence.
+pub fn rule(c: &Comparison) -> String {
+    format!(
+        "A limit fails when so large a change for the worse has a probability below {} by chance; an unchanged program fails \
+         with at most {}.",
+        probability(c.level),
+        probability(c.false_alarm),
+    )
+}
+
+/// The page: failures with what to do, what improved, the least probable others or every limit.
+pub fn page(c: &Comparison, all: bool) -> Page {
+    let sign = if c.fails() { "failed" } else { "passed" };
+    let worse: Vec<&Finding> = c.of(Verdict::Worse).collect();
+    let meant = "Meant? `hexbench regress --update --reason TEXT` makes this the baseline.";
+    let page = Page::new(format!("Accuracy regression: {sign}"))
+        .with(Section::lead().paragraph(headline(c)).paragraph(against(c)))
+        .with(section("Worse than chance explains", worse.clone()))
+        .with(Section::new("What to do").list(steps(&worse)).paragraph(meant).when(c.fails()))
+        .with(
+            section("Better than chance explains", c.of(Verdict::Better).collect())
+                .map(|s| s.remark("`hexbench regress --update --reason TEXT` makes them the baseline")),
+        );
+    let page = if all {
+        let of_group = |group: &Group| c.findings.iter().filter(|f| f.group == *group).collect();
+        Group::ALL.iter().fold(page, |page, group| page.with(section(group.word(), of_group(group))))
+    } else {
+        let others = c.by_chance().into_iter().filter(|f| f.verdict == Verdict::Same).take(SHOWN).collect();
+        page.with(
+            section("The least probable of the others", others).map(|s| s.remark("--all shows every limit")),
+        )
+    };
+    let unanswered = c.without_answer.iter().take(SHOWN).cloned();
+    page.with(Section::new("Campaigns without an answer").list(unanswered).unless_empty())
+        .with(Section::new("The rule").paragraph(rule(c)))
+}
+
+/// Why each failed limit matters, and the next step of each group.
+fn steps(worse: &[&Finding]) -> Vec<String> {
+    let mut steps: Vec<String> = worse.iter().map(|f| format!("next: {}", f.group.next_step())).collect();
+    steps.dedup();
+    worse.iter().map(|f| format!("{}: {}", f.title, f.why)).chain(steps).collect()
+}
+
+fn section(title: &str, findings: Vec<&Finding>) -> Option<Section> {
+    let table = Table::named(["limit", "now", "baseline", "by chance", "would notice"]);
+    let rows = findings.iter().map(|f| row(f).into_iter().chain([f.notices.clone()]).collect::<Vec<_>>());
+    (!findings.is_empty()).then(|| Section::new(title).table(table.rows(rows)))
+}
+
+/// Title, figures and probability of a finding.
+pub fn row(f: &Finding) -> Vec<String> {
+    let chance = f.chance.map_or_else(|| "-".to_owned(), probability);
+    vec![f.title.clone(), f.now.clone(), f.before.clone(), chance]
+}

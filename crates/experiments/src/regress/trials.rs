@@ -1,0 +1,209 @@
+//! The trials of a suite: every campaign on its own stream of random numbers.
+
+use hexbench_core::streams::{Purpose, derived_seed};
+use hexbench_truth::campaign::{Case, Kind};
+use serde::{Deserialize, Serialize};
+
+use super::answered::Answered;
+use super::fitted::Fitted;
+use super::suite::{DISTANCES, MACHINES_SEED, Suite};
+use crate::TrialError;
+use crate::harness::{Answer, Field, Gathered, Protocol};
+use crate::journal::Identity;
+use crate::recovery::noiseless::{Noiseless, recover};
+use crate::recovery::scene::{Scene, Subject};
+
+/// A campaign of a subject: what it gave, or nothing.
+#[derive(Debug, Clone)]
+pub struct OfSubject<T> {
+    /// What was hidden.
+    pub subject: Subject,
+    /// `None` without an answer.
+    pub found: Option<T>,
+}
+
+/// What one run of a suite gave.
+#[derive(Debug, Clone, Default)]
+pub struct Trials {
+    /// Noisy campaigns fitted by the right model.
+    pub fits: Vec<OfSubject<Fitted>>,
+    /// Campaigns without noise.
+    pub machines: Vec<OfSubject<Noiseless>>,
+    /// Campaigns diagnosed.
+    pub answers: Vec<Option<Answered>>,
+    /// Why campaigns gave no answer.
+    pub failures: Vec<String>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Job {
+    Machine(Subject, usize),
+    Fit(Subject, usize),
+    Diagnose(Kind, usize),
+}
+
+/// What is known of one campaign.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub enum Record {
+    /// Without noise.
+    Machine(Noiseless),
+    /// Fitted by the right model.
+    Fit(Fitted),
+    /// Diagnosed.
+    Answer(Box<Answered>),
+}
+
+/// Runs of a suite, one for each seed. Campaigns without noise are the same in all: the first run has them.
+pub struct Runs<'a> {
+    suite: &'a Suite,
+    /// Seed of the first run; the others follow.
+    seed: u64,
+    count: usize,
+    jobs: Vec<Job>,
+}
+
+impl<'a> Runs<'a> {
+    /// So many runs with seeds that follow each other.
+    pub fn new(suite: &'a Suite, seed: u64, count: usize) -> Self {
+        Self { suite, seed, count, jobs: jobs(suite) }
+    }
+
+    /// The seeds in order.
+    pub fn seeds(&self) -> impl Iterator<Item = u64> {
+        (0..self.count as u64).map(|run| self.seed.wrapping_add(run))
+    }
+
+    /// What each run gave; only the first has campaigns without noise.
+    pub fn of_each(&self, gathered: Gathered<Record>) -> Vec<Trials> {
+        let mut runs: Vec<Trials> = vec![Trials::default(); self.count];
+        for (number, answer) in (0..).zip(gathered.answers) {
+            let (run, job) = self.place(number);
+            runs[run].add(job, answer);
+        }
+        runs
+    }
+
+    /// Run and job of a trial.
+    fn place(&self, number: u64) -> (usize, Job) {
+        let number = usize::try_from(number).unwrap_or(usize::MAX);
+        let noisy = self.suite.without_machines().campaigns();
+        match number.checked_sub(self.jobs.len()) {
+            None => (0, self.jobs[number]),
+            Some(later) => (1 + later / noisy, self.jobs[later % noisy]),
+        }
+    }
+}
+
+impl Protocol for Runs<'_> {
+    type Record = Record;
+    type Error = TrialError;
+
+    /// Not how many runs: more of them go on where fewer have ended.
+    fn identity(&self) -> Identity {
+        let suite = format!("{} {}", self.suite.name, self.suite.version);
+        Identity::new("regress", "regress-trials/1", [("suite", suite), ("seed", self.seed.to_string())])
+    }
+
+    fn trials(&self) -> u64 {
+        (self.jobs.len() + (self.count - 1) * self.suite.without_machines().campaigns()) as u64
+    }
+
+    fn trial(&self, number: u64) -> Result<Record, TrialError> {
+        let (run, job) = self.place(number);
+        job.run(self.seed.wrapping_add(run as u64))
+    }
+
+    fn name(&self, number: u64) -> String {
+        let (run, job) = self.place(number);
+        format!("{run}: {}", job.name())
+    }
+
+    fn fields(&self) -> Vec<Field<Record>> {
+        let fitted = |name: &str, meaning, value: fn(&Fitted) -> Option<f64>| {
+            Field::number((name, "1"), meaning, move |r: &Record| {
+                if let Record::Fit(fitted) = r { value(fitted) } else { None }
+            })
+        };
+        vec![
+            fitted("stiffness_error", "relative error of the leg stiffnesses", |f| f.stiffness_error),
+            fitted("effect_error", "relative error of the numbers of the effect", |f| f.effect_error),
+            fitted("chi2", "chi-square per degree of freedom", |f| Some(f.chi2_reduced)),
+            fitted("holdout", "chi-square per number of held-out readings", |f| Some(f.holdout)),
+            Field::text("answer", "what the diagnosis said", |r: &Record| {
+                if let Record::Answer(found) = r { found.record.answer() } else { String::new() }
+            }),
+            Field::text("fate", "what became of the truth", |r: &Record| {
+                if let Record::Answer(found) = r { found.record.fate.word() } else { "" }
+            }),
+        ]
+    }
+}
+
+/// The longest first: no thread is left alone with one of them at the end. The campaigns without noise last.
+fn jobs(suite: &Suite) -> Vec<Job> {
+    let diagnosed = suite.portions.iter().flat_map(|p| (0..p.trials).map(|i| Job::Diagnose(p.kind, i)));
+    let of_each = |count: usize, job: fn(Subject, usize) -> Job| {
+        suite.subjects.iter().flat_map(move |&s| (0..count).map(move |i| job(s, i)))
+    };
+    diagnosed.chain(of_each(suite.fits, Job::Fit)).chain(of_each(suite.machines, Job::Machine)).collect()
+}
+
+impl Job {
+    fn run(self, seed: u64) -> Result<Record, TrialError> {
+        match self {
+            Self::Machine(s, i) => Ok(Record::Machine(machine(&s, i)?)),
+            Self::Fit(s, i) => {
+                Ok(Record::Fit(Fitted::run(&s, i, derived_seed(seed, Purpose::RegressFits, []))?))
+            }
+            Self::Diagnose(kind, i) => {
+                let case =
+                    Case::draw(kind, i, derived_seed(seed, Purpose::RegressDiagnoses, []), Some(DISTANCES))?;
+                Ok(Record::Answer(Box::new(Answered::to(&case)?)))
+            }
+        }
+    }
+
+    fn name(self) -> String {
+        match self {
+            Self::Machine(s, _) => format!("{} without noise", s.name),
+            Self::Fit(s, _) => s.name.to_owned(),
+            Self::Diagnose(kind, _) => kind.name().to_owned(),
+        }
+    }
+}
+
+fn machine(subject: &Subject, index: usize) -> Result<Noiseless, TrialError> {
+    recover(subject, &Scene::draw(subject, index, MACHINES_SEED, None)?)
+}
+
+impl Trials {
+    fn add(&mut self, job: Job, answer: Answer<Record>) {
+        let record = answer.map_err(|why| self.failures.push(format!("{}: {why}", job.name()))).ok();
+        match job {
+            Job::Machine(subject, _) => {
+                let found =
+                    record.and_then(|r| if let Record::Machine(found) = r { Some(found) } else { None });
+                self.machines.push(OfSubject { subject, found });
+            }
+            Job::Fit(subject, _) => {
+                let found = record.and_then(|r| if let Record::Fit(found) = r { Some(found) } else { None });
+                self.fits.push(OfSubject { subject, found });
+            }
+            Job::Diagnose(..) => {
+                let found =
+                    record.and_then(|r| if let Record::Answer(found) = r { Some(*found) } else { None });
+                self.answers.push(found);
+            }
+        }
+    }
+
+    /// Campaigns fitted by the right model that gave an answer.
+    pub fn fitted(&self) -> impl Iterator<Item = (&Subject, &Fitted)> {
+        self.fits.iter().filter_map(|f| Some((&f.subject, f.found.as_ref()?)))
+    }
+
+    /// Campaigns diagnosed that gave an answer.
+    pub fn answered(&self) -> impl Iterator<Item = &Answered> {
+        self.answers.iter().flatten()
+    }
+}

@@ -1,0 +1,158 @@
+//! One drawn machine with its plan, its hidden effect and what an ideal instrument reads of it.
+
+use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Vector6};
+use hexbench_truth::campaign::{Campaign, Row, Yardstick, machines};
+use hexbench_truth::metrology::{Frames, Noise};
+use hexbench_truth::{Mechanism, TruthError, World, mechanisms};
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::sweep::axes::{Drawings, Geometry, Sizes};
+use crate::sweep::cells::Cell;
+use crate::sweep::columns::Status;
+use crate::sweep::draw::{Purpose, drawn};
+use crate::sweep::plan::{self, Draws, Request};
+use crate::sweep::runner::Runner;
+
+/// What a block of trials shares.
+pub struct Bench {
+    /// Drawings, with the noise of the instrument stated.
+    pub hexapod: Hexapod,
+    /// True stiffness of each leg, N/m.
+    pub true_stiffness: [f64; 6],
+    /// Noise of one reading.
+    pub noise: Noise,
+    /// Readings to learn from, without noise.
+    pub training: Ideal,
+    /// Readings to judge by, without noise.
+    pub holdout: Ideal,
+    /// Id of the hidden effect.
+    pub hidden: Option<&'static str>,
+}
+
+/// Rows and what an ideal instrument reads in them.
+pub struct Ideal {
+    rows: Vec<Row>,
+    readings: Vec<Vector6>,
+}
+
+impl Ideal {
+    fn of(campaign: &Campaign, rows: Vec<Row>) -> Result<Self, TruthError> {
+        let readings = campaign.ideal(&rows, Measurand::DeflectionEuler)?;
+        Ok(Self { rows, readings })
+    }
+
+    /// The readings as a file would hold them, each with an error added.
+    pub fn dataset(&self, source: &str, mut error: impl FnMut() -> Vector6) -> Dataset {
+        let read =
+            |(line, (row, ideal)): (u64, (&Row, &Vector6))| row.read(line, (ideal + error()).into(), None);
+        Dataset {
+            source: source.to_owned(),
+            measurand: Measurand::DeflectionEuler,
+            columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },
+            observations: (2..).zip(self.rows.iter().zip(&self.readings)).map(read).collect(),
+        }
+    }
+}
+
+impl Bench {
+    /// The machine, plan and effect of a block of trials of a cell.
+    ///
+    /// # Errors
+    /// Why the whole block has no answer.
+    pub fn draw(runner: &Runner, cell: &Cell<'_>, block: u64) -> Result<Self, Status> {
+        let seed = runner.study().seed;
+        let noise = cell.noise();
+        let (hexapod, true_stiffness) = machine(seed, cell, block);
+        let hexapod = Hexapod { metrology: Some(noise.metrology()), ..hexapod };
+        let space = space(cell.geometry(), &hexapod);
+        let designed = runner.designed(cell, &hexapod, &space)?;
+        let request = Request {
+            source: &cell.plan().source,
+            poses: cell.poses(),
+            repeats: cell.repeats(),
+            hexapod: &hexapod,
+            space: &space,
+            designed: &designed,
+        };
+        let draws = |plan, surroundings| Draws {
+            plan: drawn(seed, plan, cell.position[0], block),
+            surroundings: drawn(seed, surroundings, cell.position[0], block),
+        };
+        let training = plan::rows(&request, &mut draws(Purpose::Plan, Purpose::Surroundings));
+        let training = training.ok_or(Status::NoPlan)?;
+        let judged = &mut draws(Purpose::Holdout, Purpose::HoldoutSurroundings);
+        let holdout = plan::holdout(&space, &hexapod, judged).ok_or(Status::NoPlan)?;
+        let bare = Campaign {
+            world: World::new(hexapod.clone(), &true_stiffness),
+            frames: Frames::default(),
+            noise,
+        };
+        let mechanisms = effect(seed, cell, &bare, &training, block)?;
+        let world = World { mechanisms, ..bare.world.without_effects() };
+        let campaign = Campaign { world, ..bare };
+        let ideal = |rows| Ideal::of(&campaign, rows).map_err(|_| Status::NoRest);
+        Ok(Self {
+            training: ideal(training)?,
+            holdout: ideal(holdout)?,
+            hexapod,
+            true_stiffness,
+            noise,
+            hidden: cell.effect(),
+        })
+    }
+}
+
+/// Where poses may lie on a machine.
+pub fn space(geometry: &Geometry, hexapod: &Hexapod) -> hexbench_design::Space {
+    geometry.space.clone().unwrap_or_else(|| plan::usual_space(hexapod))
+}
+
+/// Drawings and leg stiffness (N/m): of the family, or as the file states it with 10 % scatter.
+fn machine(seed: u64, cell: &Cell<'_>, block: u64) -> (Hexapod, [f64; 6]) {
+    const SCATTER: f64 = 0.1;
+    let mut rng = drawn(seed, Purpose::Machine, cell.position[0], block);
+    match &cell.geometry().source {
+        Drawings::Family(name) => {
+            let hexapod = machines::draw(name, &mut rng);
+            let stiffness = machines::leg_stiffness(name, &mut rng);
+            (hexapod, stiffness)
+        }
+        Drawings::File(hexapod) => {
+            let stiffness = match hexapod.nominal_stiffness {
+                None => machines::leg_stiffness("ring_a", &mut rng),
+                Some(nominal) => nominal.map(|k| {
+                    let scatter: f64 = StandardNormal.sample(&mut rng);
+                    k * (SCATTER * scatter).exp()
+                }),
+            };
+            (hexapod.as_ref().clone(), stiffness)
+        }
+    }
+}
+
+/// Drawings of a geometry before anything is drawn: those of a fixed one.
+pub fn drawings(seed: u64, cell: &Cell<'_>) -> Hexapod {
+    machine(seed, cell, 0).0
+}
+
+fn effect(
+    seed: u64,
+    cell: &Cell<'_>,
+    bare: &Campaign,
+    training: &[Row],
+    block: u64,
+) -> Result<Vec<Box<dyn Mechanism>>, Status> {
+    let Some(id) = cell.effect() else { return Ok(Vec::new()) };
+    let entry = mechanisms::effect(id).map_err(|_| Status::NotVisible)?;
+    let mut rng = drawn(seed, Purpose::Effect, cell.position[5], block);
+    let usual = (entry.draw)(&bare.world.hexapod, &mut rng);
+    let factor = match (&cell.axes.size, cell.size()) {
+        (Sizes::Sigmas(_), Some(distance)) => {
+            let yardstick = Yardstick::new(bare, training, Measurand::DeflectionEuler);
+            let scaled = yardstick.and_then(|y| y.scale_to(&*usual, distance));
+            scaled.map_err(|_| Status::NotVisible)?.0
+        }
+        (_, factor) => factor.unwrap_or(1.0),
+    };
+    Ok(vec![usual.scaled(factor)])
+}

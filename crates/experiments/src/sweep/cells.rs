@@ -1,0 +1,227 @@
+//! The full factorial of the axes.
+
+use crate::sweep::axes::{Axes, Estimator, Geometry, Noises, PlanChoice};
+
+/// A value of an axis, as people read it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Level {
+    /// A number.
+    Number(f64),
+    /// A name.
+    Word(String),
+}
+
+impl Level {
+    /// As printed.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Number(x) => format!("{x}"),
+            Self::Word(word) => word.clone(),
+        }
+    }
+}
+
+/// An axis with its values, as people read it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisLevels {
+    /// Name, as the key of the study file.
+    pub name: &'static str,
+    /// Values in the order of the study file; one for an axis that is left out.
+    pub levels: Vec<Level>,
+    /// True when the study file gives it.
+    pub given: bool,
+}
+
+impl AxisLevels {
+    /// True when it has more than one value.
+    pub fn varies(&self) -> bool {
+        self.levels.len() > 1
+    }
+
+    /// Its values as numbers, when they all are.
+    pub fn numbers(&self) -> Option<Vec<f64>> {
+        let number = |level: &Level| match level {
+            Level::Number(x) => Some(*x),
+            Level::Word(_) => None,
+        };
+        self.levels.iter().map(number).collect()
+    }
+}
+
+/// Number of axes.
+pub const AXES: usize = 8;
+
+/// Position of a cell on every axis, in the order of [`Axes`]; the last changes fastest.
+pub type Position = [usize; AXES];
+
+/// One combination of values.
+#[derive(Debug, Clone, Copy)]
+pub struct Cell<'a> {
+    /// Number, from 0.
+    pub index: usize,
+    /// Position on every axis.
+    pub position: Position,
+    /// All axes.
+    pub axes: &'a Axes,
+}
+
+impl Axes {
+    /// Values on every axis, one where the study leaves it open.
+    fn counts(&self) -> [usize; AXES] {
+        let open = |n: usize| n.max(1);
+        [
+            self.geometry.len(),
+            self.plan.len(),
+            open(self.poses.len()),
+            open(self.repeats.len()),
+            open(self.estimator.len()),
+            self.effect.len(),
+            open(self.size.values().len()),
+            self.noise.len(),
+        ]
+    }
+
+    /// Number of cells; the reader has made sure that there are not too many.
+    pub fn cells(&self) -> usize {
+        self.counts().iter().product()
+    }
+
+    /// The cell of a number.
+    pub fn cell(&self, index: usize) -> Cell<'_> {
+        let mut rest = index;
+        let mut position = [0; AXES];
+        for (place, count) in position.iter_mut().zip(self.counts()).rev() {
+            *place = rest % count;
+            rest /= count;
+        }
+        Cell { index, position, axes: self }
+    }
+
+    /// Every axis as people read it, in the order of a [`Position`].
+    pub fn levels(&self) -> [AxisLevels; AXES] {
+        let words = |names: Vec<String>| names.into_iter().map(Level::Word).collect::<Vec<_>>();
+        let whole = |numbers: &[u64]| numbers.iter().map(|&n| Level::Number(n as f64)).collect::<Vec<_>>();
+        let effect = |id: Option<&str>| id.unwrap_or("none").to_owned();
+        let axis = |name, levels: Vec<Level>, usual: &str| AxisLevels {
+            name,
+            given: !levels.is_empty(),
+            levels: if levels.is_empty() { vec![Level::Word(usual.to_owned())] } else { levels },
+        };
+        [
+            axis("geometry", words(self.geometry.iter().map(|g| g.name.clone()).collect()), ""),
+            axis("plan", words(self.plan.iter().map(|p| p.name.clone()).collect()), ""),
+            axis("poses", whole(&self.poses), "of the plan"),
+            axis("repeats", whole(&self.repeats), "of the plan"),
+            axis("estimator", words(self.estimator.iter().map(|e| e.name().to_owned()).collect()), "gls"),
+            axis("effect", words(self.effect.iter().copied().map(effect).collect()), "none"),
+            axis(self.size.name(), self.size.values().iter().map(|&x| Level::Number(x)).collect(), "usual"),
+            axis(self.noise.name(), self.noise.levels(), ""),
+        ]
+    }
+}
+
+impl Noises {
+    /// Name of the axis.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Scales(_) => "noise_scale",
+            Self::Sigmas(_) => "noise_um_urad",
+        }
+    }
+
+    fn levels(&self) -> Vec<Level> {
+        match self {
+            Self::Scales(scales) => scales.iter().map(|&x| Level::Number(x)).collect(),
+            // Products with 1e6 leave digits behind the ones that were written.
+            Self::Sigmas(pairs) => {
+                let shown = |x: f64| (x * 1e15).round() * 1e-9;
+                pairs
+                    .iter()
+                    .map(|[t, r]| Level::Word(format!("{} um {} urad", shown(*t), shown(*r))))
+                    .collect()
+            }
+        }
+    }
+}
+
+impl<'a> Cell<'a> {
+    /// The machine.
+    pub fn geometry(&self) -> &'a Geometry {
+        &self.axes.geometry[self.position[0]]
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &'a PlanChoice {
+        &self.axes.plan[self.position[1]]
+    }
+
+    /// Number of poses, unless the plan has its own.
+    pub fn poses(&self) -> Option<u64> {
+        self.axes.poses.get(self.position[2]).copied()
+    }
+
+    /// Readings of each condition, unless the plan has its own.
+    pub fn repeats(&self) -> Option<u64> {
+        self.axes.repeats.get(self.position[3]).copied()
+    }
+
+    /// The estimator.
+    pub fn estimator(&self) -> Estimator {
+        self.axes.estimator.get(self.position[4]).copied().unwrap_or(Estimator::Gls)
+    }
+
+    /// The hidden effect.
+    pub fn effect(&self) -> Option<&'static str> {
+        let nothing = self.size().is_some_and(|size| size <= 0.0);
+        self.axes.effect[self.position[5]].filter(|_| !nothing)
+    }
+
+    /// Its size, in what the axis counts.
+    pub fn size(&self) -> Option<f64> {
+        self.axes.size.values().get(self.position[6]).copied()
+    }
+
+    /// Noise of the instrument.
+    pub fn noise(&self) -> hexbench_truth::metrology::Noise {
+        self.axes.noise.noise(self.position[7], self.geometry())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::axes::{Drawings, PlanSource, Sizes};
+
+    fn axes() -> Axes {
+        Axes {
+            geometry: vec![Geometry {
+                name: "ring_a".into(),
+                source: Drawings::Family("ring_a"),
+                space: None,
+            }],
+            plan: vec![PlanChoice { name: "random".into(), source: PlanSource::Random }],
+            poses: vec![3, 6, 9],
+            repeats: Vec::new(),
+            estimator: Vec::new(),
+            effect: vec![Some("creep")],
+            size: Sizes::Sigmas(vec![0.0, 5.0]),
+            noise: Noises::Scales(vec![1.0, 2.0]),
+        }
+    }
+
+    #[test]
+    fn every_combination_has_one_cell_and_the_last_axis_changes_fastest() {
+        let axes = axes();
+        let all: Vec<Position> = (0..axes.cells()).map(|i| axes.cell(i).position).collect();
+        assert_eq!(all.len(), 12);
+        assert!(all.windows(2).all(|pair| pair[0] < pair[1]), "{all:?}");
+        assert_eq!(axes.cell(1).position, [0, 0, 0, 0, 0, 0, 0, 1]);
+    }
+
+    #[test]
+    fn an_effect_of_size_zero_is_none() {
+        let axes = axes();
+        assert_eq!(axes.cell(0).effect(), None);
+        assert_eq!(axes.cell(2).effect(), Some("creep"));
+    }
+}

@@ -1,0 +1,136 @@
+//! Results of a trial: names, units, meaning.
+
+use hexbench_model::terms::catalogue;
+use hexbench_model::verdict::{NONE, OUTSIDE};
+
+use crate::sweep::study::Task;
+
+/// What became of a trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// It has an answer.
+    Done = 0,
+    /// The readings do not determine all stiffnesses.
+    NotDetermined = 1,
+    /// The effect cannot be as visible as asked for in this plan.
+    NotVisible = 2,
+    /// The machine has no state of rest at a pose, or cannot reach it.
+    NoRest = 3,
+    /// No pose keeps the limits of the space.
+    NoPlan = 4,
+    /// The model cannot be computed.
+    NoFit = 5,
+}
+
+impl Status {
+    /// Names, in the order of the numbers.
+    pub const NAMES: [&str; 6] =
+        ["done", "not determined", "effect not visible", "no state of rest", "no plan", "no fit"];
+}
+
+/// Kind of the values of a column.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Kind {
+    /// A number, NaN for none.
+    Number,
+    /// A small count, 255 for none.
+    Count,
+    /// One of these words, 255 for none.
+    Word(Vec<String>),
+}
+
+/// A result of every trial.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Column {
+    /// Name with its unit.
+    pub name: String,
+    /// Unit, empty for none.
+    pub unit: &'static str,
+    /// One sentence.
+    pub meaning: &'static str,
+    /// Kind of its values.
+    pub kind: Kind,
+}
+
+fn number(name: &str, unit: &'static str, meaning: &'static str) -> Column {
+    Column { name: name.to_owned(), unit, meaning, kind: Kind::Number }
+}
+
+fn count(name: &str, meaning: &'static str) -> Column {
+    Column { name: name.to_owned(), unit: "1", meaning, kind: Kind::Count }
+}
+
+fn word(name: &str, meaning: &'static str, words: impl IntoIterator<Item = String>) -> Column {
+    Column { name: name.to_owned(), unit: "", meaning, kind: Kind::Word(words.into_iter().collect()) }
+}
+
+/// Results of a trial of a task, in order.
+pub fn columns(task: Task) -> Vec<Column> {
+    let names = Status::NAMES.map(str::to_owned);
+    let mut all =
+        vec![word("status", "what became of the trial; without \"done\" the other results are empty", names)];
+    all.extend(match task {
+        Task::Springs => springs(),
+        Task::Diagnose => diagnose(),
+    });
+    all
+}
+
+fn springs() -> Vec<Column> {
+    let leg = |n: usize| {
+        number(
+            &format!("leg_{n}_stiffness_error_percent"),
+            "%",
+            "estimated minus true stiffness of the leg, relative to the true one",
+        )
+    };
+    let mut all: Vec<Column> = (1..=6).map(leg).collect();
+    all.push(count("legs_covered", "legs whose 95 % interval holds the true stiffness, of six"));
+    all.push(number(
+        "holdout_error_um",
+        "um",
+        "root mean square error of predicted translations, held-out readings without noise",
+    ));
+    all.push(number(
+        "holdout_error_urad",
+        "urad",
+        "root mean square error of predicted rotations, held-out readings without noise",
+    ));
+    all.push(number(
+        "holdout_error_over_noise",
+        "1",
+        "root mean square of both over the standard deviation of one reading",
+    ));
+    all
+}
+
+/// Words of the verdict, in the order of the codes.
+pub const VERDICTS: [&str; 4] = ["adequate", "named", "ambiguous", "outside"];
+/// Words of the outcome, in the order of the codes.
+pub const OUTCOMES: [&str; 3] = ["right", "honest", "wrong"];
+
+/// What can be named first.
+pub fn names() -> Vec<String> {
+    let terms = catalogue().iter().map(|t| t.info().id.to_owned()).collect::<Vec<_>>();
+    terms.into_iter().chain([OUTSIDE.to_owned(), NONE.to_owned()]).collect()
+}
+
+fn diagnose() -> Vec<Column> {
+    vec![
+        word(
+            "outcome",
+            "right: exactly the truth; honest: ambiguous without excluding it; wrong: else",
+            OUTCOMES.map(str::to_owned),
+        ),
+        word("verdict", "what the diagnosis says", VERDICTS.map(str::to_owned)),
+        word("first", "the first candidate", names()),
+        number("first_probability", "1", "its probability"),
+        count("terms_added", "terms added to the springs"),
+        number(
+            "holdout_chi2_springs",
+            "1",
+            "held-out chi-square per number with springs alone, readings with noise",
+        ),
+        number("holdout_chi2_final", "1", "the same with the final model"),
+    ]
+}

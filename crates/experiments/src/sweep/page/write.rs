@@ -1,0 +1,57 @@
+//! The page and its charts, into files.
+
+use hexbench_report::render::markdown as markdown_of;
+use std::fs;
+use std::path::Path;
+
+use hexbench_core::files::atomic_write;
+use hexbench_report::png::png;
+
+use super::{Picture, document, pictures};
+use crate::error::ExperimentError;
+use crate::sweep::error::StudyError;
+use crate::sweep::results::CellStatistics;
+use crate::sweep::study::Study;
+
+/// Writes `study.md` and `charts` (SVG, and PNG where the system has a font) into a folder, and the page once more as
+/// `markdown` with its charts beside it, when that is wanted.
+///
+/// # Errors
+/// [`StudyError::Plot`], [`ExperimentError::Write`].
+pub fn write(
+    study: &Study,
+    cells: &[CellStatistics],
+    folder: &Path,
+    markdown: Option<&Path>,
+) -> Result<(), StudyError> {
+    let pictures = pictures(study, cells)?;
+    let text = |folder: &str| markdown_of(&document(study, cells, &pictures, folder));
+    page(&folder.join("study.md"), &folder.join("charts"), &text, &pictures)?;
+    for (picture, png) in pictures.iter().filter_map(|p| Some((p, png(&p.svg)?))) {
+        file(&folder.join("charts").join(format!("{}.png", picture.name)), &png)?;
+    }
+    Ok(markdown.map_or(Ok(()), |path| page(path, &path.with_extension(""), &text, &pictures))?)
+}
+
+/// The page and its charts as SVG, which are in `folder` beside it.
+fn page(
+    path: &Path,
+    folder: &Path,
+    text: &dyn Fn(&str) -> String,
+    pictures: &[Picture],
+) -> Result<(), ExperimentError> {
+    let beside = folder.file_name().unwrap_or_default().to_string_lossy();
+    file(path, text(&beside).as_bytes())?;
+    for picture in pictures {
+        file(&folder.join(format!("{}.svg", picture.name)), picture.svg.as_bytes())?;
+    }
+    Ok(())
+}
+
+fn file(path: &Path, bytes: &[u8]) -> Result<(), ExperimentError> {
+    let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
+    folder
+        .map_or(Ok(()), fs::create_dir_all)
+        .and_then(|()| atomic_write(path, |out| out.write_all(bytes)))
+        .map_err(ExperimentError::writing(path))
+}

@@ -1,0 +1,276 @@
+//! Reading `[axes]`.
+
+use std::path::Path;
+
+use hexbench_core::files::{Fault, Item, Key, Problem, Section};
+use hexbench_truth::campaign::{PlanKind, machines};
+use hexbench_truth::mechanisms::{REGISTRY, Shows};
+
+use super::{one_of, rule, unknown};
+use crate::sweep::axes::{CRITERIA, Estimator, Noises, PlanSource, Sizes};
+use crate::sweep::study::Task;
+
+const KEYS: &[Key] = &[
+    Key::plain("geometry"),
+    Key::plain("plan"),
+    Key::plain("poses"),
+    Key::plain("repeats"),
+    Key::plain("estimator"),
+    Key::plain("effect"),
+    Key::plain("size_sigmas"),
+    Key::plain("size_factor"),
+    Key::plain("noise_scale"),
+    Key::plain("noise_um_urad"),
+];
+/// Most poses of a plan.
+const MOST_POSES: u64 = 200;
+/// Most readings of a condition.
+const MOST_REPEATS: u64 = 1000;
+
+/// `[axes]` before the files it names are read.
+pub(super) struct AxesTable {
+    pub(super) geometry: Vec<GeometryName>,
+    pub(super) plan: Vec<PlanName>,
+    pub(super) poses: Vec<u64>,
+    pub(super) repeats: Vec<u64>,
+    pub(super) estimator: Vec<Estimator>,
+    pub(super) effect: Vec<Option<&'static str>>,
+    pub(super) size: Sizes,
+    pub(super) noise: Noises,
+}
+
+/// A family, or the name of a hexapod file.
+pub(super) enum GeometryName {
+    Family(&'static str),
+    File(String),
+}
+
+/// A plan by name, or the name of a table or scene.
+pub(super) enum PlanName {
+    Known(String, PlanSource),
+    Table(String),
+    Scene(String),
+}
+
+impl AxesTable {
+    pub(super) fn read(item: &Item<'_>, task: Task) -> Result<Self, Fault> {
+        let t = item.section("[axes]", KEYS)?;
+        let geometry = each(t.require("geometry")?, geometry)?;
+        let plan = each(t.require("plan")?, plan)?;
+        let whole = |key: &str, most: u64| {
+            let one = |item: &Item<'_>| whole_to(item, most);
+            t.get(key).map_or(Ok(Vec::new()), |list| each(list, one))
+        };
+        let axes = Self {
+            poses: whole("poses", MOST_POSES)?,
+            repeats: whole("repeats", MOST_REPEATS)?,
+            estimator: t.get("estimator").map_or(Ok(Vec::new()), |list| each(list, estimator))?,
+            effect: t.get("effect").map_or(Ok(vec![None]), |list| each(list, effect))?,
+            size: sizes(&t)?,
+            noise: noises(&t)?,
+            geometry,
+            plan,
+        };
+        axes.refuse_impossible(&t, task)?;
+        Ok(axes)
+    }
+
+    pub(super) fn cells(&self) -> u128 {
+        let counts = [self.geometry.len(), self.plan.len(), self.effect.len(), self.noise.len()];
+        let open = [self.poses.len(), self.repeats.len(), self.estimator.len(), self.size.values().len()];
+        counts.iter().chain(open.map(|n| n.max(1)).iter()).map(|&n| n as u128).product()
+    }
+
+    fn refuse_impossible(&self, t: &Section<'_>, task: Task) -> Result<(), Fault> {
+        self.refuse_poses(t)?;
+        if let (Task::Diagnose, Some(item)) = (task, t.get("estimator")) {
+            let next = "Remove this axis, or write task = \"springs\".";
+            return Err(rule(item, "the diagnosis has an estimator of its own", next));
+        }
+        let Some(size) = t.get("size_sigmas").or(t.get("size_factor")) else { return Ok(()) };
+        let Some(list) = t.get("effect") else {
+            return Err(rule(size, "there is a size but no effect", "Add effect, or remove this key."));
+        };
+        for (item, effect) in list.list()?.iter().zip(&self.effect) {
+            if effect.is_none() {
+                let next = "Remove it, and add 0 to the sizes: an effect of size 0 is none.";
+                return Err(rule(item, "\"none\" has no size, but there is an axis of sizes", next));
+            }
+        }
+        Ok(())
+    }
+
+    /// The axis `poses` stands beside plans that need it, and beside none that have poses of their own.
+    fn refuse_poses(&self, t: &Section<'_>) -> Result<(), Fault> {
+        let (items, poses) = (t.require("plan")?.list()?, t.get("poses"));
+        for (item, plan) in items.iter().zip(&self.plan) {
+            let (takes, needs) = match plan {
+                PlanName::Known(_, source) => (source.takes_poses(), source.needs_poses()),
+                PlanName::Table(_) | PlanName::Scene(_) => (false, false),
+            };
+            if poses.is_some() && !takes {
+                let next = "Take this plan out of the list, or remove the axis poses.";
+                return Err(rule(item, "this plan has poses of its own, but there is an axis poses", next));
+            }
+            if poses.is_none() && needs {
+                let next = "Add poses to [axes], for example poses = [3, 6, 12].";
+                return Err(rule(item, "this plan needs a number of poses", next));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The members of a list that is not empty and holds nothing twice.
+fn each<T>(list: &Item<'_>, read: impl Fn(&Item<'_>) -> Result<T, Fault>) -> Result<Vec<T>, Fault> {
+    let items = list.list()?;
+    if items.is_empty() {
+        let next = "Write at least one value, or remove the key where it may be left out.";
+        return Err(rule(list, "the list of an axis is empty", next));
+    }
+    refuse_twice(&items)?;
+    items.iter().map(read).collect()
+}
+
+fn refuse_twice(items: &[Item<'_>]) -> Result<(), Fault> {
+    let value = |item: &Item<'_>| -> Result<Vec<u64>, Fault> {
+        if item.is_string() {
+            return Ok(item.string()?.bytes().map(u64::from).collect());
+        }
+        if item.is_list() {
+            return Ok(item.list()?.iter().filter_map(|n| n.number().ok()).map(f64::to_bits).collect());
+        }
+        Ok(vec![item.number()?.to_bits()])
+    };
+    let mut seen = Vec::new();
+    for item in items {
+        let value = value(item)?;
+        if seen.contains(&value) {
+            return Err(rule(item, "this value is in the list twice", "Remove one of the two."));
+        }
+        seen.push(value);
+    }
+    Ok(())
+}
+
+fn whole_to(item: &Item<'_>, most: u64) -> Result<u64, Fault> {
+    let number = item.whole(1)?;
+    if number <= most {
+        return Ok(number);
+    }
+    Err(rule(item, &format!("at most {most}"), "Write a smaller number."))
+}
+
+fn has_extension(name: &str, extension: &str) -> bool {
+    Path::new(name).extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
+}
+
+fn geometry(item: &Item<'_>) -> Result<GeometryName, Fault> {
+    let word = item.string()?;
+    if has_extension(word, "toml") {
+        return Ok(GeometryName::File(word.to_owned()));
+    }
+    let known = machines::FAMILIES.iter().find(|family| **family == word);
+    known.map(|family| GeometryName::Family(family)).ok_or_else(|| {
+        let names: Vec<&str> = machines::FAMILIES.iter().copied().chain(["FILE.toml"]).collect();
+        unknown(item, word, &names, "family of machines")
+    })
+}
+
+fn plan(item: &Item<'_>) -> Result<PlanName, Fault> {
+    let word = item.string()?;
+    if has_extension(word, "csv") {
+        return Ok(PlanName::Table(word.to_owned()));
+    }
+    if word.contains('/') {
+        return Ok(PlanName::Scene(word.to_owned()));
+    }
+    let known = |source| Ok(PlanName::Known(word.to_owned(), source));
+    if let Some(criterion) = CRITERIA.into_iter().find(|c| *c == word) {
+        return known(PlanSource::Designed(criterion));
+    }
+    match makes().into_iter().find(|kind| kind.name() == word) {
+        Some(kind) => known(PlanSource::Make(kind)),
+        None if word == "random" => known(PlanSource::Random),
+        None => {
+            let makes = makes();
+            let names = makes.iter().map(|kind| kind.name()).chain(["random"]).chain(CRITERIA);
+            unknown_plan(item, word, &names.collect::<Vec<_>>())
+        }
+    }
+}
+
+fn unknown_plan(item: &Item<'_>, word: &str, names: &[&str]) -> Result<PlanName, Fault> {
+    if word == "absolute" {
+        let next = "Choose a plan that measures deflections.";
+        return Err(rule(item, "studies measure deflections, not absolute poses", next));
+    }
+    let all: Vec<&str> = names.iter().copied().chain(["FILE.csv", "a folder with a / for a scene"]).collect();
+    Err(unknown(item, word, &all, "plan"))
+}
+
+/// Makes of plans that measure deflections.
+fn makes() -> Vec<PlanKind> {
+    PlanKind::ALL.into_iter().filter(|kind| *kind != PlanKind::Absolute).collect()
+}
+
+fn estimator(item: &Item<'_>) -> Result<Estimator, Fault> {
+    one_of(item, &Estimator::ALL.map(Estimator::name), "estimator").map(|k| Estimator::ALL[k])
+}
+
+fn effect(item: &Item<'_>) -> Result<Option<&'static str>, Fault> {
+    let word = item.string()?;
+    if word == "none" {
+        return Ok(None);
+    }
+    let names: Vec<&str> =
+        REGISTRY.iter().filter(|e| e.shows != Shows::Absolute).map(|e| e.id).chain(["none"]).collect();
+    let entry =
+        REGISTRY.iter().find(|e| e.id == word).ok_or_else(|| unknown(item, word, &names, "effect"))?;
+    if entry.shows == Shows::Absolute {
+        let next = "Choose an effect that shows in deflections.";
+        return Err(rule(
+            item,
+            "this effect shows in absolute poses only, and studies measure deflections",
+            next,
+        ));
+    }
+    Ok(Some(entry.id))
+}
+
+fn sizes(t: &Section<'_>) -> Result<Sizes, Fault> {
+    let not_negative = |item: &Item<'_>| match item.number()? {
+        size if size >= 0.0 => Ok(size),
+        _ => Err(rule(item, "a size is not negative", "Write how large the effect is, 0 for none.")),
+    };
+    match (t.get("size_sigmas"), t.get("size_factor")) {
+        (Some(_), Some(factor)) => Err(two_ways(factor, "size_sigmas")),
+        (Some(sigmas), None) => each(sigmas, not_negative).map(Sizes::Sigmas),
+        (None, Some(factors)) => each(factors, not_negative).map(Sizes::Factors),
+        (None, None) => Ok(Sizes::Usual),
+    }
+}
+
+fn noises(t: &Section<'_>) -> Result<Noises, Fault> {
+    let scale = |item: &Item<'_>| item.positive("the scale of the noise");
+    let pair = |item: &Item<'_>| {
+        let pair = item.exactly::<2>("two standard deviations, translation (um) and rotation (urad)")?;
+        Ok([
+            pair[0].positive("a standard deviation")? * 1e-6,
+            pair[1].positive("a standard deviation")? * 1e-6,
+        ])
+    };
+    match (t.get("noise_scale"), t.get("noise_um_urad")) {
+        (Some(_), Some(pairs)) => Err(two_ways(pairs, "noise_scale")),
+        (Some(scales), None) => each(scales, scale).map(Noises::Scales),
+        (None, Some(pairs)) => each(pairs, pair).map(Noises::Sigmas),
+        (None, None) => Ok(Noises::Scales(vec![1.0])),
+    }
+}
+
+fn two_ways(item: &Item<'_>, other: &str) -> Fault {
+    item.fault(Problem::Rule {
+        rule: format!("there is an axis {other} too"),
+        next: "Keep one of the two.".into(),
+    })
+}

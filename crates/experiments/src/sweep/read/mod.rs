@@ -1,0 +1,113 @@
+//! Reading `study.toml`.
+
+mod axes;
+mod files;
+
+use std::path::Path;
+
+use hexbench_core::files::{Fault, FileError, Format, Item, Key, Problem, Section, content_hash, read_toml};
+
+use crate::sweep::study::{STUDY_FILE, Study, Task};
+use axes::AxesTable;
+
+const FORMAT: Format = Format {
+    name: "study/1",
+    keys: &[
+        Key::plain("format"),
+        Key::plain("title"),
+        Key::plain("seed"),
+        Key::plain("trials"),
+        Key::plain("task"),
+        Key::plain("space"),
+        Key::plain("redraw"),
+        Key::plain("starts"),
+        Key::plain("axes"),
+    ],
+};
+
+/// Trials with the same machine unless the file says so.
+const USUAL_REDRAW: u64 = 20;
+/// Starts of a search for designed poses unless the file says so.
+const USUAL_STARTS: u64 = 32;
+/// Most trials of a study.
+const MOST_TRIALS: u128 = 1_000_000_000;
+
+/// The file before those it names are read.
+struct Description {
+    title: String,
+    seed: u64,
+    trials: u64,
+    task: Task,
+    space: Option<String>,
+    redraw: u64,
+    starts: u64,
+    axes: AxesTable,
+}
+
+impl Study {
+    /// Reads a study and every file it names; names are relative to its folder.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with line, column, value and next step.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let d = read_toml(path, FORMAT, description)?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let mut inputs = files::Inputs::default();
+        inputs.digests.insert(STUDY_FILE.to_owned(), content_hash(path)?);
+        let axes = files::complete(d.axes, d.space.as_deref(), folder, &mut inputs)?;
+        Ok(Self {
+            title: d.title,
+            seed: d.seed,
+            trials: d.trials,
+            task: d.task,
+            redraw: d.redraw,
+            starts: d.starts,
+            axes,
+            inputs: inputs.digests,
+            files: inputs.files.into_iter().collect(),
+        })
+    }
+}
+
+fn description(top: &Section<'_>) -> Result<Description, Fault> {
+    let whole = |key: &str, usual: u64| top.get(key).map_or(Ok(usual), |item| item.whole(1));
+    let task = one_of(top.require("task")?, &Task::ALL.map(Task::name), "task")?;
+    let task = Task::ALL[task];
+    let trials = top.require("trials")?;
+    let d = Description {
+        title: top.require("title")?.string()?.to_owned(),
+        seed: top.require("seed")?.whole(0)?,
+        trials: trials.whole(1)?,
+        task,
+        space: top.get("space").map(|item| item.string().map(str::to_owned)).transpose()?,
+        redraw: whole("redraw", USUAL_REDRAW)?,
+        starts: whole("starts", USUAL_STARTS)?,
+        axes: AxesTable::read(top.require("axes")?, task)?,
+    };
+    let all = d.axes.cells() * u128::from(d.trials);
+    if all > MOST_TRIALS {
+        let broken =
+            format!("{} cells of {} trials are {all} trials; at most 10^9", d.axes.cells(), d.trials);
+        return Err(rule(trials, &broken, "Take fewer trials, or fewer values on the axes."));
+    }
+    Ok(d)
+}
+
+/// A rule that is broken at a value.
+fn rule(item: &Item<'_>, broken: &str, next: &str) -> Fault {
+    item.fault(Problem::Rule { rule: broken.into(), next: next.into() })
+}
+
+/// Index of the name that a string is.
+fn one_of(item: &Item<'_>, names: &[&str], what: &str) -> Result<usize, Fault> {
+    let word = item.string()?;
+    names.iter().position(|name| *name == word).ok_or_else(|| unknown(item, word, names, what))
+}
+
+fn unknown(item: &Item<'_>, word: &str, names: &[&str], what: &str) -> Fault {
+    let next = match hexbench_core::files::nearest(word, names.iter().copied()) {
+        Some(near) => format!("Write \"{near}\"."),
+        None => format!("Write one of {}.", names.join(", ")),
+    };
+    rule(item, &format!("no {what} has this name"), &next)
+}

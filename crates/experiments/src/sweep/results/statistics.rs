@@ -1,0 +1,142 @@
+//! Running statistics of a cell, in the order of its trials.
+
+use hexbench_core::statistics::Welford;
+
+use crate::Proportion;
+
+use crate::sweep::columns::Status;
+use crate::sweep::runner::Runner;
+use crate::sweep::shard::Shard;
+use crate::sweep::study::Task;
+
+/// What the trials of a cell say.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellStatistics {
+    /// Number of the cell.
+    pub cell: usize,
+    /// Trials by status, in the order of [`Status::NAMES`].
+    pub by_status: [u64; Status::NAMES.len()],
+    /// Fits of stiffness.
+    pub springs: Springs,
+    /// Answers of the diagnosis.
+    pub answers: Answers,
+}
+
+/// Fits of stiffness.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Springs {
+    /// Errors of all legs, percent.
+    pub errors: Welford,
+    /// Legs covered.
+    pub covered: u64,
+    /// Root mean square error of predictions: um, urad, over the noise.
+    pub holdout: [Welford; 3],
+}
+
+/// Answers of the diagnosis.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Answers {
+    /// Right, honest, wrong.
+    pub outcomes: [u64; 3],
+    /// Held-out chi-square: springs alone, final model.
+    pub holdout: [Welford; 2],
+}
+
+impl CellStatistics {
+    /// A cell without trials.
+    pub fn empty(cell: usize) -> Self {
+        let (springs, answers) = (Springs::default(), Answers::default());
+        Self { cell, by_status: [0; 6], springs, answers }
+    }
+
+    /// Trials of both cells taken together; the number is that of the first.
+    #[must_use]
+    pub fn and(mut self, other: &Self) -> Self {
+        self.by_status.iter_mut().zip(other.by_status).for_each(|(a, b)| *a += b);
+        self.springs.errors = self.springs.errors.and(other.springs.errors);
+        self.springs.covered += other.springs.covered;
+        for k in 0..3 {
+            self.springs.holdout[k] = self.springs.holdout[k].and(other.springs.holdout[k]);
+            self.answers.outcomes[k] += other.answers.outcomes[k];
+        }
+        for k in 0..2 {
+            self.answers.holdout[k] = self.answers.holdout[k].and(other.answers.holdout[k]);
+        }
+        self
+    }
+
+    /// Trials.
+    pub fn trials(&self) -> u64 {
+        self.by_status.iter().sum()
+    }
+
+    /// Trials with an answer.
+    pub fn done(&self) -> u64 {
+        self.by_status[Status::Done as usize]
+    }
+
+    /// Share of 95 % intervals that hold the truth, with its bounds. Intervals of one trial share its noise: each trial counts
+    /// once in the bounds.
+    pub fn coverage(&self) -> [f64; 3] {
+        let done = self.done();
+        let share = self.springs.covered as f64 / (6 * done) as f64;
+        // Rounding to whole trials moves a bound by less than half a trial.
+        let [low, high] = proportion((self.springs.covered + 3) / 6, done).interval();
+        if done == 0 { [f64::NAN; 3] } else { [share, low.min(share), high.max(share)] }
+    }
+
+    /// Share of an outcome (0 right, 1 honest, 2 wrong) with its bounds.
+    pub fn share(&self, outcome: usize) -> [f64; 3] {
+        let found = proportion(self.answers.outcomes[outcome], self.done());
+        let [low, high] = found.interval();
+        if found.of == 0 { [f64::NAN; 3] } else { [found.rate(), low, high] }
+    }
+}
+
+fn proportion(hits: u64, of: u64) -> Proportion {
+    let whole = |n: u64| usize::try_from(n).unwrap_or(usize::MAX);
+    Proportion { hits: whole(hits), of: whole(of) }
+}
+
+/// Takes a shard in; shards come in order.
+pub(super) fn add(runner: &Runner, shard: &Shard, cells: &mut Vec<CellStatistics>) {
+    for (row, trial) in shard.trials.clone().enumerate() {
+        let (cell, _) = runner.study().place(trial);
+        if cells.last().is_none_or(|last| last.cell != cell) {
+            cells.push(CellStatistics::empty(cell));
+        }
+        let Some(now) = cells.last_mut() else { continue };
+        let status = usize::from(shard.columns[0].codes()[row]);
+        now.by_status[status] += 1;
+        if status == Status::Done as usize {
+            match runner.study().task {
+                Task::Springs => now.springs.add(shard, row),
+                Task::Diagnose => now.answers.add(shard, row),
+            }
+        }
+    }
+}
+
+impl Springs {
+    fn add(&mut self, shard: &Shard, row: usize) {
+        for leg in 1..=6 {
+            self.errors.add(shard.columns[leg].numbers()[row]);
+        }
+        self.covered += u64::from(shard.columns[7].codes()[row]);
+        for (k, holdout) in self.holdout.iter_mut().enumerate() {
+            holdout.add(shard.columns[8 + k].numbers()[row]);
+        }
+    }
+}
+
+impl Answers {
+    fn add(&mut self, shard: &Shard, row: usize) {
+        self.outcomes[usize::from(shard.columns[1].codes()[row])] += 1;
+        for (k, holdout) in self.holdout.iter_mut().enumerate() {
+            let chi2 = shard.columns[6 + k].numbers()[row];
+            if chi2.is_finite() {
+                holdout.add(chi2);
+            }
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! `cells.csv`.
+
+use hexbench_core::statistics::Welford;
+use hexbench_report::Table;
+use hexbench_report::table::csv;
+
+use crate::sweep::columns::Status;
+use crate::sweep::results::CellStatistics;
+use crate::sweep::study::{Study, Task};
+
+/// One row per cell; units are in the names.
+pub fn cells_csv(study: &Study, cells: &[CellStatistics]) -> String {
+    let levels = study.axes.levels();
+    let axes = levels.iter().map(|axis| axis.name);
+    let counts = ["trials", "done", "not_determined", "failed"];
+    let results: &[&str] = match study.task {
+        Task::Springs => &SPRINGS,
+        Task::Diagnose => &DIAGNOSE,
+    };
+    let header = std::iter::once("cell").chain(axes).chain(SIGMAS).chain(counts);
+    let mut table = Table::named(header.chain(results.iter().copied()));
+    for found in cells {
+        let cell = study.axes.cell(found.cell);
+        let at = levels.iter().zip(cell.position).map(|(axis, k)| axis.levels[k].text());
+        let noise = cell.noise();
+        let sigmas = [noise.sigma_translation, noise.sigma_rotation].map(|s| number(s * 1e6));
+        let values = match study.task {
+            Task::Springs => springs(found),
+            Task::Diagnose => diagnose(found),
+        };
+        let row = std::iter::once(found.cell.to_string()).chain(at).chain(sigmas).chain(counted(found));
+        table.row(row.chain(values.into_iter().map(number)));
+    }
+    csv::text(&table)
+}
+
+const SIGMAS: [&str; 2] = ["sigma_translation_um", "sigma_rotation_urad"];
+const SPRINGS: [&str; 9] = [
+    "stiffness_error_mean_percent",
+    "stiffness_error_std_percent",
+    "stiffness_error_rms_percent",
+    "coverage",
+    "coverage_low",
+    "coverage_high",
+    "holdout_error_rms_um",
+    "holdout_error_rms_urad",
+    "holdout_error_over_noise",
+];
+const DIAGNOSE: [&str; 11] = [
+    "right",
+    "right_low",
+    "right_high",
+    "honest",
+    "honest_low",
+    "honest_high",
+    "wrong",
+    "wrong_low",
+    "wrong_high",
+    "holdout_chi2_springs_mean",
+    "holdout_chi2_final_mean",
+];
+
+fn counted(found: &CellStatistics) -> [String; 4] {
+    let open = found.by_status[Status::NotDetermined as usize];
+    let failed = found.trials() - found.done() - open;
+    [found.trials(), found.done(), open, failed].map(|n| n.to_string())
+}
+
+fn springs(found: &CellStatistics) -> Vec<f64> {
+    let s = &found.springs;
+    let mut all = vec![s.errors.mean(), s.errors.std(), s.errors.rms()];
+    all.extend(found.coverage());
+    all.extend(s.holdout.iter().map(Welford::rms));
+    all
+}
+
+fn diagnose(found: &CellStatistics) -> Vec<f64> {
+    let mut all: Vec<f64> = (0..3).flat_map(|outcome| found.share(outcome)).collect();
+    all.extend(found.answers.holdout.iter().map(Welford::mean));
+    all
+}
+
+/// Nine significant digits; empty for none.
+fn number(x: f64) -> String {
+    if !x.is_finite() {
+        return String::new();
+    }
+    // Through the decimal text, so that 0.1 stays 0.1.
+    let short: f64 = format!("{x:.8e}").parse().unwrap_or(x);
+    format!("{short}")
+}

@@ -1,0 +1,134 @@
+//! A study ready to run: designed plans are found, shards are counted.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use hexbench_core::{Hexapod, Pose};
+use hexbench_design::Space;
+
+use crate::error::ExperimentError;
+use crate::harness::{Progress, Sharded};
+use crate::journal::{Identity, Shards};
+use crate::sweep::axes::{Noises, PlanSource};
+use crate::sweep::bench;
+use crate::sweep::cells::Cell;
+use crate::sweep::columns::{Column, Status, columns};
+use crate::sweep::error::StudyError;
+use crate::sweep::plan::designed_poses;
+use crate::sweep::shard::Shard;
+use crate::sweep::study::{STUDY_FILE, Study, Task};
+use crate::sweep::task::{diagnose, springs};
+
+/// Format of the journal: of its records, and of how results are drawn and computed.
+pub const FORMAT: &str = "study-journal/1";
+
+/// What a designed plan depends on: geometry, plan, poses, and the noise where its two levels are given.
+type DesignKey = [usize; 4];
+
+/// A study with everything that is computed once.
+pub struct Runner {
+    study: Study,
+    columns: Vec<Column>,
+    designs: BTreeMap<DesignKey, Vec<Pose>>,
+}
+
+impl Runner {
+    /// Finds the designed plans of machines whose drawings are fixed.
+    ///
+    /// # Errors
+    /// [`StudyError::Design`].
+    pub fn new(study: Study) -> Result<Self, StudyError> {
+        let mut designs = BTreeMap::new();
+        for index in 0..study.axes.cells() {
+            let cell = study.axes.cell(index);
+            let key = design_key(&cell);
+            let wanted = matches!(cell.plan().source, PlanSource::Designed(_)) && cell.geometry().is_fixed();
+            if wanted && !designs.contains_key(&key) {
+                let hexapod = bench::drawings(study.seed, &cell);
+                let space = bench::space(cell.geometry(), &hexapod);
+                designs.insert(key, design(&study, &cell, &hexapod, &space)?);
+            }
+        }
+        let columns = columns(study.task);
+        Ok(Self { study, columns, designs })
+    }
+
+    /// The study.
+    pub fn study(&self) -> &Study {
+        &self.study
+    }
+
+    /// Results of a trial.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Poses of a designed plan; empty for other plans.
+    ///
+    /// # Errors
+    /// [`Status::NoPlan`] when a drawn machine has none.
+    pub fn designed(
+        &self,
+        cell: &Cell<'_>,
+        hexapod: &Hexapod,
+        space: &Space,
+    ) -> Result<Cow<'_, [Pose]>, Status> {
+        if !matches!(cell.plan().source, PlanSource::Designed(_)) {
+            return Ok(Cow::Borrowed(&[]));
+        }
+        match self.designs.get(&design_key(cell)) {
+            Some(poses) => Ok(Cow::Borrowed(poses)),
+            None => design(&self.study, cell, hexapod, space).map(Cow::Owned).map_err(|_| Status::NoPlan),
+        }
+    }
+
+    /// A shard whose results are still to come.
+    pub fn empty(&self, shard: u64) -> Shard {
+        Shard::empty(shard, self.shards().trials_of(shard), &self.columns)
+    }
+}
+
+impl Sharded for Runner {
+    fn identity(&self) -> Identity {
+        Identity { name: STUDY_FILE, format: FORMAT, inputs: self.study.inputs.clone() }
+    }
+
+    fn shards(&self) -> Shards {
+        Shards { trials: self.study.all_trials(), size: self.study.task.trials_of_a_shard() }
+    }
+
+    fn content(&self, shard: u64, progress: &dyn Progress) -> Result<Vec<u8>, ExperimentError> {
+        let mut done = self.empty(shard);
+        match self.study.task {
+            Task::Springs => springs::run(self, &mut done),
+            Task::Diagnose => diagnose::run(self, &mut done),
+        }
+        progress.advance(done.trials.end - done.trials.start);
+        Ok(done.to_bytes())
+    }
+}
+
+fn design_key(cell: &Cell<'_>) -> DesignKey {
+    let by_noise = matches!(cell.axes.noise, Noises::Sigmas(_));
+    [cell.position[0], cell.position[1], cell.position[2], if by_noise { cell.position[7] } else { 0 }]
+}
+
+fn design(study: &Study, cell: &Cell<'_>, hexapod: &Hexapod, space: &Space) -> Result<Vec<Pose>, StudyError> {
+    let PlanSource::Designed(criterion) = cell.plan().source else { return Ok(Vec::new()) };
+    let noise = cell.noise();
+    // A common factor of the noise moves no optimum: the level of the first value keeps the rounding equal too.
+    let level = match &cell.axes.noise {
+        Noises::Scales(_) => cell.axes.noise.noise(0, cell.geometry()),
+        Noises::Sigmas(_) => noise,
+    };
+    let sigma = [level.sigma_translation, level.sigma_rotation];
+    let poses = cell.poses().unwrap_or(1);
+    designed_poses(criterion, poses, hexapod, space, sigma, study.starts).map_err(|cause| {
+        StudyError::Design {
+            plan: cell.plan().name.clone(),
+            poses,
+            geometry: cell.geometry().name.clone(),
+            cause,
+        }
+    })
+}

@@ -1,0 +1,80 @@
+//! A study as read from its file.
+
+use std::collections::BTreeMap;
+
+use crate::sweep::axes::Axes;
+
+/// What happens in a trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Task {
+    /// Six stiffnesses are fitted and compared with the truth.
+    Springs,
+    /// The diagnosis is asked what is hidden.
+    Diagnose,
+}
+
+impl Task {
+    /// All tasks.
+    pub const ALL: [Self; 2] = [Self::Springs, Self::Diagnose];
+
+    /// Name in the study file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Springs => "springs",
+            Self::Diagnose => "diagnose",
+        }
+    }
+
+    /// Trials of a shard: some tenths of a second of work, so that little is lost when a run is killed.
+    pub fn trials_of_a_shard(self) -> u64 {
+        match self {
+            Self::Springs => 1024,
+            Self::Diagnose => 16,
+        }
+    }
+}
+
+/// A study, checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// One line.
+    pub title: String,
+    /// Decides everything that is drawn.
+    pub seed: u64,
+    /// Trials of each cell.
+    pub trials: u64,
+    /// What happens in a trial.
+    pub task: Task,
+    /// Trials with the same machine, random poses, surroundings and effect.
+    pub redraw: u64,
+    /// Starts of the search for designed poses.
+    pub starts: u64,
+    /// What is varied.
+    pub axes: Axes,
+    /// SHA-256 of the study file and of every file it names, under their names in the study.
+    pub inputs: BTreeMap<String, String>,
+    /// Every file it was read from beside the study file itself, relative to its folder.
+    pub files: Vec<String>,
+}
+
+/// Name of the study file itself among the inputs.
+pub const STUDY_FILE: &str = "study";
+
+impl Study {
+    /// Trials of all cells.
+    pub fn all_trials(&self) -> u64 {
+        self.trials * self.axes.cells() as u64
+    }
+
+    /// SHA-256 of the study file.
+    pub fn hash(&self) -> &str {
+        self.inputs.get(STUDY_FILE).map_or("", String::as_str)
+    }
+
+    /// Cell and number within it of a trial of the whole study.
+    pub fn place(&self, trial: u64) -> (usize, u64) {
+        // At most the number of cells, which is a usize.
+        let cell = usize::try_from(trial / self.trials).unwrap_or(usize::MAX);
+        (cell, trial % self.trials)
+    }
+}

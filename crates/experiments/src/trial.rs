@@ -1,0 +1,90 @@
+//! One campaign through the diagnosis: right, honest or wrong.
+
+use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
+use hexbench_model::error::ModelError;
+use hexbench_model::terms::catalogue;
+use hexbench_model::verdict::Verdict;
+use hexbench_truth::TruthError;
+use hexbench_truth::campaign::Case;
+use serde::{Deserialize, Serialize};
+
+/// How the answer of a diagnosis compares with the truth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Outcome {
+    /// Exactly the hidden effects are named; nothing when there are none; "outside" when the catalogue lacks one.
+    Right,
+    /// The answer is ambiguous, and the hidden effects are among those it does not exclude.
+    Honest,
+    /// Anything else.
+    Wrong,
+}
+
+impl Outcome {
+    /// A word for tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Honest => "honest",
+            Self::Wrong => "wrong",
+        }
+    }
+}
+
+/// A case and what was said about it.
+pub struct Trial {
+    /// Ids of the hidden effects; those outside the catalogue begin with `out:`.
+    pub hidden: Vec<&'static str>,
+    /// The diagnosis with its fitted steps.
+    pub study: Study,
+}
+
+/// Why a trial gave no answer.
+#[derive(Debug, thiserror::Error)]
+pub enum TrialError {
+    /// The campaign could not be made.
+    #[error("the campaign could not be simulated: {0}")]
+    Truth(#[from] TruthError),
+    /// The campaign could not be diagnosed.
+    #[error("the campaign could not be diagnosed: {0}")]
+    Model(#[from] ModelError),
+}
+
+impl Trial {
+    /// Diagnoses a case with its held-out part.
+    ///
+    /// # Errors
+    /// [`TrialError::Model`].
+    pub fn run(case: &Case) -> Result<Self, TrialError> {
+        let study = diagnose(&case.hexapod, &case.measurements, Some(&case.holdout), &catalogue())?;
+        Ok(Self { hidden: case.spec.hidden_effects(), study })
+    }
+
+    /// Right, honest or wrong.
+    pub fn outcome(&self) -> Outcome {
+        outcome(&self.hidden, &self.study.diagnosis)
+    }
+}
+
+/// Right, honest or wrong about hidden effects; those outside the catalogue begin with `out:`.
+pub fn outcome(hidden: &[&str], d: &Diagnosis) -> Outcome {
+    outcome_of(hidden, d.verdict, &d.added, &d.credible_set)
+}
+
+/// The same for an answer from anywhere: the verdict, the effects named, and those not excluded.
+pub fn outcome_of(hidden: &[&str], verdict: Verdict, added: &[String], credible_set: &[String]) -> Outcome {
+    let outside = hidden.iter().any(|id| id.starts_with("out:"));
+    let same = added.len() == hidden.len() && hidden.iter().all(|id| added.iter().any(|a| a == id));
+    let right = match verdict {
+        Verdict::Outside => outside,
+        Verdict::Adequate => hidden.is_empty(),
+        Verdict::Named => !outside && !hidden.is_empty() && same,
+        Verdict::Ambiguous => false,
+    };
+    let kept = |id: &&str| credible_set.iter().chain(added).any(|c| c == id);
+    let honest = verdict == Verdict::Ambiguous && !outside && !hidden.is_empty() && hidden.iter().all(kept);
+    match (right, honest) {
+        (true, _) => Outcome::Right,
+        (_, true) => Outcome::Honest,
+        _ => Outcome::Wrong,
+    }
+}

@@ -1,0 +1,6 @@
+//! Challenges from suite to scores, with programs that behave and programs that do not.
+
+mod made;
+mod runs;
+mod scores;
+mod support;

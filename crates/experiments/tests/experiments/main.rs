@@ -1,0 +1,12 @@
+//! The experiments as a whole: small versions of each, judged by what must hold of them.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
+
+mod calibration;
+mod challenge;
+mod discriminate;
+mod interrupted;
+mod paper;
+mod power;
+mod recovery;
+mod regress;
+mod sweep;

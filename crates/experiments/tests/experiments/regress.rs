@@ -1,0 +1,229 @@
+//! The accuracy regression on a small suite: it passes unchanged, notices what is planted, and keeps its promises about chance.
+
+use std::path::Path;
+use std::sync::OnceLock;
+
+use hexbench_experiments::Proportion;
+use hexbench_experiments::harness::{self, Silent};
+use hexbench_experiments::regress::baseline::{Baseline, Update, made};
+use hexbench_experiments::regress::comparison::{Comparison, compare};
+use hexbench_experiments::regress::gathered::pool;
+use hexbench_experiments::regress::junit::junit;
+use hexbench_experiments::regress::limit::{Test, Unit};
+use hexbench_experiments::regress::limits::limits;
+use hexbench_experiments::regress::notice::{POWER, noticed};
+use hexbench_experiments::regress::rule::{Verdict, judge};
+use hexbench_experiments::regress::sample::Sample;
+use hexbench_experiments::regress::suite::Suite;
+use hexbench_experiments::regress::summary::page;
+use hexbench_experiments::regress::trials::{Runs, Trials};
+use hexbench_report::render::plain;
+use rand::RngExt;
+use rand_distr::{ChiSquared, Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+
+fn update(reason: &str) -> Update {
+    Update { date: "2026-01-02".into(), hexbench: "0".into(), seed: 1, runs: 3, reason: reason.into() }
+}
+
+fn runs(suite: &Suite, seed: u64, count: usize) -> Vec<Trials> {
+    let runs = Runs::new(suite, seed, count);
+    runs.of_each(harness::run(&runs, None, &Silent).unwrap())
+}
+
+/// A baseline of three runs of the quick suite, and its first run.
+fn baseline() -> &'static (Baseline, Trials) {
+    static MADE: OnceLock<(Baseline, Trials)> = OnceLock::new();
+    MADE.get_or_init(|| {
+        let suite = Suite::quick();
+        let runs = runs(&suite, 1, 3);
+        let limits = limits(&suite);
+        let baseline = made(&suite, &limits, &pool(&limits, &runs), update("first"), Vec::new()).unwrap();
+        (baseline, runs[0].clone())
+    })
+}
+
+fn beside(trials: &Trials, seed: u64) -> Comparison {
+    let suite = Suite::quick();
+    compare(&suite, &limits(&suite), (trials, seed), &baseline().0, "0")
+}
+
+fn failed(trials: &Trials) -> Vec<String> {
+    beside(trials, 1).of(Verdict::Worse).map(|f| f.id.clone()).collect()
+}
+
+#[test]
+fn the_same_run_passes_with_the_same_values_and_another_seed_passes_on_any_number_of_threads() {
+    let first = beside(&baseline().1, 1);
+    assert!(!first.fails(), "{}", plain(&page(&first, false)));
+    assert_eq!(first.same_values(), Some(first.findings.len()));
+    let of = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        beside(&pool.install(|| runs(&Suite::quick(), 9, 1))[0], 9)
+    };
+    let [one, three] = [1, 3].map(of);
+    assert_eq!(serde_json::to_string(&one).unwrap(), serde_json::to_string(&three).unwrap());
+    assert!(!one.fails(), "{}", plain(&page(&one, false)));
+    assert_eq!(one.same_values(), None);
+    assert!(one.findings.iter().any(|f| f.chance.is_some_and(|p| p < 1.0)), "nothing was drawn");
+}
+
+#[test]
+fn what_is_planted_in_the_values_fails_its_own_limits() {
+    type Plant = fn(&mut Trials);
+    let faults: [(&str, Plant); 6] = [
+        ("stiffness-pulls", |t| {
+            for f in t.fits.iter_mut().filter_map(|f| f.found.as_mut()) {
+                f.springs.as_mut().unwrap().chi2 *= 6.0;
+            }
+        }),
+        ("stiffness-error", |t| {
+            t.fits.iter_mut().filter_map(|f| f.found.as_mut()).for_each(|f| f.stiffness_error = Some(5.0));
+        }),
+        ("exact-effect:target-offset", |t| {
+            t.machines
+                .iter_mut()
+                .filter(|m| m.subject.name == "target-offset")
+                .for_each(|m| m.found.as_mut().unwrap().effect.as_mut().unwrap().error *= 1.6);
+        }),
+        ("exact-bounds", |t| t.machines[0].found.as_mut().unwrap().stiffness.as_mut().unwrap().error = 1.0),
+        ("misfits", |t| t.fits.iter_mut().filter_map(|f| f.found.as_mut()).for_each(|f| f.misfit = true)),
+        ("without-answer", |t| t.fits.iter_mut().for_each(|f| f.found = None)),
+    ];
+    for (id, plant) in faults {
+        let mut trials = baseline().1.clone();
+        plant(&mut trials);
+        let found = failed(&trials);
+        assert!(found.iter().any(|f| f == id), "{id} is not among {found:?}");
+    }
+}
+
+#[test]
+fn junit_has_a_case_for_each_limit_and_tells_of_each_failure_figures_and_the_next_step() {
+    let mut trials = baseline().1.clone();
+    trials.fits.iter_mut().filter_map(|f| f.found.as_mut()).for_each(|f| f.stiffness_error = Some(5.0));
+    let comparison = beside(&trials, 1);
+    let text = junit(&comparison).unwrap();
+    let xml = roxmltree::Document::parse(&text).unwrap();
+    let root = xml.root_element();
+    assert_eq!(root.tag_name().name(), "testsuites");
+    let count = |tag: &str| xml.descendants().filter(|n| n.has_tag_name(tag)).count();
+    assert_eq!(count("testcase"), comparison.findings.len());
+    let failures = comparison.of(Verdict::Worse).count();
+    assert!(failures > 0);
+    assert_eq!(count("failure"), failures);
+    for suite in root.children().filter(|n| n.has_tag_name("testsuite")) {
+        let cases = suite.children().filter(|n| n.has_tag_name("testcase"));
+        let broken = cases.clone().filter(|c| c.children().any(|n| n.has_tag_name("failure"))).count();
+        assert!(cases.clone().all(|c| c.has_attribute("name") && c.has_attribute("classname")));
+        assert_eq!(suite.attribute("tests"), Some(cases.count().to_string().as_str()));
+        assert_eq!(suite.attribute("failures"), Some(broken.to_string().as_str()));
+        assert_eq!(suite.attribute("errors"), Some("0"));
+    }
+    let failure = xml.descendants().find(|n| n.has_tag_name("failure")).unwrap();
+    assert!(failure.attribute("message").unwrap().contains("baseline"), "{failure:?}");
+    let words = failure.text().unwrap();
+    assert!(words.contains("expected:") && words.contains("next:") && words.contains("--update"), "{words}");
+}
+
+#[test]
+fn limits_have_names_of_their_own_and_reasons() {
+    for suite in [Suite::full(), Suite::quick()] {
+        let all = limits(&suite);
+        let mut ids: Vec<&str> = all.iter().map(|l| l.id.as_str()).collect();
+        let mut titles: Vec<&str> = all.iter().map(|l| l.title.as_str()).collect();
+        for names in [&mut ids, &mut titles] {
+            let before = names.len();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), before, "two limits share a name");
+        }
+        assert!(all.iter().all(|l| l.why.ends_with('.') && !l.id.contains(' ')));
+    }
+}
+
+#[test]
+fn the_committed_baseline_is_one_of_the_full_suite() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/regress/baseline.json");
+    let suite = Suite::full();
+    let baseline = Baseline::read_for(&path, &suite, &limits(&suite)).unwrap();
+    assert!(baseline.history.iter().all(|u| !u.reason.trim().is_empty() && u.runs > 0));
+}
+
+#[test]
+fn an_update_without_a_reason_is_refused_and_history_is_kept() {
+    let suite = Suite::quick();
+    let limits = limits(&suite);
+    let gathered = pool(&limits, std::slice::from_ref(&baseline().1));
+    for nothing in ["", "  \n"] {
+        assert!(made(&suite, &limits, &gathered, update(nothing), Vec::new()).is_err());
+    }
+    let second = made(&suite, &limits, &gathered, update("second"), baseline().0.history.clone()).unwrap();
+    let reasons: Vec<&str> = second.history.iter().map(|u| u.reason.as_str()).collect();
+    assert_eq!(reasons, ["first", "second"]);
+}
+
+/// Draws of the rule.
+const DRAWS: usize = 4000;
+/// Campaigns now and in the baseline.
+const NOW: usize = 40;
+const BEFORE: usize = 320;
+/// Level of one limit: large enough that false alarms can be counted.
+const LEVEL: f64 = 5e-3;
+
+type Law = fn(&mut Pcg64, f64) -> f64;
+
+/// A kind of limit, values of a mean (of sizes: times a factor), and the usual mean.
+fn kinds() -> [(Test, Law, f64); 4] {
+    let size = Test::Size { range: [1e-9, 1e9], least: 0.1, unit: Unit::Plain };
+    let normal: Law = |rng, m| m * f64::exp(StandardNormal.sample(rng));
+    // The error of one number: the logarithm of its size is skewed.
+    let half_normal: Law = |rng, m| {
+        let z: f64 = StandardNormal.sample(rng);
+        m * z.abs().max(1e-6)
+    };
+    let pulls: Law = |rng, m| m * ChiSquared::new(6.0).unwrap().sample(rng) / 6.0;
+    let share: Law = |rng, m| f64::from(u8::from(rng.random_bool(m.min(1.0))));
+    [(size, normal, 1.0), (size, half_normal, 1.0), (Test::Spread, pulls, 1.0), (Test::Share, share, 0.1)]
+}
+
+fn drawn((test, law, mean): (Test, Law, f64), n: usize, rng: &mut Pcg64) -> Sample {
+    let values: Vec<f64> = (0..n).map(|_| law(rng, mean)).collect();
+    Sample::of(test, &values)
+}
+
+#[test]
+fn without_a_change_the_rule_fails_no_more_often_than_its_level() {
+    for (k, kind) in kinds().into_iter().enumerate() {
+        let mut rng = stream(7, Purpose::Test, [k as u64]);
+        let fails = |_| {
+            let before = drawn(kind, BEFORE, &mut rng);
+            let now = drawn(kind, NOW, &mut rng);
+            judge(kind.0, &now, &before, BEFORE / NOW, LEVEL).verdict == Verdict::Worse
+        };
+        let hits = (0..DRAWS).map(fails).filter(|fails| *fails).count();
+        let found = Proportion { hits, of: DRAWS };
+        println!("{:?}: {hits} of {DRAWS}", kind.0);
+        assert!(!found.is_above(LEVEL), "{:?}: {hits} of {DRAWS} at a level of {LEVEL}", kind.0);
+    }
+}
+
+#[test]
+fn a_change_of_the_stated_size_is_noticed_in_nine_cases_of_ten() {
+    // The baseline is drawn too, so that the stated size moves with it; and no more than a tenth fewer may be noticed.
+    const LEAST: f64 = POWER - 0.05;
+    for (k, kind) in kinds().into_iter().enumerate() {
+        let mut rng = stream(8, Purpose::Test, [k as u64]);
+        let notices = |_: &usize| {
+            let before = drawn(kind, BEFORE, &mut rng);
+            let size = noticed(kind.0, NOW as u64, &before, LEVEL).unwrap();
+            let changed = if matches!(kind.0, Test::Size { .. }) { kind.2 * size } else { size };
+            let now = drawn((kind.0, kind.1, changed), NOW, &mut rng);
+            judge(kind.0, &now, &before, BEFORE / NOW, LEVEL).verdict == Verdict::Worse
+        };
+        let hits = (0..DRAWS / 8).filter(notices).count();
+        let share = hits as f64 / (DRAWS / 8) as f64;
+        println!("{:?}: noticed in {:.1} %", kind.0, 100.0 * share);
+        assert!(share > LEAST, "{:?}: noticed in {share}, least {LEAST}", kind.0);
+    }
+}

@@ -1,0 +1,5 @@
+//! Sweeps: what their numbers must be.
+
+mod closed_form;
+mod studies;
+pub(crate) mod support;

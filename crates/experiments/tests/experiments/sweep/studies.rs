@@ -1,0 +1,225 @@
+//! Studies as a whole: what their numbers must be, whatever happens to the run.
+
+use hexbench_report::render::plain;
+use std::fs::{self, File};
+
+use hexbench_experiments::ExperimentError;
+use hexbench_experiments::harness::{Sharded, Silent, compute};
+use hexbench_experiments::journal::Journal;
+use hexbench_experiments::recovery::tally::bounds;
+use hexbench_experiments::sweep::Runner;
+use hexbench_experiments::sweep::columns::Status;
+use hexbench_experiments::sweep::page::{Matching, equals, laws};
+use hexbench_experiments::sweep::results::{self, CELLS, CellStatistics, TRIALS};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::RowAccessor;
+
+use super::support::study;
+
+const SMALL: &str = "trials = 700\ntask = \"springs\"\nredraw = 50\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"random\"]\n\
+                     poses = [3]\nnoise_scale = [1, 2, 4]\n";
+
+fn open(folder: &std::path::Path, runner: &Runner) -> Result<Journal, ExperimentError> {
+    Journal::open(folder, runner.identity(), runner.shards())
+}
+
+fn run(folder: &std::path::Path, rest: &str) -> (Runner, Vec<CellStatistics>) {
+    let runner = Runner::new(study(rest)).unwrap();
+    let journal = open(folder, &runner).unwrap();
+    let state = journal.state().unwrap();
+    compute(&journal, &runner, &state.pending, &Silent).unwrap();
+    let cells = results::write(&runner, &journal, &|| {}).unwrap();
+    (runner, cells)
+}
+
+fn bytes(folder: &std::path::Path) -> [Vec<u8>; 2] {
+    [TRIALS, CELLS].map(|name| fs::read(folder.join(name)).unwrap())
+}
+
+#[test]
+fn intervals_cover_the_truth_in_their_share_of_the_trials() {
+    let folder = tempfile::tempdir().unwrap();
+    let rest = "trials = 2000\ntask = \"springs\"\nredraw = 20\n[axes]\ngeometry = [\"ring_b\", \"irregular\"]\n\
+                plan = [\"random\"]\nposes = [6]\n";
+    let (_, cells) = run(folder.path(), rest);
+    for cell in &cells {
+        let [share, ..] = cell.coverage();
+        let [low, high] = bounds(cell.done(), 0.95, cells.len());
+        assert!((low..=high).contains(&share), "cell {}: {share} not in {low} to {high}", cell.cell);
+    }
+}
+
+#[test]
+fn without_corrections_of_second_order_the_papers_estimator_misses_its_intervals_where_there_is_little_noise()
+{
+    let folder = tempfile::tempdir().unwrap();
+    let rest = "trials = 500\ntask = \"springs\"\nredraw = 20\n[axes]\ngeometry = [\"ring_b\"]\nplan = [\"random\"]\n\
+                poses = [6]\nestimator = [\"gls\", \"paper\"]\nnoise_scale = [0.05]\n";
+    let (_, cells) = run(folder.path(), rest);
+    let [[weighted, ..], [unweighted, ..]] = [cells[0].coverage(), cells[1].coverage()];
+    let [low, high] = bounds(cells[0].done(), 0.95, 1);
+    assert!((low..=high).contains(&weighted), "{weighted}");
+    assert!(unweighted < low, "{unweighted}");
+}
+
+#[test]
+fn the_error_is_proportional_to_the_noise_and_falls_with_the_root_of_the_readings() {
+    /// 12000 errors behind each of four cells: the exponents are known to a few thousandths.
+    const CLOSE: f64 = 0.02;
+    let folder = tempfile::tempdir().unwrap();
+    let rest = "trials = 2000\ntask = \"springs\"\nredraw = 20\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"random\"]\n\
+                poses = [8]\nrepeats = [1, 4]\nnoise_scale = [0.1, 0.4]\n";
+    let (runner, cells) = run(folder.path(), rest);
+    let law = &laws(runner.study(), &cells)[0];
+    let [repeats, noise] = [law.exponents[0], law.exponents[1]];
+    assert!(repeats.0 == "repeats" && (repeats.1 + 0.5).abs() < CLOSE, "{repeats:?}");
+    assert!(noise.0 == "noise_scale" && (noise.1 - 1.0).abs() < CLOSE, "{noise:?}");
+}
+
+#[test]
+fn designed_poses_are_worth_more_than_as_many_random_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let rest = "trials = 400\ntask = \"springs\"\nredraw = 4\nstarts = 4\n[axes]\ngeometry = [\"ring_a\"]\n\
+                plan = [\"A\", \"random\"]\nposes = [2, 3, 6]\n";
+    let (runner, cells) = run(folder.path(), rest);
+    let equal = equals(runner.study(), &cells);
+    assert_eq!(equal.len(), 3);
+    let page = plain(&hexbench_experiments::sweep::page::summary(runner.study(), &cells));
+    assert!(page.contains("random poses as good"), "{page}");
+    for e in &equal {
+        let worth = match e.random_poses {
+            Matching::About(n) | Matching::MoreThan(n) => n,
+            Matching::FewerThan(_) => 0.0,
+        };
+        assert!(worth > e.poses || e.poses >= 6.0, "{e:?}");
+        assert!(e.error_percent < e.random_error_percent, "{e:?}");
+    }
+}
+
+#[test]
+fn records_that_are_missing_or_damaged_are_computed_again_and_the_bytes_are_the_same() {
+    let (whole, broken) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    run(whole.path(), SMALL);
+    run(broken.path(), SMALL);
+    let record = |n: u32| broken.path().join(format!("journal/{n:08}.shard"));
+    fs::remove_file(record(0)).unwrap();
+    let torn = fs::read(record(1)).unwrap();
+    fs::write(record(1), &torn[..torn.len() / 2]).unwrap();
+    let remains = broken.path().join("journal/.hexbench-x.part");
+    fs::write(&remains, "half").unwrap();
+    fs::remove_file(broken.path().join(TRIALS)).unwrap();
+
+    let runner = Runner::new(study(SMALL)).unwrap();
+    let journal = open(broken.path(), &runner).unwrap();
+    let state = journal.state().unwrap();
+    assert_eq!((state.pending.as_slice(), state.damaged), ([0, 1].as_slice(), 1));
+    assert!(!remains.exists());
+    drop(journal);
+    run(broken.path(), SMALL);
+    assert!(bytes(whole.path()) == bytes(broken.path()));
+}
+
+#[test]
+fn results_are_not_written_from_part_of_the_shards() {
+    let folder = tempfile::tempdir().unwrap();
+    let runner = Runner::new(study(SMALL)).unwrap();
+    let journal = open(folder.path(), &runner).unwrap();
+    compute(&journal, &runner, &[0, 2], &Silent).unwrap();
+    let missing = results::write(&runner, &journal, &|| {}).unwrap_err();
+    assert!(matches!(missing, ExperimentError::Missing { shard: 1, .. }), "{missing}");
+    assert!(!folder.path().join(TRIALS).exists());
+}
+
+#[test]
+fn shards_computed_elsewhere_and_put_together_give_the_same_bytes() {
+    let (whole, here, there) =
+        (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    run(whole.path(), SMALL);
+    let runner = Runner::new(study(SMALL)).unwrap();
+    compute(&open(here.path(), &runner).unwrap(), &runner, &[2, 0], &Silent).unwrap();
+    compute(&open(there.path(), &runner).unwrap(), &runner, &[1], &Silent).unwrap();
+    let record = "journal/00000001.shard";
+    fs::copy(there.path().join(record), here.path().join(record)).unwrap();
+    let journal = open(here.path(), &runner).unwrap();
+    assert_eq!(journal.state().unwrap().pending, Vec::<u64>::new());
+    results::write(&runner, &journal, &|| {}).unwrap();
+    assert!(bytes(whole.path()) == bytes(here.path()));
+}
+
+#[test]
+fn one_run_at_a_time_works_in_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let runner = Runner::new(study(SMALL)).unwrap();
+    let first = open(folder.path(), &runner).unwrap();
+    let second = open(folder.path(), &runner).err().unwrap();
+    assert!(
+        matches!(second, ExperimentError::Busy { holder: Some(pid), .. } if pid == std::process::id()),
+        "{second}"
+    );
+    drop(first);
+    assert!(open(folder.path(), &runner).is_ok());
+}
+
+#[test]
+fn the_table_of_trials_reads_back_with_its_metadata_and_agrees_with_the_table_of_cells() {
+    let folder = tempfile::tempdir().unwrap();
+    let (runner, cells) = run(folder.path(), SMALL);
+    let reader = SerializedFileReader::new(File::open(folder.path().join(TRIALS)).unwrap()).unwrap();
+    let metadata = reader.metadata().file_metadata();
+    let value = |key: &str| {
+        let pairs = metadata.key_value_metadata().unwrap();
+        pairs.iter().find(|p| p.key == key).and_then(|p| p.value.clone()).unwrap()
+    };
+    assert_eq!(value("study_sha256"), runner.study().hash());
+    assert_eq!((value("format").as_str(), value("seed").as_str()), ("study-trials/1", "1"));
+    let fields: serde_json::Value = serde_json::from_str(&value("fields")).unwrap();
+    let names: Vec<String> =
+        metadata.schema().get_fields().iter().map(|field| field.name().to_owned()).collect();
+    assert!(names.iter().all(|name| fields.get(name).is_some()), "{names:?}");
+    let at = |name: &str| names.iter().position(|n| n == name).unwrap();
+    let (mut squares, mut count) = (0.0, 0_u32);
+    for row in reader.get_row_iter(None).unwrap() {
+        let row = row.unwrap();
+        assert_eq!(row.get_string(at("status")).unwrap(), Status::NAMES[0]);
+        if row.get_long(at("cell")).unwrap() == 1 {
+            assert!((row.get_double(at("noise_scale")).unwrap() - 2.0).abs() < 1e-15);
+            for leg in 1..=6 {
+                let error = row.get_double(at(&format!("leg_{leg}_stiffness_error_percent"))).unwrap();
+                squares += error * error;
+                count += 1;
+            }
+        }
+    }
+    assert_eq!(count, 6 * 700);
+    let rms = (squares / f64::from(count)).sqrt();
+    assert!((rms / cells[1].springs.errors.rms() - 1.0).abs() < 1e-12, "{rms}");
+}
+
+#[test]
+fn trials_without_an_answer_are_counted_and_have_no_results() {
+    let folder = tempfile::tempdir().unwrap();
+    // Legs never pull under the weight of the paper: no play can show.
+    let rest = "trials = 40\ntask = \"springs\"\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"paper\"]\n\
+                effect = [\"leg-asymmetry\"]\nsize_sigmas = [0, 20]\n";
+    let (runner, cells) = run(folder.path(), rest);
+    assert_eq!(cells[0].done(), 40);
+    assert_eq!(cells[1].by_status[Status::NotVisible as usize], 40);
+    let page = plain(&hexbench_experiments::sweep::page::summary(runner.study(), &cells));
+    assert!(page.contains("effect not visible: 40"), "{page}");
+    let table = fs::read_to_string(folder.path().join(CELLS)).unwrap();
+    assert!(table.lines().nth(2).unwrap().ends_with(",40,0,0,40,,,,,,,,,"), "{table}");
+}
+
+#[test]
+fn a_diagnosis_is_judged_and_finds_what_is_plain_to_see() {
+    let folder = tempfile::tempdir().unwrap();
+    let rest = "trials = 8\ntask = \"diagnose\"\nredraw = 2\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"rich\"]\n\
+                effect = [\"thermal-expansion\"]\nsize_sigmas = [0, 40]\n";
+    let (_, cells) = run(folder.path(), rest);
+    for cell in &cells {
+        assert_eq!(cell.done(), 8);
+        assert!(cell.answers.outcomes[0] >= 7, "cell {}: {:?}", cell.cell, cell.answers.outcomes);
+    }
+    let [before, after] = cells[1].answers.holdout.map(|w| w.mean());
+    assert!(before > 2.0 && after < 1.5, "{before} {after}");
+}

@@ -1,0 +1,31 @@
+//! Which estimates of the final model depend on each other.
+
+use hexbench_model::estimate::parameter_names;
+
+use super::ReportError;
+use crate::page::{Block, Section};
+use crate::plot::HeatMap;
+use crate::words::Subject;
+
+/// Columns of a correlation map that can be read.
+const MOST_COLUMNS: usize = 24;
+
+/// Correlation of the estimates of the final model.
+pub(super) fn section(subject: &Subject<'_>) -> Result<Option<Section>, ReportError> {
+    let Some(fit) = subject.study.fits.last() else { return Ok(None) };
+    let mut columns: Vec<(String, usize)> = (0..6).map(|leg| (format!("leg {}", leg + 1), leg)).collect();
+    for (active, &offset) in fit.point.active.iter().zip(&fit.offsets) {
+        let names = parameter_names(active).into_iter().enumerate();
+        columns.extend(names.map(|(k, (name, ..))| (format!("{}.{name}", active.id()), offset + k)));
+    }
+    columns.retain(|(_, k)| fit.is_determined(*k));
+    if columns.len() < 2 || columns.len() > MOST_COLUMNS {
+        return Ok(None);
+    }
+    let names: Vec<String> = columns.iter().map(|c| c.0.clone()).collect();
+    let cell = |a: usize, b: usize| fit.covariance[(a, b)] / (fit.std(a) * fit.std(b)).max(f64::MIN_POSITIVE);
+    let rows = columns.iter().map(|a| columns.iter().map(|b| cell(a.1, b.1).abs()).collect()).collect();
+    let map = HeatMap::new("", names.clone(), names, rows).with_decimals(2).with_full_shade_at(1.0);
+    let caption = "Absolute correlation of the estimates: near 1, only a combination of the two is known.";
+    Ok(Some(Section::new("Correlation").id("correlation").with(Block::figure(map.to_svg()?, caption))))
+}

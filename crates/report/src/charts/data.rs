@@ -1,0 +1,129 @@
+//! What the charts are drawn from: one model, or two, beside the readings, per condition and leg.
+
+use hexbench_core::{Dataset, Hexapod, Vector6};
+use hexbench_model::campaign::{Campaign, Condition};
+use hexbench_model::compare::{Compared, Judged};
+use hexbench_model::error::ModelError;
+use hexbench_model::linearization::Point;
+use hexbench_model::residuals::{Residual, prediction_errors};
+
+use crate::words::{Subject, spread};
+
+/// Conditions of which every leg has a panel of its own.
+const MOST: usize = 150;
+/// Conditions that a panel shows with all their legs.
+const MOST_WITH_ALL_LEGS: usize = 60;
+
+/// A model beside the readings.
+pub(crate) struct Seen<'a> {
+    pub(crate) judged: Judged<'a>,
+    pub(crate) point: &'a Point,
+}
+
+/// What a page calls the first model.
+#[derive(Clone, Copy)]
+pub(crate) struct Words {
+    /// In a legend.
+    pub(crate) name: &'static str,
+    /// Its residuals in a legend.
+    pub(crate) leaves: &'static str,
+    /// Within a sentence: `the condition that ...`.
+    pub(crate) misses: &'static str,
+}
+
+const SPRINGS: Words =
+    Words { name: "springs alone", leaves: "springs alone leave", misses: "the springs alone miss" };
+const MODEL: Words = Words { name: "the model", leaves: "the model leaves", misses: "the model misses" };
+
+/// The readings, the model that is looked at, and the model with added effects.
+pub(crate) struct Data<'a> {
+    pub(crate) hexapod: &'a Hexapod,
+    pub(crate) fitted: &'a Dataset,
+    pub(crate) holdout: Option<&'a Dataset>,
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) words: Words,
+    pub(crate) before: Seen<'a>,
+    /// Absent when nothing was added.
+    pub(crate) after: Option<Seen<'a>>,
+}
+
+/// A condition as it is drawn.
+pub(crate) struct Shown<'a> {
+    pub(crate) at: &'a Condition,
+    /// Residual elongation of each leg, um.
+    pub(crate) left: Vector6,
+    /// What the added effects explain of it, um.
+    pub(crate) explained: Option<Vector6>,
+}
+
+impl<'a> Data<'a> {
+    /// The springs alone, and the final model of a diagnosis.
+    pub(crate) fn of_study(subject: &Subject<'a>) -> Result<Self, ModelError> {
+        let (study, data) = (subject.study, subject.data);
+        let seen = |point: &'a Point| Seen::of(&study.campaign, data, point, true);
+        let last = study.fits.last().filter(|_| study.fits.len() > 1);
+        Ok(Self {
+            hexapod: subject.hexapod,
+            fitted: data,
+            holdout: subject.holdout,
+            campaign: &study.campaign,
+            words: SPRINGS,
+            before: seen(&study.outcome.baseline.point)?,
+            after: last.map(|fit| seen(&fit.point)).transpose()?,
+        })
+    }
+
+    /// The model of a comparison.
+    pub(crate) fn of_comparison(
+        hexapod: &'a Hexapod,
+        data: &'a Dataset,
+        holdout: Option<&'a Dataset>,
+        compared: &'a Compared,
+    ) -> Result<Self, ModelError> {
+        let fitted = compared.comparison.fitted_here;
+        let words = if compared.point.active.is_empty() { SPRINGS } else { MODEL };
+        let before = Seen::of(&compared.campaign, data, &compared.point, fitted)?;
+        Ok(Self { hexapod, fitted: data, holdout, campaign: &compared.campaign, words, before, after: None })
+    }
+
+    /// Both models with their names, the look of the first one first.
+    pub(crate) fn models(&self) -> impl Iterator<Item = (&'static str, usize, &Seen<'a>)> {
+        let after = self.after.as_ref().map(|seen| ("with the added effects", super::figures::FINAL, seen));
+        std::iter::once((self.words.name, super::figures::SPRINGS, &self.before)).chain(after)
+    }
+
+    /// Conditions for panels of single legs.
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = Shown<'_>> {
+        self.thinned(MOST)
+    }
+
+    /// Conditions for panels of all legs.
+    pub(crate) fn conditions_with_all_legs(&self) -> impl Iterator<Item = Shown<'_>> {
+        self.thinned(MOST_WITH_ALL_LEGS)
+    }
+
+    fn thinned(&self, most: usize) -> impl Iterator<Item = Shown<'_>> {
+        let judged = &self.before.judged;
+        spread(judged.lin.conditions.len(), most).map(|i| {
+            let left = judged.space.elongation[i] * 1e6;
+            let after = self.after.as_ref().map(|a| left - a.judged.space.elongation[i] * 1e6);
+            Shown { at: &judged.lin.conditions[i], left, explained: after }
+        })
+    }
+
+    /// Errors of a model on readings it has not seen.
+    pub(crate) fn errors(&self, seen: &Seen<'_>, rows: &Dataset) -> Result<Vec<Residual>, ModelError> {
+        prediction_errors(self.hexapod, rows, self.campaign.noise, seen.point)
+    }
+}
+
+impl<'a> Seen<'a> {
+    fn of(
+        campaign: &'a Campaign,
+        data: &'a Dataset,
+        point: &'a Point,
+        fitted: bool,
+    ) -> Result<Self, ModelError> {
+        Ok(Self { judged: Judged::of(campaign, data, point, fitted)?, point })
+    }
+}

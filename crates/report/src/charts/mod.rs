@@ -1,0 +1,85 @@
+//! The pages with their charts, for a browser.
+//!
+//! Charts are added to what [`crate::words`] says; nothing is left out and nothing is said again.
+
+mod correlation;
+mod data;
+mod explained;
+mod figures;
+mod leg_map;
+mod machine;
+mod period;
+mod predicted;
+mod residual_sheet;
+mod runs;
+mod scatter;
+
+use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::compare::Compared;
+use hexbench_model::error::ModelError;
+
+use self::data::Data;
+use crate::page::{Page, Section};
+use crate::plot::PlotError;
+use crate::words::{self, Provenance, Subject, subject};
+
+pub use self::runs::runs;
+
+/// Why there is no page.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// A chart that cannot be drawn.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    /// A page that cannot be laid out.
+    #[error(transparent)]
+    Page(#[from] crate::render::PageError),
+    /// A model that cannot be computed again.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+}
+
+/// The page of a diagnosis with its charts.
+///
+/// # Errors
+/// [`ReportError`] when a chart cannot be made.
+pub fn diagnosis(subject: &Subject<'_>, provenance: &Provenance) -> Result<Page, ReportError> {
+    let data = Data::of_study(subject)?;
+    let sections = [
+        Some(predicted::section(&data)?),
+        machine::section(&data)?,
+        Some(leg_map::section(&data)?),
+        explained::section(&data)?,
+        Some(residual_sheet::section(&data)?),
+        period::section(&data)?,
+        Some(scatter::section(&data)?),
+    ];
+    Ok(words::diagnosis(subject)
+        .with_after("ladder", sections.into_iter().flatten())
+        .with_after("stiffness", correlation::section(subject)?)
+        .with(provenance.section(subject.study.diagnosis.noise.source)))
+}
+
+/// The page of a comparison with its charts.
+///
+/// # Errors
+/// [`ReportError`] when a chart cannot be made.
+pub fn comparison(
+    hexapod: &Hexapod,
+    readings: &Dataset,
+    holdout: Option<&Dataset>,
+    compared: &Compared,
+    provenance: &Provenance,
+) -> Result<Page, ReportError> {
+    let c = &compared.comparison;
+    let data = Data::of_comparison(hexapod, readings, holdout, compared)?;
+    let about = subject::entries(readings, holdout, &compared.campaign.noise);
+    let seen: [Option<Section>; 3] =
+        [Some(predicted::section(&data)?), machine::section(&data)?, Some(leg_map::section(&data)?)];
+    let residuals: [Option<Section>; 3] =
+        [Some(residual_sheet::section(&data)?), period::section(&data)?, Some(scatter::section(&data)?)];
+    Ok(words::comparison(&hexapod.name, about, c)
+        .with_after("adequacy", seen.into_iter().flatten())
+        .with_after("follows", residuals.into_iter().flatten())
+        .with(provenance.section(c.noise_source)))
+}

@@ -1,0 +1,107 @@
+//! Predicted against measured, coordinate by coordinate, reading by reading.
+
+use crate::page::{Block, Section};
+use crate::plot::{Axis, Chart, Panels, Series};
+use hexbench_core::Dataset;
+use hexbench_model::residuals::Residual;
+
+use super::ReportError;
+use super::data::Data;
+use super::figures::MEASURED;
+
+/// Readings a panel can show apart.
+const MOST: usize = 120;
+const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
+
+/// Readings and what the models say of them.
+struct Told<'a> {
+    rows: &'a Dataset,
+    models: Vec<Model>,
+    /// Standard deviation of one reading, m and rad.
+    noise: [f64; 6],
+}
+
+struct Model {
+    name: &'static str,
+    look: usize,
+    errors: Vec<Residual>,
+}
+
+/// Held-out readings where there is a file of them, else the fitted ones.
+pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
+    let (rows, what) = match data.holdout {
+        Some(held) => (held, "Held-out readings, which no fit has seen"),
+        None => (data.fitted, "Readings of the data"),
+    };
+    let told = told(data, rows)?;
+    let errors = "Measured minus predicted of the same readings; the band is twice the noise of one reading to both sides.";
+    Ok(Section::new("Predicted against measured")
+        .id("predicted")
+        .with(Block::named_figure("values", told.svg(Told::values)?, caption(what, rows)))
+        .with(Block::named_figure("errors", told.svg(Told::errors)?, errors)))
+}
+
+fn caption(what: &str, rows: &Dataset) -> String {
+    let of = if rows.is_absolute() { "; measured pose minus commanded pose" } else { "" };
+    let count = rows.observations.len();
+    let some = if count > MOST { format!("the first {MOST} of {count}") } else { format!("{count}") };
+    format!("{what}, in the order of the file ({some}){of}.")
+}
+
+fn told<'a>(data: &Data<'_>, rows: &'a Dataset) -> Result<Told<'a>, ReportError> {
+    let seen_here = std::ptr::eq(rows, data.fitted);
+    let mut models = Vec::new();
+    for (name, look, seen) in data.models() {
+        let errors = if seen_here { seen.judged.rows.clone() } else { data.errors(seen, rows)? };
+        models.push(Model { name, look, errors });
+    }
+    Ok(Told { rows, models, noise: data.campaign.noise.sigma() })
+}
+
+impl Told<'_> {
+    fn svg(&self, chart: fn(&Self, usize) -> Chart) -> Result<String, ReportError> {
+        let panels = Panels::new("", 3).with_panel_size(300.0, 210.0);
+        Ok((0..6).fold(panels, |panels, k| panels.with(chart(self, k))).to_svg()?)
+    }
+
+    fn count(&self) -> usize {
+        self.rows.observations.len().min(MOST)
+    }
+
+    fn frame(k: usize) -> Chart {
+        Chart::new("", Axis::new("reading", ""), Axis::new(NAMES[k], if k < 3 { "um" } else { "urad" }))
+    }
+
+    /// One coordinate over the number of the reading.
+    fn values(&self, k: usize) -> Chart {
+        let measured = (0..self.count()).map(|row| [row as f64 + 1.0, self.measured(row, k)]).collect();
+        let mut chart = Self::frame(k);
+        for model in &self.models {
+            let value = |r: &Residual| self.measured(r.row, k) - 1e6 * r.value[k];
+            let line = model.errors.iter().take(MOST).map(|r| [r.row as f64 + 1.0, value(r)]).collect();
+            chart = chart.with(Series::line(model.name, line).with_look(model.look));
+        }
+        chart.with(Series::markers("measured", measured).with_look(MEASURED).with_marker_size(2.4))
+    }
+
+    /// The error of one coordinate over the number of the reading.
+    fn errors(&self, k: usize) -> Chart {
+        let (last, reach) = (self.count() as f64, 2e6 * self.noise[k]);
+        let band = vec![[1.0, -reach, reach], [last, -reach, reach]];
+        let mut chart = Self::frame(k).with(Series::band("twice the noise", band).with_look(MEASURED));
+        for model in &self.models {
+            let error = |r: &Residual| [r.row as f64 + 1.0, 1e6 * r.value[k]];
+            let points = model.errors.iter().take(MOST).map(error).collect();
+            chart =
+                chart.with(Series::markers(model.name, points).with_look(model.look).with_marker_size(2.4));
+        }
+        chart
+    }
+
+    /// A measured number, um or urad; of an absolute pose what it is beside the commanded one.
+    fn measured(&self, row: usize, k: usize) -> f64 {
+        let o = &self.rows.observations[row];
+        let commanded = if self.rows.is_absolute() { o.pose.to_array()[k] } else { 0.0 };
+        1e6 * (o.measured[k] - commanded)
+    }
+}

@@ -1,0 +1,37 @@
+//! Are the residuals noise? Histogram and normal plot of the whitened residuals.
+
+use crate::page::{Block, Section};
+use crate::plot::{Axis, Chart, Panels, Series};
+use hexbench_model::scatter::Scatter;
+use statrs::distribution::{Continuous, Normal};
+
+use super::ReportError;
+use super::data::Data;
+
+/// Both charts, a curve for each model.
+pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
+    let mut histogram =
+        Chart::new("", Axis::new("residual in units of the noise", ""), Axis::new("share per unit", ""))
+            .with(Series::line("noise alone", bell()).as_reference());
+    let mut normal =
+        Chart::new("", Axis::new("expected of noise", ""), Axis::new("residual in units of the noise", ""))
+            .with(Series::line("noise alone", vec![[-3.0, -3.0], [3.0, 3.0]]).as_reference());
+    for (name, look, seen) in data.models() {
+        let scatter = Scatter::of(&seen.judged.rows);
+        histogram = histogram.with(Series::line(name, scatter.histogram()).with_look(look));
+        normal = normal.with(Series::markers(name, scatter.quantiles()).with_look(look));
+    }
+    let panels = Panels::new("", 2).with_panel_size(450.0, 280.0).with(histogram).with(normal);
+    let caption =
+        "Left: how often residuals of a size occur. Right: normal plot; noise alone lies on the line.";
+    let remark = "Residuals of single readings over the stated noise.";
+    Ok(Section::new("Are the residuals noise?")
+        .id("scatter")
+        .remark(remark)
+        .with(Block::figure(panels.to_svg()?, caption)))
+}
+
+fn bell() -> Vec<[f64; 2]> {
+    let law = Normal::standard();
+    (-24..=24).map(|k| f64::from(k) * 0.25).map(|x| [x, law.pdf(x)]).collect()
+}

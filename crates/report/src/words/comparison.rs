@@ -1,0 +1,230 @@
+//! The page of a comparison.
+
+use hexbench_model::compare::Comparison;
+use hexbench_model::compare::absorbed::HiddenBias;
+use hexbench_model::compare::adequacy::{Answer, Test};
+use hexbench_model::compare::association::Association;
+use hexbench_model::compare::coordinates::Coordinate;
+use hexbench_model::compare::legs::LegResidual;
+use hexbench_model::compare::rows::Outlier;
+use hexbench_model::residuals::ErrorSummary;
+use hexbench_model::words::joined;
+
+use super::notes;
+use crate::number::{multiple, rounded, significant};
+use crate::page::{Block, Cell, Column, Entry, Mood, Page, Section, Table};
+
+/// Rows of a list where there is little room.
+const BRIEF: usize = 6;
+
+/// The comparison; `subject` says what of.
+pub fn comparison(machine: &str, subject: Vec<Entry>, c: &Comparison) -> Page {
+    Page { subject, ..Page::new(format!("Comparison of {machine}")) }
+        .with(verdict(c))
+        .with(errors(c))
+        .with(coordinates(c))
+        .with(adequacy(c))
+        .with(worst(c))
+        .with(outliers(c))
+        .with(legs(c))
+        .with(follows(c))
+        .with(plan(c))
+        .with(hidden(c))
+        .with(notes::conventions())
+}
+
+fn verdict(c: &Comparison) -> Section {
+    let with = if c.terms.is_empty() { String::new() } else { format!(" + {}", joined(&c.terms)) };
+    let how = if c.fitted_here { "fitted to these readings" } else { "as saved, nothing fitted here" };
+    let (word, mood, sentence) = match c.adequacy.answer() {
+        Answer::Adequate => {
+            ("ADEQUATE", Mood::Good, "As far as these readings tell, the error of this model is noise.")
+        }
+        Answer::NotAdequate => (
+            "NOT ADEQUATE",
+            Mood::Bad,
+            "Something is missing in this model: its error is beyond the noise. `hexbench diagnose` looks for it.",
+        ),
+        Answer::Open => {
+            ("OPEN", Mood::Doubt, "No noise level is stated and nothing is repeated: nothing can be said.")
+        }
+    };
+    Section::new(format!("Compared: leg springs{with}")).id("verdict").remark(how).with(Block::Verdict {
+        word: word.to_owned(),
+        mood,
+        sentences: vec![sentence.to_owned()],
+    })
+}
+
+fn errors(c: &Comparison) -> Section {
+    let all = [("readings", Some(&c.error)), ("held-out readings", c.holdout.as_ref())];
+    let known: Vec<(&str, &ErrorSummary)> =
+        all.into_iter().filter_map(|(name, e)| Some((name, e?))).collect();
+    let largest = known.iter().map(|(_, e)| e.times_noise()).fold(1.0, f64::max);
+    let columns = [
+        Column::words(""),
+        Column::number("translation um"),
+        Column::number("rotation urad"),
+        Column::number("reduced chi2"),
+        Column::number("x noise"),
+        Column::bars(),
+    ];
+    let mut table = Table::new(columns);
+    for (name, e) in known {
+        let sizes =
+            [e.rms.translation_um, e.rms.rotation_urad, e.chi2_reduced].map(|x| significant(x, 3).into());
+        let times = [multiple(e.times_noise()).into(), Cell::bar(e.times_noise() / largest)];
+        let name = Cell::from(format!("{name} ({})", e.count / 6));
+        table.row(std::iter::once(name).chain(sizes).chain(times));
+    }
+    Section::new("The error").id("errors").remark("root mean square").table(table)
+}
+
+fn coordinates(c: &Comparison) -> Section {
+    let ratio = |x: &Coordinate| x.rms / x.noise;
+    let largest = c.coordinates.iter().map(ratio).fold(1.0, f64::max);
+    let names = ["rms", "noise", "ratio", "bias", "t", "chance"].map(Column::number);
+    let columns = std::iter::once(Column::words("")).chain(names);
+    let columns = columns.chain([Column::words("unit"), Column::bars().detail()]);
+    let row = |x: &Coordinate| {
+        let numbers = [
+            significant(x.rms, 3),
+            significant(x.noise, 3),
+            significant(ratio(x), 3),
+            rounded(x.bias, x.noise / 10.0),
+            x.t.map_or("-".to_owned(), |t| rounded(t, 1.0)),
+            x.p.map_or("-".to_owned(), chance),
+        ];
+        let numbers = numbers.map(Cell::from).into_iter();
+        std::iter::once(Cell::from(x.name))
+            .chain(numbers)
+            .chain([x.unit.into(), Cell::bar(ratio(x) / largest)])
+    };
+    Section::new("Coordinates")
+        .remark(format!("root mean square beside the noise ({}); bias with its t test", c.noise_source))
+        .table(Table::new(columns).rows(c.coordinates.iter().map(row)))
+}
+
+fn adequacy(c: &Comparison) -> Option<Section> {
+    let row = |(name, t): (&str, Test)| [name.to_owned(), statistic(&t), chance(t.p)];
+    let table = Table::named(["test", "statistic", "chance"]).rows(c.adequacy.tests().map(row));
+    let section = Section::new("Is the model adequate?")
+        .id("adequacy")
+        .remark("chance of a worse result if it is right");
+    (!table.rows.is_empty()).then(|| section.table(table))
+}
+
+fn statistic(t: &Test) -> String {
+    match t.dof_noise {
+        Some(noise) => format!("F({:.0}, {noise:.0}) = {}", t.dof, significant(t.statistic, 3)),
+        None => format!("chi2({:.0}) = {}", t.dof, significant(t.statistic, 4)),
+    }
+}
+
+/// A chance without false precision.
+pub(crate) fn chance(p: f64) -> String {
+    match p {
+        p if p < 1e-12 => "< 1e-12".to_owned(),
+        p if p < 1e-3 => format!("{p:.0e}"),
+        p => significant(p, 2),
+    }
+}
+
+fn worst(c: &Comparison) -> Section {
+    let largest = c.worst_poses.first().map_or(1.0, |w| w.whitened_rms);
+    let columns = ["pose", "first line", "readings", "x noise"].map(Column::number);
+    let rows = c.worst_poses.iter().map(|w| {
+        let numbers = [
+            w.pose.to_string(),
+            w.line.to_string(),
+            w.readings.to_string(),
+            format!("{:.2}", w.whitened_rms),
+        ];
+        numbers.map(Cell::from).into_iter().chain([Cell::bar(w.whitened_rms / largest)])
+    });
+    Section::new("Worst poses")
+        .remark("root mean square in units of the noise")
+        .table(Table::new(columns.into_iter().chain([Column::bars()])).rows(rows))
+}
+
+fn outliers(c: &Comparison) -> Section {
+    let section = Section::new("Readings that stand out").id("outliers").remark("kept in everything above");
+    if c.outliers.is_empty() {
+        return section.paragraph("No single reading is beyond chance.");
+    }
+    let row = |o: &Outlier| [o.line.to_string(), format!("{:.1}", o.z), chance(o.p)];
+    let table = Table::named(["line", "times the noise", "chance"]).rows(c.outliers.iter().map(row));
+    section.table(table.brief(BRIEF))
+}
+
+fn legs(c: &Comparison) -> Section {
+    let row = |name: &str, cell: fn(&LegResidual) -> String| {
+        std::iter::once(name.to_owned()).chain(c.legs.iter().map(cell)).collect::<Vec<_>>()
+    };
+    let table = Table::named(row("leg", |l| l.leg.to_string()))
+        .rows([row("rms", |l| significant(l.rms_um, 3)), row("noise alone", |l| significant(l.noise_um, 3))]);
+    Section::new("Legs").remark("elongation each leg would need to explain the residuals, um").table(table)
+}
+
+fn follows(c: &Comparison) -> Section {
+    let row = |a: &Association| {
+        [
+            format!("{} of {}", a.of, who(a.leg)),
+            a.variable.to_owned(),
+            format!("{:+.2}", a.rank_correlation),
+            significant(a.f, 3),
+            chance(a.p),
+        ]
+    };
+    let columns = [Column::words("what"), Column::words("follows")];
+    let columns = columns.into_iter().chain(["rank correlation", "F", "chance"].map(Column::number));
+    let table = Table::new(columns).rows(c.associations.iter().map(row)).brief(BRIEF);
+    let found = if c.associations.is_empty() {
+        Block::paragraph("They follow no variable beyond chance.")
+    } else {
+        Block::Table(table)
+    };
+    let period = c.period.as_ref().map_or("No period in leg length is beyond chance.".to_owned(), |p| {
+        let (period, chance) = (significant(p.period_mm, 3), chance(p.false_alarm));
+        format!("The {} of {} repeats with leg length every {period} mm (chance {chance}).", p.of, who(p.leg))
+    });
+    Section::new("What the residuals follow")
+        .id("follows")
+        .remark("chance corrected for the number of questions")
+        .with(found)
+        .paragraph(period)
+}
+
+/// `leg 3`, or all.
+pub(crate) fn who(leg: Option<usize>) -> String {
+    leg.map_or("all legs".to_owned(), |l| format!("leg {l}"))
+}
+
+fn plan(c: &Comparison) -> Section {
+    let d = &c.design;
+    let condition = d.condition.map_or("infinite".to_owned(), |c| significant(c, 3));
+    let index = |o1: f64| format!("Observability index O1 {o1:.4e} (the paper's eq. 14, m and rad per m/N).");
+    let items = std::iter::once(format!("Rank {} of {}, condition {condition}.", d.rank, d.parameters))
+        .chain(d.paper.as_ref().map(|o| index(o.o1)))
+        .chain(d.unobservable.iter().map(|text| format!("Not determined: {text}.")))
+        .chain(d.weakest.iter().map(|text| format!("Weakest: {text}.")));
+    Section::new("What the plan lets be seen").id("plan").list(items)
+}
+
+fn hidden(c: &Comparison) -> Option<Section> {
+    let row = |h: &HiddenBias| {
+        let star = if h.would_show { "" } else { " *" };
+        let size = format!("{} {}{star}", significant(h.size, 2), h.unit);
+        let bias = h.bias_of_leg_stiffness_percent.map(|b| format!("{b:+.1}"));
+        [h.term.clone(), size].into_iter().chain(bias).collect::<Vec<_>>()
+    };
+    let header = ["effect", "size", "leg 1", "2", "3", "4", "5", "6"];
+    let section = Section::new("What could hide in the springs")
+        .id("hidden")
+        .remark("bias of each leg stiffness, percent")
+        .paragraph(
+            "By an effect of the size that these readings would just show (*: not even its largest sensible size would show).",
+        )
+        .table(Table::named(header).rows(c.hidden.iter().map(row)).brief(BRIEF));
+    (!c.hidden.is_empty()).then_some(section)
+}

@@ -1,0 +1,106 @@
+//! The verdict in a sentence or two.
+
+use hexbench_model::diagnose::{Diagnosis, StepReport};
+use hexbench_model::terms::catalogue;
+use hexbench_model::verdict::Verdict;
+use hexbench_model::words::joined_with;
+
+use crate::number::multiple;
+use crate::page::{Block, Mood, Section};
+
+/// The verdict.
+pub fn section(d: &Diagnosis) -> Section {
+    let mood = match d.verdict {
+        Verdict::Adequate | Verdict::Named => Mood::Good,
+        Verdict::Ambiguous => Mood::Doubt,
+        Verdict::Outside => Mood::Bad,
+    };
+    Section::new("Verdict").with(Block::Verdict {
+        word: d.verdict.word().to_uppercase(),
+        mood,
+        sentences: sentences(d),
+    })
+}
+
+/// The verdict in a sentence or two.
+pub fn sentences(d: &Diagnosis) -> Vec<String> {
+    match d.verdict {
+        Verdict::Adequate => vec![
+            "The springs alone explain these measurements: nothing is missing that these data could show. What \
+             they could not show is listed below."
+                .to_owned(),
+        ],
+        Verdict::Named => vec![lacks(&d.added), error_statement(&d.steps)],
+        Verdict::Ambiguous => ambiguous(d),
+        Verdict::Outside => outside(d),
+    }
+}
+
+/// `The model lacks one effect: the foundation yields (base-compliance).`
+pub fn lacks(ids: &[String]) -> String {
+    let names: Vec<String> = ids.iter().map(|id| described(id)).collect();
+    match ids.len() {
+        1 => format!("The model lacks one effect: {}.", names[0]),
+        n => format!("The model lacks {n} effects: {}.", joined_with(&names, "and")),
+    }
+}
+
+/// `the foundation yields (base-compliance)`.
+pub fn described(id: &str) -> String {
+    let terms = catalogue();
+    let title = terms.iter().find(|t| t.info().id == id).map(|t| t.info().title);
+    title.map_or_else(|| id.to_owned(), |title| format!("{} ({id})", lower_first(title)))
+}
+
+fn lower_first(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|c| c.to_lowercase().chain(letters).collect()).unwrap_or_default()
+}
+
+/// How the held-out error falls, in multiples of the noise.
+pub fn error_statement(steps: &[StepReport]) -> String {
+    let ends = || Some((steps.first()?.holdout?, steps.last()?.holdout?));
+    let Some((before, after)) = ends() else { return "No poses could be held out.".to_owned() };
+    let where_to = if after.is_at_the_noise() { ": it is at the noise" } else { ", still above the noise" };
+    format!(
+        "Adding {} brings the error on held-out poses from {} to {} times the noise{where_to}.",
+        if steps.len() > 2 { "them" } else { "it" },
+        multiple(before.times_noise()),
+        multiple(after.times_noise())
+    )
+}
+
+fn ambiguous(d: &Diagnosis) -> Vec<String> {
+    let open: Vec<&String> = d.credible_set.iter().filter(|id| !d.added.contains(id)).collect();
+    let named: Vec<&str> = open.iter().map(|id| in_words(id)).collect();
+    let sure = (!d.added.is_empty()).then(|| lacks(&d.added));
+    let undecided = match (named.len(), d.added.is_empty()) {
+        (0, _) => "The data do not settle what is missing.".to_owned(),
+        (1, true) => format!("The data point to {}, but not surely enough to name it.", named[0]),
+        (1, false) => format!("Whether {} is at work as well is open.", named[0]),
+        (_, true) => {
+            format!("These data cannot tell what is missing: it may be {}.", joined_with(&named, "or"))
+        }
+        (_, false) => format!("Beyond that it may be {}: these data cannot tell.", joined_with(&named, "or")),
+    };
+    sure.into_iter().chain([undecided]).collect()
+}
+
+/// A credible explanation in words.
+pub fn in_words(id: &str) -> &str {
+    match id {
+        "none" => "nothing beyond the springs",
+        "outside" => "something outside the catalogue",
+        id => id,
+    }
+}
+
+fn outside(d: &Diagnosis) -> Vec<String> {
+    let text = d.outside.as_ref().map_or("no simple pattern describes it", |o| o.text.as_str());
+    let mut all = vec!["Something is missing that none of the effects in the catalogue explains.".to_owned()];
+    if !d.model.is_empty() {
+        all.push(format!("It is there beside {}.", joined_with(&d.model, "and")));
+    }
+    all.push(format!("What the measurements show: {text}."));
+    all
+}

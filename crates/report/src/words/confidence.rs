@@ -1,0 +1,75 @@
+//! How sure: probabilities, and what looks alike.
+
+use hexbench_model::diagnose::{CandidateReport, Diagnosis};
+use hexbench_model::verdict::{NONE, OUTSIDE, Verdict};
+use hexbench_model::words::joined;
+
+use super::conclusion::in_words;
+use crate::number::percent;
+use crate::page::{Block, Cell, Column, Section, Table};
+
+/// Least probability that gets a row.
+const WORTH_A_ROW: f64 = 0.01;
+/// Most rows where there is little room.
+const BRIEF: usize = 7;
+/// Least probability of a candidate whose look-alikes are listed.
+const WORTH_SAYING: f64 = 0.01;
+
+/// What the probabilities of effects mean beside something unknown.
+const BESIDE_OUTSIDE: &str = "Beside something without a name the other rows say what helps to fit it, not what is there: catalogue \
+                              terms imitate it.";
+
+/// Probabilities that each effect is at work, alone or beside others.
+pub fn section(d: &Diagnosis) -> Section {
+    let all = probabilities(d);
+    let shown = all.iter().take_while(|(_, p)| *p >= WORTH_A_ROW).count().max(1).min(all.len());
+    let row = |(id, p): &(String, f64)| [Cell::from(in_words(id)), percent(*p).into(), Cell::bar(*p)];
+    let columns = [Column::words("effect"), Column::number("probability"), Column::bars()];
+    let table = Table::new(columns).rows(all[..shown].iter().map(row)).brief(BRIEF);
+    let beside = d.verdict == Verdict::Outside && all[..shown].iter().any(|(id, _)| id != OUTSIDE);
+    Section::new("How sure")
+        .id("confidence")
+        .remark("probability that each is at work, alone or with others")
+        .table(table)
+        .with((shown < all.len()).then(|| Block::paragraph("Anything else, each: below 1 %.")))
+        .with(beside.then(|| Block::paragraph(BESIDE_OUTSIDE)))
+        .with_all(look_alikes(d).into_iter().map(Block::paragraph))
+}
+
+/// Effects, something outside, and nothing at all, the most probable first.
+pub fn probabilities(d: &Diagnosis) -> Vec<(String, f64)> {
+    let mut all: Vec<(String, f64)> = d.present.iter().map(|(id, p)| (id.clone(), *p)).collect();
+    let special = d.candidates.iter().filter(|c| c.term == NONE || c.term == OUTSIDE);
+    all.extend(special.map(|c| (c.term.clone(), c.probability)));
+    all.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    all
+}
+
+/// Groups that leave the same trace, among the candidates that matter.
+fn look_alikes(d: &Diagnosis) -> Vec<String> {
+    let alike = |c: &&CandidateReport| c.probability > WORTH_SAYING && !c.indistinguishable.is_empty();
+    let mut said: Vec<&str> = Vec::new();
+    let mut sentences = Vec::new();
+    for candidate in d.candidates.iter().filter(alike) {
+        // Said of one, it is said of the other.
+        if !candidate.indistinguishable.iter().all(|other| said.contains(&other.as_str())) {
+            sentences.push(likeness(d, candidate));
+            said.push(&candidate.term);
+        }
+    }
+    sentences
+}
+
+fn likeness(d: &Diagnosis, candidate: &CandidateReport) -> String {
+    let others = joined(&candidate.indistinguishable);
+    let (leave, explain) =
+        if candidate.indistinguishable.len() == 1 { ("leaves", "explains") } else { ("leave", "explain") };
+    if d.added.contains(&candidate.term) {
+        return format!(
+            "In these data {others} {leave} nearly the same trace as {} (alike to 95 % or more), but {explain} the \
+             readings less well.",
+            candidate.term
+        );
+    }
+    format!("In these data {others} {leave} the same trace as {} (alike to 95 % or more).", candidate.term)
+}

@@ -1,0 +1,91 @@
+//! The story of the demo, step by step.
+
+use hexbench_core::Observation;
+use hexbench_model::error::ModelError;
+
+use super::conclusion::{error_statement, lacks};
+use super::subject::{Subject, describe};
+use super::{confidence, ladder, leg_space, size, stiffness};
+use crate::number::multiple;
+use crate::page::{Block, Entry, Page, Section};
+
+/// From measurements to the named effect.
+///
+/// # Errors
+/// As the linearization of the model.
+pub fn demo(subject: &Subject<'_>) -> Result<Page, ModelError> {
+    let d = &subject.study.diagnosis;
+    Ok(Page::default()
+        .with(measurements(subject))
+        .with(springs(subject))
+        .with(where_it_fails(subject)?)
+        .with(diagnosis(subject))
+        .with(confidence::section(d))
+        .with(ladder::section(d))
+        .with(size::section(d))
+        .with(stiffness::section(subject.hexapod, d))
+        .with(Section::new("Verdict").paragraph(format!("{} {}", lacks(&d.added), error_statement(&d.steps))))
+        .with(next(d.added.first().map_or("", String::as_str))))
+}
+
+fn measurements(subject: &Subject<'_>) -> Section {
+    let held =
+        subject.holdout.map(|h| Entry::new("held out", format!("{}; never used in a fit", describe(h))));
+    let first = subject.data.observations.first().map(|row| Entry::new("first row", reading(row)));
+    let data = Entry::new("data", describe(subject.data));
+    Section::new("1. What was measured")
+        .paragraph(
+            "A hexapod stands on a table and is loaded with forces and moments. Every reading is how far the platform \
+             moved between a reference load and the load: three translations, three rotations. The numbers were made by \
+             MuJoCo, a program that shares nothing with this model; what it hides is not told to the diagnosis.",
+        )
+        .with(Block::entries(std::iter::once(data).chain(held).chain(first)))
+}
+
+fn reading(row: &Observation) -> String {
+    let moved: Vec<String> = row.measured.iter().map(|x| format!("{:.1}", x * 1e6)).collect();
+    let change = row.wrench.force.z - row.reference.force.z;
+    format!(
+        "{change:.0} N along z moved the platform by ({}) um and turned it by ({}) urad",
+        moved[..3].join(", "),
+        moved[3..].join(", ")
+    )
+}
+
+fn springs(subject: &Subject<'_>) -> Section {
+    let section = Section::new("2. One spring per leg").remark("the usual model");
+    let Some(step) = subject.study.diagnosis.steps.first() else { return section };
+    let fitted = multiple(step.fitted.times_noise());
+    let held = step.holdout.map_or("-".to_owned(), |h| multiple(h.times_noise()));
+    section.paragraph(format!(
+        "Six stiffnesses are fitted to the data. If six springs were all there is, the error would be the noise. \
+         It is {fitted} times the noise on the fitted readings and {held} times on the held-out poses: the model \
+         lacks something."
+    ))
+}
+
+fn where_it_fails(subject: &Subject<'_>) -> Result<Section, ModelError> {
+    Ok(Section::new("3. Where it fails")
+        .remark("elongation of each leg left unexplained, um, root mean square")
+        .paragraph(
+            "Six legs measure six degrees of freedom, so what is left of a reading can be written as six leg elongations. \
+             Some loads are explained less well than others:",
+        )
+        .table(leg_space::table(subject)?))
+}
+
+fn diagnosis(subject: &Subject<'_>) -> Section {
+    let tested = hexbench_model::terms::catalogue().len() - subject.study.diagnosis.untestable.len();
+    Section::new("4. Which effect is missing").paragraph(format!(
+        "{tested} physical effects of the catalogue can be tested with these data, and patterns outside it. Each \
+         is weighed by how well it predicts the readings, given sizes that make physical sense."
+    ))
+}
+
+fn next(named: &str) -> Section {
+    Section::new("Try next").with(Block::code(format!(
+        "hexbench workbench\n\
+         hexbench diagnose hexapod.toml measurements.csv --holdout holdout.csv\n\
+         hexbench terms {named}"
+    )))
+}

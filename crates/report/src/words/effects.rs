@@ -1,0 +1,51 @@
+//! The whole catalogue: a list for the terminal, a Markdown page for the documentation.
+
+use std::sync::Arc;
+
+use hexbench_model::term::{Term, TermInfo};
+
+use super::effect::{needs, rich};
+use crate::page::{Block, Entry, Page, Section, Table};
+
+/// One effect per line.
+pub fn list(terms: &[Arc<dyn Term>]) -> Page {
+    let entries = terms.iter().map(|t| Entry::new(t.info().id, t.info().title));
+    let section =
+        Section::new(format!("{} effects", terms.len())).remark("`hexbench terms TERM` explains one");
+    Page::default().with(section.with(Block::entries(entries)))
+}
+
+/// The page `docs/effects.md`.
+pub fn catalogue(terms: &[Arc<dyn Term>]) -> Page {
+    let page = Page::new(format!("The {} effects of the catalogue", terms.len())).with(introduction());
+    terms.iter().fold(page, |page, term| page.with(section(term.info())))
+}
+
+fn introduction() -> Section {
+    Section::lead()
+        .paragraph("Generated from the code by `hexbench terms --markdown`; a test fails when this page is stale.")
+        .paragraph(
+            "Every effect is a *term* of the model: an extra elongation `e_i` of leg `i`, an extra leg force or a rigid \
+             motion, between the reference state and the loaded state. `f` and `f0` are the leg forces in the two states \
+             (N, tension positive), `q` the leg length, `n` its direction, `c = 1/k` the compliance of its spring. The \
+             fixed frame and the mobile frame coincide at the zero pose; a dash marks mobile axes.",
+        )
+}
+
+fn section(info: &TermInfo) -> Section {
+    let sign = |positive: bool| if positive { "positive" } else { "any sign" };
+    let parameters = info.parameters.iter().map(|p| [p.name, p.unit, sign(p.positive)]);
+    let shape = info.shape.iter().map(|s| [s.name, s.unit, "shape, profiled"]);
+    let table = Table::named(["parameter", "unit", "values"]).words_in(1).words_in(2);
+    Section::new(info.id)
+        .paragraph(format!("{}. {}", info.title, info.physics))
+        .with(Block::code(info.equation))
+        .table(table.rows(parameters.chain(shape)))
+        .list([
+            format!("Visible when {}.", info.shows),
+            format!("To see it alone: {}.", info.breaker),
+            format!("The file must have: {}.", needs(info)),
+            format!("Richer form: {}.", rich(info.rich)),
+            format!("Source: {}.", info.source),
+        ])
+}

@@ -1,0 +1,98 @@
+//! The page of a fit: quality, values with uncertainty, correlations, errors.
+
+use hexbench_model::estimate::{Estimate, estimates};
+use hexbench_model::fit::Fit;
+use hexbench_model::fit_named::look_alikes;
+use hexbench_model::model_file::Estimator;
+use hexbench_model::residuals::ErrorSummary;
+use hexbench_model::selection::{HeldOut, Judged, Task};
+use hexbench_model::words::joined;
+
+use crate::number::{significant, with_uncertainty};
+use crate::page::{Block, Column, Page, Section, Table};
+
+/// Correlations larger than this are reported.
+const REPORTED: f64 = 0.7;
+/// Most correlations where there is little room.
+const BRIEF: usize = 10;
+
+/// The fit.
+pub fn page(task: &Task<'_>, judged: &Judged, estimator: Estimator) -> Page {
+    Page::default()
+        .with(quality(task, &judged.fit, estimator))
+        .with(values(&judged.fit))
+        .with(correlations(&judged.fit))
+        .with(errors(task, judged))
+}
+
+fn quality(task: &Task<'_>, fit: &Fit, estimator: Estimator) -> Section {
+    let terms: Vec<String> = fit.point.active.iter().map(|a| a.id().to_owned()).collect();
+    let with = if terms.is_empty() { String::new() } else { format!(" + {}", joined(&terms)) };
+    let method = match estimator {
+        Estimator::Gls => "generalised least squares",
+        Estimator::Paper => "the paper's unweighted minimum-norm least squares",
+    };
+    // Gaussian likelihood with known noise, up to a constant of the data.
+    let equations = (6 * task.campaign.readings) as f64;
+    let parameters = equations - fit.dof;
+    let table = Table::named(["", ""]).rows([
+        ["readings", &task.campaign.readings.to_string()],
+        ["equations", &equations.to_string()],
+        ["parameters (effective)", &format!("{parameters:.1}")],
+        ["chi-square", &significant(fit.chi2, 6)],
+        ["degrees of freedom", &format!("{:.1}", fit.dof)],
+        ["reduced chi-square", &significant(fit.chi2_reduced(), 4)],
+        ["AIC", &significant(fit.chi2 + 2.0 * parameters, 6)],
+        ["BIC", &significant(fit.chi2 + parameters * equations.ln(), 6)],
+    ]);
+    let provisional = "The fit did not settle; treat its numbers as provisional.";
+    Section::new(format!("Fit: leg springs{with}"))
+        .id("fit")
+        .remark(method)
+        .table(table)
+        .with((!fit.settled).then(|| Block::paragraph(provisional)))
+}
+
+fn values(fit: &Fit) -> Section {
+    let all = estimates(fit);
+    let row = |e: &Estimate| {
+        let [value, std] = with_uncertainty(e.value, e.std);
+        let share = 100.0 * (e.std / e.value).abs();
+        let share = if share.is_finite() { format!("({} %)", significant(share, 2)) } else { String::new() };
+        [e.name.clone(), value, format!("+- {std}"), share, e.unit.clone()]
+    };
+    let columns =
+        [Column::words(""), Column::number(""), Column::number(""), Column::number(""), Column::words("")];
+    let open = (!all.not_determined.is_empty())
+        .then(|| format!("Not determined by these data, so no number: {}.", joined(&all.not_determined)));
+    Section::new("Values")
+        .remark("+- standard uncertainty (k = 1)")
+        .table(Table::new(columns).rows(all.determined.iter().map(row)))
+        .with(open.map(Block::paragraph))
+}
+
+fn correlations(fit: &Fit) -> Option<Section> {
+    let pairs = look_alikes(fit, REPORTED);
+    let row = |(a, b, r): &(String, String, f64)| [format!("{r:+.3}"), format!("{a}, {b}")];
+    let table = Table::new([Column::number(""), Column::words("")]).rows(pairs.iter().map(row)).brief(BRIEF);
+    let section = Section::new("Correlations").remark("beyond 0.7: what the data tell apart badly");
+    (!pairs.is_empty()).then(|| section.table(table))
+}
+
+fn errors(task: &Task<'_>, judged: &Judged) -> Section {
+    let row = |name: &str, e: &ErrorSummary| {
+        let sizes = [e.rms.translation_um, e.rms.rotation_urad, e.chi2_reduced].map(|x| significant(x, 3));
+        std::iter::once(name.to_owned()).chain(sizes).collect::<Vec<_>>()
+    };
+    let held_out = match task.held_out() {
+        HeldOut::File => "held-out readings",
+        HeldOut::PosesInTurn => "poses left out in turn",
+    };
+    let noise = task.campaign.noise;
+    let [t, r] = [noise.translation, noise.rotation].map(|sigma| significant(sigma * 1e6, 3));
+    let table = Table::named(["", "translation um", "rotation urad", "chi2 per number"])
+        .rows([row("fitted readings", &judged.fitted)])
+        .rows(judged.held_out.iter().map(|e| row(held_out, e)))
+        .rows([[format!("noise ({})", noise.source.word()), t, r, "1".to_owned()]]);
+    Section::new("Errors").remark("root mean square").table(table)
+}

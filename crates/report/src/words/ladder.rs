@@ -1,0 +1,66 @@
+//! The ladder: error on held-out poses, step by step, beside the noise.
+
+use hexbench_model::diagnose::{Diagnosis, StepReport};
+use hexbench_model::residuals::ErrorSummary;
+
+use crate::number::{multiple, significant};
+use crate::page::{Cell, Column, Mood, Section, Table};
+
+/// Names of the measured numbers, translations first.
+const COORDINATES: [&str; 6] = ["a um", "b um", "c um", "alpha urad", "beta urad", "gamma urad"];
+
+/// One row per step of the model, then the noise.
+pub fn section(d: &Diagnosis) -> Section {
+    let title = if d.steps.len() > 1 { "The error falls" } else { "The error" };
+    let errors: Vec<(&StepReport, ErrorSummary)> =
+        d.steps.iter().map(|s| (s, s.holdout.unwrap_or(s.fitted))).collect();
+    let largest = errors.iter().map(|(_, e)| e.times_noise()).fold(1.0, f64::max);
+    let columns =
+        [Column::words("model"), Column::number("um"), Column::number("urad"), Column::number("x noise")]
+            .into_iter()
+            .chain([Column::bars()])
+            .chain(COORDINATES.map(|title| Column::number(title).detail()));
+    let mut table = Table::new(columns);
+    for (step, error) in &errors {
+        table.row(row(name(step), error, largest));
+    }
+    table.row(noise(d, largest));
+    Section::new(title).id("ladder").remark(how_held_out(d)).table(table)
+}
+
+/// Where the held-out error comes from.
+pub fn how_held_out(d: &Diagnosis) -> &'static str {
+    match d.steps.first().and_then(|s| s.holdout) {
+        None => "on the fitted readings: too few poses to hold any out",
+        Some(_) if d.holdout == "holdout file" => "on held-out poses (root mean square, holdout file)",
+        Some(_) => "on held-out poses (root mean square, each left out in turn)",
+    }
+}
+
+/// `springs alone`, then `+ term`.
+pub fn name(step: &StepReport) -> String {
+    step.terms.last().map_or_else(|| "springs alone".to_owned(), |term| format!("+ {term}"))
+}
+
+fn row(name: String, error: &ErrorSummary, largest: f64) -> Vec<Cell> {
+    let times = error.times_noise();
+    let mood = if error.is_at_the_noise() { Mood::Good } else { Mood::Bad };
+    let digits = |x: f64| Cell::from(significant(x, 3));
+    let head = [name.into(), digits(error.rms.translation_um), digits(error.rms.rotation_urad)];
+    let bar = Cell::colored_bar(at_least_one(times / largest), mood);
+    head.into_iter().chain([multiple(times).into(), bar]).chain(error.per_coordinate.map(digits)).collect()
+}
+
+fn noise(d: &Diagnosis, largest: f64) -> Vec<Cell> {
+    let (t, r) = (d.noise.translation_um, d.noise.rotation_urad);
+    let digits = |x: f64| Cell::from(significant(x, 3));
+    let head = [Cell::from("noise of one reading"), digits(t), digits(r), "1.00".into()];
+    let bar = Cell::bar(at_least_one(1.0 / largest));
+    head.into_iter().chain([bar]).chain([t, t, t, r, r, r].map(digits)).collect()
+}
+
+/// However small an error, its bar is seen.
+fn at_least_one(share: f64) -> f64 {
+    const LEAST: f64 = 0.03;
+    share.max(LEAST)
+}

@@ -1,0 +1,60 @@
+//! What could not be tested, and the smallest sizes this campaign would show.
+
+use std::collections::BTreeMap;
+
+use hexbench_model::diagnose::Diagnosis;
+use hexbench_model::power::Detectable;
+
+use crate::number::significant;
+use crate::page::{Column, Section, Table};
+
+/// A blank at which no line is broken.
+const NO_BREAK: &str = "\u{a0}";
+
+/// Effects that the file cannot test, by reason.
+pub(super) fn untestable(d: &Diagnosis) -> Option<Section> {
+    let mut reasons: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for u in &d.untestable {
+        reasons.entry(&u.why).or_default().push(&u.term);
+    }
+    let reason = |(why, terms): (&str, Vec<&str>)| {
+        let why = why.strip_prefix("it ").filter(|w| w.starts_with("needs")).unwrap_or(why);
+        format!("{why}: {}", terms.join(", "))
+    };
+    Section::new("Could not be tested").id("untestable").list(reasons.into_iter().map(reason)).unless_empty()
+}
+
+/// The smallest size of each effect, then of each parameter.
+pub(super) fn section(d: &Diagnosis) -> Section {
+    let mut terms: Vec<&str> = d.detectable.iter().map(|row| row.term.as_str()).collect();
+    terms.dedup();
+    let parts: Vec<String> = terms.iter().filter_map(|term| short_size(&d.detectable, term)).collect();
+    let section = Section::new("Smallest effect these data would show")
+        .id("limits")
+        .remark("seen in 9 of 10 such campaigns, false alarm in 1 of 100")
+        .paragraph(if parts.is_empty() {
+            "None would show.".to_owned()
+        } else {
+            format!("{}.", parts.join("; "))
+        });
+    if d.detectable.is_empty() { section } else { section.table(every_size(d)) }
+}
+
+/// `term size unit` kept on one line; the smallest size among the parameters in the unit of the first.
+fn short_size(all: &[Detectable], term: &str) -> Option<String> {
+    let own = || all.iter().filter(|row| row.term == term);
+    let unit = own().find(|row| row.size_at_90_percent_power.is_some())?.unit.as_str();
+    let sizes = own().filter(|row| row.unit == unit).filter_map(|row| row.size_at_90_percent_power);
+    let size = sizes.min_by(f64::total_cmp)?;
+    Some(format!("{term} {} {unit}", significant(size, 2)).replace(' ', NO_BREAK))
+}
+
+/// Detail: every parameter.
+fn every_size(d: &Diagnosis) -> Table {
+    let row = |row: &Detectable| {
+        let size = row.size_at_90_percent_power.map_or("none".to_owned(), |s| significant(s, 2));
+        [format!("{}.{}", row.term, row.parameter), size, row.unit.clone()]
+    };
+    let columns = [Column::words("parameter"), Column::number("size"), Column::words("unit")];
+    Table::new(columns).rows(d.detectable.iter().map(row)).brief(0)
+}

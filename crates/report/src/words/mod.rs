@@ -1,0 +1,53 @@
+//! The words of every page: each section is written once.
+//!
+//! Computing and judging are `hexbench-model`'s, layout is [`crate::render`]'s, charts are [`crate::charts`]'s.
+
+pub mod comparison;
+pub mod conclusion;
+pub mod confidence;
+mod demo;
+pub mod effect;
+pub mod effects;
+pub mod fitted;
+pub mod ladder;
+mod leg_space;
+mod limits;
+pub mod next;
+pub mod notes;
+mod pattern;
+pub mod provenance;
+mod readings;
+pub mod runs;
+mod size;
+mod spread;
+mod stiffness;
+pub mod subject;
+
+pub use comparison::comparison;
+pub use demo::demo;
+pub(crate) use leg_space::by_load;
+pub use provenance::Provenance;
+pub use readings::readings;
+pub use runs::runs;
+pub use spread::spread;
+pub use subject::Subject;
+
+use crate::page::Page;
+
+/// The diagnosis.
+pub fn diagnosis(subject: &Subject<'_>) -> Page {
+    let d = &subject.study.diagnosis;
+    let page =
+        Page { subject: subject.entries(), ..Page::new(format!("Diagnosis of {}", subject.hexapod.name)) };
+    page.with(conclusion::section(d))
+        .with(confidence::section(d))
+        .with(ladder::section(d))
+        .with(size::section(d))
+        .with(stiffness::section(subject.hexapod, d))
+        .with(next::section(d))
+        .with(pattern::section(d))
+        .with(limits::untestable(d))
+        .with(limits::section(d))
+        .with(notes::section(d))
+        .with(notes::conventions())
+}

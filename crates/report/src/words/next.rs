@@ -1,0 +1,150 @@
+//! What to measure next when the answer is open.
+
+use hexbench_core::Observation;
+use hexbench_model::diagnose::{Diagnosis, NextReport, SeparationReport};
+use hexbench_model::terms::catalogue;
+use hexbench_model::verdict::{NONE, Verdict};
+
+use super::conclusion::in_words;
+use crate::number::{percent, significant};
+use crate::page::{Block, Entry, Section};
+
+/// Odds beyond which a number says no more than "overwhelming".
+const OVERWHELMING: f64 = 1e4;
+
+/// Readings that separate the rivals; else what makes each of them visible.
+pub(super) fn section(d: &Diagnosis) -> Option<Section> {
+    if d.verdict != Verdict::Ambiguous {
+        return None;
+    }
+    let section = Section::new("What to measure next").id("next");
+    let Some(first) = d.next.first() else { return Some(in_general(section, d)) };
+    let others = if d.next.iter().all(|r| r.separates == first.separates) { "" } else { ", and others" };
+    let frames = "Wrench on the platform at the mobile origin, fixed axes; loaded minus reference. Each reading is chosen \
+                  beside those above it.";
+    let readings = d.next.iter().enumerate();
+    Some(
+        section
+            .remark(format!("to tell {}{others}", rivals(&first.separates, "from")))
+            .with_all(readings.map(|(k, r)| Block::numbered(k + 1, proposal(k + 1, r, first))))
+            .with(Block::entries([Entry::new("promise", promise(d)), Entry::new("frames", frames)])),
+    )
+}
+
+fn proposal(number: usize, reading: &NextReport, first: &NextReport) -> Vec<Entry> {
+    let NextReport { approach, elapsed_s, delta_t_k, repeats, .. } = *reading;
+    let without = reading.reference.iter().all(|x| *x == 0.0);
+    let other = number == 1 || differ(&reading.reference, &first.reference);
+    let separates = if reading.separates == first.separates {
+        "the two".to_owned()
+    } else {
+        rivals(&reading.separates, "and")
+    };
+    let words = (!reading.text.is_empty()).then(|| Entry::new("in words", &reading.text));
+    let reference = (!without && other).then(|| Entry::new("reference", load(&reading.reference)));
+    words
+        .into_iter()
+        .chain([Entry::new("pose", pose(&reading.pose)), Entry::new("load", load(&reading.wrench))])
+        .chain(reference)
+        .chain([
+            Entry::new("way", way(approach, elapsed_s, delta_t_k, repeats)),
+            Entry::new("gain", gain(reading.gain, &separates)),
+        ])
+        .collect()
+}
+
+fn differ(a: &[f64; 6], b: &[f64; 6]) -> bool {
+    a.map(f64::to_bits) != b.map(f64::to_bits)
+}
+
+/// `base-compliance from leg-coupling`; `creep or nothing more`, beside what both have.
+pub fn rivals(pair: &[String; 2], word: &str) -> String {
+    match pair.each_ref().map(String::as_str) {
+        [NONE, more] | [more, NONE] => format!("{more} {word} nothing more"),
+        [a, b] => format!("{} {word} {}", in_words(a), in_words(b)),
+    }
+}
+
+/// As many decimals as the number has, at most three.
+fn round(x: f64) -> String {
+    const FINEST: f64 = 1e3;
+    format!("{}", (x * FINEST).round() / FINEST + 0.0)
+}
+
+/// A pose from mm and deg.
+pub fn pose(x: &[f64; 6]) -> String {
+    let [a, b, c, alpha, beta, gamma] = x.map(round);
+    format!("({a}, {b}, {c}) mm, ({alpha}, {beta}, {gamma}) deg")
+}
+
+/// Pose of a reading, mm and deg.
+pub fn settings(o: &Observation) -> [f64; 6] {
+    let pose = o.pose.to_array();
+    std::array::from_fn(|k| if k < 3 { pose[k] * 1e3 } else { pose[k].to_degrees() })
+}
+
+/// A wrench in N and N m.
+pub fn load(w: &[f64; 6]) -> String {
+    let [fx, fy, fz, mx, my, mz] = w.map(|x| significant(x, 3).parse().map_or(String::new(), round));
+    format!("F ({fx}, {fy}, {fz}) N, M ({mx}, {my}, {mz}) N m")
+}
+
+/// How a reading is taken.
+pub fn way(approach: f64, elapsed_s: f64, delta_t_k: f64, repeats: usize) -> String {
+    let side = if approach < 0.0 {
+        "exceed the load by 40 % of its change and come back (approach -1)"
+    } else {
+        "load from below (approach +1)"
+    };
+    let mut parts = vec![side.to_owned()];
+    if elapsed_s > 0.0 {
+        parts.push(format!("read {} s after the reference", significant(elapsed_s, 2)));
+    }
+    if delta_t_k != 0.0 {
+        let sort = if delta_t_k > 0.0 { "warmer" } else { "colder" };
+        parts.push(format!("{} K {sort} than at the reference", significant(delta_t_k.abs(), 2)));
+    }
+    if repeats > 1 {
+        parts.push(format!("{repeats} times"));
+    }
+    parts.join("; ")
+}
+
+/// Expected logarithm of the Bayes factor as odds.
+fn gain(nats: f64, between: &str) -> String {
+    let odds = nats.exp();
+    let odds = if odds > OVERWHELMING {
+        "more than 10000".to_owned()
+    } else {
+        format!("about {}", significant(odds, 2))
+    };
+    format!("shifts the odds between {between} by a factor of {odds}")
+}
+
+/// What all the readings together promise.
+fn promise(d: &Diagnosis) -> String {
+    let readings: usize = d.next.iter().map(|r| r.repeats).sum();
+    let of = |s: &SeparationReport| {
+        let pair = rivals(&s.between, "or");
+        let chance = percent(s.right);
+        match s.readings_needed {
+            Some(1) => format!(
+                "{pair}: the first reading is expected to exclude the wrong one at 20:1 (right in {chance})."
+            ),
+            Some(n) => format!(
+                "{pair}: after {n} readings the wrong one is expected to be excluded at 20:1 (right in {chance})."
+            ),
+            None => format!(
+                "{pair}: {readings} readings are right in {chance}, too few to exclude the wrong one at 20:1; repeat them."
+            ),
+        }
+    };
+    d.separation.iter().map(of).collect::<Vec<_>>().join(" ")
+}
+
+fn in_general(section: Section, d: &Diagnosis) -> Section {
+    let terms = catalogue();
+    let open = terms.iter().map(|t| t.info()).filter(|i| d.credible_set.iter().any(|id| id == i.id));
+    let entries = open.map(|info| Entry::new(info.id, info.breaker));
+    section.remark("what shows each candidate").with(Block::entries(entries))
+}

@@ -1,0 +1,42 @@
+//! Suspect readings and warnings.
+
+use hexbench_model::diagnose::Diagnosis;
+
+use crate::number::significant;
+use crate::page::Section;
+
+/// Most readings listed.
+const MOST_SUSPECTS: usize = 5;
+
+/// What to look at before trusting the numbers.
+pub(super) fn section(d: &Diagnosis) -> Option<Section> {
+    let suspects = (!d.suspects.is_empty()).then(|| suspects(d));
+    Section::new("Look at this")
+        .id("look-at")
+        .list(suspects.into_iter().chain(d.warnings.iter().cloned()))
+        .unless_empty()
+}
+
+/// Frames and signs.
+const CONVENTIONS: &str = "Fixed axes of the base unless a term says mobile; wrenches act on the platform at the mobile \
+                           origin; deflection = loaded minus reference; tension is positive.";
+
+/// Frames and signs, the same on every page.
+pub(super) fn conventions() -> Section {
+    Section::new("Conventions").paragraph(CONVENTIONS)
+}
+
+/// Readings far from every prediction, in a sentence.
+fn suspects(d: &Diagnosis) -> String {
+    let mut worst: Vec<_> = d.suspects.iter().collect();
+    worst.sort_by(|a, b| b.z.total_cmp(&a.z));
+    let listed: Vec<String> = worst
+        .iter()
+        .take(MOST_SUSPECTS)
+        .map(|s| format!("line {} ({} sigma)", s.row, significant(s.z, 2)))
+        .collect();
+    let more = if worst.len() > MOST_SUSPECTS { ", ..." } else { "" };
+    let count = worst.len();
+    let noun = if count == 1 { "reading is" } else { "readings are" };
+    format!("{count} {noun} far from every prediction; nothing was left out: {}{more}", listed.join(", "))
+}

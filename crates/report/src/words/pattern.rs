@@ -1,0 +1,44 @@
+//! What to look for when the pattern has no name.
+
+use hexbench_model::diagnose::{Diagnosis, OutsideReport};
+
+use crate::page::Section;
+
+/// Where a pattern outside the catalogue points to.
+pub(super) fn section(d: &Diagnosis) -> Option<Section> {
+    let outside = d.outside.as_ref()?;
+    let text = "A pattern that returns in a second campaign deserves a term of its own; until then no held-out error \
+                falls and nothing is named.";
+    Some(Section::new("What to look for").id("look-for").paragraph(hint(outside)).paragraph(text))
+}
+
+fn hint(outside: &OutsideReport) -> String {
+    let who = outside.leg.map_or("every leg".to_owned(), |leg| format!("leg {leg}"));
+    match (outside.variable, outside.period) {
+        (Some("leg_length"), Some(period)) => format!(
+            "Something in {who} repeats every {period:.3} mm of leg length: compare with the lead of the screw, the \
+             balls and the nut, the gear and the encoder."
+        ),
+        (Some("leg_length"), None) => {
+            format!(
+                "Something in {who} depends on how far it is extended: guides, seals, contact of the screw."
+            )
+        }
+        (Some("elapsed_s"), _) => {
+            format!(
+                "Something in {who} changes while it waits: warming of a drive, settling joints, a drifting sensor."
+            )
+        }
+        (Some("delta_T_K"), _) => format!("Something in {who} follows the temperature."),
+        (Some("leg_force"), _) => format!("Something in {who} depends on its force: contact, preload, play."),
+        (Some(variable), _) => format!("Something in {who} follows {variable}."),
+        (None, _) if outside.pattern.is_some() => {
+            "Something takes a part of the load past the legs: look for a cable, a hose, bellows or a cover that touches the \
+             platform."
+                .to_owned()
+        }
+        (None, _) => {
+            "Look at the readings with the largest residuals first, and repeat some of them.".to_owned()
+        }
+    }
+}

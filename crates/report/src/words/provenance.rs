@@ -1,0 +1,23 @@
+//! What made a page.
+
+use crate::page::{Column, Section, Table};
+use crate::render::PROGRAM;
+
+/// What made the page, for its foot.
+#[derive(Debug, Clone)]
+pub struct Provenance {
+    /// The command line.
+    pub command: String,
+    /// Files read, each with its digest.
+    pub files: Vec<(String, String)>,
+}
+
+impl Provenance {
+    /// Program, command, noise, files.
+    pub fn section(&self, noise: &str) -> Section {
+        let head = [["program", PROGRAM], ["command", &self.command], ["noise", noise]];
+        let files = self.files.iter().map(|(file, digest)| [file.clone(), format!("SHA-256 {digest}")]);
+        let table = Table::new([Column::words(""), Column::words("")]).rows(head).rows(files);
+        Section::new("Where this comes from").id("provenance").table(table)
+    }
+}

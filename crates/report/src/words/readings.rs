@@ -1,0 +1,201 @@
+//! Every reading beside what a model says of it: a table for other programs.
+
+use hexbench_core::files::MeasurementsWriter;
+use hexbench_core::{Columns, Dataset, Hexapod, Observation};
+use hexbench_model::campaign::{Campaign, row_sigma};
+use hexbench_model::compare::{Compared, Judged, coordinate_names};
+use hexbench_model::error::ModelError;
+
+use crate::table::{Column, Frame, Values};
+
+/// Name of the table's format.
+const FORMAT: &str = "readings/1";
+/// Columns of the measured values.
+const COORDINATES: usize = 6;
+
+/// The readings compared, then the held-out ones: what was commanded and applied, what was measured, what the model predicts, what is
+/// left, the same in units of the noise, and leg forces, leg lengths and residual leg elongations. One row per reading, in the units of
+/// `measurements.csv`; fixed frame, forces in tension positive.
+///
+/// # Errors
+/// [`ModelError::SingularPose`].
+pub fn readings(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    holdout: Option<&Dataset>,
+    compared: &Compared,
+) -> Result<Frame, ModelError> {
+    let held =
+        holdout.map(|rows| Campaign::with_noise(hexapod, rows, compared.campaign.noise)).transpose()?;
+    let mut parts = vec![Part::new("measurements", &compared.campaign, data, compared)?];
+    if let (Some(rows), Some(campaign)) = (holdout, &held) {
+        parts.push(Part::new("holdout", campaign, rows, compared)?);
+    }
+    Ok(Frame { format: FORMAT, origin: Vec::new(), columns: columns(&parts) })
+}
+
+/// Readings with the model at them.
+struct Part<'a> {
+    name: &'static str,
+    data: &'a Dataset,
+    judged: Judged<'a>,
+    campaign: &'a Campaign,
+}
+
+/// A reading, its residual, its condition.
+#[derive(Clone, Copy)]
+struct At<'a> {
+    part: &'a Part<'a>,
+    row: usize,
+}
+
+impl<'a> Part<'a> {
+    fn new(
+        name: &'static str,
+        campaign: &'a Campaign,
+        data: &'a Dataset,
+        compared: &'a Compared,
+    ) -> Result<Self, ModelError> {
+        Ok(Self { name, data, judged: Judged::of(campaign, data, &compared.point, false)?, campaign })
+    }
+}
+
+impl<'a> At<'a> {
+    fn reading(self) -> &'a Observation {
+        &self.part.data.observations[self.row]
+    }
+
+    fn condition(self) -> usize {
+        self.part.judged.rows[self.row].condition
+    }
+
+    /// Residual, m and rad.
+    fn residual(self, k: usize) -> f64 {
+        self.part.judged.rows[self.row].value[k]
+    }
+
+    /// The reading the model expects.
+    fn predicted(self) -> Observation {
+        let mut expected = *self.reading();
+        expected.measured = std::array::from_fn(|k| expected.measured[k] - self.residual(k));
+        expected
+    }
+}
+
+fn columns(parts: &[Part<'_>]) -> Vec<Column> {
+    let rows: Vec<At<'_>> =
+        parts.iter().flat_map(|part| (0..part.judged.rows.len()).map(move |row| At { part, row })).collect();
+    let mut all = vec![
+        words(
+            "part",
+            "the readings compared (measurements), or those held out",
+            rows.iter().map(|at| at.part.name),
+        ),
+        whole(
+            "line",
+            "line of its file, from 1",
+            rows.iter().map(|at| i64::try_from(at.reading().line).unwrap_or(0)),
+        ),
+    ];
+    all.extend(stated(parts, &rows));
+    all.extend(judged(parts, &rows));
+    all.extend(legs(&rows));
+    all
+}
+
+/// What the files say, in their own columns, and the predicted values in the same.
+fn stated(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<Column> {
+    let has = |of: fn(Columns) -> bool| parts.iter().any(|part| of(part.data.columns));
+    let columns = Columns {
+        reference: has(|c| c.reference),
+        approach: has(|c| c.approach),
+        delta_t: has(|c| c.delta_t),
+        elapsed: has(|c| c.elapsed),
+        sigma: false,
+    };
+    let file = MeasurementsWriter::new(parts[0].data.measurand, columns);
+    let names: Vec<String> = file.names().collect();
+    let measured = names.len() - COORDINATES..names.len();
+    let column = |k: usize| {
+        let cells = rows.iter().map(|at| file.value(k, at.reading()));
+        let meaning = if measured.contains(&k) { "as measured" } else { "as stated in the file" };
+        match names[k].as_str() {
+            // Numbers of poses and repeats are whole.
+            #[allow(clippy::cast_possible_truncation)]
+            "pose" | "repeat" => whole(&names[k], meaning, cells.map(|x| x as i64)),
+            name => numbers(name, file.unit(k), meaning, cells),
+        }
+    };
+    let predicted = |k: usize| {
+        let name = format!("predicted_{}", names[k].trim_start_matches("measured_"));
+        numbers(
+            &name,
+            file.unit(k),
+            "as the model predicts",
+            rows.iter().map(|at| file.value(k, &at.predicted())),
+        )
+    };
+    (0..names.len()).map(column).chain(measured.clone().map(predicted)).collect()
+}
+
+/// Residuals, in um and urad, their standard deviations by noise, and both divided.
+fn judged(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<Column> {
+    let names = coordinate_names(parts[0].data.measurand);
+    let unit = |k: usize| if k < 3 { "um" } else { "urad" };
+    let residual = |k: usize| {
+        let name = format!("residual_{}_{}", names[k], unit(k));
+        numbers(&name, unit(k), "measured minus predicted", rows.iter().map(move |at| at.residual(k) * 1e6))
+    };
+    let sigma = |k: usize| {
+        let name = format!("sigma_{}_{}", names[k], unit(k));
+        let noise = rows.iter().map(move |at| row_sigma(at.reading(), &at.part.campaign.noise)[k] * 1e6);
+        numbers(&name, unit(k), "standard deviation of the reading", noise)
+    };
+    let whitened = |k: usize| {
+        let over = rows.iter().map(move |at| at.part.judged.rows[at.row].whitened[k]);
+        numbers(&format!("whitened_{}", names[k]), "", "residual over its standard deviation", over)
+    };
+    let six = 0..COORDINATES;
+    six.clone().map(residual).chain(six.clone().map(sigma)).chain(six.map(whitened)).collect()
+}
+
+/// Forces, lengths and residual elongations of the legs; those of averaged readings are repeated for each.
+fn legs(rows: &[At<'_>]) -> Vec<Column> {
+    let at = |at: &At<'_>| at.condition();
+    let force = |leg: usize| {
+        let forces = rows.iter().map(move |r| r.part.judged.lin.conditions[at(r)].force[leg]);
+        numbers(
+            &format!("leg_{}_force_N", leg + 1),
+            "N",
+            "force in the leg spring under the load, tension positive",
+            forces,
+        )
+    };
+    let length = |leg: usize| {
+        let lengths = rows.iter().map(move |r| r.part.judged.lin.conditions[at(r)].legs.lengths[leg] * 1e3);
+        numbers(&format!("leg_{}_length_mm", leg + 1), "mm", "length of the leg at the pose", lengths)
+    };
+    let left = |leg: usize| {
+        let left = rows.iter().map(move |r| r.part.judged.space.elongation[at(r)][leg] * 1e6);
+        let meaning = "elongation of the leg that would explain what is left of the averaged readings of this condition";
+        numbers(&format!("leg_{}_residual_um", leg + 1), "um", meaning, left)
+    };
+    (0..6).map(force).chain((0..6).map(length)).chain((0..6).map(left)).collect()
+}
+
+fn numbers(name: &str, unit: &str, meaning: &str, cells: impl Iterator<Item = f64>) -> Column {
+    let unit = if unit.is_empty() { "1" } else { unit };
+    column(name, unit, meaning, Values::Numbers(cells.collect()))
+}
+
+fn whole(name: &str, meaning: &str, cells: impl Iterator<Item = i64>) -> Column {
+    column(name, "1", meaning, Values::Integers(cells.collect()))
+}
+
+fn words(name: &str, meaning: &str, cells: impl Iterator<Item = &'static str>) -> Column {
+    column(name, "", meaning, Values::Words(cells.collect()))
+}
+
+fn column(name: &str, unit: &str, meaning: &str, values: Values) -> Column {
+    Column { name: name.to_owned(), unit: unit.to_owned(), meaning: meaning.to_owned(), values }
+}

@@ -1,0 +1,149 @@
+//! Two results beside each other.
+
+use hexbench_model::runs::{Changed, ParameterChange, Run, Runs};
+use hexbench_model::words::joined;
+
+use crate::number::{multiple, percent, significant, with_uncertainty};
+use crate::page::{Block, Cell, Column, Mood, Page, Section, Table};
+
+use super::comparison::chance;
+use super::conclusion::in_words;
+
+/// Least probability that gets a row.
+const WORTH_A_ROW: f64 = 0.03;
+
+/// The page.
+pub fn runs(runs: &Runs) -> Page {
+    let machine = runs.a.origin.as_ref().or(runs.b.origin.as_ref()).map_or("", |o| &o.machine);
+    Page::new(format!("Two runs: {machine}"))
+        .about("A", &runs.a.file)
+        .about("B", &runs.b.file)
+        .with(Section::new("Look at this").id("look-at").list(runs.warnings.iter().cloned()).unless_empty())
+        .with(verdict(runs))
+        .with(confidence(runs))
+        .with(errors(runs))
+        .with(parameters(runs))
+}
+
+fn verdict(runs: &Runs) -> Section {
+    let (word, mood) = match (runs.has_other_answer(), runs.has_changed()) {
+        (true, _) => ("ANOTHER ANSWER", Mood::Bad),
+        (_, true) => ("CHANGED", Mood::Doubt),
+        _ => ("THE SAME", Mood::Good),
+    };
+    let row = |name: &str, run: &Run| {
+        let from = run.origin.as_ref().map_or("unknown", |o| &o.program);
+        [name.to_owned(), answer(run), from.to_owned()]
+    };
+    let table = Table::new(["", "answer", "program"].map(Column::words));
+    Section::new("What changed from A to B")
+        .id("verdict")
+        .with(Block::Verdict { word: word.to_owned(), mood, sentences: vec![error_sentence(runs)] })
+        .table(table.rows([row("A", &runs.a), row("B", &runs.b)]))
+}
+
+fn confidence(runs: &Runs) -> Option<Section> {
+    let columns =
+        [Column::words("effect"), Column::number("A"), Column::bars(), Column::number("B"), Column::bars()];
+    let rows =
+        runs.probabilities.iter().filter(|(_, [a, b])| a.max(*b) >= WORTH_A_ROW).map(|(id, [a, b])| {
+            [in_words(id).into(), percent(*a).into(), Cell::bar(*a), percent(*b).into(), Cell::bar(*b)]
+        });
+    let table = Table::new(columns).rows(rows);
+    let section = Section::new("How sure").id("confidence").remark("at work, alone or with others");
+    (!table.rows.is_empty()).then(|| section.table(table))
+}
+
+/// `named: base-compliance`.
+fn answer(run: &Run) -> String {
+    let added = joined(&run.added);
+    match run.verdict {
+        Some(verdict) if run.added.is_empty() => verdict.word().to_owned(),
+        Some(verdict) => format!("{}: {added}", verdict.word()),
+        None if run.added.is_empty() => "springs alone".to_owned(),
+        None => format!("springs + {added}"),
+    }
+}
+
+/// Name, errors of every step of both, A first: times the noise, um, urad.
+fn rungs(runs: &Runs) -> Vec<[String; 4]> {
+    let of = |name: &'static str, run: &Run| {
+        let mut all: Vec<[String; 4]> = Vec::new();
+        for step in &run.steps {
+            let with = if step.terms.is_empty() {
+                "springs alone".to_owned()
+            } else {
+                format!("+ {}", step.terms.join(" + "))
+            };
+            let e = step.error();
+            let (t, r) = (significant(e.rms.translation_um, 3), significant(e.rms.rotation_urad, 3));
+            all.push([format!("{name}  {with}"), multiple(e.times_noise()), t, r]);
+        }
+        let (t, r) = (significant(run.noise_translation_um, 3), significant(run.noise_rotation_urad, 3));
+        all.push([format!("{name}  noise ({})", run.noise_source), multiple(1.0), t, r]);
+        all
+    };
+    of("A", &runs.a).into_iter().chain(of("B", &runs.b)).collect()
+}
+
+/// What became of the error, in a sentence.
+fn error_sentence(runs: &Runs) -> String {
+    let noise = if runs.noise_changed {
+        " The noise is another one: multiples of it are not comparable."
+    } else {
+        ""
+    };
+    let Some(e) = runs.error else {
+        return format!(
+            "Only one of the two has a file of held-out readings: their errors are not compared.{noise}"
+        );
+    };
+    let times = significant(e.ratio.sqrt(), 3);
+    let p = chance(e.p);
+    match e.changed {
+        Changed::Yes => format!("The error of B is {times} times that of A, beyond chance ({p}).{noise}"),
+        _ => format!("The error of B is {times} times that of A: chance explains it ({p}).{noise}"),
+    }
+}
+
+fn errors(runs: &Runs) -> Section {
+    Section::new("The error")
+        .id("ladder")
+        .remark("root mean square; held-out readings where there are some")
+        .table(Table::named(["model", "x noise", "um", "urad"]).rows(rungs(runs)))
+}
+
+/// Value with its uncertainty, or a dash.
+fn number(x: Option<[f64; 2]>) -> String {
+    x.map_or("-".to_owned(), |[value, std]| with_uncertainty(value, std).join(" +- "))
+}
+
+/// Difference in combined uncertainties, starred when beyond chance.
+fn difference(p: &ParameterChange) -> String {
+    let star = if p.changed == Changed::Yes { " *" } else { "" };
+    p.sigmas.map_or("-".to_owned(), |s| format!("{s:+.1}{star}"))
+}
+
+/// What the stars mean.
+fn legend(runs: &Runs) -> String {
+    let count = runs.parameters.iter().filter(|p| p.changed == Changed::Yes).count();
+    let verb = if count == 1 { "differs" } else { "differ" };
+    format!(
+        "{count} of {} parameters {verb} beyond chance (*: more than {} combined standard uncertainties, which noise reaches anywhere in the \
+         list once in a hundred).",
+        runs.parameters.len(),
+        significant(runs.sigmas_beyond_chance, 2)
+    )
+}
+
+fn parameters(runs: &Runs) -> Option<Section> {
+    let row = |p: &ParameterChange| [p.name.clone(), number(p.a), number(p.b), p.unit.clone(), difference(p)];
+    let columns =
+        [Column::words("parameter"), Column::number("A"), Column::number("B"), Column::words("unit")];
+    let table = Table::new(columns.into_iter().chain([Column::number("B - A")]));
+    let section = Section::new("Parameters")
+        .remark("+- standard uncertainty (k = 1); B - A in combined uncertainties")
+        .table(table.rows(runs.parameters.iter().map(row)))
+        .paragraph(legend(runs));
+    (!runs.parameters.is_empty()).then_some(section)
+}

@@ -1,0 +1,67 @@
+//! How large: parameters of the effects in their own units.
+
+use hexbench_model::diagnose::Diagnosis;
+use hexbench_model::estimate::Estimate;
+use hexbench_model::words::{joined, joined_with};
+
+use crate::number::with_uncertainty;
+use crate::page::{Block, Column, Section, Table};
+
+/// Most parameters of one effect where there is little room.
+const BRIEF: usize = 8;
+/// Most names listed one by one.
+const MOST_NAMES: usize = 6;
+
+/// Values of every effect in the fitted model.
+pub(super) fn section(d: &Diagnosis) -> Option<Section> {
+    let belong = (!d.model.is_empty() && d.model != d.added).then(|| {
+        let model = joined_with(&d.model, "+");
+        Block::paragraph(format!("These numbers belong to the most probable model, springs + {model}."))
+    });
+    let section =
+        Section::new("How large").id("effects").remark("value +- standard uncertainty (k = 1)").with(belong);
+    d.model.iter().fold(section, |section, term| section.with_all(effect(d, term))).unless_empty()
+}
+
+fn effect(d: &Diagnosis, term: &str) -> impl Iterator<Item = Block> {
+    let own: Vec<&Estimate> = d.parameters.iter().filter(|p| belongs(&p.name, term)).collect();
+    let richer =
+        if d.richer.iter().any(|r| r == term) { ", of a form richer than the ideal one" } else { "" };
+    let row = |p: &&Estimate| {
+        let [value, std] = with_uncertainty(p.value, p.std);
+        let unit = if p.unit == "1" { "" } else { &p.unit };
+        [short(&p.name).to_owned(), value, format!("+- {std}"), unit.to_owned()]
+    };
+    let columns = [Column::words(""), Column::number(""), Column::number(""), Column::words("")];
+    let table =
+        Table::new(columns).titled(format!("{term}{richer}")).rows(most_telling(&own).iter().map(row));
+    [Some(Block::Table(table.brief(BRIEF))), not_determined(d, term)].into_iter().flatten()
+}
+
+/// In the given order when few, else the ones furthest from zero first.
+fn most_telling<'a>(own: &[&'a Estimate]) -> Vec<&'a Estimate> {
+    let mut all = own.to_vec();
+    if all.len() > BRIEF {
+        let z = |p: &Estimate| (p.value / p.std).abs();
+        all.sort_by(|a, b| z(b).total_cmp(&z(a)));
+    }
+    all
+}
+
+fn not_determined(d: &Diagnosis, term: &str) -> Option<Block> {
+    let names: Vec<&str> = d.not_determined.iter().filter(|n| belongs(n, term)).map(|n| short(n)).collect();
+    let what = match names.len() {
+        0 => return None,
+        n if n <= MOST_NAMES => joined(&names),
+        n => format!("{n} further parameters"),
+    };
+    Some(Block::paragraph(format!("Not determined by these data: {what}.")))
+}
+
+fn belongs(name: &str, term: &str) -> bool {
+    name.strip_prefix(term).is_some_and(|rest| rest.starts_with('.'))
+}
+
+fn short(name: &str) -> &str {
+    name.split_once('.').map_or(name, |(_, parameter)| parameter)
+}

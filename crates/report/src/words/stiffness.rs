@@ -1,0 +1,62 @@
+//! Leg stiffnesses, and what leaving an effect out does to them.
+
+use hexbench_core::Hexapod;
+use hexbench_model::diagnose::{AbsorbedReport, Diagnosis};
+use hexbench_model::verdict::Verdict;
+
+use crate::number::with_uncertainty;
+use crate::page::{Block, Section, Table};
+
+/// Rows before those of effects left out: stiffness and uncertainty.
+const NUMBERS: usize = 2;
+
+/// Stiffness per leg with uncertainty, then the bias per effect left out.
+pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis) -> Section {
+    let of = match d.verdict {
+        Verdict::Ambiguous => "N/um, +- standard uncertainty (k = 1), over all explanations that remain",
+        _ => "N/um, +- standard uncertainty (k = 1)",
+    };
+    let nominal = hexapod.nominal_stiffness.map(|k| legs("nominal", k.map(|k| format!("{:.3}", k * 1e-6))));
+    let (first, others): (Vec<_>, Vec<_>) = d.absorbed.iter().partition(|a| matters(d, a));
+    let brief = NUMBERS + nominal.iter().len() + first.len();
+    let table = numbers(d).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
+    let absorbed =
+        "Rows in %: change of k when that effect is left out of the model: the springs absorb what they can.";
+    let biased = "Biased by what is missing: the uncertainties do not cover an effect without a name.";
+    Section::new("Leg stiffness")
+        .id("stiffness")
+        .remark(of)
+        .table(table)
+        .with((!d.absorbed.is_empty()).then(|| Block::paragraph(absorbed)))
+        .with((d.verdict == Verdict::Outside).then(|| Block::paragraph(biased)))
+}
+
+/// A row of a name and a cell for each leg.
+fn legs(name: &str, cells: [String; 6]) -> Vec<String> {
+    std::iter::once(name.to_owned()).chain(cells).collect()
+}
+
+fn numbers(d: &Diagnosis) -> Table {
+    let known: [Option<[String; 2]>; 6] = std::array::from_fn(|leg| stiffness(d, leg + 1));
+    let part = |which: usize, open: &str| {
+        std::array::from_fn(|leg| known[leg].as_ref().map_or(open.to_owned(), |k| k[which].clone()))
+    };
+    let header = legs("leg", std::array::from_fn(|leg| (leg + 1).to_string()));
+    Table::named(header).rows([legs("k", part(0, "open")), legs("+-", part(1, "-"))])
+}
+
+fn stiffness(d: &Diagnosis, leg: usize) -> Option<[String; 2]> {
+    let name = format!("leg-{leg}.stiffness");
+    d.parameters.iter().find(|p| p.name == name).map(|p| with_uncertainty(p.value, p.std))
+}
+
+/// Effects of the model, and rivals when the answer is open.
+fn matters(d: &Diagnosis, report: &AbsorbedReport) -> bool {
+    let rival = d.verdict == Verdict::Ambiguous && d.credible_set.contains(&report.term);
+    rival || d.model.contains(&report.term)
+}
+
+fn bias(report: &AbsorbedReport) -> Vec<String> {
+    let cell = |b: Option<f64>| b.map_or("-".to_owned(), |b| format!("{b:+.1} %"));
+    legs(&format!("no {}", report.term), report.bias_of_leg_stiffness_percent.map(cell))
+}

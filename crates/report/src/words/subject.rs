@@ -1,0 +1,63 @@
+//! What a page is about.
+
+use std::collections::BTreeSet;
+
+use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::diagnose::Study;
+use hexbench_model::noise::{Noise, NoiseSource};
+
+use crate::number::significant;
+use crate::page::Entry;
+
+/// A machine, its measurements, and what was found.
+pub struct Subject<'a> {
+    /// The machine.
+    pub hexapod: &'a Hexapod,
+    /// The readings fitted.
+    pub data: &'a Dataset,
+    /// The readings held out, when they come from a file of their own.
+    pub holdout: Option<&'a Dataset>,
+    /// What was found.
+    pub study: &'a Study,
+}
+
+impl Subject<'_> {
+    /// Files and noise.
+    pub fn entries(&self) -> Vec<Entry> {
+        entries(self.data, self.holdout, &self.study.campaign.noise)
+    }
+}
+
+/// Files and noise.
+pub fn entries(data: &Dataset, holdout: Option<&Dataset>, level: &Noise) -> Vec<Entry> {
+    let holdout = holdout.map(|h| Entry::new("held out", describe(h)));
+    let noise = Entry::new("noise", noise(level));
+    std::iter::once(Entry::new("data", describe(data))).chain(holdout).chain([noise]).collect()
+}
+
+/// File, kind and number of readings.
+pub fn describe(data: &Dataset) -> String {
+    let kind = data.measurand.readings();
+    format!("{}: {} {kind} at {} poses", data.source, data.observations.len(), poses(data))
+}
+
+/// Number of different commanded poses.
+pub fn poses(data: &Dataset) -> usize {
+    let key = |o: &hexbench_core::Observation| o.pose.to_array().map(|x| (x + 0.0).to_bits());
+    data.observations.iter().map(key).collect::<BTreeSet<_>>().len()
+}
+
+/// Size and origin of the noise of one reading.
+pub fn noise(noise: &Noise) -> String {
+    let (t, r) = (significant(noise.translation * 1e6, 2), significant(noise.rotation * 1e6, 2));
+    format!("{t} um and {r} urad per reading, {}", origin(noise.source))
+}
+
+fn origin(source: NoiseSource) -> &'static str {
+    match source {
+        NoiseSource::Metrology => "stated in [metrology]",
+        NoiseSource::Columns => "stated in the sigma_* columns",
+        NoiseSource::Repeats => "from repeated readings",
+        NoiseSource::Residuals => "taken from the residuals themselves",
+    }
+}

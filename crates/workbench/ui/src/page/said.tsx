@@ -1,0 +1,119 @@
+/** What the program says: a page of sections, the same in every medium. */
+import type { Block, Cell, Entry, Section, Table } from "../wire";
+import { Inline } from "./inline";
+
+export function Said({ sections }: { sections: Section[] }) {
+  return (
+    <div class="said" data-testid="said">
+      {sections.map((section) => (
+        <section key={section.id} data-testid={`section-${section.id}`}>
+          {section.title !== "" && <h3>{section.title}</h3>}
+          {section.remark !== "" && (
+            <p class="hint">
+              <Inline text={section.remark} />
+            </p>
+          )}
+          {section.blocks.map((block, index) => (
+            <Shown key={index} block={block} />
+          ))}
+        </section>
+      ))}
+    </div>
+  );
+}
+
+function Shown({ block }: { block: Block }) {
+  switch (block.kind) {
+    case "verdict":
+      return (
+        <p class={`verdict ${block.mood}`} data-testid="verdict" data-word={block.word.toLowerCase()}>
+          <strong>{block.word}</strong> {block.sentences.join(" ")}
+        </p>
+      );
+    case "paragraph":
+      return (
+        <p>
+          <Inline text={block.text} />
+        </p>
+      );
+    case "list":
+      return (
+        <ul>
+          {block.items.map((item) => (
+            <li key={item}>
+              <Inline text={item} />
+            </li>
+          ))}
+        </ul>
+      );
+    case "entries":
+      return <Entries number={block.number} entries={block.entries} />;
+    case "code":
+      return <pre>{block.text}</pre>;
+    case "table":
+      return <Rows table={block} />;
+    case "figure":
+      return null;
+  }
+}
+
+function Entries({ number, entries }: { number: number | null; entries: Entry[] }) {
+  return (
+    <dl data-number={number ?? undefined}>
+      {entries.map(({ label, text }) => [
+        <dt key={`${label}-name`}>{label}</dt>,
+        <dd key={label}>
+          <Inline text={text} />
+        </dd>,
+      ])}
+    </dl>
+  );
+}
+
+function Rows({ table }: { table: Table }) {
+  const words = (index: number) => (table.columns[index]?.words ? "words" : undefined);
+  return (
+    <div class="scroll">
+      <table>
+        {table.title !== "" && <caption>{table.title}</caption>}
+        {table.columns.some(({ title }) => title !== "") && (
+          <thead>
+            <tr>
+              {table.columns.map(({ title }, index) => (
+                <th key={index} scope="col" class={words(index)}>
+                  {title}
+                </th>
+              ))}
+            </tr>
+          </thead>
+        )}
+        <tbody>
+          {table.rows.map((row, index) => (
+            <tr key={index}>
+              {row.map((cell, column) => (
+                <Content key={column} cell={cell} words={words(column)} />
+              ))}
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+function Content({ cell, words }: { cell: Cell; words: string | undefined }) {
+  if (typeof cell === "string") {
+    return (
+      <td class={words}>
+        <Inline text={cell} />
+      </td>
+    );
+  }
+  return (
+    <td class="wide">
+      <span class="track">
+        <span class={`bar ${cell.mood ?? ""}`} style={{ width: `${100 * cell.bar}%` }} />
+      </span>
+    </td>
+  );
+}
