@@ -81,7 +81,7 @@ impl harness::Protocol for Trials<'_> {
         let Protocol { seed, trials } = self.protocol;
         let pairs = self.confusions.iter().map(Confusion::name).collect::<Vec<_>>().join(", ");
         let settings = [("pairs", pairs), ("trials", trials.to_string()), ("seed", seed.to_string())];
-        Identity::new("discriminate", "discriminate-trials/1", settings)
+        Identity::new("discriminate", "discriminate-trials/2", settings)
     }
 
     fn trials(&self) -> u64 {

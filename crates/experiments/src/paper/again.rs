@@ -33,7 +33,7 @@ impl Protocol for Again {
         let motion = self.support_motion.map(|x| x.to_string()).join(", ");
         Identity::new(
             "paper",
-            "paper-trials/1",
+            "paper-trials/2",
             [("seed", self.seed.to_string()), ("support_motion", motion)],
         )
     }

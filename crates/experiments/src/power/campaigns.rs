@@ -190,7 +190,7 @@ impl Protocol for Campaigns<'_> {
             ("plan", text_hash(&format!("{:?}", self.bench.plan()))),
             ("terms", text_hash(&terms.join(", "))),
         ];
-        Identity::new("power", "power-trials/1", settings)
+        Identity::new("power", "power-trials/2", settings)
     }
 
     fn trials(&self) -> u64 {

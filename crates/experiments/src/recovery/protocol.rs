@@ -55,7 +55,7 @@ impl Protocol for Recovery {
     fn identity(&self) -> Identity {
         let Settings { campaigns, diagnoses, seed } = self.settings;
         let settings = [("campaigns", campaigns as u64), ("diagnoses", diagnoses as u64), ("seed", seed)];
-        Identity::new("recovery", "recovery-trials/1", settings.map(|(name, n)| (name, n.to_string())))
+        Identity::new("recovery", "recovery-trials/2", settings.map(|(name, n)| (name, n.to_string())))
     }
 
     fn trials(&self) -> u64 {
