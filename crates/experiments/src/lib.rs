@@ -29,5 +29,4 @@ pub mod sweep;
 pub mod trial;
 
 pub use error::ExperimentError;
-pub use hexbench_core::statistics::Proportion;
 pub use trial::{Outcome, Trial, TrialError};

@@ -1,5 +1,6 @@
 //! The study as a page.
 
+use hexbench_core::statistics::Proportion;
 use hexbench_report::number::hundredths;
 use hexbench_report::{Block, Figure, Page, Section, Table};
 use hexbench_truth::campaign::Kind;
@@ -10,7 +11,6 @@ use super::{
     Calibration, Curve, DISTANCES, Record, WELL_VISIBLE, credible_coverage, false_names,
     false_names_among_named, false_outside, is_well_visible, stiffness_coverage,
 };
-use crate::Proportion;
 use crate::calibration::Fate;
 
 /// The page: figures, tables and the charts of a folder beside it.

@@ -1,10 +1,10 @@
 //! The tables of the study.
 
+use hexbench_core::statistics::Proportion;
 use hexbench_truth::campaign::Kind;
 
 use super::trust::{HeldOut, credible_coverage, stiffness_coverage};
 use super::{Claims, Confusion, Curve, Fate, Mix, Record, bins, is_well_visible, mistakes, scores};
-use crate::Proportion;
 use hexbench_report::Table;
 use hexbench_report::number::hundredths;
 

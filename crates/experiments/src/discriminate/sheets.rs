@@ -1,7 +1,7 @@
 //! Tables of the study.
 
 use super::{Confusion, Discrimination, Record};
-use crate::Proportion;
+use hexbench_core::statistics::Proportion;
 use hexbench_report::Table;
 
 use crate::trial::Outcome;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use hexbench_core::Vector6;
 use hexbench_core::files::text_hash;
+use hexbench_core::statistics::Proportion;
 use hexbench_core::streams::Purpose;
 use hexbench_design::power::{Planned, Settings, Study, Subject, Test, study};
 use hexbench_model::error::ModelError;
@@ -15,7 +16,6 @@ use super::PowerPlan;
 use super::simulate::{Answers, Bench, NoiseOf, Said, Simulated};
 use super::study::{Check, Power, PowerError, Simulation};
 use super::usual::{Usual, usual};
-use crate::Proportion;
 use crate::harness::{Answer, Field, Gathered, Protocol};
 use crate::journal::Identity;
 

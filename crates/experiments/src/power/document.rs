@@ -1,5 +1,6 @@
 //! The power of a plain and of a rich plan as a document.
 
+use hexbench_core::statistics::Proportion;
 use hexbench_design::power::{Effect, Planned, Verdict};
 use hexbench_report::Page;
 use hexbench_report::number::significant;
@@ -10,7 +11,6 @@ use super::faint::{Faint, faint};
 use super::page::{LOOK_ALIKE, look_alikes};
 use super::tables::chance;
 use super::{PlanReport, Power, PowerError, PowerPlan, Simulated};
-use crate::Proportion;
 use crate::recovery::correspondence::CORRESPONDENCES;
 
 /// A plan of a scene and its power.

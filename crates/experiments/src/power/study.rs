@@ -1,5 +1,6 @@
 //! Everything about one plan: reckoned, and simulated where asked for.
 
+use hexbench_core::statistics::Proportion;
 use hexbench_design::DesignError;
 use hexbench_design::power::Study;
 use hexbench_model::error::ModelError;
@@ -8,7 +9,6 @@ use hexbench_truth::scene::RowError;
 use serde::Serialize;
 
 use super::simulate::Simulated;
-use crate::Proportion;
 
 /// How much is simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]

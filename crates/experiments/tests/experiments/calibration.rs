@@ -1,6 +1,6 @@
 //! A small study of calibration: the rates the diagnosis promises, and the same bytes on any number of threads.
 
-use hexbench_experiments::Proportion;
+use hexbench_core::statistics::Proportion;
 use hexbench_experiments::calibration::{
     Calibration, Fate, MOST_FALSE_NAMES, Protocol, Record, credible_coverage, false_names, false_outside,
     is_well_visible, page, pictures, stiffness_coverage, trials_csv,

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use hexbench_core::Observation;
 use hexbench_core::statistics::Proportion;
 use hexbench_design::power::{Settings, Verdict};
-use hexbench_experiments::Proportion;
 use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::power::{Campaigns, Power, PowerPlan, Simulated, Simulation, plan_of};
 use hexbench_model::term::Term;

@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
-use hexbench_experiments::Proportion;
+use hexbench_core::statistics::Proportion;
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::regress::baseline::{Baseline, Update, made};
 use hexbench_experiments::regress::comparison::{Comparison, compare};

@@ -1,8 +1,7 @@
 //! One case of one program in numbers.
 
-use hexbench_core::statistics::root_mean_square;
+use hexbench_core::statistics::{Proportion, root_mean_square};
 
-use crate::Proportion;
 use crate::trial::{Outcome, outcome_of};
 use hexbench_core::Measurand;
 use serde::Serialize;

@@ -1,8 +1,7 @@
 //! Figures over some cases of one program.
 
-use hexbench_core::statistics::{self, median, root_mean_square};
+use hexbench_core::statistics::{self, Proportion, median, root_mean_square};
 
-use crate::Proportion;
 use serde::Serialize;
 
 use super::case::{COVERAGE_FACTOR, CaseScore};

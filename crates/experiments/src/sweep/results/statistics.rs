@@ -1,8 +1,6 @@
 //! Running statistics of a cell, in the order of its trials.
 
-use hexbench_core::statistics::Welford;
-
-use crate::Proportion;
+use hexbench_core::statistics::{Proportion, Welford};
 
 use crate::sweep::columns::Status;
 use crate::sweep::runner::Runner;
