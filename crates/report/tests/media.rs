@@ -1,5 +1,7 @@
 //! Every medium says the same: whatever stands on a terminal stands in Markdown, in HTML and in the JSON of a page.
 
+#![allow(clippy::unwrap_used, reason = "a test without its files fails")]
+
 use std::path::{Path, PathBuf};
 
 use hexbench_core::files::{read_hexapod, read_measurements};

@@ -50,7 +50,9 @@ pub fn all_scores(records: &[Record]) -> Table {
     let mut table = Table::named(SCORES).words_in(1);
     for (name, mix) in [("as drawn", Mix::as_drawn()), ("as expected", Mix::as_expected(records))] {
         for claims in Claims::ALL {
-            score_row(claims, name, records.iter(), &mix).into_iter().for_each(|row| table.row(row));
+            if let Some(row) = score_row(claims, name, records.iter(), &mix) {
+                table.row(row);
+            }
         }
     }
     table
@@ -61,9 +63,9 @@ pub fn scores_by_kind(records: &[Record]) -> Table {
     let mut table = Table::named(SCORES).words_in(1);
     for claims in [Claims::Named, Claims::Verdict, Claims::Presence] {
         for kind in Kind::ALL {
-            score_row(claims, kind.name(), of_kind(records, kind), &Mix::as_drawn())
-                .into_iter()
-                .for_each(|row| table.row(row));
+            if let Some(row) = score_row(claims, kind.name(), of_kind(records, kind), &Mix::as_drawn()) {
+                table.row(row);
+            }
         }
     }
     table

@@ -14,7 +14,9 @@ const WORTH_WRITING: f64 = 1e-3;
 /// The table of all records; lists within a cell are joined by `+`.
 pub fn trials_csv(records: &[Record]) -> String {
     let mut text = CsvText::new(HEADER.split(','));
-    records.iter().for_each(|record| text.row(cells(record)));
+    for record in records {
+        text.row(cells(record));
+    }
     text.into_text()
 }
 

@@ -54,19 +54,20 @@ pub fn page(c: &Comparison, all: bool) -> Page {
     let meant = "Meant? `hexbench regress --update --reason TEXT` makes this the baseline.";
     let page = Page::new(format!("Accuracy regression: {sign}"))
         .with(Section::lead().paragraph(headline(c)).paragraph(against(c)))
-        .with(section("Worse than chance explains", worse.clone()))
+        .with(section("Worse than chance explains", &worse))
         .with(Section::new("What to do").list(steps(&worse)).paragraph(meant).when(c.fails()))
         .with(
-            section("Better than chance explains", c.of(Verdict::Better).collect())
+            section("Better than chance explains", &c.of(Verdict::Better).collect::<Vec<_>>())
                 .map(|s| s.remark("`hexbench regress --update --reason TEXT` makes them the baseline")),
         );
     let page = if all {
-        let of_group = |group: &Group| c.findings.iter().filter(|f| f.group == *group).collect();
-        Group::ALL.iter().fold(page, |page, group| page.with(section(group.word(), of_group(group))))
+        let of_group = |group: &Group| c.findings.iter().filter(|f| f.group == *group).collect::<Vec<_>>();
+        Group::ALL.iter().fold(page, |page, group| page.with(section(group.word(), &of_group(group))))
     } else {
-        let others = c.by_chance().into_iter().filter(|f| f.verdict == Verdict::Same).take(SHOWN).collect();
+        let others: Vec<&Finding> =
+            c.by_chance().into_iter().filter(|f| f.verdict == Verdict::Same).take(SHOWN).collect();
         page.with(
-            section("The least probable of the others", others).map(|s| s.remark("--all shows every limit")),
+            section("The least probable of the others", &others).map(|s| s.remark("--all shows every limit")),
         )
     };
     let unanswered = c.without_answer.iter().take(SHOWN).cloned();
@@ -81,7 +82,7 @@ fn steps(worse: &[&Finding]) -> Vec<String> {
     worse.iter().map(|f| format!("{}: {}", f.title, f.why)).chain(steps).collect()
 }
 
-fn section(title: &str, findings: Vec<&Finding>) -> Option<Section> {
+fn section(title: &str, findings: &[&Finding]) -> Option<Section> {
     let table = Table::named(["limit", "now", "baseline", "by chance", "would notice"]);
     let rows = findings.iter().map(|f| row(f).into_iter().chain([f.notices.clone()]).collect::<Vec<_>>());
     (!findings.is_empty()).then(|| Section::new(title).table(table.rows(rows)))

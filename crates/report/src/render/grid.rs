@@ -91,7 +91,7 @@ impl<'a> Grid<'a> {
     /// Length of the longest part of a cell that does not break.
     fn longest_piece(&self, column: usize) -> usize {
         let cells = self.rows.iter().filter_map(|row| row[column].map(Cell::text));
-        cells.flat_map(|text| breakable(text, 0).split_whitespace().map(length).max()).max().unwrap_or(0)
+        cells.map(|text| longest_word(&breakable(text, 0))).max().unwrap_or(0)
     }
 
     fn total(&self) -> usize {

@@ -59,7 +59,9 @@ impl Writer {
         match block {
             Block::Verdict { word, mood, sentences } => {
                 self.line(&format!("  {}", style.mood(Some(*mood), word)));
-                sentences.iter().for_each(|sentence| self.hanging("", 2, sentence));
+                for sentence in sentences {
+                    self.hanging("", 2, sentence);
+                }
             }
             Block::Paragraph { text, mood } => {
                 for line in wrapped(text, WIDTH - 2) {
@@ -138,7 +140,9 @@ impl Writer {
         if shown > 0 {
             let Terminal { style, verbose } = self.with;
             let lines = Grid::lines(table, shown, verbose, WIDTH - indent, style);
-            lines.iter().for_each(|line| self.line(&format!("{blanks}{line}")));
+            for line in lines {
+                self.line(&format!("{blanks}{line}"));
+            }
         }
         match table.rows.len() - shown {
             0 => {}
