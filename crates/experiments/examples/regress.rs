@@ -1,7 +1,7 @@
 //! The full suite beside a baseline: what `hexbench regress --baseline BASELINE --json RESULT` does, without the command around it,
 //! so that `scripts/planted_faults.sh` builds little for each fault.
 //!
-//! `cargo run --release -p hexbench-validation --example regress -- BASELINE RESULT`
+//! `cargo run --release -p hexbench-experiments --example regress -- BASELINE RESULT`
 
 use std::error::Error;
 use std::path::Path;
