@@ -130,9 +130,8 @@ test("the diagnosis names the effect and ticks it", async () => {
 });
 
 test("the workbench says word for word what the report says, of every bundled case", async () => {
-  const { page, at, close } = await openPage(browser, workbench.url);
   for (const name of readdirSync(CASES).filter((entry) => statSync(join(CASES, entry)).isDirectory())) {
-    await page.goto(workbench.url);
+    const { page, at, close } = await openPage(browser, workbench.url);
     await loadCase(page, name);
     await at("tab-diagnosis").click();
     await at("diagnose").click();
@@ -150,8 +149,8 @@ test("the workbench says word for word what the report says, of every bundled ca
     assert.ok(wanted.length > 30, `${name}: ${wanted.length} parts`);
     for (const part of wanted) assert.ok(said.includes(part), `${name}: the workbench does not say: ${part}`);
     console.log(`${name}: ${wanted.length} parts of the report stand in the workbench`);
+    await close();
   }
-  await close();
 });
 
 test("every sheet draws without a fault", async () => {
