@@ -33,6 +33,14 @@ pub enum TruthError {
         /// Angle from the commanded orientation, deg.
         rotation_deg: f64,
     },
+    /// A leg would lengthen under compression.
+    #[error("leg {leg} is no spring at this length: its compliance is {compliance:.3e} m/N, below zero")]
+    NoSpring {
+        /// Leg, from 1.
+        leg: usize,
+        /// Its compliance at the commanded length, m/N.
+        compliance: f64,
+    },
     /// Newton's method did not settle.
     #[error("no equilibrium after {iterations} iterations: {imbalance_n:.3e} N out of balance")]
     NotConverged {

@@ -124,6 +124,11 @@ impl LegLaw {
         }
     }
 
+    /// Compliance of the spring at the commanded length, with what depends on the length, m/N.
+    pub fn compliance_at_length(&self) -> f64 {
+        self.along_length.iter().fold(self.compliance, |sum, c| sum + c.at(self.length).0)
+    }
+
     /// Force in the leg spring when the leg carries `force`, N.
     pub fn spring_force(&self, force: f64, before: LegMemory) -> f64 {
         self.share_of_spring(force, before).0

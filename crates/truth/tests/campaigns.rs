@@ -3,7 +3,7 @@
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_truth::{
-    World,
+    TruthError, World,
     campaign::{Case, CaseSpec, Kind, machines},
 };
 use rayon::prelude::*;
@@ -52,4 +52,13 @@ fn every_family_of_machines_holds_its_platform() {
             }
         }
     }
+}
+
+/// A set-up that leans far over is no tilt that somebody has overlooked.
+#[test]
+fn a_tilt_that_anybody_would_see_is_not_drawn() {
+    let effects = vec!["load-tilt"];
+    let spec = CaseSpec { effects, ..CaseSpec::draw(Kind::Single, 0, 5, 4, Some([1e5, 1e5])) };
+    let refused = spec.build().unwrap_err();
+    assert!(matches!(refused, TruthError::NotVisible { scale, .. } if scale < 100.0), "{refused}");
 }

@@ -7,8 +7,8 @@ use hexbench_truth::{
     LegMemory, Mechanism, Situation, TruthError, World,
     campaign::machines,
     mechanisms::{
-        BaseCompliance, JointFriction, JointRotationStiffness, LegBacklash, LegNonlinearity,
-        PlatformCompliance, REGISTRY, Shows, TargetOffset,
+        BaseCompliance, JointFriction, JointRotationStiffness, LegBacklash, LegLengthCompliance,
+        LegNonlinearity, PlatformCompliance, REGISTRY, Shows, TargetOffset,
     },
 };
 
@@ -333,6 +333,17 @@ fn a_platform_similar_to_its_base_is_singular() {
 fn a_load_that_pushes_the_platform_away_is_an_error() {
     let result = ring().deflection(&Situation::new(pose(), scaled(&wrench(), 1e4)));
     assert!(result.is_err(), "{result:?}");
+}
+
+#[test]
+fn a_leg_that_would_lengthen_under_compression_is_refused() {
+    let with_slope = |slope: f64| {
+        let mut world = ring();
+        world.mechanisms.push(Box::new(LegLengthCompliance { slope }));
+        world.reading(&situation())
+    };
+    assert!(with_slope(4e-7).is_ok());
+    assert!(matches!(with_slope(4e-4), Err(TruthError::NoSpring { .. })));
 }
 
 #[test]

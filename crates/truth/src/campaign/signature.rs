@@ -75,17 +75,21 @@ impl<'a> Yardstick<'a> {
         const ITERATIONS: usize = 60;
         const EXACT: f64 = 1e-9;
         const ENOUGH: f64 = 1e-5;
-        const RANGE: std::ops::Range<f64> = 1e-3..1e2;
+        const SMALLEST_FACTOR: f64 = 1e-3;
+        let largest_factor = effect.largest_factor();
         let mut factor = 1.0;
         let mut best = (factor, 0.0);
         let mut bracket = (0.0, f64::INFINITY);
         for _ in 0..ITERATIONS {
+            if !(SMALLEST_FACTOR..largest_factor).contains(&factor) {
+                break;
+            }
             // A machine that gives way under the effect has too much of it.
             let distance = self.distance(vec![effect.scaled(factor)]).unwrap_or(f64::INFINITY);
             if (distance - wanted).abs() < (best.1 - wanted).abs() {
                 best = (factor, distance);
             }
-            if (distance / wanted - 1.0).abs() < EXACT || !RANGE.contains(&factor) {
+            if (distance / wanted - 1.0).abs() < EXACT {
                 break;
             }
             if distance > wanted {
@@ -93,7 +97,7 @@ impl<'a> Yardstick<'a> {
             } else {
                 bracket.0 = factor;
             }
-            factor = next_factor(factor, distance, wanted, bracket);
+            factor = next_factor(factor, distance, wanted, bracket, largest_factor);
         }
         if (best.1 / wanted - 1.0).abs() < ENOUGH {
             return Ok(best);
@@ -166,15 +170,10 @@ impl<'a> Yardstick<'a> {
 }
 
 /// Proportional step, kept between what was too small and what was too large.
-fn next_factor(factor: f64, distance: f64, wanted: f64, bracket: (f64, f64)) -> f64 {
+fn next_factor(factor: f64, distance: f64, wanted: f64, bracket: (f64, f64), largest: f64) -> f64 {
     const LARGEST_STEP: f64 = 20.0;
-    const RANGE_END: f64 = 1e2;
     let next = factor * (wanted / distance.max(f64::MIN_POSITIVE)).clamp(1.0 / LARGEST_STEP, LARGEST_STEP);
-    if next > bracket.0 && next < bracket.1 {
-        next
-    } else {
-        0.5 * (bracket.0 + bracket.1.min(2.0 * RANGE_END))
-    }
+    if next > bracket.0 && next < bracket.1 { next } else { 0.5 * (bracket.0 + bracket.1.min(2.0 * largest)) }
 }
 
 fn difference(a: &Vector6, b: &Vector6) -> Vector6 {

@@ -8,7 +8,7 @@ use super::{
     leg::{Leg, legs},
 };
 use crate::{
-    LegMemory, Setup, TruthError,
+    LegLaw, LegMemory, Setup, TruthError,
     law::LawPoint,
     linear::{self, MOST},
 };
@@ -54,8 +54,10 @@ struct Iterate {
 /// State of rest of a structure, given what its legs remember.
 ///
 /// # Errors
-/// [`TruthError::Singular`], [`TruthError::GaveWay`], [`TruthError::NotConverged`], [`TruthError::NotFinite`].
+/// [`TruthError::NoSpring`], [`TruthError::Singular`], [`TruthError::GaveWay`], [`TruthError::NotConverged`],
+/// [`TruthError::NotFinite`].
 pub fn solve(setup: &Setup, remembered: &[LegMemory; 6]) -> Result<Equilibrium, TruthError> {
+    check_springs(setup)?;
     let layout = Layout::of(setup);
     let mut now = start(setup, &layout, remembered)?;
     for iteration in 1..=MOST_ITERATIONS {
@@ -73,6 +75,13 @@ pub fn solve(setup: &Setup, remembered: &[LegMemory; 6]) -> Result<Equilibrium, 
         }
     }
     Err(TruthError::NotConverged { iterations: MOST_ITERATIONS, imbalance_n: now.norm })
+}
+
+/// A negative compliance would have an equilibrium, and one that no machine can be in.
+fn check_springs(setup: &Setup) -> Result<(), TruthError> {
+    let compliances = setup.laws.iter().map(LegLaw::compliance_at_length);
+    let negative = (1..).zip(compliances).find(|(_, compliance)| *compliance < 0.0);
+    negative.map_or(Ok(()), |(leg, compliance)| Err(TruthError::NoSpring { leg, compliance }))
 }
 
 /// The commanded pose with the leg forces that hold the wrench there.

@@ -21,6 +21,9 @@ pub(super) const EFFECT: Effect = Effect {
     parse: parsed::<LoadTilt>,
 };
 
+/// A set-up that leans further than this is seen by eye, rad.
+const LARGEST_RAD: f64 = 0.2;
+
 /// Load directions are tilted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -44,6 +47,10 @@ impl Mechanism for LoadTilt {
 
     fn scaled(&self, factor: f64) -> Box<dyn Mechanism> {
         Box::new(Self { angles: self.angles.map(|x| x * factor) })
+    }
+
+    fn largest_factor(&self) -> f64 {
+        LARGEST_RAD / self.angles[0].hypot(self.angles[1]).max(f64::MIN_POSITIVE)
     }
 
     fn parameters(&self) -> Map<String, Value> {

@@ -93,6 +93,11 @@ pub trait Mechanism: Debug + Send + Sync {
     /// The same effect `factor` times as large; 0 makes it vanish.
     fn scaled(&self, factor: f64) -> Box<dyn Mechanism>;
 
+    /// Largest factor by which it may still be scaled and be called by its name.
+    fn largest_factor(&self) -> f64 {
+        1e2
+    }
+
     /// Parameters under the names of the truth file, SI units.
     fn parameters(&self) -> Map<String, Value>;
 }
