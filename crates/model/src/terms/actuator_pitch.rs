@@ -1,15 +1,7 @@
-//! Periodic error of the leads.
+//! `actuator-pitch`: periodic error of the leads.
 //!
-//! Each screw has an error that repeats with its pitch; amplitude and phase belong to the leg, the pitch is
-//! common. Phases are counted from the home length, in the middle of the travel: counted from zero length they would
-//! turn by radians when the pitch changes by a thousandth, and no linear uncertainty would hold.
-//!
-//! ```text
-//! e_i = a_i sin(2 pi (q_i - q_home,i) / pitch) + b_i cos(2 pi (q_i - q_home,i) / pitch)
-//! ```
-//!
-//! Source: ISO 230-2:2014; ISO 3408-3:2006 (ball screws, periodic lead deviation). It stays invisible unless
-//! poses are measured absolutely at many leg lengths.
+//! Phases are counted from the home length, in the middle of the travel: counted from zero length they would turn by radians when
+//! the pitch changes by a thousandth, and no linear uncertainty would hold.
 
 use std::f64::consts::TAU;
 
@@ -36,7 +28,6 @@ const WAVES: [&str; 12] = [
     "leg-6-cosine",
 ];
 
-/// Periodic error of the leads.
 pub(super) struct ActuatorPitch;
 
 static INFO: TermInfo = TermInfo {

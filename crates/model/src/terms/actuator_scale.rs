@@ -1,13 +1,4 @@
-//! Encoders or leads have a gain error.
-//!
-//! Each leg moves by a little more or less than commanded.
-//!
-//! ```text
-//! e_i = gain_i (q_i - q_home,i)
-//! ```
-//!
-//! Source: ISO 230-2:2014 (positioning accuracy of linear axes). It stays invisible unless poses are measured
-//! absolutely and use a long stroke.
+//! `actuator-scale`: encoders or leads have a gain error.
 
 use hexbench_core::Vector6;
 
@@ -16,7 +7,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, LEGS, Need, Rich, Scale, Term, TermInfo, each};
 
-/// Encoders or leads have a gain error.
 pub(super) struct ActuatorScale;
 
 static INFO: TermInfo = TermInfo {

@@ -1,14 +1,4 @@
-//! The foundation yields.
-//!
-//! The base with all six base joints moves as a rigid body on six springs at the centre of the base-joint
-//! plane.
-//!
-//! ```text
-//! [v_P; w] = C [F; M_P], M_P = M + (t - P) x F; the platform follows
-//! ```
-//!
-//! Source: Kalas et al. 2018, list of suspects; Wallace, `TPOINT` (mount and pier flexure). It stays
-//! invisible unless moments and lateral loads are measured.
+//! `base-compliance`: the foundation yields.
 
 use hexbench_core::Matrix3;
 
@@ -18,7 +8,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
-/// The foundation yields.
 pub(super) struct BaseCompliance;
 
 static INFO: TermInfo = TermInfo {

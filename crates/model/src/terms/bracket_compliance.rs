@@ -1,13 +1,4 @@
-//! Joint mounts yield sideways.
-//!
-//! The mounts of the base joints are softer along the base plane than along its normal.
-//!
-//! ```text
-//! e = c_lat (n_x^2 + n_y^2) (f - f0)
-//! ```
-//!
-//! Source: Kalas et al. 2018, list of suspects: incomplete stiffness model. It stays invisible unless the
-//! inclination of the legs varies.
+//! `bracket-compliance`: joint mounts yield sideways.
 
 use hexbench_core::Vector6;
 
@@ -16,7 +7,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
-/// Joint mounts yield sideways.
 pub(super) struct BracketCompliance;
 
 static INFO: TermInfo = TermInfo {

@@ -1,20 +1,10 @@
-//! The legs creep under load.
-//!
-//! The compliance of every leg grows while the load rests on it.
-//!
-//! ```text
-//! e = chi c_i (f - f0) (1 - exp(-elapsed / tau))
-//! ```
-//!
-//! Source: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976, ch. 5. It
-//! stays invisible unless `elapsed_s` varies.
+//! `creep`: the legs creep under load.
 
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Need, Parameter, Rich, Scale, Shape, Term, TermInfo};
 
-/// The legs creep under load.
 pub(super) struct Creep;
 
 static INFO: TermInfo = TermInfo {

@@ -1,14 +1,4 @@
-//! Dry friction in legs and joints.
-//!
-//! A slider beside each leg spring holds up to `f_c` against the last motion, so the spring force lags behind
-//! the leg force and depends on the way the load was reached.
-//!
-//! ```text
-//! e = c (play(f) - play(f0)), play(f) kept within f -+ f_c along the path 0, f0, (overshoot), f
-//! ```
-//!
-//! Source: Visintin, Differential Models of Hysteresis, 1994 (play operator); Armstrong-Helouvry et al.,
-//! Automatica 30, 1994. It stays invisible unless both approach directions are measured.
+//! `joint-friction`: dry friction in legs and joints.
 
 use hexbench_core::Vector6;
 
@@ -17,7 +7,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Need, Parameter, Rich, Scale, Shape, Term, TermInfo};
 
-/// Dry friction in legs and joints.
 pub(super) struct JointFriction;
 
 static INFO: TermInfo = TermInfo {

@@ -1,17 +1,7 @@
-//! Joints are not where the drawing says.
-//!
-//! Base and platform joints deviate from their nominal places (36 coordinates). Twelve combinations are the
-//! same as moving the metrology and the target frame and cannot be told from them.
-//!
-//! ```text
-//! e = n . dA - (R' n) . dB
-//! ```
+//! `joint-geometry`: joints are not where the drawing says.
 //!
 //! With the joints the directions of the legs change, and with them the leg forces under the load: a rigid rotation of all
 //! joints shows in no unloaded pose, but it turns the load against the legs, and the stiffnesses are as uncertain as it is.
-//!
-//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 7; Daney 2003, Mech. Mach. Theory 38 (calibration of a
-//! Gough platform). It stays invisible unless poses are measured absolutely.
 
 use hexbench_core::{Vector3, Vector6};
 
@@ -59,7 +49,6 @@ const JOINTS: [&str; 36] = [
     "platform-6-z",
 ];
 
-/// Joints are not where the drawing says.
 pub(super) struct JointGeometry;
 
 static INFO: TermInfo = TermInfo {

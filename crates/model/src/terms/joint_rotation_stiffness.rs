@@ -1,14 +1,4 @@
-//! Flexure joints resist rotation.
-//!
-//! Flexure joints bend when a leg changes direction: at the base end against the base, at the platform end
-//! against the platform.
-//!
-//! ```text
-//! K = sum k_b G_b' G_b + k_p G_p' G_p, with dn = G_b [v; w] and R d(R' n) = G_p [v; w]
-//! ```
-//!
-//! Source: Smith, Flexures, 2000; Dehaeze, doctoral thesis 2021, ch. 5 (flexible joints of a Stewart
-//! platform). It stays invisible unless the joints are stiff compared with the legs.
+//! `joint-rotation-stiffness`: flexure joints resist rotation.
 
 use hexbench_core::{Matrix3, Matrix6};
 use nalgebra::Matrix3x6;
@@ -18,7 +8,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
-/// Flexure joints resist rotation.
 pub(super) struct JointRotationStiffness;
 
 static INFO: TermInfo = TermInfo {

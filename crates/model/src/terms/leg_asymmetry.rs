@@ -1,19 +1,10 @@
-//! Tension differs from compression.
-//!
-//! A leg is more compliant when it is pulled than when it is pushed.
-//!
-//! ```text
-//! e = c_t (max(f, 0) - max(f0, 0))
-//! ```
-//!
-//! Source: Kalas et al. 2018, future work: legs in tension. It stays invisible unless some legs are pulled.
+//! `leg-asymmetry`: tension differs from compression.
 
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
-/// Tension differs from compression.
 pub(super) struct LegAsymmetry;
 
 static INFO: TermInfo = TermInfo {

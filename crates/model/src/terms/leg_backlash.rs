@@ -1,20 +1,10 @@
-//! Play in the legs.
-//!
-//! A leg jumps through its play when its force changes sign.
-//!
-//! ```text
-//! e = gap/2 (sgn f - sgn f0)
-//! ```
-//!
-//! Source: Kalas et al. 2018: a preload was needed to suppress the play in the actuators. It stays invisible
-//! unless the force of a leg reverses between reference and load.
+//! `leg-backlash`: play in the legs.
 
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
-/// Play in the legs.
 pub(super) struct LegBacklash;
 
 static INFO: TermInfo = TermInfo {

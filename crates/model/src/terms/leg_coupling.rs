@@ -1,13 +1,4 @@
-//! Two legs share a bracket.
-//!
-//! The force of one leg moves the joint of its neighbour on the same bracket.
-//!
-//! ```text
-//! e_i += c_x (n_i . n_j) (f_j - f0_j) for each pair
-//! ```
-//!
-//! Source: Klimchik et al. 2014, Mech. Mach. Theory 81 (coupled compliances). It stays invisible unless
-//! lateral loads are measured.
+//! `leg-coupling`: two legs share a bracket.
 
 use hexbench_core::Vector6;
 
@@ -16,7 +7,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
 
-/// Two legs share a bracket.
 pub(super) struct LegCoupling;
 
 static INFO: TermInfo = TermInfo {

@@ -1,20 +1,10 @@
-//! Leg compliance grows with leg length.
-//!
-//! The screw or rod of a leg yields more the further the leg is extended.
-//!
-//! ```text
-//! e = s (q - q_home) (f - f0)
-//! ```
-//!
-//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (stiffness of actuated links). It stays invisible
-//! unless the poses use a long stroke.
+//! `leg-length-compliance`: leg compliance grows with leg length.
 
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
-/// Leg compliance grows with leg length.
 pub(super) struct LegLengthCompliance;
 
 static INFO: TermInfo = TermInfo {

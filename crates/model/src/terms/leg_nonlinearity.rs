@@ -1,21 +1,10 @@
-//! Nonlinear leg spring.
-//!
-//! Rolling contacts stiffen under load (Hertz, p = 2/3); other parts soften. The size is the extra elongation
-//! at 100 N.
-//!
-//! ```text
-//! e = e100 (sgn(f) |f / 100 N|^p - the same at f0)
-//! ```
-//!
-//! Source: Johnson, Contact Mechanics, 1985, ch. 4; Harris and Kotzalas, Rolling Bearing Analysis, 2006. It
-//! stays invisible unless three or more load levels are measured.
+//! `leg-nonlinearity`: nonlinear leg spring.
 
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Shape, Term, TermInfo};
 
-/// Nonlinear leg spring.
 pub(super) struct LegNonlinearity;
 
 static INFO: TermInfo = TermInfo {

@@ -1,13 +1,4 @@
-//! Zero lengths of the legs are off.
-//!
-//! Each leg is longer or shorter than its encoder says by a constant.
-//!
-//! ```text
-//! e_i = offset_i
-//! ```
-//!
-//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 7 (calibration). It stays invisible unless poses are
-//! measured absolutely.
+//! `leg-offset`: zero lengths of the legs are off.
 
 use hexbench_core::Vector6;
 
@@ -16,7 +7,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, LEGS, Need, Rich, Scale, Term, TermInfo, each};
 
-/// Zero lengths of the legs are off.
 pub(super) struct LegOffset;
 
 static INFO: TermInfo = TermInfo {

@@ -1,14 +1,4 @@
-//! The legs are not massless.
-//!
-//! Half the weight of each uniform leg rests on its platform joint and half on its base joint; gravity points
-//! along -z.
-//!
-//! ```text
-//! dF at every platform joint = -w/2 z
-//! ```
-//!
-//! Source: Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (gravity of the links). It stays invisible unless
-//! poses are measured absolutely under two loads.
+//! `leg-weight`: the legs are not massless.
 
 use hexbench_core::Vector3;
 
@@ -17,7 +7,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
 
-/// The legs are not massless.
 pub(super) struct LegWeight;
 
 static INFO: TermInfo = TermInfo {

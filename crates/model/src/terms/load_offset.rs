@@ -1,13 +1,4 @@
-//! The load acts beside the mobile origin.
-//!
-//! The load acts at a point of the platform other than the mobile origin.
-//!
-//! ```text
-//! dM = (R r') x F, in both states
-//! ```
-//!
-//! Source: Kalas et al. 2018, experimental setup (stacked masses). It stays invisible unless lateral loads or
-//! tilts are measured.
+//! `load-offset`: the load acts beside the mobile origin.
 
 use hexbench_core::Vector3;
 
@@ -16,7 +7,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
-/// The load acts beside the mobile origin.
 pub(super) struct LoadOffset;
 
 static INFO: TermInfo = TermInfo {

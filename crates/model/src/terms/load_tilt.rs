@@ -1,13 +1,4 @@
-//! The load is not quite aligned.
-//!
-//! All loads are turned by two small angles, about the x and the y axis of the fixed frame.
-//!
-//! ```text
-//! dF = [theta_x, theta_y, 0] x F, in both states
-//! ```
-//!
-//! Source: JCGM 100:2008 (GUM), F.2.4 (misalignment of a quantity). It stays invisible unless the leg forces
-//! react to the tilt more than to their own size.
+//! `load-tilt`: the load is not quite aligned.
 
 use hexbench_core::Vector3;
 
@@ -16,7 +7,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
-/// The load is not quite aligned.
 pub(super) struct LoadTilt;
 
 static INFO: TermInfo = TermInfo {

@@ -1,14 +1,6 @@
-//! The measurement drifts with time.
+//! `metrology-drift`: the measurement drifts with time.
 //!
-//! The measuring machine drifts steadily between the reference and the loaded reading: the numbers it gives change at constant
-//! rates, three coordinates and three angles, the angles as the file states them (Euler angles or a rotation vector).
-//!
-//! ```text
-//! dX = rates * elapsed
-//! ```
-//!
-//! Source: Wallace, `TPOINT`; JCGM 100:2008 (GUM), F.1.1.2 (drift between observations). It stays invisible
-//! unless `elapsed_s` varies.
+//! What drifts are the numbers as the file states them: three coordinates, and three Euler angles or a rotation vector.
 
 use hexbench_core::Matrix6;
 
@@ -17,7 +9,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
 
-/// The measurement drifts with time.
 pub(super) struct MetrologyDrift;
 
 static INFO: TermInfo = TermInfo {

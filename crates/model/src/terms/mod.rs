@@ -1,56 +1,43 @@
 //! The catalogue of effects on the model side: one file each.
 //!
-//! Adding a term is one file here, its `mod` line and its line in [`catalogue`].
-
-mod actuator_pitch;
-mod actuator_scale;
-mod base_compliance;
-mod bracket_compliance;
-mod creep;
-mod joint_friction;
-mod joint_geometry;
-mod joint_rotation_stiffness;
-mod leg_asymmetry;
-mod leg_backlash;
-mod leg_coupling;
-mod leg_length_compliance;
-mod leg_nonlinearity;
-mod leg_offset;
-mod leg_weight;
-mod load_offset;
-mod load_tilt;
-mod metrology_drift;
-mod platform_compliance;
-mod target_offset;
-mod thermal_expansion;
+//! Adding a term is one file here and its line in `terms!`.
 
 use std::sync::Arc;
 
 use crate::term::Term;
 
-/// Every term of the catalogue, in the order in which people meet them.
-pub fn catalogue() -> Vec<Arc<dyn Term>> {
-    vec![
-        Arc::new(leg_length_compliance::LegLengthCompliance),
-        Arc::new(leg_nonlinearity::LegNonlinearity),
-        Arc::new(leg_asymmetry::LegAsymmetry),
-        Arc::new(leg_backlash::LegBacklash),
-        Arc::new(joint_friction::JointFriction),
-        Arc::new(joint_rotation_stiffness::JointRotationStiffness),
-        Arc::new(bracket_compliance::BracketCompliance),
-        Arc::new(leg_coupling::LegCoupling),
-        Arc::new(base_compliance::BaseCompliance),
-        Arc::new(platform_compliance::PlatformCompliance),
-        Arc::new(load_offset::LoadOffset),
-        Arc::new(load_tilt::LoadTilt),
-        Arc::new(thermal_expansion::ThermalExpansion),
-        Arc::new(metrology_drift::MetrologyDrift),
-        Arc::new(target_offset::TargetOffset),
-        Arc::new(creep::Creep),
-        Arc::new(joint_geometry::JointGeometry),
-        Arc::new(leg_offset::LegOffset),
-        Arc::new(actuator_scale::ActuatorScale),
-        Arc::new(actuator_pitch::ActuatorPitch),
-        Arc::new(leg_weight::LegWeight),
-    ]
+/// Declares the module of every term and registers it.
+macro_rules! terms {
+    ($($module:ident::$term:ident),+ $(,)?) => {
+        $(mod $module;)+
+
+        /// Every term of the catalogue, in the order in which people meet them.
+        pub fn catalogue() -> Vec<Arc<dyn Term>> {
+            vec![$(Arc::new($module::$term)),+]
+        }
+    };
+}
+
+terms! {
+    leg_length_compliance::LegLengthCompliance,
+    leg_nonlinearity::LegNonlinearity,
+    leg_asymmetry::LegAsymmetry,
+    leg_backlash::LegBacklash,
+    joint_friction::JointFriction,
+    joint_rotation_stiffness::JointRotationStiffness,
+    bracket_compliance::BracketCompliance,
+    leg_coupling::LegCoupling,
+    base_compliance::BaseCompliance,
+    platform_compliance::PlatformCompliance,
+    load_offset::LoadOffset,
+    load_tilt::LoadTilt,
+    thermal_expansion::ThermalExpansion,
+    metrology_drift::MetrologyDrift,
+    target_offset::TargetOffset,
+    creep::Creep,
+    joint_geometry::JointGeometry,
+    leg_offset::LegOffset,
+    actuator_scale::ActuatorScale,
+    actuator_pitch::ActuatorPitch,
+    leg_weight::LegWeight,
 }

@@ -1,14 +1,4 @@
-//! The platform plate yields.
-//!
-//! The plate between the legs and the measured targets moves as a rigid body on six springs at the mobile
-//! origin, mobile axes.
-//!
-//! ```text
-//! [v; w] = R C R' [F; M]
-//! ```
-//!
-//! Source: Dasgupta and Mruthyunjaya 2000, Mech. Mach. Theory 35 (platform flexibility). It stays invisible
-//! unless the direction of the load varies against the platform.
+//! `platform-compliance`: the platform plate yields.
 
 use hexbench_core::Vector3;
 
@@ -18,7 +8,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
-/// The platform plate yields.
 pub(super) struct PlatformCompliance;
 
 static INFO: TermInfo = TermInfo {

@@ -1,13 +1,4 @@
-//! The measured point is not the mobile origin.
-//!
-//! The targets are registered to a point beside the mobile origin, so rotations show as translations.
-//!
-//! ```text
-//! dt = (R_loaded - R_ref) r'
-//! ```
-//!
-//! Source: Kalas et al. 2018, fig. 5 (balls registered against reference holes). It stays invisible unless
-//! the deflection has rotations.
+//! `target-offset`: the measured point is not the mobile origin.
 
 use hexbench_core::{Matrix6, Vector3};
 
@@ -16,7 +7,6 @@ use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
 
-/// The measured point is not the mobile origin.
 pub(super) struct TargetOffset;
 
 static INFO: TermInfo = TermInfo {

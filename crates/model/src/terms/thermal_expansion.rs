@@ -1,20 +1,10 @@
-//! The legs grow with temperature.
-//!
-//! Every leg grows in proportion to its length and to the change of temperature.
-//!
-//! ```text
-//! e = alpha q delta_T
-//! ```
-//!
-//! Source: Mayr et al. 2012, CIRP Annals 61 (thermal issues in machine tools). It stays invisible unless
-//! `delta_T_K` varies.
+//! `thermal-expansion`: the legs grow with temperature.
 
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
 use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
 
-/// The legs grow with temperature.
 pub(super) struct ThermalExpansion;
 
 static INFO: TermInfo = TermInfo {

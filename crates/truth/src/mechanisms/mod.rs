@@ -1,69 +1,6 @@
 //! What a real machine does beyond six plain leg springs: one file for each effect.
 //!
-//! Adding one: a file with its physics, a struct, [`Mechanism`] for it and an `EFFECT`; its `mod` and `pub use` lines here, and a line in
-//! [`REGISTRY`].
-
-mod actuator_pitch;
-mod actuator_scale;
-mod base_bending;
-mod base_compliance;
-mod bracket_compliance;
-mod cable;
-mod creep;
-mod cubic_compliance;
-mod joint_friction;
-mod joint_geometry;
-mod joint_rotation_stiffness;
-mod leg_asymmetry;
-mod leg_backlash;
-mod leg_coupling;
-mod leg_drift;
-mod leg_length_compliance;
-mod leg_nonlinearity;
-mod leg_offset;
-mod leg_step;
-mod leg_weight;
-mod load_mass_error;
-mod load_offset;
-mod load_tilt;
-mod metrology_drift;
-mod periodic_compliance;
-mod plate_bending;
-mod platform_compliance;
-mod target_offset;
-mod thermal_compliance;
-mod thermal_expansion;
-
-pub use actuator_pitch::ActuatorPitch;
-pub use actuator_scale::ActuatorScale;
-pub use base_bending::BaseBending;
-pub use base_compliance::BaseCompliance;
-pub use bracket_compliance::BracketCompliance;
-pub use cable::CablePull;
-pub use creep::Creep;
-pub use cubic_compliance::CubicCompliance;
-pub use joint_friction::JointFriction;
-pub use joint_geometry::JointGeometry;
-pub use joint_rotation_stiffness::JointRotationStiffness;
-pub use leg_asymmetry::LegAsymmetry;
-pub use leg_backlash::LegBacklash;
-pub use leg_coupling::LegCoupling;
-pub use leg_drift::LegDrift;
-pub use leg_length_compliance::LegLengthCompliance;
-pub use leg_nonlinearity::LegNonlinearity;
-pub use leg_offset::LegOffset;
-pub use leg_step::LegStep;
-pub use leg_weight::LegWeight;
-pub use load_mass_error::LoadMassError;
-pub use load_offset::LoadOffset;
-pub use load_tilt::LoadTilt;
-pub use metrology_drift::MetrologyDrift;
-pub use periodic_compliance::PeriodicCompliance;
-pub use plate_bending::PlateBending;
-pub use platform_compliance::PlatformCompliance;
-pub use target_offset::TargetOffset;
-pub use thermal_compliance::ThermalCompliance;
-pub use thermal_expansion::ThermalExpansion;
+//! Adding one: a file with its physics, a struct, [`Mechanism`] for it and an `EFFECT`, and its line in `mechanisms!`.
 
 use std::fmt::Debug;
 
@@ -130,39 +67,49 @@ pub struct Effect {
     pub parse: fn(Value) -> Result<Box<dyn Mechanism>, String>,
 }
 
-/// All effects, in the order of the catalogue; those outside it at the end.
-pub const REGISTRY: &[Effect] = &[
-    leg_length_compliance::EFFECT,
-    leg_nonlinearity::EFFECT,
-    leg_asymmetry::EFFECT,
-    leg_backlash::EFFECT,
-    joint_friction::EFFECT,
-    joint_rotation_stiffness::EFFECT,
-    bracket_compliance::EFFECT,
-    leg_coupling::EFFECT,
-    base_compliance::EFFECT,
-    platform_compliance::EFFECT,
-    load_offset::EFFECT,
-    load_tilt::EFFECT,
-    thermal_expansion::EFFECT,
-    metrology_drift::EFFECT,
-    target_offset::EFFECT,
-    creep::EFFECT,
-    joint_geometry::EFFECT,
-    leg_offset::EFFECT,
-    actuator_scale::EFFECT,
-    actuator_pitch::EFFECT,
-    leg_weight::EFFECT,
-    periodic_compliance::EFFECT,
-    leg_drift::EFFECT,
-    leg_step::EFFECT,
-    cable::EFFECT,
-    plate_bending::EFFECT,
-    base_bending::EFFECT,
-    load_mass_error::EFFECT,
-    thermal_compliance::EFFECT,
-    cubic_compliance::EFFECT,
-];
+/// Declares the module of every effect, makes its mechanism public and registers it.
+macro_rules! mechanisms {
+    ($($module:ident::$mechanism:ident),+ $(,)?) => {
+        $(mod $module;)+
+        $(pub use $module::$mechanism;)+
+
+        /// All effects, in the order of the catalogue; those outside it at the end.
+        pub const REGISTRY: &[Effect] = &[$($module::EFFECT),+];
+    };
+}
+
+mechanisms! {
+    leg_length_compliance::LegLengthCompliance,
+    leg_nonlinearity::LegNonlinearity,
+    leg_asymmetry::LegAsymmetry,
+    leg_backlash::LegBacklash,
+    joint_friction::JointFriction,
+    joint_rotation_stiffness::JointRotationStiffness,
+    bracket_compliance::BracketCompliance,
+    leg_coupling::LegCoupling,
+    base_compliance::BaseCompliance,
+    platform_compliance::PlatformCompliance,
+    load_offset::LoadOffset,
+    load_tilt::LoadTilt,
+    thermal_expansion::ThermalExpansion,
+    metrology_drift::MetrologyDrift,
+    target_offset::TargetOffset,
+    creep::Creep,
+    joint_geometry::JointGeometry,
+    leg_offset::LegOffset,
+    actuator_scale::ActuatorScale,
+    actuator_pitch::ActuatorPitch,
+    leg_weight::LegWeight,
+    periodic_compliance::PeriodicCompliance,
+    leg_drift::LegDrift,
+    leg_step::LegStep,
+    cable::CablePull,
+    plate_bending::PlateBending,
+    base_bending::BaseBending,
+    load_mass_error::LoadMassError,
+    thermal_compliance::ThermalCompliance,
+    cubic_compliance::CubicCompliance,
+}
 
 /// Entry of an id.
 ///
