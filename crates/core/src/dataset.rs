@@ -2,6 +2,10 @@
 
 use crate::{Pose, Wrench};
 
+/// Factor by which the load is exceeded on the way to a reading with approach -1, `W0 + OVERLOAD (W - W0)`: a convention of the
+/// measurement protocol (see the file format).
+pub const OVERLOAD: f64 = 1.4;
+
 /// What the six measured numbers of an observation are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Measurand {

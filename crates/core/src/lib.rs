@@ -17,7 +17,7 @@ pub mod streams;
 pub mod wrench;
 
 pub use balls::{BallPlace, BallPlaces, BallRecord};
-pub use dataset::{Columns, Dataset, Measurand, Observation};
+pub use dataset::{Columns, Dataset, Measurand, OVERLOAD, Observation};
 pub use hexapod::{Hexapod, Metrology};
 pub use pose::Pose;
 pub use wrench::Wrench;

@@ -6,7 +6,8 @@
 use std::collections::HashMap;
 
 use hexbench_core::{
-    Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, Vector3, Vector6, Wrench,
+    Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, OVERLOAD, Observation, Pose, Vector3, Vector6,
+    Wrench,
 };
 use nalgebra::Rotation3;
 
@@ -16,9 +17,6 @@ use crate::kinematics::{Legs, euler_rate_matrix};
 use crate::machine::Machine;
 use crate::noise::{Noise, NoiseSource, stated_or_repeated};
 use crate::parallel::try_map;
-
-/// Factor by which the load is exceeded before a reading with approach -1.
-const OVERLOAD: f64 = 1.4;
 
 /// Readings that share pose, loads, approach, temperature and time, averaged.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! What is done to the machine, and the moment at which a state of it is wanted.
 
-use hexbench_core::{Hexapod, Pose, Wrench};
+use hexbench_core::{Hexapod, OVERLOAD, Pose, Wrench};
 
 /// One row of a plan: commands, loads and surroundings. SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,12 +25,11 @@ impl Situation {
         Self { pose, wrench, reference: Wrench::default(), approach: 1.0, delta_t: 0.0, elapsed: 0.0 }
     }
 
-    /// The overshooting wrench of approach -1: `W0 + 1.4 (W - W0)`.
+    /// The overshooting wrench of approach -1: `W0 + OVERLOAD (W - W0)`.
     pub fn overload(&self) -> Wrench {
-        const OVERSHOOT: f64 = 1.4;
         Wrench {
-            force: self.reference.force + (self.wrench.force - self.reference.force) * OVERSHOOT,
-            moment: self.reference.moment + (self.wrench.moment - self.reference.moment) * OVERSHOOT,
+            force: self.reference.force + (self.wrench.force - self.reference.force) * OVERLOAD,
+            moment: self.reference.moment + (self.wrench.moment - self.reference.moment) * OVERLOAD,
         }
     }
 }

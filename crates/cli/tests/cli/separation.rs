@@ -30,6 +30,27 @@ fn side(package: &str) -> Option<Side> {
 const MEETING_PLACES: [&str; 5] =
     ["hexbench-experiments", "hexbench-tasks", "hexbench-workbench", "hexbench-python", "hexbench-cli"];
 
+/// All that the two sides may have in common: the nouns, and crates of the registry that know nothing of hexapods.
+const SHARED: [&str; 17] = [
+    "hexbench-core",
+    "nalgebra",
+    "rand",
+    "rand_distr",
+    "rand_pcg",
+    "rayon",
+    "statrs",
+    "thiserror",
+    "memchr",
+    "serde",
+    "serde_json",
+    "sha2",
+    "strsim",
+    "tempfile",
+    "toml",
+    "criterion",
+    "proptest",
+];
+
 fn reachable(graph: &Graph, from: &str) -> BTreeSet<String> {
     let mut seen = BTreeSet::new();
     let mut open = vec![from.to_owned()];
@@ -55,6 +76,15 @@ fn violations(graph: &Graph) -> Vec<String> {
         }
     }
     found
+}
+
+/// What both sides depend on, directly or not, and may not: physics there would be shared.
+fn shared_beyond_the_list(graph: &Graph) -> Vec<String> {
+    let seen = |from: Side| -> BTreeSet<String> {
+        graph.keys().filter(|p| side(p) == Some(from)).flat_map(|p| reachable(graph, p)).collect()
+    };
+    let both = &seen(Side::Truth) & &seen(Side::Model);
+    both.into_iter().filter(|p| !SHARED.contains(&p.as_str())).collect()
 }
 
 /// The graph of this workspace: normal, build and dev dependencies alike.
@@ -102,6 +132,28 @@ fn a_crate_that_joins_both_sides_is_found_unless_it_is_a_meeting_place() {
 }
 
 #[test]
+fn truth_and_model_share_only_the_nouns_and_what_is_listed() {
+    assert_eq!(shared_beyond_the_list(&workspace()), Vec::<String>::new());
+}
+
+#[test]
+fn physics_that_both_use_is_found() {
+    let beside = graph(&[
+        ("hexbench-rapier", &["hexbench-core", "hexbench-kinematics"]),
+        ("hexbench-design", &["hexbench-core", "hexbench-kinematics"]),
+    ]);
+    assert_eq!(shared_beyond_the_list(&beside), ["hexbench-kinematics"]);
+    let below_the_nouns = graph(&[
+        ("hexbench-truth", &["hexbench-core"]),
+        ("hexbench-model", &["hexbench-core"]),
+        ("hexbench-core", &["hexbench-kinematics"]),
+    ]);
+    assert_eq!(shared_beyond_the_list(&below_the_nouns), ["hexbench-kinematics"]);
+    let of_the_registry = graph(&[("hexbench-truth", &["k"]), ("hexbench-model", &["k", "nalgebra"])]);
+    assert_eq!(shared_beyond_the_list(&of_the_registry), ["k"]);
+}
+
+#[test]
 fn sharing_the_nouns_is_allowed() {
     let good = graph(&[
         ("hexbench-truth", &["hexbench-core"]),
@@ -109,4 +161,5 @@ fn sharing_the_nouns_is_allowed() {
         ("hexbench-core", &["serde"]),
     ]);
     assert_eq!(violations(&good), Vec::<String>::new());
+    assert_eq!(shared_beyond_the_list(&good), Vec::<String>::new());
 }

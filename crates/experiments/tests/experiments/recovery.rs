@@ -1,7 +1,5 @@
 //! Recovery on a small scale; `hexbench validate recovery` runs the same on two thousand campaigns.
 
-use std::collections::BTreeSet;
-
 use hexbench_core::{Hexapod, Metrology};
 use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::recovery::correspondence::CORRESPONDENCES;
@@ -14,6 +12,7 @@ use hexbench_model::campaign::Campaign;
 use hexbench_model::estimate::parameter_names;
 use hexbench_model::fit::fit_baseline;
 use hexbench_model::linearization::Active;
+use hexbench_model::term::Need;
 use hexbench_model::terms::catalogue;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
@@ -64,12 +63,17 @@ fn deflections_never_agree_to_rounding_and_their_error_is_of_second_order_in_the
 }
 
 #[test]
-fn every_effect_of_both_catalogues_has_its_numbers_written_down() {
-    let world: BTreeSet<&str> = REGISTRY.iter().filter(|e| e.shows != Shows::Outside).map(|e| e.id).collect();
-    let model: BTreeSet<&str> = catalogue().iter().map(|t| t.info().id).collect();
-    let known: BTreeSet<&str> = CORRESPONDENCES.iter().map(|c| c.effect).collect();
-    assert_eq!(world, known);
-    assert_eq!(model, known);
+fn both_catalogues_have_the_same_effects_in_the_same_order_and_their_numbers_are_written_down() {
+    let world: Vec<(&str, bool)> = REGISTRY
+        .iter()
+        .filter(|e| e.shows != Shows::Outside)
+        .map(|e| (e.id, e.shows == Shows::Absolute))
+        .collect();
+    let model: Vec<(&str, bool)> =
+        catalogue().iter().map(|t| (t.info().id, t.info().needs.contains(&Need::Absolute))).collect();
+    assert_eq!(model, world, "id, and whether it shows in absolute poses only");
+    let known: Vec<&str> = CORRESPONDENCES.iter().map(|c| c.effect).collect();
+    assert_eq!(known, world.iter().map(|(id, _)| *id).collect::<Vec<_>>());
 }
 
 #[test]
