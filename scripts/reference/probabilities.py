@@ -1,4 +1,4 @@
-"""Reference probabilities for crates/model/tests/evidence.rs.
+"""Reference probabilities for crates/model/tests/model/evidence.rs.
 
 Usage: pip install -r scripts/reference/requirements.txt && python scripts/reference/probabilities.py
 Writes noncentral_chi_square.csv and bivariate_orthant.csv into crates/model/tests/reference/.

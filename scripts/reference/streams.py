@@ -1,4 +1,4 @@
-"""First words of some random streams, for crates/core/tests/streams/reference.rs: SplitMix64 (Steele, Lea, Flood 2014) and PCG XSL RR
+"""First words of some random streams, for crates/core/tests/core/streams/reference.rs: SplitMix64 (Steele, Lea, Flood 2014) and PCG XSL RR
 128/64 (O'Neill 2014) written from the publications. Python 3.11, no packages."""
 
 WORD, WIDE = (1 << 64) - 1, (1 << 128) - 1

@@ -7,7 +7,7 @@
 //!
 //! Everything is hashed into state and increment, because generators of this kind are not independent when their states are
 //! equal or neighbors and their increments count up: the ninth draws of trial k and trial k + 1 then correlate by 0.07.
-//! `crates/core/tests/streams/correlation.rs` measures both forms. All random numbers of the bench come from here.
+//! `crates/core/tests/core/streams/correlation.rs` measures both forms. All random numbers of the bench come from here.
 //!
 //! Sources: O'Neill 2014, Harvey Mudd College HMC-CS-2014-0905 (PCG, the generator); Steele, Lea, Flood 2014, OOPSLA (`SplitMix`,
 //! the hash).

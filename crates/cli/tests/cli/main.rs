@@ -25,5 +25,6 @@ mod study;
 mod study_parts;
 mod support;
 mod tables;
+mod use_model;
 mod validate;
 mod workbench;

@@ -5,7 +5,7 @@
 //! free of force; each row is its own path from there.
 //!
 //! Before it gives way a slider is an elastic bristle; the independent program behind the reference cases has it twenty
-//! times as stiff as the leg spring, which its stated sizes of the effect confirm to ten digits (`tests/reference_cases.rs`).
+//! times as stiff as the leg spring, which its stated sizes of the effect confirm to ten digits (`tests/truth/reference_cases.rs`).
 
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;

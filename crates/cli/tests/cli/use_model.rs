@@ -1,0 +1,132 @@
+//! compare, fit, predict and compensate as a user runs them.
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use assert_cmd::Command;
+
+fn case(name: &str, file: &str) -> String {
+    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../data/cases", name, file].iter().collect();
+    path.to_str().unwrap().to_owned()
+}
+
+fn run(arguments: &[&str]) -> Output {
+    Command::cargo_bin("hexbench").unwrap().args(arguments).output().unwrap()
+}
+
+fn on_case(command: &str, name: &str, more: &[&str]) -> Output {
+    let (hexapod, data) = (case(name, "hexapod.toml"), case(name, "measurements.csv"));
+    let mut all = vec![command, &hexapod, &data];
+    all.extend(more);
+    run(&all)
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn saved_model(folder: &Path) -> String {
+    let path = folder.join("model.toml").to_str().unwrap().to_owned();
+    let fitted = on_case("fit", "mujoco-foundation", &["--add", "base-compliance", "-o", &path]);
+    assert_eq!(fitted.status.code(), Some(0), "{}", text(&fitted.stderr));
+    assert!(text(&fitted.stdout).contains("base-compliance.rotation-x"));
+    path
+}
+
+#[test]
+fn every_page_fits_eighty_columns() {
+    let holdout = case("mujoco-foundation", "holdout.csv");
+    for output in [
+        on_case("compare", "mujoco-foundation", &["--holdout", &holdout]),
+        on_case("compare", "paper-protocol", &[]),
+        on_case("compare", "absolute-pitch", &[]),
+        on_case("fit", "mujoco-foundation", &["--add", "base-compliance", "--holdout", &holdout]),
+        on_case("fit", "paper-protocol", &["--estimator", "paper"]),
+    ] {
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        for line in text(&output.stdout).lines() {
+            assert!(line.chars().count() <= 80, "{} columns: {line}", line.chars().count());
+        }
+    }
+}
+
+#[test]
+fn a_saved_model_predicts_its_holdout_and_finds_commands() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = saved_model(folder.path());
+    for (command, columns) in [("predict", 35), ("compensate", 47)] {
+        let output = run(&[command, &model, &case("mujoco-foundation", "holdout.csv")]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let table = text(&output.stdout);
+        assert_eq!(table.lines().count(), 31, "{command}");
+        assert!(
+            table.lines().all(|l| l.split(',').count() == columns),
+            "{command}: {:?}",
+            table.lines().next()
+        );
+    }
+}
+
+#[test]
+fn what_was_compensated_and_predicted_again_lands_on_the_wanted_pose() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = saved_model(folder.path());
+    let (poses, commands) = (folder.path().join("poses.csv"), folder.path().join("commands.csv"));
+    let header = "a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
+    std::fs::write(&poses, format!("{header}\n10,-5,3,2,-1,4,20,0,-300,1,2,0\n")).unwrap();
+    let (poses, commands) = (poses.to_str().unwrap(), commands.to_str().unwrap());
+    assert_eq!(run(&["compensate", &model, poses, "-o", commands]).status.code(), Some(0));
+    let predicted = text(&run(&["predict", &model, commands]).stdout);
+    let row: Vec<f64> = predicted.lines().nth(1).unwrap().split(',').map(|c| c.parse().unwrap()).collect();
+    let wanted = [10.0, -5.0, 3.0, 2.0, -1.0, 4.0];
+    for k in 0..6 {
+        let moved = if k < 3 { row[14 + k] * 1e-3 } else { (row[14 + k] * 1e-6).to_degrees() };
+        assert!((row[2 + k] + moved - wanted[k]).abs() < 2e-8, "axis {k}: {} + {moved}", row[2 + k]);
+    }
+}
+
+#[test]
+fn failures_have_their_exit_codes() {
+    let folder = tempfile::tempdir().unwrap();
+    let holdout = case("mujoco-foundation", "holdout.csv");
+    let file = |name: &str, content: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, content).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let broken = file("broken.toml", "format = \"model/1\"\n");
+    let term = file("term.toml", "format = \"term/1\"\nid = \"x\"\n");
+    let table = [
+        (on_case("fit", "mujoco-clean", &["--add", "base-complience"]), 2, "did you mean"),
+        (on_case("fit", "mujoco-clean", &["--add", "creep", "--estimator", "paper"]), 2, "leg springs only"),
+        (on_case("fit", "mujoco-clean", &["--add", "leg-offset"]), 4, "absolute poses"),
+        (on_case("fit", "mujoco-clean", &["--term", &term]), 3, "missing field"),
+        (on_case("fit", "mujoco-clean", &["--term", "no-such-file"]), 5, "cannot be read"),
+        (on_case("fit", "absolute-pitch", &["--estimator", "paper"]), 3, "gls"),
+        (on_case("compare", "mujoco-foundation", &["--check", "1.5"]), 1, "check failed"),
+        (run(&["predict", &broken, &holdout]), 3, "missing field"),
+        (run(&["predict", "no-such-model", &holdout]), 5, "cannot be read"),
+    ];
+    for (output, code, part) in table {
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{message}");
+        assert!(message.contains(part) && message.contains("error"), "{part}: {message}");
+    }
+}
+
+#[test]
+fn a_users_term_is_fitted_saved_reopened_and_diagnosed() {
+    let folder = tempfile::tempdir().unwrap();
+    let (term, model) = (folder.path().join("term.toml"), folder.path().join("model.toml"));
+    let definition = "format = \"term/1\"\nid = \"my-brackets\"\ntitle = \"Mounts yield\"\n\
+        elongation = \"size*(nx^2 + ny^2)*df\"\n\
+        [[parameters]]\nname = \"size\"\nunit = \"nm/N\"\nscale = 50\n";
+    std::fs::write(&term, definition).unwrap();
+    let (term, model) = (term.to_str().unwrap(), model.to_str().unwrap());
+    let fitted = on_case("fit", "mujoco-foundation", &["--term", term, "-o", model]);
+    assert!(text(&fitted.stdout).contains("my-brackets.size"), "{}", text(&fitted.stderr));
+    let predicted = run(&["predict", model, &case("mujoco-foundation", "holdout.csv")]);
+    assert_eq!(predicted.status.code(), Some(0));
+    let diagnosed = on_case("diagnose", "mujoco-clean", &["--term", term, "--json", "-"]);
+    assert!(text(&diagnosed.stdout).contains("my-brackets"));
+}

@@ -1,0 +1,77 @@
+//! `space.toml`: what it says, and what it may not say.
+
+use std::path::Path;
+
+use hexbench_core::files::{FileError, read_hexapod};
+use hexbench_design::Space;
+use hexbench_design::budget::{Amount, Budget};
+use hexbench_design::space_file::read_space;
+
+const LOADS: &str = "[loads]\nmasses_kg = [10, 20]\n";
+
+fn read(more: &str) -> Result<Space, FileError> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("space.toml");
+    std::fs::write(&path, format!("format = \"space/1\"\n{LOADS}{more}")).unwrap();
+    let machine = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/paper/hexapod.toml");
+    read_space(&path, &read_hexapod(&machine).unwrap())
+}
+
+/// What is added to the file, a part of the message, and of the next step; the fault is in the last line of what is added.
+const REFUSED: [(&str, &str, &str); 13] = [
+    ("[conditions]\nelapsed_s = 5\n", "a list in square brackets", ""),
+    ("[conditions]\nelapsed_s = []\n", "at least one condition", "Remove the key"),
+    ("[conditions]\nelapsed_s = [5, -300]\n", "time does not run backwards", "Remove the sign"),
+    ("[conditions]\nelapsed_s = [5, 5]\n", "each condition is listed once", "Remove the second"),
+    ("[conditions]\nelapsed_mm = [5]\n", "mm", ""),
+    ("[conditions]\napproach = [1, 2]\n", "approach", ""),
+    ("[conditions]\nwait_s = [5]\n", "wait_s", "elapsed_s"),
+    ("[budget]\nreadings = 0\n", "must be a whole number from 1", ""),
+    ("[budget]\nreadings = 2.5\n", "a whole number", ""),
+    ("[budget]\ntime_h = 0\n", "a budget", ""),
+    ("[budget]\nreadings = 60\ntime_h = 3\n", "in readings or in time", "Remove one"),
+    ("[budget]\ntime = 3\n", "unit", "time_h"),
+    ("[budget]\nreading_s = -1\n", "time does not run backwards", "Remove the sign"),
+];
+
+#[test]
+fn what_a_space_may_not_say_is_told_with_its_line_and_the_next_step() {
+    for (more, says, next) in REFUSED {
+        let error = read(more).unwrap_err();
+        let told = format!("{more}{}\n{}", error.message(), error.next_step());
+        let last = 3 + more.lines().count() as u64;
+        assert_eq!(error.place.line, Some(last), "{told}");
+        assert!(error.message().contains(says), "{told}");
+        assert!(error.next_step().contains(next) && error.next_step().ends_with('.'), "{told}");
+    }
+}
+
+#[test]
+fn conditions_and_budget_are_read_in_si_units() {
+    let space = read(
+        "[conditions]\nelapsed_min = [0, 5]\ndelta_T_K = [-0.5, 0.5]\napproach = [1, -1]\n\
+         [budget]\ntime_h = 2\nreading_s = 40\nload_change_s = 60\npose_change_min = 2\n",
+    )
+    .unwrap();
+    assert_eq!(space.conditions.waits, [0.0, 300.0]);
+    assert_eq!(space.settings().len(), 2 * 2 * 2 * 2);
+    assert_eq!(space.budget.limit, Some(Amount::Time(7200.0)));
+    let Budget { reading, load_change, pose_change, .. } = space.budget;
+    assert_eq!(format!("{reading} {load_change} {pose_change}"), "40 60 120");
+}
+
+#[test]
+fn time_is_counted_as_documented() {
+    let space = read(
+        "[conditions]\nelapsed_s = [5, 300]\napproach = [1, -1]\n\
+         [budget]\nreading_s = 40\nload_change_s = 60\npose_change_s = 120\n",
+    )
+    .unwrap();
+    let settings = space.settings();
+    let once: Vec<f64> = settings.iter().map(|s| space.budget.time_of(s)).collect();
+    // Approach 1 after 5 s and 300 s, then approach -1: the load is changed twice.
+    assert_eq!(once[..4], [105.0, 400.0, 165.0, 460.0]);
+    let plan = [&settings[0], &settings[0], &settings[3]];
+    let expected = 2.0 * 120.0 + 105.0 + 105.0 + 460.0;
+    assert!((space.budget.time(2, plan) - expected).abs() < 1e-9);
+}

@@ -1,0 +1,21 @@
+//! The chapters of the model, its catalogue, and what is done with a fitted model.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that cannot go on must fail")]
+
+mod actuator_pitch;
+mod calibration;
+mod cases;
+mod chain;
+mod common;
+mod compare;
+mod evidence;
+mod kinematics;
+mod least_squares;
+mod model_file;
+mod next;
+mod paper;
+mod recovery;
+mod registry;
+mod stiffness_matrices;
+mod turning;
+mod use_model;
+mod user_term;

@@ -1,0 +1,161 @@
+//! A user's own term: equal to a catalogue term it gives the same fit; hostile files are refused in words.
+
+use std::sync::Arc;
+
+use hexbench_model::diagnose::{diagnose, prepare};
+use hexbench_model::fit::{Wanted, fit};
+use hexbench_model::term::Term;
+use hexbench_model::terms::catalogue;
+use hexbench_model::user_term::{UserTermError, parse};
+
+use crate::cases;
+
+const BRACKET: &str = r#"
+format = "term/1"
+id = "my-brackets"
+title = "Mounts yield sideways"
+elongation = "size*(nx^2 + ny^2)*df"
+parameters = [{ name = "size", unit = "nm/N", scale = 50, positive = true }]
+"#;
+
+fn wanted(term: &Arc<dyn Term>, shape: f64, prior: f64) -> Wanted {
+    let prior = vec![prior; term.info().parameters.len()];
+    Wanted { term: Arc::clone(term), rich: false, shape, prior }
+}
+
+fn catalogue_term(id: &str) -> Arc<dyn Term> {
+    catalogue().into_iter().find(|t| t.info().id == id).unwrap()
+}
+
+fn same_fit(own: &str, id: &str, shape: f64, case: &str) {
+    let (hexapod, data, _) = cases::case(case);
+    let campaign = prepare(&hexapod, &data).unwrap();
+    let of = |term: &Arc<dyn Term>| fit(&campaign, &[wanted(term, shape, 1.0)], None).unwrap();
+    let (own, theirs) = (of(&parse(own).unwrap()), of(&catalogue_term(id)));
+    assert!((own.chi2 / theirs.chi2 - 1.0).abs() < 1e-9, "{} {}", own.chi2, theirs.chi2);
+    for (a, b) in own.point.active[0].values.iter().zip(&theirs.point.active[0].values) {
+        assert!((a / b - 1.0).abs() < 1e-5, "{a} {b}");
+    }
+}
+
+#[test]
+fn a_user_term_equal_to_a_catalogue_term_gives_the_same_fit() {
+    same_fit(BRACKET, "bracket-compliance", 1.0, "mujoco-foundation");
+    let tilt = r#"
+        format = "term/1"
+        id = "my-nonlinearity"
+        title = "Hertz"
+        elongation = "size*(sign(f)*(abs(f)/100)^p - sign(f0)*(abs(f0)/100)^p)"
+        parameters = [{ name = "size", unit = "um", scale = 5 }]
+        shape = { name = "p", unit = "1", bounds = [0.4, 0.9], grid = [0.5, 0.6667, 0.8] }
+    "#;
+    same_fit(tilt, "leg-nonlinearity", 2.0 / 3.0, "contact");
+}
+
+#[test]
+fn a_wrench_formula_acts_like_the_same_wrench() {
+    let (hexapod, data, _) = cases::case("mujoco-clean");
+    let campaign = prepare(&hexapod, &data).unwrap();
+    let own = parse(
+        r#"
+        format = "term/1"
+        id = "lost-force"
+        title = "A share of the vertical force never arrives"
+        wrench = ["", "", "share*(fz - ref_fz)", "", "", ""]
+        parameters = [{ name = "share", unit = "%", scale = 5 }]
+    "#,
+    )
+    .unwrap();
+    let lin = hexbench_model::linearization::Linearization::at(
+        &campaign,
+        &hexbench_model::fit::fit_baseline(&campaign).unwrap().point,
+    )
+    .unwrap();
+    let mut out = Vec::new();
+    for c in &lin.conditions {
+        out.clear();
+        own.actions(&lin.machine, c, 1.0, &mut out);
+        let change = c.wrench.force.z - c.reference.force.z;
+        let expected =
+            c.wrench_action(&hexbench_core::Vector3::new(0.0, 0.0, change), &hexbench_core::Vector3::zeros());
+        assert_eq!(out, vec![expected]);
+    }
+}
+
+#[test]
+fn a_user_term_wins_the_diagnosis_of_an_effect_outside_the_catalogue() {
+    let (hexapod, data, holdout) = cases::case("not-in-catalogue");
+    let own = parse(
+        r#"
+        format = "term/1"
+        id = "nut-wobble"
+        title = "Compliance of the legs repeats with their length"
+        elongation = "(s*sin(tau*q/period) + c1*cos(tau*q/period))*df"
+        parameters = [
+            { name = "s", unit = "nm/N", scale = 30 },
+            { name = "c1", unit = "nm/N", scale = 30 },
+        ]
+        shape = { name = "period", unit = "mm", bounds = [4, 16], grid = [6, 6.5, 7, 7.5, 7.75, 8, 8.25, 8.5, 9, 10] }
+    "#,
+    )
+    .unwrap();
+    let mut terms = catalogue();
+    terms.push(own);
+    let study = diagnose(&hexapod, &data, Some(&holdout), &terms).unwrap();
+    assert_eq!(study.diagnosis.added, ["nut-wobble"], "{:?}", study.diagnosis.present);
+    let last = study.diagnosis.steps.last().unwrap().holdout.unwrap();
+    assert!(last.chi2_reduced < 1.4, "held-out chi-square {}", last.chi2_reduced);
+}
+
+#[test]
+fn a_formula_without_value_at_a_reading_names_line_and_variables() {
+    let text = BRACKET.replace("size*(nx^2 + ny^2)*df", "size*df/(elapsed - 76.907)");
+    let term = parse(&text).unwrap();
+    let (hexapod, data, _) = cases::case("contact");
+    let campaign = prepare(&hexapod, &data).unwrap();
+    let point = hexbench_model::fit::fit_baseline(&campaign).unwrap().point;
+    let lin = hexbench_model::linearization::Linearization::at(&campaign, &point).unwrap();
+    let why = hexbench_model::candidates::why_untestable(term.as_ref(), &campaign, &lin).unwrap();
+    assert!(
+        why.starts_with("line 2: `size*df/(elapsed - 76.907)` gives") && why.contains("elapsed = 76.907"),
+        "{why}"
+    );
+}
+
+#[test]
+fn hostile_term_files_are_refused_in_words() {
+    let formula = |f: &str| BRACKET.replace("size*(nx^2 + ny^2)*df", f);
+    let swap = |a: &str, b: &str| BRACKET.replace(a, b);
+    let table = [
+        (formula(&"(".repeat(100_000)), "100000 characters"),
+        (formula(&"-".repeat(1_990)), "nested deeper"),
+        (formula("size*forse"), "no variable"),
+        (formula(""), "empty"),
+        (formula("size*df/0"), "no finite value"),
+        (formula("size*df*1e308*1e308"), "no finite value"),
+        (formula("size*1e999"), "not a number"),
+        (formula("size^2*df"), "not linear in `size`"),
+        (formula("abs(size)*df"), "not linear in `size`"),
+        (formula("size*df + 1e-6"), "not linear in `size`"),
+        (formula("sin(size*df)"), "not linear in `size`"),
+        (formula("df"), "appears in no formula"),
+        (swap("my-brackets", "base-compliance"), "catalogue"),
+        (swap("my-brackets", "My Brackets"), "kebab-case"),
+        (swap("scale = 50", "scale = -1"), "positive number"),
+        (swap("scale = 50", "scale = nan"), "positive number"),
+        (swap("nm/N", "furlong"), "per_si"),
+        (swap("name = \"size\"", "name = \"df\""), "already has a meaning"),
+        (swap("title", "titel"), "unknown field"),
+        (swap("term/1", "term/2"), "term/1"),
+        (swap("elongation =", "wrench ="), "invalid"),
+        (String::new(), "missing field"),
+        ("\u{0}\u{feff}[[[".to_owned(), ""),
+        ("[".repeat(100_000), ""),
+    ];
+    for (text, part) in table {
+        let error =
+            parse(&text).err().unwrap_or_else(|| panic!("accepted: {}", &text[..text.len().min(300)]));
+        assert!(error.to_string().contains(part), "{error}");
+    }
+    assert!(matches!(parse(&formula("size*df/0")), Err(UserTermError::NoValue { .. })));
+}
