@@ -14,6 +14,7 @@ mod json;
 mod pages;
 mod poses;
 mod power;
+mod programs;
 mod recovery;
 mod regress;
 mod runs;
