@@ -55,7 +55,7 @@ pub fn random_pose(space: &Space, hexapod: &Hexapod, rng: &mut Pcg64) -> Option<
 /// # Errors
 /// As [`Problem::search`].
 pub fn designed_poses(
-    criterion: &str,
+    criterion: Criterion,
     poses: u64,
     hexapod: &Hexapod,
     space: &Space,
@@ -69,17 +69,7 @@ pub fn designed_poses(
         compliance: nominal::compliance(hexapod).into(),
     };
     let regressor = SpringRegressor::new(hexapod, &space.settings(), 1, weights);
-    let criterion = match criterion {
-        "O2" => Criterion::O2,
-        "O3" => Criterion::O3,
-        "O4" => Criterion::O4,
-        "O5" => Criterion::O5,
-        "D" => Criterion::D,
-        "A" => Criterion::A,
-        "E" => Criterion::E,
-        "I" => Criterion::mean_prediction(hexapod, space, &regressor)?,
-        _ => Criterion::O1,
-    };
+    let criterion = criterion.objective(hexapod, space, &regressor)?;
     let poses = usize::try_from(poses).unwrap_or(usize::MAX);
     let problem =
         Problem { hexapod, space, regressor: &regressor, criterion: &criterion, poses, known: None };
