@@ -14,7 +14,7 @@ use slsqp::{Func, StopTols, minimize};
 use crate::determined::require_determined;
 use crate::regressor::PoseRegressor;
 use crate::space::Slope;
-use crate::{Objective, DesignError, Space};
+use crate::{DesignError, Objective, Space};
 
 /// Evaluations of one start before it is taken as it is.
 const MOST_EVALUATIONS: usize = 300;

@@ -4,7 +4,7 @@ use hexbench_core::{Hexapod, Pose};
 use nalgebra::DMatrix;
 
 use crate::regressor::SettingRegressor;
-use crate::{Objective, DesignError, Problem, Space};
+use crate::{DesignError, Objective, Problem, Space};
 
 /// Rounds over all poses.
 const MOST_ROUNDS: usize = 4;

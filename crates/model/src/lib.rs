@@ -44,6 +44,7 @@ pub mod selection;
 pub mod spring_trials;
 pub mod term;
 pub mod terms;
+pub mod untestable;
 pub mod user_term;
 pub mod verdict;
 pub mod words;

@@ -21,7 +21,7 @@ use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 use crate::determined::undetermined;
-use crate::{Objective, DesignError};
+use crate::{DesignError, Objective};
 use plan::{By, Draft};
 
 /// Largest excursion: members added before as many are taken away.

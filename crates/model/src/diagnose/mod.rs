@@ -12,10 +12,10 @@ use hexbench_core::{Dataset, Hexapod};
 
 use self::averaged::averaged_springs;
 use self::context::Context;
-use self::notes::{outside, suspects, untestable, warnings};
+use self::notes::{outside, suspects, warnings};
 pub use self::report::{
     AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, SeparationReport,
-    StepReport, Suspect, UntestableReport,
+    StepReport, Suspect,
 };
 use crate::campaign::Campaign;
 use crate::candidates::Candidate;
@@ -101,7 +101,7 @@ pub fn diagnose(
         },
         parameters: numbers.determined,
         not_determined: numbers.not_determined,
-        untestable: untestable(&outcome),
+        untestable: outcome.untestable.clone(),
         detectable: detectable(
             &outcome.gram,
             &outcome.candidates,

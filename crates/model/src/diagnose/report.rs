@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::estimate::Estimate;
 use crate::power::Detectable;
 use crate::residuals::ErrorSummary;
+use crate::untestable::Untestable;
 use crate::verdict::Verdict;
 
 /// Result of `diagnose`.
@@ -40,7 +41,7 @@ pub struct Diagnosis {
     /// Names of parameters that the data do not determine.
     pub not_determined: Vec<String>,
     /// Terms that the file cannot test.
-    pub untestable: Vec<UntestableReport>,
+    pub untestable: Vec<Untestable>,
     /// Smallest sizes this campaign would show.
     pub detectable: Vec<Detectable>,
     /// Readings that would separate the rivals.
@@ -95,16 +96,6 @@ pub struct NoiseReport {
     pub rotation_urad: f64,
     /// Where it comes from.
     pub source: &'static str,
-}
-
-/// A term that cannot be tested.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
-pub struct UntestableReport {
-    /// Its id.
-    pub term: String,
-    /// The reason.
-    pub why: String,
 }
 
 /// A proposed reading.
