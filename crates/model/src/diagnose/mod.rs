@@ -93,11 +93,11 @@ pub fn diagnose(
         present: judgement.present.clone(),
         credible_set: judgement.credible.clone(),
         steps,
-        holdout: if holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn }.word(),
+        holdout: if holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn },
         noise: NoiseReport {
             translation_um: campaign.noise.translation * 1e6,
             rotation_urad: campaign.noise.rotation * 1e6,
-            source: campaign.noise.source.word(),
+            source: campaign.noise.source,
         },
         parameters: numbers.determined,
         not_determined: numbers.not_determined,

@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::estimate::Estimate;
+use crate::noise::NoiseSource;
 use crate::power::Detectable;
 use crate::residuals::ErrorSummary;
+use crate::selection::HeldOut;
 use crate::untestable::Untestable;
 use crate::verdict::Verdict;
 
@@ -33,7 +35,8 @@ pub struct Diagnosis {
     /// Error per step of the model, springs alone first.
     pub steps: Vec<StepReport>,
     /// How the held-out error was obtained.
-    pub holdout: &'static str,
+    #[cfg_attr(feature = "typescript", ts(as = "String"))]
+    pub holdout: HeldOut,
     /// The noise level used.
     pub noise: NoiseReport,
     /// Numbers of the fitted model.
@@ -95,7 +98,8 @@ pub struct NoiseReport {
     /// Of a rotation, urad.
     pub rotation_urad: f64,
     /// Where it comes from.
-    pub source: &'static str,
+    #[cfg_attr(feature = "typescript", ts(as = "String"))]
+    pub source: NoiseSource,
 }
 
 /// A proposed reading.

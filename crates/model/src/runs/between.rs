@@ -176,7 +176,7 @@ fn warnings(a: &Run, b: &Run) -> Vec<String> {
         all.extend(differences(of_a, of_b).map(str::to_owned));
     }
     if a.noise_source != b.noise_source {
-        all.push(format!("The noise comes from elsewhere: {} and {}.", a.noise_source, b.noise_source));
+        all.push(format!("The noise comes from elsewhere: {} and {}.", a.noise_source.word(), b.noise_source.word()));
     }
     all
 }
@@ -263,6 +263,7 @@ fn parameter(a: Option<&Estimate>, b: Option<&Estimate>, limit: f64) -> Option<P
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::noise::NoiseSource;
     use crate::residuals::Rms;
 
     fn origin() -> Origin {
@@ -289,7 +290,7 @@ mod tests {
             steps: vec![super::super::Step { terms: Vec::new(), fitted, holdout: None }],
             noise_translation_um: 0.5,
             noise_rotation_urad: 3.0,
-            noise_source: "metrology".into(),
+            noise_source: NoiseSource::Metrology,
             parameters: vec![Estimate { name: "leg-1.stiffness".into(), value: stiffness, std: 0.03, unit }],
             origin: Some(origin()),
         }

@@ -6,6 +6,7 @@ use hexbench_core::{Dataset, Hexapod};
 use serde::{Deserialize, Serialize};
 
 use crate::estimate::Estimate;
+use crate::noise::NoiseSource;
 use crate::residuals::ErrorSummary;
 use crate::verdict::Verdict;
 
@@ -97,14 +98,14 @@ struct SavedStep {
 struct SavedNoise {
     translation_um: f64,
     rotation_urad: f64,
-    source: String,
+    source: NoiseSource,
 }
 
 /// A comparison, as far as it is compared with another one.
 #[derive(Debug, Clone, Deserialize)]
 pub struct SavedComparison {
     terms: Vec<String>,
-    noise_source: String,
+    noise_source: NoiseSource,
     error: ErrorSummary,
     holdout: Option<ErrorSummary>,
     coordinates: Vec<SavedCoordinate>,
@@ -154,7 +155,7 @@ pub struct Run {
     /// Noise of one rotation, urad.
     pub noise_rotation_urad: f64,
     /// Where the noise comes from.
-    pub noise_source: String,
+    pub noise_source: NoiseSource,
     /// Numbers of the final model.
     pub parameters: Vec<Estimate>,
     /// Absent in files of versions that did not write it.

@@ -90,7 +90,7 @@ impl Bench {
             noise: Noise {
                 translation_um: level.translation * 1e6,
                 rotation_urad: level.rotation * 1e6,
-                source: level.source.word(),
+                source: level.source,
             },
             untestable: self.untestable(&lin),
             base_joints_mm: c.hexapod.base_joints.map(|joint| (joint * 1e3).into()),
