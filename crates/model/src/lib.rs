@@ -15,6 +15,7 @@ pub mod diagnosis;
 pub mod error;
 pub mod estimate;
 pub mod evidence;
+pub mod explanation;
 pub mod fit;
 pub mod fit_named;
 pub mod formula;

@@ -22,6 +22,7 @@ use crate::candidates::Candidate;
 use crate::diagnosis::{Outcome, explain, wanted};
 use crate::error::ModelError;
 use crate::estimate::estimates_with;
+use crate::explanation::Explanation;
 use crate::fit::{Fit, Wanted, fit};
 use crate::linearization::Linearization;
 use crate::noise::{Noise, NoiseSource};
@@ -174,20 +175,20 @@ fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport])
 }
 
 fn candidates(judgement: &Judgement, outcome: &Outcome) -> Vec<CandidateReport> {
-    let report = |(term, probability): &(String, f64)| CandidateReport {
+    let report = |(term, probability): &(Explanation, f64)| CandidateReport {
         term: term.clone(),
         // A sum of shares may pass one by its rounding.
         probability: probability.min(1.0),
-        indistinguishable: look_alikes(term, outcome),
+        indistinguishable: term.term().map_or(Vec::new(), |id| look_alikes(id, outcome)),
     };
     let mut reports: Vec<CandidateReport> = judgement.first.iter().map(report).collect();
     // Looking alike has no direction: what imitates is imitated.
     for k in 0..reports.len() {
+        let Some(name) = reports[k].term.term().map(str::to_owned) else { continue };
         for other in reports[k].indistinguishable.clone() {
-            let name = reports[k].term.clone();
-            let twin = reports.iter_mut().find(|r| r.term == other);
+            let twin = reports.iter_mut().find(|r| r.term.is_term(&other));
             if let Some(twin) = twin.filter(|t| !t.indistinguishable.contains(&name)) {
-                twin.indistinguishable.push(name);
+                twin.indistinguishable.push(name.clone());
             }
         }
     }

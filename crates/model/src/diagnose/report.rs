@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::estimate::Estimate;
+use crate::explanation::Explanation;
 use crate::noise::NoiseSource;
 use crate::power::Detectable;
 use crate::residuals::ErrorSummary;
@@ -31,7 +32,8 @@ pub struct Diagnosis {
     /// Probability that an effect is present at all, alone or beside others.
     pub present: BTreeMap<String, f64>,
     /// Smallest set of effects that holds 95 % of the probability.
-    pub credible_set: Vec<String>,
+    #[cfg_attr(feature = "typescript", ts(as = "Vec<String>"))]
+    pub credible_set: Vec<Explanation>,
     /// Error per step of the model, springs alone first.
     pub steps: Vec<StepReport>,
     /// How the held-out error was obtained.
@@ -65,8 +67,9 @@ pub struct Diagnosis {
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct CandidateReport {
-    /// Id of the term, `outside` or `none`.
-    pub term: String,
+    /// What it is.
+    #[cfg_attr(feature = "typescript", ts(as = "String"))]
+    pub term: Explanation,
     /// Probability as the first addition.
     pub probability: f64,
     /// Terms whose signature is the same in these data.

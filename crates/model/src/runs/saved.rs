@@ -6,6 +6,7 @@ use hexbench_core::{Dataset, Hexapod};
 use serde::{Deserialize, Serialize};
 
 use crate::estimate::Estimate;
+use crate::explanation::Explanation;
 use crate::noise::NoiseSource;
 use crate::residuals::ErrorSummary;
 use crate::verdict::Verdict;
@@ -82,7 +83,7 @@ pub struct SavedDiagnosis {
 
 #[derive(Debug, Clone, Deserialize)]
 struct SavedCandidate {
-    term: String,
+    term: Explanation,
     probability: f64,
 }
 
@@ -147,7 +148,7 @@ pub struct Run {
     /// Terms named, or terms of the model compared.
     pub added: Vec<String>,
     /// Probability that an effect is at work, of `outside` and of `none`.
-    pub probabilities: BTreeMap<String, f64>,
+    pub probabilities: BTreeMap<Explanation, f64>,
     /// Errors, the springs alone first.
     pub steps: Vec<Step>,
     /// Noise of one translation, um.
@@ -165,16 +166,17 @@ pub struct Run {
 impl Run {
     /// Of a diagnosis.
     pub fn of_diagnosis(file: &str, d: SavedDiagnosis) -> Self {
-        // `outside` and `none` are candidates, not effects.
-        let special = d.candidates.into_iter().filter(|c| c.term == "outside" || c.term == "none");
+        // They are candidates, not effects.
+        let special = d.candidates.into_iter().filter(|c| c.term.term().is_none());
         let special = special.map(|c| (c.term, c.probability));
+        let present = d.present.into_iter().map(|(id, p)| (Explanation::Term(id), p));
         let step = |s: SavedStep| Step { terms: s.terms, fitted: s.fitted, holdout: s.holdout };
         Self {
             file: file.to_owned(),
             format: FORMATS[0].to_owned(),
             verdict: Some(d.verdict),
             added: d.added,
-            probabilities: d.present.into_iter().chain(special).collect(),
+            probabilities: present.chain(special).collect(),
             steps: d.steps.into_iter().map(step).collect(),
             noise_translation_um: d.noise.translation_um,
             noise_rotation_urad: d.noise.rotation_urad,

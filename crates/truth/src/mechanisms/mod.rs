@@ -130,6 +130,11 @@ pub struct Effect {
     pub parse: fn(Value) -> Result<Box<dyn Mechanism>, String>,
 }
 
+/// True for the id of an effect that no term of the catalogue describes.
+pub fn is_outside(id: &str) -> bool {
+    REGISTRY.iter().any(|effect| effect.id == id && effect.shows == Shows::Outside)
+}
+
 /// All effects, in the order of the catalogue; those outside it at the end.
 pub const REGISTRY: &[Effect] = &[
     leg_length_compliance::EFFECT,
