@@ -152,7 +152,7 @@ pub fn scatter(rows: &[Observation]) -> Scatter {
 fn key(row: &Observation) -> [u64; 19] {
     let mut key = [0; 19];
     let parts = [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array()];
-    for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain([&row.approach])) {
+    for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain([&row.approach.sign()])) {
         *k = (x + 0.0).to_bits();
     }
     key

@@ -1,7 +1,7 @@
 //! The readings of a cell on a drawn machine.
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Hexapod, Measurand, Pose, Wrench};
+use hexbench_core::{Approach, Hexapod, Measurand, Pose, Wrench};
 use hexbench_design::nominal;
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space::{Conditions, Loading};
@@ -146,7 +146,7 @@ fn of_space(space: &Space, poses: Vec<Pose>, repeats: u64) -> Scheme {
         loads: space.loads.iter().map(|l| l.load).collect(),
         reference: space.loads.first().map(|l| l.reference).unwrap_or_default(),
         repeats,
-        approaches: vec![1.0, -1.0],
+        approaches: Approach::ALL.to_vec(),
         delta_t: Spread::Normal(0.3),
         elapsed: Spread::Even([5.0, 300.0]),
         anew: false,

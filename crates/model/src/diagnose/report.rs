@@ -1,5 +1,6 @@
 //! The diagnosis as people and programs receive it; field by field the contract of `diagnosis.json`.
 
+use hexbench_core::Approach;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
@@ -116,7 +117,8 @@ pub struct NextReport {
     /// Reference wrench, same units.
     pub reference: [f64; 6],
     /// +1 or -1.
-    pub approach: f64,
+    #[cfg_attr(feature = "typescript", ts(as = "f64"))]
+    pub approach: Approach,
     /// Wait before the loaded reading, s.
     pub elapsed_s: f64,
     /// Temperature of the structure against the reference reading, K.

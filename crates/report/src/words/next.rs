@@ -1,6 +1,6 @@
 //! What to measure next when the answer is open.
 
-use hexbench_core::Observation;
+use hexbench_core::{Approach, Observation};
 use hexbench_model::diagnose::{Diagnosis, NextReport, SeparationReport};
 use hexbench_model::explanation::Explanation;
 use hexbench_model::terms::catalogue;
@@ -91,11 +91,10 @@ pub fn load(w: &[f64; 6]) -> String {
 }
 
 /// How a reading is taken.
-pub fn way(approach: f64, elapsed_s: f64, delta_t_k: f64, repeats: usize) -> String {
-    let side = if approach < 0.0 {
-        "exceed the load by 40 % of its change and come back (approach -1)"
-    } else {
-        "load from below (approach +1)"
+pub fn way(approach: Approach, elapsed_s: f64, delta_t_k: f64, repeats: usize) -> String {
+    let side = match approach {
+        Approach::Direct => "load from below (approach +1)",
+        Approach::Overloaded => "exceed the load by 40 % of its change and come back (approach -1)",
     };
     let mut parts = vec![side.to_owned()];
     if elapsed_s > 0.0 {
