@@ -6,7 +6,7 @@ use crate::campaign::Campaign;
 use crate::linearization::Linearization;
 use crate::term::{Need, Term};
 
-/// A term the data cannot speak about.
+/// A term that cannot be tested.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS), ts(rename = "UntestableReport"))]
 pub struct Untestable {

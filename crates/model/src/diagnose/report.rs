@@ -68,7 +68,7 @@ pub struct Diagnosis {
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct CandidateReport {
-    /// What it is.
+    /// Id of the term, `outside` or `none`.
     #[cfg_attr(feature = "typescript", ts(as = "String"))]
     pub term: Explanation,
     /// Probability as the first addition.
