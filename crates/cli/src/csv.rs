@@ -57,7 +57,7 @@ pub(crate) fn conditions_header(rows: &Dataset) -> Vec<&'static str> {
 pub(crate) fn condition(rows: &Dataset, o: &Observation) -> Vec<String> {
     let c = rows.columns;
     let plain = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>();
-    let optional = [(c.approach, o.approach), (c.delta_t, o.delta_t), (c.elapsed, o.elapsed)];
+    let optional = [(c.approach, o.approach.sign()), (c.delta_t, o.delta_t), (c.elapsed, o.elapsed)];
     let reference = if c.reference { plain(&o.reference.to_array()) } else { Vec::new() };
     [o.pose_id.to_string(), o.repeat.to_string()]
         .into_iter()

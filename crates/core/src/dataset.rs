@@ -1,10 +1,7 @@
 //! Measurements: what was commanded, what was applied, what was read.
 
+use crate::Approach;
 use crate::{Pose, Wrench};
-
-/// Factor by which the load is exceeded on the way to a reading with approach -1, `W0 + OVERLOAD (W - W0)`: a convention of the
-/// measurement protocol (see the file format).
-pub const OVERLOAD: f64 = 1.4;
 
 /// What the six measured numbers of an observation are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -42,8 +39,8 @@ pub struct Observation {
     pub wrench: Wrench,
     /// Wrench in the reference state; zero when the file has no such columns.
     pub reference: Wrench,
-    /// +1: loaded from below; -1: the load was first exceeded and reached coming back.
-    pub approach: f64,
+    /// How the load was reached.
+    pub approach: Approach,
     /// Structure temperature at the loaded reading minus at the reference reading, K.
     pub delta_t: f64,
     /// Time from the reference reading to the loaded reading, s.

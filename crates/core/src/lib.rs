@@ -7,6 +7,7 @@
 //! - A wrench `[F; M]` is applied *to the platform*, at the mobile origin, in fixed axes.
 //! - SI units inside (m, rad, N, N m, K, s); units appear in names only where a value crosses a border.
 
+pub mod approach;
 pub mod balls;
 pub mod dataset;
 pub mod files;
@@ -16,8 +17,9 @@ pub mod statistics;
 pub mod streams;
 pub mod wrench;
 
+pub use approach::Approach;
 pub use balls::{BallPlace, BallPlaces, BallRecord};
-pub use dataset::{Columns, Dataset, Measurand, OVERLOAD, Observation};
+pub use dataset::{Columns, Dataset, Measurand, Observation};
 pub use hexapod::{Hexapod, Metrology};
 pub use pose::Pose;
 pub use wrench::Wrench;

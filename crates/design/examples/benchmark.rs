@@ -14,7 +14,7 @@ use hexbench_core::files::{read_conditions, read_hexapod};
 use hexbench_core::{Hexapod, Pose, Vector6};
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space_file::read_space;
-use hexbench_design::{Criterion, Problem, Space};
+use hexbench_design::{Objective, Problem, Space};
 use hexbench_model::spring_trials::SpringTrials;
 
 const POSES: usize = 3;
@@ -56,7 +56,7 @@ fn starts(machine: &str, space: &str, count: usize) -> Done {
 fn search(machine: &str, space: &str, starts: &str) -> Done {
     let (hexapod, space) = problem(machine, space)?;
     let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
-    let (criterion, known) = (&Criterion::O1, None);
+    let (criterion, known) = (&Objective::O1, None);
     let problem =
         Problem { hexapod: &hexapod, space: &space, regressor: &regressor, criterion, poses: POSES, known };
     for line in std::fs::read_to_string(starts)?.lines() {

@@ -9,6 +9,7 @@
 //! each other.
 
 use crate::space::Setting;
+use hexbench_core::Approach;
 
 /// Most that a plan may cost, and what its parts cost. SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -35,7 +36,10 @@ pub enum Amount {
 impl Budget {
     /// Time of one reading without the change of pose, s.
     pub fn time_of(&self, setting: &Setting) -> f64 {
-        let changes = if setting.approach < 0.0 { 2.0 } else { 1.0 };
+        let changes = match setting.approach {
+            Approach::Direct => 1.0,
+            Approach::Overloaded => 2.0,
+        };
         changes * self.load_change + setting.elapsed + self.reading
     }
 

@@ -14,7 +14,7 @@ use slsqp::{Func, StopTols, minimize};
 use crate::determined::require_determined;
 use crate::regressor::PoseRegressor;
 use crate::space::Slope;
-use crate::{Criterion, DesignError, Space};
+use crate::{DesignError, Objective, Space};
 
 /// Evaluations of one start before it is taken as it is.
 const MOST_EVALUATIONS: usize = 300;
@@ -36,7 +36,7 @@ pub struct Problem<'a, R> {
     /// What a pose tells.
     pub regressor: &'a R,
     /// What makes a set of poses good.
-    pub criterion: &'a Criterion,
+    pub criterion: &'a Objective,
     /// Number of poses.
     pub poses: usize,
     /// Information (p x p) that is there without them.
@@ -284,7 +284,7 @@ mod tests {
             hexapod: &hexapod,
             space: &space,
             regressor: &regressor,
-            criterion: &Criterion::O1,
+            criterion: &Objective::O1,
             poses: 3,
             known: None,
         };
@@ -306,7 +306,7 @@ mod tests {
             hexapod: &hexapod,
             space: &space,
             regressor: &regressor,
-            criterion: &Criterion::O5,
+            criterion: &Objective::O5,
             poses: 3,
             known: None,
         };

@@ -25,9 +25,9 @@ use nalgebra::{DMatrix, DVector};
 use crate::regressor::PoseRegressor;
 use crate::{DesignError, Space};
 
-/// What makes a plan good.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Criterion {
+/// What makes a plan good; `B` is what criterion I needs beside its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Criterion<B = ()> {
     /// Geometric mean of the singular values over the root of the number of readings.
     O1,
     /// Inverse condition number.
@@ -44,15 +44,18 @@ pub enum Criterion {
     A,
     /// Longest axis of the confidence ellipsoid.
     E,
-    /// Mean variance of a prediction; holds `B` (p x p).
-    I(DMatrix<f64>),
+    /// Mean variance of a prediction.
+    I(B),
 }
+
+/// A criterion ready to be computed: I holds the mean information `B` (p x p) over the workspace.
+pub type Objective = Criterion<DMatrix<f64>>;
 
 /// Eigenvalues below this share of the largest count as zero: the plan does not determine all parameters.
 const DETERMINED: f64 = 1e-13;
 
-impl Criterion {
-    /// Short name.
+impl<B> Criterion<B> {
+    /// Short name, as in tables and study files.
     pub fn name(&self) -> &'static str {
         match self {
             Self::O1 => "O1",
@@ -67,6 +70,93 @@ impl Criterion {
         }
     }
 
+    /// The same criterion beside another `B`.
+    fn with<C, F>(self, other: impl FnOnce(B) -> Result<C, F>) -> Result<Criterion<C>, F> {
+        Ok(match self {
+            Self::O1 => Criterion::O1,
+            Self::O2 => Criterion::O2,
+            Self::O3 => Criterion::O3,
+            Self::O4 => Criterion::O4,
+            Self::O5 => Criterion::O5,
+            Self::D => Criterion::D,
+            Self::A => Criterion::A,
+            Self::E => Criterion::E,
+            Self::I(b) => Criterion::I(other(b)?),
+        })
+    }
+}
+
+impl Criterion {
+    /// All of them.
+    pub const ALL: [Self; 9] =
+        [Self::O1, Self::O2, Self::O3, Self::O4, Self::O5, Self::D, Self::A, Self::E, Self::I(())];
+
+    /// The name as an option of a command.
+    pub fn option(self) -> &'static str {
+        match self {
+            Self::O1 => "o1",
+            Self::O2 => "o2",
+            Self::O3 => "o3",
+            Self::O4 => "o4",
+            Self::O5 => "o5",
+            Self::D => "d",
+            Self::A => "a",
+            Self::E => "e",
+            Self::I(()) => "i",
+        }
+    }
+
+    /// The criterion of an option, when there is one.
+    pub fn of_option(option: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|c| c.option() == option)
+    }
+
+    /// What it is, in a few words.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::O1 => "Geometric mean of the singular values, as in the paper",
+            Self::O2 => "Inverse condition number",
+            Self::O3 => "Smallest singular value",
+            Self::O4 => "Smallest singular value times the inverse condition number",
+            Self::O5 => "Inverse sum of the inverse singular values",
+            Self::D => "Volume of the confidence ellipsoid",
+            Self::A => "Mean variance of the parameters",
+            Self::E => "Longest axis of the confidence ellipsoid",
+            Self::I(()) => "Mean variance of a prediction over the workspace",
+        }
+    }
+
+    /// The criterion for a machine, a space and a regressor. `B` of I is the mean information of poses spread evenly over the
+    /// space, so that its value is the inverse mean of the summed variance of the predictions there.
+    ///
+    /// # Errors
+    /// For I, a space without poses, or a singular one in it.
+    pub fn objective<R: PoseRegressor>(
+        self,
+        hexapod: &Hexapod,
+        space: &Space,
+        regressor: &R,
+    ) -> Result<Objective, DesignError> {
+        self.with(|()| mean_information(hexapod, space, regressor))
+    }
+}
+
+fn mean_information<R: PoseRegressor>(
+    hexapod: &Hexapod,
+    space: &Space,
+    regressor: &R,
+) -> Result<DMatrix<f64>, DesignError> {
+    const POSES: usize = 256;
+    const SEED: u32 = 0;
+    let p = regressor.parameters();
+    let mut mean = DMatrix::zeros(p, p);
+    for pose in space.poses(hexapod, POSES, SEED)? {
+        regressor.inform(&pose, &mut mean)?;
+    }
+    Ok(mean / POSES as f64)
+}
+
+impl Objective {
     /// Value for the information matrix of a plan with `readings` readings; zero when it does not determine all parameters.
     pub fn value(&self, information: &DMatrix<f64>, readings: usize) -> f64 {
         match self {
@@ -79,26 +169,6 @@ impl Criterion {
             }
             _ => self.spectral(&information.symmetric_eigenvalues()).0,
         }
-    }
-
-    /// Criterion I: `B` is the mean information of poses spread evenly over a space, so that its value is the inverse mean of
-    /// the summed variance of the predictions there.
-    ///
-    /// # Errors
-    /// A space without poses, or a singular one in it.
-    pub fn mean_prediction<R: PoseRegressor>(
-        hexapod: &Hexapod,
-        space: &Space,
-        regressor: &R,
-    ) -> Result<Self, DesignError> {
-        const POSES: usize = 256;
-        const SEED: u32 = 0;
-        let p = regressor.parameters();
-        let mut mean = DMatrix::zeros(p, p);
-        for pose in space.poses(hexapod, POSES, SEED)? {
-            regressor.inform(&pose, &mut mean)?;
-        }
-        Ok(Self::I(mean / POSES as f64))
     }
 
     /// Value, and the symmetric matrix `G` with `d value = trace(G dM)`. `G` is zero where the value is.
@@ -186,10 +256,9 @@ fn mean_log(diagonal: &DVector<f64>) -> f64 {
 mod tests {
     use super::*;
 
-    fn all(p: usize) -> [Criterion; 9] {
-        use Criterion::{A, D, E, I, O1, O2, O3, O4, O5};
+    fn all(p: usize) -> [Objective; 9] {
         let mean = DMatrix::from_fn(p, p, |i, j| if i == j { 1.0 + i as f64 } else { 0.2 });
-        [O1, O2, O3, O4, O5, D, A, E, I(mean)]
+        Criterion::ALL.map(|criterion| criterion.with(|()| Ok::<_, ()>(mean.clone())).unwrap())
     }
 
     /// Singular values 4, 2, 1, four poses.

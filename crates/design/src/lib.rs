@@ -32,7 +32,7 @@ mod test_machine;
 
 pub use budget::Budget;
 pub use continuous::{PoseSet, Problem, Search};
-pub use criterion::Criterion;
+pub use criterion::{Criterion, Objective};
 pub use error::DesignError;
 pub use refine::Visit;
 pub use space::Space;

@@ -4,7 +4,7 @@ use hexbench_core::{Hexapod, Pose};
 use nalgebra::DMatrix;
 
 use crate::regressor::SettingRegressor;
-use crate::{Criterion, DesignError, Problem, Space};
+use crate::{DesignError, Objective, Problem, Space};
 
 /// Rounds over all poses.
 const MOST_ROUNDS: usize = 4;
@@ -56,7 +56,7 @@ pub fn refine<R: SettingRegressor>(
     hexapod: &Hexapod,
     space: &Space,
     regressor: &R,
-    criterion: &Criterion,
+    criterion: &Objective,
     visits: &mut [Visit],
 ) -> Result<(), DesignError> {
     let mut before = criterion.value(&information(&*visits, regressor)?, 1);
@@ -116,9 +116,9 @@ mod tests {
         let poses = space.poses(&hexapod, 3, 1).unwrap();
         let mut visits: Vec<Visit> =
             poses.into_iter().zip(counts.clone()).map(|(pose, counts)| Visit { pose, counts }).collect();
-        let value = |visits: &[Visit]| Criterion::A.value(&information(visits, &regressor).unwrap(), 1);
+        let value = |visits: &[Visit]| Objective::A.value(&information(visits, &regressor).unwrap(), 1);
         let before = value(&visits);
-        refine(&hexapod, &space, &regressor, &Criterion::A, &mut visits).unwrap();
+        refine(&hexapod, &space, &regressor, &Objective::A, &mut visits).unwrap();
         assert!(value(&visits) > 1.2 * before, "{} from {before}", value(&visits));
         for (visit, counts) in visits.iter().zip(counts) {
             assert_eq!(visit.counts, counts);

@@ -1,7 +1,7 @@
 //! Where poses and loads may be chosen.
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Hexapod, Pose, Vector3, Wrench};
+use hexbench_core::{Approach, Hexapod, Pose, Vector3, Wrench};
 use hexbench_model::kinematics::{Legs, euler_rate_matrix};
 use rand::RngExt;
 use sobol_burley::sample;
@@ -20,8 +20,8 @@ pub struct Loading {
 /// Circumstances of a reading beside pose and load; every one is combined with every other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conditions {
-    /// Load histories, +1 or -1, see the file format.
-    pub approaches: Vec<f64>,
+    /// Ways to reach the load.
+    pub approaches: Vec<Approach>,
     /// Temperatures of the structure at the loaded reading minus at the reference reading, K.
     pub delta_t: Vec<f64>,
     /// Times from the reference reading to the loaded one, s.
@@ -31,7 +31,7 @@ pub struct Conditions {
 impl Default for Conditions {
     /// Loaded from below, at the same temperature, read at once.
     fn default() -> Self {
-        Self { approaches: vec![1.0], delta_t: vec![0.0], waits: vec![0.0] }
+        Self { approaches: vec![Approach::default()], delta_t: vec![0.0], waits: vec![0.0] }
     }
 }
 
@@ -40,8 +40,8 @@ impl Default for Conditions {
 pub struct Setting {
     /// Reference and load.
     pub loading: Loading,
-    /// Load history, +1 or -1.
-    pub approach: f64,
+    /// How the load is reached.
+    pub approach: Approach,
     /// Temperature at the loaded reading minus at the reference reading, K.
     pub delta_t: f64,
     /// Time from the reference reading to the loaded one, s.
@@ -51,7 +51,7 @@ pub struct Setting {
 impl From<Loading> for Setting {
     /// Loaded from below, at the same temperature, read at once.
     fn from(loading: Loading) -> Self {
-        Self { loading, approach: 1.0, delta_t: 0.0, elapsed: 0.0 }
+        Self { loading, approach: Approach::default(), delta_t: 0.0, elapsed: 0.0 }
     }
 }
 

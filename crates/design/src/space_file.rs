@@ -35,7 +35,7 @@
 use std::path::Path;
 
 use hexbench_core::files::{Fault, FileError, Format, Item, Key, Kind, Problem, Section, read_toml};
-use hexbench_core::{Hexapod, Wrench};
+use hexbench_core::{Approach, Hexapod, Wrench};
 
 use crate::budget::{Amount, Budget};
 use crate::space::{Conditions, Loading, Space};
@@ -161,12 +161,14 @@ fn conditions(table: &Section<'_>) -> Result<Conditions, Fault> {
     let places = [
         ("elapsed", &mut conditions.waits, wait as fn(&Item<'_>) -> Result<f64, Fault>),
         ("delta_T", &mut conditions.delta_t, |item| item.number()),
-        ("approach", &mut conditions.approaches, approach),
     ];
     for (name, place, read) in places {
         if let Some(item) = table.get(name) {
-            *place = different(item, read)?;
+            *place = different(item, read, |a, b| a.total_cmp(b).is_eq())?;
         }
+    }
+    if let Some(item) = table.get("approach") {
+        conditions.approaches = different(item, approach, Approach::eq)?;
     }
     Ok(conditions)
 }
@@ -180,17 +182,20 @@ fn wait(item: &Item<'_>) -> Result<f64, Fault> {
     }
 }
 
-fn approach(item: &Item<'_>) -> Result<f64, Fault> {
-    let sign = item.number()?;
-    if sign.abs().total_cmp(&1.0).is_eq() { Ok(sign) } else { Err(item.fault(Problem::Approach)) }
+fn approach(item: &Item<'_>) -> Result<Approach, Fault> {
+    Approach::of_sign(item.number()?).ok_or_else(|| item.fault(Problem::Approach))
 }
 
 /// The members of a list, at least one and no two alike.
-fn different(item: &Item<'_>, read: fn(&Item<'_>) -> Result<f64, Fault>) -> Result<Vec<f64>, Fault> {
-    let mut values: Vec<f64> = Vec::new();
+fn different<T>(
+    item: &Item<'_>,
+    read: fn(&Item<'_>) -> Result<T, Fault>,
+    same: fn(&T, &T) -> bool,
+) -> Result<Vec<T>, Fault> {
+    let mut values: Vec<T> = Vec::new();
     for member in item.list()? {
         let value = read(&member)?;
-        if values.iter().any(|v| v.total_cmp(&value).is_eq()) {
+        if values.iter().any(|v| same(v, &value)) {
             return Err(rule(
                 &member,
                 "each condition is listed once",

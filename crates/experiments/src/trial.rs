@@ -2,10 +2,12 @@
 
 use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
 use hexbench_model::error::ModelError;
+use hexbench_model::explanation::Explanation;
 use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::Verdict;
 use hexbench_truth::TruthError;
 use hexbench_truth::campaign::Case;
+use hexbench_truth::mechanisms::is_outside;
 use serde::{Deserialize, Serialize};
 
 /// How the answer of a diagnosis compares with the truth.
@@ -65,14 +67,19 @@ impl Trial {
     }
 }
 
-/// Right, honest or wrong about hidden effects; those outside the catalogue begin with `out:`.
+/// Right, honest or wrong about hidden effects.
 pub fn outcome(hidden: &[&str], d: &Diagnosis) -> Outcome {
     outcome_of(hidden, d.verdict, &d.added, &d.credible_set)
 }
 
 /// The same for an answer from anywhere: the verdict, the effects named, and those not excluded.
-pub fn outcome_of(hidden: &[&str], verdict: Verdict, added: &[String], credible_set: &[String]) -> Outcome {
-    let outside = hidden.iter().any(|id| id.starts_with("out:"));
+pub fn outcome_of(
+    hidden: &[&str],
+    verdict: Verdict,
+    added: &[String],
+    credible_set: &[Explanation],
+) -> Outcome {
+    let outside = hidden.iter().any(|id| is_outside(id));
     let same = added.len() == hidden.len() && hidden.iter().all(|id| added.iter().any(|a| a == id));
     let right = match verdict {
         Verdict::Outside => outside,
@@ -80,7 +87,7 @@ pub fn outcome_of(hidden: &[&str], verdict: Verdict, added: &[String], credible_
         Verdict::Named => !outside && !hidden.is_empty() && same,
         Verdict::Ambiguous => false,
     };
-    let kept = |id: &&str| credible_set.iter().chain(added).any(|c| c == id);
+    let kept = |id: &&str| credible_set.iter().any(|e| e.is_term(id)) || added.iter().any(|a| a == id);
     let honest = verdict == Verdict::Ambiguous && !outside && !hidden.is_empty() && hidden.iter().all(kept);
     match (right, honest) {
         (true, _) => Outcome::Right,

@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 
 use hexbench_core::{
-    Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, OVERLOAD, Observation, Pose, Vector3, Vector6,
+    Approach, Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, Vector3, Vector6,
     Wrench,
 };
 use nalgebra::Rotation3;
@@ -52,8 +52,8 @@ pub struct Condition {
     pub reference_force: Vector6,
     /// Leg forces along the way to the reading.
     pub path: LoadPath,
-    /// +1 or -1, see the file format.
-    pub approach: f64,
+    /// How the load was reached.
+    pub approach: Approach,
     /// Temperature difference, K.
     pub delta_t: f64,
     /// Time since the reference reading, s.
@@ -220,8 +220,11 @@ impl Campaign {
         } else {
             Vector6::from_column_slice(&o.measured)
         };
-        let overshoot = stance.reference_force + OVERLOAD * (stance.force - stance.reference_force);
-        let extreme = if o.approach < 0.0 { overshoot } else { stance.force };
+        let change = stance.force - stance.reference_force;
+        let extreme = match o.approach {
+            Approach::Direct => stance.force,
+            Approach::Overloaded => stance.reference_force + Approach::OVERLOAD * change,
+        };
         let path = LoadPath { reference: stance.reference_force, extreme, load: stance.force };
         let springs_at: [[f64; 2]; 6] =
             std::array::from_fn(|leg| path.spring_forces(leg, machine.friction_limits[leg].max(0.0)));
@@ -378,7 +381,7 @@ fn whitened_square(row: &Observation, mean: &[f64; 6], noise: &Noise) -> f64 {
 fn key(row: &Observation) -> [u64; 21] {
     let mut key = [0; 21];
     let parts = [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array()];
-    let rest = [row.approach, row.delta_t, row.elapsed];
+    let rest = [row.approach.sign(), row.delta_t, row.elapsed];
     for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain(&rest)) {
         *k = (x + 0.0).to_bits();
     }

@@ -9,7 +9,7 @@ use crate::evidence::{Block, Gram};
 use crate::linearization::{Linearization, Point, parameter_count};
 use crate::parallel::sum_in_order;
 use crate::pattern::Pattern;
-use crate::term::{Natural, Need, Rich, Term};
+use crate::term::{Natural, Rich, Term};
 
 /// Prior share of the ideal form where there is a richer one.
 const IDEAL_SHARE: f64 = 0.8;
@@ -47,48 +47,6 @@ impl Candidate {
             Kind::Pattern(_) => None,
         }
     }
-}
-
-/// A term the file cannot test, and why.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Untestable {
-    /// Id of the term.
-    pub term: &'static str,
-    /// The reason.
-    pub why: String,
-}
-
-/// Why a term cannot be tested with a campaign, or `None` when it can.
-pub fn why_untestable(term: &dyn Term, campaign: &Campaign, lin: &Linearization) -> Option<String> {
-    let c = &lin.conditions;
-    let any = |f: &dyn Fn(usize) -> bool| (0..c.len()).any(f);
-    if campaign.is_absolute() && term.info().id == "target-offset" {
-        return Some("it is part of the target frame, which absolute poses estimate anyway".to_owned());
-    }
-    let unmet = term.info().needs.iter().find_map(|need| match need {
-        Need::Absolute if !campaign.is_absolute() => {
-            Some("it needs absolute poses (measured_a_mm ...)".to_owned())
-        }
-        Need::Approach if !campaign.columns.approach => Some("no approach column".to_owned()),
-        Need::DeltaT if !campaign.columns.delta_t => Some("no delta_T_K column".to_owned()),
-        Need::DeltaT if !any(&|i| c[i].delta_t != 0.0) => Some("delta_T_K is zero in every row".to_owned()),
-        Need::Elapsed if !campaign.columns.elapsed => Some("no elapsed_s column".to_owned()),
-        Need::Elapsed if !any(&|i| c[i].elapsed != 0.0) => Some("elapsed_s is zero in every row".to_owned()),
-        Need::Brackets if lin.machine.bracket_pairs.is_empty() => {
-            Some("no legs share a bracket: state [legs] brackets".to_owned())
-        }
-        Need::Loads if !several_loads(lin) => Some("every row has the same load".to_owned()),
-        _ => None,
-    });
-    unmet.or_else(|| {
-        let mut pairs = lin.conditions.iter().zip(&campaign.groups);
-        pairs.find_map(|(at, g)| Some(format!("line {}: {}", g.mean.line, term.fault(&lin.machine, at)?)))
-    })
-}
-
-fn several_loads(lin: &Linearization) -> bool {
-    let first = lin.conditions.first().map(|c| c.wrench);
-    lin.conditions.iter().any(|c| Some(c.wrench) != first)
 }
 
 /// Natural sizes of the parameters of a term in one of its forms, SI.

@@ -7,7 +7,7 @@
 //!
 //! The wanted pose and the command are poses of the mobile frame in the fixed frame of the machine.
 
-use hexbench_core::{Matrix6, Measurand, Observation, Pose, Vector6, Wrench};
+use hexbench_core::{Approach, Matrix6, Measurand, Observation, Pose, Vector6, Wrench};
 
 use crate::error::ModelError;
 use crate::model_file::Model;
@@ -116,7 +116,7 @@ fn deflected(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>,
         .map(|o| Observation {
             wrench: o.reference,
             reference: Wrench::default(),
-            approach: 1.0,
+            approach: Approach::Direct,
             delta_t: 0.0,
             elapsed: 0.0,
             ..*o

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::campaign::Campaign;
-use crate::candidates::{Candidate, Collector, Kind, Untestable, sizes, why_untestable};
+use crate::candidates::{Candidate, Collector, Kind, sizes};
 use crate::error::ModelError;
 use crate::evidence::Gram;
 use crate::fit::{Fit, Wanted, fit, fit_baseline};
@@ -14,6 +14,7 @@ use crate::pattern::{Course, LegPattern, Pattern, Variable};
 use crate::scan::Scanner;
 use crate::search::{Search, Set, Sets};
 use crate::term::{Natural, Rich, Term};
+use crate::untestable::{Reason, Untestable, why_untestable};
 
 /// Rounds of linearisation and search.
 const MOST_ROUNDS: usize = 6;
@@ -107,10 +108,9 @@ fn is_doubtful(fit: &Fit) -> bool {
 
 /// Leave out terms of which no physically sensible size would show.
 fn noticeable(candidates: Vec<Candidate>, gram: &Gram) -> (Vec<Candidate>, Vec<Untestable>) {
-    let why = "no size that makes physical sense would show in these poses and loads";
     let (kept, faint): (Vec<_>, Vec<_>) =
         candidates.into_iter().partition(|c| c.blocks.iter().any(|&b| gram.blocks[b].noticeable));
-    let faint = faint.iter().filter_map(Candidate::id).map(|term| Untestable { term, why: why.to_owned() });
+    let faint = faint.iter().filter_map(Candidate::id).map(|term| Untestable { term, why: Reason::TooFaint });
     (kept, faint.collect())
 }
 
@@ -135,7 +135,7 @@ fn split(
     for term in terms {
         match why_untestable(term.as_ref(), campaign, lin) {
             None => testable.push(Arc::clone(term)),
-            Some(why) => untestable.push(Untestable { term: term.info().id, why }),
+            Some(why) => untestable.push(Untestable::new(term.as_ref(), why)),
         }
     }
     (testable, untestable)

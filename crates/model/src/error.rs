@@ -1,5 +1,6 @@
 //! What can make a computation impossible.
 
+use crate::untestable::Reason;
 use hexbench_core::Pose;
 use thiserror::Error;
 
@@ -49,7 +50,7 @@ pub enum ModelError {
         /// The term.
         id: String,
         /// The reason.
-        why: String,
+        why: Reason,
     },
     /// A parameter combination is not determined by the data.
     #[error("the data do not determine every parameter: {what}")]

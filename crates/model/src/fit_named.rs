@@ -5,7 +5,7 @@ use std::sync::Arc;
 use hexbench_core::files::nearest;
 
 use crate::campaign::Campaign;
-use crate::candidates::{orthonormal, project, sizes, why_untestable};
+use crate::candidates::{orthonormal, project, sizes};
 use crate::error::ModelError;
 use crate::estimate::estimates;
 use crate::evidence::WIDEST;
@@ -13,6 +13,7 @@ use crate::fit::{Fit, Wanted, columns, fit, fit_baseline};
 use crate::linearization::{Active, Linearization};
 use crate::parameters::{Parameter, Place, leg_of_stiffness};
 use crate::term::{Natural, Rich, Term};
+use crate::untestable::why_untestable;
 use crate::words::{joined, unobservable};
 
 /// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.

@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use hexbench_core::statistics::Welford;
 use hexbench_core::{Dataset, Hexapod, Observation};
 
-/// Where the noise level comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Where the noise level comes from; in files, its word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(into = "&'static str", try_from = "String")]
 pub enum NoiseSource {
     /// `sigma_*` columns of the file.
     Columns,
@@ -19,6 +20,9 @@ pub enum NoiseSource {
 }
 
 impl NoiseSource {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Columns, Self::Metrology, Self::Repeats, Self::Residuals];
+
     /// One word for files and tables.
     pub fn word(self) -> &'static str {
         match self {
@@ -27,6 +31,21 @@ impl NoiseSource {
             Self::Repeats => "repeats",
             Self::Residuals => "residuals",
         }
+    }
+}
+
+impl From<NoiseSource> for &'static str {
+    fn from(source: NoiseSource) -> Self {
+        source.word()
+    }
+}
+
+impl TryFrom<String> for NoiseSource {
+    type Error = String;
+
+    fn try_from(word: String) -> Result<Self, String> {
+        let unknown = || format!("`{word}` must be one of {}", Self::ALL.map(Self::word).join(", "));
+        Self::ALL.into_iter().find(|s| s.word() == word).ok_or_else(unknown)
     }
 }
 
@@ -133,7 +152,7 @@ pub fn scatter(rows: &[Observation]) -> Scatter {
 fn key(row: &Observation) -> [u64; 19] {
     let mut key = [0; 19];
     let parts = [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array()];
-    for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain([&row.approach])) {
+    for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain([&row.approach.sign()])) {
         *k = (x + 0.0).to_bits();
     }
     key

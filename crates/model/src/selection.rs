@@ -9,8 +9,9 @@ use crate::fit_named::{Added, fit_wanted};
 use crate::linearization::Linearization;
 use crate::residuals::{ErrorSummary, Residual, leave_poses_out, prediction_errors, residuals, summarise};
 
-/// Which readings no fit has seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Which readings no fit has seen; in files, its words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(into = "&'static str")]
 pub enum HeldOut {
     /// Those of a file of their own.
     File,
@@ -25,6 +26,12 @@ impl HeldOut {
             Self::File => "holdout file",
             Self::PosesInTurn => "poses left out in turn",
         }
+    }
+}
+
+impl From<HeldOut> for &'static str {
+    fn from(held_out: HeldOut) -> Self {
+        held_out.word()
     }
 }
 

@@ -56,6 +56,11 @@ pub trait Term: Send + Sync {
         false
     }
 
+    /// True when absolute poses estimate the effect as a part of their target frame.
+    fn is_part_of_target_frame(&self) -> bool {
+        false
+    }
+
     /// Grid of shape values worth trying for these conditions; empty when the term has no shape.
     fn shape_grid(&self, _conditions: &[Condition]) -> Vec<f64> {
         Vec::new()

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use hexbench_core::Dataset;
 use hexbench_core::files::conditions_to_columns;
+use hexbench_design::Criterion;
 use hexbench_report::render::plain;
-use hexbench_tasks::design::{Named, Wish, design as searched, page};
+use hexbench_tasks::design::{Wish, design as searched, page};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 
@@ -80,10 +81,9 @@ pub(crate) fn design(
     })
 }
 
-fn named(py: Python<'_>, name: &str) -> PyResult<Named> {
-    let found = Named::ALL.into_iter().find(|(known, _)| *known == name);
-    found.map(|(_, criterion)| criterion).ok_or_else(|| {
-        let known = Named::ALL.map(|(known, _)| known).join(", ");
+fn named(py: Python<'_>, name: &str) -> PyResult<Criterion> {
+    Criterion::of_option(name).ok_or_else(|| {
+        let known = Criterion::ALL.map(Criterion::option).join(", ");
         usage(py, &format!("there is no criterion \"{name}\""), &format!("Use one of {known}."))
     })
 }

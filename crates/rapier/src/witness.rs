@@ -5,7 +5,7 @@ use std::{fmt::Write, sync::Arc, time::Instant};
 use hexbench_core::files::CsvText;
 use hexbench_core::statistics::quantile;
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Hexapod, Vector6};
+use hexbench_core::{Approach, Hexapod, Vector6};
 use hexbench_truth::{
     Situation, Statics, TruthError, World,
     campaign::{PlanKind, machines},
@@ -103,7 +103,7 @@ impl Case {
         let start = Instant::now();
         let witnessed = second.reading(&self.situation)?;
         // An overload on the way is a second state of rest.
-        let states = if self.situation.approach < 0.0 { 2.0 } else { 1.0 };
+        let states = if self.situation.approach == Approach::Overloaded { 2.0 } else { 1.0 };
         let seconds = start.elapsed().as_secs_f64() / states;
         Ok(Comparison { seconds, ..self.differences(&deflections, &reading, &witnessed) })
     }

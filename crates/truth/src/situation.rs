@@ -1,6 +1,6 @@
 //! What is done to the machine, and the moment at which a state of it is wanted.
 
-use hexbench_core::{Hexapod, OVERLOAD, Pose, Wrench};
+use hexbench_core::{Approach, Hexapod, Pose, Wrench};
 
 /// One row of a plan: commands, loads and surroundings. SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,8 +11,8 @@ pub struct Situation {
     pub wrench: Wrench,
     /// Wrench in the reference state.
     pub reference: Wrench,
-    /// +1: loaded from below; -1: the load is first exceeded and reached coming back.
-    pub approach: f64,
+    /// How the load is reached.
+    pub approach: Approach,
     /// Structure temperature at the loaded reading minus at the reference reading, K.
     pub delta_t: f64,
     /// Time from the reference reading to the loaded reading, s.
@@ -22,14 +22,15 @@ pub struct Situation {
 impl Situation {
     /// A pose under a load, without reference load, temperature change or waiting.
     pub fn new(pose: Pose, wrench: Wrench) -> Self {
-        Self { pose, wrench, reference: Wrench::default(), approach: 1.0, delta_t: 0.0, elapsed: 0.0 }
+        let (reference, approach) = (Wrench::default(), Approach::default());
+        Self { pose, wrench, reference, approach, delta_t: 0.0, elapsed: 0.0 }
     }
 
-    /// The overshooting wrench of approach -1: `W0 + OVERLOAD (W - W0)`.
+    /// The wrench by which an overloaded approach exceeds the load.
     pub fn overload(&self) -> Wrench {
         Wrench {
-            force: self.reference.force + (self.wrench.force - self.reference.force) * OVERLOAD,
-            moment: self.reference.moment + (self.wrench.moment - self.reference.moment) * OVERLOAD,
+            force: self.reference.force + (self.wrench.force - self.reference.force) * Approach::OVERLOAD,
+            moment: self.reference.moment + (self.wrench.moment - self.reference.moment) * Approach::OVERLOAD,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
+use hexbench_core::{Approach, Hexapod, Pose, Vector6, Wrench};
 
 use crate::{
     LegMemory, Mechanism, Moment, Phase, Setup, Situation, Statics, TruthError,
@@ -119,7 +119,7 @@ impl World {
     ) -> Result<Reading, TruthError> {
         let situation = moment.situation;
         let mut memory = remembered;
-        if situation.approach < 0.0 {
+        if situation.approach == Approach::Overloaded {
             moment.phase = Phase::Overload;
             memory = self.state(moment, situation.overload(), &memory)?.memory;
         }

@@ -5,7 +5,9 @@
 
 use hexbench_model::diagnose::Diagnosis;
 use hexbench_model::estimate::Estimate;
+use hexbench_model::noise::NoiseSource;
 use hexbench_model::residuals::ErrorSummary;
+use hexbench_model::selection::HeldOut;
 use hexbench_model::verdict::Verdict;
 use hexbench_report::Page;
 use serde::{Deserialize, Serialize};
@@ -221,7 +223,8 @@ pub struct Noise {
     /// Of a rotation, urad.
     pub rotation_urad: f64,
     /// Where it comes from.
-    pub source: &'static str,
+    #[cfg_attr(test, ts(as = "String"))]
+    pub source: NoiseSource,
 }
 
 /// A term the data cannot speak about.
@@ -287,7 +290,8 @@ pub struct View {
     /// Error on held-out readings; absent where none can be held out.
     pub holdout: Option<ErrorSummary>,
     /// `holdout file` or `poses left out in turn`.
-    pub held_out: &'static str,
+    #[cfg_attr(test, ts(as = "String"))]
+    pub held_out: HeldOut,
     /// Held-out error (else fitted) as a multiple of the noise.
     pub times_noise: f64,
     /// True when that is what noise alone gives.

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test without its case fails")]
 
 use hexbench_model::model_file::Model;
+use hexbench_model::selection::HeldOut;
 use hexbench_model::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
 use hexbench_workbench::bench::{Bench, Kind, Refusal, catalogue};
@@ -101,7 +102,7 @@ fn without_a_holdout_file_poses_are_left_out_in_turn() {
         holdout: None,
     };
     let view = open(&request).unwrap().view(&ticked(&["base-compliance"])).unwrap();
-    assert_eq!(view.held_out, "poses left out in turn");
+    assert_eq!(view.held_out, HeldOut::PosesInTurn);
     assert!(held_out(&view) > view.fitted.chi2_reduced * 0.5);
 }
 

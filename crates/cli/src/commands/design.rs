@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use hexbench_design::Criterion;
 use hexbench_tasks::design::{self, Wish, design};
 
 use crate::csv;
@@ -33,8 +35,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", default_value = "256", value_parser = clap::value_parser!(u16).range(1..=8192))]
     candidates: u16,
     /// What makes a plan good (default: o1 for poses, d for readings and hours)
-    #[arg(long, value_name = "CRITERION")]
-    criterion: Option<Named>,
+    #[arg(long, value_name = "CRITERION", value_parser = criterion())]
+    criterion: Option<Criterion>,
     /// A term of the catalogue that the plan has to determine too; may be given several times
     #[arg(long = "add", value_name = "TERM")]
     terms: Vec<String>,
@@ -49,43 +51,11 @@ pub(crate) struct Arguments {
     output: Option<PathBuf>,
 }
 
-/// Names of the criteria.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum Named {
-    /// Geometric mean of the singular values, as in the paper
-    O1,
-    /// Inverse condition number
-    O2,
-    /// Smallest singular value
-    O3,
-    /// Smallest singular value times the inverse condition number
-    O4,
-    /// Inverse sum of the inverse singular values
-    O5,
-    /// Volume of the confidence ellipsoid
-    D,
-    /// Mean variance of the parameters
-    A,
-    /// Longest axis of the confidence ellipsoid
-    E,
-    /// Mean variance of a prediction over the workspace
-    I,
-}
-
-impl Named {
-    fn criterion(self) -> design::Named {
-        match self {
-            Self::O1 => design::Named::O1,
-            Self::O2 => design::Named::O2,
-            Self::O3 => design::Named::O3,
-            Self::O4 => design::Named::O4,
-            Self::O5 => design::Named::O5,
-            Self::D => design::Named::D,
-            Self::A => design::Named::A,
-            Self::E => design::Named::E,
-            Self::I => design::Named::I,
-        }
-    }
+/// The criteria by their names as options, each explained in the help.
+fn criterion() -> impl TypedValueParser<Value = Criterion> {
+    let value = |c: Criterion| PossibleValue::new(c.option()).help(c.meaning());
+    PossibleValuesParser::new(Criterion::ALL.map(value))
+        .try_map(|option| Criterion::of_option(&option).ok_or("no criterion"))
 }
 
 /// Search, tell, save.
@@ -107,7 +77,7 @@ fn wish(arguments: &Arguments) -> Wish {
         readings: arguments.readings,
         hours: arguments.hours,
         candidates: arguments.candidates,
-        criterion: arguments.criterion.map(Named::criterion),
+        criterion: arguments.criterion,
         terms: arguments.terms.clone(),
         starts: arguments.starts,
         seed: arguments.seed,

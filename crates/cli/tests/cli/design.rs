@@ -1,5 +1,6 @@
 //! `hexbench design`: the problem of the paper, and plans within a budget.
 
+use hexbench_core::Approach;
 use hexbench_core::files::read_conditions;
 
 use crate::support::{hexbench, root, text};
@@ -81,7 +82,7 @@ fn effects_that_need_waits_temperatures_and_both_approaches_are_determined_withi
         if !poses.contains(&o.pose) {
             poses.push(o.pose);
         }
-        seconds += 40.0 + o.elapsed + if o.approach < 0.0 { 60.0 } else { 30.0 };
+        seconds += 40.0 + o.elapsed + if o.approach == Approach::Overloaded { 60.0 } else { 30.0 };
     }
     seconds += 120.0 * poses.len() as f64;
     assert!(seconds <= 3.0 * 3600.0, "{seconds} s");

@@ -5,6 +5,7 @@ use super::columns::{
     APPROACH, DELTA_T, ELAPSED, Group, MEASURED, POSE, POSE_ID, REFERENCE, REPEAT, Row, SIGMA, WRENCH,
 };
 use super::header::{Plan, Source};
+use crate::Approach;
 use crate::{Observation, Pose, Wrench};
 use std::f64::consts::TAU;
 
@@ -17,7 +18,7 @@ const LARGEST_ANGLE: f64 = TAU * (1.0 + 1e-12);
 /// A row before its cells are read: the values of absent columns.
 pub(crate) fn defaults() -> Row {
     let mut row = [0.0; super::columns::PLACES];
-    row[APPROACH] = 1.0;
+    row[APPROACH] = Approach::default().sign();
     row[REPEAT] = 1.0;
     row
 }
@@ -35,7 +36,7 @@ fn check(source: &Source, si: f64) -> Result<(), Problem> {
     match source.column.group {
         _ if !si.is_finite() => Err(Problem::TooLarge),
         Group::Number if si.fract() != 0.0 || si.abs() > LARGEST_WHOLE => Err(Problem::NotWhole),
-        Group::Covariate if source.column.places.first == APPROACH && ![-1.0, 1.0].contains(&si) => {
+        Group::Covariate if source.column.places.first == APPROACH && Approach::of_sign(si).is_none() => {
             Err(Problem::Approach)
         }
         Group::Sigma if si <= 0.0 => Err(Problem::Sigma),
@@ -56,7 +57,7 @@ pub(crate) fn observation(row: &Row, plan: &Plan, line: u64, running: i64) -> Ob
         pose: Pose::from_array(six(row, POSE)),
         wrench: Wrench::from_array(six(row, WRENCH)),
         reference: Wrench::from_array(six(row, REFERENCE)),
-        approach: row[APPROACH],
+        approach: Approach::of_sign(row[APPROACH]).unwrap_or_default(),
         delta_t: row[DELTA_T],
         elapsed: row[ELAPSED],
         measured: six(row, MEASURED),

@@ -147,7 +147,7 @@ fn row_of(observation: &Observation) -> Row {
     six(MEASURED, observation.measured);
     // A row without sigma in a table with them becomes NaN, which is refused below.
     six(SIGMA, observation.sigma.unwrap_or([f64::NAN; 6]));
-    row[APPROACH] = observation.approach;
+    row[APPROACH] = observation.approach.sign();
     row[DELTA_T] = observation.delta_t;
     row[ELAPSED] = observation.elapsed;
     // Whole numbers below 2^53: the readers take no others.

@@ -4,7 +4,9 @@ use hexbench_core::files::{
     hexapod_to_toml, measurements_to_csv, parse_hexapod, read_hexapod, read_measurements,
     read_measurements_from, write_hexapod, write_measurements,
 };
-use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Metrology, Observation, Pose, Vector3, Wrench};
+use hexbench_core::{
+    Approach, Columns, Dataset, Hexapod, Measurand, Metrology, Observation, Pose, Vector3, Wrench,
+};
 use proptest::array::uniform6;
 use proptest::prelude::*;
 
@@ -16,7 +18,7 @@ fn near(one: f64, other: f64) -> bool {
 }
 
 fn numbers(row: &Observation) -> Vec<f64> {
-    let mut numbers = vec![row.approach, row.delta_t, row.elapsed];
+    let mut numbers = vec![row.approach.sign(), row.delta_t, row.elapsed];
     for six in [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array(), row.measured] {
         numbers.extend(six);
     }
@@ -59,7 +61,7 @@ prop_compose! {
         Observation {
             pose_id: pose_id.into(), repeat, line: 0,
             pose: Pose::from_array(pose), wrench: Wrench::from_array(wrench), reference: Wrench::from_array(reference),
-            approach: if up { 1.0 } else { -1.0 }, delta_t, elapsed, measured, sigma: Some(sigma),
+            approach: if up { Approach::Direct } else { Approach::Overloaded }, delta_t, elapsed, measured, sigma: Some(sigma),
         }
     }
 }
@@ -68,7 +70,7 @@ prop_compose! {
 fn as_stated(row: &Observation, columns: Columns) -> Observation {
     Observation {
         reference: if columns.reference { row.reference } else { Wrench::default() },
-        approach: if columns.approach { row.approach } else { 1.0 },
+        approach: if columns.approach { row.approach } else { Approach::Direct },
         delta_t: if columns.delta_t { row.delta_t } else { 0.0 },
         elapsed: if columns.elapsed { row.elapsed } else { 0.0 },
         sigma: row.sigma.filter(|_| columns.sigma),
@@ -205,7 +207,7 @@ fn a_dataset_that_could_not_be_read_again_is_not_written() {
         pose: Pose::default(),
         wrench: Wrench::default(),
         reference: Wrench::default(),
-        approach: 1.0,
+        approach: Approach::Direct,
         delta_t: 0.0,
         elapsed: 0.0,
         measured: [0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0],

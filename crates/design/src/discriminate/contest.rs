@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Vector6};
 use hexbench_model::campaign::Campaign;
-use hexbench_model::candidates::{sizes, why_untestable};
+use hexbench_model::candidates::sizes;
 use hexbench_model::error::ModelError;
 use hexbench_model::evidence::{NOTICEABLE, WIDEST, log_sum};
 use hexbench_model::fit::natural;
 use hexbench_model::linearization::{Linearization, Point};
 use hexbench_model::noise::Noise;
 use hexbench_model::term::Term;
+use hexbench_model::untestable::{Reason, why_untestable};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -88,7 +89,7 @@ impl<'a> Contest<'a> {
         let (campaign, point, lin) = contest.linearized(menu)?;
         let natural = natural(&point, &lin);
         let untestable =
-            |term: &Arc<dyn Term>, why: String| ModelError::Untestable { id: term.info().id.to_owned(), why };
+            |term: &Arc<dyn Term>, why: Reason| ModelError::Untestable { id: term.info().id.to_owned(), why };
         let mut at = 6;
         for (rival, term) in terms.iter().enumerate() {
             if let Some(why) = why_untestable(term.as_ref(), &campaign, &lin) {
@@ -107,8 +108,7 @@ impl<'a> Contest<'a> {
         for k in 0..contest.forms.len() {
             let shown = distance(&even, &contest.forms[k], None);
             if WIDEST * shown <= NOTICEABLE {
-                let why = "no size of it that makes physical sense would show in this space".to_owned();
-                return Err(untestable(&contest.forms[k].term, why).into());
+                return Err(untestable(&contest.forms[k].term, Reason::TooFaintInSpace).into());
             }
             contest.forms[k].size = (visible / shown).min(WIDEST);
         }

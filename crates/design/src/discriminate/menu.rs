@@ -47,16 +47,18 @@ pub fn menu(
 /// All conditions that matter to a term; of the others the most ordinary one.
 fn conditions(space: &Space, terms: &[Arc<dyn Term>]) -> Conditions {
     let matters = |need: Need| terms.iter().any(|t| t.info().needs.contains(&need));
-    let ordinary = |values: &[f64], need: Need, distance: fn(f64) -> f64| {
-        let nearest = values.iter().copied().reduce(|a, b| if distance(b) < distance(a) { b } else { a });
-        if matters(need) { values.to_vec() } else { nearest.into_iter().collect() }
-    };
     let Conditions { approaches, delta_t, waits } = &space.conditions;
     Conditions {
-        approaches: ordinary(approaches, Need::Approach, |a| -a),
-        delta_t: ordinary(delta_t, Need::DeltaT, f64::abs),
-        waits: ordinary(waits, Need::Elapsed, |t| t),
+        approaches: ordinary(approaches, matters(Need::Approach), |a| -a.sign()),
+        delta_t: ordinary(delta_t, matters(Need::DeltaT), f64::abs),
+        waits: ordinary(waits, matters(Need::Elapsed), |t| t),
     }
+}
+
+/// All values where they matter, else the one of the least distance from the ordinary.
+fn ordinary<T: Copy>(values: &[T], matters: bool, distance: fn(T) -> f64) -> Vec<T> {
+    let nearest = values.iter().copied().reduce(|a, b| if distance(b) < distance(a) { b } else { a });
+    if matters { values.to_vec() } else { nearest.into_iter().collect() }
 }
 
 /// The middle of the space and both ends of each coordinate.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Hexapod, Metrology, Observation, Vector6, Wrench};
+use hexbench_core::{Approach, Hexapod, Metrology, Observation, Vector6, Wrench};
 use hexbench_model::evidence::WIDEST;
 use hexbench_model::fit_named::term_named;
 use hexbench_model::noise::{Noise, NoiseSource};
@@ -50,7 +50,11 @@ fn space() -> Space {
             load([100.0, 0.0, -120.0, 0.0, 0.0, 0.0]),
             load([0.0, 0.0, -120.0, 0.0, 0.0, 15.0]),
         ],
-        conditions: Conditions { waits: vec![5.0, 300.0], approaches: vec![1.0, -1.0], delta_t: vec![0.0] },
+        conditions: Conditions {
+            waits: vec![5.0, 300.0],
+            approaches: Approach::ALL.to_vec(),
+            delta_t: vec![0.0],
+        },
         budget: Budget::default(),
     }
 }
@@ -141,9 +145,11 @@ fn a_plan_holds_the_worst_pair_further_apart_than_random_plans() {
 fn conditions_vary_only_where_an_effect_depends_on_them() {
     let hexapod: Hexapod = machine();
     let still = menu(&space(), &hexapod, &terms(&["base-compliance", "load-offset"]), 1).unwrap();
-    assert!(still.iter().all(|o| o.approach > 0.0 && (o.elapsed - 5.0).abs() < 1e-9));
+    assert!(still.iter().all(|o| o.approach == Approach::Direct && (o.elapsed - 5.0).abs() < 1e-9));
     let moving = menu(&space(), &hexapod, &terms(&["creep", "joint-friction"]), 1).unwrap();
-    assert!(moving.iter().any(|o| o.approach < 0.0) && moving.iter().any(|o| o.elapsed > 100.0));
+    assert!(
+        moving.iter().any(|o| o.approach == Approach::Overloaded) && moving.iter().any(|o| o.elapsed > 100.0)
+    );
 }
 
 #[test]

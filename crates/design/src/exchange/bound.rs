@@ -15,7 +15,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Candidates;
-use crate::Criterion;
+use crate::Objective;
 
 /// Moves of weight.
 const MOST_MOVES: usize = 3000;
@@ -30,17 +30,17 @@ const SHARPNESS: f64 = 300.0;
 const STEPS: usize = 30;
 
 /// Power that brings a criterion to degree one, where it is concave; none for ratios of eigenvalues, which are not.
-pub fn degree_one(criterion: &Criterion) -> Option<f64> {
+pub fn degree_one(criterion: &Objective) -> Option<f64> {
     match criterion {
-        Criterion::D | Criterion::A | Criterion::E | Criterion::I(_) => Some(1.0),
-        Criterion::O1 | Criterion::O3 | Criterion::O5 => Some(2.0),
-        Criterion::O2 | Criterion::O4 => None,
+        Objective::D | Objective::A | Objective::E | Objective::I(_) => Some(1.0),
+        Objective::O1 | Objective::O3 | Objective::O5 => Some(2.0),
+        Objective::O2 | Objective::O4 => None,
     }
 }
 
 /// Least efficiency of a plan: the share of the budget with which the best approximate plan might reach the same value of the
 /// criterion. None where no bound is known.
-pub fn efficiency(candidates: &Candidates, criterion: &Criterion, members: &[usize]) -> Option<f64> {
+pub fn efficiency(candidates: &Candidates, criterion: &Objective, members: &[usize]) -> Option<f64> {
     let power = degree_one(criterion)?;
     let value = criterion.value(&candidates.sum(members), 1).powf(power);
     Some((value / upper_bound(candidates, criterion, power, members)).min(1.0))
@@ -49,7 +49,7 @@ pub fn efficiency(candidates: &Candidates, criterion: &Criterion, members: &[usi
 /// Weights of an approximate plan with its information.
 struct Approximate<'a> {
     candidates: &'a Candidates,
-    criterion: &'a Criterion,
+    criterion: &'a Objective,
     power: f64,
     /// Sharpness of the smooth minimum of the eigenvalues; none when the criterion has a gradient.
     sharpness: Option<f64>,
@@ -57,7 +57,7 @@ struct Approximate<'a> {
     information: DMatrix<f64>,
 }
 
-fn upper_bound(candidates: &Candidates, criterion: &Criterion, power: f64, members: &[usize]) -> f64 {
+fn upper_bound(candidates: &Candidates, criterion: &Objective, power: f64, members: &[usize]) -> f64 {
     let mut plan = Approximate::of(candidates, criterion, power, members);
     let (mut bound, mut vain) = (f64::INFINITY, 0);
     for _ in 0..MOST_MOVES {
@@ -82,7 +82,7 @@ fn upper_bound(candidates: &Candidates, criterion: &Criterion, power: f64, membe
 
 impl<'a> Approximate<'a> {
     /// The weights of an exact plan, scaled to spend the whole budget.
-    fn of(candidates: &'a Candidates, criterion: &'a Criterion, power: f64, members: &[usize]) -> Self {
+    fn of(candidates: &'a Candidates, criterion: &'a Objective, power: f64, members: &[usize]) -> Self {
         let mut weights = vec![0.0; candidates.information.len()];
         for &k in members {
             weights[k] += candidates.cost(k);
@@ -97,7 +97,7 @@ impl<'a> Approximate<'a> {
         for (k, &weight) in plan.weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
             plan.information += plan.whole(k) * weight;
         }
-        if matches!(criterion, Criterion::E | Criterion::O3) {
+        if matches!(criterion, Objective::E | Objective::O3) {
             plan.sharpness = Some(SHARPNESS / plan.information.clone().symmetric_eigenvalues().min());
         }
         plan

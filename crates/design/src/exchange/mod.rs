@@ -21,7 +21,7 @@ use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 use crate::determined::undetermined;
-use crate::{Criterion, DesignError};
+use crate::{DesignError, Objective};
 use plan::{By, Draft};
 
 /// Largest excursion: members added before as many are taken away.
@@ -38,7 +38,7 @@ const PATIENCE: usize = 50;
 /// An exchange among candidates.
 pub struct Exchange<'a> {
     candidates: &'a Candidates,
-    criterion: &'a Criterion,
+    criterion: &'a Objective,
     ridge: DMatrix<f64>,
 }
 
@@ -55,7 +55,7 @@ pub struct Plan {
 
 impl<'a> Exchange<'a> {
     /// Prepares candidates.
-    pub fn new(candidates: &'a Candidates, criterion: &'a Criterion) -> Self {
+    pub fn new(candidates: &'a Candidates, criterion: &'a Objective) -> Self {
         let size = RIDGE / candidates.information.len().max(1) as f64;
         let ridge = DMatrix::from_diagonal(&(candidates.whole().diagonal() * size));
         Self { candidates, criterion, ridge }
@@ -217,7 +217,7 @@ mod tests {
 
     fn best(rows: &[DMatrix<f64>], size: usize, starts: usize) -> Plan {
         let candidates = Candidates::of_rows(rows, size);
-        Exchange::new(&candidates, &Criterion::D).search(starts, 1, &|| ()).unwrap()
+        Exchange::new(&candidates, &Objective::D).search(starts, 1, &|| ()).unwrap()
     }
 
     /// Exact D-optimal designs of a quadratic on {-1, 0, 1}: det X'X for 3 to 7 points.
@@ -257,7 +257,7 @@ mod tests {
     fn too_few_readings_are_refused() {
         let candidates = rows(&[-1.0, 0.0, 1.0], 2);
         let candidates = Candidates::of_rows(&candidates, 2);
-        let found = Exchange::new(&candidates, &Criterion::D).search(4, 1, &|| ());
+        let found = Exchange::new(&candidates, &Objective::D).search(4, 1, &|| ());
         assert!(matches!(found, Err(DesignError::NotDetermined { .. })));
     }
 }

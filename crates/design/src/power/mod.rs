@@ -28,6 +28,6 @@ mod test;
 pub use alike::{Alike, NOTHING};
 pub use effect::{Effect, ParameterReach, Range, Verdict};
 pub use planned::Planned;
-pub use study::{Settings, Study, Untestable, study};
+pub use study::{Settings, Study, study};
 pub use subject::{Example, Reference, Subject};
 pub use test::Test;

@@ -1,6 +1,6 @@
 //! All effects under one plan.
 
-use hexbench_model::candidates::why_untestable;
+use hexbench_model::untestable::{Untestable, why_untestable};
 use serde::Serialize;
 
 use super::alike::alike;
@@ -26,15 +26,6 @@ impl Default for Settings {
     }
 }
 
-/// An effect that a plan cannot test.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Untestable {
-    /// Id of the term.
-    pub term: &'static str,
-    /// The reason.
-    pub why: String,
-}
-
 /// All effects under a plan.
 #[derive(Debug, Clone, Serialize)]
 pub struct Study {
@@ -58,7 +49,7 @@ pub fn study(planned: &Planned, subjects: Vec<Subject>, settings: Settings) -> S
     for subject in subjects {
         match why_untestable(subject.term.as_ref(), &planned.campaign, &planned.lin) {
             None => testable.push(subject),
-            Some(why) => untestable.push(Untestable { term: subject.term.info().id, why }),
+            Some(why) => untestable.push(Untestable::new(subject.term.as_ref(), why)),
         }
     }
     let tests: Vec<Option<Test>> =

@@ -3,7 +3,7 @@
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_design::exchange::bound::efficiency;
 use hexbench_design::exchange::{Candidates, Exchange, Plan};
-use hexbench_design::{Criterion, DesignError};
+use hexbench_design::{Criterion, DesignError, Objective};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 use rand::RngExt;
@@ -25,16 +25,16 @@ fn drawn(poses: usize, seed: u64, costs: [f64; 2], pose_cost: f64, budget: f64) 
     Candidates { information, costs: costs.into(), pose_cost, budget }
 }
 
-fn search(candidates: &Candidates, criterion: &Criterion) -> Result<Plan, DesignError> {
+fn search(candidates: &Candidates, criterion: &Objective) -> Result<Plan, DesignError> {
     Exchange::new(candidates, criterion).search(24, 1, &|| ())
 }
 
-fn value(candidates: &Candidates, criterion: &Criterion, members: &[usize]) -> f64 {
+fn value(candidates: &Candidates, criterion: &Objective, members: &[usize]) -> f64 {
     criterion.value(&candidates.sum(members), 1)
 }
 
 /// The best value of all plans of ascending members that spend the budget: no reading can be added to them.
-fn enumerated(candidates: &Candidates, criterion: &Criterion, members: &mut Vec<usize>) -> f64 {
+fn enumerated(candidates: &Candidates, criterion: &Objective, members: &mut Vec<usize>) -> f64 {
     let affords = |k: usize| {
         let more: Vec<usize> = members.iter().copied().chain([k]).collect();
         candidates.cost_of(&more) <= candidates.budget
@@ -53,7 +53,7 @@ fn enumerated(candidates: &Candidates, criterion: &Criterion, members: &mut Vec<
     best
 }
 
-fn all() -> Vec<Criterion> {
+fn all() -> Vec<Objective> {
     use Criterion::{A, D, E, I, O1, O2, O3, O4, O5};
     vec![O1, O2, O3, O4, O5, D, A, E, I(DMatrix::from_diagonal_element(3, 3, 0.5))]
 }
@@ -72,9 +72,9 @@ fn every_criterion_reaches_the_best_of_all_plans_of_five_readings() {
 fn a_budget_in_time_is_spent_as_well_as_by_enumeration() {
     for seed in 0..6 {
         let candidates = drawn(4, seed, [2.0, 3.0], 4.0, 21.0);
-        let best = enumerated(&candidates, &Criterion::D, &mut Vec::new());
-        let plan = search(&candidates, &Criterion::D).unwrap();
-        let found = value(&candidates, &Criterion::D, &plan.members);
+        let best = enumerated(&candidates, &Objective::D, &mut Vec::new());
+        let plan = search(&candidates, &Objective::D).unwrap();
+        let found = value(&candidates, &Objective::D, &plan.members);
         assert!(found >= best * (1.0 - ROUNDING), "seed {seed}: {found} of {best}");
     }
 }
@@ -84,7 +84,7 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
     let candidates = drawn(30, 5, [2.0, 3.0], 10.0, 120.0);
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| search(&candidates, &Criterion::A).unwrap())
+        pool.install(|| search(&candidates, &Objective::A).unwrap())
     };
     assert_eq!(on(1), on(3));
 }
@@ -96,7 +96,7 @@ fn the_best_approximate_plan_has_efficiency_one_and_a_worse_one_its_own() {
     let rows: Vec<_> = (-10..=10).map(|i| row(f64::from(i) / 10.0)).collect();
     let candidates = Candidates::of_rows(&rows, 6);
     let [a, b, c] = [0, 10, 20];
-    let of = |members: &[usize]| efficiency(&candidates, &Criterion::D, members).unwrap();
+    let of = |members: &[usize]| efficiency(&candidates, &Objective::D, members).unwrap();
     let best = of(&[a, a, b, b, c, c]);
     assert!((1.0 - best).abs() < BOUND_REACHED, "{best}");
     // Determinants are as the products of the counts: 3 * 2 * 1 against 2 * 2 * 2.
@@ -111,7 +111,7 @@ fn the_bound_of_the_smallest_eigenvalue_is_close_where_eigenvalues_meet() {
     const CLOSE: f64 = 0.01;
     let axis = |k: usize| DMatrix::from_fn(1, 3, |_, j| if j == k { 1.0 } else { 0.0 });
     let candidates = Candidates::of_rows(&[axis(0), axis(1), axis(2)], 6);
-    for criterion in [Criterion::E, Criterion::O3] {
+    for criterion in [Objective::E, Objective::O3] {
         let best = efficiency(&candidates, &criterion, &[0, 0, 1, 1, 2, 2]).unwrap();
         assert!(best > 1.0 - CLOSE, "{}: {best}", criterion.name());
         let half = efficiency(&candidates, &criterion, &[0, 0, 0, 1, 1, 2]).unwrap();
@@ -122,7 +122,7 @@ fn the_bound_of_the_smallest_eigenvalue_is_close_where_eigenvalues_meet() {
 #[test]
 fn ratios_of_eigenvalues_have_no_bound() {
     let candidates = drawn(4, 3, [1.0, 1.0], 0.0, 5.0);
-    for criterion in [Criterion::O2, Criterion::O4] {
+    for criterion in [Objective::O2, Objective::O4] {
         assert!(efficiency(&candidates, &criterion, &[0, 1, 2, 3, 4]).is_none());
     }
 }
@@ -148,21 +148,21 @@ proptest! {
         budget in 40.0..80.0_f64,
     ) {
         let candidates = drawn(8, seed, costs, pose_cost, budget);
-        let plan = search(&candidates, &Criterion::D).unwrap();
+        let plan = search(&candidates, &Objective::D).unwrap();
         let cost = candidates.cost_of(&plan.members);
         prop_assert!(cost <= budget * (1.0 + 1e-9), "{cost} of {budget}");
-        let found = value(&candidates, &Criterion::D, &plan.members);
+        let found = value(&candidates, &Objective::D, &plan.members);
         let mut rng = stream(seed, Purpose::Test, []);
         for _ in 0..200 {
             let drawn = random_plan(&candidates, &mut rng);
-            let worth = value(&candidates, &Criterion::D, &drawn);
+            let worth = value(&candidates, &Objective::D, &drawn);
             prop_assert!(worth <= found * (1.0 + ROUNDING), "drawn {worth}, found {found}");
         }
         // The bound is the same one whichever plan it is approached from.
         let drawn = random_plan(&candidates, &mut rng);
         let bounds = [&plan.members, &drawn].map(|members| {
-            value(&candidates, &Criterion::D, members)
-                / efficiency(&candidates, &Criterion::D, members).unwrap()
+            value(&candidates, &Objective::D, members)
+                / efficiency(&candidates, &Objective::D, members).unwrap()
         });
         prop_assert!(found <= bounds[0] * (1.0 + ROUNDING) && (bounds[0] / bounds[1] - 1.0).abs() < 1e-3, "{bounds:?}");
     }

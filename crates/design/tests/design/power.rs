@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vector3, Vector6, Wrench};
+use hexbench_core::{
+    Approach, Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vector3, Vector6, Wrench,
+};
 use hexbench_design::power::{Planned, Settings, Study, Subject, Test, Verdict, study};
 use hexbench_model::noise::{Noise, NoiseSource};
 use hexbench_model::power::noncentrality;
@@ -48,7 +50,7 @@ fn plan(loads: &[[f64; 6]], repeats: i64) -> Dataset {
                 pose: Pose::from_array(pose),
                 wrench: Wrench::from_array(*load),
                 reference: Wrench::from_array([0.0, 0.0, -120.0, 0.0, 0.0, 0.0]),
-                approach: 1.0,
+                approach: Approach::Direct,
                 delta_t: 0.0,
                 elapsed: wait,
                 measured: [0.0; 6],

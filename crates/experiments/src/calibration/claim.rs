@@ -1,6 +1,7 @@
 //! What a diagnosis claims, and whether it is true.
 
-use hexbench_model::verdict::{NONE, OUTSIDE, Verdict};
+use hexbench_model::explanation::Explanation;
+use hexbench_model::verdict::Verdict;
 
 use super::{Fate, Record};
 
@@ -67,17 +68,18 @@ impl Claims {
 
     fn one(self, r: &Record, weight: f64) -> Vec<Claim> {
         let claim = |stated: f64, is_true: bool| Claim { stated, is_true, weight };
-        let presence = || r.present.iter().map(|(id, &p)| claim(p, r.holds(id))).collect();
+        let presence = || r.present.iter().map(|(id, &p)| claim(p, r.contains(id))).collect();
         let verdict = || r.confidence.map(|p| claim(p, r.fate == Fate::Right)).into_iter().collect();
-        let first = (r.best.0 != NONE && r.best.0 != OUTSIDE).then(|| claim(r.best.1, r.holds(&r.best.0)));
+        let (best, stated) = &r.best;
+        let first = best.term().map(|_| claim(*stated, r.holds(best)));
         match self {
             Self::First => first.into_iter().collect(),
             Self::Presence if r.verdict != Verdict::Outside => presence(),
             Self::PresenceBesideOutside if r.verdict == Verdict::Outside => presence(),
             Self::Named if r.verdict == Verdict::Named => verdict(),
             Self::Named | Self::Presence | Self::PresenceBesideOutside => Vec::new(),
-            Self::Outside => vec![claim(r.outside, r.holds(OUTSIDE))],
-            Self::Nothing => vec![claim(r.none, r.holds(NONE))],
+            Self::Outside => vec![claim(r.outside, r.holds(&Explanation::Outside))],
+            Self::Nothing => vec![claim(r.none, r.holds(&Explanation::Nothing))],
             Self::Verdict => verdict(),
         }
     }

@@ -1,8 +1,8 @@
 //! Hidden effect against answer.
 
-use hexbench_model::verdict::{OUTSIDE, Verdict};
+use hexbench_model::verdict::Verdict;
 use hexbench_truth::campaign::Kind;
-use hexbench_truth::mechanisms::REGISTRY;
+use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
 use super::Record;
 
@@ -21,7 +21,8 @@ pub struct Confusion {
 }
 
 /// Answers that are no single effect, in the order of their columns.
-const OTHER_ANSWERS: [&str; 4] = ["several effects", OUTSIDE, "ambiguous", "adequate"];
+const OTHER_ANSWERS: [&str; 4] =
+    ["several effects", Verdict::Outside.word(), Verdict::Ambiguous.word(), Verdict::Adequate.word()];
 
 impl Confusion {
     /// Confusion over trials with one effect or none.
@@ -67,7 +68,7 @@ fn answer(record: &Record) -> String {
 }
 
 fn is_term(word: &str) -> bool {
-    !word.starts_with("out:") && REGISTRY.iter().any(|e| e.id == word)
+    REGISTRY.iter().any(|e| e.id == word && e.shows != Shows::Outside)
 }
 
 /// Each word once: effects in the order of the catalogue, then what is no effect.

@@ -3,9 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use hexbench_model::diagnose::Study;
+use hexbench_model::explanation::Explanation;
 use hexbench_model::parameters::stiffness_name;
-use hexbench_model::verdict::{NONE, OUTSIDE, Verdict};
+use hexbench_model::verdict::Verdict;
 use hexbench_truth::campaign::{Case, Kind, PlanKind};
+use hexbench_truth::mechanisms::is_outside;
 use serde::{Deserialize, Serialize};
 
 use super::Fate;
@@ -41,8 +43,8 @@ pub struct Record {
     pub added: Vec<String>,
     /// Terms of the fitted model.
     pub model: Vec<String>,
-    /// The best first addition (an effect, `outside` or `none`) and its probability.
-    pub best: (String, f64),
+    /// The best first addition and its probability.
+    pub best: (Explanation, f64),
     /// Probability that an effect is present at all.
     pub present: BTreeMap<String, f64>,
     /// Probability of something outside the catalogue.
@@ -54,7 +56,7 @@ pub struct Record {
     /// Probability of exactly the truth.
     pub truth: f64,
     /// Effects that hold 95 % of the probability.
-    pub credible: Vec<String>,
+    pub credible: Vec<Explanation>,
     /// Reduced chi-square on held-out poses: springs alone, and the final model.
     pub holdout: [Option<f64>; 2],
     /// Errors of the leg stiffnesses of the final model, in standard deviations.
@@ -74,7 +76,8 @@ impl Record {
     pub fn of_trial(case: &Case, trial: &Trial) -> Self {
         let Trial { hidden, study } = trial;
         let d = &study.diagnosis;
-        let first = |name: &str| d.candidates.iter().find(|c| c.term == name).map_or(0.0, |c| c.probability);
+        let first =
+            |e: &Explanation| d.candidates.iter().find(|c| c.term == *e).map_or(0.0, |c| c.probability);
         let best = d.candidates.first();
         let chi2 = |step: Option<&hexbench_model::diagnose::StepReport>| Some(step?.holdout?.chi2_reduced);
         Self {
@@ -89,10 +92,10 @@ impl Record {
             fate: Fate::of(trial),
             added: d.added.clone(),
             model: d.model.clone(),
-            best: best.map_or((NONE.to_owned(), 1.0), |c| (c.term.clone(), c.probability)),
+            best: best.map_or((Explanation::Nothing, 1.0), |c| (c.term.clone(), c.probability)),
             present: d.present.clone(),
-            outside: first(OUTSIDE),
-            none: first(NONE),
+            outside: first(&Explanation::Outside),
+            none: first(&Explanation::Nothing),
             confidence: confidence(study),
             truth: probability_of(study, hidden),
             credible: d.credible_set.clone(),
@@ -104,31 +107,37 @@ impl Record {
 
     /// True when the catalogue lacks what is hidden.
     pub fn is_outside(&self) -> bool {
-        self.hidden.iter().any(|id| id.starts_with("out:"))
+        self.hidden.iter().any(|id| is_outside(id))
     }
 
-    /// True when an effect, `outside` or `none` is part of the truth.
-    pub fn holds(&self, name: &str) -> bool {
-        match name {
-            OUTSIDE => self.is_outside(),
-            NONE => self.hidden.is_empty(),
-            _ => self.hidden.contains(&name),
+    /// True when an effect is hidden.
+    pub fn contains(&self, id: &str) -> bool {
+        self.hidden.contains(&id)
+    }
+
+    /// True when an explanation is part of the truth.
+    pub fn holds(&self, explanation: &Explanation) -> bool {
+        match explanation {
+            Explanation::Outside => self.is_outside(),
+            Explanation::Nothing => self.hidden.is_empty(),
+            Explanation::Term(id) => self.contains(id),
         }
     }
 
     /// True when the credible set, or what is named for sure, holds all of the truth.
     pub fn is_covered(&self) -> bool {
-        let kept = |name: &str| self.credible.iter().chain(&self.added).any(|c| c == name);
+        let kept = |e: &Explanation| self.credible.contains(e);
+        let named = |id: &str| self.added.iter().any(|a| a == id);
         match (self.is_outside(), self.hidden.is_empty()) {
-            (true, _) => kept(OUTSIDE),
-            (_, true) => kept(NONE),
-            _ => self.hidden.iter().all(|id| kept(id)),
+            (true, _) => kept(&Explanation::Outside),
+            (_, true) => kept(&Explanation::Nothing),
+            _ => self.hidden.iter().all(|id| named(id) || kept(&Explanation::from(*id))),
         }
     }
 
     /// The hidden effects in one word, `none` when there are none.
     pub fn hidden_words(&self) -> String {
-        if self.hidden.is_empty() { NONE.to_owned() } else { self.hidden.join("+") }
+        if self.hidden.is_empty() { Explanation::Nothing.into() } else { self.hidden.join("+") }
     }
 
     /// The answer in one word: the effects named, or the verdict.
@@ -146,16 +155,15 @@ fn confidence(study: &Study) -> Option<f64> {
     match d.verdict {
         Verdict::Named => Some(probability_of(study, &added)),
         Verdict::Adequate => Some(probability_of(study, &[])),
-        Verdict::Outside => Some(probability_of(study, &["out:"])),
+        Verdict::Outside => Some(probability_outside(study)),
         Verdict::Ambiguous => None,
     }
 }
 
 /// Probability that exactly these effects are at work; of anything outside when one of them is.
 fn probability_of(study: &Study, effects: &[&str]) -> f64 {
-    let d = &study.diagnosis;
-    if effects.iter().any(|id| id.starts_with("out:")) {
-        return d.candidates.iter().filter(|c| c.term == OUTSIDE).map(|c| c.probability).sum();
+    if effects.iter().any(|id| is_outside(id)) {
+        return probability_outside(study);
     }
     let wanted: BTreeSet<&str> = effects.iter().copied().collect();
     let sets = &study.outcome.sets;
@@ -164,6 +172,11 @@ fn probability_of(study: &Study, effects: &[&str]) -> f64 {
     };
     let exactly = sets.sets.iter().filter(|s| members(s).is_some_and(|m| m == wanted));
     exactly.map(|s| sets.probability(s)).sum()
+}
+
+fn probability_outside(study: &Study) -> f64 {
+    let candidates = study.diagnosis.candidates.iter();
+    candidates.filter(|c| c.term == Explanation::Outside).map(|c| c.probability).sum()
 }
 
 fn stiffness_z(study: &Study, case: &Case) -> [Option<f64>; 6] {

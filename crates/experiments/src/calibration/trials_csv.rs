@@ -1,6 +1,7 @@
 //! Every trial as a line of a table.
 
 use hexbench_core::files::CsvText;
+use hexbench_model::explanation::Explanation;
 
 use super::Record;
 
@@ -30,11 +31,21 @@ fn cells(r: &Record) -> Vec<String> {
         r.added.join("+"),
         r.model.join("+"),
     ]);
-    cells.extend([r.best.0.clone(), number(r.best.1), number(r.truth), number(r.outside), number(r.none)]);
-    cells.extend([maybe(r.confidence), r.credible.join("+"), present(r)]);
+    cells.extend([
+        r.best.0.to_string(),
+        number(r.best.1),
+        number(r.truth),
+        number(r.outside),
+        number(r.none),
+    ]);
+    cells.extend([maybe(r.confidence), words(r), present(r)]);
     cells.extend(r.holdout.iter().chain(&r.stiffness_z).map(|&x| maybe(x)));
     cells.push(r.seed.to_string());
     cells
+}
+
+fn words(r: &Record) -> String {
+    r.credible.iter().map(Explanation::word).collect::<Vec<_>>().join("+")
 }
 
 fn present(r: &Record) -> String {

@@ -1,6 +1,6 @@
 //! Pairs of effects that look alike, each under a plan that makes them so.
 
-use hexbench_core::{Hexapod, Measurand, Wrench};
+use hexbench_core::{Approach, Hexapod, Measurand, Wrench};
 use hexbench_truth::campaign::{Poses, Scheme, Spread, usual_half_range_mm_deg};
 
 /// Preload and full load of the paper, N along z.
@@ -79,7 +79,7 @@ impl Confusion {
             loads: self.loads_n.iter().map(along_z).collect(),
             reference: along_z(&PRELOAD_N),
             repeats: 3,
-            approaches: vec![1.0, -1.0],
+            approaches: Approach::ALL.to_vec(),
             delta_t: Spread::Normal(0.1),
             elapsed: Spread::Even(self.waits_s),
             anew: false,

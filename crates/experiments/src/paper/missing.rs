@@ -83,7 +83,7 @@ fn finding(
         readings: [readings.observations.len(), held_out.observations.len()],
         verdict: diagnosis.verdict,
         added: diagnosis.added,
-        candidates: best.map(|c| (c.term.clone(), c.probability)).collect(),
+        candidates: best.map(|c| (c.term.to_string(), c.probability)).collect(),
         steps,
     })
 }

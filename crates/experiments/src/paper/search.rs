@@ -6,7 +6,7 @@
 use hexbench_core::{Hexapod, Measurand, Pose, Vector6};
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space::{Conditions, Loading};
-use hexbench_design::{Budget, Criterion, Problem, Space};
+use hexbench_design::{Budget, Objective, Problem, Space};
 use hexbench_model::error::ModelError;
 use hexbench_model::kinematics::leg_lengths;
 use hexbench_model::observability::Observability;
@@ -77,7 +77,7 @@ pub fn best_poses(hexapod: &Hexapod, stroke: f64, starts: u32, seed: u32) -> Res
         hexapod,
         space: &space,
         regressor: &SpringRegressor::new(hexapod, &space.settings(), 1, Weights::UNWEIGHTED),
-        criterion: &Criterion::O1,
+        criterion: &Objective::O1,
         poses: POSES,
         known: None,
     };

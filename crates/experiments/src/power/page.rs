@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use hexbench_design::power::{Effect, NOTHING, Verdict};
 use hexbench_model::noise::NoiseSource;
+use hexbench_model::untestable::Reason;
 use hexbench_report::Page;
 use hexbench_report::number::significant;
 
@@ -286,10 +287,11 @@ fn why_never(e: &Effect) -> Option<String> {
     }
 }
 
-fn untestable(why: &str) -> String {
-    if why.contains("absolute poses (") {
+fn untestable(why: &Reason) -> String {
+    if *why == Reason::OnlyAbsolutePoses {
         return "Cannot be tested with deflections, only with absolute poses".to_owned();
     }
+    let why = why.to_string();
     let mut letters = why.chars();
     let first = letters.next().map(char::to_uppercase).into_iter().flatten();
     first.chain(letters).collect()

@@ -1,7 +1,7 @@
 //! What a study varies.
 
 use hexbench_core::Hexapod;
-use hexbench_design::Space;
+use hexbench_design::{Criterion, Space};
 use hexbench_truth::campaign::{PlanKind, Row};
 use hexbench_truth::metrology::Noise;
 
@@ -35,9 +35,6 @@ impl Geometry {
     }
 }
 
-/// Names of criteria a plan may be designed for.
-pub const CRITERIA: [&str; 9] = ["O1", "O2", "O3", "O4", "O5", "D", "A", "E", "I"];
-
 /// Which readings are taken.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanChoice {
@@ -52,8 +49,8 @@ pub struct PlanChoice {
 pub enum PlanSource {
     /// A make of `hexbench_truth::campaign`.
     Make(PlanKind),
-    /// Poses that are best by a criterion, one of [`CRITERIA`].
-    Designed(&'static str),
+    /// Poses that are best by a criterion.
+    Designed(Criterion),
     /// Poses drawn evenly from the space.
     Random,
     /// Rows of a table or scene.

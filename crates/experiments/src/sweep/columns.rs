@@ -1,7 +1,7 @@
 //! Results of a trial: names, units, meaning.
 
+use hexbench_model::explanation::Explanation;
 use hexbench_model::terms::catalogue;
-use hexbench_model::verdict::{NONE, OUTSIDE};
 
 use crate::sweep::study::Task;
 
@@ -112,7 +112,7 @@ pub const OUTCOMES: [&str; 3] = ["right", "honest", "wrong"];
 /// What can be named first.
 pub fn names() -> Vec<String> {
     let terms = catalogue().iter().map(|t| t.info().id.to_owned()).collect::<Vec<_>>();
-    terms.into_iter().chain([OUTSIDE.to_owned(), NONE.to_owned()]).collect()
+    terms.into_iter().chain(Explanation::SPECIAL.map(String::from)).collect()
 }
 
 fn diagnose() -> Vec<Column> {

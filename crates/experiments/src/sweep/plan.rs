@@ -1,7 +1,7 @@
 //! The readings of a cell on a drawn machine.
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Hexapod, Measurand, Pose, Wrench};
+use hexbench_core::{Approach, Hexapod, Measurand, Pose, Wrench};
 use hexbench_design::nominal;
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space::{Conditions, Loading};
@@ -55,7 +55,7 @@ pub fn random_pose(space: &Space, hexapod: &Hexapod, rng: &mut Pcg64) -> Option<
 /// # Errors
 /// As [`Problem::search`].
 pub fn designed_poses(
-    criterion: &str,
+    criterion: Criterion,
     poses: u64,
     hexapod: &Hexapod,
     space: &Space,
@@ -69,17 +69,7 @@ pub fn designed_poses(
         compliance: nominal::compliance(hexapod).into(),
     };
     let regressor = SpringRegressor::new(hexapod, &space.settings(), 1, weights);
-    let criterion = match criterion {
-        "O2" => Criterion::O2,
-        "O3" => Criterion::O3,
-        "O4" => Criterion::O4,
-        "O5" => Criterion::O5,
-        "D" => Criterion::D,
-        "A" => Criterion::A,
-        "E" => Criterion::E,
-        "I" => Criterion::mean_prediction(hexapod, space, &regressor)?,
-        _ => Criterion::O1,
-    };
+    let criterion = criterion.objective(hexapod, space, &regressor)?;
     let poses = usize::try_from(poses).unwrap_or(usize::MAX);
     let problem =
         Problem { hexapod, space, regressor: &regressor, criterion: &criterion, poses, known: None };
@@ -156,7 +146,7 @@ fn of_space(space: &Space, poses: Vec<Pose>, repeats: u64) -> Scheme {
         loads: space.loads.iter().map(|l| l.load).collect(),
         reference: space.loads.first().map(|l| l.reference).unwrap_or_default(),
         repeats,
-        approaches: vec![1.0, -1.0],
+        approaches: Approach::ALL.to_vec(),
         delta_t: Spread::Normal(0.3),
         elapsed: Spread::Even([5.0, 300.0]),
         anew: false,

@@ -9,12 +9,13 @@ use serde::Serialize;
 
 use super::Judged;
 use crate::absorption::{Absorption, bias_percent};
-use crate::candidates::{sizes, why_untestable};
+use crate::candidates::sizes;
 use crate::evidence::WIDEST;
 use crate::fit::natural;
 use crate::power::{FALSE_ALARM, POWER, noncentrality};
 use crate::term::Term;
 use crate::terms::catalogue;
+use crate::untestable::why_untestable;
 
 /// Biases below this are not worth telling, percent.
 const WORTH_TELLING: f64 = 0.5;

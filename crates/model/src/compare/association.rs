@@ -77,7 +77,7 @@ impl Follows {
             Self::Length => c.extension[leg],
             Self::Elapsed => c.elapsed,
             Self::DeltaT => c.delta_t,
-            Self::Approach => c.approach,
+            Self::Approach => c.approach.sign(),
             Self::Pose(k) => c.pose.to_array()[k],
         }
     }

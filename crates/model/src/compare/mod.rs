@@ -24,6 +24,7 @@ use crate::error::ModelError;
 use crate::fit::{Fit, columns, fit_baseline};
 use crate::linearization::{Linearization, Point};
 use crate::model_file::Model;
+use crate::noise::NoiseSource;
 use crate::residuals::{ErrorSummary, Residual, prediction_errors, residuals, summarise};
 use crate::selection::same_kind;
 
@@ -50,7 +51,7 @@ pub struct Comparison {
     /// Distinct poses, loads and states among them.
     pub conditions: usize,
     /// Where the noise level comes from.
-    pub noise_source: &'static str,
+    pub noise_source: NoiseSource,
     /// Error over all readings.
     pub error: ErrorSummary,
     /// Error on held-out readings.
@@ -179,7 +180,7 @@ fn report(judged: &Judged<'_>, holdout: Option<ErrorSummary>) -> Comparison {
         fitted_here: judged.rank > 0.0,
         readings: judged.rows.len(),
         conditions: judged.lin.conditions.len(),
-        noise_source: judged.campaign.noise.source.word(),
+        noise_source: judged.campaign.noise.source,
         error: summarise(&judged.rows, Some(dof)),
         holdout,
         coordinates: coordinates(judged),

@@ -8,6 +8,7 @@ use crate::campaign::Campaign;
 use crate::candidates::Kind;
 use crate::diagnosis::{Outcome, wanted};
 use crate::error::ModelError;
+use crate::explanation::Explanation;
 use crate::fit::{Fit, Wanted, average_over_shapes, fit};
 use crate::linearization::Linearization;
 use crate::next::{Effort, Rival, menu, propose};
@@ -87,8 +88,8 @@ impl Context<'_> {
             let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
             if fit(self.campaign, &terms, Some(start)).is_ok_and(|f| survives(&f, SURVIVAL_CHANCE)) {
                 for id in terms.iter().map(|w| w.term.info().id) {
-                    if !judgement.credible.iter().any(|c| c == id) {
-                        judgement.credible.push(id.to_owned());
+                    if !judgement.credible.iter().any(|c| c.is_term(id)) {
+                        judgement.credible.push(Explanation::Term(id.to_owned()));
                     }
                 }
             }
@@ -156,8 +157,9 @@ impl Context<'_> {
             }
         }
         let known: Vec<String> = all.iter().map(|a| a.term.clone()).collect();
-        let rest = judgement.first.iter().filter(|(id, p)| *p > 0.01 && !known.contains(id));
-        for (id, _) in rest.take(CANDIDATES_FITTED) {
+        let likely = judgement.first.iter().filter(|(_, p)| *p > 0.01).map(|(e, _)| e);
+        let rest = likely.filter(|e| !known.iter().any(|id| e.is_term(id)));
+        for id in rest.take(CANDIDATES_FITTED).filter_map(Explanation::term) {
             let single =
                 |s: &&Set| s.members.len() == 1 && self.outcome.candidates[s.members[0]].id() == Some(id);
             let Some(set) = self.outcome.sets.sets.iter().find(single) else { continue };

@@ -12,16 +12,17 @@ use hexbench_core::{Dataset, Hexapod};
 
 use self::averaged::averaged_springs;
 use self::context::Context;
-use self::notes::{outside, suspects, untestable, warnings};
+use self::notes::{outside, suspects, warnings};
 pub use self::report::{
     AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, SeparationReport,
-    StepReport, Suspect, UntestableReport,
+    StepReport, Suspect,
 };
 use crate::campaign::Campaign;
 use crate::candidates::Candidate;
 use crate::diagnosis::{Outcome, explain, wanted};
 use crate::error::ModelError;
 use crate::estimate::estimates_with;
+use crate::explanation::Explanation;
 use crate::fit::{Fit, Wanted, fit};
 use crate::linearization::Linearization;
 use crate::noise::{Noise, NoiseSource};
@@ -93,15 +94,15 @@ pub fn diagnose(
         present: judgement.present.clone(),
         credible_set: judgement.credible.clone(),
         steps,
-        holdout: if holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn }.word(),
+        holdout: if holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn },
         noise: NoiseReport {
             translation_um: campaign.noise.translation * 1e6,
             rotation_urad: campaign.noise.rotation * 1e6,
-            source: campaign.noise.source.word(),
+            source: campaign.noise.source,
         },
         parameters: numbers.determined,
         not_determined: numbers.not_determined,
-        untestable: untestable(&outcome),
+        untestable: outcome.untestable.clone(),
         detectable: detectable(
             &outcome.gram,
             &outcome.candidates,
@@ -174,20 +175,20 @@ fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport])
 }
 
 fn candidates(judgement: &Judgement, outcome: &Outcome) -> Vec<CandidateReport> {
-    let report = |(term, probability): &(String, f64)| CandidateReport {
+    let report = |(term, probability): &(Explanation, f64)| CandidateReport {
         term: term.clone(),
         // A sum of shares may pass one by its rounding.
         probability: probability.min(1.0),
-        indistinguishable: look_alikes(term, outcome),
+        indistinguishable: term.term().map_or(Vec::new(), |id| look_alikes(id, outcome)),
     };
     let mut reports: Vec<CandidateReport> = judgement.first.iter().map(report).collect();
     // Looking alike has no direction: what imitates is imitated.
     for k in 0..reports.len() {
+        let Some(name) = reports[k].term.term().map(str::to_owned) else { continue };
         for other in reports[k].indistinguishable.clone() {
-            let name = reports[k].term.clone();
-            let twin = reports.iter_mut().find(|r| r.term == other);
+            let twin = reports.iter_mut().find(|r| r.term.is_term(&other));
             if let Some(twin) = twin.filter(|t| !t.indistinguishable.contains(&name)) {
-                twin.indistinguishable.push(name);
+                twin.indistinguishable.push(name.clone());
             }
         }
     }

@@ -1,8 +1,8 @@
 //! The proposed readings as people and programs receive them.
 
 use super::report::{NextReport, SeparationReport};
+use crate::explanation::Explanation;
 use crate::next::{Between, Outlook, Programme, Proposal, Rival};
-use crate::verdict::NONE;
 
 /// Pairs told.
 const MOST_PAIRS: usize = 3;
@@ -58,6 +58,6 @@ fn names(rivals: &[Rival], [a, b]: Between) -> [String; 2] {
     [(a, b), (b, a)].map(|(own, other)| {
         let own = rivals[own].terms.iter().filter(|id| !rivals[other].terms.contains(id));
         let names: Vec<&str> = own.map(String::as_str).collect();
-        if names.is_empty() { NONE.to_owned() } else { names.join(" + ") }
+        if names.is_empty() { Explanation::Nothing.into() } else { names.join(" + ") }
     })
 }

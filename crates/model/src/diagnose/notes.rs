@@ -3,9 +3,9 @@
 use hexbench_core::Dataset;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::report::{OutsideReport, Suspect, UntestableReport};
+use super::report::{OutsideReport, Suspect};
 use crate::campaign::Campaign;
-use crate::candidates::{Kind, Untestable};
+use crate::candidates::Kind;
 use crate::diagnosis::Outcome;
 use crate::fit::Fit;
 use crate::noise::{NoiseSource, scatter};
@@ -17,11 +17,6 @@ use crate::verdict::{Judgement, Verdict};
 const SUSPECT_CHANCE: f64 = 0.01;
 /// Chance that repeats contradict a true noise statement.
 const CONTRADICTION_CHANCE: f64 = 1e-4;
-
-pub(super) fn untestable(outcome: &Outcome) -> Vec<UntestableReport> {
-    let report = |u: &Untestable| UntestableReport { term: u.term.to_owned(), why: u.why.clone() };
-    outcome.untestable.iter().map(report).collect()
-}
 
 /// Readings whose chi-square over six coordinates is beyond chance for a file of this size.
 pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<Suspect> {

@@ -1,12 +1,17 @@
 //! The diagnosis as people and programs receive it; field by field the contract of `diagnosis.json`.
 
+use hexbench_core::Approach;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
 use crate::estimate::Estimate;
+use crate::explanation::Explanation;
+use crate::noise::NoiseSource;
 use crate::power::Detectable;
 use crate::residuals::ErrorSummary;
+use crate::selection::HeldOut;
+use crate::untestable::Untestable;
 use crate::verdict::Verdict;
 
 /// Result of `diagnose`.
@@ -28,11 +33,13 @@ pub struct Diagnosis {
     /// Probability that an effect is present at all, alone or beside others.
     pub present: BTreeMap<String, f64>,
     /// Smallest set of effects that holds 95 % of the probability.
-    pub credible_set: Vec<String>,
+    #[cfg_attr(feature = "typescript", ts(as = "Vec<String>"))]
+    pub credible_set: Vec<Explanation>,
     /// Error per step of the model, springs alone first.
     pub steps: Vec<StepReport>,
     /// How the held-out error was obtained.
-    pub holdout: &'static str,
+    #[cfg_attr(feature = "typescript", ts(as = "String"))]
+    pub holdout: HeldOut,
     /// The noise level used.
     pub noise: NoiseReport,
     /// Numbers of the fitted model.
@@ -40,7 +47,7 @@ pub struct Diagnosis {
     /// Names of parameters that the data do not determine.
     pub not_determined: Vec<String>,
     /// Terms that the file cannot test.
-    pub untestable: Vec<UntestableReport>,
+    pub untestable: Vec<Untestable>,
     /// Smallest sizes this campaign would show.
     pub detectable: Vec<Detectable>,
     /// Readings that would separate the rivals.
@@ -62,7 +69,8 @@ pub struct Diagnosis {
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct CandidateReport {
     /// Id of the term, `outside` or `none`.
-    pub term: String,
+    #[cfg_attr(feature = "typescript", ts(as = "String"))]
+    pub term: Explanation,
     /// Probability as the first addition.
     pub probability: f64,
     /// Terms whose signature is the same in these data.
@@ -94,17 +102,8 @@ pub struct NoiseReport {
     /// Of a rotation, urad.
     pub rotation_urad: f64,
     /// Where it comes from.
-    pub source: &'static str,
-}
-
-/// A term that cannot be tested.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
-pub struct UntestableReport {
-    /// Its id.
-    pub term: String,
-    /// The reason.
-    pub why: String,
+    #[cfg_attr(feature = "typescript", ts(as = "String"))]
+    pub source: NoiseSource,
 }
 
 /// A proposed reading.
@@ -118,7 +117,8 @@ pub struct NextReport {
     /// Reference wrench, same units.
     pub reference: [f64; 6],
     /// +1 or -1.
-    pub approach: f64,
+    #[cfg_attr(feature = "typescript", ts(as = "f64"))]
+    pub approach: Approach,
     /// Wait before the loaded reading, s.
     pub elapsed_s: f64,
     /// Temperature of the structure against the reference reading, K.

@@ -5,7 +5,7 @@
 //! and moments along every axis, none so large that a leg carries more than it has carried. Both ways to approach, waits (longer
 //! ones too) and temperatures vary where one of the explanations depends on them.
 
-use hexbench_core::{Hexapod, Measurand, Observation, Pose, Vector6, Wrench};
+use hexbench_core::{Approach, Hexapod, Measurand, Observation, Pose, Vector6, Wrench};
 use sobol_burley::sample;
 
 use super::kind::{round_down, snapped, step};
@@ -100,7 +100,7 @@ impl Needs {
 
     /// Approach, wait (s) and temperature (K): the usual state and, where it matters, the ends of the campaign's range and beyond the
     /// longest wait.
-    fn states(&self, campaign: &Campaign) -> Vec<(f64, f64, f64)> {
+    fn states(&self, campaign: &Campaign) -> Vec<(Approach, f64, f64)> {
         let rows = || campaign.groups.iter().map(|g| &g.mean);
         let mut waits: Vec<f64> = rows().map(|r| r.elapsed).collect();
         waits.sort_by(f64::total_cmp);
@@ -109,7 +109,7 @@ impl Needs {
         let coldest = rows().map(|r| r.delta_t).fold(0.0, f64::min);
         let warmest = rows().map(|r| r.delta_t).fold(0.0, f64::max);
         let temperatures = if self.delta_t { vec![0.0, coldest, warmest] } else { vec![0.0] };
-        let approaches: &[f64] = if self.approach { &[1.0, -1.0] } else { &[1.0] };
+        let approaches: &[Approach] = if self.approach { &Approach::ALL } else { &[Approach::Direct] };
         let mut states = Vec::new();
         for &approach in approaches {
             for &wait in &waits {
@@ -117,7 +117,7 @@ impl Needs {
                     .extend(temperatures.iter().map(|&t| (approach, round_down(wait, 2), round_down(t, 1))));
             }
         }
-        states.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+        states.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
         states.dedup();
         states
     }

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use super::Rival;
 use crate::campaign::Campaign;
-use crate::candidates::{sizes, why_untestable};
+use crate::candidates::sizes;
 use crate::diagnosis::{Outcome, explain, wanted};
 use crate::error::ModelError;
 use crate::fit::{Wanted, fit};
 use crate::term::Term;
+use crate::untestable::why_untestable;
 
 /// Suspected explanations and how the data in hand judge them.
 pub struct Suspects {

@@ -1,7 +1,7 @@
 //! What sort of reading it is, in words: only what matters is said. An aspect matters when the reading separates much less
 //! without it.
 
-use hexbench_core::{Hexapod, Observation, Pose, Vector3, Vector6};
+use hexbench_core::{Approach, Hexapod, Observation, Pose, Vector3, Vector6};
 
 use crate::campaign::Campaign;
 use crate::kinematics::Legs;
@@ -65,7 +65,7 @@ impl Ordinary {
             Aspect::Load => Observation { wrench: self.load.wrench, reference: self.load.reference, ..*o },
             Aspect::Position => Observation { pose: Pose { translation: Vector3::zeros(), ..pose }, ..*o },
             Aspect::Tilt => Observation { pose: Pose { angles: Vector3::zeros(), ..pose }, ..*o },
-            Aspect::Approach => Observation { approach: 1.0, ..*o },
+            Aspect::Approach => Observation { approach: Approach::Direct, ..*o },
             Aspect::Wait => Observation { elapsed: self.other_wait(o.elapsed), ..*o },
             Aspect::Temperature => Observation { delta_t: 0.0, ..*o },
         };

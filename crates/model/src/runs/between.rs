@@ -7,6 +7,7 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor, Normal};
 
 use super::saved::{Origin, Run};
 use crate::estimate::Estimate;
+use crate::explanation::Explanation;
 use crate::residuals::ErrorSummary;
 
 /// Chance that noise marks anything in a list.
@@ -95,7 +96,7 @@ pub struct Runs {
     /// The second result.
     pub b: Run,
     /// Effects, something outside and nothing: probability in the first and in the second, zero where it is not listed.
-    pub probabilities: Vec<(String, [f64; 2])>,
+    pub probabilities: Vec<(Explanation, [f64; 2])>,
     /// Error on held-out readings, else on fitted ones; absent when only one of the two has a holdout file.
     pub error: Option<ErrorChange>,
     /// True when the noise is another one.
@@ -176,7 +177,11 @@ fn warnings(a: &Run, b: &Run) -> Vec<String> {
         all.extend(differences(of_a, of_b).map(str::to_owned));
     }
     if a.noise_source != b.noise_source {
-        all.push(format!("The noise comes from elsewhere: {} and {}.", a.noise_source, b.noise_source));
+        all.push(format!(
+            "The noise comes from elsewhere: {} and {}.",
+            a.noise_source.word(),
+            b.noise_source.word()
+        ));
     }
     all
 }
@@ -198,10 +203,10 @@ fn differences(a: &Origin, b: &Origin) -> impl Iterator<Item = &'static str> {
     .filter_map(|(holds, text)| holds.then_some(text))
 }
 
-fn probabilities(a: &Run, b: &Run) -> Vec<(String, [f64; 2])> {
-    let names: BTreeSet<&String> = a.probabilities.keys().chain(b.probabilities.keys()).collect();
-    let of = |run: &Run, name: &String| run.probabilities.get(name).copied().unwrap_or(0.0);
-    let mut all: Vec<(String, [f64; 2])> =
+fn probabilities(a: &Run, b: &Run) -> Vec<(Explanation, [f64; 2])> {
+    let names: BTreeSet<&Explanation> = a.probabilities.keys().chain(b.probabilities.keys()).collect();
+    let of = |run: &Run, name: &Explanation| run.probabilities.get(name).copied().unwrap_or(0.0);
+    let mut all: Vec<(Explanation, [f64; 2])> =
         names.into_iter().map(|n| (n.clone(), [of(a, n), of(b, n)])).collect();
     let largest = |p: &[f64; 2]| p[0].max(p[1]);
     all.sort_by(|x, y| largest(&y.1).total_cmp(&largest(&x.1)).then(x.0.cmp(&y.0)));
@@ -263,6 +268,7 @@ fn parameter(a: Option<&Estimate>, b: Option<&Estimate>, limit: f64) -> Option<P
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::noise::NoiseSource;
     use crate::residuals::Rms;
 
     fn origin() -> Origin {
@@ -285,11 +291,11 @@ mod tests {
             format: "diagnosis/1".into(),
             verdict: None,
             added: Vec::new(),
-            probabilities: [("none".to_owned(), 1.0)].into(),
+            probabilities: [(Explanation::Nothing, 1.0)].into(),
             steps: vec![super::super::Step { terms: Vec::new(), fitted, holdout: None }],
             noise_translation_um: 0.5,
             noise_rotation_urad: 3.0,
-            noise_source: "metrology".into(),
+            noise_source: NoiseSource::Metrology,
             parameters: vec![Estimate { name: "leg-1.stiffness".into(), value: stiffness, std: 0.03, unit }],
             origin: Some(origin()),
         }

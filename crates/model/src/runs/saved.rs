@@ -6,6 +6,8 @@ use hexbench_core::{Dataset, Hexapod};
 use serde::{Deserialize, Serialize};
 
 use crate::estimate::Estimate;
+use crate::explanation::Explanation;
+use crate::noise::NoiseSource;
 use crate::residuals::ErrorSummary;
 use crate::verdict::Verdict;
 
@@ -81,7 +83,7 @@ pub struct SavedDiagnosis {
 
 #[derive(Debug, Clone, Deserialize)]
 struct SavedCandidate {
-    term: String,
+    term: Explanation,
     probability: f64,
 }
 
@@ -97,14 +99,14 @@ struct SavedStep {
 struct SavedNoise {
     translation_um: f64,
     rotation_urad: f64,
-    source: String,
+    source: NoiseSource,
 }
 
 /// A comparison, as far as it is compared with another one.
 #[derive(Debug, Clone, Deserialize)]
 pub struct SavedComparison {
     terms: Vec<String>,
-    noise_source: String,
+    noise_source: NoiseSource,
     error: ErrorSummary,
     holdout: Option<ErrorSummary>,
     coordinates: Vec<SavedCoordinate>,
@@ -146,7 +148,7 @@ pub struct Run {
     /// Terms named, or terms of the model compared.
     pub added: Vec<String>,
     /// Probability that an effect is at work, of `outside` and of `none`.
-    pub probabilities: BTreeMap<String, f64>,
+    pub probabilities: BTreeMap<Explanation, f64>,
     /// Errors, the springs alone first.
     pub steps: Vec<Step>,
     /// Noise of one translation, um.
@@ -154,7 +156,7 @@ pub struct Run {
     /// Noise of one rotation, urad.
     pub noise_rotation_urad: f64,
     /// Where the noise comes from.
-    pub noise_source: String,
+    pub noise_source: NoiseSource,
     /// Numbers of the final model.
     pub parameters: Vec<Estimate>,
     /// Absent in files of versions that did not write it.
@@ -164,16 +166,17 @@ pub struct Run {
 impl Run {
     /// Of a diagnosis.
     pub fn of_diagnosis(file: &str, d: SavedDiagnosis) -> Self {
-        // `outside` and `none` are candidates, not effects.
-        let special = d.candidates.into_iter().filter(|c| c.term == "outside" || c.term == "none");
+        // They are candidates, not effects.
+        let special = d.candidates.into_iter().filter(|c| c.term.term().is_none());
         let special = special.map(|c| (c.term, c.probability));
+        let present = d.present.into_iter().map(|(id, p)| (Explanation::Term(id), p));
         let step = |s: SavedStep| Step { terms: s.terms, fitted: s.fitted, holdout: s.holdout };
         Self {
             file: file.to_owned(),
             format: FORMATS[0].to_owned(),
             verdict: Some(d.verdict),
             added: d.added,
-            probabilities: d.present.into_iter().chain(special).collect(),
+            probabilities: present.chain(special).collect(),
             steps: d.steps.into_iter().map(step).collect(),
             noise_translation_um: d.noise.translation_um,
             noise_rotation_urad: d.noise.rotation_urad,

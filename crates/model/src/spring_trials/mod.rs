@@ -183,7 +183,7 @@ fn normal(rng: &mut Pcg64) -> f64x4 {
 
 #[cfg(test)]
 mod tests {
-    use hexbench_core::{Pose, Wrench};
+    use hexbench_core::{Approach, Pose, Wrench};
     use nalgebra::DMatrix;
 
     use super::*;
@@ -202,7 +202,7 @@ mod tests {
             pose: Pose::from_array([a * 1e-3, b * 1e-3, c * 1e-3, 0.0, 0.0, gamma * 0.017]),
             wrench: Wrench::from_array([0.0, 0.0, -338.0, 0.0, 0.0, 0.0]),
             reference: Wrench::from_array([0.0, 0.0, -120.0, 0.0, 0.0, 0.0]),
-            approach: 1.0,
+            approach: Approach::Direct,
             delta_t: 0.0,
             elapsed: 0.0,
             measured: [0.0; 6],

@@ -37,6 +37,10 @@ impl Term for TargetOffset {
         true
     }
 
+    fn is_part_of_target_frame(&self) -> bool {
+        true
+    }
+
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         for k in 0..3 {
             let lever: Vector3 = at.pose.rotation().column(k).into_owned();

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::UserTermError;
+use crate::explanation::Explanation;
 use crate::formula::is_reserved;
 use crate::term::{Parameter, Scale, Shape};
 use crate::{intern, terms};
@@ -177,7 +178,8 @@ fn check_id(id: &str) -> Result<(), UserTermError> {
             format!("`{id}` must be kebab-case: lower-case letters, digits and single hyphens, at most 40");
         return Err(UserTermError::rule("id", why));
     }
-    let taken = terms::catalogue().iter().any(|t| t.info().id == id) || ["outside", "none"].contains(&id);
+    let taken =
+        terms::catalogue().iter().any(|t| t.info().id == id) || Explanation::from(id).term().is_none();
     if taken {
         let why = format!("`{id}` is a name of the catalogue; choose another");
         return Err(UserTermError::rule("id", why));

@@ -36,7 +36,7 @@ pub(super) fn meaning(variable: &str) -> [&'static str; 2] {
 
 /// Values of [`OF_READING`] at a condition, SI.
 pub(super) fn of_reading(at: &Condition) -> Vec<f64> {
-    let mut values = vec![at.approach, at.delta_t, at.elapsed];
+    let mut values = vec![at.approach.sign(), at.delta_t, at.elapsed];
     values.extend(at.pose.to_array());
     values.extend(at.wrench.to_array());
     values.extend(at.reference.to_array());

@@ -115,7 +115,7 @@ fn a_formula_without_value_at_a_reading_names_line_and_variables() {
     let campaign = prepare(&hexapod, &data).unwrap();
     let point = hexbench_model::fit::fit_baseline(&campaign).unwrap().point;
     let lin = hexbench_model::linearization::Linearization::at(&campaign, &point).unwrap();
-    let why = hexbench_model::candidates::why_untestable(term.as_ref(), &campaign, &lin).unwrap();
+    let why = hexbench_model::untestable::why_untestable(term.as_ref(), &campaign, &lin).unwrap().to_string();
     assert!(
         why.starts_with("line 2: `size*df/(elapsed - 76.907)` gives") && why.contains("elapsed = 76.907"),
         "{why}"

@@ -1,6 +1,7 @@
 //! Charts that several sections share.
 
 use crate::plot::{Axis, Chart, Panels, Series};
+use hexbench_core::Approach;
 
 /// Look of what was measured, of the first model, and of the final one: the same on the whole page.
 pub(crate) const MEASURED: usize = 6;
@@ -28,7 +29,7 @@ pub(crate) struct Dot {
     pub(crate) left: f64,
     pub(crate) explained: Option<f64>,
     /// Direction of the load: a curve may have a branch for each.
-    pub(crate) approach: f64,
+    pub(crate) approach: Approach,
 }
 
 /// What explains the residuals of a page.
@@ -60,8 +61,8 @@ pub(crate) fn cloud([leaves, explain]: [&str; 2], dots: &[Dot], x: Axis, y: Axis
 
 /// What is explained, for each direction of the load.
 fn branches(dots: &[Dot]) -> [Vec<[f64; 2]>; 2] {
-    [1.0, -1.0].map(|side| {
-        let on = |d: &Dot| (d.approach * side > 0.0).then_some([d.x, d.explained?]);
+    Approach::ALL.map(|side| {
+        let on = |d: &Dot| (d.approach == side).then_some([d.x, d.explained?]);
         dots.iter().filter_map(on).collect()
     })
 }

@@ -3,6 +3,7 @@
 use crate::number::significant;
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Series};
+use hexbench_core::Approach;
 use hexbench_model::compare::periodogram::{Peak, Spectra, Spectrum};
 
 use super::ReportError;
@@ -103,5 +104,5 @@ fn dot(shown: &Shown<'_>, leg: usize, compliance: bool, period: f64) -> Dot {
     let per = if compliance { 1e-3 * shown.at.force_change()[leg] } else { 1.0 };
     let x = (1e3 * shown.at.commanded_lengths[leg]).rem_euclid(period);
     let explained = shown.explained.map(|e| e[leg] / per);
-    Dot { x, left: shown.left[leg] / per, explained, approach: 1.0 }
+    Dot { x, left: shown.left[leg] / per, explained, approach: Approach::Direct }
 }

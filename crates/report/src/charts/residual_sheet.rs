@@ -50,7 +50,7 @@ const LEAST_TRAVEL: f64 = 0.05;
 const LOAD: [OfAll; 3] = [
     ("change of force", "N", |c| (c.wrench.force - c.reference.force).norm()),
     ("change of moment", "N m", |c| (c.wrench.moment - c.reference.moment).norm()),
-    ("approach", "", |c| c.approach),
+    ("approach", "", |c| c.approach.sign()),
 ];
 
 /// Per leg over force, length, time and temperature; all legs over pose, load and approach: as far as they vary.

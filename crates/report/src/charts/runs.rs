@@ -19,7 +19,7 @@ const SEEN: f64 = 0.05;
 /// [`ReportError`] when a chart cannot be made.
 pub fn runs(runs: &Runs, from: &Provenance) -> Result<Page, ReportError> {
     let mut page =
-        words::runs(runs).with_after("ladder", stiffness(runs)?).with(from.section(&runs.a.noise_source));
+        words::runs(runs).with_after("ladder", stiffness(runs)?).with(from.section(runs.a.noise_source));
     for (id, chart) in [("ladder", Some(errors(runs)?)), ("parameters", differences(runs)?)] {
         if let (Some(section), Some(chart)) = (page.section_mut(id), chart) {
             section.blocks.push(chart);

@@ -101,7 +101,10 @@ fn coordinates(c: &Comparison) -> Section {
             .chain([x.unit.into(), Cell::bar(ratio(x) / largest)])
     };
     Section::new("Coordinates")
-        .remark(format!("root mean square beside the noise ({}); bias with its t test", c.noise_source))
+        .remark(format!(
+            "root mean square beside the noise ({}); bias with its t test",
+            c.noise_source.word()
+        ))
         .table(Table::new(columns).rows(c.coordinates.iter().map(row)))
 }
 

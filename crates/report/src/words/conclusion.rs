@@ -1,6 +1,7 @@
 //! The verdict in a sentence or two.
 
 use hexbench_model::diagnose::{Diagnosis, StepReport};
+use hexbench_model::explanation::Explanation;
 use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::Verdict;
 use hexbench_model::words::joined_with;
@@ -71,8 +72,8 @@ pub fn error_statement(steps: &[StepReport]) -> String {
 }
 
 fn ambiguous(d: &Diagnosis) -> Vec<String> {
-    let open: Vec<&String> = d.credible_set.iter().filter(|id| !d.added.contains(id)).collect();
-    let named: Vec<&str> = open.iter().map(|id| in_words(id)).collect();
+    let open = d.credible_set.iter().filter(|e| !d.added.iter().any(|id| e.is_term(id)));
+    let named: Vec<&str> = open.map(in_words).collect();
     let sure = (!d.added.is_empty()).then(|| lacks(&d.added));
     let undecided = match (named.len(), d.added.is_empty()) {
         (0, _) => "The data do not settle what is missing.".to_owned(),
@@ -87,11 +88,11 @@ fn ambiguous(d: &Diagnosis) -> Vec<String> {
 }
 
 /// A credible explanation in words.
-pub fn in_words(id: &str) -> &str {
-    match id {
-        "none" => "nothing beyond the springs",
-        "outside" => "something outside the catalogue",
-        id => id,
+pub fn in_words(explanation: &Explanation) -> &str {
+    match explanation {
+        Explanation::Nothing => "nothing beyond the springs",
+        Explanation::Outside => "something outside the catalogue",
+        Explanation::Term(id) => id,
     }
 }
 

@@ -1,7 +1,8 @@
 //! How sure: probabilities, and what looks alike.
 
 use hexbench_model::diagnose::{CandidateReport, Diagnosis};
-use hexbench_model::verdict::{NONE, OUTSIDE, Verdict};
+use hexbench_model::explanation::Explanation;
+use hexbench_model::verdict::Verdict;
 use hexbench_model::words::joined;
 
 use super::conclusion::in_words;
@@ -23,10 +24,11 @@ const BESIDE_OUTSIDE: &str = "Beside something without a name the other rows say
 pub fn section(d: &Diagnosis) -> Section {
     let all = probabilities(d);
     let shown = all.iter().take_while(|(_, p)| *p >= WORTH_A_ROW).count().max(1).min(all.len());
-    let row = |(id, p): &(String, f64)| [Cell::from(in_words(id)), percent(*p).into(), Cell::bar(*p)];
+    let row = |(e, p): &(Explanation, f64)| [Cell::from(in_words(e)), percent(*p).into(), Cell::bar(*p)];
     let columns = [Column::words("effect"), Column::number("probability"), Column::bars()];
     let table = Table::new(columns).rows(all[..shown].iter().map(row)).brief(BRIEF);
-    let beside = d.verdict == Verdict::Outside && all[..shown].iter().any(|(id, _)| id != OUTSIDE);
+    let beside =
+        d.verdict == Verdict::Outside && all[..shown].iter().any(|(e, _)| *e != Explanation::Outside);
     Section::new("How sure")
         .id("confidence")
         .remark("probability that each is at work, alone or with others")
@@ -37,10 +39,10 @@ pub fn section(d: &Diagnosis) -> Section {
 }
 
 /// Effects, something outside, and nothing at all, the most probable first.
-pub fn probabilities(d: &Diagnosis) -> Vec<(String, f64)> {
-    let mut all: Vec<(String, f64)> = d.present.iter().map(|(id, p)| (id.clone(), *p)).collect();
-    let special = d.candidates.iter().filter(|c| c.term == NONE || c.term == OUTSIDE);
-    all.extend(special.map(|c| (c.term.clone(), c.probability)));
+pub fn probabilities(d: &Diagnosis) -> Vec<(Explanation, f64)> {
+    let terms = d.present.iter().map(|(id, p)| (Explanation::Term(id.clone()), *p));
+    let special = d.candidates.iter().filter(|c| c.term.term().is_none());
+    let mut all: Vec<_> = terms.chain(special.map(|c| (c.term.clone(), c.probability))).collect();
     all.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     all
 }
@@ -54,7 +56,7 @@ fn look_alikes(d: &Diagnosis) -> Vec<String> {
         // Said of one, it is said of the other.
         if !candidate.indistinguishable.iter().all(|other| said.contains(&other.as_str())) {
             sentences.push(likeness(d, candidate));
-            said.push(&candidate.term);
+            said.extend(candidate.term.term());
         }
     }
     sentences
@@ -64,7 +66,7 @@ fn likeness(d: &Diagnosis, candidate: &CandidateReport) -> String {
     let others = joined(&candidate.indistinguishable);
     let (leave, explain) =
         if candidate.indistinguishable.len() == 1 { ("leaves", "explains") } else { ("leave", "explain") };
-    if d.added.contains(&candidate.term) {
+    if d.added.iter().any(|id| candidate.term.is_term(id)) {
         return format!(
             "In these data {others} {leave} nearly the same trace as {} (alike to 95 % or more), but {explain} the \
              readings less well.",

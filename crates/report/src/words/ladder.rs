@@ -2,6 +2,7 @@
 
 use hexbench_model::diagnose::{Diagnosis, StepReport};
 use hexbench_model::residuals::ErrorSummary;
+use hexbench_model::selection::HeldOut;
 
 use crate::number::{multiple, significant};
 use crate::page::{Cell, Column, Mood, Section, Table};
@@ -32,7 +33,7 @@ pub fn section(d: &Diagnosis) -> Section {
 pub fn how_held_out(d: &Diagnosis) -> &'static str {
     match d.steps.first().and_then(|s| s.holdout) {
         None => "on the fitted readings: too few poses to hold any out",
-        Some(_) if d.holdout == "holdout file" => "on held-out poses (root mean square, holdout file)",
+        Some(_) if d.holdout == HeldOut::File => "on held-out poses (root mean square, holdout file)",
         Some(_) => "on held-out poses (root mean square, each left out in turn)",
     }
 }

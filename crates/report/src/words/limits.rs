@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use hexbench_model::diagnose::Diagnosis;
 use hexbench_model::power::Detectable;
+use hexbench_model::untestable::Reason;
 
 use crate::number::significant;
 use crate::page::{Column, Section, Table};
@@ -13,12 +14,16 @@ const NO_BREAK: &str = "\u{a0}";
 
 /// Effects that the file cannot test, by reason.
 pub(super) fn untestable(d: &Diagnosis) -> Option<Section> {
-    let mut reasons: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    let mut reasons: BTreeMap<String, (&Reason, Vec<&str>)> = BTreeMap::new();
     for u in &d.untestable {
-        reasons.entry(&u.why).or_default().push(&u.term);
+        reasons.entry(u.why.to_string()).or_insert((&u.why, Vec::new())).1.push(u.term);
     }
-    let reason = |(why, terms): (&str, Vec<&str>)| {
-        let why = why.strip_prefix("it ").filter(|w| w.starts_with("needs")).unwrap_or(why);
+    let reason = |(sentence, (why, terms)): (String, (&Reason, Vec<&str>))| {
+        // The terms are the subject of what follows: no "it".
+        let why = match why {
+            Reason::OnlyAbsolutePoses => sentence.trim_start_matches("it "),
+            _ => &sentence,
+        };
         format!("{why}: {}", terms.join(", "))
     };
     Section::new("Could not be tested").id("untestable").list(reasons.into_iter().map(reason)).unless_empty()

@@ -1,9 +1,10 @@
 //! What to measure next when the answer is open.
 
-use hexbench_core::Observation;
+use hexbench_core::{Approach, Observation};
 use hexbench_model::diagnose::{Diagnosis, NextReport, SeparationReport};
+use hexbench_model::explanation::Explanation;
 use hexbench_model::terms::catalogue;
-use hexbench_model::verdict::{NONE, Verdict};
+use hexbench_model::verdict::Verdict;
 
 use super::conclusion::in_words;
 use crate::number::{percent, significant};
@@ -59,9 +60,9 @@ fn differ(a: &[f64; 6], b: &[f64; 6]) -> bool {
 
 /// `base-compliance from leg-coupling`; `creep or nothing more`, beside what both have.
 pub fn rivals(pair: &[String; 2], word: &str) -> String {
-    match pair.each_ref().map(String::as_str) {
-        [NONE, more] | [more, NONE] => format!("{more} {word} nothing more"),
-        [a, b] => format!("{} {word} {}", in_words(a), in_words(b)),
+    match pair.each_ref().map(|name| Explanation::from(name.as_str())) {
+        [Explanation::Nothing, more] | [more, Explanation::Nothing] => format!("{more} {word} nothing more"),
+        [a, b] => format!("{} {word} {}", in_words(&a), in_words(&b)),
     }
 }
 
@@ -90,11 +91,10 @@ pub fn load(w: &[f64; 6]) -> String {
 }
 
 /// How a reading is taken.
-pub fn way(approach: f64, elapsed_s: f64, delta_t_k: f64, repeats: usize) -> String {
-    let side = if approach < 0.0 {
-        "exceed the load by 40 % of its change and come back (approach -1)"
-    } else {
-        "load from below (approach +1)"
+pub fn way(approach: Approach, elapsed_s: f64, delta_t_k: f64, repeats: usize) -> String {
+    let side = match approach {
+        Approach::Direct => "load from below (approach +1)",
+        Approach::Overloaded => "exceed the load by 40 % of its change and come back (approach -1)",
     };
     let mut parts = vec![side.to_owned()];
     if elapsed_s > 0.0 {
@@ -144,7 +144,7 @@ fn promise(d: &Diagnosis) -> String {
 
 fn in_general(section: Section, d: &Diagnosis) -> Section {
     let terms = catalogue();
-    let open = terms.iter().map(|t| t.info()).filter(|i| d.credible_set.iter().any(|id| id == i.id));
+    let open = terms.iter().map(|t| t.info()).filter(|i| d.credible_set.iter().any(|e| e.is_term(i.id)));
     let entries = open.map(|info| Entry::new(info.id, info.breaker));
     section.remark("what shows each candidate").with(Block::entries(entries))
 }

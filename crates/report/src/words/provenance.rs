@@ -1,5 +1,7 @@
 //! What made a page.
 
+use hexbench_model::noise::NoiseSource;
+
 use crate::page::{Column, Section, Table};
 use crate::render::PROGRAM;
 
@@ -14,8 +16,8 @@ pub struct Provenance {
 
 impl Provenance {
     /// Program, command, noise, files.
-    pub fn section(&self, noise: &str) -> Section {
-        let head = [["program", PROGRAM], ["command", &self.command], ["noise", noise]];
+    pub fn section(&self, noise: NoiseSource) -> Section {
+        let head = [["program", PROGRAM], ["command", &self.command], ["noise", noise.word()]];
         let files = self.files.iter().map(|(file, digest)| [file.clone(), format!("SHA-256 {digest}")]);
         let table = Table::new([Column::words(""), Column::words("")]).rows(head).rows(files);
         Section::new("Where this comes from").id("provenance").table(table)

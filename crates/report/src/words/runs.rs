@@ -80,7 +80,7 @@ fn rungs(runs: &Runs) -> Vec<[String; 4]> {
             all.push([format!("{name}  {with}"), multiple(e.times_noise()), t, r]);
         }
         let (t, r) = (significant(run.noise_translation_um, 3), significant(run.noise_rotation_urad, 3));
-        all.push([format!("{name}  noise ({})", run.noise_source), multiple(1.0), t, r]);
+        all.push([format!("{name}  noise ({})", run.noise_source.word()), multiple(1.0), t, r]);
         all
     };
     of("A", &runs.a).into_iter().chain(of("B", &runs.b)).collect()

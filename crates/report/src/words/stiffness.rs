@@ -53,7 +53,7 @@ fn stiffness(d: &Diagnosis, leg: usize) -> Option<[String; 2]> {
 
 /// Effects of the model, and rivals when the answer is open.
 fn matters(d: &Diagnosis, report: &AbsorbedReport) -> bool {
-    let rival = d.verdict == Verdict::Ambiguous && d.credible_set.contains(&report.term);
+    let rival = d.verdict == Verdict::Ambiguous && d.credible_set.iter().any(|e| e.is_term(&report.term));
     rival || d.model.contains(&report.term)
 }
 

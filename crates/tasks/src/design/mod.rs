@@ -13,7 +13,7 @@ use hexbench_design::nominal;
 use hexbench_design::regressor::{ModelRegressor, SpringRegressor, Weights};
 use hexbench_design::space::Setting;
 use hexbench_design::space_file::read_space;
-use hexbench_design::{Space, Visit};
+use hexbench_design::{Criterion, Space, Visit};
 use hexbench_model::fit_named::term_named;
 use hexbench_model::noise::Noise;
 use hexbench_model::parameters::stiffness_name;
@@ -40,7 +40,7 @@ pub struct Wish {
     /// Poses to choose readings from.
     pub candidates: u16,
     /// What makes a plan good; O1 for poses, D for readings and hours unless said.
-    pub criterion: Option<Named>,
+    pub criterion: Option<Criterion>,
     /// Terms of the catalogue that the plan has to determine too.
     pub terms: Vec<String>,
     /// Searches from different starts; 128 for poses, 16 for readings and hours unless said.
@@ -63,44 +63,6 @@ impl Default for Wish {
             seed: 1,
         }
     }
-}
-
-/// Criteria by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Named {
-    /// Geometric mean of the singular values, as in the paper.
-    O1,
-    /// Inverse condition number.
-    O2,
-    /// Smallest singular value.
-    O3,
-    /// Smallest singular value times the inverse condition number.
-    O4,
-    /// Inverse sum of the inverse singular values.
-    O5,
-    /// Volume of the confidence ellipsoid.
-    D,
-    /// Mean variance of the parameters.
-    A,
-    /// Longest axis of the confidence ellipsoid.
-    E,
-    /// Mean variance of a prediction over the workspace.
-    I,
-}
-
-impl Named {
-    /// All of them, with their names.
-    pub const ALL: [(&'static str, Self); 9] = [
-        ("o1", Self::O1),
-        ("o2", Self::O2),
-        ("o3", Self::O3),
-        ("o4", Self::O4),
-        ("o5", Self::O5),
-        ("d", Self::D),
-        ("a", Self::A),
-        ("e", Self::E),
-        ("i", Self::I),
-    ];
 }
 
 /// A plan found.

@@ -64,7 +64,7 @@ fn settings(plan: &Designed) -> (Table, usize) {
         plan.settings.iter().any(|s| of(s).total_cmp(&of(&plan.settings[0])).is_ne())
     };
     let columns: [Condition; 3] =
-        [("approach", |s| s.approach), ("delta_T K", |s| s.delta_t), ("wait s", |s| s.elapsed)];
+        [("approach", |s| s.approach.sign()), ("delta_T K", |s| s.delta_t), ("wait s", |s| s.elapsed)];
     let shown: Vec<_> = columns.into_iter().filter(|(_, of)| varies(*of)).collect();
     let names = shown.iter().map(|(name, _)| *name);
     let mut table = Table::named(std::iter::once("load (reference)").chain(names).chain(["readings"]));

@@ -7,9 +7,9 @@ use hexbench_design::exchange::bound::efficiency;
 use hexbench_design::exchange::{Candidates, Exchange, Plan};
 use hexbench_design::refine::{information, refine};
 use hexbench_design::regressor::SettingRegressor;
-use hexbench_design::{Criterion, Problem, Search, Space, Visit};
+use hexbench_design::{Criterion, Objective, Problem, Search, Space, Visit};
 
-use super::{Designed, Named, Quantity, Wish};
+use super::{Designed, Quantity, Wish};
 use crate::Failure;
 
 /// Hears how many starts there are, and gives what hears of the end of each.
@@ -30,9 +30,9 @@ impl Bench<'_> {
         regressor: &R,
         promised: Vec<Quantity>,
     ) -> Result<Designed, Failure> {
-        let usual = if self.space.budget.limit.is_some() { Named::D } else { Named::O1 };
+        let usual = if self.space.budget.limit.is_some() { Criterion::D } else { Criterion::O1 };
         let named = self.wish.criterion.unwrap_or(usual);
-        let criterion = criterion(named, self.hexapod, self.space, regressor)?;
+        let criterion = named.objective(self.hexapod, self.space, regressor)?;
         let found = match self.space.budget.limit {
             None => self.few_poses(regressor, &criterion)?,
             Some(amount) => self.within(amount, regressor, &criterion)?,
@@ -60,7 +60,7 @@ impl Bench<'_> {
     }
 
     /// So many poses, every setting read as often at each.
-    fn few_poses<R: SettingRegressor>(&self, regressor: &R, criterion: &Criterion) -> Result<Found, Failure> {
+    fn few_poses<R: SettingRegressor>(&self, regressor: &R, criterion: &Objective) -> Result<Found, Failure> {
         let counts = vec![usize::from(self.wish.repeats); self.space.settings().len()];
         let problem = Problem {
             hexapod: self.hexapod,
@@ -87,7 +87,7 @@ impl Bench<'_> {
         &self,
         amount: Amount,
         regressor: &R,
-        criterion: &Criterion,
+        criterion: &Objective,
     ) -> Result<Found, Failure> {
         let Wish { seed, candidates: count, .. } = *self.wish;
         let (hexapod, space) = (self.hexapod, self.space);
@@ -117,26 +117,6 @@ struct Found {
     starts: [usize; 3],
     candidates: Option<usize>,
     efficiency: Option<f64>,
-}
-
-/// `B` of criterion I is the mean information over the workspace.
-fn criterion<R: SettingRegressor>(
-    named: Named,
-    hexapod: &Hexapod,
-    space: &Space,
-    regressor: &R,
-) -> Result<Criterion, Failure> {
-    Ok(match named {
-        Named::O1 => Criterion::O1,
-        Named::O2 => Criterion::O2,
-        Named::O3 => Criterion::O3,
-        Named::O4 => Criterion::O4,
-        Named::O5 => Criterion::O5,
-        Named::D => Criterion::D,
-        Named::A => Criterion::A,
-        Named::E => Criterion::E,
-        Named::I => Criterion::mean_prediction(hexapod, space, regressor)?,
-    })
 }
 
 /// Visits of one pose put together.

@@ -1,6 +1,6 @@
 //! Plans: which poses, under which loads, how often.
 
-use hexbench_core::{Hexapod, Measurand, Observation, Pose, Wrench};
+use hexbench_core::{Approach, Hexapod, Measurand, Observation, Pose, Wrench};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
@@ -143,7 +143,7 @@ impl PlanKind {
             loads: self.loads(rng),
             reference: along_z(if self == Self::NoReference { 0.0 } else { PRELOAD_N }),
             repeats: 2,
-            approaches: vec![1.0, -1.0],
+            approaches: Approach::ALL.to_vec(),
             delta_t: Spread::Normal(0.3),
             elapsed: Spread::Even([5.0, 300.0]),
             anew: false,
@@ -194,7 +194,7 @@ fn absolute(hexapod: &Hexapod) -> Schemes {
         loads: [LIGHT_LOAD_N, FULL_LOAD_N].map(along_z).to_vec(),
         reference: Wrench::default(),
         repeats: 2,
-        approaches: vec![1.0],
+        approaches: vec![Approach::Direct],
         delta_t: Spread::Fixed(0.0),
         elapsed: Spread::Fixed(0.0),
         anew: false,
@@ -216,7 +216,7 @@ fn paper() -> Schemes {
         loads: vec![along_z(FULL_LOAD_N)],
         reference: along_z(PRELOAD_N),
         repeats: 3,
-        approaches: vec![1.0],
+        approaches: vec![Approach::Direct],
         delta_t: Spread::Normal(0.1),
         elapsed: Spread::Even([20.0, 60.0]),
         anew: true,

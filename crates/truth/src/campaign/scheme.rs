@@ -1,6 +1,6 @@
 //! How the rows of a plan come about: poses, loads, surroundings, repeats.
 
-use hexbench_core::{Hexapod, Measurand, Pose, Wrench};
+use hexbench_core::{Approach, Hexapod, Measurand, Pose, Wrench};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
@@ -80,7 +80,7 @@ pub struct Scheme {
     /// Readings of each condition.
     pub repeats: u64,
     /// Ways to approach the load, one of which is drawn for each condition.
-    pub approaches: Vec<f64>,
+    pub approaches: Vec<Approach>,
     /// Change of temperature, K.
     pub delta_t: Spread,
     /// Waiting time, s.
@@ -108,7 +108,7 @@ impl Scheme {
     /// A pose under a load, with approach and surroundings drawn.
     pub fn situation(&self, pose: Pose, wrench: Wrench, rng: &mut Pcg64) -> Situation {
         let approach = match *self.approaches.as_slice() {
-            [] => 1.0,
+            [] => Approach::default(),
             [only] => only,
             // Two ways are decided as a coin is tossed.
             [heads, tails] => [tails, heads][usize::from(rng.random_bool(0.5))],

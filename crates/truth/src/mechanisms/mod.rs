@@ -67,6 +67,11 @@ pub struct Effect {
     pub parse: fn(Value) -> Result<Box<dyn Mechanism>, String>,
 }
 
+/// True for the id of an effect that no term of the catalogue describes.
+pub fn is_outside(id: &str) -> bool {
+    REGISTRY.iter().any(|effect| effect.id == id && effect.shows == Shows::Outside)
+}
+
 /// Declares the module of every effect, makes its mechanism public and registers it.
 macro_rules! mechanisms {
     ($($module:ident::$mechanism:ident),+ $(,)?) => {

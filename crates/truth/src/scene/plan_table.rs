@@ -1,5 +1,6 @@
 //! Reading `[plan]`.
 
+use hexbench_core::Approach;
 use std::path::Path;
 
 use hexbench_core::{
@@ -44,7 +45,7 @@ pub(super) struct PlanTable {
     loads: Option<Vec<Wrench>>,
     reference: Option<Wrench>,
     repeats: [Option<u64>; 2],
-    approaches: Option<Vec<f64>>,
+    approaches: Option<Vec<Approach>>,
     delta_t: Option<Spread>,
     elapsed: Option<Spread>,
 }
@@ -179,7 +180,7 @@ fn plain() -> Schemes {
         loads: Vec::new(),
         reference: Wrench::default(),
         repeats: 1,
-        approaches: vec![1.0],
+        approaches: vec![Approach::Direct],
         delta_t: Spread::Fixed(0.0),
         elapsed: Spread::Fixed(0.0),
         anew: false,
@@ -261,11 +262,8 @@ fn wrench(item: &Item<'_>) -> Result<Wrench, Fault> {
     item.numbers::<6>("six numbers [fx, fy, fz, mx, my, mz], N and N m").map(Wrench::from_array)
 }
 
-fn approaches(item: &Item<'_>) -> Result<Vec<f64>, Fault> {
-    let one = |way: &Item<'_>| match way.number()? {
-        sign if sign.abs().total_cmp(&1.0).is_eq() => Ok(sign),
-        _ => Err(way.fault(Problem::Approach)),
-    };
+fn approaches(item: &Item<'_>) -> Result<Vec<Approach>, Fault> {
+    let one = |way: &Item<'_>| Approach::of_sign(way.number()?).ok_or_else(|| way.fault(Problem::Approach));
     item.list()?.iter().map(one).collect()
 }
 

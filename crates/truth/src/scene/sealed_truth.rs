@@ -6,6 +6,7 @@ use super::{Bench, Instrument, PartName};
 use crate::{
     TruthError,
     campaign::{Campaign, Row, Yardstick, rms},
+    mechanisms::is_outside,
     metrology::Noise,
 };
 
@@ -41,7 +42,7 @@ pub(super) fn of(bench: &Bench<'_>) -> Value {
 fn kind(effects: &[&str]) -> &'static str {
     match effects {
         [] => "clean",
-        all if all.iter().any(|id| id.starts_with("out:")) => "outside",
+        all if all.iter().any(|id| is_outside(id)) => "outside",
         [_] => "single",
         [_, _] => "pair",
         _ => "several",

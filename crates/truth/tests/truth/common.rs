@@ -2,7 +2,7 @@
 
 use std::{collections::HashMap, fs, path::PathBuf};
 
-use hexbench_core::{Hexapod, Metrology, Pose, Vector3, Vector6, Wrench};
+use hexbench_core::{Approach, Hexapod, Metrology, Pose, Vector3, Vector6, Wrench};
 use hexbench_truth::{Situation, World, campaign};
 use serde_json::Value;
 
@@ -75,7 +75,7 @@ fn row(cell: &HashMap<&str, f64>) -> Row {
             pose: Pose::from_array(six("", pose, [mm, mm, mm, deg, deg, deg])),
             wrench: Wrench::from_array(six("", wrench, [1.0; 6])),
             reference: Wrench::from_array(six("ref_", wrench, [1.0; 6])),
-            approach: cell.get("approach").copied().unwrap_or(1.0),
+            approach: cell.get("approach").and_then(|sign| Approach::of_sign(*sign)).unwrap_or_default(),
             delta_t: cell.get("delta_T_K").copied().unwrap_or(0.0),
             elapsed: cell.get("elapsed_s").copied().unwrap_or(0.0),
         },

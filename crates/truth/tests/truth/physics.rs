@@ -1,7 +1,7 @@
 //! Laws that any equilibrium obeys, checked by routes of their own.
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Hexapod, Matrix3, Matrix6, Pose, Vector3, Vector6, Wrench};
+use hexbench_core::{Approach, Hexapod, Matrix3, Matrix6, Pose, Vector3, Vector6, Wrench};
 use hexbench_truth::{
     LegMemory, Mechanism, Situation, TruthError, World,
     campaign::machines,
@@ -225,7 +225,7 @@ fn only_friction_remembers_the_path() {
     for effect in REGISTRY {
         let world = ring().with((effect.draw)(&ring().hexapod, &mut stream(3, Purpose::Test, [5])));
         let up = world.deflection(&situation()).unwrap();
-        let down = world.deflection(&Situation { approach: -1.0, ..situation() }).unwrap();
+        let down = world.deflection(&Situation { approach: Approach::Overloaded, ..situation() }).unwrap();
         let change = (up - down).amax();
         if effect.id == "joint-friction" {
             assert!(change > 1e-8, "{}: {change:e}", effect.id);
@@ -239,13 +239,15 @@ fn only_friction_remembers_the_path() {
 fn coming_back_leaves_the_springs_behind_by_twice_the_friction() {
     let slider_force = 2.0;
     let world = ring().with(Box::new(JointFriction { slider_force, stick_ratio: None }));
-    let springs = |approach: f64| {
+    let springs = |approach: Approach| {
         let load = Situation { approach, ..Situation::new(pose(), scaled(&wrench(), 3.0)) };
         world.reading(&load).unwrap().equilibrium.memory
     };
     // The overshoot is 0.4 of the leg force; below 10 N it does not push a slider all the way to the other side.
     let reversed = |up: &LegMemory| up.force.abs() > 10.0;
-    for (up, down) in springs(1.0).iter().zip(springs(-1.0)).filter(|(up, _)| reversed(up)) {
+    for (up, down) in
+        springs(Approach::Direct).iter().zip(springs(Approach::Overloaded)).filter(|(up, _)| reversed(up))
+    {
         let (lag_up, lag_down) = (up.force - up.spring_force, down.force - down.spring_force);
         assert!(((lag_up - lag_down).abs() - 2.0 * slider_force).abs() < 1e-9, "{up:?} {down:?}");
     }

@@ -1,5 +1,6 @@
 //! Scenes as they are read from a folder.
 
+use hexbench_core::Approach;
 use std::path::Path;
 
 use hexbench_core::{
@@ -60,7 +61,7 @@ fn a_make_gives_its_rows_and_keys_beside_it_change_them() {
     assert_eq!(plan.measurand, Measurand::DeflectionEuler);
     assert_eq!(plan.training[0].situation, plan.training[2].situation);
     assert_ne!(plan.training[0].situation.pose, plan.holdout[0].situation.pose);
-    assert!(plan.training.iter().any(|row| row.situation.approach < 0.0));
+    assert!(plan.training.iter().any(|row| row.situation.approach == Approach::Overloaded));
 }
 
 #[test]
@@ -76,7 +77,7 @@ fn poses_and_loads_can_be_listed() {
         (row.pose.translation.y - 0.002).abs() < 1e-15
             && (row.pose.angles.z.to_degrees() - 5.0).abs() < 1e-12
     );
-    assert!(row.approach < 0.0 && row.delta_t.abs() < 0.5 && row.delta_t != 0.0);
+    assert!(row.approach == Approach::Overloaded && row.delta_t.abs() < 0.5 && row.delta_t != 0.0);
     assert!((row.elapsed - 30.0).abs() < 1e-12 && (row.reference.force.z + 1.0).abs() < 1e-12);
     let held_out = plan.holdout[0].situation.pose;
     assert!(held_out.translation.x.abs() < 0.004 && held_out.angles.x == 0.0 && held_out.angles.z != 0.0);

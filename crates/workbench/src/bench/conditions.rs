@@ -26,7 +26,7 @@ pub(super) fn columns(lin: &Linearization, shown: &[usize]) -> Conditions {
         all.leg_length_mm.push(all_short(c.legs.lengths * 1e3));
         all.elapsed_s.push(c.elapsed);
         all.delta_t_k.push(c.delta_t);
-        all.approach.push(c.approach);
+        all.approach.push(c.approach.sign());
         all.platform_joints_mm.push(std::array::from_fn(|leg| joint_mm(c, leg)));
         all.measured.push(all_short(c.reading * 1e6));
         all.measured_motion.push(motion(c, &c.reading));

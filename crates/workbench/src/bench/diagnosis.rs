@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::time::Instant;
 
 use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
+use hexbench_model::explanation::Explanation;
 use hexbench_model::fit_named::RICHER;
-use hexbench_model::verdict::OUTSIDE;
 use hexbench_report::words::{self, Subject};
+use hexbench_truth::mechanisms::is_outside;
 
 use super::refusal::{Kind, Refusal};
 use super::{Bench, files};
@@ -53,8 +54,8 @@ impl Bench {
         let unknown =
             || Refusal::new(Kind::Conflict, "nothing is hidden here by the program", "Start a game first.");
         let truth = self.truth.as_ref().ok_or_else(unknown)?;
-        let hidden: BTreeSet<&str> = truth.hidden.iter().map(|h| in_the_catalogue(&h.id)).collect();
-        let guessed: BTreeSet<&str> = guess.guess.iter().map(String::as_str).collect();
+        let hidden: BTreeSet<Explanation> = truth.hidden.iter().map(|h| explanation(&h.id)).collect();
+        let guessed: BTreeSet<Explanation> = guess.guess.iter().map(|id| id.as_str().into()).collect();
         Ok(Revealed {
             right: hidden == guessed,
             hidden: truth.hidden.clone(),
@@ -69,6 +70,6 @@ fn asked_for(d: &Diagnosis, id: &str) -> String {
 }
 
 /// What a guess calls an effect: those without a name are all outside.
-fn in_the_catalogue(id: &str) -> &str {
-    if id.starts_with("out:") { OUTSIDE } else { id }
+fn explanation(id: &str) -> Explanation {
+    if is_outside(id) { Explanation::Outside } else { id.into() }
 }

@@ -20,11 +20,11 @@ pub use refusal::{Kind, Refusal};
 use std::time::Instant;
 
 use hexbench_model::campaign::Campaign;
-use hexbench_model::candidates::why_untestable;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::linearization::{Linearization, Point};
 use hexbench_model::selection::Task;
 use hexbench_model::terms;
+use hexbench_model::untestable::why_untestable;
 use hexbench_report::words::subject::{describe, noise};
 
 use self::files::{Contents, Files};
@@ -90,7 +90,7 @@ impl Bench {
             noise: Noise {
                 translation_um: level.translation * 1e6,
                 rotation_urad: level.rotation * 1e6,
-                source: level.source.word(),
+                source: level.source,
             },
             untestable: self.untestable(&lin),
             base_joints_mm: c.hexapod.base_joints.map(|joint| (joint * 1e3).into()),
@@ -136,7 +136,7 @@ impl Bench {
     fn untestable(&self, lin: &Linearization) -> Vec<Untestable> {
         let reason = |t: &std::sync::Arc<dyn hexbench_model::term::Term>| {
             let why = why_untestable(t.as_ref(), &self.campaign, lin)?;
-            Some(Untestable { term: t.info().id.to_owned(), why })
+            Some(Untestable { term: t.info().id.to_owned(), why: why.to_string() })
         };
         terms::catalogue().iter().filter_map(reason).collect()
     }

@@ -4,7 +4,7 @@ use hexbench_core::files::{hexapod_to_toml, measurements_to_csv};
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_truth::TruthError;
 use hexbench_truth::campaign::{Case, CaseSpec, Kind, PlanKind, machines::FAMILIES};
-use hexbench_truth::mechanisms::{REGISTRY, Shows};
+use hexbench_truth::mechanisms::{REGISTRY, is_outside};
 use hexbench_truth::metrology::Noise;
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -122,11 +122,10 @@ fn check_size(request: &Request<'_>, count: usize) -> Result<(), Refusal> {
 }
 
 fn kind(plan: PlanKind, effects: &[&'static str]) -> Kind {
-    let outside = |id: &&str| REGISTRY.iter().any(|e| e.id == *id && e.shows == Shows::Outside);
     match (plan, effects) {
         (PlanKind::Absolute, _) => Kind::Absolute,
         (_, []) => Kind::Clean,
-        (_, all) if all.iter().any(outside) => Kind::Outside,
+        (_, all) if all.iter().any(|id| is_outside(id)) => Kind::Outside,
         (_, [_]) => Kind::Single,
         _ => Kind::Pair,
     }

@@ -51,7 +51,7 @@ pub(super) fn view(
         terms: asked.to_vec(),
         fitted: judged.fitted,
         holdout: judged.held_out,
-        held_out: task.held_out().word(),
+        held_out: task.held_out(),
         times_noise: error.times_noise(),
         at_the_noise: error.is_at_the_noise(),
         legs: of_legs(&numbers, task.hexapod),

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use hexbench_model::explanation::Explanation;
 use hexbench_model::verdict::Verdict;
 use serde::Deserialize;
 
@@ -23,17 +24,17 @@ pub struct Said {
     pub added: Vec<String>,
     /// Effects not excluded.
     #[serde(default)]
-    pub credible_set: Vec<String>,
+    pub credible_set: Vec<Explanation>,
     /// Probabilities of the first addition; empty when none are stated, else they sum to 1.
     #[serde(default)]
     pub candidates: Vec<Candidate>,
 }
 
-/// A term, `outside` or `none`, and its probability.
+/// An explanation and its probability.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Candidate {
-    /// Its name.
-    pub term: String,
+    /// What it is.
+    pub term: Explanation,
     /// Its probability.
     pub probability: f64,
 }
@@ -47,7 +48,7 @@ pub(super) fn read(text: &str) -> Result<Said, AnswerFault> {
     let mut names = BTreeSet::new();
     for (k, candidate) in said.candidates.iter().enumerate() {
         let place = format!("candidates[{k}] ({})", candidate.term);
-        if !names.insert(candidate.term.as_str()) {
+        if !names.insert(candidate.term.word()) {
             return Err(AnswerFault::new(DIAGNOSIS, &place, "this candidate is given twice"));
         }
         if !(0.0..=1.0 + ROUNDING).contains(&candidate.probability) {

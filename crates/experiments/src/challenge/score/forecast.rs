@@ -11,7 +11,8 @@
 //! Both are strictly proper: in expectation nobody does better than by stating what he believes (Gneiting and Raftery 2007,
 //! Journal of the American Statistical Association 102).
 
-use hexbench_model::verdict::{NONE, OUTSIDE};
+use hexbench_model::explanation::Explanation;
+use hexbench_truth::mechanisms::is_outside;
 use serde::Serialize;
 
 use crate::challenge::answer::Candidate;
@@ -37,9 +38,9 @@ impl Forecast {
             return None;
         }
         let truth = match hidden {
-            [] => NONE,
-            [only] if only.starts_with("out:") => OUTSIDE,
-            [only] => only.as_str(),
+            [] => Explanation::Nothing,
+            [only] if is_outside(only) => Explanation::Outside,
+            [only] => only.as_str().into(),
             _ => return None,
         };
         let stated = candidates.iter().find(|c| c.term == truth).map_or(0.0, |c| c.probability);
@@ -56,8 +57,9 @@ mod tests {
     use super::*;
 
     fn stated(probabilities: [f64; 3]) -> Vec<Candidate> {
-        let named = ["creep", OUTSIDE, NONE].into_iter().zip(probabilities);
-        named.map(|(term, probability)| Candidate { term: term.to_owned(), probability }).collect()
+        let named =
+            ["creep".into(), Explanation::Outside, Explanation::Nothing].into_iter().zip(probabilities);
+        named.map(|(term, probability)| Candidate { term, probability }).collect()
     }
 
     fn hidden(k: usize) -> Vec<String> {

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use hexbench_core::files::{Fault, Item, Key, Problem, Section};
+use hexbench_design::Criterion;
 use hexbench_truth::campaign::{PlanKind, machines};
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
 use super::{one_of, rule, unknown};
-use crate::sweep::axes::{CRITERIA, Estimator, Noises, PlanSource, Sizes};
+use crate::sweep::axes::{Estimator, Noises, PlanSource, Sizes};
 use crate::sweep::study::Task;
 
 const KEYS: &[Key] = &[
@@ -186,7 +187,7 @@ fn plan(item: &Item<'_>) -> Result<PlanName, Fault> {
         return Ok(PlanName::Scene(word.to_owned()));
     }
     let known = |source| Ok(PlanName::Known(word.to_owned(), source));
-    if let Some(criterion) = CRITERIA.into_iter().find(|c| *c == word) {
+    if let Some(criterion) = Criterion::ALL.into_iter().find(|c| c.name() == word) {
         return known(PlanSource::Designed(criterion));
     }
     match makes().into_iter().find(|kind| kind.name() == word) {
@@ -194,7 +195,8 @@ fn plan(item: &Item<'_>) -> Result<PlanName, Fault> {
         None if word == "random" => known(PlanSource::Random),
         None => {
             let makes = makes();
-            let names = makes.iter().map(|kind| kind.name()).chain(["random"]).chain(CRITERIA);
+            let criteria = Criterion::ALL.iter().map(Criterion::name);
+            let names = makes.iter().map(|kind| kind.name()).chain(["random"]).chain(criteria);
             unknown_plan(item, word, &names.collect::<Vec<_>>())
         }
     }

@@ -46,7 +46,7 @@ fn values(bench: &Bench, cell: &Cell<'_>, seed: u64, trial: u64, names: &[String
     Some([
         Value::Code(outcome(trial.outcome())),
         Value::Code(verdict(d.verdict)),
-        code(first.and_then(|c| named(&c.term))),
+        code(first.and_then(|c| named(c.term.word()))),
         Value::Number(first.map_or(f64::NAN, |c| c.probability)),
         code(Some(d.added.len())),
         chi2(d.steps.first()),

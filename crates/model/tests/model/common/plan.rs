@@ -1,6 +1,6 @@
 //! Plans: which poses and loads are measured.
 
-use hexbench_core::{Columns, Dataset, Measurand, Observation, Pose, Wrench};
+use hexbench_core::{Approach, Columns, Dataset, Measurand, Observation, Pose, Wrench};
 
 use super::random::Random;
 
@@ -13,7 +13,7 @@ pub(crate) fn reading(pose: Pose, wrench: Wrench, reference: Wrench) -> Observat
         pose,
         wrench,
         reference,
-        approach: 1.0,
+        approach: Approach::Direct,
         delta_t: 0.0,
         elapsed: 0.0,
         measured: [0.0; 6],

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Dataset, Hexapod, Observation, Vector6};
+use hexbench_core::{Approach, Dataset, Hexapod, Observation, Vector6};
 use hexbench_model::campaign::{Campaign, Condition};
 use hexbench_model::machine::Machine;
 use hexbench_model::term::{Natural, Term};
@@ -23,7 +23,7 @@ pub(crate) fn rows(count: usize, seed: u64) -> Vec<Observation> {
     let mut random = Random::new(seed);
     let row = |id: i64| Observation {
         pose_id: id,
-        approach: if id % 2 == 0 { 1.0 } else { -1.0 },
+        approach: Approach::ALL[usize::from(id % 2 != 0)],
         delta_t: random.within(3.0),
         elapsed: 300.0 * random.unit(),
         measured: std::array::from_fn(|_| random.within(2e-5)),
