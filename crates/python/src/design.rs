@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use hexbench_app::design::{Named, Wish, design as searched, page};
 use hexbench_core::Dataset;
 use hexbench_core::files::conditions_to_columns;
 use hexbench_report::render::plain;
-use hexbench_tasks::design::{Named, Wish, design as searched, page};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 

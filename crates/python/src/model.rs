@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use hexbench_app::fit::{added, fitted};
+use hexbench_app::{Failure, input};
 use hexbench_model::diagnose::prepare;
 use hexbench_model::estimate::{Estimates, estimates_of};
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
@@ -10,8 +12,6 @@ use hexbench_model::predict::predict_with_covariance;
 use hexbench_model::selection::Task;
 use hexbench_report::render::plain;
 use hexbench_report::words;
-use hexbench_tasks::fit::{added, fitted};
-use hexbench_tasks::{Failure, input};
 use numpy::{PyArray2, PyArray3};
 use pyo3::prelude::*;
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use hexbench_tasks::design::{self, Wish, design};
+use hexbench_app::design::{self, Wish, design};
 
 use crate::csv;
 use crate::failure::Failure;

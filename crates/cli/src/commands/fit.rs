@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use hexbench_app::fit::{added, fitted};
 use hexbench_core::Dataset;
 use hexbench_core::files::content_hash;
 use hexbench_model::diagnose::prepare;
@@ -10,7 +11,6 @@ use hexbench_model::error::ModelError;
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::selection::Task;
 use hexbench_report::words::fitted;
-use hexbench_tasks::fit::{added, fitted};
 
 use crate::failure::Failure;
 use crate::input;

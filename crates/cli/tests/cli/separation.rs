@@ -28,7 +28,7 @@ fn side(package: &str) -> Option<Side> {
 /// The only packages that may depend on both sides: the experiments, what the command and the Python package do
 /// alike, both of these, and the workbench.
 const MEETING_PLACES: [&str; 5] =
-    ["hexbench-experiments", "hexbench-tasks", "hexbench-workbench", "hexbench-python", "hexbench-cli"];
+    ["hexbench-experiments", "hexbench-app", "hexbench-workbench", "hexbench-python", "hexbench-cli"];
 
 fn reachable(graph: &Graph, from: &str) -> BTreeSet<String> {
     let mut seen = BTreeSet::new();

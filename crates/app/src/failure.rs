@@ -6,7 +6,6 @@ use std::process::ExitCode;
 
 use hexbench_core::files::FileError;
 use hexbench_design::DesignError;
-use hexbench_entrant::EntrantError;
 use hexbench_experiments::ExperimentError;
 use hexbench_experiments::challenge::ChallengeError;
 use hexbench_experiments::paper::PaperError;
@@ -14,6 +13,7 @@ use hexbench_experiments::power::PowerError;
 use hexbench_experiments::regress::baseline::BaselineError;
 use hexbench_experiments::sweep::StudyError;
 use hexbench_experiments::trial::TrialError;
+use hexbench_model::answer::AnswerError;
 use hexbench_model::error::ModelError;
 use hexbench_model::model_file::ModelFileError;
 use hexbench_model::predict::PredictError;
@@ -339,13 +339,13 @@ impl From<ChallengeError> for Failure {
     }
 }
 
-impl From<EntrantError> for Failure {
-    fn from(error: EntrantError) -> Self {
+impl From<AnswerError> for Failure {
+    fn from(error: AnswerError) -> Self {
         match error {
-            EntrantError::File(file) => Self::File(file),
-            EntrantError::Model(cause) => Self::Model { cause, data: "measurements.csv".into() },
-            EntrantError::Row(cause) => Self::Row { path: "predict.csv".into(), cause: Box::new(cause) },
-            EntrantError::Write { path, cause } => Self::Output { path, cause },
+            AnswerError::File(file) => Self::File(file),
+            AnswerError::Model(cause) => Self::Model { cause, data: "measurements.csv".into() },
+            AnswerError::Row(cause) => Self::Row { path: "predict.csv".into(), cause: Box::new(cause) },
+            AnswerError::Write { path, cause } => Self::Output { path, cause },
         }
     }
 }

@@ -3,14 +3,14 @@
 use std::io;
 use std::path::PathBuf;
 
+use crate::error::ModelError;
+use crate::predict::PredictError;
 use hexbench_core::files::FileError;
-use hexbench_model::error::ModelError;
-use hexbench_model::predict::PredictError;
 use thiserror::Error;
 
 /// Why a case is not answered.
 #[derive(Debug, Error)]
-pub enum EntrantError {
+pub enum AnswerError {
     /// A file that cannot be used.
     #[error(transparent)]
     File(#[from] FileError),

@@ -4,11 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use hexbench_core::files::read_measurements;
-use hexbench_model::verdict::Verdict;
 use tempfile::TempDir;
 
 use super::{Answer, hexbench, paper};
-use crate::{Case, Method, answer};
+use crate::answer::{Case, Method, answer};
+use crate::verdict::Verdict;
 
 /// Reduced chi-square of held-out readings at the noise: 1, three standard deviations of 180 numbers, give or take.
 const AT_THE_NOISE: f64 = 1.35;

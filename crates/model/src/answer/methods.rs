@@ -1,17 +1,17 @@
 //! The two methods.
 
-use hexbench_model::campaign::Campaign;
-use hexbench_model::diagnose::{Diagnosis, diagnose, prepare};
-use hexbench_model::error::ModelError;
-use hexbench_model::estimate::{Estimate, estimates};
-use hexbench_model::fit::Fit;
-use hexbench_model::model_file::{DataOrigin, Estimator, Model};
-use hexbench_model::paper::fit_paper;
-use hexbench_model::predict::{Prediction, predict};
-use hexbench_model::terms::catalogue;
-use hexbench_model::verdict::Verdict;
+use crate::campaign::Campaign;
+use crate::diagnose::{Diagnosis, diagnose, prepare};
+use crate::error::ModelError;
+use crate::estimate::{Estimate, estimates};
+use crate::fit::Fit;
+use crate::model_file::{DataOrigin, Estimator, Model};
+use crate::paper::fit_paper;
+use crate::predict::{Prediction, predict};
+use crate::terms::catalogue;
+use crate::verdict::Verdict;
 
-use crate::{Case, EntrantError};
+use super::{AnswerError, Case};
 
 /// What a method says about a case.
 pub(crate) struct Answer {
@@ -22,7 +22,7 @@ pub(crate) struct Answer {
 
 /// The whole diagnosis; predictions are those of its last model. Where something outside the catalogue is at work, their uncertainty
 /// holds what the model misses.
-pub(crate) fn hexbench(case: &Case) -> Result<Answer, EntrantError> {
+pub(crate) fn hexbench(case: &Case) -> Result<Answer, AnswerError> {
     let study = diagnose(&case.hexapod, &case.measurements, None, &catalogue())?;
     let last = study.fits.last().unwrap_or(&study.outcome.baseline);
     let mut predictions = predictions(case, &study.campaign, last, Estimator::Gls)?;
@@ -51,7 +51,7 @@ fn widen(prediction: &mut Prediction, missed: &[f64; 6]) {
 }
 
 /// The paper's estimator; it knows springs only and says nothing about effects.
-pub(crate) fn paper(case: &Case) -> Result<Answer, EntrantError> {
+pub(crate) fn paper(case: &Case) -> Result<Answer, AnswerError> {
     let campaign = prepare(&case.hexapod, &case.measurements)?;
     let fit = fit_paper(&campaign, &case.measurements)?.into_fit(&campaign)?;
     let predictions = predictions(case, &campaign, &fit, Estimator::Paper)?;
@@ -63,7 +63,7 @@ fn predictions(
     campaign: &Campaign,
     fit: &Fit,
     estimator: Estimator,
-) -> Result<Vec<Prediction>, EntrantError> {
+) -> Result<Vec<Prediction>, AnswerError> {
     if !fit.covariance.iter().all(|x| x.is_finite()) {
         return Err(ModelError::NotFinite { what: "the covariance of the fit" }.into());
     }

@@ -5,11 +5,12 @@ use std::path::Path;
 
 use hexbench_core::Measurand;
 use hexbench_core::files::{CsvText, atomic_write};
-use hexbench_model::predict::Prediction;
 use serde::Serialize;
 
-use crate::methods::Answer;
-use crate::{Case, EntrantError};
+use super::methods::Answer;
+use super::{AnswerError, Case};
+use crate::estimate::Estimate;
+use crate::predict::Prediction;
 
 #[derive(Serialize)]
 struct Parameters<'a> {
@@ -26,8 +27,8 @@ struct Number<'a> {
 }
 
 /// Writes `parameters.json`, `predictions.csv` and, when there is a diagnosis, `diagnosis.json`.
-pub(crate) fn answer(out: &Path, case: &Case, answer: &Answer) -> Result<(), EntrantError> {
-    let number = |e: &'_ hexbench_model::estimate::Estimate| (e.std > 0.0).then_some(e.std);
+pub(crate) fn answer(out: &Path, case: &Case, answer: &Answer) -> Result<(), AnswerError> {
+    let number = |e: &'_ Estimate| (e.std > 0.0).then_some(e.std);
     let parameters = answer
         .parameters
         .iter()
@@ -77,13 +78,13 @@ fn columns(measurand: Measurand) -> (&'static str, &'static str) {
     }
 }
 
-fn json(path: &Path, value: &impl Serialize) -> Result<(), EntrantError> {
+fn json(path: &Path, value: &impl Serialize) -> Result<(), AnswerError> {
     let written = serde_json::to_string_pretty(value).map_err(io::Error::other);
-    let whole = written.map_err(|cause| EntrantError::Write { path: path.to_owned(), cause })? + "\n";
+    let whole = written.map_err(|cause| AnswerError::Write { path: path.to_owned(), cause })? + "\n";
     text(path, &whole)
 }
 
-fn text(path: &Path, whole: &str) -> Result<(), EntrantError> {
+fn text(path: &Path, whole: &str) -> Result<(), AnswerError> {
     atomic_write(path, |out| out.write_all(whole.as_bytes()))
-        .map_err(|cause| EntrantError::Write { path: path.to_owned(), cause })
+        .map_err(|cause| AnswerError::Write { path: path.to_owned(), cause })
 }

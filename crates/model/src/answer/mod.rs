@@ -1,7 +1,7 @@
 //! The bench's own entrants of a challenge: a case folder in, an answer folder out.
 //!
-//! This crate sees the model side alone. What it is given are the public files of a case, as any other entrant: `hexapod.toml`,
-//! `measurements.csv`, `predict.csv`. What it writes is the contract of `docs/challenges.md`.
+//! They are given the public files of a case, as any other entrant: `hexapod.toml`, `measurements.csv`, `predict.csv`. What they write
+//! is the contract of `docs/guide/challenges.md`.
 
 mod case;
 mod error;
@@ -11,7 +11,7 @@ mod write;
 use std::path::Path;
 
 pub use case::Case;
-pub use error::EntrantError;
+pub use error::AnswerError;
 
 /// How a case is answered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,8 +26,8 @@ pub enum Method {
 /// Answers the case in a folder.
 ///
 /// # Errors
-/// [`EntrantError`] when a file cannot be read or written, or when the method has no answer.
-pub fn answer(case: &Path, out: &Path, method: Method) -> Result<(), EntrantError> {
+/// [`AnswerError`] when a file cannot be read or written, or when the method has no answer.
+pub fn answer(case: &Path, out: &Path, method: Method) -> Result<(), AnswerError> {
     let case = Case::read(case)?;
     let answer = match method {
         Method::Hexbench => methods::hexbench(&case),

@@ -5,7 +5,7 @@ use std::path::Path;
 use hexbench_core::files::{read_conditions, read_hexapod, read_measurements};
 use hexbench_core::{Dataset, Hexapod};
 
-use crate::EntrantError;
+use super::AnswerError;
 
 /// The public files of a case.
 #[derive(Debug, Clone)]
@@ -23,7 +23,7 @@ impl Case {
     ///
     /// # Errors
     /// The first thing that is wrong with a file.
-    pub fn read(folder: &Path) -> Result<Self, EntrantError> {
+    pub fn read(folder: &Path) -> Result<Self, AnswerError> {
         Ok(Self {
             hexapod: read_hexapod(&folder.join("hexapod.toml"))?,
             measurements: read_measurements(&folder.join("measurements.csv"))?.dataset,
