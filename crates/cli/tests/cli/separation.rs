@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use cargo_metadata::MetadataCommand;
+use cargo_metadata::{Dependency, DependencyKind, MetadataCommand, Package};
 
 use crate::support::root;
 
@@ -18,7 +18,7 @@ enum Side {
 fn side(package: &str) -> Option<Side> {
     if package.starts_with("hexbench-truth") || package == "hexbench-rapier" {
         Some(Side::Truth)
-    } else if package == "hexbench-model" || package == "hexbench-design" {
+    } else if ["hexbench-model", "hexbench-design", DOOR].contains(&package) {
         Some(Side::Model)
     } else {
         None
@@ -29,6 +29,10 @@ fn side(package: &str) -> Option<Side> {
 /// alike, both of these, and the workbench.
 const MEETING_PLACES: [&str; 5] =
     ["hexbench-experiments", "hexbench-app", "hexbench-workbench", "hexbench-python", "hexbench-cli"];
+
+/// What Rust users depend on is of the model's side. Nobody who depends on it gets what its examples depend on, and one of them compares
+/// with the truth.
+const DOOR: &str = "hexbench";
 
 fn reachable(graph: &Graph, from: &str) -> BTreeSet<String> {
     let mut seen = BTreeSet::new();
@@ -57,10 +61,13 @@ fn violations(graph: &Graph) -> Vec<String> {
     found
 }
 
-/// The graph of this workspace: normal, build and dev dependencies alike.
+/// The graph of this workspace: normal, build and dev dependencies alike, but for those of the examples of the door.
 fn workspace() -> Graph {
     let metadata = MetadataCommand::new().current_dir(root()).no_deps().exec().unwrap();
-    let names = |p: &cargo_metadata::Package| p.dependencies.iter().map(|d| d.name.clone()).collect();
+    let counts =
+        |p: &Package, d: &Dependency| p.name.as_str() != DOOR || d.kind != DependencyKind::Development;
+    let names =
+        |p: &Package| p.dependencies.iter().filter(|d| counts(p, d)).map(|d| d.name.clone()).collect();
     metadata.workspace_packages().iter().map(|p| (p.name.to_string(), names(p))).collect()
 }
 
@@ -72,7 +79,9 @@ fn graph(edges: &[(&str, &[&str])]) -> Graph {
 #[test]
 fn truth_and_model_do_not_depend_on_each_other_in_this_workspace() {
     let graph = workspace();
-    assert!(graph.contains_key("hexbench-model") && graph.contains_key("hexbench-truth"), "{graph:?}");
+    for package in ["hexbench-model", "hexbench-truth", DOOR] {
+        assert!(graph.contains_key(package), "{package}: {graph:?}");
+    }
     assert_eq!(violations(&graph), Vec::<String>::new());
 }
 
@@ -99,6 +108,14 @@ fn a_crate_that_joins_both_sides_is_found_unless_it_is_a_meeting_place() {
         assert_eq!(violations(&meeting(allowed)), Vec::<String>::new());
     }
     assert_eq!(violations(&meeting("hexbench-report")).len(), 1);
+}
+
+#[test]
+fn the_door_for_rust_users_shows_the_model_alone() {
+    let bad = graph(&[(DOOR, &["hexbench-model", "hexbench-truth"]), ("hexbench-model", &[])]);
+    assert_eq!(violations(&bad).len(), 1);
+    let bad = graph(&[("hexbench-truth", &[DOOR]), (DOOR, &[])]);
+    assert_eq!(violations(&bad), ["hexbench-truth sees both hexbench-truth and hexbench"]);
 }
 
 #[test]
