@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the bundled challenge, runs four entrants in three languages over it and writes docs/challenge.md. Exit code 77: skipped, the
+# Makes the bundled challenge, runs four entrants in three languages over it and writes docs/results/entrants.md. Exit code 77: skipped, the
 # reason on standard output. --keep: what was answered before is not answered again. HEXBENCH_JOBS: cases at once, instead of one; times
 # are then less comparable.
 set -uo pipefail
@@ -34,9 +34,9 @@ run shell "$repository/scripts/entrants/shell_entrant.sh"
 "$hexbench" challenge score "$work/$suite" "$work"/answers/{hexbench,paper,scipy,shell} \
     --json "$work/scores.json" --markdown "$work/challenge.md" || fail "challenge score"
 {
-    cat "$work/challenge.md"
-    printf '\n## Again\n\n`scripts/challenge.sh` makes the challenge, runs the entrants and writes this page; do not edit it.\n'
+    awk '{ print } NR == 1 { print "\nWritten by `scripts/challenge.sh`; do not edit." }' "$work/challenge.md"
+    printf '\n## Again\n\n`scripts/challenge.sh` makes the challenge, runs the entrants and writes this page.\n'
     printf 'Versions: %s, %s; %s. Wall times with %s case(s)\n' "$("$hexbench" --version)" "$("$python" --version)" \
         "$(paste -sd ' ' "$requirements")" "$jobs"
-    printf 'at once on %s cores. What the figures mean and what they show is in [challenges.md](challenges.md).\n' "$(nproc)"
-} >docs/challenge.md
+    printf 'at once on %s cores. What the figures mean and what they show is in [challenges.md](../guide/challenges.md).\n' "$(nproc)"
+} >docs/results/entrants.md

@@ -4,4 +4,4 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 source scripts/release.sh
-node tests/browser/screenshots.mjs docs/screenshots
+node tests/browser/screenshots.mjs docs/guide/screenshots
