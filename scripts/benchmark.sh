@@ -3,7 +3,7 @@
 # output. Arguments go to scripts/benchmark.py, for example --starts 100 --campaigns 100000 for a quick look.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 5
-source scripts/python_environment.sh
+source scripts/common.sh
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/benchmark
 python=$work/venv/bin/python

@@ -3,7 +3,7 @@
 # For a quiet machine with two cores or more. The command and the Python package are built for release.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-source scripts/python_environment.sh
+source scripts/common.sh
 study=${1:-data/studies/many-springs.toml}
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/study-times

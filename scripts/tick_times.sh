@@ -4,5 +4,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-source scripts/release.sh
+source scripts/common.sh
+release_binary
 node tests/browser/tick_times.mjs docs/results/tick-times.md

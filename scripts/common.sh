@@ -1,4 +1,4 @@
-# Sourced by scripts that need a Python of their own: how they say that they cannot run, the environment, the package.
+# Sourced by scripts: how they say that they cannot run, a Python of their own, the Python package, the optimised program.
 
 # A step that cannot run here ends with 77, the reason on standard output.
 skip() {
@@ -33,4 +33,13 @@ assemble_package() {
     cp -r "$sources" "$1/hexbench"
     rm -rf "$1/hexbench/__pycache__" "$1"/hexbench/_native.*.so
     cp "$library" "$1/hexbench/_native.abi3.so" || fail "the library is not where it should be"
+}
+
+# HEXBENCH_BINARY as given, or built with optimisation. Runs in the root of the repository.
+release_binary() {
+    if [[ -z ${HEXBENCH_BINARY:-} ]]; then
+        cargo build --release --locked --quiet || fail "cargo build --release"
+        HEXBENCH_BINARY=$(realpath "${CARGO_TARGET_DIR:-target}")/release/hexbench
+    fi
+    export HEXBENCH_BINARY
 }
