@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use hexbench_model::error::ModelError;
 use hexbench_model::fit_named::{Added, refuse_undetermined};
-use hexbench_model::model_file::Estimator;
+use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::paper::fit_paper;
 use hexbench_model::selection::{Judged, Task};
 use hexbench_model::term::Term;
@@ -42,6 +42,13 @@ pub fn fitted(task: &Task<'_>, added: &[Added], estimator: Estimator) -> Result<
     let judged = judged(task, added, estimator).map_err(failed)?;
     refuse_undetermined(&judged.fit).map_err(failed)?;
     Ok(judged)
+}
+
+/// The model of a fit, to be kept; `sha256` is that of the file of the data.
+pub fn model(task: &Task<'_>, judged: &Judged, estimator: Estimator, sha256: String) -> Model {
+    let origin =
+        DataOrigin { file: task.data.source.clone(), sha256, readings: task.data.observations.len() };
+    Model::new(task.campaign, &judged.fit, estimator, origin)
 }
 
 fn judged(task: &Task<'_>, added: &[Added], estimator: Estimator) -> Result<Judged, ModelError> {

@@ -1,6 +1,7 @@
-//! What the command and the Python package do alike, and the ways in which it fails: one text for both.
+//! A command as a function: inputs to results and pages, for the command line and the Python package alike, and the ways in which it
+//! fails, in one text for both.
 //!
-//! Next to the proving ground, the sweeps and the workbench, this is a place that sees both worlds.
+//! Next to the experiments and the workbench, this is a place that sees both worlds.
 
 pub mod design;
 pub mod failure;
