@@ -296,7 +296,9 @@ def processor() -> str:
 
 PAGE = """# Benchmarks
 
-Written by `scripts/benchmark.sh`; both sides on one thread of the same machine ({processor}), CPU time. hexbench is built as
+Written by `scripts/benchmark.sh`; do not edit.
+
+Both sides on one thread of the same machine ({processor}), CPU time. hexbench is built as
 `cargo build --release` builds it, for any x86-64, and once more with `-C target-cpu=native` for this processor, as NumPy picks
 its kernels. Python {python}, NumPy {numpy}, SciPy {scipy}. How it is done: `scripts/benchmark.py`,
 `crates/design/examples/benchmark.rs`.

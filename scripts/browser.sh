@@ -3,19 +3,10 @@
 # without them it exits with 77, the reason on standard output.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 5
+source scripts/common.sh
 repository=$PWD
 ui=$repository/crates/workbench/ui
 artefacts=$(realpath -m "${HEXBENCH_ARTEFACTS:-target/artefacts}")
-
-skip() {
-    printf 'skipped: %s\n' "$1"
-    exit 77
-}
-
-fail() {
-    printf 'FAILED: %s\n' "$1" >&2
-    exit 1
-}
 
 find_chromium() {
     local name

@@ -3,7 +3,7 @@
 # Exit code 77: skipped, the reason on standard output. crates/python/README.md says more.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 5
-source scripts/python_environment.sh
+source scripts/common.sh
 repository=$PWD
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/python

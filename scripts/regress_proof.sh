@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes docs/regress.md: planted faults, which must fail, and unchanged runs with fresh seeds, which must not. Takes an hour and more;
+# Writes docs/results/regress.md: planted faults, which must fail, and unchanged runs with fresh seeds, which must not. Takes an hour and more;
 # goes on where it was stopped when DIR is given again.
 #
 #     scripts/regress_proof.sh [DIR] [RUNS]
@@ -16,4 +16,4 @@ for patch in data/regress/faults/*.patch; do
     [[ -s $out/$fault.json ]] || missing+=("$fault")
 done
 ((${#missing[@]} == 0)) || scripts/planted_faults.sh "$out" "${missing[@]}"
-"$program" validate regress --runs "$runs" --journal "$out/runs" --faults "$out" --markdown docs/regress.md
+"$program" validate regress --runs "$runs" --journal "$out/runs" --faults "$out" --markdown docs/results/regress.md

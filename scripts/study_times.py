@@ -1,6 +1,6 @@
 """Time and peak memory of one study on one process, on two, and on a Dask cluster; all must give the same bytes.
 
-    scripts/study_times.sh [STUDY]          writes docs/study-times.md
+    scripts/study_times.sh [STUDY]          writes docs/results/cluster-times.md
 """
 
 from __future__ import annotations
@@ -142,8 +142,10 @@ def document(path: Path, ways: list[list[Run]]) -> str:
     lines = [
         "# One study on one process, on two, and on a cluster",
         "",
-        f"`{path}`, {trials} trials, every process and every worker on one thread, {os.cpu_count()} cores. Written by",
-        f"`scripts/study_times.sh`: median (least .. most) of {ROUNDS} rounds, with reading the study and writing the results.",
+        "Written by `scripts/study_times.sh`; do not edit.",
+        "",
+        f"`{path}`, {trials} trials, every process and every worker on one thread, {os.cpu_count()} cores:",
+        f"median (least .. most) of {ROUNDS} rounds, with reading the study and writing the results.",
         "The ideal of two is half the time of one; a few percent are the machine's. Memory is the peak of the resident set.",
         "",
         "| | time, s | of the ideal | peak memory, MB | SHA-256 of the results |",

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Time and peak memory of one study on one process, on two, and on a Dask cluster of two workers; writes docs/study-times.md.
+# Time and peak memory of one study on one process, on two, and on a Dask cluster of two workers; writes docs/results/cluster-times.md.
 # For a quiet machine with two cores or more. The command and the Python package are built for release.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-source scripts/python_environment.sh
+source scripts/common.sh
 study=${1:-data/studies/many-springs.toml}
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$target/study-times
@@ -12,4 +12,4 @@ cargo build --release --locked --quiet --workspace --bins --example hexbench_mod
 mkdir -p "$work"
 prepare_python "$work" scripts/python-requirements.txt
 assemble_package "$work/package" "$target/release/deps"
-PYTHONPATH=$work/package "$work/venv/bin/python" scripts/study_times.py "$study" "$target/release/hexbench" docs/study-times.md
+PYTHONPATH=$work/package "$work/venv/bin/python" scripts/study_times.py "$study" "$target/release/hexbench" docs/results/cluster-times.md

@@ -72,6 +72,8 @@ for (const poses of POSES) {
 }
 const text = `# From a tick to the new error
 
+Written by \`scripts/tick_times.sh\`; do not edit.
+
 Milliseconds from the click on a term to the frame in which the new held-out error, the residual sheet and the numbers are drawn, and how many of
 them the server took; median of ${TIMES} ticks. Headless Chromium that draws by software, ${cpus().length} cores (${cpus()[0].model}). The readings are those
 of \`${SCENE}\` with more poses, no two conditions equal but for their repeats. "Poses in turn": without a holdout file every tick fits the model
@@ -80,7 +82,5 @@ twelve times more, each time without some of the poses.
 | readings | judged by | term | on the screen, ms | on the server, ms |
 |---|---|---|---|---|
 ${table.join("\n")}
-
-Written by \`scripts/tick_times.sh\`.
 `;
 writeFileSync(process.argv[2], text);

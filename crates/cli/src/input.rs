@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+pub(crate) use hexbench_app::input::{catalogue_with, model, user_terms};
 use hexbench_core::files::{Reading, read_conditions, read_hexapod, read_measurements, read_plan};
 use hexbench_core::{Dataset, Hexapod};
-pub(crate) use hexbench_tasks::input::{catalogue_with, model, user_terms};
 
 use crate::failure::Failure;
 use crate::output::report;

@@ -13,7 +13,7 @@ mod states;
 use std::process::ExitCode;
 
 use clap::Parser;
-use hexbench_tasks::failure;
+use hexbench_app::failure;
 
 fn main() -> ExitCode {
     let cli = args::Cli::parse();

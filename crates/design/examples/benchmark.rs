@@ -19,7 +19,7 @@ use hexbench_model::spring_trials::SpringTrials;
 
 const POSES: usize = 3;
 const SEED: u32 = 1;
-/// Stiffnesses of Table 2 and noise as docs/paper.md has it: three balls on a circle of 120 mm, 1 um.
+/// Stiffnesses of Table 2 and noise as docs/results/paper.md has it: three balls on a circle of 120 mm, 1 um.
 const STIFFNESS_N_PER_M: [f64; 6] = [4.1981e6, 3.7898e6, 2.7503e6, 4.32e6, 3.6716e6, 3.7288e6];
 const SIGMA: [f64; 6] = [0.8165e-6, 0.8165e-6, 0.8165e-6, 9.6225e-6, 9.6225e-6, 6.8041e-6];
 

@@ -3,6 +3,7 @@
 //! One spring per leg, identified from loaded poses, plus named terms for what the springs leave unexplained.
 
 pub mod absorption;
+pub mod answer;
 pub mod batch;
 mod body;
 pub mod campaign;

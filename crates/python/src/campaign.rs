@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use hexbench_app::Failure;
 use hexbench_core::Dataset;
 use hexbench_core::files::{
     Cells, FileError, MemoryColumn, Purpose, Reading, content_hash, measurements_to_columns,
     measurements_to_csv, read_columns, read_measurements, read_measurements_from,
 };
-use hexbench_tasks::Failure;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 

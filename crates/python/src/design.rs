@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use hexbench_app::design::{Wish, design as searched, page};
 use hexbench_core::Dataset;
 use hexbench_core::files::conditions_to_columns;
 use hexbench_design::Criterion;
 use hexbench_report::render::plain;
-use hexbench_tasks::design::{Wish, design as searched, page};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use hexbench_app::{Failure, input};
 use hexbench_model::compare::{Compared, compare as compared_with};
 use hexbench_model::diagnose::{Study, diagnose as studied};
 use hexbench_model::runs::{Origin, WithOrigin};
@@ -10,7 +11,6 @@ use hexbench_report::Page;
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{PROGRAM, Terminal, html, plain, terminal};
 use hexbench_report::words::{self, Provenance, Subject, subject};
-use hexbench_tasks::{Failure, input};
 use pyo3::prelude::*;
 use serde::Serialize;
 

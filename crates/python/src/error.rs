@@ -1,6 +1,6 @@
 //! A failure as a Python exception.
 
-use hexbench_tasks::{Exit, Failure};
+use hexbench_app::{Exit, Failure};
 use pyo3::prelude::*;
 
 /// The module with the classes.

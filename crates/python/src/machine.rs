@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use hexbench_app::Failure;
 use hexbench_core::files::{
     FileError, Kind, atomic_write, content_hash, hexapod_to_toml, parse_hexapod, read_hexapod, text_hash,
     unit_named,
 };
 use hexbench_core::{Hexapod, Vector3};
-use hexbench_tasks::Failure;
 use numpy::PyArray2;
 use pyo3::prelude::*;
 

@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use hexbench_app::fit::{added, fitted, model as kept};
+use hexbench_app::{Failure, input};
 use hexbench_model::diagnose::prepare;
 use hexbench_model::estimate::{Estimates, estimates_of};
-use hexbench_model::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::model_file::{Estimator, Model};
 use hexbench_model::predict::predict_with_covariance;
 use hexbench_model::selection::Task;
 use hexbench_report::render::plain;
 use hexbench_report::words;
-use hexbench_tasks::fit::{added, fitted};
-use hexbench_tasks::{Failure, input};
 use numpy::{PyArray2, PyArray3};
 use pyo3::prelude::*;
 
@@ -190,11 +190,7 @@ pub(crate) fn fit(
         let task = Task { hexapod, data, campaign: &campaign, holdout: holdout.as_ref().map(|h| &h.data) };
         let judged = fitted(&task, &added, estimator)?;
         let summary = plain(&words::fitted::page(&task, &judged, estimator));
-        let origin = DataOrigin {
-            file: data.source.clone(),
-            sha256: measured.origin.sha256.clone(),
-            readings: data.observations.len(),
-        };
-        Ok(PyModel::of(Model::new(&campaign, &judged.fit, estimator, origin), summary))
+        let model = kept(&task, &judged, estimator, measured.origin.sha256.clone());
+        Ok(PyModel::of(model, summary))
     })
 }

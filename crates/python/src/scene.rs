@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use hexbench_tasks::simulate::{Choices, scene};
+use hexbench_app::simulate::{Choices, scene};
 use hexbench_truth::scene::{Bench, Existing};
 use pyo3::prelude::*;
 

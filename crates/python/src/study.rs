@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use hexbench_app::Failure;
 use hexbench_experiments::harness::{Sharded, Silent, record};
 use hexbench_experiments::journal::Adopted;
 use hexbench_experiments::sweep::{Part, Runner, Study, Work, divide, page};
 use hexbench_report::render::plain;
-use hexbench_tasks::Failure;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use rayon::prelude::*;

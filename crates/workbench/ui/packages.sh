@@ -1,13 +1,10 @@
 # Sourced by scripts that need node: the packages of package-lock.json, installed once. Exits 77 when node or the package index is missing.
 
-cannot_run() {
-    printf 'skipped: %s\n' "$1"
-    exit 77
-}
+source "$(dirname "${BASH_SOURCE[0]}")/../../../scripts/common.sh"
 
 packages() {
-    command -v node >/dev/null && command -v npm >/dev/null || cannot_run "node and npm are not installed."
-    (($(node -p 'process.versions.node.split(".")[0]') >= 20)) || cannot_run "node is older than 20."
+    command -v node >/dev/null && command -v npm >/dev/null || skip "node and npm are not installed."
+    (($(node -p 'process.versions.node.split(".")[0]') >= 20)) || skip "node is older than 20."
     local stamp=node_modules/.package-lock-installed log
     cmp -s package-lock.json "$stamp" && return
     log=$(mktemp)
@@ -15,7 +12,7 @@ packages() {
         cat "$log"
         # A lock file that does not fit is a fault of ours, not of the network.
         grep -qE 'EUSAGE|EINTEGRITY' "$log" && exit 1
-        cannot_run "npm ci found no package index (its messages are above)."
+        skip "npm ci found no package index (its messages are above)."
     fi
     cp package-lock.json "$stamp"
 }

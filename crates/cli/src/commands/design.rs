@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use hexbench_app::design::{self, Wish, design};
 use hexbench_design::Criterion;
-use hexbench_tasks::design::{self, Wish, design};
 
 use crate::csv;
 use crate::failure::Failure;

@@ -1,16 +1,15 @@
 //! `hexbench fit HEXAPOD DATA --add TERM -o model.toml`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use hexbench_core::Dataset;
+use hexbench_app::fit::{added, fitted, model};
 use hexbench_core::files::content_hash;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::error::ModelError;
-use hexbench_model::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::model_file::Estimator;
 use hexbench_model::selection::Task;
 use hexbench_report::words::fitted;
-use hexbench_tasks::fit::{added, fitted};
 
 use crate::failure::Failure;
 use crate::input;
@@ -62,16 +61,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let judged = fitted(&task, &added, estimator)?;
     screen.show(&fitted::page(&task, &judged, estimator))?;
     let Some(path) = &arguments.output else { return Ok(()) };
-    let model = Model::new(&campaign, &judged.fit, estimator, origin(&arguments.data, &data)?);
+    let model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
     let unsaved = |cause| Failure::ModelFile { path: path.clone(), cause: Box::new(cause) };
     let text = model.to_toml().map_err(unsaved)?;
     screen.write_to(path, &text)
-}
-
-fn origin(path: &Path, data: &Dataset) -> Result<DataOrigin, Failure> {
-    Ok(DataOrigin {
-        file: data.source.clone(),
-        sha256: content_hash(path)?,
-        readings: data.observations.len(),
-    })
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_tasks::simulate::{self, Choices};
+use hexbench_app::simulate::{self, Choices};
 use hexbench_truth::scene::{Bench, Existing, PartName};
 
 use crate::failure::Failure;

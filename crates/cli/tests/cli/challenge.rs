@@ -153,9 +153,9 @@ fn spoil(path: &Path) {
 
 #[test]
 fn the_documented_formats_are_those_of_the_bundled_contract() {
-    let page = fs::read_to_string(root().join("docs/challenges.md")).unwrap();
+    let page = fs::read_to_string(root().join("docs/guide/challenges.md")).unwrap();
     let contract = fs::read_to_string(root().join("crates/experiments/src/challenge/entrants.md")).unwrap();
     for block in contract.split("```").skip(1).step_by(2).filter(|b| b.starts_with("json")) {
-        assert!(page.contains(block.trim()), "docs/challenges.md lacks {block}");
+        assert!(page.contains(block.trim()), "docs/guide/challenges.md lacks {block}");
     }
 }

@@ -1,6 +1,7 @@
 //! Documents that state what the code is: generated, or checked against it.
 
 use std::fs;
+use std::path::PathBuf;
 
 use cargo_metadata::MetadataCommand;
 
@@ -11,13 +12,47 @@ const BLESS: &str = "HEXBENCH_BLESS";
 
 #[test]
 fn the_page_of_effects_is_what_the_code_says() {
-    let path = root().join("docs/effects.md");
+    let path = root().join("docs/reference/effects.md");
     let fresh = text(hexbench().args(["terms", "--markdown"]).output().unwrap());
     if std::env::var_os(BLESS).is_some() {
         fs::write(&path, &fresh).unwrap();
     }
     let kept = fs::read_to_string(&path).unwrap_or_default();
-    assert!(kept == fresh, "docs/effects.md is stale: run the tests once with {BLESS}=1");
+    assert!(kept == fresh, "docs/reference/effects.md is stale: run the tests once with {BLESS}=1");
+}
+
+/// Markdown files of a folder of the documentation.
+fn pages(folder: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(root().join(folder)).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    paths.filter(|path| path.extension().is_some_and(|end| end == "md")).collect()
+}
+
+#[test]
+fn every_page_of_results_says_in_the_same_words_what_writes_it() {
+    let pages = pages("docs/results");
+    assert!(pages.len() > 9, "{pages:?}");
+    for page in pages {
+        let text = fs::read_to_string(&page).unwrap();
+        let banner = text.lines().nth(2).unwrap_or_default();
+        let command =
+            banner.strip_prefix("Written by `").and_then(|rest| rest.strip_suffix("`; do not edit."));
+        assert!(command.is_some_and(|c| !c.contains('`')), "{}: {banner}", page.display());
+    }
+}
+
+#[test]
+fn every_link_of_the_documentation_leads_somewhere() {
+    let shelves =
+        ["", "docs", "docs/guide", "docs/reference", "docs/results", "crates/python", "data/cases", "scenes"];
+    for page in shelves.into_iter().flat_map(pages) {
+        let text = fs::read_to_string(&page).unwrap();
+        let ends = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next());
+        for target in ends.filter(|end| !end.is_empty() && !end.contains("://")) {
+            let path = page.parent().unwrap().join(target);
+            assert!(path.exists(), "{}: {target} is not there", page.display());
+        }
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use cargo_metadata::MetadataCommand;
+use cargo_metadata::{Dependency, DependencyKind, MetadataCommand, Package};
 
 use crate::support::root;
 
@@ -18,7 +18,7 @@ enum Side {
 fn side(package: &str) -> Option<Side> {
     if package.starts_with("hexbench-truth") || package == "hexbench-rapier" {
         Some(Side::Truth)
-    } else if package == "hexbench-model" || package == "hexbench-design" {
+    } else if ["hexbench-model", "hexbench-design", DOOR].contains(&package) {
         Some(Side::Model)
     } else {
         None
@@ -28,7 +28,11 @@ fn side(package: &str) -> Option<Side> {
 /// The only packages that may depend on both sides: the experiments, what the command and the Python package do
 /// alike, both of these, and the workbench.
 const MEETING_PLACES: [&str; 5] =
-    ["hexbench-experiments", "hexbench-tasks", "hexbench-workbench", "hexbench-python", "hexbench-cli"];
+    ["hexbench-experiments", "hexbench-app", "hexbench-workbench", "hexbench-python", "hexbench-cli"];
+
+/// What Rust users depend on is of the model's side. Nobody who depends on it gets what its examples depend on, and one of them compares
+/// with the truth.
+const DOOR: &str = "hexbench";
 
 /// All that the two sides may have in common: the nouns, and crates of the registry that know nothing of hexapods.
 const SHARED: [&str; 17] = [
@@ -87,10 +91,13 @@ fn shared_beyond_the_list(graph: &Graph) -> Vec<String> {
     both.into_iter().filter(|p| !SHARED.contains(&p.as_str())).collect()
 }
 
-/// The graph of this workspace: normal, build and dev dependencies alike.
+/// The graph of this workspace: normal, build and dev dependencies alike, but for those of the examples of the door.
 fn workspace() -> Graph {
     let metadata = MetadataCommand::new().current_dir(root()).no_deps().exec().unwrap();
-    let names = |p: &cargo_metadata::Package| p.dependencies.iter().map(|d| d.name.clone()).collect();
+    let counts =
+        |p: &Package, d: &Dependency| p.name.as_str() != DOOR || d.kind != DependencyKind::Development;
+    let names =
+        |p: &Package| p.dependencies.iter().filter(|d| counts(p, d)).map(|d| d.name.clone()).collect();
     metadata.workspace_packages().iter().map(|p| (p.name.to_string(), names(p))).collect()
 }
 
@@ -102,7 +109,9 @@ fn graph(edges: &[(&str, &[&str])]) -> Graph {
 #[test]
 fn truth_and_model_do_not_depend_on_each_other_in_this_workspace() {
     let graph = workspace();
-    assert!(graph.contains_key("hexbench-model") && graph.contains_key("hexbench-truth"), "{graph:?}");
+    for package in ["hexbench-model", "hexbench-truth", DOOR] {
+        assert!(graph.contains_key(package), "{package}: {graph:?}");
+    }
     assert_eq!(violations(&graph), Vec::<String>::new());
 }
 
@@ -151,6 +160,14 @@ fn physics_that_both_use_is_found() {
     assert_eq!(shared_beyond_the_list(&below_the_nouns), ["hexbench-kinematics"]);
     let of_the_registry = graph(&[("hexbench-truth", &["k"]), ("hexbench-model", &["k", "nalgebra"])]);
     assert_eq!(shared_beyond_the_list(&of_the_registry), ["k"]);
+}
+
+#[test]
+fn the_door_for_rust_users_shows_the_model_alone() {
+    let bad = graph(&[(DOOR, &["hexbench-model", "hexbench-truth"]), ("hexbench-model", &[])]);
+    assert_eq!(violations(&bad).len(), 1);
+    let bad = graph(&[("hexbench-truth", &[DOOR]), (DOOR, &[])]);
+    assert_eq!(violations(&bad), ["hexbench-truth sees both hexbench-truth and hexbench"]);
 }
 
 #[test]

@@ -131,7 +131,7 @@ fn the_bundled_studies_can_be_read() {
 #[test]
 fn the_example_of_the_page_on_formats_is_read() {
     let folder = tempfile::tempdir().unwrap();
-    let formats = fs::read_to_string(root().join("docs/file-formats.md")).unwrap();
+    let formats = fs::read_to_string(root().join("docs/reference/file-formats.md")).unwrap();
     let example = formats.split("```toml\nformat = \"study/1\"").nth(1).unwrap();
     let file = write(folder.path(), &format!("format = \"study/1\"{}", example.split("```").next().unwrap()));
     for (from, to) in
@@ -306,18 +306,21 @@ fn every_bad_study_is_told_with_its_place_and_next_step_and_the_page_lists_them(
     compare(&page);
 }
 
-const BEGINNING: &str = "# Bad studies\n\nWhat `hexbench study` refuses, what it says, and what to do next. This page is made by \
-    the tests of the command from the\nsame files they check; `HEXBENCH_BLESS=1 cargo test -p hexbench-cli --test cli study` \
-    writes it again.\n\nExit code 3; 5 for files that are missing, for the disk and for a folder in use.\n\n\
+const BEGINNING: &str = "# Messages about studies\n\n\
+    Written by `HEXBENCH_BLESS=1 cargo test -p hexbench-cli --test cli study`; do not edit.\n\n\
+    What `hexbench study` refuses, what it says, and what to do next. The tests check the same files.\n\nExit code 3; 5 for files that are missing, for the disk and for a folder in use.\n\n\
     ## study.toml\n\n| what is wrong | message | next step |\n|---|---|---|\n";
 
 fn compare(page: &str) {
-    let path = root().join("docs/bad-studies.md");
+    let path = root().join("docs/reference/study-messages.md");
     if std::env::var_os("HEXBENCH_BLESS").is_some() {
         fs::write(&path, page).unwrap();
     }
     let kept = fs::read_to_string(&path).unwrap_or_default();
-    assert!(kept == page, "docs/bad-studies.md is stale: run the tests once with HEXBENCH_BLESS=1\n{page}");
+    assert!(
+        kept == page,
+        "docs/reference/study-messages.md is stale: run the tests once with HEXBENCH_BLESS=1\n{page}"
+    );
 }
 
 /// What is wrong, exit code, message.

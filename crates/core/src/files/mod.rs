@@ -13,7 +13,7 @@
 //!
 //! A file is checked completely before anyone sees it: what a reader returns is finite, in SI units, and of the
 //! right shape. What cannot be read is a [`FileError`] with place, value, rule and next step; what was read but
-//! should be looked at is a [`Warning`]. `docs/bad-input.md` lists the messages.
+//! should be looked at is a [`Warning`]. `docs/reference/file-messages.md` lists the messages.
 
 mod atomic;
 mod column_name;

@@ -79,10 +79,10 @@ impl Problem {
 
     fn step_for_hexapod(&self) -> Option<&'static str> {
         Some(match self {
-            Self::Toml(_) => "Correct the line; docs/file-formats.md shows a complete file.",
+            Self::Toml(_) => "Correct the line; docs/reference/file-formats.md shows a complete file.",
             Self::DuplicateKey { .. } => "Keep one of the two keys.",
             Self::WrongType { .. } | Self::Count { .. } => {
-                "Correct the value; docs/file-formats.md shows a complete file."
+                "Correct the value; docs/reference/file-formats.md shows a complete file."
             }
             Self::NotPositive { .. } => "Give the positive value, or remove the key if it is not known.",
             Self::CoincidingJoints { .. } => {
@@ -118,7 +118,7 @@ impl Problem {
             Self::UnknownKey { known, .. } => format!("Remove it; known here: {}.", known.join(", ")),
             Self::MissingKey { key } => format!("Add {key}."),
             Self::Rule { next, .. } => next.clone(),
-            _ => String::from("Correct the file; docs/file-formats.md shows a complete one."),
+            _ => String::from("Correct the file; docs/reference/file-formats.md shows a complete one."),
         }
     }
 }

@@ -44,7 +44,7 @@ const LEGS: &[Key] = &[
 const BASE: &[Key] = &[Key::with_unit("mounting_plane_z", Kind::Length, "mm")];
 const PAYLOAD: &[Key] = &[Key::with_unit("center_of_gravity", Kind::Length, "mm")];
 
-/// Reads `hexapod.toml`; `docs/file-formats.md` defines the keys.
+/// Reads `hexapod.toml`; `docs/reference/file-formats.md` defines the keys.
 ///
 /// # Errors
 /// The first thing that is wrong, with line, column, value and next step: an unknown key, a missing joint, a number

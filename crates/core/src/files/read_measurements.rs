@@ -17,7 +17,7 @@ use std::path::Path;
 
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// Reads `measurements.csv`, deflections or absolute poses; `docs/file-formats.md` defines the columns.
+/// Reads `measurements.csv`, deflections or absolute poses; `docs/reference/file-formats.md` defines the columns.
 ///
 /// Units are taken from the column names. Values are SI afterwards. Rows that are copies of earlier rows are dropped
 /// with a warning.

@@ -1,9 +1,9 @@
-//! The examples in `docs/file-formats.md` are files that can be read.
+//! The examples in `docs/reference/file-formats.md` are files that can be read.
 
 use hexbench_core::Measurand;
 use hexbench_core::files::{UNITS, parse_hexapod, read_measurements_from};
 
-const PAGE: &str = include_str!("../../../../docs/file-formats.md");
+const PAGE: &str = include_str!("../../../../docs/reference/file-formats.md");
 
 fn examples(language: &str) -> Vec<&'static str> {
     let fence = format!("```{language}\n");

@@ -2,6 +2,7 @@
 
 use hexbench_core::statistics::Proportion;
 use hexbench_report::number::hundredths;
+use hexbench_report::words::written_by;
 use hexbench_report::{Block, Figure, Page, Section, Table};
 use hexbench_truth::campaign::Kind;
 
@@ -101,7 +102,7 @@ fn introduction(study: &Calibration) -> Section {
     let counts: Vec<String> =
         study.protocol.portions.iter().map(|p| format!("{} {}", p.trials, p.kind.name())).collect();
     Section::lead()
-        .paragraph("Written by `hexbench validate calibration --markdown FILE`; do not edit.")
+        .paragraph(written_by("hexbench validate calibration --markdown FILE"))
         .paragraph(format!(
             "{} simulated campaigns with a known truth went through the diagnosis (seed {}; {} gave no answer): {}.",
             study.protocol.trials(),
@@ -201,7 +202,7 @@ fn again(study: &Calibration) -> Section {
     let (seed, trials) = (study.protocol.seed, study.protocol.trials());
     Section::new("Again")
         .with(Block::code(format!(
-            "hexbench validate calibration --seed {seed} --trials {trials} -o DIR --markdown docs/calibration.md\n\
+            "hexbench validate calibration --seed {seed} --trials {trials} -o DIR --markdown docs/results/calibration.md\n\
              hexbench validate calibration --seed {seed} --case pair-0007 -o DIR"
         )))
         .paragraph(

@@ -1,5 +1,6 @@
 //! The study as a page.
 
+use hexbench_report::words::written_by;
 use hexbench_report::{Block, Page, Section};
 
 use hexbench_core::statistics::{Proportion, mean};
@@ -93,7 +94,7 @@ fn versus(
 
 fn introduction(study: &Discrimination) -> Section {
     Section::lead()
-        .paragraph("Written by `hexbench validate discriminate --markdown FILE`; do not edit.")
+        .paragraph(written_by("hexbench validate discriminate --markdown FILE"))
         .paragraph(format!(
             "{} pairs of effects that look alike, {} simulated campaigns each (seed {}; {} gave no answer). In each one of the \
              two effects, at random, is hidden in a machine of one of seven families, at a distance of 8 to 20 standard \

@@ -4,6 +4,7 @@ use hexbench_core::statistics::Proportion;
 use hexbench_design::power::{Effect, Planned, Verdict};
 use hexbench_report::Page;
 use hexbench_report::number::significant;
+use hexbench_report::words::written_by;
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{Bench, PartName};
 
@@ -60,7 +61,7 @@ pub fn plan_of(scene: &Scene) -> Result<PowerPlan, PowerError> {
 pub fn document(plain: &Studied, rich: &Studied, charts: &str, again: &str) -> Page {
     let mut page = Page::default();
     page.heading(1, "What a plan can see");
-    page.paragraph("Written by `hexbench validate power --markdown FILE`; do not edit.");
+    page.paragraph(written_by("hexbench validate power --markdown FILE"));
     page.paragraph(
         "Before anything is measured, a plan (poses, loads, repeats) decides which effects it can show. Two plans for the \
          same machine and the same instrument: that of the paper, and one of many poses with tilts and loads along and about \

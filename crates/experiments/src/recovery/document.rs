@@ -1,6 +1,7 @@
 //! The study as a page.
 
-use hexbench_report::{Block, Page, Section, Table};
+use hexbench_report::words::written_by;
+use hexbench_report::{Page, Section, Table};
 
 use super::correspondence::{CORRESPONDENCES, Correspondence};
 use super::study::{Row, Study};
@@ -26,12 +27,12 @@ pub fn page(study: &Study) -> Page {
 
 fn introduction() -> Section {
     Section::lead()
+        .paragraph(written_by("hexbench validate recovery --markdown FILE"))
         .paragraph(
             "What the simulated world hides, the identification finds: leg stiffness, geometry and the size of every effect, with \
              95 % intervals that cover the truth in 95 % of the campaigns. World and model share no physics (see \
-             `ARCHITECTURE.md`), so nothing here is an equation checked against itself. This page is written by",
+             `ARCHITECTURE.md`), so nothing here is an equation checked against itself.",
         )
-        .with(Block::code("hexbench validate recovery --markdown docs/recovery.md"))
         .paragraph(
             "Every campaign has a machine, leg stiffnesses, a plan, a noise level, an effect and a size of its own (distances 11, \
              22 and 45; usual sizes for joint geometry). The fit is told which effect is there: the first tables test the \

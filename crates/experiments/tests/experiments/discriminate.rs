@@ -22,7 +22,7 @@ fn right(records: &[Record], stage: fn(&Record) -> Outcome) -> usize {
 #[test]
 fn most_open_answers_become_right_after_the_proposed_readings() {
     const TRIALS: usize = 10;
-    // Of answers that the plan leaves open, chance or useless readings leave most open; see docs/discriminate.md for the shares.
+    // Of answers that the plan leaves open, chance or useless readings leave most open; see docs/results/discriminate.md for the shares.
     const LEAST_SHARE: f64 = 0.6;
     let study = discriminate(Protocol { trials: TRIALS, ..Protocol::default() }, &confusions());
     assert_eq!(study.failures, 0);

@@ -117,7 +117,7 @@ fn the_papers_plan_is_blind_and_the_richer_one_names_the_base_and_reaches_the_no
 
 #[test]
 fn the_committed_page_and_its_charts_are_those_of_the_code() {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/results");
     for (name, fresh) in files(study()).unwrap() {
         let path = docs.join(&name);
         if std::env::var_os(BLESS).is_some() {
@@ -125,7 +125,7 @@ fn the_committed_page_and_its_charts_are_those_of_the_code() {
             fs::write(&path, &fresh).unwrap();
         }
         let kept = fs::read_to_string(&path).unwrap_or_default();
-        assert!(kept == fresh, "docs/{name} is stale: run the tests once with {BLESS}=1");
+        assert!(kept == fresh, "docs/results/{name} is stale: run the tests once with {BLESS}=1");
     }
 }
 

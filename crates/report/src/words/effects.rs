@@ -5,6 +5,7 @@ use std::sync::Arc;
 use hexbench_model::term::{Term, TermInfo};
 
 use super::effect::{needs, rich};
+use super::written_by;
 use crate::page::{Block, Entry, Page, Section, Table};
 
 /// One effect per line.
@@ -15,7 +16,7 @@ pub fn list(terms: &[Arc<dyn Term>]) -> Page {
     Page::default().with(section.with(Block::entries(entries)))
 }
 
-/// The page `docs/effects.md`.
+/// The page `docs/reference/effects.md`.
 pub fn catalogue(terms: &[Arc<dyn Term>]) -> Page {
     let page = Page::new(format!("The {} effects of the catalogue", terms.len())).with(introduction());
     terms.iter().fold(page, |page, term| page.with(section(term.info())))
@@ -23,7 +24,7 @@ pub fn catalogue(terms: &[Arc<dyn Term>]) -> Page {
 
 fn introduction() -> Section {
     Section::lead()
-        .paragraph("Generated from the code by `hexbench terms --markdown`; a test fails when this page is stale.")
+        .paragraph(written_by("hexbench terms --markdown"))
         .paragraph(
             "Every effect is a *term* of the model: an extra elongation `e_i` of leg `i`, an extra leg force or a rigid \
              motion, between the reference state and the loaded state. `f` and `f0` are the leg forces in the two states \

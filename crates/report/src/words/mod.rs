@@ -34,6 +34,11 @@ pub use subject::Subject;
 
 use crate::page::Page;
 
+/// What every document that a command writes begins with.
+pub fn written_by(command: &str) -> String {
+    format!("Written by `{command}`; do not edit.")
+}
+
 /// The diagnosis.
 pub fn diagnosis(subject: &Subject<'_>) -> Page {
     let d = &subject.study.diagnosis;

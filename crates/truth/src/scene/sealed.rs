@@ -56,7 +56,7 @@ fn effect(item: &Item<'_>) -> Result<Box<dyn Mechanism>, Fault> {
     mechanisms::build(id.string()?, Value::Object(parameters)).map_err(|wrong| {
         id.fault(Problem::Rule {
             rule: wrong.to_string(),
-            next: "docs/file-formats.md lists the effects with their parameters.".into(),
+            next: "docs/reference/file-formats.md lists the effects with their parameters.".into(),
         })
     })
 }

@@ -155,13 +155,13 @@ fn what_is_wrong_is_told_with_place_rule_and_next_step() {
             "make = \"rich\"",
             effect("id = \"crepe\""),
             "truth.toml: line 4, column 6 (id): \"crepe\"",
-            "docs/file-formats.md",
+            "docs/reference/file-formats.md",
         ),
         (
             "make = \"rich\"",
             effect("id = \"creep\"\nshare = 1"),
             "missing field `time`",
-            "docs/file-formats.md",
+            "docs/reference/file-formats.md",
         ),
         ("make = \"rich\"", effect("share = 1"), "the key \"id\" is missing", "Add id."),
         (

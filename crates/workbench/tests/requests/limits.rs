@@ -35,10 +35,10 @@ fn the_page_about_the_workbench_states_the_limits_of_the_program() {
         ("seconds for its body", seconds(s.body)),
         ("seconds without a byte of the answer being taken", seconds(s.write)),
     ];
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/workbench.md");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/guide/workbench.md");
     let page = fs::read_to_string(path).unwrap();
     for (what, limit) in stated {
         let line = format!("| {what} | {} |", grouped(limit as u64));
-        assert!(page.contains(&line), "docs/workbench.md lacks {line}");
+        assert!(page.contains(&line), "docs/guide/workbench.md lacks {line}");
     }
 }

@@ -1,4 +1,4 @@
-//! Every row is answered as the table says, and the server goes on. `docs/workbench-requests.md` is made from the answers.
+//! Every row is answered as the table says, and the server goes on. `docs/reference/workbench-requests.md` is made from the answers.
 
 use std::fmt::Write;
 use std::fs;
@@ -21,10 +21,10 @@ const ALWAYS: [&str; 6] = [
 ];
 
 const OPENING: &str = "# Requests to the workbench\n\n\
-    What the server answers to whom. This page is made by the tests of hexbench-workbench, which send these requests over plain\n\
-    sockets; `HEXBENCH_BLESS=1 cargo test -p hexbench-workbench --test requests` writes it again. The server under test has an\n\
+    Written by `HEXBENCH_BLESS=1 cargo test -p hexbench-workbench --test requests`; do not edit.\n\n\
+    What the server answers to whom. The tests send these requests over plain sockets. The server under test has an\n\
     engine that does as it is told, takes 65 536 bytes at most, and waits a second or less where the real one waits longer\n\
-    ([limits](workbench.md#limits)). After every row it must still answer the catalogue.\n\n\
+    ([limits](../guide/workbench.md#limits)). After every row it must still answer the catalogue.\n\n\
     `closed`: the connection ends without an answer. Answers without a message to what is not HTTP come from the library that reads it.\n";
 
 fn reply(row: &Row, site: &Site) -> Reply {
@@ -99,10 +99,10 @@ fn every_request_is_answered_as_documented_and_the_server_goes_on() {
 }
 
 fn compare(document: &str) {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/workbench-requests.md");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/workbench-requests.md");
     if std::env::var_os("HEXBENCH_BLESS").is_some() {
         fs::write(&path, document).unwrap();
     }
     let stored = fs::read_to_string(path).unwrap_or_default().replace("\r\n", "\n");
-    assert!(stored == document, "docs/workbench-requests.md is stale: run with HEXBENCH_BLESS=1");
+    assert!(stored == document, "docs/reference/workbench-requests.md is stale: run with HEXBENCH_BLESS=1");
 }

@@ -72,7 +72,7 @@ fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen
 
 fn page(arguments: &Arguments, plain: &Studied, rich: &Studied, charts: &str) -> Page {
     let again = format!(
-        "hexbench validate power --campaigns {} --seed {} --markdown docs/power.md",
+        "hexbench validate power --campaigns {} --seed {} --markdown docs/results/power.md",
         arguments.campaigns, arguments.seed
     );
     document(plain, rich, charts, &again)

@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     /// Write all figures to FILE, `-` for standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the page docs/recovery.md to FILE
+    /// Write the page docs/results/recovery.md to FILE
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
     /// Exit with 1 when a bound is broken

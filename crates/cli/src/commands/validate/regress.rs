@@ -39,7 +39,7 @@ pub(crate) struct Arguments {
     /// Folder with a result for each planted fault, as `scripts/planted_faults.sh` writes them
     #[arg(long, value_name = "DIR")]
     faults: Option<PathBuf>,
-    /// Write the page docs/regress.md to FILE
+    /// Write the page docs/results/regress.md to FILE
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
     #[command(flatten)]

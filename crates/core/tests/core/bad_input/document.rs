@@ -1,17 +1,17 @@
-//! `docs/bad-input.md`, made from the cases. Run with `HEXBENCH_BLESS=1` to write it again.
+//! `docs/reference/file-messages.md`, made from the cases. Run with `HEXBENCH_BLESS=1` to write it again.
 
 use super::{Case, error_of, hexapods, noticed, plans, tables};
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
-const OPENING: &str = "# Bad input\n\n\
-    What the readers refuse, what they say, and what to do next. This page is made by the tests of hexbench-core from\n\
-    the same files they check; `HEXBENCH_BLESS=1 cargo test -p hexbench-core --test core bad_input` writes it again.\n\n\
+const OPENING: &str = "# Messages about files\n\n\
+    Written by `HEXBENCH_BLESS=1 cargo test -p hexbench-core --test core bad_input`; do not edit.\n\n\
+    What the readers refuse, what they say, and what to do next. The tests check the same files.\n\n\
     Every message begins with the name of the file, left out here. Exit code 3; 5 for a missing file or a folder.\n";
 
 fn document_path() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/bad-input.md")
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/file-messages.md")
 }
 
 fn refused(text: &mut String, title: &str, cases: &[Case]) {
@@ -48,5 +48,5 @@ fn the_page_about_bad_input_is_up_to_date() {
         fs::write(document_path(), &text).unwrap();
     }
     let stored = fs::read_to_string(document_path()).unwrap_or_default().replace("\r\n", "\n");
-    assert!(stored == text, "docs/bad-input.md is stale: run with HEXBENCH_BLESS=1");
+    assert!(stored == text, "docs/reference/file-messages.md is stale: run with HEXBENCH_BLESS=1");
 }

@@ -1,4 +1,4 @@
-//! Bad input: every kind has its message, its place and its next step, and `docs/bad-input.md` lists them all.
+//! Bad input: every kind has its message, its place and its next step, and `docs/reference/file-messages.md` lists them all.
 
 mod document;
 mod hexapods;

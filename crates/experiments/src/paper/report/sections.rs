@@ -2,6 +2,7 @@
 
 use hexbench_core::statistics::mean;
 use hexbench_report::Page;
+use hexbench_report::words::written_by;
 
 use super::super::bench::{effective_load, sigma};
 use super::super::published::{
@@ -14,6 +15,7 @@ use super::{COORDINATES, chance, number};
 /// What this is, and the paper's first two steps.
 pub(super) fn opening(page: &mut Page, study: &Reproduction) {
     page.heading(1, "The paper, reproduced");
+    page.paragraph(written_by(&format!("hexbench validate paper --seed {}", study.seed)));
     page.paragraph(
         "V. J. Kalas, A. Vissiere, T. Roux, O. Company, S. Krut and F. Pierrot, \"A new efficient stiffness evaluation \
          method to improve accuracy of hexapods\" (IDETC/CIE 2018, DETC2018-85986) identify one spring per leg of a \
@@ -21,11 +23,10 @@ pub(super) fn opening(page: &mut Page, study: &Reproduction) {
          page repeats the procedure on a simulated machine, sets its tables beside the published ones, and asks what the \
          remaining error is made of.",
     );
-    page.paragraph(format!(
-        "Written by `hexbench validate paper --seed {}`. Every number of ours is simulated; the numbers behind each table \
-         and figure are beside the charts. Deflections are loaded minus preloaded; um and urad throughout.",
-        study.seed
-    ));
+    page.paragraph(
+        "Every number of ours is simulated; the numbers behind each table and figure are beside the charts. Deflections are \
+         loaded minus preloaded; um and urad throughout.",
+    );
     page.heading(2, "Steps 1 and 2: constraints, poses, repeats");
     page.list([
         "Machine: not published. Ours has base joints on a circle of 160 mm, platform joints on 120 mm, 165 mm above, pairs \

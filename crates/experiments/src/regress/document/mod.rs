@@ -1,9 +1,10 @@
-//! `docs/regress.md`: the rule, what each limit would notice, unchanged runs, planted faults.
+//! `docs/results/regress.md`: the rule, what each limit would notice, unchanged runs, planted faults.
 
 mod faults;
 mod notices;
 mod runs;
 
+use hexbench_report::words::written_by;
 use hexbench_report::{Block, Page, Section};
 
 use super::baseline::{Baseline, Update};
@@ -48,11 +49,12 @@ pub fn page(proof: &Proof<'_>) -> Page {
 
 fn introduction() -> Section {
     Section::lead()
+        .paragraph(written_by("scripts/regress_proof.sh"))
         .paragraph(
             "`hexbench regress` runs a fixed suite of campaigns with a known truth and compares accuracy, honesty of uncertainties, \
              answers, probabilities and effort with the committed baseline `data/regress/baseline.json`. It ends with exit code 1 \
-             when something is worse than chance explains. This page is written by `scripts/regress_proof.sh`; a workflow for \
-             GitHub Actions is [github-actions-accuracy.yml](github-actions-accuracy.yml).",
+             when something is worse than chance explains. A workflow for GitHub Actions is \
+             [github-actions-accuracy.yml](../guide/github-actions-accuracy.yml).",
         )
         .with(Block::code(COMMANDS))
 }

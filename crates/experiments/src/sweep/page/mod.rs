@@ -9,6 +9,7 @@ mod sections;
 mod write;
 
 use hexbench_report::Page;
+use hexbench_report::words::written_by;
 
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::Study;
@@ -31,6 +32,7 @@ pub fn summary(study: &Study, cells: &[CellStatistics]) -> Page {
 /// The whole page; charts are in `folder` beside it.
 pub fn document(study: &Study, cells: &[CellStatistics], pictures: &[Picture], folder: &str) -> Page {
     let mut page = Page::default();
+    page.paragraph(written_by("hexbench study FILE -o DIR"));
     sections::head(&mut page, study, cells);
     sections::axes(&mut page, study);
     let charts: Vec<(&Picture, String)> =

@@ -1,0 +1,380 @@
+//! What can go wrong, the exit code of each, and what to do about it.
+
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use hexbench_core::files::FileError;
+use hexbench_design::DesignError;
+use hexbench_experiments::ExperimentError;
+use hexbench_experiments::challenge::ChallengeError;
+use hexbench_experiments::paper::PaperError;
+use hexbench_experiments::power::PowerError;
+use hexbench_experiments::regress::baseline::BaselineError;
+use hexbench_experiments::sweep::StudyError;
+use hexbench_experiments::trial::TrialError;
+use hexbench_model::answer::AnswerError;
+use hexbench_model::error::ModelError;
+use hexbench_model::model_file::ModelFileError;
+use hexbench_model::predict::PredictError;
+use hexbench_model::registration::RegistrationError;
+use hexbench_model::runs::Incompatible;
+use hexbench_model::user_term::UserTermError;
+use hexbench_report::charts::ReportError;
+use hexbench_report::plot::PlotError;
+use hexbench_truth::TruthError;
+use hexbench_truth::scene::SimulationError;
+use thiserror::Error;
+
+/// Exit codes of the command; the Python package has an exception for each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exit {
+    /// Done.
+    Done = 0,
+    /// A requested check failed.
+    CheckFailed = 1,
+    /// Wrong usage; argument parsing exits with the same number.
+    Usage = 2,
+    /// The input says something that cannot be used.
+    BadInput = 3,
+    /// The data do not determine what was asked.
+    NotDetermined = 4,
+    /// A file cannot be read or written.
+    InputOutput = 5,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+/// Why a subcommand stopped.
+#[derive(Debug, Error)]
+pub enum Failure {
+    /// A file that cannot be used.
+    #[error("{0}")]
+    File(#[from] FileError),
+    /// The model cannot be computed.
+    #[error("{cause}")]
+    Model {
+        /// What stands in the way.
+        cause: ModelError,
+        /// The data it was about.
+        data: String,
+    },
+    /// A model file that is none.
+    #[error("{}: {cause}", path.display())]
+    ModelFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: Box<ModelFileError>,
+    },
+    /// A result file that is none.
+    #[error("{}: {cause}", path.display())]
+    Result {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: String,
+    },
+    /// Two results that have nothing to do with each other.
+    #[error("{0}")]
+    Runs(Incompatible),
+    /// A term file that is none.
+    #[error("{}: {cause}", path.display())]
+    UserTerm {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: Box<UserTermError>,
+    },
+    /// A row that cannot be predicted.
+    #[error("{}: {cause}", path.display())]
+    Row {
+        /// The file of the row.
+        path: PathBuf,
+        /// The row, and why.
+        cause: Box<PredictError>,
+    },
+    /// A row of a table in memory that cannot be predicted.
+    #[error("{table}: row {row}: {cause}")]
+    MemoryRow {
+        /// What the table is called.
+        table: String,
+        /// The row, from 0.
+        row: u64,
+        /// Why.
+        cause: Box<ModelError>,
+    },
+    /// A state of a scene that the simulated world does not have, or that a format cannot express.
+    #[error("{}: {place}: {cause}", scene.display())]
+    SceneState {
+        /// Folder of the scene.
+        scene: PathBuf,
+        /// Row of the plan or state of the table, from 1.
+        place: String,
+        /// What stands in the way.
+        cause: TruthError,
+    },
+    /// A state of the simulated machine that cannot be computed.
+    #[error("{0}")]
+    World(#[from] TruthError),
+    /// A file that cannot be read.
+    #[error("{}: cannot be read: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
+    /// Balls that give no pose.
+    #[error("{}: {cause}", path.display())]
+    Balls {
+        /// The file of the balls.
+        path: PathBuf,
+        /// The record, and why.
+        cause: RegistrationError,
+    },
+    /// A scene that could not be simulated.
+    #[error("{0}")]
+    Simulation(SimulationError),
+    /// A design problem without an answer.
+    #[error("{0}")]
+    Design(#[from] DesignError),
+    /// An experiment that cannot go on.
+    #[error("{0}")]
+    Experiment(#[from] ExperimentError),
+    /// A study that cannot go on.
+    #[error("{0}")]
+    Study(StudyError),
+    /// A challenge that cannot go on.
+    #[error("{0}")]
+    Challenge(ChallengeError),
+    /// Wrong usage that only shows after parsing.
+    #[error("{message}")]
+    Usage {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        next: String,
+    },
+    /// The answer is not the expected one.
+    #[error("check failed: {0}")]
+    Check(String),
+    /// A baseline that cannot be used or written.
+    #[error("{0}")]
+    Baseline(#[from] BaselineError),
+    /// A plan whose power cannot be told.
+    #[error("{0}")]
+    Power(#[from] PowerError),
+    /// A study without an answer.
+    #[error("{0}")]
+    Reproduction(#[from] PaperError),
+    /// A simulated campaign without an answer.
+    #[error("{0}")]
+    Trial(TrialError),
+    /// A chart that cannot be drawn.
+    #[error("{0}")]
+    Plot(#[from] PlotError),
+    /// A page that cannot be drawn.
+    #[error("{0}")]
+    Report(#[from] ReportError),
+    /// A server that cannot begin.
+    #[error("port {port} on 127.0.0.1 cannot be used: {cause}")]
+    Server {
+        /// Its port; 0: any.
+        port: u16,
+        /// Why not.
+        cause: io::Error,
+    },
+    /// Output that cannot be written.
+    #[error("{}: cannot be written: {cause}", path.display())]
+    Output {
+        /// Where to.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
+}
+
+impl Failure {
+    /// The exit code.
+    pub fn exit(&self) -> Exit {
+        match self {
+            Self::File(error) if error.is_input_output() => Exit::InputOutput,
+            Self::Model { cause, .. } | Self::Power(PowerError::Design(DesignError::Model(cause))) => {
+                exit_of(cause)
+            }
+            Self::Experiment(cause) => exit_of_experiment(cause),
+            Self::Challenge(cause) => exit_of_challenge(cause),
+            Self::Usage { .. } | Self::Baseline(BaselineError::NoReason) => Exit::Usage,
+            Self::Baseline(cause) if cause.is_input_output() => Exit::InputOutput,
+            Self::Check(_) => Exit::CheckFailed,
+            Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
+            Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
+            Self::Power(_)
+            | Self::Study(_)
+            | Self::Design(_)
+            | Self::Reproduction(_)
+            | Self::Trial(_)
+            | Self::Plot(_)
+            | Self::Report(_) => Exit::NotDetermined,
+            Self::File(_)
+            | Self::ModelFile { .. }
+            | Self::Result { .. }
+            | Self::Runs(_)
+            | Self::Row { .. }
+            | Self::MemoryRow { .. }
+            | Self::Balls { .. }
+            | Self::SceneState { .. }
+            | Self::Baseline(_)
+            | Self::World(_)
+            | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
+            Self::UserTerm { .. }
+            | Self::Output { .. }
+            | Self::Server { .. }
+            | Self::Unreadable { .. }
+            | Self::Simulation(_) => Exit::InputOutput,
+        }
+    }
+
+    /// What to do about it, one sentence.
+    pub fn next_step(&self) -> Option<String> {
+        match self {
+            Self::File(error) => Some(error.next_step()),
+            Self::Model { cause, data } => Some(cause.next_step(data)),
+            Self::Simulation(SimulationError::Row(_)) => {
+                Some("Check the poses, loads and effects of the scene: this state does not exist.".into())
+            }
+            Self::Usage { next, .. } => Some(next.clone()).filter(|step| !step.is_empty()),
+            Self::Experiment(cause) => Some(cause.next_step()),
+            Self::Study(cause) => Some(cause.next_step()),
+            Self::Challenge(cause) => Some(cause.next_step()),
+            Self::Check(_) => None,
+            Self::Baseline(cause) => Some(cause.next_step().into()),
+            Self::Design(DesignError::NeverDetermined { .. }) => Some(
+                "Let the space vary what they need: loads, turns or [conditions]; `hexbench terms TERM` says what shows an \
+                 effect."
+                    .into(),
+            ),
+            Self::Power(PowerError::Design(DesignError::Model(cause))) => {
+                Some(cause.next_step("the plan"))
+            }
+            Self::Power(_) => Some("Check the poses (mm, deg) and loads (N, N m) of the plan.".into()),
+            Self::Design(_) => {
+                Some("Widen the ranges or limits in the space file, or ask for more poses.".into())
+            }
+            Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
+            Self::Result { .. } => {
+                Some("`hexbench diagnose ... --json FILE` and `compare ... --json FILE` write such files.".into())
+            }
+            Self::Runs(_) => Some("Give two results of the same kind about the same machine.".into()),
+            Self::UserTerm { .. } => {
+                Some("`hexbench fit --help` names the format term/1; correct the file.".into())
+            }
+            Self::Row { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this line.".into()),
+            Self::MemoryRow { .. } => Some("Check the pose (mm, deg) and the load (N, N m) in this row.".into()),
+            Self::SceneState { cause: TruthError::Inexpressible { .. }, .. } => {
+                Some("Leave this effect out of sealed/truth.toml for this purpose.".into())
+            }
+            Self::SceneState { .. } => {
+                Some("Check the pose, the load and the hidden effects of the scene.".into())
+            }
+            Self::Balls { cause: RegistrationError::MissingBall { .. }, .. } => {
+                Some("Touch every ball in every record, or take the ball out of the balls file.".into())
+            }
+            Self::Balls { .. } => Some("Use three balls or more that span a triangle.".into()),
+            Self::World(_) => Some(
+                "Check the joints in the hexapod file, the pose (mm, deg), load, stiffness and masses."
+                    .into(),
+            ),
+            Self::Unreadable { .. } => Some("Check the name of the file.".into()),
+            Self::Trial(_) => Some("Give another trial or another seed.".into()),
+            Self::Plot(_) => Some("Give more trials.".into()),
+            Self::Report(_) => Some("Leave --html away: the page in the terminal needs no charts.".into()),
+            Self::Reproduction(_) => Some("Give another seed.".into()),
+            Self::Server { .. } => {
+                Some("Leave --port away: a free port is then chosen.".into())
+            }
+            Self::Output { .. } | Self::Simulation(_) => {
+                Some("Check the free space and that the folder may be written to.".into())
+            }
+        }
+    }
+}
+
+impl From<SimulationError> for Failure {
+    fn from(error: SimulationError) -> Self {
+        match error {
+            SimulationError::File(file) => Self::File(file),
+            SimulationError::NotEmpty(_) => Self::Usage {
+                message: error.to_string(),
+                next: "Name another folder, or add --force to replace the files in it.".into(),
+            },
+            other => Self::Simulation(other),
+        }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::File(file) => Self::File(file),
+            StudyError::Plot(plot) => Self::Plot(plot),
+            StudyError::Experiment(error) => Self::Experiment(error),
+            StudyError::Design { .. } => Self::Study(error),
+        }
+    }
+}
+
+impl From<ChallengeError> for Failure {
+    fn from(error: ChallengeError) -> Self {
+        match error {
+            ChallengeError::File(file) => Self::File(file),
+            ChallengeError::Experiment(error) => Self::Experiment(error),
+            other => Self::Challenge(other),
+        }
+    }
+}
+
+impl From<AnswerError> for Failure {
+    fn from(error: AnswerError) -> Self {
+        match error {
+            AnswerError::File(file) => Self::File(file),
+            AnswerError::Model(cause) => Self::Model { cause, data: "measurements.csv".into() },
+            AnswerError::Row(cause) => Self::Row { path: "predict.csv".into(), cause: Box::new(cause) },
+            AnswerError::Write { path, cause } => Self::Output { path, cause },
+        }
+    }
+}
+
+fn exit_of_challenge(cause: &ChallengeError) -> Exit {
+    match cause {
+        ChallengeError::NotEmpty(_)
+        | ChallengeError::NoSuite { .. }
+        | ChallengeError::NoProgram(_)
+        | ChallengeError::OtherProgram { .. }
+        | ChallengeError::SameName(_) => Exit::Usage,
+        ChallengeError::Case { .. } => Exit::NotDetermined,
+        _ if cause.is_input_output() => Exit::InputOutput,
+        _ => Exit::BadInput,
+    }
+}
+
+fn exit_of_experiment(cause: &ExperimentError) -> Exit {
+    match cause {
+        ExperimentError::NotEmpty { .. } => Exit::Usage,
+        _ if cause.is_input_output() => Exit::InputOutput,
+        _ => Exit::BadInput,
+    }
+}
+
+fn exit_of(cause: &ModelError) -> Exit {
+    match cause {
+        ModelError::UnknownTerm { .. } | ModelError::Selection(_) => Exit::Usage,
+        ModelError::NotFinite { .. } | ModelError::Mismatch(_) => Exit::BadInput,
+        _ => Exit::NotDetermined,
+    }
+}

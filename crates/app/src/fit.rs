@@ -1,0 +1,59 @@
+//! Fitting the terms that somebody names.
+
+use std::sync::Arc;
+
+use hexbench_model::error::ModelError;
+use hexbench_model::fit_named::{Added, refuse_undetermined};
+use hexbench_model::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::paper::fit_paper;
+use hexbench_model::selection::{Judged, Task};
+use hexbench_model::term::Term;
+
+use crate::Failure;
+use crate::input::catalogue_with;
+
+/// What is fitted beside the springs: terms by name, and the user's own, whether named or not.
+///
+/// # Errors
+/// [`Failure::Usage`] for the paper's estimator with terms, [`Failure::Model`] for a name that is none.
+pub fn added(names: &[String], own: Vec<Arc<dyn Term>>, estimator: Estimator) -> Result<Vec<Added>, Failure> {
+    if estimator == Estimator::Paper && !(names.is_empty() && own.is_empty()) {
+        return Err(Failure::Usage {
+            message: "the paper's estimator knows leg springs only".into(),
+            next: "Leave out --estimator paper to add effects.".into(),
+        });
+    }
+    let all = catalogue_with(&own);
+    let failed = |cause| Failure::Model { cause, data: String::new() };
+    let named = names.iter().map(|name| Added::named(name, &all).map_err(failed));
+    let mut added = named.collect::<Result<Vec<_>, _>>()?;
+    let asked = |t: &Arc<dyn Term>| added.iter().any(|a| a.term.info().id == t.info().id);
+    let fresh: Vec<_> = own.into_iter().filter(|t| !asked(t)).collect();
+    added.extend(fresh.into_iter().map(Added::from));
+    Ok(added)
+}
+
+/// A fit whose every number the data determine, judged.
+///
+/// # Errors
+/// [`Failure::Model`].
+pub fn fitted(task: &Task<'_>, added: &[Added], estimator: Estimator) -> Result<Judged, Failure> {
+    let failed = |cause: ModelError| Failure::Model { cause, data: task.data.source.clone() };
+    let judged = judged(task, added, estimator).map_err(failed)?;
+    refuse_undetermined(&judged.fit).map_err(failed)?;
+    Ok(judged)
+}
+
+/// The model of a fit, to be kept; `sha256` is that of the file of the data.
+pub fn model(task: &Task<'_>, judged: &Judged, estimator: Estimator, sha256: String) -> Model {
+    let origin =
+        DataOrigin { file: task.data.source.clone(), sha256, readings: task.data.observations.len() };
+    Model::new(task.campaign, &judged.fit, estimator, origin)
+}
+
+fn judged(task: &Task<'_>, added: &[Added], estimator: Estimator) -> Result<Judged, ModelError> {
+    match estimator {
+        Estimator::Gls => task.fit(added),
+        Estimator::Paper => task.judge(fit_paper(task.campaign, task.data)?.into_fit(task.campaign)?, None),
+    }
+}

@@ -1,0 +1,54 @@
+//! Elastostatics of hexapods (Gough-Stewart platforms) from measurements: which physical effect does a stiffness model lack?
+//!
+//! A hexapod yields under load. The usual model has one spring per leg; measured deflections tell how stiff each is, and what is left
+//! over tells what else yields. This crate reads a machine and its measurements, names the missing effect with a probability, or says
+//! that none of the known ones explains the data, fits the effect in its own units, and shows the error on poses that no fit has seen.
+//!
+//! ```
+//! use hexbench::prelude::*;
+//!
+//! # let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/cases/mujoco-foundation");
+//! let hexapod = read_hexapod(&folder.join("hexapod.toml"))?;
+//! let measurements = read_measurements(&folder.join("measurements.csv"))?.dataset;
+//! let holdout = read_measurements(&folder.join("holdout.csv"))?.dataset;
+//!
+//! let study = diagnose(&hexapod, &measurements, Some(&holdout), &catalogue())?;
+//! assert_eq!(study.diagnosis.verdict, Verdict::Named);
+//! assert_eq!(study.diagnosis.added, ["base-compliance"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Chapters
+//!
+//! | you want | it is in |
+//! |---|---|
+//! | machines, poses, wrenches, readings; their files | [`core`] |
+//! | the loop from measurements to a verdict | [`model::diagnose`] |
+//! | terms chosen by hand, fitted and judged | [`model::selection`], [`model::fit_named`] |
+//! | the catalogue of effects; a term of your own | [`model::terms`]; [`model::term`], [`model::chain`] |
+//! | where the error sits and what it follows | [`model::compare`] |
+//! | a model kept in a file; what it predicts; commands corrected by it | [`model::model_file`]; [`model::predict`]; [`model::compensate`] |
+//! | what to measure: poses, loads, readings within a budget | [`design`] |
+//! | which effects a plan would show | [`design::power`] |
+//!
+//! The simulated machine with hidden effects, `hexbench-truth`, is no part of this crate: what explains measurements must not see what
+//! made them. Only a test or a comparison depends on both, as the example `simulate_and_recover` does.
+//!
+//! # Examples
+//!
+//! - `diagnose`: from files to a named effect, its size, a prediction;
+//! - `own_term`: an effect that no catalogue has, as twenty lines of Rust;
+//! - `simulate_and_recover`: hide an effect in a simulated machine, find it, compare with the truth.
+//!
+//! `cargo run --release -p hexbench --example diagnose` runs the first.
+//!
+//! # Conventions
+//!
+//! SI inside (m, rad, N, N m, K, s); a name says its unit wherever another one is meant (`_um`, `_urad`). Fixed and mobile frame
+//! coincide at the zero pose; wrenches act on the platform, at the mobile origin, in fixed axes. [`core`] has the rest.
+
+pub use hexbench_core as core;
+pub use hexbench_design as design;
+pub use hexbench_model as model;
+
+pub mod prelude;

@@ -1,0 +1,37 @@
+//! The bench's own entrants of a challenge: a case folder in, an answer folder out.
+//!
+//! They are given the public files of a case, as any other entrant: `hexapod.toml`, `measurements.csv`, `predict.csv`. What they write
+//! is the contract of `docs/guide/challenges.md`.
+
+mod case;
+mod error;
+mod methods;
+mod write;
+
+use std::path::Path;
+
+pub use case::Case;
+pub use error::AnswerError;
+
+/// How a case is answered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// The whole diagnosis: effects with their probabilities, stiffnesses averaged over what remains possible, predictions of
+    /// the best model.
+    Hexbench,
+    /// The paper's estimator: unweighted least squares of six springs, nothing else.
+    Paper,
+}
+
+/// Answers the case in a folder.
+///
+/// # Errors
+/// [`AnswerError`] when a file cannot be read or written, or when the method has no answer.
+pub fn answer(case: &Path, out: &Path, method: Method) -> Result<(), AnswerError> {
+    let case = Case::read(case)?;
+    let answer = match method {
+        Method::Hexbench => methods::hexbench(&case),
+        Method::Paper => methods::paper(&case),
+    }?;
+    write::answer(out, &case, &answer)
+}
