@@ -1,10 +1,10 @@
 //! Figures over some cases of one program.
 
-use hexbench_core::statistics::{self, Proportion, median, root_mean_square};
+use hexbench_core::statistics::{self, COVERAGE_FACTOR, Proportion, median, root_mean_square};
 
 use serde::Serialize;
 
-use super::case::{COVERAGE_FACTOR, CaseScore};
+use super::case::CaseScore;
 
 /// A share with its exact binomial 95 % bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
