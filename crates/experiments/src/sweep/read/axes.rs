@@ -7,7 +7,7 @@ use hexbench_truth::campaign::{PlanKind, machines};
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
 use super::{one_of, unknown};
-use crate::sweep::axes::{CRITERIA, Estimator, Noises, PlanSource, Sizes};
+use crate::sweep::axes::{Axes, CRITERIA, Estimator, Noises, PlanSource, Sizes};
 use crate::sweep::study::Task;
 
 const KEYS: &[Key] = &Key::all_plain([
@@ -28,16 +28,7 @@ const MOST_POSES: u64 = 200;
 const MOST_REPEATS: u64 = 1000;
 
 /// `[axes]` before the files it names are read.
-pub(super) struct AxesTable {
-    pub(super) geometry: Vec<GeometryName>,
-    pub(super) plan: Vec<PlanName>,
-    pub(super) poses: Vec<u64>,
-    pub(super) repeats: Vec<u64>,
-    pub(super) estimator: Vec<Estimator>,
-    pub(super) effect: Vec<Option<&'static str>>,
-    pub(super) size: Sizes,
-    pub(super) noise: Noises,
-}
+pub(super) type AxesTable = Axes<GeometryName, PlanName>;
 
 /// A family, or the name of a hexapod file.
 pub(super) enum GeometryName {
@@ -73,12 +64,6 @@ impl AxesTable {
         };
         axes.refuse_impossible(&t, task)?;
         Ok(axes)
-    }
-
-    pub(super) fn cells(&self) -> u128 {
-        let counts = [self.geometry.len(), self.plan.len(), self.effect.len(), self.noise.len()];
-        let open = [self.poses.len(), self.repeats.len(), self.estimator.len(), self.size.values().len()];
-        counts.iter().chain(open.map(|n| n.max(1)).iter()).map(|&n| n as u128).product()
     }
 
     fn refuse_impossible(&self, t: &Section<'_>, task: Task) -> Result<(), Fault> {

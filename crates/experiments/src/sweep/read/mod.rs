@@ -76,10 +76,10 @@ fn description(top: &Section<'_>) -> Result<Description, Fault> {
         starts: whole("starts", USUAL_STARTS)?,
         axes: AxesTable::read(top.require("axes")?, task)?,
     };
-    let all = d.axes.cells() * u128::from(d.trials);
+    let cells: u128 = d.axes.counts().map(|n| n as u128).iter().product();
+    let all = cells * u128::from(d.trials);
     if all > MOST_TRIALS {
-        let broken =
-            format!("{} cells of {} trials are {all} trials; at most 10^9", d.axes.cells(), d.trials);
+        let broken = format!("{cells} cells of {} trials are {all} trials; at most 10^9", d.trials);
         return Err(trials.breaks(&broken, "Take fewer trials, or fewer values on the axes."));
     }
     Ok(d)
