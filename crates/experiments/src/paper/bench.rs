@@ -54,10 +54,7 @@ impl Bench {
     }
 
     /// Deflections as the instrument gives them; equal numbers give equal noise whatever the world.
-    ///
-    /// # Errors
-    /// As [`World::deflection`].
-    pub fn measure(
+    pub(crate) fn measure(
         &self,
         world: &World,
         rows: &[Row],
@@ -76,10 +73,7 @@ impl Bench {
     }
 
     /// Deflections without noise.
-    ///
-    /// # Errors
-    /// As [`World::deflection`].
-    pub fn ideal(&self, world: &World, rows: &[Row]) -> Result<Dataset, TruthError> {
+    pub(crate) fn ideal(&self, world: &World, rows: &[Row]) -> Result<Dataset, TruthError> {
         let read = |(i, row): (usize, &Row)| {
             Ok(row.read(i as u64 + 2, world.deflection(&row.situation)?.into(), Some(sigma())))
         };

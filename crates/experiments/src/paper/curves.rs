@@ -30,10 +30,7 @@ pub struct IndexOverLoad {
 }
 
 /// Fig. 7: O1 over the load for the paper's set, the best one found, and one without rotation.
-///
-/// # Errors
-/// [`ModelError::SingularPose`].
-pub fn figure_7(
+pub(crate) fn figure_7(
     hexapod: &Hexapod,
     sets: [(&'static str, &PoseSet); 3],
 ) -> Result<Vec<IndexOverLoad>, ModelError> {
@@ -59,10 +56,7 @@ pub struct Linearity {
 }
 
 /// Fig. 8 of a world.
-///
-/// # Errors
-/// [`PaperError::Truth`].
-pub fn figure_8(bench: &Bench, world: &World) -> Result<Linearity, PaperError> {
+pub(crate) fn figure_8(bench: &Bench, world: &World) -> Result<Linearity, PaperError> {
     let situation =
         |load: f64| Situation::new(Pose::default(), Wrench::from_array([0.0, 0.0, -load, 0.0, 0.0, 0.0]));
     let rows: Vec<Row> = (1..)
@@ -102,10 +96,7 @@ pub struct Compared {
 }
 
 /// Figs. 9 and 10: predicted and measured deflection along X and along Y.
-///
-/// # Errors
-/// [`ModelError::SingularPose`].
-pub fn figures_9_and_10(
+pub(crate) fn figures_9_and_10(
     bench: &Bench,
     springs: &Identified,
     data: &hexbench_core::Dataset,
