@@ -9,7 +9,6 @@ use hexbench_report::{Block, Entry, Page, Section};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-
 /// Decimal logarithms of odds beyond which a number says no more.
 const OVERWHELMING: f64 = 4.0;
 

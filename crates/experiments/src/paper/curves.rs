@@ -5,7 +5,7 @@ use hexbench_model::error::ModelError;
 use hexbench_truth::campaign::Row;
 use hexbench_truth::{Situation, World};
 
-use super::bench::{Bench, Covariates, effective_load, level_pose};
+use super::bench::{Bench, Covariates, effective_load, ideal, level_pose};
 use super::error::PaperError;
 use super::identify::Identified;
 use super::published::FIGURE_7_LOADS_N;
@@ -66,7 +66,7 @@ pub(crate) fn figure_8(bench: &Bench, world: &World) -> Result<Linearity, PaperE
     let points = |data: &hexbench_core::Dataset| -> Vec<[f64; 2]> {
         data.observations.iter().map(|o| [-o.wrench.force.z, -o.measured[2] * 1e6]).collect()
     };
-    let ideal = points(&bench.ideal(world, &rows)?);
+    let ideal = points(&ideal(world, &rows)?);
     let mut trials = Vec::new();
     for stream in (TRIALS..).take(TRIAL_COUNT) {
         trials.push(points(&bench.measure(world, &rows, Covariates::None, "trial", stream)?));

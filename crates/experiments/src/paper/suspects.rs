@@ -8,7 +8,7 @@ use hexbench_truth::mechanisms::{
     BaseBending, BaseCompliance, BracketCompliance, LegLengthCompliance, LoadOffset, LoadTilt, TargetOffset,
 };
 
-use super::bench::{Bench, effective_load, identification, validation};
+use super::bench::{Bench, effective_load, ideal, identification, validation};
 use super::error::PaperError;
 use super::identify::{Estimator, Identified, pooled, rms};
 use super::published::PREDICTION_ERROR;
@@ -95,9 +95,9 @@ pub fn skew_support(motion: [f64; 3]) -> Box<dyn Mechanism> {
 /// Errors that the paper's estimator makes on the validation poses with an effect in the world and no noise, um and urad.
 pub(crate) fn bias(bench: &Bench, effect: Box<dyn Mechanism>) -> Result<[f64; 6], PaperError> {
     let world = bench.world(vec![effect]);
-    let data = bench.ideal(&world, &identification())?;
+    let data = ideal(&world, &identification())?;
     let springs = Identified::from(bench, &data, Estimator::Paper)?;
-    Ok(springs.prediction_error(bench, &bench.ideal(&world, &validation())?)?)
+    Ok(springs.prediction_error(bench, &ideal(&world, &validation())?)?)
 }
 
 /// Every suspect at the size that gives the paper's translation errors beside the noise expected of springs alone.

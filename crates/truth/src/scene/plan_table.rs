@@ -89,7 +89,7 @@ impl PlanTable {
         let makes = PlanKind::ALL.map(PlanKind::name).join(", ");
         Err(item.breaks(
             "a plan needs a make, or a table of conditions, or poses and loads",
-            &format!("Add make (one of {makes}), or conditions = \"FILE\", or poses and loads_N_Nm."),
+            format!("Add make (one of {makes}), or conditions = \"FILE\", or poses and loads_N_Nm."),
         ))
     }
 

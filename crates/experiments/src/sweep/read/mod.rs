@@ -80,7 +80,7 @@ fn description(top: &Section<'_>) -> Result<Description, Fault> {
     let all = cells * u128::from(d.trials);
     if all > MOST_TRIALS {
         let broken = format!("{cells} cells of {} trials are {all} trials; at most 10^9", d.trials);
-        return Err(trials.breaks(&broken, "Take fewer trials, or fewer values on the axes."));
+        return Err(trials.breaks(broken, "Take fewer trials, or fewer values on the axes."));
     }
     Ok(d)
 }
