@@ -7,6 +7,7 @@ pub use model::{ModelRegressor, reading};
 pub use springs::{SpringRegressor, Weights};
 
 use hexbench_core::Pose;
+use hexbench_model::parameters::stiffness_name;
 use nalgebra::DMatrix;
 
 use crate::DesignError;
@@ -50,5 +51,5 @@ pub trait SettingRegressor: PoseRegressor + Sized {
 
 /// Names of the six leg springs.
 fn leg_names() -> Vec<String> {
-    (1..=6).map(|leg| format!("leg-{leg}.stiffness")).collect()
+    (0..6).map(stiffness_name).collect()
 }

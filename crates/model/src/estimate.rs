@@ -4,12 +4,9 @@ use hexbench_core::Vector6;
 use serde::{Deserialize, Serialize};
 
 use crate::fit::Fit;
-use crate::linearization::Active;
+use crate::linearization::Point;
 use crate::model_file::Model;
-use crate::term::Rich;
-
-/// N/m to N/um.
-const STIFFNESS_PER_SI: f64 = 1e-6;
+use crate::parameters::{Parameters, Place};
 
 /// One number of a fitted model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,6 +61,12 @@ impl Springs {
             determined: std::array::from_fn(|leg| fit.is_determined(leg)),
         }
     }
+
+    /// Compliance, its standard uncertainty, and whether it has a stiffness: one that may be zero has none.
+    fn known(&self, leg: usize) -> (f64, f64, bool) {
+        let (c, std) = (self.compliance[leg], self.variance[leg].sqrt());
+        (c, std, self.determined[leg] && c > 0.0 && std < 0.5 * c)
+    }
 }
 
 /// Stiffness of every leg, then the parameters and shape of every term.
@@ -73,8 +76,7 @@ pub fn estimates(fit: &Fit) -> Estimates {
 
 /// The same with springs from elsewhere.
 pub fn estimates_with(springs: &Springs, fit: &Fit) -> Estimates {
-    let columns = Columns { std: &|k| fit.std(k), is_determined: &|k| fit.is_determined(k) };
-    all_estimates(springs, &fit.point.active, &fit.offsets, &columns)
+    all_estimates(springs, &fit.parameters, &fit.point, |k| (fit.std(k), fit.is_determined(k)))
 }
 
 /// The same of a model that was kept.
@@ -85,90 +87,28 @@ pub fn estimates_of(model: &Model) -> Estimates {
         variance: Vector6::from_fn(|leg, _| model.std(leg).powi(2)),
         determined: std::array::from_fn(is_determined),
     };
-    let columns = Columns { std: &|k| model.std(k), is_determined: &is_determined };
-    all_estimates(&springs, &model.point.active, &model.offsets(), &columns)
+    all_estimates(&springs, &model.parameters, &model.point, |k| (model.std(k), is_determined(k)))
 }
 
-/// What is known of each column of a covariance.
-struct Columns<'a> {
-    std: &'a dyn Fn(usize) -> f64,
-    is_determined: &'a dyn Fn(usize) -> bool,
-}
-
+/// `known`: standard uncertainty of a column, and whether the data determine it.
 fn all_estimates(
     springs: &Springs,
-    active: &[Active],
-    offsets: &[usize],
-    columns: &Columns<'_>,
+    parameters: &Parameters,
+    point: &Point,
+    known: impl Fn(usize) -> (f64, bool),
 ) -> Estimates {
     let mut all = Estimates::default();
-    for leg in 0..6 {
-        stiffness(springs, leg, &mut all);
-    }
-    for (a, &offset) in active.iter().zip(offsets) {
-        term_estimates(columns, a, offset, &mut all);
+    for (k, parameter) in parameters.iter().enumerate() {
+        let Some(name) = parameter.quantity() else { continue };
+        let (value, std, determined) = match parameter.place {
+            Place::Spring(leg) => springs.known(leg),
+            _ => {
+                let (std, determined) = known(k);
+                (parameter.value(point), std, determined)
+            }
+        };
+        let shown = parameter.shown(value, std);
+        all.push(name, parameter.unit, shown.value, shown.std, determined);
     }
     all
-}
-
-/// Stiffness `k = 1 / c` with `std(k) = std(c) k^2`.
-fn stiffness(springs: &Springs, leg: usize, all: &mut Estimates) {
-    let (c, std) = (springs.compliance[leg], springs.variance[leg].sqrt());
-    let k = 1.0 / c;
-    // A compliance that may be zero has no stiffness to report.
-    let determined = springs.determined[leg] && c > 0.0 && std < 0.5 * c;
-    let std = std * k * k;
-    let name = format!("leg-{}.stiffness", leg + 1);
-    all.push(name, "N/um", k * STIFFNESS_PER_SI, std * STIFFNESS_PER_SI, determined);
-}
-
-fn term_estimates(columns: &Columns<'_>, a: &Active, offset: usize, all: &mut Estimates) {
-    let info = a.term.info();
-    for (k, p) in info.parameters.iter().enumerate() {
-        let (value, std) = (a.values[k] * p.per_si, (columns.std)(offset + k) * p.per_si);
-        all.push(format!("{}.{}", info.id, p.name), p.unit, value, std, (columns.is_determined)(offset + k));
-    }
-    for k in info.parameters.len()..a.values.len() {
-        let (name, unit, per_si) = rich_parameter(a, k - info.parameters.len());
-        let (value, std) = (a.values[k] * per_si, (columns.std)(offset + k) * per_si);
-        all.push(format!("{}.{name}", info.id), unit, value, std, (columns.is_determined)(offset + k));
-    }
-    if let Some(shape) = info.shape.filter(|_| !a.term.shape_is_parameter()) {
-        // The covariance holds the logarithm of the shape.
-        let std = (columns.std)(offset + a.values.len()) * a.shape * shape.per_si;
-        let determined = (columns.is_determined)(offset + a.values.len());
-        let name = format!("{}.{}", info.id, shape.name);
-        all.push(name, shape.unit, a.shape * shape.per_si, std, determined);
-    }
-}
-
-/// Name, unit and factor from SI of every linear parameter of an active term, ideal ones first.
-pub fn parameter_names(a: &Active) -> Vec<(String, &'static str, f64)> {
-    let ideal = a.term.info().parameters;
-    let of_ideal = ideal.iter().map(|p| (p.name.to_owned(), p.unit, p.per_si));
-    let richer = (0..a.values.len().saturating_sub(ideal.len())).map(|k| rich_parameter(a, k));
-    of_ideal.chain(richer).collect()
-}
-
-/// Name, unit and conversion of the parameters of a richer form.
-fn rich_parameter(a: &Active, k: usize) -> (String, &'static str, f64) {
-    let info = a.term.info();
-    if info.rich == Rich::PerLeg {
-        let p = &info.parameters[0];
-        return (format!("leg-{}.{}", k + 1, p.name), p.unit, p.per_si);
-    }
-    let (i, j) = cross_pair(k);
-    let axes = ["x", "y", "z", "rx", "ry", "rz"];
-    let (unit, per_si) = match (i < 3, j < 3) {
-        (true, true) => ("nm/N", 1e9),
-        (false, false) => ("urad/(N m)", 1e6),
-        _ => ("urad/N", 1e6),
-    };
-    (format!("cross-{}-{}", axes[i], axes[j]), unit, per_si)
-}
-
-/// Indices of the k-th off-diagonal element of a symmetric 6x6 matrix, row by row.
-fn cross_pair(k: usize) -> (usize, usize) {
-    let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
-    pairs.into_iter().nth(k).unwrap_or((0, 1))
 }

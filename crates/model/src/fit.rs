@@ -12,14 +12,13 @@ use crate::campaign::Campaign;
 use crate::error::ModelError;
 use crate::linearization::{Active, Linearization, Point, beside};
 use crate::lsq::{Solution, Triangle};
+use crate::parameters::Parameters;
 use crate::term::{Natural, Term};
 
 /// Iterations after which a fit counts as not settled.
 const MOST_ITERATIONS: usize = 40;
 /// A fit has settled when a step changes chi-square by less than this.
 const SETTLED_CHI2: f64 = 1e-4;
-/// Prior standard deviation of the logarithm of a shape about its start.
-const SHAPE_PRIOR: f64 = 0.7;
 /// Shapes tried on each side of the best one when a covariance is averaged over them.
 const SHAPE_STEPS: i32 = 4;
 /// A parameter whose standard error exceeds this share of its prior width is not determined by the data.
@@ -43,12 +42,10 @@ pub struct Wanted {
 pub struct Fit {
     /// Values of springs, terms, shapes and frames.
     pub point: Point,
-    /// Covariance of `[springs, frames, parameters and shape of each term in turn]`; a shape enters by its logarithm.
+    /// Its numbers, in the order of the columns.
+    pub parameters: Parameters,
+    /// Their covariance; a shape enters by its logarithm.
     pub covariance: DMatrix<f64>,
-    /// Column of the first parameter of each term.
-    pub offsets: Vec<usize>,
-    /// Prior width of each column, infinite without prior.
-    pub prior: DVector<f64>,
     /// Sum of squared whitened residuals over single readings (lack of fit plus pure error).
     pub chi2: f64,
     /// Equations of single readings minus rank.
@@ -63,10 +60,17 @@ pub struct Fit {
     pub iterations: usize,
     /// Points tried on the way, those of shortened steps included: each cost one linearisation of the campaign.
     pub tried: usize,
-    /// False when the iterations ran out first.
-    pub settled: bool,
-    /// Change of chi-square in the last iteration.
-    pub last_step: f64,
+    /// Why it ended.
+    pub termination: Termination,
+}
+
+/// Why a fit ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Termination {
+    /// A step changed chi-square by less than it may.
+    Settled,
+    /// The iterations ran out first.
+    MostIterations,
 }
 
 impl Fit {
@@ -82,9 +86,14 @@ impl Fit {
 
     /// True when the data, and not the prior or nothing at all, determine a column.
     pub fn is_determined(&self, column: usize) -> bool {
-        let by_prior =
-            self.prior[column].is_finite() && self.std(column) > DETERMINED_SHARE * self.prior[column];
+        let prior = self.parameters[column].prior;
+        let by_prior = prior.is_some_and(|p| self.std(column) > DETERMINED_SHARE * p.width);
         !by_prior && self.solution.undetermined_share(column) < 1e-3
+    }
+
+    /// True when it ended because there was nothing left to gain.
+    pub fn is_settled(&self) -> bool {
+        self.termination == Termination::Settled
     }
 
     /// Sizes natural to the machine and campaign, from the fitted springs.
@@ -120,7 +129,7 @@ pub fn fit_baseline(campaign: &Campaign) -> Result<Fit, ModelError> {
 ///
 /// # Errors
 /// [`ModelError::SingularPose`], [`ModelError::NoLoad`], [`ModelError::NotFinite`]. Iterations that run out are not an error:
-/// [`Fit::settled`] tells.
+/// [`Fit::termination`] tells.
 pub fn fit(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Result<Fit, ModelError> {
     let point = start_point(campaign, wanted, start);
     let state = Linearization::at(campaign, &point)?;
@@ -141,29 +150,29 @@ fn fit_from(
     mut point: Point,
     mut state: Linearization,
 ) -> Result<Fit, ModelError> {
-    let prior = prior_widths(campaign, wanted);
+    let parameters = Parameters::at(&point, campaign.is_absolute()).with_priors(wanted);
     if state.conditions.iter().all(|c| c.force_change().amax() < 1e-9) {
         return Err(ModelError::NoLoad);
     }
-    let mut objective = state.residuals().norm_squared() + penalty(&point, wanted);
+    let mut objective = state.residuals().norm_squared() + parameters.penalty(&point);
     let mut effort = Effort::default();
     loop {
         effort.iterations += 1;
-        let solution = step(&state, &point, wanted, &prior)?;
+        let solution = step(&state, &point, &parameters)?;
         // Relative to the misfit: a wrong model need not be settled to the last digit.
         let small = SETTLED_CHI2 * (objective / state.equations() as f64).max(1.0);
         let most = objective + 0.5 * small;
         let (next, next_state, next_objective) =
-            search(campaign, &point, &solution.x, wanted, most, &mut effort)?;
-        let last_step = (objective - next_objective).abs();
+            search(campaign, &point, &solution.x, &parameters, most, &mut effort)?;
+        let change = (objective - next_objective).abs();
         point = next;
         state = next_state;
         objective = next_objective;
-        let settled = last_step < small;
+        let settled = change < small;
         if settled || effort.iterations == MOST_ITERATIONS {
-            let solution = step(&state, &point, wanted, &prior)?;
-            let fit = finish(campaign, point, &state, solution, prior, wanted, effort);
-            return Ok(Fit { settled, last_step, ..fit });
+            let solution = step(&state, &point, &parameters)?;
+            let termination = if settled { Termination::Settled } else { Termination::MostIterations };
+            return Ok(finish(campaign, point, &state, solution, parameters, effort, termination));
         }
     }
 }
@@ -214,86 +223,20 @@ fn start_point(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) ->
     point
 }
 
-/// True when the shape of a term is a column of its own.
-fn has_shape_column(term: &dyn Term) -> bool {
-    term.info().shape.is_some() && !term.shape_is_parameter()
-}
-
-fn common(campaign: &Campaign) -> usize {
-    if campaign.is_absolute() { 18 } else { 6 }
-}
-
-fn prior_widths(campaign: &Campaign, wanted: &[Wanted]) -> DVector<f64> {
-    let mut widths = vec![f64::INFINITY; common(campaign)];
-    for w in wanted {
-        widths.extend(&w.prior);
-        if has_shape_column(w.term.as_ref()) {
-            widths.push(SHAPE_PRIOR);
-        }
-    }
-    DVector::from_vec(widths)
-}
-
-fn penalty(point: &Point, wanted: &[Wanted]) -> f64 {
-    let of = |a: &Active, w: &Wanted| {
-        let values: f64 = a.values.iter().zip(&w.prior).map(|(p, s)| (p / s).powi(2)).sum();
-        values
-            + if has_shape_column(a.term.as_ref()) {
-                ((a.shape / w.shape).ln() / SHAPE_PRIOR).powi(2)
-            } else {
-                0.0
-            }
-    };
-    point.active.iter().zip(wanted).map(|(a, w)| of(a, w)).sum()
-}
-
 /// One linear solve for the increments of all columns, priors included as equations.
-fn step(
-    state: &Linearization,
-    point: &Point,
-    wanted: &[Wanted],
-    prior: &DVector<f64>,
-) -> Result<Solution, ModelError> {
-    let mut triangle = Triangle::new(prior.len());
+fn step(state: &Linearization, point: &Point, parameters: &Parameters) -> Result<Solution, ModelError> {
+    let mut triangle = Triangle::new(parameters.len());
     for part in state.parts() {
         let piece = state.part(&part);
         triangle.push(&columns(&piece, point), &piece.residuals())?;
     }
-    push_priors(&mut triangle, point, wanted, prior)?;
+    push_priors(&mut triangle, point, parameters)?;
     triangle.solve()
 }
 
-/// Priors as equations: `(value + x) / width = 0`.
-fn push_priors(
-    triangle: &mut Triangle,
-    point: &Point,
-    wanted: &[Wanted],
-    prior: &DVector<f64>,
-) -> Result<(), ModelError> {
-    let offset = prior_offsets(point, wanted, prior.len());
-    let with_prior: Vec<usize> = (0..prior.len()).filter(|&k| prior[k].is_finite()).collect();
-    if with_prior.is_empty() {
-        return Ok(());
-    }
-    let rows = DMatrix::from_fn(with_prior.len(), prior.len(), |i, j| {
-        if with_prior[i] == j { 1.0 / prior[j] } else { 0.0 }
-    });
-    let target = DVector::from_fn(with_prior.len(), |i, _| -offset[with_prior[i]] / prior[with_prior[i]]);
-    triangle.push(&rows, &target)
-}
-
-/// Current distance of every column from the centre of its prior.
-fn prior_offsets(point: &Point, wanted: &[Wanted], columns: usize) -> Vec<f64> {
-    let used: usize =
-        point.active.iter().map(|a| a.values.len() + usize::from(has_shape_column(a.term.as_ref()))).sum();
-    let mut offsets = vec![0.0; columns - used];
-    for (a, w) in point.active.iter().zip(wanted) {
-        offsets.extend(&a.values);
-        if has_shape_column(a.term.as_ref()) {
-            offsets.push((a.shape / w.shape).ln());
-        }
-    }
-    offsets
+fn push_priors(triangle: &mut Triangle, point: &Point, parameters: &Parameters) -> Result<(), ModelError> {
+    let (rows, target) = parameters.prior_equations(point);
+    if rows.is_empty() { Ok(()) } else { triangle.push(&rows, &target) }
 }
 
 /// Covariance with the shapes averaged over instead of linearised in: springs follow an exponent or a time constant
@@ -302,39 +245,38 @@ fn prior_offsets(point: &Point, wanted: &[Wanted], columns: usize) -> Vec<f64> {
 ///
 /// # Errors
 /// As [`fit`].
-pub fn average_over_shapes(campaign: &Campaign, wanted: &[Wanted], fit: &mut Fit) -> Result<(), ModelError> {
+pub fn average_over_shapes(campaign: &Campaign, fit: &mut Fit) -> Result<(), ModelError> {
     let state = Linearization::at(campaign, &fit.point)?;
-    for k in 0..wanted.len() {
-        if has_shape_column(wanted[k].term.as_ref()) {
-            fit.covariance = averaged(&state, wanted, fit, k)?;
+    for term in 0..fit.point.active.len() {
+        if let Some(column) = fit.parameters.shape_of_term(term) {
+            fit.covariance = averaged(&state, fit, term, column)?;
         }
     }
     Ok(())
 }
 
-/// Covariance averaged over the shape of one term.
+/// Covariance averaged over the shape of one term, which has a column of its own.
 fn averaged(
     state: &Linearization,
-    wanted: &[Wanted],
     fit: &Fit,
-    k: usize,
+    term: usize,
+    column: usize,
 ) -> Result<DMatrix<f64>, ModelError> {
-    let a = &fit.point.active[k];
-    let shape_column = fit.offsets[k] + a.values.len();
-    let spread = fit.std(shape_column).min(SHAPE_PRIOR);
+    let a = &fit.point.active[term];
+    let spread = fit.parameters[column].prior.map_or(fit.std(column), |p| fit.std(column).min(p.width));
     let [low, high] = a.term.shape_bounds(a.shape);
     let mut seen = Vec::new();
     for step in -SHAPE_STEPS..=SHAPE_STEPS {
         let shift = 3.0 * spread * f64::from(step) / f64::from(SHAPE_STEPS);
         let shape = a.shape * shift.exp();
         if (low..=high).contains(&shape) {
-            seen.push(at_shape(state, wanted, fit, k, shape)?);
+            seen.push(at_shape(state, fit, term, column, shape)?);
         }
     }
     let best = seen.iter().map(|s| s.0).fold(f64::INFINITY, f64::min);
     let weights: Vec<f64> = seen.iter().map(|s| (-0.5 * (s.0 - best)).exp()).collect();
     let total: f64 = weights.iter().sum();
-    let mut covariance = DMatrix::zeros(fit.prior.len(), fit.prior.len());
+    let mut covariance = DMatrix::zeros(fit.parameters.len(), fit.parameters.len());
     for ((_, x, own), w) in seen.iter().zip(&weights) {
         covariance += (own + x * x.transpose()) * (w / total);
     }
@@ -344,15 +286,14 @@ fn averaged(
 /// Objective, increments (the logarithm of the shape among them) and covariance with one shape held at a value.
 fn at_shape(
     state: &Linearization,
-    wanted: &[Wanted],
     fit: &Fit,
-    k: usize,
+    term: usize,
+    held: usize,
     shape: f64,
 ) -> Result<(f64, DVector<f64>, DMatrix<f64>), ModelError> {
-    let a = &fit.point.active[k];
-    let held = fit.offsets[k] + a.values.len();
+    let a = &fit.point.active[term];
     let mut moved = fit.point.clone();
-    moved.active[k].shape = shape;
+    moved.active[term].shape = shape;
     let values = DVector::from_column_slice(&a.values);
     let block = |s: f64| state.term_block(a.term.as_ref(), a.rich, s) * &values;
     let residual = state.residuals() + block(a.shape) - block(shape);
@@ -360,7 +301,7 @@ fn at_shape(
     columns.column_mut(held).fill(0.0);
     let mut triangle = Triangle::new(columns.ncols());
     triangle.push(&columns, &residual)?;
-    push_priors(&mut triangle, &moved, wanted, &fit.prior)?;
+    push_priors(&mut triangle, &moved, &fit.parameters)?;
     let solution = triangle.solve()?;
     let mut x = solution.x;
     x[held] = (shape / a.shape).ln();
@@ -406,25 +347,25 @@ fn search(
     campaign: &Campaign,
     point: &Point,
     x: &DVector<f64>,
-    wanted: &[Wanted],
+    parameters: &Parameters,
     most: f64,
     effort: &mut Effort,
 ) -> Result<(Point, Linearization, f64), ModelError> {
     let mut factor = 1.0;
     loop {
-        let next = moved(campaign, point, x, factor);
+        let next = parameters.moved(point, x.as_slice(), factor);
         effort.tried += 1;
         let outcome = Linearization::at(campaign, &next);
         let small = factor < 1e-3;
         match outcome {
             Ok(state) => {
-                let value = state.residuals().norm_squared() + penalty(&next, wanted);
+                let value = state.residuals().norm_squared() + parameters.penalty(&next);
                 if value <= most {
                     return Ok((next, state, value));
                 }
                 if small {
                     let state = Linearization::at(campaign, point)?;
-                    let value = state.residuals().norm_squared() + penalty(point, wanted);
+                    let value = state.residuals().norm_squared() + parameters.penalty(point);
                     return Ok((point.clone(), state, value));
                 }
             }
@@ -435,73 +376,29 @@ fn search(
     }
 }
 
-fn moved(campaign: &Campaign, point: &Point, x: &DVector<f64>, factor: f64) -> Point {
-    let mut next = point.clone();
-    for leg in 0..6 {
-        next.springs[leg] += factor * x[leg];
-    }
-    if campaign.is_absolute() {
-        let motion: Vec<f64> = (6..18).map(|k| factor * x[k]).collect();
-        next.move_frames(&motion);
-    }
-    let mut at = common(campaign);
-    for a in &mut next.active {
-        for value in &mut a.values {
-            *value += factor * x[at];
-            at += 1;
-        }
-        let Some(shape) = a.term.info().shape else { continue };
-        if a.term.shape_is_parameter() {
-            a.shape = a.values[0].clamp(shape.bounds[0], shape.bounds[1]);
-        } else {
-            // A shape moves by at most a third per step: its columns are far from linear in it.
-            a.shape =
-                (a.shape * (factor * x[at]).clamp(-0.3, 0.3).exp()).clamp(shape.bounds[0], shape.bounds[1]);
-            at += 1;
-        }
-    }
-    next
-}
-
 fn finish(
     campaign: &Campaign,
     point: Point,
     state: &Linearization,
     solution: Solution,
-    prior: DVector<f64>,
-    wanted: &[Wanted],
+    parameters: Parameters,
     Effort { iterations, tried }: Effort,
+    termination: Termination,
 ) -> Fit {
-    let mut offsets = Vec::new();
-    let mut at = common(campaign);
-    for w in wanted {
-        offsets.push(at);
-        at += w.prior.len() + usize::from(has_shape_column(w.term.as_ref()));
-    }
     let lack_of_fit = state.residuals().norm_squared();
-    let unknowns = effective_parameters(&solution, &prior);
+    // What the data determine: the rank without what the priors hold.
+    let unknowns = solution.rank as f64 - parameters.held_by_priors(&solution.covariance);
     Fit {
         point,
         covariance: solution.covariance.clone(),
-        offsets,
         chi2: lack_of_fit + campaign.pure_error,
         dof: (6 * campaign.readings) as f64 - unknowns,
         lack_of_fit,
         lack_of_fit_dof: state.equations() as f64 - unknowns,
-        prior,
+        parameters,
         solution,
         iterations,
         tried,
-        settled: true,
-        last_step: 0.0,
+        termination,
     }
-}
-
-/// Number of parameters the data determine: rank minus what the priors hold, `sum (1 - var / prior^2)`.
-fn effective_parameters(solution: &Solution, prior: &DVector<f64>) -> f64 {
-    let held: f64 = (0..prior.len())
-        .filter(|&k| prior[k].is_finite())
-        .map(|k| (solution.covariance[(k, k)] / prior[k].powi(2)).clamp(0.0, 1.0))
-        .sum();
-    solution.rank as f64 - held
 }

@@ -7,12 +7,13 @@ use hexbench_core::files::nearest;
 use crate::campaign::Campaign;
 use crate::candidates::{orthonormal, project, sizes, why_untestable};
 use crate::error::ModelError;
-use crate::estimate::{estimates, parameter_names};
+use crate::estimate::estimates;
 use crate::evidence::WIDEST;
 use crate::fit::{Fit, Wanted, columns, fit, fit_baseline};
 use crate::linearization::{Active, Linearization};
+use crate::parameters::{Parameter, Place, leg_of_stiffness};
 use crate::term::{Natural, Rich, Term};
-use crate::words::{column_names, joined, unobservable};
+use crate::words::{joined, unobservable};
 
 /// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.
 const PRIOR_WIDTH: f64 = 3.0;
@@ -188,12 +189,10 @@ fn peaks(values: &[f64]) -> Vec<usize> {
 /// [`ModelError::NotDetermined`] with the combinations in words.
 pub fn refuse_undetermined(fitted: &Fit) -> Result<(), ModelError> {
     let open = estimates(fitted).not_determined;
-    let legs: Vec<String> =
-        open.iter().filter(|n| n.ends_with(".stiffness") && n.starts_with("leg-")).cloned().collect();
-    let silent =
-        |(a, offset): &(&Active, &usize)| (0..a.values.len()).all(|k| !fitted.is_determined(**offset + k));
+    let legs: Vec<String> = open.iter().filter(|n| leg_of_stiffness(n).is_some()).cloned().collect();
+    let silent = |term: &usize| fitted.parameters.values_of_term(*term).all(|k| !fitted.is_determined(k));
     let terms: Vec<&Active> =
-        fitted.point.active.iter().zip(&fitted.offsets).filter(silent).map(|(a, _)| a).collect();
+        (0..fitted.point.active.len()).filter(silent).map(|term| &fitted.point.active[term]).collect();
     if legs.is_empty() && terms.is_empty() {
         return Ok(());
     }
@@ -207,7 +206,7 @@ pub fn refuse_undetermined(fitted: &Fit) -> Result<(), ModelError> {
 
 /// Undetermined combinations in words, else the strongest look-alikes.
 fn reasons(fitted: &Fit) -> Vec<String> {
-    let words = unobservable(&fitted.solution.null_space, &column_names(fitted));
+    let words = unobservable(&fitted.solution.null_space, &fitted.parameters);
     if !words.is_empty() {
         return words;
     }
@@ -221,25 +220,22 @@ fn reasons(fitted: &Fit) -> Vec<String> {
 
 /// Pairs of columns whose estimates are correlated by more than `limit` in size, strongest first.
 pub fn look_alikes(fitted: &Fit, limit: f64) -> Vec<(String, String, f64)> {
-    let names = column_names(fitted);
-    let n = names.len().min(fitted.covariance.ncols());
+    let n = fitted.parameters.len();
     let mut pairs: Vec<(usize, usize, f64)> = (0..n)
         .flat_map(|i| (0..i).map(move |j| (j, i)))
         .map(|(j, i)| (j, i, fitted.covariance[(i, j)] / (fitted.std(i) * fitted.std(j))))
         .filter(|(.., r)| r.abs() > limit)
         .collect();
     pairs.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
-    pairs.into_iter().map(|(j, i, r)| (names[j].clone(), names[i].clone(), r)).collect()
+    let name = |k: usize| fitted.parameters[k].name.clone();
+    pairs.into_iter().map(|(j, i, r)| (name(j), name(i), r)).collect()
 }
 
 /// Names of the parameters of all terms that the data leave open, `term.parameter`.
 pub fn open_parameters(fitted: &Fit) -> Vec<String> {
-    let of = |(a, offset): (&Active, &usize)| {
-        let names = parameter_names(a).into_iter().enumerate();
-        let open = names.filter(|(k, _)| !fitted.is_determined(offset + k));
-        open.map(|(_, (name, ..))| format!("{}.{name}", a.id())).collect::<Vec<_>>()
-    };
-    fitted.point.active.iter().zip(&fitted.offsets).flat_map(of).collect()
+    let open =
+        |(k, p): &(usize, &Parameter)| matches!(p.place, Place::Value { .. }) && !fitted.is_determined(*k);
+    fitted.parameters.iter().enumerate().filter(open).map(|(_, p)| p.name.clone()).collect()
 }
 
 #[cfg(test)]

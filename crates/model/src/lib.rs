@@ -30,6 +30,7 @@ pub mod noise;
 pub mod observability;
 pub mod paper;
 mod parallel;
+pub mod parameters;
 pub mod pattern;
 mod period;
 pub mod power;

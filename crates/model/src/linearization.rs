@@ -11,6 +11,7 @@ use crate::chain::{Action, Link, Load};
 use crate::error::ModelError;
 use crate::machine::{Machine, exponential};
 use crate::parallel::map;
+use crate::parameters::common_count;
 use crate::term::{Rich, Term};
 
 /// Conditions whose columns are made together.
@@ -169,7 +170,7 @@ impl Linearization {
 
     /// Number of columns every model has: six springs, in absolute mode also two frames.
     pub fn common_columns(&self) -> usize {
-        if self.absolute { 18 } else { 6 }
+        common_count(self.absolute)
     }
 
     /// Whitened residual of one condition.

@@ -17,11 +17,12 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::campaign::{Campaign, row_sigma};
 use crate::error::ModelError;
-use crate::fit::Fit;
+use crate::fit::{Fit, Termination};
 use crate::kinematics::{Legs, euler_rate_matrix};
 use crate::linearization::{Linearization, Point};
 use crate::lsq::{RANK_TOLERANCE, Solution};
 use crate::observability::Observability;
+use crate::parameters::Parameters;
 
 /// What the paper's method gives.
 #[derive(Debug, Clone)]
@@ -145,10 +146,9 @@ impl PaperFit {
             column_norms: DVector::from_element(6, 1.0),
         };
         Ok(Fit {
+            parameters: Parameters::at(&point, false),
             point,
             covariance,
-            offsets: Vec::new(),
-            prior: DVector::from_element(6, f64::INFINITY),
             chi2: lack_of_fit + campaign.pure_error,
             dof: (6 * campaign.readings) as f64 - rank,
             lack_of_fit,
@@ -156,8 +156,7 @@ impl PaperFit {
             solution,
             iterations: 1,
             tried: 1,
-            settled: true,
-            last_step: 0.0,
+            termination: Termination::Settled,
         })
     }
 }

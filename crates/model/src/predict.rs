@@ -15,6 +15,7 @@ use crate::fit::columns;
 use crate::linearization::Linearization;
 use crate::model_file::Model;
 use crate::noise::Noise;
+use crate::parameters::Place;
 
 /// Rounds after which a prediction counts as not settled.
 const MOST_ROUNDS: usize = 60;
@@ -170,13 +171,9 @@ fn kept_columns(model: &Model, uncertain: Uncertain) -> Vec<usize> {
     if uncertain == Uncertain::Reading {
         return all.collect();
     }
-    let mut ends = model.offsets();
-    ends.push(model.covariance.ncols());
-    let of_metrology = |k: usize| {
-        let term = |(i, a): (usize, &crate::linearization::Active)| {
-            a.term.is_of_metrology() && (ends[i]..ends[i + 1]).contains(&k)
-        };
-        model.point.active.iter().enumerate().any(term)
+    let of_metrology = |k: &usize| match model.parameters[*k].place {
+        Place::Value { term, .. } | Place::Shape { term } => model.point.active[term].term.is_of_metrology(),
+        Place::Spring(_) | Place::Frames(_) => false,
     };
-    all.filter(|&k| !of_metrology(k)).collect()
+    all.filter(|k| !of_metrology(k)).collect()
 }

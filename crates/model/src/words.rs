@@ -2,62 +2,30 @@
 
 use nalgebra::DMatrix;
 
-use crate::fit::Fit;
-use crate::linearization::Point;
+use crate::parameters::{Parameters, Place};
 
 /// Weights below this share of the largest do not take part in a combination.
 const TAKES_PART: f64 = 1e-3;
 /// Combinations of more parameters than this are not spelled out.
 const SPELLED_OUT: usize = 6;
 
-/// Names of the columns of a fit: `leg 1` ... `leg 6`, frames, then `term.parameter`.
-pub fn column_names(fit: &Fit) -> Vec<String> {
-    let used: usize = fit.point.active.iter().map(active_columns).sum();
-    names_at(&fit.point, fit.covariance.ncols() >= 18 + used)
-}
-
-/// The same at a point; `absolute` when frames are estimated.
-pub fn names_at(point: &Point, absolute: bool) -> Vec<String> {
-    let mut names: Vec<String> = (1..=6).map(|leg| format!("leg {leg}")).collect();
-    for frame in ["metrology frame", "target frame"].into_iter().filter(|_| absolute) {
-        names.extend(["x", "y", "z", "rx", "ry", "rz"].map(|axis| format!("{frame} {axis}")));
-    }
-    for a in &point.active {
-        let id = a.id();
-        names
-            .extend(crate::estimate::parameter_names(a).into_iter().map(|(name, ..)| format!("{id}.{name}")));
-        if let Some(shape) = a.term.info().shape.filter(|_| !a.term.shape_is_parameter()) {
-            names.push(format!("{id}.{}", shape.name));
-        }
-    }
-    names
-}
-
-fn active_columns(a: &crate::linearization::Active) -> usize {
-    let shape = a.term.info().shape.is_some() && !a.term.shape_is_parameter();
-    a.values.len() + usize::from(shape)
-}
-
 /// Sentences about the combinations spanned by the columns of `null_space` (parameters x combinations).
-pub fn unobservable(null_space: &DMatrix<f64>, names: &[String]) -> Vec<String> {
+pub fn unobservable(null_space: &DMatrix<f64>, parameters: &Parameters) -> Vec<String> {
     let all = reduced(null_space);
-    let moves_frame = |v: &&Vec<f64>| (0..v.len()).any(|k| v[k].abs() > TAKES_PART && is_frame(names, k));
+    let moves_frame = |v: &&Vec<f64>| (0..v.len()).any(|k| v[k].abs() > TAKES_PART && parameters.is_frame(k));
     let (frames, rest): (Vec<&Vec<f64>>, Vec<&Vec<f64>>) = all.iter().partition(moves_frame);
-    let mut sentences: Vec<String> = rest.iter().map(|v| sentence(v, names)).collect();
+    let mut sentences: Vec<String> = rest.iter().map(|v| sentence(v, parameters)).collect();
     sentences.dedup();
-    sentences.extend(gauge(&frames, names));
+    sentences.extend(gauge(&frames, parameters));
     sentences
 }
 
-fn is_frame(names: &[String], k: usize) -> bool {
-    names.get(k).is_some_and(|n| n.starts_with("metrology frame") || n.starts_with("target frame"))
-}
-
 /// Combinations that move a frame are one fact, not many: where the machine stands in the room is a convention.
-fn gauge(combinations: &[&Vec<f64>], names: &[String]) -> Option<String> {
+fn gauge(combinations: &[&Vec<f64>], parameters: &Parameters) -> Option<String> {
     let count = combinations.len();
-    let part = |k: &usize| combinations.iter().any(|v| v[*k].abs() > TAKES_PART) && !is_frame(names, *k);
-    let groups = (0..names.len()).filter(part).filter_map(|k| names[k].split('.').next().map(str::to_owned));
+    let takes_part = |k: usize| combinations.iter().any(|v| v[k].abs() > TAKES_PART);
+    let part = (0..parameters.len()).filter(|&k| takes_part(k) && !parameters.is_frame(k));
+    let groups = part.filter_map(|k| parameters[k].name.split('.').next().map(str::to_owned));
     let mut groups: Vec<String> = groups.collect();
     groups.dedup();
     let what = joined(&groups);
@@ -70,11 +38,11 @@ fn gauge(combinations: &[&Vec<f64>], names: &[String]) -> Option<String> {
 }
 
 /// A sentence about one combination.
-pub fn sentence(weights: &[f64], names: &[String]) -> String {
+pub fn sentence(weights: &[f64], parameters: &Parameters) -> String {
     let largest = weights.iter().fold(0.0_f64, |m, w| m.max(w.abs()));
     let part: Vec<usize> = (0..weights.len()).filter(|&k| weights[k].abs() > TAKES_PART * largest).collect();
-    let name = |k: usize| names.get(k).map_or("?", String::as_str);
-    let legs = part.iter().all(|k| *k < 6);
+    let name = |k: usize| parameters[k].name.as_str();
+    let legs = part.iter().all(|&k| matches!(parameters[k].place, Place::Spring(_)));
     match part.as_slice() {
         [] => "nothing is undetermined".to_owned(),
         [one] => format!("{} does not show in the data at all", name(*one)),
@@ -139,7 +107,16 @@ fn reduced(null_space: &DMatrix<f64>) -> Vec<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
+
+    use hexbench_core::Vector6;
+
     use super::*;
+    use crate::fit_named::term_named;
+    use crate::linearization::{Active, Point};
+    use crate::machine::Machine;
+    use crate::terms::catalogue;
+    use crate::test_machine::machine;
 
     #[test]
     fn lists_read_as_sentences() {
@@ -147,24 +124,32 @@ mod tests {
         assert_eq!(joined_with(&["a", "b", "c"], "or"), "a, b or c");
     }
 
-    fn names() -> Vec<String> {
-        (1..=6).map(|l| format!("leg {l}")).chain(["creep.fraction".to_owned()]).collect()
+    /// Six springs and the terms with these ids.
+    fn parameters(ids: &[&str], absolute: bool) -> Parameters {
+        let term = |id: &&str| term_named(id, &catalogue()).map(|t| Active::new(t, false, 1.0));
+        let active = ids.iter().map(term).collect::<Result<_, _>>().unwrap();
+        let machine = Machine::nominal(&machine());
+        Parameters::at(&Point { springs: Vector6::zeros(), active, machine }, absolute)
     }
 
-    fn space(vectors: &[[f64; 7]]) -> DMatrix<f64> {
-        DMatrix::from_fn(7, vectors.len(), |i, j| vectors[j][i])
+    fn with_creep() -> Parameters {
+        parameters(&["creep"], false)
+    }
+
+    fn space(vectors: &[[f64; 8]]) -> DMatrix<f64> {
+        DMatrix::from_fn(8, vectors.len(), |i, j| vectors[j][i])
     }
 
     #[test]
     fn two_legs_that_look_alike_are_named() {
-        let v = [0.7, 0.0, 0.0, -0.7, 0.0, 0.0, 0.0];
-        assert_eq!(unobservable(&space(&[v]), &names()), ["legs 1 and 4 cannot be told apart"]);
+        let v = [0.7, 0.0, 0.0, -0.7, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(unobservable(&space(&[v]), &with_creep()), ["legs 1 and 4 cannot be told apart"]);
     }
 
     #[test]
     fn mixed_basis_vectors_are_taken_apart() {
-        let (a, b) = ([0.5, 0.0, 0.5, 0.0, 0.0, 0.5, -0.5], [0.5, 0.0, 0.5, 0.0, 0.0, -0.5, 0.5]);
-        let found = unobservable(&space(&[a, b]), &names());
+        let (a, b) = ([0.5, 0.0, 0.5, 0.0, 0.0, 0.5, -0.5, 0.0], [0.5, 0.0, 0.5, 0.0, 0.0, -0.5, 0.5, 0.0]);
+        let found = unobservable(&space(&[a, b]), &with_creep());
         assert_eq!(
             found,
             ["legs 1 and 3 cannot be told apart", "leg 6 and creep.fraction cannot be told apart"]
@@ -173,18 +158,21 @@ mod tests {
 
     #[test]
     fn motions_of_a_frame_are_told_in_one_sentence() {
-        let names =
-            ["leg 1", "metrology frame x", "metrology frame y", "joint-geometry.a", "joint-geometry.b"];
-        let names: Vec<String> = names.map(str::to_owned).into();
-        let v = DMatrix::from_column_slice(5, 2, &[0.0, 0.6, 0.0, 0.8, 0.0, 0.0, 0.0, 0.6, 0.0, 0.8]);
-        let found = unobservable(&v, &names);
+        let parameters = parameters(&["joint-geometry"], true);
+        let mut v = DMatrix::zeros(parameters.len(), 2);
+        let first = parameters.of_term(0).start;
+        for (combination, frame) in [(0, 6), (1, 7)] {
+            v[(frame, combination)] = 0.6;
+            v[(first + combination, combination)] = 0.8;
+        }
+        let found = unobservable(&v, &parameters);
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(found[0].starts_with("2 combinations of joint-geometry are"), "{found:?}");
     }
 
     #[test]
     fn a_silent_leg_is_named() {
-        let v = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        assert_eq!(unobservable(&space(&[v]), &names()), ["leg 2 does not show in the data at all"]);
+        let v = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(unobservable(&space(&[v]), &with_creep()), ["leg 2 does not show in the data at all"]);
     }
 }

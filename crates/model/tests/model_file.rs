@@ -84,8 +84,8 @@ fn a_model_comes_back_bit_for_bit() {
         assert_eq!(bits(&back), bits(&original));
         assert_eq!(back.to_toml().unwrap(), text);
         assert_eq!(
-            (back.column_names, back.determined, back.data),
-            (original.column_names, original.determined, original.data)
+            (back.parameters, back.determined, back.data),
+            (original.parameters, original.determined, original.data)
         );
     }
 }

@@ -216,7 +216,7 @@ fn recover(clean: &Dataset, terms: &[Wanted], truth: &[f64], columns: &[usize], 
     let data = noisy(clean, SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD, seed);
     let campaign = Campaign::new(&measured_machine(SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD), &data).unwrap();
     let fit = fit(&campaign, terms, None).unwrap();
-    assert!(fit.settled, "seed {seed}");
+    assert!(fit.is_settled(), "seed {seed}");
     let mut found: Vec<f64> = fit.point.springs.iter().copied().collect();
     found.extend(fit.point.active.iter().flat_map(|a| a.values.iter().copied()));
     let pulls = found.iter().zip(truth).zip(columns).map(|((f, t), &c)| (f - t) / fit.std(c)).collect();

@@ -101,7 +101,7 @@ impl PyModel {
     /// Names of its rows.
     #[getter]
     fn covariance_names(&self) -> Vec<String> {
-        self.model.column_names.clone()
+        self.model.parameters.iter().map(|p| p.name.clone()).collect()
     }
 
     /// The machine.

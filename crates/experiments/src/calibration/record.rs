@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use hexbench_model::diagnose::Study;
+use hexbench_model::parameters::stiffness_name;
 use hexbench_model::verdict::{NONE, OUTSIDE, Verdict};
 use hexbench_truth::campaign::{Case, Kind, PlanKind};
 use serde::{Deserialize, Serialize};
@@ -165,7 +166,7 @@ fn probability_of(study: &Study, effects: &[&str]) -> f64 {
 fn stiffness_z(study: &Study, case: &Case) -> [Option<f64>; 6] {
     const N_PER_UM: f64 = 1e-6;
     std::array::from_fn(|leg| {
-        let name = format!("leg-{}.stiffness", leg + 1);
+        let name = stiffness_name(leg);
         let estimate = study.diagnosis.parameters.iter().find(|p| p.name == name)?;
         let true_stiffness = N_PER_UM / case.campaign.world.leg_compliance[leg];
         (estimate.std > 0.0).then(|| (estimate.value - true_stiffness) / estimate.std)

@@ -42,14 +42,15 @@ pub fn combinations(scene: &Scene, fit: &Fit) -> Option<Combinations> {
     let truth = truth(scene, fit)?;
     let columns: Vec<usize> = geometry_columns(fit);
     let estimate: Vec<f64> = geometry_values(fit);
-    let miss = DVector::from_fn(columns.len(), |k, _| (estimate[k] - truth[k]) / fit.prior[columns[k]]);
+    let width = |k: usize| fit.parameters[k].prior.map_or(f64::INFINITY, |p| p.width);
+    let miss = DVector::from_fn(columns.len(), |k, _| (estimate[k] - truth[k]) / width(columns[k]));
     let covariance = DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
-        fit.covariance[(columns[i], columns[j])] / (fit.prior[columns[i]] * fit.prior[columns[j]])
+        fit.covariance[(columns[i], columns[j])] / (width(columns[i]) * width(columns[j]))
     });
     let eigen = SymmetricEigen::new(covariance);
     let spread: Vec<f64> = eigen.eigenvalues.iter().map(|l| l.max(0.0).sqrt()).collect();
     let size = root_mean_square(truth.iter().copied())?;
-    let unit = fit.prior[columns[0]] / size;
+    let unit = width(columns[0]) / size;
     let of = |k: usize| [eigen.eigenvectors.column(k).dot(&miss) * unit, spread[k] * unit];
     let (determined, open): (Vec<usize>, Vec<usize>) =
         (0..spread.len()).partition(|&k| spread[k] > 0.0 && spread[k] < DETERMINED);
@@ -61,8 +62,8 @@ fn is_geometry(id: &str) -> bool {
 }
 
 fn geometry_columns(fit: &Fit) -> Vec<usize> {
-    let terms = fit.point.active.iter().zip(&fit.offsets).filter(|(a, _)| is_geometry(a.id()));
-    terms.flat_map(|(a, &offset)| (0..a.values.len()).map(move |k| offset + k)).collect()
+    let terms = (0..fit.point.active.len()).filter(|&k| is_geometry(fit.point.active[k].id()));
+    terms.flat_map(|k| fit.parameters.values_of_term(k)).collect()
 }
 
 fn geometry_values(fit: &Fit) -> Vec<f64> {

@@ -4,6 +4,7 @@ use hexbench_model::diagnosis::wanted;
 use hexbench_model::error::ModelError;
 use hexbench_model::estimate::estimates;
 use hexbench_model::fit::{Wanted, fit};
+use hexbench_model::parameters::stiffness_name;
 use hexbench_model::residuals::{prediction_errors, summarise};
 use hexbench_model::search::Set;
 use hexbench_model::verdict::Verdict;
@@ -62,7 +63,7 @@ fn stiffness(scene: &Scene, trial: &Trial) -> Tally {
     let Some(last) = trial.study.fits.last() else { return Tally::default() };
     let found = estimates(last).determined;
     let pull = |(leg, k): (usize, &f64)| {
-        let estimate = found.iter().find(|e| e.name == format!("leg-{}.stiffness", leg + 1))?;
+        let estimate = found.iter().find(|e| e.name == stiffness_name(leg))?;
         Some((estimate.value - k * PER_SI) / estimate.std)
     };
     Tally::campaign(scene.leg_stiffness().iter().enumerate().filter_map(pull))

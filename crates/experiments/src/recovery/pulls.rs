@@ -3,9 +3,10 @@
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::error::ModelError;
-use hexbench_model::estimate::{Estimate, estimates, parameter_names};
+use hexbench_model::estimate::{Estimate, estimates};
 use hexbench_model::fit::Fit;
 use hexbench_model::fit_named::fit_named;
+use hexbench_model::parameters::{parameter_names, stiffness_name};
 
 use super::scene::{Scene, Subject};
 
@@ -38,11 +39,7 @@ pub fn known(scene: &Scene, fit: &Fit) -> Vec<Known> {
         .leg_stiffness()
         .iter()
         .enumerate()
-        .map(|(i, k)| Known {
-            name: format!("leg-{}.stiffness", i + 1),
-            value: k * PER_SI,
-            group: Group::Stiffness,
-        })
+        .map(|(i, k)| Known { name: stiffness_name(i), value: k * PER_SI, group: Group::Stiffness })
         .collect();
     for (id, truth) in scene.equivalents() {
         let Some(active) = fit.point.active.iter().find(|a| a.id() == id) else { continue };

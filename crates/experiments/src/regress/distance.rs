@@ -73,12 +73,11 @@ pub fn of_effects(scene: &Scene, fit: &Fit) -> Option<Distance> {
     let mut misses = Vec::new();
     for (id, truth) in scene.equivalents() {
         let Some(k) = fit.point.active.iter().position(|a| a.id() == id) else { continue };
-        let (active, first) = (&fit.point.active[k], fit.offsets[k]);
-        let values = active.values.iter().zip(&truth.values).enumerate();
-        misses.extend(values.filter_map(|(i, (value, truth))| Some((first + i, value - (*truth)?))));
-        let fitted = active.term.info().shape.is_some() && !active.term.shape_is_parameter();
-        if let Some(shape) = truth.shape.filter(|_| fitted) {
-            misses.push((first + active.values.len(), (active.shape / shape).ln()));
+        let active = &fit.point.active[k];
+        let values = fit.parameters.values_of_term(k).zip(active.values.iter().zip(&truth.values));
+        misses.extend(values.filter_map(|(column, (value, truth))| Some((column, value - (*truth)?))));
+        if let (Some(column), Some(shape)) = (fit.parameters.shape_of_term(k), truth.shape) {
+            misses.push((column, (active.shape / shape).ln()));
         }
     }
     Distance::of(fit, &misses)

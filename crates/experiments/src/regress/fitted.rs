@@ -72,7 +72,7 @@ impl Fitted {
             prediction_missed: chance < MISSED,
             iterations: fit.iterations,
             tried: fit.tried,
-            settled: fit.settled,
+            settled: fit.is_settled(),
         })
     }
 }

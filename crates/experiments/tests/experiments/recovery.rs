@@ -11,9 +11,9 @@ use hexbench_experiments::recovery::pulls::right_fit;
 use hexbench_experiments::recovery::scene::{Scene, Subject, subjects};
 use hexbench_experiments::recovery::study::{Settings, Study};
 use hexbench_model::campaign::Campaign;
-use hexbench_model::estimate::parameter_names;
 use hexbench_model::fit::fit_baseline;
 use hexbench_model::linearization::Active;
+use hexbench_model::parameters::parameter_names;
 use hexbench_model::terms::catalogue;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 

@@ -7,7 +7,8 @@ use crate::fit::columns;
 use crate::lsq::Triangle;
 use crate::observability::Observability;
 use crate::paper::regressor;
-use crate::words::{names_at, sentence, unobservable};
+use crate::parameters::Parameters;
+use crate::words::{sentence, unobservable};
 
 /// Condition beyond which the weakest combination is told.
 const WEAK: f64 = 30.0;
@@ -34,7 +35,7 @@ pub struct Design {
 /// Check the design.
 pub fn design(judged: &Judged<'_>) -> Design {
     let a = columns(&judged.lin, judged.point);
-    let names = names_at(judged.point, judged.campaign.is_absolute());
+    let parameters = Parameters::at(judged.point, judged.campaign.is_absolute());
     let mut triangle = Triangle::new(a.ncols());
     let solution = triangle.push(&a, &judged.lin.residuals()).and_then(|()| triangle.solve());
     let Ok(solution) = solution else {
@@ -53,14 +54,14 @@ pub fn design(judged: &Judged<'_>) -> Design {
         parameters: a.ncols(),
         rank: solution.rank,
         condition,
-        unobservable: unobservable(&solution.null_space, &names),
-        weakest: condition.filter(|c| *c > WEAK).map(|_| weakest(&a, &names)),
+        unobservable: unobservable(&solution.null_space, &parameters),
+        weakest: condition.filter(|c| *c > WEAK).map(|_| weakest(&a, &parameters)),
         paper: paper(judged),
     }
 }
 
 /// The direction of the smallest singular value of the column-scaled regressor, in words.
-fn weakest(a: &nalgebra::DMatrix<f64>, names: &[String]) -> String {
+fn weakest(a: &nalgebra::DMatrix<f64>, parameters: &Parameters) -> String {
     let mut scaled = a.clone();
     for mut c in scaled.column_iter_mut() {
         let norm = c.norm();
@@ -74,7 +75,7 @@ fn weakest(a: &nalgebra::DMatrix<f64>, names: &[String]) -> String {
     let largest = direction.amax();
     let strong: Vec<f64> =
         direction.iter().map(|w| if w.abs() >= SHARE * largest { *w } else { 0.0 }).collect();
-    sentence(&strong, names).replace("cannot be told apart", "are told apart worst")
+    sentence(&strong, parameters).replace("cannot be told apart", "are told apart worst")
 }
 
 fn paper(judged: &Judged<'_>) -> Option<Observability> {

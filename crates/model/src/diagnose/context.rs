@@ -47,7 +47,7 @@ impl Context<'_> {
                 self.outcome.baseline.clone()
             } else {
                 let mut fitted = fit(self.campaign, &order[..n], Some(&self.outcome.best.point))?;
-                average_over_shapes(self.campaign, &order[..n], &mut fitted)?;
+                average_over_shapes(self.campaign, &mut fitted)?;
                 fitted
             };
             let rows = residuals(

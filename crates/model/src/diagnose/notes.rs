@@ -78,7 +78,7 @@ pub(super) fn warnings(campaign: &Campaign, data: &Dataset, fit: &Fit, judgement
                 .to_owned(),
         );
     }
-    if !fit.settled {
+    if !fit.is_settled() {
         all.push("the fit did not settle; treat its numbers as provisional".to_owned());
     }
     if !campaign.noise.allows_verdict() {

@@ -14,10 +14,10 @@ use thiserror::Error;
 
 use crate::campaign::Campaign;
 use crate::fit::Fit;
-use crate::linearization::{Active, Point};
+use crate::linearization::Point;
 use crate::noise::Noise;
+use crate::parameters::Parameters;
 use crate::user_term::UserTermError;
-use crate::words::column_names as names_of_fit;
 
 /// Which estimator gave the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,10 +67,10 @@ pub struct Model {
     pub noise: Noise,
     /// Values.
     pub point: Point,
-    /// Covariance, in the order of [`Self::column_names`], SI; shapes by their logarithm.
+    /// Its numbers.
+    pub parameters: Parameters,
+    /// Their covariance, SI; shapes by their logarithm.
     pub covariance: DMatrix<f64>,
-    /// Names of its rows.
-    pub column_names: Vec<String>,
     /// Whether the data, and not the prior, determine each of them.
     pub determined: Vec<bool>,
     /// What it was fitted to.
@@ -130,13 +130,13 @@ impl Model {
             estimator,
             noise: campaign.noise,
             point: fit.point.clone(),
+            parameters: Parameters::at(&fit.point, campaign.is_absolute()),
             covariance: fit.covariance.clone(),
-            column_names: names_of_fit(fit),
             determined: (0..columns).map(|k| fit.is_determined(k)).collect(),
             data,
             chi2: fit.chi2,
             dof: fit.dof,
-            settled: fit.settled,
+            settled: fit.is_settled(),
             program: concat!("hexbench ", env!("CARGO_PKG_VERSION")).to_owned(),
         }
     }
@@ -151,25 +151,14 @@ impl Model {
         self.measurand == Measurand::AbsolutePose
     }
 
-    /// Column of the first parameter of each term.
-    pub fn offsets(&self) -> Vec<usize> {
-        let mut at = if self.is_absolute() { 18 } else { 6 };
-        let mut offsets = Vec::new();
-        for a in &self.point.active {
-            offsets.push(at);
-            at += columns_of(a);
-        }
-        offsets
-    }
-
     /// The text of `model.toml`.
     ///
     /// # Errors
     /// [`ModelFileError::NotFinite`].
     pub fn to_toml(&self) -> Result<String, ModelFileError> {
-        let named = self.column_names.iter().zip(self.covariance.column_iter());
-        if let Some((name, _)) = named.into_iter().find(|(_, c)| !c.iter().all(|x| x.is_finite())) {
-            return Err(ModelFileError::NotFinite(format!("the covariance of {name}")));
+        let named = self.parameters.iter().zip(self.covariance.column_iter());
+        if let Some((parameter, _)) = named.into_iter().find(|(_, c)| !c.iter().all(|x| x.is_finite())) {
+            return Err(ModelFileError::NotFinite(format!("the covariance of {}", parameter.name)));
         }
         toml::to_string(&write::file(self)).map_err(|e| ModelFileError::Toml(e.to_string()))
     }
@@ -181,14 +170,4 @@ impl Model {
     pub fn from_toml(text: &str) -> Result<Self, ModelFileError> {
         read::model(toml::from_str(text).map_err(|e| ModelFileError::Toml(e.to_string()))?)
     }
-}
-
-/// Columns of a term in the covariance: its parameters, and its shape when that is a column of its own.
-fn columns_of(a: &Active) -> usize {
-    a.values.len() + usize::from(a.term.info().shape.is_some() && !a.term.shape_is_parameter())
-}
-
-/// Names of the columns of the covariance of a model at a point.
-fn column_names(point: &Point, measurand: Measurand) -> Vec<String> {
-    crate::words::names_at(point, measurand == Measurand::AbsolutePose)
 }

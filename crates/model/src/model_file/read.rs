@@ -9,10 +9,10 @@ use nalgebra::{DMatrix, Isometry3, Quaternion, Translation3, UnitQuaternion};
 use super::layout::{File, Frame, HexapodTable, LegTable, NoiseTable, ParameterTable, TermTable};
 use super::write::mode_word;
 use super::{DataOrigin, Estimator, Model, ModelFileError};
-use crate::estimate::parameter_names;
 use crate::linearization::{Active, Point};
 use crate::machine::Machine;
 use crate::noise::{Noise, NoiseSource};
+use crate::parameters::{Parameter, Parameters, Place, parameter_names};
 use crate::term::Term;
 use crate::{terms, user_term};
 
@@ -41,7 +41,7 @@ pub(super) fn model(file: File) -> Result<Model, ModelFileError> {
             .ok_or_else(|| rule("estimator", format!("`{}` must be gls or paper", file.estimator)))?,
         noise: noise(&file.noise)?,
         covariance: DMatrix::zeros(0, 0),
-        column_names: super::column_names(&point, measurand),
+        parameters: Parameters::at(&point, measurand == Measurand::AbsolutePose),
         determined: Vec::new(),
         point,
         data: DataOrigin { file: file.data.file, sha256: file.data.sha256, readings: file.data.readings },
@@ -50,7 +50,7 @@ pub(super) fn model(file: File) -> Result<Model, ModelFileError> {
         settled: file.settled,
         program: file.program,
     };
-    model.covariance = covariance(&file.covariance.order, &file.covariance.matrix, &model.column_names)?;
+    model.covariance = covariance(&file.covariance.order, &file.covariance.matrix, &model.parameters)?;
     model.determined = determined(&model, &file.terms);
     Ok(model)
 }
@@ -282,9 +282,14 @@ fn frame(key: &str, f: &Frame) -> Result<Isometry3<f64>, ModelFileError> {
     ))
 }
 
-fn covariance(order: &[String], rows: &[Vec<f64>], names: &[String]) -> Result<DMatrix<f64>, ModelFileError> {
+fn covariance(
+    order: &[String],
+    rows: &[Vec<f64>],
+    parameters: &Parameters,
+) -> Result<DMatrix<f64>, ModelFileError> {
+    let names: Vec<&str> = parameters.iter().map(|p| p.name.as_str()).collect();
     if order != names {
-        let first = order.iter().zip(names).find(|(a, b)| a != b);
+        let first = order.iter().zip(&names).find(|(a, b)| a != b);
         let why = first
             .map_or(format!("{} names are expected, {} are there", names.len(), order.len()), |(a, b)| {
                 format!("`{a}` stands where `{b}` is expected")
@@ -297,11 +302,11 @@ fn covariance(order: &[String], rows: &[Vec<f64>], names: &[String]) -> Result<D
     }
     rows.iter().try_for_each(|row| finite("covariance.matrix", row))?;
     let matrix = DMatrix::from_fn(n, n, |i, j| rows[i][j]);
-    check_covariance(&matrix, names)?;
+    check_covariance(&matrix, &names)?;
     Ok(matrix)
 }
 
-fn check_covariance(c: &DMatrix<f64>, names: &[String]) -> Result<(), ModelFileError> {
+fn check_covariance(c: &DMatrix<f64>, names: &[&str]) -> Result<(), ModelFileError> {
     let n = c.nrows();
     if let Some(k) = (0..n).find(|&k| c[(k, k)] < 0.0) {
         return Err(rule("covariance.matrix", format!("the variance of {} is negative", names[k])));
@@ -323,16 +328,13 @@ fn check_covariance(c: &DMatrix<f64>, names: &[String]) -> Result<(), ModelFileE
 }
 
 fn determined(model: &Model, tables: &[TermTable]) -> Vec<bool> {
-    let mut all = vec![true; model.column_names.len()];
-    for ((a, offset), table) in model.point.active.iter().zip(model.offsets()).zip(tables) {
-        for (k, (name, ..)) in parameter_names(a).iter().enumerate() {
-            all[offset + k] = table.parameters.get(name).is_none_or(|p| p.determined);
+    let said = |parameter: &Parameter| match parameter.place {
+        Place::Spring(_) | Place::Frames(_) => None,
+        Place::Value { term, index } => {
+            let (name, ..) = &parameter_names(&model.point.active[term])[index];
+            tables[term].parameters.get(name).map(|p| p.determined)
         }
-        if let Some(last) =
-            all.get_mut(offset + a.values.len()).filter(|_| super::columns_of(a) > a.values.len())
-        {
-            *last = table.shape.as_ref().is_none_or(|s| s.determined);
-        }
-    }
-    all
+        Place::Shape { term } => tables[term].shape.as_ref().map(|s| s.determined),
+    };
+    model.parameters.iter().map(|p| said(p).unwrap_or(true)).collect()
 }

@@ -8,8 +8,8 @@ use super::Model;
 use super::layout::{
     Covariance, Data, File, Frame, Frames, HexapodTable, LegTable, NoiseTable, ParameterTable, TermTable,
 };
-use crate::estimate::parameter_names;
 use crate::linearization::Active;
+use crate::parameters::parameter_names;
 
 const STIFFNESS_PER_SI: f64 = 1e-6;
 
@@ -37,7 +37,7 @@ pub(super) fn file(model: &Model) -> File {
             target: frame(&model.point.machine.target_frame),
         }),
         covariance: Covariance {
-            order: model.column_names.clone(),
+            order: model.parameters.iter().map(|p| p.name.clone()).collect(),
             matrix: model.covariance.row_iter().map(|row| row.iter().copied().collect()).collect(),
         },
     }
@@ -83,11 +83,12 @@ fn leg_table(model: &Model, leg: usize) -> LegTable {
 }
 
 fn terms(model: &Model) -> Vec<TermTable> {
-    let with_offset = model.point.active.iter().zip(model.offsets());
-    with_offset.map(|(a, offset)| term(model, a, offset)).collect()
+    (0..model.point.active.len()).map(|k| term(model, k)).collect()
 }
 
-fn term(model: &Model, a: &Active, offset: usize) -> TermTable {
+fn term(model: &Model, number: usize) -> TermTable {
+    let a = &model.point.active[number];
+    let offset = model.parameters.of_term(number).start;
     let parameter = |(k, (name, unit, per_si)): (usize, (String, &'static str, f64))| {
         let table = ParameterTable {
             value: a.values[k] * per_si,
@@ -101,21 +102,20 @@ fn term(model: &Model, a: &Active, offset: usize) -> TermTable {
     TermTable {
         id: a.id().to_owned(),
         form: if a.rich { "rich" } else { "ideal" }.to_owned(),
-        shape: shape(model, a, offset + a.values.len()),
+        shape: shape(model, a, model.parameters.shape_of_term(number)),
         definition: a.term.definition().map(str::to_owned),
         parameters: parameter_names(a).into_iter().enumerate().map(parameter).collect(),
     }
 }
 
 /// The shape of a term, whose column, when it has one, holds its logarithm.
-fn shape(model: &Model, a: &Active, column: usize) -> Option<ParameterTable> {
+fn shape(model: &Model, a: &Active, column: Option<usize>) -> Option<ParameterTable> {
     let shape = a.term.info().shape?;
-    let own_column = !a.term.shape_is_parameter();
     Some(ParameterTable {
         value: a.shape * shape.per_si,
-        standard_error: if own_column { model.std(column) * a.shape * shape.per_si } else { 0.0 },
+        standard_error: column.map_or(0.0, |k| model.std(k) * a.shape * shape.per_si),
         unit: shape.unit.to_owned(),
-        determined: !own_column || model.determined.get(column).copied().unwrap_or(true),
+        determined: column.and_then(|k| model.determined.get(k).copied()).unwrap_or(true),
         si: a.shape,
     })
 }

@@ -1,6 +1,6 @@
 //! Which estimates of the final model depend on each other.
 
-use hexbench_model::estimate::parameter_names;
+use hexbench_model::parameters::{Parameter, Place};
 
 use super::ReportError;
 use crate::page::{Block, Section};
@@ -13,12 +13,11 @@ const MOST_COLUMNS: usize = 24;
 /// Correlation of the estimates of the final model.
 pub(super) fn section(subject: &Subject<'_>) -> Result<Option<Section>, ReportError> {
     let Some(fit) = subject.study.fits.last() else { return Ok(None) };
-    let mut columns: Vec<(String, usize)> = (0..6).map(|leg| (format!("leg {}", leg + 1), leg)).collect();
-    for (active, &offset) in fit.point.active.iter().zip(&fit.offsets) {
-        let names = parameter_names(active).into_iter().enumerate();
-        columns.extend(names.map(|(k, (name, ..))| (format!("{}.{name}", active.id()), offset + k)));
-    }
-    columns.retain(|(_, k)| fit.is_determined(*k));
+    let shown = |(k, p): &(usize, &Parameter)| {
+        matches!(p.place, Place::Spring(_) | Place::Value { .. }) && fit.is_determined(*k)
+    };
+    let columns: Vec<(String, usize)> =
+        fit.parameters.iter().enumerate().filter(shown).map(|(k, p)| (p.name.clone(), k)).collect();
     if columns.len() < 2 || columns.len() > MOST_COLUMNS {
         return Ok(None);
     }

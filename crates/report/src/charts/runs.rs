@@ -1,5 +1,6 @@
 //! Charts of two results beside each other.
 
+use hexbench_model::parameters::stiffness_name;
 use hexbench_model::runs::{ParameterChange, Run, Runs};
 
 use super::ReportError;
@@ -45,7 +46,7 @@ fn errors(runs: &Runs) -> Result<Block, ReportError> {
 fn stiffness(runs: &Runs) -> Result<Option<Section>, ReportError> {
     let of = |side: fn(&ParameterChange) -> Option<[f64; 2]>, shift: f64| -> (Vec<[f64; 2]>, Vec<f64>) {
         let leg = |k: usize| {
-            let name = format!("leg-{}.stiffness", k + 1);
+            let name = stiffness_name(k);
             let [value, std] = side(runs.parameters.iter().find(|p| p.name == name)?)?;
             Some(([k as f64 + 1.0 + shift, value], 2.0 * std))
         };

@@ -50,7 +50,7 @@ fn quality(task: &Task<'_>, fit: &Fit, estimator: Estimator) -> Section {
         .id("fit")
         .remark(method)
         .table(table)
-        .with((!fit.settled).then(|| Block::paragraph(provisional)))
+        .with((!fit.is_settled()).then(|| Block::paragraph(provisional)))
 }
 
 fn values(fit: &Fit) -> Section {

@@ -2,6 +2,7 @@
 
 use hexbench_core::Hexapod;
 use hexbench_model::diagnose::{AbsorbedReport, Diagnosis};
+use hexbench_model::parameters::stiffness_name;
 use hexbench_model::verdict::Verdict;
 
 use crate::number::with_uncertainty;
@@ -37,7 +38,7 @@ fn legs(name: &str, cells: [String; 6]) -> Vec<String> {
 }
 
 fn numbers(d: &Diagnosis) -> Table {
-    let known: [Option<[String; 2]>; 6] = std::array::from_fn(|leg| stiffness(d, leg + 1));
+    let known: [Option<[String; 2]>; 6] = std::array::from_fn(|leg| stiffness(d, leg));
     let part = |which: usize, open: &str| {
         std::array::from_fn(|leg| known[leg].as_ref().map_or(open.to_owned(), |k| k[which].clone()))
     };
@@ -46,7 +47,7 @@ fn numbers(d: &Diagnosis) -> Table {
 }
 
 fn stiffness(d: &Diagnosis, leg: usize) -> Option<[String; 2]> {
-    let name = format!("leg-{leg}.stiffness");
+    let name = stiffness_name(leg);
     d.parameters.iter().find(|p| p.name == name).map(|p| with_uncertainty(p.value, p.std))
 }
 

@@ -16,6 +16,7 @@ use hexbench_design::space_file::read_space;
 use hexbench_design::{Space, Visit};
 use hexbench_model::fit_named::term_named;
 use hexbench_model::noise::Noise;
+use hexbench_model::parameters::stiffness_name;
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
 use nalgebra::DMatrix;
@@ -185,9 +186,9 @@ fn asked(wish: &Wish) -> Result<Option<Amount>, Failure> {
 /// The stiffnesses of the legs.
 fn springs(hexapod: &Hexapod) -> Vec<Quantity> {
     let stiffness = nominal::stiffness(hexapod).map(|k| 1e-6 * k);
-    (1..)
+    (0..)
         .zip(stiffness)
-        .map(|(leg, size)| Quantity { name: format!("leg-{leg}.stiffness"), unit: "N/um", size })
+        .map(|(leg, size)| Quantity { name: stiffness_name(leg), unit: "N/um", size })
         .collect()
 }
 

@@ -7,6 +7,7 @@ use hexbench_core::Hexapod;
 use hexbench_model::compare::legs::leg_space;
 use hexbench_model::estimate::{Estimate, Estimates, estimates};
 use hexbench_model::fit_named::{Added, look_alikes};
+use hexbench_model::parameters::{leg_of_stiffness, stiffness_name};
 use hexbench_model::scatter::Scatter;
 use hexbench_model::selection::{Judged, Task};
 use hexbench_model::term::Term;
@@ -54,7 +55,7 @@ pub(super) fn view(
         times_noise: error.times_noise(),
         at_the_noise: error.is_at_the_noise(),
         legs: of_legs(&numbers, task.hexapod),
-        parameters: numbers.determined.into_iter().filter(|e| !is_stiffness(&e.name)).collect(),
+        parameters: numbers.determined.into_iter().filter(|e| !leg_of_stiffness(&e.name).is_some()).collect(),
         not_determined: numbers.not_determined,
         look_alikes: alike(judged),
         residual_um: shown.iter().map(|&i| all_short(legs.elongation[i] * 1e6)).collect(),
@@ -76,17 +77,9 @@ fn points(all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     all.into_iter().map(|point| point.map(short)).collect()
 }
 
-fn is_stiffness(name: &str) -> bool {
-    (1..=6).any(|leg| name == stiffness_of(leg))
-}
-
-fn stiffness_of(leg: usize) -> String {
-    format!("leg-{leg}.stiffness")
-}
-
 fn of_legs(numbers: &Estimates, hexapod: &Hexapod) -> [Leg; 6] {
     std::array::from_fn(|leg| {
-        let name = stiffness_of(leg + 1);
+        let name = stiffness_name(leg);
         let known: Option<&Estimate> = numbers.determined.iter().find(|e| e.name == name);
         Leg {
             stiffness: known.map(|e| e.value),

@@ -15,7 +15,6 @@ use crate::challenge::folder::{DIAGNOSIS, PARAMETERS, PREDICTIONS};
 pub use diagnosis::{Candidate, Said};
 pub use fault::AnswerFault;
 pub use parameters::Number;
-pub(crate) use parameters::stiffness_of;
 pub use predictions::{Predicted, columns};
 
 /// An answer to one case.

@@ -1,5 +1,6 @@
 //! `parameters.json`: numbers with names.
 
+use hexbench_model::parameters::stiffness_name;
 use std::collections::BTreeSet;
 
 use serde::Deserialize;
@@ -33,11 +34,6 @@ pub struct Number {
     pub unit: String,
 }
 
-/// Name of the stiffness of a leg, counted from 0.
-pub(crate) fn stiffness_of(leg: usize) -> String {
-    format!("leg-{}.stiffness", leg + 1)
-}
-
 pub(super) fn read(text: &str) -> Result<Vec<Number>, AnswerFault> {
     let file: File = serde_json::from_str(text).map_err(|e| AnswerFault::json(PARAMETERS, &e))?;
     if file.format != FORMAT {
@@ -45,7 +41,7 @@ pub(super) fn read(text: &str) -> Result<Vec<Number>, AnswerFault> {
         return Err(AnswerFault::new(PARAMETERS, "format", &rule));
     }
     let mut names = BTreeSet::new();
-    let stiffnesses: Vec<String> = (0..6).map(stiffness_of).collect();
+    let stiffnesses: Vec<String> = (0..6).map(stiffness_name).collect();
     for (k, number) in file.parameters.iter().enumerate() {
         let fault = |key: &str, rule: &str| {
             Err(AnswerFault::new(PARAMETERS, &format!("parameters[{k}].{key} ({})", number.name), rule))

@@ -1,6 +1,7 @@
 //! One case of one program in numbers.
 
 use hexbench_core::statistics::{COVERAGE_FACTOR, Proportion, root_mean_square};
+use hexbench_model::parameters::stiffness_name;
 
 use crate::trial::{Outcome, outcome_of};
 use hexbench_core::Measurand;
@@ -99,7 +100,7 @@ impl CaseScore {
 }
 
 fn leg_score(key: &Key, numbers: &[Number], leg: usize) -> Option<LegScore> {
-    let name = crate::challenge::answer::stiffness_of(leg);
+    let name = stiffness_name(leg);
     let stated = numbers.iter().find(|n| n.name == name)?;
     let true_stiffness = key.truth.leg_stiffness_n_per_um[leg];
     let error = stated.value - true_stiffness;
