@@ -121,7 +121,7 @@ fn ranges(table: &Section<'_>) -> Result<([f64; 6], [f64; 6]), Fault> {
         let Some(item) = table.get(name) else { continue };
         [low[k], high[k]] = item.numbers("two numbers, the lowest and the highest")?;
         if low[k] > high[k] {
-            return Err(rule(item, "the lowest comes first", "Swap the two numbers."));
+            return Err(item.breaks("the lowest comes first", "Swap the two numbers."));
         }
     }
     Ok((low, high))
@@ -178,7 +178,7 @@ fn wait(item: &Item<'_>) -> Result<f64, Fault> {
     if seconds >= 0.0 {
         Ok(seconds)
     } else {
-        Err(rule(item, "time does not run backwards", "Remove the sign."))
+        Err(item.breaks("time does not run backwards", "Remove the sign."))
     }
 }
 
@@ -196,8 +196,7 @@ fn different<T>(
     for member in item.list()? {
         let value = read(&member)?;
         if values.iter().any(|v| same(v, &value)) {
-            return Err(rule(
-                &member,
+            return Err(member.breaks(
                 "each condition is listed once",
                 "Remove the second one; a plan repeats what is worth it.",
             ));
@@ -205,7 +204,7 @@ fn different<T>(
         values.push(value);
     }
     if values.is_empty() {
-        return Err(rule(item, "at least one condition", "Remove the key, or list one."));
+        return Err(item.breaks("at least one condition", "Remove the key, or list one."));
     }
     Ok(values)
 }
@@ -214,7 +213,7 @@ fn budget(table: &Section<'_>) -> Result<Budget, Fault> {
     let seconds = |name: &str| table.get(name).map_or(Ok(0.0), wait);
     let limit = match (table.get("readings"), table.get("time")) {
         (Some(_), Some(time)) => {
-            return Err(rule(time, "a budget is in readings or in time", "Remove one of the two keys."));
+            return Err(time.breaks("a budget is in readings or in time", "Remove one of the two keys."));
         }
         (Some(item), None) => Some(Amount::Readings(usize::try_from(item.whole(1)?).unwrap_or(usize::MAX))),
         (None, Some(item)) => Some(Amount::Time(item.positive("a budget")?)),
@@ -230,8 +229,4 @@ fn budget(table: &Section<'_>) -> Result<Budget, Fault> {
 
 fn weight(mass: f64) -> Wrench {
     Wrench::from_array([0.0, 0.0, -mass * GRAVITY_M_PER_S2, 0.0, 0.0, 0.0])
-}
-
-fn rule(item: &Item<'_>, rule: &str, next: &str) -> Fault {
-    item.fault(Problem::Rule { rule: rule.into(), next: next.into() })
 }

@@ -124,6 +124,11 @@ impl ExperimentError {
         matches!(self, Self::Busy { .. } | Self::Read { .. } | Self::Write { .. } | Self::Missing { .. })
     }
 
+    pub(crate) fn reading(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        move |cause| Self::Read { path, cause }
+    }
+
     pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_owned();
         move |cause| Self::Write { path, cause }

@@ -18,7 +18,7 @@ use hexbench_model::term::Term;
 use crate::csv;
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{Progress, Screen};
+use crate::output::{Progress, Screen, write_json};
 use crate::page::discriminated::{Discriminated, Pair, Planned, Promise, discriminated};
 
 /// Readings of a new plan, and further ones beside data, unless asked otherwise.
@@ -78,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     };
     let to_stdout = arguments.json.as_deref() == Some(Path::new("-"));
     if let Some(path) = &arguments.json {
-        screen.write_to(path, &found.json()?)?;
+        write_json(screen, path, &found.json())?;
     }
     if !to_stdout {
         screen.show(&discriminated(&found))?;

@@ -14,7 +14,7 @@ use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{Screen, TrialFiles};
+use crate::output::{Screen, TrialFiles, write_json};
 
 /// See which effects a plan would show, from which size on, and what it would take them for
 #[derive(Debug, Args)]
@@ -177,7 +177,7 @@ fn studied(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -> 
 
 fn write(arguments: &Arguments, page: &PlanReport<'_>, screen: &Screen) -> Result<(), Failure> {
     if let Some(path) = &arguments.json {
-        screen.write_to(path, &json(page.power)?)?;
+        write_json(screen, path, page.power)?;
     }
     if let Some(path) = &arguments.markdown {
         screen.write_to(path, &markdown(&page.document()))?;
@@ -189,14 +189,7 @@ fn write(arguments: &Arguments, page: &PlanReport<'_>, screen: &Screen) -> Resul
         return screen.write_to(path, heat_map);
     }
     for chart in &charts {
-        let file = path.join(chart.file);
-        Screen::make_folder_of(&file)?;
-        screen.write_to(&file, &chart.svg)?;
+        screen.write_into(path, chart.file, &chart.svg)?;
     }
     Ok(())
-}
-
-fn json(power: &Power) -> Result<String, Failure> {
-    let cause = |e: serde_json::Error| Failure::Output { path: "power.json".into(), cause: e.into() };
-    Ok(serde_json::to_string_pretty(power).map_err(cause)? + "\n")
 }

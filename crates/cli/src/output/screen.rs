@@ -52,6 +52,13 @@ impl Screen {
         std::fs::create_dir_all(folder).map_err(|cause| Failure::Output { path: folder.to_owned(), cause })
     }
 
+    /// Write text to a file of a folder, which is made.
+    pub(crate) fn write_into(&self, folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
+        let path = folder.join(name);
+        Self::make_folder_of(&path)?;
+        self.write_to(&path, text)
+    }
+
     /// Write text to a file, or to standard output when the path is `-`.
     pub(crate) fn write_to(&self, path: &Path, text: &str) -> Result<(), Failure> {
         if path.as_os_str() == "-" {

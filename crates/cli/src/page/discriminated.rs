@@ -9,8 +9,6 @@ use hexbench_report::{Block, Entry, Page, Section};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::failure::Failure;
-
 /// Decimal logarithms of odds beyond which a number says no more.
 const OVERWHELMING: f64 = 4.0;
 
@@ -93,22 +91,19 @@ impl Promise {
 
 impl Discriminated {
     /// The result for programs.
-    pub(crate) fn json(&self) -> Result<String, Failure> {
+    pub(crate) fn json(&self) -> serde_json::Value {
         let sizes = |(id, parameters): &(String, Vec<Size>)| {
             let one = |(name, value, unit): &Size| json!({"name": name, "value": value, "unit": unit});
             json!({"term": id, "parameters": parameters.iter().map(one).collect::<Vec<_>>()})
         };
-        let all = json!({
+        json!({
             "format": self.format,
             "data": self.data,
             "readings": self.readings.iter().map(Planned::value).collect::<Vec<_>>(),
             "pairs": self.pairs,
             "sizes": self.sizes.iter().map(sizes).collect::<Vec<_>>(),
             "seed": self.seed,
-        });
-        let cause =
-            |e: serde_json::Error| Failure::Output { path: "discrimination.json".into(), cause: e.into() };
-        Ok(serde_json::to_string_pretty(&all).map_err(cause)? + "\n")
+        })
     }
 
     fn count(&self) -> usize {

@@ -50,7 +50,7 @@ pub use csv_text::{CsvText, csv_cell};
 pub use digest::{content_hash, text_hash};
 pub use error::{Fault, FileError};
 pub use header::Purpose;
-pub use nearest::nearest;
+pub use nearest::{instead_of, nearest};
 pub use place::Place;
 pub use problem::Problem;
 pub use read_balls::{read_ball_places, read_balls};

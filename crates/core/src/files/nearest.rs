@@ -11,6 +11,14 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     (distance <= allowed_edits(word.len().max(name.len()))).then_some(name)
 }
 
+/// What to write instead of a word that is none of these names, one sentence.
+pub fn instead_of(word: &str, names: &[&str]) -> String {
+    match nearest(word, names.iter().copied()) {
+        Some(near) => format!("Write \"{near}\"."),
+        None => format!("Write one of {}.", names.join(", ")),
+    }
+}
+
 fn allowed_edits(length: usize) -> usize {
     match length {
         0..=2 => 0,

@@ -18,15 +18,7 @@ const SAME_POINT_M: f64 = 1e-9;
 /// Smallest and largest distance between two joints of one side, m.
 const MACHINE_SIZE_M: [f64; 2] = [1e-3, 1e3];
 
-const TOP: &[Key] = &[
-    Key::plain("format"),
-    Key::plain("name"),
-    Key::plain("geometry"),
-    Key::plain("metrology"),
-    Key::plain("legs"),
-    Key::plain("base"),
-    Key::plain("payload"),
-];
+const TOP: &[Key] = &Key::all_plain(["format", "name", "geometry", "metrology", "legs", "base", "payload"]);
 const GEOMETRY: &[Key] = &[
     Key::with_unit("base_joints", Kind::Length, "mm"),
     Key::with_unit("platform_joints", Kind::Length, "mm"),

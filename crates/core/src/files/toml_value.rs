@@ -26,6 +26,17 @@ impl Key {
         Self { name, kind: Kind::Number, unit: "" }
     }
 
+    /// Keys without units.
+    pub const fn all_plain<const N: usize>(names: [&'static str; N]) -> [Self; N] {
+        let mut keys = [Self::plain(""); N];
+        let mut k = 0;
+        while k < N {
+            keys[k] = Self::plain(names[k]);
+            k += 1;
+        }
+        keys
+    }
+
     /// A key with a unit.
     pub const fn with_unit(name: &'static str, kind: Kind, unit: &'static str) -> Self {
         Self { name, kind, unit }
@@ -164,6 +175,11 @@ impl<'t> Item<'t> {
         self.fault_at(self.value, problem)
     }
 
+    /// A rule of the format that this value breaks, and what to write instead.
+    pub fn breaks(&self, rule: impl Into<String>, next: impl Into<String>) -> Fault {
+        self.fault(Problem::Rule { rule: rule.into(), next: next.into() })
+    }
+
     fn fault_at(&self, value: &Value<'_>, problem: Problem) -> Fault {
         let span = value.span();
         let place = place_of(self.text, &span).with_name(&self.key);
@@ -250,7 +266,7 @@ impl<'t> Item<'t> {
         let number = u64::from_str_radix(&digits, integer.radix()).ok();
         number.filter(|n| (least..=1 << 53).contains(n)).ok_or_else(|| {
             let rule = format!("must be a whole number from {least} to 2^53");
-            self.fault(Problem::Rule { rule, next: format!("Write for example {}.", least.max(7)) })
+            self.breaks(rule, format!("Write for example {}.", least.max(7)))
         })
     }
 

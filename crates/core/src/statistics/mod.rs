@@ -18,6 +18,9 @@ mod welford;
 pub use proportion::Proportion;
 pub use welford::Welford;
 
+/// Half-width of a 95 % interval of a normal law in standard deviations.
+pub const COVERAGE_FACTOR: f64 = 1.959_963_984_540_054;
+
 /// Arithmetic mean; `None` of nothing.
 pub fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let (sum, count) = values.into_iter().fold((0.0, 0_usize), |(sum, count), x| (sum + x, count + 1));

@@ -60,6 +60,12 @@ impl Proportion {
     }
 }
 
+impl std::iter::Sum for Proportion {
+    fn sum<I: Iterator<Item = Self>>(parts: I) -> Self {
+        parts.fold(Self::default(), |all, p| Self { hits: all.hits + p.hits, of: all.of + p.of })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Proportion;

@@ -3,7 +3,7 @@
 use hexbench_core::statistics::Proportion;
 use hexbench_report::number::hundredths;
 use hexbench_report::words::written_by;
-use hexbench_report::{Block, Figure, Page, Section, Table};
+use hexbench_report::{Block, Page, Section, Table};
 use hexbench_truth::campaign::Kind;
 
 use super::sheets;
@@ -18,8 +18,7 @@ use crate::calibration::Fate;
 pub fn page(study: &Calibration, charts: &str) -> Page {
     let records = &study.records;
     let chart = |title: &str, file: &str, words: String| {
-        let figure = Figure::in_file(format!("{charts}/{file}"), title);
-        Section::new(title).paragraph(words).with(Block::Figure(figure)).detail()
+        Section::new(title).paragraph(words).figure(format!("{charts}/{file}"), title).detail()
     };
     let section = |title: &str, words: &str, table: Table| Section::new(title).paragraph(words).table(table);
     Page::new("How far the diagnosis can be trusted")
@@ -173,14 +172,12 @@ const OUTSIDE: &str = "Share of the trials of kind outside in which \"outside\" 
 instead is above the dashed line; between the lines the springs are called adequate.";
 
 fn reliability(records: &[Record], charts: &str, section: Section) -> Section {
-    let by_kind =
-        Figure::in_file(format!("{charts}/reliability-by-kind.svg"), "Presence of an effect by kind");
     section
         .paragraph(MIX)
         .table(sheets::all_scores(records))
         .paragraph("Where 90 % or more was stated, every trial counted once:")
         .table(sheets::reliability(records, NEARLY_SURE))
-        .with(Block::Figure(by_kind))
+        .figure(format!("{charts}/reliability-by-kind.svg"), "Presence of an effect by kind")
         .table(sheets::scores_by_kind(records))
 }
 

@@ -65,10 +65,7 @@ pub struct Record {
 
 impl Record {
     /// Diagnoses a case and compares the answer with the truth.
-    ///
-    /// # Errors
-    /// [`TrialError::Model`].
-    pub fn of(case: &Case) -> Result<Self, TrialError> {
+    pub(crate) fn of(case: &Case) -> Result<Self, TrialError> {
         Ok(Self::of_trial(case, &Trial::run(case)?))
     }
 

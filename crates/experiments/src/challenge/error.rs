@@ -1,7 +1,7 @@
 //! Why a challenge cannot be made, run or scored.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use hexbench_core::files::FileError;
 use hexbench_truth::TruthError;
@@ -78,7 +78,7 @@ pub enum ChallengeError {
     /// Another run is at work.
     #[error("{} is in use by another run", .0.display())]
     Busy(PathBuf),
-    /// It was told to stop.
+    /// It was told to stop, or a file cannot be read or written.
     #[error(transparent)]
     Experiment(#[from] ExperimentError),
     /// Two entrants of one name.
@@ -90,22 +90,6 @@ pub enum ChallengeError {
         /// Its case.
         case: String,
         /// Why.
-        cause: io::Error,
-    },
-    /// A file that cannot be read.
-    #[error("{}: cannot be read: {cause}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why not.
-        cause: io::Error,
-    },
-    /// A file that cannot be written.
-    #[error("{}: cannot be written: {cause}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// Why not.
         cause: io::Error,
     },
 }
@@ -139,8 +123,6 @@ impl ChallengeError {
             Self::Start { .. } => {
                 "Check that sh is there, and the free space of the folder for temporary files.".into()
             }
-            Self::Read { .. } => "Check the name, and that it may be read.".into(),
-            Self::Write { .. } => "Check the free space and that the folder may be written to.".into(),
         }
     }
 
@@ -148,18 +130,9 @@ impl ChallengeError {
     pub fn is_input_output(&self) -> bool {
         match self {
             Self::File(error) => error.is_input_output(),
-            Self::Busy(_) | Self::Start { .. } | Self::Read { .. } | Self::Write { .. } => true,
+            Self::Experiment(error) => error.is_input_output(),
+            Self::Busy(_) | Self::Start { .. } => true,
             _ => false,
         }
-    }
-
-    pub(crate) fn reading(path: &Path) -> impl FnOnce(io::Error) -> Self {
-        let path = path.to_owned();
-        move |cause| Self::Read { path, cause }
-    }
-
-    pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self {
-        let path = path.to_owned();
-        move |cause| Self::Write { path, cause }
     }
 }

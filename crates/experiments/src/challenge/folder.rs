@@ -5,6 +5,7 @@ use std::io;
 use std::path::Path;
 
 use crate::challenge::ChallengeError;
+use crate::error::ExperimentError;
 
 /// Folder of the public cases.
 pub(crate) const CASES: &str = "cases";
@@ -47,6 +48,6 @@ pub(crate) fn refuse_content(folder: &Path, known: &[&str]) -> Result<(), Challe
         Ok(true) => Err(ChallengeError::NotEmpty(folder.to_owned())),
         Ok(false) => Ok(()),
         Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(()),
-        Err(cause) => Err(ChallengeError::Write { path: folder.to_owned(), cause }),
+        Err(cause) => Err(ExperimentError::writing(folder)(cause).into()),
     }
 }

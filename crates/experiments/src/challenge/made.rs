@@ -19,7 +19,7 @@ impl Challenge {
     /// Opens a challenge; its files are not looked at yet.
     ///
     /// # Errors
-    /// [`ChallengeError::Read`], [`ChallengeError::Malformed`].
+    /// [`crate::ExperimentError::Read`], [`ChallengeError::Malformed`].
     pub fn open(folder: &Path) -> Result<Self, ChallengeError> {
         let (manifest, text) = Manifest::read(&folder.join(MANIFEST))?;
         Ok(Self { folder: folder.to_owned(), manifest, sha256: text_hash(&text) })

@@ -21,6 +21,7 @@ use crate::challenge::folder::{
     CASES, HEXAPOD, MEASURED, MEASUREMENTS, PREDICT, README, SEALED, TRUE_READINGS, TRUTH, refuse_content,
 };
 use crate::challenge::{ChallengeError, Drawn, MANIFEST, Manifest, Suite, draw};
+use crate::error::ExperimentError;
 use crate::harness::Progress;
 
 /// The contract for entrants, as it stands in every challenge.
@@ -29,7 +30,7 @@ const CONTRACT: &str = include_str!("entrants.md");
 /// Makes a challenge in a folder, which must be empty or absent. The same suite and seed give the same bytes.
 ///
 /// # Errors
-/// [`ChallengeError::NotEmpty`], [`ChallengeError::Case`], [`ChallengeError::Write`].
+/// [`ChallengeError::NotEmpty`], [`ChallengeError::Case`], [`ExperimentError::Write`].
 pub fn make(suite: &Suite, folder: &Path, progress: &dyn Progress) -> Result<Manifest, ChallengeError> {
     refuse_content(folder, &[])?;
     let cases = draw(suite, progress)?;
@@ -41,13 +42,13 @@ pub fn make(suite: &Suite, folder: &Path, progress: &dyn Progress) -> Result<Man
     };
     keep(README.to_owned(), CONTRACT)?;
     for case in &cases {
-        for (name, text) in files_of(case).map_err(ChallengeError::writing(folder))? {
+        for (name, text) in files_of(case).map_err(ExperimentError::writing(folder))? {
             keep(name, &text)?;
         }
     }
     let manifest = Manifest::new(suite, cases.into_iter().map(|c| c.id).collect(), files);
     let path = folder.join(MANIFEST);
-    let text = manifest.text().map_err(|e| ChallengeError::writing(&path)(io::Error::other(e)))?;
+    let text = manifest.text().map_err(|e| ExperimentError::writing(&path)(io::Error::other(e)))?;
     write(&path, &text)?;
     Ok(manifest)
 }
@@ -86,7 +87,7 @@ fn asked(rows: &Dataset) -> io::Result<String> {
 /// Writes a file whole, its folder too.
 pub(crate) fn write(path: &Path, text: &str) -> Result<(), ChallengeError> {
     if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(ChallengeError::writing(folder))?;
+        fs::create_dir_all(folder).map_err(ExperimentError::writing(folder))?;
     }
-    atomic_write(path, |out| out.write_all(text.as_bytes())).map_err(ChallengeError::writing(path))
+    Ok(atomic_write(path, |out| out.write_all(text.as_bytes())).map_err(ExperimentError::writing(path))?)
 }

@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::challenge::ChallengeError;
+use crate::error::ExperimentError;
 
 /// A file of one format, which it states.
 pub(crate) trait Stored: DeserializeOwned {
@@ -35,7 +36,7 @@ fn read<T: Stored>(
     path: &Path,
     parse: impl FnOnce(&str) -> Result<T, String>,
 ) -> Result<(T, String), ChallengeError> {
-    let text = std::fs::read_to_string(path).map_err(ChallengeError::reading(path))?;
+    let text = std::fs::read_to_string(path).map_err(ExperimentError::reading(path))?;
     let malformed = |why: String| ChallengeError::Malformed { path: path.to_owned(), why };
     let stored = parse(&text).map_err(malformed)?;
     if stored.format() != T::FORMAT {

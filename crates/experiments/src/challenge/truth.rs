@@ -92,7 +92,7 @@ impl Truth {
     /// Reads `truth.json`.
     ///
     /// # Errors
-    /// [`ChallengeError::Read`], [`ChallengeError::Malformed`].
+    /// [`crate::ExperimentError::Read`], [`ChallengeError::Malformed`].
     pub(crate) fn read(path: &Path) -> Result<Self, ChallengeError> {
         read_json(path)
     }

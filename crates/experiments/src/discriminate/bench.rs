@@ -53,10 +53,7 @@ impl Bench {
     }
 
     /// The measurements with further readings, each taken as often as it is listed.
-    ///
-    /// # Errors
-    /// As [`World::reading`].
-    pub fn with(&self, further: &[Observation], rng: &mut Pcg64) -> Result<Dataset, TruthError> {
+    pub(crate) fn with(&self, further: &[Observation], rng: &mut Pcg64) -> Result<Dataset, TruthError> {
         let known = self.measurements.observations.iter().map(|o| o.pose_id).max().unwrap_or(0);
         let number = |(k, o): (usize, &Observation)| {
             let repeat = (1..).zip(further[..=k].iter().filter(|p| *p == o)).last().map_or(1, |(n, _)| n);

@@ -5,7 +5,7 @@ use hexbench_report::{Block, Page, Section};
 
 use hexbench_core::statistics::{Proportion, mean};
 
-use super::sheets::{asked, before, open, proposed, share, told};
+use super::sheets::{asked, before, mean_readings, open, proposed, share, told};
 use super::{Discrimination, READINGS, Record};
 use crate::trial::Outcome;
 
@@ -39,7 +39,7 @@ pub fn headlines(study: &Discrimination) -> Vec<String> {
     let all = || records.iter();
     let open: Vec<&Record> = open(&records).collect();
     let after = |stage, o| told(share(open.iter().copied(), stage, o));
-    let readings = open.iter().map(|r| r.readings).sum::<usize>() as f64 / open.len().max(1) as f64;
+    let readings = mean_readings(&open, |r| r.readings);
     vec![
         format!(
             "By the confusing plans alone {} of the answers are right and {} wrong; the rest is honestly open.",

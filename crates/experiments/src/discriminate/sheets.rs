@@ -1,7 +1,7 @@
 //! Tables of the study.
 
 use super::{Confusion, Discrimination, Record};
-use hexbench_core::statistics::Proportion;
+use hexbench_core::statistics::{Proportion, mean};
 use hexbench_report::Table;
 
 use crate::trial::Outcome;
@@ -35,8 +35,7 @@ pub fn proposed(study: &Discrimination) -> Table {
     let mut table = compared("open answers");
     for_each(study, |name, records| {
         let records: Vec<&Record> = open(records).collect();
-        let readings = records.iter().map(|r| r.readings).sum::<usize>() as f64 / records.len().max(1) as f64;
-        table.row(row(name, &records, readings, |r| r.proposed, |r| r.proposed_random));
+        table.row(row(name, &records, |r| r.readings, |r| r.proposed, |r| r.proposed_random));
     });
     table
 }
@@ -46,11 +45,14 @@ pub fn asked(study: &Discrimination) -> Table {
     let mut table = compared("trials");
     for_each(study, |name, records| {
         let records: Vec<&Record> = records.iter().collect();
-        let readings =
-            records.iter().map(|r| r.asked_readings).sum::<usize>() as f64 / records.len().max(1) as f64;
-        table.row(row(name, &records, readings, |r| r.asked, |r| r.asked_random));
+        table.row(row(name, &records, |r| r.asked_readings, |r| r.asked, |r| r.asked_random));
     });
     table
+}
+
+/// Mean number of readings; zero of no trials.
+pub(super) fn mean_readings(records: &[&Record], readings: fn(&Record) -> usize) -> f64 {
+    mean(records.iter().map(|r| readings(r) as f64)).unwrap_or(0.0)
 }
 
 fn compared(trials: &str) -> Table {
@@ -73,12 +75,18 @@ fn for_each(study: &Discrimination, mut f: impl FnMut(String, &[Record])) {
     f("all".to_owned(), &study.records());
 }
 
-fn row(name: String, records: &[&Record], readings: f64, chosen: Stage, random: Stage) -> [String; 8] {
+fn row(
+    name: String,
+    records: &[&Record],
+    readings: fn(&Record) -> usize,
+    chosen: Stage,
+    random: Stage,
+) -> [String; 8] {
     let of = |stage: Stage, o: Outcome| told(share(records.iter().copied(), stage, o));
     [
         name,
         records.len().to_string(),
-        format!("{readings:.1}"),
+        format!("{:.1}", mean_readings(records, readings)),
         of(|r| r.before, Outcome::Right),
         of(chosen, Outcome::Right),
         of(random, Outcome::Right),

@@ -53,10 +53,7 @@ pub struct Record {
 
 impl Record {
     /// The trial of a number; everything that is drawn comes from the seed.
-    ///
-    /// # Errors
-    /// [`TrialError`].
-    pub fn of(confusion: &Confusion, index: usize, seed: u64) -> Result<Self, TrialError> {
+    pub(crate) fn of(confusion: &Confusion, index: usize, seed: u64) -> Result<Self, TrialError> {
         let mut rng = stream(seed, Purpose::ConfusionTrial, [index as u64]);
         let hidden = confusion.between[rng.random_range(0..2)];
         let family = FAMILIES[rng.random_range(0..FAMILIES.len())];

@@ -54,10 +54,7 @@ impl Bench {
     }
 
     /// Deflections as the instrument gives them; equal numbers give equal noise whatever the world.
-    ///
-    /// # Errors
-    /// As [`World::deflection`].
-    pub fn measure(
+    pub(crate) fn measure(
         &self,
         world: &World,
         rows: &[Row],
@@ -75,18 +72,6 @@ impl Bench {
         Ok(dataset(source, covariates, observations))
     }
 
-    /// Deflections without noise.
-    ///
-    /// # Errors
-    /// As [`World::deflection`].
-    pub fn ideal(&self, world: &World, rows: &[Row]) -> Result<Dataset, TruthError> {
-        let read = |(i, row): (usize, &Row)| {
-            Ok(row.read(i as u64 + 2, world.deflection(&row.situation)?.into(), Some(sigma())))
-        };
-        let observations = rows.iter().enumerate().map(read).collect::<Result<_, TruthError>>()?;
-        Ok(dataset("ideal", Covariates::None, observations))
-    }
-
     /// The balls are probed in the reference state and under the load; each time the pose follows by superposition.
     fn read_balls(&self, pose: &Pose, deflection: &Vector6, rng: &mut Pcg64) -> Result<Vector6, TruthError> {
         let loaded = Pose::from_array((pose.to_vector() + deflection).into());
@@ -97,6 +82,15 @@ impl Bench {
         let reference = read(pose)?;
         Ok(read(&loaded)? - reference)
     }
+}
+
+/// Deflections without noise.
+pub(crate) fn ideal(world: &World, rows: &[Row]) -> Result<Dataset, TruthError> {
+    let read = |(i, row): (usize, &Row)| {
+        Ok(row.read(i as u64 + 2, world.deflection(&row.situation)?.into(), Some(sigma())))
+    };
+    let observations = rows.iter().enumerate().map(read).collect::<Result<_, TruthError>>()?;
+    Ok(dataset("ideal", Covariates::None, observations))
 }
 
 /// Standard deviation of one deflection reading: difference of two superpositions of three balls on a circle.

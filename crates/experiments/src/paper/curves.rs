@@ -5,7 +5,7 @@ use hexbench_model::error::ModelError;
 use hexbench_truth::campaign::Row;
 use hexbench_truth::{Situation, World};
 
-use super::bench::{Bench, Covariates, effective_load, level_pose};
+use super::bench::{Bench, Covariates, effective_load, ideal, level_pose};
 use super::error::PaperError;
 use super::identify::Identified;
 use super::published::FIGURE_7_LOADS_N;
@@ -30,10 +30,7 @@ pub struct IndexOverLoad {
 }
 
 /// Fig. 7: O1 over the load for the paper's set, the best one found, and one without rotation.
-///
-/// # Errors
-/// [`ModelError::SingularPose`].
-pub fn figure_7(
+pub(crate) fn figure_7(
     hexapod: &Hexapod,
     sets: [(&'static str, &PoseSet); 3],
 ) -> Result<Vec<IndexOverLoad>, ModelError> {
@@ -59,10 +56,7 @@ pub struct Linearity {
 }
 
 /// Fig. 8 of a world.
-///
-/// # Errors
-/// [`PaperError::Truth`].
-pub fn figure_8(bench: &Bench, world: &World) -> Result<Linearity, PaperError> {
+pub(crate) fn figure_8(bench: &Bench, world: &World) -> Result<Linearity, PaperError> {
     let situation =
         |load: f64| Situation::new(Pose::default(), Wrench::from_array([0.0, 0.0, -load, 0.0, 0.0, 0.0]));
     let rows: Vec<Row> = (1..)
@@ -72,7 +66,7 @@ pub fn figure_8(bench: &Bench, world: &World) -> Result<Linearity, PaperError> {
     let points = |data: &hexbench_core::Dataset| -> Vec<[f64; 2]> {
         data.observations.iter().map(|o| [-o.wrench.force.z, -o.measured[2] * 1e6]).collect()
     };
-    let ideal = points(&bench.ideal(world, &rows)?);
+    let ideal = points(&ideal(world, &rows)?);
     let mut trials = Vec::new();
     for stream in (TRIALS..).take(TRIAL_COUNT) {
         trials.push(points(&bench.measure(world, &rows, Covariates::None, "trial", stream)?));
@@ -102,10 +96,7 @@ pub struct Compared {
 }
 
 /// Figs. 9 and 10: predicted and measured deflection along X and along Y.
-///
-/// # Errors
-/// [`ModelError::SingularPose`].
-pub fn figures_9_and_10(
+pub(crate) fn figures_9_and_10(
     bench: &Bench,
     springs: &Identified,
     data: &hexbench_core::Dataset,

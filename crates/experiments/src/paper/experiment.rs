@@ -42,10 +42,7 @@ pub struct Outcome {
 
 impl Experiment {
     /// Loads, measures, identifies, predicts.
-    ///
-    /// # Errors
-    /// [`PaperError`].
-    pub fn run(bench: &Bench, world: &World) -> Result<Self, PaperError> {
+    pub(crate) fn run(bench: &Bench, world: &World) -> Result<Self, PaperError> {
         let read = |rows: &[_], source, stream| bench.measure(world, rows, Covariates::None, source, stream);
         let readings = read(&identification(), "Table 1", IDENTIFICATION)?;
         let held_out = read(&validation(), "Table 3", VALIDATION)?;

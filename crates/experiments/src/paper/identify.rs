@@ -32,10 +32,7 @@ pub struct Identified {
 
 impl Identified {
     /// Springs from readings.
-    ///
-    /// # Errors
-    /// As [`fit_paper`] and [`fit_baseline`].
-    pub fn from(bench: &Bench, data: &Dataset, estimator: Estimator) -> Result<Self, ModelError> {
+    pub(crate) fn from(bench: &Bench, data: &Dataset, estimator: Estimator) -> Result<Self, ModelError> {
         let campaign = Campaign::new(&bench.hexapod, data)?;
         let fit = match estimator {
             Estimator::Paper => fit_paper(&campaign, data)?.into_fit(&campaign)?,
@@ -55,29 +52,20 @@ impl Identified {
     }
 
     /// Predicted deflection of each reading, m and rad.
-    ///
-    /// # Errors
-    /// [`ModelError::SingularPose`].
-    pub fn predict(&self, bench: &Bench, data: &Dataset) -> Result<Vec<Vector6>, ModelError> {
+    pub(crate) fn predict(&self, bench: &Bench, data: &Dataset) -> Result<Vec<Vector6>, ModelError> {
         let one = |o| Ok(block(&bench.hexapod, o, data.measurand)? * self.springs);
         data.observations.iter().map(one).collect()
     }
 
     /// Error of prediction on other readings, root mean square by coordinate, um and urad.
-    ///
-    /// # Errors
-    /// [`ModelError::SingularPose`].
-    pub fn prediction_error(&self, bench: &Bench, data: &Dataset) -> Result<[f64; 6], ModelError> {
+    pub(crate) fn prediction_error(&self, bench: &Bench, data: &Dataset) -> Result<[f64; 6], ModelError> {
         let predicted = self.predict(bench, data)?;
         let errors = data.observations.iter().zip(predicted).map(|(o, p)| Vector6::from(o.measured) - p);
         Ok(rms(errors))
     }
 
     /// What the error of prediction should be if springs are all there is: noise of the readings and of the springs.
-    ///
-    /// # Errors
-    /// [`ModelError::SingularPose`].
-    pub fn expected_error(&self, bench: &Bench, data: &Dataset) -> Result<[f64; 6], ModelError> {
+    pub(crate) fn expected_error(&self, bench: &Bench, data: &Dataset) -> Result<[f64; 6], ModelError> {
         let noise = Vector6::from(sigma()).map(|s| s * s);
         let mut total = Vector6::zeros();
         for reading in &data.observations {
@@ -89,10 +77,7 @@ impl Identified {
     }
 
     /// Chance of errors as large as these if springs are all there is.
-    ///
-    /// # Errors
-    /// As [`survival`].
-    pub fn chance(&self, bench: &Bench, data: &Dataset) -> Result<f64, ModelError> {
+    pub(crate) fn chance(&self, bench: &Bench, data: &Dataset) -> Result<f64, ModelError> {
         survival(&bench.hexapod, data, self.campaign.noise, &self.fit)
     }
 }

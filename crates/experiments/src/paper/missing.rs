@@ -42,18 +42,12 @@ pub struct Step {
 }
 
 /// Diagnosis of the paper's own readings.
-///
-/// # Errors
-/// [`PaperError`].
-pub fn on_the_papers_plan(bench: &Bench, experiment: &Experiment) -> Result<Finding, PaperError> {
+pub(crate) fn on_the_papers_plan(bench: &Bench, experiment: &Experiment) -> Result<Finding, PaperError> {
     finding(bench, &experiment.identification, &experiment.validation)
 }
 
 /// Diagnosis of readings by the richer plan.
-///
-/// # Errors
-/// [`PaperError`].
-pub fn on_the_richer_plan(bench: &Bench, world: &World) -> Result<Finding, PaperError> {
+pub(crate) fn on_the_richer_plan(bench: &Bench, world: &World) -> Result<Finding, PaperError> {
     let [training, holdout] = richer_plan(bench);
     let read = |rows: &[_], source, stream| bench.measure(world, rows, Covariates::All, source, stream);
     let (readings, held_out) = (read(&training, "training", TRAINING)?, read(&holdout, "held out", HOLDOUT)?);

@@ -35,19 +35,17 @@ pub struct PoseSet {
 
 impl PoseSet {
     /// The indices of given poses under a load, one reading each.
-    ///
-    /// # Errors
-    /// [`ModelError::SingularPose`].
-    pub fn of(hexapod: &Hexapod, poses: [[f64; PER_POSE]; POSES]) -> Result<Self, ModelError> {
+    pub(crate) fn of(hexapod: &Hexapod, poses: [[f64; PER_POSE]; POSES]) -> Result<Self, ModelError> {
         Ok(Self { poses, observability: observability(hexapod, &poses.map(level_pose), 1.0)? })
     }
 }
 
 /// Indices of `A` for poses under the paper's load times `share`, one reading each.
-///
-/// # Errors
-/// [`ModelError::SingularPose`].
-pub fn observability(hexapod: &Hexapod, poses: &[Pose], share: f64) -> Result<Observability, ModelError> {
+pub(crate) fn observability(
+    hexapod: &Hexapod,
+    poses: &[Pose],
+    share: f64,
+) -> Result<Observability, ModelError> {
     let mut a = DMatrix::zeros(6 * poses.len(), 6);
     for (i, pose) in poses.iter().enumerate() {
         let reading = super::bench::unread(loaded_pose(*pose));

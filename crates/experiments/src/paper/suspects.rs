@@ -8,7 +8,7 @@ use hexbench_truth::mechanisms::{
     BaseBending, BaseCompliance, BracketCompliance, LegLengthCompliance, LoadOffset, LoadTilt, TargetOffset,
 };
 
-use super::bench::{Bench, effective_load, identification, validation};
+use super::bench::{Bench, effective_load, ideal, identification, validation};
 use super::error::PaperError;
 use super::identify::{Estimator, Identified, pooled, rms};
 use super::published::PREDICTION_ERROR;
@@ -93,21 +93,15 @@ pub fn skew_support(motion: [f64; 3]) -> Box<dyn Mechanism> {
 }
 
 /// Errors that the paper's estimator makes on the validation poses with an effect in the world and no noise, um and urad.
-///
-/// # Errors
-/// As [`Bench::ideal`] and [`Identified::from`].
-pub fn bias(bench: &Bench, effect: Box<dyn Mechanism>) -> Result<[f64; 6], PaperError> {
+pub(crate) fn bias(bench: &Bench, effect: Box<dyn Mechanism>) -> Result<[f64; 6], PaperError> {
     let world = bench.world(vec![effect]);
-    let data = bench.ideal(&world, &identification())?;
+    let data = ideal(&world, &identification())?;
     let springs = Identified::from(bench, &data, Estimator::Paper)?;
-    Ok(springs.prediction_error(bench, &bench.ideal(&world, &validation())?)?)
+    Ok(springs.prediction_error(bench, &ideal(&world, &validation())?)?)
 }
 
 /// Every suspect at the size that gives the paper's translation errors beside the noise expected of springs alone.
-///
-/// # Errors
-/// As [`bias`].
-pub fn suspects(bench: &Bench, noise: &[f64; 6]) -> Result<Vec<Suspect>, PaperError> {
+pub(crate) fn suspects(bench: &Bench, noise: &[f64; 6]) -> Result<Vec<Suspect>, PaperError> {
     FAMILIES.iter().map(|family| sized(bench, family, noise)).collect()
 }
 
@@ -134,10 +128,7 @@ fn step(wanted: f64, reached: f64) -> f64 {
 }
 
 /// How far a skew support must give along X, Y and Z (m) for the errors of all three translations to be the paper's.
-///
-/// # Errors
-/// As [`bias`].
-pub fn support_motion(bench: &Bench, noise: &[f64; 6]) -> Result<[f64; 3], PaperError> {
+pub(crate) fn support_motion(bench: &Bench, noise: &[f64; 6]) -> Result<[f64; 3], PaperError> {
     const ROUNDS: usize = 15;
     let mut motion = [2e-6, 2e-6, -2e-6];
     for _ in 0..ROUNDS {

@@ -2,9 +2,9 @@
 
 use hexbench_core::statistics::Proportion;
 use hexbench_design::power::{Effect, Planned, Verdict};
-use hexbench_report::Page;
 use hexbench_report::number::significant;
 use hexbench_report::words::written_by;
+use hexbench_report::{Page, Section, Table};
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{Bench, PartName};
 
@@ -38,6 +38,10 @@ impl Studied {
         let (condition, faint) = (planned.condition(), faint(&plan)?);
         Ok(Self { name: name.to_owned(), plan, power, condition, faint })
     }
+
+    fn report(&self) -> PlanReport<'_> {
+        PlanReport { plan: &self.plan, power: &self.power, only: &[], verbose: false }
+    }
 }
 
 /// The training part of a scene as a plan for its machine with its true stiffnesses.
@@ -59,54 +63,61 @@ pub fn plan_of(scene: &Scene) -> Result<PowerPlan, PowerError> {
 
 /// The document; `again` is the command that writes it, `charts` the folder beside it.
 pub fn document(plain: &Studied, rich: &Studied, charts: &str, again: &str) -> Page {
-    let mut page = Page::default();
-    page.heading(1, "What a plan can see");
-    page.paragraph(written_by("hexbench validate power --markdown FILE"));
-    page.paragraph(
+    let both = [plain, rich];
+    let differing = CORRESPONDENCES.iter().filter(|c| !c.differs.is_empty());
+    Page::new("What a plan can see")
+        .with(introduction())
+        .with(facts(plain, rich))
+        .with(agreement(&both))
+        .with_all(both.iter().flat_map(|studied| one_plan(studied, charts)))
+        .with(Section::new("How it is reckoned").list(rich.report().notes()))
+        .with(
+            Section::new("Where the two worlds write an effect differently")
+                .list(differing.map(|c| format!("{}: {}.", c.effect, c.differs))),
+        )
+        .with(Section::new("Again").paragraph(format!(
+            "`{again}`. For a plan of your own: `hexbench power hexapod.toml plan.csv --simulate`. The same seed gives the same \
+             bytes on any number of threads."
+        )))
+}
+
+fn introduction() -> Section {
+    Section::lead().paragraph(written_by("hexbench validate power --markdown FILE")).paragraph(
         "Before anything is measured, a plan (poses, loads, repeats) decides which effects it can show. Two plans for the \
          same machine and the same instrument: that of the paper, and one of many poses with tilts and loads along and about \
          all axes. Every chance is reckoned by the linear model and then counted in the simulated world, which shares no \
          physics with it.",
-    );
-    page.heading(2, "Three facts");
-    page.list([well_conditioned_yet_blind(plain), rich_sees(plain, rich), never(plain, rich)]);
-    page.table(FAINT, [plain, rich].into_iter().flat_map(faint_rows).collect::<Vec<_>>());
-    page.paragraph(
-        "absorbed: share of the signature (its sum of squares) that other leg stiffnesses explain. distance: length of the \
-         rest in standard deviations. chance: of a test made for exactly this rest, at 1 % false alarm. bias: of the leg \
-         stiffness that goes most astray.",
-    );
-    agreement(&mut page, &[plain, rich]);
-    for studied in [plain, rich] {
-        one_plan(&mut page, studied, charts);
-    }
-    page.heading(2, "How it is reckoned");
-    page.list(PlanReport { plan: &rich.plan, power: &rich.power, only: &[], verbose: false }.notes());
-    page.heading(2, "Where the two worlds write an effect differently");
-    page.list(
-        CORRESPONDENCES
-            .iter()
-            .filter(|c| !c.differs.is_empty())
-            .map(|c| format!("{}: {}.", c.effect, c.differs)),
-    );
-    page.heading(2, "Again");
-    page.paragraph(format!(
-        "`{again}`. For a plan of your own: `hexbench power hexapod.toml plan.csv --simulate`. The same seed gives the same \
-         bytes on any number of threads."
-    ));
-    page
+    )
 }
 
-fn one_plan(page: &mut Page, studied: &Studied, charts: &str) {
-    page.heading(2, format!("The plan `{}`", studied.name));
-    let own = PlanReport { plan: &studied.plan, power: &studied.power, only: &[], verbose: false };
-    page.paragraph(own.subject());
-    page.paragraph(own.summary());
+fn facts(plain: &Studied, rich: &Studied) -> Section {
+    Section::new("Three facts")
+        .list([well_conditioned_yet_blind(plain), rich_sees(plain, rich), never(plain, rich)])
+        .table(Table::named(FAINT).rows([plain, rich].into_iter().flat_map(faint_rows)))
+        .paragraph(
+            "absorbed: share of the signature (its sum of squares) that other leg stiffnesses explain. distance: length of the \
+             rest in standard deviations. chance: of a test made for exactly this rest, at 1 % false alarm. bias: of the leg \
+             stiffness that goes most astray.",
+        )
+}
+
+fn one_plan(studied: &Studied, charts: &str) -> Vec<Section> {
+    let report = studied.report();
     let figure = |file: &str| format!("{charts}/{}-{file}", studied.name);
-    page.figure(figure("power.svg"), "Chance to see each effect over its size, reckoned and simulated");
-    own.body(page, 3);
-    page.figure(figure("taken-for.svg"), "Which effect explains best what another leaves");
-    page.figure(figure("cosine.svg"), "Cosines of the signatures after the springs have taken their share");
+    let head = Section::new(format!("The plan `{}`", studied.name))
+        .paragraph(report.subject())
+        .paragraph(report.summary())
+        .figure(figure("power.svg"), "Chance to see each effect over its size, reckoned and simulated");
+    let body = report.seen().into_iter().chain(report.blind()).map(Section::within);
+    let mut all: Vec<Section> = std::iter::once(head).chain(body).collect();
+    let last = all.pop();
+    all.extend(last.map(|last| {
+        last.figure(figure("taken-for.svg"), "Which effect explains best what another leaves").figure(
+            figure("cosine.svg"),
+            "Cosines of the signatures after the springs have taken their share",
+        )
+    }));
+    all
 }
 
 fn shown(power: &Power) -> impl Iterator<Item = &Effect> {
@@ -267,19 +278,13 @@ fn checked(studied: &Studied) -> Vec<Checked<'_>> {
 }
 
 /// How well reckoning and counting agree, and where they do not.
-fn agreement(page: &mut Page, studied: &[&Studied]) {
+fn agreement(studied: &[&Studied]) -> Option<Section> {
     let all: Vec<Checked<'_>> = studied.iter().flat_map(|s| checked(s)).collect();
-    if all.is_empty() {
-        return;
-    }
     let error = FALSE_DISAGREEMENT / all.len() as f64;
     let agrees = |c: &&Checked<'_>| c.simulated.seen.is_compatible_with(c.reckoned, error);
     let own = |c: &&Checked<'_>| c.simulated.seen.is_compatible_with(c.simulated.chance_by_the_world, error);
-    let alarms = || studied.iter().flat_map(|s| &s.power.checks).filter_map(|c| c.false_alarms);
-    let total =
-        alarms().fold(Proportion::default(), |t, p| Proportion { hits: t.hits + p.hits, of: t.of + p.of });
-    page.heading(2, "Reckoned and simulated");
-    page.paragraph(format!(
+    let alarms = studied.iter().flat_map(|s| &s.power.checks).filter_map(|c| c.false_alarms);
+    let section = Section::new("Reckoned and simulated").paragraph(format!(
         "{} of {} simulated shares agree with the reckoned chance; {} with the chance reckoned with what the effect leaves \
          in the simulated world without noise. (Exact binomial bounds that let one false disagreement among all of them pass \
          with a chance of {}.) The tests raise a false alarm in {:.2} % of the campaigns without effects.",
@@ -287,14 +292,12 @@ fn agreement(page: &mut Page, studied: &[&Studied]) {
         all.len(),
         all.iter().filter(own).count(),
         chance(FALSE_DISAGREEMENT),
-        100.0 * total.rate(),
+        100.0 * alarms.sum::<Proportion>().rate(),
     ));
     let off: Vec<String> = all.iter().filter(|c| !agrees(c)).map(Checked::sentence).collect();
-    if !off.is_empty() {
-        page.paragraph(
-            "Those that disagree with the reckoned chance are effects so large that their signature no longer grows in \
-             proportion to their size, or that the two worlds write differently (see below):",
-        );
-        page.list(off);
-    }
+    let section = if off.is_empty() { section } else { section.paragraph(OFF).list(off) };
+    section.when(!all.is_empty())
 }
+
+const OFF: &str = "Those that disagree with the reckoned chance are effects so large that their signature no longer grows in \
+proportion to their size, or that the two worlds write differently (see below):";

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use hexbench_design::power::{Effect, NOTHING, Verdict};
 use hexbench_model::noise::NoiseSource;
 use hexbench_model::untestable::Reason;
-use hexbench_report::Page;
 use hexbench_report::number::significant;
+use hexbench_report::{Page, Section, Table};
 
 use super::tables::{self, chance};
 use super::{Power, PowerPlan};
@@ -29,45 +29,46 @@ pub struct PlanReport<'a> {
 impl PlanReport<'_> {
     /// The page.
     pub fn document(&self) -> Page {
-        let mut page = Page::default();
-        page.heading(1, "What this plan sees");
-        page.paragraph(self.subject());
-        page.paragraph(self.summary());
-        self.body(&mut page, 2);
-        page.heading(2, "How it is reckoned");
-        page.list(self.notes());
-        page
+        Page::new("What this plan sees")
+            .with(Section::lead().paragraph(self.subject()).paragraph(self.summary()))
+            .with_all(self.seen())
+            .with(self.blind())
+            .with(Section::new("How it is reckoned").list(self.notes()))
     }
 
-    /// Tables, without title and notes, under headings of a level.
-    pub(super) fn body(&self, page: &mut Page, level: usize) {
-        if self.told().any(|(_, e)| leaves_something(e)) {
-            self.seen(page, level);
+    /// Tables of the effects that leave something beside the springs.
+    pub(super) fn seen(&self) -> Vec<Section> {
+        if !self.told().any(|(_, e)| leaves_something(e)) {
+            return Vec::new();
         }
-        self.blind(page, level);
-    }
-
-    fn seen(&self, page: &mut Page, level: usize) {
-        page.heading(level, "Smallest size that is seen");
-        page.table(tables::SIZES, self.each(tables::sizes));
-        page.heading(level, "What springs make of it");
-        page.paragraph(
-            "absorbed: share of the signature (its sum of squares) that other leg stiffnesses explain. bias: the leg \
-             whose stiffness goes most astray when the effect is left out, at the usual size and at the size that is seen.",
-        );
-        page.table(tables::SPRINGS, self.each(tables::springs));
-        self.taken_for(page, level);
-        self.checks(page, level);
+        let sizes = Table::named(tables::SIZES).rows(self.each(tables::sizes));
+        let mut all =
+            vec![Section::new("Smallest size that is seen").table(sizes), self.springs(), self.taken_for()];
+        all.extend(self.checks());
         if self.verbose {
-            page.heading(level, "Every parameter alone");
-            let rows = self.told().flat_map(|(_, e)| tables::parameters(e)).collect::<Vec<_>>();
-            page.table(tables::PARAMETERS, rows);
+            let rows = self.told().flat_map(|(_, e)| tables::parameters(e));
+            all.push(
+                Section::new("Every parameter alone").table(Table::named(tables::PARAMETERS).rows(rows)),
+            );
         }
+        all
+    }
+
+    fn springs(&self) -> Section {
+        Section::new("What springs make of it")
+            .paragraph(
+                "absorbed: share of the signature (its sum of squares) that other leg stiffnesses explain. bias: the leg \
+                 whose stiffness goes most astray when the effect is left out, at the usual size and at the size that is seen.",
+            )
+            .table(Table::named(tables::SPRINGS).rows(self.each(tables::springs)))
     }
 
     fn told(&self) -> impl Iterator<Item = (usize, &Effect)> {
-        let wanted = |e: &Effect| self.only.is_empty() || self.only.iter().any(|id| id == e.term);
-        self.power.study.effects.iter().enumerate().filter(move |(_, e)| wanted(e))
+        self.power.study.effects.iter().enumerate().filter(|(_, e)| self.is_told(e.term))
+    }
+
+    fn is_told(&self, term: &str) -> bool {
+        self.only.is_empty() || self.only.iter().any(|id| id == term)
     }
 
     fn each(&self, row: fn(&Effect) -> Vec<String>) -> Vec<Vec<String>> {
@@ -152,79 +153,76 @@ impl PlanReport<'_> {
         self.told().map(|(_, e)| e).filter(|e| bias(e) > 0.5).max_by(|a, b| bias(a).total_cmp(&bias(b)))
     }
 
-    fn taken_for(&self, page: &mut Page, level: usize) {
-        page.heading(level, "What it would be taken for");
-        page.paragraph(
-            "Of 100 campaigns with the effect at the size that is seen, how often it explains best itself, how often \
-             nothing but springs, how often another effect: by the evidence of the diagnosis with one effect at most.",
-        );
+    fn taken_for(&self) -> Section {
         let alike = &self.power.study.alike;
         let rows = self.told().filter(|(_, e)| e.shows()).map(|(k, e)| tables::taken_for(alike, k, e));
-        page.table(tables::TAKEN_FOR, rows.collect::<Vec<_>>());
         let pairs = look_alikes(self.power);
-        page.paragraph(if pairs.is_empty() {
+        Section::new("What it would be taken for")
+.paragraph("Of 100 campaigns with the effect at the size that is seen, how often it explains best itself, how often \
+             nothing but springs, how often another effect: by the evidence of the diagnosis with one effect at most.")
+.table(Table::named(tables::TAKEN_FOR).rows(rows))
+.paragraph(if pairs.is_empty() {
             format!("No two signatures are alike after the springs (cosine {LOOK_ALIKE} or more).")
         } else {
             format!("Alike after the springs (cosine {LOOK_ALIKE} or more): {}.", pairs.join("; "))
-        });
+        })
     }
 
-    fn checks(&self, page: &mut Page, level: usize) {
+    fn checks(&self) -> Vec<Section> {
         let n = self.power.simulation.campaigns;
         if n == 0 {
-            return;
+            return Vec::new();
         }
-        page.heading(level, "The same in the simulated world");
-        page.paragraph(format!(
-            "{n} campaigns of every effect and size, at finite deflection and with effects of the world's own making. \
-             Reckoned and simulated chance, percent, with exact 95 % bounds; \"world\" is the chance reckoned with what \
-             the effect leaves in the simulated world without noise; false alarms are of campaigns without effects."
-        ));
         let wanted = self.power.study.settings.power;
         let both = |(k, e)| tables::check(e, &self.power.checks[k], wanted);
-        page.table(tables::CHECK, self.told().flat_map(both).collect::<Vec<_>>());
-        self.answers(page, level);
+        let mut all = vec![
+            Section::new("The same in the simulated world")
+                .paragraph(format!(
+                    "{n} campaigns of every effect and size, at finite deflection and with effects of the world's own making. \
+                     Reckoned and simulated chance, percent, with exact 95 % bounds; \"world\" is the chance reckoned with what \
+                     the effect leaves in the simulated world without noise; false alarms are of campaigns without effects."
+                ))
+                .table(Table::named(tables::CHECK).rows(self.told().flat_map(both))),
+        ];
+        all.extend(self.answers());
         let lost = |(k, e): (usize, &Effect)| {
             Some(format!("{}: {}", e.term, self.power.checks[k].why_not.as_ref()?))
         };
         let lost: Vec<String> = self.told().filter_map(lost).collect();
         if !lost.is_empty() {
-            page.paragraph("Not simulated:");
-            page.list(lost);
+            let last = all.pop();
+            all.extend(last.map(|last| last.paragraph("Not simulated:").list(lost)));
         }
+        all
     }
 
-    fn answers(&self, page: &mut Page, level: usize) {
+    fn answers(&self) -> Option<Section> {
         let answers = |(k, e): (usize, &Effect)| tables::answers(e, &self.power.checks[k]);
         let rows: Vec<Vec<String>> = self.told().filter_map(answers).collect();
-        if rows.is_empty() {
-            return;
-        }
-        page.heading(level, "What the whole diagnosis says");
-        page.paragraph(
-            "The same campaigns with the effect at the size that is seen, percent. right: exactly it is named. among: \
-             ambiguous, with it among what is kept. adequate: springs alone. wrong: another name, or \"outside\". \
-             The diagnosis asks for 95 % probability before it names, so it needs more than a test does.",
-        );
-        page.table(tables::ANSWERS, rows);
+        let asked = !rows.is_empty();
+        Section::new("What the whole diagnosis says")
+            .paragraph(
+                "The same campaigns with the effect at the size that is seen, percent. right: exactly it is named. among: \
+                 ambiguous, with it among what is kept. adequate: springs alone. wrong: another name, or \"outside\". \
+                 The diagnosis asks for 95 % probability before it names, so it needs more than a test does.",
+            )
+            .table(Table::named(tables::ANSWERS).rows(rows))
+            .when(asked)
     }
 
-    fn blind(&self, page: &mut Page, level: usize) {
+    /// Effects that are never seen, by the reason.
+    pub(super) fn blind(&self) -> Option<Section> {
         let mut reasons: BTreeMap<String, Vec<&str>> = BTreeMap::new();
         for (_, e) in self.told() {
             if let Some(why) = why_never(e) {
                 reasons.entry(why).or_default().push(e.term);
             }
         }
-        let wanted = |id: &str| self.only.is_empty() || self.only.iter().any(|o| o == id);
-        for u in self.power.study.untestable.iter().filter(|u| wanted(u.term)) {
+        for u in self.power.study.untestable.iter().filter(|u| self.is_told(u.term)) {
             reasons.entry(untestable(&u.why)).or_default().push(u.term);
         }
-        if reasons.is_empty() {
-            return;
-        }
-        page.heading(level, "Never seen by this plan");
-        page.list(reasons.iter().map(|(why, terms)| format!("{why}: {}.", terms.join(", "))));
+        let lines = reasons.iter().map(|(why, terms)| format!("{why}: {}.", terms.join(", ")));
+        Section::new("Never seen by this plan").list(lines).unless_empty()
     }
 
     /// What a reader should know about the figures.

@@ -121,10 +121,7 @@ fn predicted(scene: &Scene, campaign: &Campaign, fit: &Fit) -> Result<Tally, Mod
 }
 
 /// Held-out chi-square per number.
-///
-/// # Errors
-/// As [`prediction_errors`].
-pub fn holdout(scene: &Scene, campaign: &Campaign, fit: &Fit) -> Result<f64, ModelError> {
+pub(crate) fn holdout(scene: &Scene, campaign: &Campaign, fit: &Fit) -> Result<f64, ModelError> {
     let errors = prediction_errors(scene.hexapod(), &scene.case.holdout, campaign.noise, &fit.point)?;
     Ok(summarise(&errors, None).chi2_reduced)
 }

@@ -44,10 +44,7 @@ pub struct Rival {
 }
 
 /// Diagnoses the `index`-th campaign of a subject.
-///
-/// # Errors
-/// [`TrialError`].
-pub fn run(subject: &Subject, index: usize, seed: u64) -> Result<Named, TrialError> {
+pub(crate) fn run(subject: &Subject, index: usize, seed: u64) -> Result<Named, TrialError> {
     let scene = Scene::draw(subject, index, seed, Some(CLEAR_DISTANCE))?;
     let trial = Trial::run(&scene.case)?;
     let d = &trial.study.diagnosis;

@@ -77,10 +77,7 @@ pub struct Noiseless {
 }
 
 /// Fits ideal readings by the right model.
-///
-/// # Errors
-/// As [`Scene::ideal_of_same_form`] and `fit_named`.
-pub fn recover(subject: &Subject, scene: &Scene) -> Result<Noiseless, TrialError> {
+pub(crate) fn recover(subject: &Subject, scene: &Scene) -> Result<Noiseless, TrialError> {
     let data = scene.ideal_of_same_form()?;
     let (campaign, fit) = right_fit(subject, &scene.hexapod_stating(Some(NO_NOISE)), &data)?;
     let lin = Linearization::at(&campaign, &fit.point)?;

@@ -125,10 +125,7 @@ impl Scene {
     }
 
     /// The training part without noise of a world of exactly the model's physics: dry sliders are rigid until they give way.
-    ///
-    /// # Errors
-    /// As [`Campaign::ideal`].
-    pub fn ideal_of_same_form(&self) -> Result<Dataset, TruthError> {
+    pub(crate) fn ideal_of_same_form(&self) -> Result<Dataset, TruthError> {
         let bare = &self.case.campaign;
         let mut world = bare.world.without_effects();
         for mechanism in &bare.world.mechanisms {

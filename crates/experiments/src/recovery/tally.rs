@@ -1,10 +1,9 @@
 //! Counting intervals that cover the truth, with the bounds that chance allows.
 
+use hexbench_core::statistics::COVERAGE_FACTOR;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{Binomial, DiscreteCDF};
 
-/// Half-width of a 95 % interval in standard uncertainties.
-pub const COVERAGE_FACTOR: f64 = 1.959_963_984_540_054;
 /// Coverage of such an interval.
 pub const NOMINAL: f64 = 0.95;
 /// Chance that right intervals break a bound: for 2000 campaigns they are 0.9335 and 0.9655. Where a table has a row for each

@@ -19,10 +19,7 @@ pub struct Answered {
 
 impl Answered {
     /// Diagnoses a case.
-    ///
-    /// # Errors
-    /// [`TrialError::Model`].
-    pub fn to(case: &Case) -> Result<Self, TrialError> {
+    pub(crate) fn to(case: &Case) -> Result<Self, TrialError> {
         let trial = Trial::run(case)?;
         let outcome = &trial.study.outcome;
         Ok(Self {

@@ -161,13 +161,13 @@ impl Noises {
     }
 }
 
-/// All axes.
+/// All axes; machines and plans are names until the files they stand for are read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Axes {
+pub struct Axes<G = Geometry, P = PlanChoice> {
     /// Machines.
-    pub geometry: Vec<Geometry>,
+    pub geometry: Vec<G>,
     /// Plans.
-    pub plan: Vec<PlanChoice>,
+    pub plan: Vec<P>,
     /// Numbers of poses; empty: as the plan has them.
     pub poses: Vec<u64>,
     /// Readings of each condition; empty: as the plan has them.

@@ -65,9 +65,9 @@ pub struct Cell<'a> {
     pub axes: &'a Axes,
 }
 
-impl Axes {
+impl<G, P> Axes<G, P> {
     /// Values on every axis, one where the study leaves it open.
-    fn counts(&self) -> [usize; AXES] {
+    pub(super) fn counts(&self) -> [usize; AXES] {
         let open = |n: usize| n.max(1);
         [
             self.geometry.len(),
@@ -80,7 +80,9 @@ impl Axes {
             self.noise.len(),
         ]
     }
+}
 
+impl Axes {
     /// Number of cells; the reader has made sure that there are not too many.
     pub fn cells(&self) -> usize {
         self.counts().iter().product()

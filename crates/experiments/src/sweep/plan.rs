@@ -51,10 +51,7 @@ pub fn random_pose(space: &Space, hexapod: &Hexapod, rng: &mut Pcg64) -> Option<
 }
 
 /// Poses that are best by a criterion for the six leg springs, rows weighted by the noise.
-///
-/// # Errors
-/// As [`Problem::search`].
-pub fn designed_poses(
+pub(crate) fn designed_poses(
     criterion: Criterion,
     poses: u64,
     hexapod: &Hexapod,

@@ -5,7 +5,6 @@
 
 mod block;
 mod table;
-mod write;
 
 use serde::Serialize;
 
@@ -59,6 +58,13 @@ impl Page {
     #[must_use]
     pub fn with(mut self, section: impl Into<Option<Section>>) -> Self {
         self.sections.extend(section.into());
+        self
+    }
+
+    /// The page with several sections more.
+    #[must_use]
+    pub fn with_all(mut self, sections: impl IntoIterator<Item = Section>) -> Self {
+        self.sections.extend(sections);
         self
     }
 
@@ -158,6 +164,12 @@ impl Section {
     #[must_use]
     pub fn table(self, table: Table) -> Self {
         self.with(Block::Table(table))
+    }
+
+    /// The section with a chart more, which is in a file beside the page.
+    #[must_use]
+    pub fn figure(self, file: impl Into<String>, caption: impl Into<String>) -> Self {
+        self.with(Block::Figure(Figure::in_file(file, caption)))
     }
 
     /// The section, or none unless it is wanted.

@@ -4,7 +4,7 @@ use hexbench_model::diagnose::{Diagnosis, StepReport};
 use hexbench_model::explanation::Explanation;
 use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::Verdict;
-use hexbench_model::words::joined_with;
+use hexbench_model::words::{joined, joined_with};
 
 use crate::number::multiple;
 use crate::page::{Block, Mood, Section};
@@ -42,7 +42,7 @@ pub fn lacks(ids: &[String]) -> String {
     let names: Vec<String> = ids.iter().map(|id| described(id)).collect();
     match ids.len() {
         1 => format!("The model lacks one effect: {}.", names[0]),
-        n => format!("The model lacks {n} effects: {}.", joined_with(&names, "and")),
+        n => format!("The model lacks {n} effects: {}.", joined(&names)),
     }
 }
 
@@ -100,7 +100,7 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     let text = d.outside.as_ref().map_or("no simple pattern describes it", |o| o.text.as_str());
     let mut all = vec!["Something is missing that none of the effects in the catalogue explains.".to_owned()];
     if !d.model.is_empty() {
-        all.push(format!("It is there beside {}.", joined_with(&d.model, "and")));
+        all.push(format!("It is there beside {}.", joined(&d.model)));
     }
     all.push(format!("What the measurements show: {text}."));
     all

@@ -2,7 +2,7 @@
 
 use hexbench_core::{
     Measurand, Metrology, Pose, Vector3,
-    files::{Fault, Item, Key, Kind, Problem, Section},
+    files::{Fault, Item, Key, Kind, Section},
 };
 
 use crate::{
@@ -80,13 +80,9 @@ impl Instrument {
                 refuse_others(&table, OF_BALLS, "balls")?;
                 cmm(&table).map(|cmm| Self::Balls(Box::new(cmm)))
             }
-            _ => Err(rule(kind, "an instrument reads \"numbers\" or \"balls\"", "Write one of the two.")),
+            _ => Err(kind.breaks("an instrument reads \"numbers\" or \"balls\"", "Write one of the two.")),
         }
     }
-}
-
-fn rule(item: &Item<'_>, rule: &str, next: &str) -> Fault {
-    item.fault(Problem::Rule { rule: rule.into(), next: next.into() })
 }
 
 fn refuse_others(table: &Section<'_>, known: &[&str], kind: &str) -> Result<(), Fault> {
@@ -94,7 +90,7 @@ fn refuse_others(table: &Section<'_>, known: &[&str], kind: &str) -> Result<(), 
     match strays.find_map(|key| table.get(key)) {
         None => Ok(()),
         Some(stray) => {
-            Err(rule(stray, &format!("an instrument of the kind \"{kind}\" has no such key"), "Remove it."))
+            Err(stray.breaks(format!("an instrument of the kind \"{kind}\" has no such key"), "Remove it."))
         }
     }
 }
@@ -107,7 +103,7 @@ fn share(table: &Section<'_>) -> Result<f64, Fault> {
     let Some(item) = table.get("blunder_share") else { return Ok(0.0) };
     match item.number()? {
         share if (0.0..=1.0).contains(&share) => Ok(share),
-        _ => Err(rule(item, "a share lies between 0 and 1", "Write for example 0.01 for one in a hundred.")),
+        _ => Err(item.breaks("a share lies between 0 and 1", "Write for example 0.01 for one in a hundred.")),
     }
 }
 
@@ -145,6 +141,6 @@ fn balls(item: &Item<'_>, sigma: f64) -> Result<Balls, Fault> {
     let balls = Balls { centres: item.list()?.iter().map(point).collect::<Result<_, _>>()?, sigma };
     match balls.register(&balls.centres) {
         Ok(_) => Ok(balls),
-        Err(_) => Err(rule(item, "three balls or more that are not on one line are needed", "Add a ball.")),
+        Err(_) => Err(item.breaks("three balls or more that are not on one line are needed", "Add a ball.")),
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use hexbench_core::{
     Dataset, Hexapod, Measurand, Pose, Wrench,
-    files::{Fault, FileError, Item, Key, Kind, Place, Problem, Section, nearest, read_conditions},
+    files::{Fault, FileError, Item, Key, Kind, Place, Problem, Section, instead_of, read_conditions},
 };
 
 use super::{Purpose, ScenePlan, Streams};
@@ -81,17 +81,16 @@ impl PlanTable {
                 .map(Key::name)
                 .find(|key| table.get(key).is_some() && !BESIDE_CONDITIONS.contains(key));
             return stray.and_then(|key| table.get(key)).map_or(Ok(()), |stray| {
-                Err(rule(stray, "rows of a table of conditions are taken as they are", "Remove this key."))
+                Err(stray.breaks("rows of a table of conditions are taken as they are", "Remove this key."))
             });
         }
         if self.make.is_some() || (self.loads.is_some() && self.poses[0].is_some()) {
             return Ok(());
         }
         let makes = PlanKind::ALL.map(PlanKind::name).join(", ");
-        Err(rule(
-            item,
+        Err(item.breaks(
             "a plan needs a make, or a table of conditions, or poses and loads",
-            &format!("Add make (one of {makes}), or conditions = \"FILE\", or poses and loads_N_Nm."),
+            format!("Add make (one of {makes}), or conditions = \"FILE\", or poses and loads_N_Nm."),
         ))
     }
 
@@ -199,26 +198,19 @@ fn rows_of(conditions: &Dataset) -> Vec<Row> {
     conditions.observations.iter().map(Row::from).collect()
 }
 
-fn rule(item: &Item<'_>, rule: &str, next: &str) -> Fault {
-    item.fault(Problem::Rule { rule: rule.into(), next: next.into() })
-}
-
 fn make(item: &Item<'_>) -> Result<PlanKind, Fault> {
     let (word, names) = (item.string()?, PlanKind::ALL.map(PlanKind::name));
-    PlanKind::ALL.into_iter().find(|kind| kind.name() == word).ok_or_else(|| {
-        let next = match nearest(word, names.iter().copied()) {
-            Some(near) => format!("Write \"{near}\"."),
-            None => format!("Write one of {}.", names.join(", ")),
-        };
-        rule(item, "no make of plans has this name", &next)
-    })
+    PlanKind::ALL
+        .into_iter()
+        .find(|kind| kind.name() == word)
+        .ok_or_else(|| item.breaks("no make of plans has this name", instead_of(word, &names)))
 }
 
 fn mode(item: &Item<'_>) -> Result<bool, Fault> {
     match item.string()? {
         "absolute" => Ok(true),
         "deflections" => Ok(false),
-        _ => Err(rule(item, "the mode is \"deflections\" or \"absolute\"", "Write one of the two.")),
+        _ => Err(item.breaks("the mode is \"deflections\" or \"absolute\"", "Write one of the two.")),
     }
 }
 
@@ -251,7 +243,7 @@ fn half_ranges(item: &Item<'_>) -> Result<[f64; 3], Fault> {
     if half.iter().all(|x| *x >= 0.0) {
         return Ok(half);
     }
-    Err(rule(item, "half ranges are not negative", "Write how far poses go from zero on either side."))
+    Err(item.breaks("half ranges are not negative", "Write how far poses go from zero on either side."))
 }
 
 fn wrenches(item: &Item<'_>) -> Result<Vec<Wrench>, Fault> {
@@ -274,6 +266,6 @@ fn spread(item: &Item<'_>) -> Result<Spread, Fault> {
     }
     match item.numbers::<2>("two limits [low, high]")? {
         [low, high] if low < high => Ok(Spread::Even([low, high])),
-        _ => Err(rule(item, "the first limit is below the second", "Exchange them, or write one number.")),
+        _ => Err(item.breaks("the first limit is below the second", "Exchange them, or write one number.")),
     }
 }

@@ -14,17 +14,17 @@ const SCENE_FILE: &str = "scene.toml";
 
 const SCENE: Format = Format {
     name: "scene/1",
-    keys: &[
-        Key::plain("format"),
-        Key::plain("title"),
-        Key::plain("shows"),
-        Key::plain("source"),
-        Key::plain("seed"),
-        Key::plain("hexapod"),
-        Key::plain("truth"),
-        Key::plain("plan"),
-        Key::plain("instrument"),
-    ],
+    keys: &Key::all_plain([
+        "format",
+        "title",
+        "shows",
+        "source",
+        "seed",
+        "hexapod",
+        "truth",
+        "plan",
+        "instrument",
+    ]),
 };
 
 /// `scene.toml` before the files it names are read.

@@ -26,9 +26,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let study = Reproduction::run(arguments.seed, |again| arguments.kept.run(again))?;
     if let Some(folder) = &arguments.out {
         for (name, text) in report::files(&study)? {
-            let path = folder.join(name);
-            Screen::make_folder_of(&path)?;
-            screen.write_to(&path, &text)?;
+            screen.write_into(folder, &name, &text)?;
         }
     }
     screen.show(&report::page(&study))

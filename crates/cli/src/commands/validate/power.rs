@@ -62,9 +62,7 @@ fn write(arguments: &Arguments, plain: &Studied, rich: &Studied, screen: &Screen
     screen.write_to(path, &markdown(&page(arguments, plain, rich, &beside)))?;
     for studied in [plain, rich] {
         for chart in pictures(&studied.power)? {
-            let file = folder.join(format!("{}-{}", studied.name, chart.file));
-            Screen::make_folder_of(&file)?;
-            screen.write_to(&file, &chart.svg)?;
+            screen.write_into(&folder, &format!("{}-{}", studied.name, chart.file), &chart.svg)?;
         }
     }
     Ok(())

@@ -9,7 +9,7 @@ use hexbench_experiments::recovery::study::{Settings, Study};
 use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
-use crate::output::{Screen, TrialFiles};
+use crate::output::{Screen, TrialFiles, write_json};
 
 /// Hide effects in simulated campaigns, and see that they are found with honest uncertainty
 #[derive(Debug, Args)]
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let protocol = Recovery::new(settings);
     let study = Study::of(&protocol, &arguments.trials.run(&protocol)?);
     if let Some(path) = &arguments.json {
-        screen.write_to(path, &json(&study)?)?;
+        write_json(screen, path, &study)?;
     }
     if let Some(path) = &arguments.markdown {
         screen.write_to(path, &markdown(&page(&study)))?;
@@ -55,11 +55,6 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         screen.show(&page(&study))?;
     }
     check(arguments.check, &study)
-}
-
-fn json(study: &Study) -> Result<String, Failure> {
-    let cause = |e: serde_json::Error| Failure::Output { path: "recovery.json".into(), cause: e.into() };
-    Ok(serde_json::to_string_pretty(study).map_err(cause)? + "\n")
 }
 
 fn check(asked: bool, study: &Study) -> Result<(), Failure> {

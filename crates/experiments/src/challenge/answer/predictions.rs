@@ -18,49 +18,22 @@ pub struct Predicted {
 const LARGEST: [f64; 2] = [1e6, 1e4];
 
 /// Names of the value columns and of those of their uncertainty.
-pub fn columns(measurand: Measurand) -> [[&'static str; 6]; 2] {
-    match measurand {
-        Measurand::DeflectionEuler => [
-            ["da_um", "db_um", "dc_um", "dalpha_urad", "dbeta_urad", "dgamma_urad"],
-            [
-                "sigma_da_um",
-                "sigma_db_um",
-                "sigma_dc_um",
-                "sigma_dalpha_urad",
-                "sigma_dbeta_urad",
-                "sigma_dgamma_urad",
-            ],
-        ],
-        Measurand::DeflectionRotationVector => [
-            ["da_um", "db_um", "dc_um", "drx_urad", "dry_urad", "drz_urad"],
-            [
-                "sigma_da_um",
-                "sigma_db_um",
-                "sigma_dc_um",
-                "sigma_drx_urad",
-                "sigma_dry_urad",
-                "sigma_drz_urad",
-            ],
-        ],
-        Measurand::AbsolutePose => [
-            [
-                "predicted_a_mm",
-                "predicted_b_mm",
-                "predicted_c_mm",
-                "predicted_alpha_deg",
-                "predicted_beta_deg",
-                "predicted_gamma_deg",
-            ],
-            [
-                "sigma_a_um",
-                "sigma_b_um",
-                "sigma_c_um",
-                "sigma_alpha_urad",
-                "sigma_beta_urad",
-                "sigma_gamma_urad",
-            ],
-        ],
-    }
+pub fn columns(measurand: Measurand) -> [[String; 6]; 2] {
+    const EULER: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
+    const ROTATION_VECTOR: [&str; 6] = ["da", "db", "dc", "drx", "dry", "drz"];
+    const POSE: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
+    const SMALL: [&str; 2] = ["um", "urad"];
+    let (names, prefix, units) = match measurand {
+        Measurand::DeflectionEuler => (EULER, "", SMALL),
+        Measurand::DeflectionRotationVector => (ROTATION_VECTOR, "", SMALL),
+        Measurand::AbsolutePose => (POSE, "predicted_", ["mm", "deg"]),
+    };
+    let six = |prefix: &str, [translation, rotation]: [&str; 2]| {
+        std::array::from_fn(|k| {
+            format!("{prefix}{}_{}", names[k], if k < 3 { translation } else { rotation })
+        })
+    };
+    [six(prefix, units), six("sigma_", SMALL)]
 }
 
 const MICRO: f64 = 1e-6;
@@ -128,10 +101,10 @@ impl Header {
         let place = |wanted: &str| names.iter().position(|name| name == wanted);
         let need =
             |wanted: &str| place(wanted).ok_or_else(|| fault(format!("the column {wanted} is missing")));
-        let six = |wanted: [&str; 6]| -> Result<[usize; 6], AnswerFault> {
+        let six = |wanted: [String; 6]| -> Result<[usize; 6], AnswerFault> {
             let mut places = [0; 6];
             for (at, name) in places.iter_mut().zip(wanted) {
-                *at = need(name)?;
+                *at = need(&name)?;
             }
             Ok(places)
         };

@@ -10,6 +10,7 @@ use crate::challenge::folder::refuse_content;
 use crate::challenge::make::write;
 use crate::challenge::stored::{Stored, json, read_json};
 use crate::challenge::{Challenge, ChallengeError};
+use crate::error::ExperimentError;
 use crate::journal::{Lock, Locked};
 
 /// Name of the file.
@@ -66,7 +67,7 @@ impl Begun {
     /// Reads `answers.json` of a folder.
     ///
     /// # Errors
-    /// [`ChallengeError::Read`], [`ChallengeError::Malformed`].
+    /// [`ExperimentError::Read`], [`ChallengeError::Malformed`].
     pub fn read(folder: &Path) -> Result<Self, ChallengeError> {
         read_json(&folder.join(ANSWERS))
     }
@@ -99,20 +100,20 @@ impl Begun {
             // Nothing of a folder that is not ours is touched, the challenge itself for example.
             refuse_content(folder, &[LOCK])?;
         }
-        fs::create_dir_all(folder).map_err(ChallengeError::writing(folder))?;
+        fs::create_dir_all(folder).map_err(ExperimentError::writing(folder))?;
         let lock = Lock::take(&folder.join(LOCK)).map_err(|locked| match locked {
             Locked::By(_) => ChallengeError::Busy(folder.to_owned()),
-            Locked::Not(path, cause) => ChallengeError::Write { path, cause },
+            Locked::Not(path, cause) => ExperimentError::Write { path, cause }.into(),
         })?;
         if is_known && !again {
             self.refuse_others(folder)?;
         } else {
             write(&path, &json(self))?;
             if cases.exists() {
-                fs::remove_dir_all(&cases).map_err(ChallengeError::writing(&cases))?;
+                fs::remove_dir_all(&cases).map_err(ExperimentError::writing(&cases))?;
             }
         }
-        fs::create_dir_all(&cases).map_err(ChallengeError::writing(&cases))?;
+        fs::create_dir_all(&cases).map_err(ExperimentError::writing(&cases))?;
         Ok(lock)
     }
 

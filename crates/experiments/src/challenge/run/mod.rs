@@ -27,6 +27,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use crate::challenge::{Challenge, ChallengeError};
+use crate::error::ExperimentError;
 use crate::harness::{Progress, each, on_threads};
 pub(crate) use begun::cases_folder;
 pub use begun::{ANSWERS, Begun};
@@ -82,7 +83,7 @@ pub fn run(
     let begun = Begun::new(challenge, entrant);
     let _lock = begun.settle(answers, manner.again)?;
     let cases = cases_folder(answers);
-    remove_remains(&cases).map_err(ChallengeError::writing(&cases))?;
+    remove_remains(&cases).map_err(ExperimentError::writing(&cases))?;
     let ids = &challenge.manifest().cases;
     let is_open = |id: &String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
     let pending: Vec<&String> = ids.iter().filter(|id| is_open(id)).collect();

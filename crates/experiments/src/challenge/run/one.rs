@@ -13,6 +13,7 @@ use super::scratch::Scratch;
 use super::{Entrant, Limits, PART};
 use crate::challenge::folder::{ANSWER, PREDICTIONS, RUN};
 use crate::challenge::{Challenge, ChallengeError};
+use crate::error::ExperimentError;
 
 /// Files of what a program prints.
 const PRINTED: [&str; 2] = ["stdout.txt", "stderr.txt"];
@@ -37,11 +38,11 @@ pub(super) fn answer(
     let scratch = Scratch::with_case(&challenge.case(id)).map_err(start)?;
     let watched = watched(entrant, &scratch).map_err(start)?;
     let part =
-        tempfile::Builder::new().prefix(PART).tempdir_in(cases).map_err(ChallengeError::writing(cases))?;
+        tempfile::Builder::new().prefix(PART).tempdir_in(cases).map_err(ExperimentError::writing(cases))?;
     let record =
-        kept(challenge, id, &scratch, watched, part.path()).map_err(ChallengeError::writing(part.path()))?;
+        kept(challenge, id, &scratch, watched, part.path()).map_err(ExperimentError::writing(part.path()))?;
     let place = cases.join(id);
-    put(part, &place).map_err(ChallengeError::writing(&place))?;
+    put(part, &place).map_err(ExperimentError::writing(&place))?;
     Ok(record)
 }
 

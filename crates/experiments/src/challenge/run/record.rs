@@ -75,7 +75,7 @@ impl Record {
     /// The record in the folder of an answered case.
     ///
     /// # Errors
-    /// [`ChallengeError::Read`], [`ChallengeError::Malformed`].
+    /// [`crate::ExperimentError::Read`], [`ChallengeError::Malformed`].
     pub fn read(folder: &Path) -> Result<Self, ChallengeError> {
         read_json(&folder.join(RUN))
     }

@@ -1,6 +1,6 @@
 //! One case of one program in numbers.
 
-use hexbench_core::statistics::{Proportion, root_mean_square};
+use hexbench_core::statistics::{COVERAGE_FACTOR, Proportion, root_mean_square};
 use hexbench_model::parameters::stiffness_name;
 
 use crate::trial::{Outcome, outcome_of};
@@ -10,9 +10,6 @@ use serde::Serialize;
 use super::forecast::Forecast;
 use super::key::Key;
 use crate::challenge::answer::{Answer, Number, Predicted, Said};
-
-/// Half-width of a 95 % interval in standard uncertainties.
-pub(super) const COVERAGE_FACTOR: f64 = 1.959_963_984_540_054;
 
 /// One case of one program in numbers; what it does not say is absent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -87,7 +84,7 @@ impl CaseScore {
             failure: None,
             legs: std::array::from_fn(|leg| leg_score(key, &answer.parameters, leg)),
             prediction: Some(prediction_score(key, &answer.predictions)),
-            outcome: answer.said.as_ref().map(|said| word(outcome(key, said))),
+            outcome: answer.said.as_ref().map(|said| outcome(key, said).word()),
             forecast: answer
                 .said
                 .as_ref()
@@ -146,12 +143,4 @@ fn difference(measurand: Measurand, k: usize, predicted: f64, value: f64) -> f64
 fn outcome(key: &Key, said: &Said) -> Outcome {
     let hidden: Vec<&str> = key.truth.effects.iter().map(String::as_str).collect();
     outcome_of(&hidden, said.verdict, &said.added, &said.credible_set)
-}
-
-fn word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Right => "right",
-        Outcome::Honest => "honest",
-        Outcome::Wrong => "wrong",
-    }
 }

@@ -1,10 +1,10 @@
 //! Figures over some cases of one program.
 
-use hexbench_core::statistics::{self, Proportion, median, root_mean_square};
+use hexbench_core::statistics::{self, COVERAGE_FACTOR, Proportion, median, root_mean_square};
 
 use serde::Serialize;
 
-use super::case::{COVERAGE_FACTOR, CaseScore};
+use super::case::CaseScore;
 
 /// A share with its exact binomial 95 % bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -88,7 +88,7 @@ impl Figures {
             error_in_noise: prediction(|p| p.error_in_noise),
             rms_um: prediction(|p| p.rms_um),
             rms_urad: prediction(|p| p.rms_urad),
-            predictions_covered: interval(together(predicted)),
+            predictions_covered: interval(predicted.sum()),
             outcomes: outcomes(&cases),
             log: mean(&of(&|c| c.forecast.map(|f| f.log))),
             brier: mean(&of(&|c| c.forecast.map(|f| f.brier))),
@@ -97,10 +97,6 @@ impl Figures {
             peak_memory_mb: most(of(&|c| c.peak_memory_mb)),
         }
     }
-}
-
-fn together(parts: impl Iterator<Item = Proportion>) -> Proportion {
-    parts.fold(Proportion::default(), |all, p| Proportion { hits: all.hits + p.hits, of: all.of + p.of })
 }
 
 fn interval(p: Proportion) -> Option<Interval> {

@@ -1,7 +1,7 @@
 //! Scores as a page: text or Markdown, programs side by side.
 
-use hexbench_report::Page;
 use hexbench_report::number::significant;
+use hexbench_report::{Page, Section, Table};
 
 use super::figures::{Figures, Interval, Mean};
 use super::paired::{Differences, Ratio, Ratios};
@@ -14,30 +14,38 @@ const MOST_TOLD: usize = 12;
 
 /// The page: the whole, each group, failures, how it was run.
 pub fn page(scores: &Scores) -> Page {
-    let mut page = Page::default();
-    page.heading(1, format!("Challenge {}, version {}", scores.suite, scores.version));
-    page.paragraph(format!("{}. {} cases, seed {}.", scores.title, cases(scores), scores.seed));
-    page.heading(2, "Side by side");
-    table(&mut page, scores, "", whole(scores));
-    page.paragraph(EXPLAINED);
-    page.heading(2, "By group of cases");
-    for (title, words, cell) in BY_GROUP {
-        page.paragraph(format!("{title}. {words}"));
+    let failed = scores.entrants.iter().flat_map(told_failures);
+    let side_by_side =
+        Section::new("Side by side").table(table(scores, "", whole(scores))).paragraph(EXPLAINED);
+    Page::new(format!("Challenge {}, version {}", scores.suite, scores.version))
+        .with(Section::lead().paragraph(format!(
+            "{}. {} cases, seed {}.",
+            scores.title,
+            cases(scores),
+            scores.seed
+        )))
+        .with(side_by_side)
+        .with(by_group(scores))
+        .with(better(scores))
+        .with(Section::new("Cases without answer").list(failed).unless_empty())
+        .with(how_it_was_run(scores))
+}
+
+fn by_group(scores: &Scores) -> Section {
+    BY_GROUP.iter().fold(Section::new("By group of cases"), |section, (title, words, cell)| {
         let rows = scores.groups.iter().enumerate().map(|(g, Group { name, cases })| {
             let label = format!("{name} ({cases})");
             row(&label, scores, |e| cell(&e.groups[g].figures))
         });
-        table(&mut page, scores, "group (cases)", rows.collect());
-    }
-    better(&mut page, scores);
-    failures(&mut page, scores);
-    page.heading(2, "How it was run");
-    page.list(scores.entrants.iter().map(how));
-    page.paragraph(format!(
+        section.paragraph(format!("{title}. {words}")).table(table(scores, "group (cases)", rows))
+    })
+}
+
+fn how_it_was_run(scores: &Scores) -> Section {
+    Section::new("How it was run").list(scores.entrants.iter().map(how)).paragraph(format!(
         "Challenge made by hexbench {}, scored by hexbench {}; SHA-256 of challenge.toml: {}.",
         scores.made_by, scores.hexbench, scores.challenge_sha256
-    ));
-    page
+    ))
 }
 
 const EXPLAINED: &str = "Errors of stiffness: root mean square over the legs of a case, median over cases. Chi-square: held-out \
@@ -104,9 +112,9 @@ fn whole(scores: &Scores) -> Vec<Vec<String>> {
     ]
 }
 
-fn table(page: &mut Page, scores: &Scores, corner: &str, rows: Vec<Vec<String>>) {
-    let names = scores.entrants.iter().map(|e| e.name.clone());
-    page.table(std::iter::once(corner.to_owned()).chain(names), rows);
+fn table(scores: &Scores, corner: &str, rows: impl IntoIterator<Item = Vec<String>>) -> Table {
+    let names = scores.entrants.iter().map(|e| e.name.as_str());
+    Table::named(std::iter::once(corner).chain(names)).rows(rows)
 }
 
 fn row(label: &str, scores: &Scores, cell: impl Fn(&EntrantScore) -> String) -> Vec<String> {
@@ -158,26 +166,14 @@ fn differences(compared: &Differences) -> Vec<String> {
         .collect()
 }
 
-fn better(page: &mut Page, scores: &Scores) {
-    let [first, rivals @ ..] = scores.entrants.as_slice() else { return };
-    if rivals.is_empty() {
-        return;
-    }
-    page.heading(2, format!("Where another is ahead of {}", first.name));
-    page.paragraph(
+fn better(scores: &Scores) -> Option<Section> {
+    let (first, rivals) = scores.entrants.split_first().filter(|(_, rivals)| !rivals.is_empty())?;
+    let section = Section::new(format!("Where another is ahead of {}", first.name)).paragraph(
         "Geometric mean of its errors over those of the first entrant, on the cases of a group that both answered, with the 95 % interval; \
          an interval that holds 1 may be chance. And groups in which it is right more often.",
     );
     let found = super::better::found(scores, first, rivals);
-    if found.is_empty() { page.paragraph("Nowhere.") } else { page.list(found) }
-}
-
-fn failures(page: &mut Page, scores: &Scores) {
-    let failed: Vec<String> = scores.entrants.iter().flat_map(told_failures).collect();
-    if !failed.is_empty() {
-        page.heading(2, "Cases without answer");
-        page.list(failed);
-    }
+    Some(if found.is_empty() { section.paragraph("Nowhere.") } else { section.list(found) })
 }
 
 fn told_failures(entrant: &EntrantScore) -> Vec<String> {

@@ -8,6 +8,7 @@ use hexbench_core::files::text_hash;
 use hexbench_truth::campaign::{Kind, PlanKind};
 
 use crate::challenge::ChallengeError;
+use crate::error::ExperimentError;
 
 /// A suite that comes with the program.
 #[derive(Debug, Clone, Copy)]
@@ -73,7 +74,7 @@ impl Suite {
         }
         let path = Path::new(name);
         if path.exists() {
-            let text = std::fs::read_to_string(path).map_err(ChallengeError::reading(path))?;
+            let text = std::fs::read_to_string(path).map_err(ExperimentError::reading(path))?;
             return Self::from_text(&text, path);
         }
         let known = BUNDLED.iter().map(|b| b.name).collect();

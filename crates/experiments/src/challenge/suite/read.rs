@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hexbench_core::files::{Fault, FileError, Format, Item, Key, Problem, Section, nearest, read_toml_text};
+use hexbench_core::files::{Fault, FileError, Format, Item, Key, Section, instead_of, read_toml_text};
 use hexbench_truth::campaign::{Kind, PlanKind, machines};
 use hexbench_truth::mechanisms::REGISTRY;
 
@@ -10,25 +10,11 @@ use super::{Portion, Suite};
 
 const FORMAT: Format = Format {
     name: "challenge-suite/1",
-    keys: &[
-        Key::plain("format"),
-        Key::plain("name"),
-        Key::plain("version"),
-        Key::plain("title"),
-        Key::plain("seed"),
-        Key::plain("cases"),
-    ],
+    keys: &Key::all_plain(["format", "name", "version", "title", "seed", "cases"]),
 };
 
-const PORTION: &[Key] = &[
-    Key::plain("kind"),
-    Key::plain("count"),
-    Key::plain("distance"),
-    Key::plain("effects"),
-    Key::plain("plan"),
-    Key::plain("machine"),
-    Key::plain("repeats"),
-];
+const PORTION: &[Key] =
+    &Key::all_plain(["kind", "count", "distance", "effects", "plan", "machine", "repeats"]);
 
 /// Most cases of a suite: each is a folder, and its name has three digits or four.
 const MOST_CASES: usize = 5000;
@@ -52,9 +38,9 @@ fn whole(top: &Section<'_>) -> Result<Suite, Fault> {
         portions,
     };
     match suite.cases() {
-        0 => Err(rule(list, "a suite has a case at least", "Add a table such as [cases.clean].")),
+        0 => Err(list.breaks("a suite has a case at least", "Add a table such as [cases.clean].")),
         n if n > MOST_CASES => {
-            Err(rule(list, &format!("{n} cases; at most {MOST_CASES}"), "Lower the counts."))
+            Err(list.breaks(format!("{n} cases; at most {MOST_CASES}"), "Lower the counts."))
         }
         _ => Ok(suite),
     }
@@ -65,11 +51,9 @@ fn plain_name(item: &Item<'_>) -> Result<String, Fault> {
     let name = item.string()?;
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     if name.is_empty() || !name.chars().all(plain) {
-        return Err(rule(
-            item,
-            "a name has small letters, digits and hyphens",
-            "Write for example \"my-suite\".",
-        ));
+        return Err(
+            item.breaks("a name has small letters, digits and hyphens", "Write for example \"my-suite\".")
+        );
     }
     Ok(name.to_owned())
 }
@@ -97,15 +81,14 @@ fn refuse_contradictions(t: &Section<'_>, portion: &Portion) -> Result<(), Fault
     let without_size = absolute || portion.kind == Kind::Clean;
     if let Some(item) = t.get("distance").filter(|_| without_size) {
         let broken = "the effects of this kind have no distance to be scaled to";
-        return Err(rule(item, broken, "Remove this key."));
+        return Err(item.breaks(broken, "Remove this key."));
     }
     if let Some(item) = t.get("effects").filter(|_| portion.kind == Kind::Clean) {
-        return Err(rule(item, "a clean case has no effect", "Remove this key, or write kind = \"single\"."));
+        return Err(item.breaks("a clean case has no effect", "Remove this key, or write kind = \"single\"."));
     }
     let other_plan = portion.plan.is_some_and(|p| (p == PlanKind::Absolute) != absolute);
     match t.get("plan").filter(|_| other_plan) {
-        Some(item) => Err(rule(
-            item,
+        Some(item) => Err(item.breaks(
             "absolute poses belong to the kind \"absolute\", and to no other",
             "Remove this key, or choose another plan.",
         )),
@@ -122,9 +105,8 @@ fn distance(item: &Item<'_>) -> Result<[f64; 2], Fault> {
     if low > 0.0 && low <= high && high <= MOST_DISTANCE {
         return Ok([low, high]);
     }
-    Err(rule(
-        item,
-        &format!("distances rise, are positive and at most {MOST_DISTANCE}"),
+    Err(item.breaks(
+        format!("distances rise, are positive and at most {MOST_DISTANCE}"),
         "Write for example [8, 60]: the least and the greatest visibility in standard deviations.",
     ))
 }
@@ -132,7 +114,7 @@ fn distance(item: &Item<'_>) -> Result<[f64; 2], Fault> {
 fn effects(item: &Item<'_>) -> Result<Vec<Vec<&'static str>>, Fault> {
     let list = item.list()?;
     if list.is_empty() {
-        return Err(rule(item, "the list is empty", "Name an effect, or remove the key."));
+        return Err(item.breaks("the list is empty", "Name an effect, or remove the key."));
     }
     list.iter().map(together).collect()
 }
@@ -156,15 +138,8 @@ fn named(item: &Item<'_>, what: &str, names: &[&str]) -> Result<usize, Fault> {
 }
 
 fn position(item: &Item<'_>, word: &str, what: &str, names: &[&str]) -> Result<usize, Fault> {
-    names.iter().position(|name| *name == word).ok_or_else(|| {
-        let next = match nearest(word, names.iter().copied()) {
-            Some(near) => format!("Write \"{near}\"."),
-            None => format!("Write one of {}.", names.join(", ")),
-        };
-        rule(item, &format!("no {what} is called \"{word}\""), &next)
-    })
-}
-
-fn rule(item: &Item<'_>, broken: &str, next: &str) -> Fault {
-    item.fault(Problem::Rule { rule: broken.into(), next: next.into() })
+    names
+        .iter()
+        .position(|name| *name == word)
+        .ok_or_else(|| item.breaks(format!("no {what} is called \"{word}\""), instead_of(word, names)))
 }

@@ -1,14 +1,13 @@
 //! Every difference to the paper, with its reason.
 
-use hexbench_report::Page;
+use hexbench_report::Section;
 
 use super::super::study::Reproduction;
 use super::number;
 
-/// What differs and why; what cannot be reproduced.
-pub(super) fn section(page: &mut Page, study: &Reproduction) {
-    page.heading(2, "Differences, one sentence each");
-    page.list([
+/// What differs and why.
+pub(super) fn reasons(study: &Reproduction) -> Section {
+    Section::new("Differences, one sentence each").list([
         "Geometry: the paper's is confidential; ours was chosen to agree with its dc (14.5 um without noise on our validation poses, 13.5 um measured on its own).".to_owned(),
         "Equations 3 to 13 print two Jacobians alike: forces and moments are conjugate to the twist, so the J beside them is the \
          geometric one, and the one that maps to differences of Euler angles is another; we use each where it belongs (at poses \
@@ -28,12 +27,15 @@ pub(super) fn section(page: &mut Page, study: &Reproduction) {
             .to_owned(),
         "Fig. 8: ours is steeper, see step 4.".to_owned(),
         "Figs. 9 and 10: the paper's curves are not tabulated, so only their root mean squares can be compared.".to_owned(),
-    ]);
-    page.heading(2, "What this does not show");
-    page.list([
+    ])
+}
+
+/// What cannot be told.
+pub(super) fn limits() -> Section {
+    Section::new("What this does not show").list([
         "That the paper's machine stood on a soft support. It shows that such a support would leave the published errors, which of the \
          other effects would not, and that the published plan could not have told.",
         "Drift of the measuring machine between the two readings would also move without turning. It has no place in the paper's data, \
          which carry no times, and is not simulated here.",
-    ]);
+    ])
 }

@@ -20,17 +20,18 @@ const FOLDER: &str = "paper";
 
 /// The page.
 pub fn page(study: &Reproduction) -> Page {
-    let mut page = Page::default();
-    sections::opening(&mut page, study);
-    sections::poses(&mut page, study);
-    sections::measurement(&mut page, study);
-    sections::stiffness(&mut page, study);
-    sections::prediction(&mut page, study);
-    question::suspects(&mut page, study);
-    question::hidden(&mut page, study);
-    question::diagnosis(&mut page, study);
-    differences::section(&mut page, study);
-    page
+    Page::new("The paper, reproduced")
+        .with(sections::lead(study))
+        .with(sections::constraints(study))
+        .with(sections::poses(study))
+        .with(sections::measurement(study))
+        .with(sections::stiffness(study))
+        .with(sections::prediction(study))
+        .with(question::suspects(study))
+        .with(question::hidden(study))
+        .with(question::diagnosis(study))
+        .with(differences::reasons(study))
+        .with(differences::limits())
 }
 
 /// Names (relative, with `/`) and contents of all files.

@@ -1,6 +1,6 @@
 //! Planted faults.
 
-use hexbench_report::Page;
+use hexbench_report::{Section, Table};
 
 use crate::regress::comparison::probability;
 use crate::regress::planted::Planted;
@@ -11,31 +11,36 @@ use crate::regress::summary::row;
 const LISTED: usize = 5;
 
 /// What was planted, whether it was noticed, and by what.
-pub(super) fn section(page: &mut Page, planted: &[Planted]) {
+pub(super) fn sections(planted: &[Planted]) -> Vec<Section> {
     if planted.is_empty() {
-        return;
+        return Vec::new();
     }
-    let seen = planted.iter().filter(|p| p.failed() > 0).count();
-    page.heading(2, "Planted faults");
-    page.paragraph(format!(
-        "`scripts/planted_faults.sh` plants one fault at a time in a copy of the sources (`data/regress/faults`), builds the suite and \
-         runs it beside the committed baseline. {seen} of {} are seen.",
-        planted.len()
-    ));
+    let (seen, unseen): (Vec<&Planted>, Vec<&Planted>) = planted.iter().partition(|p| p.failed() > 0);
     let of = |p: &Planted| {
         let exit = if p.comparison.fails() { "1" } else { "0" };
-        vec![p.name.clone(), p.text.clone(), exit.to_owned(), p.failed().to_string()]
+        [p.name.clone(), p.text.clone(), exit.to_owned(), p.failed().to_string()]
     };
-    page.table(["fault", "what it does", "exit code", "limits that fail"], planted.iter().map(of));
-    page.paragraph(format!("By what each is seen ({LISTED} limits at most, those without chance first):"));
-    planted.iter().filter(|p| p.failed() > 0).for_each(|p| seen_by(page, p));
-    page.list(planted.iter().filter(|p| p.failed() == 0).map(not_seen));
+    let table = Table::named(["fault", "what it does", "exit code", "limits that fail"]);
+    let first = Section::new("Planted faults")
+        .paragraph(format!(
+            "`scripts/planted_faults.sh` plants one fault at a time in a copy of the sources (`data/regress/faults`), builds the suite and \
+             runs it beside the committed baseline. {} of {} are seen.",
+            seen.len(),
+            planted.len()
+        ))
+        .table(table.rows(planted.iter().map(of)))
+        .paragraph(format!("By what each is seen ({LISTED} limits at most, those without chance first):"));
+    let mut all: Vec<Section> = std::iter::once(first).chain(seen.into_iter().map(seen_by)).collect();
+    let last = all.pop();
+    all.extend(last.map(|last| last.list(unseen.into_iter().map(not_seen))));
+    all
 }
 
-fn seen_by(page: &mut Page, planted: &Planted) {
-    page.heading(3, planted.name.clone());
+fn seen_by(planted: &Planted) -> Section {
     let failed = planted.comparison.by_chance().into_iter().filter(|f| f.verdict == Verdict::Worse);
-    page.table(["limit", "now", "baseline", "by chance"], failed.take(LISTED).map(row));
+    Section::new(planted.name.clone())
+        .within()
+        .table(Table::named(["limit", "now", "baseline", "by chance"]).rows(failed.take(LISTED).map(row)))
 }
 
 fn not_seen(planted: &Planted) -> String {

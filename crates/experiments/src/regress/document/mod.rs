@@ -5,7 +5,7 @@ mod notices;
 mod runs;
 
 use hexbench_report::words::written_by;
-use hexbench_report::{Block, Page, Section};
+use hexbench_report::{Block, Page, Section, Table};
 
 use super::baseline::{Baseline, Update};
 use super::limit::Limit;
@@ -37,14 +37,14 @@ pub struct Proof<'a> {
 
 /// The page.
 pub fn page(proof: &Proof<'_>) -> Page {
-    let mut page = Page::new("Accuracy regression").with(introduction());
-    scope(&mut page, proof.suite, proof.baseline, proof.limits);
-    history(&mut page, proof.baseline);
-    faults::section(&mut page, proof.planted);
-    runs::section(&mut page, proof.runs, proof.limits);
-    let mut page = page.with(rule());
-    notices::section(&mut page, proof);
-    page
+    Page::new("Accuracy regression")
+        .with(introduction())
+        .with(scope(proof.suite, proof.baseline, proof.limits))
+        .with(history(proof.baseline))
+        .with_all(faults::sections(proof.planted))
+        .with(runs::section(proof.runs, proof.limits))
+        .with(rule())
+        .with_all(notices::sections(proof))
 }
 
 fn introduction() -> Section {
@@ -99,11 +99,11 @@ fn random(limits: &[Limit]) -> usize {
     limits.iter().filter(|l| l.test.is_random()).count()
 }
 
-fn scope(page: &mut Page, suite: &Suite, baseline: &Baseline, limits: &[Limit]) {
+fn scope(suite: &Suite, baseline: &Baseline, limits: &[Limit]) -> Section {
     let diagnosed: Vec<String> =
         suite.portions.iter().map(|p| format!("{} {}", p.trials, p.kind.name())).collect();
-    page.heading(2, "What is run");
-    page.list([
+    Section::new("What is run")
+.list([
         format!(
             "{} noisy campaigns, fitted by the right model: {} of each of springs, geometry and every effect of the catalogue; \
              machines, plans, noise and sizes are drawn.",
@@ -127,17 +127,16 @@ fn scope(page: &mut Page, suite: &Suite, baseline: &Baseline, limits: &[Limit]) 
             baseline.runs,
             baseline.seed
         ),
-    ]);
-    page.paragraph(
-        "The suite does not test: files and their readers, the pages, plans and their design, the workbench, times. The same \
-         seed gives the same figures on any number of threads.",
-    );
+    ])
+.paragraph("The suite does not test: files and their readers, the pages, plans and their design, the workbench, times. The same \
+         seed gives the same figures on any number of threads.")
 }
 
-fn history(page: &mut Page, baseline: &Baseline) {
-    page.heading(3, "History of the baseline");
+fn history(baseline: &Baseline) -> Section {
     let of = |u: &Update| {
         vec![u.date.clone(), u.hexbench.clone(), format!("{} from seed {}", u.runs, u.seed), u.reason.clone()]
     };
-    page.table(["date", "hexbench", "runs", "reason"], baseline.history.iter().map(of));
+    Section::new("History of the baseline")
+        .within()
+        .table(Table::named(["date", "hexbench", "runs", "reason"]).rows(baseline.history.iter().map(of)))
 }

@@ -1,6 +1,6 @@
 //! What each limit would notice, and why it exists.
 
-use hexbench_report::Page;
+use hexbench_report::{Section, Table};
 
 use super::Proof;
 use crate::regress::comparison::{level, probability};
@@ -10,10 +10,9 @@ use crate::regress::notice::{POWER, noticed};
 use crate::regress::rule::FALSE_ALARM;
 
 /// A table for each group, then the reasons.
-pub(super) fn section(page: &mut Page, proof: &Proof<'_>) {
+pub(super) fn sections(proof: &Proof<'_>) -> Vec<Section> {
     let level = level(proof.limits);
-    page.heading(2, "What each limit would notice");
-    page.paragraph(format!(
+    let first = Section::new("What each limit would notice").paragraph(format!(
         "An unchanged program fails with a probability of at most {} % for each run; each of the limits with chance has an equal share \
          of it, {}. The last column: the figure at which a run fails with a probability of {} %. Small samples notice large changes \
          only: that is why each effect also has limits without noise.",
@@ -21,14 +20,14 @@ pub(super) fn section(page: &mut Page, proof: &Proof<'_>) {
         probability(level),
         100.0 * POWER
     ));
-    for group in Group::ALL {
-        page.heading(3, capital(group.word()));
-        page.table(["limit", "in a run", "baseline", "would notice"], rows(proof, group, level));
-    }
-    page.heading(3, "Why");
+    let of_group = |group: Group| {
+        let table = Table::named(["limit", "in a run", "baseline", "would notice"]);
+        Section::new(capital(group.word())).within().table(table.rows(rows(proof, group, level)))
+    };
     // Limits of one effect say the same for each.
     let general = proof.limits.iter().filter(|l| !l.id.contains(':'));
-    page.list(general.map(|l| format!("{}: {}", l.title, l.why)));
+    let why = Section::new("Why").within().list(general.map(|l| format!("{}: {}", l.title, l.why)));
+    std::iter::once(first).chain(Group::ALL.map(of_group)).chain([why]).collect()
 }
 
 fn rows(proof: &Proof<'_>, group: Group, level: f64) -> Vec<Vec<String>> {

@@ -1,7 +1,7 @@
 //! Runs of the unchanged program.
 
 use hexbench_core::statistics::Proportion;
-use hexbench_report::Page;
+use hexbench_report::{Section, Table};
 
 use super::random;
 use crate::regress::comparison::{level, probability};
@@ -15,26 +15,24 @@ const BORDERS: [f64; 5] = [1.0, 10.0, 100.0, 1000.0, 10_000.0];
 const LISTED: usize = 5;
 
 /// How many failed, and how probable the least probable limit of each run was.
-pub(super) fn section(page: &mut Page, runs: &[Unchanged], limits: &[Limit]) {
-    let (Some(first), Some(last)) = (runs.first(), runs.last()) else { return };
-    page.heading(2, "Runs of the unchanged program");
-    page.paragraph(told(runs, limits));
-    page.paragraph(format!(
+pub(super) fn section(runs: &[Unchanged], limits: &[Limit]) -> Option<Section> {
+    let (first, last) = (runs.first()?, runs.last()?);
+    let mut least: Vec<&Unchanged> = runs.iter().collect();
+    least.sort_by(|a, b| a.least.total_cmp(&b.least));
+    let of = |r: &&Unchanged| vec![r.seed.to_string(), r.least_of.clone(), probability(r.least)];
+    let section = Section::new("Runs of the unchanged program")
+.paragraph(told(runs, limits))
+.paragraph(format!(
         "Seeds {} to {}, made again by `hexbench validate regress --runs {} --seed {}`. The smallest probability of each run:",
         first.seed,
         last.seed,
         runs.len(),
         first.seed
-    ));
-    page.table(
-        ["smallest probability at most", "runs", "expected of exact, independent tests"],
-        distribution(runs, limits),
-    );
-    let mut least: Vec<&Unchanged> = runs.iter().collect();
-    least.sort_by(|a, b| a.least.total_cmp(&b.least));
-    page.paragraph("The smallest of all:");
-    let of = |r: &&Unchanged| vec![r.seed.to_string(), r.least_of.clone(), probability(r.least)];
-    page.table(["seed", "limit", "probability"], least.iter().take(LISTED).map(of));
+    ))
+.table(Table::named(["smallest probability at most", "runs", "expected of exact, independent tests"]).rows(distribution(runs, limits)))
+.paragraph("The smallest of all:")
+.table(Table::named(["seed", "limit", "probability"]).rows(least.iter().take(LISTED).map(of)));
+    Some(section)
 }
 
 fn told(runs: &[Unchanged], limits: &[Limit]) -> String {

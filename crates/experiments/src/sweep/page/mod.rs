@@ -22,24 +22,24 @@ pub use write::write;
 
 /// What is told on the screen.
 pub fn summary(study: &Study, cells: &[CellStatistics]) -> Page {
-    let mut page = Page::default();
-    sections::head(&mut page, study, cells);
-    sections::by_axis(&mut page, study, cells, None);
-    sections::conclusions(&mut page, study, cells);
-    page
+    Page::new(&study.title)
+        .with(sections::head(study, cells))
+        .with_all(sections::by_axis(study, cells, None))
+        .with(sections::scaling(study, cells))
+        .with(sections::designed(study, cells))
 }
 
 /// The whole page; charts are in `folder` beside it.
 pub fn document(study: &Study, cells: &[CellStatistics], pictures: &[Picture], folder: &str) -> Page {
-    let mut page = Page::default();
-    page.paragraph(written_by("hexbench study FILE -o DIR"));
-    sections::head(&mut page, study, cells);
-    sections::axes(&mut page, study);
     let charts: Vec<(&Picture, String)> =
         pictures.iter().map(|p| (p, format!("{folder}/{}.svg", p.name))).collect();
-    sections::conclusions(&mut page, study, cells);
-    sections::by_axis(&mut page, study, cells, Some(&charts));
-    sections::all_cells(&mut page, study, cells);
-    sections::reading(&mut page, study);
-    page
+    Page::new(&study.title)
+        .with(Section::lead().paragraph(written_by("hexbench study FILE -o DIR")))
+        .with(sections::head(study, cells))
+        .with(sections::axes(study))
+        .with(sections::scaling(study, cells))
+        .with(sections::designed(study, cells))
+        .with_all(sections::by_axis(study, cells, Some(&charts)))
+        .with(sections::all_cells(study, cells))
+        .with(sections::reading(study))
 }

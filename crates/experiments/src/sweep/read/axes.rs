@@ -2,43 +2,34 @@
 
 use std::path::Path;
 
-use hexbench_core::files::{Fault, Item, Key, Problem, Section};
+use hexbench_core::files::{Fault, Item, Key, Section};
 use hexbench_design::Criterion;
 use hexbench_truth::campaign::{PlanKind, machines};
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
-use super::{one_of, rule, unknown};
-use crate::sweep::axes::{Estimator, Noises, PlanSource, Sizes};
+use super::{one_of, unknown};
+use crate::sweep::axes::{Axes, Estimator, Noises, PlanSource, Sizes};
 use crate::sweep::study::Task;
 
-const KEYS: &[Key] = &[
-    Key::plain("geometry"),
-    Key::plain("plan"),
-    Key::plain("poses"),
-    Key::plain("repeats"),
-    Key::plain("estimator"),
-    Key::plain("effect"),
-    Key::plain("size_sigmas"),
-    Key::plain("size_factor"),
-    Key::plain("noise_scale"),
-    Key::plain("noise_um_urad"),
-];
+const KEYS: &[Key] = &Key::all_plain([
+    "geometry",
+    "plan",
+    "poses",
+    "repeats",
+    "estimator",
+    "effect",
+    "size_sigmas",
+    "size_factor",
+    "noise_scale",
+    "noise_um_urad",
+]);
 /// Most poses of a plan.
 const MOST_POSES: u64 = 200;
 /// Most readings of a condition.
 const MOST_REPEATS: u64 = 1000;
 
 /// `[axes]` before the files it names are read.
-pub(super) struct AxesTable {
-    pub(super) geometry: Vec<GeometryName>,
-    pub(super) plan: Vec<PlanName>,
-    pub(super) poses: Vec<u64>,
-    pub(super) repeats: Vec<u64>,
-    pub(super) estimator: Vec<Estimator>,
-    pub(super) effect: Vec<Option<&'static str>>,
-    pub(super) size: Sizes,
-    pub(super) noise: Noises,
-}
+pub(super) type AxesTable = Axes<GeometryName, PlanName>;
 
 /// A family, or the name of a hexapod file.
 pub(super) enum GeometryName {
@@ -76,26 +67,20 @@ impl AxesTable {
         Ok(axes)
     }
 
-    pub(super) fn cells(&self) -> u128 {
-        let counts = [self.geometry.len(), self.plan.len(), self.effect.len(), self.noise.len()];
-        let open = [self.poses.len(), self.repeats.len(), self.estimator.len(), self.size.values().len()];
-        counts.iter().chain(open.map(|n| n.max(1)).iter()).map(|&n| n as u128).product()
-    }
-
     fn refuse_impossible(&self, t: &Section<'_>, task: Task) -> Result<(), Fault> {
         self.refuse_poses(t)?;
         if let (Task::Diagnose, Some(item)) = (task, t.get("estimator")) {
             let next = "Remove this axis, or write task = \"springs\".";
-            return Err(rule(item, "the diagnosis has an estimator of its own", next));
+            return Err(item.breaks("the diagnosis has an estimator of its own", next));
         }
         let Some(size) = t.get("size_sigmas").or(t.get("size_factor")) else { return Ok(()) };
         let Some(list) = t.get("effect") else {
-            return Err(rule(size, "there is a size but no effect", "Add effect, or remove this key."));
+            return Err(size.breaks("there is a size but no effect", "Add effect, or remove this key."));
         };
         for (item, effect) in list.list()?.iter().zip(&self.effect) {
             if effect.is_none() {
                 let next = "Remove it, and add 0 to the sizes: an effect of size 0 is none.";
-                return Err(rule(item, "\"none\" has no size, but there is an axis of sizes", next));
+                return Err(item.breaks("\"none\" has no size, but there is an axis of sizes", next));
             }
         }
         Ok(())
@@ -111,11 +96,11 @@ impl AxesTable {
             };
             if poses.is_some() && !takes {
                 let next = "Take this plan out of the list, or remove the axis poses.";
-                return Err(rule(item, "this plan has poses of its own, but there is an axis poses", next));
+                return Err(item.breaks("this plan has poses of its own, but there is an axis poses", next));
             }
             if poses.is_none() && needs {
                 let next = "Add poses to [axes], for example poses = [3, 6, 12].";
-                return Err(rule(item, "this plan needs a number of poses", next));
+                return Err(item.breaks("this plan needs a number of poses", next));
             }
         }
         Ok(())
@@ -127,7 +112,7 @@ fn each<T>(list: &Item<'_>, read: impl Fn(&Item<'_>) -> Result<T, Fault>) -> Res
     let items = list.list()?;
     if items.is_empty() {
         let next = "Write at least one value, or remove the key where it may be left out.";
-        return Err(rule(list, "the list of an axis is empty", next));
+        return Err(list.breaks("the list of an axis is empty", next));
     }
     refuse_twice(&items)?;
     items.iter().map(read).collect()
@@ -147,7 +132,7 @@ fn refuse_twice(items: &[Item<'_>]) -> Result<(), Fault> {
     for item in items {
         let value = value(item)?;
         if seen.contains(&value) {
-            return Err(rule(item, "this value is in the list twice", "Remove one of the two."));
+            return Err(item.breaks("this value is in the list twice", "Remove one of the two."));
         }
         seen.push(value);
     }
@@ -159,7 +144,7 @@ fn whole_to(item: &Item<'_>, most: u64) -> Result<u64, Fault> {
     if number <= most {
         return Ok(number);
     }
-    Err(rule(item, &format!("at most {most}"), "Write a smaller number."))
+    Err(item.breaks(format!("at most {most}"), "Write a smaller number."))
 }
 
 fn has_extension(name: &str, extension: &str) -> bool {
@@ -205,7 +190,7 @@ fn plan(item: &Item<'_>) -> Result<PlanName, Fault> {
 fn unknown_plan(item: &Item<'_>, word: &str, names: &[&str]) -> Result<PlanName, Fault> {
     if word == "absolute" {
         let next = "Choose a plan that measures deflections.";
-        return Err(rule(item, "studies measure deflections, not absolute poses", next));
+        return Err(item.breaks("studies measure deflections, not absolute poses", next));
     }
     let all: Vec<&str> = names.iter().copied().chain(["FILE.csv", "a folder with a / for a scene"]).collect();
     Err(unknown(item, word, &all, "plan"))
@@ -231,11 +216,9 @@ fn effect(item: &Item<'_>) -> Result<Option<&'static str>, Fault> {
         REGISTRY.iter().find(|e| e.id == word).ok_or_else(|| unknown(item, word, &names, "effect"))?;
     if entry.shows == Shows::Absolute {
         let next = "Choose an effect that shows in deflections.";
-        return Err(rule(
-            item,
-            "this effect shows in absolute poses only, and studies measure deflections",
-            next,
-        ));
+        return Err(
+            item.breaks("this effect shows in absolute poses only, and studies measure deflections", next)
+        );
     }
     Ok(Some(entry.id))
 }
@@ -243,7 +226,7 @@ fn effect(item: &Item<'_>) -> Result<Option<&'static str>, Fault> {
 fn sizes(t: &Section<'_>) -> Result<Sizes, Fault> {
     let not_negative = |item: &Item<'_>| match item.number()? {
         size if size >= 0.0 => Ok(size),
-        _ => Err(rule(item, "a size is not negative", "Write how large the effect is, 0 for none.")),
+        _ => Err(item.breaks("a size is not negative", "Write how large the effect is, 0 for none.")),
     };
     match (t.get("size_sigmas"), t.get("size_factor")) {
         (Some(_), Some(factor)) => Err(two_ways(factor, "size_sigmas")),
@@ -271,8 +254,5 @@ fn noises(t: &Section<'_>) -> Result<Noises, Fault> {
 }
 
 fn two_ways(item: &Item<'_>, other: &str) -> Fault {
-    item.fault(Problem::Rule {
-        rule: format!("there is an axis {other} too"),
-        next: "Keep one of the two.".into(),
-    })
+    item.breaks(format!("there is an axis {other} too"), "Keep one of the two.")
 }

@@ -5,24 +5,16 @@ mod files;
 
 use std::path::Path;
 
-use hexbench_core::files::{Fault, FileError, Format, Item, Key, Problem, Section, content_hash, read_toml};
+use hexbench_core::files::{
+    Fault, FileError, Format, Item, Key, Section, content_hash, instead_of, read_toml,
+};
 
 use crate::sweep::study::{STUDY_FILE, Study, Task};
 use axes::AxesTable;
 
 const FORMAT: Format = Format {
     name: "study/1",
-    keys: &[
-        Key::plain("format"),
-        Key::plain("title"),
-        Key::plain("seed"),
-        Key::plain("trials"),
-        Key::plain("task"),
-        Key::plain("space"),
-        Key::plain("redraw"),
-        Key::plain("starts"),
-        Key::plain("axes"),
-    ],
+    keys: &Key::all_plain(["format", "title", "seed", "trials", "task", "space", "redraw", "starts", "axes"]),
 };
 
 /// Trials with the same machine unless the file says so.
@@ -84,18 +76,13 @@ fn description(top: &Section<'_>) -> Result<Description, Fault> {
         starts: whole("starts", USUAL_STARTS)?,
         axes: AxesTable::read(top.require("axes")?, task)?,
     };
-    let all = d.axes.cells() * u128::from(d.trials);
+    let cells: u128 = d.axes.counts().map(|n| n as u128).iter().product();
+    let all = cells * u128::from(d.trials);
     if all > MOST_TRIALS {
-        let broken =
-            format!("{} cells of {} trials are {all} trials; at most 10^9", d.axes.cells(), d.trials);
-        return Err(rule(trials, &broken, "Take fewer trials, or fewer values on the axes."));
+        let broken = format!("{cells} cells of {} trials are {all} trials; at most 10^9", d.trials);
+        return Err(trials.breaks(broken, "Take fewer trials, or fewer values on the axes."));
     }
     Ok(d)
-}
-
-/// A rule that is broken at a value.
-fn rule(item: &Item<'_>, broken: &str, next: &str) -> Fault {
-    item.fault(Problem::Rule { rule: broken.into(), next: next.into() })
 }
 
 /// Index of the name that a string is.
@@ -105,9 +92,5 @@ fn one_of(item: &Item<'_>, names: &[&str], what: &str) -> Result<usize, Fault> {
 }
 
 fn unknown(item: &Item<'_>, word: &str, names: &[&str], what: &str) -> Fault {
-    let next = match hexbench_core::files::nearest(word, names.iter().copied()) {
-        Some(near) => format!("Write \"{near}\"."),
-        None => format!("Write one of {}.", names.join(", ")),
-    };
-    rule(item, &format!("no {what} has this name"), &next)
+    item.breaks(format!("no {what} has this name"), instead_of(word, names))
 }

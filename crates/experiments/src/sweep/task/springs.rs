@@ -12,6 +12,7 @@
 //! standard deviation. The error of a prediction, linear in `c` too, is a quadratic form: trials cost the same for any number of
 //! held-out readings.
 
+use hexbench_core::statistics::COVERAGE_FACTOR;
 use hexbench_core::{Matrix6, Vector6};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::fit::fit_baseline;
@@ -29,8 +30,6 @@ use crate::sweep::draw::{Purpose, drawn};
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{Shard, Value};
 
-/// Half-width of a 95 % interval in standard uncertainties.
-const COVERAGE_FACTOR: f64 = 1.959_963_984_540_054;
 /// A compliance less sure than this share of itself may be zero: it has no stiffness to report.
 const SURE: f64 = 0.5;
 
