@@ -15,6 +15,7 @@ pub mod diagnosis;
 pub mod error;
 pub mod estimate;
 pub mod evidence;
+pub mod examination;
 pub mod fit;
 pub mod fit_named;
 pub mod formula;
@@ -47,6 +48,7 @@ pub mod term;
 pub mod terms;
 pub mod user_term;
 pub mod verdict;
+pub mod whitening;
 pub mod words;
 
 #[cfg(test)]

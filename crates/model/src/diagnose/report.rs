@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::estimate::Estimate;
+use crate::examination::Finding;
 use crate::power::Detectable;
 use crate::residuals::ErrorSummary;
 use crate::verdict::Verdict;
@@ -55,6 +56,8 @@ pub struct Diagnosis {
     pub outside: Option<OutsideReport>,
     /// Things to know before trusting the numbers.
     pub warnings: Vec<String>,
+    /// Faults of the data, in the order in which they were found.
+    pub findings: Vec<Finding>,
 }
 
 /// One candidate.
