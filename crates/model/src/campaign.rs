@@ -403,7 +403,8 @@ fn share_out(group: &mut Group, noise: &Noise) {
         // As if every reading had the same level, which those of a record have to have.
         let one = group.sigma[k] * readings.sqrt();
         let (mean, shared) = match noise.structure {
-            Structure::Independent | Structure::Drift { .. } => continue,
+            Structure::Independent => continue,
+            Structure::Drift { share, .. } => (own.sqrt(), share.sqrt()),
             Structure::Setup { share } => ((own / readings + share).sqrt(), 0.0),
             Structure::Reference { share, record: Record::Pose } => ((own / readings).sqrt(), share.sqrt()),
             Structure::Reference { share, record: Record::Repeat } => {

@@ -48,9 +48,11 @@ pub enum Structure {
         /// What a record is.
         record: Record,
     },
-    /// Each error resembles that of the row before: the instrument drifts while the file is taken.
+    /// Part of each error resembles that of the row before: the instrument drifts while the file is taken.
     Drift {
-        /// Correlation of neighboring rows.
+        /// Share of the variance.
+        share: f64,
+        /// Correlation of that part in neighboring rows.
         correlation: f64,
     },
 }
@@ -68,8 +70,8 @@ impl Structure {
     /// Share of the variance of one reading that is its own.
     pub fn own_share(self) -> f64 {
         match self {
-            Self::Independent | Self::Drift { .. } => 1.0,
-            Self::Setup { share } | Self::Reference { share, .. } => 1.0 - share,
+            Self::Independent => 1.0,
+            Self::Setup { share } | Self::Reference { share, .. } | Self::Drift { share, .. } => 1.0 - share,
         }
     }
 }

@@ -5,11 +5,11 @@
 //!
 //! ```text
 //! shared by a record    I + u u'        ->  x - c u (u'x) / u'u,   c = 1 - 1 / sqrt(1 + u'u)
-//! drift along the file  phi^|i - j|     ->  (x_i - phi^d x_j) / sqrt(1 - phi^2d),   j the reading before, d rows earlier
+//! drift along the file  I + u_i u_j phi^|i - j|  ->  innovations of the Kalman filter over their standard deviations
 //! ```
 //!
 //! `u`: standard deviation of the shared part over that of the own part. The first is Woodbury's identity, the second the
-//! Cholesky factor of a process of first order.
+//! Cholesky factor of white noise beside a process of first order.
 
 use hexbench_core::Vector6;
 use nalgebra::{DMatrix, DVector};
@@ -33,7 +33,9 @@ pub enum Whitening {
     Drift {
         /// Line of every condition in the file, ascending.
         rows: Vec<usize>,
-        /// Correlation of neighbors.
+        /// `u` of every condition.
+        shares: Vec<Vector6>,
+        /// Correlation of neighboring lines.
         correlation: f64,
     },
 }
@@ -47,10 +49,11 @@ impl Whitening {
                 records: groups.iter().map(|g| g.record).collect(),
                 shares: groups.iter().map(share).collect(),
             },
-            Structure::Drift { correlation } => {
-                let rows = groups.iter().map(|g| usize::try_from(g.mean.line).unwrap_or(0)).collect();
-                Self::Drift { rows, correlation }
-            }
+            Structure::Drift { correlation, .. } => Self::Drift {
+                rows: groups.iter().map(|g| usize::try_from(g.mean.line).unwrap_or(0)).collect(),
+                shares: groups.iter().map(share).collect(),
+                correlation,
+            },
         }
     }
 
@@ -63,8 +66,9 @@ impl Whitening {
                 let (records, shares) = which.map(|i| (records[i], shares[i])).unzip();
                 Self::Shared { records, shares }
             }
-            Self::Drift { rows, correlation } => {
-                Self::Drift { rows: which.map(|i| rows[i]).collect(), correlation: *correlation }
+            Self::Drift { rows, shares, correlation } => {
+                let (rows, shares) = which.map(|i| (rows[i], shares[i])).unzip();
+                Self::Drift { rows, shares, correlation: *correlation }
             }
         }
     }
@@ -91,7 +95,7 @@ impl Whitening {
         match self {
             Self::Identity => {}
             Self::Shared { records, shares } => shared(records, shares, x),
-            Self::Drift { rows, correlation } => drift(rows, *correlation, x),
+            Self::Drift { rows, shares, correlation } => drift(rows, shares, *correlation, x),
         }
     }
 }
@@ -116,14 +120,42 @@ fn shared(records: &[usize], shares: &[Vector6], x: &mut DVector<f64>) {
     }
 }
 
-fn drift(rows: &[usize], correlation: f64, x: &mut DVector<f64>) {
-    for i in (1..rows.len()).rev() {
-        let distance = i32::try_from(rows[i].abs_diff(rows[i - 1])).unwrap_or(i32::MAX);
-        let kept = correlation.powi(distance);
-        let before = x.fixed_rows::<6>(6 * (i - 1)).into_owned();
-        let mut part = x.fixed_rows_mut::<6>(6 * i);
-        part -= kept * before;
-        part /= (1.0 - kept * kept).sqrt();
+fn drift(rows: &[usize], shares: &[Vector6], correlation: f64, x: &mut DVector<f64>) {
+    for k in 0..6 {
+        let mut filter = Filter::default();
+        for i in 0..rows.len() {
+            let distance = if i == 0 { 0 } else { rows[i].abs_diff(rows[i - 1]) };
+            let (innovation, variance) = filter.step(x[6 * i + k], shares[i][k], distance, correlation);
+            x[6 * i + k] = innovation / variance.sqrt();
+        }
+    }
+}
+
+/// Kalman filter of a process of first order with unit variance, seen with white noise of unit variance.
+pub struct Filter {
+    mean: f64,
+    variance: f64,
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Self { mean: 0.0, variance: 1.0 }
+    }
+}
+
+impl Filter {
+    /// What a reading brings that is new, and the variance of it; `share` of the process is in the reading, `distance` steps after
+    /// the one before.
+    pub fn step(&mut self, reading: f64, share: f64, distance: usize, correlation: f64) -> (f64, f64) {
+        let kept = correlation.powi(i32::try_from(distance).unwrap_or(i32::MAX));
+        let mean = kept * self.mean;
+        let before = 1.0 + kept * kept * (self.variance - 1.0);
+        let innovation = reading - share * mean;
+        let variance = 1.0 + share * share * before;
+        let gain = before * share / variance;
+        self.mean = mean + gain * innovation;
+        self.variance = before * (1.0 - gain * share);
+        (innovation, variance)
     }
 }
 
@@ -158,10 +190,14 @@ mod tests {
     #[test]
     fn neighbors_of_a_drift_become_independent_also_across_a_gap() {
         let rows = vec![0, 1, 4];
+        let shares = vec![Vector6::repeat(0.8), Vector6::repeat(1.3), Vector6::repeat(0.5)];
         let covariance = DMatrix::from_fn(18, 18, |a, b| {
-            if a % 6 == b % 6 { 0.7_f64.powi((rows[a / 6] as i32 - rows[b / 6] as i32).abs()) } else { 0.0 }
+            let (i, j, same) = (a / 6, b / 6, a % 6 == b % 6);
+            let distance = i32::try_from(rows[i].abs_diff(rows[j])).unwrap_or(0);
+            let drift = shares[i][0] * shares[j][0] * 0.7_f64.powi(distance);
+            f64::from(u8::from(a == b)) + if same { drift } else { 0.0 }
         });
-        let w = matrix(&Whitening::Drift { rows, correlation: 0.7 }, 3);
+        let w = matrix(&Whitening::Drift { rows, shares, correlation: 0.7 }, 3);
         assert!((&w * covariance * w.transpose() - DMatrix::identity(18, 18)).amax() < ROUNDING);
     }
 }

@@ -45,15 +45,18 @@ pub(super) struct Fault {
     pub(super) finding: Finding,
     /// Rows of the dataset that are not what the file says.
     pub(super) rows: Vec<usize>,
-    nats: f64,
+    /// Evidence over readings as stated, nats.
+    pub(super) nats: f64,
+    /// The same beside readings that all scatter as most of them do: what a fault is believed by.
+    sure: f64,
 }
 
 /// The most probable fault, when one is believed.
 pub(super) fn worst(rest: &Remainder<'_>) -> Option<Fault> {
     let scale = Scale::of(rest);
     let all = [numbers(rest, &scale), rows(rest, &scale), loads(rest, &scale), poses(rest, &scale)];
-    let best = all.into_iter().flatten().max_by(|a, b| a.nats.total_cmp(&b.nats))?;
-    (best.nats > BELIEVED).then_some(best)
+    let best = all.into_iter().flatten().max_by(|a, b| a.sure.total_cmp(&b.sure))?;
+    (best.sure > BELIEVED).then_some(best)
 }
 
 /// Variances that most readings have, over the stated ones: whatever widens them all is no fault of one.
@@ -75,9 +78,11 @@ impl Scale {
     }
 }
 
-/// Evidence of a shift with `dof` components that lowers chi-square by `gain`, one of `tried`.
-fn evidence(gain: f64, dof: usize, tried: usize) -> f64 {
-    0.5 * gain - dof as f64 * PRIOR_SIZE.ln() - (tried.max(1) as f64).ln() + PRIOR_ODDS.ln()
+/// Evidence of a shift with `dof` components that lowers chi-square by `gain`, one of `tried`: by the stated noise, and by
+/// the variance that most readings have.
+fn evidence(gain: f64, variance: f64, dof: usize, tried: usize) -> [f64; 2] {
+    let cost = dof as f64 * PRIOR_SIZE.ln() + (tried.max(1) as f64).ln() - PRIOR_ODDS.ln();
+    [1.0, variance].map(|v| 0.5 * gain / v - cost)
 }
 
 /// One number of one row.
@@ -89,7 +94,7 @@ fn numbers(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     let all = (0..rest.rows.len()).flat_map(|i| (0..6).map(move |k| (i, k)));
     let (i, k) = all.max_by(|&a, &b| z(a).abs().total_cmp(&z(b).abs()))?;
     let size = z((i, k));
-    let nats = evidence(size * size / scale.single, 1, 6 * rest.rows.len());
+    let nats = evidence(size * size, scale.single, 1, 6 * rest.rows.len());
     let line = rest.data.observations[i].line;
     let value = VALUES[k];
     let sigma = format!("{:.0} sigma", size.abs());
@@ -106,7 +111,7 @@ fn rows(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
             .sum::<f64>()
     };
     let i = (0..rest.rows.len()).max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
-    let nats = evidence(gain(&i) / scale.single, 6, rest.rows.len());
+    let nats = evidence(gain(&i), scale.single, 6, rest.rows.len());
     let line = rest.data.observations[i].line;
     let size = format!("{:.0} sigma", rest.rows[i].amax());
     let text = format!(
@@ -147,7 +152,7 @@ fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
         }
     }
     let (gain, g, k, shift) = best?;
-    let nats = evidence(gain / scale.mean, 1, 6 * groups);
+    let nats = evidence(gain, scale.mean, 1, 6 * groups);
     let at = &rest.campaign.groups[g];
     let stated = at.mean.wrench.to_array()[k];
     let (name, unit) = WRENCH[k];
@@ -187,7 +192,7 @@ fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
         }
     }
     let (gain, p, k, shift) = best?;
-    let nats = evidence(gain / scale.mean, 1, 6 * of_pose.len());
+    let nats = evidence(gain, scale.mean, 1, 6 * of_pose.len());
     let rows: Vec<usize> =
         of_pose[p].iter().flat_map(|&g| rest.campaign.groups[g].rows.iter().map(|&i| i as usize)).collect();
     let first = &rest.data.observations[*rows.first()?];
@@ -255,15 +260,15 @@ fn fault(
     kind: FindingKind,
     rows: Vec<usize>,
     rest: &Remainder<'_>,
-    nats: f64,
+    [nats, sure]: [f64; 2],
     size: String,
     text: String,
     next: &str,
 ) -> Fault {
     let lines = rows.iter().map(|&i| rest.data.observations[i].line).collect();
     let finding =
-        Finding { kind, probability: probability(nats), rows: lines, size, text, next: next.to_owned() };
-    Fault { finding, rows, nats }
+        Finding { kind, probability: probability(sure), rows: lines, size, text, next: next.to_owned() };
+    Fault { finding, rows, nats, sure }
 }
 
 fn lines_of(rest: &Remainder<'_>, rows: &[u32]) -> String {

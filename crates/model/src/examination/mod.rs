@@ -11,7 +11,7 @@ mod scatter;
 
 use hexbench_core::{Dataset, Hexapod, Vector6};
 
-use self::blunders::worst;
+use self::blunders::{Fault, worst};
 use self::finding::probability;
 pub use self::finding::{Finding, FindingKind};
 use self::remainder::Remainder;
@@ -47,22 +47,63 @@ pub fn examine(
     noise: Noise,
     outcome: &Outcome,
 ) -> Result<Examined, ModelError> {
-    let mut examined = Examined { data: data.clone(), noise: noise.independent(), findings: Vec::new() };
-    let most = (MOST_LEFT_OUT * data.observations.len() as f64) as usize;
-    let mut left_out = 0;
+    let whole = Examined { data: data.clone(), noise: noise.independent(), findings: Vec::new() };
+    let (_, first) = look(hexapod, &whole, outcome)?;
+    let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
+    // Many errors that are far off are tails; one or two are blunders.
+    let tails = first.statements.first().filter(|s| matches!(s.kind, Kind::Tails(_)));
+    if let Some(&tails) = tails.filter(|t| t.evidence - first.stated > cleaned.gain) {
+        return Ok(settled(whole, data, &first, tails));
+    }
+    let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
+    Ok(settled(cleaned.examined, data, &cleaned.last, best))
+}
+
+/// Readings looked at.
+struct Look {
+    /// Statements about their noise, best first.
+    statements: Vec<Statement>,
+    /// Evidence of the noise as stated.
+    stated: f64,
+    /// What is left of every row.
+    rows: Vec<Vector6>,
+}
+
+/// The worst fault of readings, and the statements about their noise.
+fn look(
+    hexapod: &Hexapod,
+    examined: &Examined,
+    outcome: &Outcome,
+) -> Result<(Option<Fault>, Look), ModelError> {
+    let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
+    let rest = Remainder::new(&examined.data, &campaign, outcome)?;
+    let (statements, stated) = statements(&rest);
+    Ok((worst(&rest), Look { statements, stated, rows: rest.rows }))
+}
+
+/// Readings without single faults.
+struct Cleaned {
+    examined: Examined,
+    last: Look,
+    /// Evidence for the faults and for the best statement about what remains, over readings as stated.
+    gain: f64,
+}
+
+fn without_faults(
+    hexapod: &Hexapod,
+    mut examined: Examined,
+    outcome: &Outcome,
+) -> Result<Cleaned, ModelError> {
+    let most = (MOST_LEFT_OUT * examined.data.observations.len() as f64) as usize;
+    let (mut left_out, mut gain) = (0, 0.0);
     loop {
-        let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
-        let rest = Remainder::new(&examined.data, &campaign, outcome)?;
-        let (found, stated) = statements(&rest);
-        let heavy =
-            found.first().is_some_and(|s| matches!(s.kind, Kind::Tails(_)) && s.evidence > stated + BELIEVED);
-        let fault = worst(&rest).filter(|f| !(heavy && f.finding.kind == FindingKind::Blunder));
+        let (fault, last) = look(hexapod, &examined, outcome)?;
         let Some(fault) = fault.filter(|f| left_out + f.rows.len() <= most) else {
-            let Some(best) = found.first().copied() else { return Ok(examined) };
-            let remainder = rest.rows;
-            return Ok(settled(examined, data, &remainder, best, stated));
+            gain += last.statements.first().map_or(0.0, |best| best.evidence - last.stated).max(0.0);
+            return Ok(Cleaned { examined, last, gain });
         };
         left_out += fault.rows.len();
+        gain += fault.nats;
         examined.findings.push(fault.finding);
         let mut row = 0;
         examined.data.observations.retain(|_| {
@@ -73,14 +114,8 @@ pub fn examine(
 }
 
 /// What remains is judged by the best statement about it.
-fn settled(
-    mut examined: Examined,
-    data: &Dataset,
-    remainder: &[Vector6],
-    best: Statement,
-    stated: f64,
-) -> Examined {
-    let gain = best.evidence - stated;
+fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: Statement) -> Examined {
+    let gain = best.evidence - look.stated;
     if matches!(best.kind, Kind::Law) && gain > BELIEVED {
         // Physics without a name: what it does to a condition is no fault of its load or pose.
         if examined.findings.iter().any(|f| f.kind != FindingKind::Blunder) {
@@ -94,7 +129,7 @@ fn settled(
         return examined;
     }
     examined.findings.push(finding(&best, gain));
-    apply(&mut examined, remainder, best);
+    apply(&mut examined, &look.rows, best);
     examined
 }
 
@@ -111,6 +146,10 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: Statement) {
                     sigma[k] * best.level * ((freedom + z * z) / (freedom + 1.0)).sqrt()
                 }));
             }
+            // Readings still to come scatter by the whole of it.
+            let whole = (freedom / (freedom - 2.0)).sqrt();
+            noise.translation *= whole;
+            noise.rotation *= whole;
         }
         Kind::Level | Kind::Common(_) => {
             for row in &mut examined.data.observations {
@@ -161,10 +200,10 @@ fn finding(best: &Statement, gain: f64) -> Finding {
                 next,
             )
         }
-        Kind::Common(Structure::Drift { correlation }) => (
+        Kind::Common(Structure::Drift { share, correlation }) => (
             FindingKind::Drift,
-            format!("correlation {correlation:.2} from row to row"),
-            "the error of each row resembles that of the row before: the instrument drifts while the file is taken"
+            format!("{} of the variance, correlation {correlation:.2} from row to row", percent(share)),
+            "part of the error of each row resembles that of the row before: the instrument drifts while the file is taken"
                 .to_owned(),
             "read the reference more often, and measure the conditions in random order",
         ),

@@ -13,11 +13,14 @@ use statrs::function::gamma::ln_gamma;
 
 use super::remainder::Remainder;
 use crate::noise::{NoiseSource, Record, Structure};
+use crate::whitening::Filter;
 
 /// How well an instrument's noise is known, relative.
 const TOLERANCE: f64 = 0.1;
 /// Shares and correlations tried.
 const GRID: [f64; 14] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97];
+/// Correlations of a drift from row to row that are tried.
+const CORRELATIONS: [f64; 8] = [0.3, 0.6, 0.8, 0.9, 0.95, 0.97, 0.985, 0.995];
 /// Degrees of freedom of heavy tails.
 const TAILS: [f64; 5] = [3.0, 4.0, 5.0, 7.0, 10.0];
 /// Size of an unknown law in the legs, over the noise.
@@ -74,6 +77,8 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
 struct Judge {
     /// Single readings over the stated noise, freed of what the fit took.
     rows: Vec<Vector6>,
+    /// Line of each in the file.
+    lines: Vec<usize>,
     /// Rows of each group, pose, and repeat at a pose.
     groups: Vec<Vec<usize>>,
     poses: Vec<Vec<usize>>,
@@ -107,6 +112,7 @@ impl Judge {
             records: gathered(rows.len(), |i| (record(i), repeat(i))),
             within: (all - between).max(0.0),
             is_stated: matches!(rest.campaign.noise.source, NoiseSource::Metrology | NoiseSource::Columns),
+            lines: rest.data.observations.iter().map(|o| usize::try_from(o.line).unwrap_or(0)).collect(),
             rows,
             means,
         }
@@ -173,16 +179,35 @@ impl Judge {
         (m, all, sum.norm_squared() / m)
     }
 
-    /// Each row resembles the one before.
+    /// Part of each row resembles the row before.
     fn drift(&self) -> Statement {
-        let law = |correlation: f64| {
-            let left = 1.0 - correlation * correlation;
-            let first = self.rows.first().map_or(0.0, |r| r.norm_squared());
-            let steps = self.rows.windows(2).map(|w| (w[1] - correlation * w[0]).norm_squared() / left);
-            let half_log_det = 3.0 * (self.rows.len() as f64 - 1.0) * left.ln();
-            (half_log_det, first + steps.sum::<f64>())
-        };
-        self.best(|correlation| Kind::Common(Structure::Drift { correlation }), law)
+        let mut best = Statement { kind: Kind::Level, level: 1.0, evidence: f64::NEG_INFINITY };
+        for correlation in CORRELATIONS {
+            let structure = |share| Kind::Common(Structure::Drift { share, correlation });
+            let found = self.best(structure, |share| self.innovations(share, correlation));
+            if found.evidence > best.evidence {
+                best = found;
+            }
+        }
+        best.evidence -= self.penalty(1.0);
+        best
+    }
+
+    /// Half the logarithm of the determinant and the quadratic form of a drift with unit level.
+    fn innovations(&self, share: f64, correlation: f64) -> (f64, f64) {
+        let own = 1.0 - share;
+        let loading = (share / own).sqrt();
+        let (mut half_log_det, mut square) = (3.0 * self.rows.len() as f64 * own.ln(), 0.0);
+        for k in 0..6 {
+            let mut filter = Filter::default();
+            for (i, row) in self.rows.iter().enumerate() {
+                let distance = if i == 0 { 0 } else { self.lines[i].abs_diff(self.lines[i - 1]) };
+                let (innovation, variance) = filter.step(row[k] / own.sqrt(), loading, distance, correlation);
+                half_log_det += 0.5 * variance.ln();
+                square += innovation * innovation / variance;
+            }
+        }
+        (half_log_det, square)
     }
 
     /// Student's t; its level is that of the Gaussian in the middle of it.
