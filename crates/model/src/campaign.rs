@@ -15,7 +15,7 @@ use crate::chain::Action;
 use crate::error::ModelError;
 use crate::kinematics::{Legs, euler_rate_matrix};
 use crate::machine::Machine;
-use crate::noise::{Noise, NoiseSource, stated_or_repeated};
+use crate::noise::{Noise, NoiseSource, Record, Structure, stated_or_repeated};
 use crate::parallel::try_map;
 
 /// Readings that share pose, loads, approach, temperature and time, averaged.
@@ -23,8 +23,12 @@ use crate::parallel::try_map;
 pub struct Group {
     /// Inputs, as of the first reading; `measured` is the weighted mean.
     pub mean: Observation,
-    /// Standard deviation of each mean value.
+    /// Standard deviation of each mean value, without what it shares with others of its record.
     pub sigma: [f64; 6],
+    /// Standard deviation of what it shares with them.
+    pub shared: [f64; 6],
+    /// Number of its record.
+    pub record: usize,
     /// Indices of the readings in the dataset.
     pub rows: Vec<u32>,
     /// Sum of squared whitened differences between the readings and their mean.
@@ -149,6 +153,7 @@ impl Campaign {
             rotation: 1e-6 / hexapod.platform_radius().max(1e-6),
             source: NoiseSource::Residuals,
             dof: 0.0,
+            structure: Structure::Independent,
         });
         Self::with_noise(hexapod, dataset, noise)
     }
@@ -184,6 +189,17 @@ impl Campaign {
     pub fn part(&self, groups: &[usize]) -> Self {
         let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
         Self::of_groups(&self.hexapod, self.measurand, self.columns, self.noise, kept)
+    }
+
+    /// The same with every reading weighed by all of its noise, as if nothing were shared.
+    #[must_use]
+    pub fn independent(mut self) -> Self {
+        for group in &mut self.groups {
+            group.sigma = std::array::from_fn(|k| group.sigma[k].hypot(group.shared[k]));
+            group.shared = [0.0; 6];
+        }
+        self.noise = self.noise.independent();
+        self
     }
 
     /// True in absolute mode.
@@ -328,18 +344,32 @@ fn observer_matrix(axes: &Matrix3, lever: &Vector3, angles: &Vector3) -> Matrix6
     h
 }
 
+impl Group {
+    fn of(first: &Observation) -> Self {
+        let rows = Vec::with_capacity(1);
+        Self { mean: *first, sigma: [0.0; 6], shared: [0.0; 6], record: 0, rows, pure_error: 0.0 }
+    }
+}
+
 fn group(rows: &[Observation], noise: &Noise) -> Vec<Group> {
     let mut index: HashMap<[u64; 21], usize> = HashMap::new();
     let mut groups: Vec<Group> = Vec::new();
+    // Neighbors that resemble each other are no repeats of each other.
+    let drifts = matches!(noise.structure, Structure::Drift { .. });
     for (i, row) in rows.iter().enumerate() {
-        let slot = *index.entry(key(row)).or_insert(groups.len());
-        if slot == groups.len() {
-            groups.push(Group { mean: *row, sigma: [0.0; 6], rows: Vec::with_capacity(1), pure_error: 0.0 });
+        let next = groups.len();
+        let slot = if drifts { next } else { *index.entry(key(row)).or_insert(next) };
+        if slot == next {
+            groups.push(Group::of(row));
         }
         groups[slot].rows.push(u32::try_from(i).unwrap_or(u32::MAX));
     }
+    let mut records: HashMap<[u64; 6], usize> = HashMap::new();
     for g in &mut groups {
         average(g, rows, noise);
+        let pose = g.mean.pose.to_array().map(|x| (x + 0.0).to_bits());
+        let next = records.len();
+        g.record = *records.entry(pose).or_insert(next);
     }
     groups
 }
@@ -363,14 +393,37 @@ fn average(group: &mut Group, rows: &[Observation], noise: &Noise) {
     }
     let mean = group.mean.measured;
     group.pure_error = group.rows.iter().map(|&i| whitened_square(&rows[i as usize], &mean, noise)).sum();
+    share_out(group, noise);
+}
+
+/// Splits the variance of a mean of independent readings into what is its own and what is shared.
+fn share_out(group: &mut Group, noise: &Noise) {
+    let own = noise.structure.own_share();
+    let readings = group.rows.len() as f64;
+    for k in 0..6 {
+        // As if every reading had the same level, which those of a record have to have.
+        let one = group.sigma[k] * readings.sqrt();
+        let (mean, shared) = match noise.structure {
+            Structure::Independent => continue,
+            Structure::Drift { share, .. } => (own.sqrt(), share.sqrt()),
+            Structure::Setup { share } => ((own / readings + share).sqrt(), 0.0),
+            Structure::Reference { share, record: Record::Pose } => ((own / readings).sqrt(), share.sqrt()),
+            Structure::Reference { share, record: Record::Repeat } => {
+                ((own / readings).sqrt(), (share / readings).sqrt())
+            }
+        };
+        group.sigma[k] = one * mean;
+        group.shared[k] = one * shared;
+    }
+    // Repeats of one reference each scatter by all of their noise.
+    if !matches!(noise.structure, Structure::Reference { record: Record::Repeat, .. }) {
+        group.pure_error /= own;
+    }
 }
 
 /// Standard deviation of the six values of one reading.
 pub fn row_sigma(row: &Observation, noise: &Noise) -> [f64; 6] {
-    match (noise.source, row.sigma) {
-        (NoiseSource::Columns, Some(sigma)) => sigma,
-        _ => noise.sigma(),
-    }
+    row.sigma.unwrap_or_else(|| noise.sigma())
 }
 
 fn whitened_square(row: &Observation, mean: &[f64; 6], noise: &Noise) -> f64 {

@@ -16,6 +16,7 @@ pub mod diagnosis;
 pub mod error;
 pub mod estimate;
 pub mod evidence;
+pub mod examination;
 pub mod explanation;
 pub mod fit;
 pub mod fit_named;
@@ -50,6 +51,7 @@ pub mod terms;
 pub mod untestable;
 pub mod user_term;
 pub mod verdict;
+pub mod whitening;
 pub mod words;
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ use crate::machine::{Machine, exponential};
 use crate::parallel::map;
 use crate::parameters::common_count;
 use crate::term::{Rich, Term};
+use crate::whitening::Whitening;
 
 /// Conditions whose columns are made together.
 const PART: usize = 256;
@@ -117,6 +118,7 @@ pub struct Linearization {
     /// Conditions on that machine.
     pub conditions: Vec<Condition>,
     links: Vec<Link>,
+    whitening: Whitening,
     absolute: bool,
 }
 
@@ -129,12 +131,17 @@ impl Linearization {
         let machine = point.calibrated_machine();
         let conditions = campaign.conditions(&machine, &point.springs)?;
         let links = map(&conditions, |c| link(&machine, c, point));
-        Ok(Self { machine, conditions, links, absolute: campaign.is_absolute() })
+        let whitening = Whitening::of(&campaign.groups, &campaign.noise);
+        Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
 
-    /// Ranges of conditions small enough for all columns of all candidates to fit in the cache.
+    /// Ranges of conditions small enough for all columns of all candidates to fit in the cache; all conditions in one where
+    /// they share errors.
     pub fn parts(&self) -> Vec<std::ops::Range<usize>> {
         let n = self.conditions.len();
+        if !self.whitening.is_identity() {
+            return std::iter::once(0..n).collect();
+        }
         (0..n.div_ceil(PART)).map(|k| k * PART..((k + 1) * PART).min(n)).collect()
     }
 
@@ -158,6 +165,7 @@ impl Linearization {
         Self {
             machine: self.machine.clone(),
             conditions: which.clone().map(|i| self.conditions[i].clone()).collect(),
+            whitening: self.whitening.choose(which.clone()),
             links: which.map(|i| self.links[i]).collect(),
             absolute: self.absolute,
         }
@@ -173,7 +181,7 @@ impl Linearization {
         common_count(self.absolute)
     }
 
-    /// Whitened residual of one condition.
+    /// Residual of one condition over the standard deviation of what is its own.
     pub fn residual(&self, condition: usize) -> Vector6 {
         let c = &self.conditions[condition];
         c.reading.component_mul(&c.weight) - self.links[condition].prediction()
@@ -191,6 +199,7 @@ impl Linearization {
         for i in 0..self.conditions.len() {
             out.fixed_rows_mut::<6>(6 * i).copy_from(&self.residual(i));
         }
+        self.whitening.apply_to(&mut out);
         out
     }
 
@@ -200,6 +209,7 @@ impl Linearization {
         for i in 0..self.conditions.len() {
             out.fixed_rows_mut::<6>(6 * i).copy_from(&self.links[i].prediction());
         }
+        self.whitening.apply_to(&mut out);
         out
     }
 
@@ -221,6 +231,7 @@ impl Linearization {
                 write_actions(&mut block, i, 6, c, link, &actions);
             }
         }
+        self.whitening.apply(&mut block);
         block
     }
 
@@ -232,6 +243,7 @@ impl Linearization {
             actions(term, rich, shape, &self.machine, c, &mut out);
             write_actions(&mut block, i, 0, c, link, &out);
         }
+        self.whitening.apply(&mut block);
         block
     }
 
@@ -248,6 +260,7 @@ impl Linearization {
             actions_of(c, &mut out);
             write_actions(&mut block, i, 0, c, link, &out);
         }
+        self.whitening.apply(&mut block);
         block
     }
 }

@@ -49,6 +49,52 @@ impl TryFrom<String> for NoiseSource {
     }
 }
 
+/// What errors of different readings have in common. Shares are of the variance of one reading.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Structure {
+    /// Nothing.
+    #[default]
+    Independent,
+    /// Repeats of a condition share an error of the set-up: averaging does not reduce it.
+    Setup {
+        /// Share of the variance.
+        share: f64,
+    },
+    /// Readings of a record are differences from one reference reading.
+    Reference {
+        /// Share of the variance.
+        share: f64,
+        /// What a record is.
+        record: Record,
+    },
+    /// Part of each error resembles that of the row before: the instrument drifts while the file is taken.
+    Drift {
+        /// Share of the variance.
+        share: f64,
+        /// Correlation of that part in neighboring rows.
+        correlation: f64,
+    },
+}
+
+/// Which readings share a reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Record {
+    /// All readings at a pose.
+    Pose,
+    /// The readings of one repeat at a pose.
+    Repeat,
+}
+
+impl Structure {
+    /// Share of the variance of one reading that is its own.
+    pub fn own_share(self) -> f64 {
+        match self {
+            Self::Independent => 1.0,
+            Self::Setup { share } | Self::Reference { share, .. } | Self::Drift { share, .. } => 1.0 - share,
+        }
+    }
+}
+
 /// Standard deviation of one reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
@@ -60,12 +106,26 @@ pub struct Noise {
     pub source: NoiseSource,
     /// Degrees of freedom behind the level; infinite when stated, zero when taken from residuals.
     pub dof: f64,
+    /// What errors have in common.
+    pub structure: Structure,
 }
 
 impl Noise {
     /// As somebody states it: standard deviations of a translation (m) and of a rotation (rad).
     pub fn stated(translation: f64, rotation: f64) -> Self {
-        Self { translation, rotation, source: NoiseSource::Metrology, dof: f64::INFINITY }
+        Self {
+            translation,
+            rotation,
+            source: NoiseSource::Metrology,
+            dof: f64::INFINITY,
+            structure: Structure::Independent,
+        }
+    }
+
+    /// The same levels of readings that have nothing in common.
+    #[must_use]
+    pub fn independent(self) -> Self {
+        Self { structure: Structure::Independent, ..self }
     }
 
     /// Standard deviations of the six measured values.
@@ -111,6 +171,7 @@ pub fn stated_or_repeated(hexapod: &Hexapod, dataset: &Dataset) -> Option<Noise>
         rotation: scatter.variance_rotation.sqrt(),
         source: NoiseSource::Repeats,
         dof: 2.0 * scatter.dof,
+        structure: Structure::Independent,
     })
 }
 
@@ -125,6 +186,7 @@ fn from_columns(rows: &[Observation]) -> Noise {
         rotation: mean_square(3..6).sqrt(),
         source: NoiseSource::Columns,
         dof: f64::INFINITY,
+        structure: Structure::Independent,
     }
 }
 

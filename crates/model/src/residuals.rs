@@ -123,7 +123,7 @@ pub fn prediction_errors(
     noise: Noise,
     point: &Point,
 ) -> Result<Vec<Residual>, ModelError> {
-    let campaign = Campaign::with_noise(hexapod, holdout, noise)?;
+    let campaign = Campaign::with_noise(hexapod, holdout, noise)?.independent();
     let lin = Linearization::at(&campaign, point)?;
     Ok(residuals(&campaign, &holdout.observations, &lin))
 }
@@ -134,7 +134,7 @@ pub fn prediction_errors(
 /// # Errors
 /// As [`prediction_errors`].
 pub fn survival(hexapod: &Hexapod, holdout: &Dataset, noise: Noise, fit: &Fit) -> Result<f64, ModelError> {
-    let campaign = Campaign::with_noise(hexapod, holdout, noise)?;
+    let campaign = Campaign::with_noise(hexapod, holdout, noise)?.independent();
     let expected = Expected::of(&Linearization::at(&campaign, &fit.point)?, fit);
     let law = ChiSquared::new(6.0 * expected.readings)
         .map_err(|_| ModelError::NotFinite { what: "the held-out data" })?;
@@ -207,7 +207,7 @@ pub fn leave_poses_out(
                 (0..fold_of.len()).filter(|&g| (fold_of[g] == fold) == inside).collect::<Vec<_>>()
             });
             let fitted = refit(campaign, wanted, &start, &kept)?;
-            let held = campaign.part(&held);
+            let held = campaign.part(&held).independent();
             let lin = Linearization::at(&held, &fitted.point)?;
             Ok((residuals(&held, rows, &lin), Expected::of(&lin, &fitted).log_density()))
         })

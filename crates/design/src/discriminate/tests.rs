@@ -6,7 +6,7 @@ use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Approach, Hexapod, Metrology, Observation, Vector6, Wrench};
 use hexbench_model::evidence::WIDEST;
 use hexbench_model::fit_named::term_named;
-use hexbench_model::noise::{Noise, NoiseSource};
+use hexbench_model::noise::{Noise, NoiseSource, Structure};
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
 use nalgebra::{DMatrix, DVector};
@@ -28,6 +28,7 @@ fn noise() -> Noise {
         rotation: SIGMA.sigma_rotation,
         source: NoiseSource::Metrology,
         dof: f64::INFINITY,
+        structure: Structure::Independent,
     }
 }
 

@@ -7,7 +7,7 @@ use hexbench_core::{
     Approach, Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vector3, Vector6, Wrench,
 };
 use hexbench_design::power::{Planned, Settings, Study, Subject, Test, Verdict, study};
-use hexbench_model::noise::{Noise, NoiseSource};
+use hexbench_model::noise::{Noise, NoiseSource, Structure};
 use hexbench_model::power::noncentrality;
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
@@ -29,7 +29,13 @@ fn machine() -> Hexapod {
 
 fn noise(factor: f64, dof: f64) -> Noise {
     let source = if dof.is_finite() { NoiseSource::Repeats } else { NoiseSource::Metrology };
-    Noise { translation: factor * 0.5e-6, rotation: factor * 3e-6, source, dof }
+    Noise {
+        translation: factor * 0.5e-6,
+        rotation: factor * 3e-6,
+        source,
+        dof,
+        structure: Structure::Independent,
+    }
 }
 
 /// Four poses under each load, each read `repeats` times; the waits differ from load to load.

@@ -22,10 +22,11 @@ use crate::candidates::Candidate;
 use crate::diagnosis::{Outcome, explain, wanted};
 use crate::error::ModelError;
 use crate::estimate::estimates_with;
+use crate::examination::{Finding, examine};
 use crate::explanation::Explanation;
 use crate::fit::{Fit, Wanted, fit};
 use crate::linearization::Linearization;
-use crate::noise::{Noise, NoiseSource};
+use crate::noise::{Noise, NoiseSource, Structure};
 use crate::power::detectable;
 use crate::residuals::{residuals, summarise};
 use crate::search::Set;
@@ -35,6 +36,9 @@ use crate::verdict::{Judgement, Verdict, judge};
 
 /// Cosine beyond which two signatures count as indistinguishable.
 const LOOK_ALIKE: f64 = 0.95;
+
+/// Rounds of explaining and examining.
+const MOST_EXAMINATIONS: usize = 3;
 
 /// Everything behind a diagnosis, for plots and reports.
 pub struct Study {
@@ -61,8 +65,8 @@ pub fn diagnose(
     if let Some(held) = holdout {
         same_kind(data, held)?;
     }
-    let campaign = prepare(hexapod, data)?;
-    let outcome = explain(&campaign, terms)?;
+    let Judged { data, campaign, outcome, findings } = judged(hexapod, data, terms)?;
+    let data = &data;
     let mut judgement = judge(&outcome.sets, &outcome.candidates);
     let context = Context { hexapod, data, holdout, campaign: &campaign, outcome: &outcome };
     let best = outcome.sets.sets.first();
@@ -114,8 +118,38 @@ pub fn diagnose(
         suspects: suspects(&rows, data),
         outside: outside(&judgement, &outcome),
         warnings: warnings(&campaign, data, last, &judgement),
+        findings,
     };
     Ok(Study { diagnosis, outcome, campaign, fits })
+}
+
+/// A campaign without the faults of its data, explained.
+struct Judged {
+    data: Dataset,
+    campaign: Campaign,
+    outcome: Outcome,
+    findings: Vec<Finding>,
+}
+
+/// Explains a campaign and examines its readings in turn, until nothing more is found.
+fn judged(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Result<Judged, ModelError> {
+    let campaign = prepare(hexapod, data)?;
+    let noise = campaign.noise;
+    let outcome = explain(&campaign, terms)?;
+    let mut judged = Judged { data: data.clone(), campaign, outcome, findings: Vec::new() };
+    for _ in 0..MOST_EXAMINATIONS {
+        let examined = examine(hexapod, data, noise, &judged.outcome)?;
+        let same = |a: &Finding, b: &Finding| a.kind == b.kind && a.rows == b.rows;
+        let known = examined.findings.len() == judged.findings.len()
+            && examined.findings.iter().zip(&judged.findings).all(|(a, b)| same(a, b));
+        if known {
+            break;
+        }
+        let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
+        let outcome = explain(&campaign, terms)?;
+        judged = Judged { data: examined.data, campaign, outcome, findings: examined.findings };
+    }
+    Ok(judged)
 }
 
 /// Campaign with its noise level: stated, from repeats, or, failing both, from the residuals of the springs.
@@ -136,6 +170,7 @@ pub fn prepare(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError
         rotation: (rms.rotation_urad * 1e-6 * inflate).max(1e-12),
         source: NoiseSource::Residuals,
         dof: 0.0,
+        structure: Structure::Independent,
     };
     Campaign::with_noise(hexapod, data, noise)
 }

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::estimate::Estimate;
+use crate::examination::Finding;
 use crate::explanation::Explanation;
 use crate::noise::NoiseSource;
 use crate::power::Detectable;
@@ -62,6 +63,8 @@ pub struct Diagnosis {
     pub outside: Option<OutsideReport>,
     /// Things to know before trusting the numbers.
     pub warnings: Vec<String>,
+    /// Faults of the data, in the order in which they were found.
+    pub findings: Vec<Finding>,
 }
 
 /// One candidate.

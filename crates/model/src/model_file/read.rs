@@ -11,7 +11,7 @@ use super::write::mode_word;
 use super::{DataOrigin, Estimator, Model, ModelFileError};
 use crate::linearization::{Active, Point};
 use crate::machine::Machine;
-use crate::noise::{Noise, NoiseSource};
+use crate::noise::{Noise, NoiseSource, Structure};
 use crate::parameters::{Parameter, Parameters, Place, parameter_names};
 use crate::term::Term;
 use crate::{terms, user_term};
@@ -92,6 +92,7 @@ fn noise(table: &NoiseTable) -> Result<Noise, ModelFileError> {
             )
         })?,
         dof: table.degrees_of_freedom.unwrap_or(f64::INFINITY),
+        structure: Structure::Independent,
     })
 }
 

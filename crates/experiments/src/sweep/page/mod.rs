@@ -8,8 +8,8 @@ mod response;
 mod sections;
 mod write;
 
-use hexbench_report::Page;
 use hexbench_report::words::written_by;
+use hexbench_report::{Page, Section};
 
 use crate::sweep::results::CellStatistics;
 use crate::sweep::study::Study;
