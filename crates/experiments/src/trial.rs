@@ -83,7 +83,7 @@ pub fn outcome_of(
     let same = added.len() == hidden.len() && hidden.iter().all(|id| added.iter().any(|a| a == id));
     let right = match verdict {
         Verdict::Outside => outside,
-        Verdict::Adequate => hidden.is_empty(),
+        Verdict::Adequate | Verdict::Measurement => hidden.is_empty(),
         Verdict::Named => !outside && !hidden.is_empty() && same,
         Verdict::Ambiguous => false,
     };

@@ -26,6 +26,8 @@ pub enum Verdict {
     Ambiguous,
     /// Something outside the catalogue is at work.
     Outside,
+    /// What is wrong is in the data: without it the springs explain them.
+    Measurement,
 }
 
 impl Verdict {
@@ -36,6 +38,7 @@ impl Verdict {
             Self::Named => "named",
             Self::Ambiguous => "ambiguous",
             Self::Outside => "outside",
+            Self::Measurement => "measurement",
         }
     }
 }

@@ -47,6 +47,7 @@ enum Expected {
     Named,
     Ambiguous,
     Outside,
+    Measurement,
 }
 
 impl Expected {
@@ -56,6 +57,7 @@ impl Expected {
             Self::Named => Verdict::Named,
             Self::Ambiguous => Verdict::Ambiguous,
             Self::Outside => Verdict::Outside,
+            Self::Measurement => Verdict::Measurement,
         }
     }
 }

@@ -57,7 +57,7 @@ impl Fate {
             (Outcome::Right, _) => Self::Right,
             (Outcome::Honest, _) => Self::Honest,
             (Outcome::Wrong, Verdict::Ambiguous) => Self::Undecided,
-            (Outcome::Wrong, Verdict::Adequate) => Self::Missed,
+            (Outcome::Wrong, Verdict::Adequate | Verdict::Measurement) => Self::Missed,
             (Outcome::Wrong, Verdict::Outside) => Self::FalseOutside,
             (Outcome::Wrong, Verdict::Named) if invents(d, &trial.hidden) => Self::FalseName,
             (Outcome::Wrong, Verdict::Named) => Self::Incomplete,

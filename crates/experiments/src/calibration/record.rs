@@ -151,7 +151,7 @@ fn confidence(study: &Study) -> Option<f64> {
     let added: Vec<&str> = d.added.iter().map(String::as_str).collect();
     match d.verdict {
         Verdict::Named => Some(probability_of(study, &added)),
-        Verdict::Adequate => Some(probability_of(study, &[])),
+        Verdict::Adequate | Verdict::Measurement => Some(probability_of(study, &[])),
         Verdict::Outside => Some(probability_outside(study)),
         Verdict::Ambiguous => None,
     }

@@ -105,7 +105,7 @@ fn springs() -> Vec<Column> {
 }
 
 /// Words of the verdict, in the order of the codes.
-pub const VERDICTS: [&str; 4] = ["adequate", "named", "ambiguous", "outside"];
+pub const VERDICTS: [&str; 5] = ["adequate", "named", "ambiguous", "outside", "measurement"];
 /// Words of the outcome, in the order of the codes.
 pub const OUTCOMES: [&str; 3] = ["right", "honest", "wrong"];
 

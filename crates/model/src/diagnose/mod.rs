@@ -75,6 +75,9 @@ pub fn diagnose(
     demote_what_does_not_survive(&mut judgement, &steps);
     let last = fits.last().unwrap_or(&outcome.baseline);
     context.face_holdout(&mut judgement, last);
+    if judgement.verdict == Verdict::Adequate && !findings.is_empty() {
+        judgement.verdict = Verdict::Measurement;
+    }
     let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &last.point)?);
     let added: Vec<String> = match judgement.verdict {
         Verdict::Named | Verdict::Ambiguous => order

@@ -25,6 +25,22 @@ pub enum FindingKind {
     Drift,
 }
 
+impl FindingKind {
+    /// A few words, capitalized.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Blunder => "Blunder",
+            Self::Pose => "Wrong pose",
+            Self::Load => "Wrong load",
+            Self::NoiseLevel => "Noise level",
+            Self::HeavyTails => "Heavy tails",
+            Self::SharedReference => "Shared reference",
+            Self::SetupError => "Set-up error",
+            Self::Drift => "Drift",
+        }
+    }
+}
+
 /// One fault of the data.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]

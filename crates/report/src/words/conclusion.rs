@@ -13,7 +13,7 @@ use crate::page::{Block, Mood, Section};
 pub fn section(d: &Diagnosis) -> Section {
     let mood = match d.verdict {
         Verdict::Adequate | Verdict::Named => Mood::Good,
-        Verdict::Ambiguous => Mood::Doubt,
+        Verdict::Ambiguous | Verdict::Measurement => Mood::Doubt,
         Verdict::Outside => Mood::Bad,
     };
     Section::new("Verdict").with(Block::Verdict {
@@ -34,6 +34,11 @@ pub fn sentences(d: &Diagnosis) -> Vec<String> {
         Verdict::Named => vec![lacks(&d.added), error_statement(&d.steps)],
         Verdict::Ambiguous => ambiguous(d),
         Verdict::Outside => outside(d),
+        Verdict::Measurement => vec![
+            "What is wrong is in the data, as told above. Without it the springs alone explain these measurements: nothing of \
+             the machine is missing that they could show."
+                .to_owned(),
+        ],
     }
 }
 

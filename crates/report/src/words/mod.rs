@@ -8,6 +8,7 @@ pub mod confidence;
 mod demo;
 pub mod effect;
 pub mod effects;
+mod findings;
 pub mod fitted;
 pub mod ladder;
 mod leg_space;
@@ -44,7 +45,8 @@ pub fn diagnosis(subject: &Subject<'_>) -> Page {
     let d = &subject.study.diagnosis;
     let page =
         Page { subject: subject.entries(), ..Page::new(format!("Diagnosis of {}", subject.hexapod.name)) };
-    page.with(conclusion::section(d))
+    page.with(findings::section(d))
+        .with(conclusion::section(d))
         .with(confidence::section(d))
         .with(ladder::section(d))
         .with(size::section(d))

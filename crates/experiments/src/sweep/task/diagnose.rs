@@ -82,5 +82,6 @@ fn verdict(verdict: Verdict) -> u8 {
         Verdict::Named => 1,
         Verdict::Ambiguous => 2,
         Verdict::Outside => 3,
+        Verdict::Measurement => 4,
     }
 }
