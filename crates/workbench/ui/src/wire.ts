@@ -481,6 +481,8 @@ export type Diagnosis = {
   outside: OutsideReport | null;
   /** Things to know before trusting the numbers. */
   warnings: Array<string>;
+  /** Faults of the data, in the order in which they were found. */
+  findings: Array<Finding>;
 };
 
 /** A name and what is said of it. */
@@ -502,6 +504,25 @@ export type Figure = {
   /** What it shows. */
   caption: string;
 };
+
+/** One fault of the data. */
+export type Finding = {
+  /** What is wrong. */
+  kind: FindingKind;
+  /** Probability against readings as stated. */
+  probability: number;
+  /** Lines of the file; empty for a statement about all of them. */
+  rows: Array<number>;
+  /** How large, with its unit. */
+  size: string;
+  /** A sentence. */
+  text: string;
+  /** What to do. */
+  next: string;
+};
+
+/** Kind of a fault of the data; the words are those of `diagnosis.json`. */
+export type FindingKind = "blunder" | "pose" | "load" | "noise-level" | "heavy-tails" | "shared-reference" | "setup-error" | "drift";
 
 /** Color of a word, a bar or a line. */
 export type Mood = "good" | "doubt" | "bad";
@@ -640,7 +661,7 @@ export type UntestableReport = {
 };
 
 /** What the data say. */
-export type Verdict = "adequate" | "named" | "ambiguous" | "outside";
+export type Verdict = "adequate" | "named" | "ambiguous" | "outside" | "measurement";
 
 /** Body of `POST /api/benches/{id}/export`. */
 export type Export = {
