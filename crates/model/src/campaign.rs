@@ -9,7 +9,7 @@ use hexbench_core::{
     Approach, Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, Vector3, Vector6,
     Wrench,
 };
-use nalgebra::Rotation3;
+use nalgebra::{DMatrix, Rotation3};
 
 use crate::chain::Action;
 use crate::error::ModelError;
@@ -110,6 +110,8 @@ pub struct Campaign {
     pub pure_error: f64,
     /// Degrees of freedom of the pure error.
     pub pure_error_dof: f64,
+    /// Whitened reading per standard deviation of inputs that are known to a tolerance only, six rows for each group.
+    pub inexact: Option<DMatrix<f64>>,
 }
 
 impl Condition {
@@ -181,14 +183,26 @@ impl Campaign {
         let pure_error = groups.iter().map(|g| g.pure_error).sum();
         let pure_error_dof = 6.0 * (readings - groups.len()) as f64;
         let hexapod = hexapod.clone();
-        Self { hexapod, measurand, columns, groups, readings, noise, pure_error, pure_error_dof }
+        Self {
+            hexapod,
+            measurand,
+            columns,
+            groups,
+            readings,
+            noise,
+            pure_error,
+            pure_error_dof,
+            inexact: None,
+        }
     }
 
     /// Some of the groups; their readings keep their indices in the dataset.
     #[must_use]
     pub fn part(&self, groups: &[usize]) -> Self {
         let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
-        Self::of_groups(&self.hexapod, self.measurand, self.columns, self.noise, kept)
+        let rows: Vec<usize> = groups.iter().flat_map(|&g| 6 * g..6 * g + 6).collect();
+        let inexact = self.inexact.as_ref().map(|all| all.select_rows(&rows));
+        Self { inexact, ..Self::of_groups(&self.hexapod, self.measurand, self.columns, self.noise, kept) }
     }
 
     /// The same with every reading weighed by all of its noise, as if nothing were shared.
@@ -199,6 +213,7 @@ impl Campaign {
             group.shared = [0.0; 6];
         }
         self.noise = self.noise.independent();
+        self.inexact = None;
         self
     }
 

@@ -131,7 +131,7 @@ impl Linearization {
         let machine = point.calibrated_machine();
         let conditions = campaign.conditions(&machine, &point.springs)?;
         let links = map(&conditions, |c| link(&machine, c, point));
-        let whitening = Whitening::of(&campaign.groups, &campaign.noise);
+        let whitening = Whitening::of(campaign);
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
 

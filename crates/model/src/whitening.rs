@@ -14,14 +14,24 @@
 use hexbench_core::Vector6;
 use nalgebra::{DMatrix, DVector};
 
-use crate::campaign::Group;
+use crate::campaign::{Campaign, Group};
 use crate::noise::{Noise, Structure};
+
+/// Eigenvalues of the inexact inputs below this share of the largest do not show.
+const SHOWS: f64 = 1e-12;
 
 /// The transform of a list of conditions.
 #[derive(Debug, Clone)]
-pub enum Whitening {
+pub struct Whitening {
+    noise: Common,
+    inputs: Option<Inputs>,
+}
+
+/// What errors of the readings have in common.
+#[derive(Debug, Clone)]
+enum Common {
     /// Errors are independent.
-    Identity,
+    Nothing,
     /// Conditions of one record share an error in every coordinate.
     Shared {
         /// Record of every condition.
@@ -41,10 +51,92 @@ pub enum Whitening {
 }
 
 impl Whitening {
+    /// The transform for the groups of a campaign.
+    pub fn of(campaign: &Campaign) -> Self {
+        let noise = Common::of(&campaign.groups, &campaign.noise);
+        let inputs = campaign.inexact.as_ref().and_then(|columns| {
+            let mut columns = columns.clone();
+            noise.apply(&mut columns);
+            Inputs::of(columns)
+        });
+        Self { noise, inputs }
+    }
+
+    /// That of some of the conditions, in this order.
+    #[must_use]
+    pub fn choose(&self, which: impl Iterator<Item = usize> + Clone) -> Self {
+        let rows: Vec<usize> = which.clone().flat_map(|i| 6 * i..6 * i + 6).collect();
+        let inputs = self.inputs.as_ref().and_then(|all| Inputs::of(all.columns.select_rows(&rows)));
+        Self { noise: self.noise.choose(which), inputs }
+    }
+
+    /// True when conditions may be treated one by one.
+    pub fn is_identity(&self) -> bool {
+        matches!(self.noise, Common::Nothing) && self.inputs.is_none()
+    }
+
+    /// Transforms columns with six rows per condition.
+    pub fn apply(&self, columns: &mut DMatrix<f64>) {
+        self.noise.apply(columns);
+        if let Some(inputs) = &self.inputs {
+            inputs.apply(columns);
+        }
+    }
+
+    /// Transforms one column.
+    pub fn apply_to(&self, x: &mut DVector<f64>) {
+        self.noise.apply_to(x);
+        if let Some(inputs) = &self.inputs {
+            inputs.apply_to(x);
+        }
+    }
+}
+
+/// Inputs known to a tolerance only: `V = I + Z Z'`, and `V^-1/2 = I - Q D Q'` with `Q` an orthonormal basis of `Z`.
+#[derive(Debug, Clone)]
+struct Inputs {
+    columns: DMatrix<f64>,
+    basis: DMatrix<f64>,
+    taken: DVector<f64>,
+}
+
+impl Inputs {
+    fn of(columns: DMatrix<f64>) -> Option<Self> {
+        let eigen = columns.tr_mul(&columns).symmetric_eigen();
+        let least = SHOWS * eigen.eigenvalues.max().max(f64::MIN_POSITIVE);
+        let kept: Vec<usize> = (0..columns.ncols()).filter(|&k| eigen.eigenvalues[k] > least).collect();
+        if kept.is_empty() {
+            return None;
+        }
+        let mut basis = &columns * eigen.eigenvectors.select_columns(&kept);
+        let mut taken = DVector::zeros(kept.len());
+        for (i, &k) in kept.iter().enumerate() {
+            let square = eigen.eigenvalues[k];
+            basis.column_mut(i).scale_mut(square.sqrt().recip());
+            taken[i] = 1.0 - (1.0 + square).sqrt().recip();
+        }
+        Some(Self { columns, basis, taken })
+    }
+
+    fn apply(&self, columns: &mut DMatrix<f64>) {
+        let mut along = self.basis.tr_mul(columns);
+        for mut column in along.column_iter_mut() {
+            column.component_mul_assign(&self.taken);
+        }
+        columns.gemm(-1.0, &self.basis, &along, 1.0);
+    }
+
+    fn apply_to(&self, x: &mut DVector<f64>) {
+        let along = self.basis.tr_mul(x).component_mul(&self.taken);
+        x.gemv(-1.0, &self.basis, &along, 1.0);
+    }
+}
+
+impl Common {
     /// The transform for groups of readings under a noise model.
-    pub fn of(groups: &[Group], noise: &Noise) -> Self {
+    fn of(groups: &[Group], noise: &Noise) -> Self {
         match noise.structure {
-            Structure::Independent | Structure::Setup { .. } => Self::Identity,
+            Structure::Independent | Structure::Setup { .. } => Self::Nothing,
             Structure::Reference { .. } => Self::Shared {
                 records: groups.iter().map(|g| g.record).collect(),
                 shares: groups.iter().map(share).collect(),
@@ -59,9 +151,9 @@ impl Whitening {
 
     /// That of some of the conditions, in this order.
     #[must_use]
-    pub fn choose(&self, which: impl Iterator<Item = usize>) -> Self {
+    fn choose(&self, which: impl Iterator<Item = usize>) -> Self {
         match self {
-            Self::Identity => Self::Identity,
+            Self::Nothing => Self::Nothing,
             Self::Shared { records, shares } => {
                 let (records, shares) = which.map(|i| (records[i], shares[i])).unzip();
                 Self::Shared { records, shares }
@@ -73,14 +165,9 @@ impl Whitening {
         }
     }
 
-    /// True when conditions may be treated one by one.
-    pub fn is_identity(&self) -> bool {
-        matches!(self, Self::Identity)
-    }
-
     /// Transforms columns with six rows per condition.
-    pub fn apply(&self, columns: &mut DMatrix<f64>) {
-        if self.is_identity() {
+    fn apply(&self, columns: &mut DMatrix<f64>) {
+        if matches!(self, Self::Nothing) {
             return;
         }
         for mut column in columns.column_iter_mut() {
@@ -91,9 +178,9 @@ impl Whitening {
     }
 
     /// Transforms one column.
-    pub fn apply_to(&self, x: &mut DVector<f64>) {
+    fn apply_to(&self, x: &mut DVector<f64>) {
         match self {
-            Self::Identity => {}
+            Self::Nothing => {}
             Self::Shared { records, shares } => shared(records, shares, x),
             Self::Drift { rows, shares, correlation } => drift(rows, shares, *correlation, x),
         }
@@ -161,13 +248,15 @@ impl Filter {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
+
     use super::*;
 
     /// Rounding of sums of a dozen numbers.
     const ROUNDING: f64 = 1e-12;
 
     /// The transform as a matrix.
-    fn matrix(whitening: &Whitening, conditions: usize) -> DMatrix<f64> {
+    fn matrix(whitening: &Common, conditions: usize) -> DMatrix<f64> {
         let mut all = DMatrix::identity(6 * conditions, 6 * conditions);
         whitening.apply(&mut all);
         all
@@ -183,7 +272,7 @@ mod tests {
                 covariance[(6 * i + k, 6 * j + k)] += shares[i][k] * shares[j][k];
             }
         }
-        let w = matrix(&Whitening::Shared { records, shares }, 3);
+        let w = matrix(&Common::Shared { records, shares }, 3);
         assert!((&w * covariance * w.transpose() - DMatrix::identity(18, 18)).amax() < ROUNDING);
     }
 
@@ -197,7 +286,17 @@ mod tests {
             let drift = shares[i][0] * shares[j][0] * 0.7_f64.powi(distance);
             f64::from(u8::from(a == b)) + if same { drift } else { 0.0 }
         });
-        let w = matrix(&Whitening::Drift { rows, shares, correlation: 0.7 }, 3);
+        let w = matrix(&Common::Drift { rows, shares, correlation: 0.7 }, 3);
         assert!((&w * covariance * w.transpose() - DMatrix::identity(18, 18)).amax() < ROUNDING);
+    }
+
+    #[test]
+    fn inputs_that_are_not_exact_are_taken_out_as_far_as_they_are_known() {
+        let columns = DMatrix::from_fn(12, 3, |i, k| ((i * 7 + k * 5) % 11) as f64 - 5.0);
+        let covariance = DMatrix::<f64>::identity(12, 12) + &columns * columns.transpose();
+        let inputs = Inputs::of(columns).unwrap();
+        let mut w = DMatrix::identity(12, 12);
+        inputs.apply(&mut w);
+        assert!((&w * covariance * w.transpose() - DMatrix::identity(12, 12)).amax() < 100.0 * ROUNDING);
     }
 }

@@ -148,7 +148,7 @@ fn judged(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Result<
         if known {
             break;
         }
-        let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
+        let campaign = examined.campaign(hexapod)?;
         let outcome = explain(&campaign, terms)?;
         judged = Judged { data: examined.data, campaign, outcome, findings: examined.findings };
     }

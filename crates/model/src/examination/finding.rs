@@ -23,6 +23,8 @@ pub enum FindingKind {
     SetupError,
     /// Errors of neighboring rows resemble each other.
     Drift,
+    /// Joints are not where the drawing has them.
+    Tolerance,
 }
 
 impl FindingKind {
@@ -37,6 +39,7 @@ impl FindingKind {
             Self::SharedReference => "Shared reference",
             Self::SetupError => "Set-up error",
             Self::Drift => "Drift",
+            Self::Tolerance => "Tolerance",
         }
     }
 }

@@ -8,14 +8,17 @@ mod blunders;
 mod finding;
 mod remainder;
 mod scatter;
+mod tolerance;
 
 use hexbench_core::{Dataset, Hexapod, Vector6};
+use nalgebra::DMatrix;
 
 use self::blunders::{Fault, worst};
 use self::finding::probability;
 pub use self::finding::{Finding, FindingKind};
 use self::remainder::Remainder;
 use self::scatter::{Kind, Statement, statements};
+use self::tolerance::{Tolerance, joints};
 use crate::campaign::Campaign;
 use crate::diagnosis::Outcome;
 use crate::error::ModelError;
@@ -35,6 +38,19 @@ pub struct Examined {
     pub noise: Noise,
     /// What was found.
     pub findings: Vec<Finding>,
+    /// Whitened reading per standard deviation of inputs that are not exact.
+    inexact: Option<DMatrix<f64>>,
+}
+
+impl Examined {
+    /// The campaign of these readings.
+    ///
+    /// # Errors
+    /// As [`Campaign::with_noise`].
+    pub fn campaign(&self, hexapod: &Hexapod) -> Result<Campaign, ModelError> {
+        let inexact = self.inexact.clone();
+        Ok(Campaign { inexact, ..Campaign::with_noise(hexapod, &self.data, self.noise)? })
+    }
 }
 
 /// Examines readings beside an explanation of them. `noise`: as stated, or as repeats and residuals show it.
@@ -47,7 +63,8 @@ pub fn examine(
     noise: Noise,
     outcome: &Outcome,
 ) -> Result<Examined, ModelError> {
-    let whole = Examined { data: data.clone(), noise: noise.independent(), findings: Vec::new() };
+    let whole =
+        Examined { data: data.clone(), noise: noise.independent(), findings: Vec::new(), inexact: None };
     let (_, first) = look(hexapod, &whole, outcome)?;
     let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
     // Many errors that are far off are tails; one or two are blunders.
@@ -56,6 +73,13 @@ pub fn examine(
         return Ok(settled(whole, data, &first, tails));
     }
     let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
+    let rivals = best.evidence - cleaned.last.stated;
+    if let Some(joints) = cleaned.last.joints.as_ref().filter(|j| j.evidence > BELIEVED.max(rivals)) {
+        let mut examined = cleaned.examined;
+        examined.findings.push(off_the_drawing(joints));
+        examined.inexact = Some(joints.columns.clone());
+        return Ok(examined);
+    }
     Ok(settled(cleaned.examined, data, &cleaned.last, best))
 }
 
@@ -67,6 +91,8 @@ struct Look {
     stated: f64,
     /// What is left of every row.
     rows: Vec<Vector6>,
+    /// What they tell of the joints.
+    joints: Option<Tolerance>,
 }
 
 /// The worst fault of readings, and the statements about their noise.
@@ -78,7 +104,8 @@ fn look(
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
     let rest = Remainder::new(&examined.data, &campaign, outcome)?;
     let (statements, stated) = statements(&rest);
-    Ok((worst(&rest), Look { statements, stated, rows: rest.rows }))
+    let joints = joints(&rest)?;
+    Ok((worst(&rest), Look { statements, stated, rows: rest.rows, joints }))
 }
 
 /// Readings without single faults.
@@ -119,7 +146,12 @@ fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: Statement)
     if matches!(best.kind, Kind::Law) && gain > BELIEVED {
         // Physics without a name: what it does to a condition is no fault of its load or pose.
         if examined.findings.iter().any(|f| f.kind != FindingKind::Blunder) {
-            return Examined { data: data.clone(), noise: examined.noise, findings: Vec::new() };
+            return Examined {
+                data: data.clone(),
+                noise: examined.noise,
+                findings: Vec::new(),
+                inexact: None,
+            };
         }
         return examined;
     }
@@ -131,6 +163,20 @@ fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: Statement)
     examined.findings.push(finding(&best, gain));
     apply(&mut examined, &look.rows, best);
     examined
+}
+
+fn off_the_drawing(joints: &Tolerance) -> Finding {
+    let size = format!("{:.2} mm", joints.size * 1e3);
+    Finding {
+        kind: FindingKind::Tolerance,
+        probability: probability(joints.evidence),
+        rows: Vec::new(),
+        text: format!(
+            "joints about {size} off the drawing explain the readings better than joints as drawn, and better than any effect"
+        ),
+        size,
+        next: "measure where the joints are, or calibrate the machine".to_owned(),
+    }
 }
 
 /// Weighs the readings as the statement says.

@@ -36,5 +36,6 @@ fn sentence(finding: &Finding) -> String {
         }
     };
     let Finding { kind, probability, text, size, next, .. } = finding;
-    format!("{}{lines} ({}): {text} ({size}). To do: {next}.", kind.title(), percent(*probability))
+    let size = if text.contains(size.as_str()) { String::new() } else { format!(" ({size})") };
+    format!("{}{lines} ({}): {text}{size}. To do: {next}.", kind.title(), percent(*probability))
 }
