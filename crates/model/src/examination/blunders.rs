@@ -45,18 +45,18 @@ pub(super) struct Fault {
     pub(super) finding: Finding,
     /// Rows of the dataset that are not what the file says.
     pub(super) rows: Vec<usize>,
-    /// Evidence over readings as stated, nats.
-    pub(super) nats: f64,
-    /// The same beside readings that all scatter as most of them do: what a fault is believed by.
-    sure: f64,
+    /// What it cost to ask for it among all others, nats.
+    pub(super) cost: f64,
+    /// Evidence for it beside readings that scatter as most of them do, nats.
+    evidence: f64,
 }
 
 /// The most probable fault, when one is believed.
 pub(super) fn worst(rest: &Remainder<'_>) -> Option<Fault> {
     let scale = Scale::of(rest);
     let all = [numbers(rest, &scale), rows(rest, &scale), loads(rest, &scale), poses(rest, &scale)];
-    let best = all.into_iter().flatten().max_by(|a, b| a.sure.total_cmp(&b.sure))?;
-    (best.sure > BELIEVED).then_some(best)
+    let best = all.into_iter().flatten().max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
+    (best.evidence > BELIEVED).then_some(best)
 }
 
 /// Variances that most readings have, over the stated ones: whatever widens them all is no fault of one.
@@ -78,11 +78,11 @@ impl Scale {
     }
 }
 
-/// Evidence of a shift with `dof` components that lowers chi-square by `gain`, one of `tried`: by the stated noise, and by
-/// the variance that most readings have.
+/// What it costs to ask for a shift with `dof` components, one of `tried`, and the evidence of one that lowers chi-square by `gain`
+/// where most readings have a `variance`; nats.
 fn evidence(gain: f64, variance: f64, dof: usize, tried: usize) -> [f64; 2] {
     let cost = dof as f64 * PRIOR_SIZE.ln() + (tried.max(1) as f64).ln() - PRIOR_ODDS.ln();
-    [1.0, variance].map(|v| 0.5 * gain / v - cost)
+    [cost, 0.5 * gain / variance - cost]
 }
 
 /// One number of one row.
@@ -94,12 +94,12 @@ fn numbers(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     let all = (0..rest.rows.len()).flat_map(|i| (0..6).map(move |k| (i, k)));
     let (i, k) = all.max_by(|&a, &b| z(a).abs().total_cmp(&z(b).abs()))?;
     let size = z((i, k));
-    let nats = evidence(size * size, scale.single, 1, 6 * rest.rows.len());
+    let odds = evidence(size * size, scale.single, 1, 6 * rest.rows.len());
     let line = rest.data.observations[i].line;
     let value = VALUES[k];
     let sigma = format!("{:.0} sigma", size.abs());
     let text = format!("{value} in line {line} is {sigma} away from what the other readings allow");
-    Some(fault(FindingKind::Blunder, vec![i], rest, nats, sigma, text, "read the record of this line again"))
+    Some(fault(FindingKind::Blunder, vec![i], rest, odds, sigma, text, "read the record of this line again"))
 }
 
 /// All six numbers of one row: a sign, a unit, a row of another condition.
@@ -111,13 +111,13 @@ fn rows(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
             .sum::<f64>()
     };
     let i = (0..rest.rows.len()).max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
-    let nats = evidence(gain(&i), scale.single, 6, rest.rows.len());
+    let odds = evidence(gain(&i), scale.single, 6, rest.rows.len());
     let line = rest.data.observations[i].line;
     let size = format!("{:.0} sigma", rest.rows[i].amax());
     let text = format!(
         "line {line} as a whole does not belong to its pose and load; its largest number is {size} off"
     );
-    Some(fault(FindingKind::Blunder, vec![i], rest, nats, size, text, "read the record of this line again"))
+    Some(fault(FindingKind::Blunder, vec![i], rest, odds, size, text, "read the record of this line again"))
 }
 
 /// One component of the load of one condition: all its repeats are off in the way that another load gives.
@@ -152,7 +152,7 @@ fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
         }
     }
     let (gain, g, k, shift) = best?;
-    let nats = evidence(gain, scale.mean, 1, 6 * groups);
+    let odds = evidence(gain, scale.mean, 1, 6 * groups);
     let at = &rest.campaign.groups[g];
     let stated = at.mean.wrench.to_array()[k];
     let (name, unit) = WRENCH[k];
@@ -192,7 +192,7 @@ fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
         }
     }
     let (gain, p, k, shift) = best?;
-    let nats = evidence(gain, scale.mean, 1, 6 * of_pose.len());
+    let odds = evidence(gain, scale.mean, 1, 6 * of_pose.len());
     let rows: Vec<usize> =
         of_pose[p].iter().flat_map(|&g| rest.campaign.groups[g].rows.iter().map(|&i| i as usize)).collect();
     let first = &rest.data.observations[*rows.first()?];
@@ -260,15 +260,15 @@ fn fault(
     kind: FindingKind,
     rows: Vec<usize>,
     rest: &Remainder<'_>,
-    [nats, sure]: [f64; 2],
+    [cost, evidence]: [f64; 2],
     size: String,
     text: String,
     next: &str,
 ) -> Fault {
     let lines = rows.iter().map(|&i| rest.data.observations[i].line).collect();
     let finding =
-        Finding { kind, probability: probability(sure), rows: lines, size, text, next: next.to_owned() };
-    Fault { finding, rows, nats, sure }
+        Finding { kind, probability: probability(evidence), rows: lines, size, text, next: next.to_owned() };
+    Fault { finding, rows, cost, evidence }
 }
 
 fn lines_of(rest: &Remainder<'_>, rows: &[u32]) -> String {

@@ -26,6 +26,8 @@ use crate::noise::{Noise, NoiseSource, Record, Structure};
 
 /// Evidence over the noise as stated beyond which another statement is believed, nats.
 const BELIEVED: f64 = 8.0;
+/// The same for joints off the drawing, nats: every machine is built to a tolerance, so odds of 20 to 1 are enough.
+const LIKELY: f64 = 3.0;
 /// Share of the readings that may be left out; beyond it something else is wrong.
 const MOST_LEFT_OUT: f64 = 0.1;
 
@@ -74,7 +76,7 @@ pub fn examine(
     }
     let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
-    if let Some(joints) = cleaned.last.joints.as_ref().filter(|j| j.evidence > BELIEVED.max(rivals)) {
+    if let Some(joints) = cleaned.last.joints.as_ref().filter(|j| j.evidence > LIKELY.max(rivals)) {
         let mut examined = cleaned.examined;
         examined.findings.push(off_the_drawing(joints));
         examined.inexact = Some(joints.columns.clone());
@@ -123,14 +125,17 @@ fn without_faults(
 ) -> Result<Cleaned, ModelError> {
     let most = (MOST_LEFT_OUT * examined.data.observations.len() as f64) as usize;
     let (mut left_out, mut gain) = (0, 0.0);
+    let mut before: Option<f64> = None;
     loop {
         let (fault, last) = look(hexapod, &examined, outcome)?;
+        gain += before.map_or(0.0, |stated| last.stated - stated);
         let Some(fault) = fault.filter(|f| left_out + f.rows.len() <= most) else {
             gain += last.statements.first().map_or(0.0, |best| best.evidence - last.stated).max(0.0);
             return Ok(Cleaned { examined, last, gain });
         };
         left_out += fault.rows.len();
-        gain += fault.nats;
+        gain -= fault.cost;
+        before = Some(last.stated);
         examined.findings.push(fault.finding);
         let mut row = 0;
         examined.data.observations.retain(|_| {

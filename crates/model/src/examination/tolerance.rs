@@ -14,7 +14,7 @@ use crate::error::ModelError;
 use crate::linearization::{Linearization, Point, beside};
 
 /// Standard deviations of a joint coordinate that are tried, m.
-const SIZES: [f64; 6] = [2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3];
+const SIZES: [f64; 5] = [2e-5, 5e-5, 1e-4, 2e-4, 5e-4];
 /// Step of a joint for its derivatives, m.
 const STEP: f64 = 1e-5;
 /// Joint coordinates: six joints, two ends, three axes.
