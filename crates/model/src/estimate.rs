@@ -100,12 +100,11 @@ fn all_estimates(
     let mut all = Estimates::default();
     for (k, parameter) in parameters.iter().enumerate() {
         let Some(name) = parameter.quantity() else { continue };
-        let (value, std, determined) = match parameter.place {
-            Place::Spring(leg) => springs.known(leg),
-            _ => {
-                let (std, determined) = known(k);
-                (parameter.value(point), std, determined)
-            }
+        let (value, std, determined) = if let Place::Spring(leg) = parameter.place {
+            springs.known(leg)
+        } else {
+            let (std, determined) = known(k);
+            (parameter.value(point), std, determined)
         };
         let shown = parameter.shown(value, std);
         all.push(name, parameter.unit, shown.value, shown.std, determined);

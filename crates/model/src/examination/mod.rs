@@ -28,8 +28,8 @@ use crate::noise::{Noise, NoiseSource, Record, Structure};
 const BELIEVED: f64 = 8.0;
 /// The same for joints off the drawing, nats: every machine is built to a tolerance, so odds of 20 to 1 are enough.
 const LIKELY: f64 = 3.0;
-/// Share of the readings that may be left out; beyond it something else is wrong.
-const MOST_LEFT_OUT: f64 = 0.1;
+/// One reading in so many may be left out; beyond it something else is wrong.
+const MOST_LEFT_OUT: usize = 10;
 
 /// Readings without their faults.
 #[derive(Debug, Clone)]
@@ -123,7 +123,7 @@ fn without_faults(
     mut examined: Examined,
     outcome: &Outcome,
 ) -> Result<Cleaned, ModelError> {
-    let most = (MOST_LEFT_OUT * examined.data.observations.len() as f64) as usize;
+    let most = examined.data.observations.len() / MOST_LEFT_OUT;
     let (mut left_out, mut gain) = (0, 0.0);
     let mut before: Option<f64> = None;
     loop {

@@ -102,8 +102,8 @@ impl Judge {
             rest.rows[i] + share * (freed - 1.0)
         };
         let rows: Vec<Vector6> = (0..rest.rows.len()).map(row).collect();
-        let all: f64 = rows.iter().map(|r| r.norm_squared()).sum();
-        let between: f64 = means.iter().map(|m| m.norm_squared()).sum();
+        let all: f64 = rows.iter().map(Vector6::norm_squared).sum();
+        let between: f64 = means.iter().map(Vector6::norm_squared).sum();
         let record = |i: usize| rest.campaign.groups[rest.group_of[i]].record;
         let repeat = |i: usize| rest.data.observations[i].repeat;
         Self {
@@ -133,12 +133,12 @@ impl Judge {
     }
 
     fn white(&self, level: f64) -> f64 {
-        let squares: f64 = self.rows.iter().map(|r| r.norm_squared()).sum();
+        let squares: f64 = self.rows.iter().map(Vector6::norm_squared).sum();
         -self.numbers() * level.ln() - 0.5 * squares / (level * level)
     }
 
     fn level(&self) -> Statement {
-        let squares: f64 = self.rows.iter().map(|r| r.norm_squared()).sum();
+        let squares: f64 = self.rows.iter().map(Vector6::norm_squared).sum();
         let level = (squares / self.numbers()).sqrt();
         let evidence = self.white(level) + self.surprise(level) - self.penalty(1.0);
         Statement { kind: Kind::Level, level, evidence }

@@ -55,7 +55,7 @@ pub(super) fn view(
         times_noise: error.times_noise(),
         at_the_noise: error.is_at_the_noise(),
         legs: of_legs(&numbers, task.hexapod),
-        parameters: numbers.determined.into_iter().filter(|e| !leg_of_stiffness(&e.name).is_some()).collect(),
+        parameters: numbers.determined.into_iter().filter(|e| leg_of_stiffness(&e.name).is_none()).collect(),
         not_determined: numbers.not_determined,
         look_alikes: alike(judged),
         residual_um: shown.iter().map(|&i| all_short(legs.elongation[i] * 1e6)).collect(),
