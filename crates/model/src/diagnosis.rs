@@ -34,6 +34,7 @@ const SCANNED_CONDITIONS: usize = 400;
 const MOST_EFFECTS: usize = 4;
 
 /// Outcome of the search: sets with probabilities, and the fit of the best one.
+#[derive(Clone)]
 pub struct Outcome {
     /// Campaign's testable terms and patterns.
     pub candidates: Vec<Candidate>,

@@ -127,6 +127,7 @@ pub fn diagnose(
 }
 
 /// A campaign without the faults of its data, explained.
+#[derive(Clone)]
 struct Judged {
     data: Dataset,
     campaign: Campaign,
@@ -139,7 +140,8 @@ fn judged(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Result<
     let campaign = prepare(hexapod, data)?;
     let noise = campaign.noise;
     let outcome = explain(&campaign, terms)?;
-    let mut judged = Judged { data: data.clone(), campaign, outcome, findings: Vec::new() };
+    let as_stated = Judged { data: data.clone(), campaign, outcome, findings: Vec::new() };
+    let mut judged = as_stated.clone();
     for _ in 0..MOST_EXAMINATIONS {
         let examined = examine(hexapod, data, noise, &judged.outcome)?;
         let same = |a: &Finding, b: &Finding| a.kind == b.kind && a.rows == b.rows;
@@ -152,7 +154,10 @@ fn judged(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Result<
         let outcome = explain(&campaign, terms)?;
         judged = Judged { data: examined.data, campaign, outcome, findings: examined.findings };
     }
-    Ok(judged)
+    // A law without a name shows in some conditions as a wrong load or pose would, but those do not leave it behind.
+    let is_outside = judge(&judged.outcome.sets, &judged.outcome.candidates).verdict == Verdict::Outside;
+    let of_conditions = judged.findings.iter().any(|f| f.kind.is_of_conditions());
+    Ok(if is_outside && of_conditions { as_stated } else { judged })
 }
 
 /// Campaign with its noise level: stated, from repeats, or, failing both, from the residuals of the springs.

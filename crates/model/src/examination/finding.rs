@@ -28,6 +28,11 @@ pub enum FindingKind {
 }
 
 impl FindingKind {
+    /// True for faults that concern a condition as a whole, as an effect of the machine does.
+    pub fn is_of_conditions(self) -> bool {
+        matches!(self, Self::Pose | Self::Load | Self::SetupError | Self::Tolerance)
+    }
+
     /// A few words, capitalized.
     pub fn title(self) -> &'static str {
         match self {

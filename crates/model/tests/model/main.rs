@@ -8,6 +8,7 @@ mod chain;
 mod common;
 mod compare;
 mod evidence;
+mod examination;
 mod kinematics;
 mod least_squares;
 mod model_file;

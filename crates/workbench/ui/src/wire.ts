@@ -522,7 +522,7 @@ export type Finding = {
 };
 
 /** Kind of a fault of the data; the words are those of `diagnosis.json`. */
-export type FindingKind = "blunder" | "pose" | "load" | "noise-level" | "heavy-tails" | "shared-reference" | "setup-error" | "drift";
+export type FindingKind = "blunder" | "pose" | "load" | "noise-level" | "heavy-tails" | "shared-reference" | "setup-error" | "drift" | "tolerance";
 
 /** Color of a word, a bar or a line. */
 export type Mood = "good" | "doubt" | "bad";
