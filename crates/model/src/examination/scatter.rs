@@ -17,6 +17,8 @@ use crate::whitening::Filter;
 
 /// How well an instrument's noise is known, relative.
 const TOLERANCE: f64 = 0.1;
+/// Chance that a statement of the noise is simply wrong.
+const MISSTATED: f64 = 0.02;
 /// Shares and correlations tried.
 const GRID: [f64; 14] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97];
 /// Correlations of a drift from row to row that are tried.
@@ -55,7 +57,7 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
     let judge = Judge::new(rest);
     let stated = judge.white(1.0);
     let mut all = vec![judge.level()];
-    let repeats = rest.campaign.groups.iter().any(|g| g.rows.len() > 1);
+    let repeats = judge.has_repeats;
     let setup = |share| Structure::Setup { share };
     if repeats {
         all.push(judge.blocks(&judge.groups, setup));
@@ -89,6 +91,8 @@ struct Judge {
     within: f64,
     /// True when somebody has stated the level.
     is_stated: bool,
+    /// True when there are repeats to tell it too.
+    has_repeats: bool,
 }
 
 impl Judge {
@@ -112,6 +116,7 @@ impl Judge {
             records: gathered(rows.len(), |i| (record(i), repeat(i))),
             within: (all - between).max(0.0),
             is_stated: matches!(rest.campaign.noise.source, NoiseSource::Metrology | NoiseSource::Columns),
+            has_repeats: rows.len() > means.len(),
             lines: rest.data.observations.iter().map(|o| usize::try_from(o.line).unwrap_or(0)).collect(),
             rows,
             means,
@@ -124,7 +129,12 @@ impl Judge {
 
     /// What a level costs that is not the stated one.
     fn surprise(&self, level: f64) -> f64 {
-        if self.is_stated { -0.5 * (level.ln() / TOLERANCE).powi(2) } else { 0.0 }
+        if !self.is_stated {
+            return 0.0;
+        }
+        let by_tolerance = -0.5 * (level.ln() / TOLERANCE).powi(2);
+        // Now and then a statement is off by any factor; without repeats, physics without a name looks the same.
+        if self.has_repeats { by_tolerance.max(MISSTATED.ln()) } else { by_tolerance }
     }
 
     /// A penalty for each parameter that is chosen.
