@@ -46,7 +46,10 @@ fn a_wrong_load_is_told_with_its_size() {
     let place = data.observations.iter().position(|o| o.wrench.force.x.abs() > 50.0).unwrap();
     let (condition, applied) = (data.observations[place], data.observations[place].wrench.force.x);
     for o in &mut data.observations {
-        if o.pose == condition.pose && o.wrench == condition.wrench && o.delta_t == condition.delta_t {
+        if o.pose == condition.pose
+            && o.wrench == condition.wrench
+            && o.delta_t.to_bits() == condition.delta_t.to_bits()
+        {
             o.wrench.force.x = 1.5 * applied;
         }
     }
