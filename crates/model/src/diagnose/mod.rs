@@ -46,7 +46,9 @@ pub struct Study {
     pub diagnosis: Diagnosis,
     /// The search behind it.
     pub outcome: Outcome,
-    /// The campaign.
+    /// The readings it rests on: those of the file without the ones left out.
+    pub data: Dataset,
+    /// They averaged.
     pub campaign: Campaign,
     /// Fits of the steps.
     pub fits: Vec<Fit>,
@@ -123,7 +125,7 @@ pub fn diagnose(
         warnings: warnings(&campaign, data, last, &judgement),
         findings,
     };
-    Ok(Study { diagnosis, outcome, campaign, fits })
+    Ok(Study { diagnosis, outcome, data: data.clone(), campaign, fits })
 }
 
 /// A campaign without the faults of its data, explained.

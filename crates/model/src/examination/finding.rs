@@ -33,6 +33,16 @@ impl FindingKind {
         matches!(self, Self::Pose | Self::Load | Self::SetupError | Self::Tolerance)
     }
 
+    /// True for statements about the noise.
+    pub fn is_of_noise(self) -> bool {
+        match self {
+            Self::NoiseLevel | Self::HeavyTails | Self::SharedReference | Self::SetupError | Self::Drift => {
+                true
+            }
+            Self::Blunder | Self::Pose | Self::Load | Self::Tolerance => false,
+        }
+    }
+
     /// A few words, capitalized.
     pub fn title(self) -> &'static str {
         match self {

@@ -59,7 +59,7 @@ pub(crate) struct Shown<'a> {
 impl<'a> Data<'a> {
     /// The springs alone, and the final model of a diagnosis.
     pub(crate) fn of_study(subject: &Subject<'a>) -> Result<Self, ModelError> {
-        let (study, data) = (subject.study, subject.data);
+        let (study, data) = (subject.study, &subject.study.data);
         let seen = |point: &'a Point| Seen::of(&study.campaign, data, point, true);
         let last = study.fits.last().filter(|_| study.fits.len() > 1);
         Ok(Self {

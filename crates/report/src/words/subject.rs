@@ -24,7 +24,10 @@ pub struct Subject<'a> {
 impl Subject<'_> {
     /// Files and noise.
     pub fn entries(&self) -> Vec<Entry> {
-        entries(self.data, self.holdout, &self.study.campaign.noise)
+        let mut all = entries(self.data, self.holdout, &self.study.campaign.noise);
+        let found = self.study.diagnosis.findings.iter().filter(|f| f.kind.is_of_noise());
+        all.extend(found.map(|f| Entry::new("found", format!("{}: {}", f.kind.title(), f.size))));
+        all
     }
 }
 
