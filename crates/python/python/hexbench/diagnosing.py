@@ -58,7 +58,7 @@ class Diagnosis:
 
     #: ``diagnosis/1``.
     format: str
-    #: ``adequate``, ``named``, ``ambiguous`` or ``outside``.
+    #: ``adequate``, ``named``, ``ambiguous``, ``outside`` or ``measurement``.
     verdict: str
     #: Effects named, in the order in which they were added.
     added: list[str]
@@ -98,6 +98,8 @@ class Diagnosis:
     outside: dict[str, Any] | None
     #: Things to know before trusting the numbers.
     warnings: list[str]
+    #: Faults of the data: ``kind``, ``probability``, ``rows`` (lines, as of ``suspects``), ``size``, ``text``, ``next``.
+    findings: list[dict[str, Any]]
     #: Program, machine and digests of the files.
     run: dict[str, Any]
 
