@@ -342,7 +342,7 @@ impl Stance {
 }
 
 /// A pose after a share of a small geometric twist; the same motion in whatever axes it is written.
-fn moved(pose: &Pose, twist: &Vector6, share: f64) -> Pose {
+pub(crate) fn moved(pose: &Pose, twist: &Vector6, share: f64) -> Pose {
     let turn = Rotation3::new(share * twist.fixed_rows::<3>(3));
     let translation = pose.translation + share * twist.fixed_rows::<3>(0);
     Pose::from_rotation(translation, &(turn.matrix() * pose.rotation()))

@@ -67,12 +67,12 @@ pub fn examine(
 ) -> Result<Examined, ModelError> {
     let whole =
         Examined { data: data.clone(), noise: noise.independent(), findings: Vec::new(), inexact: None };
-    let (_, first) = look(hexapod, &whole, outcome)?;
     let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
+    let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
     // Many errors that are far off are tails; one or two are blunders.
     let tails = first.statements.first().filter(|s| matches!(s.kind, Kind::Tails(_)));
     if let Some(&tails) = tails.filter(|t| t.evidence - first.stated > cleaned.gain) {
-        return Ok(settled(whole, data, &first, tails));
+        return Ok(settled(whole, data, first, tails));
     }
     let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
@@ -93,26 +93,30 @@ struct Look {
     stated: f64,
     /// What is left of every row.
     rows: Vec<Vector6>,
-    /// What they tell of the joints.
+    /// What they tell of the joints, once no fault is left.
     joints: Option<Tolerance>,
 }
 
-/// The worst fault of readings, and the statements about their noise.
+/// The worst fault of readings, of at most so many rows, and the statements about their noise.
 fn look(
     hexapod: &Hexapod,
     examined: &Examined,
     outcome: &Outcome,
+    most: usize,
 ) -> Result<(Option<Fault>, Look), ModelError> {
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
     let rest = Remainder::new(&examined.data, &campaign, outcome)?;
     let (statements, stated) = statements(&rest);
-    let joints = joints(&rest)?;
-    Ok((worst(&rest), Look { statements, stated, rows: rest.rows, joints }))
+    let fault = worst(&rest).filter(|f| f.rows.len() <= most);
+    let joints = if fault.is_none() { joints(&rest)? } else { None };
+    Ok((fault, Look { statements, stated, rows: rest.rows, joints }))
 }
 
 /// Readings without single faults.
 struct Cleaned {
     examined: Examined,
+    /// With all their faults, when there are any.
+    first: Option<Look>,
     last: Look,
     /// Evidence for the faults and for the best statement about what remains, over readings as stated.
     gain: f64,
@@ -123,19 +127,20 @@ fn without_faults(
     mut examined: Examined,
     outcome: &Outcome,
 ) -> Result<Cleaned, ModelError> {
-    let most = examined.data.observations.len() / MOST_LEFT_OUT;
-    let (mut left_out, mut gain) = (0, 0.0);
-    let mut before: Option<f64> = None;
+    let mut most = examined.data.observations.len() / MOST_LEFT_OUT;
+    let mut gain = 0.0;
+    let (mut first, mut before) = (None, None);
     loop {
-        let (fault, last) = look(hexapod, &examined, outcome)?;
-        gain += before.map_or(0.0, |stated| last.stated - stated);
-        let Some(fault) = fault.filter(|f| left_out + f.rows.len() <= most) else {
+        let (fault, last) = look(hexapod, &examined, outcome, most)?;
+        gain += before.map_or(0.0, |stated: f64| last.stated - stated);
+        let Some(fault) = fault else {
             gain += last.statements.first().map_or(0.0, |best| best.evidence - last.stated).max(0.0);
-            return Ok(Cleaned { examined, last, gain });
+            return Ok(Cleaned { examined, first, last, gain });
         };
-        left_out += fault.rows.len();
+        most -= fault.rows.len();
         gain -= fault.cost;
         before = Some(last.stated);
+        first.get_or_insert(last);
         examined.findings.push(fault.finding);
         let mut row = 0;
         examined.data.observations.retain(|_| {

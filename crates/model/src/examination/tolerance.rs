@@ -4,11 +4,10 @@
 //! from the model; with a Gaussian of unknown width for the errors, the evidence for them is that of
 //! [`evidence`](crate::evidence), beside the springs and the effects found.
 
-use hexbench_core::{Pose, Vector3, Vector6};
-use nalgebra::{DMatrix, DVector, Rotation3};
+use nalgebra::{DMatrix, DVector};
 
 use super::remainder::Remainder;
-use crate::campaign::Campaign;
+use crate::campaign::{Campaign, moved};
 use crate::candidates::{orthonormal, project, target};
 use crate::error::ModelError;
 use crate::linearization::{Linearization, Point, beside};
@@ -81,13 +80,7 @@ fn residuals(rest: &Remainder<'_>, coordinate: usize, step: f64) -> Result<DVect
         let pose = group.mean.pose;
         let (drawn, real) = (rest.point.machine.legs(&pose)?, point.machine.legs(&pose)?);
         let twist = drawn.platform_jacobian * (drawn.lengths - real.lengths);
-        group.mean.pose = moved(&pose, &twist);
+        group.mean.pose = moved(&pose, &twist, 1.0);
     }
     Ok(Linearization::at(&campaign, &point)?.residuals())
-}
-
-/// A pose after a small geometric twist.
-fn moved(pose: &Pose, twist: &Vector6) -> Pose {
-    let turn = Rotation3::new(Vector3::new(twist[3], twist[4], twist[5]));
-    Pose::from_rotation(pose.translation + twist.fixed_rows::<3>(0), &(turn.matrix() * pose.rotation()))
 }

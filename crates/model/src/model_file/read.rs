@@ -80,17 +80,11 @@ fn noise(table: &NoiseTable) -> Result<Noise, ModelFileError> {
     if table.translation_m <= 0.0 || table.rotation_rad <= 0.0 {
         return Err(rule("noise", "standard deviations must be greater than zero"));
     }
-    let all = [NoiseSource::Columns, NoiseSource::Metrology, NoiseSource::Repeats, NoiseSource::Residuals];
-    let source = all.into_iter().find(|s| s.word() == table.source);
+    let source = NoiseSource::try_from(table.source.clone()).map_err(|why| rule("noise.source", why))?;
     Ok(Noise {
         translation: table.translation_m,
         rotation: table.rotation_rad,
-        source: source.ok_or_else(|| {
-            rule(
-                "noise.source",
-                format!("`{}` must be one of {}", table.source, all.map(NoiseSource::word).join(", ")),
-            )
-        })?,
+        source,
         dof: table.degrees_of_freedom.unwrap_or(f64::INFINITY),
         structure: Structure::Independent,
     })
