@@ -6,7 +6,7 @@ use hexbench_model::error::ModelError;
 use hexbench_model::fit_named::{Added, refuse_undetermined};
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::paper::fit_paper;
-use hexbench_model::selection::{Judged, Task};
+use hexbench_model::selection::{FitWithErrors, JudgedTask};
 use hexbench_model::term::Term;
 
 use crate::Failure;
@@ -37,7 +37,11 @@ pub fn added(names: &[String], own: Vec<Arc<dyn Term>>, estimator: Estimator) ->
 ///
 /// # Errors
 /// [`Failure::Model`].
-pub fn fitted(task: &Task<'_>, added: &[Added], estimator: Estimator) -> Result<Judged, Failure> {
+pub fn fitted(
+    task: &JudgedTask<'_>,
+    added: &[Added],
+    estimator: Estimator,
+) -> Result<FitWithErrors, Failure> {
     let failed = |cause: ModelError| Failure::Model { cause, data: task.data.source.clone() };
     let judged = judged(task, added, estimator).map_err(failed)?;
     refuse_undetermined(&judged.fit).map_err(failed)?;
@@ -45,13 +49,13 @@ pub fn fitted(task: &Task<'_>, added: &[Added], estimator: Estimator) -> Result<
 }
 
 /// The model of a fit, to be kept; `sha256` is that of the file of the data.
-pub fn model(task: &Task<'_>, judged: &Judged, estimator: Estimator, sha256: String) -> Model {
+pub fn model(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator, sha256: String) -> Model {
     let origin =
         DataOrigin { file: task.data.source.clone(), sha256, readings: task.data.observations.len() };
     Model::new(task.campaign, &judged.fit, estimator, origin)
 }
 
-fn judged(task: &Task<'_>, added: &[Added], estimator: Estimator) -> Result<Judged, ModelError> {
+fn judged(task: &JudgedTask<'_>, added: &[Added], estimator: Estimator) -> Result<FitWithErrors, ModelError> {
     match estimator {
         Estimator::Gls => task.fit(added),
         Estimator::Paper => task.judge(fit_paper(task.campaign, task.data)?.into_fit(task.campaign)?, None),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 pub(crate) use hexbench_app::input::{catalogue_with, model, user_terms};
-use hexbench_core::files::{Reading, read_conditions, read_hexapod, read_measurements, read_plan};
+use hexbench_core::files::{TableReading, read_conditions, read_hexapod, read_measurements, read_plan};
 use hexbench_core::{Dataset, Hexapod};
 
 use crate::failure::Failure;
@@ -29,7 +29,7 @@ pub(crate) fn plan(path: &Path) -> Result<Dataset, Failure> {
     Ok(told(path, read_plan(path)?))
 }
 
-fn told(path: &Path, reading: Reading) -> Dataset {
+fn told(path: &Path, reading: TableReading) -> Dataset {
     for warning in &reading.warnings {
         report::warn(&format!("{}: {warning}", path.display()), warning.next_step());
     }

@@ -2,7 +2,7 @@
 
 use hexbench_core::files::CsvText;
 use hexbench_core::{Columns, Dataset, Measurand, Observation, Pose};
-use hexbench_truth::campaign::Row;
+use hexbench_truth::campaign::PlanRow;
 use hexbench_truth::equilibrium::Equilibrium;
 use hexbench_truth::scene::PartName;
 
@@ -16,7 +16,7 @@ pub(crate) struct States {
 
 impl States {
     /// Adds a state; the pose is that of the platform itself, not what an instrument reads.
-    pub(crate) fn push(&mut self, row: &Row, part: PartName, model: &str, rest: &Equilibrium) {
+    pub(crate) fn push(&mut self, row: &PlanRow, part: PartName, model: &str, rest: &Equilibrium) {
         let pose = Pose::from_rotation(rest.platform.origin, &rest.platform.axes);
         self.rows.push((row.read(0, [0.0; 6], None), part, model.to_owned(), pose, rest.forces));
     }

@@ -14,7 +14,7 @@ use hexbench_core::files::{read_conditions, read_hexapod};
 use hexbench_core::{Hexapod, Pose, Vector6};
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space_file::read_space;
-use hexbench_design::{Objective, Problem, Space};
+use hexbench_design::{Objective, PoseProblem, Space};
 use hexbench_model::spring_trials::SpringTrials;
 
 const POSES: usize = 3;
@@ -57,8 +57,14 @@ fn search(machine: &str, space: &str, starts: &str) -> Done {
     let (hexapod, space) = problem(machine, space)?;
     let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
     let (criterion, known) = (&Objective::O1, None);
-    let problem =
-        Problem { hexapod: &hexapod, space: &space, regressor: &regressor, criterion, poses: POSES, known };
+    let problem = PoseProblem {
+        hexapod: &hexapod,
+        space: &space,
+        regressor: &regressor,
+        criterion,
+        poses: POSES,
+        known,
+    };
     for line in std::fs::read_to_string(starts)?.lines() {
         let numbers: Vec<f64> = line.split(',').map(str::parse).collect::<Result<_, _>>()?;
         let pose = |x: &[f64]| Pose::from_array(std::array::from_fn(|k| x[k]));

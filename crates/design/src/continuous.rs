@@ -28,7 +28,7 @@ const SETTLED: f64 = 1e-9;
 const WORTHLESS: f64 = 1e3;
 
 /// Poses to be found.
-pub struct Problem<'a, R> {
+pub struct PoseProblem<'a, R> {
     /// The machine.
     pub hexapod: &'a Hexapod,
     /// Where poses may lie.
@@ -45,7 +45,7 @@ pub struct Problem<'a, R> {
 
 /// A set of poses with the value of the criterion.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PoseSet {
+pub struct ValuedPoses {
     /// The poses.
     pub poses: Vec<Pose>,
     /// Value of the criterion.
@@ -54,9 +54,9 @@ pub struct PoseSet {
 
 /// Outcome of all starts.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Search {
+pub struct PoseSearch {
     /// The best set found.
-    pub best: PoseSet,
+    pub best: ValuedPoses,
     /// Number of starts.
     pub starts: usize,
     /// Starts that ended at a set within the limits.
@@ -65,7 +65,7 @@ pub struct Search {
     pub agreeing: usize,
 }
 
-impl<R: PoseRegressor> Problem<'_, R> {
+impl<R: PoseRegressor> PoseProblem<'_, R> {
     /// Value of the criterion for poses; zero when one is singular.
     pub fn value(&self, poses: &[Pose]) -> f64 {
         self.information(poses).map_or(0.0, |m| self.criterion.value(&m, self.readings(poses)))
@@ -91,7 +91,12 @@ impl<R: PoseRegressor> Problem<'_, R> {
     /// # Errors
     /// [`DesignError::NoPose`] when the space is empty, [`DesignError::NeverDetermined`], [`DesignError::NotDetermined`] when no start ends at poses that
     /// determine all parameters.
-    pub fn search(&self, starts: usize, seed: u32, done: &(dyn Fn() + Sync)) -> Result<Search, DesignError> {
+    pub fn search(
+        &self,
+        starts: usize,
+        seed: u32,
+        done: &(dyn Fn() + Sync),
+    ) -> Result<PoseSearch, DesignError> {
         let drawn = self.space.poses(self.hexapod, starts * self.poses, seed)?;
         require_determined(&self.information(&drawn)?, &self.regressor.names())?;
         let end = |start: &[Pose]| {
@@ -99,8 +104,8 @@ impl<R: PoseRegressor> Problem<'_, R> {
             done();
             set
         };
-        let ends: Vec<Option<PoseSet>> = drawn.par_chunks(self.poses).map(end).collect();
-        let ended: Vec<&PoseSet> = ends.iter().flatten().collect();
+        let ends: Vec<Option<ValuedPoses>> = drawn.par_chunks(self.poses).map(end).collect();
+        let ended: Vec<&ValuedPoses> = ends.iter().flatten().collect();
         // The first of equals, so that the order of threads does not matter.
         let best = ended.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
         let Some(best) = best else {
@@ -109,8 +114,8 @@ impl<R: PoseRegressor> Problem<'_, R> {
                 hint: "allow more poses, turns or load directions",
             });
         };
-        let agrees = |set: &&&PoseSet| set.value >= (1.0 - SAME) * best.value;
-        Ok(Search {
+        let agrees = |set: &&&ValuedPoses| set.value >= (1.0 - SAME) * best.value;
+        Ok(PoseSearch {
             best: best.clone(),
             starts,
             ended: ended.len(),
@@ -121,13 +126,13 @@ impl<R: PoseRegressor> Problem<'_, R> {
     /// The nearest optimum from a start that keeps the limits; none when it determines nothing.
     ///
     /// What little the last step breaks of a limit is undone on the way back to the start.
-    pub fn climb(&self, start: &[Pose]) -> Option<PoseSet> {
+    pub fn climb(&self, start: &[Pose]) -> Option<ValuedPoses> {
         let free = self.space.free();
         let from: Vec<f64> = start.iter().flat_map(|p| self.scaled(p, &free)).collect();
         let end = self.run(&from, &free);
         let poses = self.poses_of(&self.pulled_back(&from, &end, &free), &free);
         let value = self.value(&poses);
-        (value > 0.0).then_some(PoseSet { poses, value })
+        (value > 0.0).then_some(ValuedPoses { poses, value })
     }
 
     fn run(&self, start: &[f64], free: &[usize]) -> Vec<f64> {
@@ -280,7 +285,7 @@ mod tests {
     fn no_set_of_thousand_drawn_ones_beats_the_search_and_the_limits_are_kept() {
         let (hexapod, space) = (machine(), space());
         let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
-        let problem = Problem {
+        let problem = PoseProblem {
             hexapod: &hexapod,
             space: &space,
             regressor: &regressor,
@@ -302,7 +307,7 @@ mod tests {
     fn the_answer_does_not_depend_on_the_number_of_threads() {
         let (hexapod, space) = (machine(), space());
         let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
-        let problem = Problem {
+        let problem = PoseProblem {
             hexapod: &hexapod,
             space: &space,
             regressor: &regressor,

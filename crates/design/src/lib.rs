@@ -31,7 +31,7 @@ pub mod space_file;
 mod test_machine;
 
 pub use budget::Budget;
-pub use continuous::{PoseSet, Problem, Search};
+pub use continuous::{PoseProblem, PoseSearch, ValuedPoses};
 pub use criterion::{Criterion, Objective};
 pub use error::DesignError;
 pub use refine::Visit;

@@ -4,7 +4,7 @@ use hexbench_core::{Hexapod, Pose};
 use nalgebra::DMatrix;
 
 use crate::regressor::SettingRegressor;
-use crate::{DesignError, Objective, Problem, Space};
+use crate::{DesignError, Objective, PoseProblem, Space};
 
 /// Rounds over all poses.
 const MOST_ROUNDS: usize = 4;
@@ -65,7 +65,7 @@ pub fn refine<R: SettingRegressor>(
             let others = visits.iter().enumerate().filter(|(i, _)| *i != k).map(|(_, visit)| visit);
             let known = Some(&information(others, regressor)?);
             let own = &regressor.repeated(&visits[k].counts);
-            let problem = Problem { hexapod, space, regressor: own, criterion, poses: 1, known };
+            let problem = PoseProblem { hexapod, space, regressor: own, criterion, poses: 1, known };
             let here = [visits[k].pose];
             let Some(moved) = problem.climb(&here).filter(|set| set.value > problem.value(&here)) else {
                 continue;

@@ -78,7 +78,7 @@ pub struct Space {
 
 /// A limit of a pose: negative or zero when kept.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limit {
+pub struct PoseLimit {
     /// What is limited.
     pub name: &'static str,
     /// Excess over the limit, as a share of it.
@@ -147,14 +147,14 @@ impl Space {
     }
 
     /// The limit that a pose comes closest to breaking, or breaks most; none when there are no limits.
-    pub fn worst_limit(&self, hexapod: &Hexapod, pose: &Pose) -> Option<Limit> {
+    pub fn worst_limit(&self, hexapod: &Hexapod, pose: &Pose) -> Option<PoseLimit> {
         self.limits(hexapod, pose).into_iter().max_by(|a, b| a.excess.total_cmp(&b.excess))
     }
 
     /// All limits at a pose.
-    pub fn limits(&self, hexapod: &Hexapod, pose: &Pose) -> Vec<Limit> {
+    pub fn limits(&self, hexapod: &Hexapod, pose: &Pose) -> Vec<PoseLimit> {
         let Ok(legs) = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose) else {
-            return vec![Limit { name: "distance from singularity", excess: 1.0 }];
+            return vec![PoseLimit { name: "distance from singularity", excess: 1.0 }];
         };
         let mut limits = Vec::with_capacity(25);
         // Leg by leg and both ends at once, so that each limit is smooth: a search that follows the longest leg stalls where two
@@ -162,16 +162,17 @@ impl Space {
         if let Some([shortest, longest]) = self.stroke {
             let (middle, half) = (f64::midpoint(shortest, longest), 0.5 * (longest - shortest));
             for length in &legs.lengths {
-                limits.push(Limit { name: "stroke", excess: ((length - middle) / half).powi(2) - 1.0 });
+                limits.push(PoseLimit { name: "stroke", excess: ((length - middle) / half).powi(2) - 1.0 });
             }
         }
         if let Some(largest) = self.joint_angle {
             let angles = joint_angles(hexapod, pose, &legs);
-            limits.extend(angles.map(|angle| Limit { name: "joint angle", excess: angle / largest - 1.0 }));
+            limits
+                .extend(angles.map(|angle| PoseLimit { name: "joint angle", excess: angle / largest - 1.0 }));
         }
         if self.least_dexterity > 0.0 {
             let dexterity = dexterity(hexapod, &legs);
-            limits.push(Limit {
+            limits.push(PoseLimit {
                 name: "distance from singularity",
                 excess: 1.0 - dexterity / self.least_dexterity,
             });
@@ -218,7 +219,7 @@ fn stroke_slopes(hexapod: &Hexapod, pose: &Pose, [shortest, longest]: [f64; 2]) 
     })
 }
 
-fn by_differences(limits: impl Fn(&Pose) -> Option<Vec<Limit>>, pose: &Pose) -> Option<Vec<Slope>> {
+fn by_differences(limits: impl Fn(&Pose) -> Option<Vec<PoseLimit>>, pose: &Pose) -> Option<Vec<Slope>> {
     const STEP: f64 = 1e-6;
     let mut slopes: Vec<Slope> = limits(pose)?.iter().map(|limit| (limit.excess, [0.0; 6])).collect();
     for k in 0..6 {

@@ -34,7 +34,9 @@
 
 use std::path::Path;
 
-use hexbench_core::files::{Fault, FileError, Format, Item, Key, Kind, Problem, Section, read_toml};
+use hexbench_core::files::{
+    Dimension, Fault, FileError, FileProblem, Format, Item, KeyUnit, TomlSection, read_toml,
+};
 use hexbench_core::{Approach, Hexapod, Wrench};
 
 use crate::budget::{Amount, Budget};
@@ -46,45 +48,45 @@ const GRAVITY_M_PER_S2: f64 = 9.806_65;
 const FORMAT: Format = Format {
     name: "space/1",
     keys: &[
-        Key::plain("format"),
-        Key::plain("poses"),
-        Key::plain("limits"),
-        Key::plain("loads"),
-        Key::plain("conditions"),
-        Key::plain("budget"),
+        KeyUnit::plain("format"),
+        KeyUnit::plain("poses"),
+        KeyUnit::plain("limits"),
+        KeyUnit::plain("loads"),
+        KeyUnit::plain("conditions"),
+        KeyUnit::plain("budget"),
     ],
 };
-const POSES: &[Key] = &[
-    Key::with_unit("a", Kind::Length, "mm"),
-    Key::with_unit("b", Kind::Length, "mm"),
-    Key::with_unit("c", Kind::Length, "mm"),
-    Key::with_unit("alpha", Kind::Angle, "deg"),
-    Key::with_unit("beta", Kind::Angle, "deg"),
-    Key::with_unit("gamma", Kind::Angle, "deg"),
+const POSES: &[KeyUnit] = &[
+    KeyUnit::with_unit("a", Dimension::Length, "mm"),
+    KeyUnit::with_unit("b", Dimension::Length, "mm"),
+    KeyUnit::with_unit("c", Dimension::Length, "mm"),
+    KeyUnit::with_unit("alpha", Dimension::Angle, "deg"),
+    KeyUnit::with_unit("beta", Dimension::Angle, "deg"),
+    KeyUnit::with_unit("gamma", Dimension::Angle, "deg"),
 ];
-const LIMITS: &[Key] = &[
-    Key::with_unit("min_length", Kind::Length, "mm"),
-    Key::with_unit("max_length", Kind::Length, "mm"),
-    Key::with_unit("joint_angle", Kind::Angle, "deg"),
-    Key::plain("least_dexterity"),
+const LIMITS: &[KeyUnit] = &[
+    KeyUnit::with_unit("min_length", Dimension::Length, "mm"),
+    KeyUnit::with_unit("max_length", Dimension::Length, "mm"),
+    KeyUnit::with_unit("joint_angle", Dimension::Angle, "deg"),
+    KeyUnit::plain("least_dexterity"),
 ];
-const LOADS: &[Key] = &[
-    Key::plain("reference_kg"),
-    Key::plain("masses_kg"),
-    Key::plain("reference_N_Nm"),
-    Key::plain("wrenches_N_Nm"),
+const LOADS: &[KeyUnit] = &[
+    KeyUnit::plain("reference_kg"),
+    KeyUnit::plain("masses_kg"),
+    KeyUnit::plain("reference_N_Nm"),
+    KeyUnit::plain("wrenches_N_Nm"),
 ];
-const CONDITIONS: &[Key] = &[
-    Key::with_unit("elapsed", Kind::Time, "s"),
-    Key::with_unit("delta_T", Kind::TemperatureDifference, "K"),
-    Key::plain("approach"),
+const CONDITIONS: &[KeyUnit] = &[
+    KeyUnit::with_unit("elapsed", Dimension::Time, "s"),
+    KeyUnit::with_unit("delta_T", Dimension::TemperatureDifference, "K"),
+    KeyUnit::plain("approach"),
 ];
-const BUDGET: &[Key] = &[
-    Key::plain("readings"),
-    Key::with_unit("time", Kind::Time, "h"),
-    Key::with_unit("reading", Kind::Time, "s"),
-    Key::with_unit("load_change", Kind::Time, "s"),
-    Key::with_unit("pose_change", Kind::Time, "s"),
+const BUDGET: &[KeyUnit] = &[
+    KeyUnit::plain("readings"),
+    KeyUnit::with_unit("time", Dimension::Time, "h"),
+    KeyUnit::with_unit("reading", Dimension::Time, "s"),
+    KeyUnit::with_unit("load_change", Dimension::Time, "s"),
+    KeyUnit::with_unit("pose_change", Dimension::Time, "s"),
 ];
 const SIX: &str = "six numbers, three forces (N) and three moments (Nm)";
 const NAMES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
@@ -97,7 +99,7 @@ pub fn read_space(path: &Path, hexapod: &Hexapod) -> Result<Space, FileError> {
     read_toml(path, FORMAT, |top| space(top, hexapod))
 }
 
-fn space(top: &Section<'_>, hexapod: &Hexapod) -> Result<Space, Fault> {
+fn space(top: &TomlSection<'_>, hexapod: &Hexapod) -> Result<Space, Fault> {
     let (low, high) = ranges(&top.section("poses", "[poses]", POSES)?)?;
     let mut space = Space {
         low,
@@ -115,7 +117,7 @@ fn space(top: &Section<'_>, hexapod: &Hexapod) -> Result<Space, Fault> {
     Ok(space)
 }
 
-fn ranges(table: &Section<'_>) -> Result<([f64; 6], [f64; 6]), Fault> {
+fn ranges(table: &TomlSection<'_>) -> Result<([f64; 6], [f64; 6]), Fault> {
     let (mut low, mut high) = ([0.0; 6], [0.0; 6]);
     for (k, name) in NAMES.iter().enumerate() {
         let Some(item) = table.get(name) else { continue };
@@ -127,7 +129,7 @@ fn ranges(table: &Section<'_>) -> Result<([f64; 6], [f64; 6]), Fault> {
     Ok((low, high))
 }
 
-fn limits(table: &Section<'_>, space: &mut Space) -> Result<(), Fault> {
+fn limits(table: &TomlSection<'_>, space: &mut Space) -> Result<(), Fault> {
     let positive = |name: &str| table.get(name).map(|item| item.positive("a limit")).transpose();
     let (shortest, longest) = (positive("min_length")?, positive("max_length")?);
     if shortest.is_some() || longest.is_some() {
@@ -139,7 +141,7 @@ fn limits(table: &Section<'_>, space: &mut Space) -> Result<(), Fault> {
     Ok(())
 }
 
-fn loads(table: &Section<'_>) -> Result<Vec<Loading>, Fault> {
+fn loads(table: &TomlSection<'_>) -> Result<Vec<Loading>, Fault> {
     let of = |reference: Wrench, loads: Vec<Wrench>| {
         loads.into_iter().map(|load| Loading { reference, load }).collect()
     };
@@ -156,7 +158,7 @@ fn loads(table: &Section<'_>) -> Result<Vec<Loading>, Fault> {
     Ok(of(reference, listed?))
 }
 
-fn conditions(table: &Section<'_>) -> Result<Conditions, Fault> {
+fn conditions(table: &TomlSection<'_>) -> Result<Conditions, Fault> {
     let mut conditions = Conditions::default();
     let places = [
         ("elapsed", &mut conditions.waits, wait as fn(&Item<'_>) -> Result<f64, Fault>),
@@ -183,7 +185,7 @@ fn wait(item: &Item<'_>) -> Result<f64, Fault> {
 }
 
 fn approach(item: &Item<'_>) -> Result<Approach, Fault> {
-    Approach::of_sign(item.number()?).ok_or_else(|| item.fault(Problem::Approach))
+    Approach::of_sign(item.number()?).ok_or_else(|| item.fault(FileProblem::Approach))
 }
 
 /// The members of a list, at least one and no two alike.
@@ -209,7 +211,7 @@ fn different<T>(
     Ok(values)
 }
 
-fn budget(table: &Section<'_>) -> Result<Budget, Fault> {
+fn budget(table: &TomlSection<'_>) -> Result<Budget, Fault> {
     let seconds = |name: &str| table.get(name).map_or(Ok(0.0), wait);
     let limit = match (table.get("readings"), table.get("time")) {
         (Some(_), Some(time)) => {

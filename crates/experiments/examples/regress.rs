@@ -12,18 +12,18 @@ use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::regress::baseline::Baseline;
 use hexbench_experiments::regress::comparison::compare;
 use hexbench_experiments::regress::limits::limits;
-use hexbench_experiments::regress::suite::{SEED, Suite};
-use hexbench_experiments::regress::trials::Runs;
+use hexbench_experiments::regress::suite::{RegressSuite, SEED};
+use hexbench_experiments::regress::trials::SuiteRuns;
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().collect();
     let [_, baseline, result] = arguments.as_slice() else {
         return Err("usage: regress BASELINE RESULT".into());
     };
-    let suite = Suite::full();
+    let suite = RegressSuite::full();
     let limits = limits(&suite);
     let baseline = Baseline::read_for(Path::new(baseline), &suite, &limits)?;
-    let run = Runs::new(&suite, SEED, 1);
+    let run = SuiteRuns::new(&suite, SEED, 1);
     let trials = run.of_each(harness::run(&run, None, &Silent)?);
     let comparison = compare(&suite, &limits, (&trials[0], SEED), &baseline, env!("CARGO_PKG_VERSION"));
     let text = serde_json::to_string_pretty(&comparison)? + "\n";

@@ -1,12 +1,12 @@
 //! One campaign through the diagnosis: right, honest or wrong.
 
-use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
+use hexbench_model::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
 use hexbench_model::error::ModelError;
 use hexbench_model::explanation::Explanation;
 use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::Verdict;
 use hexbench_truth::TruthError;
-use hexbench_truth::campaign::Case;
+use hexbench_truth::campaign::SimulatedCase;
 use hexbench_truth::mechanisms::is_outside;
 use serde::{Deserialize, Serialize};
 
@@ -37,7 +37,7 @@ pub struct Trial {
     /// Ids of the hidden effects; those outside the catalogue begin with `out:`.
     pub hidden: Vec<&'static str>,
     /// The diagnosis with its fitted steps.
-    pub study: Study,
+    pub study: DiagnosisStudy,
 }
 
 /// Why a trial gave no answer.
@@ -56,7 +56,7 @@ impl Trial {
     ///
     /// # Errors
     /// [`TrialError::Model`].
-    pub fn run(case: &Case) -> Result<Self, TrialError> {
+    pub fn run(case: &SimulatedCase) -> Result<Self, TrialError> {
         let study = diagnose(&case.hexapod, &case.measurements, Some(&case.holdout), &catalogue())?;
         Ok(Self { hidden: case.spec.hidden_effects(), study })
     }

@@ -39,7 +39,8 @@ fn report(folder: &Path) -> Result<(), Box<dyn Error>> {
     let all = catalogue();
     let chosen = added.iter().map(|id| Added::named(id, &all)).collect::<Result<Vec<_>, _>>()?;
     let campaign = prepare(&hexapod, &measurements)?;
-    let task = Task { hexapod: &hexapod, data: &measurements, campaign: &campaign, holdout: Some(&holdout) };
+    let task =
+        JudgedTask { hexapod: &hexapod, data: &measurements, campaign: &campaign, holdout: Some(&holdout) };
     let judged = task.fit(&chosen)?;
     println!("fitted:");
     for Estimate { name, value, std, unit } in estimates(&judged.fit).determined {

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
 
-use hexbench::model::term::{Chapter, Parameter, Rich, Scale, TermInfo};
+use hexbench::model::term::{Chapter, ParameterInfo, Rich, Scale, TermInfo};
 use hexbench::model::{campaign::Condition, chain::Action, machine::Machine};
 use hexbench::prelude::*;
 
@@ -18,8 +18,8 @@ const PITCH: f64 = 8e-3;
 struct ScrewCompliance;
 
 /// A compliance in nm/N, up to twice that of a typical leg, of any sign.
-const fn amplitude(name: &'static str) -> Parameter {
-    Parameter { name, unit: "nm/N", per_si: 1e9, scale: Scale::Compliance, positive: false }
+const fn amplitude(name: &'static str) -> ParameterInfo {
+    ParameterInfo { name, unit: "nm/N", per_si: 1e9, scale: Scale::Compliance, positive: false }
 }
 
 static INFO: TermInfo = TermInfo {
@@ -30,7 +30,7 @@ static INFO: TermInfo = TermInfo {
     equation: "e = (a sin(2 pi q / pitch) + b cos(2 pi q / pitch)) (f - f0)",
     source: "data sheet of the screw",
     shows: "poses lie at many leg lengths",
-    breaker: "measure in small steps of leg length under one load",
+    how_to_isolate: "measure in small steps of leg length under one load",
     parameters: &[amplitude("sine"), amplitude("cosine")],
     shape: None,
     needs: &[],
@@ -67,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let found = diagnose(&hexapod, &data, Some(&holdout), &terms)?.diagnosis;
     println!("with the term: {:?}, {}", found.verdict, found.added.join(", "));
     let campaign = prepare(&hexapod, &data)?;
-    let task = Task { hexapod: &hexapod, data: &data, campaign: &campaign, holdout: Some(&holdout) };
+    let task = JudgedTask { hexapod: &hexapod, data: &data, campaign: &campaign, holdout: Some(&holdout) };
     let fitted = task.fit(&[Added::from(own)])?;
     println!("held-out error: {:.2} x noise", fitted.held_out.map_or(f64::NAN, |e| e.times_noise()));
     for Estimate { name, value, std, unit } in estimates(&fitted.fit).determined {

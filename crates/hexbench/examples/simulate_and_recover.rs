@@ -7,7 +7,7 @@ use std::error::Error;
 use std::path::Path;
 
 use hexbench::prelude::*;
-use hexbench_truth::scene::{Bench, PartName, Scene};
+use hexbench_truth::scene::{PartName, Scene, VirtualBench};
 
 /// Standard deviations within which an estimate agrees with the truth.
 const AGREES: f64 = 4.0;
@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Every reading of a part of the plan, as a file of measurements would hold it.
 fn measured(scene: &Scene, part: PartName) -> Result<Dataset, Box<dyn Error>> {
-    let bench = Bench::new(scene, false);
+    let bench = VirtualBench::new(scene, false);
     let rows = bench.measure(part, 0..scene.part(part).len())?;
     Ok(Dataset {
         source: part.file().to_owned(),

@@ -15,12 +15,12 @@ use crate::chain::Action;
 use crate::error::ModelError;
 use crate::kinematics::{Legs, euler_rate_matrix};
 use crate::machine::Machine;
-use crate::noise::{Noise, NoiseSource, Record, Structure, stated_or_repeated};
+use crate::noise::{Noise, NoiseSource, SharedReference, Structure, stated_or_repeated};
 use crate::parallel::try_map;
 
 /// Readings that share pose, loads, approach, temperature and time, averaged.
 #[derive(Debug, Clone)]
-pub struct Group {
+pub struct ConditionReadings {
     /// Inputs, as of the first reading; `measured` is the weighted mean.
     pub mean: Observation,
     /// Standard deviation of each mean value, without what it shares with others of its record.
@@ -101,7 +101,7 @@ pub struct Campaign {
     /// Optional columns present.
     pub columns: Columns,
     /// Averaged readings in order of first appearance.
-    pub groups: Vec<Group>,
+    pub groups: Vec<ConditionReadings>,
     /// Number of readings.
     pub readings: usize,
     /// Noise of one reading.
@@ -177,7 +177,7 @@ impl Campaign {
         measurand: Measurand,
         columns: Columns,
         noise: Noise,
-        groups: Vec<Group>,
+        groups: Vec<ConditionReadings>,
     ) -> Self {
         let readings: usize = groups.iter().map(|g| g.rows.len()).sum();
         let pure_error = groups.iter().map(|g| g.pure_error).sum();
@@ -234,7 +234,7 @@ impl Campaign {
         &self,
         machine: &Machine,
         springs: &Vector6,
-        group: &Group,
+        group: &ConditionReadings,
     ) -> Result<Condition, ModelError> {
         let o = &group.mean;
         let stance = if self.is_absolute() {
@@ -359,23 +359,23 @@ fn observer_matrix(axes: &Matrix3, lever: &Vector3, angles: &Vector3) -> Matrix6
     h
 }
 
-impl Group {
+impl ConditionReadings {
     fn of(first: &Observation) -> Self {
         let rows = Vec::with_capacity(1);
         Self { mean: *first, sigma: [0.0; 6], shared: [0.0; 6], record: 0, rows, pure_error: 0.0 }
     }
 }
 
-fn group(rows: &[Observation], noise: &Noise) -> Vec<Group> {
+fn group(rows: &[Observation], noise: &Noise) -> Vec<ConditionReadings> {
     let mut index: HashMap<[u64; 21], usize> = HashMap::new();
-    let mut groups: Vec<Group> = Vec::new();
+    let mut groups: Vec<ConditionReadings> = Vec::new();
     // Neighbors that resemble each other are no repeats of each other.
     let drifts = matches!(noise.structure, Structure::Drift { .. });
     for (i, row) in rows.iter().enumerate() {
         let next = groups.len();
         let slot = if drifts { next } else { *index.entry(key(row)).or_insert(next) };
         if slot == next {
-            groups.push(Group::of(row));
+            groups.push(ConditionReadings::of(row));
         }
         groups[slot].rows.push(u32::try_from(i).unwrap_or(u32::MAX));
     }
@@ -389,7 +389,7 @@ fn group(rows: &[Observation], noise: &Noise) -> Vec<Group> {
     groups
 }
 
-fn average(group: &mut Group, rows: &[Observation], noise: &Noise) {
+fn average(group: &mut ConditionReadings, rows: &[Observation], noise: &Noise) {
     let (mut weights, mut sums) = ([0.0; 6], [0.0; 6]);
     // Differences from the first reading keep the digits of absolute poses.
     let first = rows[group.rows[0] as usize].measured;
@@ -412,7 +412,7 @@ fn average(group: &mut Group, rows: &[Observation], noise: &Noise) {
 }
 
 /// Splits the variance of a mean of independent readings into what is its own and what is shared.
-fn share_out(group: &mut Group, noise: &Noise) {
+fn share_out(group: &mut ConditionReadings, noise: &Noise) {
     let own = noise.structure.own_share();
     let readings = group.rows.len() as f64;
     for k in 0..6 {
@@ -422,8 +422,10 @@ fn share_out(group: &mut Group, noise: &Noise) {
             Structure::Independent => continue,
             Structure::Drift { share, .. } => (own.sqrt(), share.sqrt()),
             Structure::Setup { share } => ((own / readings + share).sqrt(), 0.0),
-            Structure::Reference { share, record: Record::Pose } => ((own / readings).sqrt(), share.sqrt()),
-            Structure::Reference { share, record: Record::Repeat } => {
+            Structure::Reference { share, record: SharedReference::Pose } => {
+                ((own / readings).sqrt(), share.sqrt())
+            }
+            Structure::Reference { share, record: SharedReference::Repeat } => {
                 ((own / readings).sqrt(), (share / readings).sqrt())
             }
         };
@@ -431,7 +433,7 @@ fn share_out(group: &mut Group, noise: &Noise) {
         group.shared[k] = one * shared;
     }
     // Repeats of one reference each scatter by all of their noise.
-    if !matches!(noise.structure, Structure::Reference { record: Record::Repeat, .. }) {
+    if !matches!(noise.structure, Structure::Reference { record: SharedReference::Repeat, .. }) {
         group.pure_error /= own;
     }
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use crate::campaign::Campaign;
-use crate::evidence::{Block, Gram};
-use crate::linearization::{Linearization, Point, parameter_count};
+use crate::evidence::{Gram, PriorBlock};
+use crate::linearization::{Linearization, ModelPoint, parameter_count};
 use crate::parallel::sum_in_order;
 use crate::pattern::Pattern;
 use crate::term::{Natural, Rich, Term};
@@ -23,7 +23,7 @@ const DETERMINED: f64 = 1e-13;
 #[derive(Clone)]
 pub struct Candidate {
     /// What it is.
-    pub kind: Kind,
+    pub kind: CandidateKind,
     /// Its blocks in the Gram matrix.
     pub blocks: Vec<usize>,
     /// Logarithm of its prior weight relative to a term of the catalogue.
@@ -32,7 +32,7 @@ pub struct Candidate {
 
 /// Term or pattern.
 #[derive(Clone)]
-pub enum Kind {
+pub enum CandidateKind {
     /// An effect with a name.
     Term(Arc<dyn Term>),
     /// A pattern without one.
@@ -43,8 +43,8 @@ impl Candidate {
     /// Id of the term, when it is one.
     pub fn id(&self) -> Option<&'static str> {
         match &self.kind {
-            Kind::Term(t) => Some(t.info().id),
-            Kind::Pattern(_) => None,
+            CandidateKind::Term(t) => Some(t.info().id),
+            CandidateKind::Pattern(_) => None,
         }
     }
 }
@@ -92,7 +92,7 @@ pub struct Collector<'a> {
     natural: Natural,
     sources: Vec<Source>,
     width: usize,
-    blocks: Vec<Block>,
+    blocks: Vec<PriorBlock>,
     candidates: Vec<Candidate>,
 }
 
@@ -109,13 +109,17 @@ impl<'a> Collector<'a> {
         let ideal = shapes.iter().map(|&s| (false, s, ideal_share / trials.max(1) as f64));
         let forms = ideal.chain(rich.map(|s| (true, s, 1.0 - IDEAL_SHARE)));
         let blocks = forms.map(|(form, shape, share)| self.push_term(term, form, shape, share)).collect();
-        self.candidates.push(Candidate { kind: Kind::Term(Arc::clone(term)), blocks, log_weight: 0.0 });
+        self.candidates.push(Candidate {
+            kind: CandidateKind::Term(Arc::clone(term)),
+            blocks,
+            log_weight: 0.0,
+        });
     }
 
     fn push_term(&mut self, term: &Arc<dyn Term>, rich: bool, shape: f64, share: f64) -> usize {
         let mut positive: Vec<bool> = term.info().parameters.iter().map(|p| p.positive).collect();
         positive.resize(parameter_count(term.as_ref(), rich), false);
-        let block = Block::new(&sizes(term.as_ref(), rich, &self.natural), positive, shape, rich, share);
+        let block = PriorBlock::new(&sizes(term.as_ref(), rich, &self.natural), positive, shape, rich, share);
         self.push(Source::Term { term: Arc::clone(term), rich, shape }, block)
     }
 
@@ -125,12 +129,12 @@ impl<'a> Collector<'a> {
         if range <= 0.0 {
             return;
         }
-        let block = Block::new(&pattern.sizes(&self.natural), pattern.positive(), 1.0, false, 1.0);
+        let block = PriorBlock::new(&pattern.sizes(&self.natural), pattern.positive(), 1.0, false, 1.0);
         let blocks = vec![self.push(Source::Pattern { pattern, range }, block)];
-        self.candidates.push(Candidate { kind: Kind::Pattern(pattern), blocks, log_weight });
+        self.candidates.push(Candidate { kind: CandidateKind::Pattern(pattern), blocks, log_weight });
     }
 
-    fn push(&mut self, source: Source, mut block: Block) -> usize {
+    fn push(&mut self, source: Source, mut block: PriorBlock) -> usize {
         block.first = self.width;
         self.width += block.width();
         self.sources.push(source);
@@ -139,7 +143,7 @@ impl<'a> Collector<'a> {
     }
 
     /// Multiply everything, and project it off the common columns.
-    pub fn finish(self, campaign: &Campaign, point: &Point) -> (Gram, Vec<Candidate>) {
+    pub fn finish(self, campaign: &Campaign, point: &ModelPoint) -> (Gram, Vec<Candidate>) {
         let parts = self.lin.parts();
         let sums = sum_in_order(&parts, |part| self.products(&self.lin.part(part), point));
         let Some(sums) = sums else { unreachable!("a campaign has at least one condition") };
@@ -169,7 +173,7 @@ impl<'a> Collector<'a> {
     }
 
     /// `[C Z y]' [C Z y]` of a part of the conditions.
-    fn products(&self, lin: &Linearization, point: &Point) -> DMatrix<f64> {
+    fn products(&self, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
         let common = lin.common_columns();
         let mut all = DMatrix::zeros(lin.equations(), common + self.width + 1);
         all.columns_mut(0, common).copy_from(&lin.common_block());
@@ -196,7 +200,7 @@ fn inverse_root(g: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 /// What springs, frames and the terms together must explain: the residual plus what active terms explain now.
-pub fn target(lin: &Linearization, point: &Point) -> DVector<f64> {
+pub fn target(lin: &Linearization, point: &ModelPoint) -> DVector<f64> {
     let mut y = lin.residuals();
     for a in &point.active {
         y += lin.term_block(a.term.as_ref(), a.rich, a.shape) * DVector::from_column_slice(&a.values);

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::campaign::Campaign;
-use crate::candidates::{Candidate, Collector, Kind, sizes};
+use crate::candidates::{Candidate, CandidateKind, Collector, sizes};
 use crate::error::ModelError;
 use crate::evidence::Gram;
-use crate::fit::{Fit, Wanted, fit, fit_baseline};
-use crate::linearization::{Linearization, Point};
-use crate::pattern::{Course, LegPattern, Pattern, Variable};
+use crate::fit::{Fit, TermSpec, fit, fit_baseline};
+use crate::linearization::{Linearization, ModelPoint};
+use crate::pattern::{Course, LegPattern, Pattern, PatternVariable};
 use crate::scan::Scanner;
-use crate::search::{Search, Set, Sets};
+use crate::search::{Set, Sets, TermSearch};
 use crate::term::{Natural, Rich, Term};
 use crate::untestable::{Reason, Untestable, why_untestable};
 
@@ -35,7 +35,7 @@ const MOST_EFFECTS: usize = 4;
 
 /// Outcome of the search: sets with probabilities, and the fit of the best one.
 #[derive(Clone)]
-pub struct Outcome {
+pub struct RankedSets {
     /// Campaign's testable terms and patterns.
     pub candidates: Vec<Candidate>,
     /// Terms that this file cannot test.
@@ -60,7 +60,7 @@ pub struct Outcome {
 ///
 /// # Errors
 /// As [`fit`].
-pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Outcome, ModelError> {
+pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<RankedSets, ModelError> {
     let baseline = fit_baseline(campaign)?;
     let mut best = baseline.clone();
     let mut lin = Linearization::at(campaign, &best.point)?;
@@ -72,7 +72,7 @@ pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Outcome, 
         let (gram, candidates) = collect(campaign, &best.point, &lin, &testable, natural, effort);
         let (candidates, faint) = noticeable(candidates, &gram);
         untestable.extend(faint);
-        let sets = Search::new(&gram, &candidates, campaign.noise.allows_verdict()).run(MOST_EFFECTS);
+        let sets = TermSearch::new(&gram, &candidates, campaign.noise.allows_verdict()).run(MOST_EFFECTS);
         let top = sets.sets.first().cloned();
         let wanted = top.as_ref().map(|s| wanted(s, &gram, &candidates, &natural)).unwrap_or_default();
         let next = fit(campaign, &wanted, Some(&best.point)).or_else(|_| fit(campaign, &wanted, None))?;
@@ -84,7 +84,17 @@ pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Outcome, 
         history.push(names);
         if settled || history.len() >= MOST_ROUNDS {
             let rounds = history.len();
-            return Ok(Outcome { candidates, untestable, sets, gram, baseline, best, natural, lin, rounds });
+            return Ok(RankedSets {
+                candidates,
+                untestable,
+                sets,
+                gram,
+                baseline,
+                best,
+                natural,
+                lin,
+                rounds,
+            });
         }
         effort = Effort { rich: true, scan };
     }
@@ -122,8 +132,8 @@ fn names(set: &Set, candidates: &[Candidate]) -> Vec<String> {
 /// Id of a term or description of a pattern.
 pub fn label(candidate: &Candidate) -> String {
     match &candidate.kind {
-        Kind::Term(t) => t.info().id.to_owned(),
-        Kind::Pattern(p) => p.text(),
+        CandidateKind::Term(t) => t.info().id.to_owned(),
+        CandidateKind::Pattern(p) => p.text(),
     }
 }
 
@@ -144,7 +154,7 @@ fn split(
 
 fn collect(
     campaign: &Campaign,
-    point: &Point,
+    point: &ModelPoint,
     lin: &Linearization,
     terms: &[Arc<dyn Term>],
     natural: Natural,
@@ -174,18 +184,23 @@ fn collect(
 
 /// Shape at which the richer form of a term competes: that of a term in the model; and bodies that yield in any way always
 /// compete while something is left unexplained, since their ideal form may not even enter the model.
-fn rich_shape(term: &dyn Term, point: &Point, effort: Effort) -> Option<f64> {
+fn rich_shape(term: &dyn Term, point: &ModelPoint, effort: Effort) -> Option<f64> {
     let active = point.active.iter().find(|a| a.id() == term.info().id).map(|a| a.shape);
     let any_body = effort.scan && term.info().rich == Rich::Full;
     active.or(any_body.then_some(1.0)).filter(|_| effort.rich)
 }
 
 /// Patterns worth weighing; those found by scanning carry the number of trials in their prior.
-fn patterns(campaign: &Campaign, scanned: &Linearization, point: &Point, scan: bool) -> Vec<(Pattern, f64)> {
+fn patterns(
+    campaign: &Campaign,
+    scanned: &Linearization,
+    point: &ModelPoint,
+    scan: bool,
+) -> Vec<(Pattern, f64)> {
     let mut all = Vec::new();
     if campaign.columns.elapsed {
         let drift = |leg| {
-            let (variable, course) = (Variable::Elapsed, Course::Linear);
+            let (variable, course) = (PatternVariable::Elapsed, Course::Linear);
             Pattern::Leg(LegPattern { leg, variable, course, compliance: false })
         };
         let legs = std::iter::once(None).chain((0..6).map(Some));
@@ -200,14 +215,14 @@ fn patterns(campaign: &Campaign, scanned: &Linearization, point: &Point, scan: b
 }
 
 /// The terms of a set as a fit wants them.
-pub fn wanted(set: &Set, gram: &Gram, candidates: &[Candidate], natural: &Natural) -> Vec<Wanted> {
+pub fn wanted(set: &Set, gram: &Gram, candidates: &[Candidate], natural: &Natural) -> Vec<TermSpec> {
     let mut all = Vec::new();
     for (&m, v) in set.members.iter().zip(&set.variants) {
-        let Kind::Term(term) = &candidates[m].kind else { continue };
+        let CandidateKind::Term(term) = &candidates[m].kind else { continue };
         let block = &gram.blocks[v.block];
         let width = FIT_WIDTH * block.widths[v.width];
         let prior = sizes(term.as_ref(), block.rich, natural).iter().map(|s| s * width).collect();
-        all.push(Wanted { term: Arc::clone(term), rich: block.rich, shape: block.shape, prior });
+        all.push(TermSpec { term: Arc::clone(term), rich: block.rich, shape: block.shape, prior });
     }
     all
 }

@@ -4,9 +4,9 @@ use hexbench_core::Vector6;
 use serde::{Deserialize, Serialize};
 
 use crate::fit::Fit;
-use crate::linearization::Point;
+use crate::linearization::ModelPoint;
 use crate::model_file::Model;
-use crate::parameters::{Parameters, Place};
+use crate::parameters::{ParameterPlace, Parameters};
 
 /// One number of a fitted model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -43,7 +43,7 @@ impl Estimates {
 
 /// Leg compliances with their uncertainty, of one model or averaged over several.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Springs {
+pub struct LegCompliances {
     /// m/N.
     pub compliance: Vector6,
     /// (m/N)^2.
@@ -52,11 +52,11 @@ pub struct Springs {
     pub determined: [bool; 6],
 }
 
-impl Springs {
+impl LegCompliances {
     /// Those of one fit.
     pub fn of(fit: &Fit) -> Self {
         Self {
-            compliance: fit.point.springs,
+            compliance: fit.point.compliances,
             variance: Vector6::from_fn(|leg, _| fit.std(leg).powi(2)),
             determined: std::array::from_fn(|leg| fit.is_determined(leg)),
         }
@@ -71,19 +71,19 @@ impl Springs {
 
 /// Stiffness of every leg, then the parameters and shape of every term.
 pub fn estimates(fit: &Fit) -> Estimates {
-    estimates_with(&Springs::of(fit), fit)
+    estimates_with(&LegCompliances::of(fit), fit)
 }
 
 /// The same with springs from elsewhere.
-pub fn estimates_with(springs: &Springs, fit: &Fit) -> Estimates {
+pub fn estimates_with(springs: &LegCompliances, fit: &Fit) -> Estimates {
     all_estimates(springs, &fit.parameters, &fit.point, |k| (fit.std(k), fit.is_determined(k)))
 }
 
 /// The same of a model that was kept.
 pub fn estimates_of(model: &Model) -> Estimates {
     let is_determined = |k: usize| model.determined.get(k).copied().unwrap_or(true);
-    let springs = Springs {
-        compliance: model.point.springs,
+    let springs = LegCompliances {
+        compliance: model.point.compliances,
         variance: Vector6::from_fn(|leg, _| model.std(leg).powi(2)),
         determined: std::array::from_fn(is_determined),
     };
@@ -92,15 +92,15 @@ pub fn estimates_of(model: &Model) -> Estimates {
 
 /// `known`: standard uncertainty of a column, and whether the data determine it.
 fn all_estimates(
-    springs: &Springs,
+    springs: &LegCompliances,
     parameters: &Parameters,
-    point: &Point,
+    point: &ModelPoint,
     known: impl Fn(usize) -> (f64, bool),
 ) -> Estimates {
     let mut all = Estimates::default();
     for (k, parameter) in parameters.iter().enumerate() {
         let Some(name) = parameter.quantity() else { continue };
-        let (value, std, determined) = if let Place::Spring(leg) = parameter.place {
+        let (value, std, determined) = if let ParameterPlace::Spring(leg) = parameter.place {
             springs.known(leg)
         } else {
             let (std, determined) = known(k);

@@ -36,7 +36,7 @@ pub fn widths(signature: f64) -> Vec<f64> {
 /// Columns of one form and shape of one effect inside the Gram matrix, in units of the prior: `theta = T u` with
 /// `u ~ N(0, g^2 I)`.
 #[derive(Debug, Clone)]
-pub struct Block {
+pub struct PriorBlock {
     /// First column.
     pub first: usize,
     /// `T`: natural sizes times the square root of the prior correlation.
@@ -61,7 +61,7 @@ pub struct Block {
 /// stiff together.
 const CORRELATION: f64 = 0.5;
 
-impl Block {
+impl PriorBlock {
     /// A block with natural sizes (SI) and signs; widths are set once its Gram matrix is known.
     pub fn new(sizes: &[f64], positive: Vec<bool>, shape: f64, rich: bool, share: f64) -> Self {
         let n = sizes.len();
@@ -126,7 +126,7 @@ pub struct Gram {
     /// Degrees of freedom behind the noise level: infinite when it is stated.
     pub noise_dof: f64,
     /// The blocks.
-    pub blocks: Vec<Block>,
+    pub blocks: Vec<PriorBlock>,
     /// Compliance (m/N) the six springs take over from one unit of every column; 6 rows.
     pub absorbed: DMatrix<f64>,
     /// Covariance of the springs alone, (m/N)^2; 6x6.
@@ -307,7 +307,7 @@ impl Rest {
     }
 
     /// `Z_a' Z_b` at natural sizes, less what the fixed blocks take.
-    fn cross(&self, gram: &Gram, a: &Block, b: &Block) -> DMatrix<f64> {
+    fn cross(&self, gram: &Gram, a: &PriorBlock, b: &PriorBlock) -> DMatrix<f64> {
         let mut cross = DMatrix::from_fn(a.width(), b.width(), |i, j| gram.g[(a.first + i, b.first + j)]);
         if !self.columns.is_empty() {
             cross -= self.reduced(gram, a).tr_mul(&self.reduced(gram, b));
@@ -316,7 +316,7 @@ impl Rest {
     }
 
     /// Forward-substituted cross block with the fixed columns.
-    fn reduced(&self, gram: &Gram, block: &Block) -> DMatrix<f64> {
+    fn reduced(&self, gram: &Gram, block: &PriorBlock) -> DMatrix<f64> {
         let mut x = DMatrix::from_fn(self.columns.len(), block.width(), |i, j| {
             self.scale[i] * gram.g[(self.columns[i], block.first + j)]
         });
@@ -325,7 +325,7 @@ impl Rest {
     }
 
     /// Normal equations of a block at its natural sizes, less what the fixed blocks take.
-    fn complement(&self, gram: &Gram, block: &Block) -> (DMatrix<f64>, DVector<f64>) {
+    fn complement(&self, gram: &Gram, block: &PriorBlock) -> (DMatrix<f64>, DVector<f64>) {
         let d = block.width();
         let mut e = gram.g.view((block.first, block.first), (d, d)).into_owned();
         let mut b = gram.b.rows(block.first, d).into_owned();
@@ -352,7 +352,7 @@ fn several(
     values: &DVector<f64>,
     along: &DVector<f64>,
     g: f64,
-    block: &Block,
+    block: &PriorBlock,
 ) -> (f64, f64) {
     let m = values.map(|v| 1.0 + g * g * v.max(0.0));
     let drop = (0..m.len()).map(|k| (g * along[k]).powi(2) / m[k]).sum();

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::campaign::Campaign;
 use crate::error::ModelError;
-use crate::linearization::{Active, Linearization, Point, beside};
+use crate::linearization::{Active, Linearization, ModelPoint, beside};
 use crate::lsq::{Solution, Triangle};
 use crate::parameters::Parameters;
 use crate::term::{Natural, Term};
@@ -26,7 +26,7 @@ const DETERMINED_SHARE: f64 = 0.5;
 
 /// A term asked of a fit.
 #[derive(Clone)]
-pub struct Wanted {
+pub struct TermSpec {
     /// The effect.
     pub term: Arc<dyn Term>,
     /// Richer form.
@@ -41,7 +41,7 @@ pub struct Wanted {
 #[derive(Debug, Clone)]
 pub struct Fit {
     /// Values of springs, terms, shapes and frames.
-    pub point: Point,
+    pub point: ModelPoint,
     /// Its numbers, in the order of the columns.
     pub parameters: Parameters,
     /// Their covariance; a shape enters by its logarithm.
@@ -103,8 +103,8 @@ impl Fit {
 }
 
 /// Sizes natural to a machine and campaign.
-pub fn natural(point: &Point, lin: &Linearization) -> Natural {
-    let typical = median(point.springs.iter().map(|c| c.abs())).unwrap_or(0.0);
+pub fn natural(point: &ModelPoint, lin: &Linearization) -> Natural {
+    let typical = median(point.compliances.iter().map(|c| c.abs())).unwrap_or(0.0);
     let n = (6 * lin.conditions.len()).max(1) as f64;
     let force = lin.conditions.iter().map(|c| c.force_change().norm_squared()).sum::<f64>() / n;
     let hexapod = &lin.machine.nominal;
@@ -130,7 +130,7 @@ pub fn fit_baseline(campaign: &Campaign) -> Result<Fit, ModelError> {
 /// # Errors
 /// [`ModelError::SingularPose`], [`ModelError::NoLoad`], [`ModelError::NotFinite`]. Iterations that run out are not an error:
 /// [`Fit::termination`] tells.
-pub fn fit(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Result<Fit, ModelError> {
+pub fn fit(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>) -> Result<Fit, ModelError> {
     let point = start_point(campaign, wanted, start);
     let state = Linearization::at(campaign, &point)?;
     fit_from(campaign, wanted, point, state)
@@ -146,8 +146,8 @@ struct Effort {
 /// The same from a point where the campaign has been linearised already.
 fn fit_from(
     campaign: &Campaign,
-    wanted: &[Wanted],
-    mut point: Point,
+    wanted: &[TermSpec],
+    mut point: ModelPoint,
     mut state: Linearization,
 ) -> Result<Fit, ModelError> {
     let parameters = Parameters::at(&point, campaign.is_absolute()).with_priors(wanted);
@@ -183,7 +183,7 @@ fn fit_from(
 /// As [`fit`].
 pub fn refit(
     campaign: &Campaign,
-    wanted: &[Wanted],
+    wanted: &[TermSpec],
     start: &Start,
     kept: &[usize],
 ) -> Result<Fit, ModelError> {
@@ -193,7 +193,7 @@ pub fn refit(
 
 /// Where fits to parts of a campaign start.
 pub struct Start {
-    point: Point,
+    point: ModelPoint,
     state: Linearization,
 }
 
@@ -202,15 +202,15 @@ impl Start {
     ///
     /// # Errors
     /// [`ModelError::SingularPose`].
-    pub fn at(campaign: &Campaign, wanted: &[Wanted], point: &Point) -> Result<Self, ModelError> {
+    pub fn at(campaign: &Campaign, wanted: &[TermSpec], point: &ModelPoint) -> Result<Self, ModelError> {
         let point = start_point(campaign, wanted, Some(point));
         let state = Linearization::at(campaign, &point)?;
         Ok(Self { point, state })
     }
 }
 
-fn start_point(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) -> Point {
-    let mut point = start.cloned().unwrap_or_else(|| Point::start(campaign));
+fn start_point(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>) -> ModelPoint {
+    let mut point = start.cloned().unwrap_or_else(|| ModelPoint::start(campaign));
     let known = std::mem::take(&mut point.active);
     point.active = wanted
         .iter()
@@ -224,7 +224,7 @@ fn start_point(campaign: &Campaign, wanted: &[Wanted], start: Option<&Point>) ->
 }
 
 /// One linear solve for the increments of all columns, priors included as equations.
-fn step(state: &Linearization, point: &Point, parameters: &Parameters) -> Result<Solution, ModelError> {
+fn step(state: &Linearization, point: &ModelPoint, parameters: &Parameters) -> Result<Solution, ModelError> {
     let mut triangle = Triangle::new(parameters.len());
     for part in state.parts() {
         let piece = state.part(&part);
@@ -234,7 +234,11 @@ fn step(state: &Linearization, point: &Point, parameters: &Parameters) -> Result
     triangle.solve()
 }
 
-fn push_priors(triangle: &mut Triangle, point: &Point, parameters: &Parameters) -> Result<(), ModelError> {
+fn push_priors(
+    triangle: &mut Triangle,
+    point: &ModelPoint,
+    parameters: &Parameters,
+) -> Result<(), ModelError> {
     let (rows, target) = parameters.prior_equations(point);
     if rows.is_empty() { Ok(()) } else { triangle.push(&rows, &target) }
 }
@@ -313,7 +317,7 @@ fn at_shape(
 }
 
 /// Whitened columns of springs, frames, term parameters and shapes at a point.
-pub fn columns(state: &Linearization, point: &Point) -> DMatrix<f64> {
+pub fn columns(state: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
     let mut blocks = vec![state.common_block()];
     for a in &point.active {
         let mut block = state.term_block(a.term.as_ref(), a.rich, a.shape);
@@ -345,12 +349,12 @@ fn shape_column(state: &Linearization, a: &Active) -> DVector<f64> {
 /// The full step, or the first of its shorter ones that leaves the objective at `most`; none at all when even the shortest does not.
 fn search(
     campaign: &Campaign,
-    point: &Point,
+    point: &ModelPoint,
     x: &DVector<f64>,
     parameters: &Parameters,
     most: f64,
     effort: &mut Effort,
-) -> Result<(Point, Linearization, f64), ModelError> {
+) -> Result<(ModelPoint, Linearization, f64), ModelError> {
     let mut factor = 1.0;
     loop {
         let next = parameters.moved(point, x.as_slice(), factor);
@@ -378,7 +382,7 @@ fn search(
 
 fn finish(
     campaign: &Campaign,
-    point: Point,
+    point: ModelPoint,
     state: &Linearization,
     solution: Solution,
     parameters: Parameters,

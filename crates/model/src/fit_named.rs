@@ -9,9 +9,9 @@ use crate::candidates::{orthonormal, project, sizes};
 use crate::error::ModelError;
 use crate::estimate::estimates;
 use crate::evidence::WIDEST;
-use crate::fit::{Fit, Wanted, columns, fit, fit_baseline};
+use crate::fit::{Fit, TermSpec, columns, fit, fit_baseline};
 use crate::linearization::{Active, Linearization};
-use crate::parameters::{Parameter, Place, leg_of_stiffness};
+use crate::parameters::{Parameter, ParameterPlace, leg_of_stiffness};
 use crate::term::{Natural, Rich, Term};
 use crate::untestable::why_untestable;
 use crate::words::{joined, unobservable};
@@ -87,18 +87,18 @@ pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, Mo
 ///
 /// # Errors
 /// As [`fit_named`].
-pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<Wanted>, Fit), ModelError> {
+pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>, Fit), ModelError> {
     refuse_twice(added)?;
     let mut fitted = fit_baseline(campaign)?;
     let natural = fitted.natural(&Linearization::at(campaign, &fitted.point)?);
-    let mut wanted: Vec<Wanted> = Vec::new();
+    let mut wanted: Vec<TermSpec> = Vec::new();
     for Added { term, richer } in added {
         let lin = Linearization::at(campaign, &fitted.point)?;
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
         }
         let prior = prior(term.as_ref(), *richer, &natural);
-        let next = Wanted { term: Arc::clone(term), rich: *richer, shape: 1.0, prior };
+        let next = TermSpec { term: Arc::clone(term), rich: *richer, shape: 1.0, prior };
         let (start, better) = best_start(campaign, &wanted, &next, &fitted, &lin)?;
         wanted.push(start);
         fitted = better;
@@ -116,7 +116,7 @@ fn prior(term: &dyn Term, richer: bool, natural: &Natural) -> Vec<f64> {
 
 /// The better of a fit reached term by term and one that starts with all terms at once: while a term is still missing, the
 /// others may go far astray to make up for it, too far to come back.
-fn together(campaign: &Campaign, wanted: &[Wanted], fitted: Fit) -> Fit {
+fn together(campaign: &Campaign, wanted: &[TermSpec], fitted: Fit) -> Fit {
     if wanted.len() < 2 {
         return fitted;
     }
@@ -135,16 +135,16 @@ fn refuse_twice(added: &[Added]) -> Result<(), ModelError> {
 /// The fit with one more term, from the most promising of its shapes.
 fn best_start(
     campaign: &Campaign,
-    before: &[Wanted],
-    next: &Wanted,
+    before: &[TermSpec],
+    next: &TermSpec,
     fitted: &Fit,
     lin: &Linearization,
-) -> Result<(Wanted, Fit), ModelError> {
-    let mut best: Option<(Wanted, Fit)> = None;
+) -> Result<(TermSpec, Fit), ModelError> {
+    let mut best: Option<(TermSpec, Fit)> = None;
     let mut failure = None;
     for shape in promising_shapes(next, fitted, lin) {
-        let start = Wanted { shape, ..next.clone() };
-        let all: Vec<Wanted> = before.iter().cloned().chain([start.clone()]).collect();
+        let start = TermSpec { shape, ..next.clone() };
+        let all: Vec<TermSpec> = before.iter().cloned().chain([start.clone()]).collect();
         match fit(campaign, &all, Some(&fitted.point)) {
             Ok(f) if best.as_ref().is_none_or(|(_, b)| f.chi2 < b.chi2) => best = Some((start, f)),
             Ok(_) => {}
@@ -155,7 +155,7 @@ fn best_start(
 }
 
 /// Shapes whose columns explain most of the present residual beside everything fitted so far.
-fn promising_shapes(next: &Wanted, fitted: &Fit, lin: &Linearization) -> Vec<f64> {
+fn promising_shapes(next: &TermSpec, fitted: &Fit, lin: &Linearization) -> Vec<f64> {
     let grid = next.term.shape_grid(&lin.conditions);
     if grid.is_empty() {
         return vec![1.0];
@@ -234,8 +234,9 @@ pub fn look_alikes(fitted: &Fit, limit: f64) -> Vec<(String, String, f64)> {
 
 /// Names of the parameters of all terms that the data leave open, `term.parameter`.
 pub fn open_parameters(fitted: &Fit) -> Vec<String> {
-    let open =
-        |(k, p): &(usize, &Parameter)| matches!(p.place, Place::Value { .. }) && !fitted.is_determined(*k);
+    let open = |(k, p): &(usize, &Parameter)| {
+        matches!(p.place, ParameterPlace::Value { .. }) && !fitted.is_determined(*k)
+    };
     fitted.parameters.iter().enumerate().filter(open).map(|(_, p)| p.name.clone()).collect()
 }
 

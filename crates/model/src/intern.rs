@@ -6,10 +6,10 @@ use std::collections::HashSet;
 use std::hash::Hash;
 use std::sync::{Mutex, PoisonError};
 
-use crate::term::{Need, Parameter};
+use crate::term::{Need, ParameterInfo};
 
 static TEXTS: Mutex<Option<HashSet<&'static str>>> = Mutex::new(None);
-static PARAMETERS: Mutex<Vec<&'static [Parameter]>> = Mutex::new(Vec::new());
+static PARAMETERS: Mutex<Vec<&'static [ParameterInfo]>> = Mutex::new(Vec::new());
 static NEEDS: Mutex<Option<HashSet<&'static [Need]>>> = Mutex::new(None);
 
 /// The one copy of a text.
@@ -23,13 +23,13 @@ pub(crate) fn needs(needs: &[Need]) -> &'static [Need] {
 }
 
 /// The one copy of a list of parameters.
-pub(crate) fn parameters(parameters: &[Parameter]) -> &'static [Parameter] {
+pub(crate) fn parameters(parameters: &[ParameterInfo]) -> &'static [ParameterInfo] {
     // Parameters hold floats and cannot be hashed; lists are few.
     let mut known = PARAMETERS.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(same) = known.iter().find(|p| **p == parameters) {
         return same;
     }
-    let leaked: &'static [Parameter] = Box::leak(parameters.to_vec().into_boxed_slice());
+    let leaked: &'static [ParameterInfo] = Box::leak(parameters.to_vec().into_boxed_slice());
     known.push(leaked);
     leaked
 }

@@ -78,19 +78,23 @@ pub fn actions(
 
 /// Values of everything the model contains. SI.
 #[derive(Debug, Clone)]
-pub struct Point {
+pub struct ModelPoint {
     /// Compliance of each leg, m/N.
-    pub springs: Vector6,
+    pub compliances: Vector6,
     /// Terms with their values.
     pub active: Vec<Active>,
     /// Metrology and target frame motions found so far live in the machine.
     pub machine: Machine,
 }
 
-impl Point {
+impl ModelPoint {
     /// No springs, no terms, machine as drawn.
     pub fn start(campaign: &Campaign) -> Self {
-        Self { springs: Vector6::zeros(), active: Vec::new(), machine: Machine::nominal(&campaign.hexapod) }
+        Self {
+            compliances: Vector6::zeros(),
+            active: Vec::new(),
+            machine: Machine::nominal(&campaign.hexapod),
+        }
     }
 
     /// The machine with the geometry that calibrating terms have found.
@@ -127,9 +131,9 @@ impl Linearization {
     ///
     /// # Errors
     /// [`ModelError::SingularPose`].
-    pub fn at(campaign: &Campaign, point: &Point) -> Result<Self, ModelError> {
+    pub fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
-        let conditions = campaign.conditions(&machine, &point.springs)?;
+        let conditions = campaign.conditions(&machine, &point.compliances)?;
         let links = map(&conditions, |c| link(&machine, c, point));
         let whitening = Whitening::of(campaign);
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
@@ -290,7 +294,7 @@ fn write_actions(
     }
 }
 
-fn link(machine: &Machine, at: &Condition, point: &Point) -> Link {
+fn link(machine: &Machine, at: &Condition, point: &ModelPoint) -> Link {
     let mut load = Load::default();
     let mut out = Vec::new();
     for a in point.active.iter().filter(|a| !a.term.calibrates()) {
@@ -299,7 +303,7 @@ fn link(machine: &Machine, at: &Condition, point: &Point) -> Link {
             load.add(action, *value);
         }
     }
-    Link::at(at, &point.springs, &load)
+    Link::at(at, &point.compliances, &load)
 }
 
 /// Small motions of the metrology frame (fixed axes, fixed origin) and of the target frame (mobile axes).

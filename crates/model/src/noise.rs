@@ -65,7 +65,7 @@ pub enum Structure {
         /// Share of the variance.
         share: f64,
         /// What a record is.
-        record: Record,
+        record: SharedReference,
     },
     /// Part of each error resembles that of the row before: the instrument drifts while the file is taken.
     Drift {
@@ -78,7 +78,7 @@ pub enum Structure {
 
 /// Which readings share a reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Record {
+pub enum SharedReference {
     /// All readings at a pose.
     Pose,
     /// The readings of one repeat at a pose.
@@ -142,7 +142,7 @@ impl Noise {
 
 /// Scatter of readings repeated under the same pose, loads and approach.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Scatter {
+pub struct RepeatScatter {
     /// Pooled variance of the translations, m^2.
     pub variance_translation: f64,
     /// Pooled variance of the rotations, rad^2.
@@ -191,7 +191,7 @@ fn from_columns(rows: &[Observation]) -> Noise {
 }
 
 /// Pooled scatter of readings that share pose, loads and approach; temperature and time are ignored.
-pub fn scatter(rows: &[Observation]) -> Scatter {
+pub fn scatter(rows: &[Observation]) -> RepeatScatter {
     let mut groups: HashMap<[u64; 19], [Welford; 6]> = HashMap::new();
     for row in rows {
         let group = groups.entry(key(row)).or_default();
@@ -208,7 +208,7 @@ pub fn scatter(rows: &[Observation]) -> Scatter {
         sums.iter_mut().zip(m).for_each(|(sum, one)| *sum += one.sum_of_squares());
     }
     let pooled = |range: std::ops::Range<usize>| sums[range].iter().sum::<f64>() / (3.0 * dof).max(1.0);
-    Scatter { variance_translation: pooled(0..3), variance_rotation: pooled(3..6), dof: 3.0 * dof }
+    RepeatScatter { variance_translation: pooled(0..3), variance_rotation: pooled(3..6), dof: 3.0 * dof }
 }
 
 fn key(row: &Observation) -> [u64; 19] {

@@ -19,7 +19,7 @@ use crate::campaign::{Campaign, row_sigma};
 use crate::error::ModelError;
 use crate::fit::{Fit, Termination};
 use crate::kinematics::{Legs, euler_rate_matrix};
-use crate::linearization::{Linearization, Point};
+use crate::linearization::{Linearization, ModelPoint};
 use crate::lsq::{RANK_TOLERANCE, Solution};
 use crate::observability::Observability;
 use crate::parameters::Parameters;
@@ -131,7 +131,7 @@ impl PaperFit {
     /// # Errors
     /// [`ModelError::SingularPose`].
     pub fn into_fit(self, campaign: &Campaign) -> Result<Fit, ModelError> {
-        let point = Point { springs: self.springs, ..Point::start(campaign) };
+        let point = ModelPoint { compliances: self.springs, ..ModelPoint::start(campaign) };
         let state = Linearization::at(campaign, &point)?;
         let lack_of_fit = state.residuals().norm_squared();
         let rank = self.rank as f64;

@@ -5,8 +5,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::fit::Wanted;
-use crate::linearization::{Active, Point};
+use crate::fit::TermSpec;
+use crate::linearization::{Active, ModelPoint};
 use crate::term::{Rich, Term};
 
 /// Number of legs: their springs come first.
@@ -24,7 +24,7 @@ const STIFFNESS_PER_SI: f64 = 1e-6;
 
 /// Where a parameter acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum ParameterPlace {
     /// Compliance of a leg, counted from zero, m/N.
     Spring(usize),
     /// Component of the small motions `[metrology frame; target frame]`, m and rad.
@@ -62,7 +62,7 @@ pub struct Parameter {
     /// That number = SI value * `per_si`; of a spring it is the stiffness.
     pub per_si: f64,
     /// Where it acts.
-    pub place: Place,
+    pub place: ParameterPlace,
     /// None for what only the data may tell.
     pub prior: Option<Prior>,
 }
@@ -80,9 +80,9 @@ impl Parameter {
     /// Name of the number that people read; none for frames, which are a convention.
     pub fn quantity(&self) -> Option<String> {
         match self.place {
-            Place::Spring(leg) => Some(stiffness_name(leg)),
-            Place::Frames(_) => None,
-            Place::Value { .. } | Place::Shape { .. } => Some(self.name.clone()),
+            ParameterPlace::Spring(leg) => Some(stiffness_name(leg)),
+            ParameterPlace::Frames(_) => None,
+            ParameterPlace::Value { .. } | ParameterPlace::Shape { .. } => Some(self.name.clone()),
         }
     }
 
@@ -90,30 +90,32 @@ impl Parameter {
     /// `std(k) = std(c) k^2`; of a shape the covariance holds the logarithm.
     pub fn shown(&self, value: f64, std: f64) -> Shown {
         let (value, std) = match self.place {
-            Place::Spring(_) => (1.0 / value, std * (1.0 / value) * (1.0 / value)),
-            Place::Frames(_) | Place::Value { .. } => (value, std),
-            Place::Shape { .. } => (value, std * value),
+            ParameterPlace::Spring(_) => (1.0 / value, std * (1.0 / value) * (1.0 / value)),
+            ParameterPlace::Frames(_) | ParameterPlace::Value { .. } => (value, std),
+            ParameterPlace::Shape { .. } => (value, std * value),
         };
         Shown { value: value * self.per_si, std: std * self.per_si }
     }
 
     /// SI value at a point; zero for frames, whose motions start anew at every point.
-    pub fn value(&self, point: &Point) -> f64 {
+    pub fn value(&self, point: &ModelPoint) -> f64 {
         match self.place {
-            Place::Spring(leg) => point.springs[leg],
-            Place::Frames(_) => 0.0,
-            Place::Value { term, index } => point.active[term].values[index],
-            Place::Shape { term } => point.active[term].shape,
+            ParameterPlace::Spring(leg) => point.compliances[leg],
+            ParameterPlace::Frames(_) => 0.0,
+            ParameterPlace::Value { term, index } => point.active[term].values[index],
+            ParameterPlace::Shape { term } => point.active[term].shape,
         }
     }
 
     /// Distance from the center of the prior in its widths; zero without one.
-    fn surprise(&self, point: &Point) -> f64 {
+    fn surprise(&self, point: &ModelPoint) -> f64 {
         let Some(Prior { center, width }) = self.prior else { return 0.0 };
         let value = self.value(point);
         match self.place {
-            Place::Shape { .. } => (value / center).ln() / width,
-            Place::Spring(_) | Place::Frames(_) | Place::Value { .. } => (value - center) / width,
+            ParameterPlace::Shape { .. } => (value / center).ln() / width,
+            ParameterPlace::Spring(_) | ParameterPlace::Frames(_) | ParameterPlace::Value { .. } => {
+                (value - center) / width
+            }
         }
     }
 }
@@ -124,7 +126,7 @@ pub struct Parameters(Vec<Parameter>);
 
 impl Parameters {
     /// Those of the terms at a point, without priors; `absolute` when the frames of the instrument are estimated.
-    pub fn at(point: &Point, absolute: bool) -> Self {
+    pub fn at(point: &ModelPoint, absolute: bool) -> Self {
         let mut all: Vec<Parameter> = (0..LEGS).map(spring).collect();
         all.extend((0..common_count(absolute) - LEGS).map(frame_component));
         for (term, active) in point.active.iter().enumerate() {
@@ -135,12 +137,16 @@ impl Parameters {
 
     /// The same with the priors that come with the terms.
     #[must_use]
-    pub fn with_priors(mut self, terms: &[Wanted]) -> Self {
+    pub fn with_priors(mut self, terms: &[TermSpec]) -> Self {
         for p in &mut self.0 {
             p.prior = match p.place {
-                Place::Spring(_) | Place::Frames(_) => None,
-                Place::Value { term, index } => Some(Prior { center: 0.0, width: terms[term].prior[index] }),
-                Place::Shape { term } => Some(Prior { center: terms[term].shape, width: SHAPE_PRIOR }),
+                ParameterPlace::Spring(_) | ParameterPlace::Frames(_) => None,
+                ParameterPlace::Value { term, index } => {
+                    Some(Prior { center: 0.0, width: terms[term].prior[index] })
+                }
+                ParameterPlace::Shape { term } => {
+                    Some(Prior { center: terms[term].shape, width: SHAPE_PRIOR })
+                }
             };
         }
         self
@@ -164,8 +170,8 @@ impl Parameters {
     /// Columns of the values and the shape of a term.
     pub fn of_term(&self, term: usize) -> std::ops::Range<usize> {
         let is_of = |p: &Parameter| match p.place {
-            Place::Value { term: of, .. } | Place::Shape { term: of } => of == term,
-            Place::Spring(_) | Place::Frames(_) => false,
+            ParameterPlace::Value { term: of, .. } | ParameterPlace::Shape { term: of } => of == term,
+            ParameterPlace::Spring(_) | ParameterPlace::Frames(_) => false,
         };
         let first = self.0.iter().position(is_of).unwrap_or(self.len());
         first..first + self.0[first..].iter().take_while(|p| is_of(p)).count()
@@ -179,16 +185,16 @@ impl Parameters {
 
     /// Column of the shape of a term, when it has one.
     pub fn shape_of_term(&self, term: usize) -> Option<usize> {
-        self.of_term(term).find(|&k| matches!(self.0[k].place, Place::Shape { .. }))
+        self.of_term(term).find(|&k| matches!(self.0[k].place, ParameterPlace::Shape { .. }))
     }
 
     /// True for the column of a frame: where the machine stands in the room is a convention.
     pub fn is_frame(&self, column: usize) -> bool {
-        self.0.get(column).is_some_and(|p| matches!(p.place, Place::Frames(_)))
+        self.0.get(column).is_some_and(|p| matches!(p.place, ParameterPlace::Frames(_)))
     }
 
     /// The priors as equations of unit weight, `(value - center + x) / width = 0`: rows and right-hand sides.
-    pub fn prior_equations(&self, point: &Point) -> (DMatrix<f64>, DVector<f64>) {
+    pub fn prior_equations(&self, point: &ModelPoint) -> (DMatrix<f64>, DVector<f64>) {
         let known: Vec<(usize, &Parameter, f64)> = self.0.iter().enumerate().filter_map(with_width).collect();
         let mut rows = DMatrix::zeros(known.len(), self.len());
         for (i, (column, _, width)) in known.iter().enumerate() {
@@ -204,28 +210,28 @@ impl Parameters {
     }
 
     /// What the priors add to chi-square.
-    pub fn penalty(&self, point: &Point) -> f64 {
+    pub fn penalty(&self, point: &ModelPoint) -> f64 {
         self.0.iter().map(|p| p.surprise(point).powi(2)).sum()
     }
 
     /// A point moved by a share of the increments of all parameters.
-    pub fn moved(&self, point: &Point, increments: &[f64], share: f64) -> Point {
+    pub fn moved(&self, point: &ModelPoint, increments: &[f64], share: f64) -> ModelPoint {
         let mut next = point.clone();
         let mut frames = [0.0; FRAMES];
         for (p, increment) in self.0.iter().zip(increments) {
             let step = share * increment;
             match p.place {
-                Place::Spring(leg) => next.springs[leg] += step,
-                Place::Frames(k) => frames[k] = step,
-                Place::Value { term, index } => next.active[term].values[index] += step,
-                Place::Shape { term } => {
+                ParameterPlace::Spring(leg) => next.compliances[leg] += step,
+                ParameterPlace::Frames(k) => frames[k] = step,
+                ParameterPlace::Value { term, index } => next.active[term].values[index] += step,
+                ParameterPlace::Shape { term } => {
                     let shape = next.active[term].shape;
                     let step = step.clamp(-LARGEST_SHAPE_STEP, LARGEST_SHAPE_STEP);
                     next.active[term].shape = shape * step.exp();
                 }
             }
         }
-        if self.0.iter().any(|p| matches!(p.place, Place::Frames(_))) {
+        if self.0.iter().any(|p| matches!(p.place, ParameterPlace::Frames(_))) {
             next.move_frames(&frames);
         }
         next.active.iter_mut().for_each(keep_shape);
@@ -286,7 +292,7 @@ fn spring(leg: usize) -> Parameter {
         name: format!("leg {}", leg + 1),
         unit: "N/um",
         per_si: STIFFNESS_PER_SI,
-        place: Place::Spring(leg),
+        place: ParameterPlace::Spring(leg),
         prior: None,
     }
 }
@@ -294,7 +300,13 @@ fn spring(leg: usize) -> Parameter {
 fn frame_component(k: usize) -> Parameter {
     let (frame, axis) = (["metrology frame", "target frame"][k / LEGS], k % LEGS);
     let (unit, per_si) = if axis < 3 { ("um", 1e6) } else { ("urad", 1e6) };
-    Parameter { name: format!("{frame} {}", AXES[axis]), unit, per_si, place: Place::Frames(k), prior: None }
+    Parameter {
+        name: format!("{frame} {}", AXES[axis]),
+        unit,
+        per_si,
+        place: ParameterPlace::Frames(k),
+        prior: None,
+    }
 }
 
 fn of_active(term: usize, active: &Active) -> Vec<Parameter> {
@@ -303,7 +315,7 @@ fn of_active(term: usize, active: &Active) -> Vec<Parameter> {
         name: format!("{id}.{name}"),
         unit,
         per_si,
-        place: Place::Value { term, index },
+        place: ParameterPlace::Value { term, index },
         prior: None,
     };
     let mut all: Vec<Parameter> = parameter_names(active).into_iter().enumerate().map(value).collect();
@@ -312,7 +324,7 @@ fn of_active(term: usize, active: &Active) -> Vec<Parameter> {
             name: format!("{id}.{}", shape.name),
             unit: shape.unit,
             per_si: shape.per_si,
-            place: Place::Shape { term },
+            place: ParameterPlace::Shape { term },
             prior: None,
         });
     }

@@ -10,7 +10,7 @@ use crate::term::Natural;
 
 /// What a pattern follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Variable {
+pub enum PatternVariable {
     /// Time from the reference to the loaded reading.
     Elapsed,
     /// Temperature difference.
@@ -21,7 +21,7 @@ pub enum Variable {
     LegForce,
 }
 
-impl Variable {
+impl PatternVariable {
     /// Name as in the files.
     pub fn name(self) -> &'static str {
         match self {
@@ -160,7 +160,7 @@ pub struct LegPattern {
     /// The leg (from zero), or all six alike.
     pub leg: Option<usize>,
     /// What it follows.
-    pub variable: Variable,
+    pub variable: PatternVariable,
     /// How.
     pub course: Course,
     /// True when it is a change of compliance (grows with the load), false when a change of length.
@@ -223,14 +223,14 @@ impl LegPattern {
     /// A value of the variable in the unit of the files.
     pub fn shown(&self, v: f64) -> f64 {
         match self.variable {
-            Variable::LegLength => v * 1e3,
+            PatternVariable::LegLength => v * 1e3,
             _ => v,
         }
     }
 }
 
 /// Spread of a variable over conditions and legs: half its range, never zero.
-pub fn spread(variable: Variable, conditions: &[Condition]) -> f64 {
+pub fn spread(variable: PatternVariable, conditions: &[Condition]) -> f64 {
     let values = conditions.iter().flat_map(|c| (0..6).map(move |leg| variable.value(c, leg)));
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     let half = (high - low) / 2.0;

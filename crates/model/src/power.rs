@@ -4,7 +4,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 use statrs::function::beta::beta_reg;
 use statrs::function::gamma::ln_gamma;
 
-use crate::candidates::{Candidate, Kind};
+use crate::candidates::{Candidate, CandidateKind};
 use crate::evidence::{Gram, Variant};
 
 /// Chance of a false alarm of the test.
@@ -31,7 +31,7 @@ pub fn detectable(gram: &Gram, candidates: &[Candidate], beside: &[Variant]) -> 
     let root = noncentrality(1.0, FALSE_ALARM, POWER).sqrt();
     let mut all = Vec::new();
     for candidate in candidates {
-        let Kind::Term(term) = &candidate.kind else { continue };
+        let CandidateKind::Term(term) = &candidate.kind else { continue };
         let Some(&block) = candidate.blocks.first() else { continue };
         let others: Vec<Variant> =
             beside.iter().copied().filter(|v| !candidate.blocks.contains(&v.block)).collect();
@@ -52,14 +52,14 @@ pub fn detectable(gram: &Gram, candidates: &[Candidate], beside: &[Variant]) -> 
 /// The law of the drop of chi-square that the parameters of an effect bring: chi-square where the noise is stated, and where
 /// it is estimated from repeats `dof` times an F of `dof` and `noise_dof`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Law {
+pub struct ChiSquareDropLaw {
     /// Determined parameters of the effect.
     pub dof: f64,
     /// Degrees of freedom behind the noise level; infinite when it is stated.
     pub noise_dof: f64,
 }
 
-impl Law {
+impl ChiSquareDropLaw {
     /// Drop that noise alone exceeds with the chance of a false alarm.
     pub fn threshold(&self, false_alarm: f64) -> f64 {
         let at = 1.0 - false_alarm;
@@ -98,7 +98,7 @@ impl Law {
 
 /// Noncentrality at which a chi-square test with `dof` degrees of freedom has the wanted power.
 pub fn noncentrality(dof: f64, false_alarm: f64, power: f64) -> f64 {
-    Law { dof, noise_dof: f64::INFINITY }.noncentrality(false_alarm, power)
+    ChiSquareDropLaw { dof, noise_dof: f64::INFINITY }.noncentrality(false_alarm, power)
 }
 
 /// Distribution function of the noncentral chi-square: a Poisson mixture of central ones (Abramowitz and Stegun 26.4.25).
@@ -116,7 +116,7 @@ pub fn noncentral_f_cdf(x: f64, dof: f64, noise_dof: f64, lambda: f64) -> f64 {
 fn mixture(lambda: f64, f: impl Fn(f64) -> f64) -> f64 {
     let half = lambda / 2.0;
     let spread = 12.0 * half.sqrt() + 30.0;
-    // Far from the mean the weights are below rounding; they are reckoned in logarithms from the first one that counts.
+    // Far from the mean the weights are below rounding; they are computed in logarithms from the first one that counts.
     let first = (half - spread).floor().max(0.0);
     let log_half = half.max(f64::MIN_POSITIVE).ln();
     let (mut log_weight, mut sum, mut k) = (first * log_half - half - ln_gamma(first + 1.0), 0.0, first);
@@ -154,7 +154,7 @@ mod tests {
     #[test]
     fn a_test_keeps_its_level_and_reaches_its_power() {
         for noise_dof in [12.0, f64::INFINITY] {
-            let law = Law { dof: 3.0, noise_dof };
+            let law = ChiSquareDropLaw { dof: 3.0, noise_dof };
             let threshold = law.threshold(0.01);
             let (level, reached) =
                 (law.power(threshold, 0.0), law.power(threshold, law.noncentrality(0.01, 0.9)));

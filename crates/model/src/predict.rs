@@ -15,7 +15,7 @@ use crate::fit::columns;
 use crate::linearization::Linearization;
 use crate::model_file::Model;
 use crate::noise::Noise;
-use crate::parameters::Place;
+use crate::parameters::ParameterPlace;
 
 /// Rounds after which a prediction counts as not settled.
 const MOST_ROUNDS: usize = 60;
@@ -172,8 +172,10 @@ fn kept_columns(model: &Model, uncertain: Uncertain) -> Vec<usize> {
         return all.collect();
     }
     let of_metrology = |k: &usize| match model.parameters[*k].place {
-        Place::Value { term, .. } | Place::Shape { term } => model.point.active[term].term.is_of_metrology(),
-        Place::Spring(_) | Place::Frames(_) => false,
+        ParameterPlace::Value { term, .. } | ParameterPlace::Shape { term } => {
+            model.point.active[term].term.is_of_metrology()
+        }
+        ParameterPlace::Spring(_) | ParameterPlace::Frames(_) => false,
     };
     all.filter(|k| !of_metrology(k)).collect()
 }

@@ -8,10 +8,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::campaign::{Campaign, Group, row_sigma};
+use crate::campaign::{Campaign, ConditionReadings, row_sigma};
 use crate::error::ModelError;
-use crate::fit::{Fit, Start, Wanted, columns, refit};
-use crate::linearization::{Linearization, Point};
+use crate::fit::{Fit, Start, TermSpec, columns, refit};
+use crate::linearization::{Linearization, ModelPoint};
 use crate::noise::Noise;
 
 /// Most folds of a leave-poses-out validation.
@@ -121,7 +121,7 @@ pub fn prediction_errors(
     hexapod: &Hexapod,
     holdout: &Dataset,
     noise: Noise,
-    point: &Point,
+    point: &ModelPoint,
 ) -> Result<Vec<Residual>, ModelError> {
     let campaign = Campaign::with_noise(hexapod, holdout, noise)?.independent();
     let lin = Linearization::at(&campaign, point)?;
@@ -191,8 +191,8 @@ pub struct LeftOut {
 pub fn leave_poses_out(
     campaign: &Campaign,
     rows: &[Observation],
-    wanted: &[Wanted],
-    start: &Point,
+    wanted: &[TermSpec],
+    start: &ModelPoint,
 ) -> Result<LeftOut, ModelError> {
     let fold_of = folds(campaign);
     let count = fold_of.iter().max().map_or(0, |last| last + 1);
@@ -219,7 +219,7 @@ pub fn leave_poses_out(
 /// Fold of every group: groups of equal pose belong to one; poses are dealt out in order of appearance.
 fn folds(campaign: &Campaign) -> Vec<usize> {
     let mut known = HashMap::new();
-    let number = |g: &Group| {
+    let number = |g: &ConditionReadings| {
         let next = known.len();
         *known.entry(g.mean.pose.to_array().map(|x| (x + 0.0).to_bits())).or_insert(next)
     };

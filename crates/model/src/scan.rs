@@ -6,14 +6,18 @@ use rayon::prelude::*;
 
 use crate::campaign::Campaign;
 use crate::candidates::{orthonormal, project, target};
-use crate::linearization::{Linearization, Point, beside};
-use crate::pattern::{Course, LegPattern, Pattern, Variable, spread};
+use crate::linearization::{Linearization, ModelPoint, beside};
+use crate::pattern::{Course, LegPattern, Pattern, PatternVariable, spread};
 use crate::period::period_grid;
 use crate::term::Term;
 
 /// Variables a pattern may follow.
-const VARIABLES: [Variable; 4] =
-    [Variable::Elapsed, Variable::DeltaT, Variable::LegLength, Variable::LegForce];
+const VARIABLES: [PatternVariable; 4] = [
+    PatternVariable::Elapsed,
+    PatternVariable::DeltaT,
+    PatternVariable::LegLength,
+    PatternVariable::LegForce,
+];
 /// Steps of the search for the top of a peak.
 const GOLDEN_STEPS: usize = 20;
 
@@ -23,12 +27,12 @@ pub(crate) struct Scanner<'a> {
     basis: DMatrix<f64>,
     residual: DVector<f64>,
     space: LegSpace,
-    spreads: Vec<(Variable, f64)>,
+    spreads: Vec<(PatternVariable, f64)>,
 }
 
 impl<'a> Scanner<'a> {
     /// `point`: the terms at which `lin` was made; `except`: one that is to be explained anew.
-    pub(crate) fn new(lin: &'a Linearization, point: &Point, except: Option<&str>) -> Self {
+    pub(crate) fn new(lin: &'a Linearization, point: &ModelPoint, except: Option<&str>) -> Self {
         let mut columns = vec![lin.common_block()];
         let kept = point.active.iter().filter(|a| Some(a.id()) != except);
         columns.extend(kept.map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)));
@@ -64,7 +68,7 @@ impl<'a> Scanner<'a> {
     /// in single legs, courses, steps.
     pub(crate) fn patterns(&self, campaign: &Campaign) -> Vec<(Pattern, usize)> {
         let periods = period_grid(&self.lin.conditions);
-        let wave = |p: &f64| (Variable::LegLength, Course::Periodic(*p), true);
+        let wave = |p: &f64| (PatternVariable::LegLength, Course::Periodic(*p), true);
         let waves: Vec<Kind> = periods.iter().map(wave).collect();
         let variables = variables(campaign, self.lin);
         let courses: Vec<Kind> = variables.iter().flat_map(|v| courses(*v)).collect();
@@ -116,7 +120,7 @@ impl<'a> Scanner<'a> {
 }
 
 /// Variable, course, and whether it is a compliance.
-type Kind = (Variable, Course, bool);
+type Kind = (PatternVariable, Course, bool);
 
 /// What a pattern of leg elongations meets: its share in the residual, its length, and its overlap with the columns
 /// already there. One column per leg, one row per condition.
@@ -248,30 +252,30 @@ fn golden(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// Variables that vary in these data.
-fn variables(campaign: &Campaign, lin: &Linearization) -> Vec<Variable> {
+fn variables(campaign: &Campaign, lin: &Linearization) -> Vec<PatternVariable> {
     let present = [
-        (Variable::Elapsed, campaign.columns.elapsed),
-        (Variable::DeltaT, campaign.columns.delta_t),
-        (Variable::LegLength, true),
-        (Variable::LegForce, true),
+        (PatternVariable::Elapsed, campaign.columns.elapsed),
+        (PatternVariable::DeltaT, campaign.columns.delta_t),
+        (PatternVariable::LegLength, true),
+        (PatternVariable::LegForce, true),
     ];
-    let varies = |v: Variable| spread(v, &lin.conditions) > 0.0;
+    let varies = |v: PatternVariable| spread(v, &lin.conditions) > 0.0;
     present.into_iter().filter(|(v, has)| *has && varies(*v)).map(|(v, _)| v).collect()
 }
 
-fn courses(variable: Variable) -> Vec<Kind> {
+fn courses(variable: PatternVariable) -> Vec<Kind> {
     let courses = [Course::Linear, Course::Quadratic];
     courses.into_iter().flat_map(|c| [(variable, c, false), (variable, c, true)]).collect()
 }
 
 /// What all legs alike do and a term describes: compliance in proportion to length, length to temperature.
 fn in_catalogue(&(variable, course, compliance): &Kind) -> bool {
-    let known = [(Variable::LegLength, true), (Variable::DeltaT, false)];
+    let known = [(PatternVariable::LegLength, true), (PatternVariable::DeltaT, false)];
     course == Course::Linear && known.contains(&(variable, compliance))
 }
 
-fn steps(variable: Variable, lin: &Linearization) -> Vec<Kind> {
-    if variable == Variable::LegForce {
+fn steps(variable: PatternVariable, lin: &Linearization) -> Vec<Kind> {
+    if variable == PatternVariable::LegForce {
         return Vec::new();
     }
     let cuts = thresholds(variable, lin);
@@ -281,7 +285,7 @@ fn steps(variable: Variable, lin: &Linearization) -> Vec<Kind> {
 }
 
 /// Values between which a step may lie: the twentieths of the variable.
-fn thresholds(variable: Variable, lin: &Linearization) -> Vec<f64> {
+fn thresholds(variable: PatternVariable, lin: &Linearization) -> Vec<f64> {
     let per_leg = |c| (0..6).map(move |leg| variable.value(c, leg));
     let mut values: Vec<f64> = lin.conditions.iter().flat_map(per_leg).collect();
     values.sort_by(f64::total_cmp);

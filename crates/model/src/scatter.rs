@@ -13,11 +13,11 @@ const QUANTILES: usize = 60;
 
 /// Whitened residuals of all readings and coordinates.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Scatter {
+pub struct ResidualScatter {
     sorted: Vec<f64>,
 }
 
-impl Scatter {
+impl ResidualScatter {
     /// Of these readings.
     pub fn of(readings: &[Residual]) -> Self {
         let mut sorted: Vec<f64> = readings.iter().flat_map(|r| r.whitened.data.0[0]).collect();
@@ -59,12 +59,12 @@ mod tests {
     use super::*;
     use hexbench_core::Vector6;
 
-    fn scatter(values: &[f64]) -> Scatter {
+    fn scatter(values: &[f64]) -> ResidualScatter {
         let residual = |(row, chunk): (usize, &[f64])| {
             let whitened = Vector6::from_column_slice(chunk);
             Residual { row, condition: row, value: whitened, whitened }
         };
-        Scatter::of(&values.chunks_exact(6).enumerate().map(residual).collect::<Vec<_>>())
+        ResidualScatter::of(&values.chunks_exact(6).enumerate().map(residual).collect::<Vec<_>>())
     }
 
     #[test]

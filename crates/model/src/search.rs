@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::candidates::{Candidate, Kind};
+use crate::candidates::{Candidate, CandidateKind};
 use crate::evidence::{Gram, Variant, log_sum};
 
 /// Prior probability of no, one, two, three and four effects.
@@ -61,7 +61,7 @@ impl Sets {
 }
 
 /// The search.
-pub struct Search<'a> {
+pub struct TermSearch<'a> {
     gram: &'a Gram,
     candidates: &'a [Candidate],
     effects: f64,
@@ -69,11 +69,11 @@ pub struct Search<'a> {
     done: BTreeMap<Vec<usize>, Set>,
 }
 
-impl<'a> Search<'a> {
+impl<'a> TermSearch<'a> {
     /// Prepare; `discrepancy` is possible where the noise level is known independently of the model.
     pub fn new(gram: &'a Gram, candidates: &'a [Candidate], discrepancy: bool) -> Self {
         // The patterns together count as one more effect.
-        let terms = candidates.iter().filter(|c| matches!(c.kind, Kind::Term(_))).count();
+        let terms = candidates.iter().filter(|c| matches!(c.kind, CandidateKind::Term(_))).count();
         Self { gram, candidates, effects: (terms + 1) as f64, discrepancy, done: BTreeMap::new() }
     }
 

@@ -4,7 +4,7 @@ use hexbench_core::{Dataset, Hexapod};
 
 use crate::campaign::Campaign;
 use crate::error::ModelError;
-use crate::fit::{Fit, Wanted};
+use crate::fit::{Fit, TermSpec};
 use crate::fit_named::{Added, fit_wanted};
 use crate::linearization::Linearization;
 use crate::residuals::{ErrorSummary, Residual, leave_poses_out, prediction_errors, residuals, summarise};
@@ -37,7 +37,7 @@ impl From<HeldOut> for &'static str {
 
 /// A machine, the readings to fit, and the readings to judge by.
 #[derive(Debug, Clone, Copy)]
-pub struct Task<'a> {
+pub struct JudgedTask<'a> {
     /// The machine as drawn.
     pub hexapod: &'a Hexapod,
     /// Readings to fit.
@@ -50,7 +50,7 @@ pub struct Task<'a> {
 
 /// A fit with its errors.
 #[derive(Debug, Clone)]
-pub struct Judged {
+pub struct FitWithErrors {
     /// The fit.
     pub fit: Fit,
     /// The model at its end.
@@ -63,12 +63,12 @@ pub struct Judged {
     pub held_out: Option<ErrorSummary>,
 }
 
-impl Task<'_> {
+impl JudgedTask<'_> {
     /// Fits springs and these terms, added one after the other, and judges them.
     ///
     /// # Errors
     /// As [`crate::fit_named::fit_named`]; [`ModelError::Mismatch`] when the readings held out are of another kind.
-    pub fn fit(&self, terms: &[Added]) -> Result<Judged, ModelError> {
+    pub fn fit(&self, terms: &[Added]) -> Result<FitWithErrors, ModelError> {
         let (wanted, fit) = fit_wanted(self.campaign, terms)?;
         self.judge(fit, Some(&wanted))
     }
@@ -77,12 +77,12 @@ impl Task<'_> {
     ///
     /// # Errors
     /// [`ModelError::Mismatch`] when the readings held out are of another kind, [`ModelError::SingularPose`].
-    pub fn judge(&self, fit: Fit, wanted: Option<&[Wanted]>) -> Result<Judged, ModelError> {
+    pub fn judge(&self, fit: Fit, wanted: Option<&[TermSpec]>) -> Result<FitWithErrors, ModelError> {
         let linearization = Linearization::at(self.campaign, &fit.point)?;
         let residuals = residuals(self.campaign, &self.data.observations, &linearization);
         let fitted = summarise(&residuals, Some(fit.dof));
         let held_out = self.held_out_errors(&fit, wanted)?;
-        Ok(Judged { fit, linearization, residuals, fitted, held_out })
+        Ok(FitWithErrors { fit, linearization, residuals, fitted, held_out })
     }
 
     /// Where held-out errors come from.
@@ -93,7 +93,7 @@ impl Task<'_> {
     fn held_out_errors(
         &self,
         fit: &Fit,
-        wanted: Option<&[Wanted]>,
+        wanted: Option<&[TermSpec]>,
     ) -> Result<Option<ErrorSummary>, ModelError> {
         let noise = self.campaign.noise;
         if let Some(held) = self.holdout {

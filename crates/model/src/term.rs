@@ -85,9 +85,9 @@ pub struct TermInfo {
     /// What the data must contain for it to show.
     pub shows: &'static str,
     /// What to vary in the next measurement to see it alone, in words.
-    pub breaker: &'static str,
+    pub how_to_isolate: &'static str,
     /// Parameters of the ideal form.
-    pub parameters: &'static [Parameter],
+    pub parameters: &'static [ParameterInfo],
     /// Shape parameter, when there is one.
     pub shape: Option<Shape>,
     /// Columns it cannot do without.
@@ -132,7 +132,7 @@ impl Chapter {
 
 /// One linear parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parameter {
+pub struct ParameterInfo {
     /// Name below the term's id, kebab-case.
     pub name: &'static str,
     /// Unit shown to people.
@@ -145,7 +145,7 @@ pub struct Parameter {
     pub positive: bool,
 }
 
-impl Parameter {
+impl ParameterInfo {
     /// A parameter of the catalogue.
     pub(crate) const fn new(
         name: &'static str,
@@ -168,8 +168,8 @@ pub(crate) const fn each<const N: usize>(
     per_si: f64,
     scale: Scale,
     positive: bool,
-) -> [Parameter; N] {
-    let mut all = [Parameter::new(names[0], unit, per_si, scale, positive); N];
+) -> [ParameterInfo; N] {
+    let mut all = [ParameterInfo::new(names[0], unit, per_si, scale, positive); N];
     let mut i = 1;
     while i < N {
         all[i].name = names[i];

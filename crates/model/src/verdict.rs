@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::candidates::{Candidate, Kind};
+use crate::candidates::{Candidate, CandidateKind};
 use crate::explanation::Explanation;
 use crate::search::{Set, Sets};
 
@@ -71,7 +71,7 @@ pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
     let mut outside = 0.0;
     for set in &sets.sets {
         let (plain, discrepant) = (sets.probability(set), sets.discrepant_probability(set));
-        let patterned = set.members.iter().any(|&m| matches!(candidates[m].kind, Kind::Pattern(_)));
+        let patterned = set.members.iter().any(|&m| matches!(candidates[m].kind, CandidateKind::Pattern(_)));
         outside += discrepant + if patterned { plain } else { 0.0 };
         *first.entry(Explanation::Outside).or_default() += discrepant;
         let leader = if patterned { Explanation::Outside } else { leader(set, sets, candidates) };

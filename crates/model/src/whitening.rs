@@ -14,7 +14,7 @@
 use hexbench_core::Vector6;
 use nalgebra::{DMatrix, DVector};
 
-use crate::campaign::{Campaign, Group};
+use crate::campaign::{Campaign, ConditionReadings};
 use crate::noise::{Noise, Structure};
 
 /// Eigenvalues of the inexact inputs below this share of the largest do not show.
@@ -134,7 +134,7 @@ impl Inputs {
 
 impl Common {
     /// The transform for groups of readings under a noise model.
-    fn of(groups: &[Group], noise: &Noise) -> Self {
+    fn of(groups: &[ConditionReadings], noise: &Noise) -> Self {
         match noise.structure {
             Structure::Independent | Structure::Setup { .. } => Self::Nothing,
             Structure::Reference { .. } => Self::Shared {
@@ -187,7 +187,7 @@ impl Common {
     }
 }
 
-fn share(group: &Group) -> Vector6 {
+fn share(group: &ConditionReadings) -> Vector6 {
     Vector6::from_fn(|k, _| group.shared[k] / group.sigma[k])
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::parameters::{Parameters, Place};
+use crate::parameters::{ParameterPlace, Parameters};
 
 /// Weights below this share of the largest do not take part in a combination.
 const TAKES_PART: f64 = 1e-3;
@@ -42,7 +42,7 @@ pub fn sentence(weights: &[f64], parameters: &Parameters) -> String {
     let largest = weights.iter().fold(0.0_f64, |m, w| m.max(w.abs()));
     let part: Vec<usize> = (0..weights.len()).filter(|&k| weights[k].abs() > TAKES_PART * largest).collect();
     let name = |k: usize| parameters[k].name.as_str();
-    let legs = part.iter().all(|&k| matches!(parameters[k].place, Place::Spring(_)));
+    let legs = part.iter().all(|&k| matches!(parameters[k].place, ParameterPlace::Spring(_)));
     match part.as_slice() {
         [] => "nothing is undetermined".to_owned(),
         [one] => format!("{} does not show in the data at all", name(*one)),
@@ -113,7 +113,7 @@ mod tests {
 
     use super::*;
     use crate::fit_named::term_named;
-    use crate::linearization::{Active, Point};
+    use crate::linearization::{Active, ModelPoint};
     use crate::machine::Machine;
     use crate::terms::catalogue;
     use crate::test_machine::machine;
@@ -129,7 +129,7 @@ mod tests {
         let term = |id: &&str| term_named(id, &catalogue()).map(|t| Active::new(t, false, 1.0));
         let active = ids.iter().map(term).collect::<Result<_, _>>().unwrap();
         let machine = Machine::nominal(&machine());
-        Parameters::at(&Point { springs: Vector6::zeros(), active, machine }, absolute)
+        Parameters::at(&ModelPoint { compliances: Vector6::zeros(), active, machine }, absolute)
     }
 
     fn with_creep() -> Parameters {

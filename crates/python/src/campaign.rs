@@ -6,7 +6,7 @@ use std::sync::Arc;
 use hexbench_app::Failure;
 use hexbench_core::Dataset;
 use hexbench_core::files::{
-    Cells, FileError, MemoryColumn, Purpose, Reading, content_hash, measurements_to_columns,
+    Cells, FileError, GroupPurpose, MemoryColumn, TableReading, content_hash, measurements_to_columns,
     measurements_to_csv, read_columns, read_measurements, read_measurements_from,
 };
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
@@ -79,7 +79,7 @@ impl PyCampaign {
         let machine = Arc::clone(&hexapod.0);
         let columns = memory_columns(py, names, &columns)?;
         beside(py, move || {
-            let reading = read_columns(&columns, &name, Purpose::Measurements)?;
+            let reading = read_columns(&columns, &name, GroupPurpose::Measurements)?;
             let origin = Origin::in_memory(&name, &csv(&reading.dataset));
             Ok(Self::of(machine, reading, origin))
         })
@@ -116,7 +116,7 @@ impl PyCampaign {
 }
 
 impl PyCampaign {
-    fn of(machine: Arc<Machine>, reading: Reading, origin: Origin) -> (Self, Noticed) {
+    fn of(machine: Arc<Machine>, reading: TableReading, origin: Origin) -> (Self, Noticed) {
         let told =
             |w: &hexbench_core::files::Warning| (format!("{}: {w}", origin.name), w.next_step().to_owned());
         let noticed = reading.warnings.iter().map(told).collect();
@@ -160,7 +160,7 @@ pub(crate) fn conditions(
     let columns = memory_columns(py, names, columns)?;
     let name = name.to_owned();
     beside(py, move || {
-        read_columns(&columns, &name, Purpose::Conditions)
+        read_columns(&columns, &name, GroupPurpose::Conditions)
             .map(|reading| reading.dataset)
             .map_err(|cause: FileError| Failure::File(cause))
     })

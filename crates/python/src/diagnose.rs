@@ -4,13 +4,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use hexbench_app::{Failure, input};
-use hexbench_model::compare::{Compared, compare as compared_with};
-use hexbench_model::diagnose::{Study, diagnose as studied};
+use hexbench_model::compare::{ComparedModel, compare as compared_with};
+use hexbench_model::diagnose::{DiagnosisStudy, diagnose as studied};
 use hexbench_model::runs::{Origin, WithOrigin};
 use hexbench_report::Page;
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{PROGRAM, Terminal, html, plain, terminal};
-use hexbench_report::words::{self, Provenance, Subject, subject};
+use hexbench_report::words::{self, Provenance, ReportSubject, subject};
 use pyo3::prelude::*;
 use serde::Serialize;
 
@@ -64,7 +64,7 @@ fn page_text(page: &Page) -> Result<String, Failure> {
 
 /// A diagnosis.
 #[pyclass(frozen, name = "Diagnosis", module = "hexbench._native")]
-pub(crate) struct PyDiagnosis(Arc<(About, Study)>);
+pub(crate) struct PyDiagnosis(Arc<(About, DiagnosisStudy)>);
 
 #[pymethods]
 impl PyDiagnosis {
@@ -85,8 +85,8 @@ impl PyDiagnosis {
     }
 }
 
-fn subject_of((about, study): &(About, Study)) -> Subject<'_> {
-    Subject {
+fn subject_of((about, study): &(About, DiagnosisStudy)) -> ReportSubject<'_> {
+    ReportSubject {
         hexapod: &about.measured.machine.hexapod,
         data: &about.measured.data,
         holdout: about.holdout.as_ref().map(|h| &h.data),
@@ -114,7 +114,7 @@ pub(crate) fn diagnose(
 
 /// A comparison.
 #[pyclass(frozen, name = "Comparison", module = "hexbench._native")]
-pub(crate) struct PyComparison(Arc<(About, Compared)>);
+pub(crate) struct PyComparison(Arc<(About, ComparedModel)>);
 
 #[pymethods]
 impl PyComparison {

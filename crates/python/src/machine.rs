@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use hexbench_app::Failure;
 use hexbench_core::files::{
-    FileError, Kind, atomic_write, content_hash, hexapod_to_toml, parse_hexapod, read_hexapod, text_hash,
-    unit_named,
+    Dimension, FileError, atomic_write, content_hash, hexapod_to_toml, parse_hexapod, read_hexapod,
+    text_hash, unit_named,
 };
 use hexbench_core::{Hexapod, Vector3};
 use numpy::PyArray2;
@@ -125,7 +125,7 @@ impl PyHexapod {
 }
 
 fn millimetres<'py>(py: Python<'py>, joints: &[Vector3; 6]) -> Bound<'py, PyArray2<f64>> {
-    let unit = unit_named("mm", Kind::Length);
+    let unit = unit_named("mm", Dimension::Length);
     let in_mm = |m: f64| unit.map_or(m, |unit| unit.from_si(m));
     rows(py, joints.iter().map(|joint| [in_mm(joint.x), in_mm(joint.y), in_mm(joint.z)]))
 }

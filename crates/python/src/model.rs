@@ -9,7 +9,7 @@ use hexbench_model::diagnose::prepare;
 use hexbench_model::estimate::{Estimates, estimates_of};
 use hexbench_model::model_file::{Estimator, Model};
 use hexbench_model::predict::predict_with_covariance;
-use hexbench_model::selection::Task;
+use hexbench_model::selection::JudgedTask;
 use hexbench_report::render::plain;
 use hexbench_report::words;
 use numpy::{PyArray2, PyArray3};
@@ -187,7 +187,8 @@ pub(crate) fn fit(
         let added = added(&add, input::user_terms(&terms)?, estimator)?;
         let failed = |cause| Failure::Model { cause, data: data.source.clone() };
         let campaign = prepare(hexapod, data).map_err(failed)?;
-        let task = Task { hexapod, data, campaign: &campaign, holdout: holdout.as_ref().map(|h| &h.data) };
+        let task =
+            JudgedTask { hexapod, data, campaign: &campaign, holdout: holdout.as_ref().map(|h| &h.data) };
         let judged = fitted(&task, &added, estimator)?;
         let summary = plain(&words::fitted::page(&task, &judged, estimator));
         let model = kept(&task, &judged, estimator, measured.origin.sha256.clone());

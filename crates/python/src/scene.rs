@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use hexbench_app::simulate::{Choices, scene};
-use hexbench_truth::scene::{Bench, Existing};
+use hexbench_truth::scene::{Existing, VirtualBench};
 use pyo3::prelude::*;
 
 use crate::run::beside;
@@ -26,6 +26,6 @@ pub(crate) fn simulate(py: Python<'_>, folder: PathBuf, output: PathBuf, wanted:
         let Wanted { seed, poses, repeats, noise_free, force } = wanted;
         let scene = scene(&folder, Choices { seed, poses, repeats })?;
         let existing = if force { Existing::Replaced } else { Existing::Refused };
-        Ok(Bench::new(&scene, noise_free).write(&output, existing, &|_| ())?)
+        Ok(VirtualBench::new(&scene, noise_free).write(&output, existing, &|_| ())?)
     })
 }

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use hexbench_app::Failure;
 use hexbench_experiments::harness::{Sharded, Silent, record};
 use hexbench_experiments::journal::Adopted;
-use hexbench_experiments::sweep::{Part, Runner, Study, Work, divide, page};
+use hexbench_experiments::sweep::{Runner, StudyPart, SweepStudy, Work, divide, page};
 use hexbench_report::render::plain;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -24,7 +24,7 @@ const SHARDS_PER_THREAD: usize = 4;
 /// How a study divides into parts.
 #[pyfunction]
 pub(crate) fn study_plan(py: Python<'_>, study: PathBuf, parts: u64) -> PyResult<Bound<'_, PyAny>> {
-    if Part::new(1, parts).is_none() {
+    if StudyPart::new(1, parts).is_none() {
         return Err(usage(py, &format!("{parts} parts: there must be one or more, and at most 100000"), ""));
     }
     loaded(py, &beside(py, move || Ok(divide(&study, parts)?))?)
@@ -38,7 +38,8 @@ pub(crate) fn study_run_part<'py>(
     part: &str,
     folder: PathBuf,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let part: Part = part.parse().map_err(|cause| usage(py, &format!("part \"{part}\": {cause}"), ""))?;
+    let part: StudyPart =
+        part.parse().map_err(|cause| usage(py, &format!("part \"{part}\": {cause}"), ""))?;
     let told = folder.display().to_string();
     let (work, todo) = beside(py, move || {
         let work = Work::open(&study, &folder)?;
@@ -78,7 +79,7 @@ impl StudyRunner {
         let pool = Arc::new(pool.map_err(|cause| internal(py, &cause.to_string()))?);
         let runner = {
             let pool = Arc::clone(&pool);
-            beside(py, move || Ok(pool.install(|| Runner::new(Study::read(&study)?))?))?
+            beside(py, move || Ok(pool.install(|| Runner::new(SweepStudy::read(&study)?))?))?
         };
         Ok(Self { runner: Arc::new(runner), pool })
     }

@@ -20,7 +20,7 @@ pub(crate) fn terms(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
             "equation": info.equation,
             "source": info.source,
             "shows": info.shows,
-            "breaker": info.breaker,
+            "breaker": info.how_to_isolate,
             "parameters": parameters.collect::<Vec<_>>(),
             "shape": info.shape.map(|s| json!({ "name": s.name, "unit": s.unit })),
         })

@@ -34,7 +34,7 @@ fn count(arguments: &[String]) -> Result<usize, String> {
 fn run(count: usize) -> ExitCode {
     let statics: Arc<dyn Statics> = Arc::new(RapierStatics::default());
     let compare = |index| {
-        let case = witness::Case::draw(index, SEED);
+        let case = witness::CrossCheckCase::draw(index, SEED);
         case.compare(&statics).map_err(|error| (index, case.effect_name(), error))
     };
     let (done, failed): (Vec<_>, Vec<_>) =

@@ -5,7 +5,7 @@ use hexbench_truth::{
     equilibrium::{Body, Equilibrium},
 };
 
-use crate::{inexpressible, law, masses, parts::Stepping, scene::Scene};
+use crate::{inexpressible, law, masses, parts::Stepping, scene::BodyScene};
 
 /// Farthest the platform may go from the commanded pose, as a share of its radius and in rad.
 const FARTHEST: f64 = 0.1;
@@ -40,7 +40,7 @@ impl Statics for RapierStatics {
         // Only the phase per step matters: time is measured in steps of a millisecond.
         let stepping = Stepping { dt: 1e-3, sweeps: self.sweeps };
         let dynamics = masses::quickest(setup, stepping.dt, self.phase);
-        let mut scene = Scene::new(setup, remembered, &dynamics, &stepping)?;
+        let mut scene = BodyScene::new(setup, remembered, &dynamics, &stepping)?;
         for step in 1..=self.most_steps {
             scene.step();
             check_place(setup, &scene.loaded())?;
@@ -74,7 +74,7 @@ fn check_place(setup: &Setup, platform: &Body) -> Result<(), TruthError> {
     Err(TruthError::GaveWay { translation_mm: distance * 1e3, rotation_deg: angle.to_degrees() })
 }
 
-fn state(setup: &Setup, remembered: &[LegMemory; 6], scene: &Scene, iterations: usize) -> Equilibrium {
+fn state(setup: &Setup, remembered: &[LegMemory; 6], scene: &BodyScene, iterations: usize) -> Equilibrium {
     let forces = scene.forces();
     Equilibrium {
         platform: scene.loaded(),

@@ -48,7 +48,7 @@ struct Yielding {
 }
 
 /// Bodies, joints and the forces between them.
-pub struct Scene {
+pub struct BodyScene {
     setup: Setup,
     remembered: [LegMemory; 6],
     dynamics: Dynamics,
@@ -72,7 +72,7 @@ pub struct Scene {
     ccd: CCDSolver,
 }
 
-impl Scene {
+impl BodyScene {
     /// The machine at its commanded pose, legs as long as the distance of their joints, at rest.
     ///
     /// # Errors

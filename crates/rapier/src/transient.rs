@@ -2,12 +2,12 @@
 
 use hexbench_core::files::CsvText;
 use hexbench_core::{Hexapod, Pose, Vector6, Wrench};
-use hexbench_truth::{LegMemory, Moment, Newton, Phase, Setup, Situation, Statics, TruthError, World};
+use hexbench_truth::{Instant, LegMemory, Newton, Phase, Setup, Situation, Statics, TruthError, World};
 
 use crate::{
     Modes, inexpressible,
     parts::{Dynamics, Inertia, Stepping},
-    scene::Scene,
+    scene::BodyScene,
     whole,
 };
 
@@ -43,7 +43,7 @@ impl LoadStep {
 
 /// One moment of the trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
+pub struct TraceSample {
     /// Time after the step, s.
     pub time: f64,
     /// Pose parameters minus the commanded ones, m and rad.
@@ -58,7 +58,7 @@ pub struct Transient {
     /// Natural modes of the linear machine.
     pub modes: Modes,
     /// The trace; never empty.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<TraceSample>,
     /// Time after which the deflection stays within [`SETTLED`] of its last value, s.
     pub settling_time: f64,
     /// Frequency at which the lowest mode was seen to swing, Hz; none when it hardly did.
@@ -90,7 +90,7 @@ pub fn nominal(
     let lengths = std::array::from_fn(|i| {
         (pose.translation + r * hexapod.platform_joints[i] - hexapod.base_joints[i]).norm()
     });
-    let moment = Moment {
+    let moment = Instant {
         hexapod,
         situation: &situation,
         phase: Phase::Loaded,
@@ -131,7 +131,7 @@ pub fn settle(setup: &Setup, step: &LoadStep) -> Result<Transient, TruthError> {
         per_stiffness: 2.0 * step.damping_ratio / lowest,
         per_mass: 0.0,
     };
-    let scene = Scene::new(setup, &[LegMemory::default(); 6], &dynamics, &stepping)?;
+    let scene = BodyScene::new(setup, &[LegMemory::default(); 6], &dynamics, &stepping)?;
     // A mode damped beyond critical creeps home at about omega / (2 ratio).
     let decay = lowest * step.damping_ratio.min(0.5 / step.damping_ratio);
     let samples = trace(scene, &setup.pose, &stepping, LEFT.ln().abs() / decay);
@@ -165,13 +165,13 @@ fn radius(setup: &Setup) -> f64 {
     setup.platform_joints.iter().map(nalgebra::Matrix::norm).sum::<f64>() / 6.0
 }
 
-fn trace(mut scene: Scene, commanded: &Pose, stepping: &Stepping, duration: f64) -> Vec<Sample> {
+fn trace(mut scene: BodyScene, commanded: &Pose, stepping: &Stepping, duration: f64) -> Vec<TraceSample> {
     let stride = whole((std::f64::consts::TAU / PHASE / SAMPLES_PER_PERIOD).round().max(1.0));
     let count = whole((duration / (stepping.dt * stride as f64)).ceil());
-    let sample = |scene: &Scene, i: usize| {
+    let sample = |scene: &BodyScene, i: usize| {
         let place = scene.loaded();
         let pose = Pose::from_rotation(place.origin, &place.axes);
-        Sample {
+        TraceSample {
             time: (i * stride) as f64 * stepping.dt,
             deflection: pose.to_vector() - commanded.to_vector(),
             forces: scene.forces(),
@@ -190,10 +190,10 @@ fn size(d: &Vector6, radius: f64) -> f64 {
     d.fixed_rows::<3>(0).norm().hypot(radius * d.fixed_rows::<3>(3).norm())
 }
 
-fn settling_time(samples: &[Sample], radius: f64) -> f64 {
+fn settling_time(samples: &[TraceSample], radius: f64) -> f64 {
     let last = samples.last().map_or_else(Vector6::zeros, |s| s.deflection);
     let limit = SETTLED * size(&last, radius);
-    let outside = |s: &&Sample| size(&(s.deflection - last), radius) > limit;
+    let outside = |s: &&TraceSample| size(&(s.deflection - last), radius) > limit;
     samples.iter().rev().find(outside).map_or(0.0, |s| s.time)
 }
 
@@ -201,7 +201,7 @@ fn settling_time(samples: &[Sample], radius: f64) -> f64 {
 ///
 /// Small angles: Euler differences stand for the rotation vector through the commanded orientation's first-order map, which
 /// scales a coordinate but moves no crossing by more than the deflection's own size.
-fn observed(samples: &[Sample], modes: &Modes) -> Option<f64> {
+fn observed(samples: &[TraceSample], modes: &Modes) -> Option<f64> {
     const MOST_CROSSINGS: usize = 21;
     const FEWEST_CROSSINGS: usize = 5;
     let row = modes.mass * modes.shapes.column(0);
@@ -222,7 +222,7 @@ fn observed(samples: &[Sample], modes: &Modes) -> Option<f64> {
 }
 
 /// The trace as a table, units in the names.
-pub fn csv(samples: &[Sample]) -> String {
+pub fn csv(samples: &[TraceSample]) -> String {
     let deflections =
         ["da_um", "db_um", "dc_um", "dalpha_urad", "dbeta_urad", "dgamma_urad"].map(str::to_owned);
     let forces = (1..=6).map(|i| format!("force_{i}_N"));

@@ -9,20 +9,20 @@ use hexbench_core::{Approach, Hexapod, Vector6};
 use hexbench_truth::{
     Situation, Statics, TruthError, World,
     campaign::{PlanKind, machines},
-    mechanisms::{Effect, REGISTRY},
-    world::Reading,
+    mechanisms::{MechanismEntry, REGISTRY},
+    world::InstrumentReading,
 };
 use rand::RngExt;
 
 /// One situation in which the worlds are compared.
 #[derive(Debug, Clone)]
-pub struct Case {
+pub struct CrossCheckCase {
     /// Number of the case.
     pub index: usize,
     /// Family of the machine.
     pub family: &'static str,
     /// Effect at work; none: leg springs alone.
-    pub effect: Option<&'static Effect>,
+    pub effect: Option<&'static MechanismEntry>,
     /// Nominal machine.
     pub hexapod: Hexapod,
     /// Stiffness of the legs, N/m.
@@ -34,7 +34,7 @@ pub struct Case {
 
 /// How far apart the worlds are in one case, all as shares.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Comparison {
+pub struct WorldDifference {
     /// Number of the case.
     pub index: usize,
     /// Family of the machine.
@@ -53,14 +53,14 @@ pub struct Comparison {
     pub seconds: f64,
 }
 
-impl Comparison {
+impl WorldDifference {
     /// The largest of the three shares.
     pub fn worst(&self) -> f64 {
         self.translation.max(self.rotation).max(self.force)
     }
 }
 
-impl Case {
+impl CrossCheckCase {
     /// Case `index` of a seed. Consecutive ones walk through all effects and all families of machines; sizes, poses, loads
     /// and the approach to the load are drawn.
     pub fn draw(index: usize, seed: u64) -> Self {
@@ -94,7 +94,7 @@ impl Case {
     ///
     /// # Errors
     /// As [`World::reading`], of either world.
-    pub fn compare(&self, other: &Arc<dyn Statics>) -> Result<Comparison, TruthError> {
+    pub fn compare(&self, other: &Arc<dyn Statics>) -> Result<WorldDifference, TruthError> {
         let first = self.world();
         let mut second = self.world();
         second.statics = Arc::clone(other);
@@ -105,17 +105,22 @@ impl Case {
         // An overload on the way is a second state of rest.
         let states = if self.situation.approach == Approach::Overloaded { 2.0 } else { 1.0 };
         let seconds = start.elapsed().as_secs_f64() / states;
-        Ok(Comparison { seconds, ..self.differences(&deflections, &reading, &witnessed) })
+        Ok(WorldDifference { seconds, ..self.differences(&deflections, &reading, &witnessed) })
     }
 
-    fn differences(&self, deflections: &[Vector6; 2], first: &Reading, second: &Reading) -> Comparison {
+    fn differences(
+        &self,
+        deflections: &[Vector6; 2],
+        first: &InstrumentReading,
+        second: &InstrumentReading,
+    ) -> WorldDifference {
         let [size, turn] = parts(&deflections[0]);
         let by_deflection = parts(&(deflections[1] - deflections[0]));
         let by_pose = parts(&second.equilibrium.platform.relative_to(&first.equilibrium.platform));
         let forces = (first.equilibrium.forces, second.equilibrium.forces);
         let largest = forces.0.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
         let apart = forces.0.iter().zip(forces.1).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-        Comparison {
+        WorldDifference {
             index: self.index,
             family: self.family,
             effect: self.effect_name(),
@@ -134,7 +139,7 @@ fn parts(d: &Vector6) -> [f64; 2] {
 }
 
 /// One line for each comparison.
-pub fn csv(comparisons: &[Comparison]) -> String {
+pub fn csv(comparisons: &[WorldDifference]) -> String {
     let header = ["case", "family", "effect", "deflection_um", "translation", "rotation", "force", "seconds"];
     let mut text = CsvText::new(header);
     for c in comparisons {
@@ -151,9 +156,9 @@ pub fn csv(comparisons: &[Comparison]) -> String {
 }
 
 /// Median, 99 % quantile and largest value of each quantity, as a page.
-pub fn summary(comparisons: &[Comparison]) -> String {
+pub fn summary(comparisons: &[WorldDifference]) -> String {
     let mut text = format!("{} cases{:>23}{:>12}{:>12}\n", comparisons.len(), "median", "99 %", "largest");
-    let mut line = |name: &str, value: fn(&Comparison) -> f64| {
+    let mut line = |name: &str, value: fn(&WorldDifference) -> f64| {
         let at = |share: f64| quantile(comparisons.iter().map(value), share);
         if let (Some(q50), Some(q99), Some(most)) = (at(0.5), at(0.99), at(1.0)) {
             let _ = writeln!(text, "{name:<22}{q50:>12.1e}{q99:>12.1e}{most:>12.1e}");

@@ -3,7 +3,9 @@
 use std::error::Error;
 use std::path::PathBuf;
 
-use hexbench_report::plot::{Axis, Bars, Bin, Chart, HeatMap, Panels, Raster, Reliability, Series};
+use hexbench_report::plot::{
+    Axis, Bars, Chart, HeatMap, Panels, Raster, Reliability, ReliabilityBin, Series,
+};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder: PathBuf = std::env::args_os().nth(1).ok_or("give a folder")?.into();
@@ -120,7 +122,7 @@ fn reliability() -> Reliability {
         let (from, n) = (f64::from(i) / 10.0, 20 + 9 * i * i);
         let observed = (from + 0.05 + 0.03 * (f64::from(i) * 1.7).sin()).clamp(0.0, 1.0);
         let half = 2.0 * (observed * (1.0 - observed) / f64::from(n)).sqrt();
-        Bin {
+        ReliabilityBin {
             edges: [from, from + 0.1],
             stated: from + 0.055,
             observed,

@@ -13,4 +13,4 @@ pub mod render;
 pub mod table;
 pub mod words;
 
-pub use page::{Block, Cell, Column, Entry, Figure, Mood, Page, Section, Table};
+pub use page::{Block, Cell, Definition, Figure, Mood, Page, PageColumn, Section, Table};

@@ -5,14 +5,14 @@
 
 use std::{path::PathBuf, process::ExitCode};
 
-use hexbench_truth::campaign::{Case, Kind};
+use hexbench_truth::campaign::{CaseKind, SimulatedCase};
 use rayon::prelude::*;
 
 struct Settings {
     out: PathBuf,
     seed: u64,
     count: usize,
-    kinds: Vec<Kind>,
+    kinds: Vec<CaseKind>,
     distance: Option<[f64; 2]>,
 }
 
@@ -28,7 +28,7 @@ fn main() -> ExitCode {
 
 fn run(settings: &Settings) -> Result<(), String> {
     eprintln!("seed {}", settings.seed);
-    let jobs: Vec<(Kind, usize)> =
+    let jobs: Vec<(CaseKind, usize)> =
         settings.kinds.iter().flat_map(|&kind| (0..settings.count).map(move |i| (kind, i))).collect();
     let failures: Vec<String> =
         jobs.par_iter().filter_map(|&(kind, i)| one(settings, kind, i).err()).collect();
@@ -39,8 +39,8 @@ fn run(settings: &Settings) -> Result<(), String> {
     if failures.is_empty() { Ok(()) } else { Err(format!("{} cases could not be made", failures.len())) }
 }
 
-fn one(settings: &Settings, kind: Kind, index: usize) -> Result<(), String> {
-    let case = Case::draw(kind, index, settings.seed, settings.distance)
+fn one(settings: &Settings, kind: CaseKind, index: usize) -> Result<(), String> {
+    let case = SimulatedCase::draw(kind, index, settings.seed, settings.distance)
         .map_err(|e| format!("{}-{index}: {e}", kind.name()))?;
     case.write(&settings.out.join(&case.spec.id)).map_err(|e| e.to_string())
 }
@@ -50,7 +50,7 @@ fn settings() -> Result<Settings, String> {
         out: PathBuf::from("cases"),
         seed: 1,
         count: 16,
-        kinds: Kind::ALL.to_vec(),
+        kinds: CaseKind::ALL.to_vec(),
         distance: None,
     };
     let mut words = std::env::args().skip(1);
@@ -79,9 +79,9 @@ fn range(word: &str) -> Result<[f64; 2], String> {
     if good { Ok(range) } else { Err(format!("`{word}` is not a distance or a range LOW:HIGH")) }
 }
 
-fn kind(name: &str) -> Result<Kind, String> {
-    Kind::ALL
+fn kind(name: &str) -> Result<CaseKind, String> {
+    CaseKind::ALL
         .into_iter()
         .find(|k| k.name() == name)
-        .ok_or_else(|| format!("kind `{name}` is none of {}", Kind::ALL.map(Kind::name).join(", ")))
+        .ok_or_else(|| format!("kind `{name}` is none of {}", CaseKind::ALL.map(CaseKind::name).join(", ")))
 }

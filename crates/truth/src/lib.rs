@@ -43,5 +43,5 @@ pub use law::{LegLaw, LegMemory};
 pub use mechanisms::Mechanism;
 pub use scene::Scene;
 pub use setup::Setup;
-pub use situation::{Moment, Phase, Situation};
+pub use situation::{Instant, Phase, Situation};
 pub use world::World;

@@ -2,7 +2,7 @@
 
 use hexbench_core::{Hexapod, Matrix3, Matrix6, Pose, Vector3, Wrench};
 
-use crate::{LegLaw, Moment};
+use crate::{Instant, LegLaw};
 
 /// A dead force on the platform: constant direction in fixed axes, acting at a point of the mobile frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +74,7 @@ pub struct Setup {
 
 impl Setup {
     /// The nominal machine with plain springs at a moment; `leg_compliance` in m/N.
-    pub fn nominal(moment: &Moment<'_>, leg_compliance: &[f64; 6], wrench: Wrench) -> Self {
+    pub fn nominal(moment: &Instant<'_>, leg_compliance: &[f64; 6], wrench: Wrench) -> Self {
         let Hexapod { base_joints, platform_joints, .. } = moment.hexapod;
         Self {
             pose: moment.situation.pose,

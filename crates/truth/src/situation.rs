@@ -48,7 +48,7 @@ pub enum Phase {
 
 /// The moment at which the mechanisms act: the row, where on its path, and what is known of the nominal machine there.
 #[derive(Debug, Clone, Copy)]
-pub struct Moment<'a> {
+pub struct Instant<'a> {
     /// Nominal machine.
     pub hexapod: &'a Hexapod,
     /// The row.
@@ -63,7 +63,7 @@ pub struct Moment<'a> {
     pub reference_forces: [f64; 6],
 }
 
-impl Moment<'_> {
+impl Instant<'_> {
     /// Seconds since the reference reading.
     pub fn elapsed(&self) -> f64 {
         if self.phase == Phase::Loaded { self.situation.elapsed } else { 0.0 }

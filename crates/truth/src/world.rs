@@ -5,7 +5,7 @@ use std::sync::Arc;
 use hexbench_core::{Approach, Hexapod, Pose, Vector6, Wrench};
 
 use crate::{
-    LegMemory, Mechanism, Moment, Phase, Setup, Situation, Statics, TruthError,
+    Instant, LegMemory, Mechanism, Phase, Setup, Situation, Statics, TruthError,
     equilibrium::{Equilibrium, Newton},
 };
 
@@ -24,7 +24,7 @@ pub struct World {
 
 /// What the instrument sees at one moment: pose of the measured point, m and rad (Euler angles X-Y-Z extrinsic).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reading {
+pub struct InstrumentReading {
     /// Pose read.
     pub pose: Pose,
     /// State of rest behind it.
@@ -98,7 +98,7 @@ impl World {
     /// # Errors
     /// [`TruthError::Unreachable`], [`TruthError::Singular`], [`TruthError::GaveWay`], [`TruthError::NotConverged`],
     /// [`TruthError::NotFinite`]: never a number that is not a solution.
-    pub fn reading(&self, situation: &Situation) -> Result<Reading, TruthError> {
+    pub fn reading(&self, situation: &Situation) -> Result<InstrumentReading, TruthError> {
         let mut moment = self.moment(situation)?;
         self.load(&mut moment, [LegMemory::default(); 6])
     }
@@ -108,15 +108,15 @@ impl World {
     /// # Errors
     /// [`TruthError::Unreachable`], [`TruthError::NotFinite`].
     pub fn structure(&self, situation: &Situation) -> Result<Setup, TruthError> {
-        let moment = Moment { phase: Phase::Loaded, ..self.moment(situation)? };
+        let moment = Instant { phase: Phase::Loaded, ..self.moment(situation)? };
         Ok(self.setup(&moment, situation.wrench))
     }
 
     fn load<'a>(
         &'a self,
-        moment: &mut Moment<'a>,
+        moment: &mut Instant<'a>,
         remembered: [LegMemory; 6],
-    ) -> Result<Reading, TruthError> {
+    ) -> Result<InstrumentReading, TruthError> {
         let situation = moment.situation;
         let mut memory = remembered;
         if situation.approach == Approach::Overloaded {
@@ -125,12 +125,12 @@ impl World {
         }
         moment.phase = Phase::Loaded;
         let equilibrium = self.state(moment, situation.wrench, &memory)?;
-        Ok(Reading { pose: self.read(moment, &equilibrium), equilibrium })
+        Ok(InstrumentReading { pose: self.read(moment, &equilibrium), equilibrium })
     }
 
-    fn moment<'a>(&'a self, situation: &'a Situation) -> Result<Moment<'a>, TruthError> {
+    fn moment<'a>(&'a self, situation: &'a Situation) -> Result<Instant<'a>, TruthError> {
         let nominal_lengths = self.commanded_lengths(&situation.pose)?;
-        Ok(Moment {
+        Ok(Instant {
             hexapod: &self.hexapod,
             situation,
             phase: Phase::Reference,
@@ -158,7 +158,7 @@ impl World {
     }
 
     /// The structure as the mechanisms make it at a moment.
-    pub fn setup(&self, moment: &Moment<'_>, wrench: Wrench) -> Setup {
+    pub fn setup(&self, moment: &Instant<'_>, wrench: Wrench) -> Setup {
         let mut setup = Setup::nominal(moment, &self.leg_compliance, wrench);
         for mechanism in &self.mechanisms {
             mechanism.act(moment, &mut setup);
@@ -168,14 +168,14 @@ impl World {
 
     fn state(
         &self,
-        moment: &Moment<'_>,
+        moment: &Instant<'_>,
         wrench: Wrench,
         remembered: &[LegMemory; 6],
     ) -> Result<Equilibrium, TruthError> {
         self.statics.rest(&self.setup(moment, wrench), remembered)
     }
 
-    fn read(&self, moment: &Moment<'_>, equilibrium: &Equilibrium) -> Pose {
+    fn read(&self, moment: &Instant<'_>, equilibrium: &Equilibrium) -> Pose {
         let mut body = equilibrium.platform;
         for mechanism in &self.mechanisms {
             mechanism.see(moment, &mut body);

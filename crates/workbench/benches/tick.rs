@@ -7,21 +7,22 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use hexbench_core::files::{hexapod_to_toml, measurements_to_csv};
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_truth::campaign::{Campaign, Plan, PlanKind, Poses, machines, measure};
-use hexbench_truth::metrology::{Frames, Noise};
+use hexbench_truth::campaign::{MeasurementPlan, PlanKind, Poses, SimulatedCampaign, machines, measure};
+use hexbench_truth::metrology::{Frames, InstrumentNoise};
 use hexbench_truth::{World, mechanisms};
-use hexbench_workbench::bench::Bench;
-use hexbench_workbench::wire::{FileText, Limits, Open, Selection};
+use hexbench_workbench::bench::LoadedCampaign;
+use hexbench_workbench::wire::{FileText, Open, Selection, ServerLimits};
 
-const LIMITS: Limits = Limits { bytes: 1 << 26, rows: 50_000, own_terms: 8, term_bytes: 1 << 16, benches: 4 };
+const LIMITS: ServerLimits =
+    ServerLimits { bytes: 1 << 26, rows: 50_000, own_terms: 8, term_bytes: 1 << 16, benches: 4 };
 /// Loads and readings at each pose of a rich plan.
 const AT_A_POSE: u64 = 24;
 
 /// Readings at `readings / 24` poses, every condition different from the others, and as many poses held out.
-fn bench(readings: u64, with_holdout: bool) -> Bench {
+fn bench(readings: u64, with_holdout: bool) -> LoadedCampaign {
     let mut rng = stream(7, Purpose::Test, [0]);
     let mut hexapod = machines::draw("ring_b", &mut rng);
-    hexapod.metrology = Some(Noise::default().metrology());
+    hexapod.metrology = Some(InstrumentNoise::default().metrology());
     let mut schemes = PlanKind::Rich.schemes(&hexapod, &mut rng);
     for part in [&mut schemes.training, &mut schemes.holdout] {
         if let Poses::Drawn { count, .. } = &mut part.poses {
@@ -29,20 +30,20 @@ fn bench(readings: u64, with_holdout: bool) -> Bench {
         }
         part.anew = true;
     }
-    let plan = Plan {
+    let plan = MeasurementPlan {
         measurand: PlanKind::Rich.measurand(),
         training: schemes.training.draw(&mut rng),
         holdout: schemes.holdout.draw(&mut rng),
     };
     let mut world = World::new(hexapod.clone(), &machines::leg_stiffness("ring_b", &mut rng));
     world.mechanisms.push((mechanisms::effect("base-compliance").unwrap().draw)(&hexapod, &mut rng));
-    let campaign = Campaign { world, frames: Frames::default(), noise: Noise::default() };
+    let campaign = SimulatedCampaign { world, frames: Frames::default(), noise: InstrumentNoise::default() };
     let mut read = |rows| measure(&campaign, rows, plan.measurand, "measurements.csv", &mut rng).unwrap();
     let (data, holdout) = (read(&plan.training), read(&plan.holdout));
     opened(&hexapod, &data, with_holdout.then_some(&holdout))
 }
 
-fn opened(hexapod: &Hexapod, data: &Dataset, holdout: Option<&Dataset>) -> Bench {
+fn opened(hexapod: &Hexapod, data: &Dataset, holdout: Option<&Dataset>) -> LoadedCampaign {
     let csv = |rows: &Dataset| {
         let mut text = Vec::new();
         measurements_to_csv(&mut text, rows).unwrap();
@@ -50,7 +51,7 @@ fn opened(hexapod: &Hexapod, data: &Dataset, holdout: Option<&Dataset>) -> Bench
     };
     let machine = FileText { name: "hexapod.toml".to_owned(), text: hexapod_to_toml(hexapod) };
     let request = Open::Files { hexapod: machine, data: csv(data), holdout: holdout.map(csv) };
-    Bench::open(&request, None, &LIMITS).unwrap()
+    LoadedCampaign::open(&request, None, &LIMITS).unwrap()
 }
 
 fn tick(c: &mut Criterion) {

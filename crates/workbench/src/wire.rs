@@ -38,7 +38,7 @@ pub struct Catalogue {
     /// What a formula of one's own may use.
     pub formula: FormulaHelp,
     /// What the server accepts.
-    pub limits: Limits,
+    pub limits: ServerLimits,
 }
 
 /// A term of the model.
@@ -102,7 +102,7 @@ pub struct FormulaHelp {
 /// What the server accepts.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Limits {
+pub struct ServerLimits {
     /// Bytes of a request.
     pub bytes: usize,
     /// Readings of a file.
@@ -152,7 +152,7 @@ pub enum Open {
     /// Something is hidden from the user.
     Game {
         /// How hard.
-        level: Level,
+        level: GameLevel,
         /// Decides everything; none: drawn.
         seed: Option<u64>,
     },
@@ -162,7 +162,7 @@ pub enum Open {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
-pub enum Level {
+pub enum GameLevel {
     /// One effect of the catalogue, easy to see.
     Easy,
     /// One or two effects.
@@ -203,13 +203,13 @@ pub struct Opened {
     /// Readings fitted.
     pub readings: usize,
     /// Standard deviation of one reading.
-    pub noise: Noise,
+    pub noise: NoiseLevels,
     /// Why a term cannot be tested with these data; terms not listed can.
-    pub untestable: Vec<Untestable>,
+    pub untestable: Vec<UntestableTerm>,
     /// Base joints, mm, fixed frame.
     pub base_joints_mm: [[f64; 3]; 6],
     /// Where and how was measured.
-    pub conditions: Conditions,
+    pub conditions: ConditionLists,
     /// The springs alone.
     pub view: View,
 }
@@ -217,7 +217,7 @@ pub struct Opened {
 /// Noise of one reading.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Noise {
+pub struct NoiseLevels {
     /// Of a translation, um.
     pub translation_um: f64,
     /// Of a rotation, urad.
@@ -230,7 +230,7 @@ pub struct Noise {
 /// A term the data cannot speak about.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Untestable {
+pub struct UntestableTerm {
     /// Its id.
     pub term: String,
     /// Why.
@@ -241,7 +241,7 @@ pub struct Untestable {
 /// loaded minus reference; of an absolute pose what is measured beside what is commanded.
 #[derive(Debug, Clone, Default, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Conditions {
+pub struct ConditionLists {
     /// How many there are; those shown are evenly chosen.
     pub of: usize,
     /// a, b, c (mm), alpha, beta, gamma (deg).
@@ -311,7 +311,7 @@ pub struct View {
     /// Prediction as motion of the platform, um and urad, per condition shown.
     pub predicted_motion: Vec<[f64; 6]>,
     /// Are the residuals noise?
-    pub scatter: Scatter,
+    pub scatter: ReadingResiduals,
     /// Time taken on the server, ms.
     pub milliseconds: f64,
 }
@@ -343,7 +343,7 @@ pub struct LookAlike {
 /// Residuals of single readings in units of the noise.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Scatter {
+pub struct ReadingResiduals {
     /// Outline of the histogram: residual, share per unit.
     pub histogram: Vec<[f64; 2]>,
     /// Normal plot: expected of noise, found.

@@ -5,18 +5,19 @@ use hexbench_model::model_file::Model;
 use hexbench_model::selection::HeldOut;
 use hexbench_model::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
-use hexbench_workbench::bench::{Bench, Kind, Refusal, catalogue};
+use hexbench_workbench::bench::{LoadedCampaign, Refusal, RefusalKind, catalogue};
 use hexbench_workbench::wire::{
-    Ask, Export, FileText, Guess, Level, Limits, Open, Opened, Selection, View, What,
+    Ask, Export, FileText, GameLevel, Guess, Open, Opened, Selection, ServerLimits, View, What,
 };
 
-const LIMITS: Limits = Limits { bytes: 1 << 25, rows: 2000, own_terms: 8, term_bytes: 1 << 16, benches: 16 };
+const LIMITS: ServerLimits =
+    ServerLimits { bytes: 1 << 25, rows: 2000, own_terms: 8, term_bytes: 1 << 16, benches: 16 };
 
-fn open(request: &Open) -> Result<Bench, Refusal> {
-    Bench::open(request, None, &LIMITS)
+fn open(request: &Open) -> Result<LoadedCampaign, Refusal> {
+    LoadedCampaign::open(request, None, &LIMITS)
 }
 
-fn case(id: &str) -> Bench {
+fn case(id: &str) -> LoadedCampaign {
     open(&Open::Case { id: id.to_owned() }).unwrap()
 }
 
@@ -117,14 +118,14 @@ fn a_fault_in_a_file_is_told_with_its_place() {
         holdout: None,
     };
     let refusal = open(&request(&spoilt)).unwrap_err();
-    assert_eq!(refusal.kind, Kind::BadInput);
+    assert_eq!(refusal.kind, RefusalKind::BadInput);
     assert!(refusal.message.starts_with("mine.csv: line 1, column 11"), "{}", refusal.message);
     assert!(!refusal.next.is_empty());
     let header = known.data.lines().next().unwrap();
     let row = known.data.lines().nth(1).unwrap().strip_prefix("1,1,").unwrap();
     let rows: Vec<String> = (0..=LIMITS.rows).map(|repeat| format!("1,{repeat},{row}")).collect();
     let long = format!("{header}\n{}\n", rows.join("\n"));
-    assert_eq!(open(&request(&long)).unwrap_err().kind, Kind::TooLarge);
+    assert_eq!(open(&request(&long)).unwrap_err().kind, RefusalKind::TooLarge);
 }
 
 #[test]
@@ -134,9 +135,9 @@ fn what_cannot_be_answered_is_refused_with_a_reason() {
     assert!(message(&["base-complience"]).contains("did you mean `base-compliance`"));
     assert!(message(&["leg-offset"]).contains("cannot be fitted"));
     assert!(message(&["creep", "creep"]).contains("twice"));
-    assert_eq!(bench.reveal(&Guess { guess: Vec::new() }).unwrap_err().kind, Kind::Conflict);
-    assert_eq!(open(&Open::Case { id: "../etc".to_owned() }).unwrap_err().kind, Kind::Unknown);
-    assert_eq!(open(&Open::Given {}).unwrap_err().kind, Kind::Unknown);
+    assert_eq!(bench.reveal(&Guess { guess: Vec::new() }).unwrap_err().kind, RefusalKind::Conflict);
+    assert_eq!(open(&Open::Case { id: "../etc".to_owned() }).unwrap_err().kind, RefusalKind::Unknown);
+    assert_eq!(open(&Open::Given {}).unwrap_err().kind, RefusalKind::Unknown);
     let untestable = bench.opened("x").unwrap().untestable;
     assert!(untestable.iter().any(|u| u.term == "leg-offset"), "{untestable:?}");
 }
@@ -193,17 +194,17 @@ fn what_cannot_be_simulated_is_refused() {
         seed: Some(1),
     };
     let kind = |r: Open| open(&r).unwrap_err().kind;
-    assert_eq!(kind(request("tripod", &[], None)), Kind::Unknown);
-    assert_eq!(kind(request("ring_a", &["gremlins"], None)), Kind::Unknown);
-    assert_eq!(kind(request("ring_a", &["creep", "creep"], None)), Kind::BadInput);
-    assert_eq!(kind(request("ring_a", &["creep"], Some(f64::NAN))), Kind::BadInput);
-    assert_eq!(kind(request("ring_a", &["creep"], Some(-1.0))), Kind::BadInput);
+    assert_eq!(kind(request("tripod", &[], None)), RefusalKind::Unknown);
+    assert_eq!(kind(request("ring_a", &["gremlins"], None)), RefusalKind::Unknown);
+    assert_eq!(kind(request("ring_a", &["creep", "creep"], None)), RefusalKind::BadInput);
+    assert_eq!(kind(request("ring_a", &["creep"], Some(f64::NAN))), RefusalKind::BadInput);
+    assert_eq!(kind(request("ring_a", &["creep"], Some(-1.0))), RefusalKind::BadInput);
 }
 
 #[test]
 fn a_game_hides_its_truth_until_it_is_revealed() {
     for seed in 0..6 {
-        let bench = open(&Open::Game { level: Level::Honest, seed: Some(seed) }).unwrap();
+        let bench = open(&Open::Game { level: GameLevel::Honest, seed: Some(seed) }).unwrap();
         let opened = bench.opened("x").unwrap();
         assert!(opened.sealed && opened.contains.is_none());
         let truth = bench.reveal(&Guess { guess: vec!["nothing-of-the-kind".to_owned()] }).unwrap();

@@ -23,8 +23,8 @@ use nalgebra::DMatrix;
 
 use crate::Failure;
 pub use page::page;
-pub use search::Begun;
 use search::Bench;
+pub use search::StartedSearch;
 
 /// What somebody wants of a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,7 +111,12 @@ pub struct Quantity {
 ///
 /// # Errors
 /// [`Failure::File`], [`Failure::Usage`], [`Failure::Model`] for a term that does not exist, [`Failure::Design`].
-pub fn design(hexapod: &Hexapod, space: &Path, wish: &Wish, begun: &Begun<'_>) -> Result<Designed, Failure> {
+pub fn design(
+    hexapod: &Hexapod,
+    space: &Path,
+    wish: &Wish,
+    begun: &StartedSearch<'_>,
+) -> Result<Designed, Failure> {
     let mut space = read_space(space, hexapod)?;
     if wish.poses.is_some() {
         space.budget.limit = None;

@@ -5,7 +5,7 @@ use hexbench_design::budget::Amount;
 use hexbench_design::determined::unit_diagonal;
 use hexbench_design::space::Setting;
 use hexbench_model::observability::Observability;
-use hexbench_report::{Block, Column, Page, Section, Table, number};
+use hexbench_report::{Block, Page, PageColumn, Section, Table, number};
 
 use super::{Designed, Visit};
 
@@ -117,7 +117,7 @@ fn quality(plan: &Designed) -> Section {
         "m and rad side by side, as in the paper; state [metrology] to weigh them"
     };
     let values = [o.o1, o.o2, o.o3, o.o4, o.o5, 1.0 / o.o2].map(|v| number::significant(v, 4));
-    let columns = ["O1", "O2", "O3", "O4", "O5", "condition"].map(Column::number);
+    let columns = ["O1", "O2", "O3", "O4", "O5", "condition"].map(PageColumn::number);
     Section::new("How good")
         .paragraph(format!("{chosen} ({units})."))
         .table(Table::new(columns).rows([values]))
@@ -171,8 +171,12 @@ fn floored(share: f64) -> f64 {
 /// Standard uncertainties that the plan promises.
 fn uncertainty(plan: &Designed) -> Option<Section> {
     let covariance = plan.information.clone().cholesky()?.inverse();
-    let columns =
-        [Column::words(""), Column::number("uncertainty"), Column::words("unit"), Column::number("share")];
+    let columns = [
+        PageColumn::words(""),
+        PageColumn::number("uncertainty"),
+        PageColumn::words("unit"),
+        PageColumn::number("share"),
+    ];
     let rows = plan.parameters.iter().enumerate().map(|(k, quantity)| {
         let relative = covariance[(k, k)].sqrt();
         [
@@ -183,7 +187,7 @@ fn uncertainty(plan: &Designed) -> Option<Section> {
             number::significant(quantity.size, 3),
         ]
     });
-    let table = Table::new(columns.into_iter().chain([Column::number("of")])).rows(rows);
+    let table = Table::new(columns.into_iter().chain([PageColumn::number("of")])).rows(rows);
     Some(
         Section::new("What it will determine")
             .remark("standard uncertainty, k = 1")
@@ -203,7 +207,7 @@ fn correlations(plan: &Designed) -> Option<Section> {
         let [a, b] = [i, j].map(|k| plan.parameters[k].name.clone());
         [a, b, format!("{:+.3}", correlation[(i, j)])]
     };
-    let columns = [Column::words(""), Column::words(""), Column::number("")];
+    let columns = [PageColumn::words(""), PageColumn::words(""), PageColumn::number("")];
     let table = Table::new(columns).rows(pairs.into_iter().take(MOST_TOLD).filter(worth).map(row));
     let section = Section::new("What it separates worst").remark("correlation of the estimates");
     Some(if table.rows.is_empty() {

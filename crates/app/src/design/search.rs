@@ -4,21 +4,21 @@ use hexbench_core::{Hexapod, Pose};
 use hexbench_design::budget::Amount;
 use hexbench_design::determined::require_determined;
 use hexbench_design::exchange::bound::efficiency;
-use hexbench_design::exchange::{Candidates, Exchange, Plan};
+use hexbench_design::exchange::{Candidates, Exchange, ExchangedPlan};
 use hexbench_design::refine::{information, refine};
 use hexbench_design::regressor::SettingRegressor;
-use hexbench_design::{Criterion, Objective, Problem, Search, Space, Visit};
+use hexbench_design::{Criterion, Objective, PoseProblem, PoseSearch, Space, Visit};
 
 use super::{Designed, Quantity, Wish};
 use crate::Failure;
 
 /// Hears how many starts there are, and gives what hears of the end of each.
-pub type Begun<'a> = dyn Fn(u64) -> Box<dyn Fn() + Sync> + 'a;
+pub type StartedSearch<'a> = dyn Fn(u64) -> Box<dyn Fn() + Sync> + 'a;
 
 /// What the search is made of.
 pub(super) struct Bench<'a> {
     pub(super) wish: &'a Wish,
-    pub(super) begun: &'a Begun<'a>,
+    pub(super) begun: &'a StartedSearch<'a>,
     pub(super) hexapod: &'a Hexapod,
     pub(super) space: &'a Space,
 }
@@ -62,7 +62,7 @@ impl Bench<'_> {
     /// So many poses, every setting read as often at each.
     fn few_poses<R: SettingRegressor>(&self, regressor: &R, criterion: &Objective) -> Result<Found, Failure> {
         let counts = vec![usize::from(self.wish.repeats); self.space.settings().len()];
-        let problem = Problem {
+        let problem = PoseProblem {
             hexapod: self.hexapod,
             space: self.space,
             regressor: &regressor.repeated(&counts),
@@ -72,7 +72,7 @@ impl Bench<'_> {
         };
         let (starts, ended) = self.starts(128);
         let found = problem.search(starts, self.wish.seed, &*ended);
-        let Search { best, starts, ended, agreeing } = found?;
+        let PoseSearch { best, starts, ended, agreeing } = found?;
         let visit = |pose: Pose| Visit { pose, counts: counts.clone() };
         Ok(Found {
             visits: best.poses.into_iter().map(visit).collect(),
@@ -95,7 +95,7 @@ impl Bench<'_> {
             Candidates::spread(hexapod, space, regressor, amount, usize::from(count), seed)?;
         require_determined(&candidates.whole(), &regressor.names())?;
         let (starts, ended) = self.starts(16);
-        let Plan { members, agreeing, .. } =
+        let ExchangedPlan { members, agreeing, .. } =
             Exchange::new(&candidates, criterion).search(starts, seed.into(), &*ended)?;
         let mut visits = candidates.visits(&poses, &members);
         refine(hexapod, space, regressor, criterion, &mut visits)?;

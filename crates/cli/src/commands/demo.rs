@@ -8,14 +8,14 @@ use hexbench_core::files::{parse_hexapod, read_measurements_from, text_hash};
 use hexbench_model::terms::catalogue;
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{html, is_own};
-use hexbench_report::words::{self, Provenance, Subject};
-use hexbench_workbench::bench::cases::{Case, FOUNDATION};
+use hexbench_report::words::{self, Provenance, ReportSubject};
+use hexbench_workbench::bench::cases::{BundledCase, FOUNDATION};
 
 use crate::commands::diagnose::study;
 use crate::failure::Failure;
 use crate::output::{Screen, report};
 
-const CASE: Case = FOUNDATION;
+const CASE: BundledCase = FOUNDATION;
 const FILES: [(&str, &str); 3] =
     [("hexapod.toml", CASE.hexapod), ("measurements.csv", CASE.data), ("holdout.csv", CASE.holdout)];
 
@@ -39,14 +39,14 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let data = read_measurements_from(CASE.data.as_bytes(), "measurements.csv")?.dataset;
     let holdout = read_measurements_from(CASE.holdout.as_bytes(), "holdout.csv")?.dataset;
     let study = study(&hexapod, &data, Some(&holdout), &catalogue())?;
-    let subject = Subject { hexapod: &hexapod, data: &data, holdout: Some(&holdout), study: &study };
+    let subject = ReportSubject { hexapod: &hexapod, data: &data, holdout: Some(&holdout), study: &study };
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
     screen.show(&words::demo(&subject).map_err(failed)?)?;
     if arguments.no_report { Ok(()) } else { page(&subject, arguments.output.as_deref(), screen) }
 }
 
 /// The page. One that nobody asked for by name gives way to whatever is in its place, and its absence is no failure.
-fn page(subject: &Subject<'_>, asked: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
+fn page(subject: &ReportSubject<'_>, asked: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
     let path = asked.unwrap_or(Path::new(PAGE));
     let files = FILES.map(|(name, text)| (format!("{name} (comes with the program)"), text_hash(text)));
     let provenance = Provenance { command: "hexbench demo".to_owned(), files: files.to_vec() };

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
+use hexbench_model::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
 use hexbench_model::error::ModelError;
 use hexbench_model::runs::WithOrigin;
 use hexbench_model::term::Term;
 use hexbench_model::verdict::Verdict;
-use hexbench_report::words::Subject;
+use hexbench_report::words::ReportSubject;
 use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
@@ -75,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
         write_json(screen, path, &WithOrigin { result: &study.diagnosis, run })?;
     }
-    let subject = Subject { hexapod: &hexapod, data: &data, holdout: holdout.as_ref(), study: &study };
+    let subject = ReportSubject { hexapod: &hexapod, data: &data, holdout: holdout.as_ref(), study: &study };
     arguments.page.write(screen, || {
         let read = [&arguments.hexapod, &arguments.data]
             .into_iter()
@@ -95,7 +95,7 @@ pub(crate) fn study(
     data: &Dataset,
     holdout: Option<&Dataset>,
     terms: &[Arc<dyn Term>],
-) -> Result<Study, Failure> {
+) -> Result<DiagnosisStudy, Failure> {
     let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
     diagnose(hexapod, data, holdout, terms).map_err(failed)
 }

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use clap::Args;
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation};
 use hexbench_design::Space;
-use hexbench_design::discriminate::{Contest, Distance, Plan, menu};
+use hexbench_design::discriminate::{Contest, Distance, SeparatingPlan, candidate_readings};
 use hexbench_design::nominal;
 use hexbench_design::space_file::read_space;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::fit_named::term_named;
-use hexbench_model::next::{EXCLUDED_ODDS, Effort, Outlook, Suspects, propose, suspects};
+use hexbench_model::next::{EXCLUDED_ODDS, Effort, Forecast, Suspects, propose, suspects};
 use hexbench_model::noise::Noise;
 use hexbench_model::term::Term;
 
@@ -104,19 +104,20 @@ fn new_plan(
     space: &Space,
     terms: &[Arc<dyn Term>],
 ) -> Result<Discriminated, Failure> {
-    let menu = menu(space, hexapod, terms, arguments.seed)?;
+    let candidate_readings = candidate_readings(space, hexapod, terms, arguments.seed)?;
     let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[0]));
     let contest = Contest::new(
         hexapod,
         nominal::compliance(hexapod),
         noise(hexapod)?,
         terms,
-        &menu,
+        &candidate_readings,
         count,
         arguments.visible,
     )?;
     let progress = Progress::of(count as u64, "readings");
-    let plan = Plan::search(&contest, space, hexapod, &menu, count, &|| progress.advance(1));
+    let plan =
+        SeparatingPlan::search(&contest, space, hexapod, &candidate_readings, count, &|| progress.advance(1));
     progress.done();
     let plan = plan?;
     let before = arguments.against.as_ref().map(|path| distances(&contest, path)).transpose()?;
@@ -146,7 +147,7 @@ fn new_plan(
         pairs: pairs(terms.len()).filter_map(pair).collect(),
         sizes: sizes.collect(),
         breakers: breakers(terms),
-        candidates: menu.len(),
+        candidates: candidate_readings.len(),
         seed: arguments.seed,
     })
 }
@@ -167,12 +168,13 @@ fn next_readings(
         let measured = if data.is_absolute() { o.pose.to_array() } else { [0.0; 6] };
         Observation { measured, ..o }
     };
-    let menu: Vec<Observation> =
-        menu(space, hexapod, terms, arguments.seed)?.into_iter().map(as_read).collect();
+    let candidate_readings: Vec<Observation> =
+        candidate_readings(space, hexapod, terms, arguments.seed)?.into_iter().map(as_read).collect();
     let count = usize::from(arguments.readings.unwrap_or(USUAL_READINGS[1]));
-    let programme = propose(&campaign, &rivals, &menu, Effort::Exactly(count)).map_err(of_model)?;
+    let proposed =
+        propose(&campaign, &rivals, &candidate_readings, Effort::Exactly(count)).map_err(of_model)?;
     let names: Vec<String> = terms.iter().map(|t| t.info().id.to_owned()).collect();
-    let pair = |o: &Outlook| {
+    let pair = |o: &Forecast| {
         let [a, b] = o.between;
         let odds = log_evidence[a].zip(log_evidence[b]).map(|(a, b)| (a - b) / std::f64::consts::LN_10);
         Pair {
@@ -186,15 +188,15 @@ fn next_readings(
     Ok(Discriminated {
         format: "discrimination/1",
         data: Some(source.clone()),
-        pairs: programme.outlook.iter().map(pair).collect(),
-        readings: programme
+        pairs: proposed.forecasts.iter().map(pair).collect(),
+        readings: proposed
             .proposals
             .into_iter()
             .map(|p| Planned { observation: p.observation, repeats: p.repeats, words: p.words })
             .collect(),
         sizes: Vec::new(),
         breakers: breakers(terms),
-        candidates: menu.len(),
+        candidates: candidate_readings.len(),
         seed: arguments.seed,
     })
 }
@@ -213,7 +215,7 @@ fn pairs(rivals: usize) -> impl Iterator<Item = [usize; 2]> {
 }
 
 fn breakers(terms: &[Arc<dyn Term>]) -> Vec<(String, String)> {
-    terms.iter().map(|t| (t.info().id.to_owned(), t.info().breaker.to_owned())).collect()
+    terms.iter().map(|t| (t.info().id.to_owned(), t.info().how_to_isolate.to_owned())).collect()
 }
 
 /// Distances by the plan of a file.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
 use hexbench_core::Pose;
-use hexbench_truth::campaign::Row;
+use hexbench_truth::campaign::PlanRow;
 use hexbench_truth::scene::{PartName, Scene};
 use hexbench_truth::{TruthError, mjcf};
 
@@ -105,9 +105,9 @@ fn folder(path: &Path) -> Result<&Path, Failure> {
 }
 
 /// At most `count` conditions, evenly over both parts of a plan; repeats of a condition are one.
-fn spread<'a>(training: &'a [Row], holdout: &'a [Row], count: usize) -> Vec<(PartName, &'a Row)> {
-    let named = |name, rows: &'a [Row]| rows.iter().map(move |row| (name, row));
-    let mut all: Vec<(PartName, &Row)> =
+fn spread<'a>(training: &'a [PlanRow], holdout: &'a [PlanRow], count: usize) -> Vec<(PartName, &'a PlanRow)> {
+    let named = |name, rows: &'a [PlanRow]| rows.iter().map(move |row| (name, row));
+    let mut all: Vec<(PartName, &PlanRow)> =
         named(PartName::Training, training).chain(named(PartName::Holdout, holdout)).collect();
     all.dedup_by(|later, earlier| later.0 == earlier.0 && later.1.situation == earlier.1.situation);
     let wanted = count.min(all.len());

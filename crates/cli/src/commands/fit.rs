@@ -8,7 +8,7 @@ use hexbench_core::files::content_hash;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::error::ModelError;
 use hexbench_model::model_file::Estimator;
-use hexbench_model::selection::Task;
+use hexbench_model::selection::JudgedTask;
 use hexbench_report::words::fitted;
 
 use crate::failure::Failure;
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let added = added(&arguments.add, input::user_terms(&arguments.terms)?, estimator)?;
     let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
     let campaign = prepare(&hexapod, &data).map_err(failed)?;
-    let task = Task { hexapod: &hexapod, data: &data, campaign: &campaign, holdout: holdout.as_ref() };
+    let task = JudgedTask { hexapod: &hexapod, data: &data, campaign: &campaign, holdout: holdout.as_ref() };
     let judged = fitted(&task, &added, estimator)?;
     screen.show(&fitted::page(&task, &judged, estimator))?;
     let Some(path) = &arguments.output else { return Ok(()) };

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{ArgGroup, Args};
 use hexbench_core::BallRecord;
 use hexbench_core::files::{CsvText, nearest, read_ball_places, read_balls};
-use hexbench_model::registration::{Located, Places, Registered, register_all};
+use hexbench_model::registration::{Places, Registered, RegisteredPose, register_all};
 use hexbench_report::number::significant;
 
 use crate::csv::{self, Unit};
@@ -84,7 +84,7 @@ fn places(arguments: &Arguments, records: &[BallRecord]) -> Result<(Places, Opti
 }
 
 fn warn(path: &Path, found: &Registered) {
-    let moved: Vec<&Located> = found.poses.iter().filter(|pose| pose.moved).collect();
+    let moved: Vec<&RegisteredPose> = found.poses.iter().filter(|pose| pose.moved).collect();
     for pose in moved.iter().take(MOST_TOLD) {
         let Some((first, second, residual)) = &pose.worst else { continue };
         let (um, side) = (residual.abs() * 1e6, if *residual > 0.0 { "farther apart" } else { "closer" });
@@ -115,7 +115,7 @@ fn table(found: &Registered) -> String {
     text.into_text()
 }
 
-fn row(pose: &Located) -> Vec<String> {
+fn row(pose: &RegisteredPose) -> Vec<String> {
     let sigma: [f64; 6] = std::array::from_fn(|k| pose.covariance[(k, k)].sqrt());
     let correlation = |(i, j): (usize, usize)| {
         let scale = sigma[i] * sigma[j];

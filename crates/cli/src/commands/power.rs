@@ -6,7 +6,7 @@ use std::sync::Arc;
 use clap::Args;
 use hexbench_core::{Hexapod, Measurand, Metrology};
 use hexbench_design::nominal;
-use hexbench_design::power::Settings;
+use hexbench_design::power::PowerSettings;
 use hexbench_experiments::power::{Campaigns, PlanReport, Power, PowerPlan, Simulation, pictures};
 use hexbench_model::fit_named::term_named;
 use hexbench_model::term::Term;
@@ -162,11 +162,11 @@ fn stiffness(given_n_per_um: Option<f64>, hexapod: &Hexapod) -> [f64; 6] {
 }
 
 fn studied(arguments: &Arguments, plan: &PowerPlan, terms: &[Arc<dyn Term>]) -> Result<Power, Failure> {
-    let settings = Settings {
+    let settings = PowerSettings {
         alarm: arguments.alarm,
         power: arguments.power,
         seed: arguments.seed,
-        ..Settings::default()
+        ..PowerSettings::default()
     };
     let campaigns = arguments.simulate.map_or(0, |n| n as usize);
     let simulation = Simulation { campaigns, diagnoses: campaigns > 0 };

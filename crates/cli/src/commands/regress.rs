@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_experiments::regress::baseline::{Baseline, Update, made};
-use hexbench_experiments::regress::comparison::{Comparison, compare};
+use hexbench_experiments::regress::comparison::{RunComparison, compare};
 use hexbench_experiments::regress::date::today;
 use hexbench_experiments::regress::gathered::pool;
 use hexbench_experiments::regress::junit::junit;
-use hexbench_experiments::regress::limit::Limit;
+use hexbench_experiments::regress::limit::RegressLimit;
 use hexbench_experiments::regress::limits::limits;
-use hexbench_experiments::regress::rule::Verdict;
-use hexbench_experiments::regress::suite::{BASELINE_RUNS, SEED, Suite};
+use hexbench_experiments::regress::rule::LimitVerdict;
+use hexbench_experiments::regress::suite::{BASELINE_RUNS, RegressSuite, SEED};
 use hexbench_experiments::regress::summary::{self, headline};
-use hexbench_experiments::regress::trials::Runs;
+use hexbench_experiments::regress::trials::SuiteRuns;
 use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
@@ -64,7 +64,7 @@ pub(crate) struct Arguments {
 
 /// Compare with the baseline, or make a new one.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let suite = if arguments.quick { Suite::quick() } else { Suite::full() };
+    let suite = if arguments.quick { RegressSuite::quick() } else { RegressSuite::full() };
     let limits = limits(&suite);
     match &arguments.reason {
         Some(reason) => update(arguments, &suite, &limits, reason, screen),
@@ -72,14 +72,19 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
 }
 
-fn check(arguments: &Arguments, suite: &Suite, limits: &[Limit], screen: &Screen) -> Result<(), Failure> {
+fn check(
+    arguments: &Arguments,
+    suite: &RegressSuite,
+    limits: &[RegressLimit],
+    screen: &Screen,
+) -> Result<(), Failure> {
     let baseline = Baseline::read_for(&arguments.baseline, suite, limits)?;
-    let run = Runs::new(suite, arguments.seed, 1);
+    let run = SuiteRuns::new(suite, arguments.seed, 1);
     let trials = run.of_each(arguments.kept.run(&run)?);
     let first = trials.first().ok_or_else(|| Failure::Check("nothing was run".into()))?;
     let comparison = compare(suite, limits, (first, arguments.seed), &baseline, VERSION);
     write(arguments, &comparison, screen)?;
-    let failed: Vec<&str> = comparison.of(Verdict::Worse).map(|f| f.title.as_str()).collect();
+    let failed: Vec<&str> = comparison.of(LimitVerdict::Worse).map(|f| f.title.as_str()).collect();
     match failed.split_first() {
         None => Ok(()),
         Some((first, [])) => Err(Failure::Check(format!("{first}: worse than chance explains"))),
@@ -90,7 +95,7 @@ fn check(arguments: &Arguments, suite: &Suite, limits: &[Limit], screen: &Screen
     }
 }
 
-fn write(arguments: &Arguments, comparison: &Comparison, screen: &Screen) -> Result<(), Failure> {
+fn write(arguments: &Arguments, comparison: &RunComparison, screen: &Screen) -> Result<(), Failure> {
     let page = summary::page(comparison, arguments.all);
     let to_screen = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
     if let Some(path) = &arguments.junit {
@@ -114,8 +119,8 @@ fn write(arguments: &Arguments, comparison: &Comparison, screen: &Screen) -> Res
 
 fn update(
     arguments: &Arguments,
-    suite: &Suite,
-    limits: &[Limit],
+    suite: &RegressSuite,
+    limits: &[RegressLimit],
     reason: &str,
     screen: &Screen,
 ) -> Result<(), Failure> {
@@ -126,7 +131,7 @@ fn update(
         if arguments.baseline.exists() { Baseline::read(&arguments.baseline)?.history } else { Vec::new() };
     Screen::make_folder_of(&arguments.baseline)?;
     let runs = arguments.runs as usize;
-    let all = Runs::new(suite, arguments.seed, runs);
+    let all = SuiteRuns::new(suite, arguments.seed, runs);
     let trials = all.of_each(arguments.kept.run(&all)?);
     let update = Update {
         date: today(),

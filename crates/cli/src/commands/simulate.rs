@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_app::simulate::{self, Choices};
-use hexbench_truth::scene::{Bench, Existing, PartName};
+use hexbench_truth::scene::{Existing, PartName, VirtualBench};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let choices = Choices { seed: arguments.seed, poses: arguments.poses, repeats: arguments.repeats };
     let scene = simulate::scene(&arguments.scene, choices)?;
-    write(&Bench::new(&scene, arguments.noise_free), &arguments.output, arguments.force)?;
+    write(&VirtualBench::new(&scene, arguments.noise_free), &arguments.output, arguments.force)?;
     let told = simulated::Told {
         scene: &scene,
         folder: &arguments.output,
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     screen.show(&simulated::page(&told))
 }
 
-fn write(bench: &Bench<'_>, folder: &Path, force: bool) -> Result<(), Failure> {
+fn write(bench: &VirtualBench<'_>, folder: &Path, force: bool) -> Result<(), Failure> {
     let rows = [PartName::Training, PartName::Holdout].map(|part| bench.scene().part(part).len());
     let progress = Progress::of(rows.iter().sum(), "rows");
     let existing = if force { Existing::Replaced } else { Existing::Refused };

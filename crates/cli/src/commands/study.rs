@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand, value_parser};
 use hexbench_experiments::harness::Progress as _;
 use hexbench_experiments::sweep::work::Share;
-use hexbench_experiments::sweep::{Part, Work, divide, page};
+use hexbench_experiments::sweep::{StudyPart, Work, divide, page};
 use hexbench_report::{Block, Page, Section, Table};
 
 use crate::failure::Failure;
@@ -70,7 +70,7 @@ struct RunArguments {
     out: PathBuf,
     /// Which part of how many, from 1: 2/8
     #[arg(long, value_name = "I/N")]
-    shard: Part,
+    shard: StudyPart,
 }
 
 #[derive(Debug, Args)]
@@ -163,7 +163,7 @@ fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Fai
 }
 
 /// Compute what is missing of a part, or of the whole.
-fn compute(work: &Work, part: Option<Part>) -> Result<(), Failure> {
+fn compute(work: &Work, part: Option<StudyPart>) -> Result<(), Failure> {
     let todo = work.todo(part)?;
     let progress = Progress::of(0, "trials");
     progress.damaged(todo.damaged);

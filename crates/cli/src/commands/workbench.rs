@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_workbench::bench::Given;
-use hexbench_workbench::server::{Server, Settings};
+use hexbench_workbench::server::{Server, ServerSettings};
 use hexbench_workbench::wire::FileText;
 
 use crate::failure::Failure;
@@ -35,7 +35,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let given = given(arguments)?;
     let port = arguments.port;
     let failed = |cause| Failure::Server { port, cause };
-    let server = Server::bind(&Settings { port, ..Settings::default() }, given).map_err(failed)?;
+    let server =
+        Server::bind(&ServerSettings { port, ..ServerSettings::default() }, given).map_err(failed)?;
     let stop = server.asked_to_stop().map_err(failed)?;
     screen.write(&format!(
         "The workbench is open at\n\n  {}\n\nOpen this address in a browser on this machine. Ctrl-C ends it.\n",

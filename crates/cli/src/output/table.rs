@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use hexbench_core::files::atomic_write;
 use hexbench_report::render::PROGRAM;
-use hexbench_report::table::{Frame, Kind};
+use hexbench_report::table::{Frame, TableFormat};
 
 use super::provenance;
 use crate::failure::Failure;
@@ -14,7 +14,7 @@ use crate::failure::Failure;
 #[derive(Debug, Clone)]
 pub(crate) struct TableFile {
     path: PathBuf,
-    kind: Kind,
+    kind: TableFormat,
 }
 
 impl FromStr for TableFile {
@@ -22,7 +22,7 @@ impl FromStr for TableFile {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let path = PathBuf::from(text);
-        let kind = Kind::of(&path).ok_or("the name of a table ends in .parquet or .csv")?;
+        let kind = TableFormat::of(&path).ok_or("the name of a table ends in .parquet or .csv")?;
         Ok(Self { path, kind })
     }
 }

@@ -5,7 +5,7 @@ use hexbench_design::discriminate::Distance;
 use hexbench_model::next::Separation;
 use hexbench_report::number::{percent, significant};
 use hexbench_report::words::next::{self, settings, way};
-use hexbench_report::{Block, Entry, Page, Section};
+use hexbench_report::{Block, Definition, Page, Section};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -129,7 +129,7 @@ impl Planned {
 
 /// The page.
 pub(crate) fn discriminated(found: &Discriminated) -> Page {
-    let breakers = found.breakers.iter().map(|(id, breaker)| Entry::new(id, breaker));
+    let breakers = found.breakers.iter().map(|(id, breaker)| Definition::new(id, breaker));
     Page::default()
         .with(readings(found))
         .with(separation(found))
@@ -150,21 +150,21 @@ fn readings(found: &Discriminated) -> Section {
             all.map(|(k, reading)| Block::numbered(k + 1, planned(reading, k == 0 || differs(found, k)))),
         )
         .with(found.readings.is_empty().then(|| Block::paragraph(none)))
-        .with(Block::entries([Entry::new("frames", frames)]))
+        .with(Block::entries([Definition::new("frames", frames)]))
 }
 
 fn differs(found: &Discriminated, k: usize) -> bool {
     found.readings[k].observation.reference != found.readings[0].observation.reference
 }
 
-fn planned(reading: &Planned, with_reference: bool) -> Vec<Entry> {
+fn planned(reading: &Planned, with_reference: bool) -> Vec<Definition> {
     let o = &reading.observation;
-    let words = (!reading.words.is_empty()).then(|| Entry::new("in words", &reading.words));
+    let words = (!reading.words.is_empty()).then(|| Definition::new("in words", &reading.words));
     let reference = with_reference && o.reference.to_array().iter().any(|x| *x != 0.0);
-    let reference = reference.then(|| Entry::new("reference", next::load(&o.reference.to_array())));
-    let pose = Entry::new("pose", next::pose(&settings(o)));
-    let load = Entry::new("load", next::load(&o.wrench.to_array()));
-    let way = Entry::new("way", way(o.approach, o.elapsed, o.delta_t, reading.repeats));
+    let reference = reference.then(|| Definition::new("reference", next::load(&o.reference.to_array())));
+    let pose = Definition::new("pose", next::pose(&settings(o)));
+    let load = Definition::new("load", next::load(&o.wrench.to_array()));
+    let way = Definition::new("way", way(o.approach, o.elapsed, o.delta_t, reading.repeats));
     words.into_iter().chain([pose, load]).chain(reference).chain([way]).collect()
 }
 
@@ -182,21 +182,21 @@ fn separation(found: &Discriminated) -> Section {
         .paragraph(words)
 }
 
-fn pair(p: &Pair) -> Vec<Entry> {
+fn pair(p: &Pair) -> Vec<Definition> {
     let [a, b] = &p.between;
     let in_hand = p.in_hand.map(|odds| {
         let (odds, first, second) = if odds < 0.0 { (-odds, b, a) } else { (odds, a, b) };
-        Entry::new("in hand", format!("odds 10^{odds:.1} for {first} against {second}"))
+        Definition::new("in hand", format!("odds 10^{odds:.1} for {first} against {second}"))
     });
     let needed = match p.readings_needed {
         Some(1) => "20:1 after the first reading".to_owned(),
         Some(n) => format!("20:1 after {n} such readings"),
         None => "20:1 only after more readings".to_owned(),
     };
-    std::iter::once(Entry::new("between", p.between.join(" or ")))
+    std::iter::once(Definition::new("between", p.between.join(" or ")))
         .chain(in_hand)
-        .chain(p.before.as_ref().map(|before| Entry::new("before", promise(before))))
-        .chain([Entry::new("chosen", format!("{}; {needed}", promise(&p.after)))])
+        .chain(p.before.as_ref().map(|before| Definition::new("before", promise(before))))
+        .chain([Definition::new("chosen", format!("{}; {needed}", promise(&p.after)))])
         .collect()
 }
 
@@ -217,7 +217,7 @@ fn assumptions(found: &Discriminated) -> Section {
     }
     let entry = |(id, parameters): &(String, Vec<Size>)| {
         let one = |(name, value, unit): &Size| format!("{name} {} {unit}", significant(*value, 2));
-        Entry::new(id, parameters.iter().map(one).collect::<Vec<_>>().join(", "))
+        Definition::new(id, parameters.iter().map(one).collect::<Vec<_>>().join(", "))
     };
     Section::new("Sizes assumed")
         .remark("shown by readings spread evenly over the space, beside free springs")

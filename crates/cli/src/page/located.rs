@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use hexbench_model::registration::{Located, Places, Registered};
+use hexbench_model::registration::{Places, Registered, RegisteredPose};
 use hexbench_report::number::significant;
-use hexbench_report::{Block, Entry, Page, Section};
+use hexbench_report::{Block, Definition, Page, Section};
 
 /// What the page is about.
 pub(crate) struct Told<'a> {
@@ -32,7 +32,7 @@ pub(crate) fn page(told: &Told<'_>) -> Page {
         ("moved", moved),
         ("written", told.output.display().to_string()),
     ];
-    let entries = entries.map(|(label, text)| Entry::new(label, text));
+    let entries = entries.map(|(label, text)| Definition::new(label, text));
     Page::default().with(Section::new("Poses from balls").with(Block::entries(entries)))
 }
 
@@ -58,7 +58,7 @@ fn noise(told: &Told<'_>) -> String {
     }
 }
 
-fn one_pose(poses: &[Located]) -> String {
+fn one_pose(poses: &[RegisteredPose]) -> String {
     let typical = |first: usize| {
         let sum: f64 = poses.iter().flat_map(|p| (first..first + 3).map(|k| p.covariance[(k, k)])).sum();
         significant((sum / (3 * poses.len().max(1)) as f64).sqrt() * 1e6, 3)

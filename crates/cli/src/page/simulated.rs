@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hexbench_report::number::significant;
-use hexbench_report::{Block, Entry, Page, Section};
+use hexbench_report::{Block, Definition, Page, Section};
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{Instrument, PartName};
 
@@ -30,7 +30,7 @@ pub(crate) fn page(told: &Told<'_>) -> Page {
         ("written", format!("{} in {}", files(scene), told.folder.display())),
         ("hidden", hidden(told)),
     ];
-    let entries = entries.map(|(label, text)| Entry::new(label, text));
+    let entries = entries.map(|(label, text)| Definition::new(label, text));
     let commands = format!("cd {}\n{}", told.folder.display(), next(scene));
     Page::default()
         .with(Section::new("Simulated").remark(&scene.title).with(Block::entries(entries)))

@@ -124,7 +124,7 @@ fn the_bundled_studies_can_be_read() {
     let files: Vec<PathBuf> = all.filter(|p| p.extension().is_some_and(|e| e == "toml")).collect();
     assert!(!files.is_empty());
     for file in files {
-        hexbench_experiments::sweep::Study::read(&file).unwrap_or_else(|error| panic!("{error}"));
+        hexbench_experiments::sweep::SweepStudy::read(&file).unwrap_or_else(|error| panic!("{error}"));
     }
 }
 
@@ -139,7 +139,8 @@ fn the_example_of_the_page_on_formats_is_read() {
     {
         fs::copy(root().join(from), folder.path().join(to)).unwrap();
     }
-    let study = hexbench_experiments::sweep::Study::read(&file).unwrap_or_else(|error| panic!("{error}"));
+    let study =
+        hexbench_experiments::sweep::SweepStudy::read(&file).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(study.axes.cells(), 2 * 2 * 3 * 3);
     assert_eq!(study.inputs.len(), 3, "{:?}", study.inputs);
 }

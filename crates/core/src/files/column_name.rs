@@ -1,6 +1,6 @@
 //! Reading one name of a table's header: which quantity, in which unit.
 
-use super::Problem;
+use super::FileProblem;
 use super::columns::{COLUMNS, Column};
 use super::nearest::nearest;
 use super::stated_unit::stated_unit;
@@ -18,12 +18,12 @@ pub(crate) enum Named {
 }
 
 /// Reads `fz_N`, `fz [N]`, `fz (N)`, `Fz N`.
-pub(crate) fn read_column_name(text: &str) -> Result<Named, Problem> {
+pub(crate) fn read_column_name(text: &str) -> Result<Named, FileProblem> {
     let (base, bracketed) = without_brackets(text.trim());
     let base = base.trim().replace([' ', '-'], "_");
     let lower = base.to_lowercase();
     if base.is_empty() {
-        return Err(Problem::NamelessColumn);
+        return Err(FileProblem::NamelessColumn);
     }
     if is_private(&lower) {
         return Ok(Named::Private);
@@ -63,13 +63,13 @@ fn split_at_unit(base: &str) -> Option<(&'static Column, &str)> {
     cuts.filter_map(|at| Some((column_named(&base[..at].to_lowercase())?, &base[at + 1..]))).next_back()
 }
 
-fn with_unit(column: &'static Column, unit: Option<&str>) -> Result<Named, Problem> {
+fn with_unit(column: &'static Column, unit: Option<&str>) -> Result<Named, FileProblem> {
     let unit = stated_unit(column.name, column.kind, column.usual_name(), unit)?;
     Ok(Named::Known(column, unit))
 }
 
 /// A slip of the pen is an error: a silently ignored column would be believed to be in use.
-fn misspelt(base: &str, bracketed: Option<&str>) -> Result<Named, Problem> {
+fn misspelt(base: &str, bracketed: Option<&str>) -> Result<Named, FileProblem> {
     let names = || COLUMNS.iter().map(|column| column.name);
     let (stem, suffix) = base.rsplit_once('_').map_or((base, None), |(stem, unit)| (stem, Some(unit)));
     let unit = bracketed.or(suffix);
@@ -80,7 +80,7 @@ fn misspelt(base: &str, bracketed: Option<&str>) -> Result<Named, Problem> {
     let unit = unit.and_then(|text| unit_named(text, column.kind)).filter(|unit| unit.kind == column.kind);
     let suggestion =
         unit.map_or_else(|| column.usual_name(), |unit| format!("{}_{}", column.name, unit.name));
-    Err(Problem::MisspeltColumn { suggestion })
+    Err(FileProblem::MisspeltColumn { suggestion })
 }
 
 #[cfg(test)]
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn a_suggestion_keeps_the_unit_of_the_file() {
-        let Err(Problem::MisspeltColumn { suggestion }) = read_column_name("dapha_mrad") else {
+        let Err(FileProblem::MisspeltColumn { suggestion }) = read_column_name("dapha_mrad") else {
             panic!("a slip of the pen is an error")
         };
         assert_eq!(suggestion, "dalpha_mrad");

@@ -1,6 +1,6 @@
 //! The columns a table of measurements may have.
 
-use super::Kind;
+use super::Dimension;
 use std::ops::Range;
 
 /// What a column belongs to.
@@ -32,7 +32,7 @@ pub(crate) enum Group {
 #[derive(Debug)]
 pub(crate) struct Column {
     pub(crate) name: &'static str,
-    pub(crate) kind: Kind,
+    pub(crate) kind: Dimension,
     pub(crate) group: Group,
     /// Places in the row that this column fills (three for the shorthand `sigma_translation`).
     pub(crate) places: Places,
@@ -66,71 +66,71 @@ pub(crate) const POSE_ID: usize = 33;
 pub(crate) const REPEAT: usize = 34;
 pub(crate) const PLACES: usize = 35;
 
-const fn column(name: &'static str, kind: Kind, group: Group, first: usize) -> Column {
+const fn column(name: &'static str, kind: Dimension, group: Group, first: usize) -> Column {
     Column { name, kind, group, places: Places { first, count: 1 } }
 }
 
-const fn three(name: &'static str, kind: Kind, first: usize) -> Column {
+const fn three(name: &'static str, kind: Dimension, first: usize) -> Column {
     Column { name, kind, group: Group::Sigma, places: Places { first, count: 3 } }
 }
 
 /// Every column, in the order files are written. Where two names fill one place, the first is the usual one.
 pub(crate) static COLUMNS: &[Column] = &[
-    column("pose", Kind::Number, Group::Number, POSE_ID),
-    column("repeat", Kind::Number, Group::Number, REPEAT),
-    column("a", Kind::Length, Group::Pose, POSE),
-    column("b", Kind::Length, Group::Pose, POSE + 1),
-    column("c", Kind::Length, Group::Pose, POSE + 2),
-    column("alpha", Kind::Angle, Group::Pose, POSE + 3),
-    column("beta", Kind::Angle, Group::Pose, POSE + 4),
-    column("gamma", Kind::Angle, Group::Pose, POSE + 5),
-    column("fx", Kind::Force, Group::Wrench, WRENCH),
-    column("fy", Kind::Force, Group::Wrench, WRENCH + 1),
-    column("fz", Kind::Force, Group::Wrench, WRENCH + 2),
-    column("mx", Kind::Moment, Group::Wrench, WRENCH + 3),
-    column("my", Kind::Moment, Group::Wrench, WRENCH + 4),
-    column("mz", Kind::Moment, Group::Wrench, WRENCH + 5),
-    column("ref_fx", Kind::Force, Group::Reference, REFERENCE),
-    column("ref_fy", Kind::Force, Group::Reference, REFERENCE + 1),
-    column("ref_fz", Kind::Force, Group::Reference, REFERENCE + 2),
-    column("ref_mx", Kind::Moment, Group::Reference, REFERENCE + 3),
-    column("ref_my", Kind::Moment, Group::Reference, REFERENCE + 4),
-    column("ref_mz", Kind::Moment, Group::Reference, REFERENCE + 5),
-    column("approach", Kind::Number, Group::Covariate, APPROACH),
-    column("delta_T", Kind::TemperatureDifference, Group::Covariate, DELTA_T),
-    column("elapsed", Kind::Time, Group::Covariate, ELAPSED),
-    column("da", Kind::Length, Group::Deflection, MEASURED),
-    column("db", Kind::Length, Group::Deflection, MEASURED + 1),
-    column("dc", Kind::Length, Group::Deflection, MEASURED + 2),
-    column("dalpha", Kind::Angle, Group::Euler, MEASURED + 3),
-    column("dbeta", Kind::Angle, Group::Euler, MEASURED + 4),
-    column("dgamma", Kind::Angle, Group::Euler, MEASURED + 5),
-    column("drx", Kind::Angle, Group::RotationVector, MEASURED + 3),
-    column("dry", Kind::Angle, Group::RotationVector, MEASURED + 4),
-    column("drz", Kind::Angle, Group::RotationVector, MEASURED + 5),
-    column("measured_a", Kind::Length, Group::Absolute, MEASURED),
-    column("measured_b", Kind::Length, Group::Absolute, MEASURED + 1),
-    column("measured_c", Kind::Length, Group::Absolute, MEASURED + 2),
-    column("measured_alpha", Kind::Angle, Group::Absolute, MEASURED + 3),
-    column("measured_beta", Kind::Angle, Group::Absolute, MEASURED + 4),
-    column("measured_gamma", Kind::Angle, Group::Absolute, MEASURED + 5),
-    column("sigma_a", Kind::Length, Group::Sigma, SIGMA),
-    column("sigma_b", Kind::Length, Group::Sigma, SIGMA + 1),
-    column("sigma_c", Kind::Length, Group::Sigma, SIGMA + 2),
-    column("sigma_alpha", Kind::Angle, Group::Sigma, SIGMA + 3),
-    column("sigma_beta", Kind::Angle, Group::Sigma, SIGMA + 4),
-    column("sigma_gamma", Kind::Angle, Group::Sigma, SIGMA + 5),
-    column("sigma_da", Kind::Length, Group::Sigma, SIGMA),
-    column("sigma_db", Kind::Length, Group::Sigma, SIGMA + 1),
-    column("sigma_dc", Kind::Length, Group::Sigma, SIGMA + 2),
-    column("sigma_dalpha", Kind::Angle, Group::Sigma, SIGMA + 3),
-    column("sigma_dbeta", Kind::Angle, Group::Sigma, SIGMA + 4),
-    column("sigma_dgamma", Kind::Angle, Group::Sigma, SIGMA + 5),
-    column("sigma_drx", Kind::Angle, Group::Sigma, SIGMA + 3),
-    column("sigma_dry", Kind::Angle, Group::Sigma, SIGMA + 4),
-    column("sigma_drz", Kind::Angle, Group::Sigma, SIGMA + 5),
-    three("sigma_translation", Kind::Length, SIGMA),
-    three("sigma_rotation", Kind::Angle, SIGMA + 3),
+    column("pose", Dimension::Number, Group::Number, POSE_ID),
+    column("repeat", Dimension::Number, Group::Number, REPEAT),
+    column("a", Dimension::Length, Group::Pose, POSE),
+    column("b", Dimension::Length, Group::Pose, POSE + 1),
+    column("c", Dimension::Length, Group::Pose, POSE + 2),
+    column("alpha", Dimension::Angle, Group::Pose, POSE + 3),
+    column("beta", Dimension::Angle, Group::Pose, POSE + 4),
+    column("gamma", Dimension::Angle, Group::Pose, POSE + 5),
+    column("fx", Dimension::Force, Group::Wrench, WRENCH),
+    column("fy", Dimension::Force, Group::Wrench, WRENCH + 1),
+    column("fz", Dimension::Force, Group::Wrench, WRENCH + 2),
+    column("mx", Dimension::Moment, Group::Wrench, WRENCH + 3),
+    column("my", Dimension::Moment, Group::Wrench, WRENCH + 4),
+    column("mz", Dimension::Moment, Group::Wrench, WRENCH + 5),
+    column("ref_fx", Dimension::Force, Group::Reference, REFERENCE),
+    column("ref_fy", Dimension::Force, Group::Reference, REFERENCE + 1),
+    column("ref_fz", Dimension::Force, Group::Reference, REFERENCE + 2),
+    column("ref_mx", Dimension::Moment, Group::Reference, REFERENCE + 3),
+    column("ref_my", Dimension::Moment, Group::Reference, REFERENCE + 4),
+    column("ref_mz", Dimension::Moment, Group::Reference, REFERENCE + 5),
+    column("approach", Dimension::Number, Group::Covariate, APPROACH),
+    column("delta_T", Dimension::TemperatureDifference, Group::Covariate, DELTA_T),
+    column("elapsed", Dimension::Time, Group::Covariate, ELAPSED),
+    column("da", Dimension::Length, Group::Deflection, MEASURED),
+    column("db", Dimension::Length, Group::Deflection, MEASURED + 1),
+    column("dc", Dimension::Length, Group::Deflection, MEASURED + 2),
+    column("dalpha", Dimension::Angle, Group::Euler, MEASURED + 3),
+    column("dbeta", Dimension::Angle, Group::Euler, MEASURED + 4),
+    column("dgamma", Dimension::Angle, Group::Euler, MEASURED + 5),
+    column("drx", Dimension::Angle, Group::RotationVector, MEASURED + 3),
+    column("dry", Dimension::Angle, Group::RotationVector, MEASURED + 4),
+    column("drz", Dimension::Angle, Group::RotationVector, MEASURED + 5),
+    column("measured_a", Dimension::Length, Group::Absolute, MEASURED),
+    column("measured_b", Dimension::Length, Group::Absolute, MEASURED + 1),
+    column("measured_c", Dimension::Length, Group::Absolute, MEASURED + 2),
+    column("measured_alpha", Dimension::Angle, Group::Absolute, MEASURED + 3),
+    column("measured_beta", Dimension::Angle, Group::Absolute, MEASURED + 4),
+    column("measured_gamma", Dimension::Angle, Group::Absolute, MEASURED + 5),
+    column("sigma_a", Dimension::Length, Group::Sigma, SIGMA),
+    column("sigma_b", Dimension::Length, Group::Sigma, SIGMA + 1),
+    column("sigma_c", Dimension::Length, Group::Sigma, SIGMA + 2),
+    column("sigma_alpha", Dimension::Angle, Group::Sigma, SIGMA + 3),
+    column("sigma_beta", Dimension::Angle, Group::Sigma, SIGMA + 4),
+    column("sigma_gamma", Dimension::Angle, Group::Sigma, SIGMA + 5),
+    column("sigma_da", Dimension::Length, Group::Sigma, SIGMA),
+    column("sigma_db", Dimension::Length, Group::Sigma, SIGMA + 1),
+    column("sigma_dc", Dimension::Length, Group::Sigma, SIGMA + 2),
+    column("sigma_dalpha", Dimension::Angle, Group::Sigma, SIGMA + 3),
+    column("sigma_dbeta", Dimension::Angle, Group::Sigma, SIGMA + 4),
+    column("sigma_dgamma", Dimension::Angle, Group::Sigma, SIGMA + 5),
+    column("sigma_drx", Dimension::Angle, Group::Sigma, SIGMA + 3),
+    column("sigma_dry", Dimension::Angle, Group::Sigma, SIGMA + 4),
+    column("sigma_drz", Dimension::Angle, Group::Sigma, SIGMA + 5),
+    three("sigma_translation", Dimension::Length, SIGMA),
+    three("sigma_rotation", Dimension::Angle, SIGMA + 3),
 ];
 
 impl Column {
@@ -138,15 +138,15 @@ impl Column {
     pub(crate) fn usual_unit(&self) -> &'static str {
         let absolute = matches!(self.group, Group::Pose | Group::Absolute);
         match self.kind {
-            Kind::Number | Kind::Stiffness => "",
-            Kind::Length if absolute => "mm",
-            Kind::Length => "um",
-            Kind::Angle if absolute => "deg",
-            Kind::Angle => "urad",
-            Kind::Force => "N",
-            Kind::Moment => "Nm",
-            Kind::TemperatureDifference => "K",
-            Kind::Time => "s",
+            Dimension::Number | Dimension::Stiffness => "",
+            Dimension::Length if absolute => "mm",
+            Dimension::Length => "um",
+            Dimension::Angle if absolute => "deg",
+            Dimension::Angle => "urad",
+            Dimension::Force => "N",
+            Dimension::Moment => "Nm",
+            Dimension::TemperatureDifference => "K",
+            Dimension::Time => "s",
         }
     }
 

@@ -1,7 +1,7 @@
 //! Rows that are copies of earlier rows.
 
 use super::warning::Notice;
-use super::{Place, Warning};
+use super::{FilePlace, Warning};
 use crate::Observation;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -48,6 +48,6 @@ pub(crate) fn drop_copies(
     }
     let mut index = 0..;
     observations.retain(|_| index.next().is_none_or(|i: usize| !is_copy.get(i).copied().unwrap_or(false)));
-    let place = Place { line: lines.first().map(|[_, copy]| *copy), ..Place::file() };
+    let place = FilePlace { line: lines.first().map(|[_, copy]| *copy), ..FilePlace::file() };
     Some(Warning::new(place, Notice::IdenticalRows { lines }))
 }

@@ -1,6 +1,6 @@
 //! Why a file cannot be used.
 
-use super::{Place, Problem};
+use super::{FilePlace, FileProblem};
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -13,9 +13,9 @@ pub struct FileError {
     /// The file, as the caller named it.
     pub path: PathBuf,
     /// Where in the file.
-    pub place: Box<Place>,
+    pub place: Box<FilePlace>,
     /// What is wrong there.
-    pub problem: Box<Problem>,
+    pub problem: Box<FileProblem>,
 }
 
 impl FileError {
@@ -26,7 +26,10 @@ impl FileError {
 
     /// True when the trouble is with the disk or the name of the file rather than with what the file says.
     pub fn is_input_output(&self) -> bool {
-        matches!(*self.problem, Problem::NoSuchFile | Problem::Folder | Problem::Read(_) | Problem::Write(_))
+        matches!(
+            *self.problem,
+            FileProblem::NoSuchFile | FileProblem::Folder | FileProblem::Read(_) | FileProblem::Write(_)
+        )
     }
 
     /// The message without the name of the file.
@@ -39,7 +42,7 @@ impl FileError {
     }
 
     pub(crate) fn writing(path: &Path, cause: io::Error) -> Self {
-        Fault::new(Place::file(), Problem::Write(cause)).in_file(path)
+        Fault::new(FilePlace::file(), FileProblem::Write(cause)).in_file(path)
     }
 }
 
@@ -52,14 +55,14 @@ impl fmt::Display for FileError {
 impl std::error::Error for FileError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match &*self.problem {
-            Problem::Read(cause) | Problem::Write(cause) => Some(cause),
+            FileProblem::Read(cause) | FileProblem::Write(cause) => Some(cause),
             _ => None,
         }
     }
 }
 
 /// `place: "value": message`, each part when there is one.
-pub(crate) fn located(place: &Place, message: &dyn fmt::Display) -> String {
+pub(crate) fn located(place: &FilePlace, message: &dyn fmt::Display) -> String {
     let at = place.to_string();
     let value = place
         .value
@@ -75,14 +78,14 @@ pub(crate) fn located(place: &Place, message: &dyn fmt::Display) -> String {
 #[derive(Debug)]
 pub struct Fault {
     /// Where in the file.
-    pub place: Box<Place>,
+    pub place: Box<FilePlace>,
     /// What is wrong there.
-    pub problem: Box<Problem>,
+    pub problem: Box<FileProblem>,
 }
 
 impl Fault {
     /// A problem at a place.
-    pub fn new(place: Place, problem: Problem) -> Self {
+    pub fn new(place: FilePlace, problem: FileProblem) -> Self {
         Self { place: Box::new(place), problem: Box::new(problem) }
     }
 
@@ -95,10 +98,10 @@ impl Fault {
 impl From<io::Error> for Fault {
     fn from(cause: io::Error) -> Self {
         let problem = match cause.kind() {
-            io::ErrorKind::NotFound => Problem::NoSuchFile,
-            io::ErrorKind::IsADirectory => Problem::Folder,
-            _ => Problem::Read(cause),
+            io::ErrorKind::NotFound => FileProblem::NoSuchFile,
+            io::ErrorKind::IsADirectory => FileProblem::Folder,
+            _ => FileProblem::Read(cause),
         };
-        Self::new(Place::file(), problem)
+        Self::new(FilePlace::file(), problem)
     }
 }

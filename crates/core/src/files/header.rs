@@ -6,7 +6,7 @@ use super::error::Fault;
 use super::line::Line;
 use super::units::Unit;
 use super::warning::Notice;
-use super::{Problem, Warning};
+use super::{FileProblem, Warning};
 use crate::{Columns, Measurand};
 
 /// One column of a file that is read.
@@ -30,7 +30,7 @@ pub(crate) struct Plan {
 
 /// What a table is read for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Purpose {
+pub enum GroupPurpose {
     /// Measurements: measured values are required.
     Measurements,
     /// Conditions to predict: poses and loads; measured values are passed over.
@@ -39,7 +39,7 @@ pub enum Purpose {
     Plan,
 }
 
-impl Purpose {
+impl GroupPurpose {
     fn passes_over(self, group: Group) -> bool {
         use Group::{Absolute, Deflection, Euler, RotationVector, Sigma};
         match group {
@@ -53,7 +53,7 @@ impl Purpose {
 /// Reads the header line.
 pub(crate) fn read_header(
     line: &Line<'_>,
-    purpose: Purpose,
+    purpose: GroupPurpose,
     warnings: &mut Vec<Warning>,
 ) -> Result<Plan, Fault> {
     let mut sources = Vec::with_capacity(line.len());
@@ -80,8 +80,8 @@ pub(crate) fn read_header(
 pub(crate) fn refuse_numbers(line: &Line<'_>) -> Result<(), Fault> {
     let all_numbers = (0..line.len()).all(|cell| line.text(cell).parse::<f64>().is_ok());
     let problem = match line.len() {
-        _ if all_numbers => Problem::NoHeader,
-        1 => Problem::NoSeparator,
+        _ if all_numbers => FileProblem::NoHeader,
+        1 => FileProblem::NoSeparator,
         _ => return Ok(()),
     };
     Err(Fault::new(line.whole_place(), problem))
@@ -92,7 +92,7 @@ fn refuse_duplicates(sources: &[Option<Source>], line: &Line<'_>) -> Result<(), 
         let Some(Source { column, .. }) = source else { continue };
         let same = |other: &Option<Source>| other.as_ref().is_some_and(|other| collide(other.column, column));
         if let Some(first) = sources[..later].iter().position(same) {
-            let problem = Problem::DuplicateColumn {
+            let problem = FileProblem::DuplicateColumn {
                 quantity: column.name.into(),
                 first: first + 1,
                 first_name: line.text(first).into(),
@@ -127,35 +127,41 @@ impl Present<'_> {
         columns.filter(|column| !self.fills(group, column.places.first)).map(Column::usual_name).collect()
     }
 
-    fn complete_or_absent(&self, group: Group, beginning: &'static str) -> Result<bool, Problem> {
+    fn complete_or_absent(&self, group: Group, beginning: &'static str) -> Result<bool, FileProblem> {
         let missing = self.missing(group);
         match self.any(group) {
-            true if !missing.is_empty() => Err(Problem::IncompleteGroup { group: beginning, names: missing }),
+            true if !missing.is_empty() => {
+                Err(FileProblem::IncompleteGroup { group: beginning, names: missing })
+            }
             present => Ok(present),
         }
     }
 }
 
-fn plan(sources: Vec<Option<Source>>, names: Vec<String>, purpose: Purpose) -> Result<Plan, Problem> {
+fn plan(
+    sources: Vec<Option<Source>>,
+    names: Vec<String>,
+    purpose: GroupPurpose,
+) -> Result<Plan, FileProblem> {
     let present = Present(&sources);
     let (measurand, measured) = match purpose {
-        Purpose::Measurements => measurand(&present).map(|m| (m, measured_groups(m)))?,
-        Purpose::Conditions | Purpose::Plan => (Measurand::DeflectionEuler, &[][..]),
+        GroupPurpose::Measurements => measurand(&present).map(|m| (m, measured_groups(m)))?,
+        GroupPurpose::Conditions | GroupPurpose::Plan => (Measurand::DeflectionEuler, &[][..]),
     };
     let groups = [Group::Pose, Group::Wrench].into_iter().chain(measured.iter().copied());
     let missing: Vec<String> = groups.flat_map(|group| present.missing(group)).collect();
     if !missing.is_empty() {
-        return Err(Problem::MissingColumns { names: missing });
+        return Err(FileProblem::MissingColumns { names: missing });
     }
     let columns = optional_columns(&present)?;
     if columns.reference && measurand == Measurand::AbsolutePose {
-        return Err(Problem::ReferenceOfAbsolutePose);
+        return Err(FileProblem::ReferenceOfAbsolutePose);
     }
     let has_pose = present.fills(Group::Number, super::columns::POSE_ID);
     Ok(Plan { sources, names, measurand, columns, has_pose })
 }
 
-fn optional_columns(present: &Present<'_>) -> Result<Columns, Problem> {
+fn optional_columns(present: &Present<'_>) -> Result<Columns, FileProblem> {
     use super::columns::{APPROACH, DELTA_T, ELAPSED};
     Ok(Columns {
         reference: present.complete_or_absent(Group::Reference, "ref_")?,
@@ -166,15 +172,15 @@ fn optional_columns(present: &Present<'_>) -> Result<Columns, Problem> {
     })
 }
 
-fn measurand(present: &Present<'_>) -> Result<Measurand, Problem> {
+fn measurand(present: &Present<'_>) -> Result<Measurand, FileProblem> {
     let euler = present.any(Group::Euler);
     let vector = present.any(Group::RotationVector);
     let deflection = present.any(Group::Deflection) || euler || vector;
     match (deflection, present.any(Group::Absolute)) {
-        (true, true) => Err(Problem::TwoModes),
-        (false, false) => Err(Problem::NothingMeasured),
+        (true, true) => Err(FileProblem::TwoModes),
+        (false, false) => Err(FileProblem::NothingMeasured),
         (false, true) => Ok(Measurand::AbsolutePose),
-        (true, false) if euler && vector => Err(Problem::TwoRotations),
+        (true, false) if euler && vector => Err(FileProblem::TwoRotations),
         (true, false) if vector => Ok(Measurand::DeflectionRotationVector),
         (true, false) => Ok(Measurand::DeflectionEuler),
     }

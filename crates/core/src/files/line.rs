@@ -2,7 +2,7 @@
 
 use super::error::Fault;
 use super::lines::RawLine;
-use super::{Place, Problem};
+use super::{FilePlace, FileProblem};
 use std::ops::Range;
 
 /// A line and its cells.
@@ -44,22 +44,22 @@ impl<'a> Line<'a> {
     }
 
     /// Where the cell is.
-    pub(crate) fn place(&self, cell: usize) -> Place {
+    pub(crate) fn place(&self, cell: usize) -> FilePlace {
         let text = self.text(cell);
         let cut = &self.cells[cell];
         let blanks = self.raw.text[cut.clone()].len() - self.raw.text[cut.clone()].trim_start().len();
         let start = self.raw.start + cut.start + if text.is_empty() { 0 } else { blanks };
-        Place { column: Some(cell + 1), ..Place::line(self.raw.number, start..start + text.len()) }
+        FilePlace { column: Some(cell + 1), ..FilePlace::line(self.raw.number, start..start + text.len()) }
     }
 
     /// Where the line is.
-    pub(crate) fn whole_place(&self) -> Place {
+    pub(crate) fn whole_place(&self) -> FilePlace {
         whole_place(&self.raw)
     }
 }
 
-pub(crate) fn whole_place(raw: &RawLine<'_>) -> Place {
-    Place::line(raw.number, raw.start..raw.start + raw.text.len())
+pub(crate) fn whole_place(raw: &RawLine<'_>) -> FilePlace {
+    FilePlace::line(raw.number, raw.start..raw.start + raw.text.len())
 }
 
 fn cut_plain(text: &[u8], separator: u8, cells: &mut Vec<Range<usize>>) {
@@ -86,7 +86,7 @@ fn cut_quoted(raw: RawLine<'_>, separator: u8, cells: &mut Vec<Range<usize>>) ->
         }
     }
     if open {
-        return Err(Fault::new(whole_place(&raw), Problem::OpenQuote));
+        return Err(Fault::new(whole_place(&raw), FileProblem::OpenQuote));
     }
     cells.push(unquoted(raw.text, start..text.len()));
     Ok(())

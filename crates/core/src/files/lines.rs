@@ -1,7 +1,7 @@
 //! A text file line by line: one buffer, exact offsets, nothing longer than the limit.
 
 use super::error::Fault;
-use super::{Place, Problem};
+use super::{FilePlace, FileProblem};
 use std::io::{BufRead, Read};
 
 /// Longest line that is read; a row of measurements has some hundred bytes.
@@ -56,15 +56,15 @@ impl<R: BufRead> Lines<R> {
 }
 
 fn refuse_binary(bytes: &[u8], number: u64, start: usize) -> Result<(), Fault> {
-    let at = |offset: usize| Place::line(number, start + offset..start + offset + 1);
+    let at = |offset: usize| FilePlace::line(number, start + offset..start + offset + 1);
     if number == 1 && is_utf16(bytes) {
-        return Err(Fault::new(Place::file(), Problem::Utf16));
+        return Err(Fault::new(FilePlace::file(), FileProblem::Utf16));
     }
     if let Some(offset) = memchr::memchr(0, bytes) {
-        return Err(Fault::new(at(offset), Problem::NulByte { byte: start + offset }));
+        return Err(Fault::new(at(offset), FileProblem::NulByte { byte: start + offset }));
     }
     if bytes.len() > MAX_LINE_BYTES {
-        return Err(Fault::new(at(0), Problem::LineTooLong { limit_bytes: MAX_LINE_BYTES }));
+        return Err(Fault::new(at(0), FileProblem::LineTooLong { limit_bytes: MAX_LINE_BYTES }));
     }
     Ok(())
 }
@@ -78,19 +78,19 @@ fn is_utf16(bytes: &[u8]) -> bool {
 fn utf8(bytes: &[u8], number: u64, start: usize) -> Result<&str, Fault> {
     std::str::from_utf8(bytes).map_err(|wrong| {
         let byte = start + wrong.valid_up_to();
-        Fault::new(Place::line(number, byte..byte + 1), Problem::NotUtf8 { byte })
+        Fault::new(FilePlace::line(number, byte..byte + 1), FileProblem::NotUtf8 { byte })
     })
 }
 
 /// A whole small file as text; the same checks as for lines.
 pub(crate) fn utf8_text(bytes: &[u8]) -> Result<&str, Fault> {
     if is_utf16(bytes) {
-        return Err(Fault::new(Place::file(), Problem::Utf16));
+        return Err(Fault::new(FilePlace::file(), FileProblem::Utf16));
     }
     let line = |offset: usize| 1 + memchr::memchr_iter(b'\n', &bytes[..offset]).count() as u64;
     std::str::from_utf8(bytes).map_err(|wrong| {
         let byte = wrong.valid_up_to();
-        Fault::new(Place::line(line(byte), byte..byte + 1), Problem::NotUtf8 { byte })
+        Fault::new(FilePlace::line(line(byte), byte..byte + 1), FileProblem::NotUtf8 { byte })
     })
 }
 

@@ -1,8 +1,8 @@
 //! What the user does about a problem.
 
-use super::{Kind, Problem};
+use super::{Dimension, FileProblem};
 
-impl Problem {
+impl FileProblem {
     /// What to do next, one sentence.
     pub fn next_step(&self) -> String {
         self.fixed_step().map_or_else(|| self.particular_step(), str::to_owned)
@@ -123,9 +123,9 @@ impl Problem {
     }
 }
 
-fn named_with_unit(usual: &str, kind: Kind) -> String {
+fn named_with_unit(usual: &str, kind: Dimension) -> String {
     match kind {
-        Kind::Number => format!("Write {usual}, without a unit."),
+        Dimension::Number => format!("Write {usual}, without a unit."),
         kind => format!("Write for example {usual}; units of {}: {}.", kind.name(), kind.unit_names()),
     }
 }

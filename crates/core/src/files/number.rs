@@ -1,6 +1,6 @@
 //! Numbers in cells.
 
-use super::Problem;
+use super::FileProblem;
 
 /// A number and whether it was written with a decimal comma.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,21 +10,21 @@ pub(crate) struct Parsed {
 }
 
 /// A finite number. A decimal comma is read as a point; the caller knows whether the file may have them.
-pub(crate) fn parse_number(text: &str) -> Result<Parsed, Problem> {
+pub(crate) fn parse_number(text: &str) -> Result<Parsed, FileProblem> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(Parsed { value, comma: false }),
-        Ok(_) if text.bytes().any(|byte| byte.is_ascii_digit()) => Err(Problem::TooLarge),
-        Ok(_) => Err(Problem::NotFinite),
-        Err(_) if text.is_empty() => Err(Problem::EmptyCell),
+        Ok(_) if text.bytes().any(|byte| byte.is_ascii_digit()) => Err(FileProblem::TooLarge),
+        Ok(_) => Err(FileProblem::NotFinite),
+        Err(_) if text.is_empty() => Err(FileProblem::EmptyCell),
         Err(_) => with_comma(text),
     }
 }
 
-fn with_comma(text: &str) -> Result<Parsed, Problem> {
+fn with_comma(text: &str) -> Result<Parsed, FileProblem> {
     let single = text.matches(',').count() == 1 && !text.contains('.');
     match text.replace(',', ".").parse::<f64>() {
         Ok(value) if single && value.is_finite() => Ok(Parsed { value, comma: true }),
-        _ => Err(Problem::NotANumber),
+        _ => Err(FileProblem::NotANumber),
     }
 }
 
@@ -37,7 +37,7 @@ pub(crate) struct Decimals {
 
 impl Decimals {
     /// Notes the sign of one number.
-    pub(crate) fn note(&mut self, text: &str, parsed: Parsed, line: u64) -> Result<(), Problem> {
+    pub(crate) fn note(&mut self, text: &str, parsed: Parsed, line: u64) -> Result<(), FileProblem> {
         let other_line = if parsed.comma {
             self.comma_line.get_or_insert(line);
             self.point_line
@@ -47,7 +47,7 @@ impl Decimals {
         } else {
             None
         };
-        other_line.map_or(Ok(()), |other_line| Err(Problem::MixedDecimals { other_line }))
+        other_line.map_or(Ok(()), |other_line| Err(FileProblem::MixedDecimals { other_line }))
     }
 
     /// True when numbers were written with commas.
@@ -69,12 +69,12 @@ mod tests {
 
     #[test]
     fn what_is_no_number_has_its_own_reason() {
-        assert!(matches!(parse_number("nan"), Err(Problem::NotFinite)));
-        assert!(matches!(parse_number("-Infinity"), Err(Problem::NotFinite)));
-        assert!(matches!(parse_number("1e400"), Err(Problem::TooLarge)));
-        assert!(matches!(parse_number(""), Err(Problem::EmptyCell)));
-        assert!(matches!(parse_number("1,234.5"), Err(Problem::NotANumber)));
-        assert!(matches!(parse_number("12 N"), Err(Problem::NotANumber)));
+        assert!(matches!(parse_number("nan"), Err(FileProblem::NotFinite)));
+        assert!(matches!(parse_number("-Infinity"), Err(FileProblem::NotFinite)));
+        assert!(matches!(parse_number("1e400"), Err(FileProblem::TooLarge)));
+        assert!(matches!(parse_number(""), Err(FileProblem::EmptyCell)));
+        assert!(matches!(parse_number("1,234.5"), Err(FileProblem::NotANumber)));
+        assert!(matches!(parse_number("12 N"), Err(FileProblem::NotANumber)));
         assert_eq!(parse_number("-1,5e-3").unwrap(), Parsed { value: -1.5e-3, comma: true });
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// Where in a file: as much as is known, all of it counted from 1 except the bytes and the rows of a table in memory.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Place {
+pub struct FilePlace {
     /// Line, the first is 1, header and comments included.
     pub line: Option<u64>,
     /// Row of a table in memory, the first is 0, as arrays count.
@@ -23,7 +23,7 @@ pub struct Place {
 /// Longest value quoted in a message, in characters.
 const SHOWN_CHARACTERS: usize = 40;
 
-impl Place {
+impl FilePlace {
     /// The whole file.
     pub fn file() -> Self {
         Self::default()
@@ -59,7 +59,7 @@ impl Place {
 }
 
 /// `line 3, column 9 (fz_N)`, `row 1 (fz_N)`; nothing for the whole file.
-impl fmt::Display for Place {
+impl fmt::Display for FilePlace {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(line) = self.line {
             write!(out, "line {line}")?;

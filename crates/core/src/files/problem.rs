@@ -1,13 +1,13 @@
 //! Everything that can be wrong with a file, each with its next step.
 
-use super::Kind;
+use super::Dimension;
 use std::io;
 use thiserror::Error;
 
 /// What is wrong with a file. `Display` states the rule that is broken.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum Problem {
+pub enum FileProblem {
     // The file itself.
     /// The file does not exist.
     #[error("there is no such file")]
@@ -74,7 +74,7 @@ pub enum Problem {
         /// The quantity.
         quantity: String,
         /// Its kind.
-        kind: Kind,
+        kind: Dimension,
         /// The name with its usual unit.
         usual: String,
     },
@@ -86,7 +86,7 @@ pub enum Problem {
         /// The quantity.
         quantity: String,
         /// Its kind.
-        kind: Kind,
+        kind: Dimension,
         /// The name with its usual unit.
         usual: String,
     },
@@ -96,11 +96,11 @@ pub enum Problem {
         /// The unit in the file.
         unit: String,
         /// What it measures.
-        unit_kind: Kind,
+        unit_kind: Dimension,
         /// The quantity.
         quantity: String,
         /// Its kind.
-        kind: Kind,
+        kind: Dimension,
         /// The name with its usual unit.
         usual: String,
     },

@@ -7,9 +7,9 @@ use super::lines::{Lines, RawLine};
 use super::number::parse_number;
 use super::stated_unit::stated_unit;
 use super::toml_file::{Format, read_toml};
-use super::toml_value::{Item, Key, Section};
+use super::toml_value::{Item, KeyUnit, TomlSection};
 use super::units::Unit;
-use super::{FileError, Kind, Place, Problem};
+use super::{Dimension, FileError, FilePlace, FileProblem};
 use crate::{BallPlace, BallPlaces, BallRecord, Vector3};
 use std::collections::HashMap;
 use std::fs::File;
@@ -22,13 +22,13 @@ const USUAL: [&str; 5] = ["record", "ball", "x_mm", "y_mm", "z_mm"];
 const BALLS: Format = Format {
     name: "balls/1",
     keys: &[
-        Key::plain("format"),
-        Key::with_unit("sigma", Kind::Length, "um"),
-        Key::plain("platform"),
-        Key::plain("base"),
+        KeyUnit::plain("format"),
+        KeyUnit::with_unit("sigma", Dimension::Length, "um"),
+        KeyUnit::plain("platform"),
+        KeyUnit::plain("base"),
     ],
 };
-const BALL: &[Key] = &[Key::plain("ball"), Key::with_unit("center", Kind::Length, "mm")];
+const BALL: &[KeyUnit] = &[KeyUnit::plain("ball"), KeyUnit::with_unit("center", Dimension::Length, "mm")];
 
 /// Reads `balls.csv`: columns `record`, `ball`, `x_mm`, `y_mm`, `z_mm`, others are passed over.
 ///
@@ -62,14 +62,14 @@ fn places(item: &Item<'_>) -> Result<Vec<BallPlace>, Fault> {
     }
 }
 
-fn place(section: &Section<'_>) -> Result<BallPlace, Fault> {
+fn place(section: &TomlSection<'_>) -> Result<BallPlace, Fault> {
     let ball = section.require("ball")?.string()?.to_owned();
     let centre = section.require("center")?.numbers::<3>("three coordinates [x, y, z]")?;
     Ok(BallPlace { ball, centre: centre.into() })
 }
 
-fn twice_in(whole: &str, ball: &str) -> Problem {
-    Problem::Rule {
+fn twice_in(whole: &str, ball: &str) -> FileProblem {
+    FileProblem::Rule {
         rule: format!("ball {ball} is twice in {whole}"),
         next: "Name each ball once; give repeated touches records of their own.".into(),
     }
@@ -104,8 +104,8 @@ fn table(input: impl BufRead) -> Result<Vec<BallRecord>, Fault> {
         add(&mut records[number], place, &line, header)?;
     }
     match (header, records.is_empty()) {
-        (None, _) => Err(Fault::new(Place::file(), Problem::Empty)),
-        (_, true) => Err(Fault::new(Place::file(), Problem::NoRows)),
+        (None, _) => Err(Fault::new(FilePlace::file(), FileProblem::Empty)),
+        (_, true) => Err(Fault::new(FilePlace::file(), FileProblem::NoRows)),
         _ => Ok(records),
     }
 }
@@ -131,7 +131,7 @@ fn header_of(raw: RawLine<'_>) -> Result<Header, Fault> {
     for cell in 0..line.len() {
         let Some((column, unit)) = column(&line, cell)? else { continue };
         if found[column].replace((cell, unit)).is_some() {
-            let problem = Problem::Rule {
+            let problem = FileProblem::Rule {
                 rule: format!("{} is given twice", NAMES[column]),
                 next: "Keep one of the two columns.".into(),
             };
@@ -141,7 +141,7 @@ fn header_of(raw: RawLine<'_>) -> Result<Header, Fault> {
     let missing: Vec<String> =
         found.iter().zip(USUAL).filter(|(f, _)| f.is_none()).map(|(_, name)| name.into()).collect();
     let [Some(record), Some(ball), Some(x), Some(y), Some(z)] = found else {
-        return Err(Fault::new(line.whole_place(), Problem::MissingColumns { names: missing }));
+        return Err(Fault::new(line.whole_place(), FileProblem::MissingColumns { names: missing }));
     };
     Ok(Header {
         separator,
@@ -161,7 +161,7 @@ fn column(line: &Line<'_>, cell: usize) -> Result<Option<(usize, &'static Unit)>
         _ => (base, bracketed.map(str::to_owned)),
     };
     let Some(column) = NAMES.iter().position(|known| *known == name) else { return Ok(None) };
-    let kind = if column < 2 { Kind::Number } else { Kind::Length };
+    let kind = if column < 2 { Dimension::Number } else { Dimension::Length };
     stated_unit(NAMES[column], kind, USUAL[column].into(), unit.as_deref())
         .map(|unit| Some((column, unit)))
         .map_err(|problem| Fault::new(line.place(cell).with_name(text), problem))
@@ -169,11 +169,13 @@ fn column(line: &Line<'_>, cell: usize) -> Result<Option<(usize, &'static Unit)>
 
 fn row(header: &Header, line: &Line<'_>) -> Result<(String, BallPlace), Fault> {
     if line.len() != header.count {
-        let problem = Problem::CellCount { found: line.len(), expected: header.count };
+        let problem = FileProblem::CellCount { found: line.len(), expected: header.count };
         return Err(Fault::new(line.whole_place(), problem));
     }
     let name = |column: usize| match line.text(header.cells[column]) {
-        "" => Err(Fault::new(line.place(header.cells[column]).with_name(NAMES[column]), Problem::EmptyCell)),
+        "" => {
+            Err(Fault::new(line.place(header.cells[column]).with_name(NAMES[column]), FileProblem::EmptyCell))
+        }
         text => Ok(text.to_owned()),
     };
     let mut centre = Vector3::zeros();
@@ -188,11 +190,11 @@ fn coordinate(header: &Header, line: &Line<'_>, axis: usize) -> Result<f64, Faul
     let comma_allowed = header.separator != b',';
     let parsed = parse_number(line.text(cell)).and_then(|number| {
         if number.comma && !comma_allowed {
-            return Err(Problem::DecimalComma);
+            return Err(FileProblem::DecimalComma);
         }
         Ok(header.units[axis].to_si(number.value))
     });
-    let value = parsed.and_then(|si| if si.is_finite() { Ok(si) } else { Err(Problem::TooLarge) });
+    let value = parsed.and_then(|si| if si.is_finite() { Ok(si) } else { Err(FileProblem::TooLarge) });
     let place = || line.place(cell).with_name(USUAL[axis + 2]).with_value(line.text(cell));
     value.map_err(|problem| Fault::new(place(), problem))
 }

@@ -4,13 +4,13 @@ use std::hash::{Hash, Hasher};
 use std::path::Path;
 
 use super::error::Fault;
-use super::header::Purpose;
+use super::header::GroupPurpose;
 use super::line::Line;
 use super::lines::RawLine;
 use super::number::parse_number;
 use super::row::{defaults, fill, observation};
-use super::table::{Reading, Table};
-use super::{FileError, Place, Problem};
+use super::table::{Table, TableReading};
+use super::{FileError, FilePlace, FileProblem};
 use crate::Observation;
 
 /// Stands between names of columns; it is replaced in names, as are quotation marks and line ends.
@@ -42,12 +42,12 @@ impl Cells {
         }
     }
 
-    fn number(&self, row: usize) -> Result<f64, Problem> {
+    fn number(&self, row: usize) -> Result<f64, FileProblem> {
         match self {
             Self::Numbers(cells) if cells[row].is_finite() => Ok(cells[row]),
-            Self::Numbers(_) => Err(Problem::NotFinite),
+            Self::Numbers(_) => Err(FileProblem::NotFinite),
             Self::Texts(cells) => match parse_number(cells[row].trim())? {
-                parsed if parsed.comma => Err(Problem::DecimalComma),
+                parsed if parsed.comma => Err(FileProblem::DecimalComma),
                 parsed => Ok(parsed.value),
             },
         }
@@ -69,15 +69,19 @@ impl Cells {
 ///
 /// # Errors
 /// As for a file, with the row, from 0, in the place of the line.
-pub fn read_columns(columns: &[MemoryColumn], name: &str, purpose: Purpose) -> Result<Reading, FileError> {
+pub fn read_columns(
+    columns: &[MemoryColumn],
+    name: &str,
+    purpose: GroupPurpose,
+) -> Result<TableReading, FileError> {
     table(columns, purpose).and_then(|table| table.finish(name)).map_err(|fault| {
         let place = fault.place.without_line();
         Fault::new(place, *fault.problem).in_file(Path::new(name))
     })
 }
 
-fn table(columns: &[MemoryColumn], purpose: Purpose) -> Result<Table, Fault> {
-    let Some(first) = columns.first() else { return Err(Fault::new(Place::file(), Problem::Empty)) };
+fn table(columns: &[MemoryColumn], purpose: GroupPurpose) -> Result<Table, Fault> {
+    let Some(first) = columns.first() else { return Err(Fault::new(FilePlace::file(), FileProblem::Empty)) };
     let names: Vec<String> = columns.iter().map(|column| plain(&column.name)).collect();
     let header = names.join(&SEPARATOR.to_string());
     let raw = RawLine { text: &header, number: 1, start: 0, ended: true };
@@ -102,7 +106,7 @@ fn refuse_other_lengths(first: &MemoryColumn, columns: &[MemoryColumn]) -> Resul
     let Some(other) = columns.iter().find(|column| column.cells.len() != rows) else { return Ok(()) };
     let rule = format!("{} has {} values, {} has {rows}", other.name, other.cells.len(), first.name);
     let next = "Give every column one value per reading.".to_owned();
-    Err(Fault::new(Place::file(), Problem::Rule { rule, next }))
+    Err(Fault::new(FilePlace::file(), FileProblem::Rule { rule, next }))
 }
 
 fn read_row(columns: &[MemoryColumn], table: &Table, row: usize) -> Result<Observation, Fault> {
@@ -110,7 +114,7 @@ fn read_row(columns: &[MemoryColumn], table: &Table, row: usize) -> Result<Obser
     for (column, source) in columns.iter().zip(&table.plan.sources) {
         let Some(source) = source else { continue };
         column.cells.number(row).and_then(|value| fill(&mut filled, source, value)).map_err(|problem| {
-            let place = Place::cell(row, &column.name, &column.cells.text(row));
+            let place = FilePlace::cell(row, &column.name, &column.cells.text(row));
             Fault::new(place, source.sharpened(problem))
         })?;
     }
@@ -161,7 +165,7 @@ mod tests {
     }
 
     fn message(text: &str) -> String {
-        read_columns(&columns(text), "frame", Purpose::Measurements).unwrap_err().to_string()
+        read_columns(&columns(text), "frame", GroupPurpose::Measurements).unwrap_err().to_string()
     }
 
     const GOOD: [&str; 2] =
@@ -171,13 +175,14 @@ mod tests {
     fn a_table_in_memory_is_read_as_its_file() {
         let text = text(&GOOD);
         let file = read_measurements_from(text.as_bytes(), "frame").unwrap();
-        let memory = read_columns(&columns(&text), "frame", Purpose::Measurements).unwrap();
+        let memory = read_columns(&columns(&text), "frame", GroupPurpose::Measurements).unwrap();
         assert_eq!(memory, file);
     }
 
     #[test]
     fn what_is_written_as_columns_is_what_is_written_as_text() {
-        let dataset = read_columns(&columns(&text(&GOOD)), "frame", Purpose::Measurements).unwrap().dataset;
+        let dataset =
+            read_columns(&columns(&text(&GOOD)), "frame", GroupPurpose::Measurements).unwrap().dataset;
         let mut csv = Vec::new();
         measurements_to_csv(&mut csv, &dataset).unwrap();
         let expected = columns(std::str::from_utf8(&csv).unwrap());
@@ -207,7 +212,7 @@ mod tests {
         let strange = message("a_mm,\"x\u{1f}y\n1,2\n");
         assert!(strange.starts_with("frame: no measured values"), "{strange}");
         assert_eq!(message(&text(&[])), "frame: there is a header but no row of measurements");
-        let none = read_columns(&[], "frame", Purpose::Measurements).unwrap_err().to_string();
+        let none = read_columns(&[], "frame", GroupPurpose::Measurements).unwrap_err().to_string();
         assert_eq!(none, "frame: the file is empty");
     }
 
@@ -215,7 +220,7 @@ mod tests {
     fn columns_of_unequal_length_are_refused() {
         let mut columns = columns(&text(&GOOD));
         columns[3].cells = Cells::Numbers(vec![1.0]);
-        let told = read_columns(&columns, "frame", Purpose::Measurements).unwrap_err().to_string();
+        let told = read_columns(&columns, "frame", GroupPurpose::Measurements).unwrap_err().to_string();
         assert_eq!(told, "frame: b_mm has 1 values, pose has 2");
     }
 }

@@ -1,9 +1,9 @@
 //! Reading poses and loads that have not been measured.
 
 use super::FileError;
-use super::header::Purpose;
+use super::header::GroupPurpose;
 use super::read_measurements::read_named;
-use super::table::Reading;
+use super::table::TableReading;
 use std::path::Path;
 
 /// Reads a table of poses and wrenches to predict: the columns of `measurements.csv` without the measured ones.
@@ -13,9 +13,9 @@ use std::path::Path;
 ///
 /// # Errors
 /// The first thing that is wrong, with line, column, value and next step.
-pub fn read_conditions(path: &Path) -> Result<Reading, FileError> {
+pub fn read_conditions(path: &Path) -> Result<TableReading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, Purpose::Conditions).map_err(|fault| fault.in_file(path))
+    read_named(path, &name, GroupPurpose::Conditions).map_err(|fault| fault.in_file(path))
 }
 
 /// Reads a plan: poses and loads that are to be measured.
@@ -24,16 +24,16 @@ pub fn read_conditions(path: &Path) -> Result<Reading, FileError> {
 ///
 /// # Errors
 /// As [`read_conditions`].
-pub fn read_plan(path: &Path) -> Result<Reading, FileError> {
+pub fn read_plan(path: &Path) -> Result<TableReading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, Purpose::Plan).map_err(|fault| fault.in_file(path))
+    read_named(path, &name, GroupPurpose::Plan).map_err(|fault| fault.in_file(path))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Reading, FileError> {
+    fn read(text: &str) -> Result<TableReading, FileError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("poses.csv");
         std::fs::write(&path, text).unwrap();

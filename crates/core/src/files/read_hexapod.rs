@@ -2,8 +2,8 @@
 
 use super::error::Fault;
 use super::toml_file::{Format, parse_toml, read_toml};
-use super::toml_value::{Item, Key, Section};
-use super::{FileError, Kind, Problem};
+use super::toml_value::{Item, KeyUnit, TomlSection};
+use super::{Dimension, FileError, FileProblem};
 use crate::{Hexapod, Metrology, Vector3};
 use std::path::Path;
 
@@ -18,23 +18,24 @@ const SAME_POINT_M: f64 = 1e-9;
 /// Smallest and largest distance between two joints of one side, m.
 const MACHINE_SIZE_M: [f64; 2] = [1e-3, 1e3];
 
-const TOP: &[Key] = &Key::all_plain(["format", "name", "geometry", "metrology", "legs", "base", "payload"]);
-const GEOMETRY: &[Key] = &[
-    Key::with_unit("base_joints", Kind::Length, "mm"),
-    Key::with_unit("platform_joints", Kind::Length, "mm"),
+const TOP: &[KeyUnit] =
+    &KeyUnit::all_plain(["format", "name", "geometry", "metrology", "legs", "base", "payload"]);
+const GEOMETRY: &[KeyUnit] = &[
+    KeyUnit::with_unit("base_joints", Dimension::Length, "mm"),
+    KeyUnit::with_unit("platform_joints", Dimension::Length, "mm"),
 ];
-const METROLOGY: &[Key] = &[
-    Key::with_unit("sigma_translation", Kind::Length, "um"),
-    Key::with_unit("sigma_rotation", Kind::Angle, "urad"),
+const METROLOGY: &[KeyUnit] = &[
+    KeyUnit::with_unit("sigma_translation", Dimension::Length, "um"),
+    KeyUnit::with_unit("sigma_rotation", Dimension::Angle, "urad"),
 ];
-const LEGS: &[Key] = &[
-    Key::with_unit("nominal_stiffness", Kind::Stiffness, "N_per_um"),
-    Key::with_unit("min_length", Kind::Length, "mm"),
-    Key::with_unit("max_length", Kind::Length, "mm"),
-    Key::plain("brackets"),
+const LEGS: &[KeyUnit] = &[
+    KeyUnit::with_unit("nominal_stiffness", Dimension::Stiffness, "N_per_um"),
+    KeyUnit::with_unit("min_length", Dimension::Length, "mm"),
+    KeyUnit::with_unit("max_length", Dimension::Length, "mm"),
+    KeyUnit::plain("brackets"),
 ];
-const BASE: &[Key] = &[Key::with_unit("mounting_plane_z", Kind::Length, "mm")];
-const PAYLOAD: &[Key] = &[Key::with_unit("center_of_gravity", Kind::Length, "mm")];
+const BASE: &[KeyUnit] = &[KeyUnit::with_unit("mounting_plane_z", Dimension::Length, "mm")];
+const PAYLOAD: &[KeyUnit] = &[KeyUnit::with_unit("center_of_gravity", Dimension::Length, "mm")];
 
 /// Reads `hexapod.toml`; `docs/reference/file-formats.md` defines the keys.
 ///
@@ -60,12 +61,12 @@ pub fn parse_hexapod(text: &str, name: &str) -> Result<Hexapod, FileError> {
     parse_toml(text, HEXAPOD, hexapod_of).map_err(|fault| fault.in_file(Path::new(name)))
 }
 
-fn hexapod_of(top: &Section<'_>) -> Result<Hexapod, Fault> {
+fn hexapod_of(top: &TomlSection<'_>) -> Result<Hexapod, Fault> {
     let name = top.get("name").map(Item::string).transpose()?.unwrap_or("hexapod").to_owned();
     with_sections(name, top)
 }
 
-fn with_sections(name: String, top: &Section<'_>) -> Result<Hexapod, Fault> {
+fn with_sections(name: String, top: &TomlSection<'_>) -> Result<Hexapod, Fault> {
     let geometry = top.section("geometry", "[geometry]", GEOMETRY)?;
     let metrology = top.section("metrology", "[metrology]", METROLOGY)?;
     let legs = top.section("legs", "[legs]", LEGS)?;
@@ -85,13 +86,13 @@ fn with_sections(name: String, top: &Section<'_>) -> Result<Hexapod, Fault> {
     })
 }
 
-fn all_joints(geometry: &Section<'_>) -> Result<[[Vector3; 6]; 2], Fault> {
+fn all_joints(geometry: &TomlSection<'_>) -> Result<[[Vector3; 6]; 2], Fault> {
     let base = geometry.require("base_joints")?;
     let platform = geometry.require("platform_joints")?;
     let joints = [joints(base, "base")?, joints(platform, "platform")?];
     let length = |leg: usize| (joints[0][leg] - joints[1][leg]).norm();
     match (0..6).find(|leg| length(*leg) < SAME_POINT_M) {
-        Some(leg) => Err(platform.fault(Problem::NoLegLength { leg: leg + 1 })),
+        Some(leg) => Err(platform.fault(FileProblem::NoLegLength { leg: leg + 1 })),
         None => Ok(joints),
     }
 }
@@ -122,7 +123,9 @@ fn check_meeting(joints: &[Vector3; 6], rows: &[Item<'_>; 6], side: &'static str
     }
     match meeting.first() {
         None => Ok(()),
-        Some([i, j]) => Err(rows[*j].fault(Problem::CoincidingJoints { side, first: i + 1, second: j + 1 })),
+        Some([i, j]) => {
+            Err(rows[*j].fault(FileProblem::CoincidingJoints { side, first: i + 1, second: j + 1 }))
+        }
     }
 }
 
@@ -133,10 +136,10 @@ fn check_size(joints: &[Vector3; 6], item: &Item<'_>, side: &'static str) -> Res
         return Ok(());
     }
     let size_mm = format!("{:.3e}", size * 1e3).parse().unwrap_or(size * 1e3);
-    Err(item.fault(Problem::MachineSize { side, size_mm }))
+    Err(item.fault(FileProblem::MachineSize { side, size_mm }))
 }
 
-fn stated_noise(metrology: &Section<'_>) -> Result<Metrology, Fault> {
+fn stated_noise(metrology: &TomlSection<'_>) -> Result<Metrology, Fault> {
     Ok(Metrology {
         sigma_translation: metrology.require("sigma_translation")?.positive("a standard deviation")?,
         sigma_rotation: metrology.require("sigma_rotation")?.positive("a standard deviation")?,
@@ -156,7 +159,7 @@ fn stiffness(item: &Item<'_>) -> Result<[f64; 6], Fault> {
     Ok(stiffness)
 }
 
-fn stroke(legs: &Section<'_>) -> Result<Option<[f64; 2]>, Fault> {
+fn stroke(legs: &TomlSection<'_>) -> Result<Option<[f64; 2]>, Fault> {
     if legs.get("min_length").is_none() && legs.get("max_length").is_none() {
         return Ok(None);
     }
@@ -164,7 +167,7 @@ fn stroke(legs: &Section<'_>) -> Result<Option<[f64; 2]>, Fault> {
     let longest = legs.require("max_length")?;
     match longest.positive("a leg length")? {
         length if length > shortest => Ok(Some([shortest, length])),
-        _ => Err(longest.fault(Problem::Stroke)),
+        _ => Err(longest.fault(FileProblem::Stroke)),
     }
 }
 
@@ -183,6 +186,6 @@ fn bracket(item: &Item<'_>) -> Result<[usize; 2], Fault> {
     let leg = |number: f64| (0..6_u8).find(|leg| is_same(f64::from(leg + 1), number)).map(usize::from);
     match pair.map(leg) {
         [Some(one), Some(other)] if one != other => Ok([one, other]),
-        _ => Err(item.fault(Problem::Bracket)),
+        _ => Err(item.fault(FileProblem::Bracket)),
     }
 }

@@ -1,14 +1,14 @@
 //! Reading a table of measurements in one pass.
 
 use super::error::Fault;
-use super::header::{Purpose, refuse_numbers};
+use super::header::{GroupPurpose, refuse_numbers};
 use super::line::{Line, whole_place};
 use super::lines::{Lines, RawLine};
 use super::number::{Decimals, parse_number};
 use super::row::{defaults, fill, observation};
-use super::table::{Reading, Table};
+use super::table::{Table, TableReading};
 use super::warning::Notice;
-use super::{FileError, Place, Problem, Warning};
+use super::{FileError, FilePlace, FileProblem, Warning};
 use crate::Observation;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -31,12 +31,12 @@ const BUFFER_BYTES: usize = 1 << 18;
 /// println!("{} rows", reading.dataset.observations.len());
 /// # Ok::<(), hexbench_core::files::FileError>(())
 /// ```
-pub fn read_measurements(path: &Path) -> Result<Reading, FileError> {
+pub fn read_measurements(path: &Path) -> Result<TableReading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, Purpose::Measurements).map_err(|fault| fault.in_file(path))
+    read_named(path, &name, GroupPurpose::Measurements).map_err(|fault| fault.in_file(path))
 }
 
-pub(crate) fn read_named(path: &Path, name: &str, purpose: Purpose) -> Result<Reading, Fault> {
+pub(crate) fn read_named(path: &Path, name: &str, purpose: GroupPurpose) -> Result<TableReading, Fault> {
     read_table(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?), name, purpose)
 }
 
@@ -44,11 +44,11 @@ pub(crate) fn read_named(path: &Path, name: &str, purpose: Purpose) -> Result<Re
 ///
 /// # Errors
 /// As [`read_measurements`].
-pub fn read_measurements_from(input: impl BufRead, name: &str) -> Result<Reading, FileError> {
-    read_table(input, name, Purpose::Measurements).map_err(|fault| fault.in_file(Path::new(name)))
+pub fn read_measurements_from(input: impl BufRead, name: &str) -> Result<TableReading, FileError> {
+    read_table(input, name, GroupPurpose::Measurements).map_err(|fault| fault.in_file(Path::new(name)))
 }
 
-fn read_table(input: impl BufRead, name: &str, purpose: Purpose) -> Result<Reading, Fault> {
+fn read_table(input: impl BufRead, name: &str, purpose: GroupPurpose) -> Result<TableReading, Fault> {
     let mut lines = Lines::new(input);
     let mut table = start(&mut lines, purpose)?;
     let mut cells = Vec::new();
@@ -60,17 +60,17 @@ fn read_table(input: impl BufRead, name: &str, purpose: Purpose) -> Result<Readi
     table.finish(name)
 }
 
-fn start<R: BufRead>(lines: &mut Lines<R>, purpose: Purpose) -> Result<Csv, Fault> {
+fn start<R: BufRead>(lines: &mut Lines<R>, purpose: GroupPurpose) -> Result<Csv, Fault> {
     while let Some(raw) = lines.next_line()? {
         if raw.text.trim().is_empty() || raw.text.starts_with('#') {
             continue;
         }
         if raw.text.contains('\r') {
-            return Err(Fault::new(Place::file(), Problem::CarriageReturnLines));
+            return Err(Fault::new(FilePlace::file(), FileProblem::CarriageReturnLines));
         }
         return Csv::new(raw, purpose);
     }
-    Err(Fault::new(Place::file(), Problem::Empty))
+    Err(Fault::new(FilePlace::file(), FileProblem::Empty))
 }
 
 /// Blank lines, comments, and the rows of empty cells that spreadsheets leave below a table.
@@ -92,7 +92,7 @@ struct Csv {
 }
 
 impl Csv {
-    fn new(header: RawLine<'_>, purpose: Purpose) -> Result<Self, Fault> {
+    fn new(header: RawLine<'_>, purpose: GroupPurpose) -> Result<Self, Fault> {
         let (separator, name) = separator_of(header.text);
         let mut borders = Vec::new();
         let line = Line::cut(header, separator, &mut borders)?;
@@ -122,15 +122,15 @@ impl Csv {
         }
         let found = 1 + memchr::memchr_iter(self.separator, raw.text.as_bytes()).count();
         let expected = self.table.plan.sources.len();
-        Fault::new(whole_place(raw), Problem::Truncated { found, expected })
+        Fault::new(whole_place(raw), FileProblem::Truncated { found, expected })
     }
 
     fn refuse_other_length(&self, line: &Line<'_>, ended: bool) -> Result<(), Fault> {
         let (found, expected) = (line.len(), self.table.plan.sources.len());
         let problem = match found {
             _ if found == expected => return Ok(()),
-            _ if !ended && found < expected => Problem::Truncated { found, expected },
-            _ => Problem::CellCount { found, expected },
+            _ if !ended && found < expected => FileProblem::Truncated { found, expected },
+            _ => FileProblem::CellCount { found, expected },
         };
         Err(Fault::new(line.whole_place(), problem))
     }
@@ -151,18 +151,18 @@ impl Csv {
         Ok(observation(&row, plan, line.number(), self.table.running_number()))
     }
 
-    fn finish(mut self, name: &str) -> Result<Reading, Fault> {
+    fn finish(mut self, name: &str) -> Result<TableReading, Fault> {
         self.table.decimal_comma = self.decimals.has_comma();
         self.table.finish(name)
     }
 }
 
-fn number_of(text: &str, separator: u8, decimals: &mut Decimals, line: u64) -> Result<f64, Problem> {
+fn number_of(text: &str, separator: u8, decimals: &mut Decimals, line: u64) -> Result<f64, FileProblem> {
     let parsed = parse_number(text)?;
     if separator != b',' {
         decimals.note(text, parsed, line)?;
     } else if parsed.comma {
-        return Err(Problem::DecimalComma);
+        return Err(FileProblem::DecimalComma);
     }
     Ok(parsed.value)
 }

@@ -1,6 +1,6 @@
 //! From the cells of a line to an observation.
 
-use super::Problem;
+use super::FileProblem;
 use super::columns::{
     APPROACH, DELTA_T, ELAPSED, Group, MEASURED, POSE, POSE_ID, REFERENCE, REPEAT, Row, SIGMA, WRENCH,
 };
@@ -24,25 +24,25 @@ pub(crate) fn defaults() -> Row {
 }
 
 /// Puts one number into its place, in SI, after checking it.
-pub(crate) fn fill(row: &mut Row, source: &Source, value: f64) -> Result<(), Problem> {
+pub(crate) fn fill(row: &mut Row, source: &Source, value: f64) -> Result<(), FileProblem> {
     let si = source.unit.to_si(value);
     check(source, si)?;
     row[source.column.places.range()].fill(si);
     Ok(())
 }
 
-fn check(source: &Source, si: f64) -> Result<(), Problem> {
-    use super::Kind;
+fn check(source: &Source, si: f64) -> Result<(), FileProblem> {
+    use super::Dimension;
     match source.column.group {
-        _ if !si.is_finite() => Err(Problem::TooLarge),
-        Group::Number if si.fract() != 0.0 || si.abs() > LARGEST_WHOLE => Err(Problem::NotWhole),
+        _ if !si.is_finite() => Err(FileProblem::TooLarge),
+        Group::Number if si.fract() != 0.0 || si.abs() > LARGEST_WHOLE => Err(FileProblem::NotWhole),
         Group::Covariate if source.column.places.first == APPROACH && Approach::of_sign(si).is_none() => {
-            Err(Problem::Approach)
+            Err(FileProblem::Approach)
         }
-        Group::Sigma if si <= 0.0 => Err(Problem::Sigma),
+        Group::Sigma if si <= 0.0 => Err(FileProblem::Sigma),
         Group::Sigma | Group::Number | Group::Covariate => Ok(()),
-        _ if source.column.kind == Kind::Angle && si.abs() > LARGEST_ANGLE => {
-            Err(Problem::AngleTooLarge { turns: si.abs() / TAU })
+        _ if source.column.kind == Dimension::Angle && si.abs() > LARGEST_ANGLE => {
+            Err(FileProblem::AngleTooLarge { turns: si.abs() / TAU })
         }
         _ => Ok(()),
     }

@@ -5,15 +5,15 @@ use std::hash::Hash;
 use super::columns::Group;
 use super::duplicates::{Fingerprints, drop_copies};
 use super::error::Fault;
-use super::header::{Plan, Purpose, Source, read_header};
+use super::header::{GroupPurpose, Plan, Source, read_header};
 use super::line::Line;
 use super::warning::Notice;
-use super::{Place, Problem, Warning};
+use super::{FilePlace, FileProblem, Warning};
 use crate::{Dataset, Measurand, Observation};
 
 /// A table as read, and what the reader noticed on the way.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reading {
+pub struct TableReading {
     /// The measurements, SI.
     pub dataset: Dataset,
     /// What was accepted but should be looked at.
@@ -22,7 +22,7 @@ pub struct Reading {
 
 /// A table while it is read.
 pub(crate) struct Table {
-    purpose: Purpose,
+    purpose: GroupPurpose,
     pub(crate) plan: Plan,
     pub(crate) warnings: Vec<Warning>,
     /// True when numbers were written with a decimal comma.
@@ -34,7 +34,7 @@ pub(crate) struct Table {
 
 impl Table {
     /// A table of no rows yet.
-    pub(crate) fn new(header: &Line<'_>, purpose: Purpose) -> Result<Self, Fault> {
+    pub(crate) fn new(header: &Line<'_>, purpose: GroupPurpose) -> Result<Self, Fault> {
         let mut warnings = Vec::new();
         let plan = read_header(header, purpose, &mut warnings)?;
         Ok(Self {
@@ -63,35 +63,35 @@ impl Table {
     }
 
     fn compares_loads(&self) -> bool {
-        self.purpose == Purpose::Measurements && self.plan.measurand != Measurand::AbsolutePose
+        self.purpose == GroupPurpose::Measurements && self.plan.measurand != Measurand::AbsolutePose
     }
 
     /// The table, and what was noticed.
-    pub(crate) fn finish(mut self, name: &str) -> Result<Reading, Fault> {
+    pub(crate) fn finish(mut self, name: &str) -> Result<TableReading, Fault> {
         if self.observations.is_empty() {
-            return Err(Fault::new(Place::file(), Problem::NoRows));
+            return Err(Fault::new(FilePlace::file(), FileProblem::NoRows));
         }
-        if self.purpose == Purpose::Measurements {
+        if self.purpose == GroupPurpose::Measurements {
             self.warnings.extend(drop_copies(&mut self.observations, self.fingerprints, self.plan.has_pose));
         }
         if self.decimal_comma {
-            self.warnings.push(Warning::new(Place::file(), Notice::DecimalComma));
+            self.warnings.push(Warning::new(FilePlace::file(), Notice::DecimalComma));
         }
         if !self.no_load_difference.is_empty() {
             let notice = Notice::NoLoadDifference { lines: self.no_load_difference };
-            self.warnings.push(Warning::new(Place::file(), notice));
+            self.warnings.push(Warning::new(FilePlace::file(), notice));
         }
         let Plan { measurand, columns, .. } = self.plan;
         let dataset =
             Dataset { source: name.to_owned(), measurand, columns, observations: self.observations };
-        Ok(Reading { dataset, warnings: self.warnings })
+        Ok(TableReading { dataset, warnings: self.warnings })
     }
 }
 
 impl Source {
     /// Text in the column of a whole number is called that.
-    pub(crate) fn sharpened(&self, problem: Problem) -> Problem {
-        let is_name = matches!(problem, Problem::NotANumber) && self.column.group == Group::Number;
-        if is_name { Problem::NotWhole } else { problem }
+    pub(crate) fn sharpened(&self, problem: FileProblem) -> FileProblem {
+        let is_name = matches!(problem, FileProblem::NotANumber) && self.column.group == Group::Number;
+        if is_name { FileProblem::NotWhole } else { problem }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::error::Fault;
 use super::lines::utf8_text;
-use super::toml_value::{Key, Section, place_of};
-use super::{FileError, Place, Problem};
+use super::toml_value::{KeyUnit, TomlSection, place_of};
+use super::{FileError, FilePlace, FileProblem};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -17,7 +17,7 @@ pub struct Format {
     /// Name and version, for example `hexapod/1`.
     pub name: &'static str,
     /// Keys of the top level.
-    pub keys: &'static [Key],
+    pub keys: &'static [KeyUnit],
 }
 
 /// Reads a TOML file of a format and hands its top level to `make`.
@@ -27,7 +27,7 @@ pub struct Format {
 pub fn read_toml<T>(
     path: &Path,
     format: Format,
-    make: impl FnOnce(&Section<'_>) -> Result<T, Fault>,
+    make: impl FnOnce(&TomlSection<'_>) -> Result<T, Fault>,
 ) -> Result<T, FileError> {
     let parsed = read_file(path).and_then(|bytes| parse_toml(utf8_text(&bytes)?, format, make));
     parsed.map_err(|fault| fault.in_file(path))
@@ -41,7 +41,7 @@ pub fn read_toml_text<T>(
     text: &str,
     name: &Path,
     format: Format,
-    make: impl FnOnce(&Section<'_>) -> Result<T, Fault>,
+    make: impl FnOnce(&TomlSection<'_>) -> Result<T, Fault>,
 ) -> Result<T, FileError> {
     parse_toml(text, format, make).map_err(|fault| fault.in_file(name))
 }
@@ -49,29 +49,29 @@ pub fn read_toml_text<T>(
 pub(crate) fn parse_toml<T>(
     text: &str,
     format: Format,
-    make: impl FnOnce(&Section<'_>) -> Result<T, Fault>,
+    make: impl FnOnce(&TomlSection<'_>) -> Result<T, Fault>,
 ) -> Result<T, Fault> {
     let root = DeTable::parse(text).map_err(|wrong| {
-        let place = wrong.span().map_or_else(Place::file, |span| place_of(text, &span));
-        Fault::new(place, Problem::Toml(wrong.message().replace('\n', " ")))
+        let place = wrong.span().map_or_else(FilePlace::file, |span| place_of(text, &span));
+        Fault::new(place, FileProblem::Toml(wrong.message().replace('\n', " ")))
     })?;
     // The format first: a file of another format may have other keys.
-    check_format(&Section::peek(text, root.get_ref(), format.keys)?, format.name)?;
-    make(&Section::open(text, "", root.get_ref(), format.keys)?)
+    check_format(&TomlSection::peek(text, root.get_ref(), format.keys)?, format.name)?;
+    make(&TomlSection::open(text, "", root.get_ref(), format.keys)?)
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
     File::open(path)?.take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > MAX_FILE_BYTES {
-        return Err(Fault::new(Place::file(), Problem::FileTooLong { limit_bytes: MAX_FILE_BYTES }));
+        return Err(Fault::new(FilePlace::file(), FileProblem::FileTooLong { limit_bytes: MAX_FILE_BYTES }));
     }
     Ok(bytes)
 }
 
-fn check_format(top: &Section<'_>, expected: &'static str) -> Result<(), Fault> {
+fn check_format(top: &TomlSection<'_>, expected: &'static str) -> Result<(), Fault> {
     let Some(format) = top.get("format") else {
-        return Err(Fault::new(Place::file(), Problem::Format { expected }));
+        return Err(Fault::new(FilePlace::file(), FileProblem::Format { expected }));
     };
-    if format.string()? == expected { Ok(()) } else { Err(format.fault(Problem::Format { expected })) }
+    if format.string()? == expected { Ok(()) } else { Err(format.fault(FileProblem::Format { expected })) }
 }

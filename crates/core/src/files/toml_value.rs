@@ -5,7 +5,7 @@ use super::nearest::nearest;
 use super::number::parse_number;
 use super::stated_unit::stated_unit;
 use super::units::{PLAIN, Unit};
-use super::{Kind, Place, Problem};
+use super::{Dimension, FilePlace, FileProblem};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -14,16 +14,16 @@ type Value<'t> = Spanned<DeValue<'t>>;
 
 /// A key a section may have, without its unit, and the unit it is usually written in.
 #[derive(Debug, Clone, Copy)]
-pub struct Key {
+pub struct KeyUnit {
     pub(crate) name: &'static str,
-    pub(crate) kind: Kind,
+    pub(crate) kind: Dimension,
     pub(crate) unit: &'static str,
 }
 
-impl Key {
+impl KeyUnit {
     /// A key without unit.
     pub const fn plain(name: &'static str) -> Self {
-        Self { name, kind: Kind::Number, unit: "" }
+        Self { name, kind: Dimension::Number, unit: "" }
     }
 
     /// Keys without units.
@@ -38,7 +38,7 @@ impl Key {
     }
 
     /// A key with a unit.
-    pub const fn with_unit(name: &'static str, kind: Kind, unit: &'static str) -> Self {
+    pub const fn with_unit(name: &'static str, kind: Dimension, unit: &'static str) -> Self {
         Self { name, kind, unit }
     }
 
@@ -50,7 +50,7 @@ impl Key {
     /// The unit that `spelled` adds to this key (empty for none); none when it is another key.
     fn unit_in<'s>(&self, spelled: &'s str) -> Option<&'s str> {
         let rest = spelled.strip_prefix(self.name)?;
-        let unit = rest.strip_prefix('_').filter(|_| self.kind != Kind::Number);
+        let unit = rest.strip_prefix('_').filter(|_| self.kind != Dimension::Number);
         if rest.is_empty() { Some("") } else { unit }
     }
 
@@ -61,11 +61,11 @@ impl Key {
 
 /// A table whose keys are all known.
 #[derive(Debug)]
-pub struct Section<'t> {
+pub struct TomlSection<'t> {
     text: &'t str,
     title: &'static str,
-    keys: &'static [Key],
-    items: Vec<(&'static Key, Item<'t>)>,
+    keys: &'static [KeyUnit],
+    items: Vec<(&'static KeyUnit, Item<'t>)>,
 }
 
 /// A value with the unit its key states.
@@ -77,13 +77,13 @@ pub struct Item<'t> {
     value: &'t Value<'t>,
 }
 
-impl<'t> Section<'t> {
+impl<'t> TomlSection<'t> {
     /// Reads the keys of a table; an unknown or repeated one is a fault.
     pub(crate) fn open(
         text: &'t str,
         title: &'static str,
         table: &'t DeTable<'t>,
-        keys: &'static [Key],
+        keys: &'static [KeyUnit],
     ) -> Result<Self, Fault> {
         let mut section = Self { text, title, keys, items: Vec::new() };
         for (name, value) in in_file_order(table) {
@@ -93,7 +93,11 @@ impl<'t> Section<'t> {
     }
 
     /// The known keys of a table, whatever else it holds.
-    pub(crate) fn peek(text: &'t str, table: &'t DeTable<'t>, keys: &'static [Key]) -> Result<Self, Fault> {
+    pub(crate) fn peek(
+        text: &'t str,
+        table: &'t DeTable<'t>,
+        keys: &'static [KeyUnit],
+    ) -> Result<Self, Fault> {
         let mut section = Self { text, title: "", keys, items: Vec::new() };
         for (name, value) in in_file_order(table) {
             if known_key(name.get_ref(), keys).is_ok() {
@@ -108,7 +112,7 @@ impl<'t> Section<'t> {
         let place = || place_of(self.text, &name.span()).with_name(spelled);
         let (key, unit) = known_key(spelled, self.keys).map_err(|problem| Fault::new(place(), problem))?;
         if self.items.iter().any(|(other, _)| other.name == key.name) {
-            return Err(Fault::new(place(), Problem::DuplicateKey { quantity: key.name.into() }));
+            return Err(Fault::new(place(), FileProblem::DuplicateKey { quantity: key.name.into() }));
         }
         self.items.push((key, Item { text: self.text, key: spelled.to_owned(), unit, value }));
         Ok(())
@@ -125,11 +129,14 @@ impl<'t> Section<'t> {
     /// A [`Fault`] when it is absent.
     pub fn require(&self, name: &str) -> Result<&Item<'t>, Fault> {
         self.get(name).ok_or_else(|| {
-            let usual = self.keys.iter().find(|key| key.name == name).map(Key::usual_name);
+            let usual = self.keys.iter().find(|key| key.name == name).map(KeyUnit::usual_name);
             let key = usual.unwrap_or_else(|| name.to_owned());
-            let place =
-                if self.title.is_empty() { Place::file() } else { Place::file().with_name(self.title) };
-            Fault::new(place, Problem::MissingKey { key })
+            let place = if self.title.is_empty() {
+                FilePlace::file()
+            } else {
+                FilePlace::file().with_name(self.title)
+            };
+            Fault::new(place, FileProblem::MissingKey { key })
         })
     }
 
@@ -141,10 +148,10 @@ impl<'t> Section<'t> {
         &self,
         name: &'static str,
         title: &'static str,
-        keys: &'static [Key],
-    ) -> Result<Section<'t>, Fault> {
+        keys: &'static [KeyUnit],
+    ) -> Result<TomlSection<'t>, Fault> {
         match self.get(name) {
-            None => Ok(Section { text: self.text, title, keys, items: Vec::new() }),
+            None => Ok(TomlSection { text: self.text, title, keys, items: Vec::new() }),
             Some(item) => item.section(title, keys),
         }
     }
@@ -157,30 +164,33 @@ fn in_file_order<'t>(table: &'t DeTable<'t>) -> Vec<(&'t Spanned<DeString<'t>>, 
 }
 
 /// The key that is meant and its unit.
-fn known_key(spelled: &str, keys: &'static [Key]) -> Result<(&'static Key, &'static Unit), Problem> {
+fn known_key(
+    spelled: &str,
+    keys: &'static [KeyUnit],
+) -> Result<(&'static KeyUnit, &'static Unit), FileProblem> {
     let key =
         keys.iter().find(|key| key.unit_in(spelled).is_some()).ok_or_else(|| unknown_key(spelled, keys))?;
     Ok((key, stated_unit(key.name, key.kind, key.usual_name(), key.unit_in(spelled))?))
 }
 
-fn unknown_key(spelled: &str, keys: &[Key]) -> Problem {
-    let known: Vec<String> = keys.iter().map(Key::usual_name).collect();
+fn unknown_key(spelled: &str, keys: &[KeyUnit]) -> FileProblem {
+    let known: Vec<String> = keys.iter().map(KeyUnit::usual_name).collect();
     let suggestion = nearest(spelled, known.iter().map(String::as_str)).map(str::to_owned);
-    Problem::UnknownKey { suggestion, known }
+    FileProblem::UnknownKey { suggestion, known }
 }
 
 impl<'t> Item<'t> {
     /// A fault at this value.
-    pub fn fault(&self, problem: Problem) -> Fault {
+    pub fn fault(&self, problem: FileProblem) -> Fault {
         self.fault_at(self.value, problem)
     }
 
     /// A rule of the format that this value breaks, and what to write instead.
     pub fn breaks(&self, rule: impl Into<String>, next: impl Into<String>) -> Fault {
-        self.fault(Problem::Rule { rule: rule.into(), next: next.into() })
+        self.fault(FileProblem::Rule { rule: rule.into(), next: next.into() })
     }
 
-    fn fault_at(&self, value: &Value<'_>, problem: Problem) -> Fault {
+    fn fault_at(&self, value: &Value<'_>, problem: FileProblem) -> Fault {
         let span = value.span();
         let place = place_of(self.text, &span).with_name(&self.key);
         let text = self.text.get(span).unwrap_or_default();
@@ -191,7 +201,7 @@ impl<'t> Item<'t> {
     }
 
     fn wrong_type(&self, expected: &'static str, value: &Value<'_>) -> Fault {
-        self.fault_at(value, Problem::WrongType { expected, found: value.get_ref().type_str() })
+        self.fault_at(value, FileProblem::WrongType { expected, found: value.get_ref().type_str() })
     }
 
     /// A string.
@@ -217,7 +227,7 @@ impl<'t> Item<'t> {
         };
         let parsed = parse_number(&digits.replace('_', "")).map_err(|problem| self.fault(problem))?;
         let si = self.unit.to_si(parsed.value);
-        if si.is_finite() { Ok(si) } else { Err(self.fault(Problem::TooLarge)) }
+        if si.is_finite() { Ok(si) } else { Err(self.fault(FileProblem::TooLarge)) }
     }
 
     /// The key as the file spells it.
@@ -229,8 +239,8 @@ impl<'t> Item<'t> {
     ///
     /// # Errors
     /// A [`Fault`] at a value that is no table, or at an unknown or repeated key.
-    pub fn section(&self, title: &'static str, keys: &'static [Key]) -> Result<Section<'t>, Fault> {
-        Section::open(self.text, title, self.table()?, keys)
+    pub fn section(&self, title: &'static str, keys: &'static [KeyUnit]) -> Result<TomlSection<'t>, Fault> {
+        TomlSection::open(self.text, title, self.table()?, keys)
     }
 
     /// The entries of a table with any keys, in the order of the file; their values have no unit.
@@ -307,7 +317,7 @@ impl<'t> Item<'t> {
     /// # Errors
     /// A [`Fault`] at a value of another kind.
     pub fn exactly<const N: usize>(&self, expected: &'static str) -> Result<[Item<'t>; N], Fault> {
-        let count = |found: Vec<Item<'t>>| self.fault(Problem::Count { expected, found: found.len() });
+        let count = |found: Vec<Item<'t>>| self.fault(FileProblem::Count { expected, found: found.len() });
         self.list()?.try_into().map_err(count)
     }
 
@@ -329,19 +339,19 @@ impl<'t> Item<'t> {
     /// A [`Fault`] at a value of another kind.
     pub fn positive(&self, quantity: &'static str) -> Result<f64, Fault> {
         let number = self.number()?;
-        if number > 0.0 { Ok(number) } else { Err(self.fault(Problem::NotPositive { quantity })) }
+        if number > 0.0 { Ok(number) } else { Err(self.fault(FileProblem::NotPositive { quantity })) }
     }
 }
 
 /// Line and character of a byte range.
-pub(crate) fn place_of(text: &str, span: &Range<usize>) -> Place {
+pub(crate) fn place_of(text: &str, span: &Range<usize>) -> FilePlace {
     let before = text.get(..span.start).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     let line = 1 + before.bytes().filter(|byte| *byte == b'\n').count();
-    Place {
+    FilePlace {
         line: u64::try_from(line).ok(),
         column: Some(before[line_start..].chars().count() + 1),
         span: Some(span.clone()),
-        ..Place::file()
+        ..FilePlace::file()
     }
 }

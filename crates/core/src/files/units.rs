@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 /// The physical kind of a quantity; any unit of the same kind may stand in for another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum Dimension {
     /// A plain number without unit.
     Number,
     /// Length, SI unit m.
@@ -23,7 +23,7 @@ pub enum Kind {
     Stiffness,
 }
 
-impl Kind {
+impl Dimension {
     /// The kind in words.
     pub fn name(self) -> &'static str {
         match self {
@@ -61,13 +61,13 @@ pub struct Unit {
     /// Name as written in files, for example `um`.
     pub name: &'static str,
     /// What it measures.
-    pub kind: Kind,
+    pub kind: Dimension,
     multiplier: f64,
     divisor: f64,
 }
 
 impl Unit {
-    const fn new(name: &'static str, kind: Kind, multiplier: f64, divisor: f64) -> Self {
+    const fn new(name: &'static str, kind: Dimension, multiplier: f64, divisor: f64) -> Self {
         Self { name, kind, multiplier, divisor }
     }
 
@@ -87,40 +87,40 @@ impl Unit {
 }
 
 /// The unit of a plain number.
-pub(crate) const PLAIN: Unit = Unit::new("", Kind::Number, 1.0, 1.0);
+pub(crate) const PLAIN: Unit = Unit::new("", Dimension::Number, 1.0, 1.0);
 
 /// Every unit known to the files. The first of a kind is its SI unit.
 pub const UNITS: &[Unit] = &[
-    Unit::new("m", Kind::Length, 1.0, 1.0),
-    Unit::new("mm", Kind::Length, 1.0, 1e3),
-    Unit::new("um", Kind::Length, 1.0, 1e6),
-    Unit::new("nm", Kind::Length, 1.0, 1e9),
-    Unit::new("in", Kind::Length, 0.0254, 1.0),
-    Unit::new("rad", Kind::Angle, 1.0, 1.0),
-    Unit::new("mrad", Kind::Angle, 1.0, 1e3),
-    Unit::new("urad", Kind::Angle, 1.0, 1e6),
-    Unit::new("deg", Kind::Angle, PI, 180.0),
-    Unit::new("arcmin", Kind::Angle, PI, 10_800.0),
-    Unit::new("arcsec", Kind::Angle, PI, 648_000.0),
-    Unit::new("N", Kind::Force, 1.0, 1.0),
-    Unit::new("mN", Kind::Force, 1.0, 1e3),
-    Unit::new("kN", Kind::Force, 1e3, 1.0),
-    Unit::new("MN", Kind::Force, 1e6, 1.0),
-    Unit::new("Nm", Kind::Moment, 1.0, 1.0),
-    Unit::new("mNm", Kind::Moment, 1.0, 1e3),
-    Unit::new("Nmm", Kind::Moment, 1.0, 1e3),
-    Unit::new("kNm", Kind::Moment, 1e3, 1.0),
-    Unit::new("MNm", Kind::Moment, 1e6, 1.0),
-    Unit::new("K", Kind::TemperatureDifference, 1.0, 1.0),
-    Unit::new("degC", Kind::TemperatureDifference, 1.0, 1.0),
-    Unit::new("s", Kind::Time, 1.0, 1.0),
-    Unit::new("ms", Kind::Time, 1.0, 1e3),
-    Unit::new("min", Kind::Time, 60.0, 1.0),
-    Unit::new("h", Kind::Time, 3600.0, 1.0),
-    Unit::new("N_per_m", Kind::Stiffness, 1.0, 1.0),
-    Unit::new("N_per_mm", Kind::Stiffness, 1e3, 1.0),
-    Unit::new("N_per_um", Kind::Stiffness, 1e6, 1.0),
-    Unit::new("kN_per_mm", Kind::Stiffness, 1e6, 1.0),
+    Unit::new("m", Dimension::Length, 1.0, 1.0),
+    Unit::new("mm", Dimension::Length, 1.0, 1e3),
+    Unit::new("um", Dimension::Length, 1.0, 1e6),
+    Unit::new("nm", Dimension::Length, 1.0, 1e9),
+    Unit::new("in", Dimension::Length, 0.0254, 1.0),
+    Unit::new("rad", Dimension::Angle, 1.0, 1.0),
+    Unit::new("mrad", Dimension::Angle, 1.0, 1e3),
+    Unit::new("urad", Dimension::Angle, 1.0, 1e6),
+    Unit::new("deg", Dimension::Angle, PI, 180.0),
+    Unit::new("arcmin", Dimension::Angle, PI, 10_800.0),
+    Unit::new("arcsec", Dimension::Angle, PI, 648_000.0),
+    Unit::new("N", Dimension::Force, 1.0, 1.0),
+    Unit::new("mN", Dimension::Force, 1.0, 1e3),
+    Unit::new("kN", Dimension::Force, 1e3, 1.0),
+    Unit::new("MN", Dimension::Force, 1e6, 1.0),
+    Unit::new("Nm", Dimension::Moment, 1.0, 1.0),
+    Unit::new("mNm", Dimension::Moment, 1.0, 1e3),
+    Unit::new("Nmm", Dimension::Moment, 1.0, 1e3),
+    Unit::new("kNm", Dimension::Moment, 1e3, 1.0),
+    Unit::new("MNm", Dimension::Moment, 1e6, 1.0),
+    Unit::new("K", Dimension::TemperatureDifference, 1.0, 1.0),
+    Unit::new("degC", Dimension::TemperatureDifference, 1.0, 1.0),
+    Unit::new("s", Dimension::Time, 1.0, 1.0),
+    Unit::new("ms", Dimension::Time, 1.0, 1e3),
+    Unit::new("min", Dimension::Time, 60.0, 1.0),
+    Unit::new("h", Dimension::Time, 3600.0, 1.0),
+    Unit::new("N_per_m", Dimension::Stiffness, 1.0, 1.0),
+    Unit::new("N_per_mm", Dimension::Stiffness, 1e3, 1.0),
+    Unit::new("N_per_um", Dimension::Stiffness, 1e6, 1.0),
+    Unit::new("kN_per_mm", Dimension::Stiffness, 1e6, 1.0),
 ];
 
 /// The unit written as `text`: its exact name first, else its name in any case when only one unit can be meant
@@ -128,7 +128,7 @@ pub const UNITS: &[Unit] = &[
 ///
 /// `µ` stands for u, `°` for deg; dots, middle dots and blanks inside a product and the slash of a quotient are
 /// understood (`N·m`, `N/um`).
-pub fn unit_named(text: &str, expected: Kind) -> Option<&'static Unit> {
+pub fn unit_named(text: &str, expected: Dimension) -> Option<&'static Unit> {
     let plain = plain_spelling(text);
     let exact = UNITS.iter().find(|unit| unit.name == plain);
     exact.or_else(|| only_one(expected.units(), &plain)).or_else(|| only_one(UNITS.iter(), &plain))
@@ -158,7 +158,7 @@ fn plain_spelling(text: &str) -> String {
 mod tests {
     use super::*;
 
-    fn si(text: &str, kind: Kind) -> f64 {
+    fn si(text: &str, kind: Dimension) -> f64 {
         let unit = unit_named(text, kind).unwrap_or_else(|| panic!("{text} is a unit"));
         assert_eq!(unit.kind, kind, "{text}");
         unit.to_si(1.0)
@@ -167,42 +167,42 @@ mod tests {
     #[test]
     fn every_unit_has_its_si_value() {
         let table = [
-            ("m", Kind::Length, 1.0),
-            ("mm", Kind::Length, 1e-3),
-            ("um", Kind::Length, 1e-6),
-            ("µm", Kind::Length, 1e-6),
-            ("μm", Kind::Length, 1e-6),
-            ("nm", Kind::Length, 1e-9),
-            ("in", Kind::Length, 0.0254),
-            ("rad", Kind::Angle, 1.0),
-            ("mrad", Kind::Angle, 1e-3),
-            ("urad", Kind::Angle, 1e-6),
-            ("µrad", Kind::Angle, 1e-6),
-            ("deg", Kind::Angle, PI / 180.0),
-            ("°", Kind::Angle, PI / 180.0),
-            ("arcmin", Kind::Angle, PI / 180.0 / 60.0),
-            ("arcsec", Kind::Angle, PI / 180.0 / 3600.0),
-            ("N", Kind::Force, 1.0),
-            ("mN", Kind::Force, 1e-3),
-            ("kN", Kind::Force, 1e3),
-            ("MN", Kind::Force, 1e6),
-            ("Nm", Kind::Moment, 1.0),
-            ("N.m", Kind::Moment, 1.0),
-            ("N·m", Kind::Moment, 1.0),
-            ("N m", Kind::Moment, 1.0),
-            ("mNm", Kind::Moment, 1e-3),
-            ("Nmm", Kind::Moment, 1e-3),
-            ("kNm", Kind::Moment, 1e3),
-            ("K", Kind::TemperatureDifference, 1.0),
-            ("°C", Kind::TemperatureDifference, 1.0),
-            ("degC", Kind::TemperatureDifference, 1.0),
-            ("s", Kind::Time, 1.0),
-            ("ms", Kind::Time, 1e-3),
-            ("min", Kind::Time, 60.0),
-            ("h", Kind::Time, 3600.0),
-            ("N/um", Kind::Stiffness, 1e6),
-            ("N/µm", Kind::Stiffness, 1e6),
-            ("kN/mm", Kind::Stiffness, 1e6),
+            ("m", Dimension::Length, 1.0),
+            ("mm", Dimension::Length, 1e-3),
+            ("um", Dimension::Length, 1e-6),
+            ("µm", Dimension::Length, 1e-6),
+            ("μm", Dimension::Length, 1e-6),
+            ("nm", Dimension::Length, 1e-9),
+            ("in", Dimension::Length, 0.0254),
+            ("rad", Dimension::Angle, 1.0),
+            ("mrad", Dimension::Angle, 1e-3),
+            ("urad", Dimension::Angle, 1e-6),
+            ("µrad", Dimension::Angle, 1e-6),
+            ("deg", Dimension::Angle, PI / 180.0),
+            ("°", Dimension::Angle, PI / 180.0),
+            ("arcmin", Dimension::Angle, PI / 180.0 / 60.0),
+            ("arcsec", Dimension::Angle, PI / 180.0 / 3600.0),
+            ("N", Dimension::Force, 1.0),
+            ("mN", Dimension::Force, 1e-3),
+            ("kN", Dimension::Force, 1e3),
+            ("MN", Dimension::Force, 1e6),
+            ("Nm", Dimension::Moment, 1.0),
+            ("N.m", Dimension::Moment, 1.0),
+            ("N·m", Dimension::Moment, 1.0),
+            ("N m", Dimension::Moment, 1.0),
+            ("mNm", Dimension::Moment, 1e-3),
+            ("Nmm", Dimension::Moment, 1e-3),
+            ("kNm", Dimension::Moment, 1e3),
+            ("K", Dimension::TemperatureDifference, 1.0),
+            ("°C", Dimension::TemperatureDifference, 1.0),
+            ("degC", Dimension::TemperatureDifference, 1.0),
+            ("s", Dimension::Time, 1.0),
+            ("ms", Dimension::Time, 1e-3),
+            ("min", Dimension::Time, 60.0),
+            ("h", Dimension::Time, 3600.0),
+            ("N/um", Dimension::Stiffness, 1e6),
+            ("N/µm", Dimension::Stiffness, 1e6),
+            ("kN/mm", Dimension::Stiffness, 1e6),
         ];
         for (text, kind, expected) in table {
             let value = si(text, kind);
@@ -215,16 +215,17 @@ mod tests {
 
     #[test]
     fn case_matters_only_where_two_units_differ_by_it() {
-        assert_eq!(unit_named("MM", Kind::Length).map(|u| u.name), Some("mm"));
-        assert_eq!(unit_named("URad", Kind::Angle).map(|u| u.name), Some("urad"));
-        assert_eq!(unit_named("n", Kind::Force).map(|u| u.name), Some("N"));
-        assert_eq!(unit_named("mn", Kind::Force), None);
-        assert_eq!(unit_named("Nm", Kind::Length).map(|u| u.kind), Some(Kind::Moment));
+        assert_eq!(unit_named("MM", Dimension::Length).map(|u| u.name), Some("mm"));
+        assert_eq!(unit_named("URad", Dimension::Angle).map(|u| u.name), Some("urad"));
+        assert_eq!(unit_named("n", Dimension::Force).map(|u| u.name), Some("N"));
+        assert_eq!(unit_named("mn", Dimension::Force), None);
+        assert_eq!(unit_named("Nm", Dimension::Length).map(|u| u.kind), Some(Dimension::Moment));
     }
 
     #[test]
     fn a_short_decimal_comes_back_as_the_same_short_decimal() {
-        for (name, kind) in [("mm", Kind::Length), ("deg", Kind::Angle), ("urad", Kind::Angle)] {
+        for (name, kind) in [("mm", Dimension::Length), ("deg", Dimension::Angle), ("urad", Dimension::Angle)]
+        {
             let unit = unit_named(name, kind).unwrap();
             for value in [146.722_14, -31.186_753_6, 0.1, 3.0, 5.231_809_37, 0.0] {
                 assert_eq!(unit.from_si(unit.to_si(value)).to_bits(), f64::to_bits(value), "{value} {name}");

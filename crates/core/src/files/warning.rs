@@ -1,6 +1,6 @@
 //! What the reader accepted but wants to say.
 
-use super::Place;
+use super::FilePlace;
 use super::error::located;
 use std::fmt;
 use thiserror::Error;
@@ -9,7 +9,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Warning {
     /// Where in the file.
-    pub place: Place,
+    pub place: FilePlace,
     /// What was noticed.
     pub notice: Notice,
 }
@@ -48,7 +48,7 @@ pub enum Notice {
 }
 
 impl Warning {
-    pub(crate) fn new(place: Place, notice: Notice) -> Self {
+    pub(crate) fn new(place: FilePlace, notice: Notice) -> Self {
         Self { place, notice }
     }
 

@@ -2,7 +2,7 @@
 
 use super::read_hexapod::FORMAT;
 use super::units::{PLAIN, unit_named};
-use super::{FileError, Kind, atomic_write};
+use super::{Dimension, FileError, atomic_write};
 use crate::{Hexapod, Vector3};
 use std::fmt::Write;
 use std::path::Path;
@@ -16,8 +16,12 @@ pub fn hexapod_to_toml(hexapod: &Hexapod) -> String {
     add_joints(&mut text, "platform_joints_mm", &hexapod.platform_joints);
     if let Some(metrology) = hexapod.metrology {
         text.push_str("\n[metrology]\n");
-        add(&mut text, "sigma_translation_um", &in_unit(metrology.sigma_translation, "um", Kind::Length));
-        add(&mut text, "sigma_rotation_urad", &in_unit(metrology.sigma_rotation, "urad", Kind::Angle));
+        add(
+            &mut text,
+            "sigma_translation_um",
+            &in_unit(metrology.sigma_translation, "um", Dimension::Length),
+        );
+        add(&mut text, "sigma_rotation_urad", &in_unit(metrology.sigma_rotation, "urad", Dimension::Angle));
     }
     add_legs(&mut text, hexapod);
     if let Some(z) = hexapod.mounting_plane_z {
@@ -57,7 +61,7 @@ fn add_legs(text: &mut String, hexapod: &Hexapod) {
     }
     text.push_str("\n[legs]\n");
     if let Some(stiffness) = nominal_stiffness {
-        let values = stiffness.map(|value| in_unit(value, "N_per_um", Kind::Stiffness));
+        let values = stiffness.map(|value| in_unit(value, "N_per_um", Dimension::Stiffness));
         add(text, "nominal_stiffness_N_per_um", &list(&values));
     }
     if let Some([shortest, longest]) = *stroke {
@@ -79,10 +83,10 @@ fn list(values: &[String]) -> String {
 }
 
 fn millimetres(metres: f64) -> String {
-    in_unit(metres, "mm", Kind::Length)
+    in_unit(metres, "mm", Dimension::Length)
 }
 
 /// `{:?}` keeps a point or exponent in every float, as TOML wants it.
-fn in_unit(si: f64, unit: &str, kind: Kind) -> String {
+fn in_unit(si: f64, unit: &str, kind: Dimension) -> String {
     format!("{:?}", unit_named(unit, kind).unwrap_or(&PLAIN).from_si(si))
 }

@@ -9,7 +9,7 @@ use hexbench_model::candidates::sizes;
 use hexbench_model::error::ModelError;
 use hexbench_model::evidence::{NOTICEABLE, WIDEST, log_sum};
 use hexbench_model::fit::natural;
-use hexbench_model::linearization::{Linearization, Point};
+use hexbench_model::linearization::{Linearization, ModelPoint};
 use hexbench_model::noise::Noise;
 use hexbench_model::term::Term;
 use hexbench_model::untestable::{Reason, why_untestable};
@@ -70,23 +70,23 @@ impl Distance {
 }
 
 impl<'a> Contest<'a> {
-    /// Terms on springs of the given compliance (m/N); `menu` are the readings that can be taken. Each term is taken so large that
+    /// Terms on springs of the given compliance (m/N); `candidate_readings` are the readings that can be taken. Each term is taken so large that
     /// `readings` of them, spread evenly, would show it beside free springs by `visible` standard deviations, as far as such a size
     /// makes physical sense.
     ///
     /// # Errors
-    /// [`ModelError::Untestable`] for a term that no reading of the menu shows; a singular pose.
+    /// [`ModelError::Untestable`] for a term that none of the candidate readings shows; a singular pose.
     pub fn new(
         hexapod: &'a Hexapod,
         springs: Vector6,
         noise: Noise,
         terms: &[Arc<dyn Term>],
-        menu: &[Observation],
+        candidate_readings: &[Observation],
         readings: usize,
         visible: f64,
     ) -> Result<Self, DesignError> {
         let mut contest = Self { hexapod, springs, noise, forms: Vec::new(), rivals: terms.len() };
-        let (campaign, point, lin) = contest.linearized(menu)?;
+        let (campaign, point, lin) = contest.linearized(candidate_readings)?;
         let natural = natural(&point, &lin);
         let untestable =
             |term: &Arc<dyn Term>, why: Reason| ModelError::Untestable { id: term.info().id.to_owned(), why };
@@ -103,8 +103,10 @@ impl<'a> Contest<'a> {
                 contest.forms.push(Form { rival, term, shape, sizes, columns, size: 1.0 });
             }
         }
-        let share = readings as f64 / menu.len().max(1) as f64;
-        let even = contest.informations(menu)?.iter().fold(DMatrix::zeros(at, at), |sum, m| sum + m) * share;
+        let share = readings as f64 / candidate_readings.len().max(1) as f64;
+        let even =
+            contest.informations(candidate_readings)?.iter().fold(DMatrix::zeros(at, at), |sum, m| sum + m)
+                * share;
         for k in 0..contest.forms.len() {
             let shown = distance(&even, &contest.forms[k], None);
             if WIDEST * shown <= NOTICEABLE {
@@ -155,7 +157,10 @@ impl<'a> Contest<'a> {
         Ok(all)
     }
 
-    fn linearized(&self, readings: &[Observation]) -> Result<(Campaign, Point, Linearization), DesignError> {
+    fn linearized(
+        &self,
+        readings: &[Observation],
+    ) -> Result<(Campaign, ModelPoint, Linearization), DesignError> {
         let dataset = Dataset {
             source: String::new(),
             measurand: Measurand::DeflectionEuler,
@@ -166,7 +171,7 @@ impl<'a> Contest<'a> {
                 .collect(),
         };
         let campaign = Campaign::with_noise(self.hexapod, &dataset, self.noise)?;
-        let point = Point { springs: self.springs, ..Point::start(&campaign) };
+        let point = ModelPoint { compliances: self.springs, ..ModelPoint::start(&campaign) };
         let lin = Linearization::at(&campaign, &point)?;
         Ok((campaign, point, lin))
     }

@@ -15,13 +15,13 @@
 //! Each effect is taken so large that readings spread evenly over the space would show it beside free springs by a chosen number of
 //! standard deviations.
 
+mod candidate_readings;
 mod contest;
-mod menu;
 mod search;
 
 #[cfg(test)]
 mod tests;
 
+pub use candidate_readings::candidate_readings;
 pub use contest::{Contest, Distance};
-pub use menu::menu;
-pub use search::{Plan, Reading};
+pub use search::{PlannedReading, SeparatingPlan};

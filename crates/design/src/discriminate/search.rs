@@ -17,7 +17,7 @@ const LEAST_GAIN: f64 = 1e-6;
 
 /// A reading of a plan.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reading {
+pub struct PlannedReading {
     /// What to set.
     pub observation: Observation,
     /// How often to read it.
@@ -28,15 +28,15 @@ pub struct Reading {
 
 /// A plan that separates rivals.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Plan {
+pub struct SeparatingPlan {
     /// Its readings.
-    pub readings: Vec<Reading>,
+    pub readings: Vec<PlannedReading>,
     /// Distances of every effect from every other.
     pub distances: Vec<Distance>,
 }
 
-impl Plan {
-    /// The plan of `count` readings out of `menu`; `done` is called after each choice.
+impl SeparatingPlan {
+    /// The plan of `count` readings out of `candidate_readings`; `done` is called after each choice.
     ///
     /// # Errors
     /// A singular pose.
@@ -44,21 +44,25 @@ impl Plan {
         contest: &Contest<'_>,
         space: &Space,
         hexapod: &Hexapod,
-        menu: &[Observation],
+        candidate_readings: &[Observation],
         count: usize,
         done: &dyn Fn(),
     ) -> Result<Self, DesignError> {
-        let informations = contest.informations(menu)?;
+        let informations = contest.informations(candidate_readings)?;
         let mut chosen = choose(contest, &informations, count, done);
-        simplify(contest, &informations, menu, &mut chosen);
+        simplify(contest, &informations, candidate_readings, &mut chosen);
         let total = sum(&informations, &chosen);
         let mut distinct = chosen.clone();
         distinct.sort_unstable();
         distinct.dedup();
         let repeats = |i: usize| chosen.iter().filter(|c| **c == i).count();
-        let mut readings: Vec<Reading> = distinct
+        let mut readings: Vec<PlannedReading> = distinct
             .iter()
-            .map(|&i| Reading { observation: menu[i], repeats: repeats(i), words: String::new() })
+            .map(|&i| PlannedReading {
+                observation: candidate_readings[i],
+                repeats: repeats(i),
+                words: String::new(),
+            })
             .collect();
         let own: Vec<&DMatrix<f64>> = distinct.iter().map(|&i| &informations[i]).collect();
         say(contest, space, hexapod, &total, &own, &mut readings)?;
@@ -94,15 +98,19 @@ fn choose(contest: &Contest<'_>, informations: &[DMatrix<f64>], count: usize, do
 fn simplify(
     contest: &Contest<'_>,
     informations: &[DMatrix<f64>],
-    menu: &[Observation],
+    candidate_readings: &[Observation],
     chosen: &mut [usize],
 ) {
     let allowed = contest.closeness(&sum(informations, chosen)) + GIVEN_FOR_SIMPLICITY;
     for k in 0..chosen.len() {
         let rest = sum(informations, chosen) - &informations[chosen[k]];
-        let simpler = |i: &usize| effort(&menu[*i]) < effort(&menu[chosen[k]]);
+        let simpler = |i: &usize| effort(&candidate_readings[*i]) < effort(&candidate_readings[chosen[k]]);
         let kept = |i: &usize| contest.closeness(&(&rest + &informations[*i])) <= allowed;
-        if let Some(other) = (0..menu.len()).filter(simpler).filter(kept).min_by_key(|i| effort(&menu[*i])) {
+        if let Some(other) = (0..candidate_readings.len())
+            .filter(simpler)
+            .filter(kept)
+            .min_by_key(|i| effort(&candidate_readings[*i]))
+        {
             chosen[k] = other;
         }
     }
@@ -127,7 +135,7 @@ fn say(
     hexapod: &Hexapod,
     total: &DMatrix<f64>,
     own: &[&DMatrix<f64>],
-    readings: &mut [Reading],
+    readings: &mut [PlannedReading],
 ) -> Result<(), DesignError> {
     let Some(first) = space.settings().first().map(|s| crate::regressor::reading(Pose::default(), s)) else {
         return Ok(());

@@ -12,7 +12,7 @@ use hexbench_model::terms::catalogue;
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 
-use super::{Contest, Plan, menu};
+use super::{Contest, SeparatingPlan, candidate_readings};
 use crate::regressor::ModelRegressor;
 use crate::space::{Conditions, Loading};
 use crate::test_machine::machine;
@@ -94,9 +94,10 @@ fn by_least_squares(rows: &DMatrix<f64>, a: std::ops::Range<usize>, b: std::ops:
 fn distances_are_what_least_squares_cannot_fit() {
     const CLOSE: f64 = 1e-6;
     let (hexapod, terms) = (machine(), terms(&["base-compliance", "load-offset"]));
-    let menu = menu(&space(), &hexapod, &terms, 1).unwrap();
-    let contest = Contest::new(&hexapod, springs(), noise(), &terms, &menu, 12, VISIBLE).unwrap();
-    let some: Vec<Observation> = menu.iter().step_by(7).copied().collect();
+    let candidate_readings = candidate_readings(&space(), &hexapod, &terms, 1).unwrap();
+    let contest =
+        Contest::new(&hexapod, springs(), noise(), &terms, &candidate_readings, 12, VISIBLE).unwrap();
+    let some: Vec<Observation> = candidate_readings.iter().step_by(7).copied().collect();
     let information =
         contest.informations(&some).unwrap().iter().fold(DMatrix::zeros(15, 15), |sum, m| sum + m);
     let distances = contest.distances(&information);
@@ -124,15 +125,18 @@ fn a_plan_holds_the_worst_pair_further_apart_than_random_plans() {
     const READINGS: usize = 6;
     const DRAWS: usize = 30;
     let (hexapod, terms) = (machine(), terms(&["base-compliance", "platform-compliance", "load-offset"]));
-    let menu = menu(&space(), &hexapod, &terms, 1).unwrap();
-    let contest = Contest::new(&hexapod, springs(), noise(), &terms, &menu, READINGS, VISIBLE).unwrap();
-    let plan = Plan::search(&contest, &space(), &hexapod, &menu, READINGS, &|| ()).unwrap();
+    let candidate_readings = candidate_readings(&space(), &hexapod, &terms, 1).unwrap();
+    let contest =
+        Contest::new(&hexapod, springs(), noise(), &terms, &candidate_readings, READINGS, VISIBLE).unwrap();
+    let plan =
+        SeparatingPlan::search(&contest, &space(), &hexapod, &candidate_readings, READINGS, &|| ()).unwrap();
     assert_eq!(plan.readings.iter().map(|r| r.repeats).sum::<usize>(), READINGS);
     let least = |d: &[super::Distance]| d.iter().map(|d| d.value).fold(f64::INFINITY, f64::min);
-    let informations = contest.informations(&menu).unwrap();
+    let informations = contest.informations(&candidate_readings).unwrap();
     let mut rng = stream(4, Purpose::Test, []);
     let mut random = || {
-        let drawn: Vec<usize> = (0..READINGS).map(|_| rng.random_range(0..menu.len())).collect();
+        let drawn: Vec<usize> =
+            (0..READINGS).map(|_| rng.random_range(0..candidate_readings.len())).collect();
         let total =
             drawn.iter().skip(1).fold(informations[drawn[0]].clone(), |sum, &i| sum + &informations[i]);
         least(&contest.distances(&total))
@@ -145,9 +149,10 @@ fn a_plan_holds_the_worst_pair_further_apart_than_random_plans() {
 #[test]
 fn conditions_vary_only_where_an_effect_depends_on_them() {
     let hexapod: Hexapod = machine();
-    let still = menu(&space(), &hexapod, &terms(&["base-compliance", "load-offset"]), 1).unwrap();
+    let still =
+        candidate_readings(&space(), &hexapod, &terms(&["base-compliance", "load-offset"]), 1).unwrap();
     assert!(still.iter().all(|o| o.approach == Approach::Direct && (o.elapsed - 5.0).abs() < 1e-9));
-    let moving = menu(&space(), &hexapod, &terms(&["creep", "joint-friction"]), 1).unwrap();
+    let moving = candidate_readings(&space(), &hexapod, &terms(&["creep", "joint-friction"]), 1).unwrap();
     assert!(
         moving.iter().any(|o| o.approach == Approach::Overloaded) && moving.iter().any(|o| o.elapsed > 100.0)
     );
@@ -157,8 +162,10 @@ fn conditions_vary_only_where_an_effect_depends_on_them() {
 fn an_effect_that_no_reading_shows_is_refused_with_the_reason() {
     let (hexapod, terms) = (machine(), terms(&["creep", "base-compliance"]));
     let still = Space { conditions: Conditions::default(), ..space() };
-    let menu = menu(&still, &hexapod, &terms, 1).unwrap();
-    let refused =
-        Contest::new(&hexapod, springs(), noise(), &terms, &menu, 6, VISIBLE).err().unwrap().to_string();
+    let candidate_readings = candidate_readings(&still, &hexapod, &terms, 1).unwrap();
+    let refused = Contest::new(&hexapod, springs(), noise(), &terms, &candidate_readings, 6, VISIBLE)
+        .err()
+        .unwrap()
+        .to_string();
     assert!(refused.contains("creep") && refused.contains("elapsed_s"), "{refused}");
 }

@@ -44,7 +44,7 @@ pub struct Exchange<'a> {
 
 /// A plan found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Plan {
+pub struct ExchangedPlan {
     /// Indices of the candidates, ascending; one that occurs twice is repeated.
     pub members: Vec<usize>,
     /// Value of the criterion, as for one reading.
@@ -65,16 +65,21 @@ impl<'a> Exchange<'a> {
     ///
     /// # Errors
     /// [`DesignError::NotDetermined`].
-    pub fn search(&self, starts: usize, seed: u64, done: &(dyn Fn() + Sync)) -> Result<Plan, DesignError> {
+    pub fn search(
+        &self,
+        starts: usize,
+        seed: u64,
+        done: &(dyn Fn() + Sync),
+    ) -> Result<ExchangedPlan, DesignError> {
         let end = |start: u64| {
             let plan = self.climb(self.start(&mut stream(seed, Purpose::ExchangeStart, [start])));
             done();
             plan
         };
-        let ends: Vec<Plan> = (0..starts as u64).into_par_iter().map(end).collect();
+        let ends: Vec<ExchangedPlan> = (0..starts as u64).into_par_iter().map(end).collect();
         // The first of equals, so that the order of threads does not matter.
         let best = ends.iter().cloned().reduce(|a, b| if b.value > a.value { b } else { a });
-        let determines = |plan: &Plan| undetermined(&self.candidates.sum(&plan.members)).is_empty();
+        let determines = |plan: &ExchangedPlan| undetermined(&self.candidates.sum(&plan.members)).is_empty();
         let Some(mut best) = best.filter(determines) else {
             return Err(DesignError::NotDetermined {
                 parameters: self.ridge.ncols(),
@@ -111,7 +116,7 @@ impl<'a> Exchange<'a> {
     }
 
     /// Exchanges and excursions until neither helps.
-    fn climb<'s>(&'s self, mut draft: Draft<'s, 'a>) -> Plan {
+    fn climb<'s>(&'s self, mut draft: Draft<'s, 'a>) -> ExchangedPlan {
         fill(&mut draft);
         loop {
             // Sums are made anew from time to time, so that rounding does not pile up.
@@ -121,7 +126,7 @@ impl<'a> Exchange<'a> {
             if !out && !leave_a_pose(&mut draft) {
                 let value = draft.value();
                 draft.members.sort_unstable();
-                return Plan { members: draft.members, value, agreeing: 1 };
+                return ExchangedPlan { members: draft.members, value, agreeing: 1 };
             }
         }
     }
@@ -215,7 +220,7 @@ mod tests {
         points.iter().map(|&x| DMatrix::from_iterator(1, degree + 1, powers(x))).collect()
     }
 
-    fn best(rows: &[DMatrix<f64>], size: usize, starts: usize) -> Plan {
+    fn best(rows: &[DMatrix<f64>], size: usize, starts: usize) -> ExchangedPlan {
         let candidates = Candidates::of_rows(rows, size);
         Exchange::new(&candidates, &Objective::D).search(starts, 1, &|| ()).unwrap()
     }

@@ -1,15 +1,15 @@
 //! What looks like what, and what is taken for what.
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_model::candidates::{Candidate, Collector, Kind};
+use hexbench_model::candidates::{Candidate, CandidateKind, Collector};
 use hexbench_model::evidence::Gram;
-use hexbench_model::search::Search;
+use hexbench_model::search::TermSearch;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{Effect, Planned, Settings, Subject, subject::shapes};
+use super::{EffectPower, EffectSizes, Planned, PowerSettings, subject::shapes};
 
 /// Shape grids longer than this are represented by the shape of the example.
 const LONG_GRID: usize = 24;
@@ -49,11 +49,11 @@ impl Alike {
 /// Likeness of all subjects; confusion of those in `effects` that show.
 pub(super) fn alike(
     planned: &Planned,
-    subjects: &[Subject],
-    effects: &[Effect],
-    settings: &Settings,
+    subjects: &[EffectSizes],
+    effects: &[EffectPower],
+    settings: &PowerSettings,
 ) -> Alike {
-    let of = |(s, e): (&Subject, &Effect)| s.signature(planned, &e.example, signature_scale(e));
+    let of = |(s, e): (&EffectSizes, &EffectPower)| s.signature(planned, &e.example, signature_scale(e));
     let whole: Vec<DVector<f64>> = subjects.iter().zip(effects).map(of).collect();
     let rests: Vec<DVector<f64>> = whole.iter().map(|s| planned.absorption.rest(s)).collect();
     let evidence = Evidence::new(planned, subjects, effects);
@@ -68,7 +68,7 @@ pub(super) fn alike(
     }
 }
 
-fn signature_scale(effect: &Effect) -> f64 {
+fn signature_scale(effect: &EffectPower) -> f64 {
     if effect.shows() { effect.seen_at.middle } else { 1.0 }
 }
 
@@ -90,7 +90,7 @@ struct Evidence {
 }
 
 impl Evidence {
-    fn new(planned: &Planned, subjects: &[Subject], effects: &[Effect]) -> Self {
+    fn new(planned: &Planned, subjects: &[EffectSizes], effects: &[EffectPower]) -> Self {
         let mut collector = Collector::new(&planned.lin, planned.natural);
         for (subject, effect) in subjects.iter().zip(effects) {
             let grid = shapes(subject.term.as_ref(), planned);
@@ -104,7 +104,7 @@ impl Evidence {
     }
 
     /// Share of campaigns with a signature in which each candidate, and nothing, explains best.
-    fn shares(&self, rest: &DVector<f64>, row: usize, settings: &Settings) -> Vec<f64> {
+    fn shares(&self, rest: &DVector<f64>, row: usize, settings: &PowerSettings) -> Vec<f64> {
         let nothing = self.candidates.len();
         let winners: Vec<usize> = (0..settings.draws)
             .into_par_iter()
@@ -122,7 +122,7 @@ impl Evidence {
         let mut gram = self.gram.clone();
         gram.b = self.columns.tr_mul(&y);
         gram.yy = (y.norm_squared() - self.rank_of_springs).max(0.0);
-        let sets = Search::new(&gram, &self.candidates, false).run(1);
+        let sets = TermSearch::new(&gram, &self.candidates, false).run(1);
         sets.sets.first().and_then(|best| best.members.first().copied())
     }
 }
@@ -132,7 +132,7 @@ fn columns(planned: &Planned, gram: &Gram, candidates: &[Candidate]) -> DMatrix<
     let width = gram.g.ncols();
     let mut all = DMatrix::zeros(planned.lin.equations(), width);
     for candidate in candidates {
-        let Kind::Term(term) = &candidate.kind else { continue };
+        let CandidateKind::Term(term) = &candidate.kind else { continue };
         for &index in &candidate.blocks {
             let block = &gram.blocks[index];
             let columns = planned.lin.term_block(term.as_ref(), block.rich, block.shape) * &block.transform;

@@ -6,7 +6,7 @@ use hexbench_model::evidence::WIDEST;
 use nalgebra::DVector;
 use serde::Serialize;
 
-use super::{Example, Planned, Reference, Settings, Subject, Test};
+use super::{EffectSizes, Example, Planned, PowerSettings, PreparedTest, Reference};
 
 /// Multiples of the usual size beyond this are not looked for.
 const MOST: f64 = 1e5;
@@ -35,7 +35,7 @@ pub struct Range {
 /// Whether an effect shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum Visibility {
     /// At its usual size.
     Seen,
     /// Only when larger than usual.
@@ -61,11 +61,11 @@ pub struct ParameterReach {
 
 /// How one effect fares under a plan.
 #[derive(Debug, Clone, Serialize)]
-pub struct Effect {
+pub struct EffectPower {
     /// Id of the term.
     pub term: &'static str,
     /// Whether it shows.
-    pub verdict: Verdict,
+    pub verdict: Visibility,
     /// What multiples of the size refer to.
     pub reference: Reference,
     /// Usual size of the middle example: root mean square of the parameters that have the unit of the first one.
@@ -101,9 +101,14 @@ pub struct Effect {
     pub example_index: usize,
 }
 
-impl Effect {
+impl EffectPower {
     /// The effect of a subject under a plan, by its test when there is one.
-    pub(super) fn of(planned: &Planned, subject: &Subject, test: Option<&Test>, settings: &Settings) -> Self {
+    pub(super) fn of(
+        planned: &Planned,
+        subject: &EffectSizes,
+        test: Option<&PreparedTest>,
+        settings: &PowerSettings,
+    ) -> Self {
         let judge = Judge { planned, subject, test, wanted: settings.power };
         let sizes: Vec<f64> = subject.examples.iter().map(|e| judge.seen_at(e)).collect();
         let (index, seen_at) = middle(&sizes);
@@ -113,7 +118,7 @@ impl Effect {
         let at_usual = subject.signature(planned, example, 1.0);
         let sensible = subject.sensible(planned, example);
         let verdict = judge.verdict(&at_usual, seen_at.middle, sensible);
-        let shows = matches!(verdict, Verdict::Seen | Verdict::SeenWhenLarger);
+        let shows = matches!(verdict, Visibility::Seen | Visibility::SeenWhenLarger);
         Self {
             term: info.id,
             verdict,
@@ -123,9 +128,9 @@ impl Effect {
             seen_at,
             sensible,
             power_at_usual_size: judge.power_at_usual_size(index),
-            parameters_determined: test.map_or(0, Test::parameters),
-            shapes: test.map_or(0, Test::shapes),
-            threshold: test.map_or(f64::INFINITY, Test::threshold),
+            parameters_determined: test.map_or(0, PreparedTest::parameters),
+            shapes: test.map_or(0, PreparedTest::shapes),
+            threshold: test.map_or(f64::INFINITY, PreparedTest::threshold),
             absorbed: planned.absorption.share(&at_usual),
             bias_at_usual_size_percent: judge.bias(example, 1.0),
             bias_when_seen_percent: shows.then(|| judge.bias(example, seen_at.middle)),
@@ -138,7 +143,7 @@ impl Effect {
 
     /// True when it shows at some sensible size.
     pub fn shows(&self) -> bool {
-        matches!(self.verdict, Verdict::Seen | Verdict::SeenWhenLarger)
+        matches!(self.verdict, Visibility::Seen | Visibility::SeenWhenLarger)
     }
 
     /// Size that is seen, in its unit.
@@ -159,8 +164,8 @@ fn middle(values: &[f64]) -> (usize, Range) {
 /// A subject before its test.
 struct Judge<'a> {
     planned: &'a Planned,
-    subject: &'a Subject,
-    test: Option<&'a Test>,
+    subject: &'a EffectSizes,
+    test: Option<&'a PreparedTest>,
     wanted: f64,
 }
 
@@ -188,14 +193,14 @@ impl Judge<'_> {
         smallest(self.chance_of(example), self.wanted, stride)
     }
 
-    fn verdict(&self, at_usual: &DVector<f64>, seen_at: f64, sensible: f64) -> Verdict {
+    fn verdict(&self, at_usual: &DVector<f64>, seen_at: f64, sensible: f64) -> Visibility {
         if self.test.is_none() || seen_at.is_infinite() {
-            return if at_usual.norm() > 0.0 { Verdict::Absorbed } else { Verdict::NoTrace };
+            return if at_usual.norm() > 0.0 { Visibility::Absorbed } else { Visibility::NoTrace };
         }
         match seen_at {
-            s if s > sensible => Verdict::TooFaint,
-            s if s > 1.0 => Verdict::SeenWhenLarger,
-            _ => Verdict::Seen,
+            s if s > sensible => Visibility::TooFaint,
+            s if s > 1.0 => Visibility::SeenWhenLarger,
+            _ => Visibility::Seen,
         }
     }
 
@@ -208,7 +213,7 @@ impl Judge<'_> {
     fn bias(&self, example: &Example, scale: f64) -> [f64; 6] {
         let signature = self.subject.signature(self.planned, example, scale);
         let shift = self.planned.absorption.shift(&signature);
-        shift.map_or([f64::NAN; 6], |shift| bias_percent(&self.planned.point.springs, &shift))
+        shift.map_or([f64::NAN; 6], |shift| bias_percent(&self.planned.point.compliances, &shift))
     }
 
     fn parameters(&self, middle: &Example) -> Vec<ParameterReach> {
@@ -218,7 +223,7 @@ impl Judge<'_> {
             shape: middle.shape,
         };
         let parameters = self.subject.term.info().parameters.iter().enumerate();
-        let reach = |(k, p): (usize, &hexbench_model::term::Parameter)| {
+        let reach = |(k, p): (usize, &hexbench_model::term::ParameterInfo)| {
             let scale = self.seen_at(&alone(k));
             ParameterReach {
                 name: p.name,

@@ -26,8 +26,8 @@ mod subject;
 mod test;
 
 pub use alike::{Alike, NOTHING};
-pub use effect::{Effect, ParameterReach, Range, Verdict};
+pub use effect::{EffectPower, ParameterReach, Range, Visibility};
 pub use planned::Planned;
-pub use study::{Settings, Study, study};
-pub use subject::{Example, Reference, Subject};
-pub use test::Test;
+pub use study::{PowerSettings, PowerStudy, study};
+pub use subject::{EffectSizes, Example, Reference};
+pub use test::PreparedTest;

@@ -5,7 +5,7 @@ use hexbench_model::absorption::Absorption;
 use hexbench_model::campaign::Campaign;
 use hexbench_model::error::ModelError;
 use hexbench_model::fit::natural;
-use hexbench_model::linearization::{Linearization, Point};
+use hexbench_model::linearization::{Linearization, ModelPoint};
 use hexbench_model::noise::Noise;
 use hexbench_model::term::{Natural, Term};
 use nalgebra::DVector;
@@ -20,7 +20,7 @@ pub struct Planned {
     /// The plan with the readings expected of springs alone.
     pub campaign: Campaign,
     /// Springs, nothing else.
-    pub point: Point,
+    pub point: ModelPoint,
     /// The model there.
     pub lin: Linearization,
     /// Sizes natural to machine and plan.
@@ -81,7 +81,7 @@ fn with_readings(plan: &Dataset, deflection: impl Fn(usize) -> [f64; 6]) -> Data
     expected
 }
 
-type Linearized = (Campaign, Point, Linearization);
+type Linearized = (Campaign, ModelPoint, Linearization);
 
 fn linearized(
     hexapod: &Hexapod,
@@ -90,7 +90,7 @@ fn linearized(
     noise: Noise,
 ) -> Result<Linearized, DesignError> {
     let campaign = Campaign::with_noise(hexapod, plan, noise)?;
-    let point = Point { springs, ..Point::start(&campaign) };
+    let point = ModelPoint { compliances: springs, ..ModelPoint::start(&campaign) };
     let lin = Linearization::at(&campaign, &point)?;
     Ok((campaign, point, lin))
 }

@@ -4,11 +4,11 @@ use hexbench_model::untestable::{Untestable, why_untestable};
 use serde::Serialize;
 
 use super::alike::alike;
-use super::{Alike, Effect, Planned, Subject, Test};
+use super::{Alike, EffectPower, EffectSizes, Planned, PreparedTest};
 
 /// What is asked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Settings {
+pub struct PowerSettings {
     /// Chance of a false alarm.
     pub alarm: f64,
     /// Wanted chance to see an effect.
@@ -19,7 +19,7 @@ pub struct Settings {
     pub draws: usize,
 }
 
-impl Default for Settings {
+impl Default for PowerSettings {
     /// 1 % false alarm, 90 % power.
     fn default() -> Self {
         Self { alarm: 0.01, power: 0.9, seed: 1, draws: 100 }
@@ -28,22 +28,22 @@ impl Default for Settings {
 
 /// All effects under a plan.
 #[derive(Debug, Clone, Serialize)]
-pub struct Study {
+pub struct PowerStudy {
     /// What was asked.
-    pub settings: Settings,
+    pub settings: PowerSettings,
     /// Effects the plan can test.
-    pub effects: Vec<Effect>,
+    pub effects: Vec<EffectPower>,
     /// Those it cannot.
     pub untestable: Vec<Untestable>,
     /// Likeness and confusion, in the order of the effects.
     pub alike: Alike,
     /// Tests of the effects, in their order; none where nothing can be seen.
     #[serde(skip)]
-    pub tests: Vec<Option<Test>>,
+    pub tests: Vec<Option<PreparedTest>>,
 }
 
 /// Power of a plan for these subjects.
-pub fn study(planned: &Planned, subjects: Vec<Subject>, settings: Settings) -> Study {
+pub fn study(planned: &Planned, subjects: Vec<EffectSizes>, settings: PowerSettings) -> PowerStudy {
     let mut untestable = Vec::new();
     let mut testable = Vec::new();
     for subject in subjects {
@@ -52,13 +52,13 @@ pub fn study(planned: &Planned, subjects: Vec<Subject>, settings: Settings) -> S
             Some(why) => untestable.push(Untestable::new(subject.term.as_ref(), why)),
         }
     }
-    let tests: Vec<Option<Test>> =
-        testable.iter().map(|s| Test::new(planned, s.term.as_ref(), &settings)).collect();
-    let effects: Vec<Effect> = testable
+    let tests: Vec<Option<PreparedTest>> =
+        testable.iter().map(|s| PreparedTest::new(planned, s.term.as_ref(), &settings)).collect();
+    let effects: Vec<EffectPower> = testable
         .iter()
         .zip(&tests)
-        .map(|(s, test)| Effect::of(planned, s, test.as_ref(), &settings))
+        .map(|(s, test)| EffectPower::of(planned, s, test.as_ref(), &settings))
         .collect();
     let alike = alike(planned, &testable, &effects, &settings);
-    Study { settings, effects, untestable, alike, tests }
+    PowerStudy { settings, effects, untestable, alike, tests }
 }

@@ -32,7 +32,7 @@ pub enum Reference {
 
 /// A term with effects of its usual size.
 #[derive(Clone)]
-pub struct Subject {
+pub struct EffectSizes {
     /// The term.
     pub term: Arc<dyn Term>,
     /// Effects that differ in direction and shape.
@@ -41,7 +41,7 @@ pub struct Subject {
     pub reference: Reference,
 }
 
-impl Subject {
+impl EffectSizes {
     /// All parameters at their natural sizes, at every shape of the grid.
     pub fn natural(term: &Arc<dyn Term>, planned: &Planned) -> Self {
         let values = sizes(term.as_ref(), false, &planned.natural);

@@ -4,13 +4,13 @@ use hexbench_core::statistics::quantile;
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_model::candidates::{orthonormal, sizes};
 use hexbench_model::evidence::WIDEST;
-use hexbench_model::power::Law;
+use hexbench_model::power::ChiSquareDropLaw;
 use hexbench_model::term::Term;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use super::{Planned, Settings, subject::shapes};
+use super::{Planned, PowerSettings, subject::shapes};
 
 /// A combination of parameters is determined when its standard error is below this share of its widest sensible size.
 const DETERMINED_SHARE: f64 = 0.5;
@@ -23,7 +23,7 @@ const POWER_DRAWS: usize = 4_000;
 
 /// A test prepared for a plan.
 #[derive(Debug, Clone)]
-pub struct Test {
+pub struct PreparedTest {
     /// Orthonormal directions an effect can leave beside the springs, a group for every shape; equations x directions.
     directions: DMatrix<f64>,
     /// First direction and number of directions of every shape.
@@ -32,24 +32,24 @@ pub struct Test {
     way: Way,
 }
 
-/// How the power is reckoned.
+/// How the power is computed.
 #[derive(Debug, Clone)]
 enum Way {
     /// From the law; also a bound where there are many shapes.
-    Law(Law),
+    Law(ChiSquareDropLaw),
     /// By draws of noise along the directions (directions x draws), and of the noise level.
     Draws(DMatrix<f64>, Vec<f64>),
 }
 
-impl Test {
+impl PreparedTest {
     /// The test for a term; `None` when springs leave nothing of it, or it does not act in this plan.
-    pub fn new(planned: &Planned, term: &dyn Term, settings: &Settings) -> Option<Self> {
+    pub fn new(planned: &Planned, term: &dyn Term, settings: &PowerSettings) -> Option<Self> {
         let groups = bases(planned, term);
         let widest = groups.iter().map(DMatrix::ncols).max().filter(|&n| n > 0)?;
         let groups: Vec<DMatrix<f64>> = groups.into_iter().filter(|g| g.ncols() > 0).collect();
         let (directions, places) = beside(&groups);
         let noise_dof = planned.campaign.noise.dof;
-        let law = Law { dof: widest as f64, noise_dof };
+        let law = ChiSquareDropLaw { dof: widest as f64, noise_dof };
         if places.len() == 1 || places.len() > LONG_GRID {
             let threshold = law.threshold(settings.alarm / places.len() as f64);
             return Some(Self { directions, groups: places, threshold, way: Way::Law(law) });

@@ -6,7 +6,7 @@ use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vec
 use hexbench_model::campaign::Campaign;
 use hexbench_model::candidates::sizes;
 use hexbench_model::fit::natural;
-use hexbench_model::linearization::{Linearization, Point};
+use hexbench_model::linearization::{Linearization, ModelPoint};
 use hexbench_model::noise::Noise;
 use hexbench_model::term::Term;
 use nalgebra::{DMatrix, DVector};
@@ -75,7 +75,7 @@ impl<'a> ModelRegressor<'a> {
         self.terms.iter().flat_map(|w| w.sizes.iter().copied())
     }
 
-    fn linearized(&self, readings: Vec<Observation>) -> Result<(Point, Linearization), DesignError> {
+    fn linearized(&self, readings: Vec<Observation>) -> Result<(ModelPoint, Linearization), DesignError> {
         // Numbered one by one, so that no two are averaged.
         let numbered = (1..).zip(readings).map(|(id, o)| Observation { pose_id: id, repeat: 1, ..o });
         let dataset = Dataset {
@@ -85,7 +85,7 @@ impl<'a> ModelRegressor<'a> {
             observations: numbered.collect(),
         };
         let campaign = Campaign::with_noise(self.hexapod, &dataset, self.noise)?;
-        let point = Point { springs: self.springs, ..Point::start(&campaign) };
+        let point = ModelPoint { compliances: self.springs, ..ModelPoint::start(&campaign) };
         let lin = Linearization::at(&campaign, &point)?;
         Ok((point, lin))
     }

@@ -2,7 +2,7 @@
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_design::exchange::bound::efficiency;
-use hexbench_design::exchange::{Candidates, Exchange, Plan};
+use hexbench_design::exchange::{Candidates, Exchange, ExchangedPlan};
 use hexbench_design::{Criterion, DesignError, Objective};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -25,7 +25,7 @@ fn drawn(poses: usize, seed: u64, costs: [f64; 2], pose_cost: f64, budget: f64) 
     Candidates { information, costs: costs.into(), pose_cost, budget }
 }
 
-fn search(candidates: &Candidates, criterion: &Objective) -> Result<Plan, DesignError> {
+fn search(candidates: &Candidates, criterion: &Objective) -> Result<ExchangedPlan, DesignError> {
     Exchange::new(candidates, criterion).search(24, 1, &|| ())
 }
 

@@ -6,7 +6,9 @@ use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{
     Approach, Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vector3, Vector6, Wrench,
 };
-use hexbench_design::power::{Planned, Settings, Study, Subject, Test, Verdict, study};
+use hexbench_design::power::{
+    EffectSizes, Planned, PowerSettings, PowerStudy, PreparedTest, Visibility, study,
+};
 use hexbench_model::noise::{Noise, NoiseSource, Structure};
 use hexbench_model::power::noncentrality;
 use hexbench_model::term::Term;
@@ -14,7 +16,7 @@ use hexbench_model::terms::catalogue;
 use nalgebra::DVector;
 use rand_distr::{Distribution, StandardNormal};
 
-/// Shares may miss what was reckoned by four standard deviations, one in 16000 by chance.
+/// Shares may miss what was computed by four standard deviations, one in 16000 by chance.
 const SIGMAS: f64 = 4.0;
 
 fn machine() -> Hexapod {
@@ -84,9 +86,9 @@ fn term(id: &str) -> Arc<dyn Term> {
     catalogue().into_iter().find(|t| t.info().id == id).unwrap()
 }
 
-fn studied(planned: &Planned, ids: &[&str]) -> Study {
-    let subjects = ids.iter().map(|id| Subject::natural(&term(id), planned)).collect();
-    study(planned, subjects, Settings { draws: 40, ..Settings::default() })
+fn studied(planned: &Planned, ids: &[&str]) -> PowerStudy {
+    let subjects = ids.iter().map(|id| EffectSizes::natural(&term(id), planned)).collect();
+    study(planned, subjects, PowerSettings { draws: 40, ..PowerSettings::default() })
 }
 
 #[test]
@@ -94,7 +96,7 @@ fn one_parameter_is_seen_where_the_noncentral_law_says() {
     const RELATIVE: f64 = 1e-6;
     let planned = planned(&ALL_WAYS, 1, noise(1.0, f64::INFINITY));
     let found = studied(&planned, &["bracket-compliance"]).effects[0].seen_at.middle;
-    let subject = Subject::natural(&term("bracket-compliance"), &planned);
+    let subject = EffectSizes::natural(&term("bracket-compliance"), &planned);
     let signature = planned.signature(subject.term.as_ref(), 1.0, &subject.examples[0].values);
     let expected = noncentrality(1.0, 0.01, 0.9).sqrt() / planned.absorption.rest(&signature).norm();
     assert!((found / expected - 1.0).abs() < RELATIVE, "{found} {expected}");
@@ -119,21 +121,21 @@ fn twice_the_noise_takes_twice_the_size_and_four_repeats_half_of_it() {
 #[test]
 fn a_test_over_many_shapes_keeps_its_level_and_its_power() {
     const DRAWS: usize = 4000;
-    // The reckoned figures rest on as many draws of their own.
+    // The computed figures rest on as many draws of their own.
     const BOTH: f64 = std::f64::consts::SQRT_2;
     for dof in [f64::INFINITY, 36.0] {
         let planned = planned(&ALL_WAYS, 1, noise(1.0, dof));
-        let settings = Settings::default();
-        let subject = Subject::natural(&term("leg-nonlinearity"), &planned);
-        let test = Test::new(&planned, subject.term.as_ref(), &settings).unwrap();
+        let settings = PowerSettings::default();
+        let subject = EffectSizes::natural(&term("leg-nonlinearity"), &planned);
+        let test = PreparedTest::new(&planned, subject.term.as_ref(), &settings).unwrap();
         assert!(test.shapes() > 5);
         let example = &subject.examples[3];
         let whole = planned.signature(subject.term.as_ref(), example.shape, &example.values);
         let rest = planned.absorption.rest(&whole);
         let signature = &rest * (4.0 / rest.norm());
-        let reckoned = test.chance(&signature);
-        assert!((0.5..0.99).contains(&reckoned), "{reckoned}");
-        for (mean, expected) in [(0.0 * &signature, settings.alarm), (signature, reckoned)] {
+        let computed = test.chance(&signature);
+        assert!((0.5..0.99).contains(&computed), "{computed}");
+        for (mean, expected) in [(0.0 * &signature, settings.alarm), (signature, computed)] {
             let share = share_seen(&test, &mean, dof, DRAWS);
             let sigma = BOTH * (expected * (1.0 - expected) / DRAWS as f64).sqrt();
             assert!((share - expected).abs() < SIGMAS * sigma, "dof {dof}: {share} instead of {expected}");
@@ -142,7 +144,7 @@ fn a_test_over_many_shapes_keeps_its_level_and_its_power() {
 }
 
 /// Share of noisy residuals about a mean in which a test sees something.
-fn share_seen(test: &Test, mean: &DVector<f64>, noise_dof: f64, draws: usize) -> f64 {
+fn share_seen(test: &PreparedTest, mean: &DVector<f64>, noise_dof: f64, draws: usize) -> f64 {
     let mut rng = stream(7, Purpose::Test, [7]);
     let law = rand_distr::ChiSquared::new(noise_dof.min(1e9)).unwrap();
     let mut seen = 0;
@@ -158,8 +160,8 @@ fn share_seen(test: &Test, mean: &DVector<f64>, noise_dof: f64, draws: usize) ->
 fn legs_that_never_pull_show_neither_play_nor_a_softer_side() {
     let planned = planned(&[DOWN], 2, noise(1.0, f64::INFINITY));
     let study = studied(&planned, &["leg-asymmetry", "leg-backlash", "bracket-compliance"]);
-    let verdicts: Vec<Verdict> = study.effects.iter().map(|e| e.verdict).collect();
-    assert_eq!(verdicts[..2], [Verdict::NoTrace; 2]);
+    let verdicts: Vec<Visibility> = study.effects.iter().map(|e| e.verdict).collect();
+    assert_eq!(verdicts[..2], [Visibility::NoTrace; 2]);
     assert!(study.effects[2].shows());
     assert!(study.alike.taken_for[0].is_empty());
 }
@@ -172,7 +174,7 @@ fn creep_after_equal_waits_is_taken_for_softer_springs() {
     let springs = Vector6::repeat(1.0 / 4e6);
     let planned = Planned::new(&machine(), &rows, springs, noise(1.0, f64::INFINITY)).unwrap();
     let effect = &studied(&planned, &["creep"]).effects[0];
-    assert_eq!(effect.verdict, Verdict::Absorbed);
+    assert_eq!(effect.verdict, Visibility::Absorbed);
     assert!((effect.absorbed - 1.0).abs() < ROUNDING, "{}", effect.absorbed);
     // The stiffness falls by the grown share of the compliance, x: 1 / (1 + x) - 1.
     let grown = 1.0 - (-60.0 / effect.example.shape).exp();

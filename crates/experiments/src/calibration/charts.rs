@@ -2,17 +2,20 @@
 
 use hexbench_core::statistics::Proportion;
 use hexbench_report::plot::{Axis, Chart, HeatMap, Panels, PlotError, Series};
-use hexbench_truth::campaign::Kind;
+use hexbench_truth::campaign::CaseKind;
 
 use super::sheets::visible_confusion;
-use super::{Bin, Claim, Claims, Curve, DISTANCES, Fate, Mix, Record, Step, WELL_VISIBLE, bins};
+use super::{
+    CalibrationRecord, Claim, ClaimBin, Claims, Curve, DISTANCES, DistanceRange, Fate, Mix, WELL_VISIBLE,
+    bins,
+};
 
 /// Claims below which a bin is not drawn: its bounds would span most of the diagram.
 const LEAST_CLAIMS: usize = 10;
 
 /// One chart with the name of its file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Picture {
+pub struct NamedChart {
     /// Name of the file, without folder.
     pub file: &'static str,
     /// SVG text.
@@ -23,22 +26,29 @@ pub struct Picture {
 ///
 /// # Errors
 /// [`PlotError`]; of an empty study.
-pub fn pictures(records: &[Record]) -> Result<Vec<Picture>, PlotError> {
+pub fn pictures(records: &[CalibrationRecord]) -> Result<Vec<NamedChart>, PlotError> {
     let power = |title, kind, second: &Kept| power(title, &Curve::of_each(records, kind), second);
     let all = [
         ("confusion.svg", confusion(records)?),
         ("reliability.svg", reliability(records)?),
         ("reliability-by-kind.svg", reliability_by_kind(records)?),
-        ("power.svg", power("One effect of the catalogue: how often it is named", Kind::Single, &HONEST)?),
+        (
+            "power.svg",
+            power("One effect of the catalogue: how often it is named", CaseKind::Single, &HONEST)?,
+        ),
         (
             "outside.svg",
-            power("Effects outside the catalogue: how often \"outside\" is said", Kind::Outside, &DOUBTFUL)?,
+            power(
+                "Effects outside the catalogue: how often \"outside\" is said",
+                CaseKind::Outside,
+                &DOUBTFUL,
+            )?,
         ),
     ];
-    Ok(all.map(|(file, svg)| Picture { file, svg }).to_vec())
+    Ok(all.map(|(file, svg)| NamedChart { file, svg }).to_vec())
 }
 
-fn confusion(records: &[Record]) -> Result<String, PlotError> {
+fn confusion(records: &[CalibrationRecord]) -> Result<String, PlotError> {
     const PERCENT: f64 = 100.0;
     // A share below half a percent would be printed as zero.
     const SHOWN: f64 = 0.005;
@@ -52,7 +62,7 @@ fn confusion(records: &[Record]) -> Result<String, PlotError> {
         .to_svg()
 }
 
-fn reliability(records: &[Record]) -> Result<String, PlotError> {
+fn reliability(records: &[CalibrationRecord]) -> Result<String, PlotError> {
     let (drawn, expected) = (Mix::as_drawn(), Mix::as_expected(records));
     let panel = |claims: Claims| {
         let [drawn, expected] = [&drawn, &expected].map(|mix| filled(&claims.of(records, mix)));
@@ -68,13 +78,13 @@ fn reliability(records: &[Record]) -> Result<String, PlotError> {
         .to_svg()
 }
 
-fn reliability_by_kind(records: &[Record]) -> Result<String, PlotError> {
-    let panel = |kind: Kind| {
-        let of_kind: Vec<&Record> = records.iter().filter(|r| r.kind == kind).collect();
+fn reliability_by_kind(records: &[CalibrationRecord]) -> Result<String, PlotError> {
+    let panel = |kind: CaseKind| {
+        let of_kind: Vec<&CalibrationRecord> = records.iter().filter(|r| r.kind == kind).collect();
         let title = format!("{} ({} trials)", kind.name(), of_kind.len());
         reliability_panel(&title, &filled(&Claims::Presence.of(of_kind, &Mix::as_drawn())))
     };
-    Kind::ALL
+    CaseKind::ALL
         .into_iter()
         .filter_map(panel)
         .fold(Panels::new("Presence of an effect, by kind of campaign", 4), Panels::with)
@@ -83,12 +93,12 @@ fn reliability_by_kind(records: &[Record]) -> Result<String, PlotError> {
 }
 
 /// Bins with enough claims to say something.
-fn filled(claims: &[Claim]) -> Vec<Bin> {
+fn filled(claims: &[Claim]) -> Vec<ClaimBin> {
     bins(claims).into_iter().filter(|b| b.came_true.of >= LEAST_CLAIMS).collect()
 }
 
 /// Points of stated against observed with their bounds; `None` without claims.
-fn reliability_panel(title: &str, bins: &[Bin]) -> Option<Chart> {
+fn reliability_panel(title: &str, bins: &[ClaimBin]) -> Option<Chart> {
     let bounds = |x: f64, p: Proportion| [x, p.interval()[0], p.interval()[1]];
     let band = bins.iter().map(|b| bounds(b.stated, b.came_true)).collect();
     let points = bins.iter().map(|b| [b.stated, b.observed]).collect();
@@ -121,7 +131,7 @@ fn power(title: &str, curves: &[Curve], second: &Kept) -> Result<String, PlotErr
 }
 
 fn power_panel(curve: &Curve, second: &Kept) -> Option<Chart> {
-    let steps: Vec<&Step> = curve.steps.iter().filter(|s| s.share(&[]).of > 0).collect();
+    let steps: Vec<&DistanceRange> = curve.steps.iter().filter(|s| s.share(&[]).of > 0).collect();
     let line = |fates: &[Fate]| -> Vec<[f64; 2]> {
         steps.iter().map(|s| [s.middle(), 100.0 * s.share(fates).rate()]).collect()
     };

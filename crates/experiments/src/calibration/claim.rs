@@ -3,7 +3,7 @@
 use hexbench_model::explanation::Explanation;
 use hexbench_model::verdict::Verdict;
 
-use super::{Fate, Record};
+use super::{CalibrationRecord, Fate};
 
 /// A statement with its probability.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,11 +62,11 @@ impl Claims {
     }
 
     /// Claims of these trials, each with the weight of its trial.
-    pub fn of<'a>(self, records: impl IntoIterator<Item = &'a Record>, mix: &Mix) -> Vec<Claim> {
+    pub fn of<'a>(self, records: impl IntoIterator<Item = &'a CalibrationRecord>, mix: &Mix) -> Vec<Claim> {
         records.into_iter().flat_map(|r| self.one(r, mix.weight(r))).collect()
     }
 
-    fn one(self, r: &Record, weight: f64) -> Vec<Claim> {
+    fn one(self, r: &CalibrationRecord, weight: f64) -> Vec<Claim> {
         let claim = |stated: f64, is_true: bool| Claim { stated, is_true, weight };
         let presence = || r.present.iter().map(|(id, &p)| claim(p, r.contains(id))).collect();
         let verdict = || r.confidence.map(|p| claim(p, r.fate == Fate::Right)).into_iter().collect();
@@ -101,7 +101,7 @@ impl Mix {
     }
 
     /// Truths as often as the diagnosis expects them; together the trials count as often as there are.
-    pub fn as_expected(records: &[Record]) -> Self {
+    pub fn as_expected(records: &[CalibrationRecord]) -> Self {
         let mut counts = [0_usize; 4];
         for r in records {
             counts[class(r)] += 1;
@@ -111,12 +111,12 @@ impl Mix {
         Self { weights: std::array::from_fn(share) }
     }
 
-    fn weight(&self, record: &Record) -> f64 {
+    fn weight(&self, record: &CalibrationRecord) -> f64 {
         self.weights[class(record)]
     }
 }
 
 /// No effect, one, two, something outside.
-fn class(record: &Record) -> usize {
+fn class(record: &CalibrationRecord) -> usize {
     if record.is_outside() { 3 } else { record.hidden.len().min(2) }
 }

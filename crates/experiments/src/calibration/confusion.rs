@@ -1,17 +1,17 @@
 //! Hidden effect against answer.
 
 use hexbench_model::verdict::Verdict;
-use hexbench_truth::campaign::Kind;
+use hexbench_truth::campaign::CaseKind;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
-use super::Record;
+use super::CalibrationRecord;
 
 /// Distance from which an effect counts as well visible: a chi-square test for it would hardly ever overlook it.
 pub const WELL_VISIBLE: f64 = 10.0;
 
 /// Counts of answers to each hidden truth.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Confusion {
+pub struct ConfusionMatrix {
     /// What was hidden: effects of the catalogue, then what it lacks, then nothing.
     pub hidden: Vec<String>,
     /// What was said: effects, several effects, outside, ambiguous, adequate.
@@ -24,9 +24,9 @@ pub struct Confusion {
 const OTHER_ANSWERS: [&str; 4] =
     ["several effects", Verdict::Outside.word(), Verdict::Ambiguous.word(), Verdict::Adequate.word()];
 
-impl Confusion {
+impl ConfusionMatrix {
     /// Confusion over trials with one effect or none.
-    pub fn of<'a>(records: impl Iterator<Item = &'a Record>) -> Self {
+    pub fn of<'a>(records: impl Iterator<Item = &'a CalibrationRecord>) -> Self {
         let pairs: Vec<(String, String)> =
             records.filter(|r| r.hidden.len() < 2).map(|r| (truth(r), answer(r))).collect();
         let hidden = in_order(pairs.iter().map(|p| p.0.clone()).collect());
@@ -50,16 +50,16 @@ impl Confusion {
 }
 
 /// Well visible, or without an effect.
-pub fn is_well_visible(record: &Record) -> bool {
+pub fn is_well_visible(record: &CalibrationRecord) -> bool {
     record.hidden.is_empty() || record.distance.unwrap_or(record.total_distance) >= WELL_VISIBLE
 }
 
-fn truth(record: &Record) -> String {
+fn truth(record: &CalibrationRecord) -> String {
     let words = record.hidden_words();
-    if record.kind == Kind::RichForm { format!("{words} (richer form)") } else { words }
+    if record.kind == CaseKind::RichForm { format!("{words} (richer form)") } else { words }
 }
 
-fn answer(record: &Record) -> String {
+fn answer(record: &CalibrationRecord) -> String {
     if record.verdict == Verdict::Named && record.added.len() > 1 {
         OTHER_ANSWERS[0].to_owned()
     } else {

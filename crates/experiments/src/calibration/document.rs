@@ -4,12 +4,12 @@ use hexbench_core::statistics::Proportion;
 use hexbench_report::number::hundredths;
 use hexbench_report::words::written_by;
 use hexbench_report::{Block, Page, Section, Table};
-use hexbench_truth::campaign::Kind;
+use hexbench_truth::campaign::CaseKind;
 
 use super::sheets;
 use super::trust::{CREDIBLE, MOST_FALSE_NAMES};
 use super::{
-    Calibration, Curve, DISTANCES, Record, WELL_VISIBLE, credible_coverage, false_names,
+    Calibration, CalibrationRecord, Curve, DISTANCES, WELL_VISIBLE, credible_coverage, false_names,
     false_names_among_named, false_outside, is_well_visible, stiffness_coverage,
 };
 use crate::calibration::Fate;
@@ -45,10 +45,10 @@ pub fn page(study: &Calibration, charts: &str) -> Page {
 }
 
 /// The figures everything else explains, one sentence each.
-pub fn headlines(records: &[Record]) -> Vec<String> {
+pub fn headlines(records: &[CalibrationRecord]) -> Vec<String> {
     let of_all = false_names(records);
     let visible = || records.iter().filter(|r| r.distance.is_some() && is_well_visible(r));
-    let right = |kind: Kind| {
+    let right = |kind: CaseKind| {
         let of_kind = visible().filter(move |r| r.kind == kind);
         Proportion::count(of_kind, |r| r.fate == Fate::Right)
     };
@@ -65,14 +65,17 @@ pub fn headlines(records: &[Record]) -> Vec<String> {
             told(false_names_among_named(records))
         ),
         format!("\"Outside\" was said wrongly in {}.", told(false_outside(records))),
-        format!("One effect at distance {WELL_VISIBLE} or more was named in {}.", told(right(Kind::Single))),
+        format!(
+            "One effect at distance {WELL_VISIBLE} or more was named in {}.",
+            told(right(CaseKind::Single))
+        ),
         format!(
             "Two effects, each at {WELL_VISIBLE} or more, were both named in {}.",
-            told(right(Kind::Pair))
+            told(right(CaseKind::Pair))
         ),
         format!(
             "Something outside the catalogue at {WELL_VISIBLE} or more was noticed as such in {}.",
-            told(right(Kind::Outside))
+            told(right(CaseKind::Outside))
         ),
         format!(
             "The springs were called adequate although effects at {WELL_VISIBLE} or more were hidden in {}.",
@@ -171,7 +174,7 @@ statement.";
 const OUTSIDE: &str = "Share of the trials of kind outside in which \"outside\" is said. An answer that names effects of the catalogue \
 instead is above the dashed line; between the lines the springs are called adequate.";
 
-fn reliability(records: &[Record], charts: &str, section: Section) -> Section {
+fn reliability(records: &[CalibrationRecord], charts: &str, section: Section) -> Section {
     section
         .paragraph(MIX)
         .table(sheets::all_scores(records))
@@ -181,17 +184,17 @@ fn reliability(records: &[Record], charts: &str, section: Section) -> Section {
         .table(sheets::scores_by_kind(records))
 }
 
-fn power(records: &[Record], section: Section) -> Section {
+fn power(records: &[CalibrationRecord], section: Section) -> Section {
     let right = |kind| sheets::right_by_size(&Curve::of_each(records, kind));
     section
         .paragraph("Percent right by distance:")
-        .table(right(Kind::Single))
+        .table(right(CaseKind::Single))
         .paragraph("Under the plan of the paper (kind seed-protocol), percent right:")
-        .table(right(Kind::SeedProtocol))
+        .table(right(CaseKind::SeedProtocol))
 }
 
-fn outside(records: &[Record], section: Section) -> Section {
-    let table = sheets::right_by_size(&Curve::of_each(records, Kind::Outside));
+fn outside(records: &[CalibrationRecord], section: Section) -> Section {
+    let table = sheets::right_by_size(&Curve::of_each(records, CaseKind::Outside));
     section.paragraph("Percent right by distance:").table(table)
 }
 

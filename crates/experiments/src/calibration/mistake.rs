@@ -2,44 +2,44 @@
 
 use std::collections::BTreeMap;
 
-use hexbench_truth::campaign::Kind;
+use hexbench_truth::campaign::CaseKind;
 
-use super::{Fate, Record};
+use super::{CalibrationRecord, Fate};
 
 /// Wrong answers of one sort.
 #[derive(Debug)]
-pub struct Group<'a> {
+pub struct MistakeGroup<'a> {
     /// What was hidden.
     pub hidden: String,
     /// What was said.
     pub answer: String,
     /// The trials, the most confident first.
-    pub trials: Vec<&'a Record>,
+    pub trials: Vec<&'a CalibrationRecord>,
 }
 
 /// Groups of answers that state something false: a false name, a false "outside", some of several effects taken for
 /// all. The largest first. Of pairs the sort of mistake stands for the answer.
-pub fn mistakes(records: &[Record]) -> Vec<Group<'_>> {
-    let mut groups: BTreeMap<(String, String), Vec<&Record>> = BTreeMap::new();
+pub fn mistakes(records: &[CalibrationRecord]) -> Vec<MistakeGroup<'_>> {
+    let mut groups: BTreeMap<(String, String), Vec<&CalibrationRecord>> = BTreeMap::new();
     for record in records.iter().filter(|r| r.fate >= Fate::Incomplete) {
         groups.entry(key(record)).or_default().push(record);
     }
-    let mut all: Vec<Group<'_>> = groups
+    let mut all: Vec<MistakeGroup<'_>> = groups
         .into_iter()
         .map(|((hidden, answer), mut trials)| {
             trials.sort_by(|a, b| b.confidence.unwrap_or(0.0).total_cmp(&a.confidence.unwrap_or(0.0)));
-            Group { hidden, answer, trials }
+            MistakeGroup { hidden, answer, trials }
         })
         .collect();
     all.sort_by_key(|g| std::cmp::Reverse(g.trials.len()));
     all
 }
 
-fn key(r: &Record) -> (String, String) {
+fn key(r: &CalibrationRecord) -> (String, String) {
     match r.kind {
-        Kind::Pair => ("two effects".to_owned(), r.fate.word().to_owned()),
-        Kind::SeedProtocol => (format!("{} (paper plan)", r.hidden_words()), r.answer()),
-        Kind::RichForm => (format!("{} (richer form)", r.hidden_words()), r.answer()),
+        CaseKind::Pair => ("two effects".to_owned(), r.fate.word().to_owned()),
+        CaseKind::SeedProtocol => (format!("{} (paper plan)", r.hidden_words()), r.answer()),
+        CaseKind::RichForm => (format!("{} (richer form)", r.hidden_words()), r.answer()),
         _ => (r.hidden_words(), r.answer()),
     }
 }

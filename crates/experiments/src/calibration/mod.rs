@@ -19,19 +19,19 @@ mod study;
 mod trials_csv;
 mod trust;
 
-pub use charts::{Picture, pictures};
+pub use charts::{NamedChart, pictures};
 pub use claim::{Claim, Claims, Mix};
-pub use confusion::{Confusion, WELL_VISIBLE, is_well_visible};
+pub use confusion::{ConfusionMatrix, WELL_VISIBLE, is_well_visible};
 pub use document::{headlines, page};
 pub use fate::Fate;
-pub use mistake::{Group, mistakes};
-pub use power::{Curve, SIZES, Step};
-pub use protocol::{DISTANCES, Portion, Protocol, SEED};
-pub use record::Record;
-pub use reliability::{BORDERS, Bin, Scores, bins, scores};
+pub use mistake::{MistakeGroup, mistakes};
+pub use power::{Curve, DistanceRange, SIZES};
+pub use protocol::{CalibrationProtocol, DISTANCES, SEED, TrialPortion};
+pub use record::CalibrationRecord;
+pub use reliability::{BORDERS, ClaimBin, ClaimScores, bins, scores};
 pub use study::{Calibration, case};
 pub use trials_csv::trials_csv;
 pub use trust::{
-    CREDIBLE, HeldOut, MOST_FALSE_NAMES, credible_coverage, false_names, false_names_among_named,
+    CREDIBLE, HeldOutQuantiles, MOST_FALSE_NAMES, credible_coverage, false_names, false_names_among_named,
     false_outside, stiffness_coverage,
 };

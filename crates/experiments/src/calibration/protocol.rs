@@ -1,6 +1,6 @@
 //! The frozen protocol: which truths, how large, how many.
 
-use hexbench_truth::campaign::Kind;
+use hexbench_truth::campaign::CaseKind;
 
 /// Seed of the committed figures.
 pub const SEED: u64 = 20_260;
@@ -10,45 +10,45 @@ pub const DISTANCES: [f64; 2] = [2.0, 60.0];
 
 /// Trials of one kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Portion {
+pub struct TrialPortion {
     /// Kind of campaign.
-    pub kind: Kind,
+    pub kind: CaseKind,
     /// How many.
     pub trials: usize,
 }
 
 /// What is run.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Protocol {
+pub struct CalibrationProtocol {
     /// Decides everything that is drawn.
     pub seed: u64,
     /// Kinds and counts.
-    pub portions: Vec<Portion>,
+    pub portions: Vec<TrialPortion>,
 }
 
 /// Counts of the committed study. Single effects are many because each of the sixteen gets a curve of its own.
-const STANDARD: [Portion; 7] = [
-    Portion { kind: Kind::Single, trials: 2400 },
-    Portion { kind: Kind::Pair, trials: 800 },
-    Portion { kind: Kind::Outside, trials: 900 },
-    Portion { kind: Kind::Clean, trials: 1000 },
-    Portion { kind: Kind::SeedProtocol, trials: 400 },
-    Portion { kind: Kind::Absolute, trials: 200 },
-    Portion { kind: Kind::RichForm, trials: 300 },
+const STANDARD: [TrialPortion; 7] = [
+    TrialPortion { kind: CaseKind::Single, trials: 2400 },
+    TrialPortion { kind: CaseKind::Pair, trials: 800 },
+    TrialPortion { kind: CaseKind::Outside, trials: 900 },
+    TrialPortion { kind: CaseKind::Clean, trials: 1000 },
+    TrialPortion { kind: CaseKind::SeedProtocol, trials: 400 },
+    TrialPortion { kind: CaseKind::Absolute, trials: 200 },
+    TrialPortion { kind: CaseKind::RichForm, trials: 300 },
 ];
 
-impl Default for Protocol {
+impl Default for CalibrationProtocol {
     fn default() -> Self {
         Self { seed: SEED, portions: STANDARD.to_vec() }
     }
 }
 
-impl Protocol {
+impl CalibrationProtocol {
     /// The same mix with about so many trials; every kind keeps at least one.
     #[must_use]
     pub fn with_trials(self, trials: usize) -> Self {
         let all = self.trials();
-        let share = |p: Portion| Portion { trials: (p.trials * trials).div_ceil(all).max(1), ..p };
+        let share = |p: TrialPortion| TrialPortion { trials: (p.trials * trials).div_ceil(all).max(1), ..p };
         Self { portions: self.portions.into_iter().map(share).collect(), ..self }
     }
 
@@ -64,9 +64,9 @@ impl Protocol {
     }
 
     /// Kind and number within the kind of a trial.
-    pub(super) fn job(&self, number: u64) -> (Kind, usize) {
+    pub(super) fn job(&self, number: u64) -> (CaseKind, usize) {
         let mut jobs = self.portions.iter().flat_map(|p| (0..p.trials).map(|index| (p.kind, index)));
         let number = usize::try_from(number).unwrap_or(usize::MAX);
-        jobs.nth(number).unwrap_or((Kind::Single, number))
+        jobs.nth(number).unwrap_or((CaseKind::Single, number))
     }
 }

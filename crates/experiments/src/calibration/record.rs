@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use hexbench_model::diagnose::Study;
+use hexbench_model::diagnose::DiagnosisStudy;
 use hexbench_model::explanation::Explanation;
 use hexbench_model::parameters::stiffness_name;
 use hexbench_model::verdict::Verdict;
-use hexbench_truth::campaign::{Case, Kind, PlanKind};
+use hexbench_truth::campaign::{CaseKind, PlanKind, SimulatedCase};
 use hexbench_truth::mechanisms::is_outside;
 use serde::{Deserialize, Serialize};
 
@@ -16,11 +16,11 @@ use crate::trial::{Trial, TrialError};
 
 /// What was hidden in a campaign, and what was said about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Record {
+pub struct CalibrationRecord {
     /// Kind and number, as the folder of the case would be called.
     pub id: String,
     /// Kind of the campaign.
-    pub kind: Kind,
+    pub kind: CaseKind,
     /// Family of the machine.
     #[serde(with = "words")]
     pub family: Word,
@@ -63,14 +63,14 @@ pub struct Record {
     pub stiffness_z: [Option<f64>; 6],
 }
 
-impl Record {
+impl CalibrationRecord {
     /// Diagnoses a case and compares the answer with the truth.
-    pub(crate) fn of(case: &Case) -> Result<Self, TrialError> {
+    pub(crate) fn of(case: &SimulatedCase) -> Result<Self, TrialError> {
         Ok(Self::of_trial(case, &Trial::run(case)?))
     }
 
     /// Compares the answer to a case with its truth.
-    pub fn of_trial(case: &Case, trial: &Trial) -> Self {
+    pub fn of_trial(case: &SimulatedCase, trial: &Trial) -> Self {
         let Trial { hidden, study } = trial;
         let d = &study.diagnosis;
         let first =
@@ -146,7 +146,7 @@ impl Record {
     }
 }
 
-fn confidence(study: &Study) -> Option<f64> {
+fn confidence(study: &DiagnosisStudy) -> Option<f64> {
     let d = &study.diagnosis;
     let added: Vec<&str> = d.added.iter().map(String::as_str).collect();
     match d.verdict {
@@ -158,7 +158,7 @@ fn confidence(study: &Study) -> Option<f64> {
 }
 
 /// Probability that exactly these effects are at work; of anything outside when one of them is.
-fn probability_of(study: &Study, effects: &[&str]) -> f64 {
+fn probability_of(study: &DiagnosisStudy, effects: &[&str]) -> f64 {
     if effects.iter().any(|id| is_outside(id)) {
         return probability_outside(study);
     }
@@ -171,12 +171,12 @@ fn probability_of(study: &Study, effects: &[&str]) -> f64 {
     exactly.map(|s| sets.probability(s)).sum()
 }
 
-fn probability_outside(study: &Study) -> f64 {
+fn probability_outside(study: &DiagnosisStudy) -> f64 {
     let candidates = study.diagnosis.candidates.iter();
     candidates.filter(|c| c.term == Explanation::Outside).map(|c| c.probability).sum()
 }
 
-fn stiffness_z(study: &Study, case: &Case) -> [Option<f64>; 6] {
+fn stiffness_z(study: &DiagnosisStudy, case: &SimulatedCase) -> [Option<f64>; 6] {
     const N_PER_UM: f64 = 1e-6;
     std::array::from_fn(|leg| {
         let name = stiffness_name(leg);

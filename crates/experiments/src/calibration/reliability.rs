@@ -9,7 +9,7 @@ pub const BORDERS: [f64; 13] = [0.0, 0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8,
 
 /// Claims of about the same stated probability.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bin {
+pub struct ClaimBin {
     /// Borders of the stated probability.
     pub range: [f64; 2],
     /// Mean of what was stated, by weight of the claims.
@@ -21,17 +21,17 @@ pub struct Bin {
 }
 
 /// The bins that hold any claim.
-pub fn bins(claims: &[Claim]) -> Vec<Bin> {
+pub fn bins(claims: &[Claim]) -> Vec<ClaimBin> {
     BORDERS.windows(2).filter_map(|b| bin(claims, [b[0], b[1]])).collect()
 }
 
-fn bin(claims: &[Claim], range: [f64; 2]) -> Option<Bin> {
+fn bin(claims: &[Claim], range: [f64; 2]) -> Option<ClaimBin> {
     let inside: Vec<&Claim> = claims.iter().filter(|c| is_inside(c.stated, range)).collect();
     let total: f64 = inside.iter().map(|c| c.weight).sum();
     let mean = |f: &dyn Fn(&Claim) -> f64| inside.iter().map(|c| c.weight * f(c)).sum::<f64>() / total;
     let (stated, observed) = (mean(&|c| c.stated), mean(&truth));
     let came_true = Proportion::count(inside, |c| c.is_true);
-    (came_true.of > 0).then_some(Bin { range, stated, observed, came_true })
+    (came_true.of > 0).then_some(ClaimBin { range, stated, observed, came_true })
 }
 
 fn is_inside(p: f64, [low, high]: [f64; 2]) -> bool {
@@ -40,7 +40,7 @@ fn is_inside(p: f64, [low, high]: [f64; 2]) -> bool {
 
 /// Scores of stated probabilities, by weight of the claims.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scores {
+pub struct ClaimScores {
     /// Number of claims.
     pub claims: usize,
     /// Mean of what was stated.
@@ -59,10 +59,10 @@ pub struct Scores {
 const FLOOR: f64 = 1e-6;
 
 /// Scores of claims; `None` of nothing.
-pub fn scores(claims: &[Claim]) -> Option<Scores> {
+pub fn scores(claims: &[Claim]) -> Option<ClaimScores> {
     let total: f64 = claims.iter().map(|c| c.weight).sum();
     let mean = |f: &dyn Fn(&Claim) -> f64| claims.iter().map(|c| c.weight * f(c)).sum::<f64>() / total;
-    (total > 0.0).then(|| Scores {
+    (total > 0.0).then(|| ClaimScores {
         claims: claims.len(),
         stated: mean(&|c| c.stated),
         observed: mean(&truth),

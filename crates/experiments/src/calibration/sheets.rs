@@ -1,10 +1,12 @@
 //! The tables of the study.
 
 use hexbench_core::statistics::Proportion;
-use hexbench_truth::campaign::Kind;
+use hexbench_truth::campaign::CaseKind;
 
-use super::trust::{HeldOut, credible_coverage, stiffness_coverage};
-use super::{Claims, Confusion, Curve, Fate, Mix, Record, bins, is_well_visible, mistakes, scores};
+use super::trust::{HeldOutQuantiles, credible_coverage, stiffness_coverage};
+use super::{
+    CalibrationRecord, Claims, ConfusionMatrix, Curve, Fate, Mix, bins, is_well_visible, mistakes, scores,
+};
 use hexbench_report::Table;
 use hexbench_report::number::hundredths;
 
@@ -14,14 +16,14 @@ const MOST_GROUPS: usize = 20;
 const EXAMPLES: usize = 3;
 
 /// What became of the truths of each kind.
-pub fn fates(records: &[Record]) -> Table {
+pub fn fates(records: &[CalibrationRecord]) -> Table {
     let words = Fate::ALL.map(Fate::word);
     let mut table = Table::named(["kind", "trials"].into_iter().chain(words));
-    let mut line = |title: &str, of: Vec<&Record>| {
+    let mut line = |title: &str, of: Vec<&CalibrationRecord>| {
         let count = |fate| of.iter().filter(|r| r.fate == fate).count().to_string();
         table.row([title.to_owned(), of.len().to_string()].into_iter().chain(Fate::ALL.map(count)));
     };
-    for kind in Kind::ALL {
+    for kind in CaseKind::ALL {
         line(kind.name(), of_kind(records, kind).collect());
     }
     line("all", records.iter().collect());
@@ -29,7 +31,7 @@ pub fn fates(records: &[Record]) -> Table {
 }
 
 /// Hidden effect against answer, counts; well-visible effects in plans made to see them.
-pub fn confusion(records: &[Record]) -> Table {
+pub fn confusion(records: &[CalibrationRecord]) -> Table {
     let confusion = visible_confusion(records);
     let answers: Vec<&str> = confusion.answers.iter().map(String::as_str).collect();
     let mut table = Table::named(std::iter::once("hidden").chain(answers));
@@ -40,13 +42,13 @@ pub fn confusion(records: &[Record]) -> Table {
 }
 
 /// The confusion behind [`confusion`].
-pub fn visible_confusion(records: &[Record]) -> Confusion {
-    const KINDS: [Kind; 4] = [Kind::Single, Kind::RichForm, Kind::Outside, Kind::Clean];
-    Confusion::of(records.iter().filter(|r| KINDS.contains(&r.kind) && is_well_visible(r)))
+pub fn visible_confusion(records: &[CalibrationRecord]) -> ConfusionMatrix {
+    const KINDS: [CaseKind; 4] = [CaseKind::Single, CaseKind::RichForm, CaseKind::Outside, CaseKind::Clean];
+    ConfusionMatrix::of(records.iter().filter(|r| KINDS.contains(&r.kind) && is_well_visible(r)))
 }
 
 /// Scores of each kind of claim, with truths as drawn and as the diagnosis expects them.
-pub fn all_scores(records: &[Record]) -> Table {
+pub fn all_scores(records: &[CalibrationRecord]) -> Table {
     let mut table = Table::named(SCORES).words_in(1);
     for (name, mix) in [("as drawn", Mix::as_drawn()), ("as expected", Mix::as_expected(records))] {
         for claims in Claims::ALL {
@@ -59,10 +61,10 @@ pub fn all_scores(records: &[Record]) -> Table {
 }
 
 /// Scores of the verdicts and of presence by kind of campaign, as drawn.
-pub fn scores_by_kind(records: &[Record]) -> Table {
+pub fn scores_by_kind(records: &[CalibrationRecord]) -> Table {
     let mut table = Table::named(SCORES).words_in(1);
     for claims in [Claims::Named, Claims::Verdict, Claims::Presence] {
-        for kind in Kind::ALL {
+        for kind in CaseKind::ALL {
             if let Some(row) = score_row(claims, kind.name(), of_kind(records, kind), &Mix::as_drawn()) {
                 table.row(row);
             }
@@ -77,7 +79,7 @@ const SCORES: [&str; 8] =
 fn score_row<'a>(
     claims: Claims,
     truths: &str,
-    records: impl Iterator<Item = &'a Record>,
+    records: impl Iterator<Item = &'a CalibrationRecord>,
     mix: &Mix,
 ) -> Option<Vec<String>> {
     let s = scores(&claims.of(records, mix))?;
@@ -87,7 +89,7 @@ fn score_row<'a>(
 }
 
 /// Stated probability against observed share, bin by bin, from a stated probability on; as drawn.
-pub fn reliability(records: &[Record], from: f64) -> Table {
+pub fn reliability(records: &[CalibrationRecord], from: f64) -> Table {
     let header = ["claim", "bin", "claims", "came true", "stated %", "observed %", "95 % bounds"];
     let mut table = Table::named(header).words_in(1);
     for claims in Claims::ALL {
@@ -124,7 +126,7 @@ pub fn right_by_size(curves: &[Curve]) -> Table {
     let ranges = super::SIZES.windows(2).map(|s| format!("{} .. {}", s[0], s[1]));
     let mut table = Table::named(std::iter::once("distance".to_owned()).chain(ranges));
     for curve in curves {
-        let cell = |s: &super::Step| {
+        let cell = |s: &super::DistanceRange| {
             let right = s.share(&[Fate::Right]);
             if right.of == 0 { "-".to_owned() } else { format!("{:.0}", 100.0 * right.rate()) }
         };
@@ -134,7 +136,7 @@ pub fn right_by_size(curves: &[Curve]) -> Table {
 }
 
 /// Whether credible sets hold the truth, by kind.
-pub fn coverage(records: &[Record]) -> Table {
+pub fn coverage(records: &[CalibrationRecord]) -> Table {
     let mut table = Table::named([
         "kind",
         "credible sets",
@@ -143,13 +145,13 @@ pub fn coverage(records: &[Record]) -> Table {
         "of them well visible",
         "hold the truth %",
     ]);
-    let mut line = |title: &str, of: Vec<&Record>| {
+    let mut line = |title: &str, of: Vec<&CalibrationRecord>| {
         let all = credible_coverage(of.iter().copied());
         let visible = credible_coverage(of.iter().copied().filter(|r| is_well_visible(r)));
         let cells = [hundredths(all.rate()), bounds(all), visible.of.to_string(), hundredths(visible.rate())];
         table.row([title.to_owned(), all.of.to_string()].into_iter().chain(cells));
     };
-    for kind in Kind::ALL {
+    for kind in CaseKind::ALL {
         line(kind.name(), of_kind(records, kind).collect());
     }
     line("all", records.iter().collect());
@@ -157,7 +159,7 @@ pub fn coverage(records: &[Record]) -> Table {
 }
 
 /// Numbers of the final model, by what became of the truth: held-out chi-square and leg stiffnesses.
-pub fn numbers(records: &[Record]) -> Table {
+pub fn numbers(records: &[CalibrationRecord]) -> Table {
     let mut table = Table::named([
         "fate",
         "trials",
@@ -170,7 +172,7 @@ pub fn numbers(records: &[Record]) -> Table {
     ]);
     for fate in Fate::ALL {
         let of = || records.iter().filter(move |r| r.fate == fate);
-        let Some(held) = HeldOut::of(of()) else { continue };
+        let Some(held) = HeldOutQuantiles::of(of()) else { continue };
         let stiffness = stiffness_coverage(of());
         let chi2 = [held.springs_median, held.median, held.high].map(|x| format!("{x:.2}"));
         let row = [fate.word().to_owned(), held.trials.to_string()].into_iter().chain(chi2);
@@ -180,7 +182,7 @@ pub fn numbers(records: &[Record]) -> Table {
 }
 
 /// The largest groups of answers that state something false.
-pub fn mistakes_table(records: &[Record]) -> Table {
+pub fn mistakes_table(records: &[CalibrationRecord]) -> Table {
     let mut table = Table::named([
         "hidden",
         "answer",
@@ -199,14 +201,17 @@ pub fn mistakes_table(records: &[Record]) -> Table {
     table
 }
 
-fn example(r: &Record) -> String {
+fn example(r: &CalibrationRecord) -> String {
     let distance = r.distance.unwrap_or(r.total_distance);
-    let pair =
-        if r.kind == Kind::Pair { format!(" {} -> {}", r.hidden_words(), r.answer()) } else { String::new() };
+    let pair = if r.kind == CaseKind::Pair {
+        format!(" {} -> {}", r.hidden_words(), r.answer())
+    } else {
+        String::new()
+    };
     format!("{}{pair} ({distance:.0}, {}, {})", r.id, r.plan.name(), r.family)
 }
 
-fn of_kind(records: &[Record], kind: Kind) -> impl Iterator<Item = &Record> {
+fn of_kind(records: &[CalibrationRecord], kind: CaseKind) -> impl Iterator<Item = &CalibrationRecord> {
     records.iter().filter(move |r| r.kind == kind)
 }
 

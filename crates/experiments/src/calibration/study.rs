@@ -1,8 +1,8 @@
 //! Running the protocol.
 
-use hexbench_truth::campaign::{Case, Kind};
+use hexbench_truth::campaign::{CaseKind, SimulatedCase};
 
-use super::{DISTANCES, Protocol, Record};
+use super::{CalibrationProtocol, CalibrationRecord, DISTANCES};
 use crate::harness::{self, Field, Gathered};
 use crate::journal::Identity;
 use crate::trial::TrialError;
@@ -11,16 +11,16 @@ use crate::trial::TrialError;
 #[derive(Debug)]
 pub struct Calibration {
     /// What was run.
-    pub protocol: Protocol,
+    pub protocol: CalibrationProtocol,
     /// Trials with an answer, in the order of the protocol.
-    pub records: Vec<Record>,
+    pub records: Vec<CalibrationRecord>,
     /// Trials without one: name and reason.
     pub failures: Vec<(String, String)>,
 }
 
 impl Calibration {
     /// What the trials of a protocol gave.
-    pub fn of(protocol: Protocol, gathered: Gathered<Record>) -> Self {
+    pub fn of(protocol: CalibrationProtocol, gathered: Gathered<CalibrationRecord>) -> Self {
         let name = |n| harness::Protocol::name(&protocol, n);
         let failures = gathered.failures().map(|(n, why)| (name(n), why.clone())).collect();
         Self { records: gathered.answers.into_iter().flatten().collect(), failures, protocol }
@@ -31,12 +31,12 @@ impl Calibration {
 ///
 /// # Errors
 /// [`TrialError::Truth`] when the effect shows in no plan and machine tried.
-pub fn case(kind: Kind, index: usize, seed: u64) -> Result<Case, TrialError> {
-    Ok(Case::draw(kind, index, seed, Some(DISTANCES))?)
+pub fn case(kind: CaseKind, index: usize, seed: u64) -> Result<SimulatedCase, TrialError> {
+    Ok(SimulatedCase::draw(kind, index, seed, Some(DISTANCES))?)
 }
 
-impl harness::Protocol for Protocol {
-    type Record = Record;
+impl harness::Protocol for CalibrationProtocol {
+    type Record = CalibrationRecord;
     type Error = TrialError;
 
     fn identity(&self) -> Identity {
@@ -50,9 +50,9 @@ impl harness::Protocol for Protocol {
         self.trials() as u64
     }
 
-    fn trial(&self, number: u64) -> Result<Record, TrialError> {
+    fn trial(&self, number: u64) -> Result<CalibrationRecord, TrialError> {
         let (kind, index) = self.job(number);
-        Record::of(&case(kind, index, self.seed)?)
+        CalibrationRecord::of(&case(kind, index, self.seed)?)
     }
 
     fn name(&self, number: u64) -> String {
@@ -60,25 +60,35 @@ impl harness::Protocol for Protocol {
         format!("{}-{index:04}", kind.name())
     }
 
-    fn fields(&self) -> Vec<Field<Record>> {
+    fn fields(&self) -> Vec<Field<CalibrationRecord>> {
         let p = |name| (name, "1");
         vec![
-            Field::text("hidden", "hidden effects", Record::hidden_words),
-            Field::text("family", "family of the machine", |r: &Record| r.family),
-            Field::text("plan", "plan of the measurements", |r: &Record| r.plan.name()),
-            Field::number(p("distance"), "distance of the effects together", |r: &Record| r.total_distance),
-            Field::text("answer", "effects named, or the verdict", Record::answer),
-            Field::text("fate", "what became of the truth", |r: &Record| r.fate.word()),
-            Field::number(p("confidence"), "probability of exactly the verdict", |r: &Record| r.confidence),
-            Field::number(p("truth"), "probability of exactly the truth", |r: &Record| r.truth),
-            Field::number(p("outside"), "probability of something outside the catalogue", |r: &Record| {
-                r.outside
+            Field::text("hidden", "hidden effects", CalibrationRecord::hidden_words),
+            Field::text("family", "family of the machine", |r: &CalibrationRecord| r.family),
+            Field::text("plan", "plan of the measurements", |r: &CalibrationRecord| r.plan.name()),
+            Field::number(p("distance"), "distance of the effects together", |r: &CalibrationRecord| {
+                r.total_distance
             }),
-            Field::number(p("none"), "probability of no effect", |r: &Record| r.none),
-            Field::number(p("holdout_springs"), "held-out chi-square per number, springs", |r: &Record| {
-                r.holdout[0]
+            Field::text("answer", "effects named, or the verdict", CalibrationRecord::answer),
+            Field::text("fate", "what became of the truth", |r: &CalibrationRecord| r.fate.word()),
+            Field::number(p("confidence"), "probability of exactly the verdict", |r: &CalibrationRecord| {
+                r.confidence
             }),
-            Field::number(p("holdout_final"), "the same of the final model", |r: &Record| r.holdout[1]),
+            Field::number(p("truth"), "probability of exactly the truth", |r: &CalibrationRecord| r.truth),
+            Field::number(
+                p("outside"),
+                "probability of something outside the catalogue",
+                |r: &CalibrationRecord| r.outside,
+            ),
+            Field::number(p("none"), "probability of no effect", |r: &CalibrationRecord| r.none),
+            Field::number(
+                p("holdout_springs"),
+                "held-out chi-square per number, springs",
+                |r: &CalibrationRecord| r.holdout[0],
+            ),
+            Field::number(p("holdout_final"), "the same of the final model", |r: &CalibrationRecord| {
+                r.holdout[1]
+            }),
         ]
     }
 }

@@ -3,7 +3,7 @@
 use hexbench_core::files::CsvText;
 use hexbench_model::explanation::Explanation;
 
-use super::Record;
+use super::CalibrationRecord;
 
 const HEADER: &str = "trial,kind,hidden,family,plan,distance,total_distance,verdict,fate,added,model,best,\
 best_probability,truth_probability,outside_probability,none_probability,confidence,credible_set,present,\
@@ -13,7 +13,7 @@ holdout_chi2_springs,holdout_chi2,z_leg_1,z_leg_2,z_leg_3,z_leg_4,z_leg_5,z_leg_
 const WORTH_WRITING: f64 = 1e-3;
 
 /// The table of all records; lists within a cell are joined by `+`.
-pub fn trials_csv(records: &[Record]) -> String {
+pub fn trials_csv(records: &[CalibrationRecord]) -> String {
     let mut text = CsvText::new(HEADER.split(','));
     for record in records {
         text.row(cells(record));
@@ -21,7 +21,7 @@ pub fn trials_csv(records: &[Record]) -> String {
     text.into_text()
 }
 
-fn cells(r: &Record) -> Vec<String> {
+fn cells(r: &CalibrationRecord) -> Vec<String> {
     let mut cells: Vec<String> =
         [&r.id, r.kind.name(), &r.hidden_words(), r.family, r.plan.name()].map(str::to_owned).to_vec();
     cells.extend([maybe(r.distance), number(r.total_distance)]);
@@ -44,11 +44,11 @@ fn cells(r: &Record) -> Vec<String> {
     cells
 }
 
-fn words(r: &Record) -> String {
+fn words(r: &CalibrationRecord) -> String {
     r.credible.iter().map(Explanation::word).collect::<Vec<_>>().join("+")
 }
 
-fn present(r: &Record) -> String {
+fn present(r: &CalibrationRecord) -> String {
     let told = r.present.iter().filter(|(_, p)| **p >= WORTH_WRITING);
     told.map(|(id, p)| format!("{id}:{}", number(*p))).collect::<Vec<_>>().join("+")
 }

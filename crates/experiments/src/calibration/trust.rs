@@ -3,7 +3,7 @@
 use hexbench_core::statistics::{Proportion, quantile};
 use hexbench_model::verdict::Verdict;
 
-use super::{Fate, Record};
+use super::{CalibrationRecord, Fate};
 
 /// Share of trials with an effect named that is not there which must not be exceeded.
 pub const MOST_FALSE_NAMES: f64 = 0.01;
@@ -13,29 +13,29 @@ pub const CREDIBLE: f64 = 0.95;
 const COVERED: f64 = 1.96;
 
 /// Trials in which an effect is named that is not there.
-pub fn false_names<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
+pub fn false_names<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Proportion {
     Proportion::count(records, |r| r.fate == Fate::FalseName)
 }
 
 /// The same among the answers that name anything.
-pub fn false_names_among_named<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
+pub fn false_names_among_named<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Proportion {
     false_names(records.into_iter().filter(|r| r.verdict == Verdict::Named))
 }
 
 /// "Outside" said where all that is hidden is in the catalogue, or nothing is.
-pub fn false_outside<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
+pub fn false_outside<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Proportion {
     let inside = records.into_iter().filter(|r| !r.is_outside());
     Proportion::count(inside, |r| r.verdict == Verdict::Outside)
 }
 
 /// Credible sets that hold the whole truth.
-pub fn credible_coverage<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
+pub fn credible_coverage<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Proportion {
     Proportion::count(records, |r| r.is_covered())
 }
 
 /// Leg stiffnesses within 1.96 of their stated standard deviations; answers "outside" come with a model that is known to
 /// lack something and do not count.
-pub fn stiffness_coverage<'a>(records: impl IntoIterator<Item = &'a Record>) -> Proportion {
+pub fn stiffness_coverage<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Proportion {
     let meant = records.into_iter().filter(|r| r.verdict != Verdict::Outside);
     let all = meant.flat_map(|r| r.stiffness_z.iter().flatten());
     Proportion::count(all, |z| z.abs() <= COVERED)
@@ -43,7 +43,7 @@ pub fn stiffness_coverage<'a>(records: impl IntoIterator<Item = &'a Record>) -> 
 
 /// Quantiles of the reduced chi-square on held-out poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HeldOut {
+pub struct HeldOutQuantiles {
     /// Trials behind it.
     pub trials: usize,
     /// Median with the springs alone.
@@ -54,9 +54,9 @@ pub struct HeldOut {
     pub high: f64,
 }
 
-impl HeldOut {
+impl HeldOutQuantiles {
     /// Quantiles over trials; `None` of nothing.
-    pub fn of<'a>(records: impl IntoIterator<Item = &'a Record>) -> Option<Self> {
+    pub fn of<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Option<Self> {
         let pairs: Vec<[f64; 2]> =
             records.into_iter().filter_map(|r| Some([r.holdout[0]?, r.holdout[1]?])).collect();
         let value = |step: usize, share: f64| quantile(pairs.iter().map(|p| p[step]), share);

@@ -3,11 +3,11 @@
 use hexbench_core::streams::{Purpose, derived_seed, stream};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_truth::TruthError;
-use hexbench_truth::campaign::{Case, CaseSpec, Row};
+use hexbench_truth::campaign::{CaseSpec, PlanRow, SimulatedCase};
 use rand::seq::SliceRandom;
 use rayon::prelude::*;
 
-use crate::challenge::{ChallengeError, Portion, Suite, Truth};
+use crate::challenge::{CasePortion, ChallengeError, ChallengeSuite, Truth};
 use crate::harness::{Progress, each};
 
 /// A case of a challenge, ready to be written.
@@ -31,7 +31,7 @@ pub struct Drawn {
 ///
 /// # Errors
 /// [`ChallengeError::Case`] for a case whose effects show in no plan and machine tried.
-pub fn draw(suite: &Suite, progress: &dyn Progress) -> Result<Vec<Drawn>, ChallengeError> {
+pub fn draw(suite: &ChallengeSuite, progress: &dyn Progress) -> Result<Vec<Drawn>, ChallengeError> {
     let mut jobs: Vec<(usize, usize)> = Vec::new();
     for (k, portion) in suite.portions.iter().enumerate() {
         jobs.extend((0..portion.count).map(|index| (k, index)));
@@ -57,13 +57,13 @@ fn seed_of(seed: u64, portion: usize) -> u64 {
 }
 
 /// The `index`-th case of a portion: some effects do not show in some plans or machines, then others are tried.
-fn built(portion: &Portion, index: usize, seed: u64) -> Result<Case, TruthError> {
+fn built(portion: &CasePortion, index: usize, seed: u64) -> Result<SimulatedCase, TruthError> {
     const ATTEMPTS: u64 = 12;
     let attempt = |n| spec(portion, index, seed, n).build();
     (1..ATTEMPTS).fold(attempt(0), |made, n| made.or_else(|_| attempt(n)))
 }
 
-fn spec(portion: &Portion, index: usize, seed: u64, attempt: u64) -> CaseSpec {
+fn spec(portion: &CasePortion, index: usize, seed: u64, attempt: u64) -> CaseSpec {
     let drawn = CaseSpec::draw(portion.kind, index, seed, attempt, portion.distance);
     let chosen = portion.effects.get(index % portion.effects.len().max(1));
     CaseSpec {
@@ -74,7 +74,12 @@ fn spec(portion: &Portion, index: usize, seed: u64, attempt: u64) -> CaseSpec {
     }
 }
 
-fn drawn(id: String, portion: &Portion, index: usize, mut case: Case) -> Result<Drawn, ChallengeError> {
+fn drawn(
+    id: String,
+    portion: &CasePortion,
+    index: usize,
+    mut case: SimulatedCase,
+) -> Result<Drawn, ChallengeError> {
     if let Some(most) = portion.repeats {
         case.measurements.observations.retain(|o| u64::try_from(o.repeat).is_ok_and(|n| n <= most));
     }
@@ -85,9 +90,9 @@ fn drawn(id: String, portion: &Portion, index: usize, mut case: Case) -> Result<
     Ok(Drawn { id, hexapod, measurements: case.measurements, measured: case.holdout, true_readings, truth })
 }
 
-fn without_noise(case: &Case) -> Result<Dataset, TruthError> {
+fn without_noise(case: &SimulatedCase) -> Result<Dataset, TruthError> {
     let holdout = &case.holdout;
-    let rows: Vec<Row> = holdout.observations.iter().map(Row::from).collect();
+    let rows: Vec<PlanRow> = holdout.observations.iter().map(PlanRow::from).collect();
     let ideal = case.campaign.ideal(&rows, holdout.measurand)?;
     let mut readings = holdout.clone();
     for (observation, value) in readings.observations.iter_mut().zip(ideal) {

@@ -20,7 +20,7 @@ use hexbench_core::files::{
 use crate::challenge::folder::{
     CASES, HEXAPOD, MEASURED, MEASUREMENTS, PREDICT, README, SEALED, TRUE_READINGS, TRUTH, refuse_content,
 };
-use crate::challenge::{ChallengeError, Drawn, MANIFEST, Manifest, Suite, draw};
+use crate::challenge::{ChallengeError, ChallengeSuite, Drawn, MANIFEST, Manifest, draw};
 use crate::error::ExperimentError;
 use crate::harness::Progress;
 
@@ -31,7 +31,11 @@ const CONTRACT: &str = include_str!("entrants.md");
 ///
 /// # Errors
 /// [`ChallengeError::NotEmpty`], [`ChallengeError::Case`], [`ExperimentError::Write`].
-pub fn make(suite: &Suite, folder: &Path, progress: &dyn Progress) -> Result<Manifest, ChallengeError> {
+pub fn make(
+    suite: &ChallengeSuite,
+    folder: &Path,
+    progress: &dyn Progress,
+) -> Result<Manifest, ChallengeError> {
     refuse_content(folder, &[])?;
     let cases = draw(suite, progress)?;
     let mut files = BTreeMap::new();

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::challenge::stored::{Stored, read_toml};
-use crate::challenge::{ChallengeError, Suite};
+use crate::challenge::{ChallengeError, ChallengeSuite};
 
 /// Name of the file.
 pub const MANIFEST: &str = "challenge.toml";
@@ -46,7 +46,7 @@ impl Stored for Manifest {
 }
 
 impl Manifest {
-    pub(crate) fn new(suite: &Suite, cases: Vec<String>, files: BTreeMap<String, String>) -> Self {
+    pub(crate) fn new(suite: &ChallengeSuite, cases: Vec<String>, files: BTreeMap<String, String>) -> Self {
         Self {
             format: Self::FORMAT.to_owned(),
             suite: suite.name.clone(),

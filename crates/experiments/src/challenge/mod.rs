@@ -31,5 +31,5 @@ pub use error::ChallengeError;
 pub use made::Challenge;
 pub use make::make;
 pub use manifest::{MANIFEST, Manifest};
-pub use suite::{BUNDLED, Bundled, Portion, Suite};
-pub use truth::{Noise, Truth};
+pub use suite::{BUNDLED, Bundled, CasePortion, ChallengeSuite};
+pub use truth::{SealedNoise, Truth};

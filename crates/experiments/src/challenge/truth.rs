@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use hexbench_truth::campaign::Case;
+use hexbench_truth::campaign::SimulatedCase;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::challenge::stored::{Stored, json, read_json};
-use crate::challenge::{ChallengeError, Portion};
+use crate::challenge::{CasePortion, ChallengeError};
 
 /// What was hidden in a case, and how it was made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,7 +27,7 @@ pub struct Truth {
     #[serde(rename = "leg_stiffness_N_per_um")]
     pub leg_stiffness_n_per_um: [f64; 6],
     /// Standard deviation of one reading.
-    pub noise: Noise,
+    pub noise: SealedNoise,
     /// Length of the signature of all effects in standard deviations of the noise, beside six springs.
     pub distance: f64,
     /// Family of the machine.
@@ -43,7 +43,7 @@ pub struct Truth {
 /// Standard deviation of one reading.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Noise {
+pub struct SealedNoise {
     /// Of each translation, um.
     pub translation_um: f64,
     /// Of each rotation, urad.
@@ -58,7 +58,7 @@ impl Stored for Truth {
     }
 }
 
-impl Noise {
+impl SealedNoise {
     /// Standard deviations of the six numbers, m and rad.
     pub fn sigma(self) -> [f64; 6] {
         let (t, r) = (self.translation_um * 1e-6, self.rotation_urad * 1e-6);
@@ -67,7 +67,7 @@ impl Noise {
 }
 
 impl Truth {
-    pub(crate) fn of(id: &str, portion: &Portion, case: &Case) -> Self {
+    pub(crate) fn of(id: &str, portion: &CasePortion, case: &SimulatedCase) -> Self {
         const N_PER_UM: f64 = 1e-6;
         let spec = &case.spec;
         Self {
@@ -77,7 +77,7 @@ impl Truth {
             kind: spec.kind.name().to_owned(),
             effects: spec.hidden_effects().into_iter().map(str::to_owned).collect(),
             leg_stiffness_n_per_um: case.campaign.world.leg_compliance.map(|c| N_PER_UM / c),
-            noise: Noise {
+            noise: SealedNoise {
                 translation_um: spec.noise.sigma_translation * 1e6,
                 rotation_urad: spec.noise.sigma_rotation * 1e6,
             },

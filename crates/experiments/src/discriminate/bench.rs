@@ -2,31 +2,31 @@
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod, Observation};
-use hexbench_truth::campaign::{Campaign, Row, Yardstick, machines, measure};
-use hexbench_truth::metrology::{Frames, Noise};
+use hexbench_truth::campaign::{PlanRow, SimulatedCampaign, Yardstick, machines, measure};
+use hexbench_truth::metrology::{Frames, InstrumentNoise};
 use hexbench_truth::{TruthError, World, mechanisms};
 use rand_pcg::Pcg64;
 
-use super::Confusion;
+use super::ConfusedPair;
 
 /// A machine with an effect, and what was measured of it.
 #[derive(Debug)]
-pub struct Bench {
+pub struct MeasuredMachine {
     /// The machine as its file describes it.
     pub hexapod: Hexapod,
     /// Measurements by the confusing plan.
     pub measurements: Dataset,
-    campaign: Campaign,
+    campaign: SimulatedCampaign,
 }
 
-impl Bench {
+impl MeasuredMachine {
     /// A machine of a family with an effect of such a distance, measured by the confusing plan; everything that is drawn comes
     /// from the seed.
     ///
     /// # Errors
     /// [`TruthError::NotVisible`] when no sensible size of the effect reaches the distance; else as [`World::reading`].
     pub fn draw(
-        confusion: &Confusion,
+        confusion: &ConfusedPair,
         effect: &str,
         family: &str,
         distance: f64,
@@ -35,19 +35,22 @@ impl Bench {
         let of = |purpose| stream(seed, purpose, []);
         let (mut of_machine, mut of_plan) = (of(Purpose::ConfusionMachine), of(Purpose::ConfusionPlan));
         let (mut of_effect, mut of_noise) = (of(Purpose::ConfusionEffect), of(Purpose::ConfusionNoise));
-        let noise = Noise::default();
+        let noise = InstrumentNoise::default();
         let mut hexapod = machines::draw(family, &mut of_machine);
         hexapod.metrology = Some(noise.metrology());
         let stiffness = machines::leg_stiffness(family, &mut of_machine);
         let scheme = confusion.scheme(&hexapod);
         let rows = scheme.draw(&mut of_plan);
-        let bare =
-            Campaign { world: World::new(hexapod.clone(), &stiffness), frames: Frames::default(), noise };
+        let bare = SimulatedCampaign {
+            world: World::new(hexapod.clone(), &stiffness),
+            frames: Frames::default(),
+            noise,
+        };
         let usual = (mechanisms::effect(effect)?.draw)(&hexapod, &mut of_effect);
         let (scale, _) = Yardstick::new(&bare, &rows, scheme.measurand)?.scale_to(&*usual, distance)?;
         let mut world = bare.world.without_effects();
         world.mechanisms = vec![usual.scaled(scale)];
-        let campaign = Campaign { world, ..bare };
+        let campaign = SimulatedCampaign { world, ..bare };
         let measurements = measure(&campaign, &rows, scheme.measurand, "measurements.csv", &mut of_noise)?;
         Ok(Self { hexapod, measurements, campaign })
     }
@@ -57,10 +60,10 @@ impl Bench {
         let known = self.measurements.observations.iter().map(|o| o.pose_id).max().unwrap_or(0);
         let number = |(k, o): (usize, &Observation)| {
             let repeat = (1..).zip(further[..=k].iter().filter(|p| *p == o)).last().map_or(1, |(n, _)| n);
-            Row::from(&Observation { repeat, ..*o })
+            PlanRow::from(&Observation { repeat, ..*o })
         };
         let rows = (known + 1..).zip(further.iter().enumerate().map(number));
-        let rows: Vec<Row> = rows.map(|(pose_id, row)| Row { pose_id, ..row }).collect();
+        let rows: Vec<PlanRow> = rows.map(|(pose_id, row)| PlanRow { pose_id, ..row }).collect();
         let taken = measure(&self.campaign, &rows, self.measurements.measurand, "further.csv", rng)?;
         let mut all = self.measurements.clone();
         let lines = all.observations.len() as u64;

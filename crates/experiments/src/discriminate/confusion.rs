@@ -9,7 +9,7 @@ const FULL_LOAD_N: f64 = -338.445;
 
 /// Two effects and a plan that confuses them.
 #[derive(Debug, Clone, Copy)]
-pub struct Confusion {
+pub struct ConfusedPair {
     /// Ids of the two effects; either may be the truth.
     pub between: [&'static str; 2],
     /// What the plan lacks, in words.
@@ -32,7 +32,7 @@ const SHORT_S: [f64; 2] = [20.0, 60.0];
 const PRESSED: &[f64] = &[FULL_LOAD_N];
 const PRESSED_AND_PULLED: &[f64] = &[FULL_LOAD_N, 100.0];
 
-const VERTICAL_LEVEL: Confusion = Confusion {
+const VERTICAL_LEVEL: ConfusedPair = ConfusedPair {
     between: ["", ""],
     plan: "vertical loads, platform level",
     loads_n: PRESSED,
@@ -40,29 +40,29 @@ const VERTICAL_LEVEL: Confusion = Confusion {
     turns_deg: LEVEL,
     waits_s: SHORT_S,
 };
-const VERTICAL_TILTED: Confusion =
-    Confusion { plan: "vertical loads, platform tilted", turns_deg: TILTED, ..VERTICAL_LEVEL };
-const TWO_LEVELS: Confusion = Confusion {
+const VERTICAL_TILTED: ConfusedPair =
+    ConfusedPair { plan: "vertical loads, platform tilted", turns_deg: TILTED, ..VERTICAL_LEVEL };
+const TWO_LEVELS: ConfusedPair = ConfusedPair {
     plan: "one load that presses, one that pulls",
     loads_n: PRESSED_AND_PULLED,
     ..VERTICAL_TILTED
 };
-const HURRIED: Confusion = Confusion { plan: "vertical loads, waits of 20 to 60 s", ..VERTICAL_TILTED };
+const HURRIED: ConfusedPair = ConfusedPair { plan: "vertical loads, waits of 20 to 60 s", ..VERTICAL_TILTED };
 
 /// The pairs of the study.
-pub const CONFUSIONS: [Confusion; 9] = [
-    Confusion { between: ["base-compliance", "leg-coupling"], ..VERTICAL_LEVEL },
-    Confusion { between: ["base-compliance", "platform-compliance"], ..VERTICAL_LEVEL },
-    Confusion { between: ["platform-compliance", "joint-rotation-stiffness"], ..VERTICAL_LEVEL },
-    Confusion { between: ["leg-nonlinearity", "leg-asymmetry"], ..TWO_LEVELS },
-    Confusion { between: ["leg-nonlinearity", "leg-backlash"], ..TWO_LEVELS },
-    Confusion { between: ["creep", "metrology-drift"], ..HURRIED },
-    Confusion { between: ["creep", "joint-friction"], ..HURRIED },
-    Confusion { between: ["load-offset", "load-tilt"], ..VERTICAL_TILTED },
-    Confusion { between: ["target-offset", "base-compliance"], ..VERTICAL_TILTED },
+pub const CONFUSIONS: [ConfusedPair; 9] = [
+    ConfusedPair { between: ["base-compliance", "leg-coupling"], ..VERTICAL_LEVEL },
+    ConfusedPair { between: ["base-compliance", "platform-compliance"], ..VERTICAL_LEVEL },
+    ConfusedPair { between: ["platform-compliance", "joint-rotation-stiffness"], ..VERTICAL_LEVEL },
+    ConfusedPair { between: ["leg-nonlinearity", "leg-asymmetry"], ..TWO_LEVELS },
+    ConfusedPair { between: ["leg-nonlinearity", "leg-backlash"], ..TWO_LEVELS },
+    ConfusedPair { between: ["creep", "metrology-drift"], ..HURRIED },
+    ConfusedPair { between: ["creep", "joint-friction"], ..HURRIED },
+    ConfusedPair { between: ["load-offset", "load-tilt"], ..VERTICAL_TILTED },
+    ConfusedPair { between: ["target-offset", "base-compliance"], ..VERTICAL_TILTED },
 ];
 
-impl Confusion {
+impl ConfusedPair {
     /// Both names.
     pub fn name(&self) -> String {
         self.between.join(" or ")

@@ -6,7 +6,7 @@ use hexbench_report::{Block, Page, Section};
 use hexbench_core::statistics::{Proportion, mean};
 
 use super::sheets::{asked, before, mean_readings, open, proposed, share, told};
-use super::{Discrimination, READINGS, Record};
+use super::{DiscriminateRecord, Discrimination, READINGS};
 use crate::trial::Outcome;
 
 /// The page.
@@ -37,7 +37,7 @@ pub fn page(study: &Discrimination) -> Page {
 pub fn headlines(study: &Discrimination) -> Vec<String> {
     let records = study.records();
     let all = || records.iter();
-    let open: Vec<&Record> = open(&records).collect();
+    let open: Vec<&DiscriminateRecord> = open(&records).collect();
     let after = |stage, o| told(share(open.iter().copied(), stage, o));
     let readings = mean_readings(&open, |r| r.readings);
     vec![
@@ -78,9 +78,9 @@ pub fn headlines(study: &Discrimination) -> Vec<String> {
 /// Trials that only one of two ways brings to the right answer.
 fn versus(
     what: &str,
-    records: &[&Record],
-    chosen: fn(&Record) -> bool,
-    random: fn(&Record) -> bool,
+    records: &[&DiscriminateRecord],
+    chosen: fn(&DiscriminateRecord) -> bool,
+    random: fn(&DiscriminateRecord) -> bool,
 ) -> String {
     let only: Vec<bool> = records.iter().filter(|r| chosen(r) != random(r)).map(|r| chosen(r)).collect();
     let p = Proportion::count(&only, |c| **c);
@@ -100,8 +100,8 @@ fn introduction(study: &Discrimination) -> Section {
              two effects, at random, is hidden in a machine of one of seven families, at a distance of 8 to 20 standard \
              deviations from what free leg springs can imitate, and measured by a plan that confuses the two. The diagnosis gives \
              a first answer. The proposed readings are then taken on the same simulated machine, with new noise, added to the \
-             measurements, and everything is diagnosed again; beside it as many readings drawn at random from the same menu of \
-             poses, loads and conditions. The menu itself is broad: what a random reading of it shows is no straw man.",
+             measurements, and everything is diagnosed again; beside it as many readings drawn at random from the same candidate_readings of \
+             poses, loads and conditions. The list of candidates itself is broad: what a random reading of it shows is no straw man.",
             study.pairs.len(),
             study.protocol.trials,
             study.protocol.seed,

@@ -8,8 +8,8 @@ pub mod sheets;
 mod study;
 mod trial;
 
-pub use bench::Bench;
-pub use confusion::{CONFUSIONS, Confusion};
+pub use bench::MeasuredMachine;
+pub use confusion::{CONFUSIONS, ConfusedPair};
 pub use document::{headlines, page};
-pub use study::{Discrimination, Protocol, SEED, Trials};
-pub use trial::{READINGS, Record};
+pub use study::{DiscriminateProtocol, Discrimination, PairTrials, SEED};
+pub use trial::{DiscriminateRecord, READINGS};

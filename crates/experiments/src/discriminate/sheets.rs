@@ -1,21 +1,25 @@
 //! Tables of the study.
 
-use super::{Confusion, Discrimination, Record};
+use super::{ConfusedPair, DiscriminateRecord, Discrimination};
 use hexbench_core::statistics::{Proportion, mean};
 use hexbench_report::Table;
 
 use crate::trial::Outcome;
 
 /// What was said at one stage of a trial.
-pub type Stage = fn(&Record) -> Outcome;
+pub type Stage = fn(&DiscriminateRecord) -> Outcome;
 
 /// Share of trials with an outcome at a stage.
-pub fn share<'a>(records: impl IntoIterator<Item = &'a Record>, stage: Stage, wanted: Outcome) -> Proportion {
+pub fn share<'a>(
+    records: impl IntoIterator<Item = &'a DiscriminateRecord>,
+    stage: Stage,
+    wanted: Outcome,
+) -> Proportion {
     Proportion::count(records, |r| stage(r) == wanted)
 }
 
 /// The trials to which the diagnosis proposed readings.
-pub fn open(records: &[Record]) -> impl Iterator<Item = &Record> {
+pub fn open(records: &[DiscriminateRecord]) -> impl Iterator<Item = &DiscriminateRecord> {
     records.iter().filter(|r| r.readings > 0)
 }
 
@@ -34,7 +38,7 @@ pub fn before(study: &Discrimination) -> Table {
 pub fn proposed(study: &Discrimination) -> Table {
     let mut table = compared("open answers");
     for_each(study, |name, records| {
-        let records: Vec<&Record> = open(records).collect();
+        let records: Vec<&DiscriminateRecord> = open(records).collect();
         table.row(row(name, &records, |r| r.readings, |r| r.proposed, |r| r.proposed_random));
     });
     table
@@ -44,14 +48,17 @@ pub fn proposed(study: &Discrimination) -> Table {
 pub fn asked(study: &Discrimination) -> Table {
     let mut table = compared("trials");
     for_each(study, |name, records| {
-        let records: Vec<&Record> = records.iter().collect();
+        let records: Vec<&DiscriminateRecord> = records.iter().collect();
         table.row(row(name, &records, |r| r.asked_readings, |r| r.asked, |r| r.asked_random));
     });
     table
 }
 
 /// Mean number of readings; zero of no trials.
-pub(super) fn mean_readings(records: &[&Record], readings: fn(&Record) -> usize) -> f64 {
+pub(super) fn mean_readings(
+    records: &[&DiscriminateRecord],
+    readings: fn(&DiscriminateRecord) -> usize,
+) -> f64 {
     mean(records.iter().map(|r| readings(r) as f64)).unwrap_or(0.0)
 }
 
@@ -69,16 +76,16 @@ fn compared(trials: &str) -> Table {
 }
 
 /// Every pair, then all together.
-fn for_each(study: &Discrimination, mut f: impl FnMut(String, &[Record])) {
-    let name = |c: &Confusion| c.name();
+fn for_each(study: &Discrimination, mut f: impl FnMut(String, &[DiscriminateRecord])) {
+    let name = |c: &ConfusedPair| c.name();
     study.pairs.iter().for_each(|(c, records)| f(name(c), records));
     f("all".to_owned(), &study.records());
 }
 
 fn row(
     name: String,
-    records: &[&Record],
-    readings: fn(&Record) -> usize,
+    records: &[&DiscriminateRecord],
+    readings: fn(&DiscriminateRecord) -> usize,
     chosen: Stage,
     random: Stage,
 ) -> [String; 8] {

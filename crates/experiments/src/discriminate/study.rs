@@ -1,7 +1,7 @@
 //! Running the protocol.
 
-use super::{Confusion, Record};
-use crate::harness::{self, Answer, Field, Gathered};
+use super::{ConfusedPair, DiscriminateRecord};
+use crate::harness::{self, Field, Gathered, TrialResult};
 use crate::journal::Identity;
 use crate::trial::{Outcome, TrialError};
 
@@ -14,28 +14,28 @@ const ATTEMPTS: usize = 8;
 
 /// What is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Protocol {
+pub struct DiscriminateProtocol {
     /// Decides everything that is drawn.
     pub seed: u64,
     /// Campaigns per pair.
     pub trials: usize,
 }
 
-impl Default for Protocol {
+impl Default for DiscriminateProtocol {
     fn default() -> Self {
         Self { seed: SEED, trials: TRIALS }
     }
 }
 
 /// Trials of pairs of effects.
-pub struct Trials<'a> {
+pub struct PairTrials<'a> {
     /// How many, and the seed.
-    pub protocol: Protocol,
+    pub protocol: DiscriminateProtocol,
     /// The pairs.
-    pub confusions: &'a [Confusion],
+    pub confusions: &'a [ConfusedPair],
 }
 
-impl Trials<'_> {
+impl PairTrials<'_> {
     /// Pair, and number within it, of a trial.
     fn place(&self, number: u64) -> (usize, usize) {
         let number = usize::try_from(number).unwrap_or(usize::MAX);
@@ -47,17 +47,17 @@ impl Trials<'_> {
 #[derive(Debug)]
 pub struct Discrimination {
     /// What was run.
-    pub protocol: Protocol,
+    pub protocol: DiscriminateProtocol,
     /// Every pair with its trials.
-    pub pairs: Vec<(Confusion, Vec<Record>)>,
+    pub pairs: Vec<(ConfusedPair, Vec<DiscriminateRecord>)>,
     /// Trials without an answer.
     pub failures: usize,
 }
 
 impl Discrimination {
     /// What the trials of a protocol gave.
-    pub fn of(trials: &Trials<'_>, gathered: &Gathered<Record>) -> Self {
-        let own = |answers: &[Answer<Record>]| answers.iter().flatten().cloned().collect();
+    pub fn of(trials: &PairTrials<'_>, gathered: &Gathered<DiscriminateRecord>) -> Self {
+        let own = |answers: &[TrialResult<DiscriminateRecord>]| answers.iter().flatten().cloned().collect();
         let pairs = trials.confusions.iter().copied();
         let records = gathered.answers.chunks(trials.protocol.trials).map(own);
         Self {
@@ -68,18 +68,18 @@ impl Discrimination {
     }
 
     /// The trials of all pairs.
-    pub fn records(&self) -> Vec<Record> {
+    pub fn records(&self) -> Vec<DiscriminateRecord> {
         self.pairs.iter().flat_map(|(_, records)| records.iter().cloned()).collect()
     }
 }
 
-impl harness::Protocol for Trials<'_> {
-    type Record = Record;
+impl harness::Protocol for PairTrials<'_> {
+    type Record = DiscriminateRecord;
     type Error = TrialError;
 
     fn identity(&self) -> Identity {
-        let Protocol { seed, trials } = self.protocol;
-        let pairs = self.confusions.iter().map(Confusion::name).collect::<Vec<_>>().join(", ");
+        let DiscriminateProtocol { seed, trials } = self.protocol;
+        let pairs = self.confusions.iter().map(ConfusedPair::name).collect::<Vec<_>>().join(", ");
         let settings = [("pairs", pairs), ("trials", trials.to_string()), ("seed", seed.to_string())];
         Identity::new("discriminate", "discriminate-trials/2", settings)
     }
@@ -89,10 +89,10 @@ impl harness::Protocol for Trials<'_> {
     }
 
     /// The last failure when no machine tried shows the effect.
-    fn trial(&self, number: u64) -> Result<Record, TrialError> {
+    fn trial(&self, number: u64) -> Result<DiscriminateRecord, TrialError> {
         let (c, t) = self.place(number);
         let first = ATTEMPTS * (self.protocol.trials.max(TRIALS) * c + t);
-        let attempt = |n| Record::of(&self.confusions[c], n, self.protocol.seed);
+        let attempt = |n| DiscriminateRecord::of(&self.confusions[c], n, self.protocol.seed);
         (first + 1..first + ATTEMPTS).fold(attempt(first), |made, n| made.or_else(|_| attempt(n)))
     }
 
@@ -101,24 +101,30 @@ impl harness::Protocol for Trials<'_> {
         format!("{}-{t}", self.confusions[c].name())
     }
 
-    fn fields(&self) -> Vec<Field<Record>> {
-        let stage = |name, meaning, of: fn(&Record) -> Outcome| {
-            Field::text(name, meaning, move |r: &Record| of(r).word())
+    fn fields(&self) -> Vec<Field<DiscriminateRecord>> {
+        let stage = |name, meaning, of: fn(&DiscriminateRecord) -> Outcome| {
+            Field::text(name, meaning, move |r: &DiscriminateRecord| of(r).word())
         };
         vec![
-            Field::text("hidden", "the hidden effect", |r: &Record| r.hidden),
-            Field::text("family", "family of the machine", |r: &Record| r.family),
+            Field::text("hidden", "the hidden effect", |r: &DiscriminateRecord| r.hidden),
+            Field::text("family", "family of the machine", |r: &DiscriminateRecord| r.family),
             stage("before", "by the confusing plan alone", |r| r.before),
             stage("proposed", "with the readings proposed", |r| r.proposed),
             stage("proposed_random", "with as many at random", |r| r.proposed_random),
             stage("asked", "with readings chosen for the pair", |r| r.asked),
             stage("asked_random", "with as many at random", |r| r.asked_random),
-            Field::number(("readings", "1"), "readings proposed", |r: &Record| r.readings as f64),
-            Field::number(("asked_readings", "1"), "readings chosen for the pair", |r: &Record| {
-                r.asked_readings as f64
-            }),
-            Field::number(("promised", "1"), "promised chance to favour the truth", |r: &Record| r.promised),
-            Field::number(("favoured", "1"), "1 where all readings favour it", |r: &Record| {
+            Field::number(("readings", "1"), "readings proposed", |r: &DiscriminateRecord| r.readings as f64),
+            Field::number(
+                ("asked_readings", "1"),
+                "readings chosen for the pair",
+                |r: &DiscriminateRecord| r.asked_readings as f64,
+            ),
+            Field::number(
+                ("promised", "1"),
+                "promised chance to favour the truth",
+                |r: &DiscriminateRecord| r.promised,
+            ),
+            Field::number(("favoured", "1"), "1 where all readings favour it", |r: &DiscriminateRecord| {
                 f64::from(u8::from(r.favoured))
             }),
         ]

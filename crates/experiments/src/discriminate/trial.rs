@@ -3,9 +3,9 @@
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Observation, Pose, Wrench};
 use hexbench_model::campaign::Campaign;
-use hexbench_model::diagnose::{Diagnosis, NextReport, Study, diagnose, prepare};
+use hexbench_model::diagnose::{Diagnosis, DiagnosisStudy, NextReport, diagnose, prepare};
 use hexbench_model::error::ModelError;
-use hexbench_model::next::{Effort, Programme, menu, propose, suspects};
+use hexbench_model::next::{Effort, ProposedReadings, candidate_readings, propose, suspects};
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
 use hexbench_truth::campaign::machines::FAMILIES;
@@ -13,7 +13,7 @@ use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-use super::{Bench, Confusion};
+use super::{ConfusedPair, MeasuredMachine};
 use crate::harness::words::{self, Word};
 use crate::trial::{Outcome, TrialError, outcome};
 
@@ -24,7 +24,7 @@ const DISTANCES: [f64; 2] = [8.0, 20.0];
 
 /// What was said before and after further readings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Record {
+pub struct DiscriminateRecord {
     /// The hidden effect.
     #[serde(with = "words")]
     pub hidden: Word,
@@ -37,11 +37,11 @@ pub struct Record {
     pub proposed: Outcome,
     /// Readings it proposes.
     pub readings: usize,
-    /// With as many readings drawn from the menu.
+    /// With as many readings drawn from the candidate readings.
     pub proposed_random: Outcome,
     /// With readings chosen to separate the two effects of the pair.
     pub asked: Outcome,
-    /// With as many readings drawn from the menu.
+    /// With as many readings drawn from the candidate readings.
     pub asked_random: Outcome,
     /// Readings chosen for the pair.
     pub asked_readings: usize,
@@ -51,19 +51,19 @@ pub struct Record {
     pub favoured: bool,
 }
 
-impl Record {
+impl DiscriminateRecord {
     /// The trial of a number; everything that is drawn comes from the seed.
-    pub(crate) fn of(confusion: &Confusion, index: usize, seed: u64) -> Result<Self, TrialError> {
+    pub(crate) fn of(confusion: &ConfusedPair, index: usize, seed: u64) -> Result<Self, TrialError> {
         let mut rng = stream(seed, Purpose::ConfusionTrial, [index as u64]);
         let hidden = confusion.between[rng.random_range(0..2)];
         let family = FAMILIES[rng.random_range(0..FAMILIES.len())];
         let [low, high] = DISTANCES;
         let distance = rng.random_range(low.ln()..high.ln()).exp();
-        let bench = Bench::draw(confusion, hidden, family, distance, rng.random())?;
+        let bench = MeasuredMachine::draw(confusion, hidden, family, distance, rng.random())?;
         let terms = catalogue();
         let judge = |data: &Dataset| diagnose(&bench.hexapod, data, None, &terms);
         let first = judge(&bench.measurements)?;
-        let said = |study: &Study| outcome(&[hidden], &study.diagnosis);
+        let said = |study: &DiagnosisStudy| outcome(&[hidden], &study.diagnosis);
         let measured = |further: &[Observation]| -> Result<Dataset, TrialError> {
             // The same noise whatever is measured.
             let mut noise = stream(seed, Purpose::ConfusionFurtherNoise, [index as u64]);
@@ -76,12 +76,12 @@ impl Record {
         let before = said(&first);
         let proposed = if next.is_empty() { before } else { after(&next)? };
         let pair = pair(confusion, &terms);
-        let (programme, menu) = asked(&first, &pair)?;
-        let chosen = measured(&repeated(&programme))?;
+        let (for_pair, candidate_readings) = asked(&first, &pair)?;
+        let chosen = measured(&repeated(&for_pair))?;
         let mut drawn = |n: usize| -> Vec<Observation> {
-            (0..n).map(|_| menu[rng.random_range(0..menu.len())]).collect()
+            (0..n).map(|_| candidate_readings[rng.random_range(0..candidate_readings.len())]).collect()
         };
-        let (as_many_as_proposed, as_many_as_asked) = (drawn(next.len()), drawn(programme.readings()));
+        let (as_many_as_proposed, as_many_as_asked) = (drawn(next.len()), drawn(for_pair.readings()));
         Ok(Self {
             hidden,
             family,
@@ -90,24 +90,28 @@ impl Record {
             proposed_random: if next.is_empty() { before } else { after(&as_many_as_proposed)? },
             readings: next.len(),
             asked: said(&judge(&chosen)?),
-            asked_readings: programme.readings(),
+            asked_readings: for_pair.readings(),
             asked_random: after(&as_many_as_asked)?,
             favoured: favours(&prepare(&bench.hexapod, &chosen)?, &pair, hidden)?,
-            promised: programme.outlook.first().map_or(f64::NAN, |o| o.separation.right),
+            promised: for_pair.forecasts.first().map_or(f64::NAN, |o| o.separation.right),
         })
     }
 }
 
-fn pair(confusion: &Confusion, terms: &[Arc<dyn Term>]) -> Vec<Arc<dyn Term>> {
+fn pair(confusion: &ConfusedPair, terms: &[Arc<dyn Term>]) -> Vec<Arc<dyn Term>> {
     terms.iter().filter(|t| confusion.between.contains(&t.info().id)).map(Arc::clone).collect()
 }
 
-/// Readings for the pair itself, and the menu they come from.
-fn asked(study: &Study, pair: &[Arc<dyn Term>]) -> Result<(Programme, Vec<Observation>), ModelError> {
+/// Readings for the pair itself, and the candidate readings they come from.
+fn asked(
+    study: &DiagnosisStudy,
+    pair: &[Arc<dyn Term>],
+) -> Result<(ProposedReadings, Vec<Observation>), ModelError> {
     let suspects = suspects(&study.campaign, pair)?;
-    let menu = menu(&study.campaign, &suspects.rivals)?;
-    let programme = propose(&study.campaign, &suspects.rivals, &menu, Effort::Exactly(READINGS))?;
-    Ok((programme, menu))
+    let candidate_readings = candidate_readings(&study.campaign, &suspects.rivals)?;
+    let proposed =
+        propose(&study.campaign, &suspects.rivals, &candidate_readings, Effort::Exactly(READINGS))?;
+    Ok((proposed, candidate_readings))
 }
 
 /// True when the evidence is for the hidden one of a pair.
@@ -120,8 +124,8 @@ fn favours(campaign: &Campaign, pair: &[Arc<dyn Term>], hidden: &str) -> Result<
     Ok(evidence(true) > evidence(false))
 }
 
-fn repeated(programme: &Programme) -> Vec<Observation> {
-    programme.proposals.iter().flat_map(|p| std::iter::repeat_n(p.observation, p.repeats)).collect()
+fn repeated(proposed: &ProposedReadings) -> Vec<Observation> {
+    proposed.proposals.iter().flat_map(|p| std::iter::repeat_n(p.observation, p.repeats)).collect()
 }
 
 /// The readings as a user would take them from the report.

@@ -1,17 +1,17 @@
 //! What the trials of an experiment gave.
 
 /// A record, or why there is none.
-pub type Answer<R> = Result<R, String>;
+pub type TrialResult<R> = Result<R, String>;
 
 /// What the trials gave, in their order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gathered<R> {
     /// One for each trial.
-    pub answers: Vec<Answer<R>>,
+    pub answers: Vec<TrialResult<R>>,
 }
 
 impl<R> Gathered<R> {
-    pub(super) fn new(answers: Vec<Answer<R>>) -> Self {
+    pub(super) fn new(answers: Vec<TrialResult<R>>) -> Self {
         Self { answers }
     }
 

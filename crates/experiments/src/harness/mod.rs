@@ -24,11 +24,11 @@ use serde::de::DeserializeOwned;
 
 use crate::error::ExperimentError;
 use crate::journal::{Identity, Journal, Shards};
-pub use gathered::{Answer, Gathered};
+pub use gathered::{Gathered, TrialResult};
 pub(crate) use loops::{each, on_threads};
 pub use progress::{Progress, Silent};
 pub use sharded::{Sharded, compute, record};
-pub use table::{Cell, Field, table};
+pub use table::{Field, RecordValue, table};
 
 /// An experiment: numbered trials, what is recorded of each, and what a row of its table shows.
 pub trait Protocol: Sync {
@@ -84,7 +84,7 @@ pub fn run<P: Protocol>(
     let mut all = Vec::new();
     for shard in 0..rows.shards().count() {
         let content = journal.content(shard)?;
-        let own: Vec<Answer<P::Record>> =
+        let own: Vec<TrialResult<P::Record>> =
             postcard::from_bytes(&content).map_err(|_| journal.missing(shard))?;
         all.extend(own);
     }
@@ -92,7 +92,7 @@ pub fn run<P: Protocol>(
 }
 
 /// One trial, watched.
-fn answer<P: Protocol>(protocol: &P, number: u64, progress: &dyn Progress) -> Answer<P::Record> {
+fn answer<P: Protocol>(protocol: &P, number: u64, progress: &dyn Progress) -> TrialResult<P::Record> {
     let answer = protocol.trial(number).map_err(|why| why.to_string());
     progress.advance(1);
     answer
@@ -119,7 +119,7 @@ impl<P: Protocol> Sharded for Rows<'_, P> {
                 Ok(answer(self.0, number, progress))
             }
         };
-        let answers: Vec<Answer<P::Record>> =
+        let answers: Vec<TrialResult<P::Record>> =
             self.shards().trials_of(shard).map(unless_stopped).collect::<Result<_, _>>()?;
         postcard::to_stdvec(&answers).map_err(|why| ExperimentError::Unkept(why.to_string()))
     }

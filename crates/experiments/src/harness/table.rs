@@ -1,12 +1,12 @@
 //! The table of trials: one row each, whatever the experiment.
 
-use hexbench_report::table::{Column, Frame, Values};
+use hexbench_report::table::{DataColumn, Frame, TableValues};
 
 use super::{Gathered, Protocol};
 
 /// A value of a row.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Cell {
+pub enum RecordValue {
     /// NaN for none.
     Number(f64),
     /// Empty for none.
@@ -21,7 +21,7 @@ pub struct Field<R> {
     pub unit: &'static str,
     /// What it is, in one sentence.
     pub meaning: &'static str,
-    value: Box<dyn Fn(&R) -> Cell>,
+    value: Box<dyn Fn(&R) -> RecordValue>,
 }
 
 impl<R> Field<R> {
@@ -31,7 +31,7 @@ impl<R> Field<R> {
         meaning: &'static str,
         value: impl Fn(&R) -> N + 'static,
     ) -> Self {
-        let value = Box::new(move |record: &R| Cell::Number(value(record).into().unwrap_or(f64::NAN)));
+        let value = Box::new(move |record: &R| RecordValue::Number(value(record).into().unwrap_or(f64::NAN)));
         Self { name: name.into(), unit, meaning, value }
     }
 
@@ -41,7 +41,7 @@ impl<R> Field<R> {
         meaning: &'static str,
         value: impl Fn(&R) -> S + 'static,
     ) -> Self {
-        let value = Box::new(move |record: &R| Cell::Text(value(record).into()));
+        let value = Box::new(move |record: &R| RecordValue::Text(value(record).into()));
         Self { name: name.to_owned(), unit: "", meaning, value }
     }
 }
@@ -51,7 +51,7 @@ pub fn table<P: Protocol>(protocol: &P, gathered: &Gathered<P::Record>) -> Frame
     let identity = protocol.identity();
     let names = (0..protocol.trials()).map(|n| protocol.name(n)).collect();
     let failures = gathered.answers.iter().map(|a| a.as_ref().err().cloned().unwrap_or_default());
-    let column = |name: &str, unit: &str, meaning: &str, values| Column {
+    let column = |name: &str, unit: &str, meaning: &str, values| DataColumn {
         name: name.into(),
         unit: unit.into(),
         meaning: meaning.into(),
@@ -62,14 +62,14 @@ pub fn table<P: Protocol>(protocol: &P, gathered: &Gathered<P::Record>) -> Frame
             "trial",
             "1",
             "number of the trial, from 0",
-            Values::Integers((0..).take(gathered.answers.len()).collect()),
+            TableValues::Integers((0..).take(gathered.answers.len()).collect()),
         ),
-        column("name", "", "what the trial is called", Values::Texts(names)),
+        column("name", "", "what the trial is called", TableValues::Texts(names)),
         column(
             "failure",
             "",
             "why the trial has no answer; empty when it has one",
-            Values::Texts(failures.collect()),
+            TableValues::Texts(failures.collect()),
         ),
     ];
     let filled =
@@ -78,16 +78,18 @@ pub fn table<P: Protocol>(protocol: &P, gathered: &Gathered<P::Record>) -> Frame
     Frame { format: identity.format, origin: identity.inputs.into_iter().collect(), columns }
 }
 
-fn values<R>(field: &Field<R>, gathered: &Gathered<R>) -> Values {
+fn values<R>(field: &Field<R>, gathered: &Gathered<R>) -> TableValues {
     let cells =
         gathered.answers.iter().map(|answer| answer.as_ref().ok().map(|record| (field.value)(record)));
     if field.unit.is_empty() {
-        Values::Texts(
-            cells.map(|cell| if let Some(Cell::Text(text)) = cell { text } else { String::new() }).collect(),
+        TableValues::Texts(
+            cells
+                .map(|cell| if let Some(RecordValue::Text(text)) = cell { text } else { String::new() })
+                .collect(),
         )
     } else {
-        Values::Numbers(
-            cells.map(|cell| if let Some(Cell::Number(x)) = cell { x } else { f64::NAN }).collect(),
+        TableValues::Numbers(
+            cells.map(|cell| if let Some(RecordValue::Number(x)) = cell { x } else { f64::NAN }).collect(),
         )
     }
 }

@@ -3,7 +3,7 @@
 use hexbench_core::streams::{Purpose, derived_seed};
 use hexbench_model::verdict::Verdict;
 
-use super::bench::Bench;
+use super::bench::PaperMachine;
 use super::error::PaperError;
 use super::missing::on_the_richer_plan;
 use super::suspects::skew_support;
@@ -14,7 +14,7 @@ use crate::journal::Identity;
 const OTHER_SEEDS: u64 = 12;
 
 /// Verdict, and what was named.
-pub type Named = (Verdict, Vec<String>);
+pub type NamedVerdict = (Verdict, Vec<String>);
 
 /// The diagnosis of a support that gives, over and over.
 #[derive(Debug, Clone, Copy)]
@@ -26,7 +26,7 @@ pub struct Again {
 }
 
 impl Protocol for Again {
-    type Record = Named;
+    type Record = NamedVerdict;
     type Error = PaperError;
 
     fn identity(&self) -> Identity {
@@ -42,8 +42,8 @@ impl Protocol for Again {
         OTHER_SEEDS
     }
 
-    fn trial(&self, number: u64) -> Result<Named, PaperError> {
-        let bench = Bench::new(derived_seed(self.seed, Purpose::PaperAgain, [number + 1]));
+    fn trial(&self, number: u64) -> Result<NamedVerdict, PaperError> {
+        let bench = PaperMachine::new(derived_seed(self.seed, Purpose::PaperAgain, [number + 1]));
         let found = on_the_richer_plan(&bench, &bench.world(vec![skew_support(self.support_motion)]))?;
         Ok((found.verdict, found.added))
     }
@@ -52,12 +52,12 @@ impl Protocol for Again {
         format!("other noise {}", number + 1)
     }
 
-    fn fields(&self) -> Vec<Field<Named>> {
+    fn fields(&self) -> Vec<Field<NamedVerdict>> {
         vec![
-            Field::text("verdict", "what the diagnosis said", |(verdict, _): &Named| {
+            Field::text("verdict", "what the diagnosis said", |(verdict, _): &NamedVerdict| {
                 format!("{verdict:?}").to_lowercase()
             }),
-            Field::text("named", "effects named", |(_, named): &Named| named.join("+")),
+            Field::text("named", "effects named", |(_, named): &NamedVerdict| named.join("+")),
         ]
     }
 

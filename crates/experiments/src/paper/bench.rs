@@ -2,7 +2,7 @@
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vector6, Wrench};
-use hexbench_truth::campaign::{PlanKind, Row, machines::RING_A};
+use hexbench_truth::campaign::{PlanKind, PlanRow, machines::RING_A};
 use hexbench_truth::metrology::Balls;
 use hexbench_truth::{Mechanism, Situation, TruthError, World};
 use rand_pcg::Pcg64;
@@ -25,7 +25,7 @@ pub fn effective_load() -> f64 {
 
 /// Machine, true springs and instrument.
 #[derive(Debug, Clone)]
-pub struct Bench {
+pub struct PaperMachine {
     /// The machine as drawn.
     pub hexapod: Hexapod,
     balls: Balls,
@@ -41,7 +41,7 @@ pub enum Covariates {
     All,
 }
 
-impl Bench {
+impl PaperMachine {
     /// The paper-like machine; noise is drawn from `seed`.
     pub fn new(seed: u64) -> Self {
         Self { hexapod: RING_A.hexapod("paper-like"), balls: Balls::triangle(BALL_RADIUS, BALL_SIGMA), seed }
@@ -57,13 +57,13 @@ impl Bench {
     pub(crate) fn measure(
         &self,
         world: &World,
-        rows: &[Row],
+        rows: &[PlanRow],
         covariates: Covariates,
         source: &str,
         number: u64,
     ) -> Result<Dataset, TruthError> {
         let mut rng = stream(self.seed, Purpose::PaperNoise, [number]);
-        let read = |(i, row): (usize, &Row)| {
+        let read = |(i, row): (usize, &PlanRow)| {
             let ideal = world.deflection(&row.situation)?;
             let measured = self.read_balls(&row.situation.pose, &ideal, &mut rng)?;
             Ok(row.read(i as u64 + 2, measured.into(), Some(sigma())))
@@ -85,8 +85,8 @@ impl Bench {
 }
 
 /// Deflections without noise.
-pub(crate) fn ideal(world: &World, rows: &[Row]) -> Result<Dataset, TruthError> {
-    let read = |(i, row): (usize, &Row)| {
+pub(crate) fn ideal(world: &World, rows: &[PlanRow]) -> Result<Dataset, TruthError> {
+    let read = |(i, row): (usize, &PlanRow)| {
         Ok(row.read(i as u64 + 2, world.deflection(&row.situation)?.into(), Some(sigma())))
     };
     let observations = rows.iter().enumerate().map(read).collect::<Result<_, TruthError>>()?;
@@ -103,7 +103,7 @@ pub fn sigma() -> [f64; 6] {
 
 /// A reading of nothing, for what depends on pose and load alone.
 pub fn unread(situation: Situation) -> Observation {
-    Row { pose_id: 1, repeat: 1, situation }.read(2, [0.0; 6], Some(sigma()))
+    PlanRow { pose_id: 1, repeat: 1, situation }.read(2, [0.0; 6], Some(sigma()))
 }
 
 fn dataset(source: &str, covariates: Covariates, observations: Vec<Observation>) -> Dataset {
@@ -124,19 +124,21 @@ pub fn loaded_pose(pose: Pose) -> Situation {
 }
 
 /// Poses under the paper's load, each read so many times.
-pub fn rows(poses: &[Pose], repeats: i64) -> Vec<Row> {
+pub fn rows(poses: &[Pose], repeats: i64) -> Vec<PlanRow> {
     let numbered = (1..).zip(poses);
     let repeated = numbered.flat_map(|(pose_id, pose)| (1..=repeats).map(move |r| (pose_id, r, *pose)));
-    repeated.map(|(pose_id, repeat, pose)| Row { pose_id, repeat, situation: loaded_pose(pose) }).collect()
+    repeated
+        .map(|(pose_id, repeat, pose)| PlanRow { pose_id, repeat, situation: loaded_pose(pose) })
+        .collect()
 }
 
 /// Table 1: three poses, three readings each.
-pub fn identification() -> Vec<Row> {
+pub fn identification() -> Vec<PlanRow> {
     rows(&BEST_POSES.map(level_pose), REPEATS)
 }
 
 /// Table 3: five poses along X, then five along Y.
-pub fn validation() -> Vec<Row> {
+pub fn validation() -> Vec<PlanRow> {
     let along_x = VALIDATION_MM.map(|x| level_pose([x, 0.0, 0.0, 0.0]));
     let along_y = VALIDATION_MM.map(|y| level_pose([0.0, y, 0.0, 0.0]));
     rows(&[along_x, along_y].concat(), 1)
@@ -146,14 +148,14 @@ pub fn validation() -> Vec<Row> {
 /// the paper turned its machine, and its held-out part.
 ///
 /// Turning is what tells a base that yields, in fixed axes, from a plate that yields, in the platform's.
-pub fn richer_plan(bench: &Bench) -> [Vec<Row>; 2] {
+pub fn richer_plan(bench: &PaperMachine) -> [Vec<PlanRow>; 2] {
     const TURN: f64 = 2.0;
     let mut rng = stream(bench.seed, Purpose::PaperPlan, []);
     let plan = PlanKind::Rich.draw(&bench.hexapod, &mut rng);
-    let turned = |row: Row| {
+    let turned = |row: PlanRow| {
         let mut situation = row.situation;
         situation.pose.angles.z *= TURN;
-        Row { situation, ..row }
+        PlanRow { situation, ..row }
     };
     [plan.training, plan.holdout].map(|rows| rows.into_iter().map(turned).collect())
 }

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use super::bench::{Bench, sigma};
+use super::bench::{PaperMachine, sigma};
 use super::error::PaperError;
 use super::identify::{pooled, rms};
 
@@ -31,7 +31,7 @@ pub struct Repetitions {
 /// # Errors
 /// [`PaperError::Model`] when the plan does not determine the springs.
 pub fn repetitions(
-    bench: &Bench,
+    bench: &PaperMachine,
     data: [&Dataset; 2],
     count: usize,
     error: &[f64; 6],

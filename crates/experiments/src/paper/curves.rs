@@ -2,14 +2,14 @@
 
 use hexbench_core::{Hexapod, Pose, Wrench};
 use hexbench_model::error::ModelError;
-use hexbench_truth::campaign::Row;
+use hexbench_truth::campaign::PlanRow;
 use hexbench_truth::{Situation, World};
 
-use super::bench::{Bench, Covariates, effective_load, ideal, level_pose};
+use super::bench::{Covariates, PaperMachine, effective_load, ideal, level_pose};
 use super::error::PaperError;
 use super::identify::Identified;
 use super::published::FIGURE_7_LOADS_N;
-use super::search::{PoseSet, observability};
+use super::search::{IndexedPoses, observability};
 use hexbench_core::Observation;
 
 /// Stream of the noise of the trials of fig. 8.
@@ -32,12 +32,12 @@ pub struct IndexOverLoad {
 /// Fig. 7: O1 over the load for the paper's set, the best one found, and one without rotation.
 pub(crate) fn figure_7(
     hexapod: &Hexapod,
-    sets: [(&'static str, &PoseSet); 3],
+    sets: [(&'static str, &IndexedPoses); 3],
 ) -> Result<Vec<IndexOverLoad>, ModelError> {
-    let index = |set: &PoseSet, load: f64| {
+    let index = |set: &IndexedPoses, load: f64| {
         Ok([load, observability(hexapod, &set.poses.map(level_pose), load / effective_load())?.o1])
     };
-    let curve = |(name, set): (&'static str, &PoseSet)| {
+    let curve = |(name, set): (&'static str, &IndexedPoses)| {
         let points = FIGURE_7_LOADS_N.iter().map(|&load| index(set, load)).collect::<Result<_, _>>()?;
         Ok(IndexOverLoad { name, points })
     };
@@ -56,12 +56,12 @@ pub struct Linearity {
 }
 
 /// Fig. 8 of a world.
-pub(crate) fn figure_8(bench: &Bench, world: &World) -> Result<Linearity, PaperError> {
+pub(crate) fn figure_8(bench: &PaperMachine, world: &World) -> Result<Linearity, PaperError> {
     let situation =
         |load: f64| Situation::new(Pose::default(), Wrench::from_array([0.0, 0.0, -load, 0.0, 0.0, 0.0]));
-    let rows: Vec<Row> = (1..)
+    let rows: Vec<PlanRow> = (1..)
         .zip(FIGURE_8_LOADS_N)
-        .map(|(pose_id, load)| Row { pose_id, repeat: 1, situation: situation(load) })
+        .map(|(pose_id, load)| PlanRow { pose_id, repeat: 1, situation: situation(load) })
         .collect();
     let points = |data: &hexbench_core::Dataset| -> Vec<[f64; 2]> {
         data.observations.iter().map(|o| [-o.wrench.force.z, -o.measured[2] * 1e6]).collect()
@@ -84,7 +84,7 @@ fn departure(points: &[[f64; 2]]) -> f64 {
 
 /// One validation pose of fig. 9 or 10.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Compared {
+pub struct ValidationPose {
     /// Position along the axis, mm.
     pub position_mm: f64,
     /// Predicted deflection, um and urad.
@@ -97,16 +97,16 @@ pub struct Compared {
 
 /// Figs. 9 and 10: predicted and measured deflection along X and along Y.
 pub(crate) fn figures_9_and_10(
-    bench: &Bench,
+    bench: &PaperMachine,
     springs: &Identified,
     data: &hexbench_core::Dataset,
-) -> Result<[Vec<Compared>; 2], ModelError> {
+) -> Result<[Vec<ValidationPose>; 2], ModelError> {
     let half = data.observations.len() / 2;
     let predicted = springs.predict(bench, data)?;
     let compare = |axis: usize, (o, p): (&Observation, &hexbench_core::Vector6)| {
         let a = hexbench_model::paper::block(&bench.hexapod, o, data.measurand)?;
         let spread = (a * springs.covariance * a.transpose()).diagonal();
-        Ok(Compared {
+        Ok(ValidationPose {
             position_mm: o.pose.translation[axis] * 1e3,
             predicted: (p * 1e6).into(),
             predicted_std: spread.map(|v| v.sqrt() * 1e6).into(),

@@ -3,9 +3,9 @@
 use hexbench_core::Dataset;
 use hexbench_truth::World;
 
-use super::bench::{Bench, Covariates, identification, validation};
+use super::bench::{Covariates, PaperMachine, identification, validation};
 use super::error::PaperError;
-use super::identify::{Estimator, Identified};
+use super::identify::{Identified, PaperEstimator};
 use super::suspects::uncorrected;
 
 /// Streams of random numbers, one for each set of readings.
@@ -20,16 +20,16 @@ pub struct Experiment {
     /// Ten readings at the poses of Table 3.
     pub validation: Dataset,
     /// By the paper's estimator.
-    pub paper: Outcome,
+    pub paper: EstimatorResult,
     /// By weighted least squares.
-    pub weighted: Outcome,
+    pub weighted: EstimatorResult,
     /// Root mean square of the measured deflections over the validation poses, um and urad.
     pub before: [f64; 6],
 }
 
 /// What one estimator makes of the readings.
 #[derive(Debug)]
-pub struct Outcome {
+pub struct EstimatorResult {
     /// The springs.
     pub identified: Identified,
     /// Error of prediction, um and urad.
@@ -42,14 +42,14 @@ pub struct Outcome {
 
 impl Experiment {
     /// Loads, measures, identifies, predicts.
-    pub(crate) fn run(bench: &Bench, world: &World) -> Result<Self, PaperError> {
+    pub(crate) fn run(bench: &PaperMachine, world: &World) -> Result<Self, PaperError> {
         let read = |rows: &[_], source, stream| bench.measure(world, rows, Covariates::None, source, stream);
         let readings = read(&identification(), "Table 1", IDENTIFICATION)?;
         let held_out = read(&validation(), "Table 3", VALIDATION)?;
-        let outcome = |estimator| Outcome::of(bench, &readings, &held_out, estimator);
+        let outcome = |estimator| EstimatorResult::of(bench, &readings, &held_out, estimator);
         Ok(Self {
-            paper: outcome(Estimator::Paper)?,
-            weighted: outcome(Estimator::Weighted)?,
+            paper: outcome(PaperEstimator::Paper)?,
+            weighted: outcome(PaperEstimator::Weighted)?,
             before: uncorrected(&held_out),
             identification: readings,
             validation: held_out,
@@ -57,12 +57,12 @@ impl Experiment {
     }
 }
 
-impl Outcome {
+impl EstimatorResult {
     fn of(
-        bench: &Bench,
+        bench: &PaperMachine,
         readings: &Dataset,
         held_out: &Dataset,
-        estimator: Estimator,
+        estimator: PaperEstimator,
     ) -> Result<Self, PaperError> {
         let identified = Identified::from(bench, readings, estimator)?;
         Ok(Self {

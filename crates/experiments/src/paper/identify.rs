@@ -8,11 +8,11 @@ use hexbench_model::fit::{Fit, fit_baseline};
 use hexbench_model::paper::{block, fit_paper};
 use hexbench_model::residuals::survival;
 
-use super::bench::{Bench, sigma};
+use super::bench::{PaperMachine, sigma};
 
 /// How stiffnesses are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Estimator {
+pub enum PaperEstimator {
     /// The paper's: minimum-norm least squares without weights, metres and radians side by side.
     Paper,
     /// Generalised least squares: every number divided by its noise.
@@ -32,14 +32,18 @@ pub struct Identified {
 
 impl Identified {
     /// Springs from readings.
-    pub(crate) fn from(bench: &Bench, data: &Dataset, estimator: Estimator) -> Result<Self, ModelError> {
+    pub(crate) fn from(
+        bench: &PaperMachine,
+        data: &Dataset,
+        estimator: PaperEstimator,
+    ) -> Result<Self, ModelError> {
         let campaign = Campaign::new(&bench.hexapod, data)?;
         let fit = match estimator {
-            Estimator::Paper => fit_paper(&campaign, data)?.into_fit(&campaign)?,
-            Estimator::Weighted => fit_baseline(&campaign)?,
+            PaperEstimator::Paper => fit_paper(&campaign, data)?.into_fit(&campaign)?,
+            PaperEstimator::Weighted => fit_baseline(&campaign)?,
         };
         let covariance = Matrix6::from_fn(|i, j| fit.covariance[(i, j)]);
-        Ok(Self { springs: fit.point.springs, covariance, campaign, fit })
+        Ok(Self { springs: fit.point.compliances, covariance, campaign, fit })
     }
 
     /// Stiffness of each leg and its standard uncertainty, N/um.
@@ -52,20 +56,28 @@ impl Identified {
     }
 
     /// Predicted deflection of each reading, m and rad.
-    pub(crate) fn predict(&self, bench: &Bench, data: &Dataset) -> Result<Vec<Vector6>, ModelError> {
+    pub(crate) fn predict(&self, bench: &PaperMachine, data: &Dataset) -> Result<Vec<Vector6>, ModelError> {
         let one = |o| Ok(block(&bench.hexapod, o, data.measurand)? * self.springs);
         data.observations.iter().map(one).collect()
     }
 
     /// Error of prediction on other readings, root mean square by coordinate, um and urad.
-    pub(crate) fn prediction_error(&self, bench: &Bench, data: &Dataset) -> Result<[f64; 6], ModelError> {
+    pub(crate) fn prediction_error(
+        &self,
+        bench: &PaperMachine,
+        data: &Dataset,
+    ) -> Result<[f64; 6], ModelError> {
         let predicted = self.predict(bench, data)?;
         let errors = data.observations.iter().zip(predicted).map(|(o, p)| Vector6::from(o.measured) - p);
         Ok(rms(errors))
     }
 
     /// What the error of prediction should be if springs are all there is: noise of the readings and of the springs.
-    pub(crate) fn expected_error(&self, bench: &Bench, data: &Dataset) -> Result<[f64; 6], ModelError> {
+    pub(crate) fn expected_error(
+        &self,
+        bench: &PaperMachine,
+        data: &Dataset,
+    ) -> Result<[f64; 6], ModelError> {
         let noise = Vector6::from(sigma()).map(|s| s * s);
         let mut total = Vector6::zeros();
         for reading in &data.observations {
@@ -77,7 +89,7 @@ impl Identified {
     }
 
     /// Chance of errors as large as these if springs are all there is.
-    pub(crate) fn chance(&self, bench: &Bench, data: &Dataset) -> Result<f64, ModelError> {
+    pub(crate) fn chance(&self, bench: &PaperMachine, data: &Dataset) -> Result<f64, ModelError> {
         survival(&bench.hexapod, data, self.campaign.noise, &self.fit)
     }
 }

@@ -1,12 +1,12 @@
 //! The missing effect: what the paper's plan says of it, and what a richer one does.
 
-use hexbench_model::diagnose::{Study, diagnose};
+use hexbench_model::diagnose::{DiagnosisStudy, diagnose};
 use hexbench_model::residuals::survival;
 use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::Verdict;
 use hexbench_truth::World;
 
-use super::bench::{Bench, Covariates, richer_plan};
+use super::bench::{Covariates, PaperMachine, richer_plan};
 use super::error::PaperError;
 use super::experiment::Experiment;
 
@@ -15,7 +15,7 @@ const HOLDOUT: u64 = 5;
 
 /// A diagnosis in the numbers the page needs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Finding {
+pub struct DiagnosisSummary {
     /// Readings fitted and held out.
     pub readings: [usize; 2],
     /// The verdict.
@@ -25,12 +25,12 @@ pub struct Finding {
     /// Best candidates with their probabilities.
     pub candidates: Vec<(String, f64)>,
     /// Springs alone, then with each effect more.
-    pub steps: Vec<Step>,
+    pub steps: Vec<HeldOutError>,
 }
 
 /// A model and its held-out error.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Step {
+pub struct HeldOutError {
     /// Effects beside the springs.
     pub terms: Vec<String>,
     /// Chi-square of the held-out readings per number.
@@ -42,12 +42,18 @@ pub struct Step {
 }
 
 /// Diagnosis of the paper's own readings.
-pub(crate) fn on_the_papers_plan(bench: &Bench, experiment: &Experiment) -> Result<Finding, PaperError> {
+pub(crate) fn on_the_papers_plan(
+    bench: &PaperMachine,
+    experiment: &Experiment,
+) -> Result<DiagnosisSummary, PaperError> {
     finding(bench, &experiment.identification, &experiment.validation)
 }
 
 /// Diagnosis of readings by the richer plan.
-pub(crate) fn on_the_richer_plan(bench: &Bench, world: &World) -> Result<Finding, PaperError> {
+pub(crate) fn on_the_richer_plan(
+    bench: &PaperMachine,
+    world: &World,
+) -> Result<DiagnosisSummary, PaperError> {
     let [training, holdout] = richer_plan(bench);
     let read = |rows: &[_], source, stream| bench.measure(world, rows, Covariates::All, source, stream);
     let (readings, held_out) = (read(&training, "training", TRAINING)?, read(&holdout, "held out", HOLDOUT)?);
@@ -55,17 +61,17 @@ pub(crate) fn on_the_richer_plan(bench: &Bench, world: &World) -> Result<Finding
 }
 
 fn finding(
-    bench: &Bench,
+    bench: &PaperMachine,
     readings: &hexbench_core::Dataset,
     held_out: &hexbench_core::Dataset,
-) -> Result<Finding, PaperError> {
+) -> Result<DiagnosisSummary, PaperError> {
     const SHOWN: usize = 3;
-    let Study { diagnosis, fits, campaign, .. } =
+    let DiagnosisStudy { diagnosis, fits, campaign, .. } =
         diagnose(&bench.hexapod, readings, Some(held_out), &catalogue())?;
     let mut steps = Vec::new();
     for (report, fit) in diagnosis.steps.iter().zip(&fits) {
         let error = report.holdout.unwrap_or(report.fitted);
-        steps.push(Step {
+        steps.push(HeldOutError {
             terms: report.terms.clone(),
             chi2_reduced: error.chi2_reduced,
             error: error.per_coordinate,
@@ -73,7 +79,7 @@ fn finding(
         });
     }
     let best = diagnosis.candidates.iter().take(SHOWN);
-    Ok(Finding {
+    Ok(DiagnosisSummary {
         readings: [readings.observations.len(), held_out.observations.len()],
         verdict: diagnosis.verdict,
         added: diagnosis.added,

@@ -31,6 +31,6 @@ pub mod search;
 mod study;
 pub mod suspects;
 
-pub use again::{Again, Named};
+pub use again::{Again, NamedVerdict};
 pub use error::PaperError;
 pub use study::Reproduction;

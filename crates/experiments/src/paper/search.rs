@@ -6,7 +6,7 @@
 use hexbench_core::{Hexapod, Measurand, Pose, Vector6};
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space::{Conditions, Loading};
-use hexbench_design::{Budget, Objective, Problem, Space};
+use hexbench_design::{Budget, Objective, PoseProblem, Space};
 use hexbench_model::error::ModelError;
 use hexbench_model::kinematics::leg_lengths;
 use hexbench_model::observability::Observability;
@@ -26,14 +26,14 @@ const BOX: [f64; PER_POSE] = [60.0, 60.0, 60.0, 40.0];
 
 /// A set of poses and its index.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PoseSet {
+pub struct IndexedPoses {
     /// a, b, c (mm) and gamma (deg) of each pose.
     pub poses: [[f64; PER_POSE]; POSES],
     /// Singular values and indices.
     pub observability: Observability,
 }
 
-impl PoseSet {
+impl IndexedPoses {
     /// The indices of given poses under a load, one reading each.
     pub(crate) fn of(hexapod: &Hexapod, poses: [[f64; PER_POSE]; POSES]) -> Result<Self, ModelError> {
         Ok(Self { poses, observability: observability(hexapod, &poses.map(level_pose), 1.0)? })
@@ -69,9 +69,14 @@ fn extension(hexapod: &Hexapod, pose: &Pose) -> Vector6 {
 ///
 /// # Errors
 /// [`PaperError::NoPoses`] when no search ends at an allowed set.
-pub fn best_poses(hexapod: &Hexapod, stroke: f64, starts: u32, seed: u32) -> Result<PoseSet, PaperError> {
+pub fn best_poses(
+    hexapod: &Hexapod,
+    stroke: f64,
+    starts: u32,
+    seed: u32,
+) -> Result<IndexedPoses, PaperError> {
     let space = space(hexapod, stroke);
-    let problem = Problem {
+    let problem = PoseProblem {
         hexapod,
         space: &space,
         regressor: &SpringRegressor::new(hexapod, &space.settings(), 1, Weights::UNWEIGHTED),
@@ -81,7 +86,7 @@ pub fn best_poses(hexapod: &Hexapod, stroke: f64, starts: u32, seed: u32) -> Res
     };
     let none = |_| PaperError::NoPoses { starts, stroke_mm: stroke * 1e3 };
     let found = problem.search(starts as usize, seed, &|| ()).map_err(none)?;
-    Ok(PoseSet::of(hexapod, std::array::from_fn(|k| level_coordinates(&found.best.poses[k])))?)
+    Ok(IndexedPoses::of(hexapod, std::array::from_fn(|k| level_coordinates(&found.best.poses[k])))?)
 }
 
 /// Level poses whose legs change their length by `stroke` (m) at most, under the paper's load.

@@ -1,15 +1,15 @@
 //! The whole study.
 
-use super::again::{Again, Named};
-use super::bench::{Bench, identification, validation};
+use super::again::{Again, NamedVerdict};
+use super::bench::{PaperMachine, identification, validation};
 use super::chances::{Repetitions, repetitions};
-use super::curves::{Compared, IndexOverLoad, Linearity, figure_7, figure_8, figures_9_and_10};
+use super::curves::{IndexOverLoad, Linearity, ValidationPose, figure_7, figure_8, figures_9_and_10};
 use super::error::PaperError;
 use super::experiment::Experiment;
-use super::missing::{Finding, on_the_papers_plan, on_the_richer_plan};
+use super::missing::{DiagnosisSummary, on_the_papers_plan, on_the_richer_plan};
 use super::published::{BEST_POSES, PREDICTION_ERROR};
-use super::search::{PoseSet, best_poses, stroke};
-use super::suspects::{Suspect, bias, skew_support, support_motion, suspects};
+use super::search::{IndexedPoses, best_poses, stroke};
+use super::suspects::{SuspectedEffect, bias, skew_support, support_motion, suspects};
 use crate::harness::Gathered;
 
 /// Searches for poses, each from its own start.
@@ -25,11 +25,11 @@ pub struct Reproduction {
     /// Seed of all noise.
     pub seed: u64,
     /// The machine and its instrument.
-    pub bench: Bench,
+    pub bench: PaperMachine,
     /// The pose set of Table 1.
-    pub published_set: PoseSet,
+    pub published_set: IndexedPoses,
     /// Best sets found, with the stroke allowed in m: of all poses of the paper, and of its validation poses.
-    pub best_sets: [(f64, PoseSet); 2],
+    pub best_sets: [(f64, IndexedPoses); 2],
     /// Springs are all there is.
     pub springs: Experiment,
     /// The same with fresh noise, over and over.
@@ -39,9 +39,9 @@ pub struct Reproduction {
     /// Fig. 8.
     pub linearity: Linearity,
     /// Figs. 9 and 10 with springs alone.
-    pub compared: [Vec<Compared>; 2],
+    pub compared: [Vec<ValidationPose>; 2],
     /// What could be missing.
-    pub suspects: Vec<Suspect>,
+    pub suspects: Vec<SuspectedEffect>,
     /// How far the chosen support gives, m.
     pub support_motion: [f64; 3],
     /// Error that the paper's estimator then makes on average, um and urad.
@@ -49,13 +49,13 @@ pub struct Reproduction {
     /// The support gives, and the model does not know.
     pub hidden: Experiment,
     /// Figs. 9 and 10 with the hidden effect.
-    pub hidden_compared: [Vec<Compared>; 2],
+    pub hidden_compared: [Vec<ValidationPose>; 2],
     /// Diagnosis by the paper's plan.
-    pub poor: Finding,
+    pub poor: DiagnosisSummary,
     /// Diagnosis by the richer plan.
-    pub rich: Finding,
+    pub rich: DiagnosisSummary,
     /// Verdicts of the richer plan under other noise, and what was named.
-    pub again: Vec<Named>,
+    pub again: Vec<NamedVerdict>,
 }
 
 impl Reproduction {
@@ -65,9 +65,9 @@ impl Reproduction {
     /// [`PaperError`], and what `trials` says.
     pub fn run<E: From<PaperError>>(
         seed: u64,
-        trials: impl FnOnce(&Again) -> Result<Gathered<Named>, E>,
+        trials: impl FnOnce(&Again) -> Result<Gathered<NamedVerdict>, E>,
     ) -> Result<Self, E> {
-        let bench = Bench::new(seed);
+        let bench = PaperMachine::new(seed);
         let springs = Experiment::run(&bench, &bench.world(Vec::new()))?;
         let support_motion = support_motion(&bench, &springs.paper.expected)?;
         let again = trials(&Again { seed, support_motion })?;
@@ -78,13 +78,13 @@ impl Reproduction {
     }
 
     fn of(
-        bench: Bench,
+        bench: PaperMachine,
         springs: Experiment,
         support_motion: [f64; 3],
-        again: Vec<Named>,
+        again: Vec<NamedVerdict>,
     ) -> Result<Self, PaperError> {
         let [published_set, unturned] =
-            [PoseSet::of(&bench.hexapod, BEST_POSES)?, PoseSet::of(&bench.hexapod, UNTURNED)?];
+            [IndexedPoses::of(&bench.hexapod, BEST_POSES)?, IndexedPoses::of(&bench.hexapod, UNTURNED)?];
         let best_sets = best_sets(&bench)?;
         let world = bench.world(Vec::new());
         let data = [&springs.identification, &springs.validation];
@@ -115,8 +115,8 @@ impl Reproduction {
     }
 }
 
-fn best_sets(bench: &Bench) -> Result<[(f64, PoseSet); 2], PaperError> {
-    let poses = |rows: Vec<hexbench_truth::campaign::Row>| -> Vec<_> {
+fn best_sets(bench: &PaperMachine) -> Result<[(f64, IndexedPoses); 2], PaperError> {
+    let poses = |rows: Vec<hexbench_truth::campaign::PlanRow>| -> Vec<_> {
         rows.iter().map(|r| r.situation.pose).collect()
     };
     let validation = stroke(&bench.hexapod, &poses(validation()));

@@ -8,15 +8,15 @@ use hexbench_truth::mechanisms::{
     BaseBending, BaseCompliance, BracketCompliance, LegLengthCompliance, LoadOffset, LoadTilt, TargetOffset,
 };
 
-use super::bench::{Bench, effective_load, ideal, identification, validation};
+use super::bench::{PaperMachine, effective_load, ideal, identification, validation};
 use super::error::PaperError;
-use super::identify::{Estimator, Identified, pooled, rms};
+use super::identify::{Identified, PaperEstimator, pooled, rms};
 use super::published::PREDICTION_ERROR;
 use hexbench_core::Vector6;
 
 /// A suspect at the size it would need.
 #[derive(Debug, Clone)]
-pub struct Suspect {
+pub struct SuspectedEffect {
     /// Id in the catalogue.
     pub id: &'static str,
     /// Size needed, in words.
@@ -93,19 +93,19 @@ pub fn skew_support(motion: [f64; 3]) -> Box<dyn Mechanism> {
 }
 
 /// Errors that the paper's estimator makes on the validation poses with an effect in the world and no noise, um and urad.
-pub(crate) fn bias(bench: &Bench, effect: Box<dyn Mechanism>) -> Result<[f64; 6], PaperError> {
+pub(crate) fn bias(bench: &PaperMachine, effect: Box<dyn Mechanism>) -> Result<[f64; 6], PaperError> {
     let world = bench.world(vec![effect]);
     let data = ideal(&world, &identification())?;
-    let springs = Identified::from(bench, &data, Estimator::Paper)?;
+    let springs = Identified::from(bench, &data, PaperEstimator::Paper)?;
     Ok(springs.prediction_error(bench, &ideal(&world, &validation())?)?)
 }
 
 /// Every suspect at the size that gives the paper's translation errors beside the noise expected of springs alone.
-pub(crate) fn suspects(bench: &Bench, noise: &[f64; 6]) -> Result<Vec<Suspect>, PaperError> {
+pub(crate) fn suspects(bench: &PaperMachine, noise: &[f64; 6]) -> Result<Vec<SuspectedEffect>, PaperError> {
     FAMILIES.iter().map(|family| sized(bench, family, noise)).collect()
 }
 
-fn sized(bench: &Bench, family: &Family, noise: &[f64; 6]) -> Result<Suspect, PaperError> {
+fn sized(bench: &PaperMachine, family: &Family, noise: &[f64; 6]) -> Result<SuspectedEffect, PaperError> {
     const ROUNDS: usize = 12;
     let (mut size, mut error) = (family.start, [0.0; 6]);
     let wanted = excess(pooled(&PREDICTION_ERROR, 0), pooled(noise, 0));
@@ -114,7 +114,7 @@ fn sized(bench: &Bench, family: &Family, noise: &[f64; 6]) -> Result<Suspect, Pa
         size *= step(wanted, pooled(&error, 0));
     }
     let error = std::array::from_fn(|k| error[k].hypot(noise[k]));
-    Ok(Suspect { id: family.id, size: (family.words)(size), error })
+    Ok(SuspectedEffect { id: family.id, size: (family.words)(size), error })
 }
 
 /// What an error has beyond another when both add in squares.
@@ -128,7 +128,7 @@ fn step(wanted: f64, reached: f64) -> f64 {
 }
 
 /// How far a skew support must give along X, Y and Z (m) for the errors of all three translations to be the paper's.
-pub(crate) fn support_motion(bench: &Bench, noise: &[f64; 6]) -> Result<[f64; 3], PaperError> {
+pub(crate) fn support_motion(bench: &PaperMachine, noise: &[f64; 6]) -> Result<[f64; 3], PaperError> {
     const ROUNDS: usize = 15;
     let mut motion = [2e-6, 2e-6, -2e-6];
     for _ in 0..ROUNDS {

@@ -6,27 +6,27 @@ use hexbench_core::Vector6;
 use hexbench_core::files::text_hash;
 use hexbench_core::statistics::Proportion;
 use hexbench_core::streams::Purpose;
-use hexbench_design::power::{Planned, Settings, Study, Subject, Test, study};
+use hexbench_design::power::{EffectSizes, Planned, PowerSettings, PowerStudy, PreparedTest, study};
 use hexbench_model::error::ModelError;
 use hexbench_model::term::Term;
 use hexbench_truth::TruthError;
 use serde::{Deserialize, Serialize};
 
 use super::PowerPlan;
-use super::simulate::{Answers, Bench, NoiseOf, Said, Simulated};
-use super::study::{Check, Power, PowerError, Simulation};
+use super::simulate::{AnswerAndFate, Bench, NoiseOf, Simulated, SimulatedAnswers};
+use super::study::{Power, PowerCheck, PowerError, Simulation};
 use super::usual::{Usual, usual};
-use crate::harness::{Answer, Field, Gathered, Protocol};
+use crate::harness::{Field, Gathered, Protocol, TrialResult};
 use crate::journal::Identity;
 
-/// A plan as reckoned, and the campaigns that check it.
+/// A plan as computed, and the campaigns that check it.
 pub struct Campaigns<'a> {
     bench: Bench<'a>,
     terms: &'a [Arc<dyn Term>],
-    study: Study,
+    study: PowerStudy,
     simulation: Simulation,
     /// One for each effect.
-    checks: Vec<Check>,
+    checks: Vec<PowerCheck>,
     parts: Vec<Part>,
 }
 
@@ -48,11 +48,11 @@ impl Part {
 
 /// What one campaign showed.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Record {
+pub struct PowerRecord {
     /// Whether the tests of the effects saw something, each where nothing is hidden, else that of the hidden one.
     pub seen: Vec<bool>,
     /// Answer of the diagnosis, where it was asked.
-    pub said: Option<Said>,
+    pub said: Option<AnswerAndFate>,
 }
 
 impl<'a> Campaigns<'a> {
@@ -63,7 +63,7 @@ impl<'a> Campaigns<'a> {
     pub fn new(
         plan: &'a PowerPlan,
         terms: &'a [Arc<dyn Term>],
-        settings: Settings,
+        settings: PowerSettings,
         simulation: Simulation,
         only: &[String],
     ) -> Result<Self, PowerError> {
@@ -71,10 +71,10 @@ impl<'a> Campaigns<'a> {
         let known: Vec<Option<Usual>> =
             terms.iter().map(|t| usual(t, &plan.hexapod, settings.seed)).collect();
         let subject = |(term, known): (&Arc<dyn Term>, &Option<Usual>)| {
-            known.as_ref().map_or_else(|| Subject::natural(term, &planned), |u| u.subject.clone())
+            known.as_ref().map_or_else(|| EffectSizes::natural(term, &planned), |u| u.subject.clone())
         };
         let study = study(&planned, terms.iter().zip(&known).map(subject).collect(), settings);
-        let checks = vec![Check::default(); study.effects.len()];
+        let checks = vec![PowerCheck::default(); study.effects.len()];
         let bench = Bench::new(plan, settings.seed);
         let mut all = Self { bench, terms, study, simulation, checks, parts: Vec::new() };
         if simulation.campaigns > 0 {
@@ -127,7 +127,7 @@ impl<'a> Campaigns<'a> {
     ///
     /// # Errors
     /// [`PowerError::Campaign`], [`PowerError::Model`].
-    pub fn power(mut self, gathered: &Gathered<Record>) -> Result<Power, PowerError> {
+    pub fn power(mut self, gathered: &Gathered<PowerRecord>) -> Result<Power, PowerError> {
         if let Some((_, why)) = gathered.failures().next() {
             return Err(PowerError::Campaign(why.clone()));
         }
@@ -139,7 +139,7 @@ impl<'a> Campaigns<'a> {
         Ok(Power { format: "power/1", study, simulation, checks })
     }
 
-    fn tell(&mut self, part: &Part, answers: &[Answer<Record>]) -> Result<(), PowerError> {
+    fn tell(&mut self, part: &Part, answers: &[TrialResult<PowerRecord>]) -> Result<(), PowerError> {
         let records = || answers.iter().flatten();
         let seen = |k: usize| Proportion::count(records(), |r| r.seen[k]);
         let Some((k, scale)) = part.effect else {
@@ -155,14 +155,16 @@ impl<'a> Campaigns<'a> {
             seen: seen(0),
             chance_by_the_world: chance,
             bias_percent,
-            answers: part.is_diagnosed.then(|| Answers::of_all(records().filter_map(|r| r.said.as_ref()))),
+            answers: part
+                .is_diagnosed
+                .then(|| SimulatedAnswers::of_all(records().filter_map(|r| r.said.as_ref()))),
         };
         let check = &mut self.checks[k];
         *(if part.is_usual() { &mut check.usual } else { &mut check.when_seen }) = Some(simulated);
         Ok(())
     }
 
-    fn tests(&self, part: &Part) -> &[Option<Test>] {
+    fn tests(&self, part: &Part) -> &[Option<PreparedTest>] {
         part.effect.map_or(&self.study.tests[..], |(k, _)| &self.study.tests[k..=k])
     }
 
@@ -175,7 +177,7 @@ impl<'a> Campaigns<'a> {
 }
 
 impl Protocol for Campaigns<'_> {
-    type Record = Record;
+    type Record = PowerRecord;
     type Error = ModelError;
 
     fn identity(&self) -> Identity {
@@ -197,14 +199,14 @@ impl Protocol for Campaigns<'_> {
         (self.parts.len() * self.simulation.campaigns) as u64
     }
 
-    fn trial(&self, number: u64) -> Result<Record, ModelError> {
+    fn trial(&self, number: u64) -> Result<PowerRecord, ModelError> {
         let (part, k) = self.place(number);
         let data = self.bench.data(&part.ideal, Some((part.noise, k)));
         let residuals = self.bench.residuals(&data)?;
         let seen = self.tests(part).iter().map(|t| t.as_ref().is_some_and(|t| t.sees(&residuals))).collect();
         let asked = part.effect.filter(|_| part.is_diagnosed);
         let said = asked.map(|(k, _)| self.bench.answer(self.study.effects[k].term, &data, self.terms));
-        Ok(Record { seen, said })
+        Ok(PowerRecord { seen, said })
     }
 
     fn name(&self, number: u64) -> String {
@@ -212,12 +214,12 @@ impl Protocol for Campaigns<'_> {
         format!("{}-{k}", self.part_name(part))
     }
 
-    fn fields(&self) -> Vec<Field<Record>> {
+    fn fields(&self) -> Vec<Field<PowerRecord>> {
         vec![
-            Field::number(("seen", "1"), "tests that saw something", |r: &Record| {
+            Field::number(("seen", "1"), "tests that saw something", |r: &PowerRecord| {
                 r.seen.iter().filter(|seen| **seen).count() as f64
             }),
-            Field::text("answer", "what the diagnosis said, where it was asked", |r: &Record| {
+            Field::text("answer", "what the diagnosis said, where it was asked", |r: &PowerRecord| {
                 r.said.as_ref().map_or(String::new(), |said| said.0.clone())
             }),
         ]

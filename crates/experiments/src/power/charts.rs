@@ -1,10 +1,10 @@
 //! Charts of a plan's power.
 
-use hexbench_design::power::{Alike, Effect, NOTHING};
+use hexbench_design::power::{Alike, EffectPower, NOTHING};
 use hexbench_report::plot::{Axis, Chart, HeatMap, Panels, PlotError, Series};
 
-use super::{Check, Power, Simulated};
-use crate::calibration::Picture;
+use super::{Power, PowerCheck, Simulated};
+use crate::calibration::NamedChart;
 
 const PERCENT: f64 = 100.0;
 /// Shares below this stay blank.
@@ -14,11 +14,11 @@ const SHOWN_PERCENT: f64 = 1.0;
 ///
 /// # Errors
 /// [`PlotError`].
-pub fn pictures(power: &Power) -> Result<Vec<Picture>, PlotError> {
+pub fn pictures(power: &Power) -> Result<Vec<NamedChart>, PlotError> {
     let mut all = Vec::new();
-    let mut add = |file, svg| all.push(Picture { file, svg });
+    let mut add = |file, svg| all.push(NamedChart { file, svg });
     let alike = &power.study.alike;
-    let shows = |e: &&Effect| e.shows();
+    let shows = |e: &&EffectPower| e.shows();
     if power.study.effects.iter().any(|e| shows(&e)) {
         add("taken-for.svg", taken_for(alike)?);
         add("power.svg", curves(power)?);
@@ -71,14 +71,14 @@ fn curves(power: &Power) -> Result<String, PlotError> {
         .to_svg()
 }
 
-fn curve(effect: &Effect, check: &Check) -> Chart {
+fn curve(effect: &EffectPower, check: &PowerCheck) -> Chart {
     let size = |scale: f64| scale * effect.usual_size;
     let x = Axis::new("", effect.unit).with_logarithm();
     let y = Axis::new("", "%").with_range(0.0, PERCENT).with_ticks(vec![0.0, 50.0, 90.0, 100.0]);
     let points = effect.curve.iter().map(|[s, p]| [size(*s), PERCENT * p]).collect();
     let usual = vec![[effect.usual_size, PERCENT * effect.power_at_usual_size.middle]];
     let mut chart = Chart::new(effect.term, x, y)
-        .with(Series::line("reckoned", points).with_look(0))
+        .with(Series::line("computed", points).with_look(0))
         .with(Series::markers("at the usual size", usual).with_look(1));
     let simulated: Vec<&Simulated> = check.usual.iter().chain(&check.when_seen).collect();
     if !simulated.is_empty() {

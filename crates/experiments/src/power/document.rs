@@ -1,12 +1,12 @@
 //! The power of a plain and of a rich plan as a document.
 
 use hexbench_core::statistics::Proportion;
-use hexbench_design::power::{Effect, Planned, Verdict};
+use hexbench_design::power::{EffectPower, Planned, Visibility};
 use hexbench_report::number::significant;
 use hexbench_report::words::written_by;
 use hexbench_report::{Page, Section, Table};
 use hexbench_truth::Scene;
-use hexbench_truth::scene::{Bench, PartName};
+use hexbench_truth::scene::{PartName, VirtualBench};
 
 use super::faint::{Faint, faint};
 use super::page::{LOOK_ALIKE, look_alikes};
@@ -49,7 +49,7 @@ impl Studied {
 /// # Errors
 /// [`PowerError`].
 pub fn plan_of(scene: &Scene) -> Result<PowerPlan, PowerError> {
-    let bench = Bench::new(scene, true);
+    let bench = VirtualBench::new(scene, true);
     let part = scene.part(PartName::Training);
     let measured = bench.measure(PartName::Training, 0..part.len())?;
     let rows = hexbench_core::Dataset {
@@ -70,7 +70,7 @@ pub fn document(plain: &Studied, rich: &Studied, charts: &str, again: &str) -> P
         .with(facts(plain, rich))
         .with(agreement(&both))
         .with_all(both.iter().flat_map(|studied| one_plan(studied, charts)))
-        .with(Section::new("How it is reckoned").list(rich.report().notes()))
+        .with(Section::new("How it is computed").list(rich.report().notes()))
         .with(
             Section::new("Where the two worlds write an effect differently")
                 .list(differing.map(|c| format!("{}: {}.", c.effect, c.differs))),
@@ -85,7 +85,7 @@ fn introduction() -> Section {
     Section::lead().paragraph(written_by("hexbench validate power --markdown FILE")).paragraph(
         "Before anything is measured, a plan (poses, loads, repeats) decides which effects it can show. Two plans for the \
          same machine and the same instrument: that of the paper, and one of many poses with tilts and loads along and about \
-         all axes. Every chance is reckoned by the linear model and then counted in the simulated world, which shares no \
+         all axes. Every chance is computed by the linear model and then counted in the simulated world, which shares no \
          physics with it.",
     )
 }
@@ -107,7 +107,7 @@ fn one_plan(studied: &Studied, charts: &str) -> Vec<Section> {
     let head = Section::new(format!("The plan `{}`", studied.name))
         .paragraph(report.subject())
         .paragraph(report.summary())
-        .figure(figure("power.svg"), "Chance to see each effect over its size, reckoned and simulated");
+        .figure(figure("power.svg"), "Chance to see each effect over its size, computed and simulated");
     let body = report.seen().into_iter().chain(report.blind()).map(Section::within);
     let mut all: Vec<Section> = std::iter::once(head).chain(body).collect();
     let last = all.pop();
@@ -120,7 +120,7 @@ fn one_plan(studied: &Studied, charts: &str) -> Vec<Section> {
     all
 }
 
-fn shown(power: &Power) -> impl Iterator<Item = &Effect> {
+fn shown(power: &Power) -> impl Iterator<Item = &EffectPower> {
     power.study.effects.iter().filter(|e| e.parameters_determined > 0)
 }
 
@@ -131,7 +131,7 @@ fn chances(power: &Power) -> String {
     format!("{} to {}", chance(low).trim_end_matches(" %"), chance(high))
 }
 
-fn count(power: &Power, verdict: Verdict) -> usize {
+fn count(power: &Power, verdict: Visibility) -> usize {
     power.study.effects.iter().filter(|e| e.verdict == verdict).count()
 }
 
@@ -158,9 +158,9 @@ fn well_conditioned_yet_blind(plain: &Studied) -> String {
          {high:.2} after the springs; {} pairs reach {LOOK_ALIKE}.",
         significant(plain.condition, 2),
         chances(power),
-        count(power, Verdict::Seen),
+        count(power, Visibility::Seen),
         power.study.effects.len(),
-        count(power, Verdict::NoTrace) + count(power, Verdict::Absorbed),
+        count(power, Visibility::NoTrace) + count(power, Visibility::Absorbed),
         alike.len(),
         likeness.len(),
         look_alikes(power).len(),
@@ -177,10 +177,10 @@ fn rich_sees(plain: &Studied, rich: &Studied) -> String {
         rich.plan.rows.observations.len(),
         plain.plan.rows.observations.len(),
         significant(rich.condition, 2),
-        count(power, Verdict::Seen),
+        count(power, Visibility::Seen),
         power.study.effects.len(),
         half(power),
-        count(&plain.power, Verdict::Seen),
+        count(&plain.power, Visibility::Seen),
         half(&plain.power),
         shown(power).filter(|e| e.seen_at.middle <= 2.0).count(),
         if pairs.len() == 1 {
@@ -243,22 +243,22 @@ fn faint_rows(studied: &Studied) -> Vec<Vec<String>> {
 /// Chance that any of the comparisons below is called a disagreement although there is none.
 const FALSE_DISAGREEMENT: f64 = 0.01;
 
-/// One simulated share beside what was reckoned.
+/// One simulated share beside what was computed.
 struct Checked<'a> {
     plan: &'a str,
-    effect: &'a Effect,
-    reckoned: f64,
+    effect: &'a EffectPower,
+    computed: f64,
     simulated: &'a Simulated,
 }
 
 impl Checked<'_> {
     fn sentence(&self) -> String {
         format!(
-            "{}, {}, {} times the usual size: reckoned {}, with the world's own signature {}, simulated {}",
+            "{}, {}, {} times the usual size: computed {}, with the world's own signature {}, simulated {}",
             self.plan,
             self.effect.term,
             significant(self.simulated.scale, 2),
-            chance(self.reckoned),
+            chance(self.computed),
             chance(self.simulated.chance_by_the_world),
             chance(self.simulated.seen.rate()),
         )
@@ -270,7 +270,7 @@ fn checked(studied: &Studied) -> Vec<Checked<'_>> {
     let effects = studied.power.study.effects.iter().zip(&studied.power.checks);
     let mut all = Vec::new();
     for (effect, check) in effects {
-        let of = |reckoned, simulated| Checked { plan: &studied.name, effect, reckoned, simulated };
+        let of = |computed, simulated| Checked { plan: &studied.name, effect, computed, simulated };
         all.extend(check.usual.iter().map(|s| of(effect.power_at_usual_size.middle, s)));
         all.extend(check.when_seen.iter().map(|s| of(wanted, s)));
     }
@@ -281,11 +281,11 @@ fn checked(studied: &Studied) -> Vec<Checked<'_>> {
 fn agreement(studied: &[&Studied]) -> Option<Section> {
     let all: Vec<Checked<'_>> = studied.iter().flat_map(|s| checked(s)).collect();
     let error = FALSE_DISAGREEMENT / all.len() as f64;
-    let agrees = |c: &&Checked<'_>| c.simulated.seen.is_compatible_with(c.reckoned, error);
+    let agrees = |c: &&Checked<'_>| c.simulated.seen.is_compatible_with(c.computed, error);
     let own = |c: &&Checked<'_>| c.simulated.seen.is_compatible_with(c.simulated.chance_by_the_world, error);
     let alarms = studied.iter().flat_map(|s| &s.power.checks).filter_map(|c| c.false_alarms);
-    let section = Section::new("Reckoned and simulated").paragraph(format!(
-        "{} of {} simulated shares agree with the reckoned chance; {} with the chance reckoned with what the effect leaves \
+    let section = Section::new("Computed and simulated").paragraph(format!(
+        "{} of {} simulated shares agree with the computed chance; {} with the chance computed with what the effect leaves \
          in the simulated world without noise. (Exact binomial bounds that let one false disagreement among all of them pass \
          with a chance of {}.) The tests raise a false alarm in {:.2} % of the campaigns without effects.",
         all.iter().filter(agrees).count(),
@@ -299,5 +299,5 @@ fn agreement(studied: &[&Studied]) -> Option<Section> {
     section.when(!all.is_empty())
 }
 
-const OFF: &str = "Those that disagree with the reckoned chance are effects so large that their signature no longer grows in \
+const OFF: &str = "Those that disagree with the computed chance are effects so large that their signature no longer grows in \
 proportion to their size, or that the two worlds write differently (see below):";

@@ -1,7 +1,7 @@
 //! Effects that never show, whatever their size: springs of other stiffness are the same thing.
 
 use hexbench_core::Vector6;
-use hexbench_model::power::{FALSE_ALARM, Law};
+use hexbench_model::power::{ChiSquareDropLaw, FALSE_ALARM};
 use hexbench_truth::Mechanism;
 use hexbench_truth::mechanisms::{Creep, LoadMassError};
 use serde::Serialize;
@@ -53,7 +53,7 @@ fn one(what: &'static str, plan: &PowerPlan, ideal: &[Vector6]) -> Result<Faint,
     let (nothing, _) = bench.without_noise(&bench.ideal(Vec::new())?)?;
     let rest = (left - nothing).norm();
     let whole = bench.length_of_change(ideal)?;
-    let law = Law { dof: 1.0, noise_dof: plan.noise.dof };
+    let law = ChiSquareDropLaw { dof: 1.0, noise_dof: plan.noise.dof };
     Ok(Faint {
         what,
         absorbed: 1.0 - (rest / whole).powi(2),

@@ -1,4 +1,4 @@
-//! The power of a plan, reckoned and simulated.
+//! The power of a plan, computed and simulated.
 //!
 //! What the linear model expects ([`hexbench_design::power`]) is held against campaigns in the simulated world: finite
 //! deflections, mechanisms of its own, noise. Every effect gets the size that should be seen with the wanted power; counted are
@@ -16,12 +16,12 @@ mod study;
 mod tables;
 mod usual;
 
-pub use campaigns::{Campaigns, Record};
+pub use campaigns::{Campaigns, PowerRecord};
 pub use charts::pictures;
 pub use document::{Studied, document, plan_of};
 pub use faint::Faint;
 pub use page::PlanReport;
 pub use plan::PowerPlan;
-pub use simulate::{Answers, Said, Simulated};
-pub use study::{Check, Power, PowerError, Simulation};
+pub use simulate::{AnswerAndFate, Simulated, SimulatedAnswers};
+pub use study::{Power, PowerCheck, PowerError, Simulation};
 pub use usual::{Usual, usual};

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use hexbench_design::power::{Effect, NOTHING, Verdict};
+use hexbench_design::power::{EffectPower, NOTHING, Visibility};
 use hexbench_model::noise::NoiseSource;
 use hexbench_model::untestable::Reason;
 use hexbench_report::number::significant;
@@ -33,7 +33,7 @@ impl PlanReport<'_> {
             .with(Section::lead().paragraph(self.subject()).paragraph(self.summary()))
             .with_all(self.seen())
             .with(self.blind())
-            .with(Section::new("How it is reckoned").list(self.notes()))
+            .with(Section::new("How it is computed").list(self.notes()))
     }
 
     /// Tables of the effects that leave something beside the springs.
@@ -63,7 +63,7 @@ impl PlanReport<'_> {
             .table(Table::named(tables::SPRINGS).rows(self.each(tables::springs)))
     }
 
-    fn told(&self) -> impl Iterator<Item = (usize, &Effect)> {
+    fn told(&self) -> impl Iterator<Item = (usize, &EffectPower)> {
         self.power.study.effects.iter().enumerate().filter(|(_, e)| self.is_told(e.term))
     }
 
@@ -71,7 +71,7 @@ impl PlanReport<'_> {
         self.only.is_empty() || self.only.iter().any(|id| id == term)
     }
 
-    fn each(&self, row: fn(&Effect) -> Vec<String>) -> Vec<Vec<String>> {
+    fn each(&self, row: fn(&EffectPower) -> Vec<String>) -> Vec<Vec<String>> {
         self.told().filter(|(_, e)| leaves_something(e)).map(|(_, e)| row(e)).collect()
     }
 
@@ -100,7 +100,7 @@ impl PlanReport<'_> {
 
     /// The answer in some sentences.
     pub(super) fn summary(&self) -> String {
-        let all: Vec<&Effect> = self.told().map(|(_, e)| e).collect();
+        let all: Vec<&EffectPower> = self.told().map(|(_, e)| e).collect();
         let mut sentences = vec![match all[..] {
             [] => "This plan can test none of these effects.".to_owned(),
             [one] => self.sentence(one),
@@ -121,7 +121,7 @@ impl PlanReport<'_> {
         sentences.join(" ")
     }
 
-    fn sentence(&self, e: &Effect) -> String {
+    fn sentence(&self, e: &EffectPower) -> String {
         let Some(size) = e.size_seen() else {
             return format!("This plan never sees {}.", e.term);
         };
@@ -140,7 +140,7 @@ impl PlanReport<'_> {
     /// Effects whose best explanation is mostly another effect.
     fn wrongly_taken(&self) -> Vec<String> {
         let alike = &self.power.study.alike;
-        let sentence = |(k, e): (usize, &Effect)| {
+        let sentence = |(k, e): (usize, &EffectPower)| {
             let own = *alike.taken_for[k].get(k)?;
             let (other, share) = alike.mistaken(k).into_iter().find(|(name, _)| *name != NOTHING)?;
             (share > own).then(|| format!("{} would be taken for {other} ({})", e.term, chance(share)))
@@ -148,8 +148,8 @@ impl PlanReport<'_> {
         self.told().filter_map(sentence).collect()
     }
 
-    fn most_absorbed(&self) -> Option<&Effect> {
-        let bias = |e: &Effect| tables::largest(&e.bias_at_usual_size_percent).abs();
+    fn most_absorbed(&self) -> Option<&EffectPower> {
+        let bias = |e: &EffectPower| tables::largest(&e.bias_at_usual_size_percent).abs();
         self.told().map(|(_, e)| e).filter(|e| bias(e) > 0.5).max_by(|a, b| bias(a).total_cmp(&bias(b)))
     }
 
@@ -179,13 +179,13 @@ impl PlanReport<'_> {
             Section::new("The same in the simulated world")
                 .paragraph(format!(
                     "{n} campaigns of every effect and size, at finite deflection and with effects of the world's own making. \
-                     Reckoned and simulated chance, percent, with exact 95 % bounds; \"world\" is the chance reckoned with what \
+                     Computed and simulated chance, percent, with exact 95 % bounds; \"world\" is the chance computed with what \
                      the effect leaves in the simulated world without noise; false alarms are of campaigns without effects."
                 ))
                 .table(Table::named(tables::CHECK).rows(self.told().flat_map(both))),
         ];
         all.extend(self.answers());
-        let lost = |(k, e): (usize, &Effect)| {
+        let lost = |(k, e): (usize, &EffectPower)| {
             Some(format!("{}: {}", e.term, self.power.checks[k].why_not.as_ref()?))
         };
         let lost: Vec<String> = self.told().filter_map(lost).collect();
@@ -197,7 +197,7 @@ impl PlanReport<'_> {
     }
 
     fn answers(&self) -> Option<Section> {
-        let answers = |(k, e): (usize, &Effect)| tables::answers(e, &self.power.checks[k]);
+        let answers = |(k, e): (usize, &EffectPower)| tables::answers(e, &self.power.checks[k]);
         let rows: Vec<Vec<String>> = self.told().filter_map(answers).collect();
         let asked = !rows.is_empty();
         Section::new("What the whole diagnosis says")
@@ -252,9 +252,9 @@ impl PlanReport<'_> {
     }
 }
 
-fn counts(all: &[&Effect]) -> String {
-    let count = |wanted: Verdict| all.iter().filter(|e| e.verdict == wanted).count();
-    let (seen, larger) = (count(Verdict::Seen), count(Verdict::SeenWhenLarger));
+fn counts(all: &[&EffectPower]) -> String {
+    let count = |wanted: Visibility| all.iter().filter(|e| e.verdict == wanted).count();
+    let (seen, larger) = (count(Visibility::Seen), count(Visibility::SeenWhenLarger));
     format!(
         "This plan sees {seen} of {} effects at their usual size, {larger} when they are larger than usual, {} never.",
         all.len(),
@@ -263,8 +263,8 @@ fn counts(all: &[&Effect]) -> String {
 }
 
 /// True for effects of which springs leave something at all.
-fn leaves_something(e: &Effect) -> bool {
-    !matches!(e.verdict, Verdict::NoTrace | Verdict::Absorbed)
+fn leaves_something(e: &EffectPower) -> bool {
+    !matches!(e.verdict, Visibility::NoTrace | Visibility::Absorbed)
 }
 
 /// Pairs of effects whose signatures are alike.
@@ -276,12 +276,12 @@ pub(super) fn look_alikes(power: &Power) -> Vec<String> {
     like.map(|(i, j)| format!("{} and {}", alike.terms[i], alike.terms[j])).collect()
 }
 
-fn why_never(e: &Effect) -> Option<String> {
+fn why_never(e: &EffectPower) -> Option<String> {
     match e.verdict {
-        Verdict::Seen | Verdict::SeenWhenLarger => None,
-        Verdict::TooFaint => Some("No size that makes physical sense shows".to_owned()),
-        Verdict::Absorbed => Some("Springs of other stiffness explain all of it".to_owned()),
-        Verdict::NoTrace => Some("It does not act in these poses and loads".to_owned()),
+        Visibility::Seen | Visibility::SeenWhenLarger => None,
+        Visibility::TooFaint => Some("No size that makes physical sense shows".to_owned()),
+        Visibility::Absorbed => Some("Springs of other stiffness explain all of it".to_owned()),
+        Visibility::NoTrace => Some("It does not act in these poses and loads".to_owned()),
     }
 }
 

@@ -12,8 +12,8 @@ use hexbench_model::fit::fit_baseline;
 use hexbench_model::linearization::Linearization;
 use hexbench_model::term::Term;
 use hexbench_model::verdict::Verdict;
-use hexbench_truth::campaign::{Campaign, Row};
-use hexbench_truth::metrology::{Frames, Noise};
+use hexbench_truth::campaign::{PlanRow, SimulatedCampaign};
+use hexbench_truth::metrology::{Frames, InstrumentNoise};
 use hexbench_truth::{Mechanism, TruthError, World};
 use nalgebra::DVector;
 use rand_distr::{Distribution, StandardNormal};
@@ -25,7 +25,7 @@ use crate::trial::Trial;
 
 /// What the diagnosis said in campaigns with one effect.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
-pub struct Answers {
+pub struct SimulatedAnswers {
     /// Campaigns by answer: names of effects joined by `+`, `outside`, `ambiguous`, `adequate`.
     pub said: BTreeMap<String, usize>,
     /// Exactly the effect is named.
@@ -41,10 +41,10 @@ pub struct Answers {
 }
 
 /// An answer in one word, and what became of the truth; no fate when there is no answer.
-pub type Said = (String, Option<Fate>);
+pub type AnswerAndFate = (String, Option<Fate>);
 
-impl Answers {
-    pub(super) fn of_all<'a>(all: impl Iterator<Item = &'a Said>) -> Self {
+impl SimulatedAnswers {
+    pub(super) fn of_all<'a>(all: impl Iterator<Item = &'a AnswerAndFate>) -> Self {
         let mut answers = Self::default();
         all.for_each(|said| answers.add(said));
         answers
@@ -55,7 +55,7 @@ impl Answers {
         self.right + self.honest + self.adequate + self.wrong + self.other
     }
 
-    fn add(&mut self, (word, fate): &Said) {
+    fn add(&mut self, (word, fate): &AnswerAndFate) {
         *self.said.entry(word.clone()).or_default() += 1;
         let place = match fate {
             Some(Fate::Right) => &mut self.right,
@@ -81,7 +81,7 @@ pub struct Simulated {
     /// Change of the leg stiffnesses without noise when the effect is left out, percent.
     pub bias_percent: [f64; 6],
     /// Answers of the whole diagnosis, where asked for.
-    pub answers: Option<Answers>,
+    pub answers: Option<SimulatedAnswers>,
 }
 
 /// Which noise campaigns get: what they are for, the number of their effect.
@@ -90,20 +90,21 @@ pub(super) type NoiseOf = (Purpose, u64);
 /// The machine of a plan in the simulated world.
 pub(super) struct Bench<'a> {
     plan: &'a PowerPlan,
-    rows: Vec<Row>,
+    rows: Vec<PlanRow>,
     seed: u64,
 }
 
 impl<'a> Bench<'a> {
     pub(super) fn new(plan: &'a PowerPlan, seed: u64) -> Self {
-        Self { plan, rows: plan.rows.observations.iter().map(Row::from).collect(), seed }
+        Self { plan, rows: plan.rows.observations.iter().map(PlanRow::from).collect(), seed }
     }
 
     /// What an ideal instrument reads of a machine with these effects, m and rad.
     pub(super) fn ideal(&self, effects: Vec<Box<dyn Mechanism>>) -> Result<Vec<Vector6>, TruthError> {
         let mut world = World::new(self.plan.hexapod.clone(), &self.plan.stiffness);
         world.mechanisms = effects;
-        let campaign = Campaign { world, frames: Frames::default(), noise: Noise::default() };
+        let campaign =
+            SimulatedCampaign { world, frames: Frames::default(), noise: InstrumentNoise::default() };
         campaign.ideal(&self.rows, self.plan.rows.measurand)
     }
 
@@ -147,13 +148,13 @@ impl<'a> Bench<'a> {
             self.plan.noise,
         )?;
         let fit = fit_baseline(&campaign)?;
-        let fitted = |leg: usize| 1.0 / fit.point.springs[leg];
+        let fitted = |leg: usize| 1.0 / fit.point.compliances[leg];
         let bias = std::array::from_fn(|leg| 100.0 * (fitted(leg) / self.plan.stiffness[leg] - 1.0));
         Ok((Linearization::at(&campaign, &fit.point)?.residuals(), bias))
     }
 
     /// What the diagnosis says of readings in which an effect is hidden.
-    pub(super) fn answer(&self, id: &'static str, data: &Dataset, terms: &[Arc<dyn Term>]) -> Said {
+    pub(super) fn answer(&self, id: &'static str, data: &Dataset, terms: &[Arc<dyn Term>]) -> AnswerAndFate {
         let study = diagnose(&self.plan.machine(), data, None, terms);
         study.map_or((NO_ANSWER.to_owned(), None), |study| said(&Trial { hidden: vec![id], study }))
     }
@@ -166,7 +167,7 @@ impl<'a> Bench<'a> {
 /// Word for a diagnosis that could not be made.
 const NO_ANSWER: &str = "no answer";
 
-fn said(trial: &Trial) -> Said {
+fn said(trial: &Trial) -> AnswerAndFate {
     let fate = Fate::of(trial);
     let d = &trial.study.diagnosis;
     let word = match d.verdict {

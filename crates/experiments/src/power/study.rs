@@ -1,8 +1,8 @@
-//! Everything about one plan: reckoned, and simulated where asked for.
+//! Everything about one plan: computed, and simulated where asked for.
 
 use hexbench_core::statistics::Proportion;
 use hexbench_design::DesignError;
-use hexbench_design::power::Study;
+use hexbench_design::power::PowerStudy;
 use hexbench_model::error::ModelError;
 use hexbench_truth::TruthError;
 use hexbench_truth::scene::RowError;
@@ -24,18 +24,18 @@ pub struct Simulation {
 pub struct Power {
     /// `power/1`.
     pub format: &'static str,
-    /// As reckoned.
+    /// As computed.
     #[serde(flatten)]
-    pub study: Study,
+    pub study: PowerStudy,
     /// How much was simulated.
     pub simulation: Simulation,
     /// What was simulated, for every effect.
-    pub checks: Vec<Check>,
+    pub checks: Vec<PowerCheck>,
 }
 
 /// Simulation of one effect.
 #[derive(Debug, Clone, Default, Serialize)]
-pub struct Check {
+pub struct PowerCheck {
     /// Campaigns without effects in which its test saw something.
     pub false_alarms: Option<Proportion>,
     /// At the usual size.

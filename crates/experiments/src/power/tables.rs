@@ -1,10 +1,10 @@
 //! Rows of the tables of a plan's power.
 
 use hexbench_core::statistics::Proportion;
-use hexbench_design::power::{Alike, Effect, NOTHING, Range};
+use hexbench_design::power::{Alike, EffectPower, NOTHING, Range};
 use hexbench_report::number::significant;
 
-use super::{Check, Simulated};
+use super::{PowerCheck, Simulated};
 
 /// Header of [`sizes`].
 pub(super) const SIZES: [&str; 6] = ["effect", "usual", "chance %", "seen from", "unit", "x usual"];
@@ -13,7 +13,7 @@ pub(super) const SPRINGS: [&str; 4] = ["effect", "absorbed", "bias at usual size
 /// Header of [`taken_for`].
 pub(super) const TAKEN_FOR: [&str; 5] = ["effect", "itself", "nothing", "others", "mostly"];
 /// Header of [`check`].
-pub(super) const CHECK: [&str; 6] = ["effect", "size", "reckoned", "world", "simulated", "false alarms"];
+pub(super) const CHECK: [&str; 6] = ["effect", "size", "computed", "world", "simulated", "false alarms"];
 /// Header of [`answers`].
 pub(super) const ANSWERS: [&str; 7] =
     ["effect", "right", "among", "adequate", "wrong", "other", "wrong names"];
@@ -24,7 +24,7 @@ pub(super) const PARAMETERS: [&str; 3] = ["parameter", "seen from", "unit"];
 const NONE: &str = "-";
 
 /// Usual size, chance to see it, smallest size that is seen.
-pub(super) fn sizes(e: &Effect) -> Vec<String> {
+pub(super) fn sizes(e: &EffectPower) -> Vec<String> {
     vec![
         e.term.to_owned(),
         significant(e.usual_size, 2),
@@ -36,7 +36,7 @@ pub(super) fn sizes(e: &Effect) -> Vec<String> {
 }
 
 /// What springs absorb and how far they go astray.
-pub(super) fn springs(e: &Effect) -> Vec<String> {
+pub(super) fn springs(e: &EffectPower) -> Vec<String> {
     let bias = |b: &[f64; 6]| format!("{} %", significant(largest(b), 2));
     vec![
         e.term.to_owned(),
@@ -47,7 +47,7 @@ pub(super) fn springs(e: &Effect) -> Vec<String> {
 }
 
 /// What the effect is taken for.
-pub(super) fn taken_for(alike: &Alike, row: usize, e: &Effect) -> Vec<String> {
+pub(super) fn taken_for(alike: &Alike, row: usize, e: &EffectPower) -> Vec<String> {
     let own = alike.taken_for[row].get(row).copied().unwrap_or(0.0);
     let mistaken = alike.mistaken(row);
     let nothing = mistaken.iter().find(|(name, _)| *name == NOTHING).map_or(0.0, |m| m.1);
@@ -62,14 +62,14 @@ pub(super) fn taken_for(alike: &Alike, row: usize, e: &Effect) -> Vec<String> {
     ]
 }
 
-/// Reckoned and simulated chance, at the usual size and at the size that is seen.
-pub(super) fn check(e: &Effect, check: &Check, wanted: f64) -> Vec<Vec<String>> {
+/// Computed and simulated chance, at the usual size and at the size that is seen.
+pub(super) fn check(e: &EffectPower, check: &PowerCheck, wanted: f64) -> Vec<Vec<String>> {
     let alarms = check.false_alarms.map_or(NONE.to_owned(), bounded);
-    let row = |name: &str, size: &str, reckoned: f64, s: &Simulated, alarms: String| {
+    let row = |name: &str, size: &str, computed: f64, s: &Simulated, alarms: String| {
         vec![
             name.to_owned(),
             size.to_owned(),
-            number(reckoned),
+            number(computed),
             number(s.chance_by_the_world),
             bounded(s.seen),
             alarms,
@@ -81,7 +81,7 @@ pub(super) fn check(e: &Effect, check: &Check, wanted: f64) -> Vec<Vec<String>> 
 }
 
 /// What the diagnosis says, when it was asked.
-pub(super) fn answers(e: &Effect, check: &Check) -> Option<Vec<String>> {
+pub(super) fn answers(e: &EffectPower, check: &PowerCheck) -> Option<Vec<String>> {
     let a = check.when_seen.as_ref()?.answers.as_ref()?;
     let share = |n: usize| number(n as f64 / a.of().max(1) as f64);
     let mut wrong: Vec<(&String, &usize)> = a
@@ -97,7 +97,7 @@ pub(super) fn answers(e: &Effect, check: &Check) -> Option<Vec<String>> {
 }
 
 /// Every parameter of an effect with several.
-pub(super) fn parameters(e: &Effect) -> Vec<Vec<String>> {
+pub(super) fn parameters(e: &EffectPower) -> Vec<Vec<String>> {
     let row = |p: &hexbench_design::power::ParameterReach| {
         let size = p.size.map_or("never".to_owned(), |s| significant(s, 2));
         vec![format!("{}.{}", e.term, p.name), size, p.unit.to_owned()]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use hexbench_core::Hexapod;
 use hexbench_core::statistics::root_mean_square;
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_design::power::{Example, Reference, Subject};
+use hexbench_design::power::{EffectSizes, Example, Reference};
 use hexbench_model::term::Term;
 use hexbench_truth::Mechanism;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
@@ -18,7 +18,7 @@ const DRAWS: usize = 33;
 /// A term with effects of usual size in both worlds, in the same order.
 pub struct Usual {
     /// As the model sees them.
-    pub subject: Subject,
+    pub subject: EffectSizes,
     /// As the world makes them.
     pub mechanisms: Vec<Box<dyn Mechanism>>,
 }
@@ -33,7 +33,7 @@ pub fn usual(term: &Arc<dyn Term>, hexapod: &Hexapod, seed: u64) -> Option<Usual
     let drawn: Vec<Box<dyn Mechanism>> =
         (0..DRAWS).map(|_| (REGISTRY[index].draw)(hexapod, &mut rng)).collect();
     let examples = drawn.iter().map(|m| example(m.as_ref(), hexapod)).collect::<Option<Vec<_>>>()?;
-    let mut subject = Subject { term: Arc::clone(term), examples, reference: Reference::Usual };
+    let mut subject = EffectSizes { term: Arc::clone(term), examples, reference: Reference::Usual };
     let sizes: Vec<f64> = subject.examples.iter().map(|e| subject.size(e)).collect();
     let usual = root_mean_square(sizes.iter().copied())?;
     let factors: Vec<f64> = sizes.iter().map(|s| usual / s).collect();

@@ -11,8 +11,8 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::geometry::{Combinations, combinations};
 use super::noiseless::{Noiseless, recover};
-use super::pulls::{Group, Pull, pulls, right_fit};
-use super::scene::{Scene, Subject};
+use super::pulls::{Pull, PullGroup, pulls, right_fit};
+use super::scene::{HiddenSubject, RecoveryCampaign};
 use super::tally::Tally;
 use crate::TrialError;
 
@@ -21,7 +21,7 @@ const MISFIT_CHANCE: f64 = 1e-4;
 
 /// What one campaign shows.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Found {
+pub struct CampaignResult {
     /// Recovery without noise.
     pub noiseless: Noiseless,
     /// Pulls of leg stiffnesses.
@@ -52,20 +52,20 @@ pub struct Found {
 ///
 /// # Errors
 /// [`TrialError`] when the campaign cannot be made or fitted.
-pub fn run(subject: &Subject, index: usize, seed: u64) -> Result<Found, TrialError> {
-    let scene = Scene::draw(subject, index, seed, None)?;
+pub fn run(subject: &HiddenSubject, index: usize, seed: u64) -> Result<CampaignResult, TrialError> {
+    let scene = RecoveryCampaign::draw(subject, index, seed, None)?;
     let noiseless = recover(subject, &scene)?;
     let data = &scene.case.measurements;
     let (campaign, fit) = right_fit(subject, scene.hexapod(), data)?;
     let misfit = is_misfit(&fit);
     let all = if misfit { Vec::new() } else { pulls(&scene, &fit) };
     let geometry = combinations(&scene, &fit);
-    Ok(Found {
+    Ok(CampaignResult {
         noiseless,
-        stiffness: of(&all, Group::Stiffness),
+        stiffness: of(&all, PullGroup::Stiffness),
         stiffness_by_repeats: by_repeats(subject, &scene)?,
-        sizes: geometry.as_ref().map_or_else(|| of(&all, Group::Size), of_combinations),
-        shapes: of(&all, Group::Shape),
+        sizes: geometry.as_ref().map_or_else(|| of(&all, PullGroup::Size), of_combinations),
+        shapes: of(&all, PullGroup::Shape),
         misfit,
         open: geometry
             .map_or_else(|| hexbench_model::estimate::estimates(&fit).not_determined.len(), |g| g.open),
@@ -82,7 +82,7 @@ pub fn is_misfit(fit: &Fit) -> bool {
     chance_of_larger(fit.chi2, fit.dof) < MISFIT_CHANCE
 }
 
-fn of(pulls: &[Pull], group: Group) -> Tally {
+fn of(pulls: &[Pull], group: PullGroup) -> Tally {
     Tally::campaign(pulls.iter().filter(|p| p.known.group == group).map(Pull::z))
 }
 
@@ -91,13 +91,13 @@ fn of_combinations(found: &Combinations) -> Tally {
 }
 
 /// Leg stiffnesses when no noise level is stated and the repeats have to tell it.
-fn by_repeats(subject: &Subject, scene: &Scene) -> Result<Tally, ModelError> {
+fn by_repeats(subject: &HiddenSubject, scene: &RecoveryCampaign) -> Result<Tally, ModelError> {
     let (_, fit) = right_fit(subject, &scene.hexapod_stating(None), &scene.case.measurements)?;
-    Ok(of(&pulls(scene, &fit), Group::Stiffness))
+    Ok(of(&pulls(scene, &fit), PullGroup::Stiffness))
 }
 
 /// Levels of translations and of rotations against the truth.
-fn noise_by_repeats(scene: &Scene) -> Tally {
+fn noise_by_repeats(scene: &RecoveryCampaign) -> Tally {
     let found = scatter(&scene.case.measurements.observations);
     let Metrology { sigma_translation, sigma_rotation } = scene.noise().metrology();
     let chi2 = |variance: f64, sigma: f64| variance / (sigma * sigma) * found.dof;
@@ -115,13 +115,13 @@ fn chance_of_larger(chi2: f64, dof: f64) -> f64 {
 }
 
 /// One-sided: predictions fail by being too far away.
-fn predicted(scene: &Scene, campaign: &Campaign, fit: &Fit) -> Result<Tally, ModelError> {
+fn predicted(scene: &RecoveryCampaign, campaign: &Campaign, fit: &Fit) -> Result<Tally, ModelError> {
     let chance = survival(scene.hexapod(), &scene.case.holdout, campaign.noise, fit)?;
     Ok(Tally::interval(chance >= 0.05))
 }
 
 /// Held-out chi-square per number.
-pub(crate) fn holdout(scene: &Scene, campaign: &Campaign, fit: &Fit) -> Result<f64, ModelError> {
+pub(crate) fn holdout(scene: &RecoveryCampaign, campaign: &Campaign, fit: &Fit) -> Result<f64, ModelError> {
     let errors = prediction_errors(scene.hexapod(), &scene.case.holdout, campaign.noise, &fit.point)?;
     Ok(summarise(&errors, None).chi2_reduced)
 }

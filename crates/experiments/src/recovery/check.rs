@@ -1,7 +1,7 @@
 //! Which bounds the study holds.
 
 use super::noiseless::Bounded;
-use super::study::{Row, Study};
+use super::study::{RecoveryRow, RecoveryStudy};
 use super::tally::{Coverage, bounds};
 
 /// Relative errors below this mean that world and model share their arithmetic.
@@ -11,7 +11,7 @@ const WRONG_SHARE: f64 = 0.05;
 
 /// One bound.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Check {
+pub struct RecoveryBound {
     /// What is bounded, with the value found.
     pub text: String,
     /// True when the bound holds.
@@ -19,8 +19,8 @@ pub struct Check {
 }
 
 /// All bounds of a study.
-pub fn checks(study: &Study) -> Vec<Check> {
-    let mut all: Vec<Check> = study.rows.iter().flat_map(row).collect();
+pub fn checks(study: &RecoveryStudy) -> Vec<RecoveryBound> {
+    let mut all: Vec<RecoveryBound> = study.rows.iter().flat_map(row).collect();
     all.extend(independence(study));
     let sums = [
         ("leg stiffness, all campaigns", study.stiffness),
@@ -32,21 +32,22 @@ pub fn checks(study: &Study) -> Vec<Check> {
     all.extend(sums.into_iter().filter_map(|(what, c)| covered(what, c)));
     let [sure, wrong] = study.sure;
     let most = bounds(sure as u64, WRONG_SHARE, 1)[1] * sure as f64;
-    all.push(Check {
+    all.push(RecoveryBound {
         text: format!("{wrong} of {sure} sure answers are wrong, at most {most:.0} by chance"),
         holds: wrong as f64 <= most,
     });
-    all.push(Check {
+    all.push(RecoveryBound {
         text: format!("{} campaigns could not be made or fitted", study.failures.len()),
         holds: study.failures.is_empty(),
     });
     all
 }
 
-fn row(row: &Row) -> Vec<Check> {
+fn row(row: &RecoveryRow) -> Vec<RecoveryBound> {
     let named = |what: &str| format!("{}: {what}", row.subject);
     let noiseless = [("leg stiffness", row.noiseless_stiffness), ("effect", row.noiseless_effect)];
-    let mut all: Vec<Check> = noiseless.into_iter().filter_map(|(what, b)| exact(&named(what), b)).collect();
+    let mut all: Vec<RecoveryBound> =
+        noiseless.into_iter().filter_map(|(what, b)| exact(&named(what), b)).collect();
     let shares = [
         ("intervals of leg stiffness", row.stiffness),
         ("intervals of sizes", row.sizes),
@@ -57,26 +58,26 @@ fn row(row: &Row) -> Vec<Check> {
     all
 }
 
-fn exact(what: &str, bounded: Option<Bounded>) -> Option<Check> {
+fn exact(what: &str, bounded: Option<Bounded>) -> Option<RecoveryBound> {
     let b = bounded?;
-    Some(Check {
+    Some(RecoveryBound {
         text: format!("{what} without noise: error {:.1e}, bound {:.1e}", b.error, b.bound),
         holds: b.holds(),
     })
 }
 
-fn covered(what: &str, coverage: Option<Coverage>) -> Option<Check> {
+fn covered(what: &str, coverage: Option<Coverage>) -> Option<RecoveryBound> {
     let c = coverage?;
-    Some(Check {
+    Some(RecoveryBound {
         text: format!("{what}: {:.4} cover the truth, {:.4} to {:.4} by chance", c.share, c.low, c.high),
         holds: c.holds(),
     })
 }
 
 /// Deflections are linearised by the model and not by the world: they cannot agree to rounding.
-fn independence(study: &Study) -> Option<Check> {
+fn independence(study: &RecoveryStudy) -> Option<RecoveryBound> {
     let springs = study.rows.iter().find(|r| r.subject == "springs")?.noiseless_stiffness?;
-    Some(Check {
+    Some(RecoveryBound {
         text: format!(
             "springs: the two worlds agree to {:.1e}, less than arithmetic they would share",
             springs.error

@@ -4,15 +4,15 @@ use hexbench_report::words::written_by;
 use hexbench_report::{Page, Section, Table};
 
 use super::correspondence::{CORRESPONDENCES, Correspondence};
-use super::study::{Row, Study};
+use super::study::{RecoveryRow, RecoveryStudy};
 use super::tables::{summary, tables};
 
 /// The page.
-pub fn page(study: &Study) -> Page {
+pub fn page(study: &RecoveryStudy) -> Page {
     let wrong = study
         .rows
         .iter()
-        .flat_map(|r: &Row| r.wrong_answers.iter().map(move |a| format!("{}: {a}", r.subject)));
+        .flat_map(|r: &RecoveryRow| r.wrong_answers.iter().map(move |a| format!("{}: {a}", r.subject)));
     let page = Page::new("Recovery")
         .with(introduction().detail())
         .with(Section::new("In short").paragraph(summary(study)));

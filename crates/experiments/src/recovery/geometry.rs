@@ -16,7 +16,7 @@ use hexbench_core::statistics::root_mean_square;
 use hexbench_model::fit::Fit;
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen};
 
-use super::scene::Scene;
+use super::scene::RecoveryCampaign;
 
 /// A combination counts as determined when its standard uncertainty is below this share of its prior width.
 const DETERMINED: f64 = 0.05;
@@ -38,7 +38,7 @@ impl Combinations {
 }
 
 /// Compares the geometry of a fit with the truth of its scene; `None` when no joints were fitted.
-pub fn combinations(scene: &Scene, fit: &Fit) -> Option<Combinations> {
+pub fn combinations(scene: &RecoveryCampaign, fit: &Fit) -> Option<Combinations> {
     let truth = truth(scene, fit)?;
     let columns: Vec<usize> = geometry_columns(fit);
     let estimate: Vec<f64> = geometry_values(fit);
@@ -71,7 +71,7 @@ fn geometry_values(fit: &Fit) -> Vec<f64> {
 }
 
 /// True values in the order of the fit's columns, joints brought to those estimated, m.
-fn truth(scene: &Scene, fit: &Fit) -> Option<Vec<f64>> {
+fn truth(scene: &RecoveryCampaign, fit: &Fit) -> Option<Vec<f64>> {
     let known = scene.equivalents();
     let mut all = Vec::new();
     let mut joints = false;

@@ -3,14 +3,14 @@
 use hexbench_model::diagnosis::wanted;
 use hexbench_model::error::ModelError;
 use hexbench_model::estimate::estimates;
-use hexbench_model::fit::{Wanted, fit};
+use hexbench_model::fit::{TermSpec, fit};
 use hexbench_model::parameters::stiffness_name;
 use hexbench_model::residuals::{prediction_errors, summarise};
 use hexbench_model::search::Set;
 use hexbench_model::verdict::Verdict;
 use serde::{Deserialize, Serialize};
 
-use super::scene::{Scene, Subject};
+use super::scene::{HiddenSubject, RecoveryCampaign};
 use super::tally::Tally;
 use crate::{Outcome, Trial, TrialError};
 
@@ -19,7 +19,7 @@ pub const CLEAR_DISTANCE: f64 = 22.0;
 
 /// What the diagnosis made of one campaign.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Named {
+pub struct NamingResult {
     /// Right, honest or wrong.
     pub outcome: Outcome,
     /// The answer, for the record: verdict and what was added.
@@ -29,12 +29,12 @@ pub struct Named {
     /// Pulls of the leg stiffnesses of the model that the diagnosis chose.
     pub stiffness: Tally,
     /// The right model against the best wrong one; `None` when the search looked at no wrong one.
-    pub rival: Option<Rival>,
+    pub rival: Option<BestRival>,
 }
 
 /// The best explanation by terms that leaves a hidden effect out.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Rival {
+pub struct BestRival {
     /// Evidence of the right terms over it, nats.
     pub evidence: f64,
     /// Held-out chi-square per number of the right terms.
@@ -44,11 +44,11 @@ pub struct Rival {
 }
 
 /// Diagnoses the `index`-th campaign of a subject.
-pub(crate) fn run(subject: &Subject, index: usize, seed: u64) -> Result<Named, TrialError> {
-    let scene = Scene::draw(subject, index, seed, Some(CLEAR_DISTANCE))?;
+pub(crate) fn run(subject: &HiddenSubject, index: usize, seed: u64) -> Result<NamingResult, TrialError> {
+    let scene = RecoveryCampaign::draw(subject, index, seed, Some(CLEAR_DISTANCE))?;
     let trial = Trial::run(&scene.case)?;
     let d = &trial.study.diagnosis;
-    Ok(Named {
+    Ok(NamingResult {
         outcome: trial.outcome(),
         answer: format!("{:?} {}", d.verdict, d.added.join(" + ")).trim_end().to_lowercase(),
         sure: d.verdict != Verdict::Ambiguous,
@@ -58,7 +58,7 @@ pub(crate) fn run(subject: &Subject, index: usize, seed: u64) -> Result<Named, T
 }
 
 /// Leg stiffnesses as the diagnosis reports them.
-fn stiffness(scene: &Scene, trial: &Trial) -> Tally {
+fn stiffness(scene: &RecoveryCampaign, trial: &Trial) -> Tally {
     const PER_SI: f64 = 1e-6;
     let Some(last) = trial.study.fits.last() else { return Tally::default() };
     let found = estimates(last).determined;
@@ -69,7 +69,11 @@ fn stiffness(scene: &Scene, trial: &Trial) -> Tally {
     Tally::campaign(scene.leg_stiffness().iter().enumerate().filter_map(pull))
 }
 
-fn rival(subject: &Subject, scene: &Scene, trial: &Trial) -> Result<Option<Rival>, ModelError> {
+fn rival(
+    subject: &HiddenSubject,
+    scene: &RecoveryCampaign,
+    trial: &Trial,
+) -> Result<Option<BestRival>, ModelError> {
     let sets = &trial.study.outcome.sets.sets;
     let ids = |set: &Set| -> Option<Vec<&'static str>> {
         set.members.iter().map(|&m| trial.study.outcome.candidates[m].id()).collect()
@@ -84,7 +88,7 @@ fn rival(subject: &Subject, scene: &Scene, trial: &Trial) -> Result<Option<Rival
     };
     let wrong = sets.iter().find(|s| ids(s).is_some_and(|found| misses(&found)));
     let (Some(right), Some(wrong)) = (right, wrong) else { return Ok(None) };
-    Ok(Some(Rival {
+    Ok(Some(BestRival {
         evidence: right.log_weight - wrong.log_weight,
         holdout_right: holdout(scene, trial, right)?,
         holdout_wrong: holdout(scene, trial, wrong)?,
@@ -92,9 +96,9 @@ fn rival(subject: &Subject, scene: &Scene, trial: &Trial) -> Result<Option<Rival
 }
 
 /// Held-out chi-square per number with the terms of a set.
-fn holdout(scene: &Scene, trial: &Trial, set: &Set) -> Result<f64, ModelError> {
+fn holdout(scene: &RecoveryCampaign, trial: &Trial, set: &Set) -> Result<f64, ModelError> {
     let o = &trial.study.outcome;
-    let terms: Vec<Wanted> = wanted(set, &o.gram, &o.candidates, &o.natural);
+    let terms: Vec<TermSpec> = wanted(set, &o.gram, &o.candidates, &o.natural);
     let campaign = &trial.study.campaign;
     let fitted = fit(campaign, &terms, Some(&o.baseline.point))?;
     let errors = prediction_errors(scene.hexapod(), &scene.case.holdout, campaign.noise, &fitted.point)?;

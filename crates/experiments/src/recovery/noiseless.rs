@@ -35,8 +35,8 @@ use nalgebra::{Matrix3, Matrix6, Rotation3};
 use serde::{Deserialize, Serialize};
 
 use super::geometry::combinations;
-use super::pulls::{Group, Pull, pulls, right_fit};
-use super::scene::{Scene, Subject};
+use super::pulls::{Pull, PullGroup, pulls, right_fit};
+use super::scene::{HiddenSubject, RecoveryCampaign};
 use crate::TrialError;
 
 /// Noise stated to the fit of ideal readings: so small that it goes on until its steps are rounding, and that no prior is
@@ -77,21 +77,21 @@ pub struct Noiseless {
 }
 
 /// Fits ideal readings by the right model.
-pub(crate) fn recover(subject: &Subject, scene: &Scene) -> Result<Noiseless, TrialError> {
+pub(crate) fn recover(subject: &HiddenSubject, scene: &RecoveryCampaign) -> Result<Noiseless, TrialError> {
     let data = scene.ideal_of_same_form()?;
     let (campaign, fit) = right_fit(subject, &scene.hexapod_stating(Some(NO_NOISE)), &data)?;
     let lin = Linearization::at(&campaign, &fit.point)?;
     let error =
         if subject.absolute { rounding(&lin) } else { linearisation_error(&lin, &fit, &campaign.groups) };
-    let of = |group: fn(Group) -> bool| {
+    let of = |group: fn(PullGroup) -> bool| {
         let all = pulls(scene, &fit).into_iter().filter(|p| group(p.known.group));
         all.map(|p| bounded(&p, error)).reduce(Bounded::worse)
     };
     let effect = match combinations(scene, &fit) {
-        None => of(|g| g != Group::Stiffness),
+        None => of(|g| g != PullGroup::Stiffness),
         Some(found) => found.misses.iter().map(|m| combined(m, error)).reduce(Bounded::worse),
     };
-    Ok(Noiseless { stiffness: of(|g| g == Group::Stiffness), effect })
+    Ok(Noiseless { stiffness: of(|g| g == PullGroup::Stiffness), effect })
 }
 
 /// Relative error of one number, and `std |d|` in the same measure.
@@ -109,16 +109,16 @@ fn combined([miss, std]: &[f64; 2], error: f64) -> Bounded {
 }
 
 /// `|d|` of a campaign of deflections.
-fn linearisation_error(lin: &Linearization, fit: &Fit, groups: &[campaign::Group]) -> f64 {
+fn linearisation_error(lin: &Linearization, fit: &Fit, groups: &[campaign::ConditionReadings]) -> f64 {
     let readers = lin.elongation_readers();
     let effects = effect_lengths(lin, fit);
     let travel = travel(lin);
     let of = |i: usize| {
         let at = &lin.conditions[i];
-        let response = |force: &Vector6| (readers[i] * fit.point.springs.component_mul(force)).norm();
+        let response = |force: &Vector6| (readers[i] * fit.point.compliances.component_mul(force)).norm();
         let both = response(&at.force) + response(&at.reference_force);
         let change = response(&at.force_change()).max(f64::MIN_POSITIVE);
-        let by_force = readers[i] * Matrix6::from_diagonal(&fit.point.springs);
+        let by_force = readers[i] * Matrix6::from_diagonal(&fit.point.compliances);
         let (nu, moved) = jacobian_change(lin, at, &groups[i].mean.pose, &by_force);
         let loose = nu + moved / travel + form(fit, at);
         // An effect acts in both states; its column is the difference of the two.

@@ -3,32 +3,32 @@
 use hexbench_core::streams::{Purpose, derived_seed};
 use serde::{Deserialize, Serialize};
 
-use super::campaign::{self, Found};
-use super::naming::{self, Named};
-use super::scene::{Subject, subjects};
-use super::study::Settings;
+use super::campaign::{self, CampaignResult};
+use super::naming::{self, NamingResult};
+use super::scene::{HiddenSubject, subjects};
+use super::study::RecoverySettings;
 use crate::TrialError;
 use crate::harness::{Field, Protocol};
 use crate::journal::Identity;
 
 /// All campaigns and diagnoses.
 pub struct Recovery {
-    pub(super) settings: Settings,
-    pub(super) subjects: Vec<Subject>,
+    pub(super) settings: RecoverySettings,
+    pub(super) subjects: Vec<HiddenSubject>,
 }
 
 /// What is known of one trial.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub enum Record {
+pub enum RecoveryRecord {
     /// A campaign fitted by the right model.
-    Fitted(Box<Found>),
+    Fitted(Box<CampaignResult>),
     /// A campaign that was diagnosed.
-    Diagnosed(Named),
+    Diagnosed(NamingResult),
 }
 
 impl Recovery {
     /// The study of these settings.
-    pub fn new(settings: Settings) -> Self {
+    pub fn new(settings: RecoverySettings) -> Self {
         Self { settings, subjects: subjects() }
     }
 
@@ -49,11 +49,11 @@ impl Recovery {
 }
 
 impl Protocol for Recovery {
-    type Record = Record;
+    type Record = RecoveryRecord;
     type Error = TrialError;
 
     fn identity(&self) -> Identity {
-        let Settings { campaigns, diagnoses, seed } = self.settings;
+        let RecoverySettings { campaigns, diagnoses, seed } = self.settings;
         let settings = [("campaigns", campaigns as u64), ("diagnoses", diagnoses as u64), ("seed", seed)];
         Identity::new("recovery", "recovery-trials/2", settings.map(|(name, n)| (name, n.to_string())))
     }
@@ -62,14 +62,14 @@ impl Protocol for Recovery {
         self.settings.steps() as u64
     }
 
-    fn trial(&self, number: u64) -> Result<Record, TrialError> {
+    fn trial(&self, number: u64) -> Result<RecoveryRecord, TrialError> {
         let (subject, index) = self.place(number);
         let subject = &self.subjects[subject];
         let seed = self.settings.seed;
         if number < self.fitted() as u64 {
-            return Ok(Record::Fitted(Box::new(campaign::run(subject, index, seed)?)));
+            return Ok(RecoveryRecord::Fitted(Box::new(campaign::run(subject, index, seed)?)));
         }
-        Ok(Record::Diagnosed(naming::run(
+        Ok(RecoveryRecord::Diagnosed(naming::run(
             subject,
             index,
             derived_seed(seed, Purpose::RecoveryDiagnoses, []),
@@ -81,42 +81,42 @@ impl Protocol for Recovery {
         format!("{}-{index}", self.subjects[subject].name)
     }
 
-    fn fields(&self) -> Vec<Field<Record>> {
+    fn fields(&self) -> Vec<Field<RecoveryRecord>> {
         vec![
             Field::text(
                 "what",
                 "what was done: fitted by the right model, or diagnosed",
-                |r: &Record| match r {
-                    Record::Fitted(_) => "fitted",
-                    Record::Diagnosed(_) => "diagnosed",
+                |r: &RecoveryRecord| match r {
+                    RecoveryRecord::Fitted(_) => "fitted",
+                    RecoveryRecord::Diagnosed(_) => "diagnosed",
                 },
             ),
             fitted("misfit", "1 where the right model does not fit", |f| f64::from(u8::from(f.misfit))),
             fitted("open", "numbers that the data leave open", |f| f.open as f64),
             fitted("holdout_before", "held-out chi-square per number, springs alone", |f| f.holdout_before),
             fitted("holdout_after", "held-out chi-square per number, right model", |f| f.holdout_after),
-            Field::text("outcome", "right, honest or wrong", |r: &Record| {
+            Field::text("outcome", "right, honest or wrong", |r: &RecoveryRecord| {
                 r.named().map_or("", |n| n.outcome.word())
             }),
-            Field::text("answer", "verdict and what was named", |r: &Record| {
+            Field::text("answer", "verdict and what was named", |r: &RecoveryRecord| {
                 r.named().map_or(String::new(), |n| n.answer.clone())
             }),
         ]
     }
 }
 
-fn fitted(name: &str, meaning: &'static str, value: fn(&Found) -> f64) -> Field<Record> {
-    Field::number((name, "1"), meaning, move |r: &Record| r.found().map(value))
+fn fitted(name: &str, meaning: &'static str, value: fn(&CampaignResult) -> f64) -> Field<RecoveryRecord> {
+    Field::number((name, "1"), meaning, move |r: &RecoveryRecord| r.found().map(value))
 }
 
-impl Record {
+impl RecoveryRecord {
     /// The campaign, when it was fitted.
-    pub(super) fn found(&self) -> Option<&Found> {
+    pub(super) fn found(&self) -> Option<&CampaignResult> {
         if let Self::Fitted(found) = self { Some(found) } else { None }
     }
 
     /// The diagnosis, when it was diagnosed.
-    pub(super) fn named(&self) -> Option<&Named> {
+    pub(super) fn named(&self) -> Option<&NamingResult> {
         if let Self::Diagnosed(named) = self { Some(named) } else { None }
     }
 }

@@ -8,7 +8,7 @@ use hexbench_model::fit::Fit;
 use hexbench_model::fit_named::fit_named;
 use hexbench_model::parameters::{parameter_names, stiffness_name};
 
-use super::scene::{Scene, Subject};
+use super::scene::{HiddenSubject, RecoveryCampaign};
 
 /// A number of the truth under the name and in the unit of the model.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,12 +18,12 @@ pub struct Known {
     /// In the unit of the estimate.
     pub value: f64,
     /// What kind of number.
-    pub group: Group,
+    pub group: PullGroup,
 }
 
 /// Kinds of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Group {
+pub enum PullGroup {
     /// Stiffness of a leg.
     Stiffness,
     /// Linear size of an effect.
@@ -33,26 +33,26 @@ pub enum Group {
 }
 
 /// The truth of a scene under the model's names; numbers without counterpart are left out.
-pub fn known(scene: &Scene, fit: &Fit) -> Vec<Known> {
+pub fn known(scene: &RecoveryCampaign, fit: &Fit) -> Vec<Known> {
     const PER_SI: f64 = 1e-6;
     let mut all: Vec<Known> = scene
         .leg_stiffness()
         .iter()
         .enumerate()
-        .map(|(i, k)| Known { name: stiffness_name(i), value: k * PER_SI, group: Group::Stiffness })
+        .map(|(i, k)| Known { name: stiffness_name(i), value: k * PER_SI, group: PullGroup::Stiffness })
         .collect();
     for (id, truth) in scene.equivalents() {
         let Some(active) = fit.point.active.iter().find(|a| a.id() == id) else { continue };
         for ((name, _, per_si), value) in parameter_names(active).iter().zip(&truth.values) {
             let Some(value) = value else { continue };
-            all.push(Known { name: format!("{id}.{name}"), value: value * per_si, group: Group::Size });
+            all.push(Known { name: format!("{id}.{name}"), value: value * per_si, group: PullGroup::Size });
         }
         let shape = active.term.info().shape.filter(|_| !active.term.shape_is_parameter());
         if let (Some(shape), Some(value)) = (shape, truth.shape) {
             all.push(Known {
                 name: format!("{id}.{}", shape.name),
                 value: value * shape.per_si,
-                group: Group::Shape,
+                group: PullGroup::Shape,
             });
         }
     }
@@ -73,14 +73,14 @@ impl Pull {
     pub fn z(&self) -> f64 {
         let Estimate { value, std, .. } = self.estimate;
         match self.known.group {
-            Group::Shape => (value / self.known.value).ln() / (std / value),
+            PullGroup::Shape => (value / self.known.value).ln() / (std / value),
             _ => (value - self.known.value) / std,
         }
     }
 }
 
 /// Every determined estimate beside its truth.
-pub fn pulls(scene: &Scene, fit: &Fit) -> Vec<Pull> {
+pub fn pulls(scene: &RecoveryCampaign, fit: &Fit) -> Vec<Pull> {
     let found = estimates(fit).determined;
     let pull = |known: Known| {
         let estimate = found.iter().find(|e| e.name == known.name)?.clone();
@@ -94,7 +94,7 @@ pub fn pulls(scene: &Scene, fit: &Fit) -> Vec<Pull> {
 /// # Errors
 /// As `fit_named`.
 pub fn right_fit(
-    subject: &Subject,
+    subject: &HiddenSubject,
     hexapod: &Hexapod,
     data: &Dataset,
 ) -> Result<(Campaign, Fit), ModelError> {

@@ -6,9 +6,11 @@ use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod, Metrology, Observation, Vector6};
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
-use hexbench_truth::campaign::{Campaign, Case, CaseSpec, Kind, PlanKind, Row, machines};
+use hexbench_truth::campaign::{
+    CaseKind, CaseSpec, PlanKind, PlanRow, SimulatedCampaign, SimulatedCase, machines,
+};
 use hexbench_truth::mechanisms::{REGISTRY, Shows, build};
-use hexbench_truth::metrology::Noise;
+use hexbench_truth::metrology::InstrumentNoise;
 use hexbench_truth::{Situation, TruthError};
 use rand::RngExt;
 use serde_json::json;
@@ -27,7 +29,7 @@ const PLANS: [PlanKind; 5] =
 
 /// What is hidden in a campaign: one row of the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Subject {
+pub struct HiddenSubject {
     /// Name in tables.
     pub name: &'static str,
     /// Ids of the hidden effects.
@@ -37,14 +39,18 @@ pub struct Subject {
 }
 
 /// Springs alone, springs in absolute poses, all 42 numbers of the geometry, and every effect of the catalogue.
-pub fn subjects() -> Vec<Subject> {
+pub fn subjects() -> Vec<HiddenSubject> {
     let mut all = vec![
-        Subject { name: "springs", effects: &[], absolute: false },
-        Subject { name: "springs (absolute)", effects: &[], absolute: true },
-        Subject { name: "geometry, 42 numbers", effects: &["joint-geometry", "leg-offset"], absolute: true },
+        HiddenSubject { name: "springs", effects: &[], absolute: false },
+        HiddenSubject { name: "springs (absolute)", effects: &[], absolute: true },
+        HiddenSubject {
+            name: "geometry, 42 numbers",
+            effects: &["joint-geometry", "leg-offset"],
+            absolute: true,
+        },
     ];
     let known = REGISTRY.iter().filter(|e| e.shows != Shows::Outside);
-    all.extend(known.map(|e| Subject {
+    all.extend(known.map(|e| HiddenSubject {
         name: e.id,
         effects: std::slice::from_ref(&e.id),
         absolute: e.shows == Shows::Absolute,
@@ -52,7 +58,7 @@ pub fn subjects() -> Vec<Subject> {
     all
 }
 
-impl Subject {
+impl HiddenSubject {
     /// The terms that stand for the hidden effects.
     pub fn terms(&self) -> Vec<Arc<dyn Term>> {
         let all = catalogue();
@@ -65,19 +71,19 @@ impl Subject {
 }
 
 /// A campaign with its truth.
-pub struct Scene {
+pub struct RecoveryCampaign {
     /// World, instrument and truth.
-    pub case: Case,
+    pub case: SimulatedCase,
 }
 
-impl Scene {
+impl RecoveryCampaign {
     /// The `index`-th campaign of a subject; `distance` as given, else one of three in turn. Effects that do not show in
     /// one machine and plan are tried in others.
     ///
     /// # Errors
     /// The last failure when no machine and plan will do.
     pub fn draw(
-        subject: &Subject,
+        subject: &HiddenSubject,
         index: usize,
         seed: u64,
         distance: Option<f64>,
@@ -93,7 +99,7 @@ impl Scene {
     }
 
     /// Noise of the instrument.
-    pub fn noise(&self) -> Noise {
+    pub fn noise(&self) -> InstrumentNoise {
         self.case.campaign.noise
     }
 
@@ -135,14 +141,14 @@ impl Scene {
                 None => mechanism.scaled(1.0),
             });
         }
-        let campaign = Campaign { world, frames: bare.frames, noise: bare.noise };
+        let campaign = SimulatedCampaign { world, frames: bare.frames, noise: bare.noise };
         self.reread(&campaign, &rows(&self.case.measurements))
     }
 
-    fn reread(&self, campaign: &Campaign, plan: &[Row]) -> Result<Dataset, TruthError> {
+    fn reread(&self, campaign: &SimulatedCampaign, plan: &[PlanRow]) -> Result<Dataset, TruthError> {
         let ideal = campaign.ideal(plan, self.case.measurements.measurand)?;
         let data = &self.case.measurements;
-        let read = |((o, row), r): ((&Observation, &Row), &Vector6)| Observation {
+        let read = |((o, row), r): ((&Observation, &PlanRow), &Vector6)| Observation {
             wrench: row.situation.wrench,
             reference: row.situation.reference,
             measured: (*r).into(),
@@ -158,7 +164,7 @@ impl Scene {
     }
 }
 
-fn spec(subject: &Subject, index: usize, seed: u64, attempt: u64, distance: Option<f64>) -> CaseSpec {
+fn spec(subject: &HiddenSubject, index: usize, seed: u64, attempt: u64, distance: Option<f64>) -> CaseSpec {
     let name = subject.name.bytes().fold(0_u64, |h, b| h.wrapping_mul(131).wrapping_add(u64::from(b)));
     let mut rng = stream(seed, Purpose::RecoveryCampaign, [name, attempt, index as u64]);
     let plan = match (subject.absolute, subject.effects.is_empty()) {
@@ -168,25 +174,25 @@ fn spec(subject: &Subject, index: usize, seed: u64, attempt: u64, distance: Opti
     };
     let usual = DISTANCES[index % DISTANCES.len()];
     let factor = NOISE_FACTORS[rng.random_range(0..NOISE_FACTORS.len())];
-    let Noise { sigma_translation, sigma_rotation, .. } = Noise::default();
+    let InstrumentNoise { sigma_translation, sigma_rotation, .. } = InstrumentNoise::default();
     CaseSpec {
         id: format!("{}-{index}", subject.name),
-        kind: if subject.absolute { Kind::Absolute } else { Kind::Single },
+        kind: if subject.absolute { CaseKind::Absolute } else { CaseKind::Single },
         family: machines::FAMILIES[rng.random_range(0..machines::FAMILIES.len())],
         plan,
         effects: subject.effects.to_vec(),
         distance: (!subject.effects.is_empty() && !subject.is_geometry())
             .then_some(distance.unwrap_or(usual)),
-        noise: Noise {
+        noise: InstrumentNoise {
             sigma_translation: factor * sigma_translation,
             sigma_rotation: factor * sigma_rotation,
-            ..Noise::default()
+            ..InstrumentNoise::default()
         },
         seed: u64::from(rng.random::<u32>()),
     }
 }
 
 /// The plan behind readings.
-fn rows(data: &Dataset) -> Vec<Row> {
-    data.observations.iter().map(Row::from).collect()
+fn rows(data: &Dataset) -> Vec<PlanRow> {
+    data.observations.iter().map(PlanRow::from).collect()
 }

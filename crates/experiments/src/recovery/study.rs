@@ -3,18 +3,18 @@
 use hexbench_core::statistics::{mean, median};
 use serde::Serialize;
 
-use super::campaign::Found;
-use super::naming::{Named, Rival};
+use super::campaign::CampaignResult;
+use super::naming::{BestRival, NamingResult};
 use super::noiseless::Bounded;
-use super::protocol::{Record, Recovery};
-use super::scene::{Subject, subjects};
+use super::protocol::{Recovery, RecoveryRecord};
+use super::scene::{HiddenSubject, subjects};
 use super::tally::{Coverage, Tally};
 use crate::Outcome;
 use crate::harness::Gathered;
 
 /// What is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Settings {
+pub struct RecoverySettings {
     /// Noisy campaigns in all, shared out evenly.
     pub campaigns: usize,
     /// Diagnoses of each subject.
@@ -23,13 +23,13 @@ pub struct Settings {
     pub seed: u64,
 }
 
-impl Default for Settings {
+impl Default for RecoverySettings {
     fn default() -> Self {
         Self { campaigns: 2000, diagnoses: 10, seed: 1 }
     }
 }
 
-impl Settings {
+impl RecoverySettings {
     /// Campaigns of each subject, rounded up.
     pub fn per_subject(&self) -> usize {
         self.campaigns.div_ceil(subjects().len())
@@ -43,7 +43,7 @@ impl Settings {
 
 /// One row of the table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
+pub struct RecoveryRow {
     /// What was hidden.
     pub subject: &'static str,
     /// Largest error of leg stiffness without noise against its bound.
@@ -82,13 +82,13 @@ pub struct Row {
 
 /// The study with its sums over all subjects.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Study {
+pub struct RecoveryStudy {
     /// `recovery/1`.
     pub format: &'static str,
     /// What was run.
-    pub settings: Settings,
+    pub settings: RecoverySettings,
     /// One per subject.
-    pub rows: Vec<Row>,
+    pub rows: Vec<RecoveryRow>,
     /// Leg stiffnesses of all campaigns.
     pub stiffness: Option<Coverage>,
     /// Effect sizes of all campaigns.
@@ -115,12 +115,12 @@ pub struct Study {
     pub broken: Vec<String>,
 }
 
-impl Study {
+impl RecoveryStudy {
     /// Everything the trials of the study show.
-    pub fn of(protocol: &Recovery, gathered: &Gathered<Record>) -> Self {
-        let good: Vec<&Found> = gathered.records().filter_map(Record::found).collect();
-        let answers: Vec<&Named> = gathered.records().filter_map(Record::named).collect();
-        let over = |of: fn(&Found) -> Tally| good.iter().map(|f| of(f)).sum::<Tally>().coverage(1);
+    pub fn of(protocol: &Recovery, gathered: &Gathered<RecoveryRecord>) -> Self {
+        let good: Vec<&CampaignResult> = gathered.records().filter_map(RecoveryRecord::found).collect();
+        let answers: Vec<&NamingResult> = gathered.records().filter_map(RecoveryRecord::named).collect();
+        let over = |of: fn(&CampaignResult) -> Tally| good.iter().map(|f| of(f)).sum::<Tally>().coverage(1);
         let after = |right_only: bool| {
             let kept = answers.iter().filter(|n| !right_only || n.outcome == Outcome::Right);
             kept.map(|n| n.stiffness).sum::<Tally>().coverage(1)
@@ -151,23 +151,23 @@ impl Study {
     }
 }
 
-fn rows(protocol: &Recovery, gathered: &Gathered<Record>) -> Vec<Row> {
+fn rows(protocol: &Recovery, gathered: &Gathered<RecoveryRecord>) -> Vec<RecoveryRow> {
     let subjects = &protocol.subjects;
-    let mut own: Vec<Vec<&Record>> = vec![Vec::new(); subjects.len()];
+    let mut own: Vec<Vec<&RecoveryRecord>> = vec![Vec::new(); subjects.len()];
     for (number, record) in gathered.numbered() {
         own[protocol.place(number).0].push(record);
     }
     subjects.iter().zip(&own).map(|(subject, records)| row(subject, subjects.len(), records)).collect()
 }
 
-fn row(subject: &Subject, rows: usize, records: &[&Record]) -> Row {
-    let found: Vec<&Found> = records.iter().filter_map(|r| r.found()).collect();
-    let named: Vec<&Named> = records.iter().filter_map(|r| r.named()).collect();
-    let over = |of: fn(&Found) -> Tally| found.iter().map(|f| of(f)).sum::<Tally>().coverage(rows);
+fn row(subject: &HiddenSubject, rows: usize, records: &[&RecoveryRecord]) -> RecoveryRow {
+    let found: Vec<&CampaignResult> = records.iter().filter_map(|r| r.found()).collect();
+    let named: Vec<&NamingResult> = records.iter().filter_map(|r| r.named()).collect();
+    let over = |of: fn(&CampaignResult) -> Tally| found.iter().map(|f| of(f)).sum::<Tally>().coverage(rows);
     let count = |outcome: Outcome| named.iter().filter(|n| n.outcome == outcome).count();
-    let rivals: Vec<&Rival> = named.iter().filter_map(|n| n.rival.as_ref()).collect();
+    let rivals: Vec<&BestRival> = named.iter().filter_map(|n| n.rival.as_ref()).collect();
     let wrong = named.iter().filter(|n| n.outcome == Outcome::Wrong);
-    Row {
+    RecoveryRow {
         subject: subject.name,
         noiseless_stiffness: found.iter().filter_map(|f| f.noiseless.stiffness).reduce(Bounded::worse),
         noiseless_effect: found.iter().filter_map(|f| f.noiseless.effect).reduce(Bounded::worse),

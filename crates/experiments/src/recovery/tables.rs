@@ -3,16 +3,16 @@
 use hexbench_report::{Section, Table};
 
 use super::noiseless::Bounded;
-use super::study::{Row, Study};
+use super::study::{RecoveryRow, RecoveryStudy};
 use super::tally::Coverage;
 
 /// Without noise, intervals, effects named, sums.
-pub fn tables(study: &Study) -> [Section; 4] {
+pub fn tables(study: &RecoveryStudy) -> [Section; 4] {
     [noiseless(study), intervals(study), naming(study), sums(study)]
 }
 
-fn noiseless(study: &Study) -> Section {
-    let cells = |row: &Row| {
+fn noiseless(study: &RecoveryStudy) -> Section {
+    let cells = |row: &RecoveryRow| {
         let both = [row.noiseless_stiffness, row.noiseless_effect];
         named(row, both.into_iter().flat_map(error_and_bound))
     };
@@ -28,8 +28,8 @@ fn error_and_bound(bounded: Option<Bounded>) -> [String; 2] {
     bounded.map_or([dash(), dash()], |b| [format!("{:.1e}", b.error), format!("{:.1e}", b.bound)])
 }
 
-fn intervals(study: &Study) -> Section {
-    let cells = |row: &Row| {
+fn intervals(study: &RecoveryStudy) -> Section {
+    let cells = |row: &RecoveryRow| {
         let pulled = [row.stiffness, row.sizes].into_iter().flat_map(share_and_pull);
         named(row, pulled.chain([share(row.shapes)]))
     };
@@ -52,8 +52,8 @@ fn share(coverage: Option<Coverage>) -> String {
     coverage.map_or_else(dash, |c| format!("{:.3}", c.share))
 }
 
-fn naming(study: &Study) -> Section {
-    let cells = |row: &Row| {
+fn naming(study: &RecoveryStudy) -> Section {
+    let cells = |row: &RecoveryRow| {
         let [right, honest, wrong] = row.named;
         let number = |x: f64| format!("{x:.2}");
         named(
@@ -74,7 +74,7 @@ fn naming(study: &Study) -> Section {
         .table(Table::named(["hidden", "named", "springs", "right", "wrong", "wrong wins", "predicted"]).rows(study.rows.iter().map(cells)))
 }
 
-fn sums(study: &Study) -> Section {
+fn sums(study: &RecoveryStudy) -> Section {
     let kinds = [
         ("leg stiffness", study.stiffness),
         ("sizes of effects", study.sizes),
@@ -103,7 +103,7 @@ fn sums(study: &Study) -> Section {
         )
 }
 
-fn named(row: &Row, cells: impl IntoIterator<Item = String>) -> Vec<String> {
+fn named(row: &RecoveryRow, cells: impl IntoIterator<Item = String>) -> Vec<String> {
     std::iter::once(row.subject.to_owned()).chain(cells).collect()
 }
 
@@ -112,7 +112,7 @@ fn dash() -> String {
 }
 
 /// One line: what was run and which bounds hold.
-pub fn summary(study: &Study) -> String {
+pub fn summary(study: &RecoveryStudy) -> String {
     let s = &study.settings;
     let [sure, wrong] = study.sure;
     format!(

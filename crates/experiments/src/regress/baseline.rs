@@ -7,10 +7,10 @@ use std::path::Path;
 use hexbench_core::files::atomic_write;
 use serde::{Deserialize, Serialize};
 
-use super::gathered::Gathered;
-use super::limit::Limit;
-use super::sample::Sample;
-use super::suite::Suite;
+use super::gathered::LimitSample;
+use super::limit::RegressLimit;
+use super::sample::CondensedValues;
+use super::suite::RegressSuite;
 
 /// Name and version of the file format.
 pub const FORMAT: &str = "regress-baseline/1";
@@ -34,7 +34,7 @@ pub struct Baseline {
     /// Updates, the latest last.
     pub history: Vec<Update>,
     /// Samples by limit.
-    pub limits: BTreeMap<String, Entry>,
+    pub limits: BTreeMap<String, BaselineEntry>,
 }
 
 /// When, by which version and why a baseline was made.
@@ -55,10 +55,10 @@ pub struct Update {
 
 /// One limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Entry {
+pub struct BaselineEntry {
     /// Of all runs behind the baseline.
     #[serde(flatten)]
-    pub sample: Sample,
+    pub sample: CondensedValues,
     /// Fingerprint of the values of the first run.
     pub first: String,
 }
@@ -162,17 +162,17 @@ impl BaselineError {
 /// # Errors
 /// [`BaselineError::NoReason`].
 pub fn made(
-    suite: &Suite,
-    limits: &[Limit],
-    gathered: &[Gathered],
+    suite: &RegressSuite,
+    limits: &[RegressLimit],
+    gathered: &[LimitSample],
     update: Update,
     kept: Vec<Update>,
 ) -> Result<Baseline, BaselineError> {
     if update.reason.trim().is_empty() {
         return Err(BaselineError::NoReason);
     }
-    let entry = |(limit, g): (&Limit, &Gathered)| {
-        (limit.id.clone(), Entry { sample: g.sample.clone(), first: g.fingerprint.clone() })
+    let entry = |(limit, g): (&RegressLimit, &LimitSample)| {
+        (limit.id.clone(), BaselineEntry { sample: g.sample.clone(), first: g.fingerprint.clone() })
     };
     Ok(Baseline {
         format: FORMAT.to_owned(),
@@ -213,7 +213,11 @@ impl Baseline {
     ///
     /// # Errors
     /// As [`Baseline::read`]; [`BaselineError::OtherSuite`], [`BaselineError::Limits`].
-    pub fn read_for(path: &Path, suite: &Suite, limits: &[Limit]) -> Result<Self, BaselineError> {
+    pub fn read_for(
+        path: &Path,
+        suite: &RegressSuite,
+        limits: &[RegressLimit],
+    ) -> Result<Self, BaselineError> {
         let read = Self::read(path)?;
         let name = || path.display().to_string();
         if (read.suite.as_str(), read.suite_version) != (suite.name, suite.version) {
@@ -221,8 +225,8 @@ impl Baseline {
             let wanted = format!("{}/{}", suite.name, suite.version);
             return Err(BaselineError::OtherSuite { path: name(), found, wanted });
         }
-        let empty = |limit: &&Limit| Sample::of(limit.test, &[]);
-        let fits = |limit: &&Limit| {
+        let empty = |limit: &&RegressLimit| CondensedValues::of(limit.test, &[]);
+        let fits = |limit: &&RegressLimit| {
             read.limits.get(&limit.id).is_some_and(|entry| entry.sample.is_like(&empty(limit)))
         };
         if let Some(limit) = limits.iter().find(|limit| !fits(limit)) {

@@ -4,21 +4,21 @@ use serde::{Deserialize, Serialize};
 
 use super::baseline::{Baseline, Update};
 use super::figure::{figure, notice};
-use super::gathered::{Gathered, gather};
-use super::limit::{Group, Limit};
+use super::gathered::{LimitSample, gather};
+use super::limit::{LimitGroup, RegressLimit};
 use super::notice::noticed;
-use super::rule::{FALSE_ALARM, Verdict, judge};
-use super::sample::Sample;
-use super::suite::Suite;
-use super::trials::Trials;
+use super::rule::{FALSE_ALARM, LimitVerdict, judge};
+use super::sample::CondensedValues;
+use super::suite::RegressSuite;
+use super::trials::SuiteTrials;
 
 /// What became of one limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Finding {
+pub struct LimitOutcome {
     /// As in the baseline.
     pub id: String,
     /// What it is about.
-    pub group: Group,
+    pub group: LimitGroup,
     /// Name of the test case.
     pub title: String,
     /// Why it exists.
@@ -30,18 +30,18 @@ pub struct Finding {
     /// The figure from which a run fails in nine cases of ten.
     pub notices: String,
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: LimitVerdict,
     /// Probability of a change for the worse this large by chance; `None` where chance takes no part.
     pub chance: Option<f64>,
     /// True when every value is that of the baseline's first run, to the last bit; `None` with another seed.
     pub same_values: Option<bool>,
     /// What is known of the run.
-    pub sample: Sample,
+    pub sample: CondensedValues,
 }
 
 /// A run beside its baseline, limit by limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Comparison {
+pub struct RunComparison {
     /// `regress/1`.
     pub format: String,
     /// Name of the suite.
@@ -61,47 +61,47 @@ pub struct Comparison {
     /// Share of it that each limit in which chance takes part has.
     pub level: f64,
     /// One for each limit.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<LimitOutcome>,
     /// Campaigns without an answer, and why.
     pub without_answer: Vec<String>,
 }
 
 /// Share of the probability of a false alarm that each limit has in which chance takes part.
-pub fn level(limits: &[Limit]) -> f64 {
+pub fn level(limits: &[RegressLimit]) -> f64 {
     FALSE_ALARM / limits.iter().filter(|l| l.test.is_random()).count().max(1) as f64
 }
 
 /// Compares the trials of a run with a baseline that was read for the same suite and limits.
 pub fn compare(
-    suite: &Suite,
-    limits: &[Limit],
-    (trials, seed): (&Trials, u64),
+    suite: &RegressSuite,
+    limits: &[RegressLimit],
+    (trials, seed): (&SuiteTrials, u64),
     baseline: &Baseline,
     hexbench: &str,
-) -> Comparison {
+) -> RunComparison {
     let gathered = gather(limits, trials);
     let without_answer = trials.failures.clone();
-    Comparison { without_answer, ..of_samples(suite, limits, (&gathered, seed), baseline, hexbench) }
+    RunComparison { without_answer, ..of_samples(suite, limits, (&gathered, seed), baseline, hexbench) }
 }
 
 /// The same from what is kept of the trials.
 pub fn of_samples(
-    suite: &Suite,
-    limits: &[Limit],
-    (gathered, seed): (&[Gathered], u64),
+    suite: &RegressSuite,
+    limits: &[RegressLimit],
+    (gathered, seed): (&[LimitSample], u64),
     baseline: &Baseline,
     hexbench: &str,
-) -> Comparison {
+) -> RunComparison {
     let level = level(limits);
     let same_seed = seed == baseline.seed;
     let runs = baseline.history.last().map_or(1, |update| update.runs);
-    let find = |(limit, now): (&Limit, &Gathered)| {
+    let find = |(limit, now): (&RegressLimit, &LimitSample)| {
         let before = &baseline.limits.get(&limit.id)?;
         let mut found = finding(limit, &now.sample, &before.sample, runs, level);
         found.same_values = same_seed.then(|| now.fingerprint == before.first);
         Some(found)
     };
-    Comparison {
+    RunComparison {
         format: "regress/1".to_owned(),
         suite: suite.name.to_owned(),
         suite_version: suite.version,
@@ -116,10 +116,16 @@ pub fn of_samples(
     }
 }
 
-fn finding(limit: &Limit, now: &Sample, before: &Sample, runs: usize, level: f64) -> Finding {
+fn finding(
+    limit: &RegressLimit,
+    now: &CondensedValues,
+    before: &CondensedValues,
+    runs: usize,
+    level: f64,
+) -> LimitOutcome {
     let judged = judge(limit.test, now, before, runs, level);
     let least = noticed(limit.test, now.count(), before, level);
-    Finding {
+    LimitOutcome {
         id: limit.id.clone(),
         group: limit.group,
         title: limit.title.clone(),
@@ -134,7 +140,7 @@ fn finding(limit: &Limit, now: &Sample, before: &Sample, runs: usize, level: f64
     }
 }
 
-impl Finding {
+impl LimitOutcome {
     /// Why it failed, in figures.
     pub fn complaint(&self) -> String {
         let chance = self.chance.map(|p| format!("; by chance {}", probability(p))).unwrap_or_default();
@@ -147,15 +153,15 @@ pub fn probability(p: f64) -> String {
     if p >= 0.01 { format!("{p:.2}") } else { format!("{p:.0e}") }
 }
 
-impl Comparison {
+impl RunComparison {
     /// Limits with a verdict.
-    pub fn of(&self, verdict: Verdict) -> impl Iterator<Item = &Finding> {
+    pub fn of(&self, verdict: LimitVerdict) -> impl Iterator<Item = &LimitOutcome> {
         self.findings.iter().filter(move |f| f.verdict == verdict)
     }
 
     /// True when a limit is worse than chance explains.
     pub fn fails(&self) -> bool {
-        self.of(Verdict::Worse).next().is_some()
+        self.of(LimitVerdict::Worse).next().is_some()
     }
 
     /// Limits whose values are those of the baseline's first run to the last bit; `None` with another seed.
@@ -165,20 +171,20 @@ impl Comparison {
     }
 
     /// Findings, the least probable first; those without chance that fail come before all.
-    pub fn by_chance(&self) -> Vec<&Finding> {
-        let key = |f: &Finding| match (f.verdict, f.chance) {
-            (Verdict::Worse, None) => -1.0,
-            (Verdict::Worse, Some(p)) => p - 0.5,
+    pub fn by_chance(&self) -> Vec<&LimitOutcome> {
+        let key = |f: &LimitOutcome| match (f.verdict, f.chance) {
+            (LimitVerdict::Worse, None) => -1.0,
+            (LimitVerdict::Worse, Some(p)) => p - 0.5,
             (_, Some(p)) => p,
             (_, None) => 2.0,
         };
-        let mut all: Vec<&Finding> = self.findings.iter().collect();
+        let mut all: Vec<&LimitOutcome> = self.findings.iter().collect();
         all.sort_by(|a, b| key(a).total_cmp(&key(b)));
         all
     }
 
     /// Smallest probability among the limits in which chance takes part, and its limit.
-    pub fn least_probable(&self) -> Option<(f64, &Finding)> {
+    pub fn least_probable(&self) -> Option<(f64, &LimitOutcome)> {
         let all = self.findings.iter().filter_map(|f| Some((f.chance?, f)));
         all.min_by(|a, b| a.0.total_cmp(&b.0))
     }

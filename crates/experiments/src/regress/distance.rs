@@ -9,21 +9,21 @@ use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::recovery::geometry::Combinations;
-use crate::recovery::scene::Scene;
+use crate::recovery::scene::RecoveryCampaign;
 
 /// Chance of a truth so far off below which it counts as outside the region.
 const OUTSIDE: f64 = 0.05;
 
 /// Squared distance of several numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Distance {
+pub struct PulledDistance {
     /// `d^2`.
     pub chi2: f64,
     /// How many numbers.
     pub numbers: usize,
 }
 
-impl Distance {
+impl PulledDistance {
     /// Per number: 1 on average when the covariance is honest.
     pub fn per_number(&self) -> f64 {
         self.chi2 / self.numbers as f64
@@ -62,14 +62,15 @@ impl Distance {
 }
 
 /// Of the leg compliances, m/N.
-pub fn of_springs(scene: &Scene, fit: &Fit) -> Option<Distance> {
+pub fn of_springs(scene: &RecoveryCampaign, fit: &Fit) -> Option<PulledDistance> {
     let truth = scene.leg_stiffness().map(f64::recip);
-    let misses: Vec<(usize, f64)> = (0..6).map(|leg| (leg, fit.point.springs[leg] - truth[leg])).collect();
-    Distance::of(fit, &misses)
+    let misses: Vec<(usize, f64)> =
+        (0..6).map(|leg| (leg, fit.point.compliances[leg] - truth[leg])).collect();
+    PulledDistance::of(fit, &misses)
 }
 
 /// Of the numbers of all effects, SI; a shape enters by its logarithm, as in the covariance.
-pub fn of_effects(scene: &Scene, fit: &Fit) -> Option<Distance> {
+pub fn of_effects(scene: &RecoveryCampaign, fit: &Fit) -> Option<PulledDistance> {
     let mut misses = Vec::new();
     for (id, truth) in scene.equivalents() {
         let Some(k) = fit.point.active.iter().position(|a| a.id() == id) else { continue };
@@ -80,5 +81,5 @@ pub fn of_effects(scene: &Scene, fit: &Fit) -> Option<Distance> {
             misses.push((column, (active.shape / shape).ln()));
         }
     }
-    Distance::of(fit, &misses)
+    PulledDistance::of(fit, &misses)
 }

@@ -2,8 +2,8 @@
 
 use hexbench_report::number::{hundredths, significant};
 
-use super::limit::{Test, Unit};
-use super::sample::Sample;
+use super::limit::{LimitTest, LimitUnit};
+use super::sample::CondensedValues;
 
 /// Factor beyond which it does not matter how much would be noticed.
 const LARGEST_FACTOR: f64 = 100.0;
@@ -11,40 +11,42 @@ const LARGEST_FACTOR: f64 = 100.0;
 const DIGITS: i32 = 3;
 
 /// A sample in one figure with what is behind it.
-pub fn figure(test: Test, sample: &Sample) -> String {
+pub fn figure(test: LimitTest, sample: &CondensedValues) -> String {
     match *sample {
-        Sample::Share { of: 0, .. } | Sample::Size { n: 0, .. } | Sample::Spread { n: 0, .. } => {
-            "none".to_owned()
+        CondensedValues::Share { of: 0, .. }
+        | CondensedValues::Size { n: 0, .. }
+        | CondensedValues::Spread { n: 0, .. } => "none".to_owned(),
+        CondensedValues::Share { hits, of } => {
+            format!("{hits} of {of} ({} %)", hundredths(hits as f64 / of as f64))
         }
-        Sample::Share { hits, of } => format!("{hits} of {of} ({} %)", hundredths(hits as f64 / of as f64)),
-        Sample::Size { n, .. } => format!("{} (n = {n})", mean(test, sample.moments().0.exp())),
-        Sample::Spread { n, .. } => format!("{:.2} (n = {n})", sample.moments().0),
-        Sample::Exact { ref values } if values.is_empty() => "none".to_owned(),
-        Sample::Exact { ref values } if values.iter().any(Option::is_none) => "not found".to_owned(),
-        Sample::Exact { .. } => exact(sample.moments().0),
+        CondensedValues::Size { n, .. } => format!("{} (n = {n})", mean(test, sample.moments().0.exp())),
+        CondensedValues::Spread { n, .. } => format!("{:.2} (n = {n})", sample.moments().0),
+        CondensedValues::Exact { ref values } if values.is_empty() => "none".to_owned(),
+        CondensedValues::Exact { ref values } if values.iter().any(Option::is_none) => "not found".to_owned(),
+        CondensedValues::Exact { .. } => exact(sample.moments().0),
     }
 }
 
 /// What a limit would notice, in the words of its figure; `reference` is the baseline.
-pub fn notice(test: Test, noticed: Option<f64>, reference: &Sample) -> String {
+pub fn notice(test: LimitTest, noticed: Option<f64>, reference: &CondensedValues) -> String {
     let Some(value) = noticed else { return "nothing".to_owned() };
-    if matches!(test, Test::Size { .. }) && value > LARGEST_FACTOR {
+    if matches!(test, LimitTest::Size { .. }) && value > LARGEST_FACTOR {
         return format!("nothing below x {LARGEST_FACTOR}");
     }
     match test {
-        Test::Share => format!("{} %", hundredths(value)),
-        Test::Size { .. } => {
+        LimitTest::Share => format!("{} %", hundredths(value)),
+        LimitTest::Size { .. } => {
             format!("{} (x {value:.2})", mean(test, reference.moments().0.exp() * value))
         }
-        Test::Spread => format!("{value:.2}"),
-        Test::Exact => format!("x {value}"),
-        Test::Bound => "above 1".to_owned(),
+        LimitTest::Spread => format!("{value:.2}"),
+        LimitTest::Exact => format!("x {value}"),
+        LimitTest::Bound => "above 1".to_owned(),
     }
 }
 
-fn mean(test: Test, value: f64) -> String {
+fn mean(test: LimitTest, value: f64) -> String {
     match test {
-        Test::Size { unit: Unit::Percent, .. } => format!("{} %", small(100.0 * value)),
+        LimitTest::Size { unit: LimitUnit::Percent, .. } => format!("{} %", small(100.0 * value)),
         _ => small(value),
     }
 }

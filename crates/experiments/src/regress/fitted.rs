@@ -6,12 +6,12 @@ use hexbench_model::fit::Fit;
 use hexbench_model::residuals::survival;
 use serde::{Deserialize, Serialize};
 
-use super::distance::{Distance, of_effects, of_springs};
+use super::distance::{PulledDistance, of_effects, of_springs};
 use crate::TrialError;
 use crate::recovery::campaign::{holdout, is_misfit};
 use crate::recovery::geometry::{Combinations, combinations};
-use crate::recovery::pulls::{Group, Pull, pulls, right_fit};
-use crate::recovery::scene::{Scene, Subject};
+use crate::recovery::pulls::{Pull, PullGroup, pulls, right_fit};
+use crate::recovery::scene::{HiddenSubject, RecoveryCampaign};
 
 /// Chance of predictions so far off below which they count as missed.
 const MISSED: f64 = 0.05;
@@ -24,9 +24,9 @@ pub struct Fitted {
     /// Geometric mean of the relative errors of the effect's determined numbers.
     pub effect_error: Option<f64>,
     /// Leg compliances against the truth, in their covariance; `None` in a misfit.
-    pub springs: Option<Distance>,
+    pub springs: Option<PulledDistance>,
     /// The effect's numbers against the truth, in their covariance; `None` in a misfit.
-    pub effect: Option<Distance>,
+    pub effect: Option<PulledDistance>,
     /// True when the right model does not fit.
     pub misfit: bool,
     /// Numbers that the data leave open.
@@ -50,20 +50,20 @@ impl Fitted {
     ///
     /// # Errors
     /// [`TrialError`] when the campaign cannot be made or fitted.
-    pub fn run(subject: &Subject, index: usize, seed: u64) -> Result<Self, TrialError> {
-        let scene = Scene::draw(subject, index, seed, None)?;
+    pub fn run(subject: &HiddenSubject, index: usize, seed: u64) -> Result<Self, TrialError> {
+        let scene = RecoveryCampaign::draw(subject, index, seed, None)?;
         let (campaign, fit) = right_fit(subject, scene.hexapod(), &scene.case.measurements)?;
         let misfit = is_misfit(&fit);
         let all = pulls(&scene, &fit);
         let geometry = combinations(&scene, &fit);
-        let believed = |distance: Option<Distance>| distance.filter(|_| !misfit);
+        let believed = |distance: Option<PulledDistance>| distance.filter(|_| !misfit);
         let chance = survival(scene.hexapod(), &scene.case.holdout, campaign.noise, &fit)?;
         Ok(Self {
             stiffness_error: stiffness_error(&all),
             effect_error: effect_error(&all, geometry.as_ref()),
             springs: believed(of_springs(&scene, &fit)),
             effect: believed(
-                geometry.as_ref().map_or_else(|| of_effects(&scene, &fit), Distance::of_combinations),
+                geometry.as_ref().map_or_else(|| of_effects(&scene, &fit), PulledDistance::of_combinations),
             ),
             misfit,
             open: open(&fit, geometry.as_ref()),
@@ -86,13 +86,13 @@ fn relative(pull: &Pull) -> f64 {
 }
 
 fn stiffness_error(pulls: &[Pull]) -> Option<f64> {
-    root_mean_square(pulls.iter().filter(|p| p.known.group == Group::Stiffness).map(relative))
+    root_mean_square(pulls.iter().filter(|p| p.known.group == PullGroup::Stiffness).map(relative))
 }
 
 fn effect_error(pulls: &[Pull], geometry: Option<&Combinations>) -> Option<f64> {
     let errors: Vec<f64> = match geometry {
         Some(found) => found.misses.iter().map(|[miss, _]| miss.abs()).collect(),
-        None => pulls.iter().filter(|p| p.known.group != Group::Stiffness).map(relative).collect(),
+        None => pulls.iter().filter(|p| p.known.group != PullGroup::Stiffness).map(relative).collect(),
     };
     mean(errors.iter().map(|e| e.max(f64::EPSILON).ln())).map(f64::exp)
 }

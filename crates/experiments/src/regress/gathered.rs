@@ -2,39 +2,39 @@
 
 use hexbench_core::files::text_hash;
 
-use super::limit::Limit;
-use super::sample::Sample;
-use super::trials::Trials;
+use super::limit::RegressLimit;
+use super::sample::CondensedValues;
+use super::trials::SuiteTrials;
 
 /// Hexadecimal digits of a fingerprint: enough to tell two runs apart, no protection against forgery.
 const FINGERPRINT: usize = 12;
 
 /// Sample of one limit with a fingerprint of the values behind it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Gathered {
+pub struct LimitSample {
     /// The sample.
-    pub sample: Sample,
+    pub sample: CondensedValues,
     /// The same for the same values, to the last bit.
     pub fingerprint: String,
 }
 
 /// Samples of every limit, in the order of the limits.
-pub fn gather(limits: &[Limit], trials: &Trials) -> Vec<Gathered> {
+pub fn gather(limits: &[RegressLimit], trials: &SuiteTrials) -> Vec<LimitSample> {
     limits.iter().map(|limit| of(limit, &(limit.values)(trials))).collect()
 }
 
 /// The same over several runs together; the fingerprints are those of the first.
-pub fn pool(limits: &[Limit], runs: &[Trials]) -> Vec<Gathered> {
-    let one = |limit: &Limit| {
+pub fn pool(limits: &[RegressLimit], runs: &[SuiteTrials]) -> Vec<LimitSample> {
+    let one = |limit: &RegressLimit| {
         let values: Vec<f64> = runs.iter().flat_map(|t| (limit.values)(t)).collect();
         let first = runs.first().map(|t| fingerprint(&(limit.values)(t))).unwrap_or_default();
-        Gathered { sample: Sample::of(limit.test, &values), fingerprint: first }
+        LimitSample { sample: CondensedValues::of(limit.test, &values), fingerprint: first }
     };
     limits.iter().map(one).collect()
 }
 
-fn of(limit: &Limit, values: &[f64]) -> Gathered {
-    Gathered { sample: Sample::of(limit.test, values), fingerprint: fingerprint(values) }
+fn of(limit: &RegressLimit, values: &[f64]) -> LimitSample {
+    LimitSample { sample: CondensedValues::of(limit.test, values), fingerprint: fingerprint(values) }
 }
 
 fn fingerprint(values: &[f64]) -> String {

@@ -4,17 +4,17 @@ use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 pub use quick_junit::SerializeError as XmlError;
 
-use super::comparison::{Comparison, Finding};
-use super::limit::Group;
-use super::rule::Verdict;
+use super::comparison::{LimitOutcome, RunComparison};
+use super::limit::LimitGroup;
+use super::rule::LimitVerdict;
 
 /// One suite for each group, one case for each limit; no times, so that the same run gives the same bytes.
 ///
 /// # Errors
 /// Those of the XML writer.
-pub fn junit(comparison: &Comparison) -> Result<String, XmlError> {
+pub fn junit(comparison: &RunComparison) -> Result<String, XmlError> {
     let mut report = Report::new("hexbench regress");
-    for group in Group::ALL {
+    for group in LimitGroup::ALL {
         let mut suite = TestSuite::new(format!("hexbench.regress.{}", group.word()));
         suite.add_test_cases(comparison.findings.iter().filter(|f| f.group == group).map(case));
         report.add_test_suite(suite);
@@ -22,15 +22,15 @@ pub fn junit(comparison: &Comparison) -> Result<String, XmlError> {
     report.to_string()
 }
 
-fn case(finding: &Finding) -> TestCase {
+fn case(finding: &LimitOutcome) -> TestCase {
     let mut case = TestCase::new(finding.title.as_str(), status(finding));
     case.set_classname(format!("hexbench.regress.{}", finding.group.word()));
     case.set_system_out(format!("{}\n{}", finding.why, finding.complaint()));
     case
 }
 
-fn status(finding: &Finding) -> TestCaseStatus {
-    if finding.verdict != Verdict::Worse {
+fn status(finding: &LimitOutcome) -> TestCaseStatus {
+    if finding.verdict != LimitVerdict::Worse {
         return TestCaseStatus::success();
     }
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);

@@ -1,11 +1,11 @@
 //! One limit: what is measured, why, and by which test it is compared.
 
-use super::trials::Trials;
+use super::trials::SuiteTrials;
 
 /// What a limit is about: groups of test cases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Group {
+pub enum LimitGroup {
     /// Errors of what is found.
     Accuracy,
     /// Uncertainties against errors.
@@ -20,7 +20,7 @@ pub enum Group {
     Effort,
 }
 
-impl Group {
+impl LimitGroup {
     /// All of them, in the order of the pages.
     pub const ALL: [Self; 6] =
         [Self::Accuracy, Self::Honesty, Self::Diagnosis, Self::Probabilities, Self::NoiseFree, Self::Effort];
@@ -57,7 +57,7 @@ impl Group {
 
 /// How a limit is compared with its baseline.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Test {
+pub enum LimitTest {
     /// Share of campaigns with something bad: Fisher's exact test.
     Share,
     /// Geometric mean of positive values, clipped to a range: Student's test of their logarithms.
@@ -67,7 +67,7 @@ pub enum Test {
         /// Least standard deviation of the logarithms.
         least: f64,
         /// How a figure is written.
-        unit: Unit,
+        unit: LimitUnit,
     },
     /// Mean squared pull: F test, both ways.
     Spread,
@@ -79,14 +79,14 @@ pub enum Test {
 
 /// How a geometric mean is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unit {
+pub enum LimitUnit {
     /// In percent.
     Percent,
     /// As it is.
     Plain,
 }
 
-impl Test {
+impl LimitTest {
     /// True when chance takes part: these share the probability of a false alarm.
     pub fn is_random(self) -> bool {
         matches!(self, Self::Share | Self::Size { .. } | Self::Spread)
@@ -94,32 +94,32 @@ impl Test {
 }
 
 /// Values of a limit in the trials of a run.
-pub type Values = Box<dyn Fn(&Trials) -> Vec<f64> + Send + Sync>;
+pub type LimitValues = Box<dyn Fn(&SuiteTrials) -> Vec<f64> + Send + Sync>;
 
 /// One limit.
-pub struct Limit {
+pub struct RegressLimit {
     /// Short name without blanks, in the baseline.
     pub id: String,
     /// What it is about.
-    pub group: Group,
+    pub group: LimitGroup,
     /// Name of the test case.
     pub title: String,
     /// Why it exists.
     pub why: String,
     /// How it is compared.
-    pub test: Test,
+    pub test: LimitTest,
     /// What is compared.
-    pub values: Values,
+    pub values: LimitValues,
 }
 
-impl Limit {
+impl RegressLimit {
     /// A limit.
     pub fn new(
-        (id, group): (impl Into<String>, Group),
+        (id, group): (impl Into<String>, LimitGroup),
         title: impl Into<String>,
         why: impl Into<String>,
-        test: Test,
-        values: impl Fn(&Trials) -> Vec<f64> + Send + Sync + 'static,
+        test: LimitTest,
+        values: impl Fn(&SuiteTrials) -> Vec<f64> + Send + Sync + 'static,
     ) -> Self {
         Self { id: id.into(), group, title: title.into(), why: why.into(), test, values: Box::new(values) }
     }

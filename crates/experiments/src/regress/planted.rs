@@ -4,12 +4,12 @@ use std::io;
 use std::path::Path;
 
 use super::baseline::Baseline;
-use super::comparison::{Comparison, of_samples};
-use super::gathered::Gathered;
-use super::limit::Limit;
-use super::rule::Verdict;
-use super::sample::Sample;
-use super::suite::Suite;
+use super::comparison::{RunComparison, of_samples};
+use super::gathered::LimitSample;
+use super::limit::RegressLimit;
+use super::rule::LimitVerdict;
+use super::sample::CondensedValues;
+use super::suite::RegressSuite;
 
 /// One planted fault.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,13 +19,13 @@ pub struct Planted {
     /// What it does, from the head of the patch.
     pub text: String,
     /// The run with it, judged beside the present baseline.
-    pub comparison: Comparison,
+    pub comparison: RunComparison,
 }
 
 impl Planted {
     /// Limits that failed.
     pub fn failed(&self) -> usize {
-        self.comparison.of(Verdict::Worse).count()
+        self.comparison.of(LimitVerdict::Worse).count()
     }
 }
 
@@ -36,8 +36,8 @@ impl Planted {
 /// Those of the files; [`io::ErrorKind::InvalidData`] for a result that is none.
 pub fn read(
     (patches, results): (&Path, &Path),
-    suite: &Suite,
-    limits: &[Limit],
+    suite: &RegressSuite,
+    limits: &[RegressLimit],
     baseline: &Baseline,
 ) -> io::Result<Vec<Planted>> {
     let mut files: Vec<_> =
@@ -53,8 +53,8 @@ pub fn read(
         }
         let text = std::fs::read_to_string(&patch)?.lines().next().unwrap_or_default().to_owned();
         let invalid = |e| io::Error::new(io::ErrorKind::InvalidData, e);
-        let run: Comparison = serde_json::from_str(&std::fs::read_to_string(&result)?).map_err(invalid)?;
-        let samples: Vec<Gathered> = limits.iter().map(|limit| sample_of(limit, &run)).collect();
+        let run: RunComparison = serde_json::from_str(&std::fs::read_to_string(&result)?).map_err(invalid)?;
+        let samples: Vec<LimitSample> = limits.iter().map(|limit| sample_of(limit, &run)).collect();
         let comparison = of_samples(suite, limits, (&samples, run.seed), baseline, &run.hexbench);
         all.push(Planted { name, text, comparison });
     }
@@ -62,8 +62,8 @@ pub fn read(
 }
 
 /// Sample of a limit in a run; nothing when the run did not have it.
-fn sample_of(limit: &Limit, run: &Comparison) -> Gathered {
+fn sample_of(limit: &RegressLimit, run: &RunComparison) -> LimitSample {
     let found = run.findings.iter().find(|f| f.id == limit.id).map(|f| f.sample.clone());
-    let sample = found.unwrap_or_else(|| Sample::of(limit.test, &[]));
-    Gathered { sample, fingerprint: String::new() }
+    let sample = found.unwrap_or_else(|| CondensedValues::of(limit.test, &[]));
+    LimitSample { sample, fingerprint: String::new() }
 }

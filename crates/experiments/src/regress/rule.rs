@@ -22,8 +22,8 @@
 
 use statrs::distribution::{ContinuousCDF, DiscreteCDF, FisherSnedecor, Hypergeometric, StudentsT};
 
-use super::limit::Test;
-use super::sample::Sample;
+use super::limit::LimitTest;
+use super::sample::CondensedValues;
 
 /// Probability that a run of an unchanged program fails.
 pub const FALSE_ALARM: f64 = 1e-3;
@@ -34,7 +34,7 @@ pub const RATIO: f64 = 1.5;
 /// How a limit compares.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum LimitVerdict {
     /// As the baseline, as far as chance can tell.
     Same,
     /// Better than chance explains.
@@ -45,44 +45,52 @@ pub enum Verdict {
 
 /// How a limit compares, and how probable that is by chance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Judged {
+pub struct LimitJudgement {
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: LimitVerdict,
     /// Probability of a change for the worse this large by chance; `None` where chance takes no part.
     pub chance: Option<f64>,
 }
 
 /// Compares a sample with the baseline's of the same kind, gathered in so many runs; `level` is the limit's share of
 /// [`FALSE_ALARM`].
-pub fn judge(test: Test, now: &Sample, before: &Sample, runs: usize, level: f64) -> Judged {
-    if let (Sample::Exact { values: now }, Sample::Exact { values: before }) = (now, before) {
+pub fn judge(
+    test: LimitTest,
+    now: &CondensedValues,
+    before: &CondensedValues,
+    runs: usize,
+    level: f64,
+) -> LimitJudgement {
+    if let (CondensedValues::Exact { values: now }, CondensedValues::Exact { values: before }) = (now, before)
+    {
         return exact(test, now, before);
     }
     if before.count() < 2 {
-        return Judged { verdict: Verdict::Same, chance: Some(1.0) };
+        return LimitJudgement { verdict: LimitVerdict::Same, chance: Some(1.0) };
     }
     let [worse, better] = match test {
         _ if now.count() == 0 => [none(before, runs), 1.0],
-        Test::Share => shares(now, before),
-        Test::Spread => spreads(now, before),
+        LimitTest::Share => shares(now, before),
+        LimitTest::Spread => spreads(now, before),
         _ => sizes(test, now, before),
     };
     let verdict = match (worse <= level, better <= level) {
-        (true, _) => Verdict::Worse,
-        (_, true) => Verdict::Better,
-        _ => Verdict::Same,
+        (true, _) => LimitVerdict::Worse,
+        (_, true) => LimitVerdict::Better,
+        _ => LimitVerdict::Same,
     };
-    Judged { verdict, chance: Some(worse) }
+    LimitJudgement { verdict, chance: Some(worse) }
 }
 
 /// Probability that a run has no values when so many runs have those of the baseline.
-fn none(before: &Sample, runs: usize) -> f64 {
+fn none(before: &CondensedValues, runs: usize) -> f64 {
     (runs as f64 / (runs + 1) as f64).powf(before.count() as f64)
 }
 
 /// Probabilities of so many hits or more, and of so few or fewer.
-fn shares(now: &Sample, before: &Sample) -> [f64; 2] {
-    let (&Sample::Share { hits, of }, &Sample::Share { hits: hits_before, of: of_before }) = (now, before)
+fn shares(now: &CondensedValues, before: &CondensedValues) -> [f64; 2] {
+    let (&CondensedValues::Share { hits, of }, &CondensedValues::Share { hits: hits_before, of: of_before }) =
+        (now, before)
     else {
         return [1.0, 1.0];
     };
@@ -91,7 +99,7 @@ fn shares(now: &Sample, before: &Sample) -> [f64; 2] {
     [or_more, law.cdf(hits)]
 }
 
-fn sizes(test: Test, now: &Sample, before: &Sample) -> [f64; 2] {
+fn sizes(test: LimitTest, now: &CondensedValues, before: &CondensedValues) -> [f64; 2] {
     let (n1, n0) = (now.count() as f64, before.count() as f64);
     let t = (now.moments().0 - before.moments().0) / (deviation(test, before) * (1.0 / n1 + 1.0 / n0).sqrt());
     let law = StudentsT::new(0.0, 1.0, n0 - 1.0);
@@ -99,13 +107,13 @@ fn sizes(test: Test, now: &Sample, before: &Sample) -> [f64; 2] {
 }
 
 /// Standard deviation of logarithms.
-pub(super) fn deviation(test: Test, before: &Sample) -> f64 {
-    let least = if let Test::Size { least, .. } = test { least } else { 0.0 };
+pub(super) fn deviation(test: LimitTest, before: &CondensedValues) -> f64 {
+    let least = if let LimitTest::Size { least, .. } = test { least } else { 0.0 };
     before.moments().1.sqrt().max(least)
 }
 
 /// Both ways: what moved away from 1 is worse, what came closer is better.
-fn spreads(now: &Sample, before: &Sample) -> [f64; 2] {
+fn spreads(now: &CondensedValues, before: &CondensedValues) -> [f64; 2] {
     let (m1, m0) = (now.moments().0, before.moments().0);
     let [nu1, nu0] = degrees(now.count(), before);
     let Ok(law) = FisherSnedecor::new(nu1, nu0) else { return [1.0, 1.0] };
@@ -116,7 +124,7 @@ fn spreads(now: &Sample, before: &Sample) -> [f64; 2] {
 }
 
 /// Degrees of freedom of so many values now, and of the baseline.
-pub(super) fn degrees(now: u64, before: &Sample) -> [f64; 2] {
+pub(super) fn degrees(now: u64, before: &CondensedValues) -> [f64; 2] {
     let (mean, variance) = before.moments();
     // The variance of chi-square pulls of some six numbers has a relative standard error of 2 / sqrt(n).
     let caution = 1.0 + 4.0 / (before.count() as f64).sqrt();
@@ -124,18 +132,19 @@ pub(super) fn degrees(now: u64, before: &Sample) -> [f64; 2] {
     [now, before.count()].map(|n| (each * n as f64).clamp(1.0, 1e6))
 }
 
-fn exact(test: Test, now: &[Option<f64>], before: &[Option<f64>]) -> Judged {
+fn exact(test: LimitTest, now: &[Option<f64>], before: &[Option<f64>]) -> LimitJudgement {
     let worse = match test {
-        Test::Bound => now.iter().any(|v| v.is_none_or(|v| v > 1.0)),
+        LimitTest::Bound => now.iter().any(|v| v.is_none_or(|v| v > 1.0)),
         _ => now.len() < before.len() || pairs(now, before).any(|(a, b)| a > RATIO * b),
     };
-    let better = test == Test::Exact && !now.is_empty() && pairs(now, before).all(|(a, b)| RATIO * a < b);
+    let better =
+        test == LimitTest::Exact && !now.is_empty() && pairs(now, before).all(|(a, b)| RATIO * a < b);
     let verdict = match (worse, better) {
-        (true, _) => Verdict::Worse,
-        (_, true) => Verdict::Better,
-        _ => Verdict::Same,
+        (true, _) => LimitVerdict::Worse,
+        (_, true) => LimitVerdict::Better,
+        _ => LimitVerdict::Same,
     };
-    Judged { verdict, chance: None }
+    LimitJudgement { verdict, chance: None }
 }
 
 /// A value that was not found is beyond every other.
@@ -152,8 +161,8 @@ mod tests {
     const RUNS: usize = 8;
     const DIGITS: f64 = 1e-6;
 
-    fn share(hits: u64, of: u64) -> Sample {
-        Sample::Share { hits, of }
+    fn share(hits: u64, of: u64) -> CondensedValues {
+        CondensedValues::Share { hits, of }
     }
 
     #[test]
@@ -161,62 +170,80 @@ mod tests {
         // sum(comb(29, k) * comb(871, 100 - k) for k in range(9, 30)) / comb(900, 100) in Python 3, and of 40 hits from 20 on.
         for (hits, before, expected) in [(9, 20, 2.707_570_301_076_7e-3), (20, 20, 2.943_457_873_222_414e-10)]
         {
-            let found = judge(Test::Share, &share(hits, 100), &share(before, 800), RUNS, LEVEL);
+            let found = judge(LimitTest::Share, &share(hits, 100), &share(before, 800), RUNS, LEVEL);
             let chance = found.chance.unwrap();
             assert!((chance / expected - 1.0).abs() < DIGITS, "{chance} instead of {expected}");
-            assert_eq!(found.verdict == Verdict::Worse, expected < LEVEL);
+            assert_eq!(found.verdict == LimitVerdict::Worse, expected < LEVEL);
         }
     }
 
     #[test]
     fn twice_the_errors_of_many_campaigns_are_worse_and_half_of_them_better() {
-        let test = Test::Size { range: [1e-9, 10.0], least: 0.1, unit: crate::regress::limit::Unit::Percent };
+        let test = LimitTest::Size {
+            range: [1e-9, 10.0],
+            least: 0.1,
+            unit: crate::regress::limit::LimitUnit::Percent,
+        };
         let sample = |factor: f64, n: usize| {
             let values: Vec<f64> = (0..n).map(|k| factor * ((k % 7) as f64 - 3.0).exp()).collect();
-            Sample::of(test, &values)
+            CondensedValues::of(test, &values)
         };
         let verdict =
             |factor: f64| judge(test, &sample(factor, 700), &sample(0.1, 5600), RUNS, LEVEL).verdict;
-        assert_eq!([0.05, 0.1, 0.2].map(verdict), [Verdict::Better, Verdict::Same, Verdict::Worse]);
+        assert_eq!(
+            [0.05, 0.1, 0.2].map(verdict),
+            [LimitVerdict::Better, LimitVerdict::Same, LimitVerdict::Worse]
+        );
     }
 
     #[test]
     fn a_variance_that_leaves_one_either_way_is_worse_and_one_that_comes_back_is_better() {
-        let sample =
-            |m: f64, n: u64| Sample::Spread { n, sum: m * n as f64, squares: 1.33 * m * m * n as f64 };
-        let verdict =
-            |m1: f64, m0: f64| judge(Test::Spread, &sample(m1, 300), &sample(m0, 2400), RUNS, LEVEL).verdict;
-        assert_eq!(verdict(1.5, 1.0), Verdict::Worse);
-        assert_eq!(verdict(0.6, 1.0), Verdict::Worse);
-        assert_eq!(verdict(1.05, 1.0), Verdict::Same);
-        assert_eq!(verdict(1.0, 1.5), Verdict::Better);
+        let sample = |m: f64, n: u64| CondensedValues::Spread {
+            n,
+            sum: m * n as f64,
+            squares: 1.33 * m * m * n as f64,
+        };
+        let verdict = |m1: f64, m0: f64| {
+            judge(LimitTest::Spread, &sample(m1, 300), &sample(m0, 2400), RUNS, LEVEL).verdict
+        };
+        assert_eq!(verdict(1.5, 1.0), LimitVerdict::Worse);
+        assert_eq!(verdict(0.6, 1.0), LimitVerdict::Worse);
+        assert_eq!(verdict(1.05, 1.0), LimitVerdict::Same);
+        assert_eq!(verdict(1.0, 1.5), LimitVerdict::Better);
     }
 
     #[test]
     fn errors_without_noise_may_not_grow_by_half_nor_vanish_from_sight() {
-        let sample = |values: &[Option<f64>]| Sample::Exact { values: values.to_vec() };
+        let sample = |values: &[Option<f64>]| CondensedValues::Exact { values: values.to_vec() };
         let before = sample(&[Some(1e-4), Some(2e-4)]);
-        let verdict = |now: &[Option<f64>]| judge(Test::Exact, &sample(now), &before, RUNS, LEVEL).verdict;
-        assert_eq!(verdict(&[Some(1.4e-4), Some(2e-4)]), Verdict::Same);
-        assert_eq!(verdict(&[Some(1.6e-4), Some(2e-4)]), Verdict::Worse);
-        assert_eq!(verdict(&[Some(1e-4), None]), Verdict::Worse);
-        assert_eq!(verdict(&[Some(1e-4)]), Verdict::Worse);
-        assert_eq!(verdict(&[Some(1e-5), Some(1e-5)]), Verdict::Better);
+        let verdict =
+            |now: &[Option<f64>]| judge(LimitTest::Exact, &sample(now), &before, RUNS, LEVEL).verdict;
+        assert_eq!(verdict(&[Some(1.4e-4), Some(2e-4)]), LimitVerdict::Same);
+        assert_eq!(verdict(&[Some(1.6e-4), Some(2e-4)]), LimitVerdict::Worse);
+        assert_eq!(verdict(&[Some(1e-4), None]), LimitVerdict::Worse);
+        assert_eq!(verdict(&[Some(1e-4)]), LimitVerdict::Worse);
+        assert_eq!(verdict(&[Some(1e-5), Some(1e-5)]), LimitVerdict::Better);
         let bound =
-            |v: f64| judge(Test::Bound, &sample(&[Some(v)]), &sample(&[Some(0.1)]), RUNS, LEVEL).verdict;
-        assert_eq!([0.9, 1.1].map(bound), [Verdict::Same, Verdict::Worse]);
+            |v: f64| judge(LimitTest::Bound, &sample(&[Some(v)]), &sample(&[Some(0.1)]), RUNS, LEVEL).verdict;
+        assert_eq!([0.9, 1.1].map(bound), [LimitVerdict::Same, LimitVerdict::Worse]);
     }
 
     #[test]
     fn no_values_where_the_baseline_has_many_are_worse() {
-        assert_eq!(judge(Test::Share, &share(0, 0), &share(2, 800), RUNS, LEVEL).verdict, Verdict::Worse);
-        assert_eq!(judge(Test::Share, &share(0, 0), &share(0, 0), RUNS, LEVEL).verdict, Verdict::Same);
+        assert_eq!(
+            judge(LimitTest::Share, &share(0, 0), &share(2, 800), RUNS, LEVEL).verdict,
+            LimitVerdict::Worse
+        );
+        assert_eq!(
+            judge(LimitTest::Share, &share(0, 0), &share(0, 0), RUNS, LEVEL).verdict,
+            LimitVerdict::Same
+        );
     }
 
     #[test]
     fn no_values_where_the_baseline_has_few_may_be_chance() {
         // Four values in three runs: one more run has none of them with probability (3/4)^4.
-        let found = judge(Test::Share, &share(0, 0), &share(1, 4), 3, LEVEL);
-        assert_eq!((found.verdict, found.chance), (Verdict::Same, Some(81.0 / 256.0)));
+        let found = judge(LimitTest::Share, &share(0, 0), &share(1, 4), 3, LEVEL);
+        assert_eq!((found.verdict, found.chance), (LimitVerdict::Same, Some(81.0 / 256.0)));
     }
 }

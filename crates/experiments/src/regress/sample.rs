@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::limit::Test;
+use super::limit::LimitTest;
 
 /// Values of one limit, condensed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Sample {
+pub enum CondensedValues {
     /// Campaigns in which something bad happened.
     Share {
         /// How often it happened.
@@ -43,24 +43,26 @@ pub enum Sample {
 /// Largest mean squared pull that is taken at its word: one strange campaign must not decide a variance.
 pub const LARGEST_SQUARE: f64 = 16.0;
 
-impl Sample {
+impl CondensedValues {
     /// Condenses the values of a limit.
-    pub fn of(test: Test, values: &[f64]) -> Self {
+    pub fn of(test: LimitTest, values: &[f64]) -> Self {
         let n = values.len() as u64;
         let sums = |f: &dyn Fn(f64) -> f64| {
             values.iter().map(|&v| f(v)).fold((0.0, 0.0), |(s, q), x| (s + x, q + x * x))
         };
         match test {
-            Test::Share => Self::Share { hits: values.iter().filter(|v| **v > 0.5).count() as u64, of: n },
-            Test::Size { range, .. } => {
+            LimitTest::Share => {
+                Self::Share { hits: values.iter().filter(|v| **v > 0.5).count() as u64, of: n }
+            }
+            LimitTest::Size { range, .. } => {
                 let (sum, squares) = sums(&|v| v.clamp(range[0], range[1]).ln());
                 Self::Size { n, sum, squares }
             }
-            Test::Spread => {
+            LimitTest::Spread => {
                 let (sum, squares) = sums(&|v| v.min(LARGEST_SQUARE));
                 Self::Spread { n, sum, squares }
             }
-            Test::Exact | Test::Bound => {
+            LimitTest::Exact | LimitTest::Bound => {
                 Self::Exact { values: values.iter().map(|v| Some(*v).filter(|v| v.is_finite())).collect() }
             }
         }

@@ -1,9 +1,9 @@
 //! What is run: which machines, effects and plans, how many of each.
 
-use hexbench_truth::campaign::Kind;
+use hexbench_truth::campaign::CaseKind;
 
-use crate::calibration::Portion;
-use crate::recovery::scene::{Subject, subjects};
+use crate::calibration::TrialPortion;
+use crate::recovery::scene::{HiddenSubject, subjects};
 
 /// Version of the suites: another one when anything that is drawn or measured changes, so that old baselines are refused.
 pub const VERSION: u32 = 2;
@@ -18,41 +18,41 @@ pub const DISTANCES: [f64; 2] = [6.0, 40.0];
 
 /// What one run does.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Suite {
+pub struct RegressSuite {
     /// `full` or `quick`.
     pub name: &'static str,
     /// [`VERSION`].
     pub version: u32,
     /// What is hidden in the campaigns that are fitted by the right model.
-    pub subjects: Vec<Subject>,
+    pub subjects: Vec<HiddenSubject>,
     /// Noisy campaigns of each subject.
     pub fits: usize,
     /// Campaigns of each subject without noise.
     pub machines: usize,
     /// Campaigns that are diagnosed.
-    pub portions: Vec<Portion>,
+    pub portions: Vec<TrialPortion>,
 }
 
 /// Diagnoses of the full suite: every effect twice alone, and what else a diagnosis can meet.
-const DIAGNOSED: [Portion; 7] = [
-    Portion { kind: Kind::Single, trials: 32 },
-    Portion { kind: Kind::Pair, trials: 12 },
-    Portion { kind: Kind::Outside, trials: 14 },
-    Portion { kind: Kind::Clean, trials: 16 },
-    Portion { kind: Kind::SeedProtocol, trials: 10 },
-    Portion { kind: Kind::Absolute, trials: 6 },
-    Portion { kind: Kind::RichForm, trials: 6 },
+const DIAGNOSED: [TrialPortion; 7] = [
+    TrialPortion { kind: CaseKind::Single, trials: 32 },
+    TrialPortion { kind: CaseKind::Pair, trials: 12 },
+    TrialPortion { kind: CaseKind::Outside, trials: 14 },
+    TrialPortion { kind: CaseKind::Clean, trials: 16 },
+    TrialPortion { kind: CaseKind::SeedProtocol, trials: 10 },
+    TrialPortion { kind: CaseKind::Absolute, trials: 6 },
+    TrialPortion { kind: CaseKind::RichForm, trials: 6 },
 ];
 /// Diagnoses of the quick suite.
-const FEW_DIAGNOSED: [Portion; 3] = [
-    Portion { kind: Kind::Single, trials: 4 },
-    Portion { kind: Kind::Outside, trials: 2 },
-    Portion { kind: Kind::Clean, trials: 2 },
+const FEW_DIAGNOSED: [TrialPortion; 3] = [
+    TrialPortion { kind: CaseKind::Single, trials: 4 },
+    TrialPortion { kind: CaseKind::Outside, trials: 2 },
+    TrialPortion { kind: CaseKind::Clean, trials: 2 },
 ];
 /// Subjects of the quick suite: springs, a linear effect, one with a shape, one of absolute poses.
 const FEW_SUBJECTS: [&str; 4] = ["springs", "target-offset", "creep", "leg-offset"];
 
-impl Suite {
+impl RegressSuite {
     /// The suite that a baseline is committed for.
     pub fn full() -> Self {
         let portions = DIAGNOSED.to_vec();

@@ -2,17 +2,17 @@
 
 use hexbench_report::{Page, Section, Table};
 
-use super::comparison::{Comparison, Finding, probability};
-use super::limit::Group;
-use super::rule::Verdict;
+use super::comparison::{LimitOutcome, RunComparison, probability};
+use super::limit::LimitGroup;
+use super::rule::LimitVerdict;
 
 /// Limits shown beside those that fail or improved.
 const SHOWN: usize = 5;
 
 /// One line: what was compared and what came of it.
-pub fn headline(c: &Comparison) -> String {
-    let worse = c.of(Verdict::Worse).count();
-    let better = c.of(Verdict::Better).count();
+pub fn headline(c: &RunComparison) -> String {
+    let worse = c.of(LimitVerdict::Worse).count();
+    let better = c.of(LimitVerdict::Better).count();
     let verdict = match (worse, better) {
         (0, 0) => "no change beyond chance".to_owned(),
         (0, n) => format!("{n} better than the baseline beyond chance: consider --update"),
@@ -22,7 +22,7 @@ pub fn headline(c: &Comparison) -> String {
 }
 
 /// What the run was compared with.
-pub fn against(c: &Comparison) -> String {
+pub fn against(c: &RunComparison) -> String {
     let Some(update) = &c.baseline else { return String::new() };
     let same = c.same_values().map_or_else(String::new, |n| {
         format!(" {n} of {} limits have the same values as its first run, bit for bit.", c.findings.len())
@@ -38,7 +38,7 @@ pub fn against(c: &Comparison) -> String {
 }
 
 /// The rule in one sentence.
-pub fn rule(c: &Comparison) -> String {
+pub fn rule(c: &RunComparison) -> String {
     format!(
         "A limit fails when so large a change for the worse has a probability below {} by chance; an unchanged program fails \
          with at most {}.",
@@ -48,24 +48,25 @@ pub fn rule(c: &Comparison) -> String {
 }
 
 /// The page: failures with what to do, what improved, the least probable others or every limit.
-pub fn page(c: &Comparison, all: bool) -> Page {
+pub fn page(c: &RunComparison, all: bool) -> Page {
     let sign = if c.fails() { "failed" } else { "passed" };
-    let worse: Vec<&Finding> = c.of(Verdict::Worse).collect();
+    let worse: Vec<&LimitOutcome> = c.of(LimitVerdict::Worse).collect();
     let meant = "Meant? `hexbench regress --update --reason TEXT` makes this the baseline.";
     let page = Page::new(format!("Accuracy regression: {sign}"))
         .with(Section::lead().paragraph(headline(c)).paragraph(against(c)))
         .with(section("Worse than chance explains", &worse))
         .with(Section::new("What to do").list(steps(&worse)).paragraph(meant).when(c.fails()))
         .with(
-            section("Better than chance explains", &c.of(Verdict::Better).collect::<Vec<_>>())
+            section("Better than chance explains", &c.of(LimitVerdict::Better).collect::<Vec<_>>())
                 .map(|s| s.remark("`hexbench regress --update --reason TEXT` makes them the baseline")),
         );
     let page = if all {
-        let of_group = |group: &Group| c.findings.iter().filter(|f| f.group == *group).collect::<Vec<_>>();
-        Group::ALL.iter().fold(page, |page, group| page.with(section(group.word(), &of_group(group))))
+        let of_group =
+            |group: &LimitGroup| c.findings.iter().filter(|f| f.group == *group).collect::<Vec<_>>();
+        LimitGroup::ALL.iter().fold(page, |page, group| page.with(section(group.word(), &of_group(group))))
     } else {
-        let others: Vec<&Finding> =
-            c.by_chance().into_iter().filter(|f| f.verdict == Verdict::Same).take(SHOWN).collect();
+        let others: Vec<&LimitOutcome> =
+            c.by_chance().into_iter().filter(|f| f.verdict == LimitVerdict::Same).take(SHOWN).collect();
         page.with(
             section("The least probable of the others", &others).map(|s| s.remark("--all shows every limit")),
         )
@@ -76,20 +77,20 @@ pub fn page(c: &Comparison, all: bool) -> Page {
 }
 
 /// Why each failed limit matters, and the next step of each group.
-fn steps(worse: &[&Finding]) -> Vec<String> {
+fn steps(worse: &[&LimitOutcome]) -> Vec<String> {
     let mut steps: Vec<String> = worse.iter().map(|f| format!("next: {}", f.group.next_step())).collect();
     steps.dedup();
     worse.iter().map(|f| format!("{}: {}", f.title, f.why)).chain(steps).collect()
 }
 
-fn section(title: &str, findings: &[&Finding]) -> Option<Section> {
+fn section(title: &str, findings: &[&LimitOutcome]) -> Option<Section> {
     let table = Table::named(["limit", "now", "baseline", "by chance", "would notice"]);
     let rows = findings.iter().map(|f| row(f).into_iter().chain([f.notices.clone()]).collect::<Vec<_>>());
     (!findings.is_empty()).then(|| Section::new(title).table(table.rows(rows)))
 }
 
 /// Title, figures and probability of a finding.
-pub fn row(f: &Finding) -> Vec<String> {
+pub fn row(f: &LimitOutcome) -> Vec<String> {
     let chance = f.chance.map_or_else(|| "-".to_owned(), probability);
     vec![f.title.clone(), f.now.clone(), f.before.clone(), chance]
 }

@@ -1,30 +1,30 @@
 //! The trials of a suite: every campaign on its own stream of random numbers.
 
 use hexbench_core::streams::{Purpose, derived_seed};
-use hexbench_truth::campaign::{Case, Kind};
+use hexbench_truth::campaign::{CaseKind, SimulatedCase};
 use serde::{Deserialize, Serialize};
 
 use super::answered::Answered;
 use super::fitted::Fitted;
-use super::suite::{DISTANCES, MACHINES_SEED, Suite};
+use super::suite::{DISTANCES, MACHINES_SEED, RegressSuite};
 use crate::TrialError;
-use crate::harness::{Answer, Field, Gathered, Protocol};
+use crate::harness::{Field, Gathered, Protocol, TrialResult};
 use crate::journal::Identity;
 use crate::recovery::noiseless::{Noiseless, recover};
-use crate::recovery::scene::{Scene, Subject};
+use crate::recovery::scene::{HiddenSubject, RecoveryCampaign};
 
 /// A campaign of a subject: what it gave, or nothing.
 #[derive(Debug, Clone)]
 pub struct OfSubject<T> {
     /// What was hidden.
-    pub subject: Subject,
+    pub subject: HiddenSubject,
     /// `None` without an answer.
     pub found: Option<T>,
 }
 
 /// What one run of a suite gave.
 #[derive(Debug, Clone, Default)]
-pub struct Trials {
+pub struct SuiteTrials {
     /// Noisy campaigns fitted by the right model.
     pub fits: Vec<OfSubject<Fitted>>,
     /// Campaigns without noise.
@@ -37,14 +37,14 @@ pub struct Trials {
 
 #[derive(Debug, Clone, Copy)]
 enum Job {
-    Machine(Subject, usize),
-    Fit(Subject, usize),
-    Diagnose(Kind, usize),
+    Machine(HiddenSubject, usize),
+    Fit(HiddenSubject, usize),
+    Diagnose(CaseKind, usize),
 }
 
 /// What is known of one campaign.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub enum Record {
+pub enum RegressRecord {
     /// Without noise.
     Machine(Noiseless),
     /// Fitted by the right model.
@@ -54,17 +54,17 @@ pub enum Record {
 }
 
 /// Runs of a suite, one for each seed. Campaigns without noise are the same in all: the first run has them.
-pub struct Runs<'a> {
-    suite: &'a Suite,
+pub struct SuiteRuns<'a> {
+    suite: &'a RegressSuite,
     /// Seed of the first run; the others follow.
     seed: u64,
     count: usize,
     jobs: Vec<Job>,
 }
 
-impl<'a> Runs<'a> {
+impl<'a> SuiteRuns<'a> {
     /// So many runs with seeds that follow each other.
-    pub fn new(suite: &'a Suite, seed: u64, count: usize) -> Self {
+    pub fn new(suite: &'a RegressSuite, seed: u64, count: usize) -> Self {
         Self { suite, seed, count, jobs: jobs(suite) }
     }
 
@@ -74,8 +74,8 @@ impl<'a> Runs<'a> {
     }
 
     /// What each run gave; only the first has campaigns without noise.
-    pub fn of_each(&self, gathered: Gathered<Record>) -> Vec<Trials> {
-        let mut runs: Vec<Trials> = vec![Trials::default(); self.count];
+    pub fn of_each(&self, gathered: Gathered<RegressRecord>) -> Vec<SuiteTrials> {
+        let mut runs: Vec<SuiteTrials> = vec![SuiteTrials::default(); self.count];
         for (number, answer) in (0..).zip(gathered.answers) {
             let (run, job) = self.place(number);
             runs[run].add(job, answer);
@@ -94,8 +94,8 @@ impl<'a> Runs<'a> {
     }
 }
 
-impl Protocol for Runs<'_> {
-    type Record = Record;
+impl Protocol for SuiteRuns<'_> {
+    type Record = RegressRecord;
     type Error = TrialError;
 
     /// Not how many runs: more of them go on where fewer have ended.
@@ -108,7 +108,7 @@ impl Protocol for Runs<'_> {
         (self.jobs.len() + (self.count - 1) * self.suite.without_machines().campaigns()) as u64
     }
 
-    fn trial(&self, number: u64) -> Result<Record, TrialError> {
+    fn trial(&self, number: u64) -> Result<RegressRecord, TrialError> {
         let (run, job) = self.place(number);
         job.run(self.seed.wrapping_add(run as u64))
     }
@@ -118,10 +118,10 @@ impl Protocol for Runs<'_> {
         format!("{run}: {}", job.name())
     }
 
-    fn fields(&self) -> Vec<Field<Record>> {
+    fn fields(&self) -> Vec<Field<RegressRecord>> {
         let fitted = |name: &str, meaning, value: fn(&Fitted) -> Option<f64>| {
-            Field::number((name, "1"), meaning, move |r: &Record| {
-                if let Record::Fit(fitted) = r { value(fitted) } else { None }
+            Field::number((name, "1"), meaning, move |r: &RegressRecord| {
+                if let RegressRecord::Fit(fitted) = r { value(fitted) } else { None }
             })
         };
         vec![
@@ -129,36 +129,40 @@ impl Protocol for Runs<'_> {
             fitted("effect_error", "relative error of the numbers of the effect", |f| f.effect_error),
             fitted("chi2", "chi-square per degree of freedom", |f| Some(f.chi2_reduced)),
             fitted("holdout", "chi-square per number of held-out readings", |f| Some(f.holdout)),
-            Field::text("answer", "what the diagnosis said", |r: &Record| {
-                if let Record::Answer(found) = r { found.record.answer() } else { String::new() }
+            Field::text("answer", "what the diagnosis said", |r: &RegressRecord| {
+                if let RegressRecord::Answer(found) = r { found.record.answer() } else { String::new() }
             }),
-            Field::text("fate", "what became of the truth", |r: &Record| {
-                if let Record::Answer(found) = r { found.record.fate.word() } else { "" }
+            Field::text("fate", "what became of the truth", |r: &RegressRecord| {
+                if let RegressRecord::Answer(found) = r { found.record.fate.word() } else { "" }
             }),
         ]
     }
 }
 
 /// The longest first: no thread is left alone with one of them at the end. The campaigns without noise last.
-fn jobs(suite: &Suite) -> Vec<Job> {
+fn jobs(suite: &RegressSuite) -> Vec<Job> {
     let diagnosed = suite.portions.iter().flat_map(|p| (0..p.trials).map(|i| Job::Diagnose(p.kind, i)));
-    let of_each = |count: usize, job: fn(Subject, usize) -> Job| {
+    let of_each = |count: usize, job: fn(HiddenSubject, usize) -> Job| {
         suite.subjects.iter().flat_map(move |&s| (0..count).map(move |i| job(s, i)))
     };
     diagnosed.chain(of_each(suite.fits, Job::Fit)).chain(of_each(suite.machines, Job::Machine)).collect()
 }
 
 impl Job {
-    fn run(self, seed: u64) -> Result<Record, TrialError> {
+    fn run(self, seed: u64) -> Result<RegressRecord, TrialError> {
         match self {
-            Self::Machine(s, i) => Ok(Record::Machine(machine(&s, i)?)),
+            Self::Machine(s, i) => Ok(RegressRecord::Machine(machine(&s, i)?)),
             Self::Fit(s, i) => {
-                Ok(Record::Fit(Fitted::run(&s, i, derived_seed(seed, Purpose::RegressFits, []))?))
+                Ok(RegressRecord::Fit(Fitted::run(&s, i, derived_seed(seed, Purpose::RegressFits, []))?))
             }
             Self::Diagnose(kind, i) => {
-                let case =
-                    Case::draw(kind, i, derived_seed(seed, Purpose::RegressDiagnoses, []), Some(DISTANCES))?;
-                Ok(Record::Answer(Box::new(Answered::to(&case)?)))
+                let case = SimulatedCase::draw(
+                    kind,
+                    i,
+                    derived_seed(seed, Purpose::RegressDiagnoses, []),
+                    Some(DISTANCES),
+                )?;
+                Ok(RegressRecord::Answer(Box::new(Answered::to(&case)?)))
             }
         }
     }
@@ -172,33 +176,34 @@ impl Job {
     }
 }
 
-fn machine(subject: &Subject, index: usize) -> Result<Noiseless, TrialError> {
-    recover(subject, &Scene::draw(subject, index, MACHINES_SEED, None)?)
+fn machine(subject: &HiddenSubject, index: usize) -> Result<Noiseless, TrialError> {
+    recover(subject, &RecoveryCampaign::draw(subject, index, MACHINES_SEED, None)?)
 }
 
-impl Trials {
-    fn add(&mut self, job: Job, answer: Answer<Record>) {
+impl SuiteTrials {
+    fn add(&mut self, job: Job, answer: TrialResult<RegressRecord>) {
         let record = answer.map_err(|why| self.failures.push(format!("{}: {why}", job.name()))).ok();
         match job {
             Job::Machine(subject, _) => {
-                let found =
-                    record.and_then(|r| if let Record::Machine(found) = r { Some(found) } else { None });
+                let found = record
+                    .and_then(|r| if let RegressRecord::Machine(found) = r { Some(found) } else { None });
                 self.machines.push(OfSubject { subject, found });
             }
             Job::Fit(subject, _) => {
-                let found = record.and_then(|r| if let Record::Fit(found) = r { Some(found) } else { None });
+                let found =
+                    record.and_then(|r| if let RegressRecord::Fit(found) = r { Some(found) } else { None });
                 self.fits.push(OfSubject { subject, found });
             }
             Job::Diagnose(..) => {
-                let found =
-                    record.and_then(|r| if let Record::Answer(found) = r { Some(*found) } else { None });
+                let found = record
+                    .and_then(|r| if let RegressRecord::Answer(found) = r { Some(*found) } else { None });
                 self.answers.push(found);
             }
         }
     }
 
     /// Campaigns fitted by the right model that gave an answer.
-    pub fn fitted(&self) -> impl Iterator<Item = (&Subject, &Fitted)> {
+    pub fn fitted(&self) -> impl Iterator<Item = (&HiddenSubject, &Fitted)> {
         self.fits.iter().filter_map(|f| Some((&f.subject, f.found.as_ref()?)))
     }
 

@@ -1,7 +1,7 @@
 //! Runs of the unchanged program with fresh seeds: how often do they fail?
 
-use super::comparison::{Comparison, Finding};
-use super::rule::Verdict;
+use super::comparison::{LimitOutcome, RunComparison};
+use super::rule::LimitVerdict;
 
 /// What became of one run.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,14 +18,14 @@ pub struct Unchanged {
     pub least_of: String,
 }
 
-impl From<&Comparison> for Unchanged {
-    fn from(comparison: &Comparison) -> Self {
-        let titles = |verdict| comparison.of(verdict).map(|f: &Finding| f.title.clone()).collect();
+impl From<&RunComparison> for Unchanged {
+    fn from(comparison: &RunComparison) -> Self {
+        let titles = |verdict| comparison.of(verdict).map(|f: &LimitOutcome| f.title.clone()).collect();
         let least = comparison.least_probable();
         Self {
             seed: comparison.seed,
-            worse: titles(Verdict::Worse),
-            better: titles(Verdict::Better),
+            worse: titles(LimitVerdict::Worse),
+            better: titles(LimitVerdict::Better),
             least: least.map_or(1.0, |l| l.0),
             least_of: least.map(|l| l.1.title.clone()).unwrap_or_default(),
         }

@@ -2,8 +2,8 @@
 
 use hexbench_core::Hexapod;
 use hexbench_design::{Criterion, Space};
-use hexbench_truth::campaign::{PlanKind, Row};
-use hexbench_truth::metrology::Noise;
+use hexbench_truth::campaign::{PlanKind, PlanRow};
+use hexbench_truth::metrology::InstrumentNoise;
 
 /// Where the machine comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +54,7 @@ pub enum PlanSource {
     /// Poses drawn evenly from the space.
     Random,
     /// Rows of a table or scene.
-    Rows(Vec<Row>),
+    Rows(Vec<PlanRow>),
 }
 
 impl PlanSource {
@@ -75,14 +75,14 @@ impl PlanSource {
 
 /// How leg stiffness is estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Estimator {
+pub enum SweepEstimator {
     /// Generalised least squares, rows weighted by the noise.
     Gls,
     /// The paper's: unweighted, at the commanded pose.
     Paper,
 }
 
-impl Estimator {
+impl SweepEstimator {
     /// All estimators.
     pub const ALL: [Self; 2] = [Self::Gls, Self::Paper];
 
@@ -145,19 +145,19 @@ impl Noises {
     }
 
     /// The noise of a value on a machine that states some, or none.
-    pub fn noise(&self, index: usize, geometry: &Geometry) -> Noise {
+    pub fn noise(&self, index: usize, geometry: &Geometry) -> InstrumentNoise {
         let stated = match &geometry.source {
             Drawings::File(hexapod) => hexapod.metrology,
             Drawings::Family(_) => None,
         };
-        let usual = stated.unwrap_or(Noise::default().metrology());
+        let usual = stated.unwrap_or(InstrumentNoise::default().metrology());
         let [sigma_translation, sigma_rotation] = match self {
             Self::Scales(scales) => {
                 [usual.sigma_translation, usual.sigma_rotation].map(|s| s * scales[index])
             }
             Self::Sigmas(pairs) => pairs[index],
         };
-        Noise { sigma_translation, sigma_rotation, ..Noise::default() }
+        InstrumentNoise { sigma_translation, sigma_rotation, ..InstrumentNoise::default() }
     }
 }
 
@@ -173,7 +173,7 @@ pub struct Axes<G = Geometry, P = PlanChoice> {
     /// Readings of each condition; empty: as the plan has them.
     pub repeats: Vec<u64>,
     /// Estimators; empty where the task has its own.
-    pub estimator: Vec<Estimator>,
+    pub estimator: Vec<SweepEstimator>,
     /// Ids of hidden effects; none: nothing hidden.
     pub effect: Vec<Option<&'static str>>,
     /// Sizes of the effects.

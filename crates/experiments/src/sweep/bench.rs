@@ -1,26 +1,26 @@
 //! One drawn machine with its plan, its hidden effect and what an ideal instrument reads of it.
 
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Vector6};
-use hexbench_truth::campaign::{Campaign, Row, Yardstick, machines};
-use hexbench_truth::metrology::{Frames, Noise};
+use hexbench_truth::campaign::{PlanRow, SimulatedCampaign, Yardstick, machines};
+use hexbench_truth::metrology::{Frames, InstrumentNoise};
 use hexbench_truth::{Mechanism, TruthError, World, mechanisms};
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::sweep::axes::{Drawings, Geometry, Sizes};
-use crate::sweep::cells::Cell;
+use crate::sweep::cells::GridCell;
 use crate::sweep::columns::Status;
-use crate::sweep::draw::{Purpose, drawn};
+use crate::sweep::draw::{SweepPurpose, drawn};
 use crate::sweep::plan::{self, Draws, Request};
 use crate::sweep::runner::Runner;
 
 /// What a block of trials shares.
-pub struct Bench {
+pub struct BlockSetup {
     /// Drawings, with the noise of the instrument stated.
     pub hexapod: Hexapod,
     /// True stiffness of each leg, N/m.
     pub true_stiffness: [f64; 6],
     /// Noise of one reading.
-    pub noise: Noise,
+    pub noise: InstrumentNoise,
     /// Readings to learn from, without noise.
     pub training: Ideal,
     /// Readings to judge by, without noise.
@@ -31,20 +31,21 @@ pub struct Bench {
 
 /// Rows and what an ideal instrument reads in them.
 pub struct Ideal {
-    rows: Vec<Row>,
+    rows: Vec<PlanRow>,
     readings: Vec<Vector6>,
 }
 
 impl Ideal {
-    fn of(campaign: &Campaign, rows: Vec<Row>) -> Result<Self, TruthError> {
+    fn of(campaign: &SimulatedCampaign, rows: Vec<PlanRow>) -> Result<Self, TruthError> {
         let readings = campaign.ideal(&rows, Measurand::DeflectionEuler)?;
         Ok(Self { rows, readings })
     }
 
     /// The readings as a file would hold them, each with an error added.
     pub fn dataset(&self, source: &str, mut error: impl FnMut() -> Vector6) -> Dataset {
-        let read =
-            |(line, (row, ideal)): (u64, (&Row, &Vector6))| row.read(line, (ideal + error()).into(), None);
+        let read = |(line, (row, ideal)): (u64, (&PlanRow, &Vector6))| {
+            row.read(line, (ideal + error()).into(), None)
+        };
         Dataset {
             source: source.to_owned(),
             measurand: Measurand::DeflectionEuler,
@@ -54,12 +55,12 @@ impl Ideal {
     }
 }
 
-impl Bench {
+impl BlockSetup {
     /// The machine, plan and effect of a block of trials of a cell.
     ///
     /// # Errors
     /// Why the whole block has no answer.
-    pub fn draw(runner: &Runner, cell: &Cell<'_>, block: u64) -> Result<Self, Status> {
+    pub fn draw(runner: &Runner, cell: &GridCell<'_>, block: u64) -> Result<Self, Status> {
         let seed = runner.study().seed;
         let noise = cell.noise();
         let (hexapod, true_stiffness) = machine(seed, cell, block);
@@ -78,18 +79,18 @@ impl Bench {
             plan: drawn(seed, plan, cell.position[0], block),
             surroundings: drawn(seed, surroundings, cell.position[0], block),
         };
-        let training = plan::rows(&request, &mut draws(Purpose::Plan, Purpose::Surroundings));
+        let training = plan::rows(&request, &mut draws(SweepPurpose::Plan, SweepPurpose::Surroundings));
         let training = training.ok_or(Status::NoPlan)?;
-        let judged = &mut draws(Purpose::Holdout, Purpose::HoldoutSurroundings);
+        let judged = &mut draws(SweepPurpose::Holdout, SweepPurpose::HoldoutSurroundings);
         let holdout = plan::holdout(&space, &hexapod, judged).ok_or(Status::NoPlan)?;
-        let bare = Campaign {
+        let bare = SimulatedCampaign {
             world: World::new(hexapod.clone(), &true_stiffness),
             frames: Frames::default(),
             noise,
         };
         let mechanisms = effect(seed, cell, &bare, &training, block)?;
         let world = World { mechanisms, ..bare.world.without_effects() };
-        let campaign = Campaign { world, ..bare };
+        let campaign = SimulatedCampaign { world, ..bare };
         let ideal = |rows| Ideal::of(&campaign, rows).map_err(|_| Status::NoRest);
         Ok(Self {
             training: ideal(training)?,
@@ -108,9 +109,9 @@ pub fn space(geometry: &Geometry, hexapod: &Hexapod) -> hexbench_design::Space {
 }
 
 /// Drawings and leg stiffness (N/m): of the family, or as the file states it with 10 % scatter.
-fn machine(seed: u64, cell: &Cell<'_>, block: u64) -> (Hexapod, [f64; 6]) {
+fn machine(seed: u64, cell: &GridCell<'_>, block: u64) -> (Hexapod, [f64; 6]) {
     const SCATTER: f64 = 0.1;
-    let mut rng = drawn(seed, Purpose::Machine, cell.position[0], block);
+    let mut rng = drawn(seed, SweepPurpose::Machine, cell.position[0], block);
     match &cell.geometry().source {
         Drawings::Family(name) => {
             let hexapod = machines::draw(name, &mut rng);
@@ -131,20 +132,20 @@ fn machine(seed: u64, cell: &Cell<'_>, block: u64) -> (Hexapod, [f64; 6]) {
 }
 
 /// Drawings of a geometry before anything is drawn: those of a fixed one.
-pub fn drawings(seed: u64, cell: &Cell<'_>) -> Hexapod {
+pub fn drawings(seed: u64, cell: &GridCell<'_>) -> Hexapod {
     machine(seed, cell, 0).0
 }
 
 fn effect(
     seed: u64,
-    cell: &Cell<'_>,
-    bare: &Campaign,
-    training: &[Row],
+    cell: &GridCell<'_>,
+    bare: &SimulatedCampaign,
+    training: &[PlanRow],
     block: u64,
 ) -> Result<Vec<Box<dyn Mechanism>>, Status> {
     let Some(id) = cell.effect() else { return Ok(Vec::new()) };
     let entry = mechanisms::effect(id).map_err(|_| Status::NotVisible)?;
-    let mut rng = drawn(seed, Purpose::Effect, cell.position[5], block);
+    let mut rng = drawn(seed, SweepPurpose::Effect, cell.position[5], block);
     let usual = (entry.draw)(&bare.world.hexapod, &mut rng);
     let factor = match (&cell.axes.size, cell.size()) {
         (Sizes::Sigmas(_), Some(distance)) => {

@@ -1,17 +1,17 @@
 //! The full factorial of the axes.
 
-use crate::sweep::axes::{Axes, Estimator, Geometry, Noises, PlanChoice};
+use crate::sweep::axes::{Axes, Geometry, Noises, PlanChoice, SweepEstimator};
 
 /// A value of an axis, as people read it.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Level {
+pub enum AxisLevel {
     /// A number.
     Number(f64),
     /// A name.
     Word(String),
 }
 
-impl Level {
+impl AxisLevel {
     /// As printed.
     pub fn text(&self) -> String {
         match self {
@@ -27,7 +27,7 @@ pub struct AxisLevels {
     /// Name, as the key of the study file.
     pub name: &'static str,
     /// Values in the order of the study file; one for an axis that is left out.
-    pub levels: Vec<Level>,
+    pub levels: Vec<AxisLevel>,
     /// True when the study file gives it.
     pub given: bool,
 }
@@ -40,9 +40,9 @@ impl AxisLevels {
 
     /// Its values as numbers, when they all are.
     pub fn numbers(&self) -> Option<Vec<f64>> {
-        let number = |level: &Level| match level {
-            Level::Number(x) => Some(*x),
-            Level::Word(_) => None,
+        let number = |level: &AxisLevel| match level {
+            AxisLevel::Number(x) => Some(*x),
+            AxisLevel::Word(_) => None,
         };
         self.levels.iter().map(number).collect()
     }
@@ -56,7 +56,7 @@ pub type Position = [usize; AXES];
 
 /// One combination of values.
 #[derive(Debug, Clone, Copy)]
-pub struct Cell<'a> {
+pub struct GridCell<'a> {
     /// Number, from 0.
     pub index: usize,
     /// Position on every axis.
@@ -89,25 +89,26 @@ impl Axes {
     }
 
     /// The cell of a number.
-    pub fn cell(&self, index: usize) -> Cell<'_> {
+    pub fn cell(&self, index: usize) -> GridCell<'_> {
         let mut rest = index;
         let mut position = [0; AXES];
         for (place, count) in position.iter_mut().zip(self.counts()).rev() {
             *place = rest % count;
             rest /= count;
         }
-        Cell { index, position, axes: self }
+        GridCell { index, position, axes: self }
     }
 
     /// Every axis as people read it, in the order of a [`Position`].
     pub fn levels(&self) -> [AxisLevels; AXES] {
-        let words = |names: Vec<String>| names.into_iter().map(Level::Word).collect::<Vec<_>>();
-        let whole = |numbers: &[u64]| numbers.iter().map(|&n| Level::Number(n as f64)).collect::<Vec<_>>();
+        let words = |names: Vec<String>| names.into_iter().map(AxisLevel::Word).collect::<Vec<_>>();
+        let whole =
+            |numbers: &[u64]| numbers.iter().map(|&n| AxisLevel::Number(n as f64)).collect::<Vec<_>>();
         let effect = |id: Option<&str>| id.unwrap_or("none").to_owned();
-        let axis = |name, levels: Vec<Level>, usual: &str| AxisLevels {
+        let axis = |name, levels: Vec<AxisLevel>, usual: &str| AxisLevels {
             name,
             given: !levels.is_empty(),
-            levels: if levels.is_empty() { vec![Level::Word(usual.to_owned())] } else { levels },
+            levels: if levels.is_empty() { vec![AxisLevel::Word(usual.to_owned())] } else { levels },
         };
         [
             axis("geometry", words(self.geometry.iter().map(|g| g.name.clone()).collect()), ""),
@@ -116,7 +117,11 @@ impl Axes {
             axis("repeats", whole(&self.repeats), "of the plan"),
             axis("estimator", words(self.estimator.iter().map(|e| e.name().to_owned()).collect()), "gls"),
             axis("effect", words(self.effect.iter().copied().map(effect).collect()), "none"),
-            axis(self.size.name(), self.size.values().iter().map(|&x| Level::Number(x)).collect(), "usual"),
+            axis(
+                self.size.name(),
+                self.size.values().iter().map(|&x| AxisLevel::Number(x)).collect(),
+                "usual",
+            ),
             axis(self.noise.name(), self.noise.levels(), ""),
         ]
     }
@@ -131,22 +136,22 @@ impl Noises {
         }
     }
 
-    fn levels(&self) -> Vec<Level> {
+    fn levels(&self) -> Vec<AxisLevel> {
         match self {
-            Self::Scales(scales) => scales.iter().map(|&x| Level::Number(x)).collect(),
+            Self::Scales(scales) => scales.iter().map(|&x| AxisLevel::Number(x)).collect(),
             // Products with 1e6 leave digits behind the ones that were written.
             Self::Sigmas(pairs) => {
                 let shown = |x: f64| (x * 1e15).round() * 1e-9;
                 pairs
                     .iter()
-                    .map(|[t, r]| Level::Word(format!("{} um {} urad", shown(*t), shown(*r))))
+                    .map(|[t, r]| AxisLevel::Word(format!("{} um {} urad", shown(*t), shown(*r))))
                     .collect()
             }
         }
     }
 }
 
-impl<'a> Cell<'a> {
+impl<'a> GridCell<'a> {
     /// The machine.
     pub fn geometry(&self) -> &'a Geometry {
         &self.axes.geometry[self.position[0]]
@@ -168,8 +173,8 @@ impl<'a> Cell<'a> {
     }
 
     /// The estimator.
-    pub fn estimator(&self) -> Estimator {
-        self.axes.estimator.get(self.position[4]).copied().unwrap_or(Estimator::Gls)
+    pub fn estimator(&self) -> SweepEstimator {
+        self.axes.estimator.get(self.position[4]).copied().unwrap_or(SweepEstimator::Gls)
     }
 
     /// The hidden effect.
@@ -184,7 +189,7 @@ impl<'a> Cell<'a> {
     }
 
     /// Noise of the instrument.
-    pub fn noise(&self) -> hexbench_truth::metrology::Noise {
+    pub fn noise(&self) -> hexbench_truth::metrology::InstrumentNoise {
         self.axes.noise.noise(self.position[7], self.geometry())
     }
 }

@@ -3,7 +3,7 @@
 use hexbench_model::explanation::Explanation;
 use hexbench_model::terms::catalogue;
 
-use crate::sweep::study::Task;
+use crate::sweep::study::SweepTask;
 
 /// What became of a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +30,7 @@ impl Status {
 
 /// Kind of the values of a column.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Kind {
+pub enum ColumnKind {
     /// A number, NaN for none.
     Number,
     /// A small count, 255 for none.
@@ -41,7 +41,7 @@ pub enum Kind {
 
 /// A result of every trial.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Column {
+pub struct TrialColumn {
     /// Name with its unit.
     pub name: String,
     /// Unit, empty for none.
@@ -49,34 +49,39 @@ pub struct Column {
     /// One sentence.
     pub meaning: &'static str,
     /// Kind of its values.
-    pub kind: Kind,
+    pub kind: ColumnKind,
 }
 
-fn number(name: &str, unit: &'static str, meaning: &'static str) -> Column {
-    Column { name: name.to_owned(), unit, meaning, kind: Kind::Number }
+fn number(name: &str, unit: &'static str, meaning: &'static str) -> TrialColumn {
+    TrialColumn { name: name.to_owned(), unit, meaning, kind: ColumnKind::Number }
 }
 
-fn count(name: &str, meaning: &'static str) -> Column {
-    Column { name: name.to_owned(), unit: "1", meaning, kind: Kind::Count }
+fn count(name: &str, meaning: &'static str) -> TrialColumn {
+    TrialColumn { name: name.to_owned(), unit: "1", meaning, kind: ColumnKind::Count }
 }
 
-fn word(name: &str, meaning: &'static str, words: impl IntoIterator<Item = String>) -> Column {
-    Column { name: name.to_owned(), unit: "", meaning, kind: Kind::Word(words.into_iter().collect()) }
+fn word(name: &str, meaning: &'static str, words: impl IntoIterator<Item = String>) -> TrialColumn {
+    TrialColumn {
+        name: name.to_owned(),
+        unit: "",
+        meaning,
+        kind: ColumnKind::Word(words.into_iter().collect()),
+    }
 }
 
 /// Results of a trial of a task, in order.
-pub fn columns(task: Task) -> Vec<Column> {
+pub fn columns(task: SweepTask) -> Vec<TrialColumn> {
     let names = Status::NAMES.map(str::to_owned);
     let mut all =
         vec![word("status", "what became of the trial; without \"done\" the other results are empty", names)];
     all.extend(match task {
-        Task::Springs => springs(),
-        Task::Diagnose => diagnose(),
+        SweepTask::Springs => springs(),
+        SweepTask::Diagnose => diagnose(),
     });
     all
 }
 
-fn springs() -> Vec<Column> {
+fn springs() -> Vec<TrialColumn> {
     let leg = |n: usize| {
         number(
             &format!("leg_{n}_stiffness_error_percent"),
@@ -84,7 +89,7 @@ fn springs() -> Vec<Column> {
             "estimated minus true stiffness of the leg, relative to the true one",
         )
     };
-    let mut all: Vec<Column> = (1..=6).map(leg).collect();
+    let mut all: Vec<TrialColumn> = (1..=6).map(leg).collect();
     all.push(count("legs_covered", "legs whose 95 % interval holds the true stiffness, of six"));
     all.push(number(
         "holdout_error_um",
@@ -115,7 +120,7 @@ pub fn names() -> Vec<String> {
     terms.into_iter().chain(Explanation::SPECIAL.map(String::from)).collect()
 }
 
-fn diagnose() -> Vec<Column> {
+fn diagnose() -> Vec<TrialColumn> {
     vec![
         word(
             "outcome",

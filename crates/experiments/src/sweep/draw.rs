@@ -17,7 +17,7 @@ use rand_pcg::Pcg64;
 
 /// What a stream decides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Purpose {
+pub enum SweepPurpose {
     /// Drawings and leg stiffness.
     Machine = 1,
     /// Poses and loads of a plan.
@@ -35,6 +35,6 @@ pub enum Purpose {
 }
 
 /// The stream of a purpose: `of` is the number of the geometry, effect or cell, `number` that of the block or trial.
-pub fn drawn(seed: u64, purpose: Purpose, of: usize, number: u64) -> Pcg64 {
+pub fn drawn(seed: u64, purpose: SweepPurpose, of: usize, number: u64) -> Pcg64 {
     stream(seed, streams::Purpose::Study, [purpose as u64, of as u64, number])
 }

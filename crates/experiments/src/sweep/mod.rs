@@ -31,7 +31,7 @@ pub mod task;
 pub mod work;
 
 pub use error::StudyError;
-pub use part::Part;
+pub use part::StudyPart;
 pub use runner::Runner;
-pub use study::Study;
+pub use study::SweepStudy;
 pub use work::{Division, Share, Todo, Work, divide};

@@ -8,12 +8,12 @@ const MOST: u64 = 100_000;
 
 /// Every `of`-th shard, beginning with the `number`-th: cells of unequal cost are shared out evenly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Part {
+pub struct StudyPart {
     number: u64,
     of: u64,
 }
 
-impl Part {
+impl StudyPart {
     /// Part `number`, from 1, of `of`; none when there is no such part.
     pub fn new(number: u64, of: u64) -> Option<Self> {
         ((1..=of).contains(&number) && of <= MOST).then_some(Self { number, of })
@@ -30,7 +30,7 @@ impl Part {
     }
 }
 
-impl fmt::Display for Part {
+impl fmt::Display for StudyPart {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "{}/{}", self.number, self.of)
     }
@@ -41,7 +41,7 @@ impl fmt::Display for Part {
 #[error("a part is written i/n with 1 <= i <= n <= {MOST}, for example 2/8")]
 pub struct NoPart;
 
-impl FromStr for Part {
+impl FromStr for StudyPart {
     type Err = NoPart;
 
     fn from_str(text: &str) -> Result<Self, NoPart> {
@@ -59,7 +59,7 @@ mod tests {
     fn every_shard_belongs_to_exactly_one_part() {
         for of in 1..12 {
             for shard in 0..100 {
-                assert_eq!(Part::all(of).filter(|part| part.holds(shard)).count(), 1, "{shard} of {of}");
+                assert_eq!(StudyPart::all(of).filter(|part| part.holds(shard)).count(), 1, "{shard} of {of}");
             }
         }
     }
@@ -67,10 +67,10 @@ mod tests {
     #[test]
     fn a_part_is_read_as_it_is_written() {
         for text in ["1/1", "2/8", "100000/100000"] {
-            assert_eq!(text.parse::<Part>().unwrap().to_string(), text);
+            assert_eq!(text.parse::<StudyPart>().unwrap().to_string(), text);
         }
         for text in ["", "3", "0/4", "5/4", "1/0", "-1/2", "1/100001", "1/2/3", "a/b"] {
-            assert_eq!(text.parse::<Part>(), Err(NoPart), "{text}");
+            assert_eq!(text.parse::<StudyPart>(), Err(NoPart), "{text}");
         }
     }
 }

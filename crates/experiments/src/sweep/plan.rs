@@ -5,8 +5,8 @@ use hexbench_core::{Approach, Hexapod, Measurand, Pose, Wrench};
 use hexbench_design::nominal;
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space::{Conditions, Loading};
-use hexbench_design::{Budget, Criterion, DesignError, Problem, Space};
-use hexbench_truth::campaign::{PlanKind, Poses, Row, Scheme, Spread, usual_half_range_mm_deg};
+use hexbench_design::{Budget, Criterion, DesignError, PoseProblem, Space};
+use hexbench_truth::campaign::{PlanKind, PlanRow, Poses, Scheme, Spread, usual_half_range_mm_deg};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
@@ -69,7 +69,7 @@ pub(crate) fn designed_poses(
     let criterion = criterion.objective(hexapod, space, &regressor)?;
     let poses = usize::try_from(poses).unwrap_or(usize::MAX);
     let problem =
-        Problem { hexapod, space, regressor: &regressor, criterion: &criterion, poses, known: None };
+        PoseProblem { hexapod, space, regressor: &regressor, criterion: &criterion, poses, known: None };
     let starts = usize::try_from(starts).unwrap_or(usize::MAX);
     Ok(problem.search(starts, SEED, &|| ())?.best.poses)
 }
@@ -99,7 +99,7 @@ pub struct Request<'a> {
 }
 
 /// The rows of a plan; none when the space is empty.
-pub fn rows(request: &Request<'_>, draws: &mut Draws) -> Option<Vec<Row>> {
+pub fn rows(request: &Request<'_>, draws: &mut Draws) -> Option<Vec<PlanRow>> {
     match request.source {
         PlanSource::Make(kind) => Some(of_make(*kind, request, draws)),
         PlanSource::Rows(rows) => Some(repeated(rows, request.repeats)),
@@ -115,13 +115,13 @@ pub fn rows(request: &Request<'_>, draws: &mut Draws) -> Option<Vec<Row>> {
 }
 
 /// Held-out readings of a space: poses drawn evenly under all its loads, once each.
-pub fn holdout(space: &Space, hexapod: &Hexapod, draws: &mut Draws) -> Option<Vec<Row>> {
+pub fn holdout(space: &Space, hexapod: &Hexapod, draws: &mut Draws) -> Option<Vec<PlanRow>> {
     let poses: Option<Vec<Pose>> =
         (0..HELD_OUT).map(|_| random_pose(space, hexapod, &mut draws.plan)).collect();
     Some(of_space(space, poses?, 1).draw(&mut draws.surroundings))
 }
 
-fn of_make(kind: PlanKind, request: &Request<'_>, draws: &mut Draws) -> Vec<Row> {
+fn of_make(kind: PlanKind, request: &Request<'_>, draws: &mut Draws) -> Vec<PlanRow> {
     let mut scheme = kind.schemes(request.hexapod, &mut draws.plan).training;
     if let (Some(wanted), Poses::Drawn { count, .. }) = (request.poses, &mut scheme.poses) {
         *count = wanted;
@@ -151,15 +151,16 @@ fn of_space(space: &Space, poses: Vec<Pose>, repeats: u64) -> Scheme {
 }
 
 /// Rows of a table, each condition read so many times.
-fn repeated(rows: &[Row], repeats: Option<u64>) -> Vec<Row> {
+fn repeated(rows: &[PlanRow], repeats: Option<u64>) -> Vec<PlanRow> {
     let Some(repeats) = repeats else { return rows.to_vec() };
-    let mut conditions: Vec<Row> = Vec::new();
+    let mut conditions: Vec<PlanRow> = Vec::new();
     for row in rows {
         if conditions.iter().all(|known| known.situation != row.situation) {
             conditions.push(*row);
         }
     }
-    let read =
-        |row: &Row| (1..).zip(0..repeats).map(|(repeat, _)| Row { repeat, ..*row }).collect::<Vec<_>>();
+    let read = |row: &PlanRow| {
+        (1..).zip(0..repeats).map(|(repeat, _)| PlanRow { repeat, ..*row }).collect::<Vec<_>>()
+    };
     conditions.iter().flat_map(read).collect()
 }

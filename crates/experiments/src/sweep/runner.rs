@@ -11,12 +11,12 @@ use crate::harness::{Progress, Sharded};
 use crate::journal::{Identity, Shards};
 use crate::sweep::axes::{Noises, PlanSource};
 use crate::sweep::bench;
-use crate::sweep::cells::Cell;
-use crate::sweep::columns::{Column, Status, columns};
+use crate::sweep::cells::GridCell;
+use crate::sweep::columns::{Status, TrialColumn, columns};
 use crate::sweep::error::StudyError;
 use crate::sweep::plan::designed_poses;
 use crate::sweep::shard::Shard;
-use crate::sweep::study::{STUDY_FILE, Study, Task};
+use crate::sweep::study::{STUDY_FILE, SweepStudy, SweepTask};
 use crate::sweep::task::{diagnose, springs};
 
 /// Format of the journal: of its records, and of how results are drawn and computed.
@@ -27,8 +27,8 @@ type DesignKey = [usize; 4];
 
 /// A study with everything that is computed once.
 pub struct Runner {
-    study: Study,
-    columns: Vec<Column>,
+    study: SweepStudy,
+    columns: Vec<TrialColumn>,
     designs: BTreeMap<DesignKey, Vec<Pose>>,
 }
 
@@ -37,7 +37,7 @@ impl Runner {
     ///
     /// # Errors
     /// [`StudyError::Design`].
-    pub fn new(study: Study) -> Result<Self, StudyError> {
+    pub fn new(study: SweepStudy) -> Result<Self, StudyError> {
         let mut designs = BTreeMap::new();
         for index in 0..study.axes.cells() {
             let cell = study.axes.cell(index);
@@ -54,12 +54,12 @@ impl Runner {
     }
 
     /// The study.
-    pub fn study(&self) -> &Study {
+    pub fn study(&self) -> &SweepStudy {
         &self.study
     }
 
     /// Results of a trial.
-    pub fn columns(&self) -> &[Column] {
+    pub fn columns(&self) -> &[TrialColumn] {
         &self.columns
     }
 
@@ -69,7 +69,7 @@ impl Runner {
     /// [`Status::NoPlan`] when a drawn machine has none.
     pub fn designed(
         &self,
-        cell: &Cell<'_>,
+        cell: &GridCell<'_>,
         hexapod: &Hexapod,
         space: &Space,
     ) -> Result<Cow<'_, [Pose]>, Status> {
@@ -100,20 +100,25 @@ impl Sharded for Runner {
     fn content(&self, shard: u64, progress: &dyn Progress) -> Result<Vec<u8>, ExperimentError> {
         let mut done = self.empty(shard);
         match self.study.task {
-            Task::Springs => springs::run(self, &mut done),
-            Task::Diagnose => diagnose::run(self, &mut done),
+            SweepTask::Springs => springs::run(self, &mut done),
+            SweepTask::Diagnose => diagnose::run(self, &mut done),
         }
         progress.advance(done.trials.end - done.trials.start);
         Ok(done.to_bytes())
     }
 }
 
-fn design_key(cell: &Cell<'_>) -> DesignKey {
+fn design_key(cell: &GridCell<'_>) -> DesignKey {
     let by_noise = matches!(cell.axes.noise, Noises::Sigmas(_));
     [cell.position[0], cell.position[1], cell.position[2], if by_noise { cell.position[7] } else { 0 }]
 }
 
-fn design(study: &Study, cell: &Cell<'_>, hexapod: &Hexapod, space: &Space) -> Result<Vec<Pose>, StudyError> {
+fn design(
+    study: &SweepStudy,
+    cell: &GridCell<'_>,
+    hexapod: &Hexapod,
+    space: &Space,
+) -> Result<Vec<Pose>, StudyError> {
     let PlanSource::Designed(criterion) = cell.plan().source else { return Ok(Vec::new()) };
     let noise = cell.noise();
     // A common factor of the noise moves no optimum: the level of the first value keeps the rounding equal too.

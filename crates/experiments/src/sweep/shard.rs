@@ -2,25 +2,25 @@
 
 use std::ops::Range;
 
-use crate::sweep::columns::{Column, Kind, Status};
+use crate::sweep::columns::{ColumnKind, Status, TrialColumn};
 
 /// Code of an empty count or word.
 pub const EMPTY: u8 = u8::MAX;
 
 /// The values of a column.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Values {
+pub enum ColumnValues {
     /// Numbers, NaN for none.
     Numbers(Vec<f64>),
     /// Counts, or codes of words; [`EMPTY`] for none.
     Codes(Vec<u8>),
 }
 
-impl Values {
-    fn with_capacity(kind: &Kind, rows: usize) -> Self {
+impl ColumnValues {
+    fn with_capacity(kind: &ColumnKind, rows: usize) -> Self {
         match kind {
-            Kind::Number => Self::Numbers(Vec::with_capacity(rows)),
-            Kind::Count | Kind::Word(_) => Self::Codes(Vec::with_capacity(rows)),
+            ColumnKind::Number => Self::Numbers(Vec::with_capacity(rows)),
+            ColumnKind::Count | ColumnKind::Word(_) => Self::Codes(Vec::with_capacity(rows)),
         }
     }
 
@@ -74,14 +74,14 @@ pub struct Shard {
     /// Its trials.
     pub trials: Range<u64>,
     /// One entry per column, all as long as there are trials.
-    pub columns: Vec<Values>,
+    pub columns: Vec<ColumnValues>,
 }
 
 impl Shard {
     /// A shard whose results are still to come.
-    pub fn empty(number: u64, trials: Range<u64>, columns: &[Column]) -> Self {
+    pub fn empty(number: u64, trials: Range<u64>, columns: &[TrialColumn]) -> Self {
         let rows = usize::try_from(trials.end - trials.start).unwrap_or(0);
-        let columns = columns.iter().map(|c| Values::with_capacity(&c.kind, rows)).collect();
+        let columns = columns.iter().map(|c| ColumnValues::with_capacity(&c.kind, rows)).collect();
         Self { number, trials, columns }
     }
 
@@ -100,15 +100,18 @@ impl Shard {
         }
         for column in others {
             // No number is a code and no code a number: either leaves the value empty.
-            let none =
-                if matches!(column, Values::Numbers(_)) { Value::Code(EMPTY) } else { Value::Number(0.0) };
+            let none = if matches!(column, ColumnValues::Numbers(_)) {
+                Value::Code(EMPTY)
+            } else {
+                Value::Number(0.0)
+            };
             column.push(none);
         }
     }
 
     /// Rows it holds.
     pub fn rows(&self) -> usize {
-        self.columns.first().map_or(0, Values::len)
+        self.columns.first().map_or(0, ColumnValues::len)
     }
 
     /// As a journal keeps it: column after column, numbers as 8 B each (little-endian), codes as 1 B each.
@@ -116,8 +119,8 @@ impl Shard {
         let mut bytes = Vec::new();
         for column in &self.columns {
             match column {
-                Values::Numbers(values) => values.iter().for_each(|x| bytes.extend(x.to_le_bytes())),
-                Values::Codes(codes) => bytes.extend(codes),
+                ColumnValues::Numbers(values) => values.iter().for_each(|x| bytes.extend(x.to_le_bytes())),
+                ColumnValues::Codes(codes) => bytes.extend(codes),
             }
         }
         bytes
@@ -127,13 +130,13 @@ impl Shard {
     pub fn filled(mut self, mut rest: &[u8]) -> Option<Self> {
         let rows = usize::try_from(self.trials.end - self.trials.start).ok()?;
         for column in &mut self.columns {
-            let size = if matches!(column, Values::Numbers(_)) { 8 } else { 1 };
+            let size = if matches!(column, ColumnValues::Numbers(_)) { 8 } else { 1 };
             let (own, others) = rest.split_at_checked(rows.checked_mul(size)?)?;
             match column {
-                Values::Numbers(values) => {
+                ColumnValues::Numbers(values) => {
                     values.extend(own.as_chunks::<8>().0.iter().map(|b| f64::from_le_bytes(*b)));
                 }
-                Values::Codes(codes) => codes.extend(own),
+                ColumnValues::Codes(codes) => codes.extend(own),
             }
             rest = others;
         }
@@ -145,11 +148,11 @@ impl Shard {
 mod tests {
     use super::*;
     use crate::sweep::columns::columns;
-    use crate::sweep::study::Task;
+    use crate::sweep::study::SweepTask;
 
     #[test]
     fn a_shard_comes_back_bit_by_bit() {
-        let empty = || Shard::empty(7, 14..16, &columns(Task::Springs));
+        let empty = || Shard::empty(7, 14..16, &columns(SweepTask::Springs));
         let mut shard = empty();
         let numbers = [0.25, -1.0, 3.0, 1e-9, 5.0, 6.0].map(Value::Number);
         shard.push(numbers.into_iter().chain([Value::Code(5)]).chain([0.1, 0.2, 0.3].map(Value::Number)));

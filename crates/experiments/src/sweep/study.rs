@@ -6,14 +6,14 @@ use crate::sweep::axes::Axes;
 
 /// What happens in a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Task {
+pub enum SweepTask {
     /// Six stiffnesses are fitted and compared with the truth.
     Springs,
     /// The diagnosis is asked what is hidden.
     Diagnose,
 }
 
-impl Task {
+impl SweepTask {
     /// All tasks.
     pub const ALL: [Self; 2] = [Self::Springs, Self::Diagnose];
 
@@ -36,7 +36,7 @@ impl Task {
 
 /// A study, checked.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Study {
+pub struct SweepStudy {
     /// One line.
     pub title: String,
     /// Decides everything that is drawn.
@@ -44,7 +44,7 @@ pub struct Study {
     /// Trials of each cell.
     pub trials: u64,
     /// What happens in a trial.
-    pub task: Task,
+    pub task: SweepTask,
     /// Trials with the same machine, random poses, surroundings and effect.
     pub redraw: u64,
     /// Starts of the search for designed poses.
@@ -60,7 +60,7 @@ pub struct Study {
 /// Name of the study file itself among the inputs.
 pub const STUDY_FILE: &str = "study";
 
-impl Study {
+impl SweepStudy {
     /// Trials of all cells.
     pub fn all_trials(&self) -> u64 {
         self.trials * self.axes.cells() as u64

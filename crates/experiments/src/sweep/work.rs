@@ -10,10 +10,10 @@ use crate::error::ExperimentError;
 use crate::harness::{self, Progress, Sharded};
 use crate::journal::{Journal, Shards};
 use crate::sweep::error::StudyError;
-use crate::sweep::part::Part;
+use crate::sweep::part::StudyPart;
 use crate::sweep::results::{self, CellStatistics};
 use crate::sweep::runner::Runner;
-use crate::sweep::study::Study;
+use crate::sweep::study::SweepStudy;
 
 /// How a study divides into parts.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -48,9 +48,9 @@ pub struct Share {
 /// # Errors
 /// The study file cannot be used, or a designed plan has no answer.
 pub fn divide(study: &Path, parts: u64) -> Result<Division, StudyError> {
-    let runner = Runner::new(Study::read(study)?)?;
+    let runner = Runner::new(SweepStudy::read(study)?)?;
     let shards = runner.shards();
-    let share = |part: Part| {
+    let share = |part: StudyPart| {
         let own: Vec<u64> = (0..shards.count()).filter(|&n| part.holds(n)).collect();
         Share { part: part.to_string(), shards: own.len() as u64, trials: shards.trials_in(&own) }
     };
@@ -60,7 +60,7 @@ pub fn divide(study: &Path, parts: u64) -> Result<Division, StudyError> {
         trials: runner.study().all_trials(),
         inputs: runner.study().inputs.clone(),
         files: runner.study().files.clone(),
-        parts: Part::all(parts).map(share).collect(),
+        parts: StudyPart::all(parts).map(share).collect(),
     })
 }
 
@@ -89,7 +89,7 @@ impl Work {
     /// # Errors
     /// As [`Study::read`], [`Runner::new`], [`Journal::open`].
     pub fn open(study: &Path, folder: &Path) -> Result<Self, StudyError> {
-        let runner = Runner::new(Study::read(study)?)?;
+        let runner = Runner::new(SweepStudy::read(study)?)?;
         let journal = Journal::open(folder, runner.identity(), runner.shards())?;
         Ok(Self { runner, journal })
     }
@@ -98,7 +98,7 @@ impl Work {
     ///
     /// # Errors
     /// [`ExperimentError::Read`].
-    pub fn todo(&self, part: Option<Part>) -> Result<Todo, ExperimentError> {
+    pub fn todo(&self, part: Option<StudyPart>) -> Result<Todo, ExperimentError> {
         let wanted = |n: &u64| part.is_none_or(|part| part.holds(*n));
         let own: Vec<u64> = (0..self.shards().count()).filter(wanted).collect();
         let state = self.journal.state()?;
@@ -136,7 +136,7 @@ impl Work {
     }
 
     /// The study.
-    pub fn study(&self) -> &Study {
+    pub fn study(&self) -> &SweepStudy {
         self.runner.study()
     }
 

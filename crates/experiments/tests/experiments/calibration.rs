@@ -2,11 +2,11 @@
 
 use hexbench_core::statistics::Proportion;
 use hexbench_experiments::calibration::{
-    Calibration, Fate, MOST_FALSE_NAMES, Protocol, Record, credible_coverage, false_names, false_outside,
-    is_well_visible, page, pictures, stiffness_coverage, trials_csv,
+    Calibration, CalibrationProtocol, CalibrationRecord, Fate, MOST_FALSE_NAMES, credible_coverage,
+    false_names, false_outside, is_well_visible, page, pictures, stiffness_coverage, trials_csv,
 };
 use hexbench_experiments::harness::{self, Silent};
-use hexbench_truth::campaign::Kind;
+use hexbench_truth::campaign::CaseKind;
 
 /// Enough for every kind to occur; a larger study is a command.
 const TRIALS: usize = 60;
@@ -20,7 +20,7 @@ const MOST_FALSE_OUTSIDE: f64 = 0.02;
 
 fn study(threads: usize, trials: usize) -> Calibration {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let protocol = Protocol::default().with_trials(trials);
+    let protocol = CalibrationProtocol::default().with_trials(trials);
     let gathered = pool.install(|| harness::run(&protocol, None, &Silent)).unwrap();
     Calibration::of(protocol, gathered)
 }
@@ -42,7 +42,7 @@ fn a_small_study_keeps_what_the_diagnosis_promises() {
     let records = &study.records;
     assert_not_above(false_names(records), MOST_FALSE_NAMES, "effects named that are not there");
     assert_not_above(false_outside(records), MOST_FALSE_OUTSIDE, "false outside");
-    let visible = || records.iter().filter(|r| r.kind == Kind::Single && is_well_visible(r));
+    let visible = || records.iter().filter(|r| r.kind == CaseKind::Single && is_well_visible(r));
     let not_named = Proportion::count(visible(), |r| r.fate != Fate::Right);
     assert_not_above(not_named, MOST_NOT_NAMED, "well-visible effects not named");
     assert_not_above(
@@ -61,8 +61,8 @@ fn the_same_seed_gives_the_same_study_on_any_number_of_threads() {
     assert_eq!(trials_csv(&one.records), trials_csv(&three.records));
     assert_eq!(page(&one, "charts"), page(&three, "charts"));
     assert_eq!(pictures(&one.records).unwrap(), pictures(&three.records).unwrap());
-    let kinds: Vec<Kind> = one.records.iter().map(|r| r.kind).collect();
-    assert!(Kind::ALL.iter().all(|k| kinds.contains(k)), "{kinds:?}");
+    let kinds: Vec<CaseKind> = one.records.iter().map(|r| r.kind).collect();
+    assert!(CaseKind::ALL.iter().all(|k| kinds.contains(k)), "{kinds:?}");
 }
 
 #[test]
@@ -76,7 +76,8 @@ fn probabilities_are_probabilities_and_what_is_named_was_likely() {
             r.id,
             all.collect::<Vec<_>>()
         );
-        let stated = |record: &Record, id: &String| record.present.get(id).is_some_and(|&p| p > 0.5);
+        let stated =
+            |record: &CalibrationRecord, id: &String| record.present.get(id).is_some_and(|&p| p > 0.5);
         assert!(r.added.iter().all(|id| stated(r, id)), "{}: {:?} of {:?}", r.id, r.added, r.present);
         assert!(r.outside + r.none <= 1.0 + ROUNDING, "{}", r.id);
     }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use hexbench_design::power::Settings as PowerSettings;
+use hexbench_design::power::PowerSettings;
 use hexbench_experiments::ExperimentError;
 use hexbench_experiments::calibration;
 use hexbench_experiments::discriminate::{self, CONFUSIONS};
@@ -13,9 +13,9 @@ use hexbench_experiments::journal::Journal;
 use hexbench_experiments::paper::Again;
 use hexbench_experiments::power::{Campaigns, Simulation, plan_of};
 use hexbench_experiments::recovery::protocol::Recovery;
-use hexbench_experiments::recovery::study::Settings;
-use hexbench_experiments::regress::suite::Suite;
-use hexbench_experiments::regress::trials::Runs;
+use hexbench_experiments::recovery::study::RecoverySettings;
+use hexbench_experiments::regress::suite::RegressSuite;
+use hexbench_experiments::regress::trials::SuiteRuns;
 use hexbench_experiments::sweep::{Runner, results};
 use hexbench_model::terms::catalogue;
 use hexbench_truth::Scene;
@@ -94,7 +94,9 @@ fn survives<P: Protocol>(protocol: &P, other: &P) {
     assert_eq!(bits::<P>(&unbroken), bits::<P>(&resumed));
     let csv = |gathered| {
         let mut text = Vec::new();
-        harness::table(protocol, gathered).write(hexbench_report::table::Kind::Csv, &mut text).unwrap();
+        harness::table(protocol, gathered)
+            .write(hexbench_report::table::TableFormat::Csv, &mut text)
+            .unwrap();
         String::from_utf8(text).unwrap()
     };
     assert_eq!(csv(&unbroken), csv(&resumed));
@@ -116,20 +118,20 @@ fn survives<P: Protocol>(protocol: &P, other: &P) {
 
 #[test]
 fn recovery_goes_on_where_it_was_stopped() {
-    let protocol = |seed| Recovery::new(Settings { campaigns: 1, diagnoses: 1, seed });
+    let protocol = |seed| Recovery::new(RecoverySettings { campaigns: 1, diagnoses: 1, seed });
     survives(&protocol(3), &protocol(4));
 }
 
 #[test]
 fn calibration_goes_on_where_it_was_stopped() {
-    let protocol = |seed| calibration::Protocol::default().with_trials(14).with_seed(seed);
+    let protocol = |seed| calibration::CalibrationProtocol::default().with_trials(14).with_seed(seed);
     survives(&protocol(3), &protocol(4));
 }
 
 #[test]
 fn discrimination_goes_on_where_it_was_stopped() {
-    let protocol = |seed| discriminate::Trials {
-        protocol: discriminate::Protocol { seed, trials: 5 },
+    let protocol = |seed| discriminate::PairTrials {
+        protocol: discriminate::DiscriminateProtocol { seed, trials: 5 },
         confusions: &CONFUSIONS[3..5],
     };
     survives(&protocol(3), &protocol(4));
@@ -149,20 +151,20 @@ fn power_goes_on_where_it_was_stopped() {
 
 #[test]
 fn a_run_of_the_regression_goes_on_where_it_was_stopped() {
-    let suite = Suite::quick();
-    survives(&Runs::new(&suite, 3, 2), &Runs::new(&suite, 4, 2));
+    let suite = RegressSuite::quick();
+    survives(&SuiteRuns::new(&suite, 3, 2), &SuiteRuns::new(&suite, 4, 2));
 }
 
 #[test]
 fn a_regression_of_more_runs_goes_on_where_one_of_fewer_ended() {
-    let (suite, folder) = (Suite::quick(), tempfile::tempdir().unwrap());
-    let (one, two) = (Runs::new(&suite, 3, 1), Runs::new(&suite, 3, 2));
+    let (suite, folder) = (RegressSuite::quick(), tempfile::tempdir().unwrap());
+    let (one, two) = (SuiteRuns::new(&suite, 3, 1), SuiteRuns::new(&suite, 3, 2));
     let first = harness::run(&one, Some(folder.path()), &Silent).unwrap();
     let heard = StopAfter::new(u64::MAX);
     let both = harness::run(&two, Some(folder.path()), &heard).unwrap();
     assert!(heard.known.into_inner() + 4 > one.trials() && heard.damaged.into_inner() == 0);
     let beginning = Gathered { answers: both.answers[..first.answers.len()].to_vec() };
-    assert_eq!(bits::<Runs<'_>>(&first), bits::<Runs<'_>>(&beginning));
+    assert_eq!(bits::<SuiteRuns<'_>>(&first), bits::<SuiteRuns<'_>>(&beginning));
 }
 
 #[test]
@@ -177,8 +179,8 @@ fn the_journal_of_another_experiment_is_refused() {
     let again = Again { seed: 1, support_motion: [2e-6, 2e-6, -2e-6] };
     let stopped = harness::run(&again, Some(folder.path()), &StopAfter::new(0));
     assert!(matches!(stopped, Err(ExperimentError::Stopped)));
-    let suite = Suite::quick();
-    let refused = harness::run(&Runs::new(&suite, 1, 1), Some(folder.path()), &Silent).err().unwrap();
+    let suite = RegressSuite::quick();
+    let refused = harness::run(&SuiteRuns::new(&suite, 1, 1), Some(folder.path()), &Silent).err().unwrap();
     assert!(refused.to_string().contains("another experiment"), "{refused}");
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use hexbench_core::Observation;
 use hexbench_core::statistics::Proportion;
-use hexbench_design::power::{Settings, Verdict};
+use hexbench_design::power::{PowerSettings, Visibility};
 use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::power::{Campaigns, Power, PowerPlan, Simulated, Simulation, plan_of};
 use hexbench_model::term::Term;
@@ -24,8 +24,8 @@ fn terms(ids: &[&str]) -> Vec<Arc<dyn Term>> {
     catalogue().into_iter().filter(|t| ids.contains(&t.info().id)).collect()
 }
 
-fn settings() -> Settings {
-    Settings { draws: 20, ..Settings::default() }
+fn settings() -> PowerSettings {
+    PowerSettings { draws: 20, ..PowerSettings::default() }
 }
 
 fn studied(plan: &PowerPlan, ids: &[&str], campaigns: usize, diagnoses: bool) -> Power {
@@ -38,7 +38,7 @@ fn simulate(plan: &PowerPlan, terms: &[Arc<dyn Term>], simulation: Simulation) -
     all.power(&gathered).unwrap()
 }
 
-/// Name, reckoned chance and simulation of everything that was simulated.
+/// Name, computed chance and simulation of everything that was simulated.
 fn simulated(power: &Power) -> Vec<(String, f64, &Simulated)> {
     let mut all = Vec::new();
     for (e, check) in power.study.effects.iter().zip(&power.checks) {
@@ -56,10 +56,10 @@ fn simulated(power: &Power) -> Vec<(String, f64, &Simulated)> {
 
 fn assert_compatible(shares: &[(String, f64, Proportion)]) {
     let error = FALSE_FAILURE / shares.len() as f64;
-    for (name, reckoned, share) in shares {
+    for (name, computed, share) in shares {
         assert!(
-            share.is_compatible_with(*reckoned, error),
-            "{name}: reckoned {reckoned:.3}, simulated {} of {}",
+            share.is_compatible_with(*computed, error),
+            "{name}: computed {computed:.3}, simulated {} of {}",
             share.hits,
             share.of
         );
@@ -81,7 +81,7 @@ const SEVERAL: [&str; 7] = [
 fn effects_are_seen_as_often_as_reckoned_and_noise_alone_as_seldom() {
     let power = studied(&plan("paper-rich"), &SEVERAL, 200, false);
     let mut shares: Vec<(String, f64, Proportion)> =
-        simulated(&power).into_iter().map(|(name, reckoned, s)| (name, reckoned, s.seen)).collect();
+        simulated(&power).into_iter().map(|(name, computed, s)| (name, computed, s.seen)).collect();
     assert_eq!(shares.len(), 2 * SEVERAL.len());
     for (e, check) in power.study.effects.iter().zip(&power.checks) {
         shares.push((
@@ -100,10 +100,10 @@ fn stiffnesses_go_astray_as_reckoned() {
     let power = studied(&plan("paper-rich"), &["base-compliance", "bracket-compliance", "creep"], 1, false);
     for (e, check) in power.study.effects.iter().zip(&power.checks) {
         let simulated = check.usual.as_ref().unwrap().bias_percent;
-        for (reckoned, found) in e.bias_at_usual_size_percent.iter().zip(simulated) {
-            let second_order = reckoned * reckoned / 100.0;
-            let miss = (reckoned - found).abs();
-            assert!(miss < second_order + LINEARISATION_PERCENT, "{}: {reckoned} {found}", e.term);
+        for (computed, found) in e.bias_at_usual_size_percent.iter().zip(simulated) {
+            let second_order = computed * computed / 100.0;
+            let miss = (computed - found).abs();
+            assert!(miss < second_order + LINEARISATION_PERCENT, "{}: {computed} {found}", e.term);
         }
     }
 }
@@ -127,12 +127,12 @@ fn a_noise_estimated_from_repeats_is_paid_for_as_reckoned() {
 fn the_plan_of_the_paper_is_blind_and_the_rich_one_sees() {
     let study = |scene| simulate(&plan(scene), &catalogue(), Simulation::default()).study;
     let (paper, rich) = (study("paper"), study("paper-rich"));
-    let usual = |s: &hexbench_design::power::Study, least: f64| {
+    let usual = |s: &hexbench_design::power::PowerStudy, least: f64| {
         s.effects.iter().filter(|e| e.power_at_usual_size.middle >= least).count()
     };
     assert_eq!(usual(&paper, 0.9), 0);
     assert!(usual(&rich, 0.9) >= 9, "{}", usual(&rich, 0.9));
-    let alike = |s: &hexbench_design::power::Study| {
+    let alike = |s: &hexbench_design::power::PowerStudy| {
         let n = s.effects.len();
         (0..n)
             .flat_map(|i| (0..i).map(move |j| (i, j)))
@@ -141,7 +141,7 @@ fn the_plan_of_the_paper_is_blind_and_the_rich_one_sees() {
     };
     assert!(alike(&paper) >= 5 && alike(&rich) <= 2, "{} {}", alike(&paper), alike(&rich));
     let blind: Vec<_> =
-        paper.effects.iter().filter(|e| e.verdict == Verdict::NoTrace).map(|e| e.term).collect();
+        paper.effects.iter().filter(|e| e.verdict == Visibility::NoTrace).map(|e| e.term).collect();
     assert_eq!(blind, ["leg-asymmetry", "leg-backlash"]);
 }
 

@@ -6,8 +6,8 @@ use hexbench_experiments::recovery::correspondence::CORRESPONDENCES;
 use hexbench_experiments::recovery::geometry::combinations;
 use hexbench_experiments::recovery::protocol::Recovery;
 use hexbench_experiments::recovery::pulls::right_fit;
-use hexbench_experiments::recovery::scene::{Scene, Subject, subjects};
-use hexbench_experiments::recovery::study::{Settings, Study};
+use hexbench_experiments::recovery::scene::{HiddenSubject, RecoveryCampaign, subjects};
+use hexbench_experiments::recovery::study::{RecoverySettings, RecoveryStudy};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::fit::fit_baseline;
 use hexbench_model::linearization::Active;
@@ -19,22 +19,22 @@ use hexbench_truth::mechanisms::{REGISTRY, Shows};
 /// Campaigns of each subject.
 const FEW: usize = 2;
 
-fn subject(name: &str) -> Subject {
+fn subject(name: &str) -> HiddenSubject {
     subjects().into_iter().find(|s| s.name == name).unwrap()
 }
 
-fn run(settings: Settings) -> Study {
+fn run(settings: RecoverySettings) -> RecoveryStudy {
     let protocol = Recovery::new(settings);
-    Study::of(&protocol, &harness::run(&protocol, None, &Silent).unwrap())
+    RecoveryStudy::of(&protocol, &harness::run(&protocol, None, &Silent).unwrap())
 }
 
 #[test]
 fn a_small_study_holds_its_bounds_and_repeats_itself_on_one_thread() {
-    let settings = Settings { campaigns: FEW * subjects().len(), diagnoses: 0, seed: 5 };
+    let settings = RecoverySettings { campaigns: FEW * subjects().len(), diagnoses: 0, seed: 5 };
     let study = run(settings);
     assert!(study.broken.is_empty(), "{} bounds, broken: {:#?}", study.bounds, study.broken);
     assert!(study.bounds > 60, "only {} bounds", study.bounds);
-    let few = Settings { campaigns: 1, ..settings };
+    let few = RecoverySettings { campaigns: 1, ..settings };
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let bytes = |study| serde_json::to_string(&study).unwrap();
     assert_eq!(bytes(run(few)), bytes(alone.install(|| run(few))));
@@ -46,13 +46,13 @@ fn deflections_never_agree_to_rounding_and_their_error_is_of_second_order_in_the
     const SHARED: f64 = 1e-12;
     // Tenfold loads: a hundredfold error, give or take what is of third order.
     const POWERS: std::ops::Range<f64> = 1.8..2.3;
-    let scene = Scene::draw(&subject("springs"), 0, 3, None).unwrap();
+    let scene = RecoveryCampaign::draw(&subject("springs"), 0, 3, None).unwrap();
     let none = Metrology { sigma_translation: 1e-12, sigma_rotation: 6e-12 };
     let error = |factor: f64| {
         let data = scene.ideal_under(factor).unwrap();
         let campaign =
             Campaign::new(&Hexapod { metrology: Some(none), ..scene.hexapod().clone() }, &data).unwrap();
-        let springs = fit_baseline(&campaign).unwrap().point.springs;
+        let springs = fit_baseline(&campaign).unwrap().point.compliances;
         let relative = |(c, k): (&f64, f64)| (1.0 / (c * k) - 1.0).abs();
         springs.iter().zip(scene.leg_stiffness()).map(relative).fold(0.0, f64::max)
     };
@@ -79,7 +79,7 @@ fn both_catalogues_have_the_same_effects_in_the_same_order_and_their_numbers_are
 #[test]
 fn the_numbers_of_an_effect_are_as_many_as_the_term_has() {
     for s in subjects().iter().filter(|s| s.effects.len() == 1) {
-        let scene = Scene::draw(s, 0, 4, None).unwrap();
+        let scene = RecoveryCampaign::draw(s, 0, 4, None).unwrap();
         let known = scene.equivalents();
         let term = s.terms().remove(0);
         let names = parameter_names(&Active::new(term.clone(), false, 1.0));
@@ -95,7 +95,7 @@ fn absolute_poses_leave_seven_to_twelve_combinations_of_the_geometry_open_and_pr
     // Twelve rigid motions are frames; of five of them the load gives a hint, more of one on a quieter instrument.
     const OPEN: std::ops::RangeInclusive<usize> = 7..=12;
     let s = subject("geometry, 42 numbers");
-    let scene = Scene::draw(&s, 1, 6, None).unwrap();
+    let scene = RecoveryCampaign::draw(&s, 1, 6, None).unwrap();
     let (campaign, fit) = right_fit(&s, scene.hexapod(), &scene.case.measurements).unwrap();
     let found = combinations(&scene, &fit).unwrap();
     assert_eq!(found.misses.len() + found.open, 42);

@@ -7,17 +7,17 @@ use hexbench_core::statistics::Proportion;
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::regress::baseline::{Baseline, Update, made};
-use hexbench_experiments::regress::comparison::{Comparison, compare};
+use hexbench_experiments::regress::comparison::{RunComparison, compare};
 use hexbench_experiments::regress::gathered::pool;
 use hexbench_experiments::regress::junit::junit;
-use hexbench_experiments::regress::limit::{Test, Unit};
+use hexbench_experiments::regress::limit::{LimitTest, LimitUnit};
 use hexbench_experiments::regress::limits::limits;
 use hexbench_experiments::regress::notice::{POWER, noticed};
-use hexbench_experiments::regress::rule::{Verdict, judge};
-use hexbench_experiments::regress::sample::Sample;
-use hexbench_experiments::regress::suite::Suite;
+use hexbench_experiments::regress::rule::{LimitVerdict, judge};
+use hexbench_experiments::regress::sample::CondensedValues;
+use hexbench_experiments::regress::suite::RegressSuite;
 use hexbench_experiments::regress::summary::page;
-use hexbench_experiments::regress::trials::{Runs, Trials};
+use hexbench_experiments::regress::trials::{SuiteRuns, SuiteTrials};
 use hexbench_report::render::plain;
 use rand::RngExt;
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
@@ -27,16 +27,16 @@ fn update(reason: &str) -> Update {
     Update { date: "2026-01-02".into(), hexbench: "0".into(), seed: 1, runs: 3, reason: reason.into() }
 }
 
-fn runs(suite: &Suite, seed: u64, count: usize) -> Vec<Trials> {
-    let runs = Runs::new(suite, seed, count);
+fn runs(suite: &RegressSuite, seed: u64, count: usize) -> Vec<SuiteTrials> {
+    let runs = SuiteRuns::new(suite, seed, count);
     runs.of_each(harness::run(&runs, None, &Silent).unwrap())
 }
 
 /// A baseline of three runs of the quick suite, and its first run.
-fn baseline() -> &'static (Baseline, Trials) {
-    static MADE: OnceLock<(Baseline, Trials)> = OnceLock::new();
+fn baseline() -> &'static (Baseline, SuiteTrials) {
+    static MADE: OnceLock<(Baseline, SuiteTrials)> = OnceLock::new();
     MADE.get_or_init(|| {
-        let suite = Suite::quick();
+        let suite = RegressSuite::quick();
         let runs = runs(&suite, 1, 3);
         let limits = limits(&suite);
         let baseline = made(&suite, &limits, &pool(&limits, &runs), update("first"), Vec::new()).unwrap();
@@ -44,13 +44,13 @@ fn baseline() -> &'static (Baseline, Trials) {
     })
 }
 
-fn beside(trials: &Trials, seed: u64) -> Comparison {
-    let suite = Suite::quick();
+fn beside(trials: &SuiteTrials, seed: u64) -> RunComparison {
+    let suite = RegressSuite::quick();
     compare(&suite, &limits(&suite), (trials, seed), &baseline().0, "0")
 }
 
-fn failed(trials: &Trials) -> Vec<String> {
-    beside(trials, 1).of(Verdict::Worse).map(|f| f.id.clone()).collect()
+fn failed(trials: &SuiteTrials) -> Vec<String> {
+    beside(trials, 1).of(LimitVerdict::Worse).map(|f| f.id.clone()).collect()
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn the_same_run_passes_with_the_same_values_and_another_seed_passes_on_any_numbe
     assert_eq!(first.same_values(), Some(first.findings.len()));
     let of = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        beside(&pool.install(|| runs(&Suite::quick(), 9, 1))[0], 9)
+        beside(&pool.install(|| runs(&RegressSuite::quick(), 9, 1))[0], 9)
     };
     let [one, three] = [1, 3].map(of);
     assert_eq!(serde_json::to_string(&one).unwrap(), serde_json::to_string(&three).unwrap());
@@ -71,7 +71,7 @@ fn the_same_run_passes_with_the_same_values_and_another_seed_passes_on_any_numbe
 
 #[test]
 fn what_is_planted_in_the_values_fails_its_own_limits() {
-    type Plant = fn(&mut Trials);
+    type Plant = fn(&mut SuiteTrials);
     let faults: [(&str, Plant); 6] = [
         ("stiffness-pulls", |t| {
             for f in t.fits.iter_mut().filter_map(|f| f.found.as_mut()) {
@@ -110,7 +110,7 @@ fn junit_has_a_case_for_each_limit_and_tells_of_each_failure_figures_and_the_nex
     assert_eq!(root.tag_name().name(), "testsuites");
     let count = |tag: &str| xml.descendants().filter(|n| n.has_tag_name(tag)).count();
     assert_eq!(count("testcase"), comparison.findings.len());
-    let failures = comparison.of(Verdict::Worse).count();
+    let failures = comparison.of(LimitVerdict::Worse).count();
     assert!(failures > 0);
     assert_eq!(count("failure"), failures);
     for suite in root.children().filter(|n| n.has_tag_name("testsuite")) {
@@ -129,7 +129,7 @@ fn junit_has_a_case_for_each_limit_and_tells_of_each_failure_figures_and_the_nex
 
 #[test]
 fn limits_have_names_of_their_own_and_reasons() {
-    for suite in [Suite::full(), Suite::quick()] {
+    for suite in [RegressSuite::full(), RegressSuite::quick()] {
         let all = limits(&suite);
         let mut ids: Vec<&str> = all.iter().map(|l| l.id.as_str()).collect();
         let mut titles: Vec<&str> = all.iter().map(|l| l.title.as_str()).collect();
@@ -146,14 +146,14 @@ fn limits_have_names_of_their_own_and_reasons() {
 #[test]
 fn the_committed_baseline_is_one_of_the_full_suite() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/regress/baseline.json");
-    let suite = Suite::full();
+    let suite = RegressSuite::full();
     let baseline = Baseline::read_for(&path, &suite, &limits(&suite)).unwrap();
     assert!(baseline.history.iter().all(|u| !u.reason.trim().is_empty() && u.runs > 0));
 }
 
 #[test]
 fn an_update_without_a_reason_is_refused_and_history_is_kept() {
-    let suite = Suite::quick();
+    let suite = RegressSuite::quick();
     let limits = limits(&suite);
     let gathered = pool(&limits, std::slice::from_ref(&baseline().1));
     for nothing in ["", "  \n"] {
@@ -175,8 +175,8 @@ const LEVEL: f64 = 5e-3;
 type Law = fn(&mut Pcg64, f64) -> f64;
 
 /// A kind of limit, values of a mean (of sizes: times a factor), and the usual mean.
-fn kinds() -> [(Test, Law, f64); 4] {
-    let size = Test::Size { range: [1e-9, 1e9], least: 0.1, unit: Unit::Plain };
+fn kinds() -> [(LimitTest, Law, f64); 4] {
+    let size = LimitTest::Size { range: [1e-9, 1e9], least: 0.1, unit: LimitUnit::Plain };
     let normal: Law = |rng, m| m * f64::exp(StandardNormal.sample(rng));
     // The error of one number: the logarithm of its size is skewed.
     let half_normal: Law = |rng, m| {
@@ -185,12 +185,17 @@ fn kinds() -> [(Test, Law, f64); 4] {
     };
     let pulls: Law = |rng, m| m * ChiSquared::new(6.0).unwrap().sample(rng) / 6.0;
     let share: Law = |rng, m| f64::from(u8::from(rng.random_bool(m.min(1.0))));
-    [(size, normal, 1.0), (size, half_normal, 1.0), (Test::Spread, pulls, 1.0), (Test::Share, share, 0.1)]
+    [
+        (size, normal, 1.0),
+        (size, half_normal, 1.0),
+        (LimitTest::Spread, pulls, 1.0),
+        (LimitTest::Share, share, 0.1),
+    ]
 }
 
-fn drawn((test, law, mean): (Test, Law, f64), n: usize, rng: &mut Pcg64) -> Sample {
+fn drawn((test, law, mean): (LimitTest, Law, f64), n: usize, rng: &mut Pcg64) -> CondensedValues {
     let values: Vec<f64> = (0..n).map(|_| law(rng, mean)).collect();
-    Sample::of(test, &values)
+    CondensedValues::of(test, &values)
 }
 
 #[test]
@@ -200,7 +205,7 @@ fn without_a_change_the_rule_fails_no_more_often_than_its_level() {
         let fails = |_| {
             let before = drawn(kind, BEFORE, &mut rng);
             let now = drawn(kind, NOW, &mut rng);
-            judge(kind.0, &now, &before, BEFORE / NOW, LEVEL).verdict == Verdict::Worse
+            judge(kind.0, &now, &before, BEFORE / NOW, LEVEL).verdict == LimitVerdict::Worse
         };
         let hits = (0..DRAWS).map(fails).filter(|fails| *fails).count();
         let found = Proportion { hits, of: DRAWS };
@@ -218,9 +223,9 @@ fn a_change_of_the_stated_size_is_noticed_in_nine_cases_of_ten() {
         let notices = |_: &usize| {
             let before = drawn(kind, BEFORE, &mut rng);
             let size = noticed(kind.0, NOW as u64, &before, LEVEL).unwrap();
-            let changed = if matches!(kind.0, Test::Size { .. }) { kind.2 * size } else { size };
+            let changed = if matches!(kind.0, LimitTest::Size { .. }) { kind.2 * size } else { size };
             let now = drawn((kind.0, kind.1, changed), NOW, &mut rng);
-            judge(kind.0, &now, &before, BEFORE / NOW, LEVEL).verdict == Verdict::Worse
+            judge(kind.0, &now, &before, BEFORE / NOW, LEVEL).verdict == LimitVerdict::Worse
         };
         let hits = (0..DRAWS / 8).filter(notices).count();
         let share = hits as f64 / (DRAWS / 8) as f64;

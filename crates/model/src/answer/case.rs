@@ -9,7 +9,7 @@ use super::AnswerError;
 
 /// The public files of a case.
 #[derive(Debug, Clone)]
-pub struct Case {
+pub struct CaseFiles {
     /// The machine.
     pub hexapod: Hexapod,
     /// Readings to learn from.
@@ -18,7 +18,7 @@ pub struct Case {
     pub asked: Dataset,
 }
 
-impl Case {
+impl CaseFiles {
     /// Reads a case folder.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use crate::predict::{Prediction, predict};
 use crate::terms::catalogue;
 use crate::verdict::Verdict;
 
-use super::{AnswerError, Case};
+use super::{AnswerError, CaseFiles};
 
 /// What a method says about a case.
 pub(crate) struct Answer {
@@ -22,7 +22,7 @@ pub(crate) struct Answer {
 
 /// The whole diagnosis; predictions are those of its last model. Where something outside the catalogue is at work, their uncertainty
 /// holds what the model misses.
-pub(crate) fn hexbench(case: &Case) -> Result<Answer, AnswerError> {
+pub(crate) fn hexbench(case: &CaseFiles) -> Result<Answer, AnswerError> {
     let study = diagnose(&case.hexapod, &case.measurements, None, &catalogue())?;
     let last = study.fits.last().unwrap_or(&study.outcome.baseline);
     let mut predictions = predictions(case, &study.campaign, last, Estimator::Gls)?;
@@ -51,7 +51,7 @@ fn widen(prediction: &mut Prediction, missed: &[f64; 6]) {
 }
 
 /// The paper's estimator; it knows springs only and says nothing about effects.
-pub(crate) fn paper(case: &Case) -> Result<Answer, AnswerError> {
+pub(crate) fn paper(case: &CaseFiles) -> Result<Answer, AnswerError> {
     let campaign = prepare(&case.hexapod, &case.measurements)?;
     let fit = fit_paper(&campaign, &case.measurements)?.into_fit(&campaign)?;
     let predictions = predictions(case, &campaign, &fit, Estimator::Paper)?;
@@ -59,7 +59,7 @@ pub(crate) fn paper(case: &Case) -> Result<Answer, AnswerError> {
 }
 
 fn predictions(
-    case: &Case,
+    case: &CaseFiles,
     campaign: &Campaign,
     fit: &Fit,
     estimator: Estimator,

@@ -10,7 +10,7 @@ mod write;
 
 use std::path::Path;
 
-pub use case::Case;
+pub use case::CaseFiles;
 pub use error::AnswerError;
 
 /// How a case is answered.
@@ -28,7 +28,7 @@ pub enum Method {
 /// # Errors
 /// [`AnswerError`] when a file cannot be read or written, or when the method has no answer.
 pub fn answer(case: &Path, out: &Path, method: Method) -> Result<(), AnswerError> {
-    let case = Case::read(case)?;
+    let case = CaseFiles::read(case)?;
     let answer = match method {
         Method::Hexbench => methods::hexbench(&case),
         Method::Paper => methods::paper(&case),

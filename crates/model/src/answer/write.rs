@@ -8,7 +8,7 @@ use hexbench_core::files::{CsvText, atomic_write};
 use serde::Serialize;
 
 use super::methods::Answer;
-use super::{AnswerError, Case};
+use super::{AnswerError, CaseFiles};
 use crate::estimate::Estimate;
 use crate::predict::Prediction;
 
@@ -27,7 +27,7 @@ struct Number<'a> {
 }
 
 /// Writes `parameters.json`, `predictions.csv` and, when there is a diagnosis, `diagnosis.json`.
-pub(crate) fn answer(out: &Path, case: &Case, answer: &Answer) -> Result<(), AnswerError> {
+pub(crate) fn answer(out: &Path, case: &CaseFiles, answer: &Answer) -> Result<(), AnswerError> {
     let number = |e: &'_ Estimate| (e.std > 0.0).then_some(e.std);
     let parameters = answer
         .parameters

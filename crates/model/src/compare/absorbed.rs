@@ -7,7 +7,7 @@
 use nalgebra::DVector;
 use serde::Serialize;
 
-use super::Judged;
+use super::JudgedModel;
 use crate::absorption::{Absorption, bias_percent};
 use crate::candidates::sizes;
 use crate::evidence::WIDEST;
@@ -38,7 +38,7 @@ pub struct HiddenBias {
 }
 
 /// The most harmful parameter of every effect that is not in the model, worst effect first.
-pub fn hidden_biases(judged: &Judged<'_>) -> Vec<HiddenBias> {
+pub fn hidden_biases(judged: &JudgedModel<'_>) -> Vec<HiddenBias> {
     let known = |t: &dyn Term| judged.point.active.iter().any(|a| a.id() == t.info().id);
     let absorption = Absorption::of(&judged.lin);
     let visible = noncentrality(1.0, FALSE_ALARM, POWER).sqrt();
@@ -59,7 +59,7 @@ fn largest(h: &HiddenBias) -> f64 {
 }
 
 fn worst_parameter(
-    judged: &Judged<'_>,
+    judged: &JudgedModel<'_>,
     term: &dyn Term,
     absorption: &Absorption,
     visible: f64,
@@ -73,7 +73,7 @@ fn worst_parameter(
     let biases = parameters.filter_map(|(k, p)| {
         let column = block.column(k).into_owned();
         let (size, would_show, shift) = hidden(absorption, &column, WIDEST * sizes[k], visible)?;
-        let bias = bias_percent(&judged.point.springs, &shift);
+        let bias = bias_percent(&judged.point.compliances, &shift);
         bias.iter().all(|b| b.is_finite()).then(|| HiddenBias {
             term: term.info().id.to_owned(),
             parameter: p.name,

@@ -7,12 +7,12 @@
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
-use super::Judged;
+use super::JudgedModel;
 use crate::noise::NoiseSource;
 
 /// A test with its chance under a right model.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub struct Test {
+pub struct AdequacyTest {
     /// Chi-square or F.
     pub statistic: f64,
     /// Degrees of freedom (of the numerator for F).
@@ -27,16 +27,16 @@ pub struct Test {
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Adequacy {
     /// Averaged readings against the stated noise; absent when no level is stated.
-    pub lack_of_fit_chi2: Option<Test>,
+    pub lack_of_fit_chi2: Option<AdequacyTest>,
     /// Averaged readings against the scatter of repeats; absent without repeats.
-    pub lack_of_fit_f: Option<Test>,
+    pub lack_of_fit_f: Option<AdequacyTest>,
     /// Scatter of repeats against the stated noise: does the statement hold?
-    pub repeats_chi2: Option<Test>,
+    pub repeats_chi2: Option<AdequacyTest>,
 }
 
 /// What the tests say of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Answer {
+pub enum AdequacyAnswer {
     /// The error is noise, as far as the readings tell.
     Adequate,
     /// Something is missing.
@@ -50,7 +50,7 @@ const LEAST_CHANCE: f64 = 0.01;
 
 impl Adequacy {
     /// Name and result of every test that the data allow.
-    pub fn tests(&self) -> impl Iterator<Item = (&'static str, Test)> {
+    pub fn tests(&self) -> impl Iterator<Item = (&'static str, AdequacyTest)> {
         let all = [
             ("averages against the stated noise", self.lack_of_fit_chi2),
             ("averages against repeats (F)", self.lack_of_fit_f),
@@ -60,19 +60,19 @@ impl Adequacy {
     }
 
     /// What they say together.
-    pub fn answer(&self) -> Answer {
+    pub fn answer(&self) -> AdequacyAnswer {
         let of_fit = [self.lack_of_fit_f, self.lack_of_fit_chi2].into_iter().flatten();
         let least = of_fit.map(|t| t.p).fold(1.0, f64::min);
         match self.tests().next() {
-            _ if least < LEAST_CHANCE => Answer::NotAdequate,
-            None => Answer::Open,
-            Some(_) => Answer::Adequate,
+            _ if least < LEAST_CHANCE => AdequacyAnswer::NotAdequate,
+            None => AdequacyAnswer::Open,
+            Some(_) => AdequacyAnswer::Adequate,
         }
     }
 }
 
 /// All tests the data allow.
-pub fn adequacy(judged: &Judged<'_>) -> Adequacy {
+pub fn adequacy(judged: &JudgedModel<'_>) -> Adequacy {
     let lack = judged.lin.residuals().norm_squared();
     let dof = judged.lin.equations() as f64 - judged.rank;
     let (pure, pure_dof) = (judged.campaign.pure_error, judged.campaign.pure_error_dof);
@@ -87,17 +87,17 @@ pub fn adequacy(judged: &Judged<'_>) -> Adequacy {
 }
 
 /// Chi-square test.
-pub fn chi2_test(statistic: f64, dof: f64) -> Option<Test> {
+pub fn chi2_test(statistic: f64, dof: f64) -> Option<AdequacyTest> {
     let law = ChiSquared::new(dof).ok().filter(|_| dof > 0.0 && statistic.is_finite())?;
-    Some(Test { statistic, dof, dof_noise: None, p: law.sf(statistic) })
+    Some(AdequacyTest { statistic, dof, dof_noise: None, p: law.sf(statistic) })
 }
 
 /// F test of two sums of squares.
-pub fn f_test(above: f64, dof: f64, below: f64, dof_noise: f64) -> Option<Test> {
+pub fn f_test(above: f64, dof: f64, below: f64, dof_noise: f64) -> Option<AdequacyTest> {
     let statistic = (above / dof) / (below / dof_noise);
     let usable = dof > 0.0 && dof_noise > 0.0 && below > 0.0 && statistic.is_finite();
     let law = FisherSnedecor::new(dof, dof_noise).ok().filter(|_| usable)?;
-    Some(Test { statistic, dof, dof_noise: Some(dof_noise), p: law.sf(statistic) })
+    Some(AdequacyTest { statistic, dof, dof_noise: Some(dof_noise), p: law.sf(statistic) })
 }
 
 #[cfg(test)]

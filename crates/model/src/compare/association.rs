@@ -14,7 +14,7 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use hexbench_core::Vector6;
 
-use super::Judged;
+use super::JudgedModel;
 use crate::campaign::Condition;
 use crate::candidates::project;
 use crate::chain::Action;
@@ -101,7 +101,7 @@ pub struct Association {
 }
 
 /// Significant associations, most significant first.
-pub fn associations(judged: &Judged<'_>) -> Vec<Association> {
+pub fn associations(judged: &JudgedModel<'_>) -> Vec<Association> {
     let legs: Vec<Option<usize>> = std::iter::once(None).chain((0..6).map(Some)).collect();
     let mut all = Vec::new();
     for leg in legs {
@@ -130,7 +130,7 @@ struct Points {
     x: Vec<f64>,
 }
 
-fn points(judged: &Judged<'_>, leg: Option<usize>, value: impl Fn(&Condition, usize) -> f64) -> Points {
+fn points(judged: &JudgedModel<'_>, leg: Option<usize>, value: impl Fn(&Condition, usize) -> f64) -> Points {
     let mut points = Points { y: Vec::new(), force_change: Vec::new(), x: Vec::new() };
     for (i, c) in judged.lin.conditions.iter().enumerate() {
         for l in (0..6).filter(|l| leg.is_none_or(|only| only == *l)) {
@@ -143,7 +143,7 @@ fn points(judged: &Judged<'_>, leg: Option<usize>, value: impl Fn(&Condition, us
 }
 
 fn question(
-    judged: &Judged<'_>,
+    judged: &JudgedModel<'_>,
     leg: Option<usize>,
     variable: Follows,
     compliance: bool,
@@ -182,7 +182,7 @@ pub(crate) const COMPLIANCE: &str = "compliance";
 
 /// One way to look at the residuals: which legs, and whether their length or their compliance is asked about.
 pub(crate) struct Look<'a> {
-    pub(crate) judged: &'a Judged<'a>,
+    pub(crate) judged: &'a JudgedModel<'a>,
     pub(crate) leg: Option<usize>,
     pub(crate) compliance: bool,
 }

@@ -4,7 +4,7 @@ use hexbench_core::statistics::{mean, root_mean_square, standard_deviation};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::{Judged, coordinate_names};
+use super::{JudgedModel, coordinate_names};
 
 /// One measured coordinate; um or urad.
 #[derive(Debug, Clone, Serialize)]
@@ -26,13 +26,13 @@ pub struct Coordinate {
 }
 
 /// All six.
-pub fn coordinates(judged: &Judged<'_>) -> Vec<Coordinate> {
+pub fn coordinates(judged: &JudgedModel<'_>) -> Vec<Coordinate> {
     let names = coordinate_names(judged.campaign.measurand);
     let noise = judged.campaign.noise.sigma();
     (0..6).map(|k| coordinate(judged, k, names[k], noise[k])).collect()
 }
 
-fn coordinate(judged: &Judged<'_>, k: usize, name: &'static str, noise: f64) -> Coordinate {
+fn coordinate(judged: &JudgedModel<'_>, k: usize, name: &'static str, noise: f64) -> Coordinate {
     let rms = root_mean_square(judged.rows.iter().map(|r| r.value[k])).unwrap_or(0.0);
     let groups = &judged.campaign.groups;
     let means: Vec<f64> = (0..groups.len()).map(|i| judged.lin.residual(i)[k] * groups[i].sigma[k]).collect();

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Judged;
+use super::JudgedModel;
 use crate::fit::columns;
 use crate::lsq::Triangle;
 use crate::observability::Observability;
@@ -33,7 +33,7 @@ pub struct Design {
 }
 
 /// Check the design.
-pub fn design(judged: &Judged<'_>) -> Design {
+pub fn design(judged: &JudgedModel<'_>) -> Design {
     let a = columns(&judged.lin, judged.point);
     let parameters = Parameters::at(judged.point, judged.campaign.is_absolute());
     let mut triangle = Triangle::new(a.ncols());
@@ -78,7 +78,7 @@ fn weakest(a: &nalgebra::DMatrix<f64>, parameters: &Parameters) -> String {
     sentence(&strong, parameters).replace("cannot be told apart", "are told apart worst")
 }
 
-fn paper(judged: &Judged<'_>) -> Option<Observability> {
+fn paper(judged: &JudgedModel<'_>) -> Option<Observability> {
     let a = regressor(&judged.campaign.hexapod, judged.data).ok()?;
     let eigen = a.tr_mul(&a).symmetric_eigenvalues();
     let values = eigen.iter().map(|l| l.max(0.0).sqrt());

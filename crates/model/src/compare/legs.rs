@@ -7,7 +7,7 @@ use hexbench_core::statistics::root_mean_square;
 use hexbench_core::{Matrix6, Vector6};
 use serde::Serialize;
 
-use super::Judged;
+use super::JudgedModel;
 use crate::campaign::Campaign;
 use crate::linearization::Linearization;
 
@@ -45,7 +45,7 @@ pub fn leg_space(campaign: &Campaign, lin: &Linearization) -> LegSpace {
 }
 
 /// Root mean square of every leg.
-pub fn summaries(judged: &Judged<'_>) -> Vec<LegResidual> {
+pub fn summaries(judged: &JudgedModel<'_>) -> Vec<LegResidual> {
     let rms = |all: &[Vector6], leg: usize| 1e6 * root_mean_square(all.iter().map(|e| e[leg])).unwrap_or(0.0);
     let one = |leg: usize| LegResidual {
         leg: leg + 1,

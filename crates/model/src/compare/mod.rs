@@ -22,7 +22,7 @@ use crate::candidates::orthonormal;
 use crate::diagnose::prepare;
 use crate::error::ModelError;
 use crate::fit::{Fit, columns, fit_baseline};
-use crate::linearization::{Linearization, Point};
+use crate::linearization::{Linearization, ModelPoint};
 use crate::model_file::Model;
 use crate::noise::NoiseSource;
 use crate::residuals::{ErrorSummary, Residual, prediction_errors, residuals, summarise};
@@ -78,13 +78,13 @@ pub struct Comparison {
 
 /// A comparison with what it was made from, for charts.
 #[derive(Debug, Clone)]
-pub struct Compared {
+pub struct ComparedModel {
     /// What people read.
     pub comparison: Comparison,
     /// The readings.
     pub campaign: Campaign,
     /// The model compared.
-    pub point: Point,
+    pub point: ModelPoint,
 }
 
 /// Compare springs fitted to the data, or a saved model, with the data.
@@ -96,18 +96,18 @@ pub fn compare(
     data: &Dataset,
     model: Option<&Model>,
     holdout: Option<&Dataset>,
-) -> Result<Compared, ModelError> {
+) -> Result<ComparedModel, ModelError> {
     refuse_mixture(data, model, holdout)?;
     let campaign = prepare(hexapod, data)?;
     let point = match model {
         Some(m) => m.point.clone(),
         None => fit_baseline(&campaign)?.point,
     };
-    let judged = Judged::of(&campaign, data, &point, model.is_none())?;
+    let judged = JudgedModel::of(&campaign, data, &point, model.is_none())?;
     let held = |h: &Dataset| prediction_errors(hexapod, h, campaign.noise, &point);
     let holdout = holdout.map(held).transpose()?.map(|rows| summarise(&rows, None));
     let comparison = report(&judged, holdout);
-    Ok(Compared { comparison, campaign, point })
+    Ok(ComparedModel { comparison, campaign, point })
 }
 
 /// The comparison of a fit that is at hand.
@@ -115,7 +115,7 @@ pub fn compare(
 /// # Errors
 /// [`ModelError::SingularPose`].
 pub fn compare_fit(campaign: &Campaign, data: &Dataset, fit: &Fit) -> Result<Comparison, ModelError> {
-    Ok(report(&Judged::of(campaign, data, &fit.point, true)?, None))
+    Ok(report(&JudgedModel::of(campaign, data, &fit.point, true)?, None))
 }
 
 fn refuse_mixture(
@@ -133,10 +133,10 @@ fn refuse_mixture(
 }
 
 /// A model at a point, its residuals, and the columns it has in these data.
-pub struct Judged<'a> {
+pub struct JudgedModel<'a> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) data: &'a Dataset,
-    pub(crate) point: &'a Point,
+    pub(crate) point: &'a ModelPoint,
     /// The model linearised there.
     pub lin: Linearization,
     /// Residuals of single readings, in file order.
@@ -151,7 +151,7 @@ pub struct Judged<'a> {
     pub space: LegSpace,
 }
 
-impl<'a> Judged<'a> {
+impl<'a> JudgedModel<'a> {
     /// A model beside the readings of a campaign; `fitted`: to these very readings.
     ///
     /// # Errors
@@ -159,7 +159,7 @@ impl<'a> Judged<'a> {
     pub fn of(
         campaign: &'a Campaign,
         data: &'a Dataset,
-        point: &'a Point,
+        point: &'a ModelPoint,
         fitted: bool,
     ) -> Result<Self, ModelError> {
         let lin = Linearization::at(campaign, point)?;
@@ -172,7 +172,7 @@ impl<'a> Judged<'a> {
     }
 }
 
-fn report(judged: &Judged<'_>, holdout: Option<ErrorSummary>) -> Comparison {
+fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>) -> Comparison {
     let dof = 6.0 * judged.rows.len() as f64 - judged.rank;
     Comparison {
         format: "comparison/1",

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::Judged;
+use super::JudgedModel;
 use super::association::{COMPLIANCE, Look, added_columns};
 use crate::period::period_grid;
 
@@ -67,7 +67,7 @@ impl Spectrum {
     }
 
     /// The same look at another model.
-    pub fn again(&self, judged: &Judged<'_>) -> Option<Self> {
+    pub fn again(&self, judged: &JudgedModel<'_>) -> Option<Self> {
         let periods = usable_periods(judged)?;
         let look = Look { judged, leg: self.leg.map(|l| l - 1), compliance: self.of == COMPLIANCE };
         Some(Self::new(&look, &scan(&look, &periods))).filter(|s| !s.points.is_empty())
@@ -76,7 +76,7 @@ impl Spectrum {
 
 impl Spectra {
     /// All of them; `None` with too few poses.
-    pub fn of(judged: &Judged<'_>) -> Option<Self> {
+    pub fn of(judged: &JudgedModel<'_>) -> Option<Self> {
         let periods = usable_periods(judged)?;
         let scanned: Vec<(Look<'_>, Vec<Scanned>)> = looks(judged)
             .map(|look| {
@@ -100,13 +100,13 @@ fn exceeded_with(probability: f64, dof: f64) -> f64 {
     0.5 * dof * (probability.powf(-2.0 / dof) - 1.0)
 }
 
-fn usable_periods(judged: &Judged<'_>) -> Option<Vec<f64>> {
+fn usable_periods(judged: &JudgedModel<'_>) -> Option<Vec<f64>> {
     let enough = distinct_poses(judged) >= FEWEST_POSES;
     enough.then(|| period_grid(&judged.lin.conditions)).filter(|periods| !periods.is_empty())
 }
 
 /// All legs together and each alone, each for both carriers.
-fn looks<'a>(judged: &'a Judged<'a>) -> impl Iterator<Item = Look<'a>> {
+fn looks<'a>(judged: &'a JudgedModel<'a>) -> impl Iterator<Item = Look<'a>> {
     let legs = std::iter::once(None).chain((0..6).map(Some));
     legs.flat_map(move |leg| [false, true].map(|compliance| Look { judged, leg, compliance }))
 }
@@ -121,7 +121,7 @@ fn significant(looked: Vec<Peak>) -> Option<Peak> {
     (false_alarm < REPORTED).then_some(Peak { false_alarm, ..best })
 }
 
-fn distinct_poses(judged: &Judged<'_>) -> usize {
+fn distinct_poses(judged: &JudgedModel<'_>) -> usize {
     let bits = |c: &crate::campaign::Condition| c.commanded_lengths.map(f64::to_bits);
     let mut poses: Vec<[u64; 6]> = judged.lin.conditions.iter().map(|c| bits(c).into()).collect();
     poses.sort_unstable();

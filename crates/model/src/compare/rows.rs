@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::Judged;
+use super::JudgedModel;
 use crate::residuals::typical_square;
 
 /// Poses listed.
@@ -38,7 +38,7 @@ pub struct Outlier {
 }
 
 /// Poses with the largest errors, worst first.
-pub fn worst_poses(judged: &Judged<'_>) -> Vec<WorstPose> {
+pub fn worst_poses(judged: &JudgedModel<'_>) -> Vec<WorstPose> {
     let mut poses: BTreeMap<i64, (u64, usize, f64)> = BTreeMap::new();
     for r in &judged.rows {
         let o = &judged.data.observations[r.row];
@@ -63,7 +63,7 @@ pub fn worst_poses(judged: &Judged<'_>) -> Vec<WorstPose> {
 
 /// Readings whose distance over six coordinates is beyond chance, against the typical distance in the file, so that a bad
 /// model does not make every reading suspect.
-pub fn outliers(judged: &Judged<'_>) -> Vec<Outlier> {
+pub fn outliers(judged: &JudgedModel<'_>) -> Vec<Outlier> {
     let Ok(law) = ChiSquared::new(6.0) else { return Vec::new() };
     let typical = typical_square(&judged.rows).max(1.0);
     let n = judged.rows.len() as f64;

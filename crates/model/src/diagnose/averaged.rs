@@ -9,8 +9,8 @@
 use hexbench_core::Vector6;
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use crate::diagnosis::Outcome;
-use crate::estimate::Springs;
+use crate::diagnosis::RankedSets;
+use crate::estimate::LegCompliances;
 use crate::evidence::Variant;
 use crate::fit::Fit;
 
@@ -25,8 +25,8 @@ const BISECTIONS: usize = 40;
 
 /// Springs of a fit of the terms of the best set, averaged over all sets. The sets are linear about that fit; what its own
 /// variance has beyond the linear one (shapes) stays.
-pub(super) fn averaged_springs(outcome: &Outcome, last: &Fit) -> Springs {
-    let own = Springs::of(last);
+pub(super) fn averaged_springs(outcome: &RankedSets, last: &Fit) -> LegCompliances {
+    let own = LegCompliances::of(last);
     let Some(fitted) = outcome.gram.springs(&fitted(outcome)) else { return own };
     let curved = (own.variance - fitted.1).map(|v| v.max(0.0));
     let (mut weights, mut springs) = (Vec::new(), Vec::new());
@@ -45,11 +45,11 @@ pub(super) fn averaged_springs(outcome: &Outcome, last: &Fit) -> Springs {
     let legs: [(f64, f64); 6] = std::array::from_fn(of_leg);
     let compliance = Vector6::from_fn(|leg, _| legs[leg].0);
     let variance = Vector6::from_fn(|leg, _| legs[leg].1.powi(2));
-    Springs { compliance, variance, determined: own.determined }
+    LegCompliances { compliance, variance, determined: own.determined }
 }
 
 /// Variants of the terms of the best set; a pattern is no part of a fit.
-fn fitted(outcome: &Outcome) -> Vec<Variant> {
+fn fitted(outcome: &RankedSets) -> Vec<Variant> {
     let Some(best) = outcome.sets.sets.first() else { return Vec::new() };
     let members = best.members.iter().zip(&best.variants);
     members.filter(|(m, _)| outcome.candidates[**m].id().is_some()).map(|(_, v)| *v).collect()

@@ -5,13 +5,13 @@ use hexbench_core::{Dataset, Hexapod};
 use super::next::Next;
 use super::report::{AbsorbedReport, StepReport};
 use crate::campaign::Campaign;
-use crate::candidates::Kind;
-use crate::diagnosis::{Outcome, wanted};
+use crate::candidates::CandidateKind;
+use crate::diagnosis::{RankedSets, wanted};
 use crate::error::ModelError;
 use crate::explanation::Explanation;
-use crate::fit::{Fit, Wanted, average_over_shapes, fit};
+use crate::fit::{Fit, TermSpec, average_over_shapes, fit};
 use crate::linearization::Linearization;
-use crate::next::{Effort, Rival, menu, propose};
+use crate::next::{Effort, RivalExplanation, candidate_readings, propose};
 use crate::residuals::{Residual, leave_poses_out, prediction_errors, residuals, summarise, survival};
 use crate::search::Set;
 use crate::verdict::{Judgement, Verdict};
@@ -36,12 +36,12 @@ pub(super) struct Context<'a> {
     pub(super) data: &'a Dataset,
     pub(super) holdout: Option<&'a Dataset>,
     pub(super) campaign: &'a Campaign,
-    pub(super) outcome: &'a Outcome,
+    pub(super) outcome: &'a RankedSets,
 }
 
 impl Context<'_> {
     /// Fit and errors of every prefix of the additions.
-    pub(super) fn steps(&self, order: &[Wanted]) -> Result<(Vec<Fit>, Vec<StepReport>), ModelError> {
+    pub(super) fn steps(&self, order: &[TermSpec]) -> Result<(Vec<Fit>, Vec<StepReport>), ModelError> {
         let (mut fits, mut steps) = (Vec::new(), Vec::new());
         for n in 0..=order.len() {
             let fitted = if n == 0 {
@@ -97,7 +97,7 @@ impl Context<'_> {
     }
 
     /// Prediction errors, and the predictive density where poses are left out.
-    fn held_out(&self, terms: &[Wanted], fitted: &Fit) -> Option<(Vec<Residual>, Option<f64>)> {
+    fn held_out(&self, terms: &[TermSpec], fitted: &Fit) -> Option<(Vec<Residual>, Option<f64>)> {
         let noise = self.campaign.noise;
         if let Some(holdout) = self.holdout {
             return Some((prediction_errors(self.hexapod, holdout, noise, &fitted.point).ok()?, None));
@@ -112,9 +112,10 @@ impl Context<'_> {
             return Next::default();
         }
         let rivals = self.rivals();
-        let programme = menu(self.campaign, &rivals)
-            .and_then(|menu| propose(self.campaign, &rivals, &menu, Effort::UpTo(PROPOSALS)));
-        programme.map(|p| Next::of(&p, &rivals)).unwrap_or_default()
+        let proposed = candidate_readings(self.campaign, &rivals).and_then(|candidate_readings| {
+            propose(self.campaign, &rivals, &candidate_readings, Effort::UpTo(PROPOSALS))
+        });
+        proposed.map(|p| Next::of(&p, &rivals)).unwrap_or_default()
     }
 
     /// Fit of the terms of a set.
@@ -124,10 +125,11 @@ impl Context<'_> {
     }
 
     /// The best set of effects, others that are nearly as probable, and one at least that is not the same plus something more.
-    fn rivals(&self) -> Vec<Rival> {
+    fn rivals(&self) -> Vec<RivalExplanation> {
         let outcome = self.outcome;
-        let is_named =
-            |s: &&Set| s.members.iter().all(|&m| matches!(outcome.candidates[m].kind, Kind::Term(_)));
+        let is_named = |s: &&Set| {
+            s.members.iter().all(|&m| matches!(outcome.candidates[m].kind, CandidateKind::Term(_)))
+        };
         let named: Vec<&Set> = outcome.sets.sets.iter().filter(is_named).collect();
         let Some(&best) = named.first() else { return Vec::new() };
         let contains = |big: &Set, small: &Set| small.members.iter().all(|m| big.members.contains(m));
@@ -140,13 +142,13 @@ impl Context<'_> {
         let explanation = |s: &&Set| {
             let ids =
                 s.members.iter().filter_map(|&m| outcome.candidates[m].id().map(str::to_owned)).collect();
-            Some(Rival { terms: ids, weight: outcome.sets.probability(s), fit: self.fit_of(s)? })
+            Some(RivalExplanation { terms: ids, weight: outcome.sets.probability(s), fit: self.fit_of(s)? })
         };
         sets.iter().filter_map(explanation).take(MOST_RIVALS).collect()
     }
 
     /// Bias of the stiffnesses without each added term, and without the strongest other candidates.
-    pub(super) fn absorbed(&self, order: &[Wanted], judgement: &Judgement) -> Vec<AbsorbedReport> {
+    pub(super) fn absorbed(&self, order: &[TermSpec], judgement: &Judgement) -> Vec<AbsorbedReport> {
         let mut all = Vec::new();
         let with = &self.outcome.best;
         for (k, w) in order.iter().enumerate() {
@@ -175,7 +177,7 @@ impl Context<'_> {
 fn absorbed(id: &str, without: &Fit, with: &Fit) -> AbsorbedReport {
     let bias = |leg: usize| {
         let determined = with.is_determined(leg) && without.is_determined(leg);
-        let ratio = with.point.springs[leg] / without.point.springs[leg];
+        let ratio = with.point.compliances[leg] / without.point.compliances[leg];
         (determined && ratio.is_finite()).then_some(100.0 * (ratio - 1.0))
     };
     AbsorbedReport { term: id.to_owned(), bias_of_leg_stiffness_percent: std::array::from_fn(bias) }

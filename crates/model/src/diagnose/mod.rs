@@ -15,16 +15,16 @@ use self::context::Context;
 use self::notes::{outside, suspects, warnings};
 pub use self::report::{
     AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, SeparationReport,
-    StepReport, Suspect,
+    StepReport, SuspiciousReading,
 };
 use crate::campaign::Campaign;
 use crate::candidates::Candidate;
-use crate::diagnosis::{Outcome, explain, wanted};
+use crate::diagnosis::{RankedSets, explain, wanted};
 use crate::error::ModelError;
 use crate::estimate::estimates_with;
 use crate::examination::{Finding, examine};
 use crate::explanation::Explanation;
-use crate::fit::{Fit, Wanted, fit};
+use crate::fit::{Fit, TermSpec, fit};
 use crate::linearization::Linearization;
 use crate::noise::{Noise, NoiseSource, Structure};
 use crate::power::detectable;
@@ -41,11 +41,11 @@ const LOOK_ALIKE: f64 = 0.95;
 const MOST_EXAMINATIONS: usize = 3;
 
 /// Everything behind a diagnosis, for plots and reports.
-pub struct Study {
+pub struct DiagnosisStudy {
     /// What people read.
     pub diagnosis: Diagnosis,
     /// The search behind it.
-    pub outcome: Outcome,
+    pub outcome: RankedSets,
     /// The readings it rests on: those of the file without the ones left out.
     pub data: Dataset,
     /// They averaged.
@@ -63,7 +63,7 @@ pub fn diagnose(
     data: &Dataset,
     holdout: Option<&Dataset>,
     terms: &[Arc<dyn Term>],
-) -> Result<Study, ModelError> {
+) -> Result<DiagnosisStudy, ModelError> {
     if let Some(held) = holdout {
         same_kind(data, held)?;
     }
@@ -125,7 +125,7 @@ pub fn diagnose(
         warnings: warnings(&campaign, data, last, &judgement),
         findings,
     };
-    Ok(Study { diagnosis, outcome, data: data.clone(), campaign, fits })
+    Ok(DiagnosisStudy { diagnosis, outcome, data: data.clone(), campaign, fits })
 }
 
 /// A campaign without the faults of its data, explained.
@@ -133,7 +133,7 @@ pub fn diagnose(
 struct Judged {
     data: Dataset,
     campaign: Campaign,
-    outcome: Outcome,
+    outcome: RankedSets,
     findings: Vec<Finding>,
 }
 
@@ -186,7 +186,7 @@ pub fn prepare(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError
 }
 
 /// Terms of a set, the one that explains most alone first.
-fn addition_order(set: &Set, outcome: &Outcome) -> Vec<Wanted> {
+fn addition_order(set: &Set, outcome: &RankedSets) -> Vec<TermSpec> {
     let all = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
     let alone = |id: &str| {
         let single = |s: &&Set| s.members.len() == 1 && outcome.candidates[s.members[0]].id() == Some(id);
@@ -219,7 +219,7 @@ fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport])
     }
 }
 
-fn candidates(judgement: &Judgement, outcome: &Outcome) -> Vec<CandidateReport> {
+fn candidates(judgement: &Judgement, outcome: &RankedSets) -> Vec<CandidateReport> {
     let report = |(term, probability): &(Explanation, f64)| CandidateReport {
         term: term.clone(),
         // A sum of shares may pass one by its rounding.
@@ -241,7 +241,7 @@ fn candidates(judgement: &Judgement, outcome: &Outcome) -> Vec<CandidateReport> 
 }
 
 /// Terms that imitate the signature a term has in these data, beside the rest of the best set.
-fn look_alikes(term: &str, outcome: &Outcome) -> Vec<String> {
+fn look_alikes(term: &str, outcome: &RankedSets) -> Vec<String> {
     let index = |c: &Candidate| c.id() == Some(term);
     let Some(own) = outcome.candidates.iter().position(index) else { return Vec::new() };
     let best = outcome.sets.sets.first();

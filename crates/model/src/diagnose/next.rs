@@ -2,7 +2,7 @@
 
 use super::report::{NextReport, SeparationReport};
 use crate::explanation::Explanation;
-use crate::next::{Between, Outlook, Programme, Proposal, Rival};
+use crate::next::{Between, Forecast, Proposal, ProposedReadings, RivalExplanation};
 
 /// Pairs told.
 const MOST_PAIRS: usize = 3;
@@ -15,19 +15,19 @@ pub(super) struct Next {
 }
 
 impl Next {
-    pub(super) fn of(programme: &Programme, rivals: &[Rival]) -> Self {
-        let mut pairs: Vec<&Outlook> = programme.outlook.iter().collect();
-        let weight = |o: &Outlook| o.between.map(|k| rivals[k].weight).iter().product::<f64>();
+    pub(super) fn of(proposed: &ProposedReadings, rivals: &[RivalExplanation]) -> Self {
+        let mut pairs: Vec<&Forecast> = proposed.forecasts.iter().collect();
+        let weight = |o: &Forecast| o.between.map(|k| rivals[k].weight).iter().product::<f64>();
         pairs.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
         let separation = pairs.into_iter().take(MOST_PAIRS).map(|o| separation_report(o, rivals));
         Self {
-            readings: programme.proposals.iter().map(|p| next_report(p, rivals)).collect(),
+            readings: proposed.proposals.iter().map(|p| next_report(p, rivals)).collect(),
             separation: separation.collect(),
         }
     }
 }
 
-fn next_report(p: &Proposal, rivals: &[Rival]) -> NextReport {
+fn next_report(p: &Proposal, rivals: &[RivalExplanation]) -> NextReport {
     let o = &p.observation;
     let pose = o.pose.to_array();
     NextReport {
@@ -44,7 +44,7 @@ fn next_report(p: &Proposal, rivals: &[Rival]) -> NextReport {
     }
 }
 
-fn separation_report(o: &Outlook, rivals: &[Rival]) -> SeparationReport {
+fn separation_report(o: &Forecast, rivals: &[RivalExplanation]) -> SeparationReport {
     SeparationReport {
         between: names(rivals, o.between),
         log10_bayes_factor: o.separation.log_bayes_factor.map(|x| x / std::f64::consts::LN_10),
@@ -54,7 +54,7 @@ fn separation_report(o: &Outlook, rivals: &[Rival]) -> SeparationReport {
 }
 
 /// What each of two explanations has that the other has not.
-fn names(rivals: &[Rival], [a, b]: Between) -> [String; 2] {
+fn names(rivals: &[RivalExplanation], [a, b]: Between) -> [String; 2] {
     [(a, b), (b, a)].map(|(own, other)| {
         let own = rivals[own].terms.iter().filter(|id| !rivals[other].terms.contains(id));
         let names: Vec<&str> = own.map(String::as_str).collect();

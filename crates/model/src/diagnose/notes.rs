@@ -3,10 +3,10 @@
 use hexbench_core::Dataset;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::report::{OutsideReport, Suspect};
+use super::report::{OutsideReport, SuspiciousReading};
 use crate::campaign::Campaign;
-use crate::candidates::Kind;
-use crate::diagnosis::Outcome;
+use crate::candidates::CandidateKind;
+use crate::diagnosis::RankedSets;
 use crate::fit::Fit;
 use crate::noise::{NoiseSource, scatter};
 use crate::pattern::{Course, LegPattern, Pattern};
@@ -19,22 +19,22 @@ const SUSPECT_CHANCE: f64 = 0.01;
 const CONTRADICTION_CHANCE: f64 = 1e-4;
 
 /// Readings whose chi-square over six coordinates is beyond chance for a file of this size.
-pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<Suspect> {
+pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<SuspiciousReading> {
     let Ok(chi2) = ChiSquared::new(6.0) else { return Vec::new() };
     let limit = chi2.inverse_cdf(1.0 - SUSPECT_CHANCE / rows.len().max(1) as f64);
     let scale = typical_square(rows).max(1.0);
     let far = rows.iter().filter(|r| r.whitened.norm_squared() > limit * scale);
-    far.map(|r| Suspect { row: data.observations[r.row].line, z: r.whitened.amax() }).collect()
+    far.map(|r| SuspiciousReading { row: data.observations[r.row].line, z: r.whitened.amax() }).collect()
 }
 
-pub(super) fn outside(judgement: &Judgement, outcome: &Outcome) -> Option<OutsideReport> {
+pub(super) fn outside(judgement: &Judgement, outcome: &RankedSets) -> Option<OutsideReport> {
     if judgement.verdict != Verdict::Outside {
         return None;
     }
     let best = outcome.sets.sets.first()?;
     let patterns = best.members.iter().filter_map(|&m| match &outcome.candidates[m].kind {
-        Kind::Pattern(p) => Some(p),
-        Kind::Term(_) => None,
+        CandidateKind::Pattern(p) => Some(p),
+        CandidateKind::Term(_) => None,
     });
     let simplest = patterns.min_by_key(|p| (p.width(), if let Pattern::Leg(p) = p { p.leg } else { None }));
     Some(simplest.map_or_else(unknown_pattern, known_pattern))

@@ -58,7 +58,7 @@ pub struct Diagnosis {
     /// What an effect does to the leg stiffnesses when it is left out.
     pub absorbed: Vec<AbsorbedReport>,
     /// Readings far from every prediction.
-    pub suspects: Vec<Suspect>,
+    pub suspects: Vec<SuspiciousReading>,
     /// The unexplained pattern.
     pub outside: Option<OutsideReport>,
     /// Things to know before trusting the numbers.
@@ -165,7 +165,7 @@ pub struct AbsorbedReport {
 /// A suspicious reading.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
-pub struct Suspect {
+pub struct SuspiciousReading {
     /// Line of the file.
     pub row: u64,
     /// Largest whitened residual.

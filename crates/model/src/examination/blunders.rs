@@ -122,7 +122,7 @@ fn rows(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
 
 /// One component of the load of one condition: all its repeats are off in the way that another load gives.
 fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
-    let springs = &rest.point.springs;
+    let springs = &rest.point.compliances;
     let responses: Vec<DMatrix<f64>> = rest
         .lin
         .elongation_readers()

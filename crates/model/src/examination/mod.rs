@@ -20,9 +20,9 @@ use self::remainder::Remainder;
 use self::scatter::{Kind, Statement, statements};
 use self::tolerance::{Tolerance, joints};
 use crate::campaign::Campaign;
-use crate::diagnosis::Outcome;
+use crate::diagnosis::RankedSets;
 use crate::error::ModelError;
-use crate::noise::{Noise, NoiseSource, Record, Structure};
+use crate::noise::{Noise, NoiseSource, SharedReference, Structure};
 
 /// Evidence over the noise as stated beyond which another statement is believed, nats.
 const BELIEVED: f64 = 8.0;
@@ -63,7 +63,7 @@ pub fn examine(
     hexapod: &Hexapod,
     data: &Dataset,
     noise: Noise,
-    outcome: &Outcome,
+    outcome: &RankedSets,
 ) -> Result<Examined, ModelError> {
     let whole =
         Examined { data: data.clone(), noise: noise.independent(), findings: Vec::new(), inexact: None };
@@ -101,7 +101,7 @@ struct Look {
 fn look(
     hexapod: &Hexapod,
     examined: &Examined,
-    outcome: &Outcome,
+    outcome: &RankedSets,
     most: usize,
 ) -> Result<(Option<Fault>, Look), ModelError> {
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
@@ -125,7 +125,7 @@ struct Cleaned {
 fn without_faults(
     hexapod: &Hexapod,
     mut examined: Examined,
-    outcome: &Outcome,
+    outcome: &RankedSets,
 ) -> Result<Cleaned, ModelError> {
     let mut most = examined.data.observations.len() / MOST_LEFT_OUT;
     let mut gain = 0.0;
@@ -246,8 +246,8 @@ fn finding(best: &Statement, gain: f64) -> Finding {
         ),
         Kind::Common(Structure::Reference { share, record }) => {
             let (who, next) = match record {
-                Record::Pose => ("all readings at a pose", "read the reference again for every reading"),
-                Record::Repeat => ("the loads of one repeat at a pose", "read the reference again for every load"),
+                SharedReference::Pose => ("all readings at a pose", "read the reference again for every reading"),
+                SharedReference::Repeat => ("the loads of one repeat at a pose", "read the reference again for every load"),
             };
             (
                 FindingKind::SharedReference,

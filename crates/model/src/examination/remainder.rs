@@ -7,10 +7,10 @@ use hexbench_core::{Dataset, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use crate::campaign::{Campaign, row_sigma};
-use crate::candidates::{Kind, orthonormal, project, target};
-use crate::diagnosis::Outcome;
+use crate::candidates::{CandidateKind, orthonormal, project, target};
+use crate::diagnosis::RankedSets;
 use crate::error::ModelError;
-use crate::linearization::{Linearization, Point, beside};
+use crate::linearization::{Linearization, ModelPoint, beside};
 
 /// Shapes of an effect that take part.
 const SHAPES: usize = 3;
@@ -26,7 +26,7 @@ pub(super) struct Remainder<'a> {
     /// The model at its explanation.
     pub(super) lin: Linearization,
     /// Its values.
-    pub(super) point: &'a Point,
+    pub(super) point: &'a ModelPoint,
     /// Orthonormal basis of what the catalogue could explain, per averaged number.
     pub(super) basis: DMatrix<f64>,
     /// Averaged numbers without it, over their standard deviations.
@@ -45,7 +45,7 @@ impl<'a> Remainder<'a> {
     pub(super) fn new(
         data: &'a Dataset,
         campaign: &'a Campaign,
-        outcome: &'a Outcome,
+        outcome: &'a RankedSets,
     ) -> Result<Self, ModelError> {
         let point = &outcome.best.point;
         let lin = Linearization::at(campaign, point)?;
@@ -84,7 +84,7 @@ impl<'a> Remainder<'a> {
     }
 }
 
-fn everything(outcome: &Outcome, lin: &Linearization, point: &Point) -> DMatrix<f64> {
+fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
     let found = || {
         let mut columns = vec![lin.common_block()];
         columns.extend(point.active.iter().map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)));
@@ -92,7 +92,7 @@ fn everything(outcome: &Outcome, lin: &Linearization, point: &Point) -> DMatrix<
     };
     let mut columns = found();
     for candidate in &outcome.candidates {
-        let Kind::Term(term) = &candidate.kind else { continue };
+        let CandidateKind::Term(term) = &candidate.kind else { continue };
         let forms: Vec<(bool, f64)> = candidate
             .blocks
             .iter()

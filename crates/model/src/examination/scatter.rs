@@ -12,7 +12,7 @@ use nalgebra::Matrix6;
 use statrs::function::gamma::ln_gamma;
 
 use super::remainder::Remainder;
-use crate::noise::{NoiseSource, Record, Structure};
+use crate::noise::{NoiseSource, SharedReference, Structure};
 use crate::whitening::Filter;
 
 /// How well an instrument's noise is known, relative.
@@ -62,10 +62,15 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
     if repeats {
         all.push(judge.blocks(&judge.groups, setup));
     }
-    all.push(judge.blocks(&judge.poses, |share| Structure::Reference { share, record: Record::Pose }));
+    all.push(
+        judge.blocks(&judge.poses, |share| Structure::Reference { share, record: SharedReference::Pose }),
+    );
     if repeats {
         all.push(
-            judge.blocks(&judge.records, |share| Structure::Reference { share, record: Record::Repeat }),
+            judge.blocks(&judge.records, |share| Structure::Reference {
+                share,
+                record: SharedReference::Repeat,
+            }),
         );
     }
     all.push(judge.drift());

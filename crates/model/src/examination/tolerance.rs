@@ -10,7 +10,7 @@ use super::remainder::Remainder;
 use crate::campaign::{Campaign, moved};
 use crate::candidates::{orthonormal, project, target};
 use crate::error::ModelError;
-use crate::linearization::{Linearization, Point, beside};
+use crate::linearization::{Linearization, ModelPoint, beside};
 
 /// Standard deviations of a joint coordinate that are tried, m.
 const SIZES: [f64; 5] = [2e-5, 5e-5, 1e-4, 2e-4, 5e-4];
@@ -71,7 +71,7 @@ fn slopes(rest: &Remainder<'_>) -> Result<DMatrix<f64>, ModelError> {
 /// Residuals of a machine with one joint elsewhere; it stands where the commanded lengths put it.
 fn residuals(rest: &Remainder<'_>, coordinate: usize, step: f64) -> Result<DVector<f64>, ModelError> {
     let (joint, axis) = (coordinate % 18 / 3, coordinate % 3);
-    let mut point: Point = rest.point.clone();
+    let mut point: ModelPoint = rest.point.clone();
     let at_base = coordinate < 18;
     let joints = if at_base { &mut point.machine.base_joints } else { &mut point.machine.platform_joints };
     joints[joint][axis] += step;

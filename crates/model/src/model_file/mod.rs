@@ -14,7 +14,7 @@ use thiserror::Error;
 
 use crate::campaign::Campaign;
 use crate::fit::Fit;
-use crate::linearization::Point;
+use crate::linearization::ModelPoint;
 use crate::noise::Noise;
 use crate::parameters::Parameters;
 use crate::user_term::UserTermError;
@@ -66,7 +66,7 @@ pub struct Model {
     /// Noise of one reading.
     pub noise: Noise,
     /// Values.
-    pub point: Point,
+    pub point: ModelPoint,
     /// Its numbers.
     pub parameters: Parameters,
     /// Their covariance, SI; shapes by their logarithm.

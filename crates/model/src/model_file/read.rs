@@ -9,10 +9,10 @@ use nalgebra::{DMatrix, Isometry3, Quaternion, Translation3, UnitQuaternion};
 use super::layout::{File, Frame, HexapodTable, LegTable, NoiseTable, ParameterTable, TermTable};
 use super::write::mode_word;
 use super::{DataOrigin, Estimator, Model, ModelFileError};
-use crate::linearization::{Active, Point};
+use crate::linearization::{Active, ModelPoint};
 use crate::machine::Machine;
 use crate::noise::{Noise, NoiseSource, Structure};
-use crate::parameters::{Parameter, Parameters, Place, parameter_names};
+use crate::parameters::{Parameter, ParameterPlace, Parameters, parameter_names};
 use crate::term::Term;
 use crate::{terms, user_term};
 
@@ -32,8 +32,11 @@ pub(super) fn model(file: File) -> Result<Model, ModelFileError> {
     let hexapod = hexapod(&file.hexapod)?;
     let active = file.terms.iter().map(term).collect::<Result<Vec<_>, _>>()?;
     refuse_same_term(&active)?;
-    let point =
-        Point { springs: springs(&file.legs)?, active, machine: machine(&hexapod, &file, measurand)? };
+    let point = ModelPoint {
+        compliances: springs(&file.legs)?,
+        active,
+        machine: machine(&hexapod, &file, measurand)?,
+    };
     let mut model = Model {
         hexapod,
         measurand,
@@ -324,12 +327,12 @@ fn check_covariance(c: &DMatrix<f64>, names: &[&str]) -> Result<(), ModelFileErr
 
 fn determined(model: &Model, tables: &[TermTable]) -> Vec<bool> {
     let said = |parameter: &Parameter| match parameter.place {
-        Place::Spring(_) | Place::Frames(_) => None,
-        Place::Value { term, index } => {
+        ParameterPlace::Spring(_) | ParameterPlace::Frames(_) => None,
+        ParameterPlace::Value { term, index } => {
             let (name, ..) = &parameter_names(&model.point.active[term])[index];
             tables[term].parameters.get(name).map(|p| p.determined)
         }
-        Place::Shape { term } => tables[term].shape.as_ref().map(|s| s.determined),
+        ParameterPlace::Shape { term } => tables[term].shape.as_ref().map(|s| s.determined),
     };
     model.parameters.iter().map(|p| said(p).unwrap_or(true)).collect()
 }

@@ -76,7 +76,7 @@ fn hexapod(h: &Hexapod) -> HexapodTable {
 }
 
 fn leg_table(model: &Model, leg: usize) -> LegTable {
-    let c = model.point.springs[leg];
+    let c = model.point.compliances[leg];
     let stiffness = Some(STIFFNESS_PER_SI / c).filter(|k| k.is_finite());
     let error = stiffness.map(|k| model.std(leg) / c.abs() * k.abs()).filter(|e| e.is_finite());
     LegTable { stiffness, standard_error: error, compliance: c }

@@ -20,7 +20,7 @@ const NEARLY: f64 = 0.93;
 /// Two explanations by their places in the list.
 pub type Between = [usize; 2];
 
-/// Expectations of a menu by several explanations, and what has been chosen of it so far.
+/// Expectations of the candidate readings by several explanations, and what has been chosen of it so far.
 pub(super) struct Choice {
     alone: Vec<Filter>,
     pairs: Vec<PairState>,

@@ -1,6 +1,6 @@
-//! A Gaussian expectation of all readings of a menu, renewed each time one of them is chosen.
+//! A Gaussian expectation of all candidate readings, renewed each time one of them is chosen.
 //!
-//! With rows `J` of the menu, covariance `C` of the parameters and unit noise, the innovation of reading `s` given those
+//! With rows `J` of the candidates, covariance `C` of the parameters and unit noise, the innovation of reading `s` given those
 //! chosen has covariance `S_s = I + J_s C J_s'`. Choosing `t` changes `C` to `C - C J_t' S_t^-1 J_t C` (Kalman 1960), so that
 //! the log-determinant and the squared length of all chosen readings are sums over the choices.
 

@@ -2,13 +2,13 @@
 //!
 //! An explanation is a fitted model with what is known of its parameters (springs and effects), so readings separate it from
 //! another only by what neither can refit. Readings are chosen one after the other, each beside those chosen before, out of a
-//! menu of round numbers; the same one may be chosen again.
+//! candidate readings of round numbers; the same one may be chosen again.
 
 mod belief;
+mod candidate_readings;
 mod choice;
 mod filter;
 mod kind;
-mod menu;
 mod separation;
 mod suspects;
 mod words;
@@ -41,7 +41,7 @@ const WORTHWHILE: f64 = 0.02;
 
 /// One explanation of the data in hand.
 #[derive(Debug, Clone)]
-pub struct Rival {
+pub struct RivalExplanation {
     /// Ids of its effects; none for springs alone.
     pub terms: Vec<String>,
     /// Its probability, up to a common factor.
@@ -68,7 +68,7 @@ pub struct Proposal {
 
 /// How well two explanations will be separated.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Outlook {
+pub struct Forecast {
     /// Which.
     pub between: Between,
     /// By all proposed readings together.
@@ -79,14 +79,14 @@ pub struct Outlook {
 
 /// Readings to take, and what they promise.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Programme {
+pub struct ProposedReadings {
     /// The readings, in the order in which they were chosen.
     pub proposals: Vec<Proposal>,
     /// Every pair of explanations.
-    pub outlook: Vec<Outlook>,
+    pub forecasts: Vec<Forecast>,
 }
 
-impl Programme {
+impl ProposedReadings {
     /// Readings with their repeats.
     pub fn readings(&self) -> usize {
         self.proposals.iter().map(|p| p.repeats).sum()
@@ -106,39 +106,42 @@ pub enum Effort {
 ///
 /// # Errors
 /// [`ModelError::SingularPose`].
-pub fn menu(campaign: &Campaign, rivals: &[Rival]) -> Result<Vec<Observation>, ModelError> {
+pub fn candidate_readings(
+    campaign: &Campaign,
+    rivals: &[RivalExplanation],
+) -> Result<Vec<Observation>, ModelError> {
     if rivals.is_empty() {
         return Ok(Vec::new());
     }
     let fits: Vec<&Fit> = rivals.iter().map(|r| &r.fit).collect();
-    menu::menu(campaign, &fits)
+    candidate_readings::candidate_readings(campaign, &fits)
 }
 
-/// The readings out of `menu` that best separate the rivals.
+/// The readings out of `candidate_readings` that best separate the rivals.
 ///
 /// # Errors
-/// [`ModelError::SingularPose`], [`ModelError::TooFewEquations`] for an empty menu.
+/// [`ModelError::SingularPose`], [`ModelError::TooFewEquations`] for an empty list.
 pub fn propose(
     campaign: &Campaign,
-    rivals: &[Rival],
-    menu: &[Observation],
+    rivals: &[RivalExplanation],
+    candidate_readings: &[Observation],
     effort: Effort,
-) -> Result<Programme, ModelError> {
+) -> Result<ProposedReadings, ModelError> {
     if rivals.len() < 2 {
-        return Ok(Programme::default());
+        return Ok(ProposedReadings::default());
     }
-    let plan = as_plan(campaign, menu)?;
+    let plan = as_plan(campaign, candidate_readings)?;
     let beliefs = beliefs(&plan, rivals)?;
     let simplicity: Vec<usize> = plan.groups.iter().map(|g| kind::effort(&g.mean)).collect();
     let chosen = chosen(&beliefs, rivals, &simplicity, effort);
     let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
     let pairs = pairs(rivals.len());
     let courses: Vec<Vec<[f64; 2]>> = pairs.par_iter().map(|&p| course(&beliefs, p, &taken)).collect();
-    let outlook = pairs.iter().zip(&courses).filter_map(|(&between, course)| {
+    let forecasts = pairs.iter().zip(&courses).filter_map(|(&between, course)| {
         let separation = pair(&beliefs, between, &taken)?.separation();
-        Some(Outlook { between, separation, readings_needed: needed(course) })
+        Some(Forecast { between, separation, readings_needed: needed(course) })
     });
-    let outlook = outlook.collect();
+    let forecasts = forecasts.collect();
     let gain = |k: usize, between: Between| {
         let at = pairs.iter().position(|p| *p == between).unwrap_or(0);
         let after = |k: usize| courses[at].get(k).map_or(0.0, |d| least(*d));
@@ -156,16 +159,16 @@ pub fn propose(
         }
     }
     say(campaign, rivals, &mut proposals)?;
-    Ok(Programme { proposals, outlook })
+    Ok(ProposedReadings { proposals, forecasts })
 }
 
 /// How well given readings, each as often as it is listed, would separate every pair of rivals.
 ///
 /// # Errors
 /// As [`propose`].
-pub fn outlook(
+pub fn forecasts(
     campaign: &Campaign,
-    rivals: &[Rival],
+    rivals: &[RivalExplanation],
     readings: &[Observation],
 ) -> Result<Vec<(Between, Separation)>, ModelError> {
     let plan = as_plan(campaign, readings)?;
@@ -176,7 +179,7 @@ pub fn outlook(
     Ok(pairs(rivals.len()).into_iter().filter_map(of).collect())
 }
 
-fn beliefs(plan: &Campaign, rivals: &[Rival]) -> Result<Vec<Belief>, ModelError> {
+fn beliefs(plan: &Campaign, rivals: &[RivalExplanation]) -> Result<Vec<Belief>, ModelError> {
     rivals.par_iter().map(|r| Belief::of(plan, &r.fit)).collect()
 }
 
@@ -184,10 +187,10 @@ fn pairs(rivals: usize) -> Vec<Between> {
     (0..rivals).flat_map(|a| (a + 1..rivals).map(move |b| [a, b])).collect()
 }
 
-/// Places in the menu, with the pair each separates most.
+/// Places in the candidate readings, with the pair each separates most.
 fn chosen(
     beliefs: &[Belief],
-    rivals: &[Rival],
+    rivals: &[RivalExplanation],
     simplicity: &[usize],
     effort: Effort,
 ) -> Vec<(usize, Between)> {
@@ -243,7 +246,11 @@ fn places(plan: &Campaign, readings: usize) -> Vec<usize> {
 }
 
 /// Puts the aspects that matter into words.
-fn say(campaign: &Campaign, rivals: &[Rival], proposals: &mut [Proposal]) -> Result<(), ModelError> {
+fn say(
+    campaign: &Campaign,
+    rivals: &[RivalExplanation],
+    proposals: &mut [Proposal],
+) -> Result<(), ModelError> {
     let Some(ordinary) = Ordinary::of(campaign).filter(|_| !proposals.is_empty()) else { return Ok(()) };
     let mut readings: Vec<Observation> = proposals.iter().map(|p| p.observation).collect();
     let mut plain: Vec<(usize, Aspect, usize)> = Vec::new();
@@ -257,7 +264,7 @@ fn say(campaign: &Campaign, rivals: &[Rival], proposals: &mut [Proposal]) -> Res
             }
         }
     }
-    let half = menu::half_ranges(campaign);
+    let half = candidate_readings::half_ranges(campaign);
     let plan = as_plan(campaign, &readings)?;
     let place = places(&plan, readings.len());
     let beliefs = beliefs(&plan, rivals)?;

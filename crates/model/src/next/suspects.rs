@@ -2,19 +2,19 @@
 
 use std::sync::Arc;
 
-use super::Rival;
+use super::RivalExplanation;
 use crate::campaign::Campaign;
 use crate::candidates::sizes;
-use crate::diagnosis::{Outcome, explain, wanted};
+use crate::diagnosis::{RankedSets, explain, wanted};
 use crate::error::ModelError;
-use crate::fit::{Wanted, fit};
+use crate::fit::{TermSpec, fit};
 use crate::term::Term;
 use crate::untestable::why_untestable;
 
 /// Suspected explanations and how the data in hand judge them.
 pub struct Suspects {
     /// In the order in which they were given.
-    pub rivals: Vec<Rival>,
+    pub rivals: Vec<RivalExplanation>,
     /// Logarithm of the evidence of each, relative to the first; none where no sensible size of it would show in these data.
     pub log_evidence: Vec<Option<f64>>,
 }
@@ -31,18 +31,18 @@ pub fn suspects(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<Suspects
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
         }
     }
-    let alone: Vec<(Wanted, Option<f64>)> = terms.iter().map(|t| alone(t, &outcome)).collect();
+    let alone: Vec<(TermSpec, Option<f64>)> = terms.iter().map(|t| alone(t, &outcome)).collect();
     let first = alone.iter().find_map(|a| a.1).unwrap_or(0.0);
     let mut rivals = Vec::new();
     for (wanted, _) in &alone {
         let fit = fit(campaign, std::slice::from_ref(wanted), None)?;
-        rivals.push(Rival { terms: vec![wanted.term.info().id.to_owned()], weight: 1.0, fit });
+        rivals.push(RivalExplanation { terms: vec![wanted.term.info().id.to_owned()], weight: 1.0, fit });
     }
     Ok(Suspects { rivals, log_evidence: alone.iter().map(|a| a.1.map(|e| e - first)).collect() })
 }
 
 /// The form, shape and width that the data prefer, and the evidence; the natural size where the data say nothing.
-fn alone(term: &Arc<dyn Term>, outcome: &Outcome) -> (Wanted, Option<f64>) {
+fn alone(term: &Arc<dyn Term>, outcome: &RankedSets) -> (TermSpec, Option<f64>) {
     let single =
         outcome.sets.sets.iter().find(
             |s| matches!(s.members.as_slice(), [m] if outcome.candidates[*m].id() == Some(term.info().id)),
@@ -55,6 +55,6 @@ fn alone(term: &Arc<dyn Term>, outcome: &Outcome) -> (Wanted, Option<f64>) {
         let grid = term.shape_grid(&outcome.lin.conditions);
         let shape = grid.get(grid.len() / 2).copied().unwrap_or(1.0);
         let prior = sizes(term.as_ref(), false, &outcome.natural);
-        (Wanted { term: Arc::clone(term), rich: false, shape, prior }, None)
+        (TermSpec { term: Arc::clone(term), rich: false, shape, prior }, None)
     })
 }

@@ -12,5 +12,5 @@ mod records;
 mod rigid;
 
 pub use distances::{DistanceResidual, distances};
-pub use records::{Located, Places, Registered, RegistrationError, register_all};
+pub use records::{Places, Registered, RegisteredPose, RegistrationError, register_all};
 pub use rigid::{Rigid, rigid};

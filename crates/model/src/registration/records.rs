@@ -23,7 +23,7 @@ pub struct Places {
 
 /// A pose with what the balls tell about it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Located {
+pub struct RegisteredPose {
     /// Name of the record.
     pub id: String,
     /// The pose.
@@ -42,7 +42,7 @@ pub struct Located {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Registered {
     /// One pose for each record, in file order.
-    pub poses: Vec<Located>,
+    pub poses: Vec<RegisteredPose>,
     /// Standard deviation of one coordinate, m.
     pub sigma: f64,
     /// The same from the residuals; none when no coordinate is left over.
@@ -187,7 +187,7 @@ fn from_spread(fits: &[Fit]) -> Option<f64> {
     Some((sum / (2 * pairs) as f64).sqrt())
 }
 
-fn located(record: &BallRecord, fit: &Fit, places: &Places, sigma: f64) -> Located {
+fn located(record: &BallRecord, fit: &Fit, places: &Places, sigma: f64) -> RegisteredPose {
     let (mut pose, twist) = in_frame(&fit.platform, fit.base.as_ref());
     pose.translation -= places.origin;
     let variance = sigma * sigma * places.noise_factor();
@@ -195,7 +195,7 @@ fn located(record: &BallRecord, fit: &Fit, places: &Places, sigma: f64) -> Locat
     let covariance = to_angles * twist * to_angles.transpose() * variance;
     let worst = fit.distances.iter().max_by(|a, b| a.residual.abs().total_cmp(&b.residual.abs()));
     let name = |k: usize| places.platform[k].ball.clone();
-    Located {
+    RegisteredPose {
         id: record.id.clone(),
         pose,
         covariance,

@@ -88,7 +88,7 @@ pub struct ErrorChange {
 
 /// Two results beside each other.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Runs {
+pub struct ComparedRuns {
     /// `runs/1`.
     pub format: &'static str,
     /// The first result.
@@ -109,7 +109,7 @@ pub struct Runs {
     pub warnings: Vec<String>,
 }
 
-impl Runs {
+impl ComparedRuns {
     /// True when the answers differ.
     pub fn has_other_answer(&self) -> bool {
         self.a.verdict != self.b.verdict || self.a.added != self.b.added
@@ -126,12 +126,12 @@ impl Runs {
 ///
 /// # Errors
 /// [`Incompatible`].
-pub fn between(a: Run, b: Run) -> Result<Runs, Incompatible> {
+pub fn between(a: Run, b: Run) -> Result<ComparedRuns, Incompatible> {
     refuse(&a, &b)?;
     let limit = limit(common(&a, &b));
     let noise =
         [(a.noise_translation_um, b.noise_translation_um), (a.noise_rotation_urad, b.noise_rotation_urad)];
-    Ok(Runs {
+    Ok(ComparedRuns {
         format: "runs/1",
         probabilities: probabilities(&a, &b),
         error: error(&a, &b),
@@ -292,7 +292,7 @@ mod tests {
             verdict: None,
             added: Vec::new(),
             probabilities: [(Explanation::Nothing, 1.0)].into(),
-            steps: vec![super::super::Step { terms: Vec::new(), fitted, holdout: None }],
+            steps: vec![super::super::RunStep { terms: Vec::new(), fitted, holdout: None }],
             noise_translation_um: 0.5,
             noise_rotation_urad: 3.0,
             noise_source: NoiseSource::Metrology,

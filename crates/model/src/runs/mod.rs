@@ -8,5 +8,5 @@
 mod between;
 mod saved;
 
-pub use between::{Changed, ErrorChange, Incompatible, ParameterChange, Runs, between};
-pub use saved::{FORMATS, Head, Origin, Run, SavedComparison, SavedDiagnosis, Step, WithOrigin};
+pub use between::{Changed, ComparedRuns, ErrorChange, Incompatible, ParameterChange, between};
+pub use saved::{FORMATS, Head, Origin, Run, RunStep, SavedComparison, SavedDiagnosis, WithOrigin};

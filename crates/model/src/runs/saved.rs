@@ -120,7 +120,7 @@ struct SavedCoordinate {
 
 /// Error of one model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Step {
+pub struct RunStep {
     /// Terms beside the springs.
     pub terms: Vec<String>,
     /// On the readings of the data.
@@ -129,7 +129,7 @@ pub struct Step {
     pub holdout: Option<ErrorSummary>,
 }
 
-impl Step {
+impl RunStep {
     /// The held-out error where there is one.
     pub fn error(&self) -> &ErrorSummary {
         self.holdout.as_ref().unwrap_or(&self.fitted)
@@ -150,7 +150,7 @@ pub struct Run {
     /// Probability that an effect is at work, of `outside` and of `none`.
     pub probabilities: BTreeMap<Explanation, f64>,
     /// Errors, the springs alone first.
-    pub steps: Vec<Step>,
+    pub steps: Vec<RunStep>,
     /// Noise of one translation, um.
     pub noise_translation_um: f64,
     /// Noise of one rotation, urad.
@@ -170,7 +170,7 @@ impl Run {
         let special = d.candidates.into_iter().filter(|c| c.term.term().is_none());
         let special = special.map(|c| (c.term, c.probability));
         let present = d.present.into_iter().map(|(id, p)| (Explanation::Term(id), p));
-        let step = |s: SavedStep| Step { terms: s.terms, fitted: s.fitted, holdout: s.holdout };
+        let step = |s: SavedStep| RunStep { terms: s.terms, fitted: s.fitted, holdout: s.holdout };
         Self {
             file: file.to_owned(),
             format: FORMATS[0].to_owned(),
@@ -197,7 +197,7 @@ impl Run {
             probabilities: BTreeMap::new(),
             noise_translation_um: noise(0),
             noise_rotation_urad: noise(3),
-            steps: vec![Step { terms: c.terms, fitted: c.error, holdout: c.holdout }],
+            steps: vec![RunStep { terms: c.terms, fitted: c.error, holdout: c.holdout }],
             noise_source: c.noise_source,
             parameters: Vec::new(),
             origin: c.run,

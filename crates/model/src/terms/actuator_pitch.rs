@@ -38,7 +38,7 @@ static INFO: TermInfo = TermInfo {
     equation: "e_i = a_i sin(2 pi (q_i - q_home,i) / pitch) + b_i cos(2 pi (q_i - q_home,i) / pitch)",
     source: "ISO 230-2:2014; ISO 3408-3:2006 (ball screws, periodic lead deviation)",
     shows: "poses are measured absolutely at many leg lengths",
-    breaker: "measure absolute poses in small steps of leg length, finer than half a pitch",
+    how_to_isolate: "measure absolute poses in small steps of leg length, finer than half a pitch",
     parameters: &each(&WAVES, "um", 1e6, Scale::Fixed(20e-6), false),
     shape: Some(Shape { name: "pitch", unit: "mm", per_si: 1e3, bounds: [1e-4, 1.0] }),
     needs: &[Need::Absolute],

@@ -17,7 +17,7 @@ static INFO: TermInfo = TermInfo {
     equation: "e_i = gain_i (q_i - q_home,i)",
     source: "ISO 230-2:2014 (positioning accuracy of linear axes)",
     shows: "poses are measured absolutely and use a long stroke",
-    breaker: "measure absolute poses with short and with long legs",
+    how_to_isolate: "measure absolute poses with short and with long legs",
     parameters: &each(&LEGS, "um/m", 1e6, Scale::Fixed(1e-2), false),
     shape: None,
     needs: &[Need::Absolute],

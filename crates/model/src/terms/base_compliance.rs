@@ -6,7 +6,7 @@ use crate::body::YieldingBody;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct BaseCompliance;
 
@@ -18,14 +18,14 @@ static INFO: TermInfo = TermInfo {
     equation: "[v_P; w] = C [F; M_P], M_P = M + (t - P) x F; the platform follows",
     source: "Kalas et al. 2018, list of suspects; Wallace, TPOINT (mount and pier flexure)",
     shows: "moments and lateral loads are measured",
-    breaker: "load sideways and with moments at poses high above the base",
+    how_to_isolate: "load sideways and with moments at poses high above the base",
     parameters: &[
-        Parameter::new("translation-x", "nm/N", 1e9, Scale::Compliance, true),
-        Parameter::new("translation-y", "nm/N", 1e9, Scale::Compliance, true),
-        Parameter::new("translation-z", "nm/N", 1e9, Scale::Compliance, true),
-        Parameter::new("rotation-x", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
-        Parameter::new("rotation-y", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
-        Parameter::new("rotation-z", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+        ParameterInfo::new("translation-x", "nm/N", 1e9, Scale::Compliance, true),
+        ParameterInfo::new("translation-y", "nm/N", 1e9, Scale::Compliance, true),
+        ParameterInfo::new("translation-z", "nm/N", 1e9, Scale::Compliance, true),
+        ParameterInfo::new("rotation-x", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+        ParameterInfo::new("rotation-y", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+        ParameterInfo::new("rotation-z", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
     ],
     shape: None,
     needs: &[],

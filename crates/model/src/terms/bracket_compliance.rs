@@ -5,7 +5,7 @@ use hexbench_core::Vector6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct BracketCompliance;
 
@@ -17,8 +17,8 @@ static INFO: TermInfo = TermInfo {
     equation: "e = c_lat (n_x^2 + n_y^2) (f - f0)",
     source: "Kalas et al. 2018, list of suspects: incomplete stiffness model",
     shows: "the inclination of the legs varies",
-    breaker: "measure at poses far from the centre, where the legs stand steeper and flatter",
-    parameters: &[Parameter::new("lateral-compliance", "nm/N", 1e9, Scale::Compliance, true)],
+    how_to_isolate: "measure at poses far from the centre, where the legs stand steeper and flatter",
+    parameters: &[ParameterInfo::new("lateral-compliance", "nm/N", 1e9, Scale::Compliance, true)],
     shape: None,
     needs: &[],
     rich: Rich::PerLeg,

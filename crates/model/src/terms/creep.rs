@@ -3,7 +3,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Need, Parameter, Rich, Scale, Shape, Term, TermInfo};
+use crate::term::{Chapter, Need, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
 
 pub(super) struct Creep;
 
@@ -15,8 +15,8 @@ static INFO: TermInfo = TermInfo {
     equation: "e = chi c_i (f - f0) (1 - exp(-elapsed / tau))",
     source: "Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976, ch. 5",
     shows: "elapsed_s varies",
-    breaker: "read the same load at once and again after several minutes",
-    parameters: &[Parameter::new("fraction", "%", 100.0, Scale::Fixed(1.0), true)],
+    how_to_isolate: "read the same load at once and again after several minutes",
+    parameters: &[ParameterInfo::new("fraction", "%", 100.0, Scale::Fixed(1.0), true)],
     shape: Some(Shape { name: "time-constant", unit: "s", per_si: 1.0, bounds: [1e-2, 1e7] }),
     needs: &[Need::Elapsed],
     rich: Rich::PerLeg,

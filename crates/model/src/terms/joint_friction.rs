@@ -5,7 +5,7 @@ use hexbench_core::Vector6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Need, Parameter, Rich, Scale, Shape, Term, TermInfo};
+use crate::term::{Chapter, Need, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
 
 pub(super) struct JointFriction;
 
@@ -17,8 +17,8 @@ static INFO: TermInfo = TermInfo {
     equation: "e = c (play(f) - play(f0)), play(f) kept within f -+ f_c along the path 0, f0, (overshoot), f",
     source: "Visintin, Differential Models of Hysteresis, 1994 (play operator); Armstrong-Helouvry et al., Automatica 30, 1994",
     shows: "both approach directions are measured",
-    breaker: "read the same load once from below and once coming back from a higher load",
-    parameters: &[Parameter::new("force", "N", 1.0, Scale::Force, true)],
+    how_to_isolate: "read the same load once from below and once coming back from a higher load",
+    parameters: &[ParameterInfo::new("force", "N", 1.0, Scale::Force, true)],
     shape: Some(Shape { name: "limit", unit: "N", per_si: 1.0, bounds: [1e-3, 1e6] }),
     needs: &[Need::Approach],
     rich: Rich::PerLeg,

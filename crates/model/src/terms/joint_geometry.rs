@@ -59,7 +59,7 @@ static INFO: TermInfo = TermInfo {
     equation: "e = n . dA - (R' n) . dB",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 7; Daney 2003, Mech. Mach. Theory 38 (calibration of a Gough platform)",
     shows: "poses are measured absolutely",
-    breaker: "measure absolute poses over the whole workspace",
+    how_to_isolate: "measure absolute poses over the whole workspace",
     parameters: &each(&JOINTS, "um", 1e6, Scale::Fixed(1e-3), false),
     shape: None,
     needs: &[Need::Absolute],

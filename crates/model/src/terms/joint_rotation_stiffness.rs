@@ -6,7 +6,7 @@ use nalgebra::Matrix3x6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct JointRotationStiffness;
 
@@ -18,10 +18,10 @@ static INFO: TermInfo = TermInfo {
     equation: "K = sum k_b G_b' G_b + k_p G_p' G_p, with dn = G_b [v; w] and R d(R' n) = G_p [v; w]",
     source: "Smith, Flexures, 2000; Dehaeze, PhD thesis 2021, ch. 5 (flexible joints of a Stewart platform)",
     shows: "the joints are stiff compared with the legs",
-    breaker: "tilt the platform far and load it with moments",
+    how_to_isolate: "tilt the platform far and load it with moments",
     parameters: &[
-        Parameter::new("base-end", "N m/rad", 1.0, Scale::AngularStiffness, true),
-        Parameter::new("platform-end", "N m/rad", 1.0, Scale::AngularStiffness, true),
+        ParameterInfo::new("base-end", "N m/rad", 1.0, Scale::AngularStiffness, true),
+        ParameterInfo::new("platform-end", "N m/rad", 1.0, Scale::AngularStiffness, true),
     ],
     shape: None,
     needs: &[],

@@ -3,7 +3,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct LegAsymmetry;
 
@@ -15,8 +15,8 @@ static INFO: TermInfo = TermInfo {
     equation: "e = c_t (max(f, 0) - max(f0, 0))",
     source: "Kalas et al. 2018, future work: legs in tension",
     shows: "some legs are pulled",
-    breaker: "choose loads that pull on legs that are otherwise pushed",
-    parameters: &[Parameter::new("tension-compliance", "nm/N", 1e9, Scale::Compliance, false)],
+    how_to_isolate: "choose loads that pull on legs that are otherwise pushed",
+    parameters: &[ParameterInfo::new("tension-compliance", "nm/N", 1e9, Scale::Compliance, false)],
     shape: None,
     needs: &[],
     rich: Rich::PerLeg,

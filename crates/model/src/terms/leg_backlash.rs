@@ -3,7 +3,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct LegBacklash;
 
@@ -15,8 +15,8 @@ static INFO: TermInfo = TermInfo {
     equation: "e = gap/2 (sgn f - sgn f0)",
     source: "Kalas et al. 2018: a preload was needed to suppress the play in the actuators",
     shows: "the force of a leg reverses between reference and load",
-    breaker: "reverse the force of single legs: pull upwards or sideways beyond the preload",
-    parameters: &[Parameter::new("gap", "um", 1e6, Scale::Fixed(20e-6), true)],
+    how_to_isolate: "reverse the force of single legs: pull upwards or sideways beyond the preload",
+    parameters: &[ParameterInfo::new("gap", "um", 1e6, Scale::Fixed(20e-6), true)],
     shape: None,
     needs: &[],
     rich: Rich::PerLeg,

@@ -5,7 +5,7 @@ use hexbench_core::Vector6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Need, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct LegCoupling;
 
@@ -17,8 +17,8 @@ static INFO: TermInfo = TermInfo {
     equation: "e_i += c_x (n_i . n_j) (f_j - f0_j) for each pair",
     source: "Klimchik et al. 2014, Mech. Mach. Theory 81 (coupled compliances)",
     shows: "lateral loads are measured",
-    breaker: "load sideways and about the vertical axis, so that the legs of a pair take opposite forces",
-    parameters: &[Parameter::new("cross-compliance", "nm/N", 1e9, Scale::Compliance, false)],
+    how_to_isolate: "load sideways and about the vertical axis, so that the legs of a pair take opposite forces",
+    parameters: &[ParameterInfo::new("cross-compliance", "nm/N", 1e9, Scale::Compliance, false)],
     shape: None,
     needs: &[Need::Brackets],
     rich: Rich::PerLeg,

@@ -3,7 +3,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct LegLengthCompliance;
 
@@ -15,8 +15,8 @@ static INFO: TermInfo = TermInfo {
     equation: "e = s (q - q_home) (f - f0)",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (stiffness of actuated links)",
     shows: "the poses use a long stroke",
-    breaker: "repeat the loads at poses with short and with long legs",
-    parameters: &[Parameter::new("slope", "nm/(N mm)", 1e6, Scale::CompliancePerLength, false)],
+    how_to_isolate: "repeat the loads at poses with short and with long legs",
+    parameters: &[ParameterInfo::new("slope", "nm/(N mm)", 1e6, Scale::CompliancePerLength, false)],
     shape: None,
     needs: &[],
     rich: Rich::PerLeg,

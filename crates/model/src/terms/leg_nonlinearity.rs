@@ -3,7 +3,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Shape, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
 
 pub(super) struct LegNonlinearity;
 
@@ -15,8 +15,8 @@ static INFO: TermInfo = TermInfo {
     equation: "e = e100 (sgn(f) |f / 100 N|^p - the same at f0)",
     source: "Johnson, Contact Mechanics, 1985, ch. 4; Harris and Kotzalas, Rolling Bearing Analysis, 2006",
     shows: "three or more load levels are measured",
-    breaker: "apply the same direction of load at five levels, small ones included",
-    parameters: &[Parameter::new("elongation-at-100-N", "um", 1e6, Scale::Elongation, false)],
+    how_to_isolate: "apply the same direction of load at five levels, small ones included",
+    parameters: &[ParameterInfo::new("elongation-at-100-N", "um", 1e6, Scale::Elongation, false)],
     shape: Some(Shape { name: "exponent", unit: "1", per_si: 1.0, bounds: [0.4, 3.0] }),
     needs: &[],
     rich: Rich::PerLeg,

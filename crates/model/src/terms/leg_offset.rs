@@ -17,7 +17,7 @@ static INFO: TermInfo = TermInfo {
     equation: "e_i = offset_i",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 7 (calibration)",
     shows: "poses are measured absolutely",
-    breaker: "measure absolute poses over the whole workspace",
+    how_to_isolate: "measure absolute poses over the whole workspace",
     parameters: &each(&LEGS, "um", 1e6, Scale::Fixed(1e-3), false),
     shape: None,
     needs: &[Need::Absolute],

@@ -5,7 +5,7 @@ use hexbench_core::Vector3;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Need, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct LegWeight;
 
@@ -17,8 +17,8 @@ static INFO: TermInfo = TermInfo {
     equation: "dF at every platform joint = -w/2 z",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (gravity of the links)",
     shows: "poses are measured absolutely under two loads",
-    breaker: "measure absolute poses over the workspace under two loads",
-    parameters: &[Parameter::new("weight-per-leg", "N", 1.0, Scale::Fixed(100.0), true)],
+    how_to_isolate: "measure absolute poses over the workspace under two loads",
+    parameters: &[ParameterInfo::new("weight-per-leg", "N", 1.0, Scale::Fixed(100.0), true)],
     shape: None,
     needs: &[Need::Absolute, Need::Loads],
     rich: Rich::None,

@@ -5,7 +5,7 @@ use hexbench_core::Vector3;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct LoadOffset;
 
@@ -17,11 +17,11 @@ static INFO: TermInfo = TermInfo {
     equation: "dM = (R r') x F, in both states",
     source: "Kalas et al. 2018, experimental setup (stacked masses)",
     shows: "lateral loads or tilts are measured",
-    breaker: "tilt the platform under the load, or pull sideways",
+    how_to_isolate: "tilt the platform under the load, or pull sideways",
     parameters: &[
-        Parameter::new("x", "mm", 1e3, Scale::Radius, false),
-        Parameter::new("y", "mm", 1e3, Scale::Radius, false),
-        Parameter::new("z", "mm", 1e3, Scale::Radius, false),
+        ParameterInfo::new("x", "mm", 1e3, Scale::Radius, false),
+        ParameterInfo::new("y", "mm", 1e3, Scale::Radius, false),
+        ParameterInfo::new("z", "mm", 1e3, Scale::Radius, false),
     ],
     shape: None,
     needs: &[],

@@ -5,7 +5,7 @@ use hexbench_core::Vector3;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct LoadTilt;
 
@@ -17,10 +17,10 @@ static INFO: TermInfo = TermInfo {
     equation: "dF = [theta_x, theta_y, 0] x F, in both states",
     source: "JCGM 100:2008 (GUM), F.2.4 (misalignment of a quantity)",
     shows: "the leg forces react to the tilt more than to their own size",
-    breaker: "load along several directions",
+    how_to_isolate: "load along several directions",
     parameters: &[
-        Parameter::new("about-x", "mrad", 1e3, Scale::Fixed(0.1), false),
-        Parameter::new("about-y", "mrad", 1e3, Scale::Fixed(0.1), false),
+        ParameterInfo::new("about-x", "mrad", 1e3, Scale::Fixed(0.1), false),
+        ParameterInfo::new("about-y", "mrad", 1e3, Scale::Fixed(0.1), false),
     ],
     shape: None,
     needs: &[],

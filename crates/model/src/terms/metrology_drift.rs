@@ -7,7 +7,7 @@ use hexbench_core::Matrix6;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Need, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct MetrologyDrift;
 
@@ -19,14 +19,14 @@ static INFO: TermInfo = TermInfo {
     equation: "dX = rates * elapsed",
     source: "Wallace, TPOINT; JCGM 100:2008 (GUM), F.1.1.2 (drift between observations)",
     shows: "elapsed_s varies",
-    breaker: "repeat one load after a short and after a long wait",
+    how_to_isolate: "repeat one load after a short and after a long wait",
     parameters: &[
-        Parameter::new("translation-rate-x", "nm/s", 1e9, Scale::PerElapsed(20e-6), false),
-        Parameter::new("translation-rate-y", "nm/s", 1e9, Scale::PerElapsed(20e-6), false),
-        Parameter::new("translation-rate-z", "nm/s", 1e9, Scale::PerElapsed(20e-6), false),
-        Parameter::new("rotation-rate-x", "nrad/s", 1e9, Scale::PerElapsed(200e-6), false),
-        Parameter::new("rotation-rate-y", "nrad/s", 1e9, Scale::PerElapsed(200e-6), false),
-        Parameter::new("rotation-rate-z", "nrad/s", 1e9, Scale::PerElapsed(200e-6), false),
+        ParameterInfo::new("translation-rate-x", "nm/s", 1e9, Scale::PerElapsed(20e-6), false),
+        ParameterInfo::new("translation-rate-y", "nm/s", 1e9, Scale::PerElapsed(20e-6), false),
+        ParameterInfo::new("translation-rate-z", "nm/s", 1e9, Scale::PerElapsed(20e-6), false),
+        ParameterInfo::new("rotation-rate-x", "nrad/s", 1e9, Scale::PerElapsed(200e-6), false),
+        ParameterInfo::new("rotation-rate-y", "nrad/s", 1e9, Scale::PerElapsed(200e-6), false),
+        ParameterInfo::new("rotation-rate-z", "nrad/s", 1e9, Scale::PerElapsed(200e-6), false),
     ],
     shape: None,
     needs: &[Need::Elapsed],

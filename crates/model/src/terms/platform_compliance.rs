@@ -6,7 +6,7 @@ use crate::body::YieldingBody;
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct PlatformCompliance;
 
@@ -18,14 +18,14 @@ static INFO: TermInfo = TermInfo {
     equation: "[v; w] = R C R' [F; M]",
     source: "Dasgupta and Mruthyunjaya 2000, Mech. Mach. Theory 35 (platform flexibility)",
     shows: "the direction of the load varies against the platform",
-    breaker: "turn the platform under the same load: the plate turns with it, the base does not",
+    how_to_isolate: "turn the platform under the same load: the plate turns with it, the base does not",
     parameters: &[
-        Parameter::new("translation-x", "nm/N", 1e9, Scale::Compliance, true),
-        Parameter::new("translation-y", "nm/N", 1e9, Scale::Compliance, true),
-        Parameter::new("translation-z", "nm/N", 1e9, Scale::Compliance, true),
-        Parameter::new("rotation-x", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
-        Parameter::new("rotation-y", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
-        Parameter::new("rotation-z", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+        ParameterInfo::new("translation-x", "nm/N", 1e9, Scale::Compliance, true),
+        ParameterInfo::new("translation-y", "nm/N", 1e9, Scale::Compliance, true),
+        ParameterInfo::new("translation-z", "nm/N", 1e9, Scale::Compliance, true),
+        ParameterInfo::new("rotation-x", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+        ParameterInfo::new("rotation-y", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
+        ParameterInfo::new("rotation-z", "urad/(N m)", 1e6, Scale::AngularCompliance, true),
     ],
     shape: None,
     needs: &[],

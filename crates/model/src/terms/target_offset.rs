@@ -5,7 +5,7 @@ use hexbench_core::{Matrix6, Vector3};
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct TargetOffset;
 
@@ -17,11 +17,11 @@ static INFO: TermInfo = TermInfo {
     equation: "dt = (R_loaded - R_ref) r'",
     source: "Kalas et al. 2018, fig. 5 (balls registered against reference holes)",
     shows: "the deflection has rotations",
-    breaker: "load with moments, which turn the platform more than they shift it",
+    how_to_isolate: "load with moments, which turn the platform more than they shift it",
     parameters: &[
-        Parameter::new("x", "mm", 1e3, Scale::Radius, false),
-        Parameter::new("y", "mm", 1e3, Scale::Radius, false),
-        Parameter::new("z", "mm", 1e3, Scale::Radius, false),
+        ParameterInfo::new("x", "mm", 1e3, Scale::Radius, false),
+        ParameterInfo::new("y", "mm", 1e3, Scale::Radius, false),
+        ParameterInfo::new("z", "mm", 1e3, Scale::Radius, false),
     ],
     shape: None,
     needs: &[],

@@ -3,7 +3,7 @@
 use crate::campaign::Condition;
 use crate::chain::Action;
 use crate::machine::Machine;
-use crate::term::{Chapter, Need, Parameter, Rich, Scale, Term, TermInfo};
+use crate::term::{Chapter, Need, ParameterInfo, Rich, Scale, Term, TermInfo};
 
 pub(super) struct ThermalExpansion;
 
@@ -15,8 +15,8 @@ static INFO: TermInfo = TermInfo {
     equation: "e = alpha q delta_T",
     source: "Mayr et al. 2012, CIRP Annals 61 (thermal issues in machine tools)",
     shows: "delta_T_K varies",
-    breaker: "repeat one load while the temperature changes by a kelvin or more",
-    parameters: &[Parameter::new("coefficient", "um/(m K)", 1e6, Scale::Fixed(50e-6), false)],
+    how_to_isolate: "repeat one load while the temperature changes by a kelvin or more",
+    parameters: &[ParameterInfo::new("coefficient", "um/(m K)", 1e6, Scale::Fixed(50e-6), false)],
     shape: None,
     needs: &[Need::DeltaT],
     rich: Rich::PerLeg,

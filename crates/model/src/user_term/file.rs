@@ -5,7 +5,7 @@ use serde::Deserialize;
 use super::UserTermError;
 use crate::explanation::Explanation;
 use crate::formula::is_reserved;
-use crate::term::{Parameter, Scale, Shape};
+use crate::term::{ParameterInfo, Scale, Shape};
 use crate::{intern, terms};
 
 /// Units whose factor from SI is known.
@@ -96,11 +96,11 @@ impl File {
     }
 
     /// Parameters with resolved units, SI scales.
-    pub(super) fn parameters(&self) -> Result<Vec<Parameter>, UserTermError> {
+    pub(super) fn parameters(&self) -> Result<Vec<ParameterInfo>, UserTermError> {
         if self.parameters.is_empty() {
             return Err(UserTermError::rule("parameters", "a term has at least one parameter".to_owned()));
         }
-        let mut all: Vec<Parameter> = Vec::new();
+        let mut all: Vec<ParameterInfo> = Vec::new();
         for p in &self.parameters {
             if all.iter().any(|known| known.name == p.name) {
                 return Err(UserTermError::rule("parameters", format!("`{}` is there twice", p.name)));
@@ -117,7 +117,7 @@ impl File {
 }
 
 impl FileParameter {
-    fn resolve(&self) -> Result<Parameter, UserTermError> {
+    fn resolve(&self) -> Result<ParameterInfo, UserTermError> {
         check_name(&self.name)?;
         let per_si = per_si(&self.unit, self.per_si)?;
         if !(self.scale.is_finite() && self.scale > 0.0) {
@@ -128,7 +128,7 @@ impl FileParameter {
             return Err(UserTermError::rule("scale", why));
         }
         let (name, unit) = (intern::text(&self.name), intern::text(&self.unit));
-        Ok(Parameter {
+        Ok(ParameterInfo {
             name,
             unit,
             per_si,

@@ -20,7 +20,7 @@ scale = 0.5            # its physically sensible size, in that unit
 
 /// A variable of a formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Variable {
+pub struct FormulaVariable {
     /// As written in formulas.
     pub name: &'static str,
     /// SI unit; empty for a plain number.
@@ -32,10 +32,10 @@ pub struct Variable {
 }
 
 /// All variables, those of a leg first.
-pub fn variables() -> Vec<Variable> {
+pub fn variables() -> Vec<FormulaVariable> {
     let described = |name: &'static str, of_leg: bool| {
         let [unit, meaning] = meaning(name);
-        Variable { name, unit, meaning, of_leg }
+        FormulaVariable { name, unit, meaning, of_leg }
     };
     let of_reading = OF_READING.into_iter().map(|name| described(name, false));
     OF_LEG.into_iter().map(|name| described(name, true)).chain(of_reading).collect()

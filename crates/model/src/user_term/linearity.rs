@@ -2,7 +2,7 @@
 
 use super::UserTermError;
 use crate::formula::Formula;
-use crate::term::{Parameter, Scale};
+use crate::term::{ParameterInfo, Scale};
 
 /// Readings tried.
 const TRIALS: usize = 48;
@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-9;
 pub(super) fn check(
     formula: &Formula,
     variables: &[&str],
-    parameters: &[Parameter],
+    parameters: &[ParameterInfo],
     shapes: &[f64],
 ) -> Result<(), UserTermError> {
     let (mut evaluated, mut last) = (0, String::new());
@@ -52,7 +52,7 @@ pub(super) fn check(
 /// `None` when the formula has no finite value here, `Err` with the parameter (or "0") that breaks linearity.
 fn departure<'a>(
     at: &mut impl FnMut(&[f64]) -> f64,
-    parameters: &'a [Parameter],
+    parameters: &'a [ParameterInfo],
     trial: usize,
 ) -> Option<Result<(), &'a str>> {
     let n = parameters.len();
@@ -81,7 +81,7 @@ fn departure<'a>(
     Some(if zero == 0.0 && additive { Ok(()) } else { Err(parameters[0].name) })
 }
 
-fn scale(p: &Parameter) -> f64 {
+fn scale(p: &ParameterInfo) -> f64 {
     if let Scale::Fixed(value) = p.scale { value } else { 1.0 }
 }
 

@@ -35,10 +35,10 @@ use crate::chain::Action;
 use crate::formula::{Formula, FormulaError};
 use crate::intern;
 use crate::machine::Machine;
-use crate::term::{Chapter, Need, Parameter, Rich, Shape, Term, TermInfo};
+use crate::term::{Chapter, Need, ParameterInfo, Rich, Shape, Term, TermInfo};
 
 use file::File;
-pub use help::{EXAMPLE, Variable, functions, units, variables};
+pub use help::{EXAMPLE, FormulaVariable, functions, units, variables};
 use variables::{OF_LEG, OF_READING};
 
 /// Largest file read, bytes.
@@ -160,12 +160,12 @@ pub fn read(path: &Path) -> Result<Arc<dyn Term>, UserTermError> {
     parse(&std::fs::read_to_string(path).map_err(unreadable)?)
 }
 
-fn refuse_same_name(parameters: &[Parameter], shape: Option<&Shape>) -> Result<(), UserTermError> {
+fn refuse_same_name(parameters: &[ParameterInfo], shape: Option<&Shape>) -> Result<(), UserTermError> {
     let same = shape.filter(|s| parameters.iter().any(|p| p.name == s.name));
     same.map_or(Ok(()), |s| Err(UserTermError::rule("shape", format!("`{}` is also a parameter", s.name))))
 }
 
-fn effect(file: &File, parameters: &[Parameter], shape: Option<&Shape>) -> Result<Effect, UserTermError> {
+fn effect(file: &File, parameters: &[ParameterInfo], shape: Option<&Shape>) -> Result<Effect, UserTermError> {
     let own: Vec<&str> = parameters.iter().map(|p| p.name).chain(shape.map(|s| s.name)).collect();
     let of_reading: Vec<&str> = OF_READING.into_iter().chain(own.iter().copied()).collect();
     let of_leg: Vec<&str> = OF_LEG.into_iter().chain(of_reading.iter().copied()).collect();
@@ -212,7 +212,7 @@ impl Effect {
 
 fn refuse_idle_parameters(
     effect: &Effect,
-    parameters: &[Parameter],
+    parameters: &[ParameterInfo],
     shape: Option<&Shape>,
 ) -> Result<(), UserTermError> {
     let first = effect.variables().len();
@@ -225,12 +225,12 @@ fn refuse_idle_parameters(
     Ok(())
 }
 
-fn check_linearity(effect: &Effect, parameters: &[Parameter], grid: &[f64]) -> Result<(), UserTermError> {
+fn check_linearity(effect: &Effect, parameters: &[ParameterInfo], grid: &[f64]) -> Result<(), UserTermError> {
     let variables = effect.variables();
     effect.formulas().into_iter().try_for_each(|f| linearity::check(f, &variables, parameters, grid))
 }
 
-fn info(file: &File, parameters: &[Parameter], shape: Option<Shape>, effect: &Effect) -> TermInfo {
+fn info(file: &File, parameters: &[ParameterInfo], shape: Option<Shape>, effect: &Effect) -> TermInfo {
     let equation = effect.formulas().iter().map(|f| f.text()).collect::<Vec<_>>().join("; ");
     let covariates = [("elapsed", Need::Elapsed), ("approach", Need::Approach), ("delta_T", Need::DeltaT)];
     let needs: Vec<Need> =
@@ -243,7 +243,7 @@ fn info(file: &File, parameters: &[Parameter], shape: Option<Shape>, effect: &Ef
         equation: intern::text(&equation),
         source: "a term file of the user",
         shows: "the variables of its formula vary",
-        breaker: "vary the variables of the formula of the user's term, one at a time",
+        how_to_isolate: "vary the variables of the formula of the user's term, one at a time",
         parameters: intern::parameters(parameters),
         shape,
         needs: intern::needs(&needs),

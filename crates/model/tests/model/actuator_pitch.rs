@@ -3,7 +3,7 @@
 use hexbench_core::{Measurand, Vector6};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::fit::columns;
-use hexbench_model::linearization::{Active, Linearization, Point};
+use hexbench_model::linearization::{Active, Linearization, ModelPoint};
 
 use crate::common::terms::{by_id, rows};
 use crate::common::world::World;
@@ -19,7 +19,7 @@ fn a_small_change_of_pitch_turns_the_phases_little() {
     let campaign = Campaign::new(&measured_machine(0.5e-6, 3e-6), &data).unwrap();
     let active = Active { values: vec![5e-6; 12], ..Active::new(by_id("actuator-pitch"), false, 3e-3) };
     let springs = Vector6::from(PAPER_STIFFNESS).map(f64::recip);
-    let here = Point { springs, active: vec![active], ..Point::start(&campaign) };
+    let here = ModelPoint { compliances: springs, active: vec![active], ..ModelPoint::start(&campaign) };
     let all = columns(&Linearization::at(&campaign, &here).unwrap(), &here);
     let (waves, pitch) = (all.columns(18, 12).into_owned(), all.column(30).into_owned());
     let svd = waves.svd(true, false);

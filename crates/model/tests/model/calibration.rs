@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use hexbench_core::{Measurand, Observation, Pose, Vector3, Vector6, Wrench};
 use hexbench_model::campaign::Campaign;
-use hexbench_model::linearization::{Active, Linearization, Point};
+use hexbench_model::linearization::{Active, Linearization, ModelPoint};
 use hexbench_model::machine::Machine;
 use hexbench_model::term::Term;
 use nalgebra::{DMatrix, Isometry3, Rotation3};
@@ -17,15 +17,21 @@ use crate::common::{PAPER_STIFFNESS, measured_machine, paper_machine, six};
 /// Central differences with steps of 1e-7 m or 1e-6 rad on legs of 0.2 m closed to 1e-16 m: 1e-9 by rounding.
 const DIFFERENCE: f64 = 1e-8;
 
-fn point(campaign: &Campaign) -> Point {
-    Point { springs: Vector6::from(PAPER_STIFFNESS).map(f64::recip), ..Point::start(campaign) }
+fn point(campaign: &Campaign) -> ModelPoint {
+    ModelPoint { compliances: Vector6::from(PAPER_STIFFNESS).map(f64::recip), ..ModelPoint::start(campaign) }
 }
 
 /// Columns of a calibrating term, and central differences of the residual when the machine is recalibrated.
-fn assert_recalibrates(term: &Arc<dyn Term>, campaign: &Campaign, here: &Point, values: &[f64], limit: f64) {
+fn assert_recalibrates(
+    term: &Arc<dyn Term>,
+    campaign: &Campaign,
+    here: &ModelPoint,
+    values: &[f64],
+    limit: f64,
+) {
     let at = |values: &[f64]| {
         let active = Active { values: values.to_vec(), ..Active::new(Arc::clone(term), false, 1.0) };
-        Linearization::at(campaign, &Point { active: vec![active], ..here.clone() }).unwrap()
+        Linearization::at(campaign, &ModelPoint { active: vec![active], ..here.clone() }).unwrap()
     };
     let block: DMatrix<f64> = at(values).term_block(term.as_ref(), false, 1.0);
     for (k, p) in term.info().parameters.iter().enumerate() {

@@ -5,7 +5,7 @@ use hexbench_core::{Dataset, Measurand};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::diagnose::diagnose;
 use hexbench_model::diagnosis::explain;
-use hexbench_model::evidence::{Block, Gram, Variant, log_orthant};
+use hexbench_model::evidence::{Gram, PriorBlock, Variant, log_orthant};
 use hexbench_model::power::{noncentral_cdf, noncentrality};
 use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::{Judgement, Verdict, judge};
@@ -27,7 +27,7 @@ const TAIL_SHARE: f64 = 0.07;
 const SIX_SIGNS_RELATIVE: f64 = 0.05;
 
 /// One block with raw normal equations `g`, `b` (per parameter, SI).
-fn gram(g: &DMatrix<f64>, b: &DVector<f64>, mut block: Block, width: f64, yy: f64) -> Gram {
+fn gram(g: &DMatrix<f64>, b: &DVector<f64>, mut block: PriorBlock, width: f64, yy: f64) -> Gram {
     block.widths = vec![width];
     let t = block.transform.clone();
     Gram {
@@ -70,7 +70,7 @@ fn springs_beside_an_effect_are_those_of_the_joint_least_squares_problem() {
     let (sizes, width) = ([0.5, 3.0], 0.8);
     let alone = (springs.transpose() * &springs).try_inverse().unwrap();
     let residual = |m: &DMatrix<f64>| m - &springs * (&alone * springs.tr_mul(m));
-    let block = Block::new(&sizes, vec![false; 2], 1.0, false, 1.0);
+    let block = PriorBlock::new(&sizes, vec![false; 2], 1.0, false, 1.0);
     let t = block.transform.clone();
     let g = effect.tr_mul(&residual(&effect));
     let b = effect.tr_mul(&residual(&y)).column(0).into_owned();
@@ -100,7 +100,7 @@ fn evidence_of_one_parameter_is_the_integral_of_likelihood_and_prior() {
         [(4.0, 3.0, 1.0, 2.0), (100.0, -30.0, 0.5, 0.25), (1e-2, 0.5, 3.0, 1.0), (50.0, -12.0, 1.0, 2.0)]
     {
         for positive in [false, true] {
-            let block = Block::new(&[size], vec![positive], 1.0, false, 1.0);
+            let block = PriorBlock::new(&[size], vec![positive], 1.0, false, 1.0);
             let closed = gram(&DMatrix::repeat(1, 1, g), &DVector::repeat(1, b), block, width, 100.0);
             let closed = closed.posterior(&ONLY, 1.0).unwrap().log_evidence;
             let s: f64 = size * width;
@@ -149,7 +149,7 @@ fn evidence_of_two_parameters_is_the_integral_of_likelihood_and_correlated_prior
     {
         for positive in [false, true] {
             let sizes = [0.8, 1.5];
-            let block = Block::new(&sizes, vec![positive; 2], 1.0, false, 1.0);
+            let block = PriorBlock::new(&sizes, vec![positive; 2], 1.0, false, 1.0);
             let prior = &block.transform * block.transform.transpose() * width * width;
             let prior = Matrix2::new(prior[(0, 0)], prior[(0, 1)], prior[(1, 0)], prior[(1, 1)]);
             let (g2, b2) = (
@@ -176,7 +176,7 @@ fn a_parameter_alone_scores_in_a_profile_as_in_a_posterior() {
         for positive in [false, true] {
             let root = DMatrix::from_fn(n + 5, n, |_, _| random.normal());
             let b = DVector::from_fn(n, |_, _| 4.0 * random.normal());
-            let block = Block::new(&vec![0.7; n], vec![positive; n], 1.0, false, 1.0);
+            let block = PriorBlock::new(&vec![0.7; n], vec![positive; n], 1.0, false, 1.0);
             let problem = gram(&root.tr_mul(&root), &b, block, 1.5, 100.0);
             let whole = problem.posterior(&ONLY, 1.0).unwrap().log_evidence;
             let profile = problem.profile(&[], &[0])[0].1;
@@ -191,7 +191,7 @@ fn a_parameter_alone_scores_in_a_profile_as_in_a_posterior() {
 #[test]
 fn the_student_form_tends_to_the_known_noise_with_many_degrees_of_freedom() {
     let problem = |dof: f64| {
-        let block = Block::new(&[1.0, 1.0], vec![false; 2], 1.0, false, 1.0);
+        let block = PriorBlock::new(&[1.0, 1.0], vec![false; 2], 1.0, false, 1.0);
         let g = DMatrix::from_row_slice(2, 2, &[9.0, 4.0, 4.0, 16.0]);
         let b = DVector::from_vec(vec![6.0, 9.0]);
         // Residuals of the size of the noise: 40 equations, chi-square 40.
@@ -210,7 +210,7 @@ fn the_student_form_is_the_integral_over_the_unknown_noise() {
     // y'y, one column, prior width in units of the noise; noise variance s with a scaled inverse chi-square prior of
     // nu degrees of freedom about 1: p(y | model) = integral of s^(-n/2 - nu/2 - 1) exp(-(chi2 + nu) / 2s).
     let (g, b, width, yy, n, nu) = (9.0, 7.0, 1.5, 30.0, 40.0, 12.0);
-    let block = Block::new(&[1.0], vec![false], 1.0, false, 1.0);
+    let block = PriorBlock::new(&[1.0], vec![false], 1.0, false, 1.0);
     let problem =
         Gram { noise_dof: nu, ..gram(&DMatrix::repeat(1, 1, g), &DVector::repeat(1, b), block, width, yy) };
     let closed = problem.posterior(&ONLY, 1.0).unwrap().log_evidence;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::diagnose::prepare;
-use hexbench_model::fit::{Wanted, fit};
+use hexbench_model::fit::{TermSpec, fit};
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::predict::predict;
 use hexbench_model::terms::catalogue;
@@ -28,12 +28,12 @@ fn model(hexapod: &Hexapod, data: &Dataset, terms: &[(&str, bool, f64)]) -> Mode
     .unwrap();
     let mut all = catalogue();
     all.push(own);
-    let wanted: Vec<Wanted> = terms
+    let wanted: Vec<TermSpec> = terms
         .iter()
         .map(|(id, rich, shape)| {
             let term = Arc::clone(all.iter().find(|t| t.info().id == *id).unwrap());
             let lin = hexbench_model::linearization::parameter_count(term.as_ref(), *rich);
-            Wanted { term, rich: *rich, shape: *shape, prior: vec![1e-4; lin] }
+            TermSpec { term, rich: *rich, shape: *shape, prior: vec![1e-4; lin] }
         })
         .collect();
     let fitted = fit(&campaign, &wanted, None).unwrap();
@@ -44,7 +44,7 @@ fn model(hexapod: &Hexapod, data: &Dataset, terms: &[(&str, bool, f64)]) -> Mode
 
 fn bits(model: &Model) -> Vec<u64> {
     let p = &model.point;
-    let mut all: Vec<f64> = p.springs.iter().copied().collect();
+    let mut all: Vec<f64> = p.compliances.iter().copied().collect();
     for a in &p.active {
         all.extend(&a.values);
         all.push(a.shape);
@@ -157,9 +157,9 @@ proptest! {
     #[test]
     fn any_finite_springs_come_back(springs in prop::array::uniform6(prop::num::f64::NORMAL)) {
         let mut model = models().remove(0);
-        model.point.springs = hexbench_core::Vector6::from_column_slice(&springs);
+        model.point.compliances = hexbench_core::Vector6::from_column_slice(&springs);
         let back = Model::from_toml(&model.to_toml().unwrap()).unwrap();
-        prop_assert_eq!(back.point.springs.map(f64::to_bits), model.point.springs.map(f64::to_bits));
+        prop_assert_eq!(back.point.compliances.map(f64::to_bits), model.point.compliances.map(f64::to_bits));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use hexbench_core::{Measurand, Observation, Pose, Vector3};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::kinematics::Legs;
-use hexbench_model::next::{Effort, Rival, menu, outlook, propose, suspects};
+use hexbench_model::next::{Effort, RivalExplanation, candidate_readings, forecasts, propose, suspects};
 
 use crate::common::plan::{noisy, paper_plan};
 use crate::common::random::Random;
@@ -17,7 +17,7 @@ const SIGMA_RAD: f64 = 3e-6;
 const SLACK: f64 = 1.0501;
 
 /// The paper's plan on a machine whose load acts beside the origin: several effects explain it.
-fn open_campaign() -> (Campaign, Vec<Rival>) {
+fn open_campaign() -> (Campaign, Vec<RivalExplanation>) {
     let mut world = World::on_springs(&measured_machine(SIGMA_M, SIGMA_RAD), PAPER_STIFFNESS);
     world.load_point = Vector3::new(4e-3, -2e-3, 0.0);
     let data = noisy(&world.measure(Measurand::DeflectionEuler, &paper_plan(3)), SIGMA_M, SIGMA_RAD, 7);
@@ -36,10 +36,10 @@ fn strongest(campaign: &Campaign, o: &Observation) -> f64 {
 #[test]
 fn no_reading_asks_more_of_a_leg_than_it_has_carried() {
     let (campaign, rivals) = open_campaign();
-    let menu = menu(&campaign, &rivals).unwrap();
-    assert!(menu.len() > 100, "{} readings", menu.len());
+    let candidate_readings = candidate_readings(&campaign, &rivals).unwrap();
+    assert!(candidate_readings.len() > 100, "{} readings", candidate_readings.len());
     let known = campaign.groups.iter().map(|g| strongest(&campaign, &g.mean)).fold(0.0, f64::max);
-    for o in &menu {
+    for o in &candidate_readings {
         let carried = strongest(&campaign, o);
         assert!(carried <= SLACK * known, "{carried:.1} N against {known:.1} N at {o:?}");
     }
@@ -48,7 +48,7 @@ fn no_reading_asks_more_of_a_leg_than_it_has_carried() {
 #[test]
 fn poses_are_whole_millimetres_and_half_degrees() {
     let (campaign, rivals) = open_campaign();
-    for o in menu(&campaign, &rivals).unwrap() {
+    for o in candidate_readings(&campaign, &rivals).unwrap() {
         for (k, x) in o.pose.to_array().into_iter().enumerate() {
             let steps = if k < 3 { x * 1e3 } else { 2.0 * x.to_degrees() };
             assert!((steps - steps.round()).abs() < 1e-9, "coordinate {k}: {x}");
@@ -64,20 +64,21 @@ fn proposed_readings_separate_the_worst_pair_better_than_random_ones() {
     /// Share of random sets that may be as good.
     const AS_GOOD: f64 = 0.05;
     let (campaign, rivals) = open_campaign();
-    let menu = menu(&campaign, &rivals).unwrap();
-    let programme = propose(&campaign, &rivals, &menu, Effort::Exactly(READINGS)).unwrap();
-    assert_eq!(programme.readings(), READINGS);
+    let candidate_readings = candidate_readings(&campaign, &rivals).unwrap();
+    let proposed = propose(&campaign, &rivals, &candidate_readings, Effort::Exactly(READINGS)).unwrap();
+    assert_eq!(proposed.readings(), READINGS);
     let worst = |readings: &[Observation]| {
-        let all = outlook(&campaign, &rivals, readings).unwrap();
+        let all = forecasts(&campaign, &rivals, readings).unwrap();
         all.iter().flat_map(|(_, s)| s.log_bayes_factor).fold(f64::INFINITY, f64::min)
     };
     let chosen: Vec<Observation> =
-        programme.proposals.iter().flat_map(|p| std::iter::repeat_n(p.observation, p.repeats)).collect();
+        proposed.proposals.iter().flat_map(|p| std::iter::repeat_n(p.observation, p.repeats)).collect();
     let best = worst(&chosen);
-    let promised = programme.outlook.iter().flat_map(|o| o.separation.log_bayes_factor);
+    let promised = proposed.forecasts.iter().flat_map(|o| o.separation.log_bayes_factor);
     assert!((promised.fold(f64::INFINITY, f64::min) / best - 1.0).abs() < 1e-9);
     let mut random = Random::new(3);
-    let mut shuffled: Vec<(f64, Observation)> = menu.iter().map(|o| (random.unit(), *o)).collect();
+    let mut shuffled: Vec<(f64, Observation)> =
+        candidate_readings.iter().map(|o| (random.unit(), *o)).collect();
     shuffled.sort_by(|x, y| x.0.total_cmp(&y.0));
     let drawn: Vec<Observation> = shuffled.into_iter().map(|x| x.1).collect();
     let sets: Vec<&[Observation]> = drawn.chunks_exact(READINGS).take(SETS).collect();
@@ -92,10 +93,10 @@ fn proposed_readings_separate_the_worst_pair_better_than_random_ones() {
 #[test]
 fn every_reading_says_what_sort_it_is_or_is_ordinary() {
     let (campaign, rivals) = open_campaign();
-    let menu = menu(&campaign, &rivals).unwrap();
-    let programme = propose(&campaign, &rivals, &menu, Effort::Exactly(3)).unwrap();
+    let candidate_readings = candidate_readings(&campaign, &rivals).unwrap();
+    let proposed = propose(&campaign, &rivals, &candidate_readings, Effort::Exactly(3)).unwrap();
     let ordinary = campaign.groups[0].mean;
-    for p in &programme.proposals {
+    for p in &proposed.proposals {
         let usual = p.observation.wrench == ordinary.wrench && p.observation.pose == Pose::default();
         assert!(usual || !p.words.is_empty(), "{p:?}");
     }
@@ -104,26 +105,28 @@ fn every_reading_says_what_sort_it_is_or_is_ordinary() {
 #[test]
 fn readings_that_change_nothing_are_not_proposed() {
     let (campaign, rivals) = open_campaign();
-    let idle: Vec<Observation> = menu(&campaign, &rivals)
+    let idle: Vec<Observation> = candidate_readings(&campaign, &rivals)
         .unwrap()
         .into_iter()
         .map(|o| Observation { wrench: o.reference, elapsed: 0.0, delta_t: 0.0, ..o })
         .collect();
-    let programme = propose(&campaign, &rivals, &idle, Effort::UpTo(3)).unwrap();
-    assert!(programme.proposals.is_empty() && programme.outlook.is_empty(), "{programme:?}");
+    let proposed = propose(&campaign, &rivals, &idle, Effort::UpTo(3)).unwrap();
+    assert!(proposed.proposals.is_empty() && proposed.forecasts.is_empty(), "{proposed:?}");
 }
 
 /// The model averages readings under equal conditions, whatever line of whatever file they come from.
 #[test]
 fn readings_that_differ_only_in_where_they_come_from_are_proposed_as_any() {
     let (campaign, rivals) = open_campaign();
-    let menu = menu(&campaign, &rivals).unwrap();
+    let candidate_readings = candidate_readings(&campaign, &rivals).unwrap();
     let numbered: Vec<Observation> =
-        menu.iter().zip(1..).map(|(o, line)| Observation { line, ..*o }).collect();
-    let of = |menu: &[Observation]| propose(&campaign, &rivals, menu, Effort::Exactly(6)).unwrap();
-    let (plain, from_lines) = (of(&menu), of(&numbered));
+        candidate_readings.iter().zip(1..).map(|(o, line)| Observation { line, ..*o }).collect();
+    let of = |candidate_readings: &[Observation]| {
+        propose(&campaign, &rivals, candidate_readings, Effort::Exactly(6)).unwrap()
+    };
+    let (plain, from_lines) = (of(&candidate_readings), of(&numbered));
     assert!(plain.proposals.len() > 1, "{} proposals", plain.proposals.len());
-    let words = |p: &hexbench_model::next::Programme| -> Vec<String> {
+    let words = |p: &hexbench_model::next::ProposedReadings| -> Vec<String> {
         p.proposals.iter().map(|p| p.words.clone()).collect()
     };
     assert_eq!(words(&plain), words(&from_lines));

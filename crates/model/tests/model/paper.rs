@@ -3,7 +3,7 @@
 use hexbench_core::{Dataset, Hexapod, Matrix6, Observation, Vector6};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::kinematics::{Legs, analytic_leg_jacobian};
-use hexbench_model::linearization::{Linearization, Point};
+use hexbench_model::linearization::{Linearization, ModelPoint};
 use hexbench_model::paper::{block, fit_paper, regressor};
 use hexbench_model::parameters::Parameters;
 use hexbench_model::words::unobservable;
@@ -46,7 +46,7 @@ fn without_weights_and_deflection_the_regressor_of_the_model_is_the_papers() {
     let data = Dataset { observations: undeflected, ..data };
     let campaign = Campaign::new(&hexapod, &data).unwrap();
     // Springs of zero compliance leave the machine where it was commanded to.
-    let lin = Linearization::at(&campaign, &Point::start(&campaign)).unwrap();
+    let lin = Linearization::at(&campaign, &ModelPoint::start(&campaign)).unwrap();
     let columns = lin.common_block();
     for (i, group) in campaign.groups.iter().enumerate() {
         let expected = block(&hexapod, &group.mean, data.measurand).unwrap();
@@ -83,7 +83,7 @@ fn one_vertical_pose_on_a_symmetric_machine_leaves_combinations_that_are_named()
     let data = Dataset { observations: vec![o], ..data };
     let fitted = fit_paper(&Campaign::new(&hexapod, &data).unwrap(), &data).unwrap();
     assert_eq!(fitted.rank, 5);
-    let springs = Parameters::at(&Point::start(&Campaign::new(&hexapod, &data).unwrap()), false);
+    let springs = Parameters::at(&ModelPoint::start(&Campaign::new(&hexapod, &data).unwrap()), false);
     assert_eq!(unobservable(&fitted.null_space, &springs), ["leg 3 does not show in the data at all"]);
     assert!(fitted.springs[2].abs() < 1e-12, "minimum norm leaves the undetermined part at zero");
 }

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use hexbench_core::{Dataset, Measurand, Observation, Vector3, Wrench};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::estimate::estimates;
-use hexbench_model::fit::{Fit, Wanted, fit, fit_baseline};
-use hexbench_model::linearization::Point;
+use hexbench_model::fit::{Fit, TermSpec, fit, fit_baseline};
+use hexbench_model::linearization::ModelPoint;
 use hexbench_model::residuals::{leave_poses_out, summarise};
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
@@ -37,10 +37,10 @@ fn by_id(id: &str) -> Arc<dyn Term> {
 }
 
 /// A term with a prior so wide that it says nothing.
-fn wanted(id: &str, width: f64) -> Wanted {
+fn wanted(id: &str, width: f64) -> TermSpec {
     let term = by_id(id);
     let prior = vec![width; term.info().parameters.len()];
-    Wanted { term, rich: false, shape: 1.0, prior }
+    TermSpec { term, rich: false, shape: 1.0, prior }
 }
 
 /// Leg force over stiffness and leg length: the small number of the linearisation.
@@ -51,7 +51,7 @@ fn smallness(load: f64) -> f64 {
     LEG_FORCE_N * load / (SOFTEST_N_PER_M * LEG_M)
 }
 
-fn noiseless(world: &World, measurand: Measurand, plan: &[Observation], terms: &[Wanted]) -> Fit {
+fn noiseless(world: &World, measurand: Measurand, plan: &[Observation], terms: &[TermSpec]) -> Fit {
     let data = world.measure(measurand, plan);
     let campaign = Campaign::new(&measured_machine(NO_NOISE_M, NO_NOISE_RAD), &data).unwrap();
     fit(&campaign, terms, None).unwrap()
@@ -59,7 +59,7 @@ fn noiseless(world: &World, measurand: Measurand, plan: &[Observation], terms: &
 
 /// Largest relative error of the six stiffnesses.
 fn stiffness_error(fit: &Fit, stiffness: &[f64; 6]) -> f64 {
-    (0..6).map(|leg| (1.0 / fit.point.springs[leg] / stiffness[leg] - 1.0).abs()).fold(0.0, f64::max)
+    (0..6).map(|leg| (1.0 / fit.point.compliances[leg] / stiffness[leg] - 1.0).abs()).fold(0.0, f64::max)
 }
 
 const DEFLECTIONS: [Measurand; 2] = [Measurand::DeflectionEuler, Measurand::DeflectionRotationVector];
@@ -210,19 +210,19 @@ struct Recovered {
     dof: f64,
 }
 
-fn recover(clean: &Dataset, terms: &[Wanted], truth: &[f64], columns: &[usize], seed: u64) -> Recovered {
+fn recover(clean: &Dataset, terms: &[TermSpec], truth: &[f64], columns: &[usize], seed: u64) -> Recovered {
     let data = noisy(clean, SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD, seed);
     let campaign = Campaign::new(&measured_machine(SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD), &data).unwrap();
     let fit = fit(&campaign, terms, None).unwrap();
     assert!(fit.is_settled(), "seed {seed}");
-    let mut found: Vec<f64> = fit.point.springs.iter().copied().collect();
+    let mut found: Vec<f64> = fit.point.compliances.iter().copied().collect();
     found.extend(fit.point.active.iter().flat_map(|a| a.values.iter().copied()));
     let pulls = found.iter().zip(truth).zip(columns).map(|((f, t), &c)| (f - t) / fit.std(c)).collect();
     Recovered { pulls, chi2: fit.chi2, dof: fit.dof }
 }
 
 /// Mean, coverage and chi-square of repeated noisy recoveries.
-fn assert_honest(what: &str, clean: &Dataset, terms: &[Wanted], truth: &[f64], columns: &[usize]) {
+fn assert_honest(what: &str, clean: &Dataset, terms: &[TermSpec], truth: &[f64], columns: &[usize]) {
     let all: Vec<Recovered> =
         (0..SEEDS).into_par_iter().map(|seed| recover(clean, terms, truth, columns, 1000 + seed)).collect();
     let n = SEEDS as f64;
@@ -320,7 +320,7 @@ fn a_right_model_predicts_poses_left_out_to_the_noise_and_its_own_uncertainty() 
     let run = |seed: u64| {
         let data = noisy(&clean, SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD, seed);
         let campaign = Campaign::new(&hexapod, &data).unwrap();
-        let start = Point::start(&campaign);
+        let start = ModelPoint::start(&campaign);
         let errors = leave_poses_out(&campaign, &data.observations, &[], &start).unwrap().residuals;
         assert_eq!(errors.len(), 24);
         summarise(&errors, None).chi2_reduced
@@ -340,8 +340,8 @@ fn a_wrong_model_shows_on_poses_left_out_and_the_right_term_mends_it() {
     let data = noisy(&clean, SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD, 12);
     let hexapod = measured_machine(SIGMA_TRANSLATION_M, SIGMA_ROTATION_RAD);
     let campaign = Campaign::new(&hexapod, &data).unwrap();
-    let held_out = |terms: &[Wanted]| {
-        let errors = leave_poses_out(&campaign, &data.observations, terms, &Point::start(&campaign))
+    let held_out = |terms: &[TermSpec]| {
+        let errors = leave_poses_out(&campaign, &data.observations, terms, &ModelPoint::start(&campaign))
             .unwrap()
             .residuals;
         summarise(&errors, None).chi2_reduced

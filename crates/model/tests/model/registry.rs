@@ -7,7 +7,7 @@ use std::sync::Arc;
 use hexbench_core::{Hexapod, Measurand, Pose, Vector6, Wrench};
 use hexbench_model::campaign::{Campaign, Condition};
 use hexbench_model::chain::Action;
-use hexbench_model::linearization::{Active, Linearization, Point, actions, parameter_count};
+use hexbench_model::linearization::{Active, Linearization, ModelPoint, actions, parameter_count};
 use hexbench_model::machine::Machine;
 use hexbench_model::term::{Chapter, Need, Rich, Term};
 use hexbench_model::terms::catalogue;
@@ -66,7 +66,7 @@ fn names_are_unique_and_kebab_case() {
 fn every_term_says_what_it_is_where_it_comes_from_and_how_to_see_it() {
     for term in catalogue() {
         let i = term.info();
-        for text in [i.title, i.physics, i.equation, i.source, i.shows, i.breaker] {
+        for text in [i.title, i.physics, i.equation, i.source, i.shows, i.how_to_isolate] {
             assert!(text.len() > 10, "{}: {text:?}", i.id);
         }
         assert!(
@@ -216,8 +216,8 @@ fn actions_change_smoothly_with_the_shape() {
     }
 }
 
-fn point(campaign: &Campaign) -> Point {
-    Point { springs: Vector6::from(PAPER_STIFFNESS).map(f64::recip), ..Point::start(campaign) }
+fn point(campaign: &Campaign) -> ModelPoint {
+    ModelPoint { compliances: Vector6::from(PAPER_STIFFNESS).map(f64::recip), ..ModelPoint::start(campaign) }
 }
 
 #[test]
@@ -227,7 +227,8 @@ fn parameters_of_zero_add_nothing() {
     let bare = Linearization::at(&campaign, &point(&campaign)).unwrap();
     for term in catalogue() {
         let shape = some_shape(term.as_ref(), &bare.conditions);
-        let with = Point { active: vec![Active::new(Arc::clone(&term), true, shape)], ..point(&campaign) };
+        let with =
+            ModelPoint { active: vec![Active::new(Arc::clone(&term), true, shape)], ..point(&campaign) };
         let lin = Linearization::at(&campaign, &with).unwrap();
         let added = (lin.predictions() - bare.predictions()).amax() / bare.predictions().amax();
         assert!(added < ROUNDING, "{}: {added:.1e}", term.info().id);

@@ -6,7 +6,7 @@ use hexbench_core::{Dataset, Hexapod, Observation, Pose, Wrench};
 use hexbench_model::compensate::compensate;
 use hexbench_model::diagnose::prepare;
 use hexbench_model::error::ModelError;
-use hexbench_model::fit::{Wanted, fit};
+use hexbench_model::fit::{TermSpec, fit};
 use hexbench_model::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::predict::predict;
 use hexbench_model::terms::catalogue;
@@ -16,12 +16,12 @@ use crate::cases;
 fn model(hexapod: &Hexapod, data: &Dataset, terms: &[(&str, f64, f64)]) -> Model {
     let campaign = prepare(hexapod, data).unwrap();
     let all = catalogue();
-    let wanted: Vec<Wanted> = terms
+    let wanted: Vec<TermSpec> = terms
         .iter()
         .map(|(id, shape, prior)| {
             let term = Arc::clone(all.iter().find(|t| t.info().id == *id).unwrap());
             let prior = vec![*prior; term.info().parameters.len()];
-            Wanted { term, rich: false, shape: *shape, prior }
+            TermSpec { term, rich: false, shape: *shape, prior }
         })
         .collect();
     Model::new(&campaign, &fit(&campaign, &wanted, None).unwrap(), Estimator::Gls, DataOrigin::default())

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use hexbench_model::diagnose::{diagnose, prepare};
-use hexbench_model::fit::{Wanted, fit};
+use hexbench_model::fit::{TermSpec, fit};
 use hexbench_model::term::Term;
 use hexbench_model::terms::catalogue;
 use hexbench_model::user_term::{UserTermError, parse};
@@ -18,9 +18,9 @@ elongation = "size*(nx^2 + ny^2)*df"
 parameters = [{ name = "size", unit = "nm/N", scale = 50, positive = true }]
 "#;
 
-fn wanted(term: &Arc<dyn Term>, shape: f64, prior: f64) -> Wanted {
+fn wanted(term: &Arc<dyn Term>, shape: f64, prior: f64) -> TermSpec {
     let prior = vec![prior; term.info().parameters.len()];
-    Wanted { term: Arc::clone(term), rich: false, shape, prior }
+    TermSpec { term: Arc::clone(term), rich: false, shape, prior }
 }
 
 fn catalogue_term(id: &str) -> Arc<dyn Term> {

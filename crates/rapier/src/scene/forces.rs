@@ -4,10 +4,10 @@ use hexbench_core::{Vector3, Vector6};
 use hexbench_truth::equilibrium::Body;
 use rapier3d_f64::prelude::*;
 
-use super::Scene;
+use super::BodyScene;
 use crate::convert;
 
-impl Scene {
+impl BodyScene {
     pub(super) fn apply_forces(&mut self) {
         for (_, body) in self.bodies.iter_mut() {
             body.reset_forces(false);

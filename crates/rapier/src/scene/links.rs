@@ -4,7 +4,7 @@ use hexbench_core::{Matrix6, Vector3};
 use hexbench_truth::{TruthError, equilibrium::Body};
 use rapier3d_f64::{math::Vector, prelude::*};
 
-use super::{Leg, Scene, Yielding};
+use super::{BodyScene, Leg, Yielding};
 use crate::{convert, inexpressible, law, parts::Inertia};
 
 /// Softness of a joint that shall have none.
@@ -13,7 +13,7 @@ const RIGID: SpringCoefficients<f64> = SpringCoefficients { natural_frequency: 1
 const AXES: [JointAxis; 6] =
     [JointAxis::LinX, JointAxis::LinY, JointAxis::LinZ, JointAxis::AngX, JointAxis::AngY, JointAxis::AngZ];
 
-impl Scene {
+impl BodyScene {
     pub(super) fn insert(&mut self, place: &Body, inertia: &Inertia) -> RigidBodyHandle {
         let principal = Vector::from_array(inertia.principal);
         let body = RigidBodyBuilder::dynamic()

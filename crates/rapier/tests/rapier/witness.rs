@@ -4,7 +4,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use hexbench_rapier::{
     RapierStatics,
-    witness::{self, Case, Comparison},
+    witness::{self, CrossCheckCase, WorldDifference},
 };
 use hexbench_truth::{
     LegMemory, Setup, Statics, TruthError, World, equilibrium::Equilibrium, mechanisms::JointFriction,
@@ -33,12 +33,12 @@ fn artefacts() -> PathBuf {
 fn both_worlds_agree_on_every_machine_and_effect() {
     let statics = second_world();
     let compare = |index| {
-        let case = Case::draw(index, SEED);
+        let case = CrossCheckCase::draw(index, SEED);
         case.compare(&statics).map_err(|e| format!("case {index}, {}: {e}", case.effect_name()))
     };
-    let outcomes: Vec<Result<Comparison, String>> = (0..CASES).into_par_iter().map(compare).collect();
+    let outcomes: Vec<Result<WorldDifference, String>> = (0..CASES).into_par_iter().map(compare).collect();
     let (done, failed): (Vec<_>, Vec<_>) = outcomes.into_iter().partition(Result::is_ok);
-    let done: Vec<Comparison> = done.into_iter().flatten().collect();
+    let done: Vec<WorldDifference> = done.into_iter().flatten().collect();
     let failed: Vec<String> = failed.into_iter().filter_map(Result::err).collect();
     std::fs::create_dir_all(artefacts()).unwrap();
     std::fs::write(artefacts().join("rapier.csv"), witness::csv(&done)).unwrap();
@@ -65,7 +65,7 @@ impl Statics for SoftLeg {
 fn one_percent_in_one_leg_is_noticed() {
     let faulty: Arc<dyn Statics> = Arc::new(SoftLeg(RapierStatics::default()));
     for index in [0, 31, 62] {
-        let case = Case::draw(index, SEED);
+        let case = CrossCheckCase::draw(index, SEED);
         assert_eq!(case.effect_name(), "none");
         let sound = case.compare(&second_world()).unwrap();
         let wrong = case.compare(&faulty).unwrap();
@@ -76,7 +76,7 @@ fn one_percent_in_one_leg_is_noticed() {
 
 #[test]
 fn what_the_engine_lacks_is_an_error_that_says_so() {
-    let case = Case::draw(0, SEED);
+    let case = CrossCheckCase::draw(0, SEED);
     let mut world: World =
         case.world().with(Box::new(JointFriction { slider_force: 1.0, stick_ratio: None }));
     world.statics = second_world();
@@ -87,7 +87,7 @@ fn what_the_engine_lacks_is_an_error_that_says_so() {
 
 #[test]
 fn a_machine_that_does_not_come_to_rest_in_time_is_an_error() {
-    let case = Case::draw(0, SEED);
+    let case = CrossCheckCase::draw(0, SEED);
     let mut world = case.world();
     world.statics = Arc::new(RapierStatics { most_steps: 20, ..RapierStatics::default() });
     let error = world.reading(&case.situation).unwrap_err();

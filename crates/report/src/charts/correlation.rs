@@ -1,20 +1,20 @@
 //! Which estimates of the final model depend on each other.
 
-use hexbench_model::parameters::{Parameter, Place};
+use hexbench_model::parameters::{Parameter, ParameterPlace};
 
 use super::ReportError;
 use crate::page::{Block, Section};
 use crate::plot::HeatMap;
-use crate::words::Subject;
+use crate::words::ReportSubject;
 
 /// Columns of a correlation map that can be read.
 const MOST_COLUMNS: usize = 24;
 
 /// Correlation of the estimates of the final model.
-pub(super) fn section(subject: &Subject<'_>) -> Result<Option<Section>, ReportError> {
+pub(super) fn section(subject: &ReportSubject<'_>) -> Result<Option<Section>, ReportError> {
     let Some(fit) = subject.study.fits.last() else { return Ok(None) };
     let shown = |(k, p): &(usize, &Parameter)| {
-        matches!(p.place, Place::Spring(_) | Place::Value { .. }) && fit.is_determined(*k)
+        matches!(p.place, ParameterPlace::Spring(_) | ParameterPlace::Value { .. }) && fit.is_determined(*k)
     };
     let columns: Vec<(String, usize)> =
         fit.parameters.iter().enumerate().filter(shown).map(|(k, p)| (p.name.clone(), k)).collect();

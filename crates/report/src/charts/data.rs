@@ -2,12 +2,12 @@
 
 use hexbench_core::{Dataset, Hexapod, Vector6};
 use hexbench_model::campaign::{Campaign, Condition};
-use hexbench_model::compare::{Compared, Judged};
+use hexbench_model::compare::{ComparedModel, JudgedModel};
 use hexbench_model::error::ModelError;
-use hexbench_model::linearization::Point;
+use hexbench_model::linearization::ModelPoint;
 use hexbench_model::residuals::{Residual, prediction_errors};
 
-use crate::words::{Subject, spread};
+use crate::words::{ReportSubject, spread};
 
 /// Conditions of which every leg has a panel of its own.
 const MOST: usize = 150;
@@ -16,8 +16,8 @@ const MOST_WITH_ALL_LEGS: usize = 60;
 
 /// A model beside the readings.
 pub(crate) struct Seen<'a> {
-    pub(crate) judged: Judged<'a>,
-    pub(crate) point: &'a Point,
+    pub(crate) judged: JudgedModel<'a>,
+    pub(crate) point: &'a ModelPoint,
 }
 
 /// What a page calls the first model.
@@ -58,9 +58,9 @@ pub(crate) struct Shown<'a> {
 
 impl<'a> Data<'a> {
     /// The springs alone, and the final model of a diagnosis.
-    pub(crate) fn of_study(subject: &Subject<'a>) -> Result<Self, ModelError> {
+    pub(crate) fn of_study(subject: &ReportSubject<'a>) -> Result<Self, ModelError> {
         let (study, data) = (subject.study, &subject.study.data);
-        let seen = |point: &'a Point| Seen::of(&study.campaign, data, point, true);
+        let seen = |point: &'a ModelPoint| Seen::of(&study.campaign, data, point, true);
         let last = study.fits.last().filter(|_| study.fits.len() > 1);
         Ok(Self {
             hexapod: subject.hexapod,
@@ -78,7 +78,7 @@ impl<'a> Data<'a> {
         hexapod: &'a Hexapod,
         data: &'a Dataset,
         holdout: Option<&'a Dataset>,
-        compared: &'a Compared,
+        compared: &'a ComparedModel,
     ) -> Result<Self, ModelError> {
         let fitted = compared.comparison.fitted_here;
         let words = if compared.point.active.is_empty() { SPRINGS } else { MODEL };
@@ -121,9 +121,9 @@ impl<'a> Seen<'a> {
     fn of(
         campaign: &'a Campaign,
         data: &'a Dataset,
-        point: &'a Point,
+        point: &'a ModelPoint,
         fitted: bool,
     ) -> Result<Self, ModelError> {
-        Ok(Self { judged: Judged::of(campaign, data, point, fitted)?, point })
+        Ok(Self { judged: JudgedModel::of(campaign, data, point, fitted)?, point })
     }
 }

@@ -15,13 +15,13 @@ mod runs;
 mod scatter;
 
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::compare::Compared;
+use hexbench_model::compare::ComparedModel;
 use hexbench_model::error::ModelError;
 
 use self::data::Data;
 use crate::page::{Page, Section};
 use crate::plot::PlotError;
-use crate::words::{self, Provenance, Subject, subject};
+use crate::words::{self, Provenance, ReportSubject, subject};
 
 pub use self::runs::runs;
 
@@ -43,7 +43,7 @@ pub enum ReportError {
 ///
 /// # Errors
 /// [`ReportError`] when a chart cannot be made.
-pub fn diagnosis(subject: &Subject<'_>, provenance: &Provenance) -> Result<Page, ReportError> {
+pub fn diagnosis(subject: &ReportSubject<'_>, provenance: &Provenance) -> Result<Page, ReportError> {
     let data = Data::of_study(subject)?;
     let sections = [
         Some(predicted::section(&data)?),
@@ -68,7 +68,7 @@ pub fn comparison(
     hexapod: &Hexapod,
     readings: &Dataset,
     holdout: Option<&Dataset>,
-    compared: &Compared,
+    compared: &ComparedModel,
     provenance: &Provenance,
 ) -> Result<Page, ReportError> {
     let c = &compared.comparison;

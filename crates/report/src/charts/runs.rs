@@ -1,7 +1,7 @@
 //! Charts of two results beside each other.
 
 use hexbench_model::parameters::stiffness_name;
-use hexbench_model::runs::{ParameterChange, Run, Runs};
+use hexbench_model::runs::{ComparedRuns, ParameterChange, Run};
 
 use super::ReportError;
 use crate::page::{Block, Page, Section};
@@ -17,7 +17,7 @@ const SEEN: f64 = 0.05;
 ///
 /// # Errors
 /// [`ReportError`] when a chart cannot be made.
-pub fn runs(runs: &Runs, from: &Provenance) -> Result<Page, ReportError> {
+pub fn runs(runs: &ComparedRuns, from: &Provenance) -> Result<Page, ReportError> {
     let mut page =
         words::runs(runs).with_after("ladder", stiffness(runs)?).with(from.section(runs.a.noise_source));
     for (id, chart) in [("ladder", Some(errors(runs)?)), ("parameters", differences(runs)?)] {
@@ -28,7 +28,7 @@ pub fn runs(runs: &Runs, from: &Provenance) -> Result<Page, ReportError> {
     Ok(page)
 }
 
-fn errors(runs: &Runs) -> Result<Block, ReportError> {
+fn errors(runs: &ComparedRuns) -> Result<Block, ReportError> {
     let times = |run: &Run, last: bool| {
         let step = if last { run.steps.last() } else { run.steps.first() };
         step.map_or(0.0, |s| s.error().times_noise())
@@ -43,7 +43,7 @@ fn errors(runs: &Runs) -> Result<Block, ReportError> {
 }
 
 /// Leg stiffnesses of both with twice their uncertainty.
-fn stiffness(runs: &Runs) -> Result<Option<Section>, ReportError> {
+fn stiffness(runs: &ComparedRuns) -> Result<Option<Section>, ReportError> {
     let of = |side: fn(&ParameterChange) -> Option<[f64; 2]>, shift: f64| -> (Vec<[f64; 2]>, Vec<f64>) {
         let leg = |k: usize| {
             let name = stiffness_name(k);
@@ -65,7 +65,7 @@ fn stiffness(runs: &Runs) -> Result<Option<Section>, ReportError> {
     Ok(Some(Section::new("Leg stiffness").id("stiffness").with(Block::figure(chart.to_svg()?, caption))))
 }
 
-fn differences(runs: &Runs) -> Result<Option<Block>, ReportError> {
+fn differences(runs: &ComparedRuns) -> Result<Option<Block>, ReportError> {
     let (names, sigmas): (Vec<String>, Vec<f64>) =
         runs.parameters.iter().filter_map(|p| Some((p.name.clone(), p.sigmas?))).take(MOST).unzip();
     if sigmas.iter().all(|s| s.abs() < SEEN) {

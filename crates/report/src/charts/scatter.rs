@@ -2,7 +2,7 @@
 
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
-use hexbench_model::scatter::Scatter;
+use hexbench_model::scatter::ResidualScatter;
 use statrs::distribution::{Continuous, Normal};
 
 use super::ReportError;
@@ -17,7 +17,7 @@ pub(crate) fn section(data: &Data<'_>) -> Result<Section, ReportError> {
         Chart::new("", Axis::new("expected of noise", ""), Axis::new("residual in units of the noise", ""))
             .with(Series::line("noise alone", vec![[-3.0, -3.0], [3.0, 3.0]]).as_reference());
     for (name, look, seen) in data.models() {
-        let scatter = Scatter::of(&seen.judged.rows);
+        let scatter = ResidualScatter::of(&seen.judged.rows);
         histogram = histogram.with(Series::line(name, scatter.histogram()).with_look(look));
         normal = normal.with(Series::markers(name, scatter.quantiles()).with_look(look));
     }

@@ -35,7 +35,7 @@ pub enum Block {
         /// Number of a numbered group of entries.
         number: Option<usize>,
         /// The entries.
-        entries: Vec<Entry>,
+        entries: Vec<Definition>,
     },
     /// Lines as they are: commands, equations.
     Code {
@@ -64,14 +64,14 @@ pub enum Mood {
 /// A name and what is said of it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
-pub struct Entry {
+pub struct Definition {
     /// The name.
     pub label: String,
     /// What is said.
     pub text: String,
 }
 
-impl Entry {
+impl Definition {
     /// A name and what is said of it.
     pub fn new(label: impl Into<String>, text: impl Into<String>) -> Self {
         Self { label: label.into(), text: text.into() }
@@ -131,12 +131,12 @@ impl Block {
     }
 
     /// Names with what is said of each.
-    pub fn entries(entries: impl IntoIterator<Item = Entry>) -> Self {
+    pub fn entries(entries: impl IntoIterator<Item = Definition>) -> Self {
         Self::Entries { number: None, entries: entries.into_iter().collect() }
     }
 
     /// One of several groups of entries.
-    pub fn numbered(number: usize, entries: impl IntoIterator<Item = Entry>) -> Self {
+    pub fn numbered(number: usize, entries: impl IntoIterator<Item = Definition>) -> Self {
         Self::Entries { number: Some(number), entries: entries.into_iter().collect() }
     }
 }

@@ -8,8 +8,8 @@ mod table;
 
 use serde::Serialize;
 
-pub use block::{Block, Entry, Figure, Mood};
-pub use table::{Cell, Column, Table};
+pub use block::{Block, Definition, Figure, Mood};
+pub use table::{Cell, PageColumn, Table};
 
 /// A page of sections.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -18,7 +18,7 @@ pub struct Page {
     /// Its title.
     pub title: String,
     /// What it is about: machine, files, noise.
-    pub subject: Vec<Entry>,
+    pub subject: Vec<Definition>,
     /// From top to bottom.
     pub sections: Vec<Section>,
 }
@@ -50,7 +50,7 @@ impl Page {
     /// The page with one more line about its subject.
     #[must_use]
     pub fn about(mut self, label: impl Into<String>, text: impl Into<String>) -> Self {
-        self.subject.push(Entry::new(label, text));
+        self.subject.push(Definition::new(label, text));
         self
     }
 

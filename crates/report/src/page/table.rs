@@ -11,7 +11,7 @@ pub struct Table {
     /// What stands above it; empty for none.
     pub title: String,
     /// The columns.
-    pub columns: Vec<Column>,
+    pub columns: Vec<PageColumn>,
     /// Cells, row by row; cells missing at the end of a row are empty.
     pub rows: Vec<Vec<Cell>>,
     /// Rows that every medium shows, the others are detail; none: all.
@@ -21,7 +21,7 @@ pub struct Table {
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
-pub struct Column {
+pub struct PageColumn {
     /// Its heading.
     pub title: String,
     /// Words are set left and may wrap, numbers right.
@@ -46,7 +46,7 @@ pub enum Cell {
     },
 }
 
-impl Column {
+impl PageColumn {
     /// A column of numbers.
     pub fn number(title: impl Into<String>) -> Self {
         Self { title: title.into(), words: false, detail: false }
@@ -113,14 +113,15 @@ impl From<&String> for Cell {
 
 impl Table {
     /// A table without rows.
-    pub fn new(columns: impl IntoIterator<Item = Column>) -> Self {
+    pub fn new(columns: impl IntoIterator<Item = PageColumn>) -> Self {
         Self { columns: columns.into_iter().collect(), ..Self::default() }
     }
 
     /// A table of texts: names in the first column, numbers in the others.
     pub fn named<S: Into<String>>(header: impl IntoIterator<Item = S>) -> Self {
-        let column =
-            |(k, title): (usize, S)| if k == 0 { Column::words(title) } else { Column::number(title) };
+        let column = |(k, title): (usize, S)| {
+            if k == 0 { PageColumn::words(title) } else { PageColumn::number(title) }
+        };
         Self::new(header.into_iter().enumerate().map(column))
     }
 

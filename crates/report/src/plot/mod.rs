@@ -47,6 +47,6 @@ pub use error::PlotError;
 pub use heat_map::HeatMap;
 pub use panels::Panels;
 pub use raster::Raster;
-pub use reliability::{Bin, Reliability};
+pub use reliability::{Reliability, ReliabilityBin};
 pub use series::Series;
 pub use wireframe::{Edge, Wireframe};

@@ -10,7 +10,7 @@ use super::style::{Look, Marker};
 
 /// Statements of about the same probability.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bin {
+pub struct ReliabilityBin {
     /// Lower and upper edge, 0 to 1.
     pub edges: [f64; 2],
     /// Mean of the stated probabilities.
@@ -27,7 +27,7 @@ pub struct Bin {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reliability {
     title: String,
-    bins: Vec<Bin>,
+    bins: Vec<ReliabilityBin>,
 }
 
 const SIZE_PX: [f64; 2] = [460.0, 540.0];
@@ -35,7 +35,7 @@ const COUNTS_PX: f64 = 120.0;
 
 impl Reliability {
     /// A diagram of bins in any order.
-    pub fn new(title: impl Into<String>, bins: Vec<Bin>) -> Self {
+    pub fn new(title: impl Into<String>, bins: Vec<ReliabilityBin>) -> Self {
         Self { title: title.into(), bins }
     }
 
@@ -68,7 +68,7 @@ impl Reliability {
         let diagonal = [[0.0, 0.0], [1.0, 1.0]].map(|p| frame.place(p));
         let reference = Look::reference();
         canvas.line(&diagonal, reference.colour, 1.3, reference.dash)?;
-        let mut filled: Vec<&Bin> = self.bins.iter().filter(|b| b.count > 0).collect();
+        let mut filled: Vec<&ReliabilityBin> = self.bins.iter().filter(|b| b.count > 0).collect();
         filled.sort_by(|a, b| a.stated.total_cmp(&b.stated));
         let look = Look::nth(0);
         let points: Vec<_> = filled.iter().map(|b| frame.place([b.stated, b.observed])).collect();

@@ -3,7 +3,7 @@
 //! A table that is too wide gives way step by step: headings break into lines, bars shorten and then go (they repeat a number), words
 //! wrap; what still does not fit stands row by row, a line for each cell.
 
-use crate::page::{Cell, Column, Table};
+use crate::page::{Cell, PageColumn, Table};
 
 use super::TextStyle;
 use super::layout::{bar, length, padded, wrapped};
@@ -18,7 +18,7 @@ const NARROWEST: usize = 12;
 
 /// The cells that are shown, with the widths of their columns.
 pub(super) struct Grid<'a> {
-    columns: Vec<&'a Column>,
+    columns: Vec<&'a PageColumn>,
     rows: Vec<Vec<Option<&'a Cell>>>,
     header: bool,
     widths: Vec<usize>,
@@ -192,7 +192,8 @@ mod tests {
 
     #[test]
     fn headings_break_before_words_do() {
-        let columns = [Column::words("model"), Column::number("translation um"), Column::number("x noise")];
+        let columns =
+            [PageColumn::words("model"), PageColumn::number("translation um"), PageColumn::number("x noise")];
         let table = Table::new(columns).rows([["springs alone", "0.65", "1.52"]]);
         let narrow = lines(&table, 34);
         assert_eq!(narrow[0].trim_end(), "model          translation       x");
@@ -203,7 +204,7 @@ mod tests {
     #[test]
     fn bars_shorten_then_go() {
         let table = |n: usize| {
-            let columns = [Column::words("model"), Column::number("x"), Column::bars()];
+            let columns = [PageColumn::words("model"), PageColumn::number("x"), PageColumn::bars()];
             Table::new(columns).rows([["m".repeat(n).into(), "1.5".into(), Cell::bar(1.0)]])
         };
         assert!(lines(&table(12), 40)[1].ends_with(&"#".repeat(21)));

@@ -1,6 +1,6 @@
 //! A page as Markdown.
 
-use crate::page::{Block, Cell, Entry, Page, Section, Table};
+use crate::page::{Block, Cell, Definition, Page, Section, Table};
 
 use super::layout::{WIDTH, length, padded, wrapped};
 
@@ -47,7 +47,7 @@ fn block(block: &Block) -> Option<String> {
     })
 }
 
-fn entries(all: &[Entry]) -> String {
+fn entries(all: &[Definition]) -> String {
     lines(all, |e| hung("- ", "  ", &format!("{}: {}", e.label, e.text)))
 }
 

@@ -1,6 +1,6 @@
 //! A page for a terminal: text of 80 columns.
 
-use crate::page::{Block, Entry, Page, Section, Table};
+use crate::page::{Block, Definition, Page, Section, Table};
 
 use super::TextStyle;
 use super::grid::Grid;
@@ -115,7 +115,7 @@ impl Writer {
         }
     }
 
-    fn entries(&mut self, number: Option<usize>, entries: &[Entry], indent: usize) {
+    fn entries(&mut self, number: Option<usize>, entries: &[Definition], indent: usize) {
         for (k, entry) in entries.iter().enumerate() {
             let mark = match number {
                 Some(number) if k == 0 => format!("  {number:<2} "),
@@ -157,10 +157,10 @@ const PLAIN: usize = 2;
 const NUMBERED: usize = 5;
 
 /// Column at which the texts of some groups of entries begin.
-fn label_width<'a>(groups: impl IntoIterator<Item = (Option<usize>, &'a [Entry])>) -> usize {
+fn label_width<'a>(groups: impl IntoIterator<Item = (Option<usize>, &'a [Definition])>) -> usize {
     /// A longer label leaves its text no room.
     const WIDEST: usize = 34;
-    let width = |(number, entries): (Option<usize>, &[Entry])| {
+    let width = |(number, entries): (Option<usize>, &[Definition])| {
         let longest = entries.iter().map(|e| length(&e.label)).max().unwrap_or(0);
         longest + 2 + if number.is_some() { NUMBERED } else { PLAIN }
     };
@@ -170,7 +170,7 @@ fn label_width<'a>(groups: impl IntoIterator<Item = (Option<usize>, &'a [Entry])
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::page::Column;
+    use crate::page::PageColumn;
 
     fn shown(section: Section, verbose: bool) -> String {
         terminal(&Page::default().with(section), Terminal { verbose, ..Terminal::default() })
@@ -178,7 +178,7 @@ mod tests {
 
     #[test]
     fn a_label_stands_once_beside_its_text() {
-        let entry = Entry::new("next", "word ".repeat(30));
+        let entry = Definition::new("next", "word ".repeat(30));
         let text = shown(Section::new("Head").with(Block::entries([entry])), false);
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(&lines[1][..17], "  next  word word");
@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn detail_is_counted_not_lost() {
-        let columns = [Column::words("a"), Column::number("b").detail()];
+        let columns = [PageColumn::words("a"), PageColumn::number("b").detail()];
         let table = Table::new(columns).rows([["x", "1"], ["y", "2"], ["z", "3"]]).brief(1);
         assert_eq!(
             shown(Section::new("T").table(table.clone()), false),
@@ -207,8 +207,8 @@ mod tests {
 
     #[test]
     fn a_wide_last_column_of_words_is_wrapped() {
-        let table =
-            Table::new([Column::words("id"), Column::words("text")]).rows([["one", &"word ".repeat(40)]]);
+        let table = Table::new([PageColumn::words("id"), PageColumn::words("text")])
+            .rows([["one", &"word ".repeat(40)]]);
         let text = shown(Section::new("T").table(table), false);
         assert!(text.lines().count() > 3 && text.lines().all(|l| length(l) <= WIDTH), "{text}");
     }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use hexbench_core::files::{CsvText, csv_cell};
 
-use super::{Frame, Values};
+use super::{Frame, TableValues};
 use crate::page::{Cell, Table};
 
 /// A table of texts with its header.
@@ -22,10 +22,10 @@ pub(super) fn write(frame: &Frame, out: &mut (dyn Write + Send)) -> io::Result<(
                 out.write_all(b",")?;
             }
             match &column.values {
-                Values::Numbers(all) => number(out, all[row])?,
-                Values::Integers(all) => write!(out, "{}", all[row])?,
-                Values::Words(all) => out.write_all(all[row].as_bytes())?,
-                Values::Texts(all) => out.write_all(csv_cell(&all[row]).as_bytes())?,
+                TableValues::Numbers(all) => number(out, all[row])?,
+                TableValues::Integers(all) => write!(out, "{}", all[row])?,
+                TableValues::Words(all) => out.write_all(all[row].as_bytes())?,
+                TableValues::Texts(all) => out.write_all(csv_cell(&all[row]).as_bytes())?,
             }
         }
         out.write_all(b"\n")?;
@@ -46,25 +46,25 @@ fn number(out: &mut dyn Write, x: f64) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use crate::table::{Column, Frame, Kind, Values};
+    use crate::table::{DataColumn, Frame, TableFormat, TableValues};
 
     #[test]
     fn numbers_read_back_as_they_were_and_missing_ones_are_empty() {
         let numbers = vec![0.1, -0.0, 1.0 / 3.0, f64::NAN, 6.02e23, -1.5e-9];
-        let column = |name: &str, values| Column {
+        let column = |name: &str, values| DataColumn {
             name: name.into(),
             unit: "um".into(),
             meaning: String::new(),
             values,
         };
-        let words = Values::Words(vec!["training"; 6]);
+        let words = TableValues::Words(vec!["training"; 6]);
         let columns = vec![
-            column("row", Values::Integers((1..=6).collect())),
-            column("x_um", Values::Numbers(numbers.clone())),
+            column("row", TableValues::Integers((1..=6).collect())),
+            column("x_um", TableValues::Numbers(numbers.clone())),
             column("part", words),
         ];
         let mut out = Vec::new();
-        Frame { format: "test/1", origin: Vec::new(), columns }.write(Kind::Csv, &mut out).unwrap();
+        Frame { format: "test/1", origin: Vec::new(), columns }.write(TableFormat::Csv, &mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         let mut lines = text.lines();
         assert_eq!(lines.next(), Some("row,x_um,part"));

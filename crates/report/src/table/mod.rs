@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// Values of a column, one per row.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Values {
+pub enum TableValues {
     /// Numbers; NaN where there is none.
     Numbers(Vec<f64>),
     /// Whole numbers.
@@ -22,7 +22,7 @@ pub enum Values {
     Texts(Vec<String>),
 }
 
-impl Values {
+impl TableValues {
     fn len(&self) -> usize {
         match self {
             Self::Numbers(all) => all.len(),
@@ -35,7 +35,7 @@ impl Values {
 
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Column {
+pub struct DataColumn {
     /// Name with its unit: `da_um`.
     pub name: String,
     /// Unit, `1` for a number without, empty for words.
@@ -43,7 +43,7 @@ pub struct Column {
     /// What it is, in one sentence.
     pub meaning: String,
     /// Its values.
-    pub values: Values,
+    pub values: TableValues,
 }
 
 /// A table.
@@ -54,19 +54,19 @@ pub struct Frame {
     /// What it was made from, and by what.
     pub origin: Vec<(String, String)>,
     /// Its columns, all of the same length.
-    pub columns: Vec<Column>,
+    pub columns: Vec<DataColumn>,
 }
 
 /// Kinds of file a table is written as, by the end of their names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum TableFormat {
     /// `.csv`
     Csv,
     /// `.parquet`
     Parquet,
 }
 
-impl Kind {
+impl TableFormat {
     /// The kind a file name asks for; none when it ends neither in `.csv` nor in `.parquet`.
     pub fn of(path: &Path) -> Option<Self> {
         let ends = |with: &str| path.extension().is_some_and(|end| end.eq_ignore_ascii_case(with));
@@ -88,13 +88,13 @@ impl Frame {
     ///
     /// # Errors
     /// Whatever the destination reports; columns of different lengths.
-    pub fn write(&self, kind: Kind, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    pub fn write(&self, kind: TableFormat, out: &mut (dyn Write + Send)) -> io::Result<()> {
         if let Some(odd) = self.columns.iter().find(|column| column.values.len() != self.rows()) {
             return Err(io::Error::other(format!("column {} has another length than the first", odd.name)));
         }
         match kind {
-            Kind::Csv => csv::write(self, out),
-            Kind::Parquet => parquet::write(self, out),
+            TableFormat::Csv => csv::write(self, out),
+            TableFormat::Parquet => parquet::write(self, out),
         }
     }
 }
@@ -105,22 +105,22 @@ mod tests {
 
     #[test]
     fn the_end_of_a_name_tells_the_kind() {
-        assert_eq!(Kind::of(Path::new("a/b.csv")), Some(Kind::Csv));
-        assert_eq!(Kind::of(Path::new("b.Parquet")), Some(Kind::Parquet));
-        assert_eq!(Kind::of(Path::new("csv")), None);
-        assert_eq!(Kind::of(Path::new("-")), None);
+        assert_eq!(TableFormat::of(Path::new("a/b.csv")), Some(TableFormat::Csv));
+        assert_eq!(TableFormat::of(Path::new("b.Parquet")), Some(TableFormat::Parquet));
+        assert_eq!(TableFormat::of(Path::new("csv")), None);
+        assert_eq!(TableFormat::of(Path::new("-")), None);
     }
 
     #[test]
     fn columns_of_different_lengths_are_refused() {
-        let column = |name: &str, n: usize| Column {
+        let column = |name: &str, n: usize| DataColumn {
             name: name.into(),
             unit: "1".into(),
             meaning: String::new(),
-            values: Values::Integers(vec![0; n]),
+            values: TableValues::Integers(vec![0; n]),
         };
         let frame = Frame { columns: vec![column("a", 2), column("b", 3)], ..Frame::default() };
-        for kind in [Kind::Csv, Kind::Parquet] {
+        for kind in [TableFormat::Csv, TableFormat::Parquet] {
             let wrong = frame.write(kind, &mut Vec::new()).unwrap_err().to_string();
             assert!(wrong.contains("column b"), "{wrong}");
         }

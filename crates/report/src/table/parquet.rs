@@ -16,7 +16,7 @@ pub use parquet::basic::Type as Physical;
 pub use parquet::errors::ParquetError;
 pub use parquet::file::metadata::KeyValue;
 
-use super::{Column, Frame, Values};
+use super::{DataColumn, Frame, TableValues};
 
 /// Rows of a row group.
 pub const ROWS: usize = 1 << 16;
@@ -24,7 +24,7 @@ pub const ROWS: usize = 1 << 16;
 /// A file while it is written.
 pub type File<'a> = SerializedFileWriter<&'a mut (dyn Write + Send)>;
 /// A row group while it is written.
-pub type Group<'g, 'a> = SerializedRowGroupWriter<'g, &'a mut (dyn Write + Send)>;
+pub type RowGroup<'g, 'a> = SerializedRowGroupWriter<'g, &'a mut (dyn Write + Send)>;
 
 pub(super) fn write(frame: &Frame, out: &mut (dyn Write + Send)) -> io::Result<()> {
     let fields = frame.columns.iter().map(field_of).collect::<Result<_, _>>().map_err(other)?;
@@ -66,7 +66,7 @@ pub fn properties(metadata: Vec<KeyValue>) -> WriterPropertiesBuilder {
 
 /// Format, origin, and unit and meaning of every column, as JSON under `fields`.
 fn metadata(frame: &Frame) -> io::Result<Vec<KeyValue>> {
-    let of = |c: &Column| (c.name.clone(), serde_json::json!({ "unit": c.unit, "meaning": c.meaning }));
+    let of = |c: &DataColumn| (c.name.clone(), serde_json::json!({ "unit": c.unit, "meaning": c.meaning }));
     let fields: serde_json::Map<_, _> = frame.columns.iter().map(of).collect();
     let pair = |key: &str, value: String| KeyValue::new(key.to_owned(), value);
     let mut all = vec![pair("format", frame.format.to_owned())];
@@ -75,11 +75,11 @@ fn metadata(frame: &Frame) -> io::Result<Vec<KeyValue>> {
     Ok(all)
 }
 
-fn field_of(column: &Column) -> Result<TypePtr, ParquetError> {
+fn field_of(column: &DataColumn) -> Result<TypePtr, ParquetError> {
     match column.values {
-        Values::Numbers(_) => optional(&column.name, Physical::DOUBLE),
-        Values::Integers(_) => required(&column.name, Physical::INT64),
-        Values::Words(_) | Values::Texts(_) => required(&column.name, Physical::BYTE_ARRAY),
+        TableValues::Numbers(_) => optional(&column.name, Physical::DOUBLE),
+        TableValues::Integers(_) => required(&column.name, Physical::INT64),
+        TableValues::Words(_) | TableValues::Texts(_) => required(&column.name, Physical::BYTE_ARRAY),
     }
 }
 
@@ -106,18 +106,18 @@ fn field(name: &str, kind: Physical, repetition: Repetition) -> Result<TypePtr, 
 }
 
 fn values(
-    group: &mut Group<'_, '_>,
-    values: &Values,
+    group: &mut RowGroup<'_, '_>,
+    values: &TableValues,
     rows: std::ops::Range<usize>,
 ) -> Result<(), ParquetError> {
     match values {
-        Values::Numbers(all) => numbers(group, &all[rows]),
-        Values::Integers(all) => int64(group, &all[rows]),
-        Values::Words(all) => {
+        TableValues::Numbers(all) => numbers(group, &all[rows]),
+        TableValues::Integers(all) => int64(group, &all[rows]),
+        TableValues::Words(all) => {
             let words: Vec<ByteArray> = all[rows].iter().map(|word| ByteArray::from(*word)).collect();
             text(group, &words, None)
         }
-        Values::Texts(all) => {
+        TableValues::Texts(all) => {
             let words: Vec<ByteArray> = all[rows].iter().map(|word| ByteArray::from(word.as_str())).collect();
             text(group, &words, None)
         }
@@ -128,7 +128,7 @@ fn values(
 ///
 /// # Errors
 /// [`ParquetError`] when the schema differs or the destination fails; so for all functions below.
-pub fn int64(group: &mut Group<'_, '_>, values: &[i64]) -> Result<(), ParquetError> {
+pub fn int64(group: &mut RowGroup<'_, '_>, values: &[i64]) -> Result<(), ParquetError> {
     write_column(group, |column| match column {
         ColumnWriter::Int64ColumnWriter(typed) => typed.write_batch(values, None, None),
         _ => Err(mismatch()),
@@ -139,7 +139,7 @@ pub fn int64(group: &mut Group<'_, '_>, values: &[i64]) -> Result<(), ParquetErr
 ///
 /// # Errors
 /// As [`int64`].
-pub fn double(group: &mut Group<'_, '_>, values: &[f64]) -> Result<(), ParquetError> {
+pub fn double(group: &mut RowGroup<'_, '_>, values: &[f64]) -> Result<(), ParquetError> {
     write_column(group, |column| match column {
         ColumnWriter::DoubleColumnWriter(typed) => typed.write_batch(values, None, None),
         _ => Err(mismatch()),
@@ -150,7 +150,7 @@ pub fn double(group: &mut Group<'_, '_>, values: &[f64]) -> Result<(), ParquetEr
 ///
 /// # Errors
 /// As [`int64`].
-pub fn numbers(group: &mut Group<'_, '_>, values: &[f64]) -> Result<(), ParquetError> {
+pub fn numbers(group: &mut RowGroup<'_, '_>, values: &[f64]) -> Result<(), ParquetError> {
     let levels: Vec<i16> = values.iter().map(|x| i16::from(!x.is_nan())).collect();
     let present: Vec<f64> = values.iter().copied().filter(|x| !x.is_nan()).collect();
     write_column(group, |column| match column {
@@ -163,7 +163,7 @@ pub fn numbers(group: &mut Group<'_, '_>, values: &[f64]) -> Result<(), ParquetE
 ///
 /// # Errors
 /// As [`int64`].
-pub fn counts(group: &mut Group<'_, '_>, present: &[i32], levels: &[i16]) -> Result<(), ParquetError> {
+pub fn counts(group: &mut RowGroup<'_, '_>, present: &[i32], levels: &[i16]) -> Result<(), ParquetError> {
     write_column(group, |column| match column {
         ColumnWriter::Int32ColumnWriter(typed) => typed.write_batch(present, Some(levels), None),
         _ => Err(mismatch()),
@@ -175,7 +175,7 @@ pub fn counts(group: &mut Group<'_, '_>, present: &[i32], levels: &[i16]) -> Res
 /// # Errors
 /// As [`int64`].
 pub fn text(
-    group: &mut Group<'_, '_>,
+    group: &mut RowGroup<'_, '_>,
     present: &[ByteArray],
     levels: Option<&[i16]>,
 ) -> Result<(), ParquetError> {
@@ -186,7 +186,7 @@ pub fn text(
 }
 
 fn write_column(
-    group: &mut Group<'_, '_>,
+    group: &mut RowGroup<'_, '_>,
     fill: impl FnOnce(&mut ColumnWriter<'_>) -> Result<usize, ParquetError>,
 ) -> Result<(), ParquetError> {
     let missing = || ParquetError::General("the schema has fewer columns".into());
@@ -216,10 +216,10 @@ mod tests {
     use parquet::record::RowAccessor;
 
     use super::*;
-    use crate::table::Kind;
+    use crate::table::TableFormat;
 
     fn frame(rows: usize) -> Frame {
-        let column = |name: &str, values| Column {
+        let column = |name: &str, values| DataColumn {
             name: name.into(),
             unit: "um".into(),
             meaning: format!("{name} as measured"),
@@ -227,16 +227,16 @@ mod tests {
         };
         let number = |k: usize| if k % 3 == 1 { f64::NAN } else { k as f64 / 7.0 };
         let columns = vec![
-            column("line", Values::Integers((0..).take(rows).collect())),
-            column("da_um", Values::Numbers((0..rows).map(number).collect())),
-            column("part", Values::Words((0..rows).map(|k| ["training", "holdout"][k % 2]).collect())),
+            column("line", TableValues::Integers((0..).take(rows).collect())),
+            column("da_um", TableValues::Numbers((0..rows).map(number).collect())),
+            column("part", TableValues::Words((0..rows).map(|k| ["training", "holdout"][k % 2]).collect())),
         ];
         Frame { format: "test/1", origin: vec![("seed".into(), "7".into())], columns }
     }
 
     fn reread(frame: &Frame) -> SerializedFileReader<std::fs::File> {
         let mut file = tempfile::tempfile().unwrap();
-        frame.write(Kind::Parquet, &mut file).unwrap();
+        frame.write(TableFormat::Parquet, &mut file).unwrap();
         SerializedFileReader::new(file).unwrap()
     }
 

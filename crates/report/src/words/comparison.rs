@@ -2,7 +2,7 @@
 
 use hexbench_model::compare::Comparison;
 use hexbench_model::compare::absorbed::HiddenBias;
-use hexbench_model::compare::adequacy::{Answer, Test};
+use hexbench_model::compare::adequacy::{AdequacyAnswer, AdequacyTest};
 use hexbench_model::compare::association::Association;
 use hexbench_model::compare::coordinates::Coordinate;
 use hexbench_model::compare::legs::LegResidual;
@@ -12,13 +12,13 @@ use hexbench_model::words::joined;
 
 use super::notes;
 use crate::number::{multiple, rounded, significant};
-use crate::page::{Block, Cell, Column, Entry, Mood, Page, Section, Table};
+use crate::page::{Block, Cell, Definition, Mood, Page, PageColumn, Section, Table};
 
 /// Rows of a list where there is little room.
 const BRIEF: usize = 6;
 
 /// The comparison; `subject` says what of.
-pub fn comparison(machine: &str, subject: Vec<Entry>, c: &Comparison) -> Page {
+pub fn comparison(machine: &str, subject: Vec<Definition>, c: &Comparison) -> Page {
     Page { subject, ..Page::new(format!("Comparison of {machine}")) }
         .with(verdict(c))
         .with(errors(c))
@@ -37,15 +37,15 @@ fn verdict(c: &Comparison) -> Section {
     let with = if c.terms.is_empty() { String::new() } else { format!(" + {}", joined(&c.terms)) };
     let how = if c.fitted_here { "fitted to these readings" } else { "as saved, nothing fitted here" };
     let (word, mood, sentence) = match c.adequacy.answer() {
-        Answer::Adequate => {
+        AdequacyAnswer::Adequate => {
             ("ADEQUATE", Mood::Good, "As far as these readings tell, the error of this model is noise.")
         }
-        Answer::NotAdequate => (
+        AdequacyAnswer::NotAdequate => (
             "NOT ADEQUATE",
             Mood::Bad,
             "Something is missing in this model: its error is beyond the noise. `hexbench diagnose` looks for it.",
         ),
-        Answer::Open => {
+        AdequacyAnswer::Open => {
             ("OPEN", Mood::Doubt, "No noise level is stated and nothing is repeated: nothing can be said.")
         }
     };
@@ -62,12 +62,12 @@ fn errors(c: &Comparison) -> Section {
         all.into_iter().filter_map(|(name, e)| Some((name, e?))).collect();
     let largest = known.iter().map(|(_, e)| e.times_noise()).fold(1.0, f64::max);
     let columns = [
-        Column::words(""),
-        Column::number("translation um"),
-        Column::number("rotation urad"),
-        Column::number("reduced chi2"),
-        Column::number("x noise"),
-        Column::bars(),
+        PageColumn::words(""),
+        PageColumn::number("translation um"),
+        PageColumn::number("rotation urad"),
+        PageColumn::number("reduced chi2"),
+        PageColumn::number("x noise"),
+        PageColumn::bars(),
     ];
     let mut table = Table::new(columns);
     for (name, e) in known {
@@ -83,9 +83,9 @@ fn errors(c: &Comparison) -> Section {
 fn coordinates(c: &Comparison) -> Section {
     let ratio = |x: &Coordinate| x.rms / x.noise;
     let largest = c.coordinates.iter().map(ratio).fold(1.0, f64::max);
-    let names = ["rms", "noise", "ratio", "bias", "t", "chance"].map(Column::number);
-    let columns = std::iter::once(Column::words("")).chain(names);
-    let columns = columns.chain([Column::words("unit"), Column::bars().detail()]);
+    let names = ["rms", "noise", "ratio", "bias", "t", "chance"].map(PageColumn::number);
+    let columns = std::iter::once(PageColumn::words("")).chain(names);
+    let columns = columns.chain([PageColumn::words("unit"), PageColumn::bars().detail()]);
     let row = |x: &Coordinate| {
         let numbers = [
             significant(x.rms, 3),
@@ -109,7 +109,7 @@ fn coordinates(c: &Comparison) -> Section {
 }
 
 fn adequacy(c: &Comparison) -> Option<Section> {
-    let row = |(name, t): (&str, Test)| [name.to_owned(), statistic(&t), chance(t.p)];
+    let row = |(name, t): (&str, AdequacyTest)| [name.to_owned(), statistic(&t), chance(t.p)];
     let table = Table::named(["test", "statistic", "chance"]).rows(c.adequacy.tests().map(row));
     let section = Section::new("Is the model adequate?")
         .id("adequacy")
@@ -117,7 +117,7 @@ fn adequacy(c: &Comparison) -> Option<Section> {
     (!table.rows.is_empty()).then(|| section.table(table))
 }
 
-fn statistic(t: &Test) -> String {
+fn statistic(t: &AdequacyTest) -> String {
     match t.dof_noise {
         Some(noise) => format!("F({:.0}, {noise:.0}) = {}", t.dof, significant(t.statistic, 3)),
         None => format!("chi2({:.0}) = {}", t.dof, significant(t.statistic, 4)),
@@ -135,7 +135,7 @@ pub(crate) fn chance(p: f64) -> String {
 
 fn worst(c: &Comparison) -> Section {
     let largest = c.worst_poses.first().map_or(1.0, |w| w.whitened_rms);
-    let columns = ["pose", "first line", "readings", "x noise"].map(Column::number);
+    let columns = ["pose", "first line", "readings", "x noise"].map(PageColumn::number);
     let rows = c.worst_poses.iter().map(|w| {
         let numbers = [
             w.pose.to_string(),
@@ -147,7 +147,7 @@ fn worst(c: &Comparison) -> Section {
     });
     Section::new("Worst poses")
         .remark("root mean square in units of the noise")
-        .table(Table::new(columns.into_iter().chain([Column::bars()])).rows(rows))
+        .table(Table::new(columns.into_iter().chain([PageColumn::bars()])).rows(rows))
 }
 
 fn outliers(c: &Comparison) -> Section {
@@ -179,8 +179,8 @@ fn follows(c: &Comparison) -> Section {
             chance(a.p),
         ]
     };
-    let columns = [Column::words("what"), Column::words("follows")];
-    let columns = columns.into_iter().chain(["rank correlation", "F", "chance"].map(Column::number));
+    let columns = [PageColumn::words("what"), PageColumn::words("follows")];
+    let columns = columns.into_iter().chain(["rank correlation", "F", "chance"].map(PageColumn::number));
     let table = Table::new(columns).rows(c.associations.iter().map(row)).brief(BRIEF);
     let found = if c.associations.is_empty() {
         Block::paragraph("They follow no variable beyond chance.")

@@ -7,7 +7,7 @@ use hexbench_model::words::joined;
 
 use super::conclusion::in_words;
 use crate::number::percent;
-use crate::page::{Block, Cell, Column, Section, Table};
+use crate::page::{Block, Cell, PageColumn, Section, Table};
 
 /// Least probability that gets a row.
 const WORTH_A_ROW: f64 = 0.01;
@@ -25,7 +25,7 @@ pub fn section(d: &Diagnosis) -> Section {
     let all = probabilities(d);
     let shown = all.iter().take_while(|(_, p)| *p >= WORTH_A_ROW).count().max(1).min(all.len());
     let row = |(e, p): &(Explanation, f64)| [Cell::from(in_words(e)), percent(*p).into(), Cell::bar(*p)];
-    let columns = [Column::words("effect"), Column::number("probability"), Column::bars()];
+    let columns = [PageColumn::words("effect"), PageColumn::number("probability"), PageColumn::bars()];
     let table = Table::new(columns).rows(all[..shown].iter().map(row)).brief(BRIEF);
     let beside =
         d.verdict == Verdict::Outside && all[..shown].iter().any(|(e, _)| *e != Explanation::Outside);

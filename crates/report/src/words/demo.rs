@@ -4,16 +4,16 @@ use hexbench_core::Observation;
 use hexbench_model::error::ModelError;
 
 use super::conclusion::{error_statement, lacks};
-use super::subject::{Subject, describe};
+use super::subject::{ReportSubject, describe};
 use super::{confidence, ladder, leg_space, size, stiffness};
 use crate::number::multiple;
-use crate::page::{Block, Entry, Page, Section};
+use crate::page::{Block, Definition, Page, Section};
 
 /// From measurements to the named effect.
 ///
 /// # Errors
 /// As the linearization of the model.
-pub fn demo(subject: &Subject<'_>) -> Result<Page, ModelError> {
+pub fn demo(subject: &ReportSubject<'_>) -> Result<Page, ModelError> {
     let d = &subject.study.diagnosis;
     Ok(Page::default()
         .with(measurements(subject))
@@ -28,11 +28,11 @@ pub fn demo(subject: &Subject<'_>) -> Result<Page, ModelError> {
         .with(next(d.added.first().map_or("", String::as_str))))
 }
 
-fn measurements(subject: &Subject<'_>) -> Section {
+fn measurements(subject: &ReportSubject<'_>) -> Section {
     let held =
-        subject.holdout.map(|h| Entry::new("held out", format!("{}; never used in a fit", describe(h))));
-    let first = subject.data.observations.first().map(|row| Entry::new("first row", reading(row)));
-    let data = Entry::new("data", describe(subject.data));
+        subject.holdout.map(|h| Definition::new("held out", format!("{}; never used in a fit", describe(h))));
+    let first = subject.data.observations.first().map(|row| Definition::new("first row", reading(row)));
+    let data = Definition::new("data", describe(subject.data));
     Section::new("1. What was measured")
         .paragraph(
             "A hexapod stands on a table and is loaded with forces and moments. Every reading is how far the platform \
@@ -52,7 +52,7 @@ fn reading(row: &Observation) -> String {
     )
 }
 
-fn springs(subject: &Subject<'_>) -> Section {
+fn springs(subject: &ReportSubject<'_>) -> Section {
     let section = Section::new("2. One spring per leg").remark("the usual model");
     let Some(step) = subject.study.diagnosis.steps.first() else { return section };
     let fitted = multiple(step.fitted.times_noise());
@@ -64,7 +64,7 @@ fn springs(subject: &Subject<'_>) -> Section {
     ))
 }
 
-fn where_it_fails(subject: &Subject<'_>) -> Result<Section, ModelError> {
+fn where_it_fails(subject: &ReportSubject<'_>) -> Result<Section, ModelError> {
     Ok(Section::new("3. Where it fails")
         .remark("elongation of each leg left unexplained, um, root mean square")
         .paragraph(
@@ -74,7 +74,7 @@ fn where_it_fails(subject: &Subject<'_>) -> Result<Section, ModelError> {
         .table(leg_space::table(subject)?))
 }
 
-fn diagnosis(subject: &Subject<'_>) -> Section {
+fn diagnosis(subject: &ReportSubject<'_>) -> Section {
     let tested = hexbench_model::terms::catalogue().len() - subject.study.diagnosis.untestable.len();
     Section::new("4. Which effect is missing").paragraph(format!(
         "{tested} physical effects of the catalogue can be tested with these data, and patterns outside it. Each \

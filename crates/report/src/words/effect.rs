@@ -3,7 +3,7 @@
 use hexbench_model::term::{Need, Rich, TermInfo};
 
 use crate::number::significant;
-use crate::page::{Block, Column, Entry, Page, Section, Table};
+use crate::page::{Block, Definition, Page, PageColumn, Section, Table};
 
 /// Physics, equation, parameters with units, needs, source, and what makes it visible.
 pub fn page(info: &TermInfo) -> Page {
@@ -11,7 +11,7 @@ pub fn page(info: &TermInfo) -> Page {
         ("physics", info.physics.to_owned()),
         ("model", info.equation.to_owned()),
         ("visible", format!("when {}", info.shows)),
-        ("to see it", info.breaker.to_owned()),
+        ("to see it", info.how_to_isolate.to_owned()),
         ("needs", needs(info)),
         ("richer", rich(info.rich).to_owned()),
         ("source", info.source.to_owned()),
@@ -20,12 +20,12 @@ pub fn page(info: &TermInfo) -> Page {
     let parameters =
         Section::new("Parameters").remark("identified from the data; values below zero only where allowed");
     Page::default()
-        .with(about.with(Block::entries(entries.map(|(label, text)| Entry::new(label, text)))))
+        .with(about.with(Block::entries(entries.map(|(label, text)| Definition::new(label, text)))))
         .with(parameters.table(table(info)))
 }
 
 fn table(info: &TermInfo) -> Table {
-    let mut table = Table::new(["", "", ""].map(Column::words));
+    let mut table = Table::new(["", "", ""].map(PageColumn::words));
     for p in info.parameters {
         let sign = if p.positive { "> 0" } else { "any sign" };
         table.row([p.name, p.unit, sign]);

@@ -6,11 +6,11 @@ use hexbench_model::term::{Term, TermInfo};
 
 use super::effect::{needs, rich};
 use super::written_by;
-use crate::page::{Block, Entry, Page, Section, Table};
+use crate::page::{Block, Definition, Page, Section, Table};
 
 /// One effect per line.
 pub fn list(terms: &[Arc<dyn Term>]) -> Page {
-    let entries = terms.iter().map(|t| Entry::new(t.info().id, t.info().title));
+    let entries = terms.iter().map(|t| Definition::new(t.info().id, t.info().title));
     let section =
         Section::new(format!("{} effects", terms.len())).remark("`hexbench terms TERM` explains one");
     Page::default().with(section.with(Block::entries(entries)))
@@ -44,7 +44,7 @@ fn section(info: &TermInfo) -> Section {
         .table(table.rows(parameters.chain(shape)))
         .list([
             format!("Visible when {}.", info.shows),
-            format!("To see it alone: {}.", info.breaker),
+            format!("To see it alone: {}.", info.how_to_isolate),
             format!("The file must have: {}.", needs(info)),
             format!("Richer form: {}.", rich(info.rich)),
             format!("Source: {}.", info.source),

@@ -5,11 +5,11 @@ use hexbench_model::fit::Fit;
 use hexbench_model::fit_named::look_alikes;
 use hexbench_model::model_file::Estimator;
 use hexbench_model::residuals::ErrorSummary;
-use hexbench_model::selection::{HeldOut, Judged, Task};
+use hexbench_model::selection::{FitWithErrors, HeldOut, JudgedTask};
 use hexbench_model::words::joined;
 
 use crate::number::{significant, with_uncertainty};
-use crate::page::{Block, Column, Page, Section, Table};
+use crate::page::{Block, Page, PageColumn, Section, Table};
 
 /// Correlations larger than this are reported.
 const REPORTED: f64 = 0.7;
@@ -17,7 +17,7 @@ const REPORTED: f64 = 0.7;
 const BRIEF: usize = 10;
 
 /// The fit.
-pub fn page(task: &Task<'_>, judged: &Judged, estimator: Estimator) -> Page {
+pub fn page(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) -> Page {
     Page::default()
         .with(quality(task, &judged.fit, estimator))
         .with(values(&judged.fit))
@@ -25,7 +25,7 @@ pub fn page(task: &Task<'_>, judged: &Judged, estimator: Estimator) -> Page {
         .with(errors(task, judged))
 }
 
-fn quality(task: &Task<'_>, fit: &Fit, estimator: Estimator) -> Section {
+fn quality(task: &JudgedTask<'_>, fit: &Fit, estimator: Estimator) -> Section {
     let terms: Vec<String> = fit.point.active.iter().map(|a| a.id().to_owned()).collect();
     let with = if terms.is_empty() { String::new() } else { format!(" + {}", joined(&terms)) };
     let method = match estimator {
@@ -61,8 +61,13 @@ fn values(fit: &Fit) -> Section {
         let share = if share.is_finite() { format!("({} %)", significant(share, 2)) } else { String::new() };
         [e.name.clone(), value, format!("+- {std}"), share, e.unit.clone()]
     };
-    let columns =
-        [Column::words(""), Column::number(""), Column::number(""), Column::number(""), Column::words("")];
+    let columns = [
+        PageColumn::words(""),
+        PageColumn::number(""),
+        PageColumn::number(""),
+        PageColumn::number(""),
+        PageColumn::words(""),
+    ];
     let open = (!all.not_determined.is_empty())
         .then(|| format!("Not determined by these data, so no number: {}.", joined(&all.not_determined)));
     Section::new("Values")
@@ -74,12 +79,13 @@ fn values(fit: &Fit) -> Section {
 fn correlations(fit: &Fit) -> Option<Section> {
     let pairs = look_alikes(fit, REPORTED);
     let row = |(a, b, r): &(String, String, f64)| [format!("{r:+.3}"), format!("{a}, {b}")];
-    let table = Table::new([Column::number(""), Column::words("")]).rows(pairs.iter().map(row)).brief(BRIEF);
+    let table =
+        Table::new([PageColumn::number(""), PageColumn::words("")]).rows(pairs.iter().map(row)).brief(BRIEF);
     let section = Section::new("Correlations").remark("beyond 0.7: what the data tell apart badly");
     (!pairs.is_empty()).then(|| section.table(table))
 }
 
-fn errors(task: &Task<'_>, judged: &Judged) -> Section {
+fn errors(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
     let row = |name: &str, e: &ErrorSummary| {
         let sizes = [e.rms.translation_um, e.rms.rotation_urad, e.chi2_reduced].map(|x| significant(x, 3));
         std::iter::once(name.to_owned()).chain(sizes).collect::<Vec<_>>()

@@ -5,7 +5,7 @@ use hexbench_model::residuals::ErrorSummary;
 use hexbench_model::selection::HeldOut;
 
 use crate::number::{multiple, significant};
-use crate::page::{Cell, Column, Mood, Section, Table};
+use crate::page::{Cell, Mood, PageColumn, Section, Table};
 
 /// Names of the measured numbers, translations first.
 const COORDINATES: [&str; 6] = ["a um", "b um", "c um", "alpha urad", "beta urad", "gamma urad"];
@@ -16,11 +16,15 @@ pub fn section(d: &Diagnosis) -> Section {
     let errors: Vec<(&StepReport, ErrorSummary)> =
         d.steps.iter().map(|s| (s, s.holdout.unwrap_or(s.fitted))).collect();
     let largest = errors.iter().map(|(_, e)| e.times_noise()).fold(1.0, f64::max);
-    let columns =
-        [Column::words("model"), Column::number("um"), Column::number("urad"), Column::number("x noise")]
-            .into_iter()
-            .chain([Column::bars()])
-            .chain(COORDINATES.map(|title| Column::number(title).detail()));
+    let columns = [
+        PageColumn::words("model"),
+        PageColumn::number("um"),
+        PageColumn::number("urad"),
+        PageColumn::number("x noise"),
+    ]
+    .into_iter()
+    .chain([PageColumn::bars()])
+    .chain(COORDINATES.map(|title| PageColumn::number(title).detail()));
     let mut table = Table::new(columns);
     for (step, error) in &errors {
         table.row(row(name(step), error, largest));

@@ -8,7 +8,7 @@ use hexbench_model::compare::legs::{LegSpace, leg_space};
 use hexbench_model::error::ModelError;
 use hexbench_model::linearization::Linearization;
 
-use super::subject::Subject;
+use super::subject::ReportSubject;
 use crate::number::significant;
 use crate::page::Table;
 
@@ -35,7 +35,7 @@ impl Row {
 }
 
 /// Unexplained elongation of each leg, um, one row per load, beside the noise.
-pub(super) fn table(subject: &Subject<'_>) -> Result<Table, ModelError> {
+pub(super) fn table(subject: &ReportSubject<'_>) -> Result<Table, ModelError> {
     let study = subject.study;
     let lin = Linearization::at(&study.campaign, &study.outcome.baseline.point)?;
     let (rows, noise) = by_load(&lin.conditions, &leg_space(&study.campaign, &lin));

@@ -7,7 +7,7 @@ use hexbench_model::power::Detectable;
 use hexbench_model::untestable::Reason;
 
 use crate::number::significant;
-use crate::page::{Column, Section, Table};
+use crate::page::{PageColumn, Section, Table};
 
 /// A blank at which no line is broken.
 const NO_BREAK: &str = "\u{a0}";
@@ -60,6 +60,6 @@ fn every_size(d: &Diagnosis) -> Table {
         let size = row.size_at_90_percent_power.map_or("none".to_owned(), |s| significant(s, 2));
         [format!("{}.{}", row.term, row.parameter), size, row.unit.clone()]
     };
-    let columns = [Column::words("parameter"), Column::number("size"), Column::words("unit")];
+    let columns = [PageColumn::words("parameter"), PageColumn::number("size"), PageColumn::words("unit")];
     Table::new(columns).rows(d.detectable.iter().map(row)).brief(0)
 }

@@ -31,7 +31,7 @@ pub use provenance::Provenance;
 pub use readings::readings;
 pub use runs::runs;
 pub use spread::spread;
-pub use subject::Subject;
+pub use subject::ReportSubject;
 
 use crate::page::Page;
 
@@ -41,7 +41,7 @@ pub fn written_by(command: &str) -> String {
 }
 
 /// The diagnosis.
-pub fn diagnosis(subject: &Subject<'_>) -> Page {
+pub fn diagnosis(subject: &ReportSubject<'_>) -> Page {
     let d = &subject.study.diagnosis;
     let page =
         Page { subject: subject.entries(), ..Page::new(format!("Diagnosis of {}", subject.hexapod.name)) };

@@ -8,7 +8,7 @@ use hexbench_model::verdict::Verdict;
 
 use super::conclusion::in_words;
 use crate::number::{percent, significant};
-use crate::page::{Block, Entry, Section};
+use crate::page::{Block, Definition, Section};
 
 /// Odds beyond which a number says no more than "overwhelming".
 const OVERWHELMING: f64 = 1e4;
@@ -28,11 +28,14 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
         section
             .remark(format!("to tell {}{others}", rivals(&first.separates, "from")))
             .with_all(readings.map(|(k, r)| Block::numbered(k + 1, proposal(k + 1, r, first))))
-            .with(Block::entries([Entry::new("promise", promise(d)), Entry::new("frames", frames)])),
+            .with(Block::entries([
+                Definition::new("promise", promise(d)),
+                Definition::new("frames", frames),
+            ])),
     )
 }
 
-fn proposal(number: usize, reading: &NextReport, first: &NextReport) -> Vec<Entry> {
+fn proposal(number: usize, reading: &NextReport, first: &NextReport) -> Vec<Definition> {
     let NextReport { approach, elapsed_s, delta_t_k, repeats, .. } = *reading;
     let without = reading.reference.iter().all(|x| *x == 0.0);
     let other = number == 1 || differ(&reading.reference, &first.reference);
@@ -41,15 +44,15 @@ fn proposal(number: usize, reading: &NextReport, first: &NextReport) -> Vec<Entr
     } else {
         rivals(&reading.separates, "and")
     };
-    let words = (!reading.text.is_empty()).then(|| Entry::new("in words", &reading.text));
-    let reference = (!without && other).then(|| Entry::new("reference", load(&reading.reference)));
+    let words = (!reading.text.is_empty()).then(|| Definition::new("in words", &reading.text));
+    let reference = (!without && other).then(|| Definition::new("reference", load(&reading.reference)));
     words
         .into_iter()
-        .chain([Entry::new("pose", pose(&reading.pose)), Entry::new("load", load(&reading.wrench))])
+        .chain([Definition::new("pose", pose(&reading.pose)), Definition::new("load", load(&reading.wrench))])
         .chain(reference)
         .chain([
-            Entry::new("way", way(approach, elapsed_s, delta_t_k, repeats)),
-            Entry::new("gain", gain(reading.gain, &separates)),
+            Definition::new("way", way(approach, elapsed_s, delta_t_k, repeats)),
+            Definition::new("gain", gain(reading.gain, &separates)),
         ])
         .collect()
 }
@@ -145,6 +148,6 @@ fn promise(d: &Diagnosis) -> String {
 fn in_general(section: Section, d: &Diagnosis) -> Section {
     let terms = catalogue();
     let open = terms.iter().map(|t| t.info()).filter(|i| d.credible_set.iter().any(|e| e.is_term(i.id)));
-    let entries = open.map(|info| Entry::new(info.id, info.breaker));
+    let entries = open.map(|info| Definition::new(info.id, info.how_to_isolate));
     section.remark("what shows each candidate").with(Block::entries(entries))
 }

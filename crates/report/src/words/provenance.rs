@@ -2,7 +2,7 @@
 
 use hexbench_model::noise::NoiseSource;
 
-use crate::page::{Column, Section, Table};
+use crate::page::{PageColumn, Section, Table};
 use crate::render::PROGRAM;
 
 /// What made the page, for its foot.
@@ -19,7 +19,7 @@ impl Provenance {
     pub fn section(&self, noise: NoiseSource) -> Section {
         let head = [["program", PROGRAM], ["command", &self.command], ["noise", noise.word()]];
         let files = self.files.iter().map(|(file, digest)| [file.clone(), format!("SHA-256 {digest}")]);
-        let table = Table::new([Column::words(""), Column::words("")]).rows(head).rows(files);
+        let table = Table::new([PageColumn::words(""), PageColumn::words("")]).rows(head).rows(files);
         Section::new("Where this comes from").id("provenance").table(table)
     }
 }

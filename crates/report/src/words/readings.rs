@@ -3,10 +3,10 @@
 use hexbench_core::files::MeasurementsWriter;
 use hexbench_core::{Columns, Dataset, Hexapod, Observation};
 use hexbench_model::campaign::{Campaign, row_sigma};
-use hexbench_model::compare::{Compared, Judged, coordinate_names};
+use hexbench_model::compare::{ComparedModel, JudgedModel, coordinate_names};
 use hexbench_model::error::ModelError;
 
-use crate::table::{Column, Frame, Values};
+use crate::table::{DataColumn, Frame, TableValues};
 
 /// Name of the table's format.
 const FORMAT: &str = "readings/1";
@@ -23,7 +23,7 @@ pub fn readings(
     hexapod: &Hexapod,
     data: &Dataset,
     holdout: Option<&Dataset>,
-    compared: &Compared,
+    compared: &ComparedModel,
 ) -> Result<Frame, ModelError> {
     let held =
         holdout.map(|rows| Campaign::with_noise(hexapod, rows, compared.campaign.noise)).transpose()?;
@@ -38,7 +38,7 @@ pub fn readings(
 struct Part<'a> {
     name: &'static str,
     data: &'a Dataset,
-    judged: Judged<'a>,
+    judged: JudgedModel<'a>,
     campaign: &'a Campaign,
 }
 
@@ -54,9 +54,9 @@ impl<'a> Part<'a> {
         name: &'static str,
         campaign: &'a Campaign,
         data: &'a Dataset,
-        compared: &'a Compared,
+        compared: &'a ComparedModel,
     ) -> Result<Self, ModelError> {
-        Ok(Self { name, data, judged: Judged::of(campaign, data, &compared.point, false)?, campaign })
+        Ok(Self { name, data, judged: JudgedModel::of(campaign, data, &compared.point, false)?, campaign })
     }
 }
 
@@ -82,7 +82,7 @@ impl<'a> At<'a> {
     }
 }
 
-fn columns(parts: &[Part<'_>]) -> Vec<Column> {
+fn columns(parts: &[Part<'_>]) -> Vec<DataColumn> {
     let rows: Vec<At<'_>> =
         parts.iter().flat_map(|part| (0..part.judged.rows.len()).map(move |row| At { part, row })).collect();
     let mut all = vec![
@@ -104,7 +104,7 @@ fn columns(parts: &[Part<'_>]) -> Vec<Column> {
 }
 
 /// What the files say, in their own columns, and the predicted values in the same.
-fn stated(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<Column> {
+fn stated(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<DataColumn> {
     let has = |of: fn(Columns) -> bool| parts.iter().any(|part| of(part.data.columns));
     let columns = Columns {
         reference: has(|c| c.reference),
@@ -139,7 +139,7 @@ fn stated(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<Column> {
 }
 
 /// Residuals, in um and urad, their standard deviations by noise, and both divided.
-fn judged(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<Column> {
+fn judged(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<DataColumn> {
     let names = coordinate_names(parts[0].data.measurand);
     let unit = |k: usize| if k < 3 { "um" } else { "urad" };
     let residual = |k: usize| {
@@ -160,7 +160,7 @@ fn judged(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<Column> {
 }
 
 /// Forces, lengths and residual elongations of the legs; those of averaged readings are repeated for each.
-fn legs(rows: &[At<'_>]) -> Vec<Column> {
+fn legs(rows: &[At<'_>]) -> Vec<DataColumn> {
     let at = |at: &At<'_>| at.condition();
     let force = |leg: usize| {
         let forces = rows.iter().map(move |r| r.part.judged.lin.conditions[at(r)].force[leg]);
@@ -183,19 +183,19 @@ fn legs(rows: &[At<'_>]) -> Vec<Column> {
     (0..6).map(force).chain((0..6).map(length)).chain((0..6).map(left)).collect()
 }
 
-fn numbers(name: &str, unit: &str, meaning: &str, cells: impl Iterator<Item = f64>) -> Column {
+fn numbers(name: &str, unit: &str, meaning: &str, cells: impl Iterator<Item = f64>) -> DataColumn {
     let unit = if unit.is_empty() { "1" } else { unit };
-    column(name, unit, meaning, Values::Numbers(cells.collect()))
+    column(name, unit, meaning, TableValues::Numbers(cells.collect()))
 }
 
-fn whole(name: &str, meaning: &str, cells: impl Iterator<Item = i64>) -> Column {
-    column(name, "1", meaning, Values::Integers(cells.collect()))
+fn whole(name: &str, meaning: &str, cells: impl Iterator<Item = i64>) -> DataColumn {
+    column(name, "1", meaning, TableValues::Integers(cells.collect()))
 }
 
-fn words(name: &str, meaning: &str, cells: impl Iterator<Item = &'static str>) -> Column {
-    column(name, "", meaning, Values::Words(cells.collect()))
+fn words(name: &str, meaning: &str, cells: impl Iterator<Item = &'static str>) -> DataColumn {
+    column(name, "", meaning, TableValues::Words(cells.collect()))
 }
 
-fn column(name: &str, unit: &str, meaning: &str, values: Values) -> Column {
-    Column { name: name.to_owned(), unit: unit.to_owned(), meaning: meaning.to_owned(), values }
+fn column(name: &str, unit: &str, meaning: &str, values: TableValues) -> DataColumn {
+    DataColumn { name: name.to_owned(), unit: unit.to_owned(), meaning: meaning.to_owned(), values }
 }

@@ -1,10 +1,10 @@
 //! Two results beside each other.
 
-use hexbench_model::runs::{Changed, ParameterChange, Run, Runs};
+use hexbench_model::runs::{Changed, ComparedRuns, ParameterChange, Run};
 use hexbench_model::words::joined;
 
 use crate::number::{multiple, percent, significant, with_uncertainty};
-use crate::page::{Block, Cell, Column, Mood, Page, Section, Table};
+use crate::page::{Block, Cell, Mood, Page, PageColumn, Section, Table};
 
 use super::comparison::chance;
 use super::conclusion::in_words;
@@ -13,7 +13,7 @@ use super::conclusion::in_words;
 const WORTH_A_ROW: f64 = 0.03;
 
 /// The page.
-pub fn runs(runs: &Runs) -> Page {
+pub fn runs(runs: &ComparedRuns) -> Page {
     let machine = runs.a.origin.as_ref().or(runs.b.origin.as_ref()).map_or("", |o| &o.machine);
     Page::new(format!("Two runs: {machine}"))
         .about("A", &runs.a.file)
@@ -25,7 +25,7 @@ pub fn runs(runs: &Runs) -> Page {
         .with(parameters(runs))
 }
 
-fn verdict(runs: &Runs) -> Section {
+fn verdict(runs: &ComparedRuns) -> Section {
     let (word, mood) = match (runs.has_other_answer(), runs.has_changed()) {
         (true, _) => ("ANOTHER ANSWER", Mood::Bad),
         (_, true) => ("CHANGED", Mood::Doubt),
@@ -35,16 +35,21 @@ fn verdict(runs: &Runs) -> Section {
         let from = run.origin.as_ref().map_or("unknown", |o| &o.program);
         [name.to_owned(), answer(run), from.to_owned()]
     };
-    let table = Table::new(["", "answer", "program"].map(Column::words));
+    let table = Table::new(["", "answer", "program"].map(PageColumn::words));
     Section::new("What changed from A to B")
         .id("verdict")
         .with(Block::Verdict { word: word.to_owned(), mood, sentences: vec![error_sentence(runs)] })
         .table(table.rows([row("A", &runs.a), row("B", &runs.b)]))
 }
 
-fn confidence(runs: &Runs) -> Option<Section> {
-    let columns =
-        [Column::words("effect"), Column::number("A"), Column::bars(), Column::number("B"), Column::bars()];
+fn confidence(runs: &ComparedRuns) -> Option<Section> {
+    let columns = [
+        PageColumn::words("effect"),
+        PageColumn::number("A"),
+        PageColumn::bars(),
+        PageColumn::number("B"),
+        PageColumn::bars(),
+    ];
     let rows =
         runs.probabilities.iter().filter(|(_, [a, b])| a.max(*b) >= WORTH_A_ROW).map(|(id, [a, b])| {
             [in_words(id).into(), percent(*a).into(), Cell::bar(*a), percent(*b).into(), Cell::bar(*b)]
@@ -66,7 +71,7 @@ fn answer(run: &Run) -> String {
 }
 
 /// Name, errors of every step of both, A first: times the noise, um, urad.
-fn rungs(runs: &Runs) -> Vec<[String; 4]> {
+fn rungs(runs: &ComparedRuns) -> Vec<[String; 4]> {
     let of = |name: &'static str, run: &Run| {
         let mut all: Vec<[String; 4]> = Vec::new();
         for step in &run.steps {
@@ -87,7 +92,7 @@ fn rungs(runs: &Runs) -> Vec<[String; 4]> {
 }
 
 /// What became of the error, in a sentence.
-fn error_sentence(runs: &Runs) -> String {
+fn error_sentence(runs: &ComparedRuns) -> String {
     let noise = if runs.noise_changed {
         " The noise is another one: multiples of it are not comparable."
     } else {
@@ -106,7 +111,7 @@ fn error_sentence(runs: &Runs) -> String {
     }
 }
 
-fn errors(runs: &Runs) -> Section {
+fn errors(runs: &ComparedRuns) -> Section {
     Section::new("The error")
         .id("ladder")
         .remark("root mean square; held-out readings where there are some")
@@ -125,7 +130,7 @@ fn difference(p: &ParameterChange) -> String {
 }
 
 /// What the stars mean.
-fn legend(runs: &Runs) -> String {
+fn legend(runs: &ComparedRuns) -> String {
     let count = runs.parameters.iter().filter(|p| p.changed == Changed::Yes).count();
     let verb = if count == 1 { "differs" } else { "differ" };
     format!(
@@ -136,11 +141,15 @@ fn legend(runs: &Runs) -> String {
     )
 }
 
-fn parameters(runs: &Runs) -> Option<Section> {
+fn parameters(runs: &ComparedRuns) -> Option<Section> {
     let row = |p: &ParameterChange| [p.name.clone(), number(p.a), number(p.b), p.unit.clone(), difference(p)];
-    let columns =
-        [Column::words("parameter"), Column::number("A"), Column::number("B"), Column::words("unit")];
-    let table = Table::new(columns.into_iter().chain([Column::number("B - A")]));
+    let columns = [
+        PageColumn::words("parameter"),
+        PageColumn::number("A"),
+        PageColumn::number("B"),
+        PageColumn::words("unit"),
+    ];
+    let table = Table::new(columns.into_iter().chain([PageColumn::number("B - A")]));
     let section = Section::new("Parameters")
         .remark("+- standard uncertainty (k = 1); B - A in combined uncertainties")
         .table(table.rows(runs.parameters.iter().map(row)))

@@ -5,7 +5,7 @@ use hexbench_model::estimate::Estimate;
 use hexbench_model::words::{joined, joined_with};
 
 use crate::number::with_uncertainty;
-use crate::page::{Block, Column, Section, Table};
+use crate::page::{Block, PageColumn, Section, Table};
 
 /// Most parameters of one effect where there is little room.
 const BRIEF: usize = 8;
@@ -32,7 +32,8 @@ fn effect(d: &Diagnosis, term: &str) -> impl Iterator<Item = Block> {
         let unit = if p.unit == "1" { "" } else { &p.unit };
         [short(&p.name).to_owned(), value, format!("+- {std}"), unit.to_owned()]
     };
-    let columns = [Column::words(""), Column::number(""), Column::number(""), Column::words("")];
+    let columns =
+        [PageColumn::words(""), PageColumn::number(""), PageColumn::number(""), PageColumn::words("")];
     let table =
         Table::new(columns).titled(format!("{term}{richer}")).rows(most_telling(&own).iter().map(row));
     [Some(Block::Table(table.brief(BRIEF))), not_determined(d, term)].into_iter().flatten()

@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::diagnose::Study;
+use hexbench_model::diagnose::DiagnosisStudy;
 use hexbench_model::noise::{Noise, NoiseSource};
 
 use crate::number::significant;
-use crate::page::Entry;
+use crate::page::Definition;
 
 /// A machine, its measurements, and what was found.
-pub struct Subject<'a> {
+pub struct ReportSubject<'a> {
     /// The machine.
     pub hexapod: &'a Hexapod,
     /// The readings fitted.
@@ -18,24 +18,24 @@ pub struct Subject<'a> {
     /// The readings held out, when they come from a file of their own.
     pub holdout: Option<&'a Dataset>,
     /// What was found.
-    pub study: &'a Study,
+    pub study: &'a DiagnosisStudy,
 }
 
-impl Subject<'_> {
+impl ReportSubject<'_> {
     /// Files and noise.
-    pub fn entries(&self) -> Vec<Entry> {
+    pub fn entries(&self) -> Vec<Definition> {
         let mut all = entries(self.data, self.holdout, &self.study.campaign.noise);
         let found = self.study.diagnosis.findings.iter().filter(|f| f.kind.is_of_noise());
-        all.extend(found.map(|f| Entry::new("found", format!("{}: {}", f.kind.title(), f.size))));
+        all.extend(found.map(|f| Definition::new("found", format!("{}: {}", f.kind.title(), f.size))));
         all
     }
 }
 
 /// Files and noise.
-pub fn entries(data: &Dataset, holdout: Option<&Dataset>, level: &Noise) -> Vec<Entry> {
-    let holdout = holdout.map(|h| Entry::new("held out", describe(h)));
-    let noise = Entry::new("noise", noise(level));
-    std::iter::once(Entry::new("data", describe(data))).chain(holdout).chain([noise]).collect()
+pub fn entries(data: &Dataset, holdout: Option<&Dataset>, level: &Noise) -> Vec<Definition> {
+    let holdout = holdout.map(|h| Definition::new("held out", describe(h)));
+    let noise = Definition::new("noise", noise(level));
+    std::iter::once(Definition::new("data", describe(data))).chain(holdout).chain([noise]).collect()
 }
 
 /// File, kind and number of readings.

@@ -1,7 +1,7 @@
 //! Charts are well-formed, honest about bad numbers, and the same every time.
 
 use hexbench_report::plot::{
-    Axis, Bars, Bin, Chart, HeatMap, Panels, PlotError, Raster, Reliability, Series,
+    Axis, Bars, Chart, HeatMap, Panels, PlotError, Raster, Reliability, ReliabilityBin, Series,
 };
 
 const TITLE: &str = "Load & <deflection>";
@@ -30,7 +30,7 @@ fn heat_map(value: f64) -> HeatMap {
 }
 
 fn reliability(observed: f64) -> Reliability {
-    let bin = |k: usize| Bin {
+    let bin = |k: usize| ReliabilityBin {
         edges: [k as f64 / 5.0, (k + 1) as f64 / 5.0],
         stated: k as f64 / 5.0 + 0.1,
         observed,

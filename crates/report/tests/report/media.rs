@@ -8,8 +8,8 @@ use hexbench_model::compare::compare;
 use hexbench_model::diagnose::diagnose;
 use hexbench_model::terms::catalogue;
 use hexbench_report::render::{Terminal, html, markdown, terminal};
-use hexbench_report::words::{Provenance, Subject, comparison, diagnosis, subject};
-use hexbench_report::{Block, Cell, Entry, Page, Section, charts};
+use hexbench_report::words::{Provenance, ReportSubject, comparison, diagnosis, subject};
+use hexbench_report::{Block, Cell, Definition, Page, Section, charts};
 
 struct Case {
     name: String,
@@ -36,8 +36,12 @@ fn cases() -> Vec<Case> {
 fn diagnoses() -> Vec<(String, Page, Page)> {
     let page = |case: &Case| {
         let study = diagnose(&case.hexapod, &case.data, Some(&case.holdout), &catalogue()).unwrap();
-        let subject =
-            Subject { hexapod: &case.hexapod, data: &case.data, holdout: Some(&case.holdout), study: &study };
+        let subject = ReportSubject {
+            hexapod: &case.hexapod,
+            data: &case.data,
+            holdout: Some(&case.holdout),
+            study: &study,
+        };
         (case.name.clone(), diagnosis(&subject), charts::diagnosis(&subject, &provenance()).unwrap())
     };
     cases().iter().map(page).collect()
@@ -80,7 +84,7 @@ fn readable(html: &str) -> String {
 /// Everything a page says, one part each.
 fn parts(page: &Page) -> Vec<String> {
     let entries =
-        |all: &[Entry]| all.iter().flat_map(|e| [e.label.clone(), e.text.clone()]).collect::<Vec<_>>();
+        |all: &[Definition]| all.iter().flat_map(|e| [e.label.clone(), e.text.clone()]).collect::<Vec<_>>();
     let block = |block: &Block| match block {
         Block::Verdict { word, sentences, .. } => {
             std::iter::once(word.clone()).chain(sentences.clone()).collect()

@@ -7,16 +7,16 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use serde_json::{Map, Value, json};
 
-use super::{Campaign, Plan, PlanKind, Row, Yardstick, machines, measure, pick, rms};
+use super::{MeasurementPlan, PlanKind, PlanRow, SimulatedCampaign, Yardstick, machines, measure, pick, rms};
 use crate::{
     Mechanism, TruthError, World,
     mechanisms::{self, REGISTRY, Shows},
-    metrology::{Frames, Noise},
+    metrology::{Frames, InstrumentNoise},
 };
 
 /// Kinds of cases, named as in the truth files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub enum Kind {
+pub enum CaseKind {
     /// One effect of the catalogue.
     Single,
     /// Two effects of the catalogue.
@@ -33,7 +33,7 @@ pub enum Kind {
     RichForm,
 }
 
-impl Kind {
+impl CaseKind {
     /// All kinds.
     pub const ALL: [Self; 7] = [
         Self::Single,
@@ -74,7 +74,7 @@ pub struct CaseSpec {
     /// Name of its folder.
     pub id: String,
     /// Its kind.
-    pub kind: Kind,
+    pub kind: CaseKind,
     /// Family of the machine, one of [`machines::FAMILIES`].
     pub family: &'static str,
     /// Make of the plan.
@@ -84,18 +84,18 @@ pub struct CaseSpec {
     /// Distance to which each effect is scaled; none: usual size.
     pub distance: Option<f64>,
     /// Noise of the instrument.
-    pub noise: Noise,
+    pub noise: InstrumentNoise,
     /// Decides all that is drawn: machine, plan, shape of the effects, noise.
     pub seed: u64,
 }
 
 /// A case ready to be written.
 #[derive(Debug)]
-pub struct Case {
+pub struct SimulatedCase {
     /// What was asked for.
     pub spec: CaseSpec,
     /// The world with its effects, and the instrument.
-    pub campaign: Campaign,
+    pub campaign: SimulatedCampaign,
     /// Nominal machine as the file describes it.
     pub hexapod: Hexapod,
     /// Measurements to learn from.
@@ -108,12 +108,12 @@ pub struct Case {
 
 impl CaseSpec {
     /// The `index`-th case of a kind, drawn from a seed; another `attempt` keeps the effect and changes the rest.
-    pub fn draw(kind: Kind, index: usize, seed: u64, attempt: u64, distance: Option<[f64; 2]>) -> Self {
+    pub fn draw(kind: CaseKind, index: usize, seed: u64, attempt: u64, distance: Option<[f64; 2]>) -> Self {
         const PATIENCE: u64 = 4;
         let mut fixed = stream(seed, Purpose::CaseEffects, [kind as u64, index as u64]);
         let easy = attempt >= PATIENCE;
         // Legs neither pull nor reverse under the paper's loads: what needs that gives way to the next effect.
-        let hopeless = usize::from(kind == Kind::SeedProtocol && easy) * 2;
+        let hopeless = usize::from(kind == CaseKind::SeedProtocol && easy) * 2;
         let effects = draw_effects(kind, index + hopeless, &mut fixed);
         let mut rng = stream(seed, Purpose::CaseSpec, [kind as u64, index as u64, attempt]);
         Self {
@@ -122,12 +122,12 @@ impl CaseSpec {
             family: draw_family(kind, easy, &mut rng),
             plan: draw_plan(kind, easy, &mut rng),
             effects,
-            distance: (kind != Kind::Absolute && kind != Kind::Clean).then(|| match distance {
+            distance: (kind != CaseKind::Absolute && kind != CaseKind::Clean).then(|| match distance {
                 Some([low, high]) if low < high => rng.random_range(low.ln()..high.ln()).exp(),
                 Some([low, _]) => low,
                 None => kind.usual_distance(),
             }),
-            noise: Noise::default(),
+            noise: InstrumentNoise::default(),
             seed: u64::from(rng.random::<u32>()),
         }
     }
@@ -136,7 +136,7 @@ impl CaseSpec {
     ///
     /// # Errors
     /// [`TruthError::NotVisible`] when an effect does not show in this plan; else as [`World::reading`].
-    pub fn build(&self) -> Result<Case, TruthError> {
+    pub fn build(&self) -> Result<SimulatedCase, TruthError> {
         let of = |purpose| stream(self.seed, purpose, []);
         let (mut of_machine, mut of_plan) = (of(Purpose::CaseMachine), of(Purpose::CasePlan));
         let mut of_effects = of(Purpose::CaseEffectShapes);
@@ -147,22 +147,23 @@ impl CaseSpec {
         let plan = self.plan.draw(&hexapod, &mut of_plan);
         let frames =
             if self.plan == PlanKind::Absolute { Frames::aligned(&mut of_frames) } else { Frames::default() };
-        let bare = Campaign { world: World::new(hexapod.clone(), &stiffness), frames, noise: self.noise };
+        let bare =
+            SimulatedCampaign { world: World::new(hexapod.clone(), &stiffness), frames, noise: self.noise };
         let sized = self.sized_effects(&bare, &plan, &mut of_effects)?;
         let truth = self.truth(&bare, &plan, &sized)?;
         let mut world = bare.world.without_effects();
         world.mechanisms = sized.mechanisms;
-        let campaign = Campaign { world, ..bare };
+        let campaign = SimulatedCampaign { world, ..bare };
         let measurements =
             measure(&campaign, &plan.training, plan.measurand, "measurements.csv", &mut of_noise)?;
         let holdout = measure(&campaign, &plan.holdout, plan.measurand, "holdout.csv", &mut of_noise)?;
-        Ok(Case { spec: self.clone(), campaign, hexapod, measurements, holdout, truth })
+        Ok(SimulatedCase { spec: self.clone(), campaign, hexapod, measurements, holdout, truth })
     }
 
     fn sized_effects(
         &self,
-        bare: &Campaign,
-        plan: &Plan,
+        bare: &SimulatedCampaign,
+        plan: &MeasurementPlan,
         rng: &mut Pcg64,
     ) -> Result<SizedEffects, TruthError> {
         const SPREAD_OF_SIZE: f64 = 0.4;
@@ -184,12 +185,17 @@ impl CaseSpec {
         Ok(sized)
     }
 
-    fn truth(&self, bare: &Campaign, plan: &Plan, sized: &SizedEffects) -> Result<Value, TruthError> {
+    fn truth(
+        &self,
+        bare: &SimulatedCampaign,
+        plan: &MeasurementPlan,
+        sized: &SizedEffects,
+    ) -> Result<Value, TruthError> {
         let mut parameters = Map::new();
         for mechanism in &sized.mechanisms {
             parameters.extend(mechanism.parameters());
         }
-        let added = |rows: &[Row]| -> Result<[f64; 2], TruthError> {
+        let added = |rows: &[PlanRow]| -> Result<[f64; 2], TruthError> {
             let yardstick = Yardstick::of_signatures(bare, rows, plan.measurand)?;
             let all = sized.mechanisms.iter().map(|m| m.scaled(1.0)).collect();
             let signature: Vec<Vector6> = yardstick.signature(all)?;
@@ -223,8 +229,8 @@ impl CaseSpec {
 
     fn catalogue_id(&self, id: &'static str) -> &'static str {
         match (self.kind, id) {
-            (Kind::RichForm, "out:base-bending") => "base-compliance",
-            (Kind::RichForm, "out:plate-bending") => "platform-compliance",
+            (CaseKind::RichForm, "out:base-bending") => "base-compliance",
+            (CaseKind::RichForm, "out:plate-bending") => "platform-compliance",
             _ => id,
         }
     }
@@ -247,23 +253,23 @@ fn showing(shows: Shows) -> Vec<&'static str> {
 
 const BENDING: [&str; 2] = ["out:base-bending", "out:plate-bending"];
 
-fn draw_effects(kind: Kind, index: usize, rng: &mut Pcg64) -> Vec<&'static str> {
+fn draw_effects(kind: CaseKind, index: usize, rng: &mut Pcg64) -> Vec<&'static str> {
     let deflection = showing(Shows::Deflection);
     match kind {
-        Kind::Clean => Vec::new(),
-        Kind::Single | Kind::SeedProtocol => vec![deflection[index % deflection.len()]],
-        Kind::Pair => {
+        CaseKind::Clean => Vec::new(),
+        CaseKind::Single | CaseKind::SeedProtocol => vec![deflection[index % deflection.len()]],
+        CaseKind::Pair => {
             let first = rng.random_range(0..deflection.len());
             let second = (first + rng.random_range(1..deflection.len())) % deflection.len();
             vec![deflection[first.min(second)], deflection[first.max(second)]]
         }
-        Kind::Outside => {
+        CaseKind::Outside => {
             let outside: Vec<_> =
                 showing(Shows::Outside).into_iter().filter(|id| !BENDING.contains(id)).collect();
             vec![outside[index % outside.len()]]
         }
-        Kind::RichForm => vec![BENDING[index % 2]],
-        Kind::Absolute => absolute_effects(index),
+        CaseKind::RichForm => vec![BENDING[index % 2]],
+        CaseKind::Absolute => absolute_effects(index),
     }
 }
 
@@ -279,22 +285,22 @@ fn absolute_effects(index: usize) -> Vec<&'static str> {
     std::iter::once("joint-geometry").chain(second[index % second.len()]).collect()
 }
 
-fn draw_family(kind: Kind, easy: bool, rng: &mut Pcg64) -> &'static str {
+fn draw_family(kind: CaseKind, easy: bool, rng: &mut Pcg64) -> &'static str {
     let (rings, others) = machines::FAMILIES.split_at(3);
     match kind {
         _ if easy => "ring_a",
-        Kind::SeedProtocol => pick(rng, rings),
+        CaseKind::SeedProtocol => pick(rng, rings),
         _ if rng.random_bool(0.5) => pick(rng, rings),
         _ => pick(rng, others),
     }
 }
 
-fn draw_plan(kind: Kind, easy: bool, rng: &mut Pcg64) -> PlanKind {
+fn draw_plan(kind: CaseKind, easy: bool, rng: &mut Pcg64) -> PlanKind {
     const VARIANTS: [PlanKind; 4] =
         [PlanKind::OtherLoads, PlanKind::FewPoses, PlanKind::VerticalOnly, PlanKind::NoReference];
     match kind {
-        Kind::Absolute => PlanKind::Absolute,
-        Kind::SeedProtocol => PlanKind::Paper,
+        CaseKind::Absolute => PlanKind::Absolute,
+        CaseKind::SeedProtocol => PlanKind::Paper,
         _ if easy || rng.random_bool(0.6) => PlanKind::Rich,
         _ => pick(rng, &VARIANTS),
     }

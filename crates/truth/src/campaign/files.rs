@@ -7,10 +7,10 @@ use hexbench_core::{
     files::{atomic_write, write_hexapod, write_measurements},
 };
 
-use super::Case;
+use super::SimulatedCase;
 use crate::TruthError;
 
-impl Case {
+impl SimulatedCase {
     /// Writes `hexapod.toml`, `measurements.csv`, `holdout.csv` and `truth.json` to a folder, which is made.
     ///
     /// # Errors

@@ -3,29 +3,29 @@
 use hexbench_core::{Columns, Dataset, Measurand, Vector6};
 use rand_pcg::Pcg64;
 
-use super::Row;
+use super::PlanRow;
 use crate::{
     TruthError, World,
-    metrology::{Frames, Noise},
+    metrology::{Frames, InstrumentNoise},
 };
 
 /// A world with its instrument.
 #[derive(Debug)]
-pub struct Campaign {
+pub struct SimulatedCampaign {
     /// The machine.
     pub world: World,
     /// Frames of the instrument; they matter for absolute poses only.
     pub frames: Frames,
     /// Noise of the instrument.
-    pub noise: Noise,
+    pub noise: InstrumentNoise,
 }
 
-impl Campaign {
+impl SimulatedCampaign {
     /// What an ideal instrument reads, row by row: deflections, or absolute poses; m and rad.
     ///
     /// # Errors
     /// As [`World::reading`].
-    pub fn ideal(&self, rows: &[Row], measurand: Measurand) -> Result<Vec<Vector6>, TruthError> {
+    pub fn ideal(&self, rows: &[PlanRow], measurand: Measurand) -> Result<Vec<Vector6>, TruthError> {
         let mut readings: Vec<Vector6> = Vec::with_capacity(rows.len());
         for (i, row) in rows.iter().enumerate() {
             let again = i > 0 && rows[i - 1].situation == row.situation;
@@ -35,7 +35,7 @@ impl Campaign {
         Ok(readings)
     }
 
-    fn one(&self, row: &Row, measurand: Measurand) -> Result<Vector6, TruthError> {
+    fn one(&self, row: &PlanRow, measurand: Measurand) -> Result<Vector6, TruthError> {
         if measurand == Measurand::AbsolutePose {
             self.world.pose(&row.situation).map(|pose| self.frames.seen(&pose).to_vector())
         } else {
@@ -49,8 +49,8 @@ impl Campaign {
 /// # Errors
 /// As [`World::reading`].
 pub fn measure(
-    campaign: &Campaign,
-    rows: &[Row],
+    campaign: &SimulatedCampaign,
+    rows: &[PlanRow],
     measurand: Measurand,
     source: &str,
     rng: &mut Pcg64,

@@ -10,9 +10,9 @@ mod redraw;
 mod scheme;
 mod signature;
 
-pub use case::{Case, CaseSpec, Kind};
-pub use measure::{Campaign, measure};
-pub use plan::{Plan, PlanKind, Row, Schemes};
+pub use case::{CaseKind, CaseSpec, SimulatedCase};
+pub use measure::{SimulatedCampaign, measure};
+pub use plan::{MeasurementPlan, PlanKind, PlanRow, Schemes};
 pub(crate) use scheme::pose_of;
 pub use scheme::{Poses, Scheme, Spread, usual_half_range_mm_deg};
 pub use signature::{Yardstick, rms};

@@ -14,7 +14,7 @@ const HALF_LOAD_N: f64 = -225.63;
 
 /// One line of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
+pub struct PlanRow {
     /// Number of the pose, from 1.
     pub pose_id: i64,
     /// Number of the repeat, from 1.
@@ -23,7 +23,7 @@ pub struct Row {
     pub situation: Situation,
 }
 
-impl Row {
+impl PlanRow {
     /// What was read in this row; `line` of its file, `measured` in m and rad.
     pub fn read(&self, line: u64, measured: [f64; 6], sigma: Option<[f64; 6]>) -> Observation {
         let Situation { pose, wrench, reference, approach, delta_t, elapsed } = self.situation;
@@ -43,7 +43,7 @@ impl Row {
     }
 }
 
-impl From<&Observation> for Row {
+impl From<&Observation> for PlanRow {
     /// The row behind a reading.
     fn from(o: &Observation) -> Self {
         let Observation { pose_id, repeat, pose, wrench, reference, approach, delta_t, elapsed, .. } = *o;
@@ -72,13 +72,13 @@ pub enum PlanKind {
 
 /// A plan with its held-out part.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Plan {
+pub struct MeasurementPlan {
     /// What is read.
     pub measurand: Measurand,
     /// Rows to learn from.
-    pub training: Vec<Row>,
+    pub training: Vec<PlanRow>,
     /// Rows to judge by.
-    pub holdout: Vec<Row>,
+    pub holdout: Vec<PlanRow>,
 }
 
 /// A scheme for the training part and one for the held-out part.
@@ -121,9 +121,13 @@ impl PlanKind {
     }
 
     /// A plan of this make for a machine.
-    pub fn draw(self, hexapod: &Hexapod, rng: &mut Pcg64) -> Plan {
+    pub fn draw(self, hexapod: &Hexapod, rng: &mut Pcg64) -> MeasurementPlan {
         let Schemes { training, holdout } = self.schemes(hexapod, rng);
-        Plan { measurand: self.measurand(), training: training.draw(rng), holdout: holdout.draw(rng) }
+        MeasurementPlan {
+            measurand: self.measurand(),
+            training: training.draw(rng),
+            holdout: holdout.draw(rng),
+        }
     }
 
     /// What a plan of this make is drawn by; the generator decides the loads of [`PlanKind::OtherLoads`] only.

@@ -5,7 +5,7 @@ use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use super::{Row, pick, rounded};
+use super::{PlanRow, pick, rounded};
 use crate::Situation;
 
 /// Where the poses come from.
@@ -124,7 +124,7 @@ impl Scheme {
     }
 
     /// All rows, drawn one after the other from one generator.
-    pub fn draw(&self, rng: &mut Pcg64) -> Vec<Row> {
+    pub fn draw(&self, rng: &mut Pcg64) -> Vec<PlanRow> {
         let mut rows = Vec::new();
         for (index, pose_id) in (0..self.poses.count()).zip(1..) {
             let pose = self.pose(index, rng);
@@ -135,13 +135,13 @@ impl Scheme {
         rows
     }
 
-    fn condition(&self, pose_id: i64, pose: Pose, wrench: Wrench, rng: &mut Pcg64, rows: &mut Vec<Row>) {
+    fn condition(&self, pose_id: i64, pose: Pose, wrench: Wrench, rng: &mut Pcg64, rows: &mut Vec<PlanRow>) {
         let mut situation = self.situation(pose, wrench, rng);
         for (repeat, _) in (1..).zip(0..self.repeats) {
             if self.anew && repeat > 1 {
                 situation = self.situation(pose, wrench, rng);
             }
-            rows.push(Row { pose_id, repeat, situation });
+            rows.push(PlanRow { pose_id, repeat, situation });
         }
     }
 }

@@ -7,14 +7,14 @@
 use hexbench_core::statistics::root_mean_square;
 use hexbench_core::{Measurand, Pose, Vector6};
 
-use super::{Campaign, Row, absolute};
+use super::{PlanRow, SimulatedCampaign, absolute};
 use crate::{Mechanism, TruthError, World};
 
 /// Measures the distance of effects for one campaign without effects and one plan.
 #[derive(Debug)]
 pub struct Yardstick<'a> {
-    campaign: &'a Campaign,
-    rows: &'a [Row],
+    campaign: &'a SimulatedCampaign,
+    rows: &'a [PlanRow],
     measurand: Measurand,
     baseline: Vec<Vector6>,
     explained: Vec<Vec<f64>>,
@@ -25,7 +25,11 @@ impl<'a> Yardstick<'a> {
     ///
     /// # Errors
     /// As [`World::reading`].
-    pub fn new(campaign: &'a Campaign, rows: &'a [Row], measurand: Measurand) -> Result<Self, TruthError> {
+    pub fn new(
+        campaign: &'a SimulatedCampaign,
+        rows: &'a [PlanRow],
+        measurand: Measurand,
+    ) -> Result<Self, TruthError> {
         let mut yardstick = Self::of_signatures(campaign, rows, measurand)?;
         yardstick.explain_by_springs()?;
         if measurand == Measurand::AbsolutePose {
@@ -40,8 +44,8 @@ impl<'a> Yardstick<'a> {
     /// # Errors
     /// As [`World::reading`].
     pub fn of_signatures(
-        campaign: &'a Campaign,
-        rows: &'a [Row],
+        campaign: &'a SimulatedCampaign,
+        rows: &'a [PlanRow],
         measurand: Measurand,
     ) -> Result<Self, TruthError> {
         let baseline = campaign.ideal(rows, measurand)?;
@@ -54,7 +58,7 @@ impl<'a> Yardstick<'a> {
     /// As [`World::reading`].
     pub fn signature(&self, mechanisms: Vec<Box<dyn Mechanism>>) -> Result<Vec<Vector6>, TruthError> {
         let world = World { mechanisms, ..self.campaign.world.without_effects() };
-        self.added_by(&Campaign { world, frames: self.campaign.frames, noise: self.campaign.noise })
+        self.added_by(&SimulatedCampaign { world, frames: self.campaign.frames, noise: self.campaign.noise })
     }
 
     /// Distance of the mechanisms taken together.
@@ -105,7 +109,7 @@ impl<'a> Yardstick<'a> {
         Err(TruthError::NotVisible { id: effect.id().to_owned(), wanted, reached: best.1, scale: best.0 })
     }
 
-    fn added_by(&self, campaign: &Campaign) -> Result<Vec<Vector6>, TruthError> {
+    fn added_by(&self, campaign: &SimulatedCampaign) -> Result<Vec<Vector6>, TruthError> {
         let readings = campaign.ideal(self.rows, self.measurand)?;
         Ok(readings.iter().zip(&self.baseline).map(|(a, b)| difference(a, b)).collect())
     }
@@ -122,7 +126,11 @@ impl<'a> Yardstick<'a> {
             let changed = |share: f64| {
                 let mut world = self.campaign.world.without_effects();
                 world.leg_compliance[leg] *= 1.0 + share;
-                self.added_by(&Campaign { world, frames: self.campaign.frames, noise: self.campaign.noise })
+                self.added_by(&SimulatedCampaign {
+                    world,
+                    frames: self.campaign.frames,
+                    noise: self.campaign.noise,
+                })
             };
             let (plus, minus) = (changed(SHARE)?, changed(-SHARE)?);
             self.explain(plus.iter().zip(&minus).map(|(p, m)| p - m).collect::<Vec<_>>().as_slice());
@@ -137,7 +145,7 @@ impl<'a> Yardstick<'a> {
             let changed = |step: f64| {
                 let world = self.campaign.world.without_effects();
                 let frames = absolute::shifted(&self.campaign.frames, k, step);
-                self.added_by(&Campaign { world, frames, noise: self.campaign.noise })
+                self.added_by(&SimulatedCampaign { world, frames, noise: self.campaign.noise })
             };
             let (plus, minus) = (changed(STEP)?, changed(-STEP)?);
             self.explain(plus.iter().zip(&minus).map(|(p, m)| p - m).collect::<Vec<_>>().as_slice());

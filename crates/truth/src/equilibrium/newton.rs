@@ -199,7 +199,7 @@ mod tests {
     use hexbench_core::{Pose, Wrench};
 
     use super::*;
-    use crate::{Moment, Phase, Situation, World, campaign::machines::RING_B, mechanisms::REGISTRY};
+    use crate::{Instant, Phase, Situation, World, campaign::machines::RING_B, mechanisms::REGISTRY};
 
     /// Central differences of the imbalance, by the scaled unknowns, about a state.
     fn differences(setup: &Setup, layout: &Layout, at: &Iterate) -> Vec<[f64; MOST]> {
@@ -228,7 +228,7 @@ mod tests {
             let world = World::new(hexapod.clone(), &[4e6; 6])
                 .with((effect.draw)(&hexapod, &mut stream(1, Purpose::Test, [1])).scaled(3.0));
             let lengths = world.reading(&situation).unwrap().equilibrium.elongations;
-            let moment = Moment {
+            let moment = Instant {
                 hexapod: &hexapod,
                 situation: &situation,
                 phase: Phase::Loaded,

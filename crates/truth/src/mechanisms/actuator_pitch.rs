@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed, uniform};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, one_of, parsed, uniform};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "actuator-pitch",
     title: "Periodic lead error of the actuators",
     physics: "q = q(commanded) + amp sin(2 pi q / pitch + phase_i)",
@@ -37,7 +37,7 @@ impl Mechanism for ActuatorPitch {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         for (i, length) in setup.leg_lengths.iter_mut().enumerate() {
             let turn = std::f64::consts::TAU * moment.nominal_lengths[i] / self.pitch;
             *length += self.amplitude * (turn + self.phases[i]).sin();

@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, normal3, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "actuator-scale",
     title: "Encoders or lead screws have a gain error",
     physics: "q = q(commanded) + gain_i (q - q_home)",
@@ -33,7 +33,7 @@ impl Mechanism for ActuatorScale {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         for (i, length) in setup.leg_lengths.iter_mut().enumerate() {
             *length += self.gains[i] * (moment.nominal_lengths[i] - moment.home_lengths[i]);
         }

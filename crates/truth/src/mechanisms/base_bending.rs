@@ -8,11 +8,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed, uniform};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, parsed, uniform};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "out:base-bending",
     title: "The foundation bends as a full 6x6 compliance",
     physics: "six springs along and about six skew axes instead of the frame's own",
@@ -34,7 +34,7 @@ impl Mechanism for BaseBending {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         setup.yield_base(&Matrix6::from_fn(|i, j| self.compliance[i][j]));
     }
 

@@ -8,11 +8,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed, uniform, vector};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, one_of, parsed, uniform, vector};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "base-compliance",
     title: "The foundation yields",
     physics: "base body on six springs at the centre of the base-joint plane",
@@ -34,7 +34,7 @@ impl Mechanism for BaseCompliance {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         setup.yield_base(&Matrix6::from_diagonal(&vector(&self.stiffness.map(f64::recip))));
     }
 

@@ -8,11 +8,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed};
-use crate::{Moment, Setup, setup::Bracket};
+use super::{Mechanism, MechanismEntry, Shows, parsed};
+use crate::{Instant, Setup, setup::Bracket};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "bracket-compliance",
     title: "Joint mounts yield sideways",
     physics: "base joint i moves by c_lat (f_x, f_y, 0)",
@@ -34,7 +34,7 @@ impl Mechanism for BracketCompliance {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         let compliance = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 0.0)) * self.lateral_compliance;
         setup.brackets.extend((0..6).map(|leg| Bracket { displaced: leg, pulled: leg, compliance }));
     }

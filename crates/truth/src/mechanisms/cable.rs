@@ -8,11 +8,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed, uniform};
-use crate::{Moment, Setup, setup::Cable};
+use super::{Mechanism, MechanismEntry, Shows, parsed, uniform};
+use crate::{Instant, Setup, setup::Cable};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "out:cable",
     title: "A cable pulls at the platform",
     physics: "spring between a fixed point and a point of the platform",
@@ -40,7 +40,7 @@ impl Mechanism for CablePull {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         let (anchor, attachment) = (Vector3::from(self.anchor), Vector3::from(self.attachment));
         let pose = &moment.situation.pose;
         let reach = anchor - pose.translation - pose.rotation() * attachment;

@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, one_of, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "creep",
     title: "Leg compliance grows under load",
     physics: "e += chi c (f - f0) (1 - exp(-elapsed / tau))",
@@ -35,7 +35,7 @@ impl Mechanism for Creep {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         let grown = self.share * -(-moment.elapsed() / self.time).exp_m1();
         for (i, law) in setup.laws.iter_mut().enumerate() {
             let yielding = law.compliance * grown;

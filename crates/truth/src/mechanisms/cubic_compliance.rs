@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed_if};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, one_of, parsed_if};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "out:cubic-compliance",
     title: "Leg compliance grows with the cube of the position",
     physics: "c_i = c (1 + growth (x / reach)^3), x = a or b",
@@ -37,7 +37,7 @@ impl Mechanism for CubicCompliance {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         let x = moment.situation.pose.translation[self.axis] / self.reach;
         for law in &mut setup.laws {
             law.compliance *= 1.0 + self.growth * x.powi(3);

@@ -12,11 +12,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "joint-friction",
     title: "Dry friction along the legs",
     physics: "a slider beside each leg spring holds up to f_c",
@@ -40,7 +40,7 @@ impl Mechanism for JointFriction {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         for law in &mut setup.laws {
             law.slider_force += self.slider_force;
             law.slider_ratio = self.stick_ratio.unwrap_or(f64::INFINITY);

@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, normal3, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "joint-geometry",
     title: "Joints are not where the drawing says",
     physics: "A_i, B_i true; leg lengths commanded from the nominal ones",
@@ -39,7 +39,7 @@ impl Mechanism for JointGeometry {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         for i in 0..6 {
             setup.base_joints[i] += Vector3::from(self.base[i]);
             setup.platform_joints[i] += Vector3::from(self.platform[i]);

@@ -8,11 +8,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, one_of, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "joint-rotation-stiffness",
     title: "Flexure joints resist rotation",
     physics: "energy k (1 - n.m) at each end of each leg",
@@ -36,7 +36,7 @@ impl Mechanism for JointRotationStiffness {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         setup.base_joint_stiffness += self.base;
         setup.platform_joint_stiffness += self.platform;
     }

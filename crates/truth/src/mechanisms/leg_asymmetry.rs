@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "leg-asymmetry",
     title: "Legs are softer when they pull",
     physics: "e += c_t max(f, 0)",
@@ -33,7 +33,7 @@ impl Mechanism for LegAsymmetry {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         for law in &mut setup.laws {
             law.tension_compliance += self.tension_compliance;
         }

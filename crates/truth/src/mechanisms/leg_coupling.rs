@@ -8,11 +8,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed};
-use crate::{Moment, Setup, setup::Bracket};
+use super::{Mechanism, MechanismEntry, Shows, parsed};
+use crate::{Instant, Setup, setup::Bracket};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "leg-coupling",
     title: "Two legs share one bracket",
     physics: "base joint i moves by c_x f_j n_j for its neighbour j",
@@ -34,7 +34,7 @@ impl Mechanism for LegCoupling {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         let compliance = Matrix3::identity() * self.cross_compliance;
         for [i, j] in moment.hexapod.bracket_pairs() {
             setup.brackets.push(Bracket { displaced: i, pulled: j, compliance });

@@ -8,11 +8,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed};
-use crate::{Moment, Setup, law::LengthCompliance};
+use super::{Mechanism, MechanismEntry, Shows, parsed};
+use crate::{Instant, Setup, law::LengthCompliance};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "leg-length-compliance",
     title: "Leg compliance grows with free length",
     physics: "c_i = c + s (q - q_home)",
@@ -34,7 +34,7 @@ impl Mechanism for LegLengthCompliance {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         for (i, law) in setup.laws.iter_mut().enumerate() {
             law.along_length
                 .push(LengthCompliance::Growing { slope: self.slope, home: moment.home_lengths[i] });

@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, one_of, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "leg-nonlinearity",
     title: "Legs do not follow Hooke's law",
     physics: "e += kappa sgn(f) |f|^p",
@@ -35,7 +35,7 @@ impl Mechanism for LegNonlinearity {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         for law in &mut setup.laws {
             law.powers.push((self.kappa, self.power));
         }

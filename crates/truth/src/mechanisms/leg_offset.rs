@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, normal3, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "leg-offset",
     title: "Zero lengths of the legs are off",
     physics: "q = q(commanded) + offset_i",
@@ -33,7 +33,7 @@ impl Mechanism for LegOffset {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         for (length, offset) in setup.leg_lengths.iter_mut().zip(self.offsets) {
             *length += offset;
         }

@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed_if, uniform};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, one_of, parsed_if, uniform};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "out:leg-step",
     title: "One leg steps at some time",
     physics: "q_i += step for one leg once elapsed > time",
@@ -37,7 +37,7 @@ impl Mechanism for LegStep {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         if moment.elapsed() > self.time {
             setup.leg_lengths[self.leg - 1] += self.step;
         }

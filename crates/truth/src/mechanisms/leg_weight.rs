@@ -8,11 +8,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "leg-weight",
     title: "Legs have weight",
     physics: "half of m g on each joint; f is the mean axial force",
@@ -34,7 +34,7 @@ impl Mechanism for LegWeight {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         const GRAVITY_M_PER_S2: f64 = 9.81;
         for weight in &mut setup.joint_weights {
             weight.z -= 0.5 * self.mass * GRAVITY_M_PER_S2;

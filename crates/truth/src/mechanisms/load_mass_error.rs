@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "out:load-mass-error",
     title: "A mass nobody counted hangs on the loaded platform",
     physics: "loaded force += (0, 0, -mass g)",
@@ -33,7 +33,7 @@ impl Mechanism for LoadMassError {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         const GRAVITY_M_PER_S2: f64 = 9.81;
         if moment.is_loaded() {
             setup.wrench.force.z -= self.mass * GRAVITY_M_PER_S2;

@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, normal3, parsed};
-use crate::{Moment, Setup, setup::PointForce};
+use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use crate::{Instant, Setup, setup::PointForce};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "load-offset",
     title: "The load acts beside the mobile origin",
     physics: "moment (R r') x F in both states",
@@ -33,7 +33,7 @@ impl Mechanism for LoadOffset {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         let force = setup.wrench.force;
         setup.wrench.force = Vector3::zeros();
         setup.forces.push(PointForce { point: self.point.into(), force });

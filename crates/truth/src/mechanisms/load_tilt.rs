@@ -8,11 +8,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, normal3, parsed};
-use crate::{Moment, Setup, so3};
+use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use crate::{Instant, Setup, so3};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "load-tilt",
     title: "Load directions are tilted",
     physics: "F -> rotation(alpha_x, alpha_y, 0) F in both states",
@@ -37,7 +37,7 @@ impl Mechanism for LoadTilt {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         let tilt = so3::exp(&Vector3::new(self.angles[0], self.angles[1], 0.0));
         setup.wrench.force = tilt * setup.wrench.force;
         for force in &mut setup.forces {

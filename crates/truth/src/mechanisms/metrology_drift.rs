@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, normal3, parsed};
-use crate::Moment;
+use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use crate::Instant;
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "metrology-drift",
     title: "The metrology frame moves with time",
     physics: "reading += rates * elapsed",
@@ -33,7 +33,7 @@ impl Mechanism for MetrologyDrift {
         EFFECT.id
     }
 
-    fn read(&self, moment: &Moment<'_>, pose: &mut Pose) {
+    fn read(&self, moment: &Instant<'_>, pose: &mut Pose) {
         *pose =
             Pose::from_array(std::array::from_fn(|k| pose.to_array()[k] + self.rates[k] * moment.elapsed()));
     }

@@ -11,7 +11,7 @@ use rand_pcg::Pcg64;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
-use crate::{Moment, Setup, TruthError, equilibrium::Body};
+use crate::{Instant, Setup, TruthError, equilibrium::Body};
 
 /// One physical effect of a given size. It may act on the structure, on what is seen of it, or on what is read.
 pub trait Mechanism: Debug + Send + Sync {
@@ -19,13 +19,13 @@ pub trait Mechanism: Debug + Send + Sync {
     fn id(&self) -> &'static str;
 
     /// Changes the structure at a moment.
-    fn act(&self, _moment: &Moment<'_>, _setup: &mut Setup) {}
+    fn act(&self, _moment: &Instant<'_>, _setup: &mut Setup) {}
 
     /// Changes which body the instrument sees.
-    fn see(&self, _moment: &Moment<'_>, _body: &mut Body) {}
+    fn see(&self, _moment: &Instant<'_>, _body: &mut Body) {}
 
     /// Changes the numbers the instrument gives.
-    fn read(&self, _moment: &Moment<'_>, _pose: &mut Pose) {}
+    fn read(&self, _moment: &Instant<'_>, _pose: &mut Pose) {}
 
     /// The same effect `factor` times as large; 0 makes it vanish.
     fn scaled(&self, factor: f64) -> Box<dyn Mechanism>;
@@ -52,7 +52,7 @@ pub enum Shows {
 
 /// Entry of the registry.
 #[derive(Debug, Clone, Copy)]
-pub struct Effect {
+pub struct MechanismEntry {
     /// Id in the catalogue.
     pub id: &'static str,
     /// One line in plain words.
@@ -79,7 +79,7 @@ macro_rules! mechanisms {
         $(pub use $module::$mechanism;)+
 
         /// All effects, in the order of the catalogue; those outside it at the end.
-        pub const REGISTRY: &[Effect] = &[$($module::EFFECT),+];
+        pub const REGISTRY: &[MechanismEntry] = &[$($module::EFFECT),+];
     };
 }
 
@@ -120,7 +120,7 @@ mechanisms! {
 ///
 /// # Errors
 /// [`TruthError::UnknownMechanism`].
-pub fn effect(id: &str) -> Result<&'static Effect, TruthError> {
+pub fn effect(id: &str) -> Result<&'static MechanismEntry, TruthError> {
     REGISTRY.iter().find(|e| e.id == id).ok_or_else(|| TruthError::UnknownMechanism { id: id.to_owned() })
 }
 

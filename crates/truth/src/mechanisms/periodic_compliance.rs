@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed};
-use crate::{Moment, Setup, law::LengthCompliance};
+use super::{Mechanism, MechanismEntry, Shows, one_of, parsed};
+use crate::{Instant, Setup, law::LengthCompliance};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "out:periodic-compliance",
     title: "Leg compliance periodic in leg length",
     physics: "c_i = c + amp sin(2 pi q / pitch)",
@@ -35,7 +35,7 @@ impl Mechanism for PeriodicCompliance {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         for law in &mut setup.laws {
             law.along_length
                 .push(LengthCompliance::Periodic { amplitude: self.amplitude, pitch: self.pitch });

@@ -8,11 +8,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, one_of, parsed, uniform, vector};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, one_of, parsed, uniform, vector};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "platform-compliance",
     title: "The plate between legs and targets yields",
     physics: "legs' plate and measured platform joined by six springs at the mobile origin",
@@ -34,7 +34,7 @@ impl Mechanism for PlatformCompliance {
         EFFECT.id
     }
 
-    fn act(&self, _: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, _: &Instant<'_>, setup: &mut Setup) {
         setup.yield_plate(&Matrix6::from_diagonal(&vector(&self.stiffness.map(f64::recip))));
     }
 

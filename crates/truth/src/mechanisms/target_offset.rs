@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, normal3, parsed};
-use crate::{Moment, equilibrium::Body};
+use super::{Mechanism, MechanismEntry, Shows, normal3, parsed};
+use crate::{Instant, equilibrium::Body};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "target-offset",
     title: "The measured point is not the mobile origin",
     physics: "reading of t + R r'",
@@ -33,7 +33,7 @@ impl Mechanism for TargetOffset {
         EFFECT.id
     }
 
-    fn see(&self, _: &Moment<'_>, body: &mut Body) {
+    fn see(&self, _: &Instant<'_>, body: &mut Body) {
         body.origin += body.axes * Vector3::from(self.point);
     }
 

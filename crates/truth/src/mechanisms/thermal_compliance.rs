@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "out:thermal-compliance",
     title: "Leg compliance changes with temperature",
     physics: "c_i = c (1 + beta delta_T) in the loaded state",
@@ -33,7 +33,7 @@ impl Mechanism for ThermalCompliance {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         for law in &mut setup.laws {
             law.compliance *= 1.0 + self.beta * moment.delta_t();
         }

@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Effect, Mechanism, Shows, parsed};
-use crate::{Moment, Setup};
+use super::{Mechanism, MechanismEntry, Shows, parsed};
+use crate::{Instant, Setup};
 
 /// Its entry in the registry.
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: MechanismEntry = MechanismEntry {
     id: "thermal-expansion",
     title: "Legs grow with temperature",
     physics: "q -> q (1 + alpha delta_T)",
@@ -33,7 +33,7 @@ impl Mechanism for ThermalExpansion {
         EFFECT.id
     }
 
-    fn act(&self, moment: &Moment<'_>, setup: &mut Setup) {
+    fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
         for length in &mut setup.leg_lengths {
             *length *= 1.0 + self.alpha * moment.delta_t();
         }

@@ -44,7 +44,7 @@ pub struct Surroundings {
 
 /// Ball centres of one state, in the frame of the measuring machine, m.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Record {
+pub struct BallRecord {
     /// Balls on the platform.
     pub platform: Vec<Vector3>,
     /// Balls on the base.
@@ -53,7 +53,7 @@ pub struct Record {
 
 /// A pose found from a record.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Located {
+pub struct CmmPose {
     /// The pose.
     pub pose: Pose,
     /// Covariance of its six numbers from the noise of the balls, m and rad.
@@ -62,12 +62,12 @@ pub struct Located {
 
 impl Cmm {
     /// Touches all balls with the platform at a pose.
-    pub fn record(&self, frames: &Frames, pose: &Pose, at: Surroundings, rng: &mut Pcg64) -> Record {
+    pub fn record(&self, frames: &Frames, pose: &Pose, at: Surroundings, rng: &mut Pcg64) -> BallRecord {
         let frame = self.frame(frames, at.elapsed);
         let stretch = 1.0 + self.scale_per_k * at.delta_t;
         let platform = Frames { metrology: frame, target: frames.target }.seen(pose);
         let mut touch = |balls: &Balls, pose: &Pose| balls.seen(pose, stretch, rng);
-        let mut record = Record {
+        let mut record = BallRecord {
             platform: touch(&self.platform, &platform),
             base: self.base.as_ref().map(|base| touch(base, &frame)).unwrap_or_default(),
         };
@@ -80,7 +80,7 @@ impl Cmm {
         Frames { metrology: frames.metrology, target: moved }.seen(&Pose::default())
     }
 
-    fn blunder(&self, record: &mut Record, rng: &mut Pcg64) {
+    fn blunder(&self, record: &mut BallRecord, rng: &mut Pcg64) {
         if self.blunder_share > 0.0 && rng.random_bool(self.blunder_share) {
             let ball = rng.random_range(0..record.platform.len());
             let side = if rng.random_bool(0.5) { 1.0 } else { -1.0 };
@@ -110,18 +110,18 @@ impl Cmm {
         let r = pose.rotation();
         let platform = self.platform.centres.iter().map(|c| pose.translation + r * c).collect();
         let base = self.base.as_ref().map(|base| base.centres.clone()).unwrap_or_default();
-        self.locate(&Record { platform, base }).map(|located| located.covariance)
+        self.locate(&BallRecord { platform, base }).map(|located| located.covariance)
     }
 
     /// Pose of the platform in the fixed frame, or in the frame of the machine when no balls are on the base.
     ///
     /// # Errors
     /// As [`Balls::register`].
-    pub fn locate(&self, record: &Record) -> Result<Located, TruthError> {
+    pub fn locate(&self, record: &BallRecord) -> Result<CmmPose, TruthError> {
         let platform = self.platform.register(&record.platform)?.pose;
         let Some(base) = &self.base else {
             let twist = self.platform.covariance(&platform)?;
-            return Ok(Located { pose: platform, covariance: of_angles(&platform, &twist) });
+            return Ok(CmmPose { pose: platform, covariance: of_angles(&platform, &twist) });
         };
         let frame = base.register(&record.base)?.pose;
         let back = frame.rotation().transpose();
@@ -131,7 +131,7 @@ impl Cmm {
         let carried = block(&back, &(-back * arm.cross_matrix()), &back);
         let twist = turned * self.platform.covariance(&platform)? * turned.transpose()
             + carried * base.covariance(&frame)? * carried.transpose();
-        Ok(Located { pose, covariance: of_angles(&pose, &twist) })
+        Ok(CmmPose { pose, covariance: of_angles(&pose, &twist) })
     }
 }
 

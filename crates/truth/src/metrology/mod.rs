@@ -6,9 +6,9 @@ mod frames;
 mod noise;
 
 pub use balls::{Balls, Registration};
-pub use cmm::{Cmm, Located, Record, Surroundings};
+pub use cmm::{BallRecord, Cmm, CmmPose, Surroundings};
 pub use frames::Frames;
-pub use noise::Noise;
+pub use noise::InstrumentNoise;
 
 use hexbench_core::{Matrix3, Pose};
 

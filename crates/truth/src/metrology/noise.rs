@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 
 /// Independent Gaussian noise on the six numbers of a reading, with an occasional blunder.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Noise {
+pub struct InstrumentNoise {
     /// Of each translation, m.
     pub sigma_translation: f64,
     /// Of each rotation, rad.
@@ -18,14 +18,14 @@ pub struct Noise {
     pub blunder_sigmas: f64,
 }
 
-impl Default for Noise {
+impl Default for InstrumentNoise {
     /// 0.5 um and 3 urad, no blunders.
     fn default() -> Self {
         Self { sigma_translation: 0.5e-6, sigma_rotation: 3e-6, blunder_rate: 0.0, blunder_sigmas: 15.0 }
     }
 }
 
-impl Noise {
+impl InstrumentNoise {
     /// Standard deviations of the six numbers, m and rad.
     pub fn sigma(&self) -> Vector6 {
         let (t, r) = (self.sigma_translation, self.sigma_rotation);

@@ -5,17 +5,17 @@ use std::ops::Range;
 use hexbench_core::{Columns, Measurand, Observation, Pose, Vector6};
 use rand_pcg::Pcg64;
 
-use super::{Instrument, PartName, Purpose, Scene};
+use super::{Instrument, PartName, Scene, ScenePurpose};
 use crate::{
     TruthError, World,
-    campaign::{Row, rounded},
-    metrology::{Cmm, Frames, Record, Surroundings},
+    campaign::{PlanRow, rounded},
+    metrology::{BallRecord, Cmm, Frames, Surroundings},
     world::difference,
 };
 
 /// A scene ready to be measured.
 #[derive(Debug)]
-pub struct Bench<'a> {
+pub struct VirtualBench<'a> {
     scene: &'a Scene,
     world: World,
     frames: Frames,
@@ -28,7 +28,7 @@ pub struct Measured {
     /// The reading.
     pub observation: Observation,
     /// What the measuring machine wrote down, reference state first; empty for an instrument that reads numbers.
-    pub records: Vec<Record>,
+    pub records: Vec<BallRecord>,
 }
 
 /// A row whose state of rest does not exist.
@@ -48,7 +48,7 @@ pub struct RowError {
 /// The states of a row, seen without error. In absolute mode only the second one is.
 type Ideal = [Pose; 2];
 
-impl<'a> Bench<'a> {
+impl<'a> VirtualBench<'a> {
     /// Sets a scene up; without noise the instrument reads what there is.
     pub fn new(scene: &'a Scene, noise_free: bool) -> Self {
         Self { scene, world: scene.world(), frames: scene.frames(), noise_free }
@@ -86,7 +86,7 @@ impl<'a> Bench<'a> {
     /// [`RowError`].
     pub fn measure(&self, name: PartName, range: Range<u64>) -> Result<Vec<Measured>, RowError> {
         let part = self.scene.part(name);
-        let mut last: Option<(Row, Ideal)> = None;
+        let mut last: Option<(PlanRow, Ideal)> = None;
         let mut measured = Vec::new();
         for (index, row) in range.filter_map(|index| part.row(index).map(|row| (index, row))) {
             let failed = |cause| RowError { part: name.word(), row: index + 1, pose_id: row.pose_id, cause };
@@ -95,13 +95,13 @@ impl<'a> Bench<'a> {
                 _ => self.ideal(&row).map_err(failed)?,
             };
             last = Some((row, ideal));
-            let mut rng = self.scene.streams().of(Purpose::Noise(name), index);
+            let mut rng = self.scene.streams().of(ScenePurpose::Noise(name), index);
             measured.push(self.read(&row, index, ideal, &mut rng).map_err(failed)?);
         }
         Ok(measured)
     }
 
-    fn ideal(&self, row: &Row) -> Result<Ideal, TruthError> {
+    fn ideal(&self, row: &PlanRow) -> Result<Ideal, TruthError> {
         if self.is_absolute() {
             self.world.pose(&row.situation).map(|pose| [pose, pose])
         } else {
@@ -109,7 +109,7 @@ impl<'a> Bench<'a> {
         }
     }
 
-    fn read(&self, row: &Row, index: u64, ideal: Ideal, rng: &mut Pcg64) -> Result<Measured, TruthError> {
+    fn read(&self, row: &PlanRow, index: u64, ideal: Ideal, rng: &mut Pcg64) -> Result<Measured, TruthError> {
         let (measured, sigma, records) = match &self.scene.instrument {
             Instrument::Numbers(noise) => {
                 let error = if self.noise_free { Vector6::zeros() } else { noise.draw(rng) };
@@ -133,10 +133,10 @@ impl<'a> Bench<'a> {
     fn touched(
         &self,
         cmm: &Cmm,
-        row: &Row,
+        row: &PlanRow,
         [before, after]: Ideal,
         rng: &mut Pcg64,
-    ) -> Result<(Vector6, Vector6, Vec<Record>), TruthError> {
+    ) -> Result<(Vector6, Vector6, Vec<BallRecord>), TruthError> {
         let quiet = self.noise_free.then(|| cmm.without_errors());
         let acting = quiet.as_ref().unwrap_or(cmm);
         let later = Surroundings { elapsed: row.situation.elapsed, delta_t: row.situation.delta_t };

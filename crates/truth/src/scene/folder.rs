@@ -11,7 +11,7 @@ use std::{
 use hexbench_core::files::{FileError, MeasurementsWriter, atomic_write, write_hexapod};
 use rayon::prelude::*;
 
-use super::{Bench, Measured, PartName, RowError, balls_file, sealed_truth};
+use super::{Measured, PartName, RowError, VirtualBench, balls_file, sealed_truth};
 
 /// Rows computed at a time by one thread.
 const CHUNK: u64 = 1024;
@@ -49,7 +49,7 @@ pub enum SimulationError {
     File(#[from] FileError),
 }
 
-impl Bench<'_> {
+impl VirtualBench<'_> {
     /// Measures all rows and writes the folder; `progress` hears how many rows are done.
     ///
     /// # Errors
@@ -150,7 +150,7 @@ impl Bench<'_> {
     }
 }
 
-fn balls_are_kept(bench: &Bench<'_>, part: PartName) -> bool {
+fn balls_are_kept(bench: &VirtualBench<'_>, part: PartName) -> bool {
     part == PartName::Training && bench.columns().sigma
 }
 

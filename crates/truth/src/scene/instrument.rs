@@ -2,37 +2,37 @@
 
 use hexbench_core::{
     Measurand, Metrology, Pose, Vector3,
-    files::{Fault, Item, Key, Kind, Section},
+    files::{Dimension, Fault, Item, KeyUnit, TomlSection},
 };
 
 use crate::{
     TruthError,
-    metrology::{Balls, Cmm, Noise},
+    metrology::{Balls, Cmm, InstrumentNoise},
 };
 
 /// The instrument of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Instrument {
     /// Independent noise on the six numbers of a reading.
-    Numbers(Noise),
+    Numbers(InstrumentNoise),
     /// Balls touched by a coordinate measuring machine.
     Balls(Box<Cmm>),
 }
 
-const KEYS: &[Key] = &[
-    Key::plain("kind"),
-    Key::with_unit("sigma_translation", Kind::Length, "um"),
-    Key::with_unit("sigma_rotation", Kind::Angle, "urad"),
-    Key::plain("blunder_share"),
-    Key::plain("blunder_sigmas"),
-    Key::with_unit("balls", Kind::Length, "mm"),
-    Key::with_unit("base_balls", Kind::Length, "mm"),
-    Key::with_unit("sigma_ball", Kind::Length, "um"),
-    Key::with_unit("sigma_base_ball", Kind::Length, "um"),
-    Key::plain("drift_um_per_h"),
-    Key::plain("drift_urad_per_h"),
-    Key::plain("scale_ppm_per_K"),
-    Key::with_unit("blunder", Kind::Length, "um"),
+const KEYS: &[KeyUnit] = &[
+    KeyUnit::plain("kind"),
+    KeyUnit::with_unit("sigma_translation", Dimension::Length, "um"),
+    KeyUnit::with_unit("sigma_rotation", Dimension::Angle, "urad"),
+    KeyUnit::plain("blunder_share"),
+    KeyUnit::plain("blunder_sigmas"),
+    KeyUnit::with_unit("balls", Dimension::Length, "mm"),
+    KeyUnit::with_unit("base_balls", Dimension::Length, "mm"),
+    KeyUnit::with_unit("sigma_ball", Dimension::Length, "um"),
+    KeyUnit::with_unit("sigma_base_ball", Dimension::Length, "um"),
+    KeyUnit::plain("drift_um_per_h"),
+    KeyUnit::plain("drift_urad_per_h"),
+    KeyUnit::plain("scale_ppm_per_K"),
+    KeyUnit::with_unit("blunder", Dimension::Length, "um"),
 ];
 const OF_NUMBERS: &[&str] =
     &["kind", "sigma_translation", "sigma_rotation", "blunder_share", "blunder_sigmas"];
@@ -68,7 +68,7 @@ impl Instrument {
     }
 
     /// Reads `[instrument]`.
-    pub(super) fn read(top: &Section<'_>) -> Result<Self, Fault> {
+    pub(super) fn read(top: &TomlSection<'_>) -> Result<Self, Fault> {
         let table = top.section("instrument", "[instrument]", KEYS)?;
         let kind = table.require("kind")?;
         match kind.string()? {
@@ -85,8 +85,8 @@ impl Instrument {
     }
 }
 
-fn refuse_others(table: &Section<'_>, known: &[&str], kind: &str) -> Result<(), Fault> {
-    let mut strays = KEYS.iter().map(Key::name).filter(|key| !known.contains(key));
+fn refuse_others(table: &TomlSection<'_>, known: &[&str], kind: &str) -> Result<(), Fault> {
+    let mut strays = KEYS.iter().map(KeyUnit::name).filter(|key| !known.contains(key));
     match strays.find_map(|key| table.get(key)) {
         None => Ok(()),
         Some(stray) => {
@@ -95,11 +95,11 @@ fn refuse_others(table: &Section<'_>, known: &[&str], kind: &str) -> Result<(), 
     }
 }
 
-fn number_or(table: &Section<'_>, key: &str, usual: f64) -> Result<f64, Fault> {
+fn number_or(table: &TomlSection<'_>, key: &str, usual: f64) -> Result<f64, Fault> {
     table.get(key).map_or(Ok(usual), Item::number)
 }
 
-fn share(table: &Section<'_>) -> Result<f64, Fault> {
+fn share(table: &TomlSection<'_>) -> Result<f64, Fault> {
     let Some(item) = table.get("blunder_share") else { return Ok(0.0) };
     match item.number()? {
         share if (0.0..=1.0).contains(&share) => Ok(share),
@@ -107,16 +107,16 @@ fn share(table: &Section<'_>) -> Result<f64, Fault> {
     }
 }
 
-fn numbers(table: &Section<'_>) -> Result<Noise, Fault> {
-    Ok(Noise {
+fn numbers(table: &TomlSection<'_>) -> Result<InstrumentNoise, Fault> {
+    Ok(InstrumentNoise {
         sigma_translation: table.require("sigma_translation")?.positive(SIGMA)?,
         sigma_rotation: table.require("sigma_rotation")?.positive(SIGMA)?,
         blunder_rate: share(table)?,
-        blunder_sigmas: number_or(table, "blunder_sigmas", Noise::default().blunder_sigmas)?,
+        blunder_sigmas: number_or(table, "blunder_sigmas", InstrumentNoise::default().blunder_sigmas)?,
     })
 }
 
-fn cmm(table: &Section<'_>) -> Result<Cmm, Fault> {
+fn cmm(table: &TomlSection<'_>) -> Result<Cmm, Fault> {
     let sigma = table.require("sigma_ball")?.positive(SIGMA)?;
     let sigma_base = table.get("sigma_base_ball").map_or(Ok(sigma), |item| item.positive(SIGMA))?;
     let [um, urad] = [rates(table, "drift_um_per_h")?, rates(table, "drift_urad_per_h")?];
@@ -131,7 +131,7 @@ fn cmm(table: &Section<'_>) -> Result<Cmm, Fault> {
 }
 
 /// Three rates, millionths per hour, in SI.
-fn rates(table: &Section<'_>, key: &str) -> Result<[f64; 3], Fault> {
+fn rates(table: &TomlSection<'_>, key: &str) -> Result<[f64; 3], Fault> {
     let rates = table.get(key).map_or(Ok([0.0; 3]), |item| item.numbers::<3>("three rates"))?;
     Ok(rates.map(|rate| rate * 1e-6 / SECONDS_PER_HOUR))
 }

@@ -22,16 +22,16 @@ mod sealed;
 mod sealed_truth;
 mod streams;
 
-pub use bench::{Bench, Measured, RowError};
+pub use bench::{Measured, RowError, VirtualBench};
 pub use folder::{Existing, SimulationError};
 pub use instrument::Instrument;
-pub use part::{Part, PartName};
+pub use part::{PartName, PlanPart};
 pub use plan::{PlanError, ScenePlan};
-pub use streams::{Purpose, Streams};
+pub use streams::{ScenePurpose, Streams};
 
 use hexbench_core::{Hexapod, Measurand, Pose};
 
-use crate::{Mechanism, World, campaign::Plan, metrology::Frames};
+use crate::{Mechanism, World, campaign::MeasurementPlan, metrology::Frames};
 
 /// A scene as read from its folder. SI units.
 #[derive(Debug)]
@@ -84,14 +84,14 @@ impl Scene {
     }
 
     /// A part of the plan, whose rows can be asked for one by one.
-    pub fn part(&self, name: PartName) -> Part<'_> {
+    pub fn part(&self, name: PartName) -> PlanPart<'_> {
         self.plan.part(name, self.streams())
     }
 
     /// All rows of both parts.
-    pub fn plan(&self) -> Plan {
+    pub fn plan(&self) -> MeasurementPlan {
         let rows = |name| self.part(name).iter().collect();
-        Plan {
+        MeasurementPlan {
             measurand: self.measurand(),
             training: rows(PartName::Training),
             holdout: rows(PartName::Holdout),
@@ -101,7 +101,7 @@ impl Scene {
     /// Frames of the instrument: that of the measuring machine is never quite that of the hexapod; that of the target
     /// matters for absolute poses only.
     pub fn frames(&self) -> Frames {
-        let drawn = Frames::aligned(&mut self.streams().of(Purpose::Frames, 0));
+        let drawn = Frames::aligned(&mut self.streams().of(ScenePurpose::Frames, 0));
         match (self.measurand(), &self.instrument) {
             (Measurand::AbsolutePose, _) => drawn,
             (_, Instrument::Balls(_)) => Frames { target: Pose::default(), ..drawn },

@@ -1,7 +1,7 @@
 //! The rows of a part of a plan, each from its number alone.
 
-use super::{Purpose, Streams};
-use crate::campaign::{Row, Scheme};
+use super::{ScenePurpose, Streams};
+use crate::campaign::{PlanRow, Scheme};
 
 /// Which part of a plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,18 +34,18 @@ impl PartName {
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Source<'a> {
     Scheme(&'a Scheme),
-    Rows { rows: &'a [Row], repeats: u64 },
+    Rows { rows: &'a [PlanRow], repeats: u64 },
 }
 
 /// A part of a plan.
 #[derive(Debug, Clone, Copy)]
-pub struct Part<'a> {
+pub struct PlanPart<'a> {
     pub(super) name: PartName,
     pub(super) source: Source<'a>,
     pub(super) streams: Streams,
 }
 
-impl Part<'_> {
+impl PlanPart<'_> {
     /// Which part it is.
     pub fn name(&self) -> PartName {
         self.name
@@ -78,33 +78,33 @@ impl Part<'_> {
     }
 
     /// All rows in order.
-    pub fn iter(&self) -> impl Iterator<Item = Row> {
+    pub fn iter(&self) -> impl Iterator<Item = PlanRow> {
         (0..self.len()).filter_map(|index| self.row(index))
     }
 
     /// The row of an index; none beyond the last.
-    pub fn row(&self, index: u64) -> Option<Row> {
+    pub fn row(&self, index: u64) -> Option<PlanRow> {
         match self.source {
             Source::Scheme(scheme) => (index < scheme.rows()).then(|| self.drawn(scheme, index)),
             Source::Rows { rows, repeats } => {
                 let row = rows.get(usize::try_from(index / repeats).ok()?)?;
                 let again = i64::try_from(index % repeats).ok()?;
-                Some(Row { repeat: if repeats == 1 { row.repeat } else { again + 1 }, ..*row })
+                Some(PlanRow { repeat: if repeats == 1 { row.repeat } else { again + 1 }, ..*row })
             }
         }
     }
 
-    fn drawn(&self, scheme: &Scheme, index: u64) -> Row {
+    fn drawn(&self, scheme: &Scheme, index: u64) -> PlanRow {
         let loads = scheme.loads.len() as u64;
         let (condition, repeat) = (index / scheme.repeats, index % scheme.repeats);
         let (pose_index, load) = (condition / loads, condition % loads);
-        let pose = scheme.pose(pose_index, &mut self.streams.of(Purpose::Pose(self.name), pose_index));
-        let surroundings = Purpose::Surroundings(self.name);
+        let pose = scheme.pose(pose_index, &mut self.streams.of(ScenePurpose::Pose(self.name), pose_index));
+        let surroundings = ScenePurpose::Surroundings(self.name);
         let mut rng = self.streams.of(surroundings, if scheme.anew { index } else { condition });
         let wrench =
             usize::try_from(load).ok().and_then(|i| scheme.loads.get(i)).copied().unwrap_or_default();
         let situation = scheme.situation(pose, wrench, &mut rng);
         let from_one = |n: u64| i64::try_from(n).unwrap_or(i64::MAX - 1) + 1;
-        Row { pose_id: from_one(pose_index), repeat: from_one(repeat), situation }
+        PlanRow { pose_id: from_one(pose_index), repeat: from_one(repeat), situation }
     }
 }

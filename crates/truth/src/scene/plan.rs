@@ -2,8 +2,8 @@
 
 use hexbench_core::Measurand;
 
-use super::{Part, PartName, Streams, part::Source};
-use crate::campaign::{Poses, Row, Scheme, Schemes};
+use super::{PartName, PlanPart, Streams, part::Source};
+use crate::campaign::{PlanRow, Poses, Scheme, Schemes};
 
 /// Most rows of a part.
 const MOST_ROWS: u64 = 1_000_000_000;
@@ -18,9 +18,9 @@ pub enum ScenePlan {
         /// What is read.
         measurand: Measurand,
         /// Rows to learn from.
-        training: Vec<Row>,
+        training: Vec<PlanRow>,
         /// Rows to judge by.
-        holdout: Vec<Row>,
+        holdout: Vec<PlanRow>,
         /// Readings of each training row.
         repeats: u64,
     },
@@ -50,7 +50,7 @@ impl ScenePlan {
     }
 
     /// A part with the streams of a seed.
-    pub fn part(&self, name: PartName, streams: Streams) -> Part<'_> {
+    pub fn part(&self, name: PartName, streams: Streams) -> PlanPart<'_> {
         let source = match (self, name) {
             (Self::Schemes(schemes), PartName::Training) => Source::Scheme(&schemes.training),
             (Self::Schemes(schemes), PartName::Holdout) => Source::Scheme(&schemes.holdout),
@@ -59,7 +59,7 @@ impl ScenePlan {
             }
             (Self::Rows { holdout, .. }, PartName::Holdout) => Source::Rows { rows: holdout, repeats: 1 },
         };
-        Part { name, source, streams }
+        PlanPart { name, source, streams }
     }
 
     /// The same plan with as many drawn training poses.

@@ -5,30 +5,33 @@ use std::path::Path;
 
 use hexbench_core::{
     Dataset, Hexapod, Measurand, Pose, Wrench,
-    files::{Fault, FileError, Item, Key, Kind, Place, Problem, Section, instead_of, read_conditions},
+    files::{
+        Dimension, Fault, FileError, FilePlace, FileProblem, Item, KeyUnit, TomlSection, instead_of,
+        read_conditions,
+    },
 };
 
-use super::{Purpose, ScenePlan, Streams};
-use crate::campaign::{PlanKind, Poses, Row, Scheme, Schemes, Spread, pose_of, usual_half_range_mm_deg};
+use super::{ScenePlan, ScenePurpose, Streams};
+use crate::campaign::{PlanKind, PlanRow, Poses, Scheme, Schemes, Spread, pose_of, usual_half_range_mm_deg};
 
-const KEYS: &[Key] = &[
-    Key::plain("make"),
-    Key::plain("mode"),
-    Key::plain("conditions"),
-    Key::plain("holdout_conditions"),
-    Key::plain("poses"),
-    Key::plain("holdout_poses"),
-    Key::plain("poses_mm_deg"),
-    Key::plain("holdout_poses_mm_deg"),
-    Key::with_unit("travel", Kind::Length, "mm"),
-    Key::with_unit("turn", Kind::Angle, "deg"),
-    Key::plain("loads_N_Nm"),
-    Key::plain("reference_N_Nm"),
-    Key::plain("repeats"),
-    Key::plain("holdout_repeats"),
-    Key::plain("approach"),
-    Key::with_unit("delta_T", Kind::TemperatureDifference, "K"),
-    Key::with_unit("elapsed", Kind::Time, "s"),
+const KEYS: &[KeyUnit] = &[
+    KeyUnit::plain("make"),
+    KeyUnit::plain("mode"),
+    KeyUnit::plain("conditions"),
+    KeyUnit::plain("holdout_conditions"),
+    KeyUnit::plain("poses"),
+    KeyUnit::plain("holdout_poses"),
+    KeyUnit::plain("poses_mm_deg"),
+    KeyUnit::plain("holdout_poses_mm_deg"),
+    KeyUnit::with_unit("travel", Dimension::Length, "mm"),
+    KeyUnit::with_unit("turn", Dimension::Angle, "deg"),
+    KeyUnit::plain("loads_N_Nm"),
+    KeyUnit::plain("reference_N_Nm"),
+    KeyUnit::plain("repeats"),
+    KeyUnit::plain("holdout_repeats"),
+    KeyUnit::plain("approach"),
+    KeyUnit::with_unit("delta_T", Dimension::TemperatureDifference, "K"),
+    KeyUnit::with_unit("elapsed", Dimension::Time, "s"),
 ];
 /// Keys that make sense beside a table of conditions.
 const BESIDE_CONDITIONS: [&str; 4] = ["mode", "conditions", "holdout_conditions", "repeats"];
@@ -52,7 +55,7 @@ pub(super) struct PlanTable {
 
 impl PlanTable {
     /// Reads `[plan]`.
-    pub(super) fn read(top: &Section<'_>) -> Result<Self, Fault> {
+    pub(super) fn read(top: &TomlSection<'_>) -> Result<Self, Fault> {
         let item = top.require("plan")?;
         let t = item.section("[plan]", KEYS)?;
         let table = Self {
@@ -74,11 +77,11 @@ impl PlanTable {
     }
 
     /// A plan is a make, a table of conditions, or loads with poses.
-    fn refuse_halves(&self, item: &Item<'_>, table: &Section<'_>) -> Result<(), Fault> {
+    fn refuse_halves(&self, item: &Item<'_>, table: &TomlSection<'_>) -> Result<(), Fault> {
         if self.conditions.is_some() {
             let stray = KEYS
                 .iter()
-                .map(Key::name)
+                .map(KeyUnit::name)
                 .find(|key| table.get(key).is_some() && !BESIDE_CONDITIONS.contains(key));
             return stray.and_then(|key| table.get(key)).map_or(Ok(()), |stray| {
                 Err(stray.breaks("rows of a table of conditions are taken as they are", "Remove this key."))
@@ -108,8 +111,8 @@ impl PlanTable {
         };
         plan.checked().map_err(|wrong| {
             let problem =
-                Problem::Rule { rule: wrong.to_string(), next: "Change poses, loads or repeats.".into() };
-            Fault::new(Place::file().with_name("[plan]"), problem).in_file(file)
+                FileProblem::Rule { rule: wrong.to_string(), next: "Change poses, loads or repeats.".into() };
+            Fault::new(FilePlace::file().with_name("[plan]"), problem).in_file(file)
         })
     }
 
@@ -137,7 +140,7 @@ impl PlanTable {
 
     fn schemes(self, hexapod: &Hexapod, streams: Streams) -> Schemes {
         let base = match self.make {
-            Some(make) => make.schemes(hexapod, &mut streams.of(Purpose::Loads, 0)),
+            Some(make) => make.schemes(hexapod, &mut streams.of(ScenePurpose::Loads, 0)),
             None => plain(),
         };
         let measurand = self.measurand().unwrap_or(base.training.measurand);
@@ -194,8 +197,8 @@ fn with_half_range(poses: Poses, half_mm_deg: [f64; 6]) -> Poses {
     }
 }
 
-fn rows_of(conditions: &Dataset) -> Vec<Row> {
-    conditions.observations.iter().map(Row::from).collect()
+fn rows_of(conditions: &Dataset) -> Vec<PlanRow> {
+    conditions.observations.iter().map(PlanRow::from).collect()
 }
 
 fn make(item: &Item<'_>) -> Result<PlanKind, Fault> {
@@ -214,7 +217,7 @@ fn mode(item: &Item<'_>) -> Result<bool, Fault> {
     }
 }
 
-fn conditions(table: &Section<'_>) -> Result<Option<[Option<String>; 2]>, Fault> {
+fn conditions(table: &TomlSection<'_>) -> Result<Option<[Option<String>; 2]>, Fault> {
     let file = |key| table.get(key).map(|item| item.string().map(str::to_owned)).transpose();
     Ok(match file("conditions")? {
         Some(training) => Some([Some(training), file("holdout_conditions")?]),
@@ -222,11 +225,11 @@ fn conditions(table: &Section<'_>) -> Result<Option<[Option<String>; 2]>, Fault>
     })
 }
 
-fn count(table: &Section<'_>, key: &str, least: u64) -> Result<Option<u64>, Fault> {
+fn count(table: &TomlSection<'_>, key: &str, least: u64) -> Result<Option<u64>, Fault> {
     table.get(key).map(|item| item.whole(least)).transpose()
 }
 
-fn poses(table: &Section<'_>, number: &str, list: &str) -> Result<Option<Poses>, Fault> {
+fn poses(table: &TomlSection<'_>, number: &str, list: &str) -> Result<Option<Poses>, Fault> {
     if let Some(item) = table.get(list) {
         let six =
             |pose: &Item<'_>| pose.numbers::<6>("six numbers [a, b, c, alpha, beta, gamma], mm and deg");
@@ -255,7 +258,8 @@ fn wrench(item: &Item<'_>) -> Result<Wrench, Fault> {
 }
 
 fn approaches(item: &Item<'_>) -> Result<Vec<Approach>, Fault> {
-    let one = |way: &Item<'_>| Approach::of_sign(way.number()?).ok_or_else(|| way.fault(Problem::Approach));
+    let one =
+        |way: &Item<'_>| Approach::of_sign(way.number()?).ok_or_else(|| way.fault(FileProblem::Approach));
     item.list()?.iter().map(one).collect()
 }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hexbench_core::{
     Hexapod,
-    files::{Fault, FileError, Format, Item, Key, Section, read_hexapod, read_toml},
+    files::{Fault, FileError, Format, Item, KeyUnit, TomlSection, read_hexapod, read_toml},
 };
 
 use super::{Instrument, Scene, Streams, plan_table::PlanTable, sealed::read_truth};
@@ -14,7 +14,7 @@ const SCENE_FILE: &str = "scene.toml";
 
 const SCENE: Format = Format {
     name: "scene/1",
-    keys: &Key::all_plain([
+    keys: &KeyUnit::all_plain([
         "format",
         "title",
         "shows",
@@ -79,7 +79,7 @@ impl Scene {
     }
 }
 
-fn description(top: &Section<'_>) -> Result<Description, Fault> {
+fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
     let text = |key: &str| top.require(key)?.string().map(str::to_owned);
     let file = |key: &str, usual: &str| top.get(key).map_or(Ok(usual), Item::string).map(str::to_owned);
     Ok(Description {

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use hexbench_core::files::{Fault, FileError, Format, Item, Key, Kind, Problem, Section, read_toml};
+use hexbench_core::files::{
+    Dimension, Fault, FileError, FileProblem, Format, Item, KeyUnit, TomlSection, read_toml,
+};
 use serde_json::{Map, Value};
 
 use crate::{Mechanism, mechanisms};
@@ -10,9 +12,9 @@ use crate::{Mechanism, mechanisms};
 const TRUTH: Format = Format {
     name: "truth/1",
     keys: &[
-        Key::plain("format"),
-        Key::with_unit("leg_stiffness", Kind::Stiffness, "N_per_um"),
-        Key::plain("effect"),
+        KeyUnit::plain("format"),
+        KeyUnit::with_unit("leg_stiffness", Dimension::Stiffness, "N_per_um"),
+        KeyUnit::plain("effect"),
     ],
 };
 
@@ -36,7 +38,7 @@ pub(super) fn read_truth(path: &Path) -> Result<Sealed, FileError> {
     })
 }
 
-fn stiffness(top: &Section<'_>) -> Result<[f64; 6], Fault> {
+fn stiffness(top: &TomlSection<'_>) -> Result<[f64; 6], Fault> {
     let mut stiffness = [0.0; 6];
     for (k, item) in stiffness.iter_mut().zip(top.require("leg_stiffness")?.exactly::<6>("six stiffnesses")?)
     {
@@ -49,12 +51,12 @@ fn effect(item: &Item<'_>) -> Result<Box<dyn Mechanism>, Fault> {
     let entries = item.entries()?;
     let (ids, parameters): (Vec<_>, Vec<_>) = entries.iter().partition(|entry| entry.key() == "id");
     let Some(id) = ids.first() else {
-        return Err(item.fault(Problem::MissingKey { key: "id".into() }));
+        return Err(item.fault(FileProblem::MissingKey { key: "id".into() }));
     };
     let values = parameters.iter().map(|p| Ok((p.key().to_owned(), json(p)?)));
     let parameters = values.collect::<Result<Map<_, _>, Fault>>()?;
     mechanisms::build(id.string()?, Value::Object(parameters)).map_err(|wrong| {
-        id.fault(Problem::Rule {
+        id.fault(FileProblem::Rule {
             rule: wrong.to_string(),
             next: "docs/reference/file-formats.md lists the effects with their parameters.".into(),
         })

@@ -2,19 +2,19 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Bench, Instrument, PartName};
+use super::{Instrument, PartName, VirtualBench};
 use crate::{
     TruthError,
-    campaign::{Campaign, Row, Yardstick, rms},
+    campaign::{PlanRow, SimulatedCampaign, Yardstick, rms},
     mechanisms::is_outside,
-    metrology::Noise,
+    metrology::InstrumentNoise,
 };
 
 /// Most rows for which the visibility of the effects is worked out.
 const MOST_ROWS: u64 = 2000;
 
 /// The truth under the keys of the case folders; distance and sizes only for plans of moderate size.
-pub(super) fn of(bench: &Bench<'_>) -> Value {
+pub(super) fn of(bench: &VirtualBench<'_>) -> Value {
     let scene = bench.scene();
     let mut parameters = Map::new();
     scene.mechanisms.iter().for_each(|m| parameters.extend(m.parameters()));
@@ -50,30 +50,30 @@ fn kind(effects: &[&str]) -> &'static str {
 }
 
 /// The instrument as independent noise on six numbers.
-fn stated(bench: &Bench<'_>) -> Noise {
+fn stated(bench: &VirtualBench<'_>) -> InstrumentNoise {
     match (&bench.scene().instrument, bench.scene().hexapod.metrology) {
         (Instrument::Numbers(noise), _) => *noise,
-        (Instrument::Balls(_), Some(m)) => Noise {
+        (Instrument::Balls(_), Some(m)) => InstrumentNoise {
             sigma_translation: m.sigma_translation,
             sigma_rotation: m.sigma_rotation,
-            ..Noise::default()
+            ..InstrumentNoise::default()
         },
-        (Instrument::Balls(_), None) => Noise::default(),
+        (Instrument::Balls(_), None) => InstrumentNoise::default(),
     }
 }
 
 /// How visible the effects are, and what they add to the readings, root mean square in um and urad.
-fn sizes(bench: &Bench<'_>, noise: Noise) -> Result<Map<String, Value>, TruthError> {
+fn sizes(bench: &VirtualBench<'_>, noise: InstrumentNoise) -> Result<Map<String, Value>, TruthError> {
     let scene = bench.scene();
     let parts = [PartName::Training, PartName::Holdout].map(|name| scene.part(name));
     if scene.mechanisms.is_empty() || parts.iter().any(|part| part.len() > MOST_ROWS) {
         return Ok(Map::new());
     }
-    let bare = Campaign { world: scene.world().without_effects(), frames: *bench.frames(), noise };
+    let bare = SimulatedCampaign { world: scene.world().without_effects(), frames: *bench.frames(), noise };
     let all = || scene.mechanisms.iter().map(|m| m.scaled(1.0)).collect();
     let mut sizes = Map::new();
     for (part, key) in parts.iter().zip(["raw_effect_rms", "holdout_effect_rms"]) {
-        let rows: Vec<Row> = part.iter().collect();
+        let rows: Vec<PlanRow> = part.iter().collect();
         let yardstick = Yardstick::new(&bare, &rows, scene.measurand())?;
         let (translation, rotation) = rms(&yardstick.signature(all())?);
         sizes.insert(key.to_owned(), json!([translation * 1e6, rotation * 1e6]));

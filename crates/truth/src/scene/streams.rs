@@ -7,7 +7,7 @@ use super::PartName;
 
 /// What a stream decides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Purpose {
+pub enum ScenePurpose {
     /// Loads of the plan.
     Loads,
     /// A pose of a part.
@@ -20,7 +20,7 @@ pub enum Purpose {
     Frames,
 }
 
-impl Purpose {
+impl ScenePurpose {
     fn in_core(self) -> streams::Purpose {
         use streams::Purpose as P;
         match self {
@@ -49,7 +49,7 @@ impl Streams {
     }
 
     /// The stream of a purpose and a number.
-    pub fn of(self, purpose: Purpose, number: u64) -> Pcg64 {
+    pub fn of(self, purpose: ScenePurpose, number: u64) -> Pcg64 {
         stream(self.seed, purpose.in_core(), [number])
     }
 }
@@ -65,7 +65,7 @@ mod tests {
     fn neighbouring_streams_are_independent() {
         const STREAMS: u32 = 20_000;
         let first = |seed: u64, number: u32| -> f64 {
-            let purpose = Purpose::Noise(PartName::Training);
+            let purpose = ScenePurpose::Noise(PartName::Training);
             StandardNormal.sample(&mut Streams::new(seed).of(purpose, u64::from(number)))
         };
         let draws: Vec<f64> = (0..=STREAMS).map(|number| first(7, number)).collect();
@@ -90,14 +90,14 @@ mod tests {
     fn purposes_do_not_share_a_stream() {
         let [a, b] = [PartName::Training, PartName::Holdout];
         let all = [
-            Purpose::Loads,
-            Purpose::Frames,
-            Purpose::Pose(a),
-            Purpose::Pose(b),
-            Purpose::Surroundings(a),
-            Purpose::Surroundings(b),
-            Purpose::Noise(a),
-            Purpose::Noise(b),
+            ScenePurpose::Loads,
+            ScenePurpose::Frames,
+            ScenePurpose::Pose(a),
+            ScenePurpose::Pose(b),
+            ScenePurpose::Surroundings(a),
+            ScenePurpose::Surroundings(b),
+            ScenePurpose::Noise(a),
+            ScenePurpose::Noise(b),
         ];
         let streams: Vec<Pcg64> = all.iter().map(|p| Streams::new(1).of(*p, 0)).collect();
         for i in 0..streams.len() {

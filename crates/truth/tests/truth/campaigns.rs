@@ -3,13 +3,13 @@
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_truth::{
     TruthError, World,
-    campaign::{Case, CaseSpec, Kind, machines},
+    campaign::{CaseKind, CaseSpec, SimulatedCase, machines},
 };
 use rayon::prelude::*;
 
-fn cases(threads: usize) -> Vec<Case> {
+fn cases(threads: usize) -> Vec<SimulatedCase> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let jobs: Vec<(Kind, usize)> = Kind::ALL.iter().flat_map(|&k| [(k, 0), (k, 1)]).collect();
+    let jobs: Vec<(CaseKind, usize)> = CaseKind::ALL.iter().flat_map(|&k| [(k, 0), (k, 1)]).collect();
     pool.install(|| {
         jobs.par_iter().filter_map(|&(k, i)| CaseSpec::draw(k, i, 11, 0, None).build().ok()).collect()
     })
@@ -29,7 +29,7 @@ fn the_same_seed_gives_the_same_measurements_on_any_number_of_threads() {
 #[test]
 fn effects_have_the_distance_asked_for() {
     for index in 0..16 {
-        let spec = CaseSpec::draw(Kind::Single, index, 5, 4, Some([30.0, 30.0]));
+        let spec = CaseSpec::draw(CaseKind::Single, index, 5, 4, Some([30.0, 30.0]));
         let case = spec.build().unwrap();
         let distance = case.truth["distance"].as_f64().unwrap();
         assert!((distance / 30.0 - 1.0).abs() < 1e-4, "{:?}: {distance}", spec.effects);
@@ -57,7 +57,7 @@ fn every_family_of_machines_holds_its_platform() {
 #[test]
 fn a_tilt_that_anybody_would_see_is_not_drawn() {
     let effects = vec!["load-tilt"];
-    let spec = CaseSpec { effects, ..CaseSpec::draw(Kind::Single, 0, 5, 4, Some([1e5, 1e5])) };
+    let spec = CaseSpec { effects, ..CaseSpec::draw(CaseKind::Single, 0, 5, 4, Some([1e5, 1e5])) };
     let refused = spec.build().unwrap_err();
     assert!(matches!(refused, TruthError::NotVisible { scale, .. } if scale < 100.0), "{refused}");
 }

@@ -96,9 +96,9 @@ pub(crate) fn chi2_by_direction(world: &World, rows: &[Row]) -> [f64; 6] {
 }
 
 /// The plan behind a measurement file.
-pub(crate) fn plan_rows(case: &str, file: &str) -> Vec<campaign::Row> {
+pub(crate) fn plan_rows(case: &str, file: &str) -> Vec<campaign::PlanRow> {
     let rows = rows(case, file).into_iter();
-    rows.map(|row| campaign::Row { pose_id: 0, repeat: 0, situation: row.situation }).collect()
+    rows.map(|row| campaign::PlanRow { pose_id: 0, repeat: 0, situation: row.situation }).collect()
 }
 
 /// Six points of a truth file.

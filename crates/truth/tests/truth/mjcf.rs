@@ -145,7 +145,7 @@ impl hexbench_truth::Mechanism for Foundation {
         "base-compliance"
     }
 
-    fn act(&self, _: &hexbench_truth::Moment<'_>, setup: &mut hexbench_truth::Setup) {
+    fn act(&self, _: &hexbench_truth::Instant<'_>, setup: &mut hexbench_truth::Setup) {
         setup.yield_base(&self.0);
     }
 

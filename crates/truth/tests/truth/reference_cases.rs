@@ -4,12 +4,12 @@
 use hexbench_core::{Measurand, Pose};
 use hexbench_truth::{
     Mechanism, World,
-    campaign::{Campaign, Yardstick, rms},
+    campaign::{SimulatedCampaign, Yardstick, rms},
     mechanisms::{
         ActuatorPitch, BaseCompliance, JointFriction, JointGeometry, LegNonlinearity, LoadOffset,
         PeriodicCompliance,
     },
-    metrology::{Frames, Noise},
+    metrology::{Frames, InstrumentNoise},
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -97,8 +97,11 @@ fn a_yielding_foundation_under_the_paper_protocol_agrees() {
 fn sizes_of_effects_agree() {
     for case in ["contact", "friction", "not-in-catalogue", "paper-protocol", "two-effects"] {
         let (world, truth) = (world(case), truth(case));
-        let bare =
-            Campaign { world: world.without_effects(), frames: Frames::default(), noise: Noise::default() };
+        let bare = SimulatedCampaign {
+            world: world.without_effects(),
+            frames: Frames::default(),
+            noise: InstrumentNoise::default(),
+        };
         let plan = plan_rows(case, "measurements.csv");
         let yardstick = Yardstick::new(&bare, &plan, Measurand::DeflectionEuler).unwrap();
         let all = || world.mechanisms.iter().map(|m| m.scaled(1.0)).collect();
@@ -157,7 +160,7 @@ fn joint_geometry_and_periodic_leads_agree() {
 fn whitened(world: &World, frames: &[f64; 12], rows: &[common::Row]) -> DVector<f64> {
     let pose = |k: usize| Pose::from_array(std::array::from_fn(|i| frames[k + i] * 1e-6));
     let frames = Frames { metrology: pose(0), target: pose(6) };
-    let sigma = Noise::default().sigma();
+    let sigma = InstrumentNoise::default().sigma();
     let errors = rows.iter().flat_map(|row| {
         let seen = frames.seen(&world.pose(&row.situation).unwrap());
         (row.measured - seen.to_vector()).component_div(&sigma).iter().copied().collect::<Vec<_>>()

@@ -10,7 +10,7 @@ use hexbench_core::{
 use hexbench_truth::{
     Scene,
     campaign::machines::RING_A,
-    scene::{Bench, PartName},
+    scene::{PartName, VirtualBench},
 };
 
 const HEAD: &str = r#"
@@ -220,7 +220,7 @@ fn every_bundled_scene_has_its_picture_and_its_page() {
 fn every_bundled_scene_can_be_measured() {
     for folder in bundled() {
         let scene = Scene::read(&folder).unwrap();
-        let bench = Bench::new(&scene, false);
+        let bench = VirtualBench::new(&scene, false);
         for part in [PartName::Training, PartName::Holdout] {
             let rows = scene.part(part).len();
             assert!(rows > 5, "{}: {rows} rows", folder.display());
@@ -252,7 +252,8 @@ fn readings_by_balls_have_the_stated_noise() {
         let mut scene = with_instrument(&format!("{BALLS}{base}")).unwrap();
         scene.plan = scene.plan.with_repeats(40).unwrap();
         let rows = scene.part(PartName::Training).len();
-        let read = |noise_free| Bench::new(&scene, noise_free).measure(PartName::Training, 0..rows).unwrap();
+        let read =
+            |noise_free| VirtualBench::new(&scene, noise_free).measure(PartName::Training, 0..rows).unwrap();
         let mut squares = 0.0;
         for (noisy, ideal) in read(false).iter().zip(read(true)) {
             let (sigma, count) = (noisy.observation.sigma.unwrap(), 6.0 * rows as f64);
@@ -272,7 +273,7 @@ fn readings_by_balls_have_the_stated_noise() {
 fn a_frame_that_drifts_shows_unless_balls_on_the_base_carry_it() {
     let deflection = |more: &str| {
         let scene = with_instrument(&format!("{BALLS}{more}")).unwrap();
-        Bench::new(&scene, false).measure(PartName::Training, 0..1).unwrap()[0].observation.measured[0]
+        VirtualBench::new(&scene, false).measure(PartName::Training, 0..1).unwrap()[0].observation.measured[0]
     };
     let drift = "drift_um_per_h = [5000, 0, 0]\n";
     assert!((deflection(drift) - deflection("")).abs() > 5e-6);

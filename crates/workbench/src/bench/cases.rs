@@ -4,7 +4,7 @@ use crate::wire::Choice;
 
 /// A bundled case: its files as text.
 #[derive(Debug, Clone, Copy)]
-pub struct Case {
+pub struct BundledCase {
     /// Name of its folder.
     pub id: &'static str,
     /// What people read.
@@ -21,7 +21,7 @@ pub struct Case {
 
 macro_rules! case {
     ($id:literal, $title:literal, $text:literal) => {
-        Case {
+        BundledCase {
             id: $id,
             title: $title,
             text: $text,
@@ -33,14 +33,14 @@ macro_rules! case {
 }
 
 /// The case of the demo.
-pub const FOUNDATION: Case = case!(
+pub const FOUNDATION: BundledCase = case!(
     "mujoco-foundation",
     "A machine on a table",
     "14 poses, six loads, two readings each; made by MuJoCo"
 );
 
 /// All bundled cases.
-pub const CASES: [Case; 8] = [
+pub const CASES: [BundledCase; 8] = [
     FOUNDATION,
     case!(
         "mujoco-clean",
@@ -62,11 +62,11 @@ pub const CASES: [Case; 8] = [
 /// What there is to choose from.
 pub(super) fn choices() -> Vec<Choice> {
     let choice =
-        |c: &Case| Choice { id: c.id.to_owned(), title: c.title.to_owned(), text: c.text.to_owned() };
+        |c: &BundledCase| Choice { id: c.id.to_owned(), title: c.title.to_owned(), text: c.text.to_owned() };
     CASES.iter().map(choice).collect()
 }
 
 /// The case of a name.
-pub fn named(id: &str) -> Option<&'static Case> {
+pub fn named(id: &str) -> Option<&'static BundledCase> {
     CASES.iter().find(|c| c.id == id)
 }

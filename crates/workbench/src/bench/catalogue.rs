@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use hexbench_model::term::{Chapter, Rich, TermInfo};
 use hexbench_model::terms;
-use hexbench_model::user_term::{self, Variable};
+use hexbench_model::user_term::{self, FormulaVariable};
 
 use super::{Given, cases, simulate};
-use crate::wire::{Catalogue, Choice, FormulaHelp, Limits, NamedUnit, TermCard};
+use crate::wire::{Catalogue, Choice, FormulaHelp, NamedUnit, ServerLimits, TermCard};
 
 /// Terms, cases, machines, plans, effects, the language of formulas.
-pub fn catalogue(limits: Limits, given: Option<&Given>) -> Catalogue {
+pub fn catalogue(limits: ServerLimits, given: Option<&Given>) -> Catalogue {
     let terms = terms::catalogue();
     let chapters: BTreeSet<Chapter> = terms.iter().map(|t| t.info().chapter).collect();
     Catalogue {
@@ -52,8 +52,11 @@ fn named(name: &str, unit: &str) -> NamedUnit {
 }
 
 fn formula() -> FormulaHelp {
-    let choice =
-        |v: Variable| Choice { id: v.name.to_owned(), title: v.meaning.to_owned(), text: v.unit.to_owned() };
+    let choice = |v: FormulaVariable| Choice {
+        id: v.name.to_owned(),
+        title: v.meaning.to_owned(),
+        text: v.unit.to_owned(),
+    };
     FormulaHelp {
         variables: user_term::variables().into_iter().map(choice).collect(),
         functions: user_term::functions().into_iter().map(str::to_owned).collect(),

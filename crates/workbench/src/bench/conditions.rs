@@ -6,7 +6,7 @@ use hexbench_model::linearization::Linearization;
 use hexbench_report::words::spread;
 
 use super::digits::{all_short, short};
-use crate::wire::Conditions;
+use crate::wire::ConditionLists;
 
 /// Most conditions shown: more than an eye can tell apart, few enough to be drawn at once.
 const MOST: usize = 1000;
@@ -17,8 +17,8 @@ pub(super) fn shown(count: usize) -> Vec<usize> {
 }
 
 /// Columns of the conditions shown, on the machine as drawn.
-pub(super) fn columns(lin: &Linearization, shown: &[usize]) -> Conditions {
-    let mut all = Conditions { of: lin.conditions.len(), ..Conditions::default() };
+pub(super) fn columns(lin: &Linearization, shown: &[usize]) -> ConditionLists {
+    let mut all = ConditionLists { of: lin.conditions.len(), ..ConditionLists::default() };
     for c in shown.iter().map(|&i| &lin.conditions[i]) {
         all.pose.push(all_short(pose(c)));
         all.wrench.push(all_short(difference(&c.wrench.to_array(), &c.reference.to_array())));

@@ -3,19 +3,19 @@
 use std::collections::BTreeSet;
 use std::time::Instant;
 
-use hexbench_model::diagnose::{Diagnosis, Study, diagnose};
+use hexbench_model::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
 use hexbench_model::explanation::Explanation;
 use hexbench_model::fit_named::RICHER;
-use hexbench_report::words::{self, Subject};
+use hexbench_report::words::{self, ReportSubject};
 use hexbench_truth::mechanisms::is_outside;
 
-use super::refusal::{Kind, Refusal};
-use super::{Bench, files};
+use super::refusal::{Refusal, RefusalKind};
+use super::{LoadedCampaign, files};
 use crate::wire::{Ask, Diagnosed, Guess, Revealed};
 
-impl Bench {
+impl LoadedCampaign {
     /// Everything behind the diagnosis of these data.
-    pub(super) fn study(&self, own: &[String]) -> Result<Study, Refusal> {
+    pub(super) fn study(&self, own: &[String]) -> Result<DiagnosisStudy, Refusal> {
         let terms = files::terms_with(own, &self.limits)?;
         let c = &self.contents;
         diagnose(&c.hexapod, &c.data, c.holdout.as_ref(), &terms)
@@ -23,9 +23,9 @@ impl Bench {
     }
 
     /// What a page about these data is about.
-    pub(super) fn subject<'a>(&'a self, study: &'a Study) -> Subject<'a> {
+    pub(super) fn subject<'a>(&'a self, study: &'a DiagnosisStudy) -> ReportSubject<'a> {
         let c = &self.contents;
-        Subject { hexapod: &c.hexapod, data: &c.data, holdout: c.holdout.as_ref(), study }
+        ReportSubject { hexapod: &c.hexapod, data: &c.data, holdout: c.holdout.as_ref(), study }
     }
 
     /// Names the effect that is missing.
@@ -51,8 +51,13 @@ impl Bench {
     /// # Errors
     /// [`Kind::Conflict`] for measurements whose truth nobody here knows.
     pub fn reveal(&self, guess: &Guess) -> Result<Revealed, Refusal> {
-        let unknown =
-            || Refusal::new(Kind::Conflict, "nothing is hidden here by the program", "Start a game first.");
+        let unknown = || {
+            Refusal::new(
+                RefusalKind::Conflict,
+                "nothing is hidden here by the program",
+                "Start a game first.",
+            )
+        };
         let truth = self.truth.as_ref().ok_or_else(unknown)?;
         let hidden: BTreeSet<Explanation> = truth.hidden.iter().map(|h| explanation(&h.id)).collect();
         let guessed: BTreeSet<Explanation> = guess.guess.iter().map(|id| id.as_str().into()).collect();

@@ -9,14 +9,14 @@ use hexbench_report::render::{PROGRAM, html};
 use hexbench_report::words::Provenance;
 use serde::Serialize;
 
-use super::refusal::{Kind, Refusal};
-use super::{Bench, files, view};
+use super::refusal::{Refusal, RefusalKind};
+use super::{LoadedCampaign, files, view};
 use crate::wire::{Export, Exported, Selection, What};
 
 const TOML: &str = "application/toml";
 const CSV: &str = "text/csv";
 
-impl Bench {
+impl LoadedCampaign {
     /// A file to take home.
     ///
     /// # Errors
@@ -25,7 +25,11 @@ impl Bench {
         let [hexapod, data, holdout] = &self.files.names;
         let held = || {
             let missing = || {
-                Refusal::new(Kind::Conflict, "no readings are held out here", "Poses are left out in turn.")
+                Refusal::new(
+                    RefusalKind::Conflict,
+                    "no readings are held out here",
+                    "Poses are left out in turn.",
+                )
             };
             self.files.holdout.clone().ok_or_else(missing)
         };

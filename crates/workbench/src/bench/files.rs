@@ -7,9 +7,9 @@ use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::user_term;
 use hexbench_model::{term::Term, terms::catalogue};
 
-use super::cases::Case;
-use super::refusal::{Kind, Refusal};
-use crate::wire::{FileText, Limits};
+use super::cases::BundledCase;
+use super::refusal::{Refusal, RefusalKind};
+use crate::wire::{FileText, ServerLimits};
 
 /// What the three files are usually called.
 pub(super) const USUAL_NAMES: [&str; 3] = ["hexapod.toml", "measurements.csv", "holdout.csv"];
@@ -37,7 +37,7 @@ pub(super) struct Contents {
 
 impl Files {
     /// Those of a bundled case.
-    pub(super) fn of_case(case: &Case) -> Self {
+    pub(super) fn of_case(case: &BundledCase) -> Self {
         Self {
             hexapod: case.hexapod.to_owned(),
             data: case.data.to_owned(),
@@ -58,7 +58,7 @@ impl Files {
     }
 
     /// Reads and checks all three.
-    pub(super) fn read(&self, limits: &Limits) -> Result<Contents, Refusal> {
+    pub(super) fn read(&self, limits: &ServerLimits) -> Result<Contents, Refusal> {
         let [machine, data, holdout] = &self.names;
         let mut warnings = Vec::new();
         let mut measurements = |text: &str, name: &str| {
@@ -67,7 +67,7 @@ impl Files {
             if rows > limits.rows {
                 let rule = format!("{name} has {rows} readings; at most {} are accepted", limits.rows);
                 return Err(Refusal::new(
-                    Kind::TooLarge,
+                    RefusalKind::TooLarge,
                     rule,
                     "The command line takes files of any length.",
                 ));
@@ -92,16 +92,16 @@ fn shown(name: &str) -> String {
 }
 
 /// The catalogue, with terms of one's own behind it.
-pub(super) fn terms_with(own: &[String], limits: &Limits) -> Result<Vec<Arc<dyn Term>>, Refusal> {
+pub(super) fn terms_with(own: &[String], limits: &ServerLimits) -> Result<Vec<Arc<dyn Term>>, Refusal> {
     if own.len() > limits.own_terms {
         let rule = format!("{} terms of your own; at most {} are accepted", own.len(), limits.own_terms);
-        return Err(Refusal::new(Kind::TooLarge, rule, "Remove some."));
+        return Err(Refusal::new(RefusalKind::TooLarge, rule, "Remove some."));
     }
     let mut terms = catalogue();
     for (number, text) in own.iter().enumerate() {
         if text.len() > limits.term_bytes {
             let rule = format!("term file {} is longer than {} bytes", number + 1, limits.term_bytes);
-            return Err(Refusal::new(Kind::TooLarge, rule, "A term file is a few lines."));
+            return Err(Refusal::new(RefusalKind::TooLarge, rule, "A term file is a few lines."));
         }
         let term = user_term::parse(text).map_err(|cause| Refusal::own_term(number, &cause))?;
         let id = term.info().id;

@@ -15,21 +15,21 @@ mod simulate;
 mod view;
 
 pub use catalogue::catalogue;
-pub use refusal::{Kind, Refusal};
+pub use refusal::{Refusal, RefusalKind};
 
 use std::time::Instant;
 
 use hexbench_model::campaign::Campaign;
 use hexbench_model::diagnose::prepare;
-use hexbench_model::linearization::{Linearization, Point};
-use hexbench_model::selection::Task;
+use hexbench_model::linearization::{Linearization, ModelPoint};
+use hexbench_model::selection::JudgedTask;
 use hexbench_model::terms;
 use hexbench_model::untestable::why_untestable;
 use hexbench_report::words::subject::{describe, noise};
 
 use self::files::{Contents, Files};
 use self::simulate::{Request, Truth};
-use crate::wire::{FileText, Limits, Noise, Open, Opened, Selection, Untestable, View};
+use crate::wire::{FileText, NoiseLevels, Open, Opened, Selection, ServerLimits, UntestableTerm, View};
 
 /// Files given on the command line, as text.
 #[derive(Debug, Clone)]
@@ -44,22 +44,22 @@ pub struct Given {
 
 /// A campaign on the bench.
 #[derive(Debug)]
-pub struct Bench {
+pub struct LoadedCampaign {
     files: Files,
     contents: Contents,
     campaign: Campaign,
     truth: Option<Truth>,
     /// Conditions that are shown.
     shown: Vec<usize>,
-    limits: Limits,
+    limits: ServerLimits,
 }
 
-impl Bench {
+impl LoadedCampaign {
     /// Loads, reads or simulates.
     ///
     /// # Errors
     /// [`Refusal`] with the place in the file, or what cannot be simulated.
-    pub fn open(request: &Open, given: Option<&Given>, limits: &Limits) -> Result<Self, Refusal> {
+    pub fn open(request: &Open, given: Option<&Given>, limits: &ServerLimits) -> Result<Self, Refusal> {
         let (files, truth) = source(request, given)?;
         let contents = files.read(limits)?;
         let campaign = prepare(&contents.hexapod, &contents.data)
@@ -76,7 +76,7 @@ impl Bench {
         let view = self.view(&Selection::default())?;
         let c = &self.contents;
         let refused = |cause| Refusal::model(&cause, &c.data.source);
-        let lin = Linearization::at(&self.campaign, &Point::start(&self.campaign)).map_err(refused)?;
+        let lin = Linearization::at(&self.campaign, &ModelPoint::start(&self.campaign)).map_err(refused)?;
         let level = self.campaign.noise;
         Ok(Opened {
             id: id.to_owned(),
@@ -87,7 +87,7 @@ impl Bench {
             sealed: self.truth.as_ref().is_some_and(|t| t.sealed),
             absolute: c.data.is_absolute(),
             readings: c.data.observations.len(),
-            noise: Noise {
+            noise: NoiseLevels {
                 translation_um: level.translation * 1e6,
                 rotation_urad: level.rotation * 1e6,
                 source: level.source,
@@ -117,9 +117,14 @@ impl Bench {
         f.hexapod.len() + f.data.len() + f.holdout.as_ref().map_or(0, String::len)
     }
 
-    fn task(&self) -> Task<'_> {
+    fn task(&self) -> JudgedTask<'_> {
         let c = &self.contents;
-        Task { hexapod: &c.hexapod, data: &c.data, campaign: &self.campaign, holdout: c.holdout.as_ref() }
+        JudgedTask {
+            hexapod: &c.hexapod,
+            data: &c.data,
+            campaign: &self.campaign,
+            holdout: c.holdout.as_ref(),
+        }
     }
 
     fn about(&self) -> Vec<String> {
@@ -133,10 +138,10 @@ impl Bench {
             .collect()
     }
 
-    fn untestable(&self, lin: &Linearization) -> Vec<Untestable> {
+    fn untestable(&self, lin: &Linearization) -> Vec<UntestableTerm> {
         let reason = |t: &std::sync::Arc<dyn hexbench_model::term::Term>| {
             let why = why_untestable(t.as_ref(), &self.campaign, lin)?;
-            Some(Untestable { term: t.info().id.to_owned(), why: why.to_string() })
+            Some(UntestableTerm { term: t.info().id.to_owned(), why: why.to_string() })
         };
         terms::catalogue().iter().filter_map(reason).collect()
     }
@@ -149,8 +154,13 @@ fn source(request: &Open, given: Option<&Given>) -> Result<(Files, Option<Truth>
             Ok((Files::of_case(case), None))
         }
         Open::Given {} => {
-            let none =
-                || Refusal::new(Kind::Unknown, "no files were given on the command line", "Open files here.");
+            let none = || {
+                Refusal::new(
+                    RefusalKind::Unknown,
+                    "no files were given on the command line",
+                    "Open files here.",
+                )
+            };
             let given = given.ok_or_else(none)?;
             Ok((Files::of_texts(&given.hexapod, &given.data, given.holdout.as_ref()), None))
         }

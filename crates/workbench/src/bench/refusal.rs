@@ -9,7 +9,7 @@ use hexbench_truth::TruthError;
 
 /// What kind of refusal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum RefusalKind {
     /// The input says something that cannot be used.
     BadInput,
     /// Nothing of this name.
@@ -25,7 +25,7 @@ pub enum Kind {
 #[error("{message}")]
 pub struct Refusal {
     /// Its kind.
-    pub kind: Kind,
+    pub kind: RefusalKind,
     /// What is wrong.
     pub message: String,
     /// What to do.
@@ -34,18 +34,22 @@ pub struct Refusal {
 
 impl Refusal {
     /// A refusal.
-    pub fn new(kind: Kind, message: impl Into<String>, next: impl Into<String>) -> Self {
+    pub fn new(kind: RefusalKind, message: impl Into<String>, next: impl Into<String>) -> Self {
         Self { kind, message: message.into(), next: next.into() }
     }
 
     /// Something that cannot be used.
     pub(super) fn bad_input(message: impl Into<String>, next: impl Into<String>) -> Self {
-        Self::new(Kind::BadInput, message, next)
+        Self::new(RefusalKind::BadInput, message, next)
     }
 
     /// Nothing of this name.
     pub(super) fn unknown(what: &str, name: &str) -> Self {
-        Self::new(Kind::Unknown, format!("there is no {what} `{name}`"), "Choose one of the catalogue.")
+        Self::new(
+            RefusalKind::Unknown,
+            format!("there is no {what} `{name}`"),
+            "Choose one of the catalogue.",
+        )
     }
 
     /// A model that cannot be computed from the data of a file.

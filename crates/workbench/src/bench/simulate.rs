@@ -3,15 +3,15 @@
 use hexbench_core::files::{hexapod_to_toml, measurements_to_csv};
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_truth::TruthError;
-use hexbench_truth::campaign::{Case, CaseSpec, Kind, PlanKind, machines::FAMILIES};
+use hexbench_truth::campaign::{CaseKind, CaseSpec, PlanKind, SimulatedCase, machines::FAMILIES};
 use hexbench_truth::mechanisms::{REGISTRY, is_outside};
-use hexbench_truth::metrology::Noise;
+use hexbench_truth::metrology::InstrumentNoise;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
 use super::files::{Files, USUAL_NAMES};
 use super::refusal::Refusal;
-use crate::wire::{Choice, Hidden, Level};
+use crate::wire::{Choice, GameLevel, Hidden};
 
 /// Largest distance that can be asked for, units of the noise: beyond it the effect is larger than the machine.
 const FURTHEST: f64 = 1e4;
@@ -95,7 +95,7 @@ pub(super) fn simulate(request: &Request<'_>) -> Result<(Files, Truth), Refusal>
         plan,
         effects,
         distance: request.distance,
-        noise: Noise::default(),
+        noise: InstrumentNoise::default(),
         seed,
     };
     told(&spec.build()?, seed, false)
@@ -121,34 +121,36 @@ fn check_size(request: &Request<'_>, count: usize) -> Result<(), Refusal> {
     }
 }
 
-fn kind(plan: PlanKind, effects: &[&'static str]) -> Kind {
+fn kind(plan: PlanKind, effects: &[&'static str]) -> CaseKind {
     match (plan, effects) {
-        (PlanKind::Absolute, _) => Kind::Absolute,
-        (_, []) => Kind::Clean,
-        (_, all) if all.iter().any(|id| is_outside(id)) => Kind::Outside,
-        (_, [_]) => Kind::Single,
-        _ => Kind::Pair,
+        (PlanKind::Absolute, _) => CaseKind::Absolute,
+        (_, []) => CaseKind::Clean,
+        (_, all) if all.iter().any(|id| is_outside(id)) => CaseKind::Outside,
+        (_, [_]) => CaseKind::Single,
+        _ => CaseKind::Pair,
     }
 }
 
 /// Measures a machine in which something is hidden, or nothing.
-pub(super) fn game(level: Level, seed: Option<u64>) -> Result<(Files, Truth), Refusal> {
+pub(super) fn game(level: GameLevel, seed: Option<u64>) -> Result<(Files, Truth), Refusal> {
     let seed = seed.unwrap_or_else(|| rand::rng().random_range(..1_000_000));
     let mut rng = stream(seed, Purpose::WorkbenchGame, []);
     let kind = *choose(kinds(level), &mut rng);
     let index = rng.random_range(0..1000);
-    let first = if level == Level::Easy { EASY_ATTEMPT } else { 0 };
+    let first = if level == GameLevel::Easy { EASY_ATTEMPT } else { 0 };
     let attempt = |n: u64| CaseSpec::draw(kind, index, seed, n, None).build();
-    let made: Result<Case, TruthError> =
+    let made: Result<SimulatedCase, TruthError> =
         (first + 1..first + ATTEMPTS).fold(attempt(first), |made, n| made.or_else(|_| attempt(n)));
     told(&made?, seed, true)
 }
 
-fn kinds(level: Level) -> &'static [Kind] {
+fn kinds(level: GameLevel) -> &'static [CaseKind] {
     match level {
-        Level::Easy => &[Kind::Single],
-        Level::Hard => &[Kind::Single, Kind::Pair, Kind::Pair],
-        Level::Honest => &[Kind::Clean, Kind::Single, Kind::Single, Kind::Pair, Kind::Outside],
+        GameLevel::Easy => &[CaseKind::Single],
+        GameLevel::Hard => &[CaseKind::Single, CaseKind::Pair, CaseKind::Pair],
+        GameLevel::Honest => {
+            &[CaseKind::Clean, CaseKind::Single, CaseKind::Single, CaseKind::Pair, CaseKind::Outside]
+        }
     }
 }
 
@@ -157,7 +159,7 @@ fn choose<'a, T>(all: &'a [T], rng: &mut Pcg64) -> &'a T {
 }
 
 /// Files and truth of a case; what a game is called does not tell what is in it.
-fn told(case: &Case, seed: u64, sealed: bool) -> Result<(Files, Truth), Refusal> {
+fn told(case: &SimulatedCase, seed: u64, sealed: bool) -> Result<(Files, Truth), Refusal> {
     let title = |id: &str| {
         let known = REGISTRY.iter().find(|e| e.id == id);
         known.map_or_else(|| id.to_owned(), |e| e.title.to_owned())

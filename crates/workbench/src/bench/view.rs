@@ -8,8 +8,8 @@ use hexbench_model::compare::legs::leg_space;
 use hexbench_model::estimate::{Estimate, Estimates, estimates};
 use hexbench_model::fit_named::{Added, look_alikes};
 use hexbench_model::parameters::{leg_of_stiffness, stiffness_name};
-use hexbench_model::scatter::Scatter;
-use hexbench_model::selection::{Judged, Task};
+use hexbench_model::scatter::ResidualScatter;
+use hexbench_model::selection::{FitWithErrors, JudgedTask};
 use hexbench_model::term::Term;
 
 use super::conditions::motion;
@@ -29,15 +29,15 @@ pub(super) fn selected(ids: &[String], all: &[Arc<dyn Term>], data: &str) -> Res
 }
 
 /// Fits and judges.
-pub(super) fn judged(task: &Task<'_>, terms: &[Added]) -> Result<Judged, Refusal> {
+pub(super) fn judged(task: &JudgedTask<'_>, terms: &[Added]) -> Result<FitWithErrors, Refusal> {
     task.fit(terms).map_err(|cause| Refusal::model(&cause, &task.data.source))
 }
 
 /// What is seen of a fit; `since` the question was asked.
 pub(super) fn view(
-    task: &Task<'_>,
+    task: &JudgedTask<'_>,
     asked: &[String],
-    judged: &Judged,
+    judged: &FitWithErrors,
     shown: &[usize],
     since: Instant,
 ) -> View {
@@ -46,7 +46,7 @@ pub(super) fn view(
     let error = judged.held_out.unwrap_or(judged.fitted);
     let numbers = estimates(&judged.fit);
     let predictions: Vec<_> = shown.iter().map(|&i| lin.predicted(i)).collect();
-    let scatter = Scatter::of(&judged.residuals);
+    let scatter = ResidualScatter::of(&judged.residuals);
     View {
         terms: asked.to_vec(),
         fitted: judged.fitted,
@@ -65,7 +65,7 @@ pub(super) fn view(
             .zip(&predictions)
             .map(|(&i, p)| motion(&lin.conditions[i], p))
             .collect(),
-        scatter: wire::Scatter {
+        scatter: wire::ReadingResiduals {
             histogram: points(scatter.histogram()),
             quantiles: points(scatter.quantiles()),
         },
@@ -89,7 +89,7 @@ fn of_legs(numbers: &Estimates, hexapod: &Hexapod) -> [Leg; 6] {
     })
 }
 
-fn alike(judged: &Judged) -> Vec<LookAlike> {
+fn alike(judged: &FitWithErrors) -> Vec<LookAlike> {
     let pairs = look_alikes(&judged.fit, TOLD).into_iter().filter(|(.., r)| r.is_finite());
     pairs.take(MOST_TOLD).map(|(a, b, correlation)| LookAlike { a, b, correlation }).collect()
 }

@@ -19,13 +19,13 @@ use super::refuse::Refuse;
 use super::store::Store;
 use super::token::Token;
 use super::work::{Place, Work};
-use super::{Desk, Settings, assets, body, headers};
+use super::{Desk, ServerSettings, assets, body, headers};
 use crate::bench::{Given, Refusal};
 use crate::wire::Open;
 
 /// What all requests share.
 pub(super) struct Shared<D> {
-    settings: Settings,
+    settings: ServerSettings,
     given: Option<Given>,
     catalogue: Bytes,
     store: Store<D>,
@@ -34,7 +34,7 @@ pub(super) struct Shared<D> {
 
 impl<D: Desk> Shared<D> {
     /// The catalogue is made once.
-    pub(super) fn new(settings: &Settings, given: Option<Given>) -> io::Result<Self> {
+    pub(super) fn new(settings: &ServerSettings, given: Option<Given>) -> io::Result<Self> {
         let limits = settings.limits;
         let catalogue = serde_json::to_vec(&D::catalogue(limits, given.as_ref()))?.into();
         let store = Store::new(Token::random()?, limits.benches, settings.kept_bytes);

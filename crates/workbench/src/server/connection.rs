@@ -22,7 +22,7 @@ use tokio::time::{sleep, timeout};
 use tokio_io_timeout::TimeoutStream;
 
 use super::refuse::Refuse;
-use super::{Settings, headers};
+use super::{ServerSettings, headers};
 
 /// Bytes of the head of a request.
 const HEAD_BYTES: usize = 32 << 10;
@@ -41,7 +41,7 @@ pub(super) struct Connections {
 
 impl Connections {
     /// As many as the settings say.
-    pub(super) fn of(settings: &Settings) -> Self {
+    pub(super) fn of(settings: &ServerSettings) -> Self {
         Self {
             answered: Arc::new(Semaphore::new(settings.connections)),
             turned_away: Arc::new(Semaphore::new(settings.turned_away)),

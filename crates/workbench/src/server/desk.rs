@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::bench::{self, Bench, Given, Refusal};
-use crate::wire::{Ask, Export, Guess, Limits, Open, Selection};
+use crate::bench::{self, Given, LoadedCampaign, Refusal};
+use crate::wire::{Ask, Export, Guess, Open, Selection, ServerLimits};
 
 /// An engine. [`Bench`] is the one there is; tests bring others, slow ones and ones that fall over.
 ///
@@ -12,9 +12,9 @@ use crate::wire::{Ask, Export, Guess, Limits, Open, Selection};
 #[expect(clippy::missing_errors_doc, reason = "said once, above")]
 pub trait Desk: Send + Sync + Sized + 'static {
     /// Everything there is to choose from.
-    fn catalogue(limits: Limits, given: Option<&Given>) -> impl Serialize;
+    fn catalogue(limits: ServerLimits, given: Option<&Given>) -> impl Serialize;
     /// Load, read or simulate.
-    fn open(request: &Open, given: Option<&Given>, limits: &Limits) -> Result<Self, Refusal>;
+    fn open(request: &Open, given: Option<&Given>, limits: &ServerLimits) -> Result<Self, Refusal>;
     /// What it is.
     fn opened(&self, id: &str) -> Result<impl Serialize, Refusal>;
     /// Bytes of the files it was made from.
@@ -29,12 +29,12 @@ pub trait Desk: Send + Sync + Sized + 'static {
     fn reveal(&self, guess: &Guess) -> Result<impl Serialize + use<Self>, Refusal>;
 }
 
-impl Desk for Bench {
-    fn catalogue(limits: Limits, given: Option<&Given>) -> impl Serialize {
+impl Desk for LoadedCampaign {
+    fn catalogue(limits: ServerLimits, given: Option<&Given>) -> impl Serialize {
         bench::catalogue(limits, given)
     }
 
-    fn open(request: &Open, given: Option<&Given>, limits: &Limits) -> Result<Self, Refusal> {
+    fn open(request: &Open, given: Option<&Given>, limits: &ServerLimits) -> Result<Self, Refusal> {
         Self::open(request, given, limits)
     }
 

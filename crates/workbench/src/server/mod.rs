@@ -20,7 +20,7 @@ mod token;
 mod work;
 
 pub use desk::Desk;
-pub use settings::Settings;
+pub use settings::ServerSettings;
 
 use std::future::{Future, poll_fn};
 use std::io;
@@ -32,7 +32,7 @@ use axum::Router;
 use tokio::net::{TcpListener, TcpSocket};
 use tokio::runtime::{Builder, Runtime};
 
-use crate::bench::{Bench, Given};
+use crate::bench::{Given, LoadedCampaign};
 use api::Shared;
 use connection::Connections;
 use token::Token;
@@ -57,15 +57,15 @@ impl Server {
     ///
     /// # Errors
     /// When the port is taken or the system gives no threads or no random bytes.
-    pub fn bind(settings: &Settings, given: Option<Given>) -> io::Result<Self> {
-        Self::bind_with::<Bench>(settings, given)
+    pub fn bind(settings: &ServerSettings, given: Option<Given>) -> io::Result<Self> {
+        Self::bind_with::<LoadedCampaign>(settings, given)
     }
 
     /// Listen, with another engine.
     ///
     /// # Errors
     /// As [`Server::bind`].
-    pub fn bind_with<D: Desk>(settings: &Settings, given: Option<Given>) -> io::Result<Self> {
+    pub fn bind_with<D: Desk>(settings: &ServerSettings, given: Option<Given>) -> io::Result<Self> {
         let runtime = Builder::new_multi_thread().enable_all().thread_stack_size(STACK_BYTES).build()?;
         let listener = {
             let _entered = runtime.enter();

@@ -4,7 +4,7 @@ use axum::http::header::{CONNECTION, RETRY_AFTER, WWW_AUTHENTICATE};
 use axum::http::{HeaderMap, HeaderValue, StatusCode};
 use axum::response::{IntoResponse, Response};
 
-use crate::bench::{Kind, Refusal};
+use crate::bench::{Refusal, RefusalKind};
 use crate::wire::Refused;
 
 use super::body;
@@ -51,10 +51,10 @@ impl Refuse {
 impl From<Refusal> for Refuse {
     fn from(refusal: Refusal) -> Self {
         let status = match refusal.kind {
-            Kind::BadInput => StatusCode::UNPROCESSABLE_ENTITY,
-            Kind::Unknown => StatusCode::NOT_FOUND,
-            Kind::TooLarge => StatusCode::PAYLOAD_TOO_LARGE,
-            Kind::Conflict => StatusCode::CONFLICT,
+            RefusalKind::BadInput => StatusCode::UNPROCESSABLE_ENTITY,
+            RefusalKind::Unknown => StatusCode::NOT_FOUND,
+            RefusalKind::TooLarge => StatusCode::PAYLOAD_TOO_LARGE,
+            RefusalKind::Conflict => StatusCode::CONFLICT,
         };
         Self::new(status, refusal.message, refusal.next)
     }

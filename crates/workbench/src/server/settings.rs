@@ -2,15 +2,15 @@
 
 use std::time::Duration;
 
-use crate::wire::Limits;
+use crate::wire::ServerLimits;
 
 /// Limits of time, size and number.
 #[derive(Debug, Clone, Copy)]
-pub struct Settings {
+pub struct ServerSettings {
     /// Port on the loopback address; 0: the system chooses.
     pub port: u16,
     /// What the page is told and the engine keeps to.
-    pub limits: Limits,
+    pub limits: ServerLimits,
     /// Bytes of the files behind all benches kept, which take some ten times as much; the bench opened last stays in any case.
     pub kept_bytes: usize,
     /// Connections answered at once.
@@ -35,9 +35,10 @@ pub struct Settings {
     pub linger: Duration,
 }
 
-impl Default for Settings {
+impl Default for ServerSettings {
     fn default() -> Self {
-        let limits = Limits { bytes: 32 << 20, rows: 50_000, own_terms: 8, term_bytes: 64 << 10, benches: 8 };
+        let limits =
+            ServerLimits { bytes: 32 << 20, rows: 50_000, own_terms: 8, term_bytes: 64 << 10, benches: 8 };
         Self {
             port: 0,
             limits,

@@ -8,7 +8,7 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::task::spawn_blocking;
 use tokio::time::timeout;
 
-use super::Settings;
+use super::ServerSettings;
 use super::refuse::Refuse;
 
 /// Places for computations and for those that wait.
@@ -26,7 +26,7 @@ pub(super) struct Place(#[expect(dead_code, reason = "held, never read")] OwnedS
 
 impl Work {
     /// As many places as the settings say.
-    pub(super) fn of(settings: &Settings) -> Self {
+    pub(super) fn of(settings: &ServerSettings) -> Self {
         Self {
             admitted: Arc::new(Semaphore::new(settings.computing + settings.waiting)),
             computing: Arc::new(Semaphore::new(settings.computing)),

@@ -2,9 +2,9 @@
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-use hexbench_workbench::bench::{Given, Kind, Refusal};
+use hexbench_workbench::bench::{Given, Refusal, RefusalKind};
 use hexbench_workbench::server::Desk;
-use hexbench_workbench::wire::{Ask, Export, Guess, Limits, Open, Selection};
+use hexbench_workbench::wire::{Ask, Export, Guess, Open, Selection, ServerLimits};
 use serde::Serialize;
 use serde_json::json;
 
@@ -51,21 +51,21 @@ pub(crate) fn see_none_held() {
 /// A bench without physics.
 pub(crate) struct Obedient;
 
-fn refusal(kind: Kind) -> Refusal {
+fn refusal(kind: RefusalKind) -> Refusal {
     Refusal { kind, message: "the engine says no".into(), next: "The engine says what to do.".into() }
 }
 
 impl Desk for Obedient {
-    fn catalogue(limits: Limits, _: Option<&Given>) -> impl Serialize {
+    fn catalogue(limits: ServerLimits, _: Option<&Given>) -> impl Serialize {
         json!({ "limits": limits })
     }
 
-    fn open(request: &Open, _: Option<&Given>, _: &Limits) -> Result<Self, Refusal> {
+    fn open(request: &Open, _: Option<&Given>, _: &ServerLimits) -> Result<Self, Refusal> {
         match request {
             Open::Case { id } if id == "falls-over" => panic!("told to fall over"),
-            Open::Case { id } if id == "absent" => Err(refusal(Kind::Unknown)),
-            Open::Files { data, .. } if data.text == "bad" => Err(refusal(Kind::BadInput)),
-            Open::Files { data, .. } if data.text == "long" => Err(refusal(Kind::TooLarge)),
+            Open::Case { id } if id == "absent" => Err(refusal(RefusalKind::Unknown)),
+            Open::Files { data, .. } if data.text == "bad" => Err(refusal(RefusalKind::BadInput)),
+            Open::Files { data, .. } if data.text == "long" => Err(refusal(RefusalKind::TooLarge)),
             _ => Ok(Self),
         }
     }
@@ -93,6 +93,6 @@ impl Desk for Obedient {
     }
 
     fn reveal(&self, _: &Guess) -> Result<impl Serialize + use<>, Refusal> {
-        Err::<(), _>(refusal(Kind::Conflict))
+        Err::<(), _>(refusal(RefusalKind::Conflict))
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use hexbench_workbench::server::Settings;
+use hexbench_workbench::server::ServerSettings;
 
 /// Digits in groups of three.
 fn grouped(number: u64) -> String {
@@ -16,7 +16,7 @@ fn grouped(number: u64) -> String {
 
 #[test]
 fn the_page_about_the_workbench_states_the_limits_of_the_program() {
-    let s = Settings::default();
+    let s = ServerSettings::default();
     let seconds = |time: Duration| usize::try_from(time.as_secs()).unwrap();
     let stated = [
         ("bytes of a request", s.limits.bytes),

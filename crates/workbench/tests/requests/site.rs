@@ -5,8 +5,8 @@ use std::net::{Ipv4Addr, TcpStream};
 use std::thread::{self, sleep};
 use std::time::{Duration, Instant};
 
-use hexbench_workbench::server::{Server, Settings};
-use hexbench_workbench::wire::Limits;
+use hexbench_workbench::server::{Server, ServerSettings};
+use hexbench_workbench::wire::ServerLimits;
 
 use crate::engine::Obedient;
 
@@ -69,8 +69,8 @@ impl Site {
     /// A server that runs as long as the test.
     pub(crate) fn start() -> Self {
         let (benches, computing, waiting) = PLACES;
-        let limits = Limits { bytes: BYTES, rows: 100, own_terms: 8, term_bytes: 1000, benches };
-        let settings = Settings {
+        let limits = ServerLimits { bytes: BYTES, rows: 100, own_terms: 8, term_bytes: 1000, benches };
+        let settings = ServerSettings {
             limits,
             computing,
             waiting,
@@ -81,7 +81,7 @@ impl Site {
             linger: 10 * SHORT,
             wait: 3 * SHORT,
             compute: 4 * SHORT,
-            ..Settings::default()
+            ..ServerSettings::default()
         };
         let server = Server::bind_with::<Obedient>(&settings, None).expect("a free port");
         let (port, token) = (server.port(), server.token().to_owned());

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_experiments::challenge::{Suite, make};
+use hexbench_experiments::challenge::{ChallengeSuite, make};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
 
 /// Make the challenge and say what to hand out.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let suite = Suite::named(&arguments.suite)?;
+    let suite = ChallengeSuite::named(&arguments.suite)?;
     let suite = match arguments.seed {
         Some(seed) => suite.with_seed(seed),
         None => suite,

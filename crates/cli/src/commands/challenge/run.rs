@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, value_parser};
 use hexbench_experiments::challenge::Challenge;
-use hexbench_experiments::challenge::run::{Entrant, Limits, Manner, Program, Summary, run as run_cases};
+use hexbench_experiments::challenge::run::{Entrant, Manner, Program, RunLimits, Summary, run as run_cases};
 
 use crate::failure::Failure;
 use crate::output::{Progress, Screen};
@@ -26,13 +26,13 @@ pub(crate) struct Arguments {
     #[arg(long)]
     name: String,
     /// Most wall time of a case, s
-    #[arg(long, value_name = "S", default_value_t = Limits::default().time_s)]
+    #[arg(long, value_name = "S", default_value_t = RunLimits::default().time_s)]
     time_limit: f64,
     /// Most memory of a case, MB: address space of a process, and all that its processes hold together
-    #[arg(long, value_name = "MB", default_value_t = Limits::default().memory_mb, value_parser = value_parser!(u64).range(16..=1_000_000))]
+    #[arg(long, value_name = "MB", default_value_t = RunLimits::default().memory_mb, value_parser = value_parser!(u64).range(16..=1_000_000))]
     memory_limit: u64,
     /// Most bytes a case may write, MB
-    #[arg(long, value_name = "MB", default_value_t = Limits::default().output_mb, value_parser = value_parser!(u64).range(1..=100_000))]
+    #[arg(long, value_name = "MB", default_value_t = RunLimits::default().output_mb, value_parser = value_parser!(u64).range(1..=100_000))]
     output_limit: u64,
     /// Cases at once; times are only comparable with one
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=256))]
@@ -72,11 +72,15 @@ fn name(name: &str) -> Result<String, Failure> {
     })
 }
 
-fn limits(arguments: &Arguments) -> Result<Limits, Failure> {
+fn limits(arguments: &Arguments) -> Result<RunLimits, Failure> {
     const MOST_S: f64 = 1e6;
     let time_s = arguments.time_limit;
     if time_s > 0.0 && time_s <= MOST_S {
-        return Ok(Limits { time_s, memory_mb: arguments.memory_limit, output_mb: arguments.output_limit });
+        return Ok(RunLimits {
+            time_s,
+            memory_mb: arguments.memory_limit,
+            output_mb: arguments.output_limit,
+        });
     }
     Err(Failure::Usage {
         message: format!("--time-limit {time_s}: a time is positive and at most {MOST_S} s"),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_experiments::challenge::Challenge;
-use hexbench_experiments::challenge::score::{Scores, page, score};
+use hexbench_experiments::challenge::score::{ChallengeScores, page, score};
 
 use crate::failure::Failure;
 use crate::output::{Screen, write_json};
@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     check(arguments.check, &scores)
 }
 
-fn check(asked: bool, scores: &Scores) -> Result<(), Failure> {
+fn check(asked: bool, scores: &ChallengeScores) -> Result<(), Failure> {
     match scores.failed() {
         failed if asked && failed > 0 => Err(Failure::Check(format!("{failed} cases have no answer"))),
         _ => Ok(()),

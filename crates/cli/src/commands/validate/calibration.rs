@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_experiments::calibration::{
-    self, Calibration, Curve, MOST_FALSE_NAMES, Protocol, SEED, false_names, page, pictures, sheets,
-    trials_csv,
+    self, Calibration, CalibrationProtocol, Curve, MOST_FALSE_NAMES, SEED, false_names, page, pictures,
+    sheets, trials_csv,
 };
 use hexbench_report::render::markdown;
 use hexbench_report::table::csv;
-use hexbench_report::{Block, Entry, Section};
-use hexbench_truth::campaign::Kind;
+use hexbench_report::{Block, Definition, Section};
+use hexbench_truth::campaign::CaseKind;
 
 use crate::failure::Failure;
 use crate::output::{Screen, TrialFiles};
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(trial) = &arguments.case {
         return write_case(trial, arguments, screen);
     }
-    let protocol = Protocol::default().with_seed(arguments.seed);
+    let protocol = CalibrationProtocol::default().with_seed(arguments.seed);
     let protocol = match arguments.trials {
         Some(trials) => protocol.with_trials(trials as usize),
         None => protocol,
@@ -63,7 +63,7 @@ fn files(written: &[PathBuf]) -> Section {
     let folder = |group: &[PathBuf]| {
         let names: Vec<_> = group.iter().filter_map(|p| p.file_name()).map(|n| n.to_string_lossy()).collect();
         let folder = group[0].parent().unwrap_or(Path::new("")).join("");
-        Entry::new(folder.display().to_string(), names.join(", "))
+        Definition::new(folder.display().to_string(), names.join(", "))
     };
     let groups = written.chunk_by(|a, b| a.parent() == b.parent());
     Section::new("Written").with(Block::entries(groups.map(folder)))
@@ -91,10 +91,11 @@ fn write(study: &Calibration, arguments: &Arguments, screen: &Screen) -> Result<
 
 fn tables(study: &Calibration) -> impl Iterator<Item = (&'static str, String)> {
     let records = &study.records;
-    let curves: Vec<Curve> = [Kind::Single, Kind::Outside, Kind::RichForm, Kind::SeedProtocol]
-        .into_iter()
-        .flat_map(|kind| Curve::of_each(records, kind))
-        .collect();
+    let curves: Vec<Curve> =
+        [CaseKind::Single, CaseKind::Outside, CaseKind::RichForm, CaseKind::SeedProtocol]
+            .into_iter()
+            .flat_map(|kind| Curve::of_each(records, kind))
+            .collect();
     let all = [
         ("fates.csv", sheets::fates(records)),
         ("confusion.csv", sheets::confusion(records)),
@@ -114,7 +115,7 @@ fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(),
         message: format!("`{trial}` is no trial"),
         next: format!(
             "Give a kind and a number, such as pair-0007; kinds are {}.",
-            Kind::ALL.map(Kind::name).join(", ")
+            CaseKind::ALL.map(CaseKind::name).join(", ")
         ),
     })?;
     let case = calibration::case(kind, index, arguments.seed).map_err(Failure::Trial)?;
@@ -126,10 +127,10 @@ fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(),
     ))
 }
 
-fn parse(trial: &str) -> Option<(Kind, usize)> {
+fn parse(trial: &str) -> Option<(CaseKind, usize)> {
     const MOST_DIGITS: usize = 6;
     let (kind, index) = trial.rsplit_once('-').filter(|(_, index)| index.len() <= MOST_DIGITS)?;
-    Some((Kind::ALL.into_iter().find(|k| k.name() == kind)?, index.parse().ok()?))
+    Some((CaseKind::ALL.into_iter().find(|k| k.name() == kind)?, index.parse().ok()?))
 }
 
 fn check(asked: bool, study: &Calibration) -> Result<(), Failure> {

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_experiments::discriminate::{CONFUSIONS, Discrimination, Protocol, SEED, Trials, page};
+use hexbench_experiments::discriminate::{
+    CONFUSIONS, DiscriminateProtocol, Discrimination, PairTrials, SEED, page,
+};
 use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
@@ -14,7 +16,7 @@ use crate::output::{Screen, TrialFiles};
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Campaigns per pair of effects
-    #[arg(long, value_name = "N", default_value_t = Protocol::default().trials, value_parser = trials)]
+    #[arg(long, value_name = "N", default_value_t = DiscriminateProtocol::default().trials, value_parser = trials)]
     trials: usize,
     /// Seed of everything that is drawn
     #[arg(long, value_name = "S", default_value_t = SEED)]
@@ -34,8 +36,8 @@ fn trials(text: &str) -> Result<usize, String> {
 
 /// Run the study, tell the figures, write the document.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let protocol = Protocol { seed: arguments.seed, trials: arguments.trials };
-    let trials = Trials { protocol, confusions: &CONFUSIONS };
+    let protocol = DiscriminateProtocol { seed: arguments.seed, trials: arguments.trials };
+    let trials = PairTrials { protocol, confusions: &CONFUSIONS };
     let study = Discrimination::of(&trials, &arguments.kept.run(&trials)?);
     let page = page(&study);
     screen.show(&page)?;

@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_design::power::Settings;
+use hexbench_design::power::PowerSettings;
 use hexbench_experiments::power::{Campaigns, Simulation, Studied, document, pictures, plan_of};
 use hexbench_report::Page;
 use hexbench_report::render::markdown;
@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::output::{Screen, TrialFiles};
 
-/// Say which effects the plan of the paper and a richer one can see: reckoned, and counted in the simulated world
+/// Say which effects the plan of the paper and a richer one can see: computed, and counted in the simulated world
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Scene whose plan is the plain one
@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let one = |folder: &Path| -> Result<Studied, Failure> {
         let scene = Scene::read(folder)?;
         let plan = plan_of(&scene)?;
-        let settings = Settings { seed: arguments.seed, ..Settings::default() };
+        let settings = PowerSettings { seed: arguments.seed, ..PowerSettings::default() };
         let all = Campaigns::new(&plan, &terms, settings, simulation, &[])?;
         let gathered = arguments.kept.of_one(&scene.name).run(&all)?;
         let power = all.power(&gathered)?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use hexbench_experiments::recovery::document::page;
 use hexbench_experiments::recovery::protocol::Recovery;
-use hexbench_experiments::recovery::study::{Settings, Study};
+use hexbench_experiments::recovery::study::{RecoverySettings, RecoveryStudy};
 use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
@@ -38,13 +38,13 @@ pub(crate) struct Arguments {
 
 /// Run the study, write its files, tell it.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let settings = Settings {
+    let settings = RecoverySettings {
         campaigns: arguments.campaigns as usize,
         diagnoses: arguments.diagnoses as usize,
         seed: arguments.seed,
     };
     let protocol = Recovery::new(settings);
-    let study = Study::of(&protocol, &arguments.trials.run(&protocol)?);
+    let study = RecoveryStudy::of(&protocol, &arguments.trials.run(&protocol)?);
     if let Some(path) = &arguments.json {
         write_json(screen, path, &study)?;
     }
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     check(arguments.check, &study)
 }
 
-fn check(asked: bool, study: &Study) -> Result<(), Failure> {
+fn check(asked: bool, study: &RecoveryStudy) -> Result<(), Failure> {
     match study.broken.first() {
         Some(first) if asked => {
             let others = study.broken.len() - 1;

@@ -9,8 +9,8 @@ use hexbench_experiments::regress::document::{Proof, page};
 use hexbench_experiments::regress::gathered::gather;
 use hexbench_experiments::regress::limits::limits;
 use hexbench_experiments::regress::planted;
-use hexbench_experiments::regress::suite::Suite;
-use hexbench_experiments::regress::trials::Runs;
+use hexbench_experiments::regress::suite::RegressSuite;
+use hexbench_experiments::regress::trials::SuiteRuns;
 use hexbench_experiments::regress::unchanged::Unchanged;
 use hexbench_report::render::markdown;
 
@@ -48,10 +48,10 @@ pub(crate) struct Arguments {
 
 /// Run, tell; write the page.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let suite = if arguments.quick { Suite::quick() } else { Suite::full() };
+    let suite = if arguments.quick { RegressSuite::quick() } else { RegressSuite::full() };
     let limits = limits(&suite);
     let baseline = Baseline::read_for(&arguments.baseline, &suite, &limits)?;
-    let all = Runs::new(&suite, arguments.seed, arguments.runs as usize);
+    let all = SuiteRuns::new(&suite, arguments.seed, arguments.runs as usize);
     let mut trials = all.of_each(arguments.kept.run(&all)?);
     if let [first, others @ ..] = &mut trials[..] {
         for run in others {

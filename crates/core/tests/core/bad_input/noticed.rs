@@ -1,7 +1,7 @@
 //! Tables that are read, with a warning or without.
 
 use super::samples::{HEXAPOD, Table, deflections, poses};
-use hexbench_core::files::{Notice, Reading, Warning, content_hash, read_hexapod, read_measurements};
+use hexbench_core::files::{Notice, TableReading, Warning, content_hash, read_hexapod, read_measurements};
 use std::fs;
 use std::path::Path;
 
@@ -51,7 +51,7 @@ pub(crate) fn warnings_of(text: &str) -> Vec<Warning> {
     read(text.as_bytes()).warnings
 }
 
-fn read(bytes: &[u8]) -> Reading {
+fn read(bytes: &[u8]) -> TableReading {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("measurements.csv");
     fs::write(&path, bytes).unwrap();

@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-3;
 
 /// What is said about a case; other keys of the file are passed over.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Said {
+pub struct StatedDiagnosis {
     format: String,
     /// The verdict.
     pub verdict: Verdict,
@@ -27,20 +27,21 @@ pub struct Said {
     pub credible_set: Vec<Explanation>,
     /// Probabilities of the first addition; empty when none are stated, else they sum to 1.
     #[serde(default)]
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<StatedCandidate>,
 }
 
 /// An explanation and its probability.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Candidate {
+pub struct StatedCandidate {
     /// What it is.
     pub term: Explanation,
     /// Its probability.
     pub probability: f64,
 }
 
-pub(super) fn read(text: &str) -> Result<Said, AnswerFault> {
-    let mut said: Said = serde_json::from_str(text).map_err(|e| AnswerFault::json(DIAGNOSIS, &e))?;
+pub(super) fn read(text: &str) -> Result<StatedDiagnosis, AnswerFault> {
+    let mut said: StatedDiagnosis =
+        serde_json::from_str(text).map_err(|e| AnswerFault::json(DIAGNOSIS, &e))?;
     if said.format != FORMAT {
         let rule = format!("\"{}\": the format must be \"{FORMAT}\"", said.format);
         return Err(AnswerFault::new(DIAGNOSIS, "format", &rule));

@@ -12,23 +12,23 @@ use std::path::Path;
 use hexbench_core::Measurand;
 
 use crate::challenge::folder::{DIAGNOSIS, PARAMETERS, PREDICTIONS};
-pub use diagnosis::{Candidate, Said};
+pub use diagnosis::{StatedCandidate, StatedDiagnosis};
 pub use fault::AnswerFault;
 pub use parameters::Number;
 pub use predictions::{Predicted, columns};
 
 /// An answer to one case.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Answer {
+pub struct CaseAnswer {
     /// One per row of `predict.csv`, in its order.
     pub predictions: Vec<Predicted>,
     /// Numbers with names; empty when the file is not there.
     pub parameters: Vec<Number>,
     /// What is behind the residuals, when it is said.
-    pub said: Option<Said>,
+    pub said: Option<StatedDiagnosis>,
 }
 
-impl Answer {
+impl CaseAnswer {
     /// Reads the answer in a folder to a case with so many rows to predict.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Entrant, Limits};
+use super::{Entrant, RunLimits};
 use crate::challenge::folder::refuse_content;
 use crate::challenge::make::write;
 use crate::challenge::stored::{Stored, json, read_json};
@@ -23,7 +23,7 @@ const LOCK: &str = ".lock";
 /// Who answered, how it was called, which challenge, under which limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Begun {
+pub struct RunHeader {
     /// `answers/1`.
     pub format: String,
     /// Name of the entrant.
@@ -37,12 +37,12 @@ pub struct Begun {
     /// SHA-256 of `challenge.toml`.
     pub challenge_sha256: String,
     /// Limits of each case.
-    pub limits: Limits,
+    pub limits: RunLimits,
     /// System and processor.
     pub system: String,
 }
 
-impl Stored for Begun {
+impl Stored for RunHeader {
     const FORMAT: &'static str = "answers/1";
 
     fn format(&self) -> &str {
@@ -50,7 +50,7 @@ impl Stored for Begun {
     }
 }
 
-impl Begun {
+impl RunHeader {
     pub(super) fn new(challenge: &Challenge, entrant: &Entrant) -> Self {
         Self {
             format: Self::FORMAT.to_owned(),
@@ -125,7 +125,7 @@ impl Begun {
         } else if there.name != self.name {
             format!("there the name is {}", there.name)
         } else if there.limits != self.limits {
-            let Limits { time_s, memory_mb, output_mb } = there.limits;
+            let RunLimits { time_s, memory_mb, output_mb } = there.limits;
             format!("there the limits are {time_s} s, {memory_mb} MB of memory, {output_mb} MB of output")
         } else {
             return Ok(());

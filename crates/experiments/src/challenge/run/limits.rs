@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Limits of one case, for the program and everything it starts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Limits {
+pub struct RunLimits {
     /// Wall time, s.
     pub time_s: f64,
     /// Memory, MB (10^6 bytes): address space of each process; on Linux also what all its processes hold together.
@@ -18,7 +18,7 @@ pub struct Limits {
     pub output_mb: u64,
 }
 
-impl Default for Limits {
+impl Default for RunLimits {
     fn default() -> Self {
         Self { time_s: 60.0, memory_mb: 4096, output_mb: 64 }
     }
@@ -26,7 +26,7 @@ impl Default for Limits {
 
 const MB: u64 = 1_000_000;
 
-impl Limits {
+impl RunLimits {
     pub(super) fn time(&self) -> Duration {
         Duration::try_from_secs_f64(self.time_s).unwrap_or(Duration::MAX)
     }

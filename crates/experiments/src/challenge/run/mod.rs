@@ -30,10 +30,10 @@ use crate::challenge::{Challenge, ChallengeError};
 use crate::error::ExperimentError;
 use crate::harness::{Progress, each, on_threads};
 pub(crate) use begun::cases_folder;
-pub use begun::{ANSWERS, Begun};
-pub use limits::Limits;
+pub use begun::{ANSWERS, RunHeader};
+pub use limits::RunLimits;
 pub use program::Program;
-pub use record::{End, Record};
+pub use record::{End, RunRecord};
 
 /// A program, its name and its limits.
 #[derive(Debug, Clone)]
@@ -43,7 +43,7 @@ pub struct Entrant {
     /// How it is called.
     pub program: Program,
     /// What it may use.
-    pub limits: Limits,
+    pub limits: RunLimits,
 }
 
 /// How to go about it.
@@ -64,7 +64,7 @@ pub struct Summary {
     /// Cases answered before.
     pub known: usize,
     /// Records of this run, in the order of the cases.
-    pub fresh: Vec<Record>,
+    pub fresh: Vec<RunRecord>,
 }
 
 /// Runs a program over the cases that it has not answered.
@@ -80,7 +80,7 @@ pub fn run(
     progress: &dyn Progress,
 ) -> Result<Summary, ChallengeError> {
     challenge.verify_public()?;
-    let begun = Begun::new(challenge, entrant);
+    let begun = RunHeader::new(challenge, entrant);
     let _lock = begun.settle(answers, manner.again)?;
     let cases = cases_folder(answers);
     remove_remains(&cases).map_err(ExperimentError::writing(&cases))?;
@@ -110,5 +110,5 @@ fn remove_remains(cases: &Path) -> io::Result<()> {
 
 /// True when there is a record made from these very files.
 fn is_answered(folder: &Path, case_sha256: &str) -> bool {
-    Record::read(folder).is_ok_and(|record| record.case_sha256 == case_sha256)
+    RunRecord::read(folder).is_ok_and(|record| record.case_sha256 == case_sha256)
 }

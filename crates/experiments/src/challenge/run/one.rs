@@ -8,9 +8,9 @@ use std::process::{Command, Stdio};
 use hexbench_core::files::atomic_write;
 use tempfile::TempDir;
 
-use super::record::{End, Record};
+use super::record::{End, RunRecord};
 use super::scratch::Scratch;
-use super::{Entrant, Limits, PART};
+use super::{Entrant, PART, RunLimits};
 use crate::challenge::folder::{ANSWER, PREDICTIONS, RUN};
 use crate::challenge::{Challenge, ChallengeError};
 use crate::error::ExperimentError;
@@ -33,7 +33,7 @@ pub(super) fn answer(
     entrant: &Entrant,
     id: &str,
     cases: &Path,
-) -> Result<Record, ChallengeError> {
+) -> Result<RunRecord, ChallengeError> {
     let start = |cause| ChallengeError::Start { case: id.to_owned(), cause };
     let scratch = Scratch::with_case(&challenge.case(id)).map_err(start)?;
     let watched = watched(entrant, &scratch).map_err(start)?;
@@ -61,8 +61,8 @@ fn kept(
     scratch: &Scratch,
     watched: Watched,
     to: &Path,
-) -> io::Result<Record> {
-    let mut record = Record::new(id, challenge.case_sha256(id), watched.end, watched.code);
+) -> io::Result<RunRecord> {
+    let mut record = RunRecord::new(id, challenge.case_sha256(id), watched.end, watched.code);
     record.wall_s = (watched.wall_s * 1e3).round() / 1e3;
     record.peak_memory_mb = watched.peak_memory_bytes.map(|bytes| (bytes as f64 / 1e5).round() / 10.0);
     record.failure = failure(watched);
@@ -140,7 +140,7 @@ const LIMITED: &str = "ulimit -c 0; ulimit -v \"$1\" && ulimit -f \"$2\" && ulim
 fn command(entrant: &Entrant, scratch: &Scratch) -> io::Result<Command> {
     let Entrant { program, limits, .. } = entrant;
     let mut command = Command::new("sh");
-    command.args(["-c", LIMITED, "sh"]).args(Limits::of_the_system(limits)).args(program.line());
+    command.args(["-c", LIMITED, "sh"]).args(RunLimits::of_the_system(limits)).args(program.line());
     command.arg(scratch.case()).arg(scratch.out()).current_dir(scratch.work());
     command.env_clear().env("HOME", scratch.work()).env("TMPDIR", scratch.work()).env("LC_ALL", "C.UTF-8");
     if let Some(path) = std::env::var_os("PATH") {

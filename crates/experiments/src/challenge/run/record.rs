@@ -11,7 +11,7 @@ use crate::challenge::stored::{Stored, json, read_json};
 /// How a run of one case went.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Record {
+pub struct RunRecord {
     /// `run/1`.
     pub format: String,
     /// Id of the case.
@@ -49,7 +49,7 @@ pub enum End {
     OutputLimit,
 }
 
-impl Stored for Record {
+impl Stored for RunRecord {
     const FORMAT: &'static str = "run/1";
 
     fn format(&self) -> &str {
@@ -57,7 +57,7 @@ impl Stored for Record {
     }
 }
 
-impl Record {
+impl RunRecord {
     pub(super) fn new(case: &str, case_sha256: String, end: End, code: Option<i32>) -> Self {
         Self {
             format: Self::FORMAT.to_owned(),

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process_group, waitid};
 
-use super::Limits;
+use super::RunLimits;
 use super::one::Watched;
 use super::record::End;
 use super::scratch::bytes_in;
@@ -23,7 +23,7 @@ const SIGXFSZ: i32 = 25;
 
 /// Starts a program in a group of its own and watches it; `root` is the folder it may write to. When this returns, neither the
 /// program nor anything it started is running.
-pub(super) fn watch(mut command: Command, limits: &Limits, root: &Path) -> io::Result<Watched> {
+pub(super) fn watch(mut command: Command, limits: &RunLimits, root: &Path) -> io::Result<Watched> {
     let begun = Instant::now();
     let child = command.process_group(0).spawn()?;
     let mut watch = Watch { child, root, limits, begun, processes: Processes::default(), looked: begun };
@@ -38,7 +38,7 @@ pub(super) fn watch(mut command: Command, limits: &Limits, root: &Path) -> io::R
 struct Watch<'a> {
     child: Child,
     root: &'a Path,
-    limits: &'a Limits,
+    limits: &'a RunLimits,
     begun: Instant,
     processes: Processes,
     looked: Instant,

@@ -2,7 +2,7 @@
 
 use super::page::told_ratio;
 use super::paired::ratio_of;
-use super::{CaseScore, EntrantScore, Scores};
+use super::{CaseScore, ChallengeScores, EntrantScore};
 
 /// An error of a case, by name.
 type Measure = (&'static str, fn(&CaseScore) -> Option<f64>);
@@ -13,7 +13,7 @@ const MEASURES: [Measure; 2] = [
 ];
 
 /// One sentence for each group and figure in which a rival is ahead.
-pub(super) fn found(scores: &Scores, first: &EntrantScore, rivals: &[EntrantScore]) -> Vec<String> {
+pub(super) fn found(scores: &ChallengeScores, first: &EntrantScore, rivals: &[EntrantScore]) -> Vec<String> {
     let of_rival = |rival: &EntrantScore| {
         let groups = scores.groups.iter().enumerate();
         groups.flat_map(|(g, group)| in_group(&group.name, g, first, rival)).collect::<Vec<_>>()

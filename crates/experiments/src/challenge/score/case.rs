@@ -8,8 +8,8 @@ use hexbench_core::Measurand;
 use serde::Serialize;
 
 use super::forecast::Forecast;
-use super::key::Key;
-use crate::challenge::answer::{Answer, Number, Predicted, Said};
+use super::key::AnswerKey;
+use crate::challenge::answer::{CaseAnswer, Number, Predicted, StatedDiagnosis};
 
 /// One case of one program in numbers; what it does not say is absent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -63,7 +63,7 @@ pub struct PredictionScore {
 
 impl CaseScore {
     /// A case without answer.
-    pub(super) fn failed(key: &Key, why: String) -> Self {
+    pub(super) fn failed(key: &AnswerKey, why: String) -> Self {
         Self {
             id: key.truth.id.clone(),
             group: key.truth.group.clone(),
@@ -79,7 +79,7 @@ impl CaseScore {
     }
 
     /// Compares an answer with the truth.
-    pub fn of(key: &Key, answer: &Answer) -> Self {
+    pub fn of(key: &AnswerKey, answer: &CaseAnswer) -> Self {
         Self {
             failure: None,
             legs: std::array::from_fn(|leg| leg_score(key, &answer.parameters, leg)),
@@ -99,7 +99,7 @@ impl CaseScore {
     }
 }
 
-fn leg_score(key: &Key, numbers: &[Number], leg: usize) -> Option<LegScore> {
+fn leg_score(key: &AnswerKey, numbers: &[Number], leg: usize) -> Option<LegScore> {
     let name = stiffness_name(leg);
     let stated = numbers.iter().find(|n| n.name == name)?;
     let true_stiffness = key.truth.leg_stiffness_n_per_um[leg];
@@ -107,7 +107,7 @@ fn leg_score(key: &Key, numbers: &[Number], leg: usize) -> Option<LegScore> {
     Some(LegScore { relative_error: error / true_stiffness, z: stated.std.map(|std| error / std) })
 }
 
-fn prediction_score(key: &Key, predictions: &[Predicted]) -> PredictionScore {
+fn prediction_score(key: &AnswerKey, predictions: &[Predicted]) -> PredictionScore {
     let sigma = key.truth.noise.sigma();
     let (mut of_reading, mut of_truth, mut squares) = (0.0, 0.0, [0.0; 2]);
     let mut covered = Proportion::default();
@@ -140,7 +140,7 @@ fn difference(measurand: Measurand, k: usize, predicted: f64, value: f64) -> f64
     if measurand == Measurand::AbsolutePose && k >= 3 { plain.sin().atan2(plain.cos()) } else { plain }
 }
 
-fn outcome(key: &Key, said: &Said) -> Outcome {
+fn outcome(key: &AnswerKey, said: &StatedDiagnosis) -> Outcome {
     let hidden: Vec<&str> = key.truth.effects.iter().map(String::as_str).collect();
     outcome_of(&hidden, said.verdict, &said.added, &said.credible_set)
 }

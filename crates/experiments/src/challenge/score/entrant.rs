@@ -5,12 +5,12 @@ use std::path::Path;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::Group;
+use super::CaseGroup;
 use super::case::CaseScore;
 use super::figures::Figures;
-use super::key::Key;
-use crate::challenge::answer::Answer;
-use crate::challenge::run::{Begun, Limits, Record, cases_folder};
+use super::key::AnswerKey;
+use crate::challenge::answer::CaseAnswer;
+use crate::challenge::run::{RunHeader, RunLimits, RunRecord, cases_folder};
 use crate::challenge::{Challenge, ChallengeError};
 
 /// Scores of one program.
@@ -21,7 +21,7 @@ pub struct EntrantScore {
     /// How it was called.
     pub program: Vec<String>,
     /// Limits it had.
-    pub limits: Limits,
+    pub limits: RunLimits,
     /// System it ran on.
     pub system: String,
     /// Figures over all cases.
@@ -42,11 +42,15 @@ pub struct GroupScore {
 }
 
 impl EntrantScore {
-    pub(super) fn of(challenge: &Challenge, keys: &[Key], folder: &Path) -> Result<Self, ChallengeError> {
-        let begun = Begun::read(folder)?;
+    pub(super) fn of(
+        challenge: &Challenge,
+        keys: &[AnswerKey],
+        folder: &Path,
+    ) -> Result<Self, ChallengeError> {
+        let begun = RunHeader::read(folder)?;
         begun.check(folder, challenge)?;
         let cases: Vec<CaseScore> = keys.par_iter().map(|key| case(key, &cases_folder(folder))).collect();
-        let of_group = |Group { name, .. }: Group| {
+        let of_group = |CaseGroup { name, .. }: CaseGroup| {
             let figures = Figures::of(cases.iter().filter(|c| c.group == name));
             GroupScore { name, figures }
         };
@@ -68,9 +72,9 @@ impl EntrantScore {
 }
 
 /// What the program wrote to a folder, compared with the truth.
-fn case(key: &Key, cases: &Path) -> CaseScore {
+fn case(key: &AnswerKey, cases: &Path) -> CaseScore {
     let folder = cases.join(&key.truth.id);
-    let record = match Record::read(&folder) {
+    let record = match RunRecord::read(&folder) {
         Ok(record) => record,
         Err(error) => return CaseScore::failed(key, format!("not answered: {error}")),
     };
@@ -79,7 +83,7 @@ fn case(key: &Key, cases: &Path) -> CaseScore {
         None if record.case_sha256 != key.case_sha256 => {
             CaseScore::failed(key, "it was answered from other files than those of the challenge".to_owned())
         }
-        None => match Answer::read(&folder, key.measured.len(), key.measurand) {
+        None => match CaseAnswer::read(&folder, key.measured.len(), key.measurand) {
             Ok(answer) => CaseScore::of(key, &answer),
             Err(fault) => CaseScore::failed(key, fault.to_string()),
         },

@@ -15,7 +15,7 @@ use hexbench_model::explanation::Explanation;
 use hexbench_truth::mechanisms::is_outside;
 use serde::Serialize;
 
-use crate::challenge::answer::Candidate;
+use crate::challenge::answer::StatedCandidate;
 
 /// Least probability that is taken at its word in the logarithmic score: one rash zero shall not outweigh all else.
 pub(super) const FLOOR: f64 = 1e-6;
@@ -33,7 +33,7 @@ pub struct Forecast {
 
 impl Forecast {
     /// Scores a distribution, which sums to 1, against what is hidden; none without a distribution, or when two things are hidden.
-    pub(super) fn of(hidden: &[String], candidates: &[Candidate]) -> Option<Self> {
+    pub(super) fn of(hidden: &[String], candidates: &[StatedCandidate]) -> Option<Self> {
         if candidates.is_empty() {
             return None;
         }
@@ -56,10 +56,10 @@ mod tests {
 
     use super::*;
 
-    fn stated(probabilities: [f64; 3]) -> Vec<Candidate> {
+    fn stated(probabilities: [f64; 3]) -> Vec<StatedCandidate> {
         let named =
             ["creep".into(), Explanation::Outside, Explanation::Nothing].into_iter().zip(probabilities);
-        named.map(|(term, probability)| Candidate { term, probability }).collect()
+        named.map(|(term, probability)| StatedCandidate { term, probability }).collect()
     }
 
     fn hidden(k: usize) -> Vec<String> {

@@ -10,7 +10,7 @@ use crate::challenge::{Challenge, ChallengeError, Truth};
 
 /// What the answer to a case is compared with.
 #[derive(Debug, Clone)]
-pub struct Key {
+pub struct AnswerKey {
     /// What was hidden.
     pub truth: Truth,
     /// What was read.
@@ -23,7 +23,7 @@ pub struct Key {
     pub case_sha256: String,
 }
 
-impl Key {
+impl AnswerKey {
     pub(super) fn read(challenge: &Challenge, id: &str) -> Result<Self, ChallengeError> {
         let folder = challenge.sealed(id);
         let truth = Truth::read(&folder.join(TRUTH))?;

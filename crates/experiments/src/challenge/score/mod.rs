@@ -20,7 +20,7 @@ pub use case::{CaseScore, LegScore, PredictionScore};
 pub use entrant::{EntrantScore, GroupScore};
 pub use figures::{Figures, Interval, Mean};
 pub use forecast::Forecast;
-pub use key::Key;
+pub use key::AnswerKey;
 pub use page::page;
 pub use paired::{Differences, Ratio, Ratios};
 
@@ -29,7 +29,7 @@ const FORMAT: &str = "challenge-scores/1";
 
 /// Scores of several programs in one challenge.
 #[derive(Debug, Serialize)]
-pub struct Scores {
+pub struct ChallengeScores {
     /// `challenge-scores/1`.
     pub format: &'static str,
     /// Name of the suite.
@@ -47,7 +47,7 @@ pub struct Scores {
     /// Version of the program that scored.
     pub hexbench: &'static str,
     /// Groups of cases, in the order in which they are shown, with their sizes.
-    pub groups: Vec<Group>,
+    pub groups: Vec<CaseGroup>,
     /// One for each program, in the order given.
     pub entrants: Vec<EntrantScore>,
 }
@@ -57,17 +57,17 @@ pub struct Scores {
 /// # Errors
 /// [`ChallengeError`] when the challenge changed, answers were made for another one, or two have the same name. An answer that is
 /// missing or cannot be read is a failed case.
-pub fn score(challenge: &Challenge, answers: &[PathBuf]) -> Result<Scores, ChallengeError> {
+pub fn score(challenge: &Challenge, answers: &[PathBuf]) -> Result<ChallengeScores, ChallengeError> {
     challenge.verify()?;
     let ids = &challenge.manifest().cases;
-    let keys = ids.par_iter().map(|id| Key::read(challenge, id)).collect::<Result<Vec<_>, _>>()?;
+    let keys = ids.par_iter().map(|id| AnswerKey::read(challenge, id)).collect::<Result<Vec<_>, _>>()?;
     let entrants = answers
         .iter()
         .map(|folder| EntrantScore::of(challenge, &keys, folder))
         .collect::<Result<Vec<_>, _>>()?;
     refuse_same_names(&entrants)?;
     let manifest = challenge.manifest();
-    Ok(Scores {
+    Ok(ChallengeScores {
         format: FORMAT,
         suite: manifest.suite.clone(),
         version: manifest.version,
@@ -83,14 +83,14 @@ pub fn score(challenge: &Challenge, answers: &[PathBuf]) -> Result<Scores, Chall
 
 /// A group of cases.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Group {
+pub struct CaseGroup {
     /// Its name in the suite.
     pub name: String,
     /// Its size.
     pub cases: usize,
 }
 
-impl Scores {
+impl ChallengeScores {
     /// Cases that are no answer, of all programs.
     pub fn failed(&self) -> usize {
         self.entrants.iter().map(|e| e.all.cases - e.all.answered).sum()
@@ -106,8 +106,8 @@ fn refuse_same_names(entrants: &[EntrantScore]) -> Result<(), ChallengeError> {
 }
 
 /// Groups in the order of the suite, with the number of cases.
-fn groups(challenge: &Challenge, keys: &[Key]) -> Vec<Group> {
+fn groups(challenge: &Challenge, keys: &[AnswerKey]) -> Vec<CaseGroup> {
     let size = |name: &String| keys.iter().filter(|k| k.truth.group == *name).count();
-    let group = |name: &String| Group { name: name.clone(), cases: size(name) };
+    let group = |name: &String| CaseGroup { name: name.clone(), cases: size(name) };
     challenge.manifest().groups.iter().map(group).collect()
 }

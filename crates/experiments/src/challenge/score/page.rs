@@ -5,7 +5,7 @@ use hexbench_report::{Page, Section, Table};
 
 use super::figures::{Figures, Interval, Mean};
 use super::paired::{Differences, Ratio, Ratios};
-use super::{EntrantScore, Group, Scores};
+use super::{CaseGroup, ChallengeScores, EntrantScore};
 
 /// What is not stated.
 const DASH: &str = "-";
@@ -13,7 +13,7 @@ const DASH: &str = "-";
 const MOST_TOLD: usize = 12;
 
 /// The page: the whole, each group, failures, how it was run.
-pub fn page(scores: &Scores) -> Page {
+pub fn page(scores: &ChallengeScores) -> Page {
     let failed = scores.entrants.iter().flat_map(told_failures);
     let side_by_side =
         Section::new("Side by side").table(table(scores, "", whole(scores))).paragraph(EXPLAINED);
@@ -31,9 +31,9 @@ pub fn page(scores: &Scores) -> Page {
         .with(how_it_was_run(scores))
 }
 
-fn by_group(scores: &Scores) -> Section {
+fn by_group(scores: &ChallengeScores) -> Section {
     BY_GROUP.iter().fold(Section::new("By group of cases"), |section, (title, words, cell)| {
-        let rows = scores.groups.iter().enumerate().map(|(g, Group { name, cases })| {
+        let rows = scores.groups.iter().enumerate().map(|(g, CaseGroup { name, cases })| {
             let label = format!("{name} ({cases})");
             row(&label, scores, |e| cell(&e.groups[g].figures))
         });
@@ -41,7 +41,7 @@ fn by_group(scores: &Scores) -> Section {
     })
 }
 
-fn how_it_was_run(scores: &Scores) -> Section {
+fn how_it_was_run(scores: &ChallengeScores) -> Section {
     Section::new("How it was run").list(scores.entrants.iter().map(how)).paragraph(format!(
         "Challenge made by hexbench {}, scored by hexbench {}; SHA-256 of challenge.toml: {}.",
         scores.made_by, scores.hexbench, scores.challenge_sha256
@@ -75,11 +75,11 @@ const BY_GROUP: [(&str, &str, Cell); 5] = [
     ("Diagnoses", "Right / honest / wrong.", |f| counts(f.outcomes)),
 ];
 
-fn cases(scores: &Scores) -> usize {
+fn cases(scores: &ChallengeScores) -> usize {
     scores.groups.iter().map(|g| g.cases).sum()
 }
 
-fn whole(scores: &Scores) -> Vec<Vec<String>> {
+fn whole(scores: &ChallengeScores) -> Vec<Vec<String>> {
     let entrants = &scores.entrants;
     let stiffness = Ratios::of(entrants, super::CaseScore::stiffness_error);
     let prediction = Ratios::of(entrants, |c| c.prediction.map(|p| p.error_in_noise));
@@ -112,12 +112,12 @@ fn whole(scores: &Scores) -> Vec<Vec<String>> {
     ]
 }
 
-fn table(scores: &Scores, corner: &str, rows: impl IntoIterator<Item = Vec<String>>) -> Table {
+fn table(scores: &ChallengeScores, corner: &str, rows: impl IntoIterator<Item = Vec<String>>) -> Table {
     let names = scores.entrants.iter().map(|e| e.name.as_str());
     Table::named(std::iter::once(corner).chain(names)).rows(rows)
 }
 
-fn row(label: &str, scores: &Scores, cell: impl Fn(&EntrantScore) -> String) -> Vec<String> {
+fn row(label: &str, scores: &ChallengeScores, cell: impl Fn(&EntrantScore) -> String) -> Vec<String> {
     std::iter::once(label.to_owned()).chain(scores.entrants.iter().map(cell)).collect()
 }
 
@@ -166,7 +166,7 @@ fn differences(compared: &Differences) -> Vec<String> {
         .collect()
 }
 
-fn better(scores: &Scores) -> Option<Section> {
+fn better(scores: &ChallengeScores) -> Option<Section> {
     let (first, rivals) = scores.entrants.split_first().filter(|(_, rivals)| !rivals.is_empty())?;
     let section = Section::new(format!("Where another is ahead of {}", first.name)).paragraph(
         "Geometric mean of its errors over those of the first entrant, on the cases of a group that both answered, with the 95 % interval; \

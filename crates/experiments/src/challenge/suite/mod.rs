@@ -5,7 +5,7 @@ mod read;
 use std::path::Path;
 
 use hexbench_core::files::text_hash;
-use hexbench_truth::campaign::{Kind, PlanKind};
+use hexbench_truth::campaign::{CaseKind, PlanKind};
 
 use crate::challenge::ChallengeError;
 use crate::error::ExperimentError;
@@ -27,7 +27,7 @@ pub const BUNDLED: [Bundled; 1] = [Bundled {
 
 /// Which cases a challenge has.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Suite {
+pub struct ChallengeSuite {
     /// Its name.
     pub name: String,
     /// Its version: a changed protocol has another.
@@ -39,16 +39,16 @@ pub struct Suite {
     /// SHA-256 of the file.
     pub sha256: String,
     /// Groups of cases, in the order of the file.
-    pub portions: Vec<Portion>,
+    pub portions: Vec<CasePortion>,
 }
 
 /// Some cases of one make.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Portion {
+pub struct CasePortion {
     /// Name of the group, told in the scores and never to the entrants.
     pub group: String,
     /// Kind of campaign.
-    pub kind: Kind,
+    pub kind: CaseKind,
     /// How many.
     pub count: usize,
     /// Distance of each effect, drawn log-uniformly; the usual one of the kind without.
@@ -63,7 +63,7 @@ pub struct Portion {
     pub repeats: Option<u64>,
 }
 
-impl Suite {
+impl ChallengeSuite {
     /// The bundled suite of a name, else that of a file.
     ///
     /// # Errors

@@ -2,34 +2,36 @@
 
 use std::path::Path;
 
-use hexbench_core::files::{Fault, FileError, Format, Item, Key, Section, instead_of, read_toml_text};
-use hexbench_truth::campaign::{Kind, PlanKind, machines};
+use hexbench_core::files::{
+    Fault, FileError, Format, Item, KeyUnit, TomlSection, instead_of, read_toml_text,
+};
+use hexbench_truth::campaign::{CaseKind, PlanKind, machines};
 use hexbench_truth::mechanisms::REGISTRY;
 
-use super::{Portion, Suite};
+use super::{CasePortion, ChallengeSuite};
 
 const FORMAT: Format = Format {
     name: "challenge-suite/1",
-    keys: &Key::all_plain(["format", "name", "version", "title", "seed", "cases"]),
+    keys: &KeyUnit::all_plain(["format", "name", "version", "title", "seed", "cases"]),
 };
 
-const PORTION: &[Key] =
-    &Key::all_plain(["kind", "count", "distance", "effects", "plan", "machine", "repeats"]);
+const PORTION: &[KeyUnit] =
+    &KeyUnit::all_plain(["kind", "count", "distance", "effects", "plan", "machine", "repeats"]);
 
 /// Most cases of a suite: each is a folder, and its name has three digits or four.
 const MOST_CASES: usize = 5000;
 /// Distances beyond are another machine, not an effect.
 const MOST_DISTANCE: f64 = 1000.0;
 
-pub(super) fn suite(text: &str, file: &Path) -> Result<Suite, FileError> {
+pub(super) fn suite(text: &str, file: &Path) -> Result<ChallengeSuite, FileError> {
     read_toml_text(text, file, FORMAT, whole)
 }
 
-fn whole(top: &Section<'_>) -> Result<Suite, Fault> {
+fn whole(top: &TomlSection<'_>) -> Result<ChallengeSuite, Fault> {
     let name = top.require("name")?;
     let list = top.require("cases")?;
     let portions = list.entries()?.iter().map(portion).collect::<Result<Vec<_>, _>>()?;
-    let suite = Suite {
+    let suite = ChallengeSuite {
         name: plain_name(name)?,
         version: top.require("version")?.whole(1)?,
         title: top.require("title")?.string()?.to_owned(),
@@ -58,12 +60,12 @@ fn plain_name(item: &Item<'_>) -> Result<String, Fault> {
     Ok(name.to_owned())
 }
 
-fn portion(item: &Item<'_>) -> Result<Portion, Fault> {
+fn portion(item: &Item<'_>) -> Result<CasePortion, Fault> {
     let t = item.section("[cases.GROUP]", PORTION)?;
-    let kind = named(t.require("kind")?, "kind", &Kind::ALL.map(Kind::name))?;
-    let portion = Portion {
+    let kind = named(t.require("kind")?, "kind", &CaseKind::ALL.map(CaseKind::name))?;
+    let portion = CasePortion {
         group: item.key().to_owned(),
-        kind: Kind::ALL[kind],
+        kind: CaseKind::ALL[kind],
         count: usize::try_from(t.require("count")?.whole(1)?).unwrap_or(usize::MAX),
         distance: t.get("distance").map(distance).transpose()?,
         effects: t.get("effects").map_or(Ok(Vec::new()), effects)?,
@@ -76,14 +78,14 @@ fn portion(item: &Item<'_>) -> Result<Portion, Fault> {
 }
 
 /// What the generator would pass over in silence is said instead.
-fn refuse_contradictions(t: &Section<'_>, portion: &Portion) -> Result<(), Fault> {
-    let absolute = portion.kind == Kind::Absolute;
-    let without_size = absolute || portion.kind == Kind::Clean;
+fn refuse_contradictions(t: &TomlSection<'_>, portion: &CasePortion) -> Result<(), Fault> {
+    let absolute = portion.kind == CaseKind::Absolute;
+    let without_size = absolute || portion.kind == CaseKind::Clean;
     if let Some(item) = t.get("distance").filter(|_| without_size) {
         let broken = "the effects of this kind have no distance to be scaled to";
         return Err(item.breaks(broken, "Remove this key."));
     }
-    if let Some(item) = t.get("effects").filter(|_| portion.kind == Kind::Clean) {
+    if let Some(item) = t.get("effects").filter(|_| portion.kind == CaseKind::Clean) {
         return Err(item.breaks("a clean case has no effect", "Remove this key, or write kind = \"single\"."));
     }
     let other_plan = portion.plan.is_some_and(|p| (p == PlanKind::Absolute) != absolute);

@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use super::{BUNDLED, Suite};
+use super::{BUNDLED, ChallengeSuite};
 use crate::challenge::ChallengeError;
 
 /// Name, version, SHA-256 of the file, number of cases.
 const FROZEN: [(&str, u64, &str, usize); 1] =
     [("springs-and-effects", 2, "e158df7523be8d32dfe1954f0378da33fe30010a20e2c7c5c45c95cb1b23edcc", 84)];
 
-fn suite(text: &str) -> Result<Suite, ChallengeError> {
-    Suite::from_text(text, Path::new("suite.toml"))
+fn suite(text: &str) -> Result<ChallengeSuite, ChallengeError> {
+    ChallengeSuite::from_text(text, Path::new("suite.toml"))
 }
 
 fn message(cases: &str) -> String {
@@ -57,6 +57,6 @@ fn a_suite_says_where_it_is_wrong() {
 
 #[test]
 fn a_suite_that_is_not_there_is_told_with_those_that_are() {
-    let error = Suite::named("sprigns").unwrap_err();
+    let error = ChallengeSuite::named("sprigns").unwrap_err();
     assert!(error.next_step().contains("springs-and-effects"), "{}", error.next_step());
 }

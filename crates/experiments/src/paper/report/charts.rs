@@ -3,7 +3,7 @@
 use hexbench_report::plot::{Axis, Bars, Chart, Panels, PlotError, Series};
 
 use super::super::bench::sigma;
-use super::super::curves::Compared;
+use super::super::curves::ValidationPose;
 use super::super::published::{FIGURE_8_POINT, PREDICTION_ERROR, VALIDATION_MM};
 use super::super::study::Reproduction;
 
@@ -54,12 +54,12 @@ fn figure_8(study: &Reproduction) -> Chart {
     chart.with(Series::line("paper, as read", vec![[0.0, 0.0], [load, deflection]]).as_reference())
 }
 
-fn panels(axis: char, compared: &[Compared], world: &str) -> Panels {
+fn panels(axis: char, compared: &[ValidationPose], world: &str) -> Panels {
     let figure = if axis == 'X' { 9 } else { 10 };
     let title = format!("Deflection along {axis}, {world} (Fig. {figure})");
     let panel = |k: usize| {
         let (symbol, unit) = SYMBOLS[k];
-        let of = |value: fn(&Compared) -> &[f64; 6]| -> Vec<[f64; 2]> {
+        let of = |value: fn(&ValidationPose) -> &[f64; 6]| -> Vec<[f64; 2]> {
             compared.iter().map(|c| [c.position_mm, value(c)[k]]).collect()
         };
         let band = compared.iter().map(|c| {

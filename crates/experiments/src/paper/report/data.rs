@@ -5,10 +5,10 @@ use std::io;
 use hexbench_core::Dataset;
 use hexbench_core::files::{CsvText, hexapod_to_toml, measurements_to_csv};
 
-use super::super::curves::{Compared, Linearity};
-use super::super::missing::Finding;
+use super::super::curves::{Linearity, ValidationPose};
+use super::super::missing::DiagnosisSummary;
 use super::super::published::{PREDICTION_ERROR, STIFFNESS_N_PER_UM};
-use super::super::search::PoseSet;
+use super::super::search::IndexedPoses;
 use super::super::study::Reproduction;
 use super::COORDINATES;
 
@@ -63,7 +63,7 @@ fn header(prefix: &str) -> String {
 
 fn table_1(study: &Reproduction) -> String {
     let mut rows = Vec::new();
-    let mut add = |name: &str, set: &PoseSet| {
+    let mut add = |name: &str, set: &IndexedPoses| {
         let o = &set.observability;
         for (i, pose) in set.poses.iter().enumerate() {
             let indices = [o.o1, o.o2, o.o3, o.o4, o.o5];
@@ -110,15 +110,15 @@ fn table_4(study: &Reproduction) -> String {
 }
 
 fn suspects(study: &Reproduction) -> String {
-    let row = |s: &super::super::suspects::Suspect| {
+    let row = |s: &super::super::suspects::SuspectedEffect| {
         [s.id.replace(',', ";"), s.size.replace(',', ";")].into_iter().chain(exact(&s.error)).collect()
     };
     csv(&format!("effect,size,{}", header("rms_")), study.suspects.iter().map(row))
 }
 
 fn held_out(study: &Reproduction) -> String {
-    let rows = |plan: &'static str, finding: &Finding| -> Vec<Vec<String>> {
-        let row = |step: &super::super::missing::Step| {
+    let rows = |plan: &'static str, finding: &DiagnosisSummary| -> Vec<Vec<String>> {
+        let row = |step: &super::super::missing::HeldOutError| {
             let terms = ["springs".to_owned()].into_iter().chain(step.terms.clone()).collect::<Vec<_>>();
             let head = [plan.to_owned(), terms.join(" + ")];
             let tail = exact(&[step.chi2_reduced, step.chance]).collect::<Vec<_>>();
@@ -145,8 +145,8 @@ fn figure_8(line: &Linearity) -> String {
     csv("load_N,deflection_um,trial_1_um,trial_2_um,trial_3_um", rows)
 }
 
-fn compared(rows: &[Compared]) -> String {
-    let row = |c: &Compared| {
+fn compared(rows: &[ValidationPose]) -> String {
+    let row = |c: &ValidationPose| {
         let values = [c.predicted, c.predicted_std, c.measured].concat();
         exact(&[c.position_mm]).chain(exact(&values)).collect()
     };

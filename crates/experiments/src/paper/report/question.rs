@@ -4,7 +4,7 @@ use hexbench_model::verdict::Verdict;
 use hexbench_report::{Section, Table};
 
 use super::super::bench::effective_load;
-use super::super::missing::{Finding, Step};
+use super::super::missing::{DiagnosisSummary, HeldOutError};
 use super::super::published::PREDICTION_ERROR;
 use super::super::study::Reproduction;
 use super::{COORDINATES, chance, number};
@@ -78,7 +78,7 @@ pub(super) fn hidden(study: &Reproduction) -> Section {
 /// What a diagnosis says by the paper's plan and by a richer one.
 pub(super) fn diagnosis(study: &Reproduction) -> Section {
     let (poor, rich) = (&study.poor, &study.rich);
-    let row = |plan: &str, f: &Finding| {
+    let row = |plan: &str, f: &DiagnosisSummary| {
         let [fitted, held_out] = f.readings;
         let (best, probability) = f.candidates.first().cloned().unwrap_or_default();
         let cells = [
@@ -109,7 +109,7 @@ pub(super) fn diagnosis(study: &Reproduction) -> Section {
     ))
 }
 
-fn step(step: &Step) -> Vec<String> {
+fn step(step: &HeldOutError) -> Vec<String> {
     let name = step.terms.last().map_or_else(|| "springs".to_owned(), |t| format!("+ {t}"));
     let errors = step.error.iter().enumerate().map(|(k, x)| number(*x, if k < 3 { 2 } else { 1 }));
     let tail = [number(step.chi2_reduced, 2), chance(step.chance)];

@@ -8,7 +8,7 @@ use super::super::bench::{effective_load, sigma};
 use super::super::published::{
     DC_AFTER_UM, DC_BEFORE_UM, FIGURE_7_TOP, FIGURE_8_POINT, PREDICTION_ERROR, STIFFNESS_N_PER_UM,
 };
-use super::super::search::PoseSet;
+use super::super::search::IndexedPoses;
 use super::super::study::Reproduction;
 use super::{COORDINATES, chance, number};
 
@@ -66,7 +66,7 @@ fn best_poses(study: &Reproduction) -> Table {
 }
 
 fn indices(study: &Reproduction) -> Table {
-    let row = |name: &str, stroke: Option<f64>, set: &PoseSet| {
+    let row = |name: &str, stroke: Option<f64>, set: &IndexedPoses| {
         let o = &set.observability;
         let stroke = stroke.map_or_else(|| "-".to_owned(), |s| number(s * 1e3, 1));
         let head = [name.to_owned(), stroke, number(o.o1, 1), number(o.o2, 3)];
@@ -81,7 +81,7 @@ fn indices(study: &Reproduction) -> Table {
 }
 
 /// The pose turned to the positive side first, as in the paper. By symmetry mirrored sets are equally good.
-fn in_order(set: &PoseSet) -> [[f64; 4]; 3] {
+fn in_order(set: &IndexedPoses) -> [[f64; 4]; 3] {
     let positive = set.poses.iter().filter(|p| p[3] > 0.0).count();
     let side = if positive == 1 { 1.0 } else { -1.0 };
     let mut poses = set.poses.map(|[a, b, c, gamma]| [a, side * b, c, side * gamma]);

@@ -4,7 +4,7 @@ use hexbench_report::{Section, Table};
 
 use crate::regress::comparison::probability;
 use crate::regress::planted::Planted;
-use crate::regress::rule::Verdict;
+use crate::regress::rule::LimitVerdict;
 use crate::regress::summary::row;
 
 /// Failed limits listed for a planted fault.
@@ -37,7 +37,7 @@ pub(super) fn sections(planted: &[Planted]) -> Vec<Section> {
 }
 
 fn seen_by(planted: &Planted) -> Section {
-    let failed = planted.comparison.by_chance().into_iter().filter(|f| f.verdict == Verdict::Worse);
+    let failed = planted.comparison.by_chance().into_iter().filter(|f| f.verdict == LimitVerdict::Worse);
     Section::new(planted.name.clone())
         .within()
         .table(Table::named(["limit", "now", "baseline", "by chance"]).rows(failed.take(LISTED).map(row)))

@@ -8,9 +8,9 @@ use hexbench_report::words::written_by;
 use hexbench_report::{Block, Page, Section, Table};
 
 use super::baseline::{Baseline, Update};
-use super::limit::Limit;
+use super::limit::RegressLimit;
 use super::planted::Planted;
-use super::suite::{MACHINES_SEED, Suite};
+use super::suite::{MACHINES_SEED, RegressSuite};
 use super::unchanged::Unchanged;
 
 const COMMANDS: &str = "\
@@ -22,9 +22,9 @@ hexbench regress --update --reason \"TEXT\"              make the figures of thi
 /// What the page is about.
 pub struct Proof<'a> {
     /// What is run.
-    pub suite: &'a Suite,
+    pub suite: &'a RegressSuite,
     /// Its limits.
-    pub limits: &'a [Limit],
+    pub limits: &'a [RegressLimit],
     /// How many values each limit has in one run.
     pub counts: &'a [u64],
     /// What runs are compared with.
@@ -95,11 +95,11 @@ fn rule() -> Section {
 }
 
 /// Limits in which chance takes part.
-fn random(limits: &[Limit]) -> usize {
+fn random(limits: &[RegressLimit]) -> usize {
     limits.iter().filter(|l| l.test.is_random()).count()
 }
 
-fn scope(suite: &Suite, baseline: &Baseline, limits: &[Limit]) -> Section {
+fn scope(suite: &RegressSuite, baseline: &Baseline, limits: &[RegressLimit]) -> Section {
     let diagnosed: Vec<String> =
         suite.portions.iter().map(|p| format!("{} {}", p.trials, p.kind.name())).collect();
     Section::new("What is run")

@@ -5,7 +5,7 @@ use hexbench_report::{Section, Table};
 use super::Proof;
 use crate::regress::comparison::{level, probability};
 use crate::regress::figure::{figure, notice};
-use crate::regress::limit::{Group, Limit};
+use crate::regress::limit::{LimitGroup, RegressLimit};
 use crate::regress::notice::{POWER, noticed};
 use crate::regress::rule::FALSE_ALARM;
 
@@ -20,18 +20,18 @@ pub(super) fn sections(proof: &Proof<'_>) -> Vec<Section> {
         probability(level),
         100.0 * POWER
     ));
-    let of_group = |group: Group| {
+    let of_group = |group: LimitGroup| {
         let table = Table::named(["limit", "in a run", "baseline", "would notice"]);
         Section::new(capital(group.word())).within().table(table.rows(rows(proof, group, level)))
     };
     // Limits of one effect say the same for each.
     let general = proof.limits.iter().filter(|l| !l.id.contains(':'));
     let why = Section::new("Why").within().list(general.map(|l| format!("{}: {}", l.title, l.why)));
-    std::iter::once(first).chain(Group::ALL.map(of_group)).chain([why]).collect()
+    std::iter::once(first).chain(LimitGroup::ALL.map(of_group)).chain([why]).collect()
 }
 
-fn rows(proof: &Proof<'_>, group: Group, level: f64) -> Vec<Vec<String>> {
-    let of = |(limit, count): (&Limit, &u64)| {
+fn rows(proof: &Proof<'_>, group: LimitGroup, level: f64) -> Vec<Vec<String>> {
+    let of = |(limit, count): (&RegressLimit, &u64)| {
         let before = &proof.baseline.limits.get(&limit.id)?.sample;
         let least = noticed(limit.test, *count, before, level);
         let n = if limit.test.is_random() { count.to_string() } else { "-".to_owned() };

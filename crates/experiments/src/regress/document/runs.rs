@@ -5,7 +5,7 @@ use hexbench_report::{Section, Table};
 
 use super::random;
 use crate::regress::comparison::{level, probability};
-use crate::regress::limit::Limit;
+use crate::regress::limit::RegressLimit;
 use crate::regress::rule::FALSE_ALARM;
 use crate::regress::unchanged::Unchanged;
 
@@ -15,7 +15,7 @@ const BORDERS: [f64; 5] = [1.0, 10.0, 100.0, 1000.0, 10_000.0];
 const LISTED: usize = 5;
 
 /// How many failed, and how probable the least probable limit of each run was.
-pub(super) fn section(runs: &[Unchanged], limits: &[Limit]) -> Option<Section> {
+pub(super) fn section(runs: &[Unchanged], limits: &[RegressLimit]) -> Option<Section> {
     let (first, last) = (runs.first()?, runs.last()?);
     let mut least: Vec<&Unchanged> = runs.iter().collect();
     least.sort_by(|a, b| a.least.total_cmp(&b.least));
@@ -35,7 +35,7 @@ pub(super) fn section(runs: &[Unchanged], limits: &[Limit]) -> Option<Section> {
     Some(section)
 }
 
-fn told(runs: &[Unchanged], limits: &[Limit]) -> String {
+fn told(runs: &[Unchanged], limits: &[RegressLimit]) -> String {
     let failed = Proportion::count(runs, |r| !r.worse.is_empty());
     let better = runs.iter().filter(|r| !r.better.is_empty()).count();
     format!(
@@ -52,7 +52,7 @@ fn told(runs: &[Unchanged], limits: &[Limit]) -> String {
 
 /// Runs whose smallest probability is at most a border, and how many there would be of independent tests with even
 /// probabilities; discrete tests have larger ones.
-fn distribution(runs: &[Unchanged], limits: &[Limit]) -> Vec<Vec<String>> {
+fn distribution(runs: &[Unchanged], limits: &[RegressLimit]) -> Vec<Vec<String>> {
     let of = |border: f64| {
         let p = border * level(limits);
         let any = 1.0 - (1.0 - p).powf(random(limits) as f64);

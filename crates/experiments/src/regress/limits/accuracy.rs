@@ -2,46 +2,46 @@
 
 use super::{CHI2, ERRORS, fits, fits_of, share, slug, told};
 use crate::calibration::Fate;
-use crate::recovery::scene::Subject;
-use crate::regress::limit::{Group, Limit, Test};
+use crate::recovery::scene::HiddenSubject;
+use crate::regress::limit::{LimitGroup, LimitTest, RegressLimit};
 
 /// Over all campaigns.
-pub(super) fn general() -> Vec<Limit> {
-    let group = Group::Accuracy;
+pub(super) fn general() -> Vec<RegressLimit> {
+    let group = LimitGroup::Accuracy;
     vec![
-        Limit::new(
+        RegressLimit::new(
             ("stiffness-error", group),
             "leg stiffness: relative error",
             "Leg stiffness is what everything else is for.",
             ERRORS,
             |t| fits(t, |f| f.stiffness_error),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("holdout", group),
             "held-out chi-square of the right model",
             "A right model predicts readings it has not seen as well as the noise allows.",
             CHI2,
             |t| fits(t, |f| Some(f.holdout)),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("holdout-after-diagnosis", group),
             "held-out chi-square of the diagnosed model where the answer is right",
             "What is named must also predict.",
             CHI2,
             |t| told(t, |r| (r.fate == Fate::Right && !r.is_outside()).then_some(r.holdout[1]).flatten()),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("left-open", group),
             "campaigns in which numbers are left open by the data",
             "A number that is no longer determined has no error and no interval: it would leave all other limits unseen.",
-            Test::Share,
+            LimitTest::Share,
             |t| fits(t, |f| Some(share(f.open > 0))),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("without-answer", group),
             "campaigns without an answer",
             "A campaign that cannot be made, fitted or diagnosed would leave all other limits unseen.",
-            Test::Share,
+            LimitTest::Share,
             |t| {
                 let fits = t.fits.iter().map(|f| f.found.is_none());
                 fits.chain(t.answers.iter().map(Option::is_none)).map(share).collect()
@@ -51,9 +51,9 @@ pub(super) fn general() -> Vec<Limit> {
 }
 
 /// Numbers of one effect.
-pub(super) fn of_effect(s: Subject) -> Limit {
-    Limit::new(
-        (format!("error:{}", slug(s.name)), Group::Accuracy),
+pub(super) fn of_effect(s: HiddenSubject) -> RegressLimit {
+    RegressLimit::new(
+        (format!("error:{}", slug(s.name)), LimitGroup::Accuracy),
         format!("{}: relative error of its numbers", s.name),
         "The sizes and shapes of an effect are told to people: they must be right.",
         ERRORS,

@@ -1,30 +1,30 @@
 //! Answers of the diagnosis, and the probabilities stated with them.
 
 use hexbench_model::verdict::Verdict;
-use hexbench_truth::campaign::Kind;
+use hexbench_truth::campaign::CaseKind;
 
 use super::{ROUGH, share, told};
-use crate::calibration::{Fate, Record, is_well_visible};
-use crate::regress::limit::{Group, Limit, Test, Unit};
+use crate::calibration::{CalibrationRecord, Fate, is_well_visible};
+use crate::regress::limit::{LimitGroup, LimitTest, LimitUnit, RegressLimit};
 
 /// Nats between a stated probability and the truth: from 99.9 % to what no search weighs.
-const NATS: Test = Test::Size { range: [1e-3, 14.0], least: ROUGH, unit: Unit::Plain };
+const NATS: LimitTest = LimitTest::Size { range: [1e-3, 14.0], least: ROUGH, unit: LimitUnit::Plain };
 /// Stated probability from which an answer counts as sure.
 const SURE: f64 = 0.9;
 
 /// Share of bad answers among some of the records.
 fn bad(
     (id, title, why): (&str, &str, &str),
-    among: fn(&Record) -> bool,
-    is_bad: fn(&Record) -> bool,
-) -> Limit {
-    Limit::new((id, Group::Diagnosis), title, why, Test::Share, move |t| {
+    among: fn(&CalibrationRecord) -> bool,
+    is_bad: fn(&CalibrationRecord) -> bool,
+) -> RegressLimit {
+    RegressLimit::new((id, LimitGroup::Diagnosis), title, why, LimitTest::Share, move |t| {
         told(t, |r| among(r).then(|| share(is_bad(r))))
     })
 }
 
 /// What is said.
-pub(super) fn answers() -> Vec<Limit> {
+pub(super) fn answers() -> Vec<RegressLimit> {
     vec![
         bad(
             ("false-names", "effects named that are not there", "Sends people to repair what is not broken."),
@@ -56,12 +56,12 @@ pub(super) fn answers() -> Vec<Limit> {
         ),
         bad(
             ("single-not-named", "one well visible effect, not named", "The plainest case."),
-            |r| r.kind == Kind::Single && is_well_visible(r),
+            |r| r.kind == CaseKind::Single && is_well_visible(r),
             |r| r.fate != Fate::Right,
         ),
         bad(
             ("pair-not-named", "two well visible effects, not both named", "Effects hide each other."),
-            |r| r.kind == Kind::Pair && is_well_visible(r),
+            |r| r.kind == CaseKind::Pair && is_well_visible(r),
             |r| r.fate != Fate::Right,
         ),
         bad(
@@ -100,26 +100,26 @@ pub(super) fn answers() -> Vec<Limit> {
 }
 
 /// How sure it is said.
-pub(super) fn probabilities() -> Vec<Limit> {
-    let group = Group::Probabilities;
+pub(super) fn probabilities() -> Vec<RegressLimit> {
+    let group = LimitGroup::Probabilities;
     let wrong_though_sure =
-        |r: &Record| r.confidence.filter(|p| *p >= SURE).map(|_| share(r.fate != Fate::Right));
+        |r: &CalibrationRecord| r.confidence.filter(|p| *p >= SURE).map(|_| share(r.fate != Fate::Right));
     vec![
-        Limit::new(
+        RegressLimit::new(
             ("sure-but-wrong", group),
             "answers stated with 90 % or more that are not the truth",
             "A stated probability is a promise.",
-            Test::Share,
+            LimitTest::Share,
             move |t| told(t, wrong_though_sure),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("credible-sets", group),
             "credible sets of 95 % without the truth, where it is well visible",
             "People keep the set and rule out the rest.",
-            Test::Share,
+            LimitTest::Share,
             |t| told(t, |r| is_well_visible(r).then(|| share(!r.is_covered()))),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("log-score", group),
             "nats between the probability stated for the truth and certainty",
             "The logarithmic score punishes both wrong certainty and needless doubt.",

@@ -6,87 +6,87 @@
 use hexbench_core::statistics::mean;
 
 use super::{CHI2, fits, share, told};
-use crate::calibration::{Fate, Record};
-use crate::regress::distance::Distance;
+use crate::calibration::{CalibrationRecord, Fate};
+use crate::regress::distance::PulledDistance;
 use crate::regress::fitted::Fitted;
-use crate::regress::limit::{Group, Limit, Test};
+use crate::regress::limit::{LimitGroup, LimitTest, RegressLimit};
 
-fn outside(distance: Option<Distance>) -> Option<f64> {
+fn outside(distance: Option<PulledDistance>) -> Option<f64> {
     distance.map(|d| share(d.is_outside()))
 }
 
 /// Over all campaigns.
-pub(super) fn general() -> Vec<Limit> {
-    let group = Group::Honesty;
-    let per_number = |d: Option<Distance>| d.map(|d| d.per_number());
+pub(super) fn general() -> Vec<RegressLimit> {
+    let group = LimitGroup::Honesty;
+    let per_number = |d: Option<PulledDistance>| d.map(|d| d.per_number());
     vec![
-        Limit::new(
+        RegressLimit::new(
             ("stiffness-pulls", group),
             "leg stiffness: mean squared pull of six legs in their covariance",
             "An honest covariance gives 1; a factor 1.5 on it gives 1.5.",
-            Test::Spread,
+            LimitTest::Spread,
             move |t| fits(t, |f| per_number(f.springs)),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("all-pulls", group),
             "all numbers: mean squared pull in their covariance",
             "Leg stiffness and effects together: what is wrong with every uncertainty shows here first.",
-            Test::Spread,
+            LimitTest::Spread,
             |t| fits(t, both),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("stiffness-coverage", group),
             "leg stiffness: truth outside the 95 % region of six legs",
             "A region that claims 95 % must hold the truth in 95 % of the campaigns.",
-            Test::Share,
+            LimitTest::Share,
             |t| fits(t, |f| outside(f.springs)),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("effect-pulls", group),
             "effects: mean squared pull in their covariance",
             "The same for the numbers of effects.",
-            Test::Spread,
+            LimitTest::Spread,
             move |t| fits(t, |f| per_number(f.effect)),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("effect-coverage", group),
             "effects: truth outside the 95 % region of their numbers",
             "The same for the numbers of effects.",
-            Test::Share,
+            LimitTest::Share,
             |t| fits(t, |f| outside(f.effect)),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("prediction-coverage", group),
             "predictions: held-out readings outside their 95 % region",
             "Noise and uncertainty of the model together must say how far off a prediction can be.",
-            Test::Share,
+            LimitTest::Share,
             |t| fits(t, |f| Some(share(f.prediction_missed))),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("fit-chi2", group),
             "chi-square of the right model on what it was fitted to",
             "A solver that stops early, or a term that is slightly wrong, leaves more than the noise.",
             CHI2,
             |t| fits(t, |f| Some(f.chi2_reduced)),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("misfits", group),
             "campaigns that the right model does not fit",
             "A misfit has no uncertainties; it would leave the other limits of honesty unseen.",
-            Test::Share,
+            LimitTest::Share,
             |t| fits(t, |f| Some(share(f.misfit))),
         ),
-        Limit::new(
+        RegressLimit::new(
             ("stiffness-pulls-after-diagnosis", group),
             "leg stiffness after a right diagnosis: mean squared pull",
             "What people read comes from the diagnosis, averaged over shapes and chosen by the search.",
-            Test::Spread,
+            LimitTest::Spread,
             |t| told(t, |r| (r.fate == Fate::Right).then(|| mean_square(r)).flatten()),
         ),
     ]
 }
 
-fn mean_square(r: &Record) -> Option<f64> {
+fn mean_square(r: &CalibrationRecord) -> Option<f64> {
     mean(r.stiffness_z.iter().flatten().map(|z| z * z)).filter(|_| !r.is_outside())
 }
 

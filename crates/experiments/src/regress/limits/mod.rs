@@ -7,24 +7,24 @@ mod exact;
 mod honesty;
 
 use super::fitted::Fitted;
-use super::limit::{Limit, Test, Unit};
-use super::suite::Suite;
-use super::trials::Trials;
-use crate::calibration::Record;
-use crate::recovery::scene::Subject;
+use super::limit::{LimitTest, LimitUnit, RegressLimit};
+use super::suite::RegressSuite;
+use super::trials::SuiteTrials;
+use crate::calibration::CalibrationRecord;
+use crate::recovery::scene::HiddenSubject;
 
 /// Least standard deviation of logarithms: counts that happen to be all the same in a baseline need not always be.
 const ROUGH: f64 = 0.1;
 /// The same of chi-square per number.
 const FINE: f64 = 0.02;
 /// Relative errors: from rounding to nonsense.
-const ERRORS: Test = Test::Size { range: [1e-9, 10.0], least: ROUGH, unit: Unit::Percent };
+const ERRORS: LimitTest = LimitTest::Size { range: [1e-9, 10.0], least: ROUGH, unit: LimitUnit::Percent };
 /// Chi-square per number of models that are right: it hardly leaves 1; what does counts as a misfit elsewhere.
-const CHI2: Test = Test::Size { range: [0.6, 1.7], least: FINE, unit: Unit::Plain };
+const CHI2: LimitTest = LimitTest::Size { range: [0.6, 1.7], least: FINE, unit: LimitUnit::Plain };
 /// Counts of work.
-const COUNTS: Test = Test::Size { range: [1.0, 1e6], least: ROUGH, unit: Unit::Plain };
+const COUNTS: LimitTest = LimitTest::Size { range: [1.0, 1e6], least: ROUGH, unit: LimitUnit::Plain };
 /// The limits of a suite, in the order of the pages.
-pub fn limits(suite: &Suite) -> Vec<Limit> {
+pub fn limits(suite: &RegressSuite) -> Vec<RegressLimit> {
     let mut all = accuracy::general();
     all.extend(suite.subjects.iter().filter(|s| !s.effects.is_empty()).map(|&s| accuracy::of_effect(s)));
     all.extend(honesty::general());
@@ -36,11 +36,11 @@ pub fn limits(suite: &Suite) -> Vec<Limit> {
     all
 }
 
-fn fits(t: &Trials, value: impl Fn(&Fitted) -> Option<f64>) -> Vec<f64> {
+fn fits(t: &SuiteTrials, value: impl Fn(&Fitted) -> Option<f64>) -> Vec<f64> {
     t.fitted().filter_map(|(_, f)| value(f)).collect()
 }
 
-fn fits_of(t: &Trials, subject: Subject, value: impl Fn(&Fitted) -> Option<f64>) -> Vec<f64> {
+fn fits_of(t: &SuiteTrials, subject: HiddenSubject, value: impl Fn(&Fitted) -> Option<f64>) -> Vec<f64> {
     t.fitted().filter(|(s, _)| **s == subject).filter_map(|(_, f)| value(f)).collect()
 }
 
@@ -49,7 +49,7 @@ fn share(bad: bool) -> f64 {
     f64::from(u8::from(bad))
 }
 
-fn told(t: &Trials, value: impl Fn(&Record) -> Option<f64>) -> Vec<f64> {
+fn told(t: &SuiteTrials, value: impl Fn(&CalibrationRecord) -> Option<f64>) -> Vec<f64> {
     t.answered().filter_map(|a| value(&a.record)).collect()
 }
 

@@ -4,13 +4,13 @@ use hexbench_report::plot::{Axis, Bars, Chart, Panels, PlotError, Series};
 
 use super::marginal::{Marginal, group_of, marginal, varying};
 use super::response::{Response, responses};
-use crate::sweep::cells::{AXES, AxisLevels, Level};
+use crate::sweep::cells::{AXES, AxisLevel, AxisLevels};
 use crate::sweep::results::CellStatistics;
-use crate::sweep::study::Study;
+use crate::sweep::study::SweepStudy;
 
 /// A chart.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Picture {
+pub struct SweepChart {
     /// Name of its file, without folder and ending.
     pub name: String,
     /// Name of the axis it is about.
@@ -28,7 +28,7 @@ const WIDE: f64 = 3.0;
 ///
 /// # Errors
 /// [`PlotError`].
-pub fn pictures(study: &Study, cells: &[CellStatistics]) -> Result<Vec<Picture>, PlotError> {
+pub fn pictures(study: &SweepStudy, cells: &[CellStatistics]) -> Result<Vec<SweepChart>, PlotError> {
     let levels = study.axes.levels();
     let mut all = Vec::new();
     for axis in varying(&levels) {
@@ -46,11 +46,11 @@ pub fn pictures(study: &Study, cells: &[CellStatistics]) -> Result<Vec<Picture>,
 }
 
 fn over_numbers(
-    study: &Study,
+    study: &SweepStudy,
     levels: &[AxisLevels; AXES],
     found: &Marginal,
     numbers: &[f64],
-) -> Option<Result<Picture, PlotError>> {
+) -> Option<Result<SweepChart, PlotError>> {
     let axis = &levels[found.axis];
     let charts: Vec<Chart> =
         responses(study.task).iter().filter_map(|r| panel(levels, found, numbers, r)).collect();
@@ -61,7 +61,12 @@ fn over_numbers(
     let title = format!("Over {}{}", spoken(axis.name), by(levels, found));
     let panels = charts.into_iter().fold(Panels::new(title.clone(), columns), Panels::with);
     let svg = panels.with_panel_size(300.0, 260.0).to_svg();
-    Some(svg.map(|svg| Picture { name: axis.name.replace('_', "-"), axis: axis.name, caption: title, svg }))
+    Some(svg.map(|svg| SweepChart {
+        name: axis.name.replace('_', "-"),
+        axis: axis.name,
+        caption: title,
+        svg,
+    }))
 }
 
 fn panel(levels: &[AxisLevels; AXES], found: &Marginal, numbers: &[f64], r: &Response) -> Option<Chart> {
@@ -102,7 +107,7 @@ fn over_names(
     levels: &[AxisLevels; AXES],
     found: &Marginal,
     r: &Response,
-) -> Option<Result<Picture, PlotError>> {
+) -> Option<Result<SweepChart, PlotError>> {
     let axis = &levels[found.axis];
     let value = |cell: &CellStatistics| Some((r.of)(cell)[0]).filter(|x| x.is_finite()).unwrap_or(0.0);
     let all: Vec<Vec<f64>> = found.groups.iter().map(|cells| cells.iter().map(value).collect()).collect();
@@ -112,12 +117,12 @@ fn over_names(
     let title = format!("{} over {}{}", r.title, spoken(axis.name), by(levels, found));
     let y = Axis::new(r.title, r.unit);
     let y = if r.is_share { y.with_range(0.0, 100.0) } else { y };
-    let mut bars = Bars::new(title.clone(), axis.levels.iter().map(Level::text).collect(), y);
+    let mut bars = Bars::new(title.clone(), axis.levels.iter().map(AxisLevel::text).collect(), y);
     for (k, values) in all.into_iter().enumerate() {
         bars = bars.with(found.group.map_or("all trials".to_owned(), |g| named(&levels[g], k)), values);
     }
     let name = format!("{}-{}", axis.name, r.key).replace('_', "-");
-    Some(bars.to_svg().map(|svg| Picture { name, axis: axis.name, caption: title, svg }))
+    Some(bars.to_svg().map(|svg| SweepChart { name, axis: axis.name, caption: title, svg }))
 }
 
 fn extremes(values: &[f64]) -> [f64; 2] {

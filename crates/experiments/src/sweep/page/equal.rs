@@ -3,7 +3,7 @@
 use crate::sweep::axes::PlanSource;
 use crate::sweep::page::marginal::marginal;
 use crate::sweep::results::CellStatistics;
-use crate::sweep::study::{Study, Task};
+use crate::sweep::study::{SweepStudy, SweepTask};
 
 const PLAN: usize = 1;
 const POSES: usize = 2;
@@ -35,10 +35,10 @@ pub enum Matching {
 }
 
 /// Every designed plan of a study that also has random ones, over all other axes together.
-pub fn equals(study: &Study, cells: &[CellStatistics]) -> Vec<Equal> {
+pub fn equals(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<Equal> {
     let plans = &study.axes.plan;
     let random = plans.iter().position(|p| p.source == PlanSource::Random);
-    let (Some(random), Task::Springs, true) = (random, study.task, study.axes.poses.len() > 1) else {
+    let (Some(random), SweepTask::Springs, true) = (random, study.task, study.axes.poses.len() > 1) else {
         return Vec::new();
     };
     let found = marginal(study, cells, POSES, Some(PLAN));

@@ -8,11 +8,11 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::sweep::cells::{AXES, AxisLevels};
 use crate::sweep::results::CellStatistics;
-use crate::sweep::study::{Study, Task};
+use crate::sweep::study::{SweepStudy, SweepTask};
 
 /// A law of powers for the cells of one value of a group.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Law {
+pub struct PowerLaw {
     /// Value of the group, empty without one.
     pub group: String,
     /// Axes and their exponents.
@@ -27,10 +27,10 @@ pub struct Law {
 const PLAN: usize = 1;
 
 /// One law for each plan, over all axes of positive numbers with more than one value.
-pub fn laws(study: &Study, cells: &[CellStatistics]) -> Vec<Law> {
+pub fn laws(study: &SweepStudy, cells: &[CellStatistics]) -> Vec<PowerLaw> {
     let levels = study.axes.levels();
     let axes: Vec<usize> = (0..AXES).filter(|&k| is_scale(&levels[k])).collect();
-    if study.task != Task::Springs || axes.is_empty() {
+    if study.task != SweepTask::Springs || axes.is_empty() {
         return Vec::new();
     }
     let plans = 0..levels[PLAN].levels.len();
@@ -42,12 +42,12 @@ fn is_scale(axis: &AxisLevels) -> bool {
 }
 
 fn law(
-    study: &Study,
+    study: &SweepStudy,
     cells: &[CellStatistics],
     levels: &[AxisLevels; AXES],
     axes: &[usize],
     plan: usize,
-) -> Option<Law> {
+) -> Option<PowerLaw> {
     let of_plan =
         |c: &&CellStatistics| study.axes.cell(c.cell).position[PLAN] == plan && c.springs.errors.rms() > 0.0;
     let kept: Vec<&CellStatistics> = cells.iter().filter(of_plan).collect();
@@ -65,5 +65,5 @@ fn law(
     let x = a.tr_mul(&a).cholesky()?.solve(&a.tr_mul(&y));
     let misfit = ((&a * &x - y).norm_squared() / kept.len() as f64).sqrt();
     let exponents = axes.iter().enumerate().map(|(k, &axis)| (levels[axis].name, x[k + 1])).collect();
-    Some(Law { group: levels[PLAN].levels[plan].text(), exponents, misfit, cells: kept.len() })
+    Some(PowerLaw { group: levels[PLAN].levels[plan].text(), exponents, misfit, cells: kept.len() })
 }

@@ -4,7 +4,7 @@
 
 use crate::sweep::cells::{AXES, AxisLevels};
 use crate::sweep::results::CellStatistics;
-use crate::sweep::study::Study;
+use crate::sweep::study::SweepStudy;
 
 /// Results by the values of one axis, or of two.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +32,7 @@ pub(super) fn group_of(levels: &[AxisLevels; AXES], axis: usize) -> Option<usize
 }
 
 /// Results by an axis, and by a group.
-pub fn marginal(study: &Study, cells: &[CellStatistics], axis: usize, group: Option<usize>) -> Marginal {
+pub fn marginal(study: &SweepStudy, cells: &[CellStatistics], axis: usize, group: Option<usize>) -> Marginal {
     let levels = study.axes.levels();
     let lines = group.map_or(1, |g| levels[g].levels.len());
     let empty = || vec![CellStatistics::empty(0); levels[axis].levels.len()];

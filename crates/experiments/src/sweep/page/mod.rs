@@ -12,16 +12,16 @@ use hexbench_report::words::written_by;
 use hexbench_report::{Page, Section};
 
 use crate::sweep::results::CellStatistics;
-use crate::sweep::study::Study;
+use crate::sweep::study::SweepStudy;
 
-pub use charts::{Picture, pictures};
+pub use charts::{SweepChart, pictures};
 pub use equal::{Equal, Matching, equals};
-pub use laws::{Law, laws};
+pub use laws::{PowerLaw, laws};
 pub use marginal::{Marginal, marginal};
 pub use write::write;
 
 /// What is told on the screen.
-pub fn summary(study: &Study, cells: &[CellStatistics]) -> Page {
+pub fn summary(study: &SweepStudy, cells: &[CellStatistics]) -> Page {
     Page::new(&study.title)
         .with(sections::head(study, cells))
         .with_all(sections::by_axis(study, cells, None))
@@ -30,8 +30,8 @@ pub fn summary(study: &Study, cells: &[CellStatistics]) -> Page {
 }
 
 /// The whole page; charts are in `folder` beside it.
-pub fn document(study: &Study, cells: &[CellStatistics], pictures: &[Picture], folder: &str) -> Page {
-    let charts: Vec<(&Picture, String)> =
+pub fn document(study: &SweepStudy, cells: &[CellStatistics], pictures: &[SweepChart], folder: &str) -> Page {
+    let charts: Vec<(&SweepChart, String)> =
         pictures.iter().map(|p| (p, format!("{folder}/{}.svg", p.name))).collect();
     Page::new(&study.title)
         .with(Section::lead().paragraph(written_by("hexbench study FILE -o DIR")))

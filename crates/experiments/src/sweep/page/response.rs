@@ -1,7 +1,7 @@
 //! The main results of a task.
 
 use crate::sweep::results::CellStatistics;
-use crate::sweep::study::Task;
+use crate::sweep::study::SweepTask;
 
 /// One main result of a cell.
 #[derive(Debug, Clone, Copy)]
@@ -21,10 +21,10 @@ pub(super) struct Response {
 }
 
 /// The main results of a task, the most important first.
-pub(super) fn responses(task: Task) -> &'static [Response; 3] {
+pub(super) fn responses(task: SweepTask) -> &'static [Response; 3] {
     match task {
-        Task::Springs => &SPRINGS,
-        Task::Diagnose => &DIAGNOSE,
+        SweepTask::Springs => &SPRINGS,
+        SweepTask::Diagnose => &DIAGNOSE,
     }
 }
 

@@ -2,24 +2,24 @@
 
 use hexbench_report::{Block, Section, Table};
 
-use super::charts::{Picture, spoken};
+use super::charts::{SweepChart, spoken};
 use super::equal::{Equal, Matching, equals};
-use super::laws::{Law, laws};
+use super::laws::{PowerLaw, laws};
 use super::marginal::{Marginal, group_of, marginal, varying};
 use super::response::{Response, responses};
-use crate::sweep::cells::{AXES, AxisLevels, Level};
+use crate::sweep::cells::{AXES, AxisLevel, AxisLevels};
 use crate::sweep::columns::Status;
 use crate::sweep::results::CellStatistics;
-use crate::sweep::study::{Study, Task};
+use crate::sweep::study::{SweepStudy, SweepTask};
 
 /// Cells up to which all of them are listed.
 const FEW_CELLS: usize = 60;
 
 /// What was run, how much of it has an answer.
-pub(super) fn head(study: &Study, cells: &[CellStatistics]) -> Section {
+pub(super) fn head(study: &SweepStudy, cells: &[CellStatistics]) -> Section {
     let what = match study.task {
-        Task::Springs => "six stiffnesses are fitted and compared with the truth",
-        Task::Diagnose => "the diagnosis is asked what is hidden",
+        SweepTask::Springs => "six stiffnesses are fitted and compared with the truth",
+        SweepTask::Diagnose => "the diagnosis is asked what is hidden",
     };
     let count = |k: usize| cells.iter().map(|c| c.by_status[k]).sum::<u64>();
     let counted = Status::NAMES.iter().enumerate().skip(1).map(|(k, name)| (name, count(k)));
@@ -41,18 +41,18 @@ pub(super) fn head(study: &Study, cells: &[CellStatistics]) -> Section {
 }
 
 /// The axes with their values.
-pub(super) fn axes(study: &Study) -> Section {
-    let values = |axis: &AxisLevels| axis.levels.iter().map(Level::text).collect::<Vec<_>>().join(", ");
+pub(super) fn axes(study: &SweepStudy) -> Section {
+    let values = |axis: &AxisLevels| axis.levels.iter().map(AxisLevel::text).collect::<Vec<_>>().join(", ");
     let levels = study.axes.levels();
     let rows = levels.iter().filter(|axis| axis.given).map(|axis| [axis.name.to_owned(), values(axis)]);
     Section::new("Axes").table(Table::named(["axis", "values"]).rows(rows))
 }
 
 /// Laws of powers.
-pub(super) fn scaling(study: &Study, cells: &[CellStatistics]) -> Option<Section> {
+pub(super) fn scaling(study: &SweepStudy, cells: &[CellStatistics]) -> Option<Section> {
     let laws = laws(study, cells);
     let axes = laws.first()?.exponents.iter().map(|(name, _)| *name);
-    let row = |law: &Law| {
+    let row = |law: &PowerLaw| {
         let exponents = law.exponents.iter().map(|(_, x)| format!("{x:.2}"));
         let left = format!("{:.1} %", 100.0 * law.misfit);
         std::iter::once(law.group.clone()).chain(exponents).chain([left]).collect::<Vec<_>>()
@@ -68,7 +68,7 @@ pub(super) fn scaling(study: &Study, cells: &[CellStatistics]) -> Option<Section
 }
 
 /// How many random poses designed ones are worth.
-pub(super) fn designed(study: &Study, cells: &[CellStatistics]) -> Option<Section> {
+pub(super) fn designed(study: &SweepStudy, cells: &[CellStatistics]) -> Option<Section> {
     let equals = equals(study, cells);
     let row = |e: &Equal| {
         let matching = match e.random_poses {
@@ -94,9 +94,9 @@ pub(super) fn designed(study: &Study, cells: &[CellStatistics]) -> Option<Sectio
 
 /// A table for each axis with more than one value: by a second axis with charts, else by itself.
 pub(super) fn by_axis(
-    study: &Study,
+    study: &SweepStudy,
     cells: &[CellStatistics],
-    charts: Option<&[(&Picture, String)]>,
+    charts: Option<&[(&SweepChart, String)]>,
 ) -> Vec<Section> {
     let levels = study.axes.levels();
     let section = |axis: usize| {
@@ -112,20 +112,20 @@ pub(super) fn by_axis(
     varying(&levels).into_iter().map(section).collect()
 }
 
-fn over(study: &Study, levels: &[AxisLevels; AXES], found: &Marginal) -> Table {
+fn over(study: &SweepStudy, levels: &[AxisLevels; AXES], found: &Marginal) -> Table {
     let (axis, group) = (&levels[found.axis], found.group.map(|g| &levels[g]));
     let names = group.into_iter().chain([axis]).map(|a| a.name);
     let mut table = Table::named(names.chain(responses(study.task).iter().map(|r| r.short)));
     for (g, line) in found.groups.iter().enumerate() {
         for (level, cell) in axis.levels.iter().zip(line) {
-            let at = group.map(|a| &a.levels[g]).into_iter().chain([level]).map(Level::text);
+            let at = group.map(|a| &a.levels[g]).into_iter().chain([level]).map(AxisLevel::text);
             table.row(at.chain(results(study, cell)));
         }
     }
     table
 }
 
-fn results(study: &Study, cell: &CellStatistics) -> Vec<String> {
+fn results(study: &SweepStudy, cell: &CellStatistics) -> Vec<String> {
     let told = |r: &Response| {
         let [value, low, high] = (r.of)(cell);
         // Coverage is close to 95 %: a digit more tells something.
@@ -140,7 +140,7 @@ fn results(study: &Study, cell: &CellStatistics) -> Vec<String> {
 }
 
 /// Every cell, when there are few.
-pub(super) fn all_cells(study: &Study, cells: &[CellStatistics]) -> Option<Section> {
+pub(super) fn all_cells(study: &SweepStudy, cells: &[CellStatistics]) -> Option<Section> {
     let levels = study.axes.levels();
     let shown = varying(&levels);
     let axes = shown.iter().map(|&k| levels[k].name);
@@ -154,11 +154,11 @@ pub(super) fn all_cells(study: &Study, cells: &[CellStatistics]) -> Option<Secti
 }
 
 /// What the numbers mean.
-pub(super) fn reading(study: &Study) -> Section {
+pub(super) fn reading(study: &SweepStudy) -> Section {
     let together = "A table over one axis takes all trials with the same value together, whatever their values on the \
                     others: the factorial is full, so that values may be compared.";
     let own = match study.task {
-        Task::Springs => [
+        SweepTask::Springs => [
             "Stiffness error: root mean square over the legs of estimated over true stiffness minus one.",
             "Held-out error over noise: root mean square error of predicted deflections at poses drawn from the same \
              space, without noise, over the standard deviation of one reading. Below 1 the model predicts better than a \
@@ -166,7 +166,7 @@ pub(super) fn reading(study: &Study) -> Section {
             "Coverage: share of 95 % intervals that hold the true stiffness, with exact binomial bounds that count \
              each trial once.",
         ],
-        Task::Diagnose => [
+        SweepTask::Diagnose => [
             "Right: exactly what is hidden is named; nothing when there is nothing; \"outside\" when the catalogue lacks it.",
             "Honest: the answer is ambiguous and does not exclude the truth. Wrong: anything else.",
             "Bounds are exact binomial bounds, 95 %.",

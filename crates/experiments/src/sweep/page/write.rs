@@ -7,11 +7,11 @@ use std::path::Path;
 use hexbench_core::files::atomic_write;
 use hexbench_report::png::png;
 
-use super::{Picture, document, pictures};
+use super::{SweepChart, document, pictures};
 use crate::error::ExperimentError;
 use crate::sweep::error::StudyError;
 use crate::sweep::results::CellStatistics;
-use crate::sweep::study::Study;
+use crate::sweep::study::SweepStudy;
 
 /// Writes `study.md` and `charts` (SVG, and PNG where the system has a font) into a folder, and the page once more as
 /// `markdown` with its charts beside it, when that is wanted.
@@ -19,7 +19,7 @@ use crate::sweep::study::Study;
 /// # Errors
 /// [`StudyError::Plot`], [`ExperimentError::Write`].
 pub fn write(
-    study: &Study,
+    study: &SweepStudy,
     cells: &[CellStatistics],
     folder: &Path,
     markdown: Option<&Path>,
@@ -38,7 +38,7 @@ fn page(
     path: &Path,
     folder: &Path,
     text: &dyn Fn(&str) -> String,
-    pictures: &[Picture],
+    pictures: &[SweepChart],
 ) -> Result<(), ExperimentError> {
     let beside = folder.file_name().unwrap_or_default().to_string_lossy();
     file(path, text(&beside).as_bytes())?;

@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use hexbench_core::files::{Fault, Item, Key, Section};
+use hexbench_core::files::{Fault, Item, KeyUnit, TomlSection};
 use hexbench_design::Criterion;
 use hexbench_truth::campaign::{PlanKind, machines};
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
 use super::{one_of, unknown};
-use crate::sweep::axes::{Axes, Estimator, Noises, PlanSource, Sizes};
-use crate::sweep::study::Task;
+use crate::sweep::axes::{Axes, Noises, PlanSource, Sizes, SweepEstimator};
+use crate::sweep::study::SweepTask;
 
-const KEYS: &[Key] = &Key::all_plain([
+const KEYS: &[KeyUnit] = &KeyUnit::all_plain([
     "geometry",
     "plan",
     "poses",
@@ -45,7 +45,7 @@ pub(super) enum PlanName {
 }
 
 impl AxesTable {
-    pub(super) fn read(item: &Item<'_>, task: Task) -> Result<Self, Fault> {
+    pub(super) fn read(item: &Item<'_>, task: SweepTask) -> Result<Self, Fault> {
         let t = item.section("[axes]", KEYS)?;
         let geometry = each(t.require("geometry")?, geometry)?;
         let plan = each(t.require("plan")?, plan)?;
@@ -67,9 +67,9 @@ impl AxesTable {
         Ok(axes)
     }
 
-    fn refuse_impossible(&self, t: &Section<'_>, task: Task) -> Result<(), Fault> {
+    fn refuse_impossible(&self, t: &TomlSection<'_>, task: SweepTask) -> Result<(), Fault> {
         self.refuse_poses(t)?;
-        if let (Task::Diagnose, Some(item)) = (task, t.get("estimator")) {
+        if let (SweepTask::Diagnose, Some(item)) = (task, t.get("estimator")) {
             let next = "Remove this axis, or write task = \"springs\".";
             return Err(item.breaks("the diagnosis has an estimator of its own", next));
         }
@@ -87,7 +87,7 @@ impl AxesTable {
     }
 
     /// The axis `poses` stands beside plans that need it, and beside none that have poses of their own.
-    fn refuse_poses(&self, t: &Section<'_>) -> Result<(), Fault> {
+    fn refuse_poses(&self, t: &TomlSection<'_>) -> Result<(), Fault> {
         let (items, poses) = (t.require("plan")?.list()?, t.get("poses"));
         for (item, plan) in items.iter().zip(&self.plan) {
             let (takes, needs) = match plan {
@@ -201,8 +201,8 @@ fn makes() -> Vec<PlanKind> {
     PlanKind::ALL.into_iter().filter(|kind| *kind != PlanKind::Absolute).collect()
 }
 
-fn estimator(item: &Item<'_>) -> Result<Estimator, Fault> {
-    one_of(item, &Estimator::ALL.map(Estimator::name), "estimator").map(|k| Estimator::ALL[k])
+fn estimator(item: &Item<'_>) -> Result<SweepEstimator, Fault> {
+    one_of(item, &SweepEstimator::ALL.map(SweepEstimator::name), "estimator").map(|k| SweepEstimator::ALL[k])
 }
 
 fn effect(item: &Item<'_>) -> Result<Option<&'static str>, Fault> {
@@ -223,7 +223,7 @@ fn effect(item: &Item<'_>) -> Result<Option<&'static str>, Fault> {
     Ok(Some(entry.id))
 }
 
-fn sizes(t: &Section<'_>) -> Result<Sizes, Fault> {
+fn sizes(t: &TomlSection<'_>) -> Result<Sizes, Fault> {
     let not_negative = |item: &Item<'_>| match item.number()? {
         size if size >= 0.0 => Ok(size),
         _ => Err(item.breaks("a size is not negative", "Write how large the effect is, 0 for none.")),
@@ -236,7 +236,7 @@ fn sizes(t: &Section<'_>) -> Result<Sizes, Fault> {
     }
 }
 
-fn noises(t: &Section<'_>) -> Result<Noises, Fault> {
+fn noises(t: &TomlSection<'_>) -> Result<Noises, Fault> {
     let scale = |item: &Item<'_>| item.positive("the scale of the noise");
     let pair = |item: &Item<'_>| {
         let pair = item.exactly::<2>("two standard deviations, translation (um) and rotation (urad)")?;

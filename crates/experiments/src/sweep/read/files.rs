@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use hexbench_core::Hexapod;
 use hexbench_core::files::{
-    Fault, FileError, Place, Problem, content_hash, read_conditions, read_hexapod, text_hash,
+    Fault, FileError, FilePlace, FileProblem, content_hash, read_conditions, read_hexapod, text_hash,
 };
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_design::space_file::read_space;
-use hexbench_truth::campaign::{Row, machines};
+use hexbench_truth::campaign::{PlanRow, machines};
 use hexbench_truth::scene::Scene;
 
 use super::axes::{AxesTable, GeometryName, PlanName};
@@ -89,7 +89,7 @@ fn plan(name: PlanName, folder: &Path, inputs: &mut Inputs) -> Result<PlanChoice
         PlanName::Known(name, source) => PlanChoice { name, source },
         PlanName::Table(name) => {
             let reading = read_conditions(&inputs.file(folder, &name)?)?;
-            let rows = reading.dataset.observations.iter().map(Row::from).collect();
+            let rows = reading.dataset.observations.iter().map(PlanRow::from).collect();
             PlanChoice { name, source: PlanSource::Rows(rows) }
         }
         PlanName::Scene(name) => PlanChoice { source: of_scene(&name, folder, inputs)?, name },
@@ -102,11 +102,11 @@ fn of_scene(name: &str, folder: &Path, inputs: &mut Inputs) -> Result<PlanSource
     let path = inputs.file(folder, &file)?;
     let scene = Scene::read(&folder.join(name))?;
     if scene.measurand() == hexbench_core::Measurand::AbsolutePose {
-        let problem = Problem::Rule {
+        let problem = FileProblem::Rule {
             rule: "studies measure deflections, and this scene measures absolute poses".into(),
             next: "Choose another scene.".into(),
         };
-        return Err(Fault::new(Place::file(), problem).in_file(&path));
+        return Err(Fault::new(FilePlace::file(), problem).in_file(&path));
     }
     let rows = scene.plan().training;
     // The rows come from several files: what counts is what they say together.

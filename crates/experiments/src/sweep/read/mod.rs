@@ -6,15 +6,17 @@ mod files;
 use std::path::Path;
 
 use hexbench_core::files::{
-    Fault, FileError, Format, Item, Key, Section, content_hash, instead_of, read_toml,
+    Fault, FileError, Format, Item, KeyUnit, TomlSection, content_hash, instead_of, read_toml,
 };
 
-use crate::sweep::study::{STUDY_FILE, Study, Task};
+use crate::sweep::study::{STUDY_FILE, SweepStudy, SweepTask};
 use axes::AxesTable;
 
 const FORMAT: Format = Format {
     name: "study/1",
-    keys: &Key::all_plain(["format", "title", "seed", "trials", "task", "space", "redraw", "starts", "axes"]),
+    keys: &KeyUnit::all_plain([
+        "format", "title", "seed", "trials", "task", "space", "redraw", "starts", "axes",
+    ]),
 };
 
 /// Trials with the same machine unless the file says so.
@@ -29,14 +31,14 @@ struct Description {
     title: String,
     seed: u64,
     trials: u64,
-    task: Task,
+    task: SweepTask,
     space: Option<String>,
     redraw: u64,
     starts: u64,
     axes: AxesTable,
 }
 
-impl Study {
+impl SweepStudy {
     /// Reads a study and every file it names; names are relative to its folder.
     ///
     /// # Errors
@@ -61,10 +63,10 @@ impl Study {
     }
 }
 
-fn description(top: &Section<'_>) -> Result<Description, Fault> {
+fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
     let whole = |key: &str, usual: u64| top.get(key).map_or(Ok(usual), |item| item.whole(1));
-    let task = one_of(top.require("task")?, &Task::ALL.map(Task::name), "task")?;
-    let task = Task::ALL[task];
+    let task = one_of(top.require("task")?, &SweepTask::ALL.map(SweepTask::name), "task")?;
+    let task = SweepTask::ALL[task];
     let trials = top.require("trials")?;
     let d = Description {
         title: top.require("title")?.string()?.to_owned(),

@@ -15,7 +15,7 @@ use crate::error::ExperimentError;
 use crate::harness::Sharded;
 use crate::journal::Journal;
 use crate::sweep::runner::Runner;
-pub use statistics::{Answers, CellStatistics, Springs};
+pub use statistics::{AnswerStatistics, CellStatistics, StiffnessStatistics};
 pub use table::cells_csv;
 
 /// Name of the table of trials.

@@ -5,7 +5,7 @@ use hexbench_core::statistics::{Proportion, Welford};
 use crate::sweep::columns::Status;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::Shard;
-use crate::sweep::study::Task;
+use crate::sweep::study::SweepTask;
 
 /// What the trials of a cell say.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,14 +15,14 @@ pub struct CellStatistics {
     /// Trials by status, in the order of [`Status::NAMES`].
     pub by_status: [u64; Status::NAMES.len()],
     /// Fits of stiffness.
-    pub springs: Springs,
+    pub springs: StiffnessStatistics,
     /// Answers of the diagnosis.
-    pub answers: Answers,
+    pub answers: AnswerStatistics,
 }
 
 /// Fits of stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Springs {
+pub struct StiffnessStatistics {
     /// Errors of all legs, percent.
     pub errors: Welford,
     /// Legs covered.
@@ -33,7 +33,7 @@ pub struct Springs {
 
 /// Answers of the diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Answers {
+pub struct AnswerStatistics {
     /// Right, honest, wrong.
     pub outcomes: [u64; 3],
     /// Held-out chi-square: springs alone, final model.
@@ -43,7 +43,7 @@ pub struct Answers {
 impl CellStatistics {
     /// A cell without trials.
     pub fn empty(cell: usize) -> Self {
-        let (springs, answers) = (Springs::default(), Answers::default());
+        let (springs, answers) = (StiffnessStatistics::default(), AnswerStatistics::default());
         Self { cell, by_status: [0; 6], springs, answers }
     }
 
@@ -108,14 +108,14 @@ pub(super) fn add(runner: &Runner, shard: &Shard, cells: &mut Vec<CellStatistics
         now.by_status[status] += 1;
         if status == Status::Done as usize {
             match runner.study().task {
-                Task::Springs => now.springs.add(shard, row),
-                Task::Diagnose => now.answers.add(shard, row),
+                SweepTask::Springs => now.springs.add(shard, row),
+                SweepTask::Diagnose => now.answers.add(shard, row),
             }
         }
     }
 }
 
-impl Springs {
+impl StiffnessStatistics {
     fn add(&mut self, shard: &Shard, row: usize) {
         for leg in 1..=6 {
             self.errors.add(shard.columns[leg].numbers()[row]);
@@ -127,7 +127,7 @@ impl Springs {
     }
 }
 
-impl Answers {
+impl AnswerStatistics {
     fn add(&mut self, shard: &Shard, row: usize) {
         self.outcomes[usize::from(shard.columns[1].codes()[row])] += 1;
         for (k, holdout) in self.holdout.iter_mut().enumerate() {

@@ -6,16 +6,16 @@ use hexbench_report::table::csv;
 
 use crate::sweep::columns::Status;
 use crate::sweep::results::CellStatistics;
-use crate::sweep::study::{Study, Task};
+use crate::sweep::study::{SweepStudy, SweepTask};
 
 /// One row per cell; units are in the names.
-pub fn cells_csv(study: &Study, cells: &[CellStatistics]) -> String {
+pub fn cells_csv(study: &SweepStudy, cells: &[CellStatistics]) -> String {
     let levels = study.axes.levels();
     let axes = levels.iter().map(|axis| axis.name);
     let counts = ["trials", "done", "not_determined", "failed"];
     let results: &[&str] = match study.task {
-        Task::Springs => &SPRINGS,
-        Task::Diagnose => &DIAGNOSE,
+        SweepTask::Springs => &SPRINGS,
+        SweepTask::Diagnose => &DIAGNOSE,
     };
     let header = std::iter::once("cell").chain(axes).chain(SIGMAS).chain(counts);
     let mut table = Table::named(header.chain(results.iter().copied()));
@@ -25,8 +25,8 @@ pub fn cells_csv(study: &Study, cells: &[CellStatistics]) -> String {
         let noise = cell.noise();
         let sigmas = [noise.sigma_translation, noise.sigma_rotation].map(|s| number(s * 1e6));
         let values = match study.task {
-            Task::Springs => springs(found),
-            Task::Diagnose => diagnose(found),
+            SweepTask::Springs => springs(found),
+            SweepTask::Diagnose => diagnose(found),
         };
         let row = std::iter::once(found.cell.to_string()).chain(at).chain(sigmas).chain(counted(found));
         table.row(row.chain(values.into_iter().map(number)));

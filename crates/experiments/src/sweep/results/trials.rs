@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 
 use hexbench_report::table::parquet::{
-    File, Group, KeyValue, ParquetError, Physical, ROWS, begin, counts, double, int64, numbers, optional,
+    File, KeyValue, ParquetError, Physical, ROWS, RowGroup, begin, counts, double, int64, numbers, optional,
     other, required, text,
 };
 use parquet::basic::Encoding;
@@ -15,9 +15,9 @@ use parquet::file::properties::{WriterProperties, WriterPropertiesBuilder};
 use parquet::schema::types::{ColumnPath, TypePtr};
 
 use crate::sweep::cells::{AXES, AxisLevels};
-use crate::sweep::columns::{Column, Kind};
+use crate::sweep::columns::{ColumnKind, TrialColumn};
 use crate::sweep::runner::Runner;
-use crate::sweep::shard::{EMPTY, Shard, Values};
+use crate::sweep::shard::{ColumnValues, EMPTY, Shard};
 
 /// Format of the table.
 const FORMAT: &str = "study-trials/1";
@@ -42,8 +42,8 @@ impl<'a> Table<'a> {
     pub(super) fn add(&mut self, shard: &Shard) -> io::Result<()> {
         for (buffer, column) in self.buffer.columns.iter_mut().zip(&shard.columns) {
             match (buffer, column) {
-                (Values::Numbers(all), Values::Numbers(new)) => all.extend(new),
-                (Values::Codes(all), Values::Codes(new)) => all.extend(new),
+                (ColumnValues::Numbers(all), ColumnValues::Numbers(new)) => all.extend(new),
+                (ColumnValues::Codes(all), ColumnValues::Codes(new)) => all.extend(new),
                 _ => return Err(io::Error::other("a shard of another task")),
             }
         }
@@ -71,8 +71,10 @@ impl<'a> Table<'a> {
         head.write(&mut group).map_err(other)?;
         for (column, values) in self.runner.columns().iter().zip(&mut self.buffer.columns) {
             match values {
-                Values::Numbers(all) => numbers(&mut group, &all.drain(..rows).collect::<Vec<_>>()),
-                Values::Codes(all) => codes(&mut group, &all.drain(..rows).collect::<Vec<_>>(), &column.kind),
+                ColumnValues::Numbers(all) => numbers(&mut group, &all.drain(..rows).collect::<Vec<_>>()),
+                ColumnValues::Codes(all) => {
+                    codes(&mut group, &all.drain(..rows).collect::<Vec<_>>(), &column.kind)
+                }
             }
             .map_err(other)?;
         }
@@ -89,7 +91,7 @@ struct Head<'a> {
 }
 
 impl Head<'_> {
-    fn write(&self, group: &mut Group<'_, '_>) -> Result<(), ParquetError> {
+    fn write(&self, group: &mut RowGroup<'_, '_>) -> Result<(), ParquetError> {
         let study = self.runner.study();
         let places: Vec<(usize, u64)> = self.trials.clone().map(|t| study.place(t)).collect();
         let whole = |n: u64| i64::try_from(n).unwrap_or(i64::MAX);
@@ -107,7 +109,7 @@ impl Head<'_> {
                 text(group, &at.iter().map(|&k| words[k].clone()).collect::<Vec<_>>(), None)?;
             }
         }
-        let sigma = |of: fn(&hexbench_truth::metrology::Noise) -> f64| {
+        let sigma = |of: fn(&hexbench_truth::metrology::InstrumentNoise) -> f64| {
             places.iter().map(|p| short(of(&study.axes.cell(p.0).noise()) * 1e6)).collect::<Vec<_>>()
         };
         double(group, &sigma(|n| n.sigma_translation))?;
@@ -121,10 +123,10 @@ fn short(x: f64) -> f64 {
 }
 
 /// Counts or words, [`EMPTY`] as null.
-fn codes(group: &mut Group<'_, '_>, values: &[u8], kind: &Kind) -> Result<(), ParquetError> {
+fn codes(group: &mut RowGroup<'_, '_>, values: &[u8], kind: &ColumnKind) -> Result<(), ParquetError> {
     let levels: Vec<i16> = values.iter().map(|code| i16::from(*code != EMPTY)).collect();
     let present = values.iter().filter(|code| **code != EMPTY);
-    let Kind::Word(words) = kind else {
+    let ColumnKind::Word(words) = kind else {
         return counts(group, &present.map(|code| i32::from(*code)).collect::<Vec<_>>(), &levels);
     };
     let words: Vec<ByteArray> = words.iter().map(|word| word.clone().into_bytes().into()).collect();
@@ -132,15 +134,15 @@ fn codes(group: &mut Group<'_, '_>, values: &[u8], kind: &Kind) -> Result<(), Pa
     text(group, &present, Some(&levels))
 }
 
-fn fields_of(levels: &[AxisLevels; AXES], columns: &[Column]) -> Result<Vec<TypePtr>, ParquetError> {
+fn fields_of(levels: &[AxisLevels; AXES], columns: &[TrialColumn]) -> Result<Vec<TypePtr>, ParquetError> {
     let axis = |axis: &AxisLevels| match axis.numbers() {
         Some(_) => required(axis.name, Physical::DOUBLE),
         None => required(axis.name, Physical::BYTE_ARRAY),
     };
-    let result = |column: &Column| match column.kind {
-        Kind::Number => optional(&column.name, Physical::DOUBLE),
-        Kind::Count => optional(&column.name, Physical::INT32),
-        Kind::Word(_) => optional(&column.name, Physical::BYTE_ARRAY),
+    let result = |column: &TrialColumn| match column.kind {
+        ColumnKind::Number => optional(&column.name, Physical::DOUBLE),
+        ColumnKind::Count => optional(&column.name, Physical::INT32),
+        ColumnKind::Word(_) => optional(&column.name, Physical::BYTE_ARRAY),
     };
     let numbers = ["cell", "trial", "block"].into_iter().map(|name| required(name, Physical::INT64));
     let sigmas = ["sigma_translation_um", "sigma_rotation_urad"]
@@ -165,12 +167,12 @@ fn properties(runner: &Runner) -> io::Result<WriterProperties> {
     ];
     let files = study.inputs.iter().filter(|(name, _)| *name != crate::sweep::study::STUDY_FILE);
     metadata.extend(files.map(|(name, hash)| pair(&format!("sha256:{name}"), hash.clone())));
-    let plain = |builder: WriterPropertiesBuilder, column: &Column| {
+    let plain = |builder: WriterPropertiesBuilder, column: &TrialColumn| {
         let path = ColumnPath::from(column.name.as_str());
         builder.set_column_dictionary_enabled(path.clone(), false).set_column_encoding(path, Encoding::PLAIN)
     };
     // Numbers that are all different gain nothing from a dictionary.
-    let noisy = runner.columns().iter().filter(|c| c.kind == Kind::Number);
+    let noisy = runner.columns().iter().filter(|c| c.kind == ColumnKind::Number);
     Ok(noisy.fold(hexbench_report::table::parquet::properties(metadata), plain).build())
 }
 

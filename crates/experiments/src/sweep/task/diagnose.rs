@@ -7,10 +7,10 @@ use hexbench_model::terms::catalogue;
 use hexbench_model::verdict::Verdict;
 
 use super::blocks;
-use crate::sweep::bench::Bench;
-use crate::sweep::cells::Cell;
+use crate::sweep::bench::BlockSetup;
+use crate::sweep::cells::GridCell;
 use crate::sweep::columns::{Status, names};
-use crate::sweep::draw::{Purpose, drawn};
+use crate::sweep::draw::{SweepPurpose, drawn};
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{Shard, Value};
 
@@ -29,8 +29,14 @@ pub fn run(runner: &Runner, shard: &mut Shard) {
     );
 }
 
-fn values(bench: &Bench, cell: &Cell<'_>, seed: u64, trial: u64, names: &[String]) -> Option<[Value; 7]> {
-    let mut rng = drawn(seed, Purpose::Noise, cell.index, trial);
+fn values(
+    bench: &BlockSetup,
+    cell: &GridCell<'_>,
+    seed: u64,
+    trial: u64,
+    names: &[String],
+) -> Option<[Value; 7]> {
+    let mut rng = drawn(seed, SweepPurpose::Noise, cell.index, trial);
     let mut error = || -> Vector6 { bench.noise.draw(&mut rng) };
     let measurements = bench.training.dataset("measurements.csv", &mut error);
     let holdout = bench.holdout.dataset("holdout.csv", &mut error);

@@ -3,8 +3,8 @@
 pub mod diagnose;
 pub mod springs;
 
-use crate::sweep::bench::Bench;
-use crate::sweep::cells::Cell;
+use crate::sweep::bench::BlockSetup;
+use crate::sweep::cells::GridCell;
 use crate::sweep::columns::Status;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::Shard;
@@ -13,8 +13,8 @@ use crate::sweep::shard::Shard;
 fn blocks<P>(
     runner: &Runner,
     shard: &mut Shard,
-    prepare: impl Fn(Bench, &Cell<'_>) -> Result<P, Status>,
-    trial: impl Fn(&P, &Cell<'_>, u64, &mut Shard),
+    prepare: impl Fn(BlockSetup, &GridCell<'_>) -> Result<P, Status>,
+    trial: impl Fn(&P, &GridCell<'_>, u64, &mut Shard),
 ) {
     let study = runner.study();
     let mut ready: Option<((usize, u64), Result<P, Status>)> = None;
@@ -23,7 +23,7 @@ fn blocks<P>(
         let cell = study.axes.cell(index);
         let block = within / study.redraw;
         if ready.as_ref().is_none_or(|(at, _)| *at != (index, block)) {
-            let prepared = Bench::draw(runner, &cell, block).and_then(|bench| prepare(bench, &cell));
+            let prepared = BlockSetup::draw(runner, &cell, block).and_then(|bench| prepare(bench, &cell));
             ready = Some(((index, block), prepared));
         }
         match ready.as_ref().map(|(_, prepared)| prepared) {

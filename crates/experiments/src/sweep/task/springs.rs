@@ -16,17 +16,17 @@ use hexbench_core::statistics::COVERAGE_FACTOR;
 use hexbench_core::{Matrix6, Vector6};
 use hexbench_model::campaign::Campaign;
 use hexbench_model::fit::fit_baseline;
-use hexbench_model::linearization::{Linearization, Point};
+use hexbench_model::linearization::{Linearization, ModelPoint};
 use hexbench_model::paper;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
 use super::blocks;
-use crate::sweep::axes::Estimator;
-use crate::sweep::bench::Bench;
+use crate::sweep::axes::SweepEstimator;
+use crate::sweep::bench::BlockSetup;
 use crate::sweep::columns::Status;
-use crate::sweep::draw::{Purpose, drawn};
+use crate::sweep::draw::{SweepPurpose, drawn};
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{Shard, Value};
 
@@ -41,7 +41,7 @@ pub fn run(runner: &Runner, shard: &mut Shard) {
         shard,
         |bench, cell| Prepared::of(&bench, cell.estimator()),
         |prepared, cell, trial, shard| {
-            let found = prepared.trial(&mut drawn(seed, Purpose::Noise, cell.index, trial));
+            let found = prepared.trial(&mut drawn(seed, SweepPurpose::Noise, cell.index, trial));
             match found {
                 Some(found) => shard.push(found.values()),
                 None => shard.push_failed(Status::NotDetermined),
@@ -64,7 +64,7 @@ pub struct Prepared {
 
 /// What a trial finds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
+pub struct SpringsResult {
     /// Estimated over true stiffness minus one.
     pub errors: [f64; 6],
     /// Legs whose 95 % interval holds the truth.
@@ -74,7 +74,7 @@ pub struct Found {
     sigma: [f64; 2],
 }
 
-impl Found {
+impl SpringsResult {
     fn values(&self) -> impl Iterator<Item = Value> {
         let [t, r] = self.holdout;
         let holdout = [t * self.sigma[0] * 1e6, r * self.sigma[1] * 1e6, (0.5 * (t * t + r * r)).sqrt()];
@@ -88,12 +88,12 @@ impl Prepared {
     ///
     /// # Errors
     /// [`Status::NotDetermined`], [`Status::NoFit`].
-    pub fn of(bench: &Bench, estimator: Estimator) -> Result<Self, Status> {
+    pub fn of(bench: &BlockSetup, estimator: SweepEstimator) -> Result<Self, Status> {
         let data = bench.training.dataset("measurements", Vector6::zeros);
         let campaign = Campaign::new(&bench.hexapod, &data).map_err(|_| Status::NoFit)?;
         let (center, gain) = match estimator {
-            Estimator::Gls => weighted(&campaign)?,
-            Estimator::Paper => unweighted(&campaign)?,
+            SweepEstimator::Gls => weighted(&campaign)?,
+            SweepEstimator::Paper => unweighted(&campaign)?,
         };
         let covariance = &gain * gain.transpose();
         let holdout = bench.holdout.dataset("holdout", Vector6::zeros);
@@ -110,7 +110,7 @@ impl Prepared {
     }
 
     /// One trial; none when a compliance may be zero.
-    pub fn trial(&self, rng: &mut Pcg64) -> Option<Found> {
+    pub fn trial(&self, rng: &mut Pcg64) -> Option<SpringsResult> {
         let mut moved = Vector6::zeros();
         for column in &self.gain {
             let z: f64 = StandardNormal.sample(rng);
@@ -129,7 +129,7 @@ impl Prepared {
             covered += u8::from((k - self.true_stiffness[i]).abs() <= COVERAGE_FACTOR * std);
         }
         let holdout = [&self.translations, &self.rotations].map(|q| q.at(&moved).max(0.0).sqrt());
-        Some(Found { errors, covered, holdout, sigma: self.sigma })
+        Some(SpringsResult { errors, covered, holdout, sigma: self.sigma })
     }
 
     /// Compliances without noise (m/N), and the standard error of each.
@@ -146,7 +146,7 @@ fn weighted(campaign: &Campaign) -> Result<(Vector6, DMatrix<f64>), Status> {
     }
     let state = Linearization::at(campaign, &fit.point).map_err(|_| Status::NoFit)?;
     let j = state.common_block();
-    Ok((fit.point.springs, inverse_of_normal(&j)? * j.transpose()))
+    Ok((fit.point.compliances, inverse_of_normal(&j)? * j.transpose()))
 }
 
 /// Compliances and gain of the paper's estimator: every reading counts the same, metres beside radians.
@@ -220,7 +220,7 @@ fn held_out(
 ) -> Result<[Quadratic; 2], Status> {
     let judged =
         Campaign::with_noise(&campaign.hexapod, holdout, campaign.noise).map_err(|_| Status::NoFit)?;
-    let point = Point { springs, ..Point::start(campaign) };
+    let point = ModelPoint { compliances: springs, ..ModelPoint::start(campaign) };
     let state = Linearization::at(&judged, &point).map_err(|_| Status::NoFit)?;
     let (r, h) = (state.residuals(), state.common_block());
     let rows = |half: usize| (0..r.len()).filter(|k| (k % 6) / 3 == half).collect::<Vec<_>>();

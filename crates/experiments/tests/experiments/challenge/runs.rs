@@ -6,15 +6,15 @@ use std::time::{Duration, Instant};
 
 use hexbench_experiments::ExperimentError;
 use hexbench_experiments::challenge::ChallengeError;
-use hexbench_experiments::challenge::run::{End, Limits, Manner, Program, run};
+use hexbench_experiments::challenge::run::{End, Manner, Program, RunLimits, run};
 use hexbench_experiments::harness::{Progress, Silent};
 
 use crate::interrupted::StopAfter;
 
 use super::support::{Bench, EVERY_SORT, MANNER, ONE, entrant, files};
 
-const USUAL: Limits = Limits { time_s: 20.0, memory_mb: 500, output_mb: 20 };
-const SHORT: Limits = Limits { time_s: 0.4, ..USUAL };
+const USUAL: RunLimits = RunLimits { time_s: 20.0, memory_mb: 500, output_mb: 20 };
+const SHORT: RunLimits = RunLimits { time_s: 0.4, ..USUAL };
 /// An answer that passes the run; whether it can be read is seen when it is scored.
 const WRITE: &str = "echo row > \"$2/predictions.csv\"";
 /// Processes are started, watched and ended within this, on a busy machine too; left alone, they would sleep for longer.
@@ -87,7 +87,7 @@ fn processes_without_end_are_all_ended() {
 #[cfg(target_os = "linux")]
 #[test]
 fn the_memory_limit_holds_for_one_process_and_for_all_together() {
-    let limits = Limits { memory_mb: 120, ..USUAL };
+    let limits = RunLimits { memory_mb: 120, ..USUAL };
     let alone = "awk 'BEGIN { s = \"x\"; while (1) s = s s }' || exit 9";
     let record = Bench::of(ONE).record(alone, limits);
     assert_eq!((record.end, record.code), (End::Exited, Some(9)), "{record:?}");
@@ -129,7 +129,7 @@ fn a_crash_an_exit_code_and_a_missing_answer_are_told() {
 
 #[test]
 fn output_without_end_is_stopped() {
-    let limits = Limits { output_mb: 2, ..USUAL };
+    let limits = RunLimits { output_mb: 2, ..USUAL };
     for script in [
         "yes",
         "yes > \"$2/predictions.csv\"",

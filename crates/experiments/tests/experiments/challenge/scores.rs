@@ -9,7 +9,7 @@ use hexbench_core::files::read_measurements;
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Measurand};
 use hexbench_experiments::challenge::answer::columns;
-use hexbench_experiments::challenge::run::Limits;
+use hexbench_experiments::challenge::run::RunLimits;
 use hexbench_experiments::challenge::score::{EntrantScore, page, score};
 use hexbench_experiments::challenge::{ChallengeError, Truth};
 use rand_distr::{Distribution, StandardNormal};
@@ -136,7 +136,7 @@ fn scored(bench: &Bench) -> EntrantScore {
 fn made(cases: &str, make: Make) -> EntrantScore {
     let bench = Bench::of(cases);
     let prepared = Prepared::answers(&bench, make);
-    bench.run_with(COPY, &prepared, Limits::default());
+    bench.run_with(COPY, &prepared, RunLimits::default());
     scored(&bench)
 }
 
@@ -201,7 +201,7 @@ fn honest_intervals_cover_what_they_say() {
 fn what_is_not_said_is_not_scored() {
     let bench = Bench::of(ONE);
     let prepared = Prepared::answers(&bench, PERFECT);
-    bench.run_with(&format!("{COPY}; rm \"$2\"/*.json"), &prepared, Limits::default());
+    bench.run_with(&format!("{COPY}; rm \"$2\"/*.json"), &prepared, RunLimits::default());
     let scores = score(&bench.challenge, &[bench.answers()]).unwrap();
     let f = &scores.entrants[0].all;
     assert_eq!((f.stiffness_error, f.stiffness_covered, f.outcomes, f.log), (None, None, None, None));
@@ -234,7 +234,7 @@ fn an_answer_that_cannot_be_read_is_a_failed_case_with_its_reason() {
     ] {
         let bench = Bench::of(ONE);
         let prepared = Prepared::answers(&bench, PERFECT);
-        bench.run_with(&format!("{COPY}; {spoil}"), &prepared, Limits::default());
+        bench.run_with(&format!("{COPY}; {spoil}"), &prepared, RunLimits::default());
         let found = scored(&bench);
         let failures: Vec<(&str, &str)> = found.failures().collect();
         assert!(failures.len() == 1 && failures[0].1.contains(expected), "{spoil}: {failures:?}");
@@ -246,7 +246,7 @@ fn an_answer_that_cannot_be_read_is_a_failed_case_with_its_reason() {
 fn a_case_that_was_not_run_or_answered_from_other_files_has_failed() {
     let bench = Bench::of(EVERY_SORT);
     let prepared = Prepared::answers(&bench, PERFECT);
-    bench.run_with(COPY, &prepared, Limits::default());
+    bench.run_with(COPY, &prepared, RunLimits::default());
     fs::remove_dir_all(bench.answers().join("cases/case-002")).unwrap();
     let record = bench.answers().join("cases/case-005/run.json");
     let text = fs::read_to_string(&record).unwrap();
@@ -262,7 +262,7 @@ fn a_case_that_was_not_run_or_answered_from_other_files_has_failed() {
 fn nothing_is_scored_against_a_truth_that_changed() {
     let bench = Bench::of(ONE);
     let prepared = Prepared::answers(&bench, PERFECT);
-    bench.run_with(COPY, &prepared, Limits::default());
+    bench.run_with(COPY, &prepared, RunLimits::default());
     for (part, name, from, to) in [
         ("sealed", "truth.json", "\"clean\"", "\"dirty\""),
         ("sealed", "true.csv", ",1,", ",2,"),
@@ -290,7 +290,7 @@ fn programs_stand_side_by_side_with_the_best_as_measure() {
         .into_iter()
         .map(|(name, noise)| {
             let prepared = Prepared::answers(&bench, Make { noise, stiffness: noise / 10.0, ..PERFECT });
-            bench.run_with(COPY, &prepared, Limits::default());
+            bench.run_with(COPY, &prepared, RunLimits::default());
             let folder = bench.folder.path().join(name);
             fs::rename(bench.answers(), &folder).unwrap();
             rename(&folder, name);

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use hexbench_experiments::challenge::run::{Entrant, Limits, Manner, Program, Record, run};
-use hexbench_experiments::challenge::{Challenge, Suite, make};
+use hexbench_experiments::challenge::run::{Entrant, Manner, Program, RunLimits, RunRecord, run};
+use hexbench_experiments::challenge::{Challenge, ChallengeSuite, make};
 use hexbench_experiments::harness::Silent;
 use tempfile::TempDir;
 
@@ -21,9 +21,9 @@ pub(crate) const EVERY_SORT: &str = "\
 [cases.outside]\nkind = \"outside\"\ncount = 1\nplan = \"few-poses\"\nmachine = \"ring_a\"\n\
 [cases.poses]\nkind = \"absolute\"\ncount = 1\nmachine = \"ring_a\"\n";
 
-pub(crate) fn suite(cases: &str) -> Suite {
+pub(crate) fn suite(cases: &str) -> ChallengeSuite {
     let head = "format = \"challenge-suite/1\"\nname = \"tiny\"\nversion = 1\ntitle = \"Small\"\nseed = 11\n";
-    Suite::from_text(&format!("{head}{cases}"), Path::new("tiny.toml")).unwrap()
+    ChallengeSuite::from_text(&format!("{head}{cases}"), Path::new("tiny.toml")).unwrap()
 }
 
 /// A challenge in a folder of its own.
@@ -50,13 +50,13 @@ impl Bench {
     }
 
     /// Runs a shell script, which has the case in $1, the folder to write to in $2 and `zero` in $0.
-    pub(crate) fn run_with(&self, script: &str, zero: &Path, limits: Limits) -> Vec<Record> {
+    pub(crate) fn run_with(&self, script: &str, zero: &Path, limits: RunLimits) -> Vec<RunRecord> {
         let entrant = entrant(script, zero, limits);
         run(&self.challenge, &entrant, &self.answers(), MANNER, &Silent).unwrap().fresh
     }
 
     /// The record of the only case.
-    pub(crate) fn record(&self, script: &str, limits: Limits) -> Record {
+    pub(crate) fn record(&self, script: &str, limits: RunLimits) -> RunRecord {
         let records = self.run_with(script, Path::new("sh"), limits);
         assert_eq!(records.len(), 1);
         records[0].clone()
@@ -70,7 +70,7 @@ impl Bench {
 
 pub(crate) const MANNER: Manner = Manner { jobs: 2, again: false };
 
-pub(crate) fn entrant(script: &str, zero: &Path, limits: Limits) -> Entrant {
+pub(crate) fn entrant(script: &str, zero: &Path, limits: RunLimits) -> Entrant {
     let line = ["sh", "-c", script, zero.to_str().unwrap()].map(str::to_owned);
     Entrant { name: "script".to_owned(), program: Program::find(&line).unwrap(), limits }
 }

@@ -2,15 +2,15 @@
 
 use hexbench_core::Vector6;
 use hexbench_experiments::sweep::Runner;
-use hexbench_experiments::sweep::axes::Estimator;
-use hexbench_experiments::sweep::bench::Bench;
-use hexbench_experiments::sweep::draw::{Purpose, drawn};
+use hexbench_experiments::sweep::axes::SweepEstimator;
+use hexbench_experiments::sweep::bench::BlockSetup;
+use hexbench_experiments::sweep::draw::{SweepPurpose, drawn};
 use hexbench_experiments::sweep::task::springs::Prepared;
 use hexbench_model::campaign::Campaign;
 use hexbench_model::fit::{Fit, fit_baseline};
 use hexbench_model::paper::fit_paper;
 use hexbench_model::residuals::{prediction_errors, summarise};
-use hexbench_truth::metrology::Noise;
+use hexbench_truth::metrology::InstrumentNoise;
 
 use super::support::study;
 
@@ -37,32 +37,32 @@ fn benches() -> Vec<(Runner, usize)> {
         .collect()
 }
 
-fn each(check: impl Fn(&Bench, u64, usize)) {
+fn each(check: impl Fn(&BlockSetup, u64, usize)) {
     for (runner, cells) in benches() {
         for cell in 0..cells {
             let cell = runner.study().axes.cell(cell);
-            let bench = Bench::draw(&runner, &cell, 0).unwrap();
+            let bench = BlockSetup::draw(&runner, &cell, 0).unwrap();
             (0..TRIALS).for_each(|trial| check(&bench, trial, cell.index));
         }
     }
 }
 
 /// The readings of a trial: with one reading of each condition they take their noise in the order of the fast trial.
-fn readings(bench: &Bench, trial: u64, cell: usize) -> hexbench_core::Dataset {
-    let mut rng = drawn(1, Purpose::Noise, cell, trial);
-    bench.training.dataset("data", || Noise::draw(&bench.noise, &mut rng))
+fn readings(bench: &BlockSetup, trial: u64, cell: usize) -> hexbench_core::Dataset {
+    let mut rng = drawn(1, SweepPurpose::Noise, cell, trial);
+    bench.training.dataset("data", || InstrumentNoise::draw(&bench.noise, &mut rng))
 }
 
 fn fast(
-    bench: &Bench,
+    bench: &BlockSetup,
     trial: u64,
     cell: usize,
-    estimator: Estimator,
-) -> hexbench_experiments::sweep::task::springs::Found {
-    Prepared::of(bench, estimator).unwrap().trial(&mut drawn(1, Purpose::Noise, cell, trial)).unwrap()
+    estimator: SweepEstimator,
+) -> hexbench_experiments::sweep::task::springs::SpringsResult {
+    Prepared::of(bench, estimator).unwrap().trial(&mut drawn(1, SweepPurpose::Noise, cell, trial)).unwrap()
 }
 
-fn weighted(bench: &Bench, data: &hexbench_core::Dataset) -> (Campaign, Fit) {
+fn weighted(bench: &BlockSetup, data: &hexbench_core::Dataset) -> (Campaign, Fit) {
     let campaign = Campaign::new(&bench.hexapod, data).unwrap();
     let fit = fit_baseline(&campaign).unwrap();
     (campaign, fit)
@@ -73,10 +73,10 @@ fn a_fast_trial_finds_what_generalised_least_squares_find() {
     let mut worst = std::sync::Mutex::new(0.0_f64);
     each(|bench, trial, cell| {
         let (_, fit) = weighted(bench, &readings(bench, trial, cell));
-        let found = fast(bench, trial, cell, Estimator::Gls);
+        let found = fast(bench, trial, cell, SweepEstimator::Gls);
         for leg in 0..6 {
-            let slow = 1.0 / (fit.point.springs[leg] * bench.true_stiffness[leg]) - 1.0;
-            let standard_error = fit.std(leg) / fit.point.springs[leg];
+            let slow = 1.0 / (fit.point.compliances[leg] * bench.true_stiffness[leg]) - 1.0;
+            let standard_error = fit.std(leg) / fit.point.compliances[leg];
             let off = (found.errors[leg] - slow).abs() / standard_error;
             let mut worst = worst.lock().unwrap();
             *worst = worst.max(off);
@@ -92,13 +92,13 @@ fn a_fast_trial_of_the_papers_estimator_is_exact() {
     each(|bench, trial, cell| {
         let data = readings(bench, trial, cell);
         let slow = fit_paper(&Campaign::new(&bench.hexapod, &data).unwrap(), &data).unwrap();
-        let found = fast(bench, trial, cell, Estimator::Paper);
+        let found = fast(bench, trial, cell, SweepEstimator::Paper);
         for leg in 0..6 {
             let error = 1.0 / (slow.springs[leg] * bench.true_stiffness[leg]) - 1.0;
             let off = (found.errors[leg] - error).abs();
             assert!(off < ROUNDING * (1.0 + error.abs()), "leg {leg}: off by {off:.1e}");
         }
-        let (_, std) = Prepared::of(bench, Estimator::Paper).unwrap().without_noise();
+        let (_, std) = Prepared::of(bench, SweepEstimator::Paper).unwrap().without_noise();
         for leg in 0..6 {
             let off = std[leg] / slow.covariance[(leg, leg)].sqrt() - 1.0;
             assert!(off.abs() < ROUNDING, "standard error of leg {leg}: off by {off:.1e}");
@@ -115,7 +115,7 @@ fn the_held_out_error_of_a_fast_trial_is_that_of_the_predictions() {
         let held_out = bench.holdout.dataset("holdout", Vector6::zeros);
         let errors = prediction_errors(&bench.hexapod, &held_out, campaign.noise, &fit.point).unwrap();
         let slow = summarise(&errors, None).chi2_reduced.sqrt();
-        let [t, r] = fast(bench, trial, cell, Estimator::Gls).holdout;
+        let [t, r] = fast(bench, trial, cell, SweepEstimator::Gls).holdout;
         let quick = (0.5 * (t * t + r * r)).sqrt();
         assert!((quick / slow - 1.0).abs() < SHARE, "{quick} {slow}");
     });

@@ -1,11 +1,11 @@
 //! Studies from text.
 
-use hexbench_experiments::sweep::Study;
+use hexbench_experiments::sweep::SweepStudy;
 
 /// A study with the usual head before `rest`.
-pub(crate) fn study(rest: &str) -> Study {
+pub(crate) fn study(rest: &str) -> SweepStudy {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("study.toml");
     std::fs::write(&path, format!("format = \"study/1\"\ntitle = \"test\"\nseed = 1\n{rest}")).unwrap();
-    Study::read(&path).unwrap()
+    SweepStudy::read(&path).unwrap()
 }

@@ -7,7 +7,7 @@ use hexbench_core::files::read_measurements;
 use tempfile::TempDir;
 
 use super::{Answer, hexbench, paper};
-use crate::answer::{Case, Method, answer};
+use crate::answer::{CaseFiles, Method, answer};
 use crate::verdict::Verdict;
 
 /// Reduced chi-square of held-out readings at the noise: 1, three standard deviations of 180 numbers, give or take.
@@ -51,7 +51,7 @@ const NOISE: [f64; 6] = [0.5e-6, 0.5e-6, 0.5e-6, 3e-6, 3e-6, 3e-6];
 #[test]
 fn with_the_effect_named_predictions_are_at_the_noise_and_the_papers_are_not() {
     let (folder, readings) = case("mujoco-foundation");
-    let case = Case::read(folder.path()).unwrap();
+    let case = CaseFiles::read(folder.path()).unwrap();
     let [ours, theirs] = [hexbench(&case).unwrap(), paper(&case).unwrap()];
     let [(own, within), (other, _)] = [&ours, &theirs].map(|a| judged(a, &readings, NOISE));
     assert!(own < AT_THE_NOISE && other > 2.0 * own, "{own}, the paper's {other}");
@@ -62,7 +62,7 @@ fn with_the_effect_named_predictions_are_at_the_noise_and_the_papers_are_not() {
 #[test]
 fn what_a_model_is_known_to_miss_is_in_its_uncertainty() {
     let (folder, readings) = case("not-in-catalogue");
-    let found = hexbench(&Case::read(folder.path()).unwrap()).unwrap();
+    let found = hexbench(&CaseFiles::read(folder.path()).unwrap()).unwrap();
     let (chi2, within) = judged(&found, &readings, NOISE);
     assert_eq!(found.diagnosis.unwrap().verdict, Verdict::Outside);
     assert!(chi2 > AT_THE_NOISE && within > LEAST_WITHIN, "{chi2} {within}");

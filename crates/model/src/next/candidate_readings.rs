@@ -33,14 +33,14 @@ const LONGER: f64 = 5.0;
 const LEG_FORCE_SLACK: f64 = 1.05;
 
 /// Readings to choose from; `fits` tell on what the explanations depend.
-pub(super) fn menu(campaign: &Campaign, fits: &[&Fit]) -> Result<Vec<Observation>, ModelError> {
+pub(super) fn candidate_readings(campaign: &Campaign, fits: &[&Fit]) -> Result<Vec<Observation>, ModelError> {
     let Some(first) = campaign.groups.first().map(|g| g.mean) else { return Ok(Vec::new()) };
     let needs = Needs::of(campaign, fits);
     let strongest = strongest(campaign)?;
     let loads = loads(campaign, strongest);
     let states = needs.states(campaign);
     let count = (MOST_READINGS / (loads.len() * states.len()).max(1)).max(FEWEST_POSES);
-    let mut menu = Vec::new();
+    let mut candidate_readings = Vec::new();
     for pose in poses(campaign).into_iter().take(count) {
         let Some(legs) = legs(campaign, &pose) else { continue };
         for wrench in &loads {
@@ -51,11 +51,11 @@ pub(super) fn menu(campaign: &Campaign, fits: &[&Fit]) -> Result<Vec<Observation
                 let measured = if campaign.is_absolute() { pose.to_array() } else { [0.0; 6] };
                 let row =
                     Observation { pose, wrench: *wrench, approach, elapsed, delta_t, measured, ..first };
-                menu.push(row);
+                candidate_readings.push(row);
             }
         }
     }
-    Ok(menu)
+    Ok(candidate_readings)
 }
 
 fn legs(campaign: &Campaign, pose: &Pose) -> Option<Legs> {
@@ -70,7 +70,7 @@ fn carried(legs: &Legs, wrenches: [&Wrench; 2]) -> f64 {
     wrenches.map(|w| legs.forces(&w.to_vector()).amax()).into_iter().fold(0.0, f64::max)
 }
 
-/// Largest force that any leg of the nominal machine has carried, N: the menu is held against it without any effect, too.
+/// Largest force that any leg of the nominal machine has carried, N: the candidates are held against it without any effect, too.
 fn strongest(campaign: &Campaign) -> Result<f64, ModelError> {
     let Hexapod { base_joints, platform_joints, .. } = &campaign.hexapod;
     campaign.groups.iter().map(|g| &g.mean).try_fold(0.0, |most: f64, o| {

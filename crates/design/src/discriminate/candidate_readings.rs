@@ -20,7 +20,7 @@ const POSES: [usize; 2] = [12, 60];
 ///
 /// # Errors
 /// [`DesignError::NoPose`].
-pub fn menu(
+pub fn candidate_readings(
     space: &Space,
     hexapod: &Hexapod,
     terms: &[Arc<dyn Term>],
