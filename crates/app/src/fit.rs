@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
-use hexbench_model::fit_named::{Added, refuse_undetermined};
-use hexbench_model::model_file::{DataOrigin, Estimator, Model};
-use hexbench_model::paper::fit_paper;
-use hexbench_model::selection::{FitWithErrors, JudgedTask};
-use hexbench_model::term::Term;
+use hexbench_model::estimation::fit_named::{Added, refuse_undetermined};
+use hexbench_model::estimation::paper::fit_paper;
+use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
 
 use crate::Failure;
 use crate::input::catalogue_with;

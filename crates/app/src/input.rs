@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use hexbench_model::model_file::Model;
-use hexbench_model::term::Term;
+use hexbench_model::application::model_file::Model;
+use hexbench_model::effects::term::Term;
+use hexbench_model::effects::user_term;
 use hexbench_model::terms::catalogue;
-use hexbench_model::user_term;
 
 use crate::Failure;
 

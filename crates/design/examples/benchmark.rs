@@ -15,7 +15,7 @@ use hexbench_core::{Hexapod, Pose, Vector6};
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space_file::read_space;
 use hexbench_design::{Objective, PoseProblem, Space};
-use hexbench_model::spring_trials::SpringTrials;
+use hexbench_model::estimation::spring_trials::SpringTrials;
 
 const POSES: usize = 3;
 const SEED: u32 = 1;

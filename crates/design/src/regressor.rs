@@ -7,7 +7,7 @@ pub use model::{ModelRegressor, reading};
 pub use springs::{SpringRegressor, Weights};
 
 use hexbench_core::Pose;
-use hexbench_model::parameters::stiffness_name;
+use hexbench_model::estimation::parameters::stiffness_name;
 use nalgebra::DMatrix;
 
 use crate::DesignError;

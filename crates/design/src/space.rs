@@ -2,7 +2,7 @@
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Approach, Hexapod, Pose, Vector3, Wrench};
-use hexbench_model::kinematics::{Legs, euler_rate_matrix};
+use hexbench_model::machine::kinematics::{Legs, euler_rate_matrix};
 use rand::RngExt;
 use sobol_burley::sample;
 

@@ -1,10 +1,10 @@
 //! One campaign through the diagnosis: right, honest or wrong.
 
-use hexbench_model::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
 use hexbench_model::error::ModelError;
-use hexbench_model::explanation::Explanation;
+use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
 use hexbench_model::terms::catalogue;
-use hexbench_model::verdict::Verdict;
 use hexbench_truth::TruthError;
 use hexbench_truth::campaign::SimulatedCase;
 use hexbench_truth::mechanisms::is_outside;

@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
 
-use hexbench::model::term::{Chapter, ParameterInfo, Rich, Scale, TermInfo};
-use hexbench::model::{campaign::Condition, chain::Action, machine::Machine};
+use hexbench::model::effects::term::{Chapter, ParameterInfo, Rich, Scale, TermInfo};
+use hexbench::model::{effects::chain::Action, estimation::campaign::Condition, machine::geometry::Machine};
 use hexbench::prelude::*;
 
 /// Travel per period, m: from the data sheet of the screw.

@@ -23,11 +23,11 @@
 //! | you want | it is in |
 //! |---|---|
 //! | machines, poses, wrenches, readings; their files | [`core`] |
-//! | the loop from measurements to a verdict | [`model::diagnose`] |
-//! | terms chosen by hand, fitted and judged | [`model::selection`], [`model::fit_named`] |
-//! | the catalogue of effects; a term of your own | [`model::terms`]; [`model::term`], [`model::chain`] |
-//! | where the error sits and what it follows | [`model::compare`] |
-//! | a model kept in a file; what it predicts; commands corrected by it | [`model::model_file`]; [`model::predict`]; [`model::compensate`] |
+//! | the loop from measurements to a verdict | [`model::results::diagnose`] |
+//! | terms chosen by hand, fitted and judged | [`model::inference::selection`], [`model::estimation::fit_named`] |
+//! | the catalogue of effects; a term of your own | [`model::terms`]; [`model::effects::term`], [`model::effects::chain`] |
+//! | where the error sits and what it follows | [`model::results::compare`] |
+//! | a model kept in a file; what it predicts; commands corrected by it | [`model::application::model_file`]; [`model::application::predict`]; [`model::application::compensate`] |
 //! | what to measure: poses, loads, readings within a budget | [`design`] |
 //! | which effects a plan would show | [`design::power`] |
 //!

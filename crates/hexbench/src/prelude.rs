@@ -2,14 +2,14 @@
 
 pub use hexbench_core::files::{read_conditions, read_hexapod, read_measurements};
 pub use hexbench_core::{Dataset, Hexapod, Observation, Pose, Wrench};
-pub use hexbench_model::campaign::Campaign;
-pub use hexbench_model::diagnose::{Diagnosis, DiagnosisStudy, diagnose, prepare};
-pub use hexbench_model::estimate::{Estimate, estimates};
-pub use hexbench_model::fit::Fit;
-pub use hexbench_model::fit_named::Added;
-pub use hexbench_model::model_file::{DataOrigin, Estimator, Model};
-pub use hexbench_model::predict::{Prediction, predict};
-pub use hexbench_model::selection::{FitWithErrors, JudgedTask};
-pub use hexbench_model::term::Term;
+pub use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
+pub use hexbench_model::application::predict::{Prediction, predict};
+pub use hexbench_model::effects::term::Term;
+pub use hexbench_model::estimation::campaign::Campaign;
+pub use hexbench_model::estimation::estimate::{Estimate, estimates};
+pub use hexbench_model::estimation::fit::Fit;
+pub use hexbench_model::estimation::fit_named::Added;
+pub use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
+pub use hexbench_model::inference::verdict::Verdict;
+pub use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose, prepare};
 pub use hexbench_model::terms::catalogue;
-pub use hexbench_model::verdict::Verdict;

@@ -7,11 +7,11 @@ use std::path::Path;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hexbench_core::files::{read_hexapod, read_measurements};
 use hexbench_core::{Dataset, Hexapod, Pose, Wrench};
-use hexbench_model::batch::{LoadCase, deflections};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::diagnose::diagnose;
-use hexbench_model::fit::fit_baseline;
-use hexbench_model::spring_trials::SpringTrials;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::fit_baseline;
+use hexbench_model::estimation::spring_trials::SpringTrials;
+use hexbench_model::machine::batch::{LoadCase, deflections};
+use hexbench_model::results::diagnose::diagnose;
 use hexbench_model::terms::catalogue;
 
 const POSES: u32 = 100_000;

@@ -1,6 +1,6 @@
 //! What can make a computation impossible.
 
-use crate::untestable::Reason;
+use crate::effects::untestable::Reason;
 use hexbench_core::Pose;
 use thiserror::Error;
 

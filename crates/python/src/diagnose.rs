@@ -4,9 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use hexbench_app::{Failure, input};
-use hexbench_model::compare::{ComparedModel, compare as compared_with};
-use hexbench_model::diagnose::{DiagnosisStudy, diagnose as studied};
-use hexbench_model::runs::{Origin, WithOrigin};
+use hexbench_model::results::compare::{ComparedModel, compare as compared_with};
+use hexbench_model::results::diagnose::{DiagnosisStudy, diagnose as studied};
+use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::Page;
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{PROGRAM, Terminal, html, plain, terminal};

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use hexbench_app::fit::{added, fitted, model as kept};
 use hexbench_app::{Failure, input};
-use hexbench_model::diagnose::prepare;
-use hexbench_model::estimate::{Estimates, estimates_of};
-use hexbench_model::model_file::{Estimator, Model};
-use hexbench_model::predict::predict_with_covariance;
-use hexbench_model::selection::JudgedTask;
+use hexbench_model::application::model_file::{Estimator, Model};
+use hexbench_model::application::predict::predict_with_covariance;
+use hexbench_model::estimation::estimate::{Estimates, estimates_of};
+use hexbench_model::inference::selection::JudgedTask;
+use hexbench_model::results::diagnose::prepare;
 use hexbench_report::render::plain;
 use hexbench_report::words;
 use numpy::{PyArray2, PyArray3};
@@ -113,7 +113,7 @@ impl PyModel {
     /// Terms beside the springs.
     #[getter]
     fn terms(&self) -> Vec<String> {
-        let name = |a: &hexbench_model::linearization::Active| {
+        let name = |a: &hexbench_model::estimation::linearization::Active| {
             format!("{}{}", a.id(), if a.rich { ":richer" } else { "" })
         };
         self.model.point.active.iter().map(name).collect()

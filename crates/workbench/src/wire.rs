@@ -3,12 +3,12 @@
 //! Everything loaded is immutable: a bench is made once and answers questions about selections of terms. Undo, and what is ticked,
 //! are the page's own; two tabs cannot disturb each other.
 
-use hexbench_model::diagnose::Diagnosis;
-use hexbench_model::estimate::Estimate;
-use hexbench_model::noise::NoiseSource;
-use hexbench_model::residuals::ErrorSummary;
-use hexbench_model::selection::HeldOut;
-use hexbench_model::verdict::Verdict;
+use hexbench_model::estimation::estimate::Estimate;
+use hexbench_model::estimation::noise::NoiseSource;
+use hexbench_model::estimation::residuals::ErrorSummary;
+use hexbench_model::inference::selection::HeldOut;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_report::Page;
 use serde::{Deserialize, Serialize};
 

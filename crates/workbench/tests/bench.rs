@@ -1,9 +1,9 @@
 //! The bench: what a page is told about measurements, selections, games and files to take home.
 #![allow(clippy::unwrap_used, reason = "a test without its case fails")]
 
-use hexbench_model::model_file::Model;
-use hexbench_model::selection::HeldOut;
-use hexbench_model::verdict::Verdict;
+use hexbench_model::application::model_file::Model;
+use hexbench_model::inference::selection::HeldOut;
+use hexbench_model::inference::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
 use hexbench_workbench::bench::{LoadedCampaign, Refusal, RefusalKind, catalogue};
 use hexbench_workbench::wire::{

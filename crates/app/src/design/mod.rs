@@ -14,10 +14,10 @@ use hexbench_design::regressor::{ModelRegressor, SpringRegressor, Weights};
 use hexbench_design::space::Setting;
 use hexbench_design::space_file::read_space;
 use hexbench_design::{Criterion, Space, Visit};
-use hexbench_model::fit_named::term_named;
-use hexbench_model::noise::Noise;
-use hexbench_model::parameters::stiffness_name;
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::estimation::fit_named::term_named;
+use hexbench_model::estimation::noise::Noise;
+use hexbench_model::estimation::parameters::stiffness_name;
 use hexbench_model::terms::catalogue;
 use nalgebra::DMatrix;
 

@@ -4,7 +4,7 @@ use hexbench_core::Wrench;
 use hexbench_design::budget::Amount;
 use hexbench_design::determined::unit_diagonal;
 use hexbench_design::space::Setting;
-use hexbench_model::observability::Observability;
+use hexbench_model::machine::observability::Observability;
 use hexbench_report::{Block, Page, PageColumn, Section, Table, number};
 
 use super::{Designed, Visit};

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_model::compare::compare;
-use hexbench_model::runs::WithOrigin;
+use hexbench_model::results::compare::compare;
+use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::{readings, subject};
 use hexbench_report::{charts, words};
 

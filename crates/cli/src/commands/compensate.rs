@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_core::files::CsvText;
-use hexbench_model::compensate::compensate;
+use hexbench_model::application::compensate::compensate;
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
+use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
-use hexbench_model::runs::WithOrigin;
-use hexbench_model::term::Term;
-use hexbench_model::verdict::Verdict;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
+use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::ReportSubject;
 use hexbench_report::{charts, words};
 

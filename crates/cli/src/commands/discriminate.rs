@@ -9,11 +9,11 @@ use hexbench_design::Space;
 use hexbench_design::discriminate::{Contest, Distance, SeparatingPlan, candidate_readings};
 use hexbench_design::nominal;
 use hexbench_design::space_file::read_space;
-use hexbench_model::diagnose::prepare;
-use hexbench_model::fit_named::term_named;
-use hexbench_model::next::{EXCLUDED_ODDS, Effort, Forecast, Suspects, propose, suspects};
-use hexbench_model::noise::Noise;
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::estimation::fit_named::term_named;
+use hexbench_model::estimation::noise::Noise;
+use hexbench_model::results::diagnose::prepare;
+use hexbench_model::results::next::{EXCLUDED_ODDS, Effort, Forecast, Suspects, propose, suspects};
 
 use crate::csv;
 use crate::failure::Failure;

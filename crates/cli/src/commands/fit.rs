@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use hexbench_app::fit::{added, fitted, model};
 use hexbench_core::files::content_hash;
-use hexbench_model::diagnose::prepare;
+use hexbench_model::application::model_file::Estimator;
 use hexbench_model::error::ModelError;
-use hexbench_model::model_file::Estimator;
-use hexbench_model::selection::JudgedTask;
+use hexbench_model::inference::selection::JudgedTask;
+use hexbench_model::results::diagnose::prepare;
 use hexbench_report::words::fitted;
 
 use crate::failure::Failure;

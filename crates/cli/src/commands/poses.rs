@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{ArgGroup, Args};
 use hexbench_core::BallRecord;
 use hexbench_core::files::{CsvText, nearest, read_ball_places, read_balls};
-use hexbench_model::registration::{Places, Registered, RegisteredPose, register_all};
+use hexbench_model::machine::registration::{Places, Registered, RegisteredPose, register_all};
 use hexbench_report::number::significant;
 
 use crate::csv::{self, Unit};

@@ -8,8 +8,8 @@ use hexbench_core::{Hexapod, Measurand, Metrology};
 use hexbench_design::nominal;
 use hexbench_design::power::PowerSettings;
 use hexbench_experiments::power::{Campaigns, PlanReport, Power, PowerPlan, Simulation, pictures};
-use hexbench_model::fit_named::term_named;
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::estimation::fit_named::term_named;
 use hexbench_report::render::markdown;
 
 use crate::failure::Failure;

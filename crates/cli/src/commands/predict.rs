@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use hexbench_core::Measurand;
 use hexbench_core::files::CsvText;
-use hexbench_model::predict::predict;
+use hexbench_model::application::predict::predict;
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_model::runs::{FORMATS, Head, Run, SavedComparison, SavedDiagnosis, between};
+use hexbench_model::results::runs::{FORMATS, Head, Run, SavedComparison, SavedDiagnosis, between};
 use hexbench_report::{charts, words};
 use serde::de::DeserializeOwned;
 

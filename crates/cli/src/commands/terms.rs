@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use clap::Args;
 use hexbench_core::files::nearest;
+use hexbench_model::effects::term::{Term, TermInfo};
 use hexbench_model::error::ModelError;
-use hexbench_model::term::{Term, TermInfo};
 use hexbench_model::terms::catalogue;
 use hexbench_report::render::markdown;
 use hexbench_report::words::{effect, effects};

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use hexbench_core::files::{atomic_write, content_hash};
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::runs::Origin;
+use hexbench_model::results::runs::Origin;
 use hexbench_report::Page;
 use hexbench_report::charts::ReportError;
 use hexbench_report::png::png;

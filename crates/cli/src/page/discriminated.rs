@@ -2,7 +2,7 @@
 
 use hexbench_core::Observation;
 use hexbench_design::discriminate::Distance;
-use hexbench_model::next::Separation;
+use hexbench_model::results::next::Separation;
 use hexbench_report::number::{percent, significant};
 use hexbench_report::words::next::{self, settings, way};
 use hexbench_report::{Block, Definition, Page, Section};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hexbench_model::registration::{Places, Registered, RegisteredPose};
+use hexbench_model::machine::registration::{Places, Registered, RegisteredPose};
 use hexbench_report::number::significant;
 use hexbench_report::{Block, Definition, Page, Section};
 

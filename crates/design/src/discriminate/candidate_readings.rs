@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use hexbench_core::{Hexapod, Observation, Pose};
-use hexbench_model::next::{snapped, step};
-use hexbench_model::term::{Need, Term};
+use hexbench_model::effects::term::{Need, Term};
+use hexbench_model::results::next::{snapped, step};
 
 use crate::regressor::reading;
 use crate::space::Conditions;

@@ -4,15 +4,15 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Vector6};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::candidates::sizes;
+use hexbench_model::effects::term::Term;
+use hexbench_model::effects::untestable::{Reason, why_untestable};
 use hexbench_model::error::ModelError;
-use hexbench_model::evidence::{NOTICEABLE, WIDEST, log_sum};
-use hexbench_model::fit::natural;
-use hexbench_model::linearization::{Linearization, ModelPoint};
-use hexbench_model::noise::Noise;
-use hexbench_model::term::Term;
-use hexbench_model::untestable::{Reason, why_untestable};
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::natural;
+use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
+use hexbench_model::estimation::noise::Noise;
+use hexbench_model::inference::candidates::sizes;
+use hexbench_model::inference::evidence::{NOTICEABLE, WIDEST, log_sum};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 

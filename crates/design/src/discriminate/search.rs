@@ -1,7 +1,7 @@
 //! The search: reading by reading, then exchange of each for a better one until nothing helps (Fedorov 1972).
 
 use hexbench_core::{Hexapod, Observation, Pose};
-use hexbench_model::next::{ASPECTS, Aspect, MATTERS, Ordinary, effort};
+use hexbench_model::results::next::{ASPECTS, Aspect, MATTERS, Ordinary, effort};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 

@@ -1,9 +1,9 @@
 //! What looks like what, and what is taken for what.
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_model::candidates::{Candidate, CandidateKind, Collector};
-use hexbench_model::evidence::Gram;
-use hexbench_model::search::TermSearch;
+use hexbench_model::inference::candidates::{Candidate, CandidateKind, Collector};
+use hexbench_model::inference::evidence::Gram;
+use hexbench_model::inference::search::TermSearch;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;

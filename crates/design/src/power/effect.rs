@@ -1,8 +1,8 @@
 //! How one effect fares under a plan.
 
-use hexbench_model::absorption::bias_percent;
-use hexbench_model::candidates::sizes;
-use hexbench_model::evidence::WIDEST;
+use hexbench_model::inference::absorption::bias_percent;
+use hexbench_model::inference::candidates::sizes;
+use hexbench_model::inference::evidence::WIDEST;
 use nalgebra::DVector;
 use serde::Serialize;
 
@@ -223,7 +223,7 @@ impl Judge<'_> {
             shape: middle.shape,
         };
         let parameters = self.subject.term.info().parameters.iter().enumerate();
-        let reach = |(k, p): (usize, &hexbench_model::term::ParameterInfo)| {
+        let reach = |(k, p): (usize, &hexbench_model::effects::term::ParameterInfo)| {
             let scale = self.seen_at(&alone(k));
             ParameterReach {
                 name: p.name,

@@ -1,7 +1,7 @@
 //! Which effects a plan would see, from which size on, and what they would be taken for: before anything is measured.
 //!
 //! The signature of an effect is what it adds to the readings of the plan, in units of their noise. Six leg springs absorb a part
-//! of it ([`hexbench_model::absorption`]); the rest, of squared length `lambda`, is what a test can see:
+//! of it ([`hexbench_model::inference::absorption`]); the rest, of squared length `lambda`, is what a test can see:
 //!
 //! ```text
 //! T = |U' r|^2                       r residuals of the springs, U an orthonormal basis of what the effect can leave

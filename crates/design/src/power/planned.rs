@@ -1,13 +1,13 @@
 //! A plan as the model sees it before anything is measured.
 
 use hexbench_core::{Dataset, Hexapod, Vector6};
-use hexbench_model::absorption::Absorption;
-use hexbench_model::campaign::Campaign;
+use hexbench_model::effects::term::{Natural, Term};
 use hexbench_model::error::ModelError;
-use hexbench_model::fit::natural;
-use hexbench_model::linearization::{Linearization, ModelPoint};
-use hexbench_model::noise::Noise;
-use hexbench_model::term::{Natural, Term};
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::natural;
+use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
+use hexbench_model::estimation::noise::Noise;
+use hexbench_model::inference::absorption::Absorption;
 use nalgebra::DVector;
 
 use crate::DesignError;

@@ -1,6 +1,6 @@
 //! All effects under one plan.
 
-use hexbench_model::untestable::{Untestable, why_untestable};
+use hexbench_model::effects::untestable::{Untestable, why_untestable};
 use serde::Serialize;
 
 use super::alike::alike;

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use hexbench_core::statistics::root_mean_square;
-use hexbench_model::candidates::sizes;
-use hexbench_model::evidence::WIDEST;
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::inference::candidates::sizes;
+use hexbench_model::inference::evidence::WIDEST;
 use nalgebra::DVector;
 use serde::Serialize;
 

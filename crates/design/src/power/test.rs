@@ -2,10 +2,10 @@
 
 use hexbench_core::statistics::quantile;
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_model::candidates::{orthonormal, sizes};
-use hexbench_model::evidence::WIDEST;
-use hexbench_model::power::ChiSquareDropLaw;
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::inference::candidates::{orthonormal, sizes};
+use hexbench_model::inference::evidence::WIDEST;
+use hexbench_model::inference::power::ChiSquareDropLaw;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
 use rand_pcg::Pcg64;

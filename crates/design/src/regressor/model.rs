@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vector6};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::candidates::sizes;
-use hexbench_model::fit::natural;
-use hexbench_model::linearization::{Linearization, ModelPoint};
-use hexbench_model::noise::Noise;
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::natural;
+use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
+use hexbench_model::estimation::noise::Noise;
+use hexbench_model::inference::candidates::sizes;
 use nalgebra::{DMatrix, DVector};
 
 use super::{PoseRegressor, SettingRegressor, leg_names};

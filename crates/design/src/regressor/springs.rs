@@ -16,7 +16,7 @@
 //! end and the moment `a x (y + n x w)`. Source: Kalas et al. 2018, eq. 12 and 13; the derivatives are our own.
 
 use hexbench_core::{Hexapod, Matrix3, Matrix6, Pose, Vector3, Vector6};
-use hexbench_model::kinematics::{Legs, euler_rate_matrix};
+use hexbench_model::machine::kinematics::{Legs, euler_rate_matrix};
 use nalgebra::DMatrix;
 
 use super::{PoseRegressor, SettingRegressor, leg_names};
@@ -194,7 +194,7 @@ impl SettingRegressor for SpringRegressor<'_> {
 #[cfg(test)]
 mod tests {
     use hexbench_core::{Measurand, Wrench};
-    use hexbench_model::paper::block;
+    use hexbench_model::estimation::paper::block;
 
     use super::*;
     use crate::regressor::reading;

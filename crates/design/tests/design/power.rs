@@ -9,9 +9,9 @@ use hexbench_core::{
 use hexbench_design::power::{
     EffectSizes, Planned, PowerSettings, PowerStudy, PreparedTest, Visibility, study,
 };
-use hexbench_model::noise::{Noise, NoiseSource, Structure};
-use hexbench_model::power::noncentrality;
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::estimation::noise::{Noise, NoiseSource, Structure};
+use hexbench_model::inference::power::noncentrality;
 use hexbench_model::terms::catalogue;
 use nalgebra::DVector;
 use rand_distr::{Distribution, StandardNormal};

@@ -1,7 +1,7 @@
 //! What a diagnosis claims, and whether it is true.
 
-use hexbench_model::explanation::Explanation;
-use hexbench_model::verdict::Verdict;
+use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::inference::verdict::Verdict;
 
 use super::{CalibrationRecord, Fate};
 

@@ -1,6 +1,6 @@
 //! Hidden effect against answer.
 
-use hexbench_model::verdict::Verdict;
+use hexbench_model::inference::verdict::Verdict;
 use hexbench_truth::campaign::CaseKind;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 

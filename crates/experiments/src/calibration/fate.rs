@@ -1,7 +1,7 @@
 //! What became of a truth: finer than right, honest and wrong.
 
-use hexbench_model::diagnose::Diagnosis;
-use hexbench_model::verdict::Verdict;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::Diagnosis;
 use serde::{Deserialize, Serialize};
 
 use crate::trial::{Outcome, Trial};

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use hexbench_model::diagnose::DiagnosisStudy;
-use hexbench_model::explanation::Explanation;
-use hexbench_model::parameters::stiffness_name;
-use hexbench_model::verdict::Verdict;
+use hexbench_model::estimation::parameters::stiffness_name;
+use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::DiagnosisStudy;
 use hexbench_truth::campaign::{CaseKind, PlanKind, SimulatedCase};
 use hexbench_truth::mechanisms::is_outside;
 use serde::{Deserialize, Serialize};
@@ -76,7 +76,8 @@ impl CalibrationRecord {
         let first =
             |e: &Explanation| d.candidates.iter().find(|c| c.term == *e).map_or(0.0, |c| c.probability);
         let best = d.candidates.first();
-        let chi2 = |step: Option<&hexbench_model::diagnose::StepReport>| Some(step?.holdout?.chi2_reduced);
+        let chi2 =
+            |step: Option<&hexbench_model::results::diagnose::StepReport>| Some(step?.holdout?.chi2_reduced);
         Self {
             id: case.spec.id.clone(),
             kind: case.spec.kind,
@@ -164,7 +165,7 @@ fn probability_of(study: &DiagnosisStudy, effects: &[&str]) -> f64 {
     }
     let wanted: BTreeSet<&str> = effects.iter().copied().collect();
     let sets = &study.outcome.sets;
-    let members = |s: &hexbench_model::search::Set| -> Option<BTreeSet<&str>> {
+    let members = |s: &hexbench_model::inference::search::Set| -> Option<BTreeSet<&str>> {
         s.members.iter().map(|&m| study.outcome.candidates[m].id()).collect()
     };
     let exactly = sets.sets.iter().filter(|s| members(s).is_some_and(|m| m == wanted));

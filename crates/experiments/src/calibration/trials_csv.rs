@@ -1,7 +1,7 @@
 //! Every trial as a line of a table.
 
 use hexbench_core::files::CsvText;
-use hexbench_model::explanation::Explanation;
+use hexbench_model::inference::explanation::Explanation;
 
 use super::CalibrationRecord;
 

@@ -1,7 +1,7 @@
 //! Figures that say how far an answer can be trusted.
 
 use hexbench_core::statistics::{Proportion, quantile};
-use hexbench_model::verdict::Verdict;
+use hexbench_model::inference::verdict::Verdict;
 
 use super::{CalibrationRecord, Fate};
 

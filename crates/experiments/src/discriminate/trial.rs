@@ -2,11 +2,11 @@
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Observation, Pose, Wrench};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::diagnose::{Diagnosis, DiagnosisStudy, NextReport, diagnose, prepare};
+use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
-use hexbench_model::next::{Effort, ProposedReadings, candidate_readings, propose, suspects};
-use hexbench_model::term::Term;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, NextReport, diagnose, prepare};
+use hexbench_model::results::next::{Effort, ProposedReadings, candidate_readings, propose, suspects};
 use hexbench_model::terms::catalogue;
 use hexbench_truth::campaign::machines::FAMILIES;
 use rand::RngExt;

@@ -1,7 +1,7 @@
 //! The richer plan with other poses and other noise: is the missing effect named again?
 
 use hexbench_core::streams::{Purpose, derived_seed};
-use hexbench_model::verdict::Verdict;
+use hexbench_model::inference::verdict::Verdict;
 
 use super::bench::PaperMachine;
 use super::error::PaperError;

@@ -4,7 +4,7 @@ use hexbench_core::statistics::quantile;
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Vector6};
 use hexbench_model::error::ModelError;
-use hexbench_model::paper::regressor;
+use hexbench_model::estimation::paper::regressor;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;

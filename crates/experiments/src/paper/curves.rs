@@ -104,7 +104,7 @@ pub(crate) fn figures_9_and_10(
     let half = data.observations.len() / 2;
     let predicted = springs.predict(bench, data)?;
     let compare = |axis: usize, (o, p): (&Observation, &hexbench_core::Vector6)| {
-        let a = hexbench_model::paper::block(&bench.hexapod, o, data.measurand)?;
+        let a = hexbench_model::estimation::paper::block(&bench.hexapod, o, data.measurand)?;
         let spread = (a * springs.covariance * a.transpose()).diagonal();
         Ok(ValidationPose {
             position_mm: o.pose.translation[axis] * 1e3,

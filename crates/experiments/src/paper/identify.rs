@@ -2,11 +2,11 @@
 
 use hexbench_core::statistics::root_mean_square;
 use hexbench_core::{Dataset, Matrix6, Vector6};
-use hexbench_model::campaign::Campaign;
 use hexbench_model::error::ModelError;
-use hexbench_model::fit::{Fit, fit_baseline};
-use hexbench_model::paper::{block, fit_paper};
-use hexbench_model::residuals::survival;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::{Fit, fit_baseline};
+use hexbench_model::estimation::paper::{block, fit_paper};
+use hexbench_model::estimation::residuals::survival;
 
 use super::bench::{PaperMachine, sigma};
 

@@ -1,9 +1,9 @@
 //! The missing effect: what the paper's plan says of it, and what a richer one does.
 
-use hexbench_model::diagnose::{DiagnosisStudy, diagnose};
-use hexbench_model::residuals::survival;
+use hexbench_model::estimation::residuals::survival;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{DiagnosisStudy, diagnose};
 use hexbench_model::terms::catalogue;
-use hexbench_model::verdict::Verdict;
 use hexbench_truth::World;
 
 use super::bench::{Covariates, PaperMachine, richer_plan};

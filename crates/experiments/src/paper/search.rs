@@ -8,9 +8,9 @@ use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space::{Conditions, Loading};
 use hexbench_design::{Budget, Objective, PoseProblem, Space};
 use hexbench_model::error::ModelError;
-use hexbench_model::kinematics::leg_lengths;
-use hexbench_model::observability::Observability;
-use hexbench_model::paper::block;
+use hexbench_model::estimation::paper::block;
+use hexbench_model::machine::kinematics::leg_lengths;
+use hexbench_model::machine::observability::Observability;
 use hexbench_truth::Situation;
 use nalgebra::DMatrix;
 

@@ -7,8 +7,8 @@ use hexbench_core::files::text_hash;
 use hexbench_core::statistics::Proportion;
 use hexbench_core::streams::Purpose;
 use hexbench_design::power::{EffectSizes, Planned, PowerSettings, PowerStudy, PreparedTest, study};
+use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
-use hexbench_model::term::Term;
 use hexbench_truth::TruthError;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! Effects that never show, whatever their size: springs of other stiffness are the same thing.
 
 use hexbench_core::Vector6;
-use hexbench_model::power::{ChiSquareDropLaw, FALSE_ALARM};
+use hexbench_model::inference::power::{ChiSquareDropLaw, FALSE_ALARM};
 use hexbench_truth::Mechanism;
 use hexbench_truth::mechanisms::{Creep, LoadMassError};
 use serde::Serialize;

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use hexbench_design::power::{EffectPower, NOTHING, Visibility};
-use hexbench_model::noise::NoiseSource;
-use hexbench_model::untestable::Reason;
+use hexbench_model::effects::untestable::Reason;
+use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_report::number::significant;
 use hexbench_report::{Page, Section, Table};
 

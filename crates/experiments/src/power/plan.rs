@@ -1,8 +1,8 @@
 //! The plan under study.
 
 use hexbench_core::{Dataset, Hexapod, Metrology, Observation, Vector6};
-use hexbench_model::campaign::row_sigma;
-use hexbench_model::noise::{Noise, NoiseSource, scatter, stated_or_repeated};
+use hexbench_model::estimation::campaign::row_sigma;
+use hexbench_model::estimation::noise::{Noise, NoiseSource, scatter, stated_or_repeated};
 
 /// A plan with the machine and the instrument it is for.
 #[derive(Debug, Clone)]

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use hexbench_core::statistics::Proportion;
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Observation, Vector6};
-use hexbench_model::diagnose::{diagnose, prepare};
+use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
-use hexbench_model::fit::fit_baseline;
-use hexbench_model::linearization::Linearization;
-use hexbench_model::term::Term;
-use hexbench_model::verdict::Verdict;
+use hexbench_model::estimation::fit::fit_baseline;
+use hexbench_model::estimation::linearization::Linearization;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{diagnose, prepare};
 use hexbench_truth::campaign::{PlanRow, SimulatedCampaign};
 use hexbench_truth::metrology::{Frames, InstrumentNoise};
 use hexbench_truth::{Mechanism, TruthError, World};
@@ -142,7 +142,7 @@ impl<'a> Bench<'a> {
 
     /// What springs fitted to ideal readings leave (whitened residuals), and how their stiffness changes, percent.
     pub(super) fn without_noise(&self, ideal: &[Vector6]) -> Result<(DVector<f64>, [f64; 6]), ModelError> {
-        let campaign = hexbench_model::campaign::Campaign::with_noise(
+        let campaign = hexbench_model::estimation::campaign::Campaign::with_noise(
             &self.plan.machine(),
             &self.data(ideal, None),
             self.plan.noise,

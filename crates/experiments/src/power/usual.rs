@@ -6,7 +6,7 @@ use hexbench_core::Hexapod;
 use hexbench_core::statistics::root_mean_square;
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_design::power::{EffectSizes, Example, Reference};
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
 use hexbench_truth::Mechanism;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 

@@ -1,11 +1,11 @@
 //! One noisy campaign through the fit of the right model: pulls, noise, held-out error.
 
 use hexbench_core::Metrology;
-use hexbench_model::campaign::Campaign;
 use hexbench_model::error::ModelError;
-use hexbench_model::fit::{Fit, fit_baseline};
-use hexbench_model::noise::scatter;
-use hexbench_model::residuals::{prediction_errors, summarise, survival};
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::{Fit, fit_baseline};
+use hexbench_model::estimation::noise::scatter;
+use hexbench_model::estimation::residuals::{prediction_errors, summarise, survival};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -67,8 +67,10 @@ pub fn run(subject: &HiddenSubject, index: usize, seed: u64) -> Result<CampaignR
         sizes: geometry.as_ref().map_or_else(|| of(&all, PullGroup::Size), of_combinations),
         shapes: of(&all, PullGroup::Shape),
         misfit,
-        open: geometry
-            .map_or_else(|| hexbench_model::estimate::estimates(&fit).not_determined.len(), |g| g.open),
+        open: geometry.map_or_else(
+            || hexbench_model::estimation::estimate::estimates(&fit).not_determined.len(),
+            |g| g.open,
+        ),
         noise_by_repeats: noise_by_repeats(&scene),
         noise_by_residuals: Tally::interval(within(fit.chi2, fit.dof)),
         predicted: predicted(&scene, &campaign, &fit)?,

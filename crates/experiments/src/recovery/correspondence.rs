@@ -1,7 +1,7 @@
 //! Which number of the model stands for which number of the world: the one place that knows both.
 //!
 //! The world's numbers are those of `Mechanism::parameters` (the case files, SI); the model's are named and shown by
-//! `hexbench_model::estimate` (`term.parameter`, shown unit).
+//! `hexbench_model::estimation::estimate` (`term.parameter`, shown unit).
 
 use std::f64::consts::TAU;
 

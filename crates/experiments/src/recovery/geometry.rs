@@ -13,7 +13,7 @@
 
 use hexbench_core::Vector3;
 use hexbench_core::statistics::root_mean_square;
-use hexbench_model::fit::Fit;
+use hexbench_model::estimation::fit::Fit;
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen};
 
 use super::scene::RecoveryCampaign;

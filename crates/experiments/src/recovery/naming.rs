@@ -1,13 +1,13 @@
 //! A hidden effect through the diagnosis: is it named, and does the best wrong term win?
 
-use hexbench_model::diagnosis::wanted;
 use hexbench_model::error::ModelError;
-use hexbench_model::estimate::estimates;
-use hexbench_model::fit::{TermSpec, fit};
-use hexbench_model::parameters::stiffness_name;
-use hexbench_model::residuals::{prediction_errors, summarise};
-use hexbench_model::search::Set;
-use hexbench_model::verdict::Verdict;
+use hexbench_model::estimation::estimate::estimates;
+use hexbench_model::estimation::fit::{TermSpec, fit};
+use hexbench_model::estimation::parameters::stiffness_name;
+use hexbench_model::estimation::residuals::{prediction_errors, summarise};
+use hexbench_model::inference::diagnosis::wanted;
+use hexbench_model::inference::search::Set;
+use hexbench_model::inference::verdict::Verdict;
 use serde::{Deserialize, Serialize};
 
 use super::scene::{HiddenSubject, RecoveryCampaign};

@@ -27,10 +27,10 @@
 //! the world as in the model. What remains is rounding of lengths, and that is their bound; it proves nothing on independence.
 
 use hexbench_core::{Metrology, Pose, Vector6};
-use hexbench_model::campaign::{self, Condition};
-use hexbench_model::fit::Fit;
-use hexbench_model::kinematics::euler_rate_matrix;
-use hexbench_model::linearization::Linearization;
+use hexbench_model::estimation::campaign::{self, Condition};
+use hexbench_model::estimation::fit::Fit;
+use hexbench_model::estimation::linearization::Linearization;
+use hexbench_model::machine::kinematics::euler_rate_matrix;
 use nalgebra::{Matrix3, Matrix6, Rotation3};
 use serde::{Deserialize, Serialize};
 

@@ -1,12 +1,12 @@
 //! Pulls: how far estimates lie from the truth in their own standard uncertainties.
 
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::campaign::Campaign;
 use hexbench_model::error::ModelError;
-use hexbench_model::estimate::{Estimate, estimates};
-use hexbench_model::fit::Fit;
-use hexbench_model::fit_named::fit_named;
-use hexbench_model::parameters::{parameter_names, stiffness_name};
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::estimate::{Estimate, estimates};
+use hexbench_model::estimation::fit::Fit;
+use hexbench_model::estimation::fit_named::fit_named;
+use hexbench_model::estimation::parameters::{parameter_names, stiffness_name};
 
 use super::scene::{HiddenSubject, RecoveryCampaign};
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod, Metrology, Observation, Vector6};
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
 use hexbench_model::terms::catalogue;
 use hexbench_truth::campaign::{
     CaseKind, CaseSpec, PlanKind, PlanRow, SimulatedCampaign, SimulatedCase, machines,

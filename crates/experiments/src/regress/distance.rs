@@ -3,7 +3,7 @@
 //! `d^2 = m' C^-1 m` of the misses `m` of `n` numbers with covariance `C` follows the chi-square law with `n` degrees of freedom
 //! when the covariance is honest: one figure for a campaign, whatever the correlations.
 
-use hexbench_model::fit::Fit;
+use hexbench_model::estimation::fit::Fit;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};

@@ -1,9 +1,9 @@
 //! One noisy campaign through the fit of the right model, in the numbers that limits are made of.
 
 use hexbench_core::statistics::{mean, root_mean_square};
-use hexbench_model::estimate::estimates;
-use hexbench_model::fit::Fit;
-use hexbench_model::residuals::survival;
+use hexbench_model::estimation::estimate::estimates;
+use hexbench_model::estimation::fit::Fit;
+use hexbench_model::estimation::residuals::survival;
 use serde::{Deserialize, Serialize};
 
 use super::distance::{PulledDistance, of_effects, of_springs};

@@ -1,6 +1,6 @@
 //! Results of a trial: names, units, meaning.
 
-use hexbench_model::explanation::Explanation;
+use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::terms::catalogue;
 
 use crate::sweep::study::SweepTask;

@@ -10,7 +10,7 @@ use hexbench_experiments::paper::identify::pooled;
 use hexbench_experiments::paper::published::{PREDICTION_ERROR, STIFFNESS_N_PER_UM};
 use hexbench_experiments::paper::report::{files, page};
 use hexbench_experiments::paper::{PaperError, Reproduction, bench};
-use hexbench_model::verdict::Verdict;
+use hexbench_model::inference::verdict::Verdict;
 
 /// Set to write the committed page and its charts instead of comparing them.
 const BLESS: &str = "HEXBENCH_BLESS";

@@ -8,7 +8,7 @@ use hexbench_core::statistics::Proportion;
 use hexbench_design::power::{PowerSettings, Visibility};
 use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::power::{Campaigns, Power, PowerPlan, Simulated, Simulation, plan_of};
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
 use hexbench_model::terms::catalogue;
 use hexbench_truth::Scene;
 

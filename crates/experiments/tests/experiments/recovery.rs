@@ -8,11 +8,11 @@ use hexbench_experiments::recovery::protocol::Recovery;
 use hexbench_experiments::recovery::pulls::right_fit;
 use hexbench_experiments::recovery::scene::{HiddenSubject, RecoveryCampaign, subjects};
 use hexbench_experiments::recovery::study::{RecoverySettings, RecoveryStudy};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::fit::fit_baseline;
-use hexbench_model::linearization::Active;
-use hexbench_model::parameters::parameter_names;
-use hexbench_model::term::Need;
+use hexbench_model::effects::term::Need;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::fit_baseline;
+use hexbench_model::estimation::linearization::Active;
+use hexbench_model::estimation::parameters::parameter_names;
 use hexbench_model::terms::catalogue;
 use hexbench_truth::mechanisms::{REGISTRY, Shows};
 
@@ -100,14 +100,14 @@ fn absolute_poses_leave_seven_to_twelve_combinations_of_the_geometry_open_and_pr
     let found = combinations(&scene, &fit).unwrap();
     assert_eq!(found.misses.len() + found.open, 42);
     assert!(OPEN.contains(&found.open), "{} combinations are open", found.open);
-    let errors = hexbench_model::residuals::prediction_errors(
+    let errors = hexbench_model::estimation::residuals::prediction_errors(
         scene.hexapod(),
         &scene.case.holdout,
         campaign.noise,
         &fit.point,
     )
     .unwrap();
-    let summary = hexbench_model::residuals::summarise(&errors, None);
+    let summary = hexbench_model::estimation::residuals::summarise(&errors, None);
     // 180 numbers: five standard deviations of a reduced chi-square, and some percent for the 48 numbers fitted.
     let most = 1.15 + 5.0 * (2.0 / summary.count as f64).sqrt();
     assert!(summary.chi2_reduced < most, "{:.2}, at most {most:.2}", summary.chi2_reduced);

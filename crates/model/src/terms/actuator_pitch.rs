@@ -7,11 +7,11 @@ use std::f64::consts::TAU;
 
 use hexbench_core::Vector6;
 
-use crate::campaign::Condition;
-use crate::chain::Action;
-use crate::machine::Machine;
-use crate::period::period_grid;
-use crate::term::{Chapter, Need, Rich, Scale, Shape, Term, TermInfo, each};
+use crate::effects::chain::Action;
+use crate::effects::term::{Chapter, Need, Rich, Scale, Shape, Term, TermInfo, each};
+use crate::estimation::campaign::Condition;
+use crate::inference::period::period_grid;
+use crate::machine::geometry::Machine;
 
 const WAVES: [&str; 12] = [
     "leg-1-sine",

@@ -1,9 +1,9 @@
 //! `creep`: the legs creep under load.
 
-use crate::campaign::Condition;
-use crate::chain::Action;
-use crate::machine::Machine;
-use crate::term::{Chapter, Need, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
+use crate::effects::chain::Action;
+use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
+use crate::estimation::campaign::Condition;
+use crate::machine::geometry::Machine;
 
 pub(super) struct Creep;
 

@@ -5,10 +5,10 @@
 
 use hexbench_core::{Vector3, Vector6};
 
-use crate::campaign::Condition;
-use crate::chain::Action;
-use crate::machine::Machine;
-use crate::term::{Chapter, Need, Rich, Scale, Term, TermInfo, each};
+use crate::effects::chain::Action;
+use crate::effects::term::{Chapter, Need, Rich, Scale, Term, TermInfo, each};
+use crate::estimation::campaign::Condition;
+use crate::machine::geometry::Machine;
 
 const JOINTS: [&str; 36] = [
     "base-1-x",

@@ -3,10 +3,10 @@
 use hexbench_core::{Matrix3, Matrix6};
 use nalgebra::Matrix3x6;
 
-use crate::campaign::Condition;
-use crate::chain::Action;
-use crate::machine::Machine;
-use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
+use crate::effects::chain::Action;
+use crate::effects::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
+use crate::estimation::campaign::Condition;
+use crate::machine::geometry::Machine;
 
 pub(super) struct JointRotationStiffness;
 

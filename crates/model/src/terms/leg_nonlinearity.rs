@@ -1,9 +1,9 @@
 //! `leg-nonlinearity`: nonlinear leg spring.
 
-use crate::campaign::Condition;
-use crate::chain::Action;
-use crate::machine::Machine;
-use crate::term::{Chapter, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
+use crate::effects::chain::Action;
+use crate::effects::term::{Chapter, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
+use crate::estimation::campaign::Condition;
+use crate::machine::geometry::Machine;
 
 pub(super) struct LegNonlinearity;
 

@@ -2,10 +2,10 @@
 
 use hexbench_core::Vector3;
 
-use crate::campaign::Condition;
-use crate::chain::Action;
-use crate::machine::Machine;
-use crate::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
+use crate::effects::chain::Action;
+use crate::effects::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
+use crate::estimation::campaign::Condition;
+use crate::machine::geometry::Machine;
 
 pub(super) struct LoadTilt;
 

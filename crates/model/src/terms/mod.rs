@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use crate::term::Term;
+use crate::effects::term::Term;
 
 /// Declares the module of every term and registers it.
 macro_rules! terms {

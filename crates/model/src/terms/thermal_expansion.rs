@@ -1,9 +1,9 @@
 //! `thermal-expansion`: the legs grow with temperature.
 
-use crate::campaign::Condition;
-use crate::chain::Action;
-use crate::machine::Machine;
-use crate::term::{Chapter, Need, ParameterInfo, Rich, Scale, Term, TermInfo};
+use crate::effects::chain::Action;
+use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Scale, Term, TermInfo};
+use crate::estimation::campaign::Condition;
+use crate::machine::geometry::Machine;
 
 pub(super) struct ThermalExpansion;
 

@@ -1,9 +1,9 @@
 //! The periodic error of the leads: amplitude, phase and pitch do not fight each other.
 
 use hexbench_core::{Measurand, Vector6};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::fit::columns;
-use hexbench_model::linearization::{Active, Linearization, ModelPoint};
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::columns;
+use hexbench_model::estimation::linearization::{Active, Linearization, ModelPoint};
 
 use crate::common::terms::{by_id, rows};
 use crate::common::world::World;

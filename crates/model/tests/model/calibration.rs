@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use hexbench_core::{Measurand, Observation, Pose, Vector3, Vector6, Wrench};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::linearization::{Active, Linearization, ModelPoint};
-use hexbench_model::machine::Machine;
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::linearization::{Active, Linearization, ModelPoint};
+use hexbench_model::machine::geometry::Machine;
 use nalgebra::{DMatrix, Isometry3, Rotation3};
 
 use crate::common::random::Random;

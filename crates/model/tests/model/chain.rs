@@ -1,9 +1,9 @@
 //! The first-order chain from load to reading: its derivatives, and its linearity in each parameter alone.
 
 use hexbench_core::{Matrix6, Measurand, Vector6};
-use hexbench_model::campaign::{Campaign, Condition};
-use hexbench_model::chain::{Action, Link, Load};
-use hexbench_model::machine::Machine;
+use hexbench_model::effects::chain::{Action, Link, Load};
+use hexbench_model::estimation::campaign::{Campaign, Condition};
+use hexbench_model::machine::geometry::Machine;
 use proptest::prelude::*;
 
 use crate::common::random::Random;

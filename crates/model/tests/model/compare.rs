@@ -1,10 +1,10 @@
 //! The comparison on cases with a known answer.
 
-use hexbench_model::compare::{Comparison, compare};
-use hexbench_model::diagnose::prepare;
+use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::error::ModelError;
-use hexbench_model::fit_named::{fit_named, refuse_undetermined, term_named};
-use hexbench_model::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::estimation::fit_named::{fit_named, refuse_undetermined, term_named};
+use hexbench_model::results::compare::{Comparison, compare};
+use hexbench_model::results::diagnose::prepare;
 use hexbench_model::terms::catalogue;
 
 use crate::cases;
@@ -95,7 +95,7 @@ fn an_effect_of_which_nothing_shows_is_not_determined() {
     let (hexapod, data, _) = cases::case("mujoco-clean");
     let campaign = prepare(&hexapod, &data).unwrap();
     // The gain of a leg in the direction it cannot be seen: a term without effect on these readings.
-    let silent = hexbench_model::user_term::parse(
+    let silent = hexbench_model::effects::user_term::parse(
         r#"
         format = "term/1"
         id = "whisper"

@@ -2,13 +2,13 @@
 //! effect.
 
 use hexbench_core::{Dataset, Measurand};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::diagnose::diagnose;
-use hexbench_model::diagnosis::explain;
-use hexbench_model::evidence::{Gram, PriorBlock, Variant, log_orthant};
-use hexbench_model::power::{noncentral_cdf, noncentrality};
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::inference::diagnosis::explain;
+use hexbench_model::inference::evidence::{Gram, PriorBlock, Variant, log_orthant};
+use hexbench_model::inference::power::{noncentral_cdf, noncentrality};
+use hexbench_model::inference::verdict::{Judgement, Verdict, judge};
+use hexbench_model::results::diagnose::diagnose;
 use hexbench_model::terms::catalogue;
-use hexbench_model::verdict::{Judgement, Verdict, judge};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use rayon::prelude::*;
 

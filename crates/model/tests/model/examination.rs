@@ -1,10 +1,10 @@
 //! Faults of the data are found, told with their lines, and kept from passing for physics.
 
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::diagnose::{Diagnosis, diagnose};
-use hexbench_model::examination::FindingKind;
+use hexbench_model::inference::examination::FindingKind;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{Diagnosis, diagnose};
 use hexbench_model::terms::catalogue;
-use hexbench_model::verdict::Verdict;
 
 use crate::cases;
 

@@ -2,7 +2,7 @@
 
 use hexbench_core::{Matrix3, Pose, Vector3, Vector6};
 use hexbench_model::error::ModelError;
-use hexbench_model::kinematics::{Legs, analytic_leg_jacobian, euler_rate_matrix, leg_lengths};
+use hexbench_model::machine::kinematics::{Legs, analytic_leg_jacobian, euler_rate_matrix, leg_lengths};
 use nalgebra::{Isometry3, Rotation3};
 use proptest::prelude::*;
 use serde_json::Value;

@@ -1,7 +1,7 @@
 //! The least-squares core against certified problems, and on systems that do not determine their unknowns.
 
 use hexbench_model::error::ModelError;
-use hexbench_model::lsq::{Triangle, solve};
+use hexbench_model::estimation::lsq::{Triangle, solve};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use serde_json::Value;

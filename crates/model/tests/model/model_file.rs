@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::diagnose::prepare;
-use hexbench_model::fit::{TermSpec, fit};
-use hexbench_model::model_file::{DataOrigin, Estimator, Model};
-use hexbench_model::predict::predict;
+use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::application::predict::predict;
+use hexbench_model::effects::user_term;
+use hexbench_model::estimation::fit::{TermSpec, fit};
+use hexbench_model::results::diagnose::prepare;
 use hexbench_model::terms::catalogue;
-use hexbench_model::user_term;
 use proptest::prelude::*;
 
 use crate::cases;
@@ -32,7 +32,7 @@ fn model(hexapod: &Hexapod, data: &Dataset, terms: &[(&str, bool, f64)]) -> Mode
         .iter()
         .map(|(id, rich, shape)| {
             let term = Arc::clone(all.iter().find(|t| t.info().id == *id).unwrap());
-            let lin = hexbench_model::linearization::parameter_count(term.as_ref(), *rich);
+            let lin = hexbench_model::estimation::linearization::parameter_count(term.as_ref(), *rich);
             TermSpec { term, rich: *rich, shape: *shape, prior: vec![1e-4; lin] }
         })
         .collect();

@@ -1,9 +1,11 @@
 //! Proposed readings: within what the campaign shows the machine can do, round, and better than most.
 
 use hexbench_core::{Measurand, Observation, Pose, Vector3};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::kinematics::Legs;
-use hexbench_model::next::{Effort, RivalExplanation, candidate_readings, forecasts, propose, suspects};
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::machine::kinematics::Legs;
+use hexbench_model::results::next::{
+    Effort, RivalExplanation, candidate_readings, forecasts, propose, suspects,
+};
 
 use crate::common::plan::{noisy, paper_plan};
 use crate::common::random::Random;
@@ -126,7 +128,7 @@ fn readings_that_differ_only_in_where_they_come_from_are_proposed_as_any() {
     };
     let (plain, from_lines) = (of(&candidate_readings), of(&numbered));
     assert!(plain.proposals.len() > 1, "{} proposals", plain.proposals.len());
-    let words = |p: &hexbench_model::next::ProposedReadings| -> Vec<String> {
+    let words = |p: &hexbench_model::results::next::ProposedReadings| -> Vec<String> {
         p.proposals.iter().map(|p| p.words.clone()).collect()
     };
     assert_eq!(words(&plain), words(&from_lines));

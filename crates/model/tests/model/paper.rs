@@ -1,12 +1,12 @@
 //! The paper's estimator against its formulas written out, and against the regressor of the model.
 
 use hexbench_core::{Dataset, Hexapod, Matrix6, Observation, Vector6};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::kinematics::{Legs, analytic_leg_jacobian};
-use hexbench_model::linearization::{Linearization, ModelPoint};
-use hexbench_model::paper::{block, fit_paper, regressor};
-use hexbench_model::parameters::Parameters;
-use hexbench_model::words::unobservable;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
+use hexbench_model::estimation::paper::{block, fit_paper, regressor};
+use hexbench_model::estimation::parameters::Parameters;
+use hexbench_model::machine::kinematics::{Legs, analytic_leg_jacobian};
+use hexbench_model::results::words::unobservable;
 
 use crate::cases;
 

@@ -6,12 +6,12 @@
 use std::sync::Arc;
 
 use hexbench_core::{Dataset, Measurand, Observation, Vector3, Wrench};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::estimate::estimates;
-use hexbench_model::fit::{Fit, TermSpec, fit, fit_baseline};
-use hexbench_model::linearization::ModelPoint;
-use hexbench_model::residuals::{leave_poses_out, summarise};
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::estimate::estimates;
+use hexbench_model::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
+use hexbench_model::estimation::linearization::ModelPoint;
+use hexbench_model::estimation::residuals::{leave_poses_out, summarise};
 use hexbench_model::terms::catalogue;
 use nalgebra::Isometry3;
 use rayon::prelude::*;

@@ -5,11 +5,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use hexbench_core::{Hexapod, Measurand, Pose, Vector6, Wrench};
-use hexbench_model::campaign::{Campaign, Condition};
-use hexbench_model::chain::Action;
-use hexbench_model::linearization::{Active, Linearization, ModelPoint, actions, parameter_count};
-use hexbench_model::machine::Machine;
-use hexbench_model::term::{Chapter, Need, Rich, Term};
+use hexbench_model::effects::chain::Action;
+use hexbench_model::effects::term::{Chapter, Need, Rich, Term};
+use hexbench_model::estimation::campaign::{Campaign, Condition};
+use hexbench_model::estimation::linearization::{
+    Active, Linearization, ModelPoint, actions, parameter_count,
+};
+use hexbench_model::machine::geometry::Machine;
 use hexbench_model::terms::catalogue;
 
 use crate::common::plan::{dataset, reading};

@@ -1,7 +1,7 @@
 //! Cartesian stiffness `K = L' diag(k) L` and compliance `J diag(c) J'` against published matrices and closed forms.
 
 use hexbench_core::{Matrix6, Pose, Vector3};
-use hexbench_model::kinematics::Legs;
+use hexbench_model::machine::kinematics::Legs;
 use serde_json::Value;
 
 use crate::common::{self, ring};

@@ -1,11 +1,11 @@
 //! Turning the whole setup turns what a term predicts.
 
 use hexbench_core::{Hexapod, Matrix6, Measurand, Observation, Pose, Vector3, Vector6, Wrench};
-use hexbench_model::campaign::Condition;
-use hexbench_model::chain::{Link, Load};
-use hexbench_model::linearization::actions;
-use hexbench_model::machine::Machine;
-use hexbench_model::term::Term;
+use hexbench_model::effects::chain::{Link, Load};
+use hexbench_model::effects::term::Term;
+use hexbench_model::estimation::campaign::Condition;
+use hexbench_model::estimation::linearization::actions;
+use hexbench_model::machine::geometry::Machine;
 use hexbench_model::terms::catalogue;
 use nalgebra::UnitQuaternion;
 

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod, Observation, Pose, Wrench};
-use hexbench_model::compensate::compensate;
-use hexbench_model::diagnose::prepare;
+use hexbench_model::application::compensate::compensate;
+use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::application::predict::predict;
 use hexbench_model::error::ModelError;
-use hexbench_model::fit::{TermSpec, fit};
-use hexbench_model::model_file::{DataOrigin, Estimator, Model};
-use hexbench_model::predict::predict;
+use hexbench_model::estimation::fit::{TermSpec, fit};
+use hexbench_model::results::diagnose::prepare;
 use hexbench_model::terms::catalogue;
 
 use crate::cases;

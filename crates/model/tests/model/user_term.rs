@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use hexbench_model::diagnose::{diagnose, prepare};
-use hexbench_model::fit::{TermSpec, fit};
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::effects::user_term::{UserTermError, parse};
+use hexbench_model::estimation::fit::{TermSpec, fit};
+use hexbench_model::results::diagnose::{diagnose, prepare};
 use hexbench_model::terms::catalogue;
-use hexbench_model::user_term::{UserTermError, parse};
 
 use crate::cases;
 
@@ -66,9 +66,9 @@ fn a_wrench_formula_acts_like_the_same_wrench() {
     "#,
     )
     .unwrap();
-    let lin = hexbench_model::linearization::Linearization::at(
+    let lin = hexbench_model::estimation::linearization::Linearization::at(
         &campaign,
-        &hexbench_model::fit::fit_baseline(&campaign).unwrap().point,
+        &hexbench_model::estimation::fit::fit_baseline(&campaign).unwrap().point,
     )
     .unwrap();
     let mut out = Vec::new();
@@ -113,9 +113,11 @@ fn a_formula_without_value_at_a_reading_names_line_and_variables() {
     let term = parse(&text).unwrap();
     let (hexapod, data, _) = cases::case("contact");
     let campaign = prepare(&hexapod, &data).unwrap();
-    let point = hexbench_model::fit::fit_baseline(&campaign).unwrap().point;
-    let lin = hexbench_model::linearization::Linearization::at(&campaign, &point).unwrap();
-    let why = hexbench_model::untestable::why_untestable(term.as_ref(), &campaign, &lin).unwrap().to_string();
+    let point = hexbench_model::estimation::fit::fit_baseline(&campaign).unwrap().point;
+    let lin = hexbench_model::estimation::linearization::Linearization::at(&campaign, &point).unwrap();
+    let why = hexbench_model::effects::untestable::why_untestable(term.as_ref(), &campaign, &lin)
+        .unwrap()
+        .to_string();
     assert!(
         why.starts_with("line 2: `size*df/(elapsed - 76.907)` gives") && why.contains("elapsed = 76.907"),
         "{why}"

@@ -1,6 +1,6 @@
 //! Which estimates of the final model depend on each other.
 
-use hexbench_model::parameters::{Parameter, ParameterPlace};
+use hexbench_model::estimation::parameters::{Parameter, ParameterPlace};
 
 use super::ReportError;
 use crate::page::{Block, Section};

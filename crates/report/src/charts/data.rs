@@ -1,11 +1,11 @@
 //! What the charts are drawn from: one model, or two, beside the readings, per condition and leg.
 
 use hexbench_core::{Dataset, Hexapod, Vector6};
-use hexbench_model::campaign::{Campaign, Condition};
-use hexbench_model::compare::{ComparedModel, JudgedModel};
 use hexbench_model::error::ModelError;
-use hexbench_model::linearization::ModelPoint;
-use hexbench_model::residuals::{Residual, prediction_errors};
+use hexbench_model::estimation::campaign::{Campaign, Condition};
+use hexbench_model::estimation::linearization::ModelPoint;
+use hexbench_model::estimation::residuals::{Residual, prediction_errors};
+use hexbench_model::results::compare::{ComparedModel, JudgedModel};
 
 use crate::words::{ReportSubject, spread};
 

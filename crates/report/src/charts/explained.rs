@@ -4,9 +4,9 @@ use crate::number::significant;
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
 use hexbench_core::Vector6;
-use hexbench_model::campaign::Condition;
-use hexbench_model::compare::legs::{LegSpace, leg_space};
-use hexbench_model::linearization::Linearization;
+use hexbench_model::estimation::campaign::Condition;
+use hexbench_model::estimation::linearization::Linearization;
+use hexbench_model::results::compare::legs::{LegSpace, leg_space};
 
 use super::ReportError;
 use super::data::{Data, Seen};

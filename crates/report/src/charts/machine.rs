@@ -4,7 +4,7 @@ use crate::number::significant;
 use crate::page::{Block, Section};
 use crate::plot::{Edge, Wireframe};
 use hexbench_core::{Vector3, Vector6};
-use hexbench_model::campaign::Condition;
+use hexbench_model::estimation::campaign::Condition;
 
 use super::ReportError;
 use super::data::Data;

@@ -15,8 +15,8 @@ mod runs;
 mod scatter;
 
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::compare::ComparedModel;
 use hexbench_model::error::ModelError;
+use hexbench_model::results::compare::ComparedModel;
 
 use self::data::Data;
 use crate::page::{Page, Section};

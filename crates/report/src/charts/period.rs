@@ -4,7 +4,7 @@ use crate::number::significant;
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Series};
 use hexbench_core::Approach;
-use hexbench_model::compare::periodogram::{Peak, Spectra, Spectrum};
+use hexbench_model::results::compare::periodogram::{Peak, Spectra, Spectrum};
 
 use super::ReportError;
 use super::data::{Data, Shown};

@@ -3,7 +3,7 @@
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
 use hexbench_core::Dataset;
-use hexbench_model::residuals::Residual;
+use hexbench_model::estimation::residuals::Residual;
 
 use super::ReportError;
 use super::data::Data;

@@ -2,7 +2,7 @@
 
 use crate::page::{Block, Section};
 use crate::plot::Axis;
-use hexbench_model::campaign::Condition;
+use hexbench_model::estimation::campaign::Condition;
 
 use super::ReportError;
 use super::data::{Data, Shown};

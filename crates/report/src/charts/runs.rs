@@ -1,7 +1,7 @@
 //! Charts of two results beside each other.
 
-use hexbench_model::parameters::stiffness_name;
-use hexbench_model::runs::{ComparedRuns, ParameterChange, Run};
+use hexbench_model::estimation::parameters::stiffness_name;
+use hexbench_model::results::runs::{ComparedRuns, ParameterChange, Run};
 
 use super::ReportError;
 use crate::page::{Block, Page, Section};

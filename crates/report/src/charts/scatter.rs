@@ -2,7 +2,7 @@
 
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
-use hexbench_model::scatter::ResidualScatter;
+use hexbench_model::estimation::scatter::ResidualScatter;
 use statrs::distribution::{Continuous, Normal};
 
 use super::ReportError;

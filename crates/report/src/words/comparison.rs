@@ -1,14 +1,14 @@
 //! The page of a comparison.
 
-use hexbench_model::compare::Comparison;
-use hexbench_model::compare::absorbed::HiddenBias;
-use hexbench_model::compare::adequacy::{AdequacyAnswer, AdequacyTest};
-use hexbench_model::compare::association::Association;
-use hexbench_model::compare::coordinates::Coordinate;
-use hexbench_model::compare::legs::LegResidual;
-use hexbench_model::compare::rows::Outlier;
-use hexbench_model::residuals::ErrorSummary;
-use hexbench_model::words::joined;
+use hexbench_model::estimation::residuals::ErrorSummary;
+use hexbench_model::results::compare::Comparison;
+use hexbench_model::results::compare::absorbed::HiddenBias;
+use hexbench_model::results::compare::adequacy::{AdequacyAnswer, AdequacyTest};
+use hexbench_model::results::compare::association::Association;
+use hexbench_model::results::compare::coordinates::Coordinate;
+use hexbench_model::results::compare::legs::LegResidual;
+use hexbench_model::results::compare::rows::Outlier;
+use hexbench_model::results::words::joined;
 
 use super::notes;
 use crate::number::{multiple, rounded, significant};

@@ -1,10 +1,10 @@
 //! The verdict in a sentence or two.
 
-use hexbench_model::diagnose::{Diagnosis, StepReport};
-use hexbench_model::explanation::Explanation;
+use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{Diagnosis, StepReport};
+use hexbench_model::results::words::{joined, joined_with};
 use hexbench_model::terms::catalogue;
-use hexbench_model::verdict::Verdict;
-use hexbench_model::words::{joined, joined_with};
 
 use crate::number::multiple;
 use crate::page::{Block, Mood, Section};

@@ -1,9 +1,9 @@
 //! How sure: probabilities, and what looks alike.
 
-use hexbench_model::diagnose::{CandidateReport, Diagnosis};
-use hexbench_model::explanation::Explanation;
-use hexbench_model::verdict::Verdict;
-use hexbench_model::words::joined;
+use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{CandidateReport, Diagnosis};
+use hexbench_model::results::words::joined;
 
 use super::conclusion::in_words;
 use crate::number::percent;

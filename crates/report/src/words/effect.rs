@@ -1,6 +1,6 @@
 //! One effect of the catalogue, explained.
 
-use hexbench_model::term::{Need, Rich, TermInfo};
+use hexbench_model::effects::term::{Need, Rich, TermInfo};
 
 use crate::number::significant;
 use crate::page::{Block, Definition, Page, PageColumn, Section, Table};

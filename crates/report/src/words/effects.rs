@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_model::term::{Term, TermInfo};
+use hexbench_model::effects::term::{Term, TermInfo};
 
 use super::effect::{needs, rich};
 use super::written_by;

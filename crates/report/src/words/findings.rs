@@ -1,7 +1,7 @@
 //! Faults of the data, before anything is said of the machine.
 
-use hexbench_model::diagnose::Diagnosis;
-use hexbench_model::examination::Finding;
+use hexbench_model::inference::examination::Finding;
+use hexbench_model::results::diagnose::Diagnosis;
 
 use crate::number::percent;
 use crate::page::{Block, Mood, Section};

@@ -1,12 +1,12 @@
 //! The page of a fit: quality, values with uncertainty, correlations, errors.
 
-use hexbench_model::estimate::{Estimate, estimates};
-use hexbench_model::fit::Fit;
-use hexbench_model::fit_named::look_alikes;
-use hexbench_model::model_file::Estimator;
-use hexbench_model::residuals::ErrorSummary;
-use hexbench_model::selection::{FitWithErrors, HeldOut, JudgedTask};
-use hexbench_model::words::joined;
+use hexbench_model::application::model_file::Estimator;
+use hexbench_model::estimation::estimate::{Estimate, estimates};
+use hexbench_model::estimation::fit::Fit;
+use hexbench_model::estimation::fit_named::look_alikes;
+use hexbench_model::estimation::residuals::ErrorSummary;
+use hexbench_model::inference::selection::{FitWithErrors, HeldOut, JudgedTask};
+use hexbench_model::results::words::joined;
 
 use crate::number::{significant, with_uncertainty};
 use crate::page::{Block, Page, PageColumn, Section, Table};

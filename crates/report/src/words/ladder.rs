@@ -1,8 +1,8 @@
 //! The ladder: error on held-out poses, step by step, beside the noise.
 
-use hexbench_model::diagnose::{Diagnosis, StepReport};
-use hexbench_model::residuals::ErrorSummary;
-use hexbench_model::selection::HeldOut;
+use hexbench_model::estimation::residuals::ErrorSummary;
+use hexbench_model::inference::selection::HeldOut;
+use hexbench_model::results::diagnose::{Diagnosis, StepReport};
 
 use crate::number::{multiple, significant};
 use crate::page::{Cell, Mood, PageColumn, Section, Table};

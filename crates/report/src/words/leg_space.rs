@@ -3,10 +3,10 @@
 //! Six legs measure six degrees of freedom, so every residual of a deflection is one elongation per leg.
 
 use hexbench_core::Vector6;
-use hexbench_model::campaign::Condition;
-use hexbench_model::compare::legs::{LegSpace, leg_space};
 use hexbench_model::error::ModelError;
-use hexbench_model::linearization::Linearization;
+use hexbench_model::estimation::campaign::Condition;
+use hexbench_model::estimation::linearization::Linearization;
+use hexbench_model::results::compare::legs::{LegSpace, leg_space};
 
 use super::subject::ReportSubject;
 use crate::number::significant;

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use hexbench_model::diagnose::Diagnosis;
-use hexbench_model::power::Detectable;
-use hexbench_model::untestable::Reason;
+use hexbench_model::effects::untestable::Reason;
+use hexbench_model::inference::power::Detectable;
+use hexbench_model::results::diagnose::Diagnosis;
 
 use crate::number::significant;
 use crate::page::{PageColumn, Section, Table};

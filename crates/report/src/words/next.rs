@@ -1,10 +1,10 @@
 //! What to measure next when the answer is open.
 
 use hexbench_core::{Approach, Observation};
-use hexbench_model::diagnose::{Diagnosis, NextReport, SeparationReport};
-use hexbench_model::explanation::Explanation;
+use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{Diagnosis, NextReport, SeparationReport};
 use hexbench_model::terms::catalogue;
-use hexbench_model::verdict::Verdict;
 
 use super::conclusion::in_words;
 use crate::number::{percent, significant};

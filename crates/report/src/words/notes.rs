@@ -1,6 +1,6 @@
 //! Suspect readings and warnings.
 
-use hexbench_model::diagnose::Diagnosis;
+use hexbench_model::results::diagnose::Diagnosis;
 
 use crate::number::significant;
 use crate::page::Section;

@@ -1,6 +1,6 @@
 //! What to look for when the pattern has no name.
 
-use hexbench_model::diagnose::{Diagnosis, OutsideReport};
+use hexbench_model::results::diagnose::{Diagnosis, OutsideReport};
 
 use crate::page::Section;
 

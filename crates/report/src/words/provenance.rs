@@ -1,6 +1,6 @@
 //! What made a page.
 
-use hexbench_model::noise::NoiseSource;
+use hexbench_model::estimation::noise::NoiseSource;
 
 use crate::page::{PageColumn, Section, Table};
 use crate::render::PROGRAM;

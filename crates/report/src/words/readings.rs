@@ -2,9 +2,9 @@
 
 use hexbench_core::files::MeasurementsWriter;
 use hexbench_core::{Columns, Dataset, Hexapod, Observation};
-use hexbench_model::campaign::{Campaign, row_sigma};
-use hexbench_model::compare::{ComparedModel, JudgedModel, coordinate_names};
 use hexbench_model::error::ModelError;
+use hexbench_model::estimation::campaign::{Campaign, row_sigma};
+use hexbench_model::results::compare::{ComparedModel, JudgedModel, coordinate_names};
 
 use crate::table::{DataColumn, Frame, TableValues};
 

@@ -1,8 +1,8 @@
 //! How large: parameters of the effects in their own units.
 
-use hexbench_model::diagnose::Diagnosis;
-use hexbench_model::estimate::Estimate;
-use hexbench_model::words::{joined, joined_with};
+use hexbench_model::estimation::estimate::Estimate;
+use hexbench_model::results::diagnose::Diagnosis;
+use hexbench_model::results::words::{joined, joined_with};
 
 use crate::number::with_uncertainty;
 use crate::page::{Block, PageColumn, Section, Table};

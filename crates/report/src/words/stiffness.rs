@@ -1,9 +1,9 @@
 //! Leg stiffnesses, and what leaving an effect out does to them.
 
 use hexbench_core::Hexapod;
-use hexbench_model::diagnose::{AbsorbedReport, Diagnosis};
-use hexbench_model::parameters::stiffness_name;
-use hexbench_model::verdict::Verdict;
+use hexbench_model::estimation::parameters::stiffness_name;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{AbsorbedReport, Diagnosis};
 
 use crate::number::with_uncertainty;
 use crate::page::{Block, Section, Table};

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::diagnose::DiagnosisStudy;
-use hexbench_model::noise::{Noise, NoiseSource};
+use hexbench_model::estimation::noise::{Noise, NoiseSource};
+use hexbench_model::results::diagnose::DiagnosisStudy;
 
 use crate::number::significant;
 use crate::page::Definition;

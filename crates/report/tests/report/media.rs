@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use hexbench_core::files::{read_hexapod, read_measurements};
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::compare::compare;
-use hexbench_model::diagnose::diagnose;
+use hexbench_model::results::compare::compare;
+use hexbench_model::results::diagnose::diagnose;
 use hexbench_model::terms::catalogue;
 use hexbench_report::render::{Terminal, html, markdown, terminal};
 use hexbench_report::words::{Provenance, ReportSubject, comparison, diagnosis, subject};

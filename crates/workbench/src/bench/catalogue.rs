@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use hexbench_model::term::{Chapter, Rich, TermInfo};
+use hexbench_model::effects::term::{Chapter, Rich, TermInfo};
+use hexbench_model::effects::user_term::{self, FormulaVariable};
 use hexbench_model::terms;
-use hexbench_model::user_term::{self, FormulaVariable};
 
 use super::{Given, cases, simulate};
 use crate::wire::{Catalogue, Choice, FormulaHelp, NamedUnit, ServerLimits, TermCard};

@@ -1,8 +1,8 @@
 //! Where and how was measured, as columns for charts.
 
 use hexbench_core::{Vector3, Vector6};
-use hexbench_model::campaign::Condition;
-use hexbench_model::linearization::Linearization;
+use hexbench_model::estimation::campaign::Condition;
+use hexbench_model::estimation::linearization::Linearization;
 use hexbench_report::words::spread;
 
 use super::digits::{all_short, short};

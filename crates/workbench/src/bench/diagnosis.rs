@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::time::Instant;
 
-use hexbench_model::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
-use hexbench_model::explanation::Explanation;
-use hexbench_model::fit_named::RICHER;
+use hexbench_model::estimation::fit_named::RICHER;
+use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
 use hexbench_report::words::{self, ReportSubject};
 use hexbench_truth::mechanisms::is_outside;
 

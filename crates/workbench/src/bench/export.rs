@@ -1,9 +1,9 @@
 //! Files to take home.
 
 use hexbench_core::files::text_hash;
-use hexbench_model::fit_named::refuse_undetermined;
-use hexbench_model::model_file::{DataOrigin, Estimator, Model};
-use hexbench_model::runs::{Origin, WithOrigin};
+use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::estimation::fit_named::refuse_undetermined;
+use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{PROGRAM, html};
 use hexbench_report::words::Provenance;

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use hexbench_core::files::{parse_hexapod, read_measurements_from};
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::user_term;
-use hexbench_model::{term::Term, terms::catalogue};
+use hexbench_model::effects::user_term;
+use hexbench_model::{effects::term::Term, terms::catalogue};
 
 use super::cases::BundledCase;
 use super::refusal::{Refusal, RefusalKind};

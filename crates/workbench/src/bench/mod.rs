@@ -19,12 +19,12 @@ pub use refusal::{Refusal, RefusalKind};
 
 use std::time::Instant;
 
-use hexbench_model::campaign::Campaign;
-use hexbench_model::diagnose::prepare;
-use hexbench_model::linearization::{Linearization, ModelPoint};
-use hexbench_model::selection::JudgedTask;
+use hexbench_model::effects::untestable::why_untestable;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
+use hexbench_model::inference::selection::JudgedTask;
+use hexbench_model::results::diagnose::prepare;
 use hexbench_model::terms;
-use hexbench_model::untestable::why_untestable;
 use hexbench_report::words::subject::{describe, noise};
 
 use self::files::{Contents, Files};
@@ -139,7 +139,7 @@ impl LoadedCampaign {
     }
 
     fn untestable(&self, lin: &Linearization) -> Vec<UntestableTerm> {
-        let reason = |t: &std::sync::Arc<dyn hexbench_model::term::Term>| {
+        let reason = |t: &std::sync::Arc<dyn hexbench_model::effects::term::Term>| {
             let why = why_untestable(t.as_ref(), &self.campaign, lin)?;
             Some(UntestableTerm { term: t.info().id.to_owned(), why: why.to_string() })
         };

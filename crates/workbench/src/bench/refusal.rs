@@ -1,9 +1,9 @@
 //! Why a question has no answer.
 
 use hexbench_core::files::FileError;
+use hexbench_model::application::model_file::ModelFileError;
+use hexbench_model::effects::user_term::UserTermError;
 use hexbench_model::error::ModelError;
-use hexbench_model::model_file::ModelFileError;
-use hexbench_model::user_term::UserTermError;
 use hexbench_report::charts::ReportError;
 use hexbench_truth::TruthError;
 

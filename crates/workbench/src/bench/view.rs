@@ -4,13 +4,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use hexbench_core::Hexapod;
-use hexbench_model::compare::legs::leg_space;
-use hexbench_model::estimate::{Estimate, Estimates, estimates};
-use hexbench_model::fit_named::{Added, look_alikes};
-use hexbench_model::parameters::{leg_of_stiffness, stiffness_name};
-use hexbench_model::scatter::ResidualScatter;
-use hexbench_model::selection::{FitWithErrors, JudgedTask};
-use hexbench_model::term::Term;
+use hexbench_model::effects::term::Term;
+use hexbench_model::estimation::estimate::{Estimate, Estimates, estimates};
+use hexbench_model::estimation::fit_named::{Added, look_alikes};
+use hexbench_model::estimation::parameters::{leg_of_stiffness, stiffness_name};
+use hexbench_model::estimation::scatter::ResidualScatter;
+use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
+use hexbench_model::results::compare::legs::leg_space;
 
 use super::conditions::motion;
 use super::digits::{all_short, short};

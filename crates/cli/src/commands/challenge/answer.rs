@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use hexbench_model::answer::{Method, answer};
+use hexbench_model::results::answer::{Method, answer};
 
 use crate::failure::Failure;
 

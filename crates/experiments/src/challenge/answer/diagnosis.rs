@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use hexbench_model::explanation::Explanation;
-use hexbench_model::verdict::Verdict;
+use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::inference::verdict::Verdict;
 use serde::Deserialize;
 
 use super::AnswerFault;

@@ -1,6 +1,6 @@
 //! `parameters.json`: numbers with names.
 
-use hexbench_model::parameters::stiffness_name;
+use hexbench_model::estimation::parameters::stiffness_name;
 use std::collections::BTreeSet;
 
 use serde::Deserialize;

@@ -1,7 +1,7 @@
 //! One case of one program in numbers.
 
 use hexbench_core::statistics::{COVERAGE_FACTOR, Proportion, root_mean_square};
-use hexbench_model::parameters::stiffness_name;
+use hexbench_model::estimation::parameters::stiffness_name;
 
 use crate::trial::{Outcome, outcome_of};
 use hexbench_core::Measurand;

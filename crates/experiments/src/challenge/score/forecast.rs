@@ -11,7 +11,7 @@
 //! Both are strictly proper: in expectation nobody does better than by stating what he believes (Gneiting and Raftery 2007,
 //! Journal of the American Statistical Association 102).
 
-use hexbench_model::explanation::Explanation;
+use hexbench_model::inference::explanation::Explanation;
 use hexbench_truth::mechanisms::is_outside;
 use serde::Serialize;
 

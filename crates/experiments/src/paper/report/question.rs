@@ -1,6 +1,6 @@
 //! The question the paper leaves open: what is missing, and which measurement would have shown it.
 
-use hexbench_model::verdict::Verdict;
+use hexbench_model::inference::verdict::Verdict;
 use hexbench_report::{Section, Table};
 
 use super::super::bench::effective_load;

@@ -1,6 +1,6 @@
 //! Answers of the diagnosis, and the probabilities stated with them.
 
-use hexbench_model::verdict::Verdict;
+use hexbench_model::inference::verdict::Verdict;
 use hexbench_truth::campaign::CaseKind;
 
 use super::{ROUGH, share, told};

@@ -2,9 +2,9 @@
 
 use crate::{Outcome, Trial};
 use hexbench_core::Vector6;
-use hexbench_model::diagnose::{StepReport, diagnose};
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::{StepReport, diagnose};
 use hexbench_model::terms::catalogue;
-use hexbench_model::verdict::Verdict;
 
 use super::blocks;
 use crate::sweep::bench::BlockSetup;

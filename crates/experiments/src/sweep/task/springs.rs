@@ -14,10 +14,10 @@
 
 use hexbench_core::statistics::COVERAGE_FACTOR;
 use hexbench_core::{Matrix6, Vector6};
-use hexbench_model::campaign::Campaign;
-use hexbench_model::fit::fit_baseline;
-use hexbench_model::linearization::{Linearization, ModelPoint};
-use hexbench_model::paper;
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::fit_baseline;
+use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
+use hexbench_model::estimation::paper;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;

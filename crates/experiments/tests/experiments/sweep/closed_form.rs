@@ -6,10 +6,10 @@ use hexbench_experiments::sweep::axes::SweepEstimator;
 use hexbench_experiments::sweep::bench::BlockSetup;
 use hexbench_experiments::sweep::draw::{SweepPurpose, drawn};
 use hexbench_experiments::sweep::task::springs::Prepared;
-use hexbench_model::campaign::Campaign;
-use hexbench_model::fit::{Fit, fit_baseline};
-use hexbench_model::paper::fit_paper;
-use hexbench_model::residuals::{prediction_errors, summarise};
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::{Fit, fit_baseline};
+use hexbench_model::estimation::paper::fit_paper;
+use hexbench_model::estimation::residuals::{prediction_errors, summarise};
 use hexbench_truth::metrology::InstrumentNoise;
 
 use super::support::study;

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use hexbench_core::{Approach, Dataset, Hexapod, Observation, Vector6};
-use hexbench_model::campaign::{Campaign, Condition};
-use hexbench_model::machine::Machine;
-use hexbench_model::term::{Natural, Term};
+use hexbench_model::effects::term::{Natural, Term};
+use hexbench_model::estimation::campaign::{Campaign, Condition};
+use hexbench_model::machine::geometry::Machine;
 use hexbench_model::terms::catalogue;
 
 use super::plan::{random_pose, random_wrench, reading};

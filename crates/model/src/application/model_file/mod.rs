@@ -1,0 +1,173 @@
+//! A fitted model that can be kept, reopened and used: `model.toml`, format `model/1`.
+//!
+//! Every number of the model is stored in SI with all its digits, so that reading gives the same bits; beside it stands
+//! the value in the unit people use, and the two must agree. The file carries everything prediction needs: hexapod,
+//! springs, terms (a user's term with its definition), frames of absolute mode, covariance, and where it came from.
+
+mod layout;
+mod read;
+mod write;
+
+use hexbench_core::{Hexapod, Measurand};
+use nalgebra::DMatrix;
+use thiserror::Error;
+
+use crate::effects::user_term::UserTermError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::Fit;
+use crate::estimation::linearization::ModelPoint;
+use crate::estimation::noise::Noise;
+use crate::estimation::parameters::Parameters;
+
+/// Which estimator gave the numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Estimator {
+    /// Generalised least squares in whitened units.
+    Gls,
+    /// The paper's unweighted minimum-norm least squares.
+    Paper,
+}
+
+impl Estimator {
+    /// Name in files and on the command line.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Gls => "gls",
+            Self::Paper => "paper",
+        }
+    }
+
+    /// The estimator with a name.
+    pub fn named(word: &str) -> Option<Self> {
+        [Self::Gls, Self::Paper].into_iter().find(|e| e.word() == word)
+    }
+}
+
+/// The data a model was fitted to.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct DataOrigin {
+    /// Name of the file.
+    pub file: String,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub sha256: String,
+    /// Readings used.
+    pub readings: usize,
+}
+
+/// A fitted model with everything needed to use it.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The machine as drawn.
+    pub hexapod: Hexapod,
+    /// Kind of measurements it was fitted to.
+    pub measurand: Measurand,
+    /// How it was fitted.
+    pub estimator: Estimator,
+    /// Noise of one reading.
+    pub noise: Noise,
+    /// Values.
+    pub point: ModelPoint,
+    /// Its numbers.
+    pub parameters: Parameters,
+    /// Their covariance, SI; shapes by their logarithm.
+    pub covariance: DMatrix<f64>,
+    /// Whether the data, and not the prior, determine each of them.
+    pub determined: Vec<bool>,
+    /// What it was fitted to.
+    pub data: DataOrigin,
+    /// Chi-square of the fit.
+    pub chi2: f64,
+    /// Its degrees of freedom.
+    pub dof: f64,
+    /// False when the iterations ran out.
+    pub settled: bool,
+    /// Program and version that made it.
+    pub program: String,
+}
+
+/// Why a file is no model.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ModelFileError {
+    /// Not TOML, an unknown key, a missing key, a value of another type.
+    #[error("{0}")]
+    Toml(String),
+    /// A key whose value breaks a rule.
+    #[error("{key}: {why}")]
+    Rule {
+        /// The key.
+        key: String,
+        /// The rule.
+        why: String,
+    },
+    /// A term this program does not have.
+    #[error("there is no term `{id}`{}; a user's term needs its definition", nearest.as_ref().map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default())]
+    UnknownTerm {
+        /// As written.
+        id: String,
+        /// The closest known id.
+        nearest: Option<String>,
+    },
+    /// The definition of a user's term is wrong.
+    #[error("definition of term `{id}`: {error}")]
+    UserTerm {
+        /// The term.
+        id: String,
+        /// What is wrong.
+        error: UserTermError,
+    },
+    /// A number that cannot be written.
+    #[error("the model holds a number that is not finite and cannot be saved: {0}")]
+    NotFinite(String),
+}
+
+impl Model {
+    /// A model from a fit of a campaign.
+    pub fn new(campaign: &Campaign, fit: &Fit, estimator: Estimator, data: DataOrigin) -> Self {
+        let columns = fit.covariance.ncols();
+        Self {
+            hexapod: campaign.hexapod.clone(),
+            measurand: campaign.measurand,
+            estimator,
+            noise: campaign.noise,
+            point: fit.point.clone(),
+            parameters: Parameters::at(&fit.point, campaign.is_absolute()),
+            covariance: fit.covariance.clone(),
+            determined: (0..columns).map(|k| fit.is_determined(k)).collect(),
+            data,
+            chi2: fit.chi2,
+            dof: fit.dof,
+            settled: fit.is_settled(),
+            program: concat!("hexbench ", env!("CARGO_PKG_VERSION")).to_owned(),
+        }
+    }
+
+    /// Standard error of a column, SI.
+    pub fn std(&self, column: usize) -> f64 {
+        self.covariance[(column, column)].max(0.0).sqrt()
+    }
+
+    /// True for a model of absolute poses.
+    pub fn is_absolute(&self) -> bool {
+        self.measurand == Measurand::AbsolutePose
+    }
+
+    /// The text of `model.toml`.
+    ///
+    /// # Errors
+    /// [`ModelFileError::NotFinite`].
+    pub fn to_toml(&self) -> Result<String, ModelFileError> {
+        let named = self.parameters.iter().zip(self.covariance.column_iter());
+        if let Some((parameter, _)) = named.into_iter().find(|(_, c)| !c.iter().all(|x| x.is_finite())) {
+            return Err(ModelFileError::NotFinite(format!("the covariance of {}", parameter.name)));
+        }
+        toml::to_string(&write::file(self)).map_err(|e| ModelFileError::Toml(e.to_string()))
+    }
+
+    /// The model of a `model.toml`.
+    ///
+    /// # Errors
+    /// [`ModelFileError`] with the key and the rule it breaks.
+    pub fn from_toml(text: &str) -> Result<Self, ModelFileError> {
+        read::model(toml::from_str(text).map_err(|e| ModelFileError::Toml(e.to_string()))?)
+    }
+}

@@ -1,0 +1,181 @@
+//! What a fitted model says of poses and loads nobody has measured, with its uncertainty.
+//!
+//! The model refers to the measured pose (forces are taken where they act, legs where they stand), which a prediction
+//! does not have; so the reading is found by iteration: `y <- y - (y - prediction(y))`, which contracts by about
+//! load / (stiffness * leg length) per round. In absolute mode the same iteration is a Newton search for the platform
+//! pose at which the legs of the calibrated machine have their commanded lengths plus elongations. It starts at the
+//! commanded pose and finds the solution near it; a hexapod has others, and none is claimed to be the only one.
+
+use hexbench_core::{Dataset, Matrix6, Measurand, Observation, Vector6};
+use thiserror::Error;
+
+use crate::application::model_file::Model;
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::columns;
+use crate::estimation::linearization::Linearization;
+use crate::estimation::noise::Noise;
+use crate::estimation::parameters::ParameterPlace;
+
+/// Rounds after which a prediction counts as not settled.
+const MOST_ROUNDS: usize = 60;
+/// A prediction has settled when no value moves by more than this, m and rad.
+const SETTLED: f64 = 1e-13;
+
+/// What a model predicts for one row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prediction {
+    /// Loaded minus reference, or the absolute pose; m and rad, in the measured coordinates of the model.
+    pub value: [f64; 6],
+    /// Standard uncertainty (k = 1) from the covariance of the model; the noise of a future reading is not in it.
+    pub sigma: [f64; 6],
+}
+
+/// A row that cannot be predicted.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("line {line}: {cause}")]
+pub struct PredictError {
+    /// Line of the file.
+    pub line: u64,
+    /// Why.
+    pub cause: ModelError,
+}
+
+/// Predict every row; measured values are ignored.
+///
+/// # Errors
+/// [`PredictError`] with the first row that is singular or does not settle.
+pub fn predict(model: &Model, rows: &[Observation]) -> Result<Vec<Prediction>, PredictError> {
+    Ok(predict_with_covariance(model, rows)?.into_iter().map(|(reading, _)| reading).collect())
+}
+
+/// The same with the covariance of each row (m, rad), whose diagonal is the square of `sigma`.
+///
+/// # Errors
+/// As [`predict`].
+pub fn predict_with_covariance(
+    model: &Model,
+    rows: &[Observation],
+) -> Result<Vec<(Prediction, Matrix6)>, PredictError> {
+    predict_as(model, rows, model.measurand, Uncertain::Reading)
+}
+
+/// Which uncertainty is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Uncertain {
+    /// Of the reading: everything.
+    Reading,
+    /// Of the platform: without effects of the metrology. Frames stay, because only together with them is a geometry
+    /// determined: what is meant is the pose as an instrument would find it, in the axes of the machine.
+    Platform,
+}
+
+/// Predict in other coordinates than those of the model's data (deflections only).
+pub(crate) fn predict_as(
+    model: &Model,
+    rows: &[Observation],
+    measurand: Measurand,
+    uncertain: Uncertain,
+) -> Result<Vec<(Prediction, Matrix6)>, PredictError> {
+    if rows.is_empty() {
+        return Ok(Vec::new());
+    }
+    settle(model, rows, measurand, uncertain).or_else(|_| {
+        // Something is wrong with some row: one by one, to name it.
+        let one = |row: &Observation| {
+            let found = settle(model, std::slice::from_ref(row), measurand, uncertain);
+            found.map(|p| p[0]).map_err(|cause| PredictError { line: row.line, cause })
+        };
+        rows.iter().map(one).collect()
+    })
+}
+
+fn settle(
+    model: &Model,
+    rows: &[Observation],
+    measurand: Measurand,
+    uncertain: Uncertain,
+) -> Result<Vec<(Prediction, Matrix6)>, ModelError> {
+    let mut data = dataset(model, rows, measurand);
+    let mut last_step = f64::INFINITY;
+    for _ in 0..MOST_ROUNDS {
+        let campaign = Campaign::with_noise(&model.hexapod, &data, unit_noise())?;
+        let lin = Linearization::at(&campaign, &model.point)?;
+        last_step = 0.0;
+        for (i, group) in campaign.groups.iter().enumerate() {
+            let step = unweighted(&lin.residual(i), &lin.conditions[i].weight);
+            if !step.iter().all(|x| x.is_finite()) {
+                return Err(ModelError::NotFinite { what: "the prediction" });
+            }
+            last_step = last_step.max(step.amax());
+            for &row in &group.rows {
+                let measured = &mut data.observations[row as usize].measured;
+                *measured = std::array::from_fn(|k| measured[k] - step[k]);
+            }
+        }
+        if last_step < SETTLED {
+            return Ok(predictions(model, &campaign, &lin, &data, uncertain));
+        }
+    }
+    Err(ModelError::NotConverged { iterations: MOST_ROUNDS, last_step })
+}
+
+/// Rows with a first guess in the place of the measurement.
+fn dataset(model: &Model, rows: &[Observation], measurand: Measurand) -> Dataset {
+    let machine = model.point.calibrated_machine();
+    let guess = |o: &Observation| match measurand {
+        Measurand::AbsolutePose => machine.target_pose(&o.pose).to_array(),
+        _ => [0.0; 6],
+    };
+    let observations = rows.iter().map(|o| Observation { measured: guess(o), sigma: None, ..*o }).collect();
+    Dataset { source: String::new(), measurand, columns: hexbench_core::Columns::default(), observations }
+}
+
+/// Weights of one; the level does not matter for a prediction.
+fn unit_noise() -> Noise {
+    Noise::stated(1.0, 1.0)
+}
+
+fn unweighted(whitened: &Vector6, weight: &Vector6) -> Vector6 {
+    whitened.component_div(weight)
+}
+
+fn predictions(
+    model: &Model,
+    campaign: &Campaign,
+    lin: &Linearization,
+    data: &Dataset,
+    uncertain: Uncertain,
+) -> Vec<(Prediction, Matrix6)> {
+    let jacobian = columns(lin, &model.point);
+    let kept = kept_columns(model, uncertain);
+    let covariance = model.covariance.select_columns(&kept).select_rows(&kept);
+    let nothing = Prediction { value: [0.0; 6], sigma: [0.0; 6] };
+    let mut all = vec![(nothing, Matrix6::zeros()); data.observations.len()];
+    for (i, group) in campaign.groups.iter().enumerate() {
+        let j = jacobian.rows(6 * i, 6).select_columns(&kept);
+        let spread = &j * &covariance * j.transpose();
+        let weight = lin.conditions[i].weight;
+        let sigma = std::array::from_fn(|k| spread[(k, k)].max(0.0).sqrt() / weight[k]);
+        let covariance = Matrix6::from_fn(|r, c| spread[(r, c)] / (weight[r] * weight[c]));
+        for &row in &group.rows {
+            let value = data.observations[row as usize].measured;
+            all[row as usize] = (Prediction { value, sigma }, covariance);
+        }
+    }
+    all
+}
+
+fn kept_columns(model: &Model, uncertain: Uncertain) -> Vec<usize> {
+    let all = 0..model.covariance.ncols();
+    if uncertain == Uncertain::Reading {
+        return all.collect();
+    }
+    let of_metrology = |k: &usize| match model.parameters[*k].place {
+        ParameterPlace::Value { term, .. } | ParameterPlace::Shape { term } => {
+            model.point.active[term].term.is_of_metrology()
+        }
+        ParameterPlace::Spring(_) | ParameterPlace::Frames(_) => false,
+    };
+    all.filter(|k| !of_metrology(k)).collect()
+}

@@ -1,0 +1,8 @@
+//! What a term is, how its action passes the structure, and terms from a user's file. The catalogue itself is [`crate::terms`].
+
+pub mod chain;
+pub mod formula;
+pub(crate) mod intern;
+pub mod term;
+pub mod untestable;
+pub mod user_term;

@@ -1,0 +1,106 @@
+//! Why data cannot speak about a term.
+
+use serde::{Serialize, Serializer};
+
+use crate::effects::term::{Need, Term};
+use crate::estimation::campaign::Campaign;
+use crate::estimation::linearization::Linearization;
+
+/// A term that cannot be tested.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS), ts(rename = "UntestableReport"))]
+pub struct Untestable {
+    /// Its id.
+    pub term: &'static str,
+    /// The reason.
+    #[cfg_attr(feature = "typescript", ts(as = "String"))]
+    pub why: Reason,
+}
+
+impl Untestable {
+    /// Of a term.
+    pub fn new(term: &dyn Term, why: Reason) -> Self {
+        Self { term: term.info().id, why }
+    }
+}
+
+/// Why a term cannot be tested.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Reason {
+    /// Absolute poses estimate it with the target frame.
+    #[error("it is part of the target frame, which absolute poses estimate anyway")]
+    PartOfTargetFrame,
+    /// Deflections do not show it.
+    #[error("it needs absolute poses (measured_a_mm ...)")]
+    OnlyAbsolutePoses,
+    /// A covariate is not in the file.
+    #[error("no {0} column")]
+    NoColumn(&'static str),
+    /// A covariate never differs from zero.
+    #[error("{0} is zero in every row")]
+    ZeroColumn(&'static str),
+    /// The machine has no brackets.
+    #[error("no legs share a bracket: state [legs] brackets")]
+    NoBrackets,
+    /// Nothing tells the loads apart.
+    #[error("every row has the same load")]
+    OneLoad,
+    /// It has no value at a reading.
+    #[error("line {line}: {what}")]
+    Fault {
+        /// Line of the file.
+        line: u64,
+        /// What is wrong there, in words.
+        what: String,
+    },
+    /// It is too small to show in the readings.
+    #[error("no size that makes physical sense would show in these poses and loads")]
+    TooFaint,
+    /// It is too small to show in any reading a space allows.
+    #[error("no size of it that makes physical sense would show in this space")]
+    TooFaintInSpace,
+}
+
+impl Serialize for Reason {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+/// Why a term cannot be tested with a campaign, or `None` when it can.
+pub fn why_untestable(term: &dyn Term, campaign: &Campaign, lin: &Linearization) -> Option<Reason> {
+    if campaign.is_absolute() && term.is_part_of_target_frame() {
+        return Some(Reason::PartOfTargetFrame);
+    }
+    let unmet = term.info().needs.iter().find_map(|need| unmet(*need, campaign, lin));
+    unmet.or_else(|| {
+        let mut pairs = lin.conditions.iter().zip(&campaign.groups);
+        pairs.find_map(|(at, g)| {
+            Some(Reason::Fault { line: g.mean.line, what: term.fault(&lin.machine, at)? })
+        })
+    })
+}
+
+fn unmet(need: Need, campaign: &Campaign, lin: &Linearization) -> Option<Reason> {
+    let columns = &campaign.columns;
+    match need {
+        Need::Absolute => (!campaign.is_absolute()).then_some(Reason::OnlyAbsolutePoses),
+        Need::Approach => (!columns.approach).then_some(Reason::NoColumn("approach")),
+        Need::DeltaT => missing("delta_T_K", columns.delta_t, lin.conditions.iter().map(|c| c.delta_t)),
+        Need::Elapsed => missing("elapsed_s", columns.elapsed, lin.conditions.iter().map(|c| c.elapsed)),
+        Need::Brackets => lin.machine.bracket_pairs.is_empty().then_some(Reason::NoBrackets),
+        Need::Loads => (!several_loads(lin)).then_some(Reason::OneLoad),
+    }
+}
+
+fn missing(column: &'static str, present: bool, mut values: impl Iterator<Item = f64>) -> Option<Reason> {
+    if !present {
+        return Some(Reason::NoColumn(column));
+    }
+    values.all(|x| x == 0.0).then_some(Reason::ZeroColumn(column))
+}
+
+fn several_loads(lin: &Linearization) -> bool {
+    let first = lin.conditions.first().map(|c| c.wrench);
+    lin.conditions.iter().any(|c| Some(c.wrench) != first)
+}

@@ -1,0 +1,459 @@
+//! A measurement campaign as the model sees it: readings under equal conditions averaged, with their legs.
+//!
+//! Averaging readings that share every input is exact for least squares: the mean carries all the information on
+//! the model, the scatter about it (pure error) only on the noise.
+
+use std::collections::HashMap;
+
+use hexbench_core::{
+    Approach, Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, Vector3, Vector6,
+    Wrench,
+};
+use nalgebra::{DMatrix, Rotation3};
+
+use crate::effects::chain::Action;
+use crate::error::ModelError;
+use crate::estimation::noise::{Noise, NoiseSource, SharedReference, Structure, stated_or_repeated};
+use crate::estimation::parallel::try_map;
+use crate::machine::geometry::Machine;
+use crate::machine::kinematics::{Legs, euler_rate_matrix};
+
+/// Readings that share pose, loads, approach, temperature and time, averaged.
+#[derive(Debug, Clone)]
+pub struct ConditionReadings {
+    /// Inputs, as of the first reading; `measured` is the weighted mean.
+    pub mean: Observation,
+    /// Standard deviation of each mean value, without what it shares with others of its record.
+    pub sigma: [f64; 6],
+    /// Standard deviation of what it shares with them.
+    pub shared: [f64; 6],
+    /// Number of its record.
+    pub record: usize,
+    /// Indices of the readings in the dataset.
+    pub rows: Vec<u32>,
+    /// Sum of squared whitened differences between the readings and their mean.
+    pub pure_error: f64,
+}
+
+/// One group with the legs and forces of its pose. Fixed frame, SI.
+#[derive(Debug, Clone)]
+pub struct Condition {
+    /// Pose at which the legs stand: commanded (deflections) or measured, brought back to the platform (absolute).
+    pub pose: Pose,
+    /// Legs of the calibrated machine at that pose.
+    pub legs: Legs,
+    /// Lengths the controller commanded, m.
+    pub commanded_lengths: Vector6,
+    /// Commanded lengths minus those of the zero pose, m.
+    pub extension: Vector6,
+    /// Wrench in the loaded state.
+    pub wrench: Wrench,
+    /// Wrench in the reference state.
+    pub reference: Wrench,
+    /// Forces in the leg springs under the load, N, tension positive: the leg forces less what friction holds.
+    pub force: Vector6,
+    /// Forces in the leg springs in the reference state, N.
+    pub reference_force: Vector6,
+    /// Leg forces along the way to the reading.
+    pub path: LoadPath,
+    /// How the load was reached.
+    pub approach: Approach,
+    /// Temperature difference, K.
+    pub delta_t: f64,
+    /// Time since the reference reading, s.
+    pub elapsed: f64,
+    /// Measured values minus what an unloaded perfect machine would show, in measured coordinates.
+    pub reading: Vector6,
+    /// Measured coordinates from the platform's geometric twist at the mobile origin (6x6).
+    pub observer: Matrix6,
+    /// 1 / sigma of each averaged value.
+    pub weight: Vector6,
+}
+
+/// Leg forces (N, tension positive) along the way from the unloaded machine to the reading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadPath {
+    /// In the reference state.
+    pub reference: Vector6,
+    /// At the largest load on the way: the load itself, or the overshoot.
+    pub extreme: Vector6,
+    /// Under the load.
+    pub load: Vector6,
+}
+
+impl LoadPath {
+    /// Spring force of one leg in the reference state and under the load when a slider beside the spring holds up to
+    /// `limit` against the last motion.
+    pub fn spring_forces(&self, leg: usize, limit: f64) -> [f64; 2] {
+        let play = |previous: f64, f: f64| previous.max(f - limit).min(f + limit);
+        let rest = play(0.0, self.reference[leg]);
+        [rest, play(play(rest, self.extreme[leg]), self.load[leg])]
+    }
+}
+
+/// A dataset prepared for one hexapod.
+#[derive(Debug, Clone)]
+pub struct Campaign {
+    /// The machine as drawn.
+    pub hexapod: Hexapod,
+    /// What was measured.
+    pub measurand: Measurand,
+    /// Optional columns present.
+    pub columns: Columns,
+    /// Averaged readings in order of first appearance.
+    pub groups: Vec<ConditionReadings>,
+    /// Number of readings.
+    pub readings: usize,
+    /// Noise of one reading.
+    pub noise: Noise,
+    /// Sum of squared whitened differences between readings and their mean.
+    pub pure_error: f64,
+    /// Degrees of freedom of the pure error.
+    pub pure_error_dof: f64,
+    /// Whitened reading per standard deviation of inputs that are known to a tolerance only, six rows for each group.
+    pub inexact: Option<DMatrix<f64>>,
+}
+
+impl Condition {
+    /// Geometric twist of the platform at the mobile origin that reads like this; zero at beta = +-90 deg, where a reading says nothing
+    /// of two rotations.
+    pub fn motion(&self, reading: &Vector6) -> Vector6 {
+        self.observer.try_inverse().map_or_else(Vector6::zeros, |h| h * reading)
+    }
+
+    /// Change of leg force between reference and load, N.
+    pub fn force_change(&self) -> Vector6 {
+        self.force - self.reference_force
+    }
+
+    /// Change of all leg forces (N) under the same wrench when the platform end of one leg moves by `end` against its base
+    /// end, and its arm from the mobile origin by `arm`. Fixed axes, m.
+    pub fn force_response(&self, leg: usize, end: &Vector3, arm: &Vector3) -> Vector6 {
+        let (n, length) = (self.legs.directions[leg], self.legs.lengths[leg]);
+        let turn = (end - n * n.dot(end)) / length;
+        let moment = arm.cross(&n) + self.legs.arms[leg].cross(&turn);
+        let wrench = Vector6::new(turn.x, turn.y, turn.z, moment.x, moment.y, moment.z);
+        -self.legs.forces(&(wrench * self.force[leg]))
+    }
+
+    /// The leg forces that an extra force and moment at the mobile origin add. Fixed axes, N and N m.
+    pub fn wrench_action(&self, force: &Vector3, moment: &Vector3) -> Action {
+        let wrench = Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
+        Action::Force(self.legs.forces(&wrench))
+    }
+}
+
+impl Campaign {
+    /// Prepare a dataset with the noise the files state or the repeats show; without either, `sigma` is a guess
+    /// that [`Campaign::with_noise`] replaces after a first fit.
+    ///
+    /// # Errors
+    /// [`ModelError::TooFewEquations`] for an empty dataset.
+    pub fn new(hexapod: &Hexapod, dataset: &Dataset) -> Result<Self, ModelError> {
+        let noise = stated_or_repeated(hexapod, dataset).unwrap_or_else(|| Noise {
+            translation: 1e-6,
+            rotation: 1e-6 / hexapod.platform_radius().max(1e-6),
+            source: NoiseSource::Residuals,
+            dof: 0.0,
+            structure: Structure::Independent,
+        });
+        Self::with_noise(hexapod, dataset, noise)
+    }
+
+    /// Prepare a dataset with a given noise level; `sigma_*` columns still win where the noise comes from them.
+    ///
+    /// # Errors
+    /// [`ModelError::TooFewEquations`] for an empty dataset.
+    pub fn with_noise(hexapod: &Hexapod, dataset: &Dataset, noise: Noise) -> Result<Self, ModelError> {
+        if dataset.observations.is_empty() {
+            return Err(ModelError::TooFewEquations { equations: 0, unknowns: 6 });
+        }
+        let groups = group(&dataset.observations, &noise);
+        Ok(Self::of_groups(hexapod, dataset.measurand, dataset.columns, noise, groups))
+    }
+
+    fn of_groups(
+        hexapod: &Hexapod,
+        measurand: Measurand,
+        columns: Columns,
+        noise: Noise,
+        groups: Vec<ConditionReadings>,
+    ) -> Self {
+        let readings: usize = groups.iter().map(|g| g.rows.len()).sum();
+        let pure_error = groups.iter().map(|g| g.pure_error).sum();
+        let pure_error_dof = 6.0 * (readings - groups.len()) as f64;
+        let hexapod = hexapod.clone();
+        Self {
+            hexapod,
+            measurand,
+            columns,
+            groups,
+            readings,
+            noise,
+            pure_error,
+            pure_error_dof,
+            inexact: None,
+        }
+    }
+
+    /// Some of the groups; their readings keep their indices in the dataset.
+    #[must_use]
+    pub fn part(&self, groups: &[usize]) -> Self {
+        let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
+        let rows: Vec<usize> = groups.iter().flat_map(|&g| 6 * g..6 * g + 6).collect();
+        let inexact = self.inexact.as_ref().map(|all| all.select_rows(&rows));
+        Self { inexact, ..Self::of_groups(&self.hexapod, self.measurand, self.columns, self.noise, kept) }
+    }
+
+    /// The same with every reading weighed by all of its noise, as if nothing were shared.
+    #[must_use]
+    pub fn independent(mut self) -> Self {
+        for group in &mut self.groups {
+            group.sigma = std::array::from_fn(|k| group.sigma[k].hypot(group.shared[k]));
+            group.shared = [0.0; 6];
+        }
+        self.noise = self.noise.independent();
+        self.inexact = None;
+        self
+    }
+
+    /// True in absolute mode.
+    pub fn is_absolute(&self) -> bool {
+        self.measurand == Measurand::AbsolutePose
+    }
+
+    /// Conditions of this campaign on a machine whose legs have these compliances (m/N).
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`] for the first pose in file order that is singular.
+    pub fn conditions(&self, machine: &Machine, springs: &Vector6) -> Result<Vec<Condition>, ModelError> {
+        try_map(&self.groups, |g| self.condition(machine, springs, g))
+    }
+
+    fn condition(
+        &self,
+        machine: &Machine,
+        springs: &Vector6,
+        group: &ConditionReadings,
+    ) -> Result<Condition, ModelError> {
+        let o = &group.mean;
+        let stance = if self.is_absolute() {
+            Stance::measured(machine, o)?
+        } else {
+            Stance::deflected(machine, springs, o, self.measurand)?
+        };
+        let commanded_lengths = machine.commanded_lengths(&o.pose);
+        let legs = stance.legs;
+        let observer = self.observer(machine, &stance.pose, &o.measured);
+        let reading = if self.is_absolute() {
+            // Exact closure at the measured pose: no forward kinematics is needed.
+            observer * legs.platform_jacobian * (legs.lengths - commanded_lengths)
+        } else {
+            Vector6::from_column_slice(&o.measured)
+        };
+        let change = stance.force - stance.reference_force;
+        let extreme = match o.approach {
+            Approach::Direct => stance.force,
+            Approach::Overloaded => stance.reference_force + Approach::OVERLOAD * change,
+        };
+        let path = LoadPath { reference: stance.reference_force, extreme, load: stance.force };
+        let springs_at: [[f64; 2]; 6] =
+            std::array::from_fn(|leg| path.spring_forces(leg, machine.friction_limits[leg].max(0.0)));
+        Ok(Condition {
+            pose: stance.pose,
+            commanded_lengths,
+            extension: commanded_lengths - machine.home_lengths,
+            wrench: o.wrench,
+            reference: if self.is_absolute() { Wrench::default() } else { o.reference },
+            force: Vector6::from_fn(|leg, _| springs_at[leg][1]),
+            reference_force: Vector6::from_fn(|leg, _| springs_at[leg][0]),
+            path,
+            approach: o.approach,
+            delta_t: o.delta_t,
+            elapsed: o.elapsed,
+            reading,
+            observer,
+            weight: Vector6::from_fn(|k, _| 1.0 / group.sigma[k]),
+            legs,
+        })
+    }
+
+    /// Measured coordinates from the geometric twist: Euler differences for Euler readings, and the lever arm of
+    /// the target in absolute mode.
+    fn observer(&self, machine: &Machine, pose: &Pose, measured: &[f64; 6]) -> Matrix6 {
+        let angles = match self.measurand {
+            Measurand::DeflectionRotationVector => return Matrix6::identity(),
+            Measurand::DeflectionEuler => {
+                return observer_matrix(&Matrix3::identity(), &Vector3::zeros(), &pose.angles);
+            }
+            Measurand::AbsolutePose => Vector3::new(measured[3], measured[4], measured[5]),
+        };
+        let lever = pose.rotation() * machine.target_frame.translation.vector;
+        let axes = *machine.metrology_frame.rotation.to_rotation_matrix().matrix();
+        observer_matrix(&axes, &lever, &angles)
+    }
+}
+
+/// Where the legs stand and what they carry.
+struct Stance {
+    pose: Pose,
+    legs: Legs,
+    force: Vector6,
+    reference_force: Vector6,
+}
+
+impl Stance {
+    /// Absolute mode: the measured pose, brought back to the platform, is the loaded pose.
+    fn measured(machine: &Machine, o: &Observation) -> Result<Self, ModelError> {
+        let pose = machine.platform_pose(&Pose::from_array(o.measured));
+        let legs = machine.legs(&pose)?;
+        let force = legs.forces(&machine.effective_wrench(&o.wrench, &pose));
+        // A pose is measured against nothing: its reference is the unloaded machine.
+        Ok(Self { pose, legs, force, reference_force: Vector6::zeros() })
+    }
+
+    /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
+    /// the finite deflection is of third order. The reference pose is the commanded one plus the small deflection that
+    /// the springs give it; the loaded pose lies a measured deflection further.
+    fn deflected(
+        machine: &Machine,
+        springs: &Vector6,
+        o: &Observation,
+        measurand: Measurand,
+    ) -> Result<Self, ModelError> {
+        let commanded = machine.legs(&o.pose)?;
+        let reference_wrench = machine.effective_wrench(&o.reference, &o.pose);
+        let sag = commanded.platform_jacobian * springs.component_mul(&commanded.forces(&reference_wrench));
+        let reference = moved(&o.pose, &sag, 1.0);
+        let mut motion = Vector6::from_column_slice(&o.measured);
+        if measurand == Measurand::DeflectionEuler {
+            let rotation = euler_rate_matrix(&o.pose.angles) * motion.fixed_rows::<3>(3);
+            motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
+        }
+        let pose = moved(&reference, &motion, 0.5);
+        let legs = machine.legs(&pose)?;
+        Ok(Self {
+            force: machine.forces_near(&legs, &moved(&reference, &motion, 1.0), &o.wrench),
+            reference_force: machine.forces_near(&legs, &reference, &o.reference),
+            pose,
+            legs,
+        })
+    }
+}
+
+/// A pose after a share of a small geometric twist; the same motion in whatever axes it is written.
+pub(crate) fn moved(pose: &Pose, twist: &Vector6, share: f64) -> Pose {
+    let turn = Rotation3::new(share * twist.fixed_rows::<3>(3));
+    let translation = pose.translation + share * twist.fixed_rows::<3>(0);
+    Pose::from_rotation(translation, &(turn.matrix() * pose.rotation()))
+}
+
+/// `diag(I, M^-1) diag(axes, axes) [I, -[lever]x; 0, I]`.
+fn observer_matrix(axes: &Matrix3, lever: &Vector3, angles: &Vector3) -> Matrix6 {
+    // M is singular only at beta = +-90 deg, where Euler differences mean nothing either.
+    let rates = euler_rate_matrix(angles).try_inverse().unwrap_or_else(Matrix3::identity);
+    let mut h = Matrix6::zeros();
+    h.fixed_view_mut::<3, 3>(0, 0).copy_from(axes);
+    h.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-axes * lever.cross_matrix()));
+    h.fixed_view_mut::<3, 3>(3, 3).copy_from(&(rates * axes));
+    h
+}
+
+impl ConditionReadings {
+    fn of(first: &Observation) -> Self {
+        let rows = Vec::with_capacity(1);
+        Self { mean: *first, sigma: [0.0; 6], shared: [0.0; 6], record: 0, rows, pure_error: 0.0 }
+    }
+}
+
+fn group(rows: &[Observation], noise: &Noise) -> Vec<ConditionReadings> {
+    let mut index: HashMap<[u64; 21], usize> = HashMap::new();
+    let mut groups: Vec<ConditionReadings> = Vec::new();
+    // Neighbors that resemble each other are no repeats of each other.
+    let drifts = matches!(noise.structure, Structure::Drift { .. });
+    for (i, row) in rows.iter().enumerate() {
+        let next = groups.len();
+        let slot = if drifts { next } else { *index.entry(key(row)).or_insert(next) };
+        if slot == next {
+            groups.push(ConditionReadings::of(row));
+        }
+        groups[slot].rows.push(u32::try_from(i).unwrap_or(u32::MAX));
+    }
+    let mut records: HashMap<[u64; 6], usize> = HashMap::new();
+    for g in &mut groups {
+        average(g, rows, noise);
+        let pose = g.mean.pose.to_array().map(|x| (x + 0.0).to_bits());
+        let next = records.len();
+        g.record = *records.entry(pose).or_insert(next);
+    }
+    groups
+}
+
+fn average(group: &mut ConditionReadings, rows: &[Observation], noise: &Noise) {
+    let (mut weights, mut sums) = ([0.0; 6], [0.0; 6]);
+    // Differences from the first reading keep the digits of absolute poses.
+    let first = rows[group.rows[0] as usize].measured;
+    for &i in &group.rows {
+        let row = &rows[i as usize];
+        let sigma = row_sigma(row, noise);
+        for k in 0..6 {
+            let w = sigma[k].powi(-2);
+            weights[k] += w;
+            sums[k] += w * (row.measured[k] - first[k]);
+        }
+    }
+    for k in 0..6 {
+        group.mean.measured[k] = first[k] + sums[k] / weights[k];
+        group.sigma[k] = weights[k].sqrt().recip();
+    }
+    let mean = group.mean.measured;
+    group.pure_error = group.rows.iter().map(|&i| whitened_square(&rows[i as usize], &mean, noise)).sum();
+    share_out(group, noise);
+}
+
+/// Splits the variance of a mean of independent readings into what is its own and what is shared.
+fn share_out(group: &mut ConditionReadings, noise: &Noise) {
+    let own = noise.structure.own_share();
+    let readings = group.rows.len() as f64;
+    for k in 0..6 {
+        // As if every reading had the same level, which those of a record have to have.
+        let one = group.sigma[k] * readings.sqrt();
+        let (mean, shared) = match noise.structure {
+            Structure::Independent => continue,
+            Structure::Drift { share, .. } => (own.sqrt(), share.sqrt()),
+            Structure::Setup { share } => ((own / readings + share).sqrt(), 0.0),
+            Structure::Reference { share, record: SharedReference::Pose } => {
+                ((own / readings).sqrt(), share.sqrt())
+            }
+            Structure::Reference { share, record: SharedReference::Repeat } => {
+                ((own / readings).sqrt(), (share / readings).sqrt())
+            }
+        };
+        group.sigma[k] = one * mean;
+        group.shared[k] = one * shared;
+    }
+    // Repeats of one reference each scatter by all of their noise.
+    if !matches!(noise.structure, Structure::Reference { record: SharedReference::Repeat, .. }) {
+        group.pure_error /= own;
+    }
+}
+
+/// Standard deviation of the six values of one reading.
+pub fn row_sigma(row: &Observation, noise: &Noise) -> [f64; 6] {
+    row.sigma.unwrap_or_else(|| noise.sigma())
+}
+
+fn whitened_square(row: &Observation, mean: &[f64; 6], noise: &Noise) -> f64 {
+    let sigma = row_sigma(row, noise);
+    (0..6).map(|k| ((row.measured[k] - mean[k]) / sigma[k]).powi(2)).sum()
+}
+
+fn key(row: &Observation) -> [u64; 21] {
+    let mut key = [0; 21];
+    let parts = [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array()];
+    let rest = [row.approach.sign(), row.delta_t, row.elapsed];
+    for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain(&rest)) {
+        *k = (x + 0.0).to_bits();
+    }
+    key
+}

@@ -1,0 +1,408 @@
+//! Generalised least squares of springs, frames, terms and shapes by Gauss-Newton.
+//!
+//! Minimises `chi2 = |W (y - f(theta))|^2 + sum (p / prior)^2`; the prior widths of term parameters are physical and
+//! wide, so they only speak where the data are silent. Springs and frames have no prior.
+
+use std::sync::Arc;
+
+use hexbench_core::statistics::median;
+use nalgebra::{DMatrix, DVector};
+
+use crate::effects::term::{Natural, Term};
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::linearization::{Active, Linearization, ModelPoint, beside};
+use crate::estimation::lsq::{Solution, Triangle};
+use crate::estimation::parameters::Parameters;
+
+/// Iterations after which a fit counts as not settled.
+const MOST_ITERATIONS: usize = 40;
+/// A fit has settled when a step changes chi-square by less than this.
+const SETTLED_CHI2: f64 = 1e-4;
+/// Shapes tried on each side of the best one when a covariance is averaged over them.
+const SHAPE_STEPS: i32 = 4;
+/// A parameter whose standard error exceeds this share of its prior width is not determined by the data.
+const DETERMINED_SHARE: f64 = 0.5;
+
+/// A term asked of a fit.
+#[derive(Clone)]
+pub struct TermSpec {
+    /// The effect.
+    pub term: Arc<dyn Term>,
+    /// Richer form.
+    pub rich: bool,
+    /// Start value of the shape.
+    pub shape: f64,
+    /// Prior standard deviation of every parameter, SI.
+    pub prior: Vec<f64>,
+}
+
+/// A fitted model.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// Values of springs, terms, shapes and frames.
+    pub point: ModelPoint,
+    /// Its numbers, in the order of the columns.
+    pub parameters: Parameters,
+    /// Their covariance; a shape enters by its logarithm.
+    pub covariance: DMatrix<f64>,
+    /// Sum of squared whitened residuals over single readings (lack of fit plus pure error).
+    pub chi2: f64,
+    /// Equations of single readings minus rank.
+    pub dof: f64,
+    /// Sum of squared whitened residuals of the averaged readings.
+    pub lack_of_fit: f64,
+    /// Its degrees of freedom.
+    pub lack_of_fit_dof: f64,
+    /// The last linear solution, for rank and unobservable combinations.
+    pub solution: Solution,
+    /// Gauss-Newton iterations made.
+    pub iterations: usize,
+    /// Points tried on the way, those of shortened steps included: each cost one linearisation of the campaign.
+    pub tried: usize,
+    /// Why it ended.
+    pub termination: Termination,
+}
+
+/// Why a fit ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Termination {
+    /// A step changed chi-square by less than it may.
+    Settled,
+    /// The iterations ran out first.
+    MostIterations,
+}
+
+impl Fit {
+    /// Chi-square per degree of freedom of single readings.
+    pub fn chi2_reduced(&self) -> f64 {
+        self.chi2 / self.dof.max(1.0)
+    }
+
+    /// Standard error of a column.
+    pub fn std(&self, column: usize) -> f64 {
+        self.covariance[(column, column)].max(0.0).sqrt()
+    }
+
+    /// True when the data, and not the prior or nothing at all, determine a column.
+    pub fn is_determined(&self, column: usize) -> bool {
+        let prior = self.parameters[column].prior;
+        let by_prior = prior.is_some_and(|p| self.std(column) > DETERMINED_SHARE * p.width);
+        !by_prior && self.solution.undetermined_share(column) < 1e-3
+    }
+
+    /// True when it ended because there was nothing left to gain.
+    pub fn is_settled(&self) -> bool {
+        self.termination == Termination::Settled
+    }
+
+    /// Sizes natural to the machine and campaign, from the fitted springs.
+    pub fn natural(&self, linearization: &Linearization) -> Natural {
+        natural(&self.point, linearization)
+    }
+}
+
+/// Sizes natural to a machine and campaign.
+pub fn natural(point: &ModelPoint, lin: &Linearization) -> Natural {
+    let typical = median(point.compliances.iter().map(|c| c.abs())).unwrap_or(0.0);
+    let n = (6 * lin.conditions.len()).max(1) as f64;
+    let force = lin.conditions.iter().map(|c| c.force_change().norm_squared()).sum::<f64>() / n;
+    let hexapod = &lin.machine.nominal;
+    Natural {
+        compliance: typical.max(1e-12),
+        force: force.sqrt().max(1e-6),
+        radius: hexapod.platform_radius().max(1e-6),
+        length: lin.machine.home_lengths.mean().max(1e-6),
+        elapsed: lin.conditions.iter().map(|c| c.elapsed.abs()).fold(0.0, f64::max),
+    }
+}
+
+/// Fit springs (and frames in absolute mode) alone.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_baseline(campaign: &Campaign) -> Result<Fit, ModelError> {
+    fit(campaign, &[], None)
+}
+
+/// Fit springs, frames and the wanted terms, starting from `start` when given.
+///
+/// # Errors
+/// [`ModelError::SingularPose`], [`ModelError::NoLoad`], [`ModelError::NotFinite`]. Iterations that run out are not an error:
+/// [`Fit::termination`] tells.
+pub fn fit(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>) -> Result<Fit, ModelError> {
+    let point = start_point(campaign, wanted, start);
+    let state = Linearization::at(campaign, &point)?;
+    fit_from(campaign, wanted, point, state)
+}
+
+/// What a fit has cost so far.
+#[derive(Debug, Clone, Copy, Default)]
+struct Effort {
+    iterations: usize,
+    tried: usize,
+}
+
+/// The same from a point where the campaign has been linearised already.
+fn fit_from(
+    campaign: &Campaign,
+    wanted: &[TermSpec],
+    mut point: ModelPoint,
+    mut state: Linearization,
+) -> Result<Fit, ModelError> {
+    let parameters = Parameters::at(&point, campaign.is_absolute()).with_priors(wanted);
+    if state.conditions.iter().all(|c| c.force_change().amax() < 1e-9) {
+        return Err(ModelError::NoLoad);
+    }
+    let mut objective = state.residuals().norm_squared() + parameters.penalty(&point);
+    let mut effort = Effort::default();
+    loop {
+        effort.iterations += 1;
+        let solution = step(&state, &point, &parameters)?;
+        // Relative to the misfit: a wrong model need not be settled to the last digit.
+        let small = SETTLED_CHI2 * (objective / state.equations() as f64).max(1.0);
+        let most = objective + 0.5 * small;
+        let (next, next_state, next_objective) =
+            search(campaign, &point, &solution.x, &parameters, most, &mut effort)?;
+        let change = (objective - next_objective).abs();
+        point = next;
+        state = next_state;
+        objective = next_objective;
+        let settled = change < small;
+        if settled || effort.iterations == MOST_ITERATIONS {
+            let solution = step(&state, &point, &parameters)?;
+            let termination = if settled { Termination::Settled } else { Termination::MostIterations };
+            return Ok(finish(campaign, point, &state, solution, parameters, effort, termination));
+        }
+    }
+}
+
+/// The fit without some groups of the campaign, from where the whole of it was linearised.
+///
+/// # Errors
+/// As [`fit`].
+pub fn refit(
+    campaign: &Campaign,
+    wanted: &[TermSpec],
+    start: &Start,
+    kept: &[usize],
+) -> Result<Fit, ModelError> {
+    let state = start.state.choose(kept.iter().copied());
+    fit_from(&campaign.part(kept), wanted, start.point.clone(), state)
+}
+
+/// Where fits to parts of a campaign start.
+pub struct Start {
+    point: ModelPoint,
+    state: Linearization,
+}
+
+impl Start {
+    /// At a point, with the wanted terms.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn at(campaign: &Campaign, wanted: &[TermSpec], point: &ModelPoint) -> Result<Self, ModelError> {
+        let point = start_point(campaign, wanted, Some(point));
+        let state = Linearization::at(campaign, &point)?;
+        Ok(Self { point, state })
+    }
+}
+
+fn start_point(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>) -> ModelPoint {
+    let mut point = start.cloned().unwrap_or_else(|| ModelPoint::start(campaign));
+    let known = std::mem::take(&mut point.active);
+    point.active = wanted
+        .iter()
+        .map(|w| {
+            let fresh = Active::new(Arc::clone(&w.term), w.rich, w.shape);
+            let same = |a: &&Active| a.id() == fresh.id() && a.values.len() == fresh.values.len();
+            known.iter().find(same).map_or(fresh.clone(), |a| Active { values: a.values.clone(), ..fresh })
+        })
+        .collect();
+    point
+}
+
+/// One linear solve for the increments of all columns, priors included as equations.
+fn step(state: &Linearization, point: &ModelPoint, parameters: &Parameters) -> Result<Solution, ModelError> {
+    let mut triangle = Triangle::new(parameters.len());
+    for part in state.parts() {
+        let piece = state.part(&part);
+        triangle.push(&columns(&piece, point), &piece.residuals())?;
+    }
+    push_priors(&mut triangle, point, parameters)?;
+    triangle.solve()
+}
+
+fn push_priors(
+    triangle: &mut Triangle,
+    point: &ModelPoint,
+    parameters: &Parameters,
+) -> Result<(), ModelError> {
+    let (rows, target) = parameters.prior_equations(point);
+    if rows.is_empty() { Ok(()) } else { triangle.push(&rows, &target) }
+}
+
+/// Covariance with the shapes averaged over instead of linearised in: springs follow an exponent or a time constant
+/// far from linearly. The profile of the objective over a few shapes gives their weights; each contributes its own
+/// covariance and the distance of its solution.
+///
+/// # Errors
+/// As [`fit`].
+pub fn average_over_shapes(campaign: &Campaign, fit: &mut Fit) -> Result<(), ModelError> {
+    let state = Linearization::at(campaign, &fit.point)?;
+    for term in 0..fit.point.active.len() {
+        if let Some(column) = fit.parameters.shape_of_term(term) {
+            fit.covariance = averaged(&state, fit, term, column)?;
+        }
+    }
+    Ok(())
+}
+
+/// Covariance averaged over the shape of one term, which has a column of its own.
+fn averaged(
+    state: &Linearization,
+    fit: &Fit,
+    term: usize,
+    column: usize,
+) -> Result<DMatrix<f64>, ModelError> {
+    let a = &fit.point.active[term];
+    let spread = fit.parameters[column].prior.map_or(fit.std(column), |p| fit.std(column).min(p.width));
+    let [low, high] = a.term.shape_bounds(a.shape);
+    let mut seen = Vec::new();
+    for step in -SHAPE_STEPS..=SHAPE_STEPS {
+        let shift = 3.0 * spread * f64::from(step) / f64::from(SHAPE_STEPS);
+        let shape = a.shape * shift.exp();
+        if (low..=high).contains(&shape) {
+            seen.push(at_shape(state, fit, term, column, shape)?);
+        }
+    }
+    let best = seen.iter().map(|s| s.0).fold(f64::INFINITY, f64::min);
+    let weights: Vec<f64> = seen.iter().map(|s| (-0.5 * (s.0 - best)).exp()).collect();
+    let total: f64 = weights.iter().sum();
+    let mut covariance = DMatrix::zeros(fit.parameters.len(), fit.parameters.len());
+    for ((_, x, own), w) in seen.iter().zip(&weights) {
+        covariance += (own + x * x.transpose()) * (w / total);
+    }
+    Ok(covariance)
+}
+
+/// Objective, increments (the logarithm of the shape among them) and covariance with one shape held at a value.
+fn at_shape(
+    state: &Linearization,
+    fit: &Fit,
+    term: usize,
+    held: usize,
+    shape: f64,
+) -> Result<(f64, DVector<f64>, DMatrix<f64>), ModelError> {
+    let a = &fit.point.active[term];
+    let mut moved = fit.point.clone();
+    moved.active[term].shape = shape;
+    let values = DVector::from_column_slice(&a.values);
+    let block = |s: f64| state.term_block(a.term.as_ref(), a.rich, s) * &values;
+    let residual = state.residuals() + block(a.shape) - block(shape);
+    let mut columns = columns(state, &moved);
+    columns.column_mut(held).fill(0.0);
+    let mut triangle = Triangle::new(columns.ncols());
+    triangle.push(&columns, &residual)?;
+    push_priors(&mut triangle, &moved, &fit.parameters)?;
+    let solution = triangle.solve()?;
+    let mut x = solution.x;
+    x[held] = (shape / a.shape).ln();
+    // Held, the shape varies only from one of these fits to the next; its prior is not part of any of them.
+    let mut covariance = solution.covariance;
+    covariance.column_mut(held).fill(0.0);
+    covariance.row_mut(held).fill(0.0);
+    Ok((solution.rss, x, covariance))
+}
+
+/// Whitened columns of springs, frames, term parameters and shapes at a point.
+pub fn columns(state: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
+    let mut blocks = vec![state.common_block()];
+    for a in &point.active {
+        let mut block = state.term_block(a.term.as_ref(), a.rich, a.shape);
+        if a.term.info().shape.is_some() {
+            let by_log_shape = shape_column(state, a);
+            if a.term.shape_is_parameter() {
+                // shape = value, so d/dvalue gains (d/dlog shape) / value.
+                let tied = block.column(0) + by_log_shape / a.values[0].abs().max(a.shape);
+                block.set_column(0, &tied);
+            } else {
+                let width = block.ncols();
+                block = block.insert_column(width, 0.0);
+                block.set_column(width, &by_log_shape);
+            }
+        }
+        blocks.push(block);
+    }
+    beside(&blocks)
+}
+
+/// Derivative of the whitened reading by the logarithm of a shape, by central differences.
+fn shape_column(state: &Linearization, a: &Active) -> DVector<f64> {
+    const STEP: f64 = 1e-4;
+    let values = DVector::from_column_slice(&a.values);
+    let at = |s: f64| state.term_block(a.term.as_ref(), a.rich, s) * &values;
+    (at(a.shape * STEP.exp()) - at(a.shape * (-STEP).exp())) / (2.0 * STEP)
+}
+
+/// The full step, or the first of its shorter ones that leaves the objective at `most`; none at all when even the shortest does not.
+fn search(
+    campaign: &Campaign,
+    point: &ModelPoint,
+    x: &DVector<f64>,
+    parameters: &Parameters,
+    most: f64,
+    effort: &mut Effort,
+) -> Result<(ModelPoint, Linearization, f64), ModelError> {
+    let mut factor = 1.0;
+    loop {
+        let next = parameters.moved(point, x.as_slice(), factor);
+        effort.tried += 1;
+        let outcome = Linearization::at(campaign, &next);
+        let small = factor < 1e-3;
+        match outcome {
+            Ok(state) => {
+                let value = state.residuals().norm_squared() + parameters.penalty(&next);
+                if value <= most {
+                    return Ok((next, state, value));
+                }
+                if small {
+                    let state = Linearization::at(campaign, point)?;
+                    let value = state.residuals().norm_squared() + parameters.penalty(point);
+                    return Ok((point.clone(), state, value));
+                }
+            }
+            Err(e) if small => return Err(e),
+            Err(_) => {}
+        }
+        factor *= 0.4;
+    }
+}
+
+fn finish(
+    campaign: &Campaign,
+    point: ModelPoint,
+    state: &Linearization,
+    solution: Solution,
+    parameters: Parameters,
+    Effort { iterations, tried }: Effort,
+    termination: Termination,
+) -> Fit {
+    let lack_of_fit = state.residuals().norm_squared();
+    // What the data determine: the rank without what the priors hold.
+    let unknowns = solution.rank as f64 - parameters.held_by_priors(&solution.covariance);
+    Fit {
+        point,
+        covariance: solution.covariance.clone(),
+        chi2: lack_of_fit + campaign.pure_error,
+        dof: (6 * campaign.readings) as f64 - unknowns,
+        lack_of_fit,
+        lack_of_fit_dof: state.equations() as f64 - unknowns,
+        parameters,
+        solution,
+        iterations,
+        tried,
+        termination,
+    }
+}

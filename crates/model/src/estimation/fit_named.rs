@@ -1,0 +1,254 @@
+//! Fitting terms a user asks for by name, and refusing what the data do not determine.
+
+use std::sync::Arc;
+
+use hexbench_core::files::nearest;
+
+use crate::effects::term::{Natural, Rich, Term};
+use crate::effects::untestable::why_untestable;
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::estimate::estimates;
+use crate::estimation::fit::{Fit, TermSpec, columns, fit, fit_baseline};
+use crate::estimation::linearization::{Active, Linearization};
+use crate::estimation::parameters::{Parameter, ParameterPlace, leg_of_stiffness};
+use crate::inference::candidates::{orthonormal, project, sizes};
+use crate::inference::evidence::WIDEST;
+use crate::results::words::{joined, unobservable};
+
+/// Prior width of an asked-for parameter relative to its widest sensible size: it only speaks where the data are silent.
+const PRIOR_WIDTH: f64 = 3.0;
+/// Shape values from which a fit is started.
+const STARTS: usize = 3;
+/// Correlation beyond which two parameters are named as look-alikes.
+const LOOK_ALIKE: f64 = 0.9;
+
+/// The term with an id.
+///
+/// # Errors
+/// [`ModelError::UnknownTerm`] with the nearest id.
+pub fn term_named(id: &str, terms: &[Arc<dyn Term>]) -> Result<Arc<dyn Term>, ModelError> {
+    let found = terms.iter().find(|t| t.info().id == id).map(Arc::clone);
+    found.ok_or_else(|| {
+        let near = nearest(id, terms.iter().map(|t| t.info().id));
+        ModelError::UnknownTerm { id: id.to_owned(), nearest: near.map(str::to_owned) }
+    })
+}
+
+/// Behind the id of a term: its richer form is wanted.
+pub const RICHER: &str = ":richer";
+
+/// A term somebody asks for, in its ideal or its richer form.
+#[derive(Clone)]
+pub struct Added {
+    /// The effect.
+    pub term: Arc<dyn Term>,
+    /// True for the richer form.
+    pub richer: bool,
+}
+
+impl Added {
+    /// What `id`, or `id:richer`, asks for.
+    ///
+    /// # Errors
+    /// [`ModelError::UnknownTerm`] with the nearest id; [`ModelError::Selection`] for a term without a richer form.
+    pub fn named(text: &str, terms: &[Arc<dyn Term>]) -> Result<Self, ModelError> {
+        let (id, richer) = text.strip_suffix(RICHER).map_or((text, false), |id| (id, true));
+        let term = term_named(id, terms)?;
+        if richer && term.info().rich == Rich::None {
+            return Err(ModelError::Selection(format!("`{id}` has no richer form")));
+        }
+        Ok(Self { term, richer })
+    }
+
+    /// As it is asked for.
+    pub fn name(&self) -> String {
+        format!("{}{}", self.term.info().id, if self.richer { RICHER } else { "" })
+    }
+}
+
+impl From<Arc<dyn Term>> for Added {
+    fn from(term: Arc<dyn Term>) -> Self {
+        Self { term, richer: false }
+    }
+}
+
+/// Fit springs (and frames) with these terms, added one after the other.
+///
+/// # Errors
+/// As [`fit`]; [`ModelError::Untestable`] for a term whose columns are missing; [`ModelError::Selection`] for a term asked
+/// for twice.
+pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, ModelError> {
+    let ideal: Vec<Added> = added.iter().map(|t| Added::from(Arc::clone(t))).collect();
+    Ok(fit_wanted(campaign, &ideal)?.1)
+}
+
+/// The same fit, and what it asked for, to ask again of other readings.
+///
+/// # Errors
+/// As [`fit_named`].
+pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>, Fit), ModelError> {
+    refuse_twice(added)?;
+    let mut fitted = fit_baseline(campaign)?;
+    let natural = fitted.natural(&Linearization::at(campaign, &fitted.point)?);
+    let mut wanted: Vec<TermSpec> = Vec::new();
+    for Added { term, richer } in added {
+        let lin = Linearization::at(campaign, &fitted.point)?;
+        if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
+            return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
+        }
+        let prior = prior(term.as_ref(), *richer, &natural);
+        let next = TermSpec { term: Arc::clone(term), rich: *richer, shape: 1.0, prior };
+        let (start, better) = best_start(campaign, &wanted, &next, &fitted, &lin)?;
+        wanted.push(start);
+        fitted = better;
+    }
+    let fitted = together(campaign, &wanted, fitted);
+    Ok((wanted, fitted))
+}
+
+/// Prior widths: wide for the ideal form, and no wider than sensible for what the richer one adds, so that it shrinks.
+fn prior(term: &dyn Term, richer: bool, natural: &Natural) -> Vec<f64> {
+    let ideal = term.info().parameters.len();
+    let widened = |(k, size): (usize, f64)| if k < ideal { PRIOR_WIDTH * WIDEST * size } else { size };
+    sizes(term, richer, natural).into_iter().enumerate().map(widened).collect()
+}
+
+/// The better of a fit reached term by term and one that starts with all terms at once: while a term is still missing, the
+/// others may go far astray to make up for it, too far to come back.
+fn together(campaign: &Campaign, wanted: &[TermSpec], fitted: Fit) -> Fit {
+    if wanted.len() < 2 {
+        return fitted;
+    }
+    let fresh = fit(campaign, wanted, None).ok().filter(|f| f.chi2 < fitted.chi2);
+    fresh.unwrap_or(fitted)
+}
+
+fn refuse_twice(added: &[Added]) -> Result<(), ModelError> {
+    let id = |a: &Added| a.term.info().id;
+    let twice = (1..added.len()).find(|&i| added[..i].iter().any(|t| id(t) == id(&added[i])));
+    twice.map_or(Ok(()), |i| {
+        Err(ModelError::Selection(format!("the term `{}` is asked for twice", id(&added[i]))))
+    })
+}
+
+/// The fit with one more term, from the most promising of its shapes.
+fn best_start(
+    campaign: &Campaign,
+    before: &[TermSpec],
+    next: &TermSpec,
+    fitted: &Fit,
+    lin: &Linearization,
+) -> Result<(TermSpec, Fit), ModelError> {
+    let mut best: Option<(TermSpec, Fit)> = None;
+    let mut failure = None;
+    for shape in promising_shapes(next, fitted, lin) {
+        let start = TermSpec { shape, ..next.clone() };
+        let all: Vec<TermSpec> = before.iter().cloned().chain([start.clone()]).collect();
+        match fit(campaign, &all, Some(&fitted.point)) {
+            Ok(f) if best.as_ref().is_none_or(|(_, b)| f.chi2 < b.chi2) => best = Some((start, f)),
+            Ok(_) => {}
+            Err(e) => failure = Some(e),
+        }
+    }
+    best.ok_or_else(|| failure.unwrap_or(ModelError::NotFinite { what: "the shapes of the term" }))
+}
+
+/// Shapes whose columns explain most of the present residual beside everything fitted so far.
+fn promising_shapes(next: &TermSpec, fitted: &Fit, lin: &Linearization) -> Vec<f64> {
+    let grid = next.term.shape_grid(&lin.conditions);
+    if grid.is_empty() {
+        return vec![1.0];
+    }
+    let basis = orthonormal(&columns(lin, &fitted.point));
+    let mut residual = lin.residuals();
+    project(&basis, &mut residual);
+    let explained = |shape: f64| {
+        let mut block = lin.term_block(next.term.as_ref(), next.rich, shape);
+        let overlap = basis.tr_mul(&block);
+        block.gemm(-1.0, &basis, &overlap, 1.0);
+        orthonormal(&block).tr_mul(&residual).norm_squared()
+    };
+    let gains: Vec<f64> = grid.iter().map(|&s| explained(s)).collect();
+    let mut peaks = peaks(&gains);
+    peaks.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
+    peaks.into_iter().take(STARTS).map(|k| grid[k]).collect()
+}
+
+/// Places of the values that no neighbour exceeds: two starts on the same slope would climb the same peak.
+fn peaks(values: &[f64]) -> Vec<usize> {
+    let at = |k: Option<usize>| k.and_then(|k| values.get(k)).copied().unwrap_or(f64::NEG_INFINITY);
+    let is_peak = |&k: &usize| {
+        values[k].is_finite() && values[k] >= at(k.checked_sub(1)) && values[k] > at(Some(k + 1))
+    };
+    (0..values.len()).filter(is_peak).collect()
+}
+
+/// Refuse a fit whose leg stiffnesses, or all parameters of one term, the data leave open.
+///
+/// # Errors
+/// [`ModelError::NotDetermined`] with the combinations in words.
+pub fn refuse_undetermined(fitted: &Fit) -> Result<(), ModelError> {
+    let open = estimates(fitted).not_determined;
+    let legs: Vec<String> = open.iter().filter(|n| leg_of_stiffness(n).is_some()).cloned().collect();
+    let silent = |term: &usize| fitted.parameters.values_of_term(*term).all(|k| !fitted.is_determined(k));
+    let terms: Vec<&Active> =
+        (0..fitted.point.active.len()).filter(silent).map(|term| &fitted.point.active[term]).collect();
+    if legs.is_empty() && terms.is_empty() {
+        return Ok(());
+    }
+    let mut what: Vec<String> = terms.iter().map(|a| format!("nothing of `{}` shows", a.id())).collect();
+    if !legs.is_empty() {
+        what.push(format!("{} {} open", joined(&legs), if legs.len() == 1 { "is" } else { "are" }));
+    }
+    what.extend(reasons(fitted));
+    Err(ModelError::NotDetermined { what: what.join("; ") })
+}
+
+/// Undetermined combinations in words, else the strongest look-alikes.
+fn reasons(fitted: &Fit) -> Vec<String> {
+    let words = unobservable(&fitted.solution.null_space, &fitted.parameters);
+    if !words.is_empty() {
+        return words;
+    }
+    let likes = look_alikes(fitted, LOOK_ALIKE);
+    let told = likes
+        .iter()
+        .take(3)
+        .map(|(a, b, r)| format!("{a} and {b} can hardly be told apart (correlation {r:.3})"));
+    told.collect()
+}
+
+/// Pairs of columns whose estimates are correlated by more than `limit` in size, strongest first.
+pub fn look_alikes(fitted: &Fit, limit: f64) -> Vec<(String, String, f64)> {
+    let n = fitted.parameters.len();
+    let mut pairs: Vec<(usize, usize, f64)> = (0..n)
+        .flat_map(|i| (0..i).map(move |j| (j, i)))
+        .map(|(j, i)| (j, i, fitted.covariance[(i, j)] / (fitted.std(i) * fitted.std(j))))
+        .filter(|(.., r)| r.abs() > limit)
+        .collect();
+    pairs.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
+    let name = |k: usize| fitted.parameters[k].name.clone();
+    pairs.into_iter().map(|(j, i, r)| (name(j), name(i), r)).collect()
+}
+
+/// Names of the parameters of all terms that the data leave open, `term.parameter`.
+pub fn open_parameters(fitted: &Fit) -> Vec<String> {
+    let open = |(k, p): &(usize, &Parameter)| {
+        matches!(p.place, ParameterPlace::Value { .. }) && !fitted.is_determined(*k)
+    };
+    fitted.parameters.iter().enumerate().filter(open).map(|(_, p)| p.name.clone()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::peaks;
+
+    #[test]
+    fn a_slope_has_one_peak_and_a_plateau_its_last_place() {
+        assert_eq!(peaks(&[1.0, 2.0, 3.0]), [2]);
+        assert_eq!(peaks(&[3.0, 1.0, 2.0, 2.0, 1.0]), [0, 3]);
+        assert_eq!(peaks(&[f64::NAN, 1.0, f64::INFINITY]), Vec::<usize>::new());
+        assert_eq!(peaks(&[]), Vec::<usize>::new());
+    }
+}

@@ -1,0 +1,328 @@
+//! The model linearised at one point: whitened residuals and columns for springs, frames and terms.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use hexbench_core::{Matrix6, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector};
+
+use crate::effects::chain::{Action, Link, Load};
+use crate::effects::term::{Rich, Term};
+use crate::error::ModelError;
+use crate::estimation::campaign::{Campaign, Condition};
+use crate::estimation::parallel::map;
+use crate::estimation::parameters::common_count;
+use crate::estimation::whitening::Whitening;
+use crate::machine::geometry::{Machine, exponential};
+
+/// Conditions whose columns are made together.
+const PART: usize = 256;
+
+/// A term in a model, with its values. SI.
+#[derive(Clone)]
+pub struct Active {
+    /// The effect.
+    pub term: Arc<dyn Term>,
+    /// True when the richer form is used.
+    pub rich: bool,
+    /// Shape value; 1 when the term has none.
+    pub shape: f64,
+    /// Values of the parameters, ideal ones first.
+    pub values: Vec<f64>,
+}
+
+impl Active {
+    /// A term with all values zero.
+    pub fn new(term: Arc<dyn Term>, rich: bool, shape: f64) -> Self {
+        let count = parameter_count(term.as_ref(), rich);
+        Self { term, rich, shape, values: vec![0.0; count] }
+    }
+
+    /// Id of the term.
+    pub fn id(&self) -> &'static str {
+        self.term.info().id
+    }
+}
+
+impl std::fmt::Debug for Active {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}{}({:.3e}) {:?}", self.id(), if self.rich { "+" } else { "" }, self.shape, self.values)
+    }
+}
+
+/// Number of linear parameters of a term in one of its forms.
+pub fn parameter_count(term: &dyn Term, rich: bool) -> usize {
+    let ideal = term.info().parameters.len();
+    match (rich, term.info().rich) {
+        (true, Rich::PerLeg) => ideal + 6,
+        (true, Rich::Full) => ideal + 15,
+        _ => ideal,
+    }
+}
+
+/// Actions of a term in one of its forms at a condition.
+pub fn actions(
+    term: &dyn Term,
+    rich: bool,
+    shape: f64,
+    machine: &Machine,
+    at: &Condition,
+    out: &mut Vec<Action>,
+) {
+    out.clear();
+    term.actions(machine, at, shape, out);
+    if rich {
+        term.rich_actions(machine, at, shape, out);
+    }
+}
+
+/// Values of everything the model contains. SI.
+#[derive(Debug, Clone)]
+pub struct ModelPoint {
+    /// Compliance of each leg, m/N.
+    pub compliances: Vector6,
+    /// Terms with their values.
+    pub active: Vec<Active>,
+    /// Metrology and target frame motions found so far live in the machine.
+    pub machine: Machine,
+}
+
+impl ModelPoint {
+    /// No springs, no terms, machine as drawn.
+    pub fn start(campaign: &Campaign) -> Self {
+        Self {
+            compliances: Vector6::zeros(),
+            active: Vec::new(),
+            machine: Machine::nominal(&campaign.hexapod),
+        }
+    }
+
+    /// The machine with the geometry that calibrating terms have found.
+    pub fn calibrated_machine(&self) -> Machine {
+        let mut machine = self.machine.clone();
+        for a in self.active.iter().filter(|a| a.term.calibrates()) {
+            a.term.calibrate(&a.values, &mut machine);
+        }
+        machine
+    }
+
+    /// Move the metrology and target frames by small motions `[metrology; target]`.
+    pub fn move_frames(&mut self, motion: &[f64]) {
+        let (m, t) = (Vector6::from_column_slice(&motion[..6]), Vector6::from_column_slice(&motion[6..12]));
+        self.machine.metrology_frame *= exponential(&m);
+        self.machine.target_frame = exponential(&t) * self.machine.target_frame;
+    }
+}
+
+/// Whitened model at a point.
+#[derive(Debug, Clone)]
+pub struct Linearization {
+    /// Machine with calibrated geometry.
+    pub machine: Machine,
+    /// Conditions on that machine.
+    pub conditions: Vec<Condition>,
+    links: Vec<Link>,
+    whitening: Whitening,
+    absolute: bool,
+}
+
+impl Linearization {
+    /// Linearise a campaign at a point.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
+        let machine = point.calibrated_machine();
+        let conditions = campaign.conditions(&machine, &point.compliances)?;
+        let links = map(&conditions, |c| link(&machine, c, point));
+        let whitening = Whitening::of(campaign);
+        Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
+    }
+
+    /// Ranges of conditions small enough for all columns of all candidates to fit in the cache; all conditions in one where
+    /// they share errors.
+    pub fn parts(&self) -> Vec<std::ops::Range<usize>> {
+        let n = self.conditions.len();
+        if !self.whitening.is_identity() {
+            return std::iter::once(0..n).collect();
+        }
+        (0..n.div_ceil(PART)).map(|k| k * PART..((k + 1) * PART).min(n)).collect()
+    }
+
+    /// Some of the conditions; all of them are not copied.
+    pub fn part(&self, range: &std::ops::Range<usize>) -> Cow<'_, Self> {
+        if range.len() == self.conditions.len() {
+            return Cow::Borrowed(self);
+        }
+        Cow::Owned(self.choose(range.clone()))
+    }
+
+    /// Every n-th condition, at most `most`.
+    #[must_use]
+    pub fn thinned(&self, most: usize) -> Self {
+        self.choose((0..self.conditions.len()).step_by(self.conditions.len().div_ceil(most).max(1)))
+    }
+
+    /// Some of the conditions, in this order.
+    #[must_use]
+    pub fn choose(&self, which: impl Iterator<Item = usize> + Clone) -> Self {
+        Self {
+            machine: self.machine.clone(),
+            conditions: which.clone().map(|i| self.conditions[i].clone()).collect(),
+            whitening: self.whitening.choose(which.clone()),
+            links: which.map(|i| self.links[i]).collect(),
+            absolute: self.absolute,
+        }
+    }
+
+    /// Number of whitened equations.
+    pub fn equations(&self) -> usize {
+        6 * self.conditions.len()
+    }
+
+    /// Number of columns every model has: six springs, in absolute mode also two frames.
+    pub fn common_columns(&self) -> usize {
+        common_count(self.absolute)
+    }
+
+    /// Residual of one condition over the standard deviation of what is its own.
+    pub fn residual(&self, condition: usize) -> Vector6 {
+        let c = &self.conditions[condition];
+        c.reading.component_mul(&c.weight) - self.links[condition].prediction()
+    }
+
+    /// Prediction at one condition in measured coordinates, m and rad.
+    pub fn predicted(&self, condition: usize) -> Vector6 {
+        let c = &self.conditions[condition];
+        c.reading - self.residual(condition).component_div(&c.weight)
+    }
+
+    /// Whitened residuals, six per condition.
+    pub fn residuals(&self) -> DVector<f64> {
+        let mut out = DVector::zeros(self.equations());
+        for i in 0..self.conditions.len() {
+            out.fixed_rows_mut::<6>(6 * i).copy_from(&self.residual(i));
+        }
+        self.whitening.apply_to(&mut out);
+        out
+    }
+
+    /// Whitened predictions, six per condition.
+    pub fn predictions(&self) -> DVector<f64> {
+        let mut out = DVector::zeros(self.equations());
+        for i in 0..self.conditions.len() {
+            out.fixed_rows_mut::<6>(6 * i).copy_from(&self.links[i].prediction());
+        }
+        self.whitening.apply_to(&mut out);
+        out
+    }
+
+    /// Whitened reading per leg elongation, at every condition.
+    pub fn elongation_readers(&self) -> Vec<Matrix6> {
+        self.links.iter().map(Link::by_elongation).collect()
+    }
+
+    /// Columns of springs and frames.
+    pub fn common_block(&self) -> DMatrix<f64> {
+        let mut block = DMatrix::zeros(self.equations(), self.common_columns());
+        let mut actions = Vec::new();
+        for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
+            for leg in 0..6 {
+                block.fixed_view_mut::<6, 1>(6 * i, leg).copy_from(&link.by_spring(leg));
+            }
+            if self.absolute {
+                frame_actions(c, &mut actions);
+                write_actions(&mut block, i, 6, c, link, &actions);
+            }
+        }
+        self.whitening.apply(&mut block);
+        block
+    }
+
+    /// Columns of a term.
+    pub fn term_block(&self, term: &dyn Term, rich: bool, shape: f64) -> DMatrix<f64> {
+        let mut block = DMatrix::zeros(self.equations(), parameter_count(term, rich));
+        let mut out = Vec::new();
+        for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
+            actions(term, rich, shape, &self.machine, c, &mut out);
+            write_actions(&mut block, i, 0, c, link, &out);
+        }
+        self.whitening.apply(&mut block);
+        block
+    }
+
+    /// Columns of any actions, one per element of what `actions_of` pushes.
+    pub fn block_of(
+        &self,
+        columns: usize,
+        actions_of: impl Fn(&Condition, &mut Vec<Action>),
+    ) -> DMatrix<f64> {
+        let mut block = DMatrix::zeros(self.equations(), columns);
+        let mut out = Vec::with_capacity(columns);
+        for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
+            out.clear();
+            actions_of(c, &mut out);
+            write_actions(&mut block, i, 0, c, link, &out);
+        }
+        self.whitening.apply(&mut block);
+        block
+    }
+}
+
+/// Blocks of columns side by side.
+pub(crate) fn beside(blocks: &[DMatrix<f64>]) -> DMatrix<f64> {
+    let rows = blocks.first().map_or(0, DMatrix::nrows);
+    let mut all = DMatrix::zeros(rows, blocks.iter().map(DMatrix::ncols).sum());
+    let mut at = 0;
+    for block in blocks {
+        all.columns_mut(at, block.ncols()).copy_from(block);
+        at += block.ncols();
+    }
+    all
+}
+
+fn write_actions(
+    block: &mut DMatrix<f64>,
+    i: usize,
+    first: usize,
+    c: &Condition,
+    link: &Link,
+    actions: &[Action],
+) {
+    for (k, action) in actions.iter().enumerate() {
+        block.fixed_view_mut::<6, 1>(6 * i, first + k).copy_from(&link.by_action(c, action));
+    }
+}
+
+fn link(machine: &Machine, at: &Condition, point: &ModelPoint) -> Link {
+    let mut load = Load::default();
+    let mut out = Vec::new();
+    for a in point.active.iter().filter(|a| !a.term.calibrates()) {
+        actions(a.term.as_ref(), a.rich, a.shape, machine, at, &mut out);
+        for (action, value) in out.iter().zip(&a.values) {
+            load.add(action, *value);
+        }
+    }
+    Link::at(at, &point.compliances, &load)
+}
+
+/// Small motions of the metrology frame (fixed axes, fixed origin) and of the target frame (mobile axes).
+fn frame_actions(c: &Condition, out: &mut Vec<Action>) {
+    out.clear();
+    let axis = |k: usize| Vector3::ith(k, 1.0);
+    let rotation = c.pose.rotation();
+    let none = Vector3::zeros();
+    out.extend((0..3).map(|k| frame_action(c, axis(k), none)));
+    out.extend((0..3).map(|k| frame_action(c, axis(k).cross(&c.pose.translation), axis(k))));
+    out.extend((0..3).map(|k| frame_action(c, rotation * axis(k), none)));
+    out.extend((0..3).map(|k| frame_action(c, none, rotation * axis(k))));
+}
+
+/// A frame that moves the reading by a twist puts the platform behind a given reading back by the same twist.
+fn frame_action(c: &Condition, v: Vector3, w: Vector3) -> Action {
+    let back = |leg: usize| {
+        let arm = -w.cross(&c.legs.arms[leg]);
+        c.force_response(leg, &(arm - v), &arm)
+    };
+    Action::Frame { twist: Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z), force: (0..6).map(back).sum() }
+}

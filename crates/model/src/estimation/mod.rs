@@ -1,0 +1,16 @@
+//! Numbers from readings: campaigns and their noise, parameters, least squares, residuals.
+
+pub mod campaign;
+pub mod estimate;
+pub mod fit;
+pub mod fit_named;
+pub mod linearization;
+pub mod lsq;
+pub mod noise;
+pub mod paper;
+pub(crate) mod parallel;
+pub mod parameters;
+pub mod residuals;
+pub mod scatter;
+pub mod spring_trials;
+pub mod whitening;

@@ -1,0 +1,302 @@
+//! Readings that share an error: the transform after which their errors are independent again.
+//!
+//! Every column and every residual, already divided by the standard deviation of what a reading has for itself, is
+//! multiplied by the inverse square root of its covariance. Both kinds need no matrix:
+//!
+//! ```text
+//! shared by a record    I + u u'        ->  x - c u (u'x) / u'u,   c = 1 - 1 / sqrt(1 + u'u)
+//! drift along the file  I + u_i u_j phi^|i - j|  ->  innovations of the Kalman filter over their standard deviations
+//! ```
+//!
+//! `u`: standard deviation of the shared part over that of the own part. The first is Woodbury's identity, the second the
+//! Cholesky factor of white noise beside a process of first order.
+
+use hexbench_core::Vector6;
+use nalgebra::{DMatrix, DVector};
+
+use crate::estimation::campaign::{Campaign, ConditionReadings};
+use crate::estimation::noise::{Noise, Structure};
+
+/// Eigenvalues of the inexact inputs below this share of the largest do not show.
+const SHOWS: f64 = 1e-12;
+
+/// The transform of a list of conditions.
+#[derive(Debug, Clone)]
+pub struct Whitening {
+    noise: Common,
+    inputs: Option<Inputs>,
+}
+
+/// What errors of the readings have in common.
+#[derive(Debug, Clone)]
+enum Common {
+    /// Errors are independent.
+    Nothing,
+    /// Conditions of one record share an error in every coordinate.
+    Shared {
+        /// Record of every condition.
+        records: Vec<usize>,
+        /// `u` of every condition.
+        shares: Vec<Vector6>,
+    },
+    /// Errors of neighboring rows resemble each other.
+    Drift {
+        /// Line of every condition in the file, ascending.
+        rows: Vec<usize>,
+        /// `u` of every condition.
+        shares: Vec<Vector6>,
+        /// Correlation of neighboring lines.
+        correlation: f64,
+    },
+}
+
+impl Whitening {
+    /// The transform for the groups of a campaign.
+    pub fn of(campaign: &Campaign) -> Self {
+        let noise = Common::of(&campaign.groups, &campaign.noise);
+        let inputs = campaign.inexact.as_ref().and_then(|columns| {
+            let mut columns = columns.clone();
+            noise.apply(&mut columns);
+            Inputs::of(columns)
+        });
+        Self { noise, inputs }
+    }
+
+    /// That of some of the conditions, in this order.
+    #[must_use]
+    pub fn choose(&self, which: impl Iterator<Item = usize> + Clone) -> Self {
+        let rows: Vec<usize> = which.clone().flat_map(|i| 6 * i..6 * i + 6).collect();
+        let inputs = self.inputs.as_ref().and_then(|all| Inputs::of(all.columns.select_rows(&rows)));
+        Self { noise: self.noise.choose(which), inputs }
+    }
+
+    /// True when conditions may be treated one by one.
+    pub fn is_identity(&self) -> bool {
+        matches!(self.noise, Common::Nothing) && self.inputs.is_none()
+    }
+
+    /// Transforms columns with six rows per condition.
+    pub fn apply(&self, columns: &mut DMatrix<f64>) {
+        self.noise.apply(columns);
+        if let Some(inputs) = &self.inputs {
+            inputs.apply(columns);
+        }
+    }
+
+    /// Transforms one column.
+    pub fn apply_to(&self, x: &mut DVector<f64>) {
+        self.noise.apply_to(x);
+        if let Some(inputs) = &self.inputs {
+            inputs.apply_to(x);
+        }
+    }
+}
+
+/// Inputs known to a tolerance only: `V = I + Z Z'`, and `V^-1/2 = I - Q D Q'` with `Q` an orthonormal basis of `Z`.
+#[derive(Debug, Clone)]
+struct Inputs {
+    columns: DMatrix<f64>,
+    basis: DMatrix<f64>,
+    taken: DVector<f64>,
+}
+
+impl Inputs {
+    fn of(columns: DMatrix<f64>) -> Option<Self> {
+        let eigen = columns.tr_mul(&columns).symmetric_eigen();
+        let least = SHOWS * eigen.eigenvalues.max().max(f64::MIN_POSITIVE);
+        let kept: Vec<usize> = (0..columns.ncols()).filter(|&k| eigen.eigenvalues[k] > least).collect();
+        if kept.is_empty() {
+            return None;
+        }
+        let mut basis = &columns * eigen.eigenvectors.select_columns(&kept);
+        let mut taken = DVector::zeros(kept.len());
+        for (i, &k) in kept.iter().enumerate() {
+            let square = eigen.eigenvalues[k];
+            basis.column_mut(i).scale_mut(square.sqrt().recip());
+            taken[i] = 1.0 - (1.0 + square).sqrt().recip();
+        }
+        Some(Self { columns, basis, taken })
+    }
+
+    fn apply(&self, columns: &mut DMatrix<f64>) {
+        let mut along = self.basis.tr_mul(columns);
+        for mut column in along.column_iter_mut() {
+            column.component_mul_assign(&self.taken);
+        }
+        columns.gemm(-1.0, &self.basis, &along, 1.0);
+    }
+
+    fn apply_to(&self, x: &mut DVector<f64>) {
+        let along = self.basis.tr_mul(x).component_mul(&self.taken);
+        x.gemv(-1.0, &self.basis, &along, 1.0);
+    }
+}
+
+impl Common {
+    /// The transform for groups of readings under a noise model.
+    fn of(groups: &[ConditionReadings], noise: &Noise) -> Self {
+        match noise.structure {
+            Structure::Independent | Structure::Setup { .. } => Self::Nothing,
+            Structure::Reference { .. } => Self::Shared {
+                records: groups.iter().map(|g| g.record).collect(),
+                shares: groups.iter().map(share).collect(),
+            },
+            Structure::Drift { correlation, .. } => Self::Drift {
+                rows: groups.iter().map(|g| usize::try_from(g.mean.line).unwrap_or(0)).collect(),
+                shares: groups.iter().map(share).collect(),
+                correlation,
+            },
+        }
+    }
+
+    /// That of some of the conditions, in this order.
+    #[must_use]
+    fn choose(&self, which: impl Iterator<Item = usize>) -> Self {
+        match self {
+            Self::Nothing => Self::Nothing,
+            Self::Shared { records, shares } => {
+                let (records, shares) = which.map(|i| (records[i], shares[i])).unzip();
+                Self::Shared { records, shares }
+            }
+            Self::Drift { rows, shares, correlation } => {
+                let (rows, shares) = which.map(|i| (rows[i], shares[i])).unzip();
+                Self::Drift { rows, shares, correlation: *correlation }
+            }
+        }
+    }
+
+    /// Transforms columns with six rows per condition.
+    fn apply(&self, columns: &mut DMatrix<f64>) {
+        if matches!(self, Self::Nothing) {
+            return;
+        }
+        for mut column in columns.column_iter_mut() {
+            let mut x: DVector<f64> = column.clone_owned();
+            self.apply_to(&mut x);
+            column.copy_from(&x);
+        }
+    }
+
+    /// Transforms one column.
+    fn apply_to(&self, x: &mut DVector<f64>) {
+        match self {
+            Self::Nothing => {}
+            Self::Shared { records, shares } => shared(records, shares, x),
+            Self::Drift { rows, shares, correlation } => drift(rows, shares, *correlation, x),
+        }
+    }
+}
+
+fn share(group: &ConditionReadings) -> Vector6 {
+    Vector6::from_fn(|k, _| group.shared[k] / group.sigma[k])
+}
+
+fn shared(records: &[usize], shares: &[Vector6], x: &mut DVector<f64>) {
+    let count = records.iter().max().map_or(0, |last| last + 1);
+    let (mut along, mut length) = (vec![Vector6::zeros(); count], vec![Vector6::zeros(); count]);
+    for (i, (&record, u)) in records.iter().zip(shares).enumerate() {
+        along[record] += u.component_mul(&x.fixed_rows::<6>(6 * i));
+        length[record] += u.component_mul(u);
+    }
+    let factor =
+        |square: f64| if square > 0.0 { (1.0 - (1.0 + square).sqrt().recip()) / square } else { 0.0 };
+    for (i, (&record, u)) in records.iter().zip(shares).enumerate() {
+        let taken = length[record].map(factor).component_mul(&along[record]).component_mul(u);
+        let mut part = x.fixed_rows_mut::<6>(6 * i);
+        part -= taken;
+    }
+}
+
+fn drift(rows: &[usize], shares: &[Vector6], correlation: f64, x: &mut DVector<f64>) {
+    for k in 0..6 {
+        let mut filter = Filter::default();
+        for i in 0..rows.len() {
+            let distance = if i == 0 { 0 } else { rows[i].abs_diff(rows[i - 1]) };
+            let (innovation, variance) = filter.step(x[6 * i + k], shares[i][k], distance, correlation);
+            x[6 * i + k] = innovation / variance.sqrt();
+        }
+    }
+}
+
+/// Kalman filter of a process of first order with unit variance, seen with white noise of unit variance.
+pub struct Filter {
+    mean: f64,
+    variance: f64,
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Self { mean: 0.0, variance: 1.0 }
+    }
+}
+
+impl Filter {
+    /// What a reading brings that is new, and the variance of it; `share` of the process is in the reading, `distance` steps after
+    /// the one before.
+    pub fn step(&mut self, reading: f64, share: f64, distance: usize, correlation: f64) -> (f64, f64) {
+        let kept = correlation.powi(i32::try_from(distance).unwrap_or(i32::MAX));
+        let mean = kept * self.mean;
+        let before = 1.0 + kept * kept * (self.variance - 1.0);
+        let innovation = reading - share * mean;
+        let variance = 1.0 + share * share * before;
+        let gain = before * share / variance;
+        self.mean = mean + gain * innovation;
+        self.variance = before * (1.0 - gain * share);
+        (innovation, variance)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
+
+    use super::*;
+
+    /// Rounding of sums of a dozen numbers.
+    const ROUNDING: f64 = 1e-12;
+
+    /// The transform as a matrix.
+    fn matrix(whitening: &Common, conditions: usize) -> DMatrix<f64> {
+        let mut all = DMatrix::identity(6 * conditions, 6 * conditions);
+        whitening.apply(&mut all);
+        all
+    }
+
+    #[test]
+    fn readings_of_one_record_become_independent() {
+        let shares = vec![Vector6::repeat(0.8), Vector6::repeat(1.3), Vector6::repeat(0.5)];
+        let records = vec![0, 1, 0];
+        let mut covariance = DMatrix::<f64>::identity(18, 18);
+        for (i, j) in [(0, 0), (0, 2), (2, 0), (2, 2), (1, 1)] {
+            for k in 0..6 {
+                covariance[(6 * i + k, 6 * j + k)] += shares[i][k] * shares[j][k];
+            }
+        }
+        let w = matrix(&Common::Shared { records, shares }, 3);
+        assert!((&w * covariance * w.transpose() - DMatrix::identity(18, 18)).amax() < ROUNDING);
+    }
+
+    #[test]
+    fn neighbors_of_a_drift_become_independent_also_across_a_gap() {
+        let rows: Vec<usize> = vec![0, 1, 4];
+        let shares = vec![Vector6::repeat(0.8), Vector6::repeat(1.3), Vector6::repeat(0.5)];
+        let covariance = DMatrix::from_fn(18, 18, |a, b| {
+            let (i, j, same) = (a / 6, b / 6, a % 6 == b % 6);
+            let distance = i32::try_from(rows[i].abs_diff(rows[j])).unwrap_or(0);
+            let drift = shares[i][0] * shares[j][0] * 0.7_f64.powi(distance);
+            f64::from(u8::from(a == b)) + if same { drift } else { 0.0 }
+        });
+        let w = matrix(&Common::Drift { rows, shares, correlation: 0.7 }, 3);
+        assert!((&w * covariance * w.transpose() - DMatrix::identity(18, 18)).amax() < ROUNDING);
+    }
+
+    #[test]
+    fn inputs_that_are_not_exact_are_taken_out_as_far_as_they_are_known() {
+        let columns = DMatrix::from_fn(12, 3, |i, k| ((i * 7 + k * 5) % 11) as f64 - 5.0);
+        let covariance = DMatrix::<f64>::identity(12, 12) + &columns * columns.transpose();
+        let inputs = Inputs::of(columns).unwrap();
+        let mut w = DMatrix::identity(12, 12);
+        inputs.apply(&mut w);
+        assert!((&w * covariance * w.transpose() - DMatrix::identity(12, 12)).amax() < 100.0 * ROUNDING);
+    }
+}

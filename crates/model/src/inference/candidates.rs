@@ -1,0 +1,230 @@
+//! What competes: the terms this file can test, and patterns outside the catalogue; as one projected Gram matrix.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::effects::term::{Natural, Rich, Term};
+use crate::estimation::campaign::Campaign;
+use crate::estimation::linearization::{Linearization, ModelPoint, parameter_count};
+use crate::estimation::parallel::sum_in_order;
+use crate::inference::evidence::{Gram, PriorBlock};
+use crate::inference::pattern::Pattern;
+
+/// Prior share of the ideal form where there is a richer one.
+const IDEAL_SHARE: f64 = 0.8;
+/// Width of the deviations of a richer form relative to the ideal sizes.
+const RICH_WIDTH: f64 = 0.5;
+
+/// Eigenvalues of the scaled Gram matrix of the common columns below this share of the largest are not determined.
+const DETERMINED: f64 = 1e-13;
+
+/// One competitor.
+#[derive(Clone)]
+pub struct Candidate {
+    /// What it is.
+    pub kind: CandidateKind,
+    /// Its blocks in the Gram matrix.
+    pub blocks: Vec<usize>,
+    /// Logarithm of its prior weight relative to a term of the catalogue.
+    pub log_weight: f64,
+}
+
+/// Term or pattern.
+#[derive(Clone)]
+pub enum CandidateKind {
+    /// An effect with a name.
+    Term(Arc<dyn Term>),
+    /// A pattern without one.
+    Pattern(Pattern),
+}
+
+impl Candidate {
+    /// Id of the term, when it is one.
+    pub fn id(&self) -> Option<&'static str> {
+        match &self.kind {
+            CandidateKind::Term(t) => Some(t.info().id),
+            CandidateKind::Pattern(_) => None,
+        }
+    }
+}
+
+/// Natural sizes of the parameters of a term in one of its forms, SI.
+pub fn sizes(term: &dyn Term, rich: bool, natural: &Natural) -> Vec<f64> {
+    let mut sizes: Vec<f64> = term.info().parameters.iter().map(|p| natural.size(p.scale)).collect();
+    let ideal = sizes.len();
+    if rich {
+        match term.info().rich {
+            Rich::PerLeg => sizes.extend([RICH_WIDTH * sizes[0]; 6]),
+            Rich::Full => sizes.extend(cross_sizes(&sizes[..ideal])),
+            Rich::None => {}
+        }
+    }
+    sizes
+}
+
+fn cross_sizes(direct: &[f64]) -> Vec<f64> {
+    let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
+    pairs.map(|(i, j)| RICH_WIDTH * (direct[i] * direct[j]).sqrt()).collect()
+}
+
+/// Where the columns of a block come from.
+enum Source {
+    Term { term: Arc<dyn Term>, rich: bool, shape: f64 },
+    Pattern { pattern: Pattern, range: f64 },
+}
+
+impl Source {
+    fn columns(&self, lin: &Linearization) -> DMatrix<f64> {
+        match self {
+            Self::Term { term, rich, shape } => lin.term_block(term.as_ref(), *rich, *shape),
+            Self::Pattern { pattern, range } => {
+                lin.block_of(pattern.width(), |c, out| pattern.actions(c, *range, out))
+            }
+        }
+    }
+}
+
+/// Collects blocks of whitened columns that are multiplied together and projected at the end, a part of the conditions
+/// at a time.
+pub struct Collector<'a> {
+    lin: &'a Linearization,
+    natural: Natural,
+    sources: Vec<Source>,
+    width: usize,
+    blocks: Vec<PriorBlock>,
+    candidates: Vec<Candidate>,
+}
+
+impl<'a> Collector<'a> {
+    /// Nothing collected yet.
+    pub fn new(lin: &'a Linearization, natural: Natural) -> Self {
+        Self { lin, natural, sources: Vec::new(), width: 0, blocks: Vec::new(), candidates: Vec::new() }
+    }
+
+    /// Add a term with the given shapes out of `trials`; also its richer form at the shape `rich`.
+    pub fn add_term(&mut self, term: &Arc<dyn Term>, shapes: &[f64], trials: usize, rich: Option<f64>) {
+        let rich = rich.filter(|_| term.info().rich != Rich::None);
+        let ideal_share = if rich.is_some() { IDEAL_SHARE } else { 1.0 };
+        let ideal = shapes.iter().map(|&s| (false, s, ideal_share / trials.max(1) as f64));
+        let forms = ideal.chain(rich.map(|s| (true, s, 1.0 - IDEAL_SHARE)));
+        let blocks = forms.map(|(form, shape, share)| self.push_term(term, form, shape, share)).collect();
+        self.candidates.push(Candidate {
+            kind: CandidateKind::Term(Arc::clone(term)),
+            blocks,
+            log_weight: 0.0,
+        });
+    }
+
+    fn push_term(&mut self, term: &Arc<dyn Term>, rich: bool, shape: f64, share: f64) -> usize {
+        let mut positive: Vec<bool> = term.info().parameters.iter().map(|p| p.positive).collect();
+        positive.resize(parameter_count(term.as_ref(), rich), false);
+        let block = PriorBlock::new(&sizes(term.as_ref(), rich, &self.natural), positive, shape, rich, share);
+        self.push(Source::Term { term: Arc::clone(term), rich, shape }, block)
+    }
+
+    /// Add a pattern with its prior weight relative to a term.
+    pub fn add_pattern(&mut self, pattern: Pattern, log_weight: f64) {
+        let range = pattern.spread(&self.lin.conditions);
+        if range <= 0.0 {
+            return;
+        }
+        let block = PriorBlock::new(&pattern.sizes(&self.natural), pattern.positive(), 1.0, false, 1.0);
+        let blocks = vec![self.push(Source::Pattern { pattern, range }, block)];
+        self.candidates.push(Candidate { kind: CandidateKind::Pattern(pattern), blocks, log_weight });
+    }
+
+    fn push(&mut self, source: Source, mut block: PriorBlock) -> usize {
+        block.first = self.width;
+        self.width += block.width();
+        self.sources.push(source);
+        self.blocks.push(block);
+        self.blocks.len() - 1
+    }
+
+    /// Multiply everything, and project it off the common columns.
+    pub fn finish(self, campaign: &Campaign, point: &ModelPoint) -> (Gram, Vec<Candidate>) {
+        let parts = self.lin.parts();
+        let sums = sum_in_order(&parts, |part| self.products(&self.lin.part(part), point));
+        let Some(sums) = sums else { unreachable!("a campaign has at least one condition") };
+        let (common, width) = (self.lin.common_columns(), self.width);
+        let root = inverse_root(&sums.view((0, 0), (common, common)).into_owned());
+        // Overlap of everything with an orthonormal basis of the common columns.
+        let overlap = root.tr_mul(&sums.view((0, common), (common, width + 1)));
+        let rest = sums.view((common, common), (width + 1, width + 1)) - overlap.tr_mul(&overlap);
+        let g = rest.view((0, 0), (width, width)).into_owned();
+        let mut blocks = self.blocks;
+        for block in &mut blocks {
+            let trace = (0..block.width()).map(|k| g[(block.first + k, block.first + k)]).sum::<f64>();
+            block.set_widths(trace.max(0.0).sqrt());
+        }
+        let gram = Gram {
+            g,
+            b: rest.view((0, width), (width, 1)).column(0).into_owned(),
+            yy: rest[(width, width)].max(0.0),
+            equations: (self.lin.equations() - root.ncols()) as f64,
+            pure_error: (campaign.pure_error, campaign.pure_error_dof),
+            noise_dof: campaign.noise.dof,
+            blocks,
+            absorbed: root.rows(0, 6) * overlap.columns(0, width),
+            springs: root.rows(0, 6) * root.rows(0, 6).transpose(),
+        };
+        (gram, self.candidates)
+    }
+
+    /// `[C Z y]' [C Z y]` of a part of the conditions.
+    fn products(&self, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
+        let common = lin.common_columns();
+        let mut all = DMatrix::zeros(lin.equations(), common + self.width + 1);
+        all.columns_mut(0, common).copy_from(&lin.common_block());
+        for (block, source) in self.blocks.iter().zip(&self.sources) {
+            let mut place = all.columns_mut(common + block.first, block.width());
+            place.gemm(1.0, &source.columns(lin), &block.transform, 0.0);
+        }
+        all.set_column(common + self.width, &target(lin, point));
+        all.transpose() * &all
+    }
+}
+
+/// `T` with `T' G T = I` on the determined subspace of a Gram matrix whose columns have any units.
+fn inverse_root(g: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = g.nrows();
+    let scale = DVector::from_fn(n, |k, _| if g[(k, k)] > 0.0 { g[(k, k)].sqrt().recip() } else { 0.0 });
+    let scaled = DMatrix::from_fn(n, n, |i, j| g[(i, j)] * scale[i] * scale[j]);
+    let eigen = scaled.symmetric_eigen();
+    let largest = eigen.eigenvalues.max();
+    let kept: Vec<usize> = (0..n).filter(|&k| eigen.eigenvalues[k] > DETERMINED * largest).collect();
+    DMatrix::from_fn(n, kept.len(), |i, j| {
+        scale[i] * eigen.eigenvectors[(i, kept[j])] / eigen.eigenvalues[kept[j]].sqrt()
+    })
+}
+
+/// What springs, frames and the terms together must explain: the residual plus what active terms explain now.
+pub fn target(lin: &Linearization, point: &ModelPoint) -> DVector<f64> {
+    let mut y = lin.residuals();
+    for a in &point.active {
+        y += lin.term_block(a.term.as_ref(), a.rich, a.shape) * DVector::from_column_slice(&a.values);
+    }
+    y
+}
+
+/// Orthonormal basis of the columns.
+pub fn orthonormal(columns: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut scaled = columns.clone();
+    for mut c in scaled.column_iter_mut() {
+        let norm = c.norm();
+        if norm > 0.0 {
+            c /= norm;
+        }
+    }
+    let qr = scaled.col_piv_qr();
+    let r = qr.r();
+    let rank = (0..r.nrows().min(r.ncols())).filter(|&k| r[(k, k)].abs() > 1e-9).count();
+    qr.q().columns(0, rank).into_owned()
+}
+
+/// Remove from `y` what lies in the span of an orthonormal basis.
+pub fn project(basis: &DMatrix<f64>, y: &mut DVector<f64>) {
+    let overlap = basis.tr_mul(y);
+    y.gemv(-1.0, basis, &overlap, 1.0);
+}

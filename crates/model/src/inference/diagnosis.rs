@@ -1,0 +1,228 @@
+//! Diagnosis: linearise, search, fit, linearise again at the best set, until the best set stays.
+
+use std::sync::Arc;
+
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use crate::effects::term::{Natural, Rich, Term};
+use crate::effects::untestable::{Reason, Untestable, why_untestable};
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
+use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::inference::candidates::{Candidate, CandidateKind, Collector, sizes};
+use crate::inference::evidence::Gram;
+use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};
+use crate::inference::scan::Scanner;
+use crate::inference::search::{Set, Sets, TermSearch};
+
+/// Rounds of linearisation and search.
+const MOST_ROUNDS: usize = 6;
+/// Shape grids longer than this are scanned beside the best set instead of searched.
+const LONG_GRID: usize = 24;
+/// Prior width of a fit relative to the width the evidence prefers.
+const FIT_WIDTH: f64 = 3.0;
+/// Prior weight of all patterns together, relative to one term of the catalogue.
+const WEIGHT_OF_PATTERNS: f64 = 2.0;
+/// Chance of larger residuals below which patterns outside the catalogue are scanned for.
+const DOUBTFUL_CHANCE: f64 = 0.1;
+/// Term parameters up to which no scan is needed for imitation.
+const FEW_PARAMETERS: usize = 3;
+/// Conditions looked at by scans.
+const SCANNED_CONDITIONS: usize = 400;
+/// Most effects in a set.
+const MOST_EFFECTS: usize = 4;
+
+/// Outcome of the search: sets with probabilities, and the fit of the best one.
+#[derive(Clone)]
+pub struct RankedSets {
+    /// Campaign's testable terms and patterns.
+    pub candidates: Vec<Candidate>,
+    /// Terms that this file cannot test.
+    pub untestable: Vec<Untestable>,
+    /// All sets looked at.
+    pub sets: Sets,
+    /// Normal equations of the last round.
+    pub gram: Gram,
+    /// Fit of the springs alone.
+    pub baseline: Fit,
+    /// Fit of the terms of the best set.
+    pub best: Fit,
+    /// Natural sizes.
+    pub natural: Natural,
+    /// Linearisation at the best fit.
+    pub lin: Linearization,
+    /// Rounds of linearisation and search made.
+    pub rounds: usize,
+}
+
+/// Search the best explanation of a campaign among `terms` and patterns.
+///
+/// # Errors
+/// As [`fit`].
+pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<RankedSets, ModelError> {
+    let baseline = fit_baseline(campaign)?;
+    let mut best = baseline.clone();
+    let mut lin = Linearization::at(campaign, &best.point)?;
+    let natural = baseline.natural(&lin);
+    let mut effort = Effort { rich: false, scan: false };
+    let mut history: Vec<Vec<String>> = Vec::new();
+    loop {
+        let (testable, mut untestable) = split(terms, campaign, &lin);
+        let (gram, candidates) = collect(campaign, &best.point, &lin, &testable, natural, effort);
+        let (candidates, faint) = noticeable(candidates, &gram);
+        untestable.extend(faint);
+        let sets = TermSearch::new(&gram, &candidates, campaign.noise.allows_verdict()).run(MOST_EFFECTS);
+        let top = sets.sets.first().cloned();
+        let wanted = top.as_ref().map(|s| wanted(s, &gram, &candidates, &natural)).unwrap_or_default();
+        let next = fit(campaign, &wanted, Some(&best.point)).or_else(|_| fit(campaign, &wanted, None))?;
+        lin = Linearization::at(campaign, &next.point)?;
+        best = next;
+        let names = top.map(|s| names(&s, &candidates)).unwrap_or_default();
+        let scan = effort.scan || !campaign.noise.allows_verdict() || is_doubtful(&best);
+        let settled = history.last() == Some(&names) && scan == effort.scan;
+        history.push(names);
+        if settled || history.len() >= MOST_ROUNDS {
+            let rounds = history.len();
+            return Ok(RankedSets {
+                candidates,
+                untestable,
+                sets,
+                gram,
+                baseline,
+                best,
+                natural,
+                lin,
+                rounds,
+            });
+        }
+        effort = Effort { rich: true, scan };
+    }
+}
+
+/// What a round looks at beyond the ideal forms.
+#[derive(Clone, Copy)]
+struct Effort {
+    /// Richer forms of the terms of the best set.
+    rich: bool,
+    /// Waves, courses and steps outside the catalogue.
+    scan: bool,
+}
+
+/// True when something may be left unexplained: the residuals exceed the noise, or many parameters may imitate a
+/// simple pattern. A noise level taken from the residuals cannot tell.
+fn is_doubtful(fit: &Fit) -> bool {
+    let parameters: usize = fit.point.active.iter().map(|a| a.values.len()).sum();
+    let Ok(law) = ChiSquared::new(fit.lack_of_fit_dof.max(1.0)) else { return true };
+    parameters > FEW_PARAMETERS || law.cdf(fit.lack_of_fit) > 1.0 - DOUBTFUL_CHANCE
+}
+
+/// Leave out terms of which no physically sensible size would show.
+fn noticeable(candidates: Vec<Candidate>, gram: &Gram) -> (Vec<Candidate>, Vec<Untestable>) {
+    let (kept, faint): (Vec<_>, Vec<_>) =
+        candidates.into_iter().partition(|c| c.blocks.iter().any(|&b| gram.blocks[b].noticeable));
+    let faint = faint.iter().filter_map(Candidate::id).map(|term| Untestable { term, why: Reason::TooFaint });
+    (kept, faint.collect())
+}
+
+fn names(set: &Set, candidates: &[Candidate]) -> Vec<String> {
+    set.members.iter().map(|&m| label(&candidates[m])).collect()
+}
+
+/// Id of a term or description of a pattern.
+pub fn label(candidate: &Candidate) -> String {
+    match &candidate.kind {
+        CandidateKind::Term(t) => t.info().id.to_owned(),
+        CandidateKind::Pattern(p) => p.text(),
+    }
+}
+
+fn split(
+    terms: &[Arc<dyn Term>],
+    campaign: &Campaign,
+    lin: &Linearization,
+) -> (Vec<Arc<dyn Term>>, Vec<Untestable>) {
+    let (mut testable, mut untestable) = (Vec::new(), Vec::new());
+    for term in terms {
+        match why_untestable(term.as_ref(), campaign, lin) {
+            None => testable.push(Arc::clone(term)),
+            Some(why) => untestable.push(Untestable::new(term.as_ref(), why)),
+        }
+    }
+    (testable, untestable)
+}
+
+fn collect(
+    campaign: &Campaign,
+    point: &ModelPoint,
+    lin: &Linearization,
+    terms: &[Arc<dyn Term>],
+    natural: Natural,
+    effort: Effort,
+) -> (Gram, Vec<Candidate>) {
+    let mut collector = Collector::new(lin, natural);
+    // Scans only choose what to weigh; the weighing itself uses every condition.
+    let scanned = lin.thinned(SCANNED_CONDITIONS);
+    for term in terms {
+        let grid = term.shape_grid(&scanned.conditions);
+        let shapes = if term.info().shape.is_none() {
+            vec![1.0]
+        } else if grid.len() > LONG_GRID {
+            vec![Scanner::new(&scanned, point, Some(term.info().id)).best_shape(term.as_ref(), &grid)]
+        } else if grid.is_empty() {
+            continue;
+        } else {
+            grid.clone()
+        };
+        collector.add_term(term, &shapes, grid.len(), rich_shape(term.as_ref(), point, effort));
+    }
+    for (pattern, log_weight) in patterns(campaign, &scanned, point, effort.scan) {
+        collector.add_pattern(pattern, log_weight);
+    }
+    collector.finish(campaign, point)
+}
+
+/// Shape at which the richer form of a term competes: that of a term in the model; and bodies that yield in any way always
+/// compete while something is left unexplained, since their ideal form may not even enter the model.
+fn rich_shape(term: &dyn Term, point: &ModelPoint, effort: Effort) -> Option<f64> {
+    let active = point.active.iter().find(|a| a.id() == term.info().id).map(|a| a.shape);
+    let any_body = effort.scan && term.info().rich == Rich::Full;
+    active.or(any_body.then_some(1.0)).filter(|_| effort.rich)
+}
+
+/// Patterns worth weighing; those found by scanning carry the number of trials in their prior.
+fn patterns(
+    campaign: &Campaign,
+    scanned: &Linearization,
+    point: &ModelPoint,
+    scan: bool,
+) -> Vec<(Pattern, f64)> {
+    let mut all = Vec::new();
+    if campaign.columns.elapsed {
+        let drift = |leg| {
+            let (variable, course) = (PatternVariable::Elapsed, Course::Linear);
+            Pattern::Leg(LegPattern { leg, variable, course, compliance: false })
+        };
+        let legs = std::iter::once(None).chain((0..6).map(Some));
+        all.extend(legs.map(|leg| (drift(leg), (0.3 * WEIGHT_OF_PATTERNS / 7.0).ln())));
+    }
+    if scan {
+        let weighed = |(p, trials)| (p, (0.1 * WEIGHT_OF_PATTERNS / trials as f64).ln());
+        all.extend(Scanner::new(scanned, point, None).patterns(campaign).into_iter().map(weighed));
+        all.push((Pattern::Beside, (0.1 * WEIGHT_OF_PATTERNS).ln()));
+    }
+    all
+}
+
+/// The terms of a set as a fit wants them.
+pub fn wanted(set: &Set, gram: &Gram, candidates: &[Candidate], natural: &Natural) -> Vec<TermSpec> {
+    let mut all = Vec::new();
+    for (&m, v) in set.members.iter().zip(&set.variants) {
+        let CandidateKind::Term(term) = &candidates[m].kind else { continue };
+        let block = &gram.blocks[v.block];
+        let width = FIT_WIDTH * block.widths[v.width];
+        let prior = sizes(term.as_ref(), block.rich, natural).iter().map(|s| s * width).collect();
+        all.push(TermSpec { term: Arc::clone(term), rich: block.rich, shape: block.shape, prior });
+    }
+    all
+}

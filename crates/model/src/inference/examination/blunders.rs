@@ -1,0 +1,282 @@
+//! Single faults: numbers, rows, loads and poses that are not what the file says.
+//!
+//! Each hypothesis gives its readings a shift of their own (Baarda 1968, A testing procedure for use in geodetic networks):
+//! with `B` its columns and `M` the projector off what the catalogue explains, chi-square falls by
+//! `(B'r)' (B'MB)^-1 (B'r)`. The hypothesis of the largest evidence is accepted and its readings are left out, one after
+//! the other, so that a large fault does not hide a smaller one.
+
+use hexbench_core::statistics::median;
+use hexbench_core::{Pose, Vector6};
+use nalgebra::{DMatrix, DVector};
+
+use super::finding::{Finding, FindingKind, probability};
+use super::remainder::Remainder;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::linearization::Linearization;
+
+/// Evidence beyond which a fault is believed, nats: odds of 3 000 to 1 after all that was tried.
+const BELIEVED: f64 = 8.0;
+/// Prior size of a shift in its own standard deviations: what it costs to ask.
+const PRIOR_SIZE: f64 = 30.0;
+/// Faults by themselves are rare: prior odds of one in the file.
+const PRIOR_ODDS: f64 = 0.05;
+/// Median of the square of a Gaussian.
+const MEDIAN_SQUARE: f64 = 0.454_936;
+/// Steps of a commanded pose for its derivatives, m and rad.
+const POSE_STEP: [f64; 6] = [1e-5, 1e-5, 1e-5, 1e-4, 1e-4, 1e-4];
+/// Names of the components of a wrench, with the unit.
+const WRENCH: [(&str, &str); 6] =
+    [("fx", "N"), ("fy", "N"), ("fz", "N"), ("mx", "N m"), ("my", "N m"), ("mz", "N m")];
+/// Names of the components of a pose, with the unit and its factor from SI.
+const POSE: [(&str, &str, f64); 6] = [
+    ("a", "mm", 1e3),
+    ("b", "mm", 1e3),
+    ("c", "mm", 1e3),
+    ("alpha", "deg", 57.295_779_513_082_32),
+    ("beta", "deg", 57.295_779_513_082_32),
+    ("gamma", "deg", 57.295_779_513_082_32),
+];
+/// Names of the measured values.
+const VALUES: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
+
+/// A fault that readings speak for.
+pub(super) struct Fault {
+    /// What is told.
+    pub(super) finding: Finding,
+    /// Rows of the dataset that are not what the file says.
+    pub(super) rows: Vec<usize>,
+    /// What it cost to ask for it among all others, nats.
+    pub(super) cost: f64,
+    /// Evidence for it beside readings that scatter as most of them do, nats.
+    evidence: f64,
+}
+
+/// The most probable fault, when one is believed.
+pub(super) fn worst(rest: &Remainder<'_>) -> Option<Fault> {
+    let scale = Scale::of(rest);
+    let all = [numbers(rest, &scale), rows(rest, &scale), loads(rest, &scale), poses(rest, &scale)];
+    let best = all.into_iter().flatten().max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
+    (best.evidence > BELIEVED).then_some(best)
+}
+
+/// Variances that most readings have, over the stated ones: whatever widens them all is no fault of one.
+struct Scale {
+    /// Of single readings.
+    single: f64,
+    /// Of averaged readings.
+    mean: f64,
+}
+
+impl Scale {
+    fn of(rest: &Remainder<'_>) -> Self {
+        let typical = |squares: &mut dyn Iterator<Item = f64>| {
+            median(squares).map_or(1.0, |m| (m / MEDIAN_SQUARE).max(1.0))
+        };
+        let single = typical(&mut rest.rows.iter().flat_map(|r| r.iter().map(|x| x * x).collect::<Vec<_>>()));
+        let mean = typical(&mut rest.means.iter().map(|x| x * x));
+        Self { single, mean: mean.max(single) }
+    }
+}
+
+/// What it costs to ask for a shift with `dof` components, one of `tried`, and the evidence of one that lowers chi-square by `gain`
+/// where most readings have a `variance`; nats.
+fn evidence(gain: f64, variance: f64, dof: usize, tried: usize) -> [f64; 2] {
+    let cost = dof as f64 * PRIOR_SIZE.ln() + (tried.max(1) as f64).ln() - PRIOR_ODDS.ln();
+    [cost, 0.5 * gain / variance - cost]
+}
+
+/// One number of one row.
+fn numbers(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
+    let z = |(i, k): (usize, usize)| {
+        let g = rest.group_of[i];
+        rest.rows[i][k] / (1.0 - rest.leverage(6 * g + k) / rest.readings(g)).sqrt()
+    };
+    let all = (0..rest.rows.len()).flat_map(|i| (0..6).map(move |k| (i, k)));
+    let (i, k) = all.max_by(|&a, &b| z(a).abs().total_cmp(&z(b).abs()))?;
+    let size = z((i, k));
+    let odds = evidence(size * size, scale.single, 1, 6 * rest.rows.len());
+    let line = rest.data.observations[i].line;
+    let value = VALUES[k];
+    let sigma = format!("{:.0} sigma", size.abs());
+    let text = format!("{value} in line {line} is {sigma} away from what the other readings allow");
+    Some(fault(FindingKind::Blunder, vec![i], rest, odds, sigma, text, "read the record of this line again"))
+}
+
+/// All six numbers of one row: a sign, a unit, a row of another condition.
+fn rows(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
+    let gain = |&i: &usize| {
+        let g = rest.group_of[i];
+        (0..6)
+            .map(|k| rest.rows[i][k].powi(2) / (1.0 - rest.leverage(6 * g + k) / rest.readings(g)))
+            .sum::<f64>()
+    };
+    let i = (0..rest.rows.len()).max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
+    let odds = evidence(gain(&i), scale.single, 6, rest.rows.len());
+    let line = rest.data.observations[i].line;
+    let size = format!("{:.0} sigma", rest.rows[i].amax());
+    let text = format!(
+        "line {line} as a whole does not belong to its pose and load; its largest number is {size} off"
+    );
+    Some(fault(FindingKind::Blunder, vec![i], rest, odds, size, text, "read the record of this line again"))
+}
+
+/// One component of the load of one condition: all its repeats are off in the way that another load gives.
+fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
+    let springs = &rest.point.compliances;
+    let responses: Vec<DMatrix<f64>> = rest
+        .lin
+        .elongation_readers()
+        .iter()
+        .zip(&rest.lin.conditions)
+        .map(|(reader, at)| {
+            let column = |k: usize| {
+                let one = Vector6::ith(k, 1.0);
+                reader * springs.component_mul(&at.legs.forces(&one))
+            };
+            DMatrix::from_fn(6, 6, |i, k| column(k)[i])
+        })
+        .collect();
+    let groups = rest.campaign.groups.len();
+    let mut best: Option<(f64, usize, usize, f64)> = None;
+    for g in 0..groups {
+        for k in 0..6 {
+            let column = responses[g].column(k).into_owned();
+            let Some((gain, shift)) =
+                shift_of(rest, &[g], &[DMatrix::from_column_slice(6, 1, column.as_slice())])
+            else {
+                continue;
+            };
+            if best.is_none_or(|b| gain > b.0) {
+                best = Some((gain, g, k, shift[0]));
+            }
+        }
+    }
+    let (gain, g, k, shift) = best?;
+    let odds = evidence(gain, scale.mean, 1, 6 * groups);
+    let at = &rest.campaign.groups[g];
+    let stated = at.mean.wrench.to_array()[k];
+    let (name, unit) = WRENCH[k];
+    let size = format!("{:.3} {unit} instead of {stated:.3} {unit}", stated + shift);
+    let text = format!("the readings of {} tell of a load with {name} = {size}", lines_of(rest, &at.rows));
+    let rows = at.rows.iter().map(|&i| i as usize).collect();
+    Some(fault(
+        FindingKind::Load,
+        rows,
+        rest,
+        odds,
+        size,
+        text,
+        "compare the load written there with the one applied",
+    ))
+}
+
+/// One component of one commanded pose.
+fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
+    let slopes = pose_slopes(rest)?;
+    let mut of_pose: Vec<Vec<usize>> = Vec::new();
+    for (g, group) in rest.campaign.groups.iter().enumerate() {
+        if of_pose.len() <= group.record {
+            of_pose.resize(group.record + 1, Vec::new());
+        }
+        of_pose[group.record].push(g);
+    }
+    let mut best: Option<(f64, usize, usize, f64)> = None;
+    for (p, groups) in of_pose.iter().enumerate() {
+        for (k, slope) in slopes.iter().enumerate() {
+            let columns: Vec<DMatrix<f64>> =
+                groups.iter().map(|&g| slope.rows(6 * g, 6).into_owned()).collect();
+            let Some((gain, shift)) = shift_of(rest, groups, &columns) else { continue };
+            if best.is_none_or(|b| gain > b.0) {
+                best = Some((gain, p, k, shift[0]));
+            }
+        }
+    }
+    let (gain, p, k, shift) = best?;
+    let odds = evidence(gain, scale.mean, 1, 6 * of_pose.len());
+    let rows: Vec<usize> =
+        of_pose[p].iter().flat_map(|&g| rest.campaign.groups[g].rows.iter().map(|&i| i as usize)).collect();
+    let first = &rest.data.observations[*rows.first()?];
+    let (name, unit, per_si) = POSE[k];
+    let stated = first.pose.to_array()[k] * per_si;
+    let size = format!("{:+.2} {unit}", shift * per_si);
+    let text = format!(
+        "the readings at pose {} tell of a pose with {name} = {:.2} {unit} instead of {stated:.2} {unit}",
+        first.pose_id,
+        stated + shift * per_si
+    );
+    Some(fault(
+        FindingKind::Pose,
+        rows,
+        rest,
+        odds,
+        size,
+        text,
+        "compare the pose written there with the one commanded",
+    ))
+}
+
+/// Whitened reading per unit of every component of the commanded poses, all poses at once.
+fn pose_slopes(rest: &Remainder<'_>) -> Option<Vec<DMatrix<f64>>> {
+    let at = |k: usize, step: f64| {
+        let mut moved: Campaign = rest.campaign.clone();
+        for group in &mut moved.groups {
+            let mut pose = group.mean.pose.to_array();
+            pose[k] += step;
+            group.mean.pose = Pose::from_array(pose);
+        }
+        Linearization::at(&moved, rest.point).ok().map(|lin| lin.residuals())
+    };
+    let slope = |k: usize| {
+        let (plus, minus) = (at(k, POSE_STEP[k])?, at(k, -POSE_STEP[k])?);
+        // A residual falls as the prediction rises.
+        let slope = (minus - plus) / (2.0 * POSE_STEP[k]);
+        Some(DMatrix::from_column_slice(slope.len(), 1, slope.as_slice()))
+    };
+    (0..6).map(slope).collect()
+}
+
+/// Fall of chi-square when some groups get a shift along these columns, and the shift.
+fn shift_of(rest: &Remainder<'_>, groups: &[usize], columns: &[DMatrix<f64>]) -> Option<(f64, DVector<f64>)> {
+    let width = columns.first()?.ncols();
+    let mut b = DVector::zeros(width);
+    let mut own = DMatrix::zeros(width, width);
+    let mut overlap = DMatrix::zeros(rest.basis.ncols(), width);
+    for (&g, column) in groups.iter().zip(columns) {
+        b += column.tr_mul(&rest.means.rows(6 * g, 6));
+        own += column.tr_mul(column);
+        overlap += rest.basis.rows(6 * g, 6).tr_mul(column);
+    }
+    let before = own.trace();
+    own -= overlap.tr_mul(&overlap);
+    // A shift that the catalogue explains as well cannot be told from it.
+    if own.trace() < 1e-3 * before {
+        return None;
+    }
+    let shift = own.cholesky()?.solve(&b);
+    Some((b.dot(&shift), shift))
+}
+
+fn fault(
+    kind: FindingKind,
+    rows: Vec<usize>,
+    rest: &Remainder<'_>,
+    [cost, evidence]: [f64; 2],
+    size: String,
+    text: String,
+    next: &str,
+) -> Fault {
+    let lines = rows.iter().map(|&i| rest.data.observations[i].line).collect();
+    let finding =
+        Finding { kind, probability: probability(evidence), rows: lines, size, text, next: next.to_owned() };
+    Fault { finding, rows, cost, evidence }
+}
+
+fn lines_of(rest: &Remainder<'_>, rows: &[u32]) -> String {
+    let line = |&i: &u32| rest.data.observations[i as usize].line.to_string();
+    match rows {
+        [one] => format!("line {}", line(one)),
+        many => {
+            format!("lines {}", crate::results::words::joined(&many.iter().map(line).collect::<Vec<_>>()))
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! Machine or measurement? What the readings say of themselves before the machine is judged by them.
+//!
+//! A laboratory takes wrong numbers down, states its noise too small, reads one reference for many loads. Taken as exact,
+//! each of these looks like physics that no catalogue knows. So every campaign is examined for them, beside everything the
+//! catalogue could explain; what is found is told, and the machine is judged without it.
+
+mod blunders;
+mod finding;
+mod remainder;
+mod scatter;
+mod tolerance;
+
+use hexbench_core::{Dataset, Hexapod, Vector6};
+use nalgebra::DMatrix;
+
+use self::blunders::{Fault, worst};
+use self::finding::probability;
+pub use self::finding::{Finding, FindingKind};
+use self::remainder::Remainder;
+use self::scatter::{Kind, Statement, statements};
+use self::tolerance::{Tolerance, joints};
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::noise::{Noise, NoiseSource, SharedReference, Structure};
+use crate::inference::diagnosis::RankedSets;
+
+/// Evidence over the noise as stated beyond which another statement is believed, nats.
+const BELIEVED: f64 = 8.0;
+/// The same for joints off the drawing, nats: every machine is built to a tolerance, so odds of 20 to 1 are enough.
+const LIKELY: f64 = 3.0;
+/// One reading in so many may be left out; beyond it something else is wrong.
+const MOST_LEFT_OUT: usize = 10;
+
+/// Readings without their faults.
+#[derive(Debug, Clone)]
+pub struct Examined {
+    /// Those that remain.
+    pub data: Dataset,
+    /// Their noise.
+    pub noise: Noise,
+    /// What was found.
+    pub findings: Vec<Finding>,
+    /// Whitened reading per standard deviation of inputs that are not exact.
+    inexact: Option<DMatrix<f64>>,
+}
+
+impl Examined {
+    /// The campaign of these readings.
+    ///
+    /// # Errors
+    /// As [`Campaign::with_noise`].
+    pub fn campaign(&self, hexapod: &Hexapod) -> Result<Campaign, ModelError> {
+        let inexact = self.inexact.clone();
+        Ok(Campaign { inexact, ..Campaign::with_noise(hexapod, &self.data, self.noise)? })
+    }
+}
+
+/// Examines readings beside an explanation of them. `noise`: as stated, or as repeats and residuals show it.
+///
+/// # Errors
+/// As [`Campaign::with_noise`] and [`Linearization::at`](crate::estimation::linearization::Linearization::at).
+pub fn examine(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    noise: Noise,
+    outcome: &RankedSets,
+) -> Result<Examined, ModelError> {
+    let whole =
+        Examined { data: data.clone(), noise: noise.independent(), findings: Vec::new(), inexact: None };
+    let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
+    let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
+    // Many errors that are far off are tails; one or two are blunders.
+    let tails = first.statements.first().filter(|s| matches!(s.kind, Kind::Tails(_)));
+    if let Some(&tails) = tails.filter(|t| t.evidence - first.stated > cleaned.gain) {
+        return Ok(settled(whole, data, first, tails));
+    }
+    let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
+    let rivals = best.evidence - cleaned.last.stated;
+    if let Some(joints) = cleaned.last.joints.as_ref().filter(|j| j.evidence > LIKELY.max(rivals)) {
+        let mut examined = cleaned.examined;
+        examined.findings.push(off_the_drawing(joints));
+        examined.inexact = Some(joints.columns.clone());
+        return Ok(examined);
+    }
+    Ok(settled(cleaned.examined, data, &cleaned.last, best))
+}
+
+/// Readings looked at.
+struct Look {
+    /// Statements about their noise, best first.
+    statements: Vec<Statement>,
+    /// Evidence of the noise as stated.
+    stated: f64,
+    /// What is left of every row.
+    rows: Vec<Vector6>,
+    /// What they tell of the joints, once no fault is left.
+    joints: Option<Tolerance>,
+}
+
+/// The worst fault of readings, of at most so many rows, and the statements about their noise.
+fn look(
+    hexapod: &Hexapod,
+    examined: &Examined,
+    outcome: &RankedSets,
+    most: usize,
+) -> Result<(Option<Fault>, Look), ModelError> {
+    let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
+    let rest = Remainder::new(&examined.data, &campaign, outcome)?;
+    let (statements, stated) = statements(&rest);
+    let fault = worst(&rest).filter(|f| f.rows.len() <= most);
+    let joints = if fault.is_none() { joints(&rest)? } else { None };
+    Ok((fault, Look { statements, stated, rows: rest.rows, joints }))
+}
+
+/// Readings without single faults.
+struct Cleaned {
+    examined: Examined,
+    /// With all their faults, when there are any.
+    first: Option<Look>,
+    last: Look,
+    /// Evidence for the faults and for the best statement about what remains, over readings as stated.
+    gain: f64,
+}
+
+fn without_faults(
+    hexapod: &Hexapod,
+    mut examined: Examined,
+    outcome: &RankedSets,
+) -> Result<Cleaned, ModelError> {
+    let mut most = examined.data.observations.len() / MOST_LEFT_OUT;
+    let mut gain = 0.0;
+    let (mut first, mut before) = (None, None);
+    loop {
+        let (fault, last) = look(hexapod, &examined, outcome, most)?;
+        gain += before.map_or(0.0, |stated: f64| last.stated - stated);
+        let Some(fault) = fault else {
+            gain += last.statements.first().map_or(0.0, |best| best.evidence - last.stated).max(0.0);
+            return Ok(Cleaned { examined, first, last, gain });
+        };
+        most -= fault.rows.len();
+        gain -= fault.cost;
+        before = Some(last.stated);
+        first.get_or_insert(last);
+        examined.findings.push(fault.finding);
+        let mut row = 0;
+        examined.data.observations.retain(|_| {
+            row += 1;
+            !fault.rows.contains(&(row - 1))
+        });
+    }
+}
+
+/// What remains is judged by the best statement about it.
+fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: Statement) -> Examined {
+    let gain = best.evidence - look.stated;
+    if matches!(best.kind, Kind::Law) && gain > BELIEVED {
+        // Physics without a name: what it does to a condition is no fault of its load or pose.
+        if examined.findings.iter().any(|f| f.kind != FindingKind::Blunder) {
+            return Examined {
+                data: data.clone(),
+                noise: examined.noise,
+                findings: Vec::new(),
+                inexact: None,
+            };
+        }
+        return examined;
+    }
+    let is_level = best.kind == Kind::Level;
+    let from_data = matches!(examined.noise.source, NoiseSource::Repeats | NoiseSource::Residuals);
+    if gain < BELIEVED || (is_level && from_data) {
+        return examined;
+    }
+    examined.findings.push(finding(&best, gain));
+    apply(&mut examined, &look.rows, best);
+    examined
+}
+
+fn off_the_drawing(joints: &Tolerance) -> Finding {
+    let size = format!("{:.2} mm", joints.size * 1e3);
+    Finding {
+        kind: FindingKind::Tolerance,
+        probability: probability(joints.evidence),
+        rows: Vec::new(),
+        text: format!(
+            "joints about {size} off the drawing explain the readings better than joints as drawn, and better than any effect"
+        ),
+        size,
+        next: "measure where the joints are, or calibrate the machine".to_owned(),
+    }
+}
+
+/// Weighs the readings as the statement says.
+fn apply(examined: &mut Examined, remainder: &[Vector6], best: Statement) {
+    let noise = &mut examined.noise;
+    match best.kind {
+        Kind::Tails(freedom) => {
+            // Weights of the maximum likelihood of Student's t, at which chi-square is what a Gaussian gives.
+            for (row, left) in examined.data.observations.iter_mut().zip(remainder) {
+                let sigma = crate::estimation::campaign::row_sigma(row, noise);
+                row.sigma = Some(std::array::from_fn(|k| {
+                    let z = left[k] / best.level;
+                    sigma[k] * best.level * ((freedom + z * z) / (freedom + 1.0)).sqrt()
+                }));
+            }
+            // Readings still to come scatter by the whole of it.
+            let whole = (freedom / (freedom - 2.0)).sqrt();
+            noise.translation *= whole;
+            noise.rotation *= whole;
+        }
+        Kind::Level | Kind::Common(_) => {
+            for row in &mut examined.data.observations {
+                row.sigma = row.sigma.map(|sigma| sigma.map(|s| s * best.level));
+            }
+        }
+        Kind::Law => return,
+    }
+    noise.translation *= best.level;
+    noise.rotation *= best.level;
+    if let Kind::Common(structure) = best.kind {
+        noise.structure = structure;
+    }
+}
+
+fn finding(best: &Statement, gain: f64) -> Finding {
+    let level = format!("{:.2} times the stated noise", best.level);
+    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+    let (kind, size, text, next) = match best.kind {
+        Kind::Level | Kind::Law => (
+            FindingKind::NoiseLevel,
+            level.clone(),
+            format!("the readings scatter by {level}, repeats and residuals alike"),
+            "state the noise of the instrument as it is, or leave it out where there are repeats",
+        ),
+        Kind::Tails(_) => (
+            FindingKind::HeavyTails,
+            format!("{:.2} times the stated noise in the middle, more in the tails", best.level),
+            "far more readings are far off than a Gaussian of the stated noise allows".to_owned(),
+            "look for what disturbs single readings: vibration, air, contact of the probe",
+        ),
+        Kind::Common(Structure::Setup { share }) => (
+            FindingKind::SetupError,
+            format!("{} of the variance, {:.2} times the stated noise", percent(share), best.level * share.sqrt()),
+            "repeats of one condition agree better with each other than with the rest: they share an error of the set-up"
+                .to_owned(),
+            "set the load and the pose up anew for every repeat",
+        ),
+        Kind::Common(Structure::Reference { share, record }) => {
+            let (who, next) = match record {
+                SharedReference::Pose => ("all readings at a pose", "read the reference again for every reading"),
+                SharedReference::Repeat => ("the loads of one repeat at a pose", "read the reference again for every load"),
+            };
+            (
+                FindingKind::SharedReference,
+                format!("{} of the variance", percent(share)),
+                format!("{who} share an error, as differences from one reference reading do"),
+                next,
+            )
+        }
+        Kind::Common(Structure::Drift { share, correlation }) => (
+            FindingKind::Drift,
+            format!("{} of the variance, correlation {correlation:.2} from row to row", percent(share)),
+            "part of the error of each row resembles that of the row before: the instrument drifts while the file is taken"
+                .to_owned(),
+            "read the reference more often, and measure the conditions in random order",
+        ),
+        Kind::Common(Structure::Independent) => (FindingKind::NoiseLevel, level, String::new(), ""),
+    };
+    Finding { kind, probability: probability(gain), rows: Vec::new(), size, text, next: next.to_owned() }
+}

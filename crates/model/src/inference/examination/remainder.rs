@@ -1,0 +1,108 @@
+//! What is left of every reading when everything the catalogue could explain is taken out.
+//!
+//! Springs, frames and every testable effect in several of its forms span a space; what the readings have outside it is
+//! noise, a fault of the data, or physics of which no catalogue knows. Judged here, a fault cannot pass for an effect.
+
+use hexbench_core::{Dataset, Vector6};
+use nalgebra::{DMatrix, DVector};
+
+use crate::error::ModelError;
+use crate::estimation::campaign::{Campaign, row_sigma};
+use crate::estimation::linearization::{Linearization, ModelPoint, beside};
+use crate::inference::candidates::{CandidateKind, orthonormal, project, target};
+use crate::inference::diagnosis::RankedSets;
+
+/// Shapes of an effect that take part.
+const SHAPES: usize = 3;
+/// The catalogue may take this share of the equations; beyond it only the explanation found does.
+const LARGEST_SHARE: f64 = 0.4;
+
+/// Readings without what the catalogue could explain.
+pub(super) struct Remainder<'a> {
+    /// The readings.
+    pub(super) data: &'a Dataset,
+    /// They averaged, with their noise.
+    pub(super) campaign: &'a Campaign,
+    /// The model at its explanation.
+    pub(super) lin: Linearization,
+    /// Its values.
+    pub(super) point: &'a ModelPoint,
+    /// Orthonormal basis of what the catalogue could explain, per averaged number.
+    pub(super) basis: DMatrix<f64>,
+    /// Averaged numbers without it, over their standard deviations.
+    pub(super) means: DVector<f64>,
+    /// Single readings likewise, over the standard deviations of one reading; in the order of the file.
+    pub(super) rows: Vec<Vector6>,
+    /// Group of each row.
+    pub(super) group_of: Vec<usize>,
+}
+
+impl<'a> Remainder<'a> {
+    /// Takes out what the candidates of a search could explain. `campaign` must have independent errors.
+    ///
+    /// # Errors
+    /// As [`Linearization::at`].
+    pub(super) fn new(
+        data: &'a Dataset,
+        campaign: &'a Campaign,
+        outcome: &'a RankedSets,
+    ) -> Result<Self, ModelError> {
+        let point = &outcome.best.point;
+        let lin = Linearization::at(campaign, point)?;
+        let basis = everything(outcome, &lin, point);
+        let mut means = target(&lin, point);
+        project(&basis, &mut means);
+        let mut rows = vec![Vector6::zeros(); data.observations.len()];
+        let mut group_of = vec![0; rows.len()];
+        for (g, group) in campaign.groups.iter().enumerate() {
+            for &i in &group.rows {
+                let reading = &data.observations[i as usize];
+                let sigma = row_sigma(reading, &campaign.noise);
+                rows[i as usize] = Vector6::from_fn(|k, _| {
+                    (means[6 * g + k] * group.sigma[k] + reading.measured[k] - group.mean.measured[k])
+                        / sigma[k]
+                });
+                group_of[i as usize] = g;
+            }
+        }
+        Ok(Self { data, campaign, lin, point, basis, means, rows, group_of })
+    }
+
+    /// Share of one averaged number that the catalogue could explain.
+    pub(super) fn leverage(&self, number: usize) -> f64 {
+        self.basis.row(number).norm_squared().min(1.0 - 1e-9)
+    }
+
+    /// Degrees of freedom of the averaged numbers.
+    pub(super) fn freedom(&self) -> f64 {
+        (self.means.len() - self.basis.ncols()) as f64
+    }
+
+    /// Readings of a group.
+    pub(super) fn readings(&self, group: usize) -> f64 {
+        self.campaign.groups[group].rows.len() as f64
+    }
+}
+
+fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
+    let found = || {
+        let mut columns = vec![lin.common_block()];
+        columns.extend(point.active.iter().map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)));
+        columns
+    };
+    let mut columns = found();
+    for candidate in &outcome.candidates {
+        let CandidateKind::Term(term) = &candidate.kind else { continue };
+        let forms: Vec<(bool, f64)> = candidate
+            .blocks
+            .iter()
+            .map(|&b| (outcome.gram.blocks[b].rich, outcome.gram.blocks[b].shape))
+            .collect();
+        let stride = forms.len().div_ceil(SHAPES).max(1);
+        let chosen = forms.iter().step_by(stride);
+        columns.extend(chosen.map(|&(rich, shape)| lin.term_block(term.as_ref(), rich, shape)));
+    }
+    let basis = orthonormal(&beside(&columns));
+    let most = LARGEST_SHARE * lin.equations() as f64;
+    if basis.ncols() as f64 <= most { basis } else { orthonormal(&beside(&found())) }
+}

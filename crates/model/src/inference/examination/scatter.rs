@@ -1,0 +1,302 @@
+//! How errors scatter: competing statements about the noise, and physics of which no catalogue knows beside them.
+//!
+//! The likelihood of what is left of the readings under each statement, its parameters on a grid and penalized as by Schwarz
+//! (1978, Annals of Statistics 6). Averaging over the readings of a group is orthogonal, so that statements about rows and
+//! about averaged readings are compared on the same footing. A law without a name acts in the legs: where that explains
+//! the rest better than any statement about the noise, nothing is said of the noise.
+
+use std::collections::BTreeMap;
+
+use hexbench_core::Vector6;
+use nalgebra::Matrix6;
+use statrs::function::gamma::ln_gamma;
+
+use super::remainder::Remainder;
+use crate::estimation::noise::{NoiseSource, SharedReference, Structure};
+use crate::estimation::whitening::Filter;
+
+/// How well an instrument's noise is known, relative.
+const TOLERANCE: f64 = 0.1;
+/// Chance that a statement of the noise is simply wrong.
+const MISSTATED: f64 = 0.02;
+/// Shares and correlations tried.
+const GRID: [f64; 14] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97];
+/// Correlations of a drift from row to row that are tried.
+const CORRELATIONS: [f64; 8] = [0.3, 0.6, 0.8, 0.9, 0.95, 0.97, 0.985, 0.995];
+/// Degrees of freedom of heavy tails.
+const TAILS: [f64; 5] = [3.0, 4.0, 5.0, 7.0, 10.0];
+/// Size of an unknown law in the legs, over the noise.
+const LAW_SIZES: [f64; 10] = [0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.5, 5.0, 10.0, 30.0];
+
+/// A statement about the noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Kind {
+    /// As stated, or another level.
+    Level,
+    /// Errors have something in common.
+    Common(Structure),
+    /// Student's t with these degrees of freedom.
+    Tails(f64),
+    /// A law in the legs that no effect of the catalogue follows.
+    Law,
+}
+
+/// A statement with its size and how well it explains the rest.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Statement {
+    /// What it says.
+    pub(super) kind: Kind,
+    /// Standard deviation over the stated one.
+    pub(super) level: f64,
+    /// Logarithm of its evidence, up to a constant.
+    pub(super) evidence: f64,
+}
+
+/// The statements about the noise of the rest, best first, and the evidence of the noise as stated.
+pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
+    let judge = Judge::new(rest);
+    let stated = judge.white(1.0);
+    let mut all = vec![judge.level()];
+    let repeats = judge.has_repeats;
+    let setup = |share| Structure::Setup { share };
+    if repeats {
+        all.push(judge.blocks(&judge.groups, setup));
+    }
+    all.push(
+        judge.blocks(&judge.poses, |share| Structure::Reference { share, record: SharedReference::Pose }),
+    );
+    if repeats {
+        all.push(
+            judge.blocks(&judge.records, |share| Structure::Reference {
+                share,
+                record: SharedReference::Repeat,
+            }),
+        );
+    }
+    all.push(judge.drift());
+    all.push(judge.tails());
+    all.push(judge.law(rest));
+    all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    (all, stated)
+}
+
+/// The rest, with rows grouped in the ways that statements speak of.
+struct Judge {
+    /// Single readings over the stated noise, freed of what the fit took.
+    rows: Vec<Vector6>,
+    /// Line of each in the file.
+    lines: Vec<usize>,
+    /// Rows of each group, pose, and repeat at a pose.
+    groups: Vec<Vec<usize>>,
+    poses: Vec<Vec<usize>>,
+    records: Vec<Vec<usize>>,
+    /// Averaged readings of each group over their noise, freed likewise.
+    means: Vec<Vector6>,
+    /// Squares of the repeats about their means.
+    within: f64,
+    /// True when somebody has stated the level.
+    is_stated: bool,
+    /// True when there are repeats to tell it too.
+    has_repeats: bool,
+}
+
+impl Judge {
+    fn new(rest: &Remainder<'_>) -> Self {
+        let freed = (rest.means.len() as f64 / rest.freedom().max(1.0)).sqrt();
+        let means: Vec<Vector6> =
+            (0..rest.campaign.groups.len()).map(|g| rest.means.fixed_rows::<6>(6 * g) * freed).collect();
+        let row = |i: usize| {
+            let g = rest.group_of[i];
+            let share = rest.means.fixed_rows::<6>(6 * g) / rest.readings(g).sqrt();
+            rest.rows[i] + share * (freed - 1.0)
+        };
+        let rows: Vec<Vector6> = (0..rest.rows.len()).map(row).collect();
+        let all: f64 = rows.iter().map(Vector6::norm_squared).sum();
+        let between: f64 = means.iter().map(Vector6::norm_squared).sum();
+        let record = |i: usize| rest.campaign.groups[rest.group_of[i]].record;
+        let repeat = |i: usize| rest.data.observations[i].repeat;
+        Self {
+            groups: gathered(rows.len(), |i| rest.group_of[i]),
+            poses: gathered(rows.len(), record),
+            records: gathered(rows.len(), |i| (record(i), repeat(i))),
+            within: (all - between).max(0.0),
+            is_stated: matches!(rest.campaign.noise.source, NoiseSource::Metrology | NoiseSource::Columns),
+            has_repeats: rows.len() > means.len(),
+            lines: rest.data.observations.iter().map(|o| usize::try_from(o.line).unwrap_or(0)).collect(),
+            rows,
+            means,
+        }
+    }
+
+    fn numbers(&self) -> f64 {
+        6.0 * self.rows.len() as f64
+    }
+
+    /// What a level costs that is not the stated one.
+    fn surprise(&self, level: f64) -> f64 {
+        if !self.is_stated {
+            return 0.0;
+        }
+        let by_tolerance = -0.5 * (level.ln() / TOLERANCE).powi(2);
+        // Now and then a statement is off by any factor; without repeats, physics without a name looks the same.
+        if self.has_repeats { by_tolerance.max(MISSTATED.ln()) } else { by_tolerance }
+    }
+
+    /// A penalty for each parameter that is chosen.
+    fn penalty(&self, parameters: f64) -> f64 {
+        0.5 * parameters * self.numbers().ln()
+    }
+
+    fn white(&self, level: f64) -> f64 {
+        let squares: f64 = self.rows.iter().map(Vector6::norm_squared).sum();
+        -self.numbers() * level.ln() - 0.5 * squares / (level * level)
+    }
+
+    fn level(&self) -> Statement {
+        let squares: f64 = self.rows.iter().map(Vector6::norm_squared).sum();
+        let level = (squares / self.numbers()).sqrt();
+        let evidence = self.white(level) + self.surprise(level) - self.penalty(1.0);
+        Statement { kind: Kind::Level, level, evidence }
+    }
+
+    /// The best of a family with one parameter: `half log det` and `quadratic form` for unit level.
+    fn best(&self, kind: impl Fn(f64) -> Kind, law: impl Fn(f64) -> (f64, f64)) -> Statement {
+        let at = |&parameter: &f64| {
+            let (half_log_det, square) = law(parameter);
+            let level = (square / self.numbers()).sqrt().max(1e-12);
+            let fit = -half_log_det - self.numbers() * level.ln() - 0.5 * self.numbers();
+            let evidence = fit + self.surprise(level) - self.penalty(2.0);
+            Statement { kind: kind(parameter), level, evidence }
+        };
+        let all = GRID.iter().map(at);
+        let nothing = Statement { kind: Kind::Level, level: 1.0, evidence: f64::NEG_INFINITY };
+        all.fold(nothing, |best, s| if s.evidence > best.evidence { s } else { best })
+    }
+
+    /// Rows of a block share an error.
+    fn blocks(&self, blocks: &[Vec<usize>], structure: impl Fn(f64) -> Structure) -> Statement {
+        let sums: Vec<(f64, f64, f64)> = blocks.iter().map(|rows| self.sums(rows)).collect();
+        let law = |share: f64| {
+            let of = |&(m, all, common): &(f64, f64, f64)| {
+                let (own, joint) = (1.0 - share, 1.0 + (m - 1.0) * share);
+                (3.0 * ((m - 1.0) * own.ln() + joint.ln()), (all - common) / own + common / joint)
+            };
+            sums.iter().map(of).fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1))
+        };
+        self.best(|share| Kind::Common(structure(share)), law)
+    }
+
+    /// Number of rows, their squares, and the squares of their mean.
+    fn sums(&self, rows: &[usize]) -> (f64, f64, f64) {
+        let m = rows.len() as f64;
+        let all = rows.iter().map(|&i| self.rows[i].norm_squared()).sum();
+        let sum: Vector6 = rows.iter().map(|&i| self.rows[i]).sum();
+        (m, all, sum.norm_squared() / m)
+    }
+
+    /// Part of each row resembles the row before.
+    fn drift(&self) -> Statement {
+        let mut best = Statement { kind: Kind::Level, level: 1.0, evidence: f64::NEG_INFINITY };
+        for correlation in CORRELATIONS {
+            let structure = |share| Kind::Common(Structure::Drift { share, correlation });
+            let found = self.best(structure, |share| self.innovations(share, correlation));
+            if found.evidence > best.evidence {
+                best = found;
+            }
+        }
+        best.evidence -= self.penalty(1.0);
+        best
+    }
+
+    /// Half the logarithm of the determinant and the quadratic form of a drift with unit level.
+    fn innovations(&self, share: f64, correlation: f64) -> (f64, f64) {
+        let own = 1.0 - share;
+        let loading = (share / own).sqrt();
+        let (mut half_log_det, mut square) = (3.0 * self.rows.len() as f64 * own.ln(), 0.0);
+        for k in 0..6 {
+            let mut filter = Filter::default();
+            for (i, row) in self.rows.iter().enumerate() {
+                let distance = if i == 0 { 0 } else { self.lines[i].abs_diff(self.lines[i - 1]) };
+                let (innovation, variance) = filter.step(row[k] / own.sqrt(), loading, distance, correlation);
+                half_log_det += 0.5 * variance.ln();
+                square += innovation * innovation / variance;
+            }
+        }
+        (half_log_det, square)
+    }
+
+    /// Student's t; its level is that of the Gaussian in the middle of it.
+    fn tails(&self) -> Statement {
+        let at = |freedom: f64, level: f64| {
+            // Over the constant of a Gaussian, which the other statements leave out.
+            let constant =
+                ln_gamma(f64::midpoint(freedom, 1.0)) - ln_gamma(0.5 * freedom) - 0.5 * (0.5 * freedom).ln();
+            let one = |x: &f64| -f64::midpoint(freedom, 1.0) * (1.0 + (x / level).powi(2) / freedom).ln();
+            let sum: f64 = self.rows.iter().flat_map(|r| r.iter()).map(one).sum();
+            sum + self.numbers() * (constant - level.ln())
+        };
+        let levels = (-12..=12).map(|k| (0.1 * f64::from(k)).exp());
+        let all = TAILS.iter().flat_map(|&freedom| levels.clone().map(move |level| (freedom, level)));
+        let stated = |(freedom, level): (f64, f64)| Statement {
+            kind: Kind::Tails(freedom),
+            level,
+            evidence: at(freedom, level) + self.surprise(level) - self.penalty(2.0),
+        };
+        let nothing = Statement { kind: Kind::Level, level: 1.0, evidence: f64::NEG_INFINITY };
+        all.map(stated).fold(nothing, |best, s| if s.evidence > best.evidence { s } else { best })
+    }
+
+    /// Extra elongations of one leg or of all, of the same size everywhere or in proportion to the leg force.
+    fn law(&self, rest: &Remainder<'_>) -> Statement {
+        let readers = rest.lin.elongation_readers();
+        let force = |g: usize| rest.lin.conditions[g].force_change().abs();
+        let mean_force =
+            (0..readers.len()).map(|g| force(g).sum()).sum::<f64>() / (6.0 * readers.len().max(1) as f64);
+        let mut best = Statement { kind: Kind::Law, level: 1.0, evidence: f64::NEG_INFINITY };
+        for by_force in [false, true] {
+            let shapes: Vec<Matrix6<f64>> = (0..readers.len())
+                .map(|g| {
+                    let scale =
+                        if by_force { force(g) / mean_force.max(1e-12) } else { Vector6::repeat(1.0) };
+                    readers[g] * Matrix6::from_diagonal(&scale)
+                })
+                .collect();
+            let size = shapes.iter().map(Matrix6::norm).sum::<f64>() / (6.0_f64.sqrt() * shapes.len() as f64);
+            for leg in std::iter::once(None).chain((0..6).map(Some)) {
+                for share in LAW_SIZES {
+                    let evidence = self.law_at(&shapes, leg, share / size.max(1e-300))
+                        - self.penalty(2.0)
+                        - 14.0_f64.ln();
+                    if evidence > best.evidence {
+                        best.evidence = evidence;
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    fn law_at(&self, shapes: &[Matrix6<f64>], leg: Option<usize>, size: f64) -> f64 {
+        let of = |(mean, shape): (&Vector6, &Matrix6<f64>)| {
+            let acting = leg.map_or(*shape, |l| {
+                let mut one = Matrix6::zeros();
+                one.set_column(0, &shape.column(l));
+                one
+            });
+            let covariance = Matrix6::identity() + size * size * acting * acting.transpose();
+            let Some(factor) = covariance.cholesky() else { return f64::NEG_INFINITY };
+            let half_log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
+            -half_log_det - 0.5 * mean.dot(&factor.solve(mean))
+        };
+        self.means.iter().zip(shapes).map(of).sum::<f64>() - 0.5 * self.within
+    }
+}
+
+/// Rows by what they have in common, in order.
+fn gathered<K: Ord>(rows: usize, key: impl Fn(usize) -> K) -> Vec<Vec<usize>> {
+    let mut all: BTreeMap<K, Vec<usize>> = BTreeMap::new();
+    for i in 0..rows {
+        all.entry(key(i)).or_default().push(i);
+    }
+    all.into_values().collect()
+}

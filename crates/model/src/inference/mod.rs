@@ -1,0 +1,15 @@
+//! Judgements: evidence of terms and patterns, the examination of the readings, the verdict.
+
+pub mod absorption;
+pub mod candidates;
+pub mod diagnosis;
+pub mod evidence;
+pub mod examination;
+pub mod explanation;
+pub mod pattern;
+pub(crate) mod period;
+pub mod power;
+pub(crate) mod scan;
+pub mod search;
+pub mod selection;
+pub mod verdict;

@@ -1,0 +1,238 @@
+//! Patterns outside the catalogue: what the residual elongation of one leg, or of all, follows; and a stiffness beside the legs.
+
+use std::f64::consts::TAU;
+
+use hexbench_core::{Matrix6, Vector6};
+
+use crate::effects::chain::Action;
+use crate::effects::term::Natural;
+use crate::estimation::campaign::Condition;
+
+/// What a pattern follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PatternVariable {
+    /// Time from the reference to the loaded reading.
+    Elapsed,
+    /// Temperature difference.
+    DeltaT,
+    /// Commanded leg length.
+    LegLength,
+    /// Leg force under the load.
+    LegForce,
+}
+
+impl PatternVariable {
+    /// Name as in the files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Elapsed => "elapsed_s",
+            Self::DeltaT => "delta_T_K",
+            Self::LegLength => "leg_length",
+            Self::LegForce => "leg_force",
+        }
+    }
+
+    /// True when it is the same for all legs.
+    fn is_common(self) -> bool {
+        matches!(self, Self::Elapsed | Self::DeltaT)
+    }
+
+    /// Value for one leg at a condition, SI.
+    pub fn value(self, at: &Condition, leg: usize) -> f64 {
+        match self {
+            Self::Elapsed => at.elapsed,
+            Self::DeltaT => at.delta_t,
+            Self::LegLength => at.extension[leg],
+            Self::LegForce => at.force[leg],
+        }
+    }
+}
+
+/// How the elongation follows the variable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Course {
+    /// In proportion.
+    Linear,
+    /// With its square.
+    Quadratic,
+    /// A jump at this value, SI.
+    Step(f64),
+    /// A wave with this period, SI.
+    Periodic(f64),
+}
+
+impl Course {
+    /// One word for files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Quadratic => "quadratic",
+            Self::Step(_) => "step",
+            Self::Periodic(_) => "periodic",
+        }
+    }
+}
+
+/// An unexplained pattern.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Pattern {
+    /// In the elongation of legs.
+    Leg(LegPattern),
+    /// Something beside the legs holds the platform with a stiffness constant in fixed axes: a cable, a hose, bellows. A full
+    /// symmetric 6x6 matrix at the mobile origin.
+    Beside,
+}
+
+/// Stiffness of what holds the platform beside the legs relative to one leg: its natural size.
+const BESIDE: f64 = 0.05;
+
+impl Pattern {
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        match self {
+            Self::Leg(p) => p.width(),
+            Self::Beside => 21,
+        }
+    }
+
+    /// Actions at a condition; `range` is the spread of the variable of a leg pattern.
+    pub fn actions(&self, at: &Condition, range: f64, out: &mut Vec<Action>) {
+        match self {
+            Self::Leg(p) => p.actions(at, range, out),
+            Self::Beside => {
+                out.extend(entries().map(|(i, j)| {
+                    let mut unit = Matrix6::zeros();
+                    unit[(i, j)] = 1.0;
+                    unit[(j, i)] = 1.0;
+                    Action::Stiffness(unit)
+                }));
+            }
+        }
+    }
+
+    /// Natural sizes of its parameters, SI.
+    pub fn sizes(&self, natural: &Natural) -> Vec<f64> {
+        match self {
+            Self::Leg(p) => vec![p.size(natural); p.width()],
+            Self::Beside => {
+                let arm = |k: usize| if k < 3 { 1.0 } else { natural.radius };
+                entries().map(|(i, j)| BESIDE / natural.compliance * arm(i) * arm(j)).collect()
+            }
+        }
+    }
+
+    /// Which parameters cannot be negative.
+    pub fn positive(&self) -> Vec<bool> {
+        match self {
+            Self::Leg(p) => vec![false; p.width()],
+            Self::Beside => entries().map(|(i, j)| i == j).collect(),
+        }
+    }
+
+    /// Spread of what it follows; zero when the campaign cannot show it.
+    pub fn spread(&self, conditions: &[Condition]) -> f64 {
+        match self {
+            Self::Leg(p) => spread(p.variable, conditions),
+            Self::Beside => 1.0,
+        }
+    }
+
+    /// A sentence for people.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Leg(p) => p.text(),
+            Self::Beside => {
+                "something beside the legs holds the platform with a stiffness of its own".to_owned()
+            }
+        }
+    }
+}
+
+/// Entries of a symmetric 6x6 matrix: the diagonal, then those above it.
+fn entries() -> impl Iterator<Item = (usize, usize)> {
+    let above = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
+    (0..6).map(|k| (k, k)).chain(above)
+}
+
+/// Leg elongation = size * course(variable), times the force change when it is a compliance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LegPattern {
+    /// The leg (from zero), or all six alike.
+    pub leg: Option<usize>,
+    /// What it follows.
+    pub variable: PatternVariable,
+    /// How.
+    pub course: Course,
+    /// True when it is a change of compliance (grows with the load), false when a change of length.
+    pub compliance: bool,
+}
+
+impl LegPattern {
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        if matches!(self.course, Course::Periodic(_)) { 2 } else { 1 }
+    }
+
+    /// Actions at a condition; `range` is the spread of the variable, so that sizes are elongations or compliances.
+    pub fn actions(&self, at: &Condition, range: f64, out: &mut Vec<Action>) {
+        out.extend(self.elongations(at, range).into_iter().take(self.width()).map(Action::Elongation));
+    }
+
+    /// Leg elongations per unit of each parameter; the second is used by waves only.
+    pub fn elongations(&self, at: &Condition, range: f64) -> [Vector6; 2] {
+        let mut e = [Vector6::zeros(); 2];
+        let force = at.force_change();
+        let shared = self.variable.is_common().then(|| self.course_values(self.variable.value(at, 0), range));
+        for leg in self.leg.map_or(0..6, |l| l..l + 1) {
+            let carrier = if self.compliance { force[leg] } else { 1.0 };
+            let own = || self.course_values(self.variable.value(at, leg), range);
+            let [first, second] = shared.unwrap_or_else(own);
+            e[0][leg] = carrier * first;
+            e[1][leg] = carrier * second;
+        }
+        e
+    }
+
+    fn course_values(&self, v: f64, range: f64) -> [f64; 2] {
+        match self.course {
+            Course::Linear => [v / range, 0.0],
+            Course::Quadratic => [(v / range).powi(2), 0.0],
+            Course::Step(at) => [f64::from(v > at), 0.0],
+            Course::Periodic(period) => (TAU * v / period).sin_cos().into(),
+        }
+    }
+
+    /// Natural size of its parameters, SI.
+    pub fn size(&self, natural: &Natural) -> f64 {
+        if self.compliance { natural.compliance } else { natural.compliance * natural.force }
+    }
+
+    /// A sentence for people.
+    pub fn text(&self) -> String {
+        let who = self.leg.map_or("all legs alike".to_owned(), |l| format!("leg {}", l + 1));
+        let what = if self.compliance { "the compliance" } else { "the length" };
+        let how = match self.course {
+            Course::Linear => format!("changes in proportion to {}", self.variable.name()),
+            Course::Quadratic => format!("changes with the square of {}", self.variable.name()),
+            Course::Step(at) => format!("jumps at {} = {:.4}", self.variable.name(), self.shown(at)),
+            Course::Periodic(p) => format!("repeats with {} every {:.3} mm", self.variable.name(), p * 1e3),
+        };
+        format!("{what} of {who} {how}")
+    }
+
+    /// A value of the variable in the unit of the files.
+    pub fn shown(&self, v: f64) -> f64 {
+        match self.variable {
+            PatternVariable::LegLength => v * 1e3,
+            _ => v,
+        }
+    }
+}
+
+/// Spread of a variable over conditions and legs: half its range, never zero.
+pub fn spread(variable: PatternVariable, conditions: &[Condition]) -> f64 {
+    let values = conditions.iter().flat_map(|c| (0..6).map(move |leg| variable.value(c, leg)));
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+    let half = (high - low) / 2.0;
+    if half.is_finite() && half > 0.0 { half } else { 0.0 }
+}

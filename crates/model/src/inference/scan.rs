@@ -1,0 +1,300 @@
+//! Scans over periods, thresholds and legs: one candidate at a time beside everything found so far.
+
+use hexbench_core::{Matrix6, Vector6};
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::effects::term::Term;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::linearization::{Linearization, ModelPoint, beside};
+use crate::inference::candidates::{orthonormal, project, target};
+use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable, spread};
+use crate::inference::period::period_grid;
+
+/// Variables a pattern may follow.
+const VARIABLES: [PatternVariable; 4] = [
+    PatternVariable::Elapsed,
+    PatternVariable::DeltaT,
+    PatternVariable::LegLength,
+    PatternVariable::LegForce,
+];
+/// Steps of the search for the top of a peak.
+const GOLDEN_STEPS: usize = 20;
+
+/// The residual and the columns that any further effect has to share it with.
+pub(crate) struct Scanner<'a> {
+    lin: &'a Linearization,
+    basis: DMatrix<f64>,
+    residual: DVector<f64>,
+    space: LegSpace,
+    spreads: Vec<(PatternVariable, f64)>,
+}
+
+impl<'a> Scanner<'a> {
+    /// `point`: the terms at which `lin` was made; `except`: one that is to be explained anew.
+    pub(crate) fn new(lin: &'a Linearization, point: &ModelPoint, except: Option<&str>) -> Self {
+        let mut columns = vec![lin.common_block()];
+        let kept = point.active.iter().filter(|a| Some(a.id()) != except);
+        columns.extend(kept.map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)));
+        let basis = orthonormal(&beside(&columns));
+        let mut residual = target(lin, point);
+        project(&basis, &mut residual);
+        let space = LegSpace::new(&lin.elongation_readers(), &basis, &residual);
+        let spreads = VARIABLES.map(|v| (v, spread(v, &lin.conditions))).to_vec();
+        Self { lin, basis, residual, space, spreads }
+    }
+
+    /// Drop of chi-square when these columns are added.
+    fn drop(&self, columns: &DMatrix<f64>) -> f64 {
+        let overlap = self.basis.tr_mul(columns);
+        let b = columns.tr_mul(&self.residual);
+        let mut g = columns.tr_mul(columns) - overlap.tr_mul(&overlap);
+        let ridge = 1e-9 * g.diagonal().max().max(f64::MIN_POSITIVE);
+        for k in 0..g.nrows() {
+            g[(k, k)] += ridge;
+        }
+        g.cholesky().map_or(0.0, |c| b.dot(&c.solve(&b)))
+    }
+
+    /// Shape of a term with the largest drop: the best of the grid, refined between its neighbours.
+    pub(crate) fn best_shape(&self, term: &dyn Term, grid: &[f64]) -> f64 {
+        let drop = |s: f64| self.drop(&self.lin.term_block(term, false, s));
+        let scores: Vec<f64> = grid.par_iter().map(|&s| drop(s)).collect();
+        let Some(best) = highest(&scores) else { return 1.0 };
+        golden(grid[best.saturating_sub(1)], grid[(best + 1).min(grid.len() - 1)], drop)
+    }
+
+    /// The best pattern of every family, with the number of patterns it was chosen from: waves common to all legs, waves
+    /// in single legs, courses, steps.
+    pub(crate) fn patterns(&self, campaign: &Campaign) -> Vec<(Pattern, usize)> {
+        let periods = period_grid(&self.lin.conditions);
+        let wave = |p: &f64| (PatternVariable::LegLength, Course::Periodic(*p), true);
+        let waves: Vec<Kind> = periods.iter().map(wave).collect();
+        let variables = variables(campaign, self.lin);
+        let courses: Vec<Kind> = variables.iter().flat_map(|v| courses(*v)).collect();
+        let steps: Vec<Kind> = variables.iter().flat_map(|v| steps(*v, self.lin)).collect();
+        let (common, single) = (0..1, 1..7);
+        let families = [(&waves, common), (&waves, single), (&courses, 0..7), (&steps, 0..7)];
+        families.into_iter().filter_map(|(kinds, legs)| self.best_of(kinds, legs)).collect()
+    }
+
+    /// The pattern with the largest drop among kinds and legs (0: all alike), and the number tried.
+    fn best_of(&self, kinds: &[Kind], legs: std::ops::Range<usize>) -> Option<(Pattern, usize)> {
+        let drops: Vec<[f64; 7]> = kinds.par_iter().map(|k| self.drops(k)).collect();
+        let tried = kinds.len() * legs.len();
+        let all = (0..kinds.len()).flat_map(|k| legs.clone().map(move |l| (k, l)));
+        let unknown = all.filter(|&(k, l)| l > 0 || !in_catalogue(&kinds[k]));
+        let (k, l) = unknown.max_by(|a, b| drops[a.0][a.1].total_cmp(&drops[b.0][b.1]))?;
+        let kind = self.refined(kinds[k], l);
+        let leg = l.checked_sub(1);
+        let pattern = LegPattern { leg, variable: kind.0, course: kind.1, compliance: kind.2 };
+        Some((Pattern::Leg(pattern), tried))
+    }
+
+    /// Drop of chi-square when all legs follow a course alike, and when each leg alone does.
+    fn drops(&self, &(variable, course, compliance): &Kind) -> [f64; 7] {
+        let range = self.spreads.iter().find(|s| s.0 == variable).map_or(0.0, |s| s.1);
+        if range <= 0.0 {
+            return [0.0; 7];
+        }
+        let pattern = LegPattern { leg: None, variable, course, compliance };
+        let n = self.lin.conditions.len();
+        let mut e = vec![DMatrix::zeros(n, 6); pattern.width()];
+        for (i, c) in self.lin.conditions.iter().enumerate() {
+            for (wave, values) in e.iter_mut().zip(pattern.elongations(c, range)) {
+                wave.row_mut(i).tr_copy_from(&values);
+            }
+        }
+        self.space.drops(&e)
+    }
+
+    /// A wave with its period between the grid points on both sides.
+    fn refined(&self, kind: Kind, leg: usize) -> Kind {
+        let Course::Periodic(period) = kind.1 else { return kind };
+        let grid = period_grid(&self.lin.conditions);
+        let place = grid.iter().position(|&p| p <= period).unwrap_or(0);
+        let (longer, shorter) = (grid[place.saturating_sub(1)], grid[(place + 1).min(grid.len() - 1)]);
+        let with = |p: f64| (kind.0, Course::Periodic(p), kind.2);
+        with(golden(shorter, longer, |p| self.drops(&with(p))[leg]))
+    }
+}
+
+/// Variable, course, and whether it is a compliance.
+type Kind = (PatternVariable, Course, bool);
+
+/// What a pattern of leg elongations meets: its share in the residual, its length, and its overlap with the columns
+/// already there. One column per leg, one row per condition.
+struct LegSpace {
+    residual: DMatrix<f64>,
+    length: Vec<Matrix6>,
+    /// Per leg: overlap with every column of the basis (conditions x columns).
+    overlap: [DMatrix<f64>; 6],
+}
+
+impl LegSpace {
+    fn new(readers: &[Matrix6], basis: &DMatrix<f64>, residual: &DVector<f64>) -> Self {
+        let n = readers.len();
+        let mut space = Self {
+            residual: DMatrix::zeros(n, 6),
+            length: readers.iter().map(|r| r.tr_mul(r)).collect(),
+            overlap: std::array::from_fn(|_| DMatrix::zeros(n, basis.ncols())),
+        };
+        for (i, reader) in readers.iter().enumerate() {
+            let share = reader.tr_mul(&residual.fixed_rows::<6>(6 * i));
+            space.residual.row_mut(i).tr_copy_from(&share);
+            let along = reader.tr_mul(&basis.fixed_rows::<6>(6 * i));
+            for leg in 0..6 {
+                space.overlap[leg].row_mut(i).copy_from(&along.row(leg));
+            }
+        }
+        space
+    }
+
+    /// Drops for all legs alike and for each leg alone; `e` holds one or two waves.
+    fn drops(&self, e: &[DMatrix<f64>]) -> [f64; 7] {
+        let legs: [Sums; 6] = std::array::from_fn(|leg| self.of_leg(e, leg));
+        let mut all = self.of_all(e);
+        for leg in &legs {
+            all.add_shares(leg);
+        }
+        std::array::from_fn(|k| if k == 0 { all.drop() } else { legs[k - 1].drop() })
+    }
+
+    fn of_leg(&self, e: &[DMatrix<f64>], leg: usize) -> Sums {
+        let mut sums = Sums::new(e.len(), self.overlap[leg].ncols());
+        for (w, wave) in e.iter().enumerate() {
+            let column = wave.column(leg);
+            sums.b[w] = column.dot(&self.residual.column(leg));
+            sums.overlap[w] = self.overlap[leg].tr_mul(&column);
+            for v in 0..=w {
+                let other = e[v].column(leg);
+                let pairs = column.iter().zip(other.iter()).zip(&self.length);
+                sums.g[w][v] = pairs.map(|((a, b), l)| a * b * l[(leg, leg)]).sum();
+            }
+        }
+        sums
+    }
+
+    /// Products of all legs together; shares and overlaps are the sums of the single legs.
+    fn of_all(&self, e: &[DMatrix<f64>]) -> Sums {
+        let mut sums = Sums::new(e.len(), self.overlap[0].ncols());
+        let rows = |w: usize, i: usize| Vector6::from_fn(|leg, _| e[w][(i, leg)]);
+        for (i, length) in self.length.iter().enumerate() {
+            for w in 0..e.len() {
+                let along = length * rows(w, i);
+                for v in 0..=w {
+                    sums.g[w][v] += along.dot(&rows(v, i));
+                }
+            }
+        }
+        sums
+    }
+}
+
+/// Normal equations of one or two columns.
+struct Sums {
+    width: usize,
+    b: [f64; 2],
+    g: [[f64; 2]; 2],
+    overlap: [DVector<f64>; 2],
+}
+
+impl Sums {
+    fn new(width: usize, basis_columns: usize) -> Self {
+        let zeros = || DVector::zeros(basis_columns);
+        Self { width, b: [0.0; 2], g: [[0.0; 2]; 2], overlap: [zeros(), zeros()] }
+    }
+
+    fn add_shares(&mut self, other: &Self) {
+        for w in 0..self.width {
+            self.b[w] += other.b[w];
+            self.overlap[w] += &other.overlap[w];
+        }
+    }
+
+    /// Drop of chi-square, `b' G^-1 b` after the projection.
+    fn drop(&self) -> f64 {
+        let shared = |i: usize, j: usize| self.overlap[i].dot(&self.overlap[j]);
+        let ridge = 1.0 + 1e-9;
+        let a = self.g[0][0] * ridge - shared(0, 0);
+        if self.width == 1 {
+            return if a > 0.0 { self.b[0].powi(2) / a } else { 0.0 };
+        }
+        let (c, d) = (self.g[1][0] - shared(1, 0), self.g[1][1] * ridge - shared(1, 1));
+        let det = a * d - c * c;
+        let top = d * self.b[0].powi(2) - 2.0 * c * self.b[0] * self.b[1] + a * self.b[1].powi(2);
+        if det > 0.0 { (top / det).max(0.0) } else { 0.0 }
+    }
+}
+
+fn highest(scores: &[f64]) -> Option<usize> {
+    (0..scores.len()).max_by(|&a, &b| scores[a].total_cmp(&scores[b]))
+}
+
+/// Maximum of a function with one peak between two points, by golden sections.
+fn golden(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
+    const RATIO: f64 = 0.618_033_988_749_894_9;
+    let (mut low, mut high) = (a.min(b), a.max(b));
+    let (mut x, mut y) = (high - RATIO * (high - low), low + RATIO * (high - low));
+    let (mut fx, mut fy) = (f(x), f(y));
+    for _ in 0..GOLDEN_STEPS {
+        if fx > fy {
+            (high, y, fy) = (y, x, fx);
+            x = high - RATIO * (high - low);
+            fx = f(x);
+        } else {
+            (low, x, fx) = (x, y, fy);
+            y = low + RATIO * (high - low);
+            fy = f(y);
+        }
+    }
+    f64::midpoint(low, high)
+}
+
+/// Variables that vary in these data.
+fn variables(campaign: &Campaign, lin: &Linearization) -> Vec<PatternVariable> {
+    let present = [
+        (PatternVariable::Elapsed, campaign.columns.elapsed),
+        (PatternVariable::DeltaT, campaign.columns.delta_t),
+        (PatternVariable::LegLength, true),
+        (PatternVariable::LegForce, true),
+    ];
+    let varies = |v: PatternVariable| spread(v, &lin.conditions) > 0.0;
+    present.into_iter().filter(|(v, has)| *has && varies(*v)).map(|(v, _)| v).collect()
+}
+
+fn courses(variable: PatternVariable) -> Vec<Kind> {
+    let courses = [Course::Linear, Course::Quadratic];
+    courses.into_iter().flat_map(|c| [(variable, c, false), (variable, c, true)]).collect()
+}
+
+/// What all legs alike do and a term describes: compliance in proportion to length, length to temperature.
+fn in_catalogue(&(variable, course, compliance): &Kind) -> bool {
+    let known = [(PatternVariable::LegLength, true), (PatternVariable::DeltaT, false)];
+    course == Course::Linear && known.contains(&(variable, compliance))
+}
+
+fn steps(variable: PatternVariable, lin: &Linearization) -> Vec<Kind> {
+    if variable == PatternVariable::LegForce {
+        return Vec::new();
+    }
+    let cuts = thresholds(variable, lin);
+    cuts.into_iter()
+        .flat_map(|at| [(variable, Course::Step(at), false), (variable, Course::Step(at), true)])
+        .collect()
+}
+
+/// Values between which a step may lie: the twentieths of the variable.
+fn thresholds(variable: PatternVariable, lin: &Linearization) -> Vec<f64> {
+    let per_leg = |c| (0..6).map(move |leg| variable.value(c, leg));
+    let mut values: Vec<f64> = lin.conditions.iter().flat_map(per_leg).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    let n = values.len();
+    if n < 4 {
+        return Vec::new();
+    }
+    let mut cuts: Vec<f64> = (1..20).map(|k| values[(k * n / 20).min(n - 2)]).collect();
+    cuts.dedup();
+    cuts
+}

@@ -1,0 +1,123 @@
+//! Terms chosen by hand: fitted beside the springs, and judged on readings that no fit has seen.
+
+use hexbench_core::{Dataset, Hexapod};
+
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::{Fit, TermSpec};
+use crate::estimation::fit_named::{Added, fit_wanted};
+use crate::estimation::linearization::Linearization;
+use crate::estimation::residuals::{
+    ErrorSummary, Residual, leave_poses_out, prediction_errors, residuals, summarise,
+};
+
+/// Which readings no fit has seen; in files, its words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(into = "&'static str")]
+pub enum HeldOut {
+    /// Those of a file of their own.
+    File,
+    /// Each pose (or group of poses) in turn, the model fitted to the others.
+    PosesInTurn,
+}
+
+impl HeldOut {
+    /// As files and pages call it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::File => "holdout file",
+            Self::PosesInTurn => "poses left out in turn",
+        }
+    }
+}
+
+impl From<HeldOut> for &'static str {
+    fn from(held_out: HeldOut) -> Self {
+        held_out.word()
+    }
+}
+
+/// A machine, the readings to fit, and the readings to judge by.
+#[derive(Debug, Clone, Copy)]
+pub struct JudgedTask<'a> {
+    /// The machine as drawn.
+    pub hexapod: &'a Hexapod,
+    /// Readings to fit.
+    pub data: &'a Dataset,
+    /// The same, prepared.
+    pub campaign: &'a Campaign,
+    /// Readings to judge by; without them poses are left out in turn.
+    pub holdout: Option<&'a Dataset>,
+}
+
+/// A fit with its errors.
+#[derive(Debug, Clone)]
+pub struct FitWithErrors {
+    /// The fit.
+    pub fit: Fit,
+    /// The model at its end.
+    pub linearization: Linearization,
+    /// Residuals of the readings fitted.
+    pub residuals: Vec<Residual>,
+    /// Their size.
+    pub fitted: ErrorSummary,
+    /// Size of the errors on readings held out; absent where none can be.
+    pub held_out: Option<ErrorSummary>,
+}
+
+impl JudgedTask<'_> {
+    /// Fits springs and these terms, added one after the other, and judges them.
+    ///
+    /// # Errors
+    /// As [`crate::estimation::fit_named::fit_named`]; [`ModelError::Mismatch`] when the readings held out are of another kind.
+    pub fn fit(&self, terms: &[Added]) -> Result<FitWithErrors, ModelError> {
+        let (wanted, fit) = fit_wanted(self.campaign, terms)?;
+        self.judge(fit, Some(&wanted))
+    }
+
+    /// Judges a fit; `wanted` asks for it again where poses are left out.
+    ///
+    /// # Errors
+    /// [`ModelError::Mismatch`] when the readings held out are of another kind, [`ModelError::SingularPose`].
+    pub fn judge(&self, fit: Fit, wanted: Option<&[TermSpec]>) -> Result<FitWithErrors, ModelError> {
+        let linearization = Linearization::at(self.campaign, &fit.point)?;
+        let residuals = residuals(self.campaign, &self.data.observations, &linearization);
+        let fitted = summarise(&residuals, Some(fit.dof));
+        let held_out = self.held_out_errors(&fit, wanted)?;
+        Ok(FitWithErrors { fit, linearization, residuals, fitted, held_out })
+    }
+
+    /// Where held-out errors come from.
+    pub fn held_out(&self) -> HeldOut {
+        if self.holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn }
+    }
+
+    fn held_out_errors(
+        &self,
+        fit: &Fit,
+        wanted: Option<&[TermSpec]>,
+    ) -> Result<Option<ErrorSummary>, ModelError> {
+        let noise = self.campaign.noise;
+        if let Some(held) = self.holdout {
+            same_kind(self.data, held)?;
+            let errors = prediction_errors(self.hexapod, held, noise, &fit.point)?;
+            return Ok(Some(summarise(&errors, None)));
+        }
+        // Too few poses, or poses that alone determine a spring, leave nothing to be judged by.
+        let left =
+            wanted.and_then(|w| leave_poses_out(self.campaign, &self.data.observations, w, &fit.point).ok());
+        Ok(left.map(|left| summarise(&left.residuals, None)))
+    }
+}
+
+/// Readings to fit and to judge by must be of one kind.
+///
+/// # Errors
+/// [`ModelError::Mismatch`].
+pub fn same_kind(data: &Dataset, holdout: &Dataset) -> Result<(), ModelError> {
+    if data.is_absolute() == holdout.is_absolute() {
+        return Ok(());
+    }
+    let (a, b) = (&data.source, &holdout.source);
+    Err(ModelError::Mismatch(format!("{a} and {b} are of different kinds (deflections, absolute poses)")))
+}

@@ -1,0 +1,139 @@
+//! From probabilities of sets to a verdict.
+
+use std::collections::BTreeMap;
+
+use crate::inference::candidates::{Candidate, CandidateKind};
+use crate::inference::explanation::Explanation;
+use crate::inference::search::{Set, Sets};
+
+/// Probability an effect must have to be named.
+pub const NAMED: f64 = 0.95;
+/// Probability of any further effect above which a named set is not the whole answer.
+const DOUBT: f64 = 0.5;
+/// Share of probability a credible set holds.
+const CREDIBLE: f64 = 0.95;
+
+/// What the data say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// The springs explain the data to within the noise.
+    Adequate,
+    /// The named effects explain the data.
+    Named,
+    /// Several explanations remain.
+    Ambiguous,
+    /// Something outside the catalogue is at work.
+    Outside,
+    /// What is wrong is in the data: without it the springs explain them.
+    Measurement,
+}
+
+impl Verdict {
+    /// One word, as in the files.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Adequate => "adequate",
+            Self::Named => "named",
+            Self::Ambiguous => "ambiguous",
+            Self::Outside => "outside",
+            Self::Measurement => "measurement",
+        }
+    }
+}
+
+/// Probabilities by name, and what follows from them.
+#[derive(Debug, Clone)]
+pub struct Judgement {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Probability of each explanation as the first addition; they sum to 1. Best first.
+    pub first: Vec<(Explanation, f64)>,
+    /// Probability that an effect is present at all, alone or with others.
+    pub present: BTreeMap<String, f64>,
+    /// Smallest set of explanations that holds 95 % of the probability.
+    pub credible: Vec<Explanation>,
+    /// Effects sure enough to be named.
+    pub sure: Vec<String>,
+    /// Probability that something outside the catalogue is at work.
+    pub outside: f64,
+    /// True when the best explanation failed on held-out data.
+    pub refuted: bool,
+}
+
+/// Judge the sets.
+pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
+    let terms = candidates.iter().filter_map(Candidate::id).map(|id| Explanation::Term(id.to_owned()));
+    let mut first: BTreeMap<Explanation, f64> =
+        terms.chain(Explanation::SPECIAL).map(|explanation| (explanation, 0.0)).collect();
+    let mut present: BTreeMap<String, f64> = BTreeMap::new();
+    let mut outside = 0.0;
+    for set in &sets.sets {
+        let (plain, discrepant) = (sets.probability(set), sets.discrepant_probability(set));
+        let patterned = set.members.iter().any(|&m| matches!(candidates[m].kind, CandidateKind::Pattern(_)));
+        outside += discrepant + if patterned { plain } else { 0.0 };
+        *first.entry(Explanation::Outside).or_default() += discrepant;
+        let leader = if patterned { Explanation::Outside } else { leader(set, sets, candidates) };
+        *first.entry(leader).or_default() += plain;
+        for id in set.members.iter().filter_map(|&m| candidates[m].id()) {
+            *present.entry(id.to_owned()).or_default() += plain + discrepant;
+        }
+    }
+    let none = first.get(&Explanation::Nothing).copied().unwrap_or(0.0);
+    let mut first: Vec<(Explanation, f64)> = first.into_iter().collect();
+    first.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    let sure: Vec<String> = present.iter().filter(|(_, p)| **p >= NAMED).map(|(id, _)| id.clone()).collect();
+    let doubtful = present.iter().any(|(id, p)| *p >= DOUBT && !sure.contains(id));
+    let verdict = if outside > DOUBT {
+        Verdict::Outside
+    } else if none >= DOUBT {
+        Verdict::Adequate
+    } else if sure.is_empty() || doubtful || outside > 1.0 - NAMED {
+        Verdict::Ambiguous
+    } else {
+        Verdict::Named
+    };
+    Judgement { verdict, first, present, credible: credible(sets, candidates), sure, outside, refuted: false }
+}
+
+/// The member of a set that explains most when it stands alone.
+fn leader(set: &Set, sets: &Sets, candidates: &[Candidate]) -> Explanation {
+    let alone = |m: usize| {
+        let single = sets.sets.iter().find(|s| s.members == [m]);
+        single.map_or(f64::NEG_INFINITY, |s| s.log_weight)
+    };
+    let best = set.members.iter().copied().max_by(|&a, &b| alone(a).total_cmp(&alone(b)));
+    best.and_then(|m| candidates[m].id()).map_or(Explanation::Nothing, |id| Explanation::Term(id.to_owned()))
+}
+
+/// Members of the most probable explanations until they hold 95 %; a discrepancy counts as an explanation of its own.
+fn credible(sets: &Sets, candidates: &[Candidate]) -> Vec<Explanation> {
+    let mut weighed: Vec<(f64, bool, &Set)> = sets
+        .sets
+        .iter()
+        .flat_map(|s| [(sets.probability(s), false, s), (sets.discrepant_probability(s), true, s)])
+        .collect();
+    weighed.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)).then(a.2.members.cmp(&b.2.members)));
+    let mut all: Vec<Explanation> = Vec::new();
+    let mut held = 0.0;
+    for (p, discrepant, set) in weighed {
+        if held >= CREDIBLE {
+            break;
+        }
+        held += p;
+        let nothing = set.members.is_empty().then_some(Explanation::Nothing);
+        let rest = if discrepant { Some(Explanation::Outside) } else { nothing };
+        for explanation in set.members.iter().map(|&m| explanation(&candidates[m])).chain(rest) {
+            if !all.contains(&explanation) {
+                all.push(explanation);
+            }
+        }
+    }
+    all
+}
+
+/// The term, or something outside for a pattern.
+fn explanation(candidate: &Candidate) -> Explanation {
+    candidate.id().map_or(Explanation::Outside, |id| Explanation::Term(id.to_owned()))
+}

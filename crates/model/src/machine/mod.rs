@@ -1,0 +1,9 @@
+//! The machine: geometry, kinematics, leg forces, and poses found from balls.
+
+pub mod batch;
+pub(crate) mod body;
+pub mod geometry;
+pub mod kinematics;
+pub(crate) mod lanes;
+pub mod observability;
+pub mod registration;

@@ -1,0 +1,56 @@
+//! Residuals in the space of the legs: the elongation each leg would need to explain what is left.
+//!
+//! `e = L H^-1 r` with `r` the residual of the averaged readings, `H` the observer (measured coordinates from twist) and
+//! `L` the geometric leg Jacobian; the covariance of `e` follows from that of the reading.
+
+use hexbench_core::statistics::root_mean_square;
+use hexbench_core::{Matrix6, Vector6};
+use serde::Serialize;
+
+use super::JudgedModel;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::linearization::Linearization;
+
+/// Residual elongation of one leg, um.
+#[derive(Debug, Clone, Serialize)]
+pub struct LegResidual {
+    /// Leg from 1.
+    pub leg: usize,
+    /// Root mean square over the averaged readings.
+    pub rms_um: f64,
+    /// What noise alone would give.
+    pub noise_um: f64,
+}
+
+/// Residual elongations of all conditions, m, and their standard deviations by noise alone.
+#[derive(Debug, Clone)]
+pub struct LegSpace {
+    /// One per condition.
+    pub elongation: Vec<Vector6>,
+    /// The same order.
+    pub sigma: Vec<Vector6>,
+}
+
+/// Map the residuals of a linearised campaign to the legs.
+pub fn leg_space(campaign: &Campaign, lin: &Linearization) -> LegSpace {
+    let mut space = LegSpace { elongation: Vec::new(), sigma: Vec::new() };
+    for (i, (c, group)) in lin.conditions.iter().zip(&campaign.groups).enumerate() {
+        // Only at beta = +-90 deg, where the reading says nothing of two rotations.
+        let to_legs = c.observer.try_inverse().map_or_else(Matrix6::zeros, |h| c.legs.leg_jacobian * h);
+        let whitened = to_legs * Matrix6::from_diagonal(&Vector6::from_column_slice(&group.sigma));
+        space.elongation.push(whitened * lin.residual(i));
+        space.sigma.push(Vector6::from_fn(|leg, _| whitened.row(leg).norm().max(f64::MIN_POSITIVE)));
+    }
+    space
+}
+
+/// Root mean square of every leg.
+pub fn summaries(judged: &JudgedModel<'_>) -> Vec<LegResidual> {
+    let rms = |all: &[Vector6], leg: usize| 1e6 * root_mean_square(all.iter().map(|e| e[leg])).unwrap_or(0.0);
+    let one = |leg: usize| LegResidual {
+        leg: leg + 1,
+        rms_um: rms(&judged.space.elongation, leg),
+        noise_um: rms(&judged.space.sigma, leg),
+    };
+    (0..6).map(one).collect()
+}

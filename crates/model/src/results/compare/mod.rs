@@ -1,0 +1,205 @@
+//! Comparison of a model with measurements: how large the error is beside the noise, where it sits, what it follows, and
+//! what the plan lets the springs hide.
+//!
+//! Six legs measure six degrees of freedom, so every residual of a deflection maps one-to-one to six leg elongations;
+//! that leg space is where physics shows.
+
+pub mod absorbed;
+pub mod adequacy;
+pub mod association;
+pub mod coordinates;
+pub mod design;
+pub mod legs;
+pub mod periodogram;
+pub mod rows;
+
+use hexbench_core::{Dataset, Hexapod, Measurand};
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
+
+use crate::application::model_file::Model;
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::{Fit, columns, fit_baseline};
+use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::estimation::noise::NoiseSource;
+use crate::estimation::residuals::{ErrorSummary, Residual, prediction_errors, residuals, summarise};
+use crate::inference::candidates::orthonormal;
+use crate::inference::selection::same_kind;
+use crate::results::diagnose::prepare;
+
+use absorbed::{HiddenBias, hidden_biases};
+use adequacy::{Adequacy, adequacy};
+use association::{Association, associations};
+use coordinates::{Coordinate, coordinates};
+use design::{Design, design};
+use legs::{LegResidual, LegSpace, leg_space};
+use periodogram::{Peak, Spectra};
+use rows::{Outlier, WorstPose, outliers, worst_poses};
+
+/// Result of `compare`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Comparison {
+    /// `comparison/1`.
+    pub format: &'static str,
+    /// Terms of the model beside the springs.
+    pub terms: Vec<String>,
+    /// True when the springs were fitted to these very data; false when a saved model is compared as it is.
+    pub fitted_here: bool,
+    /// Readings compared.
+    pub readings: usize,
+    /// Distinct poses, loads and states among them.
+    pub conditions: usize,
+    /// Where the noise level comes from.
+    pub noise_source: NoiseSource,
+    /// Error over all readings.
+    pub error: ErrorSummary,
+    /// Error on held-out readings.
+    pub holdout: Option<ErrorSummary>,
+    /// Every measured coordinate.
+    pub coordinates: Vec<Coordinate>,
+    /// Tests of the model as a whole.
+    pub adequacy: Adequacy,
+    /// Poses with the largest errors.
+    pub worst_poses: Vec<WorstPose>,
+    /// Readings far from the rest; none is dropped.
+    pub outliers: Vec<Outlier>,
+    /// Residual elongation of each leg.
+    pub legs: Vec<LegResidual>,
+    /// What the residual elongations follow, most significant first.
+    pub associations: Vec<Association>,
+    /// Strongest period of the residual elongations in leg length.
+    pub period: Option<Peak>,
+    /// What the plan lets be seen.
+    pub design: Design,
+    /// Bias of the leg stiffnesses by effects that could hide in these data.
+    pub hidden: Vec<HiddenBias>,
+}
+
+/// A comparison with what it was made from, for charts.
+#[derive(Debug, Clone)]
+pub struct ComparedModel {
+    /// What people read.
+    pub comparison: Comparison,
+    /// The readings.
+    pub campaign: Campaign,
+    /// The model compared.
+    pub point: ModelPoint,
+}
+
+/// Compare springs fitted to the data, or a saved model, with the data.
+///
+/// # Errors
+/// As [`fit_baseline`]; [`ModelError::Mismatch`] when model, data and holdout are of different kinds.
+pub fn compare(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    model: Option<&Model>,
+    holdout: Option<&Dataset>,
+) -> Result<ComparedModel, ModelError> {
+    refuse_mixture(data, model, holdout)?;
+    let campaign = prepare(hexapod, data)?;
+    let point = match model {
+        Some(m) => m.point.clone(),
+        None => fit_baseline(&campaign)?.point,
+    };
+    let judged = JudgedModel::of(&campaign, data, &point, model.is_none())?;
+    let held = |h: &Dataset| prediction_errors(hexapod, h, campaign.noise, &point);
+    let holdout = holdout.map(held).transpose()?.map(|rows| summarise(&rows, None));
+    let comparison = report(&judged, holdout);
+    Ok(ComparedModel { comparison, campaign, point })
+}
+
+/// The comparison of a fit that is at hand.
+///
+/// # Errors
+/// [`ModelError::SingularPose`].
+pub fn compare_fit(campaign: &Campaign, data: &Dataset, fit: &Fit) -> Result<Comparison, ModelError> {
+    Ok(report(&JudgedModel::of(campaign, data, &fit.point, true)?, None))
+}
+
+fn refuse_mixture(
+    data: &Dataset,
+    model: Option<&Model>,
+    holdout: Option<&Dataset>,
+) -> Result<(), ModelError> {
+    let other = model.is_some_and(|m| m.is_absolute() != data.is_absolute());
+    if other {
+        let why =
+            format!("the model and {} are of different kinds (deflections, absolute poses)", data.source);
+        return Err(ModelError::Mismatch(why));
+    }
+    holdout.map_or(Ok(()), |held| same_kind(data, held))
+}
+
+/// A model at a point, its residuals, and the columns it has in these data.
+pub struct JudgedModel<'a> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) data: &'a Dataset,
+    pub(crate) point: &'a ModelPoint,
+    /// The model linearised there.
+    pub lin: Linearization,
+    /// Residuals of single readings, in file order.
+    pub rows: Vec<Residual>,
+    /// Rank of what was fitted to these data; zero for a saved model.
+    pub(crate) rank: f64,
+    /// Orthonormal basis of the columns fitted to these data; empty for a saved model.
+    pub(crate) basis: DMatrix<f64>,
+    /// Whitened residuals of the averaged readings.
+    pub(crate) white: DVector<f64>,
+    /// Residuals of the averaged readings as elongations of the legs.
+    pub space: LegSpace,
+}
+
+impl<'a> JudgedModel<'a> {
+    /// A model beside the readings of a campaign; `fitted`: to these very readings.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub fn of(
+        campaign: &'a Campaign,
+        data: &'a Dataset,
+        point: &'a ModelPoint,
+        fitted: bool,
+    ) -> Result<Self, ModelError> {
+        let lin = Linearization::at(campaign, point)?;
+        let rows = residuals(campaign, &data.observations, &lin);
+        let columns = if fitted { columns(&lin, point) } else { DMatrix::zeros(lin.equations(), 0) };
+        let basis = if fitted { orthonormal(&columns) } else { columns };
+        let (rank, white) = (basis.ncols() as f64, lin.residuals());
+        let space = leg_space(campaign, &lin);
+        Ok(Self { campaign, data, point, lin, rows, rank, basis, white, space })
+    }
+}
+
+fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>) -> Comparison {
+    let dof = 6.0 * judged.rows.len() as f64 - judged.rank;
+    Comparison {
+        format: "comparison/1",
+        terms: judged.point.active.iter().map(|a| a.id().to_owned()).collect(),
+        fitted_here: judged.rank > 0.0,
+        readings: judged.rows.len(),
+        conditions: judged.lin.conditions.len(),
+        noise_source: judged.campaign.noise.source,
+        error: summarise(&judged.rows, Some(dof)),
+        holdout,
+        coordinates: coordinates(judged),
+        adequacy: adequacy(judged),
+        worst_poses: worst_poses(judged),
+        outliers: outliers(judged),
+        legs: legs::summaries(judged),
+        associations: associations(judged),
+        period: Spectra::of(judged).and_then(|s| s.peak),
+        design: design(judged),
+        hidden: hidden_biases(judged),
+    }
+}
+
+/// Names of the six measured coordinates, without unit.
+pub fn coordinate_names(measurand: Measurand) -> [&'static str; 6] {
+    match measurand {
+        Measurand::DeflectionEuler => ["da", "db", "dc", "dalpha", "dbeta", "dgamma"],
+        Measurand::DeflectionRotationVector => ["da", "db", "dc", "drx", "dry", "drz"],
+        Measurand::AbsolutePose => ["a", "b", "c", "alpha", "beta", "gamma"],
+    }
+}

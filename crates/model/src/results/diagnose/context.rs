@@ -1,0 +1,186 @@
+//! Fits and errors beyond the search: steps, held-out data, rivals, what the springs absorb.
+
+use hexbench_core::{Dataset, Hexapod};
+
+use super::next::Next;
+use super::report::{AbsorbedReport, StepReport};
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::{Fit, TermSpec, average_over_shapes, fit};
+use crate::estimation::linearization::Linearization;
+use crate::estimation::residuals::{
+    Residual, leave_poses_out, prediction_errors, residuals, summarise, survival,
+};
+use crate::inference::candidates::CandidateKind;
+use crate::inference::diagnosis::{RankedSets, wanted};
+use crate::inference::explanation::Explanation;
+use crate::inference::search::Set;
+use crate::inference::verdict::{Judgement, Verdict};
+use crate::results::next::{Effort, RivalExplanation, candidate_readings, propose};
+
+/// A model that predicts the holdout file worse than this chance allows is refuted.
+const REFUTED_CHANCE: f64 = 1e-5;
+/// A rival that predicts the holdout file at least this well is credible.
+const SURVIVAL_CHANCE: f64 = 1e-3;
+/// Sets faced with the holdout file once the best one is refuted.
+const SETS_FACED: usize = 40;
+/// Candidates whose absorbed bias is worth a fit of their own.
+const CANDIDATES_FITTED: usize = 4;
+/// Explanations that the proposed readings separate.
+const MOST_RIVALS: usize = 3;
+/// Odds against the best explanation at which another still counts.
+const LEAST_ODDS: f64 = 0.1;
+/// Readings proposed at most.
+const PROPOSALS: usize = 6;
+
+pub(super) struct Context<'a> {
+    pub(super) hexapod: &'a Hexapod,
+    pub(super) data: &'a Dataset,
+    pub(super) holdout: Option<&'a Dataset>,
+    pub(super) campaign: &'a Campaign,
+    pub(super) outcome: &'a RankedSets,
+}
+
+impl Context<'_> {
+    /// Fit and errors of every prefix of the additions.
+    pub(super) fn steps(&self, order: &[TermSpec]) -> Result<(Vec<Fit>, Vec<StepReport>), ModelError> {
+        let (mut fits, mut steps) = (Vec::new(), Vec::new());
+        for n in 0..=order.len() {
+            let fitted = if n == 0 {
+                self.outcome.baseline.clone()
+            } else {
+                let mut fitted = fit(self.campaign, &order[..n], Some(&self.outcome.best.point))?;
+                average_over_shapes(self.campaign, &mut fitted)?;
+                fitted
+            };
+            let rows = residuals(
+                self.campaign,
+                &self.data.observations,
+                &Linearization::at(self.campaign, &fitted.point)?,
+            );
+            let held_out = self.held_out(&order[..n], &fitted);
+            steps.push(StepReport {
+                terms: order[..n].iter().map(|w| w.term.info().id.to_owned()).collect(),
+                fitted: summarise(&rows, Some(fitted.dof)),
+                log_density: held_out.as_ref().and_then(|h| h.1),
+                holdout: held_out.map(|h| summarise(&h.0, None)),
+            });
+            fits.push(fitted);
+        }
+        Ok((fits, steps))
+    }
+
+    /// A sure answer whose predictions fail on the holdout file is not sure: everything that does survive there becomes
+    /// credible.
+    pub(super) fn face_holdout(&self, judgement: &mut Judgement, last: &Fit) {
+        let Some(holdout) = self.holdout.filter(|_| judgement.verdict != Verdict::Outside) else { return };
+        let noise = self.campaign.noise;
+        if !noise.allows_verdict() {
+            return;
+        }
+        let survives =
+            |fit: &Fit, chance: f64| survival(self.hexapod, holdout, noise, fit).is_ok_and(|p| p > chance);
+        if survives(last, REFUTED_CHANCE) {
+            return;
+        }
+        judgement.verdict = Verdict::Ambiguous;
+        judgement.refuted = true;
+        let start = &self.outcome.baseline.point;
+        for set in self.outcome.sets.sets.iter().take(SETS_FACED) {
+            let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
+            if fit(self.campaign, &terms, Some(start)).is_ok_and(|f| survives(&f, SURVIVAL_CHANCE)) {
+                for id in terms.iter().map(|w| w.term.info().id) {
+                    if !judgement.credible.iter().any(|c| c.is_term(id)) {
+                        judgement.credible.push(Explanation::Term(id.to_owned()));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Prediction errors, and the predictive density where poses are left out.
+    fn held_out(&self, terms: &[TermSpec], fitted: &Fit) -> Option<(Vec<Residual>, Option<f64>)> {
+        let noise = self.campaign.noise;
+        if let Some(holdout) = self.holdout {
+            return Some((prediction_errors(self.hexapod, holdout, noise, &fitted.point).ok()?, None));
+        }
+        let left = leave_poses_out(self.campaign, &self.data.observations, terms, &fitted.point).ok()?;
+        Some((left.residuals, Some(left.log_density)))
+    }
+
+    /// Readings that separate the most probable explanations, when none is sure.
+    pub(super) fn next(&self, judgement: &Judgement) -> Next {
+        if judgement.verdict != Verdict::Ambiguous {
+            return Next::default();
+        }
+        let rivals = self.rivals();
+        let proposed = candidate_readings(self.campaign, &rivals).and_then(|candidate_readings| {
+            propose(self.campaign, &rivals, &candidate_readings, Effort::UpTo(PROPOSALS))
+        });
+        proposed.map(|p| Next::of(&p, &rivals)).unwrap_or_default()
+    }
+
+    /// Fit of the terms of a set.
+    fn fit_of(&self, set: &Set) -> Option<Fit> {
+        let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
+        fit(self.campaign, &terms, Some(&self.outcome.best.point)).ok()
+    }
+
+    /// The best set of effects, others that are nearly as probable, and one at least that is not the same plus something more.
+    fn rivals(&self) -> Vec<RivalExplanation> {
+        let outcome = self.outcome;
+        let is_named = |s: &&Set| {
+            s.members.iter().all(|&m| matches!(outcome.candidates[m].kind, CandidateKind::Term(_)))
+        };
+        let named: Vec<&Set> = outcome.sets.sets.iter().filter(is_named).collect();
+        let Some(&best) = named.first() else { return Vec::new() };
+        let contains = |big: &Set, small: &Set| small.members.iter().all(|m| big.members.contains(m));
+        let other = named.iter().position(|s| !contains(s, best) && !contains(best, s));
+        let probable = |s: &Set| s.log_weight > best.log_weight + LEAST_ODDS.ln();
+        let chosen = named.iter().enumerate().filter(|(k, s)| Some(*k) == other || probable(s));
+        let mut sets: Vec<&Set> = chosen.map(|(_, s)| *s).collect();
+        // A rival of another kind must not be crowded out by additions to the best set.
+        sets.sort_by_key(|s| s.members != best.members && contains(s, best));
+        let explanation = |s: &&Set| {
+            let ids =
+                s.members.iter().filter_map(|&m| outcome.candidates[m].id().map(str::to_owned)).collect();
+            Some(RivalExplanation { terms: ids, weight: outcome.sets.probability(s), fit: self.fit_of(s)? })
+        };
+        sets.iter().filter_map(explanation).take(MOST_RIVALS).collect()
+    }
+
+    /// Bias of the stiffnesses without each added term, and without the strongest other candidates.
+    pub(super) fn absorbed(&self, order: &[TermSpec], judgement: &Judgement) -> Vec<AbsorbedReport> {
+        let mut all = Vec::new();
+        let with = &self.outcome.best;
+        for (k, w) in order.iter().enumerate() {
+            let mut others = order.to_vec();
+            others.remove(k);
+            if let Ok(without) = fit(self.campaign, &others, Some(&with.point)) {
+                all.push(absorbed(w.term.info().id, &without, with));
+            }
+        }
+        let known: Vec<String> = all.iter().map(|a| a.term.clone()).collect();
+        let likely = judgement.first.iter().filter(|(_, p)| *p > 0.01).map(|(e, _)| e);
+        let rest = likely.filter(|e| !known.iter().any(|id| e.is_term(id)));
+        for id in rest.take(CANDIDATES_FITTED).filter_map(Explanation::term) {
+            let single =
+                |s: &&Set| s.members.len() == 1 && self.outcome.candidates[s.members[0]].id() == Some(id);
+            let Some(set) = self.outcome.sets.sets.iter().find(single) else { continue };
+            let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
+            if let Ok(with) = fit(self.campaign, &terms, Some(&self.outcome.baseline.point)) {
+                all.push(absorbed(id, &self.outcome.baseline, &with));
+            }
+        }
+        all
+    }
+}
+
+fn absorbed(id: &str, without: &Fit, with: &Fit) -> AbsorbedReport {
+    let bias = |leg: usize| {
+        let determined = with.is_determined(leg) && without.is_determined(leg);
+        let ratio = with.point.compliances[leg] / without.point.compliances[leg];
+        (determined && ratio.is_finite()).then_some(100.0 * (ratio - 1.0))
+    };
+    AbsorbedReport { term: id.to_owned(), bias_of_leg_stiffness_percent: std::array::from_fn(bias) }
+}

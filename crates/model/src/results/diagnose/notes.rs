@@ -1,0 +1,111 @@
+//! What a reader should know beside the verdict: suspects, patterns, warnings, what could not be tested.
+
+use hexbench_core::Dataset;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::report::{OutsideReport, SuspiciousReading};
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::Fit;
+use crate::estimation::noise::{NoiseSource, scatter};
+use crate::estimation::residuals::{Residual, typical_square};
+use crate::inference::candidates::CandidateKind;
+use crate::inference::diagnosis::RankedSets;
+use crate::inference::pattern::{Course, LegPattern, Pattern};
+use crate::inference::verdict::{Judgement, Verdict};
+
+/// Chance that a clean file of any size has a suspect reading.
+const SUSPECT_CHANCE: f64 = 0.01;
+/// Chance that repeats contradict a true noise statement.
+const CONTRADICTION_CHANCE: f64 = 1e-4;
+
+/// Readings whose chi-square over six coordinates is beyond chance for a file of this size.
+pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<SuspiciousReading> {
+    let Ok(chi2) = ChiSquared::new(6.0) else { return Vec::new() };
+    let limit = chi2.inverse_cdf(1.0 - SUSPECT_CHANCE / rows.len().max(1) as f64);
+    let scale = typical_square(rows).max(1.0);
+    let far = rows.iter().filter(|r| r.whitened.norm_squared() > limit * scale);
+    far.map(|r| SuspiciousReading { row: data.observations[r.row].line, z: r.whitened.amax() }).collect()
+}
+
+pub(super) fn outside(judgement: &Judgement, outcome: &RankedSets) -> Option<OutsideReport> {
+    if judgement.verdict != Verdict::Outside {
+        return None;
+    }
+    let best = outcome.sets.sets.first()?;
+    let patterns = best.members.iter().filter_map(|&m| match &outcome.candidates[m].kind {
+        CandidateKind::Pattern(p) => Some(p),
+        CandidateKind::Term(_) => None,
+    });
+    let simplest = patterns.min_by_key(|p| (p.width(), if let Pattern::Leg(p) = p { p.leg } else { None }));
+    Some(simplest.map_or_else(unknown_pattern, known_pattern))
+}
+
+fn known_pattern(pattern: &Pattern) -> OutsideReport {
+    let text = pattern.text();
+    match pattern {
+        Pattern::Leg(LegPattern { leg, variable, course, .. }) => OutsideReport {
+            leg: leg.map(|l| l + 1),
+            variable: Some(variable.name()),
+            pattern: Some(course.word()),
+            period: if let Course::Periodic(period) = course { Some(period * 1e3) } else { None },
+            text,
+        },
+        Pattern::Beside => {
+            OutsideReport { leg: None, variable: None, pattern: Some(BESIDE_THE_LEGS), period: None, text }
+        }
+    }
+}
+
+/// Word for a stiffness beside the legs.
+const BESIDE_THE_LEGS: &str = "stiffness-beside-the-legs";
+
+pub(super) fn unknown_pattern() -> OutsideReport {
+    let text = "the residuals are larger than the noise, and follow neither a term of the catalogue nor a simple pattern";
+    OutsideReport { leg: None, variable: None, pattern: None, period: None, text: text.to_owned() }
+}
+
+pub(super) fn warnings(campaign: &Campaign, data: &Dataset, fit: &Fit, judgement: &Judgement) -> Vec<String> {
+    let mut all = Vec::new();
+    if judgement.refuted {
+        all.push(
+            "the best explanation of the fitted data does not predict the held-out poses to within noise and uncertainty: \
+             the credible set also lists what does"
+                .to_owned(),
+        );
+    }
+    if !fit.is_settled() {
+        all.push("the fit did not settle; treat its numbers as provisional".to_owned());
+    }
+    if !campaign.noise.allows_verdict() {
+        all.push(
+            "no noise level is stated and there are too few repeats: it was taken from the residuals, so nothing can be \
+             said about whether the model is adequate; state [metrology] in the hexapod file"
+                .to_owned(),
+        );
+    }
+    all.extend(contradiction(campaign, data));
+    all
+}
+
+/// Repeats that scatter more or less than the stated noise.
+pub(super) fn contradiction(campaign: &Campaign, data: &Dataset) -> Option<String> {
+    if campaign.noise.source != NoiseSource::Metrology {
+        return None;
+    }
+    let s = scatter(&data.observations);
+    let chi2 = ChiSquared::new(s.dof).ok()?;
+    let check = |variance: f64, stated: f64, what: &str, unit: &str| {
+        let p = chi2.cdf(s.dof * variance / (stated * stated));
+        let off = !(CONTRADICTION_CHANCE..=1.0 - CONTRADICTION_CHANCE).contains(&p);
+        off.then(|| {
+            format!(
+                "repeats scatter by {:.3} {unit} in {what}, but [metrology] states {:.3} {unit}: every probability here \
+                 rests on the stated value",
+                variance.sqrt() * 1e6,
+                stated * 1e6
+            )
+        })
+    };
+    check(s.variance_translation, campaign.noise.translation, "translation", "um")
+        .or_else(|| check(s.variance_rotation, campaign.noise.rotation, "rotation", "urad"))
+}

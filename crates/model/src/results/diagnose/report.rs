@@ -1,0 +1,189 @@
+//! The diagnosis as people and programs receive it; field by field the contract of `diagnosis.json`.
+
+use hexbench_core::Approach;
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::effects::untestable::Untestable;
+use crate::estimation::estimate::Estimate;
+use crate::estimation::noise::NoiseSource;
+use crate::estimation::residuals::ErrorSummary;
+use crate::inference::examination::Finding;
+use crate::inference::explanation::Explanation;
+use crate::inference::power::Detectable;
+use crate::inference::selection::HeldOut;
+use crate::inference::verdict::Verdict;
+
+/// Result of `diagnose`.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct Diagnosis {
+    /// `diagnosis/1`.
+    pub format: &'static str,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Effects named, in the order in which they were added.
+    pub added: Vec<String>,
+    /// Terms of the fitted model the numbers below belong to; equals `added` for a named verdict.
+    pub model: Vec<String>,
+    /// Terms of the model that needed their richer form.
+    pub richer: Vec<String>,
+    /// Probability of every first addition, of `outside` and of `none`.
+    pub candidates: Vec<CandidateReport>,
+    /// Probability that an effect is present at all, alone or beside others.
+    pub present: BTreeMap<String, f64>,
+    /// Smallest set of effects that holds 95 % of the probability.
+    #[cfg_attr(feature = "typescript", ts(as = "Vec<String>"))]
+    pub credible_set: Vec<Explanation>,
+    /// Error per step of the model, springs alone first.
+    pub steps: Vec<StepReport>,
+    /// How the held-out error was obtained.
+    #[cfg_attr(feature = "typescript", ts(as = "String"))]
+    pub holdout: HeldOut,
+    /// The noise level used.
+    pub noise: NoiseReport,
+    /// Numbers of the fitted model.
+    pub parameters: Vec<Estimate>,
+    /// Names of parameters that the data do not determine.
+    pub not_determined: Vec<String>,
+    /// Terms that the file cannot test.
+    pub untestable: Vec<Untestable>,
+    /// Smallest sizes this campaign would show.
+    pub detectable: Vec<Detectable>,
+    /// Readings that would separate the rivals.
+    pub next: Vec<NextReport>,
+    /// What those readings promise, pair by pair.
+    pub separation: Vec<SeparationReport>,
+    /// What an effect does to the leg stiffnesses when it is left out.
+    pub absorbed: Vec<AbsorbedReport>,
+    /// Readings far from every prediction.
+    pub suspects: Vec<SuspiciousReading>,
+    /// The unexplained pattern.
+    pub outside: Option<OutsideReport>,
+    /// Things to know before trusting the numbers.
+    pub warnings: Vec<String>,
+    /// Faults of the data, in the order in which they were found.
+    pub findings: Vec<Finding>,
+}
+
+/// One candidate.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct CandidateReport {
+    /// Id of the term, `outside` or `none`.
+    #[cfg_attr(feature = "typescript", ts(as = "String"))]
+    pub term: Explanation,
+    /// Probability as the first addition.
+    pub probability: f64,
+    /// Terms whose signature is the same in these data.
+    pub indistinguishable: Vec<String>,
+}
+
+/// One step of the model.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct StepReport {
+    /// Terms beside the springs.
+    pub terms: Vec<String>,
+    /// Error on the readings fitted.
+    #[serde(flatten)]
+    pub fitted: ErrorSummary,
+    /// Error on held-out poses.
+    pub holdout: Option<ErrorSummary>,
+    /// Logarithm of the predictive density of poses left out in turn; absent with a holdout file.
+    #[serde(skip)]
+    pub log_density: Option<f64>,
+}
+
+/// Noise of one reading.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct NoiseReport {
+    /// Of a translation, um.
+    pub translation_um: f64,
+    /// Of a rotation, urad.
+    pub rotation_urad: f64,
+    /// Where it comes from.
+    #[cfg_attr(feature = "typescript", ts(as = "String"))]
+    pub source: NoiseSource,
+}
+
+/// A proposed reading.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct NextReport {
+    /// `[a, b, c]` in mm, `[alpha, beta, gamma]` in deg.
+    pub pose: [f64; 6],
+    /// `[fx, fy, fz]` in N, `[mx, my, mz]` in N m.
+    pub wrench: [f64; 6],
+    /// Reference wrench, same units.
+    pub reference: [f64; 6],
+    /// +1 or -1.
+    #[cfg_attr(feature = "typescript", ts(as = "f64"))]
+    pub approach: Approach,
+    /// Wait before the loaded reading, s.
+    pub elapsed_s: f64,
+    /// Temperature of the structure against the reference reading, K.
+    #[serde(rename = "delta_T_K")]
+    pub delta_t_k: f64,
+    /// How often to read it.
+    pub repeats: usize,
+    /// The rivals it separates most.
+    pub separates: [String; 2],
+    /// What it adds to the expected logarithm of the Bayes factor between them, under the one of the two for which that is less;
+    /// nats.
+    pub gain: f64,
+    /// What sort of reading it is, in words.
+    pub text: String,
+}
+
+/// What the proposed readings promise for two rivals.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct SeparationReport {
+    /// The rivals.
+    pub between: [String; 2],
+    /// Expected decimal logarithm of the Bayes factor for the truth, when the first is true and when the second is.
+    pub log10_bayes_factor: [f64; 2],
+    /// Chance that the readings favour the truth.
+    pub right: f64,
+    /// Readings after which the wrong one is on average excluded at 20:1; absent when more are needed.
+    pub readings_needed: Option<usize>,
+}
+
+/// Bias of the leg stiffnesses without a term.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct AbsorbedReport {
+    /// The term.
+    pub term: String,
+    /// Stiffness without it over stiffness with it, minus one, percent; absent where not determined.
+    pub bias_of_leg_stiffness_percent: [Option<f64>; 6],
+}
+
+/// A suspicious reading.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct SuspiciousReading {
+    /// Line of the file.
+    pub row: u64,
+    /// Largest whitened residual.
+    pub z: f64,
+}
+
+/// An unexplained pattern.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct OutsideReport {
+    /// Leg from 1; absent when all legs follow it.
+    pub leg: Option<usize>,
+    /// What it follows.
+    pub variable: Option<&'static str>,
+    /// `linear`, `quadratic`, `step`, `periodic`.
+    pub pattern: Option<&'static str>,
+    /// Period in mm.
+    pub period: Option<f64>,
+    /// A sentence.
+    pub text: String,
+}

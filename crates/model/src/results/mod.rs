@@ -1,0 +1,8 @@
+//! What is reported: diagnosis, comparison, next readings, runs beside each other.
+
+pub mod answer;
+pub mod compare;
+pub mod diagnose;
+pub mod next;
+pub mod runs;
+pub mod words;

@@ -1,0 +1,53 @@
+//! What an explanation expects of readings not yet taken.
+
+use hexbench_core::{Dataset, Observation};
+use nalgebra::{DMatrix, DVector};
+
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::{Fit, columns};
+use crate::estimation::linearization::Linearization;
+
+/// Gaussian expectation of every reading of a list: mean, and the columns by which uncertain parameters move it. Units of
+/// the noise of one reading, six rows per reading.
+#[derive(Debug, Clone)]
+pub(super) struct Belief {
+    pub(super) mean: DVector<f64>,
+    pub(super) rows: DMatrix<f64>,
+    pub(super) covariance: DMatrix<f64>,
+}
+
+impl Belief {
+    /// Expectation of a fit.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`].
+    pub(super) fn of(plan: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
+        let lin = Linearization::at(plan, &fit.point)?;
+        let rows = columns(&lin, &fit.point);
+        Ok(Self { mean: lin.predictions(), rows, covariance: fit.covariance.clone() })
+    }
+
+    /// Mean and covariance of some readings, noise included; a reading that occurs twice is read twice.
+    pub(super) fn moments(&self, readings: &[usize]) -> (DVector<f64>, DMatrix<f64>) {
+        let picked: Vec<usize> = readings.iter().flat_map(|&i| 6 * i..6 * i + 6).collect();
+        let rows = self.rows.select_rows(&picked);
+        let noise = DMatrix::identity(picked.len(), picked.len());
+        (self.mean.select_rows(&picked), noise + &rows * &self.covariance * rows.transpose())
+    }
+}
+
+/// Readings as a campaign without measured values, each of them once and with the noise of one reading.
+///
+/// # Errors
+/// [`ModelError::TooFewEquations`] for an empty list.
+pub(super) fn as_plan(campaign: &Campaign, readings: &[Observation]) -> Result<Campaign, ModelError> {
+    let once = readings.iter().map(|o| Observation { sigma: None, ..*o });
+    let dataset = Dataset {
+        source: String::new(),
+        measurand: campaign.measurand,
+        columns: campaign.columns,
+        observations: once.collect(),
+    };
+    Campaign::with_noise(&campaign.hexapod, &dataset, campaign.noise)
+}

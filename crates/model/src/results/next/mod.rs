@@ -1,0 +1,284 @@
+//! The next measurements: which readings best separate explanations that the data in hand leave open.
+//!
+//! An explanation is a fitted model with what is known of its parameters (springs and effects), so readings separate it from
+//! another only by what neither can refit. Readings are chosen one after the other, each beside those chosen before, out of a
+//! candidate readings of round numbers; the same one may be chosen again.
+
+mod belief;
+mod candidate_readings;
+mod choice;
+mod filter;
+mod kind;
+mod separation;
+mod suspects;
+mod words;
+
+use hexbench_core::Observation;
+use rayon::prelude::*;
+
+pub use self::choice::Between;
+pub use self::kind::{effort, snapped, step};
+pub use self::separation::Separation;
+pub use self::suspects::{Suspects, suspects};
+pub use self::words::{ASPECTS, Aspect, MATTERS, Ordinary};
+
+use self::belief::{Belief, as_plan};
+use self::choice::Choice;
+use self::separation::Pair;
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::Fit;
+
+/// Odds at which an explanation counts as excluded.
+pub const EXCLUDED_ODDS: f64 = 20.0;
+/// Odds at which no more readings are asked for: what is expected of readings and what they then say differ, and effects that
+/// nobody thought of want to be excluded too.
+const ENOUGH_ODDS: f64 = 1000.0;
+/// Readings asked for at least: one alone cannot be checked.
+const FEWEST: usize = 2;
+/// A reading that lowers the bound on wrong decisions by less than this (logarithm) is not worth taking.
+const WORTHWHILE: f64 = 0.02;
+
+/// One explanation of the data in hand.
+#[derive(Debug, Clone)]
+pub struct RivalExplanation {
+    /// Ids of its effects; none for springs alone.
+    pub terms: Vec<String>,
+    /// Its probability, up to a common factor.
+    pub weight: f64,
+    /// Its fit to the data in hand.
+    pub fit: Fit,
+}
+
+/// A reading to take.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proposal {
+    /// What to set.
+    pub observation: Observation,
+    /// How often to read it.
+    pub repeats: usize,
+    /// The explanations it separates most.
+    pub between: Between,
+    /// What it adds to the mean logarithm of the Bayes factor between them, beside the readings before it, under the one of the
+    /// two for which that is less; nats.
+    pub gain: f64,
+    /// What sort of reading it is.
+    pub words: String,
+}
+
+/// How well two explanations will be separated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Forecast {
+    /// Which.
+    pub between: Between,
+    /// By all proposed readings together.
+    pub separation: Separation,
+    /// Readings, of those proposed, after which the wrong one is on average excluded at [`EXCLUDED_ODDS`], whichever is wrong.
+    pub readings_needed: Option<usize>,
+}
+
+/// Readings to take, and what they promise.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ProposedReadings {
+    /// The readings, in the order in which they were chosen.
+    pub proposals: Vec<Proposal>,
+    /// Every pair of explanations.
+    pub forecasts: Vec<Forecast>,
+}
+
+impl ProposedReadings {
+    /// Readings with their repeats.
+    pub fn readings(&self) -> usize {
+        self.proposals.iter().map(|p| p.repeats).sum()
+    }
+}
+
+/// How many readings to choose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// As many as exclude what is wrong, but no more than so many.
+    UpTo(usize),
+    /// So many, as long as each is of some use.
+    Exactly(usize),
+}
+
+/// Readings of the campaign's own kind to choose from.
+///
+/// # Errors
+/// [`ModelError::SingularPose`].
+pub fn candidate_readings(
+    campaign: &Campaign,
+    rivals: &[RivalExplanation],
+) -> Result<Vec<Observation>, ModelError> {
+    if rivals.is_empty() {
+        return Ok(Vec::new());
+    }
+    let fits: Vec<&Fit> = rivals.iter().map(|r| &r.fit).collect();
+    candidate_readings::candidate_readings(campaign, &fits)
+}
+
+/// The readings out of `candidate_readings` that best separate the rivals.
+///
+/// # Errors
+/// [`ModelError::SingularPose`], [`ModelError::TooFewEquations`] for an empty list.
+pub fn propose(
+    campaign: &Campaign,
+    rivals: &[RivalExplanation],
+    candidate_readings: &[Observation],
+    effort: Effort,
+) -> Result<ProposedReadings, ModelError> {
+    if rivals.len() < 2 {
+        return Ok(ProposedReadings::default());
+    }
+    let plan = as_plan(campaign, candidate_readings)?;
+    let beliefs = beliefs(&plan, rivals)?;
+    let simplicity: Vec<usize> = plan.groups.iter().map(|g| kind::effort(&g.mean)).collect();
+    let chosen = chosen(&beliefs, rivals, &simplicity, effort);
+    let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
+    let pairs = pairs(rivals.len());
+    let courses: Vec<Vec<[f64; 2]>> = pairs.par_iter().map(|&p| course(&beliefs, p, &taken)).collect();
+    let forecasts = pairs.iter().zip(&courses).filter_map(|(&between, course)| {
+        let separation = pair(&beliefs, between, &taken)?.separation();
+        Some(Forecast { between, separation, readings_needed: needed(course) })
+    });
+    let forecasts = forecasts.collect();
+    let gain = |k: usize, between: Between| {
+        let at = pairs.iter().position(|p| *p == between).unwrap_or(0);
+        let after = |k: usize| courses[at].get(k).map_or(0.0, |d| least(*d));
+        after(k) - if k > 0 { after(k - 1) } else { 0.0 }
+    };
+    let mut proposals: Vec<Proposal> = Vec::new();
+    for (k, &(reading, between)) in chosen.iter().enumerate() {
+        let observation = plan.groups[reading].mean;
+        if let Some(known) = proposals.iter_mut().find(|p| p.observation == observation) {
+            known.repeats += 1;
+            known.gain += gain(k, known.between);
+        } else {
+            let gain = gain(k, between);
+            proposals.push(Proposal { observation, repeats: 1, between, gain, words: String::new() });
+        }
+    }
+    say(campaign, rivals, &mut proposals)?;
+    Ok(ProposedReadings { proposals, forecasts })
+}
+
+/// How well given readings, each as often as it is listed, would separate every pair of rivals.
+///
+/// # Errors
+/// As [`propose`].
+pub fn forecasts(
+    campaign: &Campaign,
+    rivals: &[RivalExplanation],
+    readings: &[Observation],
+) -> Result<Vec<(Between, Separation)>, ModelError> {
+    let plan = as_plan(campaign, readings)?;
+    let beliefs = beliefs(&plan, rivals)?;
+    let list: Vec<usize> =
+        plan.groups.iter().enumerate().flat_map(|(i, g)| std::iter::repeat_n(i, g.rows.len())).collect();
+    let of = |p: Between| Some((p, pair(&beliefs, p, &list)?.separation()));
+    Ok(pairs(rivals.len()).into_iter().filter_map(of).collect())
+}
+
+fn beliefs(plan: &Campaign, rivals: &[RivalExplanation]) -> Result<Vec<Belief>, ModelError> {
+    rivals.par_iter().map(|r| Belief::of(plan, &r.fit)).collect()
+}
+
+fn pairs(rivals: usize) -> Vec<Between> {
+    (0..rivals).flat_map(|a| (a + 1..rivals).map(move |b| [a, b])).collect()
+}
+
+/// Places in the candidate readings, with the pair each separates most.
+fn chosen(
+    beliefs: &[Belief],
+    rivals: &[RivalExplanation],
+    simplicity: &[usize],
+    effort: Effort,
+) -> Vec<(usize, Between)> {
+    let weights: Vec<f64> = rivals.iter().map(|r| r.weight.max(f64::MIN_POSITIVE)).collect();
+    let mut choice = Choice::new(beliefs, &weights);
+    let (Effort::UpTo(most) | Effort::Exactly(most)) = effort;
+    let mut chosen: Vec<(usize, Between)> = Vec::new();
+    while chosen.len() < most {
+        let Some((reading, _)) = choice.best(simplicity).filter(|(_, drop)| *drop > WORTHWHILE) else {
+            break;
+        };
+        let Some(between) = choice.separated_most(reading) else { break };
+        chosen.push((reading, between));
+        if matches!(effort, Effort::UpTo(_)) && chosen.len() >= FEWEST {
+            let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
+            let done = |&p: &Between| {
+                pair(beliefs, p, &taken).is_some_and(|p| least(p.log_bayes_factor()) >= ENOUGH_ODDS.ln())
+            };
+            if pairs(rivals.len()).iter().all(done) {
+                break;
+            }
+        }
+        choice.choose(reading);
+    }
+    chosen
+}
+
+fn least(log_bayes_factor: [f64; 2]) -> f64 {
+    log_bayes_factor[0].min(log_bayes_factor[1])
+}
+
+fn pair(beliefs: &[Belief], [a, b]: Between, readings: &[usize]) -> Option<Pair> {
+    Pair::new(beliefs[a].moments(readings), beliefs[b].moments(readings))
+}
+
+/// Mean logarithms of the Bayes factor after the first reading, the second, and so on.
+fn course(beliefs: &[Belief], between: Between, readings: &[usize]) -> Vec<[f64; 2]> {
+    let after = |n: usize| pair(beliefs, between, &readings[..n]).map_or([0.0; 2], |p| p.log_bayes_factor());
+    (1..=readings.len()).map(after).collect()
+}
+
+fn needed(course: &[[f64; 2]]) -> Option<usize> {
+    course.iter().position(|&d| least(d) >= EXCLUDED_ODDS.ln()).map(|k| k + 1)
+}
+
+/// Place of every reading among those of a plan, which holds equal ones once.
+fn places(plan: &Campaign, readings: usize) -> Vec<usize> {
+    let mut places = vec![0; readings];
+    for (place, group) in plan.groups.iter().enumerate() {
+        group.rows.iter().for_each(|&row| places[row as usize] = place);
+    }
+    places
+}
+
+/// Puts the aspects that matter into words.
+fn say(
+    campaign: &Campaign,
+    rivals: &[RivalExplanation],
+    proposals: &mut [Proposal],
+) -> Result<(), ModelError> {
+    let Some(ordinary) = Ordinary::of(campaign).filter(|_| !proposals.is_empty()) else { return Ok(()) };
+    let mut readings: Vec<Observation> = proposals.iter().map(|p| p.observation).collect();
+    let mut plain: Vec<(usize, Aspect, usize)> = Vec::new();
+    for (k, p) in proposals.iter().enumerate() {
+        for aspect in ASPECTS {
+            let Some(o) = ordinary.without(&p.observation, aspect) else { continue };
+            let known = readings.iter().position(|r| *r == o);
+            plain.push((k, aspect, known.unwrap_or(readings.len())));
+            if known.is_none() {
+                readings.push(o);
+            }
+        }
+    }
+    let half = candidate_readings::half_ranges(campaign);
+    let plan = as_plan(campaign, &readings)?;
+    let place = places(&plan, readings.len());
+    let beliefs = beliefs(&plan, rivals)?;
+    let weights: Vec<f64> = rivals.iter().map(|r| r.weight.max(f64::MIN_POSITIVE)).collect();
+    let mut choice = Choice::new(&beliefs, &weights);
+    for (k, p) in proposals.iter_mut().enumerate() {
+        let own = choice.drop(place[k]);
+        let matters: Vec<Aspect> = plain
+            .iter()
+            .filter(|(of, _, without)| *of == k && choice.drop(place[*without]) < MATTERS * own)
+            .map(|(_, aspect, _)| *aspect)
+            .collect();
+        p.words = ordinary.phrase(&campaign.hexapod, &half, &p.observation, &matters);
+        (0..p.repeats).for_each(|_| choice.choose(place[k]));
+    }
+    Ok(())
+}

@@ -1,0 +1,206 @@
+//! A result as it stands in its file.
+
+use std::collections::BTreeMap;
+
+use hexbench_core::{Dataset, Hexapod};
+use serde::{Deserialize, Serialize};
+
+use crate::estimation::estimate::Estimate;
+use crate::estimation::noise::NoiseSource;
+use crate::estimation::residuals::ErrorSummary;
+use crate::inference::explanation::Explanation;
+use crate::inference::verdict::Verdict;
+
+/// The results that can be compared.
+pub const FORMATS: [&str; 2] = ["diagnosis/1", "comparison/1"];
+
+/// What a result was made by and from: key `run` of its file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Origin {
+    /// Program and version.
+    pub program: String,
+    /// Name of the machine.
+    pub machine: String,
+    /// `deflections` or `absolute poses`.
+    pub measurand: String,
+    /// SHA-256 of the hexapod file.
+    pub hexapod_sha256: String,
+    /// SHA-256 of the measurements.
+    pub data_sha256: String,
+    /// SHA-256 of the holdout file, when there was one.
+    pub holdout_sha256: Option<String>,
+}
+
+impl Origin {
+    /// Of a machine and its measurements, each with the digest of its file.
+    pub fn new(
+        program: &str,
+        hexapod: (&Hexapod, String),
+        data: (&Dataset, String),
+        holdout_sha256: Option<String>,
+    ) -> Self {
+        Self {
+            program: program.to_owned(),
+            machine: hexapod.0.name.clone(),
+            measurand: data.0.measurand.readings().to_owned(),
+            hexapod_sha256: hexapod.1,
+            data_sha256: data.1,
+            holdout_sha256,
+        }
+    }
+}
+
+/// A result with where it comes from, as it is written.
+#[derive(Debug, Clone, Serialize)]
+pub struct WithOrigin<'a, T> {
+    /// The result: its keys stand first.
+    #[serde(flatten)]
+    pub result: &'a T,
+    /// Where it comes from.
+    pub run: Origin,
+}
+
+/// What every result says of itself.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Head {
+    /// `diagnosis/1`, `comparison/1`.
+    pub format: String,
+}
+
+/// A diagnosis, as far as it is compared.
+#[derive(Debug, Clone, Deserialize)]
+pub struct SavedDiagnosis {
+    verdict: Verdict,
+    added: Vec<String>,
+    candidates: Vec<SavedCandidate>,
+    #[serde(default)]
+    present: BTreeMap<String, f64>,
+    steps: Vec<SavedStep>,
+    noise: SavedNoise,
+    parameters: Vec<Estimate>,
+    run: Option<Origin>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+struct SavedCandidate {
+    term: Explanation,
+    probability: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+struct SavedStep {
+    terms: Vec<String>,
+    #[serde(flatten)]
+    fitted: ErrorSummary,
+    holdout: Option<ErrorSummary>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+struct SavedNoise {
+    translation_um: f64,
+    rotation_urad: f64,
+    source: NoiseSource,
+}
+
+/// A comparison, as far as it is compared with another one.
+#[derive(Debug, Clone, Deserialize)]
+pub struct SavedComparison {
+    terms: Vec<String>,
+    noise_source: NoiseSource,
+    error: ErrorSummary,
+    holdout: Option<ErrorSummary>,
+    coordinates: Vec<SavedCoordinate>,
+    run: Option<Origin>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+struct SavedCoordinate {
+    noise: f64,
+}
+
+/// Error of one model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RunStep {
+    /// Terms beside the springs.
+    pub terms: Vec<String>,
+    /// On the readings of the data.
+    pub fitted: ErrorSummary,
+    /// On held-out readings.
+    pub holdout: Option<ErrorSummary>,
+}
+
+impl RunStep {
+    /// The held-out error where there is one.
+    pub fn error(&self) -> &ErrorSummary {
+        self.holdout.as_ref().unwrap_or(&self.fitted)
+    }
+}
+
+/// A result to be compared.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Run {
+    /// The file it comes from.
+    pub file: String,
+    /// `diagnosis/1`, `comparison/1`.
+    pub format: String,
+    /// Of a diagnosis.
+    pub verdict: Option<Verdict>,
+    /// Terms named, or terms of the model compared.
+    pub added: Vec<String>,
+    /// Probability that an effect is at work, of `outside` and of `none`.
+    pub probabilities: BTreeMap<Explanation, f64>,
+    /// Errors, the springs alone first.
+    pub steps: Vec<RunStep>,
+    /// Noise of one translation, um.
+    pub noise_translation_um: f64,
+    /// Noise of one rotation, urad.
+    pub noise_rotation_urad: f64,
+    /// Where the noise comes from.
+    pub noise_source: NoiseSource,
+    /// Numbers of the final model.
+    pub parameters: Vec<Estimate>,
+    /// Absent in files of versions that did not write it.
+    pub origin: Option<Origin>,
+}
+
+impl Run {
+    /// Of a diagnosis.
+    pub fn of_diagnosis(file: &str, d: SavedDiagnosis) -> Self {
+        // They are candidates, not effects.
+        let special = d.candidates.into_iter().filter(|c| c.term.term().is_none());
+        let special = special.map(|c| (c.term, c.probability));
+        let present = d.present.into_iter().map(|(id, p)| (Explanation::Term(id), p));
+        let step = |s: SavedStep| RunStep { terms: s.terms, fitted: s.fitted, holdout: s.holdout };
+        Self {
+            file: file.to_owned(),
+            format: FORMATS[0].to_owned(),
+            verdict: Some(d.verdict),
+            added: d.added,
+            probabilities: present.chain(special).collect(),
+            steps: d.steps.into_iter().map(step).collect(),
+            noise_translation_um: d.noise.translation_um,
+            noise_rotation_urad: d.noise.rotation_urad,
+            noise_source: d.noise.source,
+            parameters: d.parameters,
+            origin: d.run,
+        }
+    }
+
+    /// Of a comparison.
+    pub fn of_comparison(file: &str, c: SavedComparison) -> Self {
+        let noise = |k: usize| c.coordinates.get(k).map_or(f64::NAN, |x| x.noise);
+        Self {
+            file: file.to_owned(),
+            format: FORMATS[1].to_owned(),
+            verdict: None,
+            added: c.terms.clone(),
+            probabilities: BTreeMap::new(),
+            noise_translation_um: noise(0),
+            noise_rotation_urad: noise(3),
+            steps: vec![RunStep { terms: c.terms, fitted: c.error, holdout: c.holdout }],
+            noise_source: c.noise_source,
+            parameters: Vec::new(),
+            origin: c.run,
+        }
+    }
+}
