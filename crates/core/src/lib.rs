@@ -20,7 +20,7 @@ pub mod wrench;
 pub use approach::Approach;
 pub use balls::{BallPlace, BallPlaces, BallRecord};
 pub use dataset::{Columns, Dataset, Measurand, Observation};
-pub use hexapod::{Hexapod, Metrology};
+pub use hexapod::{Hexapod, Metrology, Tolerances};
 pub use pose::Pose;
 pub use wrench::Wrench;
 

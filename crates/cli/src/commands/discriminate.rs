@@ -13,7 +13,7 @@ use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::fit_named::term_named;
 use hexbench_model::estimation::noise::Noise;
 use hexbench_model::results::diagnose::prepare;
-use hexbench_model::results::next::{EXCLUDED_ODDS, Effort, Forecast, Suspects, propose, suspects};
+use hexbench_model::results::next::{EXCLUDED_ODDS, Effort, PairForecast, Suspects, propose, suspects};
 
 use crate::csv;
 use crate::failure::Failure;
@@ -174,7 +174,7 @@ fn next_readings(
     let proposed =
         propose(&campaign, &rivals, &candidate_readings, Effort::Exactly(count)).map_err(of_model)?;
     let names: Vec<String> = terms.iter().map(|t| t.info().id.to_owned()).collect();
-    let pair = |o: &Forecast| {
+    let pair = |o: &PairForecast| {
         let [a, b] = o.between;
         let odds = log_evidence[a].zip(log_evidence[b]).map(|(a, b)| (a - b) / std::f64::consts::LN_10);
         Pair {

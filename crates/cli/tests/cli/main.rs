@@ -9,6 +9,7 @@ mod discriminate;
 mod documents;
 mod exits;
 mod export;
+mod glossary;
 mod html;
 mod json;
 mod pages;

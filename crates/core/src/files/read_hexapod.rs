@@ -4,7 +4,7 @@ use super::error::Fault;
 use super::toml_file::{Format, parse_toml, read_toml};
 use super::toml_value::{Item, KeyUnit, TomlSection};
 use super::{Dimension, FileError, FileProblem};
-use crate::{Hexapod, Metrology, Vector3};
+use crate::{Hexapod, Metrology, Tolerances, Vector3};
 use std::path::Path;
 
 /// The format this program reads and writes.
@@ -19,7 +19,7 @@ const SAME_POINT_M: f64 = 1e-9;
 const MACHINE_SIZE_M: [f64; 2] = [1e-3, 1e3];
 
 const TOP: &[KeyUnit] =
-    &KeyUnit::all_plain(["format", "name", "geometry", "metrology", "legs", "base", "payload"]);
+    &KeyUnit::all_plain(["format", "name", "geometry", "metrology", "legs", "base", "payload", "tolerances"]);
 const GEOMETRY: &[KeyUnit] = &[
     KeyUnit::with_unit("base_joints", Dimension::Length, "mm"),
     KeyUnit::with_unit("platform_joints", Dimension::Length, "mm"),
@@ -35,6 +35,14 @@ const LEGS: &[KeyUnit] = &[
     KeyUnit::plain("brackets"),
 ];
 const BASE: &[KeyUnit] = &[KeyUnit::with_unit("mounting_plane_z", Dimension::Length, "mm")];
+const TOLERANCES: &[KeyUnit] = &[
+    KeyUnit::with_unit("joints", Dimension::Length, "mm"),
+    KeyUnit::plain("load_gain"),
+    KeyUnit::with_unit("load_direction", Dimension::Angle, "deg"),
+    KeyUnit::with_unit("load_point", Dimension::Length, "mm"),
+    KeyUnit::with_unit("frame", Dimension::Angle, "deg"),
+    KeyUnit::plain("noise"),
+];
 const PAYLOAD: &[KeyUnit] = &[KeyUnit::with_unit("center_of_gravity", Dimension::Length, "mm")];
 
 /// Reads `hexapod.toml`; `docs/reference/file-formats.md` defines the keys.
@@ -72,6 +80,7 @@ fn with_sections(name: String, top: &TomlSection<'_>) -> Result<Hexapod, Fault> 
     let legs = top.section("legs", "[legs]", LEGS)?;
     let base = top.section("base", "[base]", BASE)?;
     let payload = top.section("payload", "[payload]", PAYLOAD)?;
+    let stated = top.section("tolerances", "[tolerances]", TOLERANCES)?;
     let [base_joints, platform_joints] = all_joints(&geometry)?;
     Ok(Hexapod {
         name,
@@ -83,6 +92,7 @@ fn with_sections(name: String, top: &TomlSection<'_>) -> Result<Hexapod, Fault> 
         brackets: legs.get("brackets").map(brackets).transpose()?,
         mounting_plane_z: base.get("mounting_plane_z").map(Item::number).transpose()?,
         payload_centre: payload.get("center_of_gravity").map(point).transpose()?,
+        tolerances: tolerances(&stated)?,
     })
 }
 
@@ -143,6 +153,20 @@ fn stated_noise(metrology: &TomlSection<'_>) -> Result<Metrology, Fault> {
     Ok(Metrology {
         sigma_translation: metrology.require("sigma_translation")?.positive("a standard deviation")?,
         sigma_rotation: metrology.require("sigma_rotation")?.positive("a standard deviation")?,
+    })
+}
+
+/// Those that are stated, the rest as usual; none may be zero, for nothing is exact.
+fn tolerances(stated: &TomlSection<'_>) -> Result<Tolerances, Fault> {
+    let usual = Tolerances::default();
+    let value = |key, usual: f64| stated.get(key).map_or(Ok(usual), |item| item.positive("a tolerance"));
+    Ok(Tolerances {
+        joints: value("joints", usual.joints)?,
+        load_gain: value("load_gain", usual.load_gain)?,
+        load_direction: value("load_direction", usual.load_direction)?,
+        load_point: value("load_point", usual.load_point)?,
+        frame: value("frame", usual.frame)?,
+        noise: value("noise", usual.noise)?,
     })
 }
 

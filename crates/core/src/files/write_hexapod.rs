@@ -3,7 +3,7 @@
 use super::read_hexapod::FORMAT;
 use super::units::{PLAIN, unit_named};
 use super::{Dimension, FileError, atomic_write};
-use crate::{Hexapod, Vector3};
+use crate::{Hexapod, Tolerances, Vector3};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -32,7 +32,22 @@ pub fn hexapod_to_toml(hexapod: &Hexapod) -> String {
         text.push_str("\n[payload]\n");
         add(&mut text, "center_of_gravity_mm", &point(&centre));
     }
+    add_tolerances(&mut text, &hexapod.tolerances);
     text
+}
+
+/// Usual tolerances go without saying.
+fn add_tolerances(text: &mut String, tolerances: &Tolerances) {
+    if *tolerances == Tolerances::default() {
+        return;
+    }
+    text.push_str("\n[tolerances]\n");
+    add(text, "joints_mm", &millimetres(tolerances.joints));
+    add(text, "load_gain", &format!("{:?}", tolerances.load_gain));
+    add(text, "load_direction_deg", &in_unit(tolerances.load_direction, "deg", Dimension::Angle));
+    add(text, "load_point_mm", &millimetres(tolerances.load_point));
+    add(text, "frame_deg", &in_unit(tolerances.frame, "deg", Dimension::Angle));
+    add(text, "noise", &format!("{:?}", tolerances.noise));
 }
 
 /// Writes `hexapod.toml` whole or not at all.

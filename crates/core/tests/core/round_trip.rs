@@ -5,7 +5,7 @@ use hexbench_core::files::{
     read_measurements_from, write_hexapod, write_measurements,
 };
 use hexbench_core::{
-    Approach, Columns, Dataset, Hexapod, Measurand, Metrology, Observation, Pose, Vector3, Wrench,
+    Approach, Columns, Dataset, Hexapod, Measurand, Metrology, Observation, Pose, Tolerances, Vector3, Wrench,
 };
 use proptest::array::uniform6;
 use proptest::prelude::*;
@@ -112,12 +112,16 @@ prop_compose! {
         shortest in prop::option::of(0.1..1.0_f64), z in prop::option::of(-1.0..1.0_f64),
         brackets in prop::option::of(Just(vec![[0, 1], [2, 3], [4, 5]])),
         payload in prop::option::of(prop::array::uniform3(-1.0..1.0_f64)),
+        load_gain in prop::option::of(1e-6..1.0_f64),
     ) -> Hexapod {
         Hexapod {
             name, base_joints, platform_joints, nominal_stiffness, brackets, mounting_plane_z: z,
             metrology: sigma.map(|[t, r]| Metrology { sigma_translation: t, sigma_rotation: r }),
             stroke: shortest.map(|length| [length, length + 0.1]),
             payload_centre: payload.map(Vector3::from),
+            tolerances: load_gain.map_or_else(Tolerances::default, |load_gain| {
+                Tolerances { joints: 1e-4, load_gain, noise: 0.2, ..Tolerances::default() }
+            }),
         }
     }
 }

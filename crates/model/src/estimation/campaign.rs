@@ -4,6 +4,7 @@
 //! the model, the scatter about it (pure error) only on the noise.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use hexbench_core::{
     Approach, Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, Vector3, Vector6,
@@ -15,6 +16,7 @@ use crate::effects::chain::Action;
 use crate::error::ModelError;
 use crate::estimation::noise::{Noise, NoiseSource, SharedReference, Structure, stated_or_repeated};
 use crate::estimation::parallel::try_map;
+use crate::estimation::whitening::Inexact;
 use crate::machine::geometry::Machine;
 use crate::machine::kinematics::{Legs, euler_rate_matrix};
 
@@ -110,8 +112,8 @@ pub struct Campaign {
     pub pure_error: f64,
     /// Degrees of freedom of the pure error.
     pub pure_error_dof: f64,
-    /// Whitened reading per standard deviation of inputs that are known to a tolerance only, six rows for each group.
-    pub inexact: Option<DMatrix<f64>>,
+    /// Inputs that are known to a tolerance only; none when all are taken as exact.
+    pub inexact: Option<Arc<Inexact>>,
 }
 
 impl Condition {
@@ -201,8 +203,27 @@ impl Campaign {
     pub fn part(&self, groups: &[usize]) -> Self {
         let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
         let rows: Vec<usize> = groups.iter().flat_map(|&g| 6 * g..6 * g + 6).collect();
-        let inexact = self.inexact.as_ref().map(|all| all.select_rows(&rows));
-        Self { inexact, ..Self::of_groups(&self.hexapod, self.measurand, self.columns, self.noise, kept) }
+        let part = Self::of_groups(&self.hexapod, self.measurand, self.columns, self.noise, kept);
+        match &self.inexact {
+            Some(all) => part.with_inexact(all.columns.select_rows(&rows)),
+            None => part,
+        }
+    }
+
+    /// The same with inputs known to a tolerance only: what a standard deviation of each does to every reading over the standard
+    /// deviation of its own noise, six rows for each group.
+    #[must_use]
+    pub fn with_inexact(mut self, columns: DMatrix<f64>) -> Self {
+        self.inexact = Inexact::of(&self.groups, &self.noise, columns).map(Arc::new);
+        self
+    }
+
+    /// The same with nothing in common between its readings, each weighed by what is its own.
+    #[must_use]
+    pub(crate) fn unwhitened(mut self) -> Self {
+        self.noise = self.noise.independent();
+        self.inexact = None;
+        self
     }
 
     /// The same with every reading weighed by all of its noise, as if nothing were shared.

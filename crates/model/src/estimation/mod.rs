@@ -13,4 +13,5 @@ pub mod parameters;
 pub mod residuals;
 pub mod scatter;
 pub mod spring_trials;
+pub mod tolerances;
 pub mod whitening;

@@ -11,20 +11,23 @@
 //! `u`: standard deviation of the shared part over that of the own part. The first is Woodbury's identity, the second the
 //! Cholesky factor of white noise beside a process of first order.
 
+use std::sync::Arc;
+
 use hexbench_core::Vector6;
 use nalgebra::{DMatrix, DVector};
 
 use crate::estimation::campaign::{Campaign, ConditionReadings};
 use crate::estimation::noise::{Noise, Structure};
 
-/// Eigenvalues of the inexact inputs below this share of the largest do not show.
-const SHOWS: f64 = 1e-12;
+/// A combination of inputs whose errors move the readings by a smaller squared number of standard deviations does not show: leaving
+/// it out changes no standard deviation by more than half of this.
+const SHOWS: f64 = 1e-2;
 
 /// The transform of a list of conditions.
 #[derive(Debug, Clone)]
 pub struct Whitening {
     noise: Common,
-    inputs: Option<Inputs>,
+    inputs: Option<Arc<Inexact>>,
 }
 
 /// What errors of the readings have in common.
@@ -54,20 +57,16 @@ impl Whitening {
     /// The transform for the groups of a campaign.
     pub fn of(campaign: &Campaign) -> Self {
         let noise = Common::of(&campaign.groups, &campaign.noise);
-        let inputs = campaign.inexact.as_ref().and_then(|columns| {
-            let mut columns = columns.clone();
-            noise.apply(&mut columns);
-            Inputs::of(columns)
-        });
-        Self { noise, inputs }
+        Self { noise, inputs: campaign.inexact.clone() }
     }
 
     /// That of some of the conditions, in this order.
     #[must_use]
     pub fn choose(&self, which: impl Iterator<Item = usize> + Clone) -> Self {
         let rows: Vec<usize> = which.clone().flat_map(|i| 6 * i..6 * i + 6).collect();
-        let inputs = self.inputs.as_ref().and_then(|all| Inputs::of(all.columns.select_rows(&rows)));
-        Self { noise: self.noise.choose(which), inputs }
+        let noise = self.noise.choose(which);
+        let chosen = |all: &Arc<Inexact>| Inexact::whitened(&noise, all.columns.select_rows(&rows));
+        Self { inputs: self.inputs.as_ref().and_then(chosen).map(Arc::new), noise }
     }
 
     /// True when conditions may be treated one by one.
@@ -92,23 +91,33 @@ impl Whitening {
     }
 }
 
-/// Inputs known to a tolerance only: `V = I + Z Z'`, and `V^-1/2 = I - Q D Q'` with `Q` an orthonormal basis of `Z`.
+/// Inputs known to a tolerance only: `V = I + Z Z'`, and `V^-1/2 = I - Q D Q'` with `Q` an orthonormal basis of the part of `Z` that
+/// shows.
 #[derive(Debug, Clone)]
-struct Inputs {
-    columns: DMatrix<f64>,
+pub struct Inexact {
+    /// Reading over the standard deviation of its own noise, per standard deviation of each input.
+    pub(crate) columns: DMatrix<f64>,
+    /// `Q`, where errors that readings share are whitened out.
     basis: DMatrix<f64>,
+    /// Diagonal of `D`.
     taken: DVector<f64>,
 }
 
-impl Inputs {
-    fn of(columns: DMatrix<f64>) -> Option<Self> {
-        let eigen = columns.tr_mul(&columns).symmetric_eigen();
-        let least = SHOWS * eigen.eigenvalues.max().max(f64::MIN_POSITIVE);
-        let kept: Vec<usize> = (0..columns.ncols()).filter(|&k| eigen.eigenvalues[k] > least).collect();
+impl Inexact {
+    /// Inputs of groups of readings; none when no error of them shows.
+    pub(crate) fn of(groups: &[ConditionReadings], noise: &Noise, columns: DMatrix<f64>) -> Option<Self> {
+        Self::whitened(&Common::of(groups, noise), columns)
+    }
+
+    fn whitened(noise: &Common, columns: DMatrix<f64>) -> Option<Self> {
+        let mut z = columns.clone();
+        noise.apply(&mut z);
+        let eigen = z.tr_mul(&z).symmetric_eigen();
+        let kept: Vec<usize> = (0..z.ncols()).filter(|&k| eigen.eigenvalues[k] > SHOWS).collect();
         if kept.is_empty() {
             return None;
         }
-        let mut basis = &columns * eigen.eigenvectors.select_columns(&kept);
+        let mut basis = &z * eigen.eigenvectors.select_columns(&kept);
         let mut taken = DVector::zeros(kept.len());
         for (i, &k) in kept.iter().enumerate() {
             let square = eigen.eigenvalues[k];
@@ -294,7 +303,7 @@ mod tests {
     fn inputs_that_are_not_exact_are_taken_out_as_far_as_they_are_known() {
         let columns = DMatrix::from_fn(12, 3, |i, k| ((i * 7 + k * 5) % 11) as f64 - 5.0);
         let covariance = DMatrix::<f64>::identity(12, 12) + &columns * columns.transpose();
-        let inputs = Inputs::of(columns).unwrap();
+        let inputs = Inexact::whitened(&Common::Nothing, columns).unwrap();
         let mut w = DMatrix::identity(12, 12);
         inputs.apply(&mut w);
         assert!((&w * covariance * w.transpose() - DMatrix::identity(12, 12)).amax() < 100.0 * ROUNDING);

@@ -110,6 +110,20 @@ pub struct Variant {
     pub width: usize,
 }
 
+/// Sum of squared whitened errors that tell of the noise level, and their degrees of freedom: repeats, and what a statement is worth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoiseLevel {
+    /// Sum of squares.
+    pub sum: f64,
+    /// Degrees of freedom; infinite for a level that is exact, zero for one of which nothing is known.
+    pub dof: f64,
+}
+
+impl NoiseLevel {
+    /// A level without doubt.
+    pub const EXACT: Self = Self { sum: f64::INFINITY, dof: f64::INFINITY };
+}
+
 /// Projected normal equations of all blocks.
 #[derive(Debug, Clone)]
 pub struct Gram {
@@ -121,10 +135,8 @@ pub struct Gram {
     pub yy: f64,
     /// Equations left after the projection.
     pub equations: f64,
-    /// Pure error and its degrees of freedom.
-    pub pure_error: (f64, f64),
-    /// Degrees of freedom behind the noise level: infinite when it is stated.
-    pub noise_dof: f64,
+    /// What is known of the noise level beside these equations.
+    pub level: NoiseLevel,
     /// The blocks.
     pub blocks: Vec<PriorBlock>,
     /// Compliance (m/N) the six springs take over from one unit of every column; 6 rows.
@@ -205,21 +217,20 @@ impl Gram {
         (columns, DVector::from_vec(scale))
     }
 
-    /// Logarithm of the likelihood gained by a drop of (inflated) chi-square, and lost by the inflation itself.
+    /// Logarithm of the likelihood gained by a drop of (inflated) chi-square, and lost by the inflation itself. The noise level is
+    /// integrated out: with `S` and `nu` known of it, `n` equations and an inflation `v` of what the model leaves,
+    ///
+    /// ```text
+    /// -n/2 ln v - (n + nu)/2 ln((S + yy/v - drop) / (S + yy))
+    /// ```
     fn gain(&self, drop: f64, inflation: f64) -> f64 {
-        let (pure, pure_dof) = self.pure_error;
-        if self.noise_dof.is_finite() {
-            // Unknown level with `noise_dof` prior degrees of freedom; repeats already counted in them are left out.
-            let (total, n) = if self.noise_dof > 0.0 {
-                (self.yy + self.noise_dof, self.equations + self.noise_dof)
-            } else {
-                (self.yy + pure, self.equations + pure_dof)
-            };
-            let before = total.max(f64::MIN_POSITIVE);
-            return -0.5 * n * ((before - drop).max(1e-12 * before) / before).ln();
+        let lost = 0.5 * self.equations * inflation.ln();
+        if self.level.dof.is_infinite() {
+            return 0.5 * (drop + self.yy * (1.0 - 1.0 / inflation)) - lost;
         }
-        let lost = 0.5 * self.yy * (1.0 - 1.0 / inflation) - 0.5 * self.equations * inflation.ln();
-        0.5 * drop + lost
+        let before = (self.level.sum + self.yy).max(f64::MIN_POSITIVE);
+        let after = (self.level.sum + self.yy / inflation - drop).max(1e-12 * before);
+        -lost - 0.5 * (self.equations + self.level.dof) * (after / before).ln()
     }
 
     /// Length of the whitened signature of one unit (SI) of every parameter of a block, less what springs, frames and

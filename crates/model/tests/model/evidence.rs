@@ -4,7 +4,7 @@
 use hexbench_core::{Dataset, Measurand};
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::inference::diagnosis::explain;
-use hexbench_model::inference::evidence::{Gram, PriorBlock, Variant, log_orthant};
+use hexbench_model::inference::evidence::{Gram, NoiseLevel, PriorBlock, Variant, log_orthant};
 use hexbench_model::inference::power::{noncentral_cdf, noncentrality};
 use hexbench_model::inference::verdict::{Judgement, Verdict, judge};
 use hexbench_model::results::diagnose::diagnose;
@@ -35,8 +35,7 @@ fn gram(g: &DMatrix<f64>, b: &DVector<f64>, mut block: PriorBlock, width: f64, y
         b: t.transpose() * b,
         yy,
         equations: 40.0,
-        pure_error: (0.0, 0.0),
-        noise_dof: f64::INFINITY,
+        level: NoiseLevel::EXACT,
         blocks: vec![block],
         absorbed: DMatrix::zeros(6, t.ncols()),
         springs: DMatrix::zeros(6, 6),
@@ -195,7 +194,7 @@ fn the_student_form_tends_to_the_known_noise_with_many_degrees_of_freedom() {
         let g = DMatrix::from_row_slice(2, 2, &[9.0, 4.0, 4.0, 16.0]);
         let b = DVector::from_vec(vec![6.0, 9.0]);
         // Residuals of the size of the noise: 40 equations, chi-square 40.
-        let problem = Gram { noise_dof: dof, ..gram(&g, &b, block, 1.0, 40.0) };
+        let problem = Gram { level: NoiseLevel { sum: dof, dof }, ..gram(&g, &b, block, 1.0, 40.0) };
         problem.posterior(&ONLY, 1.0).unwrap().log_evidence
     };
     let known = problem(f64::INFINITY);
@@ -211,8 +210,10 @@ fn the_student_form_is_the_integral_over_the_unknown_noise() {
     // nu degrees of freedom about 1: p(y | model) = integral of s^(-n/2 - nu/2 - 1) exp(-(chi2 + nu) / 2s).
     let (g, b, width, yy, n, nu) = (9.0, 7.0, 1.5, 30.0, 40.0, 12.0);
     let block = PriorBlock::new(&[1.0], vec![false], 1.0, false, 1.0);
-    let problem =
-        Gram { noise_dof: nu, ..gram(&DMatrix::repeat(1, 1, g), &DVector::repeat(1, b), block, width, yy) };
+    let problem = Gram {
+        level: NoiseLevel { sum: nu, dof: nu },
+        ..gram(&DMatrix::repeat(1, 1, g), &DVector::repeat(1, b), block, width, yy)
+    };
     let closed = problem.posterior(&ONLY, 1.0).unwrap().log_evidence;
     let over_noise = |f: &dyn Fn(f64) -> f64| {
         log_integral(-6.0, 6.0, 2000, |log_s| f(log_s.exp()) - 0.5 * (n + nu) * log_s)

@@ -44,7 +44,7 @@ pub struct Surroundings {
 
 /// Ball centres of one state, in the frame of the measuring machine, m.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BallRecord {
+pub struct CmmRecord {
     /// Balls on the platform.
     pub platform: Vec<Vector3>,
     /// Balls on the base.
@@ -62,12 +62,12 @@ pub struct CmmPose {
 
 impl Cmm {
     /// Touches all balls with the platform at a pose.
-    pub fn record(&self, frames: &Frames, pose: &Pose, at: Surroundings, rng: &mut Pcg64) -> BallRecord {
+    pub fn record(&self, frames: &Frames, pose: &Pose, at: Surroundings, rng: &mut Pcg64) -> CmmRecord {
         let frame = self.frame(frames, at.elapsed);
         let stretch = 1.0 + self.scale_per_k * at.delta_t;
         let platform = Frames { metrology: frame, target: frames.target }.seen(pose);
         let mut touch = |balls: &Balls, pose: &Pose| balls.seen(pose, stretch, rng);
-        let mut record = BallRecord {
+        let mut record = CmmRecord {
             platform: touch(&self.platform, &platform),
             base: self.base.as_ref().map(|base| touch(base, &frame)).unwrap_or_default(),
         };
@@ -80,7 +80,7 @@ impl Cmm {
         Frames { metrology: frames.metrology, target: moved }.seen(&Pose::default())
     }
 
-    fn blunder(&self, record: &mut BallRecord, rng: &mut Pcg64) {
+    fn blunder(&self, record: &mut CmmRecord, rng: &mut Pcg64) {
         if self.blunder_share > 0.0 && rng.random_bool(self.blunder_share) {
             let ball = rng.random_range(0..record.platform.len());
             let side = if rng.random_bool(0.5) { 1.0 } else { -1.0 };
@@ -110,14 +110,14 @@ impl Cmm {
         let r = pose.rotation();
         let platform = self.platform.centres.iter().map(|c| pose.translation + r * c).collect();
         let base = self.base.as_ref().map(|base| base.centres.clone()).unwrap_or_default();
-        self.locate(&BallRecord { platform, base }).map(|located| located.covariance)
+        self.locate(&CmmRecord { platform, base }).map(|located| located.covariance)
     }
 
     /// Pose of the platform in the fixed frame, or in the frame of the machine when no balls are on the base.
     ///
     /// # Errors
     /// As [`Balls::register`].
-    pub fn locate(&self, record: &BallRecord) -> Result<CmmPose, TruthError> {
+    pub fn locate(&self, record: &CmmRecord) -> Result<CmmPose, TruthError> {
         let platform = self.platform.register(&record.platform)?.pose;
         let Some(base) = &self.base else {
             let twist = self.platform.covariance(&platform)?;

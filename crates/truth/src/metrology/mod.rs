@@ -6,7 +6,7 @@ mod frames;
 mod noise;
 
 pub use balls::{Balls, Registration};
-pub use cmm::{BallRecord, Cmm, CmmPose, Surroundings};
+pub use cmm::{Cmm, CmmPose, CmmRecord, Surroundings};
 pub use frames::Frames;
 pub use noise::InstrumentNoise;
 

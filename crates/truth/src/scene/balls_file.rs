@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use hexbench_core::Vector3;
 
 use super::{Instrument, Measured};
-use crate::metrology::BallRecord;
+use crate::metrology::CmmRecord;
 
 /// States of a row in the order of its records.
 const STATES: [&str; 2] = ["reference", "loaded"];
@@ -28,7 +28,7 @@ pub(super) fn rows(out: &mut dyn Write, index: u64, row: &Measured) -> io::Resul
     Ok(())
 }
 
-fn balls(out: &mut dyn Write, start: &str, record: &BallRecord) -> io::Result<()> {
+fn balls(out: &mut dyn Write, start: &str, record: &CmmRecord) -> io::Result<()> {
     let of = |prefix: &'static str, points: &[Vector3]| -> Vec<(String, Vector3)> {
         points.iter().zip(1..).map(|(p, number)| (format!("{prefix}{number}"), *p)).collect()
     };

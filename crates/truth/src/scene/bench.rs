@@ -9,7 +9,7 @@ use super::{Instrument, PartName, Scene, ScenePurpose};
 use crate::{
     TruthError, World,
     campaign::{PlanRow, rounded},
-    metrology::{BallRecord, Cmm, Frames, Surroundings},
+    metrology::{Cmm, CmmRecord, Frames, Surroundings},
     world::difference,
 };
 
@@ -28,7 +28,7 @@ pub struct Measured {
     /// The reading.
     pub observation: Observation,
     /// What the measuring machine wrote down, reference state first; empty for an instrument that reads numbers.
-    pub records: Vec<BallRecord>,
+    pub records: Vec<CmmRecord>,
 }
 
 /// A row whose state of rest does not exist.
@@ -136,7 +136,7 @@ impl<'a> VirtualBench<'a> {
         row: &PlanRow,
         [before, after]: Ideal,
         rng: &mut Pcg64,
-    ) -> Result<(Vector6, Vector6, Vec<BallRecord>), TruthError> {
+    ) -> Result<(Vector6, Vector6, Vec<CmmRecord>), TruthError> {
         let quiet = self.noise_free.then(|| cmm.without_errors());
         let acting = quiet.as_ref().unwrap_or(cmm);
         let later = Surroundings { elapsed: row.situation.elapsed, delta_t: row.situation.delta_t };

@@ -1,6 +1,6 @@
 /** All the page knows. */
 import type { History, Step } from "./history";
-import type { Catalogue, Diagnosed, Level, Open, Opened, Revealed, Selection } from "./wire";
+import type { Catalogue, Diagnosed, GameLevel, Open, Opened, Revealed, Selection } from "./wire";
 
 /** Something that went wrong, with what to do. */
 export interface Problem {
@@ -41,7 +41,7 @@ export interface Trial {
 
 /** Games played in this tab. */
 export interface Score {
-  level: Level;
+  level: GameLevel;
   right: boolean;
   /** The diagnosis was asked before the guess. */
   helped: boolean;

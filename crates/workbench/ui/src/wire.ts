@@ -32,7 +32,7 @@ export type Catalogue = {
   /** What a formula of one's own may use. */
   formula: FormulaHelp;
   /** What the server accepts. */
-  limits: Limits;
+  limits: ServerLimits;
 };
 
 /** Something to choose. */
@@ -57,8 +57,16 @@ export type FormulaHelp = {
   example: string;
 };
 
+/** A name and a unit. */
+export type NamedUnit = {
+  /** Name. */
+  name: string;
+  /** Unit. */
+  unit: string;
+};
+
 /** What the server accepts. */
-export type Limits = {
+export type ServerLimits = {
   /** Bytes of a request. */
   bytes: number;
   /** Readings of a file. */
@@ -69,14 +77,6 @@ export type Limits = {
   term_bytes: number;
   /** Benches kept; the one unused for longest gives way. */
   benches: number;
-};
-
-/** A name and a unit. */
-export type NamedUnit = {
-  /** Name. */
-  name: string;
-  /** Unit. */
-  unit: string;
 };
 
 /** A term of the model. */
@@ -129,7 +129,7 @@ export type Open = {
 } | {
   "from": "game";
   /** How hard. */
-  level: Level;
+  level: GameLevel;
   /** Decides everything; none: drawn. */
   seed: number | null;
 };
@@ -143,7 +143,7 @@ export type FileText = {
 };
 
 /** How hard a game is. */
-export type Level = "easy" | "hard" | "honest";
+export type GameLevel = "easy" | "hard" | "honest";
 
 /** Body of `POST /api/benches/{id}/view`: the model asked about. */
 export type Selection = {
@@ -182,7 +182,7 @@ export type View = {
   /** Prediction as motion of the platform, um and urad, per condition shown. */
   predicted_motion: Array<Six>;
   /** Are the residuals noise? */
-  scatter: Scatter;
+  scatter: ReadingResiduals;
   /** Time taken on the server, ms. */
   milliseconds: number;
 };
@@ -231,20 +231,20 @@ export type LookAlike = {
   correlation: number;
 };
 
+/** Residuals of single readings in units of the noise. */
+export type ReadingResiduals = {
+  /** Outline of the histogram: residual, share per unit. */
+  histogram: Array<[number, number]>;
+  /** Normal plot: expected of noise, found. */
+  quantiles: Array<[number, number]>;
+};
+
 /** Root mean square in the units people read. */
 export type Rms = {
   /** Over the three translations, um. */
   translation_um: number;
   /** Over the three rotations, urad. */
   rotation_urad: number;
-};
-
-/** Residuals of single readings in units of the noise. */
-export type Scatter = {
-  /** Outline of the histogram: residual, share per unit. */
-  histogram: Array<[number, number]>;
-  /** Normal plot: expected of noise, found. */
-  quantiles: Array<[number, number]>;
 };
 
 /** Answer to `POST /api/benches` (201). */
@@ -266,13 +266,13 @@ export type Opened = {
   /** Readings fitted. */
   readings: number;
   /** Standard deviation of one reading. */
-  noise: Noise;
+  noise: NoiseLevels;
   /** Why a term cannot be tested with these data; terms not listed can. */
-  untestable: Array<Untestable>;
+  untestable: Array<UntestableTerm>;
   /** Base joints, mm, fixed frame. */
   base_joints_mm: [Three, Three, Three, Three, Three, Three];
   /** Where and how was measured. */
-  conditions: Conditions;
+  conditions: ConditionLists;
   /** The springs alone. */
   view: View;
 };
@@ -281,7 +281,7 @@ export type Opened = {
  * Conditions (readings averaged where all that was set is equal), one entry per condition shown in every list. Deflections are
  * loaded minus reference; of an absolute pose what is measured beside what is commanded.
  */
-export type Conditions = {
+export type ConditionLists = {
   /** How many there are; those shown are evenly chosen. */
   of: number;
   /** a, b, c (mm), alpha, beta, gamma (deg). */
@@ -315,7 +315,7 @@ export type Hidden = {
 };
 
 /** Noise of one reading. */
-export type Noise = {
+export type NoiseLevels = {
   /** Of a translation, um. */
   translation_um: number;
   /** Of a rotation, urad. */
@@ -325,7 +325,7 @@ export type Noise = {
 };
 
 /** A term the data cannot speak about. */
-export type Untestable = {
+export type UntestableTerm = {
   /** Its id. */
   term: string;
   /** Why. */
@@ -384,7 +384,7 @@ export type Block = {
   /** Number of a numbered group of entries. */
   number: number | null;
   /** The entries. */
-  entries: Array<Entry>;
+  entries: Array<Definition>;
 } | {
   "kind": "code";
   /** The lines. */
@@ -413,14 +413,12 @@ export type Cell = string | {
   mood: Mood | null;
 };
 
-/** A column. */
-export type Column = {
-  /** Its heading. */
-  title: string;
-  /** Words are set left and may wrap, numbers right. */
-  words: boolean;
-  /** Left out where there is little room. */
-  detail: boolean;
+/** A name and what is said of it. */
+export type Definition = {
+  /** The name. */
+  label: string;
+  /** What is said. */
+  text: string;
 };
 
 /** Smallest size of one parameter that a test sees with the wanted power. */
@@ -476,21 +474,13 @@ export type Diagnosis = {
   /** What an effect does to the leg stiffnesses when it is left out. */
   absorbed: Array<AbsorbedReport>;
   /** Readings far from every prediction. */
-  suspects: Array<Suspect>;
+  suspects: Array<SuspiciousReading>;
   /** The unexplained pattern. */
   outside: OutsideReport | null;
   /** Things to know before trusting the numbers. */
   warnings: Array<string>;
   /** Faults of the data, in the order in which they were found. */
   findings: Array<Finding>;
-};
-
-/** A name and what is said of it. */
-export type Entry = {
-  /** The name. */
-  label: string;
-  /** What is said. */
-  text: string;
 };
 
 /** A chart, drawn by `crate::plot`. */
@@ -583,9 +573,19 @@ export type Page = {
   /** Its title. */
   title: string;
   /** What it is about: machine, files, noise. */
-  subject: Array<Entry>;
+  subject: Array<Definition>;
   /** From top to bottom. */
   sections: Array<Section>;
+};
+
+/** A column. */
+export type PageColumn = {
+  /** Its heading. */
+  title: string;
+  /** Words are set left and may wrap, numbers right. */
+  words: boolean;
+  /** Left out where there is little room. */
+  detail: boolean;
 };
 
 /** A titled part of a page. */
@@ -633,7 +633,7 @@ export type StepReport = {
 };
 
 /** A suspicious reading. */
-export type Suspect = {
+export type SuspiciousReading = {
   /** Line of the file. */
   row: number;
   /** Largest whitened residual. */
@@ -645,7 +645,7 @@ export type Table = {
   /** What stands above it; empty for none. */
   title: string;
   /** The columns. */
-  columns: Array<Column>;
+  columns: Array<PageColumn>;
   /** Cells, row by row; cells missing at the end of a row are empty. */
   rows: Array<Array<Cell>>;
   /** Rows that every medium shows, the others are detail; none: all. */

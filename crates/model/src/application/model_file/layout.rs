@@ -67,6 +67,21 @@ pub(super) struct HexapodTable {
     pub(super) mounting_plane_z_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) payload_centre_m: Option<[f64; 3]>,
+    /// Absent when they are the usual ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) tolerances: Option<TolerancesTable>,
+}
+
+/// Standard deviations of inputs, SI.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TolerancesTable {
+    pub(super) joints_m: f64,
+    pub(super) load_gain: f64,
+    pub(super) load_direction_rad: f64,
+    pub(super) load_point_m: f64,
+    pub(super) frame_rad: f64,
+    pub(super) noise: f64,
 }
 
 #[derive(Debug, Serialize, Deserialize)]

@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use hexbench_core::files::nearest;
-use hexbench_core::{Hexapod, Measurand, Metrology, Vector3, Vector6};
+use hexbench_core::{Hexapod, Measurand, Metrology, Tolerances, Vector3, Vector6};
 use nalgebra::{DMatrix, Isometry3, Quaternion, Translation3, UnitQuaternion};
 
-use super::layout::{File, Frame, HexapodTable, LegTable, NoiseTable, ParameterTable, TermTable};
+use super::layout::{
+    File, Frame, HexapodTable, LegTable, NoiseTable, ParameterTable, TermTable, TolerancesTable,
+};
 use super::write::mode_word;
 use super::{DataOrigin, Estimator, Model, ModelFileError};
 use crate::effects::term::Term;
@@ -116,6 +118,23 @@ fn hexapod(t: &HexapodTable) -> Result<Hexapod, ModelFileError> {
         brackets: t.brackets.as_ref().map(|b| brackets(b)).transpose()?,
         mounting_plane_z: t.mounting_plane_z_m,
         payload_centre: t.payload_centre_m.map(Vector3::from),
+        tolerances: t.tolerances.as_ref().map_or(Ok(Tolerances::default()), tolerances)?,
+    })
+}
+
+fn tolerances(t: &TolerancesTable) -> Result<Tolerances, ModelFileError> {
+    let all = [t.joints_m, t.load_gain, t.load_direction_rad, t.load_point_m, t.frame_rad, t.noise];
+    finite("hexapod.tolerances", &all)?;
+    if all.iter().any(|x| *x <= 0.0) {
+        return Err(rule("hexapod.tolerances", "every tolerance must be greater than zero"));
+    }
+    Ok(Tolerances {
+        joints: t.joints_m,
+        load_gain: t.load_gain,
+        load_direction: t.load_direction_rad,
+        load_point: t.load_point_m,
+        frame: t.frame_rad,
+        noise: t.noise,
     })
 }
 

@@ -2,11 +2,12 @@
 
 use nalgebra::Isometry3;
 
-use hexbench_core::{Hexapod, Measurand};
+use hexbench_core::{Hexapod, Measurand, Tolerances};
 
 use super::Model;
 use super::layout::{
     Covariance, Data, File, Frame, Frames, HexapodTable, LegTable, NoiseTable, ParameterTable, TermTable,
+    TolerancesTable,
 };
 use crate::estimation::linearization::Active;
 use crate::estimation::parameters::parameter_names;
@@ -72,6 +73,14 @@ fn hexapod(h: &Hexapod) -> HexapodTable {
         brackets: h.brackets.as_ref().map(|b| b.iter().map(|pair| pair.map(|leg| leg + 1)).collect()),
         mounting_plane_z_m: h.mounting_plane_z,
         payload_centre_m: h.payload_centre.map(Into::into),
+        tolerances: (h.tolerances != Tolerances::default()).then_some(TolerancesTable {
+            joints_m: h.tolerances.joints,
+            load_gain: h.tolerances.load_gain,
+            load_direction_rad: h.tolerances.load_direction,
+            load_point_m: h.tolerances.load_point,
+            frame_rad: h.tolerances.frame,
+            noise: h.tolerances.noise,
+        }),
     }
 }
 

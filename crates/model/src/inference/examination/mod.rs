@@ -18,16 +18,19 @@ use self::finding::probability;
 pub use self::finding::{Finding, FindingKind};
 use self::remainder::Remainder;
 use self::scatter::{Kind, Statement, statements};
-use self::tolerance::{Tolerance, joints};
+use self::tolerance::{Tolerance, worse_inputs};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::noise::{Noise, NoiseSource, SharedReference, Structure};
+use crate::estimation::tolerances::{InputKind, within_tolerances};
 use crate::inference::diagnosis::RankedSets;
 
 /// Evidence over the noise as stated beyond which another statement is believed, nats.
 const BELIEVED: f64 = 8.0;
 /// The same for joints off the drawing, nats: every machine is built to a tolerance, so odds of 20 to 1 are enough.
 const LIKELY: f64 = 3.0;
+/// Components of a load.
+const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 /// One reading in so many may be left out; beyond it something else is wrong.
 const MOST_LEFT_OUT: usize = 10;
 
@@ -40,7 +43,7 @@ pub struct Examined {
     pub noise: Noise,
     /// What was found.
     pub findings: Vec<Finding>,
-    /// Whitened reading per standard deviation of inputs that are not exact.
+    /// Whitened reading per standard deviation of every input, when some are worse than stated.
     inexact: Option<DMatrix<f64>>,
 }
 
@@ -50,8 +53,11 @@ impl Examined {
     /// # Errors
     /// As [`Campaign::with_noise`].
     pub fn campaign(&self, hexapod: &Hexapod) -> Result<Campaign, ModelError> {
-        let inexact = self.inexact.clone();
-        Ok(Campaign { inexact, ..Campaign::with_noise(hexapod, &self.data, self.noise)? })
+        let campaign = Campaign::with_noise(hexapod, &self.data, self.noise)?;
+        Ok(match &self.inexact {
+            Some(columns) => campaign.with_inexact(columns.clone()),
+            None => within_tolerances(campaign),
+        })
     }
 }
 
@@ -76,10 +82,10 @@ pub fn examine(
     }
     let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
-    if let Some(joints) = cleaned.last.joints.as_ref().filter(|j| j.evidence > LIKELY.max(rivals)) {
+    if let Some(worse) = cleaned.last.worse.as_ref().filter(|w| w.evidence > LIKELY.max(rivals)) {
         let mut examined = cleaned.examined;
-        examined.findings.push(off_the_drawing(joints));
-        examined.inexact = Some(joints.columns.clone());
+        examined.findings.push(worse_than_stated(worse));
+        examined.inexact = Some(worse.columns.clone());
         return Ok(examined);
     }
     Ok(settled(cleaned.examined, data, &cleaned.last, best))
@@ -93,8 +99,8 @@ struct Look {
     stated: f64,
     /// What is left of every row.
     rows: Vec<Vector6>,
-    /// What they tell of the joints, once no fault is left.
-    joints: Option<Tolerance>,
+    /// What they tell of the inputs, once no fault is left.
+    worse: Option<Tolerance>,
 }
 
 /// The worst fault of readings, of at most so many rows, and the statements about their noise.
@@ -108,8 +114,8 @@ fn look(
     let rest = Remainder::new(&examined.data, &campaign, outcome)?;
     let (statements, stated) = statements(&rest);
     let fault = worst(&rest).filter(|f| f.rows.len() <= most);
-    let joints = if fault.is_none() { joints(&rest)? } else { None };
-    Ok((fault, Look { statements, stated, rows: rest.rows, joints }))
+    let worse = if fault.is_none() { worse_inputs(&rest) } else { None };
+    Ok((fault, Look { statements, stated, rows: rest.rows, worse }))
 }
 
 /// Readings without single faults.
@@ -175,17 +181,39 @@ fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: Statement)
     examined
 }
 
-fn off_the_drawing(joints: &Tolerance) -> Finding {
-    let size = format!("{:.2} mm", joints.size * 1e3);
+fn worse_than_stated(worse: &Tolerance) -> Finding {
+    let (size, text, next) = match worse.kind {
+        InputKind::LoadGain => {
+            let (component, error) = LOADS
+                .iter()
+                .zip(&worse.errors)
+                .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+                .map_or(("", 0.0), |(name, error)| (*name, *error));
+            (
+                format!("{component} {:+.1} %", 100.0 * error),
+                format!(
+                    "loads that are larger or smaller than written explain the readings better than loads as written, and \
+                         better than any effect; {component} most, by {:+.1} %",
+                    100.0 * error
+                ),
+                "calibrate the load cell, weigh the masses, measure the lever arms",
+            )
+        }
+        _ => {
+            let size = format!("{:.2} mm", worse.size * 1e3);
+            let text = format!(
+                "joints about {size} off the drawing explain the readings better than joints as drawn, and better than any effect"
+            );
+            (size, text, "measure where the joints are, or calibrate the machine")
+        }
+    };
     Finding {
         kind: FindingKind::Tolerance,
-        probability: probability(joints.evidence),
+        probability: probability(worse.evidence),
         rows: Vec::new(),
-        text: format!(
-            "joints about {size} off the drawing explain the readings better than joints as drawn, and better than any effect"
-        ),
+        text,
         size,
-        next: "measure where the joints are, or calibrate the machine".to_owned(),
+        next: next.to_owned(),
     }
 }
 

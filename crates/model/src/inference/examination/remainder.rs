@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, row_sigma};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
+use crate::estimation::tolerances::input_columns;
 use crate::inference::candidates::{CandidateKind, orthonormal, project, target};
 use crate::inference::diagnosis::RankedSets;
 
@@ -29,7 +30,11 @@ pub(super) struct Remainder<'a> {
     pub(super) point: &'a ModelPoint,
     /// Orthonormal basis of what the catalogue could explain, per averaged number.
     pub(super) basis: DMatrix<f64>,
-    /// Averaged numbers without it, over their standard deviations.
+    /// What a standard deviation of every input of the campaign does to the averaged numbers.
+    pub(super) inputs: DMatrix<f64>,
+    /// Degrees of freedom that errors of the inputs within their tolerances take.
+    taken: f64,
+    /// Averaged numbers without it, and without what the inputs' tolerances explain, over their standard deviations.
     pub(super) means: DVector<f64>,
     /// Single readings likewise, over the standard deviations of one reading; in the order of the file.
     pub(super) rows: Vec<Vector6>,
@@ -52,6 +57,8 @@ impl<'a> Remainder<'a> {
         let basis = everything(outcome, &lin, point);
         let mut means = target(&lin, point);
         project(&basis, &mut means);
+        let inputs = input_columns(campaign, point, &campaign.hexapod.tolerances)?;
+        let taken = take_out(&basis, &inputs, &mut means);
         let mut rows = vec![Vector6::zeros(); data.observations.len()];
         let mut group_of = vec![0; rows.len()];
         for (g, group) in campaign.groups.iter().enumerate() {
@@ -65,7 +72,7 @@ impl<'a> Remainder<'a> {
                 group_of[i as usize] = g;
             }
         }
-        Ok(Self { data, campaign, lin, point, basis, means, rows, group_of })
+        Ok(Self { data, campaign, lin, point, basis, inputs, taken, means, rows, group_of })
     }
 
     /// Share of one averaged number that the catalogue could explain.
@@ -75,13 +82,25 @@ impl<'a> Remainder<'a> {
 
     /// Degrees of freedom of the averaged numbers.
     pub(super) fn freedom(&self) -> f64 {
-        (self.means.len() - self.basis.ncols()) as f64
+        (self.means.len() - self.basis.ncols()) as f64 - self.taken
     }
 
     /// Readings of a group.
     pub(super) fn readings(&self, group: usize) -> f64 {
         self.campaign.groups[group].rows.len() as f64
     }
+}
+
+/// Takes out the most probable errors of inputs within their tolerances; the degrees of freedom that go with them.
+fn take_out(basis: &DMatrix<f64>, inputs: &DMatrix<f64>, means: &mut DVector<f64>) -> f64 {
+    let columns = inputs - basis * basis.tr_mul(inputs);
+    let normal = columns.tr_mul(&columns);
+    let Some(factor) = (&normal + DMatrix::identity(normal.nrows(), normal.ncols())).cholesky() else {
+        return 0.0;
+    };
+    let errors = factor.solve(&columns.tr_mul(means));
+    means.gemv(-1.0, &columns, &errors, 1.0);
+    factor.solve(&normal).trace()
 }
 
 fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {

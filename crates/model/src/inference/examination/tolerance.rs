@@ -1,86 +1,80 @@
-//! Joints that are not quite where the drawing has them.
+//! Inputs that are worse than their tolerances.
 //!
-//! A hexapod is built to a tolerance. What 36 small errors of its joints do to the readings is linear in them and follows
-//! from the model; with a Gaussian of unknown width for the errors, the evidence for them is that of
-//! [`evidence`](crate::inference::evidence), beside the springs and the effects found.
+//! A hexapod is built and loaded to tolerances, which every fit knows. Joints and load cells can be worse than stated; with
+//! a Gaussian of several times the stated width for their errors, the evidence for that follows from the same columns,
+//! beside the springs and the effects found.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::remainder::Remainder;
-use crate::error::ModelError;
-use crate::estimation::campaign::{Campaign, moved};
-use crate::estimation::linearization::{Linearization, ModelPoint, beside};
+use crate::estimation::linearization::beside;
+use crate::estimation::tolerances::InputKind;
 use crate::inference::candidates::{orthonormal, project, target};
 
-/// Standard deviations of a joint coordinate that are tried, m.
-const SIZES: [f64; 5] = [2e-5, 5e-5, 1e-4, 2e-4, 5e-4];
-/// Step of a joint for its derivatives, m.
-const STEP: f64 = 1e-5;
-/// Joint coordinates: six joints, two ends, three axes.
-const COORDINATES: usize = 36;
+/// Multiples of the stated tolerance that are tried.
+const FACTORS: [f64; 4] = [2.0, 4.0, 10.0, 25.0];
+/// Inputs that can be worse than stated. The catalogue has terms for the direction and the point of the loads.
+const DOUBTED: [InputKind; 2] = [InputKind::Joints, InputKind::LoadGain];
 
-/// Joints off the drawing, as the readings tell of them.
+/// Inputs worse than stated, as the readings tell of them.
 pub(super) struct Tolerance {
-    /// Standard deviation of a joint coordinate, m.
+    /// Which.
+    pub(super) kind: InputKind,
+    /// Standard deviation of one of them, SI.
     pub(super) size: f64,
-    /// Evidence over joints as drawn, nats.
+    /// Evidence over inputs as stated, nats.
     pub(super) evidence: f64,
-    /// Whitened reading per standard deviation of every coordinate.
+    /// Most probable errors, SI.
+    pub(super) errors: Vec<f64>,
+    /// Whitened reading per standard deviation of every input, these as large as they seem.
     pub(super) columns: DMatrix<f64>,
 }
 
-/// What the readings tell of the joints; none for absolute poses, where the joints are an effect of the catalogue.
-///
-/// # Errors
-/// As [`Linearization::at`].
-pub(super) fn joints(rest: &Remainder<'_>) -> Result<Option<Tolerance>, ModelError> {
+/// What the readings tell of the inputs; none for absolute poses, where the joints are an effect of the catalogue.
+pub(super) fn worse_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     if rest.campaign.is_absolute() {
-        return Ok(None);
+        return None;
     }
-    let slopes = slopes(rest)?;
     let mut common = vec![rest.lin.common_block()];
     common.extend(rest.point.active.iter().map(|a| rest.lin.term_block(a.term.as_ref(), a.rich, a.shape)));
     let basis = orthonormal(&beside(&common));
     let mut y = target(&rest.lin, rest.point);
     project(&basis, &mut y);
-    let overlap = basis.tr_mul(&slopes);
-    let normal = slopes.tr_mul(&slopes) - overlap.tr_mul(&overlap);
-    let right: DVector<f64> = slopes.tr_mul(&y);
-    let at = |&size: &f64| {
-        let scaled = &normal * (size * size) + DMatrix::identity(COORDINATES, COORDINATES);
-        let factor = scaled.cholesky()?;
-        let half_log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
-        let gain = 0.5 * size * size * right.dot(&factor.solve(&right));
-        Some((size, gain - half_log_det - (SIZES.len() as f64).ln()))
-    };
-    let best = SIZES.iter().filter_map(at).max_by(|a, b| a.1.total_cmp(&b.1));
-    Ok(best.map(|(size, evidence)| Tolerance { size, evidence, columns: slopes * size }))
+    let overlap = basis.tr_mul(&rest.inputs);
+    let normal = rest.inputs.tr_mul(&rest.inputs) - overlap.tr_mul(&overlap);
+    let right: DVector<f64> = rest.inputs.tr_mul(&y);
+    let (stated, _) = evidence(&normal, &right, &DVector::repeat(InputKind::COLUMNS, 1.0))?;
+    let chance = ((DOUBTED.len() * FACTORS.len()) as f64).ln();
+    let tries = DOUBTED.iter().flat_map(|&kind| FACTORS.map(|factor| (kind, factor)));
+    let weighed = tries.filter_map(|(kind, factor)| {
+        let mut scales = DVector::repeat(InputKind::COLUMNS, 1.0);
+        scales.rows_range_mut(kind.columns()).fill(factor);
+        let (worse, errors) = evidence(&normal, &right, &scales)?;
+        Some((kind, factor, worse - stated - chance, errors, scales))
+    });
+    let (kind, factor, evidence, errors, scales) = weighed.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let unit = kind.standard_deviation(&rest.campaign.hexapod.tolerances);
+    let mut columns = rest.inputs.clone();
+    for (mut column, scale) in columns.column_iter_mut().zip(scales.iter()) {
+        column *= *scale;
+    }
+    let errors = errors.rows_range(kind.columns()).iter().map(|e| e * unit * factor).collect();
+    Some(Tolerance { kind, size: unit * factor, evidence, errors, columns })
 }
 
-/// Whitened reading per meter of every joint coordinate, base joints first.
-fn slopes(rest: &Remainder<'_>) -> Result<DMatrix<f64>, ModelError> {
-    let mut slopes = DMatrix::zeros(rest.lin.equations(), COORDINATES);
-    for k in 0..COORDINATES {
-        let (plus, minus) = (residuals(rest, k, STEP)?, residuals(rest, k, -STEP)?);
-        // A residual falls as the prediction rises.
-        slopes.set_column(k, &((minus - plus) / (2.0 * STEP)));
-    }
-    Ok(slopes)
-}
-
-/// Residuals of a machine with one joint elsewhere; it stands where the commanded lengths put it.
-fn residuals(rest: &Remainder<'_>, coordinate: usize, step: f64) -> Result<DVector<f64>, ModelError> {
-    let (joint, axis) = (coordinate % 18 / 3, coordinate % 3);
-    let mut point: ModelPoint = rest.point.clone();
-    let at_base = coordinate < 18;
-    let joints = if at_base { &mut point.machine.base_joints } else { &mut point.machine.platform_joints };
-    joints[joint][axis] += step;
-    let mut campaign: Campaign = rest.campaign.clone();
-    for group in &mut campaign.groups {
-        let pose = group.mean.pose;
-        let (drawn, real) = (rest.point.machine.legs(&pose)?, point.machine.legs(&pose)?);
-        let twist = drawn.platform_jacobian * (drawn.lengths - real.lengths);
-        group.mean.pose = moved(&pose, &twist, 1.0);
-    }
-    Ok(Linearization::at(&campaign, &point)?.residuals())
+/// Logarithm of the evidence for errors with these standard deviations over none, and the most probable ones in units of them.
+fn evidence(
+    normal: &DMatrix<f64>,
+    right: &DVector<f64>,
+    scales: &DVector<f64>,
+) -> Option<(f64, DVector<f64>)> {
+    let n = scales.len();
+    let scaled = DMatrix::from_fn(n, n, |i, j| {
+        scales[i] * normal[(i, j)] * scales[j] + if i == j { 1.0 } else { 0.0 }
+    });
+    let right = right.component_mul(scales);
+    let factor = scaled.cholesky()?;
+    let errors = factor.solve(&right);
+    let half_log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
+    Some((0.5 * right.dot(&errors) - half_log_det, errors))
 }

@@ -25,6 +25,7 @@ use crate::estimation::fit::{Fit, TermSpec, fit};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::{Noise, NoiseSource, Structure};
 use crate::estimation::residuals::{residuals, summarise};
+use crate::estimation::tolerances::within_tolerances;
 use crate::inference::candidates::Candidate;
 use crate::inference::diagnosis::{RankedSets, explain, wanted};
 use crate::inference::examination::{Finding, examine};
@@ -169,7 +170,7 @@ fn judged(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Result<
 pub fn prepare(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError> {
     let campaign = Campaign::new(hexapod, data)?;
     if campaign.noise.source != NoiseSource::Residuals {
-        return Ok(campaign);
+        return Ok(within_tolerances(campaign));
     }
     let first = fit(&campaign, &[], None)?;
     let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &first.point)?);
@@ -182,7 +183,7 @@ pub fn prepare(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError
         dof: 0.0,
         structure: Structure::Independent,
     };
-    Campaign::with_noise(hexapod, data, noise)
+    Ok(within_tolerances(Campaign::with_noise(hexapod, data, noise)?))
 }
 
 /// Terms of a set, the one that explains most alone first.

@@ -2,7 +2,7 @@
 
 use super::report::{NextReport, SeparationReport};
 use crate::inference::explanation::Explanation;
-use crate::results::next::{Between, Forecast, Proposal, ProposedReadings, RivalExplanation};
+use crate::results::next::{Between, PairForecast, Proposal, ProposedReadings, RivalExplanation};
 
 /// Pairs told.
 const MOST_PAIRS: usize = 3;
@@ -16,8 +16,8 @@ pub(super) struct Next {
 
 impl Next {
     pub(super) fn of(proposed: &ProposedReadings, rivals: &[RivalExplanation]) -> Self {
-        let mut pairs: Vec<&Forecast> = proposed.forecasts.iter().collect();
-        let weight = |o: &Forecast| o.between.map(|k| rivals[k].weight).iter().product::<f64>();
+        let mut pairs: Vec<&PairForecast> = proposed.forecasts.iter().collect();
+        let weight = |o: &PairForecast| o.between.map(|k| rivals[k].weight).iter().product::<f64>();
         pairs.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
         let separation = pairs.into_iter().take(MOST_PAIRS).map(|o| separation_report(o, rivals));
         Self {
@@ -44,7 +44,7 @@ fn next_report(p: &Proposal, rivals: &[RivalExplanation]) -> NextReport {
     }
 }
 
-fn separation_report(o: &Forecast, rivals: &[RivalExplanation]) -> SeparationReport {
+fn separation_report(o: &PairForecast, rivals: &[RivalExplanation]) -> SeparationReport {
     SeparationReport {
         between: names(rivals, o.between),
         log10_bayes_factor: o.separation.log_bayes_factor.map(|x| x / std::f64::consts::LN_10),

@@ -68,7 +68,7 @@ pub struct Proposal {
 
 /// How well two explanations will be separated.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Forecast {
+pub struct PairForecast {
     /// Which.
     pub between: Between,
     /// By all proposed readings together.
@@ -83,7 +83,7 @@ pub struct ProposedReadings {
     /// The readings, in the order in which they were chosen.
     pub proposals: Vec<Proposal>,
     /// Every pair of explanations.
-    pub forecasts: Vec<Forecast>,
+    pub forecasts: Vec<PairForecast>,
 }
 
 impl ProposedReadings {
@@ -139,7 +139,7 @@ pub fn propose(
     let courses: Vec<Vec<[f64; 2]>> = pairs.par_iter().map(|&p| course(&beliefs, p, &taken)).collect();
     let forecasts = pairs.iter().zip(&courses).filter_map(|(&between, course)| {
         let separation = pair(&beliefs, between, &taken)?.separation();
-        Some(Forecast { between, separation, readings_needed: needed(course) })
+        Some(PairForecast { between, separation, readings_needed: needed(course) })
     });
     let forecasts = forecasts.collect();
     let gain = |k: usize, between: Between| {

@@ -1,12 +1,12 @@
 /** What a residual may follow. */
-import type { Conditions } from "../wire";
+import type { ConditionLists } from "../wire";
 
 export interface Variable {
   id: string;
   title: string;
   unit: string;
   /** Value at a condition, for a leg (from zero). */
-  value: (conditions: Conditions, index: number, leg: number) => number;
+  value: (conditions: ConditionLists, index: number, leg: number) => number;
 }
 
 const COORDINATES = ["a", "b", "c", "alpha", "beta", "gamma"] as const;
@@ -19,13 +19,13 @@ export const VARIABLES: Variable[] = [
     id: title,
     title: `pose ${title}`,
     unit: k < 3 ? "mm" : "deg",
-    value: (at: Conditions, i: number) => at.pose[i]?.[k] ?? Number.NaN,
+    value: (at: ConditionLists, i: number) => at.pose[i]?.[k] ?? Number.NaN,
   })),
   ...COMPONENTS.map((title, k) => ({
     id: title,
     title: `change of ${title}`,
     unit: k < 3 ? "N" : "N m",
-    value: (at: Conditions, i: number) => at.wrench[i]?.[k] ?? Number.NaN,
+    value: (at: ConditionLists, i: number) => at.wrench[i]?.[k] ?? Number.NaN,
   })),
   { id: "elapsed", title: "time since the reference", unit: "s", value: (at, i) => at.elapsed_s[i] ?? Number.NaN },
   { id: "delta-t", title: "change of temperature", unit: "K", value: (at, i) => at.delta_t_k[i] ?? Number.NaN },
@@ -34,7 +34,7 @@ export const VARIABLES: Variable[] = [
 ];
 
 /** Does it take more than one value in these data? */
-export function varies(variable: Variable, conditions: Conditions): boolean {
+export function varies(variable: Variable, conditions: ConditionLists): boolean {
   const count = conditions.pose.length;
   const first = variable.value(conditions, 0, 0);
   for (let i = 0; i < count; i++) {

@@ -1,5 +1,5 @@
 /** What the program says: a page of sections, the same in every medium. */
-import type { Block, Cell, Entry, Section, Table } from "../wire";
+import type { Block, Cell, Definition, Section, Table } from "../wire";
 import { Inline } from "./inline";
 
 export function Said({ sections }: { sections: Section[] }) {
@@ -57,7 +57,7 @@ function Shown({ block }: { block: Block }) {
   }
 }
 
-function Entries({ number, entries }: { number: number | null; entries: Entry[] }) {
+function Entries({ number, entries }: { number: number | null; entries: Definition[] }) {
   return (
     <dl data-number={number ?? undefined}>
       {entries.map(({ label, text }) => [

@@ -3,17 +3,17 @@ import { useState } from "preact/hooks";
 import { Scores } from "../game/scores";
 import type { Score } from "../state";
 import type { Store } from "../store";
-import type { Level } from "../wire";
+import type { GameLevel } from "../wire";
 import { Seed, seedOf } from "./seed";
 
-const LEVELS: { level: Level; title: string; text: string }[] = [
+const LEVELS: { level: GameLevel; title: string; text: string }[] = [
   { level: "easy", title: "Easy", text: "One effect of the catalogue, easy to see." },
   { level: "hard", title: "Hard", text: "One or two effects." },
   { level: "honest", title: "Honest", text: "Anything: nothing at all, one, two, or something the catalogue does not know." },
 ];
 
 export function Game({ store, scores }: { store: Store; scores: Score[] }) {
-  const [level, setLevel] = useState<Level>("easy");
+  const [level, setLevel] = useState<GameLevel>("easy");
   const [seed, setSeed] = useState("");
   const submit = (event: Event) => {
     event.preventDefault();
@@ -24,7 +24,7 @@ export function Game({ store, scores }: { store: Store; scores: Score[] }) {
       <h2>Hide an effect from me</h2>
       <p>A machine is simulated with something in it that you are not told. Find it, then open the envelope.</p>
       <fieldset class="checks">
-        <legend class="unseen">Level</legend>
+        <legend class="unseen">GameLevel</legend>
         {LEVELS.map((one) => (
           <label key={one.level}>
             <input

@@ -1,0 +1,192 @@
+//! Inputs that are known to a tolerance only: joints, loads, axes.
+//!
+//! What a small error of an input does to the readings is linear in it and follows from the model: a column per input, a
+//! standard deviation long. With a Gaussian for the errors the covariance of the readings is that of the noise plus the
+//! columns times their transpose; [`whitening`](crate::estimation::whitening) takes it out of everything that is fitted,
+//! weighed or predicted.
+
+use std::ops::Range;
+
+use hexbench_core::{Tolerances, Vector3, Vector6, Wrench};
+use nalgebra::{DMatrix, DVector, Rotation3};
+use rayon::prelude::*;
+
+use crate::error::ModelError;
+use crate::estimation::campaign::{Campaign, moved};
+use crate::estimation::fit::fit;
+use crate::estimation::linearization::{Linearization, ModelPoint};
+
+/// Step of a joint for its derivatives, m.
+const JOINT_STEP: f64 = 1e-6;
+/// Step of a gain or an angle for its derivatives.
+const SMALL_STEP: f64 = 1e-6;
+/// Step of the point of attack for its derivatives, m; the moment is linear in it.
+const POINT_STEP: f64 = 1e-3;
+
+/// Inputs of one kind, which share a tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InputKind {
+    /// Coordinates of the joints in deflection mode: base joints in the fixed frame, then platform joints in the mobile frame.
+    Joints,
+    /// Scale of each component of the loads.
+    LoadGain,
+    /// Direction of the loads about each fixed axis.
+    LoadDirection,
+    /// Point at which the loads act, mobile frame.
+    LoadPoint,
+    /// Axes of the readings about each fixed axis.
+    Frame,
+}
+
+impl InputKind {
+    /// All of them, in the order of their columns.
+    pub const ALL: [Self; 5] =
+        [Self::Joints, Self::LoadGain, Self::LoadDirection, Self::LoadPoint, Self::Frame];
+    /// Columns of all of them.
+    pub const COLUMNS: usize = 51;
+
+    /// Number of inputs.
+    pub fn count(self) -> usize {
+        match self {
+            Self::Joints => 36,
+            Self::LoadGain => 6,
+            Self::LoadDirection | Self::LoadPoint | Self::Frame => 3,
+        }
+    }
+
+    /// Columns of these inputs among all.
+    pub fn columns(self) -> Range<usize> {
+        let first = Self::ALL.iter().take_while(|kind| **kind != self).map(|kind| kind.count()).sum();
+        first..first + self.count()
+    }
+
+    /// Standard deviation of one input, SI.
+    pub fn standard_deviation(self, tolerances: &Tolerances) -> f64 {
+        match self {
+            Self::Joints => tolerances.joints,
+            Self::LoadGain => tolerances.load_gain,
+            Self::LoadDirection => tolerances.load_direction,
+            Self::LoadPoint => tolerances.load_point,
+            Self::Frame => tolerances.frame,
+        }
+    }
+
+    fn step(self) -> f64 {
+        match self {
+            Self::Joints => JOINT_STEP,
+            Self::LoadPoint => POINT_STEP,
+            Self::LoadGain | Self::LoadDirection | Self::Frame => SMALL_STEP,
+        }
+    }
+}
+
+/// Reading over the standard deviation of what is its own, per standard deviation of every input; six rows for each condition,
+/// [`InputKind::COLUMNS`] columns.
+///
+/// # Errors
+/// As [`Linearization::at`].
+pub fn input_columns(
+    campaign: &Campaign,
+    point: &ModelPoint,
+    tolerances: &Tolerances,
+) -> Result<DMatrix<f64>, ModelError> {
+    let bare = campaign.clone().unwhitened();
+    let start = Linearization::at(&bare, point)?;
+    let here = start.residuals();
+    let inputs: Vec<(InputKind, usize)> =
+        InputKind::ALL.iter().flat_map(|&kind| (0..kind.count()).map(move |k| (kind, k))).collect();
+    let column = |&(kind, k): &(InputKind, usize)| -> Result<DVector<f64>, ModelError> {
+        if campaign.is_absolute() && matches!(kind, InputKind::Joints | InputKind::Frame) {
+            // There joints are an effect of the catalogue, and frames are estimated.
+            return Ok(DVector::zeros(here.len()));
+        }
+        if kind == InputKind::Frame {
+            return Ok(turned_readings(&bare, &start, k) * tolerances.frame);
+        }
+        let there = residuals_with(&bare, point, kind, k)?;
+        // A residual falls as the prediction rises.
+        Ok((&here - there) * (kind.standard_deviation(tolerances) / kind.step()))
+    };
+    let columns: Vec<DVector<f64>> = inputs.par_iter().map(column).collect::<Result<_, _>>()?;
+    Ok(DMatrix::from_columns(&columns))
+}
+
+/// A campaign whose inputs are as good as the tolerances of its machine; as it is where springs cannot be fitted.
+#[must_use]
+pub fn within_tolerances(campaign: Campaign) -> Campaign {
+    let columns = fit(&campaign, &[], None)
+        .and_then(|springs| input_columns(&campaign, &springs.point, &campaign.hexapod.tolerances));
+    match columns {
+        Ok(columns) if columns.iter().all(|x| x.is_finite()) => campaign.with_inexact(columns),
+        _ => campaign,
+    }
+}
+
+/// Residuals with one input a step off.
+fn residuals_with(
+    campaign: &Campaign,
+    point: &ModelPoint,
+    kind: InputKind,
+    k: usize,
+) -> Result<DVector<f64>, ModelError> {
+    let mut point = point.clone();
+    let mut campaign = campaign.clone();
+    if kind == InputKind::Joints {
+        move_joint(&mut campaign, &mut point, k)?;
+    }
+    for group in &mut campaign.groups {
+        let pose = group.mean.pose;
+        for wrench in [&mut group.mean.wrench, &mut group.mean.reference] {
+            match kind {
+                InputKind::LoadGain => scale(wrench, k),
+                InputKind::LoadDirection => {
+                    let turn = Rotation3::from_scaled_axis(axis(k) * SMALL_STEP);
+                    wrench.force = turn * wrench.force;
+                    wrench.moment = turn * wrench.moment;
+                }
+                InputKind::LoadPoint => {
+                    wrench.moment += (pose.rotation() * (axis(k) * POINT_STEP)).cross(&wrench.force);
+                }
+                InputKind::Joints | InputKind::Frame => {}
+            }
+        }
+    }
+    Ok(Linearization::at(&campaign, &point)?.residuals())
+}
+
+fn axis(k: usize) -> Vector3 {
+    Vector3::ith(k, 1.0)
+}
+
+fn scale(wrench: &mut Wrench, k: usize) {
+    let part = if k < 3 { &mut wrench.force } else { &mut wrench.moment };
+    part[k % 3] *= 1.0 + SMALL_STEP;
+}
+
+/// One joint coordinate elsewhere; the machine stands where the commanded lengths put it.
+fn move_joint(campaign: &mut Campaign, point: &mut ModelPoint, k: usize) -> Result<(), ModelError> {
+    let nominal = point.machine.clone();
+    let joints = if k < 18 { &mut point.machine.base_joints } else { &mut point.machine.platform_joints };
+    joints[k % 18 / 3][k % 3] += JOINT_STEP;
+    for group in &mut campaign.groups {
+        let pose = group.mean.pose;
+        let (drawn, real) = (nominal.legs(&pose)?, point.machine.legs(&pose)?);
+        let twist = drawn.platform_jacobian * (drawn.lengths - real.lengths);
+        group.mean.pose = moved(&pose, &twist, 1.0);
+    }
+    Ok(())
+}
+
+/// What the readings would gain if their axes were turned by one radian, to first order.
+fn turned_readings(campaign: &Campaign, lin: &Linearization, k: usize) -> DVector<f64> {
+    let mut column = DVector::zeros(lin.equations());
+    for (i, group) in campaign.groups.iter().enumerate() {
+        let read = lin.predicted(i);
+        let turn = |v: Vector3| axis(k).cross(&v);
+        let (shift, twist) = (turn(read.fixed_rows::<3>(0).into()), turn(read.fixed_rows::<3>(3).into()));
+        let turned = Vector6::new(shift.x, shift.y, shift.z, twist.x, twist.y, twist.z);
+        let sigma = Vector6::from_column_slice(&group.sigma);
+        column.fixed_rows_mut::<6>(6 * i).copy_from(&turned.component_div(&sigma));
+    }
+    column
+}
