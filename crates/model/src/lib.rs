@@ -21,6 +21,7 @@ pub mod explanation;
 pub mod fit;
 pub mod fit_named;
 pub mod formula;
+pub mod frames;
 mod intern;
 pub mod kinematics;
 mod lanes;

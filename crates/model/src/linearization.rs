@@ -88,9 +88,12 @@ pub struct Point {
 }
 
 impl Point {
-    /// No springs, no terms, machine as drawn.
+    /// No springs, no terms, machine as drawn, standing where the campaign finds it in its instrument.
     pub fn start(campaign: &Campaign) -> Self {
-        Self { springs: Vector6::zeros(), active: Vec::new(), machine: Machine::nominal(&campaign.hexapod) }
+        let mut machine = Machine::nominal(&campaign.hexapod);
+        machine.metrology_frame = campaign.frames.metrology;
+        machine.target_frame = campaign.frames.target;
+        Self { springs: Vector6::zeros(), active: Vec::new(), machine }
     }
 
     /// The machine with the geometry that calibrating terms have found.

@@ -9,6 +9,7 @@ mod discriminate;
 mod documents;
 mod exits;
 mod export;
+mod far_frames;
 mod html;
 mod json;
 mod pages;

@@ -17,7 +17,7 @@ pub use self::report::{
     AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, SeparationReport,
     StepReport, Suspect,
 };
-use crate::campaign::Campaign;
+use crate::campaign::{Campaign, same_frames};
 use crate::candidates::Candidate;
 use crate::diagnosis::{Outcome, explain, wanted};
 use crate::error::ModelError;
@@ -57,7 +57,7 @@ pub struct Study {
 /// Diagnose a dataset; held-out poses come from `holdout`, else poses are left out in turn.
 ///
 /// # Errors
-/// As [`fit`]; [`ModelError::Mismatch`] when the holdout is of another kind.
+/// As [`fit`]; [`ModelError::Mismatch`] when the holdout is of another kind, [`ModelError::Astray`] when it was read in other frames.
 pub fn diagnose(
     hexapod: &Hexapod,
     data: &Dataset,
@@ -66,6 +66,7 @@ pub fn diagnose(
 ) -> Result<Study, ModelError> {
     if let Some(held) = holdout {
         same_kind(data, held)?;
+        same_frames(hexapod, data, held)?;
     }
     let Judged { data, campaign, outcome, findings } = judged(hexapod, data, terms)?;
     let data = &data;
