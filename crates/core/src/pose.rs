@@ -11,6 +11,9 @@ pub struct Pose {
     pub angles: Vector3,
 }
 
+/// Cosine of beta below which rounding of a rotation matrix spoils alpha and gamma taken alone.
+const NEARLY_UPRIGHT: f64 = 1e-3;
+
 impl Pose {
     /// A pose from `[a, b, c, alpha, beta, gamma]` in m and rad.
     pub fn from_array(x: [f64; 6]) -> Self {
@@ -33,9 +36,16 @@ impl Pose {
     ///
     /// Limits: at `beta = +-90 deg` alpha and gamma are not separable; gamma is then set to zero.
     pub fn from_rotation(translation: Vector3, r: &Matrix3) -> Self {
-        let beta = (-r[(2, 0)]).atan2(r[(0, 0)].hypot(r[(1, 0)]));
-        let (alpha, gamma) = if r[(0, 0)].hypot(r[(1, 0)]) > 1e-12 {
+        let upright = r[(0, 0)].hypot(r[(1, 0)]);
+        let beta = (-r[(2, 0)]).atan2(upright);
+        let (alpha, gamma) = if upright > NEARLY_UPRIGHT {
             (r[(2, 1)].atan2(r[(2, 2)]), r[(1, 0)].atan2(r[(0, 0)]))
+        } else if upright > 1e-12 {
+            // Rounding spoils alpha here; gamma makes up for whatever alpha is, so that together they are the rotation.
+            let alpha = r[(2, 1)].atan2(r[(2, 2)]);
+            let (sine, cosine) = alpha.sin_cos();
+            let across = sine * r[(0, 2)] - cosine * r[(0, 1)];
+            (alpha, across.atan2(cosine * r[(1, 1)] - sine * r[(1, 2)]))
         } else {
             ((-r[(1, 2)]).atan2(r[(1, 1)]), 0.0)
         };
@@ -83,6 +93,20 @@ mod tests {
         let pose = Pose::from_array([0.0, 0.0, 0.0, quarter, 0.0, quarter]);
         // y -> z by the turn about x, then z stays under the turn about z.
         assert!((pose.rotation() * Vector3::y() - Vector3::z()).norm() < 4.0 * f64::EPSILON);
+    }
+
+    #[test]
+    fn near_the_lock_the_angles_are_still_the_rotation() {
+        for off in [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14] {
+            for side in [1.0, -1.0] {
+                let beta = side * (std::f64::consts::FRAC_PI_2 - off);
+                let pose = Pose::from_array([0.0, 0.0, 0.0, 0.3, beta, 2.7]);
+                let error = (Pose::from_rotation(pose.translation, &pose.rotation()).rotation()
+                    - pose.rotation())
+                .amax();
+                assert!(error < 3e-12, "{off}: {error}");
+            }
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What can make a computation impossible.
 
 use crate::effects::untestable::Reason;
+use crate::estimation::frames::Departure;
 use hexbench_core::Pose;
 use thiserror::Error;
 
@@ -66,6 +67,21 @@ pub enum ModelError {
         /// Size of the last step relative to the parameters.
         last_step: f64,
     },
+    /// Absolute poses are not the commanded ones, in whatever frames.
+    #[error(
+        "the measured poses{} do not follow the commanded ones: seen in {}, half of them are more than \
+         {:.3} mm and {:.3} deg away",
+        place(file),
+        if file.is_empty() { "the frames that suit them best" } else { "the frames of the fit" },
+        1e3 * left.translation,
+        left.rotation.to_degrees()
+    )]
+    Astray {
+        /// Name of the data that were read in other frames than those of a fit; empty for the data of the fit themselves.
+        file: String,
+        /// How far they are.
+        left: Departure,
+    },
     /// Two things that do not belong together.
     #[error("{0}")]
     Mismatch(String),
@@ -93,9 +109,18 @@ impl ModelError {
             Self::NotFinite { .. } | Self::NotConverged { .. } => {
                 format!("Look in {data} for readings of the wrong size or unit.")
             }
+            Self::Astray { file, .. } => format!(
+                "Check in {}: units (mm, deg), axes (right-handed, none exchanged), angles (R = Rz(gamma) Ry(beta) Rx(alpha)), and \
+                 that each row has the pose that was commanded; readings held out are read in the same frames.",
+                if file.is_empty() { data } else { file }
+            ),
             Self::Mismatch(_) => "Give a holdout file of the same kind as the data.".into(),
         }
     }
+}
+
+fn place(file: &str) -> String {
+    if file.is_empty() { String::new() } else { format!(" of {file}") }
 }
 
 fn describe(pose: &Pose) -> String {

@@ -9,6 +9,7 @@ mod discriminate;
 mod documents;
 mod exits;
 mod export;
+mod far_frames;
 mod glossary;
 mod html;
 mod json;

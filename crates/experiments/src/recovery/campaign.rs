@@ -4,6 +4,7 @@ use hexbench_core::Metrology;
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
+use hexbench_model::estimation::frames::ReadingAxes;
 use hexbench_model::estimation::noise::scatter;
 use hexbench_model::estimation::residuals::{prediction_errors, summarise, survival};
 use serde::{Deserialize, Serialize};
@@ -100,7 +101,7 @@ fn by_repeats(subject: &HiddenSubject, scene: &RecoveryCampaign) -> Result<Tally
 
 /// Levels of translations and of rotations against the truth.
 fn noise_by_repeats(scene: &RecoveryCampaign) -> Tally {
-    let found = scatter(&scene.case.measurements.observations);
+    let found = scatter(&scene.case.measurements.observations, &ReadingAxes::default());
     let Metrology { sigma_translation, sigma_rotation } = scene.noise().metrology();
     let chi2 = |variance: f64, sigma: f64| variance / (sigma * sigma) * found.dof;
     Tally::interval(within(chi2(found.variance_translation, sigma_translation), found.dof))

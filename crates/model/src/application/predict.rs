@@ -13,6 +13,7 @@ use crate::application::model_file::Model;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::columns;
+use crate::estimation::frames::Frames;
 use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::Noise;
 use crate::estimation::parameters::ParameterPlace;
@@ -27,7 +28,8 @@ const SETTLED: f64 = 1e-13;
 pub struct Prediction {
     /// Loaded minus reference, or the absolute pose; m and rad, in the measured coordinates of the model.
     pub value: [f64; 6],
-    /// Standard uncertainty (k = 1) from the covariance of the model; the noise of a future reading is not in it.
+    /// Standard uncertainty (k = 1) from the covariance of the model, of absolute poses in turned frames along the axes of
+    /// [`ReadingAxes`](crate::estimation::frames::ReadingAxes); the noise of a future reading is not in it.
     pub sigma: [f64; 6],
 }
 
@@ -99,7 +101,7 @@ fn settle(
     let mut data = dataset(model, rows, measurand);
     let mut last_step = f64::INFINITY;
     for _ in 0..MOST_ROUNDS {
-        let campaign = Campaign::with_noise(&model.hexapod, &data, unit_noise())?;
+        let campaign = Campaign::in_frames(&model.hexapod, &data, unit_noise(), frames(model, measurand))?;
         let lin = Linearization::at(&campaign, &model.point)?;
         last_step = 0.0;
         for (i, group) in campaign.groups.iter().enumerate() {
@@ -110,7 +112,7 @@ fn settle(
             last_step = last_step.max(step.amax());
             for &row in &group.rows {
                 let measured = &mut data.observations[row as usize].measured;
-                *measured = std::array::from_fn(|k| measured[k] - step[k]);
+                *measured = campaign.axes.moved(measured, &std::array::from_fn(|k| -step[k]));
             }
         }
         if last_step < SETTLED {
@@ -129,6 +131,11 @@ fn dataset(model: &Model, rows: &[Observation], measurand: Measurand) -> Dataset
     };
     let observations = rows.iter().map(|o| Observation { measured: guess(o), sigma: None, ..*o }).collect();
     Dataset { source: String::new(), measurand, columns: hexbench_core::Columns::default(), observations }
+}
+
+/// Frames in which a prediction is read.
+fn frames(model: &Model, measurand: Measurand) -> Frames {
+    if measurand == Measurand::AbsolutePose { Frames::of(&model.point.machine) } else { Frames::default() }
 }
 
 /// Weights of one; the level does not matter for a prediction.

@@ -14,6 +14,7 @@ use nalgebra::{DMatrix, Rotation3};
 
 use crate::effects::chain::Action;
 use crate::error::ModelError;
+use crate::estimation::frames::{Frames, ReadingAxes};
 use crate::estimation::noise::{Noise, NoiseSource, SharedReference, Structure, stated_or_repeated};
 use crate::estimation::parallel::try_map;
 use crate::estimation::whitening::Inexact;
@@ -112,6 +113,10 @@ pub struct Campaign {
     pub pure_error: f64,
     /// Degrees of freedom of the pure error.
     pub pure_error_dof: f64,
+    /// Frames from which a fit to absolute poses starts; those of the machine for deflections.
+    pub frames: Frames,
+    /// Coordinates of the readings.
+    pub axes: ReadingAxes,
     /// Inputs that are known to a tolerance only; none when all are taken as exact.
     pub inexact: Option<Arc<Inexact>>,
 }
@@ -167,20 +172,46 @@ impl Campaign {
     /// # Errors
     /// [`ModelError::TooFewEquations`] for an empty dataset.
     pub fn with_noise(hexapod: &Hexapod, dataset: &Dataset, noise: Noise) -> Result<Self, ModelError> {
+        Self::in_frames(hexapod, dataset, noise, frames_of(hexapod, dataset))
+    }
+
+    /// Prepare a dataset read in frames that are known, as those of a fitted model.
+    ///
+    /// # Errors
+    /// [`ModelError::TooFewEquations`] for an empty dataset.
+    pub fn in_frames(
+        hexapod: &Hexapod,
+        dataset: &Dataset,
+        noise: Noise,
+        frames: Frames,
+    ) -> Result<Self, ModelError> {
         if dataset.observations.is_empty() {
             return Err(ModelError::TooFewEquations { equations: 0, unknowns: 6 });
         }
-        let groups = group(&dataset.observations, &noise);
-        Ok(Self::of_groups(hexapod, dataset.measurand, dataset.columns, noise, groups))
+        let axes = ReadingAxes::of(&frames);
+        let groups = group(&dataset.observations, &noise, &axes);
+        let like = Like { hexapod, measurand: dataset.measurand, columns: dataset.columns, noise, frames };
+        Ok(Self::of_groups(&like, groups))
     }
 
-    fn of_groups(
+    /// Prepare readings held out from a fit: in the frames of the fit, each weighed by all of its noise.
+    ///
+    /// # Errors
+    /// [`ModelError::TooFewEquations`] for an empty dataset, [`ModelError::Astray`] when it was read in other frames.
+    pub fn held_out(
         hexapod: &Hexapod,
-        measurand: Measurand,
-        columns: Columns,
+        holdout: &Dataset,
         noise: Noise,
-        groups: Vec<ConditionReadings>,
-    ) -> Self {
+        machine: &Machine,
+    ) -> Result<Self, ModelError> {
+        let frames = known_frames(holdout, machine);
+        let campaign = Self::in_frames(hexapod, holdout, noise, frames)?;
+        campaign.refuse_astray(&Frames::of(machine), &holdout.source)?;
+        Ok(campaign)
+    }
+
+    fn of_groups(like: &Like<'_>, groups: Vec<ConditionReadings>) -> Self {
+        let Like { hexapod, measurand, columns, noise, frames } = *like;
         let readings: usize = groups.iter().map(|g| g.rows.len()).sum();
         let pure_error = groups.iter().map(|g| g.pure_error).sum();
         let pure_error_dof = 6.0 * (readings - groups.len()) as f64;
@@ -194,8 +225,23 @@ impl Campaign {
             noise,
             pure_error,
             pure_error_dof,
+            frames,
+            axes: ReadingAxes::of(&frames),
             inexact: None,
         }
+    }
+
+    /// Refuses absolute poses that do not follow the commanded ones whatever the frames are: no fit could converge.
+    ///
+    /// # Errors
+    /// [`ModelError::Astray`].
+    pub fn refuse_astray(&self, frames: &Frames, file: &str) -> Result<(), ModelError> {
+        if !self.is_absolute() {
+            return Ok(());
+        }
+        let rows: Vec<Observation> = self.groups.iter().map(|g| g.mean).collect();
+        let astray = |left| ModelError::Astray { file: file.to_owned(), left };
+        frames.astray(&self.hexapod, &rows).map_or(Ok(()), |left| Err(astray(left)))
     }
 
     /// Some of the groups; their readings keep their indices in the dataset.
@@ -203,7 +249,9 @@ impl Campaign {
     pub fn part(&self, groups: &[usize]) -> Self {
         let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
         let rows: Vec<usize> = groups.iter().flat_map(|&g| 6 * g..6 * g + 6).collect();
-        let part = Self::of_groups(&self.hexapod, self.measurand, self.columns, self.noise, kept);
+        let (measurand, columns, noise, frames) = (self.measurand, self.columns, self.noise, self.frames);
+        let like = Like { hexapod: &self.hexapod, measurand, columns, noise, frames };
+        let part = Self::of_groups(&like, kept);
         match &self.inexact {
             Some(all) => part.with_inexact(all.columns.select_rows(&rows)),
             None => part,
@@ -302,16 +350,17 @@ impl Campaign {
     /// Measured coordinates from the geometric twist: Euler differences for Euler readings, and the lever arm of
     /// the target in absolute mode.
     fn observer(&self, machine: &Machine, pose: &Pose, measured: &[f64; 6]) -> Matrix6 {
-        let angles = match self.measurand {
+        match self.measurand {
             Measurand::DeflectionRotationVector => return Matrix6::identity(),
             Measurand::DeflectionEuler => {
-                return observer_matrix(&Matrix3::identity(), &Vector3::zeros(), &pose.angles);
+                let rates = ReadingAxes::default().rates(&pose.to_array());
+                return observer_matrix(&Matrix3::identity(), &Vector3::zeros(), &rates);
             }
-            Measurand::AbsolutePose => Vector3::new(measured[3], measured[4], measured[5]),
-        };
+            Measurand::AbsolutePose => {}
+        }
         let lever = pose.rotation() * machine.target_frame.translation.vector;
         let axes = *machine.metrology_frame.rotation.to_rotation_matrix().matrix();
-        observer_matrix(&axes, &lever, &angles)
+        observer_matrix(&axes, &lever, &self.axes.rates(measured))
     }
 }
 
@@ -369,10 +418,8 @@ pub(crate) fn moved(pose: &Pose, twist: &Vector6, share: f64) -> Pose {
     Pose::from_rotation(translation, &(turn.matrix() * pose.rotation()))
 }
 
-/// `diag(I, M^-1) diag(axes, axes) [I, -[lever]x; 0, I]`.
-fn observer_matrix(axes: &Matrix3, lever: &Vector3, angles: &Vector3) -> Matrix6 {
-    // M is singular only at beta = +-90 deg, where Euler differences mean nothing either.
-    let rates = euler_rate_matrix(angles).try_inverse().unwrap_or_else(Matrix3::identity);
+/// `diag(I, rates) diag(axes, axes) [I, -[lever]x; 0, I]`.
+fn observer_matrix(axes: &Matrix3, lever: &Vector3, rates: &Matrix3) -> Matrix6 {
     let mut h = Matrix6::zeros();
     h.fixed_view_mut::<3, 3>(0, 0).copy_from(axes);
     h.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-axes * lever.cross_matrix()));
@@ -387,7 +434,43 @@ impl ConditionReadings {
     }
 }
 
-fn group(rows: &[Observation], noise: &Noise) -> Vec<ConditionReadings> {
+/// What campaigns of the same instrument and machine share.
+struct Like<'a> {
+    hexapod: &'a Hexapod,
+    measurand: Measurand,
+    columns: Columns,
+    noise: Noise,
+    frames: Frames,
+}
+
+/// Frames from which a fit to a dataset starts.
+pub(crate) fn frames_of(hexapod: &Hexapod, dataset: &Dataset) -> Frames {
+    if dataset.is_absolute() { Frames::between(hexapod, &dataset.observations) } else { Frames::default() }
+}
+
+/// Refuses absolute poses held out that were read in other frames than the data, before anything is fitted.
+///
+/// # Errors
+/// [`ModelError::Astray`].
+pub fn same_frames(hexapod: &Hexapod, data: &Dataset, holdout: &Dataset) -> Result<(), ModelError> {
+    if !data.is_absolute() {
+        return Ok(());
+    }
+    let frames = frames_of(hexapod, data);
+    let astray = |rows: &Dataset, file: &str| {
+        let error = |left| ModelError::Astray { file: file.to_owned(), left };
+        frames.astray(hexapod, &rows.observations).map_or(Ok(()), |left| Err(error(left)))
+    };
+    astray(data, "")?;
+    astray(holdout, &holdout.source)
+}
+
+/// Frames of a machine in which a dataset was read; only absolute poses have any.
+fn known_frames(dataset: &Dataset, machine: &Machine) -> Frames {
+    if dataset.is_absolute() { Frames::of(machine) } else { Frames::default() }
+}
+
+fn group(rows: &[Observation], noise: &Noise, axes: &ReadingAxes) -> Vec<ConditionReadings> {
     let mut index: HashMap<[u64; 21], usize> = HashMap::new();
     let mut groups: Vec<ConditionReadings> = Vec::new();
     // Neighbors that resemble each other are no repeats of each other.
@@ -402,7 +485,7 @@ fn group(rows: &[Observation], noise: &Noise) -> Vec<ConditionReadings> {
     }
     let mut records: HashMap<[u64; 6], usize> = HashMap::new();
     for g in &mut groups {
-        average(g, rows, noise);
+        average(g, rows, noise, axes);
         let pose = g.mean.pose.to_array().map(|x| (x + 0.0).to_bits());
         let next = records.len();
         g.record = *records.entry(pose).or_insert(next);
@@ -410,25 +493,25 @@ fn group(rows: &[Observation], noise: &Noise) -> Vec<ConditionReadings> {
     groups
 }
 
-fn average(group: &mut ConditionReadings, rows: &[Observation], noise: &Noise) {
+fn average(group: &mut ConditionReadings, rows: &[Observation], noise: &Noise, axes: &ReadingAxes) {
     let (mut weights, mut sums) = ([0.0; 6], [0.0; 6]);
     // Differences from the first reading keep the digits of absolute poses.
     let first = rows[group.rows[0] as usize].measured;
     for &i in &group.rows {
         let row = &rows[i as usize];
         let sigma = row_sigma(row, noise);
+        let off = axes.difference(&first, &row.measured);
         for k in 0..6 {
             let w = sigma[k].powi(-2);
             weights[k] += w;
-            sums[k] += w * (row.measured[k] - first[k]);
+            sums[k] += w * off[k];
         }
     }
-    for k in 0..6 {
-        group.mean.measured[k] = first[k] + sums[k] / weights[k];
-        group.sigma[k] = weights[k].sqrt().recip();
-    }
-    let mean = group.mean.measured;
-    group.pure_error = group.rows.iter().map(|&i| whitened_square(&rows[i as usize], &mean, noise)).sum();
+    let mean = axes.moved(&first, &std::array::from_fn(|k| sums[k] / weights[k]));
+    group.mean.measured = mean;
+    group.sigma = weights.map(|w| w.sqrt().recip());
+    let square = |&i: &u32| whitened_square(&rows[i as usize], &mean, noise, axes);
+    group.pure_error = group.rows.iter().map(square).sum();
     share_out(group, noise);
 }
 
@@ -464,9 +547,10 @@ pub fn row_sigma(row: &Observation, noise: &Noise) -> [f64; 6] {
     row.sigma.unwrap_or_else(|| noise.sigma())
 }
 
-fn whitened_square(row: &Observation, mean: &[f64; 6], noise: &Noise) -> f64 {
+fn whitened_square(row: &Observation, mean: &[f64; 6], noise: &Noise, axes: &ReadingAxes) -> f64 {
     let sigma = row_sigma(row, noise);
-    (0..6).map(|k| ((row.measured[k] - mean[k]) / sigma[k]).powi(2)).sum()
+    let off = axes.difference(mean, &row.measured);
+    (0..6).map(|k| (off[k] / sigma[k]).powi(2)).sum()
 }
 
 fn key(row: &Observation) -> [u64; 21] {

@@ -128,9 +128,13 @@ pub fn fit_baseline(campaign: &Campaign) -> Result<Fit, ModelError> {
 /// Fit springs, frames and the wanted terms, starting from `start` when given.
 ///
 /// # Errors
-/// [`ModelError::SingularPose`], [`ModelError::NoLoad`], [`ModelError::NotFinite`]. Iterations that run out are not an error:
+/// [`ModelError::SingularPose`], [`ModelError::NoLoad`], [`ModelError::NotFinite`]; [`ModelError::Astray`] for absolute poses that no
+/// frames bring near the commanded ones. Iterations that run out are not an error:
 /// [`Fit::termination`] tells.
 pub fn fit(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>) -> Result<Fit, ModelError> {
+    if start.is_none() {
+        campaign.refuse_astray(&campaign.frames, "")?;
+    }
     let point = start_point(campaign, wanted, start);
     let state = Linearization::at(campaign, &point)?;
     fit_from(campaign, wanted, point, state)

@@ -88,13 +88,12 @@ pub struct ModelPoint {
 }
 
 impl ModelPoint {
-    /// No springs, no terms, machine as drawn.
+    /// No springs, no terms, machine as drawn, standing where the campaign finds it in its instrument.
     pub fn start(campaign: &Campaign) -> Self {
-        Self {
-            compliances: Vector6::zeros(),
-            active: Vec::new(),
-            machine: Machine::nominal(&campaign.hexapod),
-        }
+        let mut machine = Machine::nominal(&campaign.hexapod);
+        machine.metrology_frame = campaign.frames.metrology;
+        machine.target_frame = campaign.frames.target;
+        Self { compliances: Vector6::zeros(), active: Vec::new(), machine }
     }
 
     /// The machine with the geometry that calibrating terms have found.

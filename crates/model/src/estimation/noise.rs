@@ -5,6 +5,9 @@ use std::collections::HashMap;
 use hexbench_core::statistics::Welford;
 use hexbench_core::{Dataset, Hexapod, Observation};
 
+use crate::estimation::campaign::frames_of;
+use crate::estimation::frames::ReadingAxes;
+
 /// Where the noise level comes from; in files, its word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(into = "&'static str", try_from = "String")]
@@ -162,7 +165,8 @@ pub fn stated_or_repeated(hexapod: &Hexapod, dataset: &Dataset) -> Option<Noise>
     if let Some(m) = hexapod.metrology {
         return Some(Noise::stated(m.sigma_translation, m.sigma_rotation));
     }
-    let scatter = scatter(&dataset.observations);
+    let axes = ReadingAxes::of(&frames_of(hexapod, dataset));
+    let scatter = scatter(&dataset.observations, &axes);
     let usable = scatter.dof >= ENOUGH_REPEATS
         && scatter.variance_translation > 0.0
         && scatter.variance_rotation > 0.0;
@@ -191,11 +195,11 @@ fn from_columns(rows: &[Observation]) -> Noise {
 }
 
 /// Pooled scatter of readings that share pose, loads and approach; temperature and time are ignored.
-pub fn scatter(rows: &[Observation]) -> RepeatScatter {
+pub fn scatter(rows: &[Observation], axes: &ReadingAxes) -> RepeatScatter {
     let mut groups: HashMap<[u64; 19], [Welford; 6]> = HashMap::new();
     for row in rows {
         let group = groups.entry(key(row)).or_default();
-        group.iter_mut().zip(row.measured).for_each(|(all, x)| all.add(x));
+        group.iter_mut().zip(axes.continuous(&row.measured)).for_each(|(all, x)| all.add(x));
     }
     let mut sums = [0.0; 6];
     let mut dof = 0.0;

@@ -80,9 +80,8 @@ pub fn residuals(campaign: &Campaign, rows: &[Observation], lin: &Linearization)
         for &row in &group.rows {
             let reading = &rows[row as usize];
             let sigma = row_sigma(reading, &campaign.noise);
-            let value = Vector6::from_fn(|k, _| {
-                mean[k] * group.sigma[k] + reading.measured[k] - group.mean.measured[k]
-            });
+            let off = campaign.axes.difference(&group.mean.measured, &reading.measured);
+            let value = Vector6::from_fn(|k, _| mean[k] * group.sigma[k] + off[k]);
             let whitened = Vector6::from_fn(|k, _| value[k] / sigma[k]);
             all.push(Residual { row: row as usize, condition, value, whitened });
         }
@@ -123,7 +122,7 @@ pub fn prediction_errors(
     noise: Noise,
     point: &ModelPoint,
 ) -> Result<Vec<Residual>, ModelError> {
-    let campaign = Campaign::with_noise(hexapod, holdout, noise)?.independent();
+    let campaign = Campaign::held_out(hexapod, holdout, noise, &point.machine)?.independent();
     let lin = Linearization::at(&campaign, point)?;
     Ok(residuals(&campaign, &holdout.observations, &lin))
 }
@@ -134,7 +133,7 @@ pub fn prediction_errors(
 /// # Errors
 /// As [`prediction_errors`].
 pub fn survival(hexapod: &Hexapod, holdout: &Dataset, noise: Noise, fit: &Fit) -> Result<f64, ModelError> {
-    let campaign = Campaign::with_noise(hexapod, holdout, noise)?.independent();
+    let campaign = Campaign::held_out(hexapod, holdout, noise, &fit.point.machine)?.independent();
     let expected = Expected::of(&Linearization::at(&campaign, &fit.point)?, fit);
     let law = ChiSquared::new(6.0 * expected.readings)
         .map_err(|_| ModelError::NotFinite { what: "the held-out data" })?;

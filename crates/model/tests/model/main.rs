@@ -9,6 +9,7 @@ mod common;
 mod compare;
 mod evidence;
 mod examination;
+mod frames;
 mod kinematics;
 mod least_squares;
 mod model_file;

@@ -3,6 +3,7 @@
 use crate::page::{Block, Section};
 use crate::plot::{Axis, Chart, Panels, Series};
 use hexbench_core::Dataset;
+use hexbench_model::estimation::frames::{Frames, ReadingAxes};
 use hexbench_model::estimation::residuals::Residual;
 
 use super::ReportError;
@@ -19,6 +20,9 @@ struct Told<'a> {
     models: Vec<Model>,
     /// Standard deviation of one reading, m and rad.
     noise: [f64; 6],
+    /// Where the instrument stands, about.
+    frames: Frames,
+    axes: ReadingAxes,
 }
 
 struct Model {
@@ -55,7 +59,13 @@ fn told<'a>(data: &Data<'_>, rows: &'a Dataset) -> Result<Told<'a>, ReportError>
         let errors = if seen_here { seen.judged.rows.clone() } else { data.errors(seen, rows)? };
         models.push(Model { name, look, errors });
     }
-    Ok(Told { rows, models, noise: data.campaign.noise.sigma() })
+    Ok(Told {
+        rows,
+        models,
+        noise: data.campaign.noise.sigma(),
+        frames: data.campaign.frames,
+        axes: data.campaign.axes,
+    })
 }
 
 impl Told<'_> {
@@ -101,7 +111,9 @@ impl Told<'_> {
     /// A measured number, um or urad; of an absolute pose what it is beside the commanded one.
     fn measured(&self, row: usize, k: usize) -> f64 {
         let o = &self.rows.observations[row];
-        let commanded = if self.rows.is_absolute() { o.pose.to_array()[k] } else { 0.0 };
-        1e6 * (o.measured[k] - commanded)
+        if !self.rows.is_absolute() {
+            return 1e6 * o.measured[k];
+        }
+        1e6 * self.axes.difference(&self.frames.seen(&o.pose).to_array(), &o.measured)[k]
     }
 }

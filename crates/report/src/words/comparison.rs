@@ -17,6 +17,10 @@ use crate::page::{Block, Cell, Definition, Mood, Page, PageColumn, Section, Tabl
 /// Rows of a list where there is little room.
 const BRIEF: usize = 6;
 
+/// Why errors of a fit that ran out of iterations are no verdict, and what to look at.
+const NOT_CONVERGED: &str = "The fit ran out of iterations: what it leaves says nothing of the machine. Check units, axes, signs and the \
+                             angle convention of the file, then single readings far from the rest.";
+
 /// The comparison; `subject` says what of.
 pub fn comparison(machine: &str, subject: Vec<Definition>, c: &Comparison) -> Page {
     Page { subject, ..Page::new(format!("Comparison of {machine}")) }
@@ -37,6 +41,7 @@ fn verdict(c: &Comparison) -> Section {
     let with = if c.terms.is_empty() { String::new() } else { format!(" + {}", joined(&c.terms)) };
     let how = if c.fitted_here { "fitted to these readings" } else { "as saved, nothing fitted here" };
     let (word, mood, sentence) = match c.adequacy.answer() {
+        _ if !c.settled => ("NOT CONVERGED", Mood::Doubt, NOT_CONVERGED),
         AdequacyAnswer::Adequate => {
             ("ADEQUATE", Mood::Good, "As far as these readings tell, the error of this model is noise.")
         }

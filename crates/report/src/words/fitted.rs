@@ -45,7 +45,7 @@ fn quality(task: &JudgedTask<'_>, fit: &Fit, estimator: Estimator) -> Section {
         ["AIC", &significant(fit.chi2 + 2.0 * parameters, 6)],
         ["BIC", &significant(fit.chi2 + parameters * equations.ln(), 6)],
     ]);
-    let provisional = "The fit did not settle; treat its numbers as provisional.";
+    let provisional = "The fit did not settle; treat its numbers as provisional, and check units, axes and angles of the file.";
     Section::new(format!("Fit: leg springs{with}"))
         .id("fit")
         .remark(method)

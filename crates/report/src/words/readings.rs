@@ -25,8 +25,9 @@ pub fn readings(
     holdout: Option<&Dataset>,
     compared: &ComparedModel,
 ) -> Result<Frame, ModelError> {
-    let held =
-        holdout.map(|rows| Campaign::with_noise(hexapod, rows, compared.campaign.noise)).transpose()?;
+    let held = holdout
+        .map(|rows| Campaign::held_out(hexapod, rows, compared.campaign.noise, &compared.point.machine))
+        .transpose()?;
     let mut parts = vec![Part::new("measurements", &compared.campaign, data, compared)?];
     if let (Some(rows), Some(campaign)) = (holdout, &held) {
         parts.push(Part::new("holdout", campaign, rows, compared)?);
@@ -77,7 +78,8 @@ impl<'a> At<'a> {
     /// The reading the model expects.
     fn predicted(self) -> Observation {
         let mut expected = *self.reading();
-        expected.measured = std::array::from_fn(|k| expected.measured[k] - self.residual(k));
+        let back = std::array::from_fn(|k| -self.residual(k));
+        expected.measured = self.part.campaign.axes.moved(&expected.measured, &back);
         expected
     }
 }

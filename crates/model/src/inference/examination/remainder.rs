@@ -65,10 +65,9 @@ impl<'a> Remainder<'a> {
             for &i in &group.rows {
                 let reading = &data.observations[i as usize];
                 let sigma = row_sigma(reading, &campaign.noise);
-                rows[i as usize] = Vector6::from_fn(|k, _| {
-                    (means[6 * g + k] * group.sigma[k] + reading.measured[k] - group.mean.measured[k])
-                        / sigma[k]
-                });
+                let off = campaign.axes.difference(&group.mean.measured, &reading.measured);
+                rows[i as usize] =
+                    Vector6::from_fn(|k, _| (means[6 * g + k] * group.sigma[k] + off[k]) / sigma[k]);
                 group_of[i as usize] = g;
             }
         }

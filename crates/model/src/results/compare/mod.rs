@@ -21,6 +21,7 @@ use crate::application::model_file::Model;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, columns, fit_baseline};
+use crate::estimation::frames::Frames;
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::noise::NoiseSource;
 use crate::estimation::residuals::{ErrorSummary, Residual, prediction_errors, residuals, summarise};
@@ -46,6 +47,9 @@ pub struct Comparison {
     pub terms: Vec<String>,
     /// True when the springs were fitted to these very data; false when a saved model is compared as it is.
     pub fitted_here: bool,
+    /// False when the fit ran out of iterations: its errors say nothing of the machine. In files only then.
+    #[serde(skip_serializing_if = "is_true")]
+    pub settled: bool,
     /// Readings compared.
     pub readings: usize,
     /// Distinct poses, loads and states among them.
@@ -99,14 +103,18 @@ pub fn compare(
 ) -> Result<ComparedModel, ModelError> {
     refuse_mixture(data, model, holdout)?;
     let campaign = prepare(hexapod, data)?;
-    let point = match model {
-        Some(m) => m.point.clone(),
-        None => fit_baseline(&campaign)?.point,
+    let (point, settled) = if let Some(m) = model {
+        campaign.refuse_astray(&Frames::of(&m.point.machine), &data.source)?;
+        (m.point.clone(), m.settled)
+    } else {
+        let fit = fit_baseline(&campaign)?;
+        let settled = fit.is_settled();
+        (fit.point, settled)
     };
     let judged = JudgedModel::of(&campaign, data, &point, model.is_none())?;
     let held = |h: &Dataset| prediction_errors(hexapod, h, campaign.noise, &point);
     let holdout = holdout.map(held).transpose()?.map(|rows| summarise(&rows, None));
-    let comparison = report(&judged, holdout);
+    let comparison = report(&judged, holdout, settled);
     Ok(ComparedModel { comparison, campaign, point })
 }
 
@@ -115,7 +123,7 @@ pub fn compare(
 /// # Errors
 /// [`ModelError::SingularPose`].
 pub fn compare_fit(campaign: &Campaign, data: &Dataset, fit: &Fit) -> Result<Comparison, ModelError> {
-    Ok(report(&JudgedModel::of(campaign, data, &fit.point, true)?, None))
+    Ok(report(&JudgedModel::of(campaign, data, &fit.point, true)?, None, fit.is_settled()))
 }
 
 fn refuse_mixture(
@@ -172,12 +180,13 @@ impl<'a> JudgedModel<'a> {
     }
 }
 
-fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>) -> Comparison {
+fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>, settled: bool) -> Comparison {
     let dof = 6.0 * judged.rows.len() as f64 - judged.rank;
     Comparison {
         format: "comparison/1",
         terms: judged.point.active.iter().map(|a| a.id().to_owned()).collect(),
         fitted_here: judged.rank > 0.0,
+        settled,
         readings: judged.rows.len(),
         conditions: judged.lin.conditions.len(),
         noise_source: judged.campaign.noise.source,
@@ -193,6 +202,11 @@ fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>) -> Comparison
         design: design(judged),
         hidden: hidden_biases(judged),
     }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_true(settled: &bool) -> bool {
+    *settled
 }
 
 /// Names of the six measured coordinates, without unit.

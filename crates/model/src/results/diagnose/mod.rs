@@ -19,7 +19,7 @@ pub use self::report::{
 };
 use crate::effects::term::Term;
 use crate::error::ModelError;
-use crate::estimation::campaign::Campaign;
+use crate::estimation::campaign::{Campaign, same_frames};
 use crate::estimation::estimate::estimates_with;
 use crate::estimation::fit::{Fit, TermSpec, fit};
 use crate::estimation::linearization::Linearization;
@@ -58,7 +58,7 @@ pub struct DiagnosisStudy {
 /// Diagnose a dataset; held-out poses come from `holdout`, else poses are left out in turn.
 ///
 /// # Errors
-/// As [`fit`]; [`ModelError::Mismatch`] when the holdout is of another kind.
+/// As [`fit`]; [`ModelError::Mismatch`] when the holdout is of another kind, [`ModelError::Astray`] when it was read in other frames.
 pub fn diagnose(
     hexapod: &Hexapod,
     data: &Dataset,
@@ -67,6 +67,7 @@ pub fn diagnose(
 ) -> Result<DiagnosisStudy, ModelError> {
     if let Some(held) = holdout {
         same_kind(data, held)?;
+        same_frames(hexapod, data, held)?;
     }
     let Judged { data, campaign, outcome, findings } = judged(hexapod, data, terms)?;
     let data = &data;

@@ -74,7 +74,7 @@ pub(super) fn warnings(campaign: &Campaign, data: &Dataset, fit: &Fit, judgement
         );
     }
     if !fit.is_settled() {
-        all.push("the fit did not settle; treat its numbers as provisional".to_owned());
+        all.push("the fit did not settle; treat its numbers as provisional, and check units, axes and angles of the file".to_owned());
     }
     if !campaign.noise.allows_verdict() {
         all.push(
@@ -92,7 +92,7 @@ pub(super) fn contradiction(campaign: &Campaign, data: &Dataset) -> Option<Strin
     if campaign.noise.source != NoiseSource::Metrology {
         return None;
     }
-    let s = scatter(&data.observations);
+    let s = scatter(&data.observations, &campaign.axes);
     let chi2 = ChiSquared::new(s.dof).ok()?;
     let check = |variance: f64, stated: f64, what: &str, unit: &str| {
         let p = chi2.cdf(s.dof * variance / (stated * stated));

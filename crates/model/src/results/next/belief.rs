@@ -49,5 +49,5 @@ pub(super) fn as_plan(campaign: &Campaign, readings: &[Observation]) -> Result<C
         columns: campaign.columns,
         observations: once.collect(),
     };
-    Campaign::with_noise(&campaign.hexapod, &dataset, campaign.noise)
+    Campaign::in_frames(&campaign.hexapod, &dataset, campaign.noise, campaign.frames)
 }

@@ -48,7 +48,7 @@ pub(super) fn candidate_readings(campaign: &Campaign, fits: &[&Fit]) -> Result<V
                 continue;
             }
             for &(approach, elapsed, delta_t) in &states {
-                let measured = if campaign.is_absolute() { pose.to_array() } else { [0.0; 6] };
+                let measured = still(campaign, &pose);
                 let row =
                     Observation { pose, wrench: *wrench, approach, elapsed, delta_t, measured, ..first };
                 candidate_readings.push(row);
@@ -56,6 +56,11 @@ pub(super) fn candidate_readings(campaign: &Campaign, fits: &[&Fit]) -> Result<V
         }
     }
     Ok(candidate_readings)
+}
+
+/// What is read of a pose that nothing deflects.
+fn still(campaign: &Campaign, pose: &Pose) -> [f64; 6] {
+    if campaign.is_absolute() { campaign.frames.seen(pose).to_array() } else { [0.0; 6] }
 }
 
 fn legs(campaign: &Campaign, pose: &Pose) -> Option<Legs> {
