@@ -160,7 +160,9 @@ fn springs_of_poses_that_never_tilt_are_the_same_too() {
         world.metrology_frame = frames.metrology;
         world.target_frame = frames.target;
         let turned = found(&world);
-        let off = (turned.point.compliances - plain.point.compliances).component_div(&plain.point.compliances).amax();
+        let off = (turned.point.compliances - plain.point.compliances)
+            .component_div(&plain.point.compliances)
+            .amax();
         println!("{name}: {off:.1e} of the springs, {:?}, chi2 {:.1e}", turned.termination, turned.chi2);
         assert!(turned.is_settled() && off < 1e-6, "{name}: {off:.1e}");
     }
@@ -214,7 +216,9 @@ fn springs_of_exact_readings_are_the_same_in_any_frames() {
         world.metrology_frame = frames.metrology;
         world.target_frame = frames.target;
         let turned = found(&world);
-        let off = (turned.point.compliances - plain.point.compliances).component_div(&plain.point.compliances).amax();
+        let off = (turned.point.compliances - plain.point.compliances)
+            .component_div(&plain.point.compliances)
+            .amax();
         println!("{name}: {off:.1e} of the springs, {} iterations", turned.iterations);
         assert!(turned.is_settled(), "{name}");
         assert!(off < 1e-9, "{name}: {off:.1e}");

@@ -1,6 +1,6 @@
 //! The model file gives back the same bits and refuses what is no model.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
@@ -156,7 +156,7 @@ fn a_matrix_that_is_no_covariance_is_refused() {
 proptest! {
     #[test]
     fn any_finite_springs_come_back(springs in prop::array::uniform6(prop::num::f64::NORMAL)) {
-        let mut model = models().remove(0);
+        let mut model = SPRINGS.clone();
         model.point.compliances = hexbench_core::Vector6::from_column_slice(&springs);
         let back = Model::from_toml(&model.to_toml().unwrap()).unwrap();
         prop_assert_eq!(back.point.compliances.map(f64::to_bits), model.point.compliances.map(f64::to_bits));
@@ -164,13 +164,13 @@ proptest! {
 
     #[test]
     fn damaged_files_never_panic(at in 0_usize..6000, byte in any::<u8>()) {
-        let mut text = SAMPLE.with(Clone::clone).into_bytes();
+        let mut text = SAMPLE.clone().into_bytes();
         let place = at % text.len();
         text[place] = byte;
         let _ = Model::from_toml(&String::from_utf8_lossy(&text));
     }
 }
 
-thread_local! {
-    static SAMPLE: String = models().remove(0).to_toml().unwrap();
-}
+/// The model without terms, fitted once for all that is drawn.
+static SPRINGS: LazyLock<Model> = LazyLock::new(|| models().remove(0));
+static SAMPLE: LazyLock<String> = LazyLock::new(|| SPRINGS.to_toml().unwrap());

@@ -1,6 +1,7 @@
 //! Every medium says the same: whatever stands on a terminal stands in Markdown, in HTML and in the JSON of a page.
 
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use hexbench_core::files::{read_hexapod, read_measurements};
 use hexbench_core::{Dataset, Hexapod};
@@ -32,8 +33,14 @@ fn cases() -> Vec<Case> {
     folders.iter().map(read).collect()
 }
 
-/// The diagnosis of every bundled case: in words, and with its charts as `--html` shows it.
-fn diagnoses() -> Vec<(String, Page, Page)> {
+/// A case's name, its page in words, and the page with its charts as `--html` shows it.
+type Pages = Vec<(String, Page, Page)>;
+
+/// The diagnosis of every bundled case, made once for all tests.
+static DIAGNOSES: LazyLock<Pages> = LazyLock::new(diagnoses);
+static COMPARISONS: LazyLock<Pages> = LazyLock::new(comparisons);
+
+fn diagnoses() -> Pages {
     let page = |case: &Case| {
         let study = diagnose(&case.hexapod, &case.data, Some(&case.holdout), &catalogue()).unwrap();
         let subject = ReportSubject {
@@ -47,7 +54,7 @@ fn diagnoses() -> Vec<(String, Page, Page)> {
     cases().iter().map(page).collect()
 }
 
-fn comparisons() -> Vec<(String, Page, Page)> {
+fn comparisons() -> Pages {
     let page = |case: &Case| {
         let held = Some(&case.holdout);
         let compared = compare(&case.hexapod, &case.data, None, held).unwrap();
@@ -119,16 +126,16 @@ fn assert_says(what: &str, medium: &str, text: &str, parts: &[String]) {
 
 #[test]
 fn every_medium_says_everything_the_page_says() {
-    for (case, words, with_charts) in diagnoses().into_iter().chain(comparisons()) {
-        let said = parts(&words);
+    for (case, words, with_charts) in DIAGNOSES.iter().chain(&*COMPARISONS) {
+        let said = parts(words);
         assert!(said.len() > 60, "{case}: {} parts", said.len());
         let verbose = Terminal { verbose: true, ..Terminal::default() };
-        assert_says(&case, "the terminal", &terminal(&words, verbose), &words_of(&said));
-        assert_says(&case, "Markdown", &markdown(&words), &said);
-        assert_says(&case, "HTML", &readable(&html(&with_charts).unwrap()), &said);
-        let json = serde_json::to_value(&words).unwrap();
+        assert_says(case, "the terminal", &terminal(words, verbose), &words_of(&said));
+        assert_says(case, "Markdown", &markdown(words), &said);
+        assert_says(case, "HTML", &readable(&html(with_charts).unwrap()), &said);
+        let json = serde_json::to_value(words).unwrap();
         let strings = texts(&json).join(" ");
-        assert_says(&case, "JSON", &strings, &said);
+        assert_says(case, "JSON", &strings, &said);
     }
 }
 
@@ -148,9 +155,9 @@ fn texts(value: &serde_json::Value) -> Vec<String> {
 
 #[test]
 fn html_says_no_less_than_the_terminal() {
-    for (case, words, with_charts) in diagnoses() {
-        let html = plain(&readable(&html(&with_charts).unwrap()));
-        for line in terminal(&words, Terminal::default()).lines().filter(|l| !l.contains("--verbose")) {
+    for (case, words, with_charts) in &*DIAGNOSES {
+        let html = plain(&readable(&html(with_charts).unwrap()));
+        for line in terminal(words, Terminal::default()).lines().filter(|l| !l.contains("--verbose")) {
             for word in line.split_whitespace().map(plain).filter(|w| !w.is_empty()) {
                 assert!(html.contains(&word), "{case}: HTML lacks `{word}` of: {line}");
             }
@@ -167,9 +174,9 @@ fn warnings_and_promises_reach_the_page_that_is_mailed_around() {
         ),
         ("paper-protocol", "is expected to exclude the wrong one at 20:1"),
     ];
-    for (case, _, page) in diagnoses() {
-        let html = readable(&html(&page).unwrap());
-        for (_, sentence) in promised.iter().filter(|(of, _)| *of == case) {
+    for (case, _, page) in &*DIAGNOSES {
+        let html = readable(&html(page).unwrap());
+        for (_, sentence) in promised.iter().filter(|(of, _)| of == case) {
             assert!(plain(&html).contains(&plain(sentence)), "{case}: {sentence}");
         }
     }
@@ -177,7 +184,7 @@ fn warnings_and_promises_reach_the_page_that_is_mailed_around() {
 
 #[test]
 fn anchors_of_a_page_are_its_own() {
-    for (case, _, page) in diagnoses().into_iter().chain(comparisons()) {
+    for (case, _, page) in DIAGNOSES.iter().chain(&*COMPARISONS) {
         let mut ids: Vec<&str> = page.sections.iter().map(|s| s.id.as_str()).collect();
         let all = ids.len();
         ids.sort_unstable();

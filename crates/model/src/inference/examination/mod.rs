@@ -18,7 +18,7 @@ use self::finding::probability;
 pub use self::finding::{Finding, FindingKind};
 use self::remainder::Remainder;
 use self::scatter::{Kind, Statement, statements};
-use self::tolerance::{Tolerance, worse_inputs};
+use self::tolerance::{Tolerance, inexact_inputs};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::noise::{Noise, NoiseSource, SharedReference, Structure};
@@ -27,7 +27,7 @@ use crate::inference::diagnosis::RankedSets;
 
 /// Evidence over the noise as stated beyond which another statement is believed, nats.
 const BELIEVED: f64 = 8.0;
-/// The same for joints off the drawing, nats: every machine is built to a tolerance, so odds of 20 to 1 are enough.
+/// The same for errors of joints and loads, nats: every machine is built and loaded to a tolerance, so odds of 20 to 1 are enough.
 const LIKELY: f64 = 3.0;
 /// Components of a load.
 const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
@@ -43,7 +43,7 @@ pub struct Examined {
     pub noise: Noise,
     /// What was found.
     pub findings: Vec<Finding>,
-    /// Whitened reading per standard deviation of every input, when some are worse than stated.
+    /// Whitened reading per standard deviation of every input, when errors of some show.
     inexact: Option<DMatrix<f64>>,
 }
 
@@ -82,10 +82,10 @@ pub fn examine(
     }
     let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
-    if let Some(worse) = cleaned.last.worse.as_ref().filter(|w| w.evidence > LIKELY.max(rivals)) {
+    if let Some(found) = cleaned.last.inputs.as_ref().filter(|w| w.evidence > LIKELY.max(rivals)) {
         let mut examined = cleaned.examined;
-        examined.findings.push(worse_than_stated(worse));
-        examined.inexact = Some(worse.columns.clone());
+        examined.findings.push(errors_of_inputs(found));
+        examined.inexact = Some(found.columns.clone());
         return Ok(examined);
     }
     Ok(settled(cleaned.examined, data, &cleaned.last, best))
@@ -100,7 +100,7 @@ struct Look {
     /// What is left of every row.
     rows: Vec<Vector6>,
     /// What they tell of the inputs, once no fault is left.
-    worse: Option<Tolerance>,
+    inputs: Option<Tolerance>,
 }
 
 /// The worst fault of readings, of at most so many rows, and the statements about their noise.
@@ -114,8 +114,8 @@ fn look(
     let rest = Remainder::new(&examined.data, &campaign, outcome)?;
     let (statements, stated) = statements(&rest);
     let fault = worst(&rest).filter(|f| f.rows.len() <= most);
-    let worse = if fault.is_none() { worse_inputs(&rest) } else { None };
-    Ok((fault, Look { statements, stated, rows: rest.rows, worse }))
+    let inputs = if fault.is_none() { inexact_inputs(&rest) } else { None };
+    Ok((fault, Look { statements, stated, rows: rest.rows, inputs }))
 }
 
 /// Readings without single faults.
@@ -181,12 +181,12 @@ fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: Statement)
     examined
 }
 
-fn worse_than_stated(worse: &Tolerance) -> Finding {
-    let (size, text, next) = match worse.kind {
+fn errors_of_inputs(found: &Tolerance) -> Finding {
+    let (size, text, next) = match found.kind {
         InputKind::LoadGain => {
             let (component, error) = LOADS
                 .iter()
-                .zip(&worse.errors)
+                .zip(&found.errors)
                 .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
                 .map_or(("", 0.0), |(name, error)| (*name, *error));
             (
@@ -200,7 +200,7 @@ fn worse_than_stated(worse: &Tolerance) -> Finding {
             )
         }
         _ => {
-            let size = format!("{:.2} mm", worse.size * 1e3);
+            let size = format!("{:.2} mm", found.size * 1e3);
             let text = format!(
                 "joints about {size} off the drawing explain the readings better than joints as drawn, and better than any effect"
             );
@@ -209,7 +209,7 @@ fn worse_than_stated(worse: &Tolerance) -> Finding {
     };
     Finding {
         kind: FindingKind::Tolerance,
-        probability: probability(worse.evidence),
+        probability: probability(found.evidence),
         rows: Vec::new(),
         text,
         size,

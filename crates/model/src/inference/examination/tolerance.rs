@@ -1,8 +1,8 @@
-//! Inputs that are worse than their tolerances.
+//! Inputs whose errors show in the readings.
 //!
-//! A hexapod is built and loaded to tolerances, which every fit knows. Joints and load cells can be worse than stated; with
-//! a Gaussian of several times the stated width for their errors, the evidence for that follows from the same columns,
-//! beside the springs and the effects found.
+//! A hexapod is built and loaded to tolerances, which every fit knows. Where errors of joints or loads show, within their
+//! tolerances or beyond, that is told: with a Gaussian for the errors, the evidence for them over exact inputs follows from the
+//! same columns, beside the springs and the effects found.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,17 +12,17 @@ use crate::estimation::tolerances::InputKind;
 use crate::inference::candidates::{orthonormal, project, target};
 
 /// Multiples of the stated tolerance that are tried.
-const FACTORS: [f64; 4] = [2.0, 4.0, 10.0, 25.0];
-/// Inputs that can be worse than stated. The catalogue has terms for the direction and the point of the loads.
+const FACTORS: [f64; 5] = [1.0, 2.0, 4.0, 10.0, 25.0];
+/// Inputs whose errors are told. The catalogue has terms for the direction and the point of the loads.
 const DOUBTED: [InputKind; 2] = [InputKind::Joints, InputKind::LoadGain];
 
-/// Inputs worse than stated, as the readings tell of them.
+/// Inputs with errors, as the readings tell of them.
 pub(super) struct Tolerance {
     /// Which.
     pub(super) kind: InputKind,
     /// Standard deviation of one of them, SI.
     pub(super) size: f64,
-    /// Evidence over inputs as stated, nats.
+    /// Evidence over these inputs being exact, nats.
     pub(super) evidence: f64,
     /// Most probable errors, SI.
     pub(super) errors: Vec<f64>,
@@ -31,7 +31,7 @@ pub(super) struct Tolerance {
 }
 
 /// What the readings tell of the inputs; none for absolute poses, where the joints are an effect of the catalogue.
-pub(super) fn worse_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
+pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     if rest.campaign.is_absolute() {
         return None;
     }
@@ -43,14 +43,18 @@ pub(super) fn worse_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     let overlap = basis.tr_mul(&rest.inputs);
     let normal = rest.inputs.tr_mul(&rest.inputs) - overlap.tr_mul(&overlap);
     let right: DVector<f64> = rest.inputs.tr_mul(&y);
-    let (stated, _) = evidence(&normal, &right, &DVector::repeat(InputKind::COLUMNS, 1.0))?;
+    let scaled = |kind: InputKind, factor: f64| {
+        let mut scales = DVector::repeat(InputKind::COLUMNS, 1.0);
+        scales.rows_range_mut(kind.columns()).fill(factor);
+        scales
+    };
     let chance = ((DOUBTED.len() * FACTORS.len()) as f64).ln();
     let tries = DOUBTED.iter().flat_map(|&kind| FACTORS.map(|factor| (kind, factor)));
     let weighed = tries.filter_map(|(kind, factor)| {
-        let mut scales = DVector::repeat(InputKind::COLUMNS, 1.0);
-        scales.rows_range_mut(kind.columns()).fill(factor);
-        let (worse, errors) = evidence(&normal, &right, &scales)?;
-        Some((kind, factor, worse - stated - chance, errors, scales))
+        let (exact, _) = evidence(&normal, &right, &scaled(kind, 0.0))?;
+        let scales = scaled(kind, factor);
+        let (inexact, errors) = evidence(&normal, &right, &scales)?;
+        Some((kind, factor, inexact - exact - chance, errors, scales))
     });
     let (kind, factor, evidence, errors, scales) = weighed.max_by(|a, b| a.2.total_cmp(&b.2))?;
     let unit = kind.standard_deviation(&rest.campaign.hexapod.tolerances);
