@@ -15,7 +15,9 @@ use nalgebra::{DMatrix, Rotation3};
 use crate::effects::chain::Action;
 use crate::error::ModelError;
 use crate::estimation::frames::{Frames, ReadingAxes};
-use crate::estimation::noise::{Noise, NoiseSource, SharedReference, Structure, stated_or_repeated};
+use crate::estimation::noise::{
+    Noise, NoiseLevel, NoiseSource, SharedReference, Structure, stated_or_repeated,
+};
 use crate::estimation::parallel::try_map;
 use crate::estimation::whitening::Inexact;
 use crate::machine::geometry::Machine;
@@ -284,6 +286,21 @@ impl Campaign {
         self.noise = self.noise.independent();
         self.inexact = None;
         self
+    }
+
+    /// What repeats and the statement tell of the noise level. Repeats that share an error tell nothing of its size.
+    pub fn noise_level(&self) -> NoiseLevel {
+        let worth = match self.noise.source {
+            NoiseSource::Repeats => return NoiseLevel { sum: self.noise.dof, dof: self.noise.dof },
+            NoiseSource::Residuals => 0.0,
+            // A chi-square of so many degrees of freedom scatters as much as the stated standard deviation may.
+            NoiseSource::Columns | NoiseSource::Metrology => 0.5 / self.hexapod.tolerances.noise.powi(2),
+        };
+        let (repeats, dof) = match self.noise.structure {
+            Structure::Independent => (self.pure_error, self.pure_error_dof),
+            _ => (0.0, 0.0),
+        };
+        NoiseLevel { sum: worth + repeats, dof: worth + dof }
     }
 
     /// True in absolute mode.

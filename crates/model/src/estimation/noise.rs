@@ -98,6 +98,20 @@ impl Structure {
     }
 }
 
+/// Sum of squared whitened errors that tell of the noise level, and their degrees of freedom: repeats, and what a statement is worth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoiseLevel {
+    /// Sum of squares.
+    pub sum: f64,
+    /// Degrees of freedom; infinite for a level that is exact, zero for one of which nothing is known.
+    pub dof: f64,
+}
+
+impl NoiseLevel {
+    /// A level without doubt.
+    pub const EXACT: Self = Self { sum: f64::INFINITY, dof: f64::INFINITY };
+}
+
 /// Standard deviation of one reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {

@@ -4,15 +4,17 @@ use std::collections::HashMap;
 
 use hexbench_core::statistics::{mean, median};
 use hexbench_core::{Dataset, Hexapod, Matrix6, Observation, Vector6};
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ChiSquared, ContinuousCDF};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, ConditionReadings, row_sigma};
 use crate::estimation::fit::{Fit, Start, TermSpec, columns, refit};
 use crate::estimation::linearization::{Linearization, ModelPoint};
-use crate::estimation::noise::Noise;
+use crate::estimation::noise::{Noise, NoiseLevel};
+use crate::estimation::tolerances::within_tolerances_at;
 
 /// Most folds of a leave-poses-out validation.
 const MOST_FOLDS: usize = 12;
@@ -127,22 +129,64 @@ pub fn prediction_errors(
     Ok(residuals(&campaign, &holdout.observations, &lin))
 }
 
-/// Chance that held-out readings are as far from a fitted model as they are, if the model is right: chi-square of the
-/// prediction errors over noise plus uncertainty of the prediction, pure error left out.
+/// Held-out readings beside what a fit expects of them: noise with all that is known of it, inputs within their tolerances, and the
+/// uncertainty of every parameter, which all readings share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeldOutTest {
+    /// Squared distance in standard deviations, pure error left out.
+    pub chi2: f64,
+    /// Averaged numbers.
+    pub numbers: f64,
+    /// Chance of such a distance or a larger one if the model is right.
+    pub chance: f64,
+}
+
+/// Tests a fit to a campaign on other readings.
+///
+/// ```text
+/// chi2 = d' (I + Z Z')^-1 d,   Z = J C^1/2,   chi2 / n over sum / dof follows F(n, dof)
+/// ```
+///
+/// with the residuals `d` and columns `J` whitened, the covariance `C` of the parameters, and what is known of the noise level.
 ///
 /// # Errors
 /// As [`prediction_errors`].
-pub fn survival(hexapod: &Hexapod, holdout: &Dataset, noise: Noise, fit: &Fit) -> Result<f64, ModelError> {
-    let campaign = Campaign::held_out(hexapod, holdout, noise, &fit.point.machine)?.independent();
-    let expected = Expected::of(&Linearization::at(&campaign, &fit.point)?, fit);
-    let law = ChiSquared::new(6.0 * expected.readings)
-        .map_err(|_| ModelError::NotFinite { what: "the held-out data" })?;
-    Ok(1.0 - law.cdf(expected.chi2))
+pub fn held_out_test(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Result<HeldOutTest, ModelError> {
+    let held = Campaign::held_out(&campaign.hexapod, holdout, campaign.noise, &fit.point.machine)?;
+    let held = if campaign.inexact.is_some() { within_tolerances_at(held, &fit.point) } else { held };
+    let lin = Linearization::at(&held, &fit.point)?;
+    let d = lin.residuals();
+    let z = columns(&lin, &fit.point) * root(&fit.covariance);
+    let inner = z.tr_mul(&z) + DMatrix::identity(z.ncols(), z.ncols());
+    let along = z.tr_mul(&d);
+    let explained = inner.cholesky().map_or(0.0, |factor| along.dot(&factor.solve(&along)));
+    let (chi2, numbers) = ((d.norm_squared() - explained).max(0.0), d.len() as f64);
+    let NoiseLevel { sum, dof } = campaign.noise_level();
+    let unknown = |_| ModelError::NotFinite { what: "the held-out data" };
+    let below = if dof.is_finite() && dof > 0.0 {
+        let law = FisherSnedecor::new(numbers, dof).map_err(|_| unknown(()))?;
+        law.cdf(chi2 / numbers * dof / sum)
+    } else {
+        ChiSquared::new(numbers).map_err(|_| unknown(()))?.cdf(chi2)
+    };
+    Ok(HeldOutTest { chi2, numbers, chance: 1.0 - below })
+}
+
+/// A square root of a covariance, `C = R R'`; its entries may differ by many orders.
+fn root(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let sizes = covariance.diagonal().map(|x| x.max(0.0).sqrt());
+    let share = |i: usize, j: usize| {
+        let product = sizes[i] * sizes[j];
+        if product > 0.0 { covariance[(i, j)] / product } else { 0.0 }
+    };
+    let n = sizes.len();
+    let eigen = DMatrix::from_fn(n, n, share).symmetric_eigen();
+    let lengths = eigen.eigenvalues.map(|x| x.max(0.0).sqrt());
+    DMatrix::from_diagonal(&sizes) * eigen.eigenvectors * DMatrix::from_diagonal(&lengths)
 }
 
 /// Averaged readings beside what a fit expects of them, uncertainty of its parameters included.
 struct Expected {
-    readings: f64,
     /// Sum of squared distances in units of noise plus uncertainty.
     chi2: f64,
     /// Logarithm of the determinant of noise plus uncertainty, in units of the noise.
@@ -153,7 +197,7 @@ impl Expected {
     /// `lin` is the fit seen at these readings.
     fn of(lin: &Linearization, fit: &Fit) -> Self {
         let jacobian = columns(lin, &fit.point);
-        let mut expected = Self { readings: lin.conditions.len() as f64, chi2: 0.0, log_det: 0.0 };
+        let mut expected = Self { chi2: 0.0, log_det: 0.0 };
         for i in 0..lin.conditions.len() {
             let j = jacobian.rows(6 * i, 6);
             let spread = j * &fit.covariance * j.transpose();

@@ -62,12 +62,21 @@ impl InputKind {
 
     /// Standard deviation of one input, SI.
     pub fn standard_deviation(self, tolerances: &Tolerances) -> f64 {
+        *self.of(&mut tolerances.clone())
+    }
+
+    /// States another standard deviation, SI.
+    pub fn set(self, tolerances: &mut Tolerances, standard_deviation: f64) {
+        *self.of(tolerances) = standard_deviation;
+    }
+
+    fn of(self, tolerances: &mut Tolerances) -> &mut f64 {
         match self {
-            Self::Joints => tolerances.joints,
-            Self::LoadGain => tolerances.load_gain,
-            Self::LoadDirection => tolerances.load_direction,
-            Self::LoadPoint => tolerances.load_point,
-            Self::Frame => tolerances.frame,
+            Self::Joints => &mut tolerances.joints,
+            Self::LoadGain => &mut tolerances.load_gain,
+            Self::LoadDirection => &mut tolerances.load_direction,
+            Self::LoadPoint => &mut tolerances.load_point,
+            Self::Frame => &mut tolerances.frame,
         }
     }
 
@@ -114,9 +123,16 @@ pub fn input_columns(
 /// A campaign whose inputs are as good as the tolerances of its machine; as it is where springs cannot be fitted.
 #[must_use]
 pub fn within_tolerances(campaign: Campaign) -> Campaign {
-    let columns = fit(&campaign, &[], None)
-        .and_then(|springs| input_columns(&campaign, &springs.point, &campaign.hexapod.tolerances));
-    match columns {
+    match fit(&campaign, &[], None) {
+        Ok(springs) => within_tolerances_at(campaign, &springs.point),
+        Err(_) => campaign,
+    }
+}
+
+/// The same for a machine that is known.
+#[must_use]
+pub fn within_tolerances_at(campaign: Campaign, point: &ModelPoint) -> Campaign {
+    match input_columns(&campaign, point, &campaign.hexapod.tolerances) {
         Ok(columns) if columns.iter().all(|x| x.is_finite()) => campaign.with_inexact(columns),
         _ => campaign,
     }

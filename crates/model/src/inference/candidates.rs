@@ -7,9 +7,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::effects::term::{Natural, Rich, Term};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::{Linearization, ModelPoint, parameter_count};
-use crate::estimation::noise::{NoiseSource, Structure};
 use crate::estimation::parallel::sum_in_order;
-use crate::inference::evidence::{Gram, NoiseLevel, PriorBlock};
+use crate::inference::evidence::{Gram, PriorBlock};
 use crate::inference::pattern::Pattern;
 
 /// Prior share of the ideal form where there is a richer one.
@@ -84,22 +83,6 @@ impl Source {
             }
         }
     }
-}
-
-/// What repeats and the statement tell of the noise level. Repeats that share an error tell nothing of its size.
-fn noise_level(campaign: &Campaign) -> NoiseLevel {
-    let noise = &campaign.noise;
-    let worth = match noise.source {
-        NoiseSource::Repeats => return NoiseLevel { sum: noise.dof, dof: noise.dof },
-        NoiseSource::Residuals => 0.0,
-        // A chi-square of so many degrees of freedom scatters as much as the stated standard deviation may.
-        NoiseSource::Columns | NoiseSource::Metrology => 0.5 / campaign.hexapod.tolerances.noise.powi(2),
-    };
-    let (repeats, dof) = match noise.structure {
-        Structure::Independent => (campaign.pure_error, campaign.pure_error_dof),
-        _ => (0.0, 0.0),
-    };
-    NoiseLevel { sum: worth + repeats, dof: worth + dof }
 }
 
 /// Collects blocks of whitened columns that are multiplied together and projected at the end, a part of the conditions
@@ -180,7 +163,7 @@ impl<'a> Collector<'a> {
             b: rest.view((0, width), (width, 1)).column(0).into_owned(),
             yy: rest[(width, width)].max(0.0),
             equations: (self.lin.equations() - root.ncols()) as f64,
-            level: noise_level(campaign),
+            level: campaign.noise_level(),
             blocks,
             absorbed: root.rows(0, 6) * overlap.columns(0, width),
             springs: root.rows(0, 6) * root.rows(0, 6).transpose(),

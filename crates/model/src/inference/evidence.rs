@@ -15,6 +15,8 @@ use hexbench_core::Vector6;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 
+use crate::estimation::noise::NoiseLevel;
+
 /// Largest prior width as a multiple of the natural size of a parameter.
 pub const WIDEST: f64 = 2.0;
 /// Most widths tried per block, from the widest down.
@@ -108,20 +110,6 @@ pub struct Variant {
     pub block: usize,
     /// Index into the widths of the block.
     pub width: usize,
-}
-
-/// Sum of squared whitened errors that tell of the noise level, and their degrees of freedom: repeats, and what a statement is worth.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NoiseLevel {
-    /// Sum of squares.
-    pub sum: f64,
-    /// Degrees of freedom; infinite for a level that is exact, zero for one of which nothing is known.
-    pub dof: f64,
-}
-
-impl NoiseLevel {
-    /// A level without doubt.
-    pub const EXACT: Self = Self { sum: f64::INFINITY, dof: f64::INFINITY };
 }
 
 /// Projected normal equations of all blocks.

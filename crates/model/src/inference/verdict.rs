@@ -97,6 +97,18 @@ pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
     Judgement { verdict, first, present, credible: credible(sets, candidates), sure, outside, refuted: false }
 }
 
+impl Judgement {
+    /// Held-out readings show nothing outside the catalogue: the answer is what else is sure.
+    pub(crate) fn withdraw_outside(&mut self) {
+        let doubtful = self.present.iter().any(|(id, p)| *p >= DOUBT && !self.sure.contains(id));
+        self.verdict = match (self.sure.is_empty(), doubtful) {
+            (true, false) => Verdict::Adequate,
+            (false, false) => Verdict::Named,
+            (_, true) => Verdict::Ambiguous,
+        };
+    }
+}
+
 /// The member of a set that explains most when it stands alone.
 fn leader(set: &Set, sets: &Sets, candidates: &[Candidate]) -> Explanation {
     let alone = |m: usize| {

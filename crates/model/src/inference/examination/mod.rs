@@ -10,8 +10,7 @@ mod remainder;
 mod scatter;
 mod tolerance;
 
-use hexbench_core::{Dataset, Hexapod, Vector6};
-use nalgebra::DMatrix;
+use hexbench_core::{Dataset, Hexapod, Tolerances, Vector6};
 
 use self::blunders::{Fault, worst};
 use self::finding::probability;
@@ -43,8 +42,8 @@ pub struct Examined {
     pub noise: Noise,
     /// What was found.
     pub findings: Vec<Finding>,
-    /// Whitened reading per standard deviation of every input, when errors of some show.
-    inexact: Option<DMatrix<f64>>,
+    /// What the inputs are worth.
+    tolerances: Tolerances,
 }
 
 impl Examined {
@@ -53,11 +52,8 @@ impl Examined {
     /// # Errors
     /// As [`Campaign::with_noise`].
     pub fn campaign(&self, hexapod: &Hexapod) -> Result<Campaign, ModelError> {
-        let campaign = Campaign::with_noise(hexapod, &self.data, self.noise)?;
-        Ok(match &self.inexact {
-            Some(columns) => campaign.with_inexact(columns.clone()),
-            None => within_tolerances(campaign),
-        })
+        let hexapod = Hexapod { tolerances: self.tolerances, ..hexapod.clone() };
+        Ok(within_tolerances(Campaign::with_noise(&hexapod, &self.data, self.noise)?))
     }
 }
 
@@ -71,8 +67,12 @@ pub fn examine(
     noise: Noise,
     outcome: &RankedSets,
 ) -> Result<Examined, ModelError> {
-    let whole =
-        Examined { data: data.clone(), noise: noise.independent(), findings: Vec::new(), inexact: None };
+    let whole = Examined {
+        data: data.clone(),
+        noise: noise.independent(),
+        findings: Vec::new(),
+        tolerances: hexapod.tolerances,
+    };
     let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
     let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
     // Many errors that are far off are tails; one or two are blunders.
@@ -85,7 +85,7 @@ pub fn examine(
     if let Some(found) = cleaned.last.inputs.as_ref().filter(|w| w.evidence > LIKELY.max(rivals)) {
         let mut examined = cleaned.examined;
         examined.findings.push(errors_of_inputs(found));
-        examined.inexact = Some(found.columns.clone());
+        found.kind.set(&mut examined.tolerances, found.size);
         return Ok(examined);
     }
     Ok(settled(cleaned.examined, data, &cleaned.last, best))
@@ -166,7 +166,7 @@ fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: Statement)
                 data: data.clone(),
                 noise: examined.noise,
                 findings: Vec::new(),
-                inexact: None,
+                tolerances: examined.tolerances,
             };
         }
         return examined;

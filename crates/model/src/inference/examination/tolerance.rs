@@ -26,8 +26,6 @@ pub(super) struct Tolerance {
     pub(super) evidence: f64,
     /// Most probable errors, SI.
     pub(super) errors: Vec<f64>,
-    /// Whitened reading per standard deviation of every input, these as large as they seem.
-    pub(super) columns: DMatrix<f64>,
 }
 
 /// What the readings tell of the inputs; none for absolute poses, where the joints are an effect of the catalogue.
@@ -52,18 +50,13 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     let tries = DOUBTED.iter().flat_map(|&kind| FACTORS.map(|factor| (kind, factor)));
     let weighed = tries.filter_map(|(kind, factor)| {
         let (exact, _) = evidence(&normal, &right, &scaled(kind, 0.0))?;
-        let scales = scaled(kind, factor);
-        let (inexact, errors) = evidence(&normal, &right, &scales)?;
-        Some((kind, factor, inexact - exact - chance, errors, scales))
+        let (inexact, errors) = evidence(&normal, &right, &scaled(kind, factor))?;
+        Some((kind, factor, inexact - exact - chance, errors))
     });
-    let (kind, factor, evidence, errors, scales) = weighed.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let (kind, factor, evidence, errors) = weighed.max_by(|a, b| a.2.total_cmp(&b.2))?;
     let unit = kind.standard_deviation(&rest.campaign.hexapod.tolerances);
-    let mut columns = rest.inputs.clone();
-    for (mut column, scale) in columns.column_iter_mut().zip(scales.iter()) {
-        column *= *scale;
-    }
     let errors = errors.rows_range(kind.columns()).iter().map(|e| e * unit * factor).collect();
-    Some(Tolerance { kind, size: unit * factor, evidence, errors, columns })
+    Some(Tolerance { kind, size: unit * factor, evidence, errors })
 }
 
 /// Logarithm of the evidence for errors with these standard deviations over none, and the most probable ones in units of them.

@@ -9,7 +9,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, average_over_shapes, fit};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::{
-    Residual, leave_poses_out, prediction_errors, residuals, summarise, survival,
+    HeldOutTest, Residual, held_out_test, leave_poses_out, prediction_errors, residuals, summarise,
 };
 use crate::inference::candidates::CandidateKind;
 use crate::inference::diagnosis::{RankedSets, wanted};
@@ -22,6 +22,12 @@ use crate::results::next::{Effort, RivalExplanation, candidate_readings, propose
 const REFUTED_CHANCE: f64 = 1e-5;
 /// A rival that predicts the holdout file at least this well is credible.
 const SURVIVAL_CHANCE: f64 = 1e-3;
+/// Held-out readings that are this probable under a model do not speak against it.
+const NOTICED_CHANCE: f64 = 0.05;
+/// Standard deviations of chi-square by which an error must raise it to be noticed nearly always.
+const SHOWS: f64 = 3.3;
+/// An error that adds less than this share to the variance of the noise does not matter: 1 % of the error.
+const SMALL_EXCESS: f64 = 0.02;
 /// Sets faced with the holdout file once the best one is refuted.
 const SETS_FACED: usize = 40;
 /// Candidates whose absorbed bias is worth a fit of their own.
@@ -71,15 +77,17 @@ impl Context<'_> {
     }
 
     /// A sure answer whose predictions fail on the holdout file is not sure: everything that does survive there becomes
-    /// credible.
+    /// credible. Something outside the catalogue must show there too, where it would.
     pub(super) fn face_holdout(&self, judgement: &mut Judgement, last: &Fit) {
-        let Some(holdout) = self.holdout.filter(|_| judgement.verdict != Verdict::Outside) else { return };
-        let noise = self.campaign.noise;
-        if !noise.allows_verdict() {
+        let Some(holdout) = self.holdout.filter(|_| self.campaign.noise.allows_verdict()) else { return };
+        let test = |fit: &Fit| held_out_test(self.campaign, holdout, fit);
+        let survives = |fit: &Fit, chance: f64| test(fit).is_ok_and(|t| t.chance > chance);
+        if judgement.verdict == Verdict::Outside {
+            if test(last).is_ok_and(|t| self.shows_nothing(&t, last)) {
+                judgement.withdraw_outside();
+            }
             return;
         }
-        let survives =
-            |fit: &Fit, chance: f64| survival(self.hexapod, holdout, noise, fit).is_ok_and(|p| p > chance);
         if survives(last, REFUTED_CHANCE) {
             return;
         }
@@ -96,6 +104,14 @@ impl Context<'_> {
                 }
             }
         }
+    }
+
+    /// True when the held-out readings are as the fit expects them, though what it leaves in its own readings would show there, or is
+    /// too little to matter.
+    fn shows_nothing(&self, test: &HeldOutTest, last: &Fit) -> bool {
+        let excess = (last.lack_of_fit / last.lack_of_fit_dof.max(1.0) - 1.0).max(0.0);
+        let would_show = excess * test.numbers > SHOWS * (2.0 * test.numbers).sqrt();
+        test.chance > NOTICED_CHANCE && (would_show || excess < SMALL_EXCESS)
     }
 
     /// Prediction errors, and the predictive density where poses are left out.
