@@ -7,9 +7,10 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use serde_json::{Map, Value, json};
 
-use super::{Campaign, Plan, PlanKind, Row, Yardstick, machines, measure, pick, rms};
+use super::fault::Work;
+use super::{Campaign, Plan, PlanKind, Row, Yardstick, machines, pick, rms};
 use crate::{
-    Mechanism, TruthError, World,
+    Mechanism, TruthError, World, laboratory,
     mechanisms::{self, REGISTRY, Shows},
     metrology::{Frames, Noise},
 };
@@ -137,10 +138,17 @@ impl CaseSpec {
     /// # Errors
     /// [`TruthError::NotVisible`] when an effect does not show in this plan; else as [`World::reading`].
     pub fn build(&self) -> Result<Case, TruthError> {
+        self.build_in(&laboratory::CAREFUL)
+    }
+
+    /// Builds the case and has it measured by a laboratory.
+    ///
+    /// # Errors
+    /// As [`CaseSpec::build`].
+    pub fn build_in(&self, laboratory: &laboratory::Entry) -> Result<Case, TruthError> {
         let of = |purpose| stream(self.seed, purpose, []);
         let (mut of_machine, mut of_plan) = (of(Purpose::CaseMachine), of(Purpose::CasePlan));
-        let mut of_effects = of(Purpose::CaseEffectShapes);
-        let (mut of_noise, mut of_frames) = (of(Purpose::CaseNoise), of(Purpose::CaseFrames));
+        let (mut of_effects, mut of_frames) = (of(Purpose::CaseEffectShapes), of(Purpose::CaseFrames));
         let mut hexapod = machines::draw(self.family, &mut of_machine);
         hexapod.metrology = Some(self.noise.metrology());
         let stiffness = machines::leg_stiffness(self.family, &mut of_machine);
@@ -152,11 +160,11 @@ impl CaseSpec {
         let truth = self.truth(&bare, &plan, &sized)?;
         let mut world = bare.world.without_effects();
         world.mechanisms = sized.mechanisms;
-        let campaign = Campaign { world, ..bare };
-        let measurements =
-            measure(&campaign, &plan.training, plan.measurand, "measurements.csv", &mut of_noise)?;
-        let holdout = measure(&campaign, &plan.holdout, plan.measurand, "holdout.csv", &mut of_noise)?;
-        Ok(Case { spec: self.clone(), campaign, hexapod, measurements, holdout, truth })
+        let mut case = Work { laboratory, seed: self.seed, campaign: Campaign { world, ..bare } };
+        case.alter();
+        let [measurements, holdout] = case.measure(&plan)?;
+        hexapod.metrology = Some(case.stated());
+        Ok(Case { spec: self.clone(), campaign: case.campaign, hexapod, measurements, holdout, truth })
     }
 
     fn sized_effects(

@@ -55,12 +55,25 @@ pub fn measure(
     source: &str,
     rng: &mut Pcg64,
 ) -> Result<Dataset, TruthError> {
+    let errors: Vec<Vector6> = rows.iter().map(|_| campaign.noise.draw(rng)).collect();
+    read(campaign, rows, measurand, source, &errors)
+}
+
+/// Reads the rows with given errors, m and rad.
+pub(super) fn read(
+    campaign: &Campaign,
+    rows: &[Row],
+    measurand: Measurand,
+    source: &str,
+    errors: &[Vector6],
+) -> Result<Dataset, TruthError> {
     let readings = campaign.ideal(rows, measurand)?;
     let observations = rows
         .iter()
         .zip(readings)
+        .zip(errors)
         .enumerate()
-        .map(|(i, (row, r))| row.read(i as u64 + 2, (r + campaign.noise.draw(rng)).into(), None));
+        .map(|(i, ((row, r), error))| row.read(i as u64 + 2, (r + error).into(), None));
     let deflections = measurand != Measurand::AbsolutePose;
     Ok(Dataset {
         source: source.to_owned(),
