@@ -16,6 +16,7 @@ use hexbench_experiments::recovery::protocol::Recovery;
 use hexbench_experiments::recovery::study::Settings;
 use hexbench_experiments::regress::suite::Suite;
 use hexbench_experiments::regress::trials::Runs;
+use hexbench_experiments::robustness;
 use hexbench_experiments::sweep::{Runner, results};
 use hexbench_model::terms::catalogue;
 use hexbench_truth::Scene;
@@ -123,6 +124,15 @@ fn recovery_goes_on_where_it_was_stopped() {
 #[test]
 fn calibration_goes_on_where_it_was_stopped() {
     let protocol = |seed| calibration::Protocol::default().with_trials(14).with_seed(seed);
+    survives(&protocol(3), &protocol(4));
+}
+
+#[test]
+fn robustness_goes_on_where_it_was_stopped() {
+    let protocol = |seed| {
+        robustness::Protocol { seed, trials: 2, ..Default::default() }
+            .with_faults(&["drift-1", "joints-0.2mm"])
+    };
     survives(&protocol(3), &protocol(4));
 }
 
