@@ -49,14 +49,14 @@ pub fn headlines(records: &[Record]) -> Vec<String> {
             hundredths(MOST_FALSE_NAMES),
             told(Proportion::count(records.iter().filter(is_control), named)),
         ),
-        weakest(records, "Clean machines are most often not called clean under", |v| v.clean_right()),
-        weakest(records, "Hidden effects are most often not named first under", |v| v.effect_right()),
-        weakest(records, "Stiffness intervals hold the truth least often under", |v| v.stiffness()),
+        weakest(records, "Clean machines are most often not called clean under", Violation::clean_right),
+        weakest(records, "Hidden effects are most often not named first under", Violation::effect_right),
+        weakest(records, "Stiffness intervals hold the truth least often under", Violation::stiffness),
     ]
 }
 
 /// The three faults under which a share is lowest.
-fn weakest(records: &[Record], words: &str, share: fn(&Violation<'_>) -> Proportion) -> String {
+fn weakest<'a>(records: &'a [Record], words: &str, share: fn(&Violation<'a>) -> Proportion) -> String {
     const LISTED: usize = 3;
     let mut all: Vec<(&str, Proportion)> = Violation::of_each(records)
         .iter()
@@ -130,7 +130,7 @@ fn again(study: &Robustness) -> Section {
     let chosen: String = if study.protocol.faults == Protocol::default().faults {
         String::new()
     } else {
-        study.protocol.faults.iter().map(|id| format!(" --fault {id}")).collect()
+        study.protocol.faults.iter().flat_map(|id| [" --fault ", id]).collect()
     };
     Section::new("Again")
         .with(Block::code(format!(

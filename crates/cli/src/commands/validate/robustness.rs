@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use clap::Args;
 use hexbench_experiments::harness;
 use hexbench_experiments::robustness::{self, Protocol, Robustness, SEED, TRIALS, page, sheets};
+use hexbench_report::Section;
 use hexbench_report::render::markdown;
 use hexbench_report::table::{Frame, Kind, csv};
-use hexbench_report::{Block, Entry, Section};
 use hexbench_truth::laboratory;
 
 use crate::failure::Failure;
@@ -57,8 +57,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let trials = harness::table(&protocol, &gathered);
     let study = Robustness::of(protocol, gathered);
     let written = write(&study, &trials, arguments, screen)?;
-    let names = written.iter().map(|path| Entry::new(path.display().to_string(), ""));
-    screen.show(&page(&study).with(Section::new("Written").with(Block::entries(names))))
+    let names = written.iter().map(|path| path.display().to_string());
+    screen.show(&page(&study).with(Section::new("Written").list(names)))
 }
 
 /// Returns the paths written.
