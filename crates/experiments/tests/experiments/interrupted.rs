@@ -130,7 +130,7 @@ fn calibration_goes_on_where_it_was_stopped() {
 #[test]
 fn robustness_goes_on_where_it_was_stopped() {
     let protocol = |seed| {
-        robustness::Protocol { seed, trials: 2, ..Default::default() }
+        robustness::Protocol { seed, trials: 4, ..Default::default() }
             .with_faults(&["drift-1", "joints-0.2mm"])
     };
     survives(&protocol(3), &protocol(4));
