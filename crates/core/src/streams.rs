@@ -50,6 +50,8 @@ pub enum Purpose {
     CaseNoise = 105,
     /// Case: frames of the instrument.
     CaseFrames = 106,
+    /// Case: what a fault of the laboratory hits.
+    CaseFault = 107,
 
     /// Comparison of two worlds: machine, plan and situation.
     WorldsSituation = 200,

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | [`recovery`] | is what was hidden found, with honest uncertainty? |
 //! | [`calibration`] | how far can the stated probabilities be trusted? |
+//! | [`robustness`] | what do laboratories that do not keep to the assumptions get? |
 //! | [`discriminate`] | do the proposed readings tell effects apart? |
 //! | [`power`] | which effects does a plan show? |
 //! | [`regress`] | did a change make anything worse? |
@@ -25,6 +26,7 @@ pub mod paper;
 pub mod power;
 pub mod recovery;
 pub mod regress;
+pub mod robustness;
 pub mod sweep;
 pub mod trial;
 

@@ -19,6 +19,7 @@
 //! - [`World`]: a machine with its imperfections; [`World::deflection`], [`World::pose`].
 //! - [`mechanisms`]: one file for each physical effect, all of them in [`mechanisms::REGISTRY`].
 //! - [`metrology`]: what the instrument adds.
+//! - [`laboratory`]: what laboratories do to data, one file for each fault.
 //! - [`mjcf`]: the structure written for MuJoCo, so that another program can say where it comes to rest.
 //! - [`campaign`]: machines, plans, sizes and the case folders made of them.
 //! - [`scene`]: a folder that describes a machine with hidden effects, a plan and an instrument.
@@ -26,6 +27,7 @@
 pub mod campaign;
 pub mod equilibrium;
 pub mod error;
+pub mod laboratory;
 pub mod law;
 mod linear;
 pub mod mechanisms;

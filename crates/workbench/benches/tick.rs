@@ -8,7 +8,7 @@ use hexbench_core::files::{hexapod_to_toml, measurements_to_csv};
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_truth::campaign::{MeasurementPlan, PlanKind, Poses, SimulatedCampaign, machines, measure};
-use hexbench_truth::metrology::{Frames, InstrumentNoise};
+use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{World, mechanisms};
 use hexbench_workbench::bench::LoadedCampaign;
 use hexbench_workbench::wire::{FileText, Open, Selection, ServerLimits};
@@ -37,7 +37,8 @@ fn bench(readings: u64, with_holdout: bool) -> LoadedCampaign {
     };
     let mut world = World::new(hexapod.clone(), &machines::leg_stiffness("ring_b", &mut rng));
     world.mechanisms.push((mechanisms::effect("base-compliance").unwrap().draw)(&hexapod, &mut rng));
-    let campaign = SimulatedCampaign { world, frames: Frames::default(), noise: InstrumentNoise::default() };
+    let campaign =
+        SimulatedCampaign { world, frames: InstrumentFrames::default(), noise: InstrumentNoise::default() };
     let mut read = |rows| measure(&campaign, rows, plan.measurand, "measurements.csv", &mut rng).unwrap();
     let (data, holdout) = (read(&plan.training), read(&plan.holdout));
     opened(&hexapod, &data, with_holdout.then_some(&holdout))

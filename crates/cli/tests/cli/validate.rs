@@ -81,3 +81,43 @@ fn a_trial_that_is_none_is_wrong_usage() {
     }
     hexbench().args(["validate", "calibration", "--trials", "0", "-o", "x"]).assert().code(2);
 }
+
+/// A clean machine in the hands of a careful laboratory and of one with a wrong number.
+const FAULTY: [&str; 6] = ["validate", "robustness", "--trials", "1", "--fault", "outlier-60"];
+
+#[test]
+fn robustness_writes_trials_tables_and_a_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, markdown) = (folder.path().join("study"), folder.path().join("docs/robustness.md"));
+    let mut command = hexbench();
+    let page =
+        text(command.args(FAULTY).arg("-o").arg(&out).arg("--markdown").arg(&markdown).output().unwrap());
+    assert!(page.contains("one number off by 60 sigma"), "{page}");
+    let names: Vec<String> = files_of(&out).into_iter().map(|(name, _)| name).collect();
+    for wanted in
+        ["trials.csv", "violations.csv", "findings.csv", "counts.csv", "verdicts.csv", "mistakes.csv"]
+    {
+        assert!(names.iter().any(|n| n == wanted), "{wanted} in {names:?}");
+    }
+    let trials = fs::read_to_string(out.join("trials.csv")).unwrap();
+    assert_eq!(trials.lines().count(), 3, "{trials}");
+    let document = fs::read_to_string(&markdown).unwrap();
+    assert!(
+        document.contains("hexbench validate robustness") && document.contains("outlier-60"),
+        "{document}"
+    );
+}
+
+#[test]
+fn a_campaign_with_a_fault_is_written_as_files_that_the_diagnosis_reads() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = hexbench();
+    let case = ["validate", "robustness", "--case", "temperature/clean-0001", "-o"];
+    let line = text(command.args(case).arg(folder.path()).output().unwrap());
+    let words: Vec<&str> = line.split_whitespace().collect();
+    hexbench().args(&words[1..]).assert().success();
+    let truth = fs::read_to_string(folder.path().join("temperature-clean-0001/truth.json")).unwrap();
+    assert!(truth.contains("\"laboratory\""), "{truth}");
+    hexbench().args(["validate", "robustness", "--case", "magic/clean-0001", "-o", "x"]).assert().code(2);
+    hexbench().args(["validate", "robustness", "--fault", "magic", "-o", "x"]).assert().code(2);
+}

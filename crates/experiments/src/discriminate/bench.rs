@@ -3,7 +3,7 @@
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Hexapod, Observation};
 use hexbench_truth::campaign::{PlanRow, SimulatedCampaign, Yardstick, machines, measure};
-use hexbench_truth::metrology::{Frames, InstrumentNoise};
+use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{TruthError, World, mechanisms};
 use rand_pcg::Pcg64;
 
@@ -43,7 +43,7 @@ impl MeasuredMachine {
         let rows = scheme.draw(&mut of_plan);
         let bare = SimulatedCampaign {
             world: World::new(hexapod.clone(), &stiffness),
-            frames: Frames::default(),
+            frames: InstrumentFrames::default(),
             noise,
         };
         let usual = (mechanisms::effect(effect)?.draw)(&hexapod, &mut of_effect);

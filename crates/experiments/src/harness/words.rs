@@ -1,6 +1,8 @@
-//! Names that stand in the program itself, read back from a journal: machines, and effects of the simulated world.
+//! Names that stand in the program itself, read back from a journal: machines, effects of the simulated world, faults of its
+//! laboratories.
 
 use hexbench_truth::campaign::machines::FAMILIES;
+use hexbench_truth::laboratory;
 use hexbench_truth::mechanisms::REGISTRY;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -9,9 +11,10 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub(crate) type Word = &'static str;
 
 fn known<E: Error>(name: &str) -> Result<Word, E> {
-    let mut all = FAMILIES.iter().copied().chain(REGISTRY.iter().map(|effect| effect.id));
+    let faults = laboratory::registry().map(|fault| fault.id);
+    let mut all = FAMILIES.iter().copied().chain(REGISTRY.iter().map(|effect| effect.id)).chain(faults);
     all.find(|known| *known == name)
-        .ok_or_else(|| E::custom(format!("\"{name}\" is no machine and no effect")))
+        .ok_or_else(|| E::custom(format!("\"{name}\" is no machine, no effect and no fault")))
 }
 
 pub(crate) fn serialize<S: Serializer>(name: &str, to: S) -> Result<S::Ok, S::Error> {

@@ -68,7 +68,7 @@ impl EstimatorResult {
         Ok(Self {
             error: identified.prediction_error(bench, held_out)?,
             expected: identified.expected_error(bench, held_out)?,
-            chance: identified.chance(bench, held_out)?,
+            chance: identified.chance(held_out)?,
             identified,
         })
     }

@@ -89,7 +89,7 @@ impl Identified {
     }
 
     /// Chance of errors as large as these if springs are all there is.
-    pub(crate) fn chance(&self, bench: &PaperMachine, data: &Dataset) -> Result<f64, ModelError> {
+    pub(crate) fn chance(&self, data: &Dataset) -> Result<f64, ModelError> {
         held_out_test(&self.campaign, data, &self.fit).map(|test| test.chance)
     }
 }

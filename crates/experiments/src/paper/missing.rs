@@ -75,7 +75,7 @@ fn finding(
             terms: report.terms.clone(),
             chi2_reduced: error.chi2_reduced,
             error: error.per_coordinate,
-            chance: held_out_test(campaign, held_out, fit)?.chance,
+            chance: held_out_test(&campaign, held_out, fit)?.chance,
         });
     }
     let best = diagnosis.candidates.iter().take(SHOWN);

@@ -13,7 +13,7 @@ use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{diagnose, prepare};
 use hexbench_truth::campaign::{PlanRow, SimulatedCampaign};
-use hexbench_truth::metrology::{Frames, InstrumentNoise};
+use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{Mechanism, TruthError, World};
 use nalgebra::DVector;
 use rand_distr::{Distribution, StandardNormal};
@@ -103,8 +103,11 @@ impl<'a> Bench<'a> {
     pub(super) fn ideal(&self, effects: Vec<Box<dyn Mechanism>>) -> Result<Vec<Vector6>, TruthError> {
         let mut world = World::new(self.plan.hexapod.clone(), &self.plan.stiffness);
         world.mechanisms = effects;
-        let campaign =
-            SimulatedCampaign { world, frames: Frames::default(), noise: InstrumentNoise::default() };
+        let campaign = SimulatedCampaign {
+            world,
+            frames: InstrumentFrames::default(),
+            noise: InstrumentNoise::default(),
+        };
         campaign.ideal(&self.rows, self.plan.rows.measurand)
     }
 

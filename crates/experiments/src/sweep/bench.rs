@@ -2,7 +2,7 @@
 
 use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Vector6};
 use hexbench_truth::campaign::{PlanRow, SimulatedCampaign, Yardstick, machines};
-use hexbench_truth::metrology::{Frames, InstrumentNoise};
+use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{Mechanism, TruthError, World, mechanisms};
 use rand_distr::{Distribution, StandardNormal};
 
@@ -85,7 +85,7 @@ impl BlockSetup {
         let holdout = plan::holdout(&space, &hexapod, judged).ok_or(Status::NoPlan)?;
         let bare = SimulatedCampaign {
             world: World::new(hexapod.clone(), &true_stiffness),
-            frames: Frames::default(),
+            frames: InstrumentFrames::default(),
             noise,
         };
         let mechanisms = effect(seed, cell, &bare, &training, block)?;

@@ -16,6 +16,7 @@ use hexbench_experiments::recovery::protocol::Recovery;
 use hexbench_experiments::recovery::study::RecoverySettings;
 use hexbench_experiments::regress::suite::RegressSuite;
 use hexbench_experiments::regress::trials::SuiteRuns;
+use hexbench_experiments::robustness;
 use hexbench_experiments::sweep::{Runner, results};
 use hexbench_model::terms::catalogue;
 use hexbench_truth::Scene;
@@ -125,6 +126,15 @@ fn recovery_goes_on_where_it_was_stopped() {
 #[test]
 fn calibration_goes_on_where_it_was_stopped() {
     let protocol = |seed| calibration::CalibrationProtocol::default().with_trials(14).with_seed(seed);
+    survives(&protocol(3), &protocol(4));
+}
+
+#[test]
+fn robustness_goes_on_where_it_was_stopped() {
+    let protocol = |seed| {
+        robustness::RobustnessProtocol { seed, trials: 4, ..Default::default() }
+            .with_faults(&["drift-1", "joints-0.2mm"])
+    };
     survives(&protocol(3), &protocol(4));
 }
 

@@ -9,4 +9,5 @@ mod paper;
 mod power;
 mod recovery;
 mod regress;
+mod robustness;
 mod sweep;

@@ -21,7 +21,7 @@ use crate::estimation::noise::{Noise, Structure};
 
 /// A combination of inputs whose errors move the readings by a smaller squared number of standard deviations does not show: leaving
 /// it out changes no standard deviation by more than half of this.
-const SHOWS: f64 = 1e-2;
+const SHOWS: f64 = 1e-4;
 
 /// The transform of a list of conditions.
 #[derive(Debug, Clone)]

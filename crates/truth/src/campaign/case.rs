@@ -7,11 +7,12 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use serde_json::{Map, Value, json};
 
-use super::{MeasurementPlan, PlanKind, PlanRow, SimulatedCampaign, Yardstick, machines, measure, pick, rms};
+use super::fault::Work;
+use super::{MeasurementPlan, PlanKind, PlanRow, SimulatedCampaign, Yardstick, machines, pick, rms};
 use crate::{
-    Mechanism, TruthError, World,
+    Mechanism, TruthError, World, laboratory,
     mechanisms::{self, REGISTRY, Shows},
-    metrology::{Frames, InstrumentNoise},
+    metrology::{InstrumentFrames, InstrumentNoise},
 };
 
 /// Kinds of cases, named as in the truth files.
@@ -137,27 +138,44 @@ impl CaseSpec {
     /// # Errors
     /// [`TruthError::NotVisible`] when an effect does not show in this plan; else as [`World::reading`].
     pub fn build(&self) -> Result<SimulatedCase, TruthError> {
+        self.build_in(&laboratory::CAREFUL)
+    }
+
+    /// Builds the case and has it measured by a laboratory.
+    ///
+    /// # Errors
+    /// As [`CaseSpec::build`].
+    pub fn build_in(&self, laboratory: &laboratory::FaultEntry) -> Result<SimulatedCase, TruthError> {
         let of = |purpose| stream(self.seed, purpose, []);
         let (mut of_machine, mut of_plan) = (of(Purpose::CaseMachine), of(Purpose::CasePlan));
-        let mut of_effects = of(Purpose::CaseEffectShapes);
-        let (mut of_noise, mut of_frames) = (of(Purpose::CaseNoise), of(Purpose::CaseFrames));
+        let (mut of_effects, mut of_frames) = (of(Purpose::CaseEffectShapes), of(Purpose::CaseFrames));
         let mut hexapod = machines::draw(self.family, &mut of_machine);
         hexapod.metrology = Some(self.noise.metrology());
         let stiffness = machines::leg_stiffness(self.family, &mut of_machine);
         let plan = self.plan.draw(&hexapod, &mut of_plan);
-        let frames =
-            if self.plan == PlanKind::Absolute { Frames::aligned(&mut of_frames) } else { Frames::default() };
+        let frames = if self.plan == PlanKind::Absolute {
+            InstrumentFrames::aligned(&mut of_frames)
+        } else {
+            InstrumentFrames::default()
+        };
         let bare =
             SimulatedCampaign { world: World::new(hexapod.clone(), &stiffness), frames, noise: self.noise };
         let sized = self.sized_effects(&bare, &plan, &mut of_effects)?;
         let truth = self.truth(&bare, &plan, &sized)?;
         let mut world = bare.world.without_effects();
         world.mechanisms = sized.mechanisms;
-        let campaign = SimulatedCampaign { world, ..bare };
-        let measurements =
-            measure(&campaign, &plan.training, plan.measurand, "measurements.csv", &mut of_noise)?;
-        let holdout = measure(&campaign, &plan.holdout, plan.measurand, "holdout.csv", &mut of_noise)?;
-        Ok(SimulatedCase { spec: self.clone(), campaign, hexapod, measurements, holdout, truth })
+        let mut case = Work { laboratory, seed: self.seed, campaign: SimulatedCampaign { world, ..bare } };
+        case.alter();
+        let [measurements, holdout] = case.measure(&plan)?;
+        hexapod.metrology = Some(case.stated());
+        Ok(SimulatedCase {
+            spec: self.clone(),
+            campaign: case.campaign,
+            hexapod,
+            measurements,
+            holdout,
+            truth,
+        })
     }
 
     fn sized_effects(

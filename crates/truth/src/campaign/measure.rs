@@ -6,7 +6,7 @@ use rand_pcg::Pcg64;
 use super::PlanRow;
 use crate::{
     TruthError, World,
-    metrology::{Frames, InstrumentNoise},
+    metrology::{InstrumentFrames, InstrumentNoise},
 };
 
 /// A world with its instrument.
@@ -14,8 +14,8 @@ use crate::{
 pub struct SimulatedCampaign {
     /// The machine.
     pub world: World,
-    /// Frames of the instrument; they matter for absolute poses only.
-    pub frames: Frames,
+    /// InstrumentFrames of the instrument; they matter for absolute poses only.
+    pub frames: InstrumentFrames,
     /// Noise of the instrument.
     pub noise: InstrumentNoise,
 }
@@ -55,12 +55,25 @@ pub fn measure(
     source: &str,
     rng: &mut Pcg64,
 ) -> Result<Dataset, TruthError> {
+    let errors: Vec<Vector6> = rows.iter().map(|_| campaign.noise.draw(rng)).collect();
+    read(campaign, rows, measurand, source, &errors)
+}
+
+/// Reads the rows with given errors, m and rad.
+pub(super) fn read(
+    campaign: &SimulatedCampaign,
+    rows: &[PlanRow],
+    measurand: Measurand,
+    source: &str,
+    errors: &[Vector6],
+) -> Result<Dataset, TruthError> {
     let readings = campaign.ideal(rows, measurand)?;
     let observations = rows
         .iter()
         .zip(readings)
+        .zip(errors)
         .enumerate()
-        .map(|(i, (row, r))| row.read(i as u64 + 2, (r + campaign.noise.draw(rng)).into(), None));
+        .map(|(i, ((row, r), error))| row.read(i as u64 + 2, (r + error).into(), None));
     let deflections = measurand != Measurand::AbsolutePose;
     Ok(Dataset {
         source: source.to_owned(),

@@ -2,6 +2,7 @@
 
 mod absolute;
 mod case;
+mod fault;
 mod files;
 pub mod machines;
 mod measure;

@@ -1,7 +1,7 @@
 //! Cases whose effects show.
 
 use super::{CaseKind, CaseSpec, SimulatedCase};
-use crate::TruthError;
+use crate::{TruthError, laboratory};
 
 /// Draws of one case before it is given up; the later ones are of an easy machine and a rich plan.
 const ATTEMPTS: u64 = 12;
@@ -18,7 +18,21 @@ impl SimulatedCase {
         seed: u64,
         distance: Option<[f64; 2]>,
     ) -> Result<Self, TruthError> {
-        let attempt = |n| CaseSpec::draw(kind, index, seed, n, distance).build();
+        Self::draw_in(&laboratory::CAREFUL, kind, index, seed, distance)
+    }
+
+    /// The same case as a laboratory with a fault measures it.
+    ///
+    /// # Errors
+    /// As [`SimulatedCase::draw`].
+    pub fn draw_in(
+        laboratory: &laboratory::FaultEntry,
+        kind: CaseKind,
+        index: usize,
+        seed: u64,
+        distance: Option<[f64; 2]>,
+    ) -> Result<Self, TruthError> {
+        let attempt = |n| CaseSpec::draw(kind, index, seed, n, distance).build_in(laboratory);
         (1..ATTEMPTS).fold(attempt(0), |made, n| made.or_else(|_| attempt(n)))
     }
 }

@@ -34,6 +34,18 @@ pub struct JointGeometry {
     pub nominal_platform: [[f64; 3]; 6],
 }
 
+impl JointGeometry {
+    /// Gaussian errors of every coordinate with a standard deviation in m.
+    pub fn drawn(hexapod: &Hexapod, sigma: f64, rng: &mut Pcg64) -> Self {
+        Self {
+            base: std::array::from_fn(|_| normal3(rng, sigma)),
+            platform: std::array::from_fn(|_| normal3(rng, sigma)),
+            nominal_base: hexapod.base_joints.map(Into::into),
+            nominal_platform: hexapod.platform_joints.map(Into::into),
+        }
+    }
+}
+
 impl Mechanism for JointGeometry {
     fn id(&self) -> &'static str {
         EFFECT.id
@@ -64,12 +76,7 @@ impl Mechanism for JointGeometry {
 
 fn draw(hexapod: &Hexapod, rng: &mut Pcg64) -> Box<dyn Mechanism> {
     const USUAL_M: f64 = 0.15e-3;
-    Box::new(JointGeometry {
-        base: std::array::from_fn(|_| normal3(rng, USUAL_M)),
-        platform: std::array::from_fn(|_| normal3(rng, USUAL_M)),
-        nominal_base: hexapod.base_joints.map(Into::into),
-        nominal_platform: hexapod.platform_joints.map(Into::into),
-    })
+    Box::new(JointGeometry::drawn(hexapod, USUAL_M, rng))
 }
 
 fn sums(nominal: &[[f64; 3]; 6], error: &[[f64; 3]; 6]) -> [[f64; 3]; 6] {

@@ -13,7 +13,7 @@ use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use super::{Balls, Frames, euler_axes};
+use super::{Balls, InstrumentFrames, euler_axes};
 use crate::TruthError;
 
 /// The machine and the balls it touches. SI units.
@@ -62,10 +62,16 @@ pub struct CmmPose {
 
 impl Cmm {
     /// Touches all balls with the platform at a pose.
-    pub fn record(&self, frames: &Frames, pose: &Pose, at: Surroundings, rng: &mut Pcg64) -> CmmRecord {
+    pub fn record(
+        &self,
+        frames: &InstrumentFrames,
+        pose: &Pose,
+        at: Surroundings,
+        rng: &mut Pcg64,
+    ) -> CmmRecord {
         let frame = self.frame(frames, at.elapsed);
         let stretch = 1.0 + self.scale_per_k * at.delta_t;
-        let platform = Frames { metrology: frame, target: frames.target }.seen(pose);
+        let platform = InstrumentFrames { metrology: frame, target: frames.target }.seen(pose);
         let mut touch = |balls: &Balls, pose: &Pose| balls.seen(pose, stretch, rng);
         let mut record = CmmRecord {
             platform: touch(&self.platform, &platform),
@@ -75,9 +81,9 @@ impl Cmm {
         record
     }
 
-    fn frame(&self, frames: &Frames, elapsed: f64) -> Pose {
+    fn frame(&self, frames: &InstrumentFrames, elapsed: f64) -> Pose {
         let moved = Pose::from_array(self.drift.map(|rate| rate * elapsed));
-        Frames { metrology: frames.metrology, target: moved }.seen(&Pose::default())
+        InstrumentFrames { metrology: frames.metrology, target: moved }.seen(&Pose::default())
     }
 
     fn blunder(&self, record: &mut CmmRecord, rng: &mut Pcg64) {
@@ -186,8 +192,11 @@ mod tests {
         }
     }
 
-    fn frames() -> Frames {
-        Frames { metrology: Pose::from_array([0.4, -0.2, 0.1, 0.3, -0.2, 2.0]), target: Pose::default() }
+    fn frames() -> InstrumentFrames {
+        InstrumentFrames {
+            metrology: Pose::from_array([0.4, -0.2, 0.1, 0.3, -0.2, 2.0]),
+            target: Pose::default(),
+        }
     }
 
     fn pose() -> Pose {

@@ -6,15 +6,15 @@ use rand_pcg::Pcg64;
 
 /// Constant frames between the machine and what is read in absolute mode: reading = metrology * pose * target.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Frames {
+pub struct InstrumentFrames {
     /// Fixed frame of the machine seen from the instrument.
     pub metrology: Pose,
     /// Measured targets seen from the mobile frame.
     pub target: Pose,
 }
 
-impl Frames {
-    /// Frames as they are after a careful alignment: a tenth of a millimetre and some tenths of a milliradian off.
+impl InstrumentFrames {
+    /// InstrumentFrames as they are after a careful alignment: a tenth of a millimetre and some tenths of a milliradian off.
     pub fn aligned(rng: &mut Pcg64) -> Self {
         const MISALIGNED: [f64; 6] = [1e-4, 1e-4, 1e-4, 2e-4, 2e-4, 2e-4];
         let mut pose = || {

@@ -7,7 +7,7 @@ mod noise;
 
 pub use balls::{Balls, Registration};
 pub use cmm::{Cmm, CmmPose, CmmRecord, Surroundings};
-pub use frames::Frames;
+pub use frames::InstrumentFrames;
 pub use noise::InstrumentNoise;
 
 use hexbench_core::{Matrix3, Pose};

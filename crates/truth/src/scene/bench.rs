@@ -9,7 +9,7 @@ use super::{Instrument, PartName, Scene, ScenePurpose};
 use crate::{
     TruthError, World,
     campaign::{PlanRow, rounded},
-    metrology::{Cmm, CmmRecord, Frames, Surroundings},
+    metrology::{Cmm, CmmRecord, InstrumentFrames, Surroundings},
     world::difference,
 };
 
@@ -18,7 +18,7 @@ use crate::{
 pub struct VirtualBench<'a> {
     scene: &'a Scene,
     world: World,
-    frames: Frames,
+    frames: InstrumentFrames,
     noise_free: bool,
 }
 
@@ -59,8 +59,8 @@ impl<'a> VirtualBench<'a> {
         self.scene
     }
 
-    /// Frames of the instrument.
-    pub fn frames(&self) -> &Frames {
+    /// InstrumentFrames of the instrument.
+    pub fn frames(&self) -> &InstrumentFrames {
         &self.frames
     }
 

@@ -31,7 +31,7 @@ pub use streams::{ScenePurpose, Streams};
 
 use hexbench_core::{Hexapod, Measurand, Pose};
 
-use crate::{Mechanism, World, campaign::MeasurementPlan, metrology::Frames};
+use crate::{Mechanism, World, campaign::MeasurementPlan, metrology::InstrumentFrames};
 
 /// A scene as read from its folder. SI units.
 #[derive(Debug)]
@@ -98,14 +98,14 @@ impl Scene {
         }
     }
 
-    /// Frames of the instrument: that of the measuring machine is never quite that of the hexapod; that of the target
+    /// InstrumentFrames of the instrument: that of the measuring machine is never quite that of the hexapod; that of the target
     /// matters for absolute poses only.
-    pub fn frames(&self) -> Frames {
-        let drawn = Frames::aligned(&mut self.streams().of(ScenePurpose::Frames, 0));
+    pub fn frames(&self) -> InstrumentFrames {
+        let drawn = InstrumentFrames::aligned(&mut self.streams().of(ScenePurpose::InstrumentFrames, 0));
         match (self.measurand(), &self.instrument) {
             (Measurand::AbsolutePose, _) => drawn,
-            (_, Instrument::Balls(_)) => Frames { target: Pose::default(), ..drawn },
-            (_, Instrument::Numbers(_)) => Frames::default(),
+            (_, Instrument::Balls(_)) => InstrumentFrames { target: Pose::default(), ..drawn },
+            (_, Instrument::Numbers(_)) => InstrumentFrames::default(),
         }
     }
 }

@@ -16,8 +16,8 @@ pub enum ScenePurpose {
     Surroundings(PartName),
     /// Noise of a row of a part.
     Noise(PartName),
-    /// Frames of the instrument.
-    Frames,
+    /// InstrumentFrames of the instrument.
+    InstrumentFrames,
 }
 
 impl ScenePurpose {
@@ -25,7 +25,7 @@ impl ScenePurpose {
         use streams::Purpose as P;
         match self {
             Self::Loads => P::SceneLoads,
-            Self::Frames => P::SceneFrames,
+            Self::InstrumentFrames => P::SceneFrames,
             Self::Pose(PartName::Training) => P::SceneTrainingPose,
             Self::Pose(PartName::Holdout) => P::SceneHoldoutPose,
             Self::Surroundings(PartName::Training) => P::SceneTrainingSurroundings,
@@ -91,7 +91,7 @@ mod tests {
         let [a, b] = [PartName::Training, PartName::Holdout];
         let all = [
             ScenePurpose::Loads,
-            ScenePurpose::Frames,
+            ScenePurpose::InstrumentFrames,
             ScenePurpose::Pose(a),
             ScenePurpose::Pose(b),
             ScenePurpose::Surroundings(a),

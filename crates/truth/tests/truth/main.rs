@@ -3,6 +3,7 @@
 
 mod campaigns;
 mod common;
+mod laboratory;
 mod mjcf;
 mod physics;
 mod reference_cases;

@@ -9,7 +9,7 @@ use hexbench_truth::{
         ActuatorPitch, BaseCompliance, JointFriction, JointGeometry, LegNonlinearity, LoadOffset,
         PeriodicCompliance,
     },
-    metrology::{Frames, InstrumentNoise},
+    metrology::{InstrumentFrames, InstrumentNoise},
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -99,7 +99,7 @@ fn sizes_of_effects_agree() {
         let (world, truth) = (world(case), truth(case));
         let bare = SimulatedCampaign {
             world: world.without_effects(),
-            frames: Frames::default(),
+            frames: InstrumentFrames::default(),
             noise: InstrumentNoise::default(),
         };
         let plan = plan_rows(case, "measurements.csv");
@@ -159,7 +159,7 @@ fn joint_geometry_and_periodic_leads_agree() {
 /// Reading minus prediction over noise, with the metrology and the target frame `[um, urad]` as given.
 fn whitened(world: &World, frames: &[f64; 12], rows: &[common::Row]) -> DVector<f64> {
     let pose = |k: usize| Pose::from_array(std::array::from_fn(|i| frames[k + i] * 1e-6));
-    let frames = Frames { metrology: pose(0), target: pose(6) };
+    let frames = InstrumentFrames { metrology: pose(0), target: pose(6) };
     let sigma = InstrumentNoise::default().sigma();
     let errors = rows.iter().flat_map(|row| {
         let seen = frames.seen(&world.pose(&row.situation).unwrap());

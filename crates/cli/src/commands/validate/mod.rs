@@ -6,6 +6,7 @@ pub(crate) mod paper;
 pub(crate) mod power;
 pub(crate) mod recovery;
 pub(crate) mod regress;
+pub(crate) mod robustness;
 
 use clap::{Args, Subcommand};
 
@@ -27,6 +28,7 @@ enum Study {
     Recovery(recovery::Arguments),
     Paper(paper::Arguments),
     Calibration(calibration::Arguments),
+    Robustness(robustness::Arguments),
     Discriminate(discriminate::Arguments),
     Power(power::Arguments),
     Regress(regress::Arguments),
@@ -38,6 +40,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Recovery(arguments) => recovery::run(arguments, screen),
         Study::Paper(arguments) => paper::run(arguments, screen),
         Study::Calibration(arguments) => calibration::run(arguments, screen),
+        Study::Robustness(arguments) => robustness::run(arguments, screen),
         Study::Discriminate(arguments) => discriminate::run(arguments, screen),
         Study::Power(arguments) => power::run(arguments, screen),
         Study::Regress(arguments) => regress::run(arguments, screen),

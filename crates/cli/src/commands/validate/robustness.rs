@@ -1,0 +1,112 @@
+//! `hexbench validate robustness`.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+use hexbench_experiments::harness;
+use hexbench_experiments::robustness::{self, Robustness, RobustnessProtocol, SEED, TRIALS, page, sheets};
+use hexbench_report::Section;
+use hexbench_report::render::markdown;
+use hexbench_report::table::{Frame, TableFormat, csv};
+use hexbench_truth::laboratory;
+
+use crate::failure::Failure;
+use crate::output::{Screen, TrialFiles};
+
+/// Say what faults of the laboratory do to the answer: wrong numbers, misstated noise, joints and loads off the drawing
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder for the table of trials and the summary tables
+    #[arg(short = 'o', long, value_name = "DIR")]
+    out: PathBuf,
+    /// Campaigns of each fault: on a clean machine and with one effect in turn
+    #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    trials: u32,
+    /// Seed of everything that is drawn
+    #[arg(long, value_name = "S", default_value_t = SEED)]
+    seed: u64,
+    /// Only this fault and the control; give it again for more
+    #[arg(long = "fault", value_name = "FAULT", value_parser = fault)]
+    faults: Vec<&'static str>,
+    /// Write the study as a document too
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    /// Write the files of this one trial instead, such as `outlier-20/clean-0003`
+    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "faults", "markdown", "journal", "table"])]
+    case: Option<String>,
+    #[command(flatten)]
+    kept: TrialFiles,
+}
+
+fn fault(id: &str) -> Result<&'static str, String> {
+    let all = || laboratory::registry().map(|entry| entry.id);
+    let known = all().find(|known| *known == id);
+    known.ok_or_else(|| format!("faults are {}", all().collect::<Vec<_>>().join(", ")))
+}
+
+/// Run the study, write its files, tell the main figures.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    if let Some(trial) = &arguments.case {
+        return write_case(trial, arguments, screen);
+    }
+    let all = RobustnessProtocol::default();
+    let chosen = if arguments.faults.is_empty() { all } else { all.with_faults(&arguments.faults) };
+    let protocol = RobustnessProtocol { seed: arguments.seed, trials: arguments.trials as usize, ..chosen };
+    let gathered = arguments.kept.run(&protocol)?;
+    let trials = harness::table(&protocol, &gathered);
+    let study = Robustness::of(protocol, gathered);
+    let written = write(&study, &trials, arguments, screen)?;
+    let names = written.iter().map(|path| path.display().to_string());
+    screen.show(&page(&study).with(Section::new("Written").list(names)))
+}
+
+/// Returns the paths written.
+fn write(
+    study: &Robustness,
+    trials: &Frame,
+    arguments: &Arguments,
+    screen: &Screen,
+) -> Result<Vec<PathBuf>, Failure> {
+    let out = |name: &str| arguments.out.join(name);
+    let records = &study.records;
+    let mut files = vec![
+        (
+            out("trials.csv"),
+            csv_of(trials).map_err(|cause| Failure::Output { path: out("trials.csv"), cause })?,
+        ),
+        (out("violations.csv"), csv::text(&sheets::violations(records))),
+        (out("findings.csv"), csv::text(&sheets::findings(records))),
+        (out("counts.csv"), csv::text(&sheets::counts(records))),
+        (out("verdicts.csv"), csv::text(&sheets::verdicts(records))),
+        (out("mistakes.csv"), csv::text(&sheets::mistakes_table(records))),
+    ];
+    files.extend(arguments.markdown.iter().map(|path| (path.clone(), markdown(&page(study)))));
+    for (path, text) in &files {
+        Screen::make_folder_of(path)?;
+        screen.write_to(path, text)?;
+    }
+    Ok(files.into_iter().map(|(path, _)| path).collect())
+}
+
+fn csv_of(frame: &Frame) -> io::Result<String> {
+    let mut text = Vec::new();
+    frame.write(TableFormat::Csv, &mut text)?;
+    String::from_utf8(text).map_err(io::Error::other)
+}
+
+fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let case = robustness::case(trial, arguments.seed).ok_or_else(|| Failure::Usage {
+        message: format!("`{trial}` is no trial"),
+        next: "Give a fault, a machine and a number, such as outlier-20/clean-0003 or joints-0.1mm/single-0002; \
+               `--fault x` lists the faults."
+            .to_owned(),
+    })?;
+    let case = case.map_err(Failure::Trial)?;
+    let folder = arguments.out.join(trial.replace('/', "-"));
+    case.write(&folder).map_err(|cause| Failure::Trial(cause.into()))?;
+    let path = folder.display();
+    screen.write(&format!(
+        "hexbench diagnose {path}/hexapod.toml {path}/measurements.csv --holdout {path}/holdout.csv\n"
+    ))
+}

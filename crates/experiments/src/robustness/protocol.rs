@@ -1,0 +1,85 @@
+//! The protocol: every fault meets the same campaigns.
+
+use hexbench_truth::campaign::CaseKind;
+use hexbench_truth::laboratory::{self, FaultEntry};
+
+/// Seed of the committed figures.
+pub const SEED: u64 = 3_301;
+/// Campaigns of each fault, half of them on clean machines.
+pub const TRIALS: u32 = 32;
+/// Distance of the hidden effect: nobody overlooks it in good data.
+pub const DISTANCE: f64 = 30.0;
+
+/// What is run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RobustnessProtocol {
+    /// Decides everything that is drawn.
+    pub seed: u64,
+    /// Campaigns of each fault: on a clean machine and with one effect of the catalogue in turn.
+    pub trials: usize,
+    /// Ids of the faults, in their order; unknown ones are left out.
+    pub faults: Vec<&'static str>,
+}
+
+impl Default for RobustnessProtocol {
+    fn default() -> Self {
+        let faults = laboratory::registry().map(|fault| fault.id).collect();
+        Self { seed: SEED, trials: TRIALS as usize, faults }
+    }
+}
+
+/// What a trial is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Job {
+    /// What the laboratory does.
+    pub(super) fault: &'static FaultEntry,
+    /// A clean machine, or one effect.
+    pub(super) kind: CaseKind,
+    /// Number within the kind; the same number is the same campaign whatever the fault.
+    pub(super) index: usize,
+}
+
+impl Job {
+    /// Fault, kind and number.
+    pub(super) fn name(self) -> String {
+        format!("{}/{}-{:04}", self.fault.id, self.kind.name(), self.index)
+    }
+
+    /// The trial of a name.
+    pub(super) fn parse(name: &str) -> Option<Self> {
+        const MOST_DIGITS: usize = 6;
+        let (fault, rest) = name.split_once('/')?;
+        let (kind, index) = rest.rsplit_once('-').filter(|(_, index)| index.len() <= MOST_DIGITS)?;
+        let kind = [CaseKind::Clean, CaseKind::Single].into_iter().find(|k| k.name() == kind)?;
+        Some(Self { fault: laboratory::entry(fault)?, kind, index: index.parse().ok()? })
+    }
+}
+
+impl RobustnessProtocol {
+    /// The control and these faults only.
+    #[must_use]
+    pub fn with_faults(self, ids: &[&str]) -> Self {
+        let wanted = |id: &&str| *id == laboratory::CAREFUL.id || ids.contains(id);
+        Self { faults: self.faults.into_iter().filter(wanted).collect(), ..self }
+    }
+
+    /// The entries of its faults.
+    fn entries(&self) -> Vec<&'static FaultEntry> {
+        self.faults.iter().filter_map(|id| laboratory::entry(id)).collect()
+    }
+
+    /// How many trials there are.
+    pub(super) fn all(&self) -> usize {
+        self.entries().len() * self.trials
+    }
+
+    /// What a trial is. Campaign after campaign, each in the hands of all laboratories.
+    pub(super) fn job(&self, number: u64) -> Job {
+        let faults = self.entries();
+        let number = usize::try_from(number).unwrap_or(usize::MAX);
+        let (campaign, fault) = (number / faults.len().max(1), number % faults.len().max(1));
+        let fault = faults.get(fault).copied().unwrap_or(&laboratory::CAREFUL);
+        let kind = if campaign.is_multiple_of(2) { CaseKind::Clean } else { CaseKind::Single };
+        Job { fault, kind, index: campaign / 2 }
+    }
+}

@@ -1,0 +1,95 @@
+//! One trial in numbers.
+
+use hexbench_core::statistics::Proportion;
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::DiagnosisStudy;
+use hexbench_truth::laboratory;
+use serde::{Deserialize, Serialize};
+
+use super::protocol::Job;
+use crate::calibration;
+use crate::harness::words::{self, Word};
+use crate::trial::{Outcome, Trial, TrialError, outcome_of};
+
+/// Standard deviations that hold 95 % of a normal law.
+const COVERED: f64 = 1.96;
+
+/// What was done to a campaign, and what was said about machine and data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RobustnessRecord {
+    /// Id of the fault.
+    #[serde(with = "words")]
+    pub fault: Word,
+    /// Number of the campaign within its kind: the same for every fault.
+    pub index: u64,
+    /// What was hidden in the machine, and what was said about it.
+    pub answer: calibration::CalibrationRecord,
+    /// Kinds of the findings, as in `diagnosis.json`, the first first.
+    pub findings: Vec<String>,
+}
+
+impl RobustnessRecord {
+    /// Draws the campaign, diagnoses it and compares the answer with the truth.
+    pub(super) fn of(job: Job, seed: u64) -> Result<Self, TrialError> {
+        let case = super::study::drawn(job, seed)?;
+        let trial = Trial::run(&case)?;
+        Ok(Self {
+            fault: job.fault.id,
+            index: job.index as u64,
+            findings: kinds(&trial.study),
+            answer: calibration::CalibrationRecord::of_trial(&case, &trial),
+        })
+    }
+
+    /// True on a machine without effects.
+    pub fn is_clean(&self) -> bool {
+        self.answer.hidden.is_empty()
+    }
+
+    /// True when a clean machine is called so (whatever is said of the data), and when a hidden effect is the first one named.
+    pub fn is_right(&self) -> bool {
+        match self.answer.hidden.first() {
+            None => matches!(self.answer.verdict, Verdict::Adequate | Verdict::Measurement),
+            Some(hidden) => self.answer.added.first().is_some_and(|first| first == hidden),
+        }
+    }
+
+    /// Exactly the truth, honestly open, or wrong.
+    pub fn outcome(&self) -> Outcome {
+        let a = &self.answer;
+        outcome_of(&a.hidden, a.verdict, &a.added, &a.credible)
+    }
+
+    /// True when an effect is named, for sure or among others, that is not there.
+    pub fn names_falsely(&self) -> bool {
+        self.answer.added.iter().any(|id| !self.answer.contains(id))
+    }
+
+    /// True when a finding calls the fault by its name.
+    pub fn tells_fault(&self) -> bool {
+        let entry = laboratory::entry(self.fault);
+        self.findings.iter().any(|kind| entry.is_some_and(|e| e.is_called(kind)))
+    }
+
+    /// True when a finding speaks of a fault that is not there.
+    pub fn tells_another(&self) -> bool {
+        let entry = laboratory::entry(self.fault);
+        self.findings.iter().any(|kind| !entry.is_some_and(|e| e.is_called(kind)))
+    }
+
+    /// True when there is a finding of a kind.
+    pub fn finds(&self, kind: &str) -> bool {
+        self.findings.iter().any(|k| k == kind)
+    }
+
+    /// Leg stiffnesses within 1.96 of their stated standard deviations.
+    pub fn stiffness_coverage(&self) -> Proportion {
+        Proportion::count(self.answer.stiffness_z.iter().flatten(), |z| z.abs() <= COVERED)
+    }
+}
+
+/// Kinds of the findings in the words of the file.
+fn kinds(study: &DiagnosisStudy) -> Vec<String> {
+    let word = |kind| serde_json::to_value(kind).ok()?.as_str().map(str::to_owned);
+    study.diagnosis.findings.iter().filter_map(|finding| word(finding.kind)).collect()
+}
