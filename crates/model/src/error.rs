@@ -1,7 +1,7 @@
 //! What can make a computation impossible.
 
 use crate::effects::untestable::Reason;
-use hexbench_core::Pose;
+use hexbench_core::{LineRange, Pose};
 use thiserror::Error;
 
 /// A physical or numerical situation in which no result exists.
@@ -66,6 +66,14 @@ pub enum ModelError {
         /// Size of the last step relative to the parameters.
         last_step: f64,
     },
+    /// Lines to be left out hold no reading.
+    #[error("{lines} of the measurements {} no reading", if lines.is_one() { "has" } else { "have" })]
+    NoReading {
+        /// As asked for.
+        lines: LineRange,
+        /// Lines of the first and the last reading.
+        readings: Option<(u64, u64)>,
+    },
     /// Two things that do not belong together.
     #[error("{0}")]
     Mismatch(String),
@@ -92,6 +100,11 @@ impl ModelError {
             }
             Self::NotFinite { .. } | Self::NotConverged { .. } => {
                 format!("Look in {data} for readings of the wrong size or unit.")
+            }
+            Self::NoReading { readings, .. } => {
+                let where_to = readings
+                    .map_or(String::new(), |(a, b)| format!("; its readings stand in lines {a} to {b}"));
+                format!("Count the lines of {data} from 1, header included{where_to}.")
             }
             Self::Mismatch(_) => "Give a holdout file of the same kind as the data.".into(),
         }

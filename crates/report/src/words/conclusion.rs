@@ -34,6 +34,11 @@ pub fn sentences(d: &Diagnosis) -> Vec<String> {
         Verdict::Named => vec![lacks(&d.added), error_statement(&d.steps)],
         Verdict::Ambiguous => ambiguous(d),
         Verdict::Outside => outside(d),
+        Verdict::Measurement if d.keep_all => vec![
+            "What is wrong is in the data, as told above. Even with all readings kept the springs alone explain these measurements: \
+             nothing of the machine is missing that they could show."
+                .to_owned(),
+        ],
         Verdict::Measurement => vec![
             "What is wrong is in the data, as told above. Without it the springs alone explain these measurements: nothing of \
              the machine is missing that they could show."

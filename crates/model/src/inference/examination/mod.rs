@@ -6,6 +6,7 @@
 
 mod blunders;
 mod finding;
+mod kept;
 mod remainder;
 mod scatter;
 mod tolerance;
@@ -45,6 +46,8 @@ pub struct Examined {
     pub findings: Vec<Finding>,
     /// Whitened reading per standard deviation of every input, when some are worse than stated.
     inexact: Option<DMatrix<f64>>,
+    /// These inputs, and the standard deviation of one of them, SI.
+    widened: Option<(InputKind, f64)>,
 }
 
 impl Examined {
@@ -71,8 +74,13 @@ pub fn examine(
     noise: Noise,
     outcome: &RankedSets,
 ) -> Result<Examined, ModelError> {
-    let whole =
-        Examined { data: data.clone(), noise: noise.independent(), findings: Vec::new(), inexact: None };
+    let whole = Examined {
+        data: data.clone(),
+        noise: noise.independent(),
+        findings: Vec::new(),
+        inexact: None,
+        widened: None,
+    };
     let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
     let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
     // Many errors that are far off are tails; one or two are blunders.
@@ -86,6 +94,7 @@ pub fn examine(
         let mut examined = cleaned.examined;
         examined.findings.push(worse_than_stated(worse));
         examined.inexact = Some(worse.columns.clone());
+        examined.widened = Some((worse.kind, worse.size));
         return Ok(examined);
     }
     Ok(settled(cleaned.examined, data, &cleaned.last, best))
@@ -167,6 +176,7 @@ fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: Statement)
                 noise: examined.noise,
                 findings: Vec::new(),
                 inexact: None,
+                widened: None,
             };
         }
         return examined;
