@@ -108,8 +108,8 @@ class Diagnosis:
     excluded: list[int]
     #: Whether readings that were found wrong took part in the fit all the same.
     keep_all: bool
-    #: The answer the other way, where findings leave readings out or would do so: ``rows`` (lines concerned), ``verdict``, ``added``,
-    #: ``stiffness`` (six, None where open), ``chi2_reduced``; None where nothing differs.
+    #: The answer the other way, where findings leave readings out or would do so: ``rows`` (lines concerned), ``verdict``,
+    #: ``added``, ``stiffness`` (six, None where open), ``chi2_reduced``; None where nothing differs.
     alternative: dict[str, Any] | None
     #: Program, machine and digests of the files.
     run: dict[str, Any]
@@ -191,15 +191,16 @@ def diagnose(
     terms : sequence of paths
         Term files of your own (term/1) that compete with the catalogue.
     exclude : sequence of int or str
-        Lines of the readings to be left out before anything else, as the diagnosis names them (``rows``; of a table in memory: its
-        row and two), or ranges such as ``"12-15"``.
+        Lines of the readings to be left out before anything else, as the diagnosis names them (``rows``; of a table in
+        memory: its row and two), or ranges such as ``"12-15"``.
     keep_all : bool
         Keep every other reading in the fit; findings are still told.
 
     Returns
     -------
     Diagnosis
-        ``verdict`` is ``adequate``, ``named``, ``ambiguous``, ``outside`` or ``measurement``; bad news is a result, not an exception.
+        ``verdict`` is ``adequate``, ``named``, ``ambiguous``, ``outside`` or ``measurement``; bad news is a result, not an
+        exception.
 
     Raises
     ------
