@@ -374,7 +374,10 @@ fn exit_of_experiment(cause: &ExperimentError) -> Exit {
 fn exit_of(cause: &ModelError) -> Exit {
     match cause {
         ModelError::UnknownTerm { .. } | ModelError::Selection(_) => Exit::Usage,
-        ModelError::NotFinite { .. } | ModelError::Mismatch(_) | ModelError::Astray { .. } => Exit::BadInput,
+        ModelError::NotFinite { .. }
+        | ModelError::Mismatch(_)
+        | ModelError::Astray { .. }
+        | ModelError::NoReading { .. } => Exit::BadInput,
         _ => Exit::NotDetermined,
     }
 }

@@ -1,7 +1,7 @@
 //! Measurements: what was commanded, what was applied, what was read.
 
 use crate::Approach;
-use crate::{Pose, Wrench};
+use crate::{LineRange, Pose, Wrench};
 
 /// What the six measured numbers of an observation are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -83,5 +83,26 @@ impl Dataset {
     /// True in absolute mode.
     pub fn is_absolute(&self) -> bool {
         self.measurand == Measurand::AbsolutePose
+    }
+
+    /// The readings of all other lines, and the lines that are left out, in the order of the file.
+    ///
+    /// # Errors
+    /// The first of `lines` that holds no reading.
+    pub fn without(&self, lines: &[LineRange]) -> Result<(Self, Vec<u64>), LineRange> {
+        let holds = |range: &LineRange| self.observations.iter().any(|o| range.contains(o.line));
+        if let Some(empty) = lines.iter().find(|range| !holds(range)) {
+            return Err(*empty);
+        }
+        let (out, kept): (Vec<_>, Vec<_>) =
+            self.observations.iter().partition(|o| lines.iter().any(|range| range.contains(o.line)));
+        let observations = kept.into_iter().copied().collect();
+        let rest = Self {
+            source: self.source.clone(),
+            measurand: self.measurand,
+            columns: self.columns,
+            observations,
+        };
+        Ok((rest, out.iter().map(|o| o.line).collect()))
     }
 }

@@ -12,6 +12,7 @@ pub mod balls;
 pub mod dataset;
 pub mod files;
 pub mod hexapod;
+pub mod line_range;
 pub mod pose;
 pub mod statistics;
 pub mod streams;
@@ -21,6 +22,7 @@ pub use approach::Approach;
 pub use balls::{BallPlace, BallPlaces, BallRecord};
 pub use dataset::{Columns, Dataset, Measurand, Observation};
 pub use hexapod::{Hexapod, Metrology, Tolerances};
+pub use line_range::{LineRange, NoLines};
 pub use pose::Pose;
 pub use wrench::Wrench;
 

@@ -85,10 +85,11 @@ pub fn outcome_of(
         Verdict::Outside => outside,
         Verdict::Adequate | Verdict::Measurement => hidden.is_empty(),
         Verdict::Named => !outside && !hidden.is_empty() && same,
-        Verdict::Ambiguous => false,
+        Verdict::Ambiguous | Verdict::Undecided => false,
     };
     let kept = |id: &&str| credible_set.iter().any(|e| e.is_term(id)) || added.iter().any(|a| a == id);
-    let honest = verdict == Verdict::Ambiguous && !outside && !hidden.is_empty() && hidden.iter().all(kept);
+    let weighed = verdict == Verdict::Ambiguous && !outside && !hidden.is_empty() && hidden.iter().all(kept);
+    let honest = weighed || verdict == Verdict::Undecided;
     match (right, honest) {
         (true, _) => Outcome::Right,
         (_, true) => Outcome::Honest,

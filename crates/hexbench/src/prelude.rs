@@ -11,5 +11,7 @@ pub use hexbench_model::estimation::fit::Fit;
 pub use hexbench_model::estimation::fit_named::Added;
 pub use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
 pub use hexbench_model::inference::verdict::Verdict;
-pub use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose, prepare};
+pub use hexbench_model::results::diagnose::{
+    DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose, diagnose_with, prepare,
+};
 pub use hexbench_model::terms::catalogue;

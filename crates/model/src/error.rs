@@ -2,7 +2,7 @@
 
 use crate::effects::untestable::Reason;
 use crate::estimation::frames::Departure;
-use hexbench_core::Pose;
+use hexbench_core::{LineRange, Pose};
 use thiserror::Error;
 
 /// A physical or numerical situation in which no result exists.
@@ -82,6 +82,14 @@ pub enum ModelError {
         /// How far they are.
         left: Departure,
     },
+    /// Lines to be left out hold no reading.
+    #[error("{lines} of the measurements {} no reading", if lines.is_one() { "has" } else { "have" })]
+    NoReading {
+        /// As asked for.
+        lines: LineRange,
+        /// Lines of the first and the last reading.
+        readings: Option<(u64, u64)>,
+    },
     /// Two things that do not belong together.
     #[error("{0}")]
     Mismatch(String),
@@ -114,6 +122,11 @@ impl ModelError {
                  that each row has the pose that was commanded; readings held out are read in the same frames.",
                 if file.is_empty() { data } else { file }
             ),
+            Self::NoReading { readings, .. } => {
+                let where_to = readings
+                    .map_or(String::new(), |(a, b)| format!("; its readings stand in lines {a} to {b}"));
+                format!("Count the lines of {data} from 1, header included{where_to}.")
+            }
             Self::Mismatch(_) => "Give a holdout file of the same kind as the data.".into(),
         }
     }

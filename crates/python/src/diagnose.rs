@@ -4,8 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use hexbench_app::{Failure, input};
+use hexbench_core::{LineRange, NoLines};
 use hexbench_model::results::compare::{ComparedModel, compare as compared_with};
-use hexbench_model::results::diagnose::{DiagnosisStudy, diagnose as studied};
+use hexbench_model::results::diagnose::{DiagnoseOptions, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::Page;
 use hexbench_report::charts::{self, ReportError};
@@ -101,15 +102,28 @@ pub(crate) fn diagnose(
     campaign: &PyCampaign,
     holdout: Option<&PyCampaign>,
     terms: Vec<PathBuf>,
+    exclude: Vec<String>,
+    keep_all: bool,
 ) -> PyResult<PyDiagnosis> {
     let about = About::of(campaign, holdout);
     beside(py, move || {
         let all = input::catalogue_with(&input::user_terms(&terms)?);
         let held = about.holdout.as_ref().map(|h| &h.data);
-        let study = studied(&about.measured.machine.hexapod, &about.measured.data, held, &all);
+        let options = DiagnoseOptions { exclude: lines(&exclude)?, keep_all };
+        let study =
+            diagnose_with(&about.measured.machine.hexapod, &about.measured.data, held, &all, &options);
         let study = study.map_err(|cause| about.failure(cause))?;
         Ok(PyDiagnosis(Arc::new((about, study))))
     })
+}
+
+/// `12`, `12-15`.
+fn lines(texts: &[String]) -> Result<Vec<LineRange>, Failure> {
+    let refused = |message: String| Failure::Usage { message, next: String::new() };
+    texts
+        .iter()
+        .map(|text| text.parse().map_err(|cause: NoLines| refused(format!("exclude: {cause}"))))
+        .collect()
 }
 
 /// A comparison.

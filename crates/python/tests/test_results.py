@@ -14,7 +14,7 @@ import hexbench
 KEYS = {
     "format", "verdict", "added", "model", "richer", "candidates", "present", "credible_set", "steps", "holdout", "noise",
     "parameters", "not_determined", "untestable", "detectable", "next", "separation", "absorbed", "suspects", "outside",
-    "warnings", "findings", "run",
+    "warnings", "findings", "excluded", "keep_all", "alternative", "run",
 }  # fmt: skip
 
 
@@ -31,6 +31,25 @@ def test_a_diagnosis_is_that_of_the_command_byte_for_byte(name: str, command: Co
     assert str(diagnosis) == page
     assert diagnosis.verdict in repr(diagnosis) and len(repr(diagnosis)) < 200
     assert diagnosis.verdict in diagnosis._repr_html_()
+
+
+def test_which_readings_count_is_chosen_as_with_the_command(tmp_path: Path, command: Command) -> None:
+    hexapod, data, _ = case("mujoco-clean")
+    frame = pd.read_csv(data, comment="#")
+    frame.loc[17, "db_um"] += 20.0
+    wrong = tmp_path / "measurements.csv"
+    frame.to_csv(wrong, index=False)
+    campaign = hexbench.load(hexapod, wrong)
+    kept = hexbench.diagnose(campaign, exclude=["2-3", np.int64(5)], keep_all=True)
+    told = command("diagnose", hexapod, wrong, "--exclude", "2-3", "--exclude", "5", "--keep-all", "--json", "-").stdout
+    assert kept.to_json() == told
+    assert kept.excluded == [2, 3, 5] and kept.keep_all
+    assert kept.alternative is not None and kept.alternative["rows"] == [19]
+    assert [leg["unit"] for leg in kept.alternative["stiffness"]] == ["N/um"] * 6
+    assert hexbench.diagnose(campaign, exclude="19").alternative is None
+    for line in (0, 1.5, "x", -3):
+        with pytest.raises(hexbench.UsageError):
+            hexbench.diagnose(campaign, exclude=[line])
 
 
 def test_a_table_in_memory_is_diagnosed_as_its_file() -> None:

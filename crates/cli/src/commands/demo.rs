@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_core::files::{parse_hexapod, read_measurements_from, text_hash};
+use hexbench_model::results::diagnose::DiagnoseOptions;
 use hexbench_model::terms::catalogue;
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{html, is_own};
@@ -38,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let hexapod = parse_hexapod(CASE.hexapod, "hexapod.toml")?;
     let data = read_measurements_from(CASE.data.as_bytes(), "measurements.csv")?.dataset;
     let holdout = read_measurements_from(CASE.holdout.as_bytes(), "holdout.csv")?.dataset;
-    let study = study(&hexapod, &data, Some(&holdout), &catalogue())?;
+    let study = study(&hexapod, &data, Some(&holdout), &catalogue(), &DiagnoseOptions::default())?;
     let subject = ReportSubject { hexapod: &hexapod, data: &data, holdout: Some(&holdout), study: &study };
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
     screen.show(&words::demo(&subject).map_err(failed)?)?;

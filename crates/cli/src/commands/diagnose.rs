@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use hexbench_core::{Dataset, Hexapod};
+use hexbench_core::{Dataset, Hexapod, LineRange};
 use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
 use hexbench_model::inference::verdict::Verdict;
-use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
+use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::ReportSubject;
 use hexbench_report::{charts, words};
@@ -30,6 +30,13 @@ pub(crate) struct Arguments {
     /// A term file of your own (term/1) that competes with the catalogue; may be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
+    /// Leave the reading in this line of DATA out before anything else: a line as the page names it, or a range (12-15); may be
+    /// given several times
+    #[arg(long, value_name = "LINE", value_delimiter = ',')]
+    exclude: Vec<LineRange>,
+    /// Keep every reading in the fit: readings that seem wrong are still told, but not left out
+    #[arg(long)]
+    keep_all: bool,
     /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -48,6 +55,7 @@ enum Expected {
     Ambiguous,
     Outside,
     Measurement,
+    Undecided,
 }
 
 impl Expected {
@@ -58,6 +66,7 @@ impl Expected {
             Self::Ambiguous => Verdict::Ambiguous,
             Self::Outside => Verdict::Outside,
             Self::Measurement => Verdict::Measurement,
+            Self::Undecided => Verdict::Undecided,
         }
     }
 }
@@ -68,7 +77,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let data = input::measurements(&arguments.data)?;
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
     let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
-    let study = study(&hexapod, &data, holdout.as_ref(), &terms)?;
+    let options = DiagnoseOptions { exclude: arguments.exclude.clone(), keep_all: arguments.keep_all };
+    let study = study(&hexapod, &data, holdout.as_ref(), &terms, &options)?;
     let to_stdout = arguments.json.as_deref() == Some(Path::new("-")) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
         let run =
@@ -95,9 +105,10 @@ pub(crate) fn study(
     data: &Dataset,
     holdout: Option<&Dataset>,
     terms: &[Arc<dyn Term>],
+    options: &DiagnoseOptions,
 ) -> Result<DiagnosisStudy, Failure> {
     let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
-    diagnose(hexapod, data, holdout, terms).map_err(failed)
+    diagnose_with(hexapod, data, holdout, terms, options).map_err(failed)
 }
 
 fn check(expected: Option<Expected>, diagnosis: &Diagnosis) -> Result<(), Failure> {

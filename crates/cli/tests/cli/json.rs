@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::support::{cases, diagnose, text};
 
-const TOP: [&str; 16] = [
+const TOP: [&str; 20] = [
     "format",
     "verdict",
     "added",
@@ -20,6 +20,10 @@ const TOP: [&str; 16] = [
     "absorbed",
     "suspects",
     "outside",
+    "findings",
+    "excluded",
+    "keep_all",
+    "alternative",
     "run",
 ];
 

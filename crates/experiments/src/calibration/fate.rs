@@ -56,7 +56,7 @@ impl Fate {
         match (trial.outcome(), d.verdict) {
             (Outcome::Right, _) => Self::Right,
             (Outcome::Honest, _) => Self::Honest,
-            (Outcome::Wrong, Verdict::Ambiguous) => Self::Undecided,
+            (Outcome::Wrong, Verdict::Ambiguous | Verdict::Undecided) => Self::Undecided,
             (Outcome::Wrong, Verdict::Adequate | Verdict::Measurement) => Self::Missed,
             (Outcome::Wrong, Verdict::Outside) => Self::FalseOutside,
             (Outcome::Wrong, Verdict::Named) if invents(d, &trial.hidden) => Self::FalseName,

@@ -154,7 +154,7 @@ fn confidence(study: &DiagnosisStudy) -> Option<f64> {
         Verdict::Named => Some(probability_of(study, &added)),
         Verdict::Adequate | Verdict::Measurement => Some(probability_of(study, &[])),
         Verdict::Outside => Some(probability_outside(study)),
-        Verdict::Ambiguous => None,
+        Verdict::Ambiguous | Verdict::Undecided => None,
     }
 }
 

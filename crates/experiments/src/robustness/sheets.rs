@@ -70,7 +70,14 @@ pub fn counts(records: &[RobustnessRecord]) -> Table {
 
 /// Verdicts on clean machines and on those with an effect: `clean/effect`.
 pub fn verdicts(records: &[RobustnessRecord]) -> Table {
-    let all = [Verdict::Adequate, Verdict::Measurement, Verdict::Named, Verdict::Ambiguous, Verdict::Outside];
+    let all = [
+        Verdict::Adequate,
+        Verdict::Measurement,
+        Verdict::Named,
+        Verdict::Ambiguous,
+        Verdict::Undecided,
+        Verdict::Outside,
+    ];
     let mut table = Table::named(std::iter::once("fault").chain(all.map(Verdict::word)));
     for v in Violation::of_each(records) {
         let cell = |verdict| {

@@ -110,7 +110,7 @@ fn springs() -> Vec<TrialColumn> {
 }
 
 /// Words of the verdict, in the order of the codes.
-pub const VERDICTS: [&str; 5] = ["adequate", "named", "ambiguous", "outside", "measurement"];
+pub const VERDICTS: [&str; 6] = ["adequate", "named", "ambiguous", "outside", "measurement", "undecided"];
 /// Words of the outcome, in the order of the codes.
 pub const OUTCOMES: [&str; 3] = ["right", "honest", "wrong"];
 

@@ -28,6 +28,8 @@ pub enum Verdict {
     Outside,
     /// What is wrong is in the data: without it the springs explain them.
     Measurement,
+    /// These readings cannot judge: too few of them, no noise level, or no effect of its usual size would show.
+    Undecided,
 }
 
 impl Verdict {
@@ -39,6 +41,7 @@ impl Verdict {
             Self::Ambiguous => "ambiguous",
             Self::Outside => "outside",
             Self::Measurement => "measurement",
+            Self::Undecided => "undecided",
         }
     }
 }

@@ -3,8 +3,9 @@
 
 use hexbench_core::{Dataset, Measurand};
 use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::noise::NoiseLevel;
 use hexbench_model::inference::diagnosis::explain;
-use hexbench_model::inference::evidence::{Gram, NoiseLevel, PriorBlock, Variant, log_orthant};
+use hexbench_model::inference::evidence::{Gram, PriorBlock, Variant, log_orthant};
 use hexbench_model::inference::power::{noncentral_cdf, noncentrality};
 use hexbench_model::inference::verdict::{Judgement, Verdict, judge};
 use hexbench_model::results::diagnose::diagnose;

@@ -1,9 +1,10 @@
 //! Faults of the data are found, told with their lines, and kept from passing for physics.
 
-use hexbench_core::{Dataset, Hexapod};
+use hexbench_core::{Dataset, Hexapod, LineRange};
+use hexbench_model::error::ModelError;
 use hexbench_model::inference::examination::FindingKind;
 use hexbench_model::inference::verdict::Verdict;
-use hexbench_model::results::diagnose::{Diagnosis, diagnose};
+use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, diagnose, diagnose_with};
 use hexbench_model::terms::catalogue;
 
 use crate::cases;
@@ -31,13 +32,102 @@ fn sound_readings_have_no_findings() {
 
 #[test]
 fn one_wrong_number_is_a_blunder_with_its_line_and_not_an_unknown_effect() {
-    let (hexapod, mut data) = clean();
-    let sigma = hexapod.metrology.unwrap().sigma_translation;
-    data.observations[17].measured[1] += 30.0 * sigma;
+    let (hexapod, data, line) = with_one_wrong_number();
     let d = told(&hexapod, &data);
     assert_eq!(d.verdict, Verdict::Measurement);
     assert_eq!(kinds(&d), [FindingKind::Blunder]);
-    assert_eq!(d.findings[0].rows, [data.observations[17].line]);
+    assert_eq!(d.findings[0].rows, [line]);
+}
+
+/// Readings of a sound machine of which one is wrong, and its line.
+fn with_one_wrong_number() -> (Hexapod, Dataset, u64) {
+    let (hexapod, mut data) = clean();
+    let sigma = hexapod.metrology.unwrap().sigma_translation;
+    data.observations[17].measured[1] += 30.0 * sigma;
+    let line = data.observations[17].line;
+    (hexapod, data, line)
+}
+
+fn told_with(hexapod: &Hexapod, data: &Dataset, options: &DiagnoseOptions) -> Diagnosis {
+    diagnose_with(hexapod, data, None, &catalogue(), options).unwrap().diagnosis
+}
+
+/// An answer as an alternative states it.
+fn answer(d: &Diagnosis) -> (Verdict, Vec<String>, [Option<f64>; 6], f64) {
+    let stiffness = std::array::from_fn(|leg| d.stiffness(leg).map(|p| p.value));
+    (d.verdict, d.added.clone(), stiffness, d.steps.last().unwrap().fitted.chi2_reduced)
+}
+
+fn alternative(d: &Diagnosis) -> (Verdict, Vec<String>, [Option<f64>; 6], f64) {
+    let a = d.alternative.clone().unwrap();
+    (a.verdict, a.added, a.stiffness.map(|leg| leg.map(|p| p.value)), a.chi2_reduced)
+}
+
+#[test]
+fn each_of_the_two_answers_tells_the_other() {
+    let (hexapod, data, line) = with_one_wrong_number();
+    let without = told(&hexapod, &data);
+    let with = told_with(&hexapod, &data, &DiagnoseOptions::default().with_keep_all(true));
+    assert_eq!((kinds(&with), with.keep_all), (kinds(&without), true));
+    for d in [&without, &with] {
+        assert_eq!(d.alternative.as_ref().unwrap().rows, [line]);
+    }
+    assert_eq!(alternative(&without), answer(&with));
+    assert_eq!(alternative(&with), answer(&without));
+    let (kept, left_out) = (answer(&with).3, answer(&without).3);
+    assert!(kept > 1.5 * left_out, "a wrong number that is kept is seen: {kept} beside {left_out}");
+}
+
+#[test]
+fn a_wrong_row_is_kept_with_the_noise_that_was_found() {
+    let (mut hexapod, data, line) = with_one_wrong_number();
+    let metrology = hexapod.metrology.as_mut().unwrap();
+    metrology.sigma_translation /= 2.0;
+    metrology.sigma_rotation /= 2.0;
+    let without = told(&hexapod, &data);
+    let with = told_with(&hexapod, &data, &DiagnoseOptions::default().with_keep_all(true));
+    assert_eq!(kinds(&without), [FindingKind::Blunder, FindingKind::NoiseLevel]);
+    assert_eq!(without.noise.translation_um.to_bits(), with.noise.translation_um.to_bits());
+    assert_eq!(without.alternative.as_ref().unwrap().rows, [line]);
+    assert_eq!(alternative(&without), answer(&with));
+}
+
+#[test]
+fn a_line_excluded_by_name_gives_the_answer_of_the_examination() {
+    let (hexapod, data, line) = with_one_wrong_number();
+    let found = told(&hexapod, &data);
+    let named = told_with(&hexapod, &data, &DiagnoseOptions::default().with_exclude([line.into()]));
+    assert_eq!(
+        (named.excluded.as_slice(), kinds(&named), named.alternative.is_none()),
+        (&[line][..], vec![], true)
+    );
+    assert_eq!(named.verdict, Verdict::Adequate);
+    let (found, named) = (answer(&found), answer(&named));
+    assert_eq!((found.1, found.2, found.3.to_bits()), (named.1, named.2, named.3.to_bits()));
+}
+
+#[test]
+fn nothing_differs_where_nothing_is_left_out() {
+    let (hexapod, data) = clean();
+    let options = DiagnoseOptions::default().with_keep_all(true);
+    for d in [told(&hexapod, &data), told_with(&hexapod, &data, &options)] {
+        assert_eq!((d.alternative, d.excluded), (None, vec![]));
+    }
+}
+
+#[test]
+fn lines_without_a_reading_are_refused_and_ranges_leave_out_what_they_hold() {
+    let (hexapod, data) = clean();
+    let last = data.observations.last().unwrap().line;
+    let tried = |text: &str| {
+        let lines: LineRange = text.parse().unwrap();
+        let options = DiagnoseOptions::default().with_exclude([lines]);
+        diagnose_with(&hexapod, &data, None, &catalogue(), &options).map(|study| study.diagnosis.excluded)
+    };
+    let refused = Err(ModelError::NoReading { lines: 1.into(), readings: Some((2, last)) });
+    assert_eq!(tried("1"), refused);
+    assert!(matches!(tried(&format!("{}-{}", last + 1, last + 9)), Err(ModelError::NoReading { .. })));
+    assert_eq!(tried("1-3"), Ok(vec![2, 3]));
 }
 
 #[test]

@@ -135,7 +135,9 @@ def fit(campaign: Campaign, add: Sequence[str], holdout: Campaign | None, terms:
 def compare(campaign: Campaign, model: Model | None, holdout: Campaign | None) -> Comparison:
     """Compare a model, or springs fitted to the data, with measurements."""
 
-def diagnose(campaign: Campaign, holdout: Campaign | None, terms: Sequence[str]) -> Diagnosis:
+def diagnose(
+    campaign: Campaign, holdout: Campaign | None, terms: Sequence[str], exclude: Sequence[str], keep_all: bool
+) -> Diagnosis:
     """Name the physical effect the model lacks."""
 
 def design(hexapod: Hexapod, space: str, wanted: Mapping[str, Any]) -> Plan:

@@ -9,8 +9,12 @@ from os import PathLike, fspath
 from typing import Any
 
 from hexbench import _native
+from hexbench._bounds import whole
 from hexbench.campaign import Campaign, Data, held_out
 from hexbench.model import Model
+
+#: Largest number of a line.
+_LAST_LINE = 2**64 - 1
 
 
 class Comparison:
@@ -100,6 +104,13 @@ class Diagnosis:
     warnings: list[str]
     #: Faults of the data: ``kind``, ``probability``, ``rows`` (lines, as of ``suspects``), ``size``, ``text``, ``next``.
     findings: list[dict[str, Any]]
+    #: Lines left out because ``exclude`` named them.
+    excluded: list[int]
+    #: Whether readings that were found wrong took part in the fit all the same.
+    keep_all: bool
+    #: The answer the other way, where findings leave readings out or would do so: ``rows`` (lines concerned), ``verdict``,
+    #: ``added``, ``stiffness`` (six, None where open), ``chi2_reduced``; None where nothing differs.
+    alternative: dict[str, Any] | None
     #: Program, machine and digests of the files.
     run: dict[str, Any]
 
@@ -161,7 +172,14 @@ def compare(campaign: Campaign, model: Model | None = None, *, holdout: Data | N
     return Comparison(_native.compare(campaign._made, native, held_out(campaign, holdout)))
 
 
-def diagnose(campaign: Campaign, *, holdout: Data | None = None, terms: Sequence[str | PathLike[str]] = ()) -> Diagnosis:
+def diagnose(
+    campaign: Campaign,
+    *,
+    holdout: Data | None = None,
+    terms: Sequence[str | PathLike[str]] = (),
+    exclude: Sequence[int | str] = (),
+    keep_all: bool = False,
+) -> Diagnosis:
     """Name the physical effect that the model lacks, and show the held-out error fall.
 
     Parameters
@@ -172,18 +190,25 @@ def diagnose(campaign: Campaign, *, holdout: Data | None = None, terms: Sequence
         Readings kept out of every fit; without them poses are left out in turn.
     terms : sequence of paths
         Term files of your own (term/1) that compete with the catalogue.
+    exclude : sequence of int or str
+        Lines of the readings to be left out before anything else, as the diagnosis names them (``rows``; of a table in
+        memory: its row and two), or ranges such as ``"12-15"``.
+    keep_all : bool
+        Keep every other reading in the fit; findings are still told.
 
     Returns
     -------
     Diagnosis
-        ``verdict`` is ``adequate``, ``named``, ``ambiguous`` or ``outside``; bad news is a result, not an exception.
+        ``verdict`` is ``adequate``, ``named``, ``ambiguous``, ``outside`` or ``measurement``; bad news is a result, not an
+        exception.
 
     Raises
     ------
     BadInput, NotDetermined
-        When nothing can be computed.
+        When nothing can be computed, or a line of ``exclude`` has no reading.
     """
-    return Diagnosis(_native.diagnose(campaign._made, held_out(campaign, holdout), [fspath(t) for t in terms]))
+    own = [fspath(t) for t in terms]
+    return Diagnosis(_native.diagnose(campaign._made, held_out(campaign, holdout), own, _lines(exclude), bool(keep_all)))
 
 
 def terms() -> list[dict[str, Any]]:
@@ -193,6 +218,11 @@ def terms() -> list[dict[str, Any]]:
     (what to vary to see it alone), ``parameters`` (``name``, ``unit``) and ``shape`` (``name``, ``unit``, or None).
     """
     return _native.terms()
+
+
+def _lines(exclude: Sequence[int | str]) -> list[str]:
+    named = [exclude] if isinstance(exclude, str) else exclude
+    return [line if isinstance(line, str) else str(whole(line, "exclude", 1, _LAST_LINE)) for line in named]
 
 
 def _dictionary(text: str) -> dict[str, Any]:

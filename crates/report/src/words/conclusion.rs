@@ -13,7 +13,7 @@ use crate::page::{Block, Mood, Section};
 pub fn section(d: &Diagnosis) -> Section {
     let mood = match d.verdict {
         Verdict::Adequate | Verdict::Named => Mood::Good,
-        Verdict::Ambiguous | Verdict::Measurement => Mood::Doubt,
+        Verdict::Ambiguous | Verdict::Measurement | Verdict::Undecided => Mood::Doubt,
         Verdict::Outside => Mood::Bad,
     };
     Section::new("Verdict").with(Block::Verdict {
@@ -31,9 +31,19 @@ pub fn sentences(d: &Diagnosis) -> Vec<String> {
              they could not show is listed below."
                 .to_owned(),
         ],
+        Verdict::Undecided => vec![
+            "These data cannot judge the machine: there are too few readings, their noise is not known apart from what the springs \
+             leave, or no effect of its usual size would show. Take repeats, more poses and loads, or state the noise in [metrology]."
+                .to_owned(),
+        ],
         Verdict::Named => vec![lacks(&d.added), error_statement(&d.steps)],
         Verdict::Ambiguous => ambiguous(d),
         Verdict::Outside => outside(d),
+        Verdict::Measurement if d.keep_all => vec![
+            "What is wrong is in the data, as told above. Even with all readings kept the springs alone explain these measurements: \
+             nothing of the machine is missing that they could show."
+                .to_owned(),
+        ],
         Verdict::Measurement => vec![
             "What is wrong is in the data, as told above. Without it the springs alone explain these measurements: nothing of \
              the machine is missing that they could show."

@@ -1,7 +1,6 @@
 //! Leg stiffnesses, and what leaving an effect out does to them.
 
 use hexbench_core::Hexapod;
-use hexbench_model::estimation::parameters::stiffness_name;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{AbsorbedReport, Diagnosis};
 
@@ -47,8 +46,7 @@ fn numbers(d: &Diagnosis) -> Table {
 }
 
 fn stiffness(d: &Diagnosis, leg: usize) -> Option<[String; 2]> {
-    let name = stiffness_name(leg);
-    d.parameters.iter().find(|p| p.name == name).map(|p| with_uncertainty(p.value, p.std))
+    d.stiffness(leg).map(|p| with_uncertainty(p.value, p.std))
 }
 
 /// Effects of the model, and rivals when the answer is open.

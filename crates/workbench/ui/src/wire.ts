@@ -360,6 +360,20 @@ export type AbsorbedReport = {
   bias_of_leg_stiffness_percent: [number | null, number | null, number | null, number | null, number | null, number | null];
 };
 
+/** What a diagnosis of the same readings says when those that were found wrong are treated the other way. */
+export type Alternative = {
+  /** Lines of the readings concerned: kept here where the answer leaves them out, left out here where it keeps them. */
+  rows: Array<number>;
+  /** The verdict. */
+  verdict: Verdict;
+  /** Effects named. */
+  added: Array<string>;
+  /** Stiffness of every leg; absent where the data do not determine it. */
+  stiffness: [Estimate | null, Estimate | null, Estimate | null, Estimate | null, Estimate | null, Estimate | null];
+  /** Chi-square per degree of freedom of the last step, on the readings fitted. */
+  chi2_reduced: number;
+};
+
 /** Part of a section. */
 export type Block = {
   "kind": "verdict";
@@ -481,6 +495,12 @@ export type Diagnosis = {
   warnings: Array<string>;
   /** Faults of the data, in the order in which they were found. */
   findings: Array<Finding>;
+  /** Lines that were left out because somebody asked for it. */
+  excluded: Array<number>;
+  /** Readings that were found wrong took part in the fit because somebody asked for it. */
+  keep_all: boolean;
+  /** The answer the other way, where findings leave readings out or would do so. */
+  alternative: Alternative | null;
 };
 
 /** A chart, drawn by `crate::plot`. */

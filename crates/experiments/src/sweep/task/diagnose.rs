@@ -89,5 +89,6 @@ fn verdict(verdict: Verdict) -> u8 {
         Verdict::Ambiguous => 2,
         Verdict::Outside => 3,
         Verdict::Measurement => 4,
+        Verdict::Undecided => 5,
     }
 }

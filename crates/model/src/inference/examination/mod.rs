@@ -6,6 +6,7 @@
 
 mod blunders;
 mod finding;
+mod kept;
 mod remainder;
 mod scatter;
 mod tolerance;

@@ -11,7 +11,7 @@ use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::{
     HeldOutTest, Residual, held_out_test, leave_poses_out, prediction_errors, residuals, summarise,
 };
-use crate::inference::candidates::CandidateKind;
+use crate::inference::candidates::{Candidate, CandidateKind};
 use crate::inference::diagnosis::{RankedSets, wanted};
 use crate::inference::explanation::Explanation;
 use crate::inference::search::Set;
@@ -104,6 +104,17 @@ impl Context<'_> {
                 }
             }
         }
+    }
+
+    /// True when nothing beyond the springs means something: there are readings to spare, their noise is known apart from what the
+    /// springs leave, and some effect of its usual size would show.
+    pub(super) fn can_judge(&self, last: &Fit) -> bool {
+        let level = self.campaign.noise_level();
+        let gram = &self.outcome.gram;
+        let would_show = |c: &Candidate| {
+            matches!(c.kind, CandidateKind::Term(_)) && c.blocks.iter().any(|&b| gram.blocks[b].noticeable)
+        };
+        last.lack_of_fit_dof > 0.0 && level.dof > 0.0 && self.outcome.candidates.iter().any(would_show)
     }
 
     /// True when the held-out readings are as the fit expects them, though what it leaves in its own readings would show there, or is

@@ -5,9 +5,11 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::alternative::Alternative;
 use crate::effects::untestable::Untestable;
 use crate::estimation::estimate::Estimate;
 use crate::estimation::noise::NoiseSource;
+use crate::estimation::parameters::stiffness_name;
 use crate::estimation::residuals::ErrorSummary;
 use crate::inference::examination::Finding;
 use crate::inference::explanation::Explanation;
@@ -65,6 +67,20 @@ pub struct Diagnosis {
     pub warnings: Vec<String>,
     /// Faults of the data, in the order in which they were found.
     pub findings: Vec<Finding>,
+    /// Lines that were left out because somebody asked for it.
+    pub excluded: Vec<u64>,
+    /// Readings that were found wrong took part in the fit because somebody asked for it.
+    pub keep_all: bool,
+    /// The answer the other way, where findings leave readings out or would do so.
+    pub alternative: Option<Alternative>,
+}
+
+impl Diagnosis {
+    /// Stiffness of a leg, from 0, where the data determine it.
+    pub fn stiffness(&self, leg: usize) -> Option<&Estimate> {
+        let name = stiffness_name(leg);
+        self.parameters.iter().find(|p| p.name == name)
+    }
 }
 
 /// One candidate.

@@ -183,6 +183,11 @@ fn warnings(a: &Run, b: &Run) -> Vec<String> {
             b.noise_source.word()
         ));
     }
+    if (&a.excluded, a.keep_all) != (&b.excluded, b.keep_all) {
+        all.push(
+            "The readings that count were chosen otherwise: lines left out by name, or all kept.".to_owned(),
+        );
+    }
     all
 }
 
@@ -298,6 +303,8 @@ mod tests {
             noise_source: NoiseSource::Metrology,
             parameters: vec![Estimate { name: "leg-1.stiffness".into(), value: stiffness, std: 0.03, unit }],
             origin: Some(origin()),
+            excluded: Vec::new(),
+            keep_all: false,
         }
     }
 

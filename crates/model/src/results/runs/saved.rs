@@ -78,6 +78,10 @@ pub struct SavedDiagnosis {
     steps: Vec<SavedStep>,
     noise: SavedNoise,
     parameters: Vec<Estimate>,
+    #[serde(default)]
+    excluded: Vec<u64>,
+    #[serde(default)]
+    keep_all: bool,
     run: Option<Origin>,
 }
 
@@ -159,6 +163,10 @@ pub struct Run {
     pub noise_source: NoiseSource,
     /// Numbers of the final model.
     pub parameters: Vec<Estimate>,
+    /// Lines of the measurements left out by name.
+    pub excluded: Vec<u64>,
+    /// Readings that seem wrong took part in the fit.
+    pub keep_all: bool,
     /// Absent in files of versions that did not write it.
     pub origin: Option<Origin>,
 }
@@ -182,6 +190,8 @@ impl Run {
             noise_rotation_urad: d.noise.rotation_urad,
             noise_source: d.noise.source,
             parameters: d.parameters,
+            excluded: d.excluded,
+            keep_all: d.keep_all,
             origin: d.run,
         }
     }
@@ -200,6 +210,8 @@ impl Run {
             steps: vec![RunStep { terms: c.terms, fitted: c.error, holdout: c.holdout }],
             noise_source: c.noise_source,
             parameters: Vec::new(),
+            excluded: Vec::new(),
+            keep_all: false,
             origin: c.run,
         }
     }

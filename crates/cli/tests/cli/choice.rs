@@ -1,0 +1,106 @@
+//! Which readings count: left out by name, or all kept; the page and the JSON tell the other answer.
+
+use std::fs;
+use std::process::Output;
+
+use serde_json::Value;
+
+use crate::support::{hexbench_in, root, text};
+
+/// Line with a wrong number.
+const WRONG: u64 = 31;
+
+/// `diagnose` of a sound machine's measurements with one wrong number.
+fn diagnosed(more: &[&str]) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("measurements.csv");
+    fs::write(&data, with_wrong_number()).unwrap();
+    hexbench_in("mujoco-clean").args(["diagnose", "hexapod.toml"]).arg(&data).args(more).output().unwrap()
+}
+
+fn with_wrong_number() -> String {
+    let file = root().join("data/cases/mujoco-clean/measurements.csv");
+    let mut lines: Vec<String> = fs::read_to_string(file).unwrap().lines().map(str::to_owned).collect();
+    let column = lines[0].split(',').position(|name| name == "db_um").unwrap();
+    let wrong = &mut lines[usize::try_from(WRONG).unwrap() - 1];
+    let mut cells: Vec<String> = wrong.split(',').map(str::to_owned).collect();
+    cells[column] = (cells[column].parse::<f64>().unwrap() + 30.0).to_string();
+    *wrong = cells.join(",");
+    lines.join("\n") + "\n"
+}
+
+/// The page as one line of words.
+fn page(more: &[&str]) -> String {
+    text(diagnosed(more)).split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn json(more: &[&str]) -> Value {
+    let more: Vec<&str> = more.iter().copied().chain(["--json", "-"]).collect();
+    serde_json::from_str(&text(diagnosed(&more))).unwrap()
+}
+
+#[test]
+fn the_page_says_what_would_change() {
+    let left_out = page(&[]);
+    assert!(
+        left_out.contains("With line 31 kept the verdict would be outside instead of measurement, leg 1")
+    );
+    assert!(left_out.contains("times the noise."), "{left_out}");
+    let kept = page(&["--keep-all"]);
+    assert!(kept.contains("This reading is kept, as asked"), "{kept}");
+    assert!(kept.contains("Without line 31 the verdict would be measurement instead of outside"), "{kept}");
+    let excluded = page(&["--exclude", "31"]);
+    assert!(excluded.contains("Left out before anything else, as asked: line 31."), "{excluded}");
+}
+
+#[test]
+fn the_json_has_the_alternative() {
+    let (left_out, kept) = (json(&[]), json(&["--keep-all"]));
+    assert_eq!((&left_out["keep_all"], &kept["keep_all"]), (&Value::Bool(false), &Value::Bool(true)));
+    let other = &left_out["alternative"];
+    assert_eq!(other["rows"], serde_json::json!([WRONG]));
+    assert_eq!((&other["verdict"], &other["added"]), (&kept["verdict"], &kept["added"]));
+    assert_eq!(other["chi2_reduced"], kept["steps"][0]["chi2_reduced"]);
+    for leg in 0..6 {
+        assert_eq!(other["stiffness"][leg], kept["parameters"][leg]);
+    }
+}
+
+#[test]
+fn lines_are_excluded_one_by_one_and_in_ranges_beside_keeping_the_rest() {
+    let d = json(&["--exclude", "2-3,7", "--exclude", "5", "--keep-all"]);
+    assert_eq!(d["excluded"], serde_json::json!([2, 3, 5, 7]));
+    assert_eq!(d["alternative"]["rows"], serde_json::json!([WRONG]));
+    let d = json(&["--exclude", "31"]);
+    assert_eq!((&d["verdict"], &d["alternative"]), (&"adequate".into(), &Value::Null));
+}
+
+#[test]
+fn a_line_without_a_reading_exits_with_3_and_what_is_no_line_with_2() {
+    for (lines, said) in [("1", "line 1 of"), ("400-500", "lines 400-500 of")] {
+        let output = diagnosed(&["--exclude", lines]);
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(3), "{stderr}");
+        assert!(
+            stderr.contains(said) && stderr.contains("next: ") && stderr.contains("lines 2 to 169"),
+            "{stderr}"
+        );
+    }
+    for lines in ["x", "15-12", ""] {
+        assert_eq!(diagnosed(&["--exclude", lines]).status.code(), Some(2), "{lines}");
+    }
+}
+
+#[test]
+fn results_of_other_choices_are_not_compared_in_silence() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, more: &[&str]| {
+        let path = folder.path().join(name).to_string_lossy().into_owned();
+        diagnosed(&[more, &["--json", &path]].concat());
+        path
+    };
+    let (a, b) = (file("a.json", &[]), file("b.json", &["--keep-all"]));
+    let compared = text(hexbench_in("mujoco-clean").args(["runs", &a, &b]).output().unwrap());
+    let words: Vec<&str> = compared.split_whitespace().collect();
+    assert!(words.join(" ").contains("The readings that count were chosen otherwise"), "{compared}");
+}

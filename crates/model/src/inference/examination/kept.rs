@@ -1,0 +1,36 @@
+//! Readings of every row, those of wrong rows too; what was found of the noise and of the inputs still holds.
+
+use hexbench_core::{Dataset, Hexapod, Observation};
+
+use super::Examined;
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::noise::Noise;
+use crate::estimation::tolerances::within_tolerances;
+
+impl Examined {
+    /// The examined readings with the rows of `data` that were left out put back, and their campaign. `noise`: before the
+    /// examination.
+    ///
+    /// # Errors
+    /// As [`Campaign::with_noise`].
+    pub fn with_all_rows(
+        &self,
+        hexapod: &Hexapod,
+        data: &Dataset,
+        noise: Noise,
+    ) -> Result<(Dataset, Campaign), ModelError> {
+        let mut all = data.clone();
+        let scale = self.noise.translation / noise.translation;
+        let mut examined = self.data.observations.iter().peekable();
+        for row in &mut all.observations {
+            row.sigma = match examined.next_if(|o| Observation { sigma: row.sigma, ..**o } == *row) {
+                Some(known) => known.sigma,
+                None => row.sigma.map(|sigma| sigma.map(|s| s * scale)),
+            };
+        }
+        let hexapod = Hexapod { tolerances: self.tolerances, ..hexapod.clone() };
+        let campaign = within_tolerances(Campaign::with_noise(&hexapod, &all, self.noise)?);
+        Ok((all, campaign))
+    }
+}

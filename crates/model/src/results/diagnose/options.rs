@@ -1,0 +1,43 @@
+//! Which readings count, when somebody decides otherwise.
+
+use std::borrow::Cow;
+
+use hexbench_core::{Dataset, LineRange};
+
+use crate::error::ModelError;
+
+/// How a diagnosis treats the readings.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct DiagnoseOptions {
+    /// Lines of the file left out before anything else.
+    pub exclude: Vec<LineRange>,
+    /// Every other reading takes part in the fit; readings that seem wrong are told only.
+    pub keep_all: bool,
+}
+
+impl DiagnoseOptions {
+    /// Without these lines of the file.
+    #[must_use]
+    pub fn with_exclude(mut self, lines: impl IntoIterator<Item = LineRange>) -> Self {
+        self.exclude.extend(lines);
+        self
+    }
+
+    /// With every reading that is not excluded by name.
+    #[must_use]
+    pub fn with_keep_all(mut self, keep_all: bool) -> Self {
+        self.keep_all = keep_all;
+        self
+    }
+
+    /// The readings to be looked at, and the lines left out.
+    pub(super) fn applied<'a>(&self, data: &'a Dataset) -> Result<(Cow<'a, Dataset>, Vec<u64>), ModelError> {
+        if self.exclude.is_empty() {
+            return Ok((Cow::Borrowed(data), Vec::new()));
+        }
+        let ends = || Some((data.observations.first()?.line, data.observations.last()?.line));
+        let (rest, lines) =
+            data.without(&self.exclude).map_err(|lines| ModelError::NoReading { lines, readings: ends() })?;
+        Ok((Cow::Owned(rest), lines))
+    }
+}
