@@ -540,7 +540,7 @@ fn share_out(group: &mut ConditionReadings, noise: &Noise) {
         // As if every reading had the same level, which those of a record have to have.
         let one = group.sigma[k] * readings.sqrt();
         let (mean, shared) = match noise.structure {
-            Structure::Independent => continue,
+            Structure::Independent | Structure::Axes { .. } => continue,
             Structure::Drift { share, .. } => (own.sqrt(), share.sqrt()),
             Structure::Setup { share } => ((own / readings + share).sqrt(), 0.0),
             Structure::Reference { share, record: SharedReference::Pose } => {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use hexbench_core::statistics::Welford;
-use hexbench_core::{Dataset, Hexapod, Observation};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Observation};
 
 use crate::estimation::campaign::frames_of;
 use crate::estimation::frames::ReadingAxes;
@@ -77,6 +77,11 @@ pub enum Structure {
         /// Correlation of that part in neighboring rows.
         correlation: f64,
     },
+    /// The six coordinates of a reading are not equally good, or err together.
+    Axes {
+        /// Their covariance, in units of the standard deviations that are stated.
+        covariance: Matrix6,
+    },
 }
 
 /// Which readings share a reference.
@@ -92,7 +97,7 @@ impl Structure {
     /// Share of the variance of one reading that is its own.
     pub fn own_share(self) -> f64 {
         match self {
-            Self::Independent => 1.0,
+            Self::Independent | Self::Axes { .. } => 1.0,
             Self::Setup { share } | Self::Reference { share, .. } | Self::Drift { share, .. } => 1.0 - share,
         }
     }

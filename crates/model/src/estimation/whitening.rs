@@ -5,6 +5,7 @@
 //!
 //! ```text
 //! shared by a record    I + u u'        ->  x - c u (u'x) / u'u,   c = 1 - 1 / sqrt(1 + u'u)
+//! axes of a reading     L L'                 ->  L^-1 x, condition by condition
 //! drift along the file  I + u_i u_j phi^|i - j|  ->  innovations of the Kalman filter over their standard deviations
 //! ```
 //!
@@ -13,7 +14,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::Vector6;
+use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use crate::estimation::campaign::{Campaign, ConditionReadings};
@@ -51,6 +52,8 @@ enum Common {
         /// Correlation of neighboring lines.
         correlation: f64,
     },
+    /// The coordinates of every reading have this inverse factor of their covariance.
+    Axes(Box<Matrix6>),
 }
 
 impl Whitening {
@@ -146,6 +149,10 @@ impl Common {
     fn of(groups: &[ConditionReadings], noise: &Noise) -> Self {
         match noise.structure {
             Structure::Independent | Structure::Setup { .. } => Self::Nothing,
+            Structure::Axes { covariance } => {
+                let inverse = covariance.cholesky().and_then(|factor| factor.l().try_inverse());
+                inverse.map_or(Self::Nothing, |w| Self::Axes(Box::new(w)))
+            }
             Structure::Reference { .. } => Self::Shared {
                 records: groups.iter().map(|g| g.record).collect(),
                 shares: groups.iter().map(share).collect(),
@@ -163,6 +170,7 @@ impl Common {
     fn choose(&self, which: impl Iterator<Item = usize>) -> Self {
         match self {
             Self::Nothing => Self::Nothing,
+            Self::Axes(inverse) => Self::Axes(inverse.clone()),
             Self::Shared { records, shares } => {
                 let (records, shares) = which.map(|i| (records[i], shares[i])).unzip();
                 Self::Shared { records, shares }
@@ -190,6 +198,12 @@ impl Common {
     fn apply_to(&self, x: &mut DVector<f64>) {
         match self {
             Self::Nothing => {}
+            Self::Axes(inverse) => {
+                for i in 0..x.len() / 6 {
+                    let whitened = **inverse * x.fixed_rows::<6>(6 * i);
+                    x.fixed_rows_mut::<6>(6 * i).copy_from(&whitened);
+                }
+            }
             Self::Shared { records, shares } => shared(records, shares, x),
             Self::Drift { rows, shares, correlation } => drift(rows, shares, *correlation, x),
         }
@@ -283,6 +297,18 @@ mod tests {
         }
         let w = matrix(&Common::Shared { records, shares }, 3);
         assert!((&w * covariance * w.transpose() - DMatrix::identity(18, 18)).amax() < ROUNDING);
+    }
+
+    #[test]
+    fn coordinates_that_err_together_become_independent() {
+        let root = Matrix6::from_fn(|i, j| ((3 * i + 5 * j) % 7) as f64 * 0.2 + f64::from(u8::from(i == j)));
+        let covariance = root * root.transpose();
+        let inverse = covariance.cholesky().unwrap().l().try_inverse().unwrap();
+        let w = matrix(&Common::Axes(Box::new(inverse)), 2);
+        let mut both = DMatrix::zeros(12, 12);
+        both.fixed_view_mut::<6, 6>(0, 0).copy_from(&covariance);
+        both.fixed_view_mut::<6, 6>(6, 6).copy_from(&covariance);
+        assert!((&w * both * w.transpose() - DMatrix::identity(12, 12)).amax() < 1e3 * ROUNDING);
     }
 
     #[test]

@@ -11,7 +11,7 @@ mod remainder;
 mod scatter;
 mod tolerance;
 
-use hexbench_core::{Dataset, Hexapod, Tolerances, Vector6};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Tolerances, Vector6};
 
 use self::blunders::{Fault, worst};
 use self::finding::probability;
@@ -29,6 +29,8 @@ use crate::inference::diagnosis::RankedSets;
 const BELIEVED: f64 = 8.0;
 /// The same for errors of joints and loads, nats: every machine is built and loaded to a tolerance, so odds of 20 to 1 are enough.
 const LIKELY: f64 = 3.0;
+/// Coordinates of a reading.
+const AXES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 /// Components of a load.
 const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 /// One reading in so many may be left out; beyond it something else is wrong.
@@ -248,6 +250,17 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: Statement) {
     if let Kind::Common(structure) = best.kind {
         noise.structure = structure;
     }
+    if let Structure::Axes { covariance } = &mut noise.structure {
+        // Standard deviations as stated stay those of translations and rotations on the whole.
+        let whole = |k: usize| ((0..3).map(|i| covariance[(k + i, k + i)]).sum::<f64>() / 3.0).sqrt();
+        let scale = Vector6::from_fn(|k, _| if k < 3 { whole(0) } else { whole(3) });
+        noise.translation *= scale[0];
+        noise.rotation *= scale[3];
+        for row in &mut examined.data.observations {
+            row.sigma = row.sigma.map(|sigma| std::array::from_fn(|k| sigma[k] * scale[k]));
+        }
+        *covariance = Matrix6::from_fn(|i, j| covariance[(i, j)] / (scale[i] * scale[j]));
+    }
 }
 
 fn finding(best: &Statement, gain: f64) -> Finding {
@@ -292,6 +305,24 @@ fn finding(best: &Statement, gain: f64) -> Finding {
                 .to_owned(),
             "read the reference more often, and measure the conditions in random order",
         ),
+        Kind::Common(Structure::Axes { covariance }) => {
+            let sigma = covariance.diagonal().map(f64::sqrt);
+            let (least, most) = (sigma.imin(), sigma.imax());
+            let related = |&(i, j): &(usize, usize)| (covariance[(i, j)] / (sigma[i] * sigma[j])).abs();
+            let pairs = (0..6).flat_map(|i| (0..i).map(move |j| (i, j)));
+            let (i, j) = pairs.max_by(|a, b| related(a).total_cmp(&related(b))).unwrap_or((1, 0));
+            let correlation = covariance[(i, j)] / (sigma[i] * sigma[j]);
+            (
+                FindingKind::NoiseLevel,
+                format!("{:.2} to {:.2} times the stated noise, correlation up to {correlation:.2}", sigma[least], sigma[most]),
+                format!(
+                    "the six numbers of a reading are not equally good, or err together: {} scatters by {:.2} times the stated noise, \
+                     {} by {:.2}; errors of {} and {} have a correlation of {correlation:.2}",
+                    AXES[least], sigma[least], AXES[most], sigma[most], AXES[j], AXES[i]
+                ),
+                "state the noise of every coordinate in sigma columns where they differ",
+            )
+        }
         Kind::Common(Structure::Independent) => (FindingKind::NoiseLevel, level, String::new(), ""),
     };
     Finding { kind, probability: probability(gain), rows: Vec::new(), size, text, next: next.to_owned() }

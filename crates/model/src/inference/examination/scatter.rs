@@ -74,6 +74,7 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
         );
     }
     all.push(judge.drift());
+    all.extend(judge.axes());
     all.push(judge.tails());
     all.push(judge.law(rest));
     all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
@@ -223,6 +224,18 @@ impl Judge {
             }
         }
         (half_log_det, square)
+    }
+
+    /// The coordinates of a reading have a covariance of their own; where nothing repeats, a law of the machine could look like it.
+    fn axes(&self) -> Option<Statement> {
+        let covariance =
+            self.rows.iter().map(|r| r * r.transpose()).sum::<Matrix6<f64>>() / self.rows.len() as f64;
+        let factor = covariance.cholesky().filter(|_| self.has_repeats)?;
+        let log_det: f64 = 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
+        let level = (log_det / 12.0).exp();
+        let fit = -0.5 * self.rows.len() as f64 * log_det - 0.5 * self.numbers();
+        let evidence = fit + self.surprise(level) - self.penalty(21.0);
+        Some(Statement { kind: Kind::Common(Structure::Axes { covariance }), level: 1.0, evidence })
     }
 
     /// Student's t; its level is that of the Gaussian in the middle of it.

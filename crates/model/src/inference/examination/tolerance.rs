@@ -10,6 +10,7 @@ use super::remainder::Remainder;
 use crate::estimation::linearization::beside;
 use crate::estimation::tolerances::InputKind;
 use crate::inference::candidates::{orthonormal, project, target};
+use crate::inference::evidence::log_sum;
 
 /// Multiples of the stated tolerance that are tried.
 const FACTORS: [f64; 5] = [1.0, 2.0, 4.0, 10.0, 25.0];
@@ -46,14 +47,22 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
         scales.rows_range_mut(kind.columns()).fill(factor);
         scales
     };
-    let chance = ((DOUBTED.len() * FACTORS.len()) as f64).ln();
-    let tries = DOUBTED.iter().flat_map(|&kind| FACTORS.map(|factor| (kind, factor)));
-    let weighed = tries.filter_map(|(kind, factor)| {
+    let at = |kind: InputKind| {
         let (exact, _) = evidence(&normal, &right, &scaled(kind, 0.0))?;
-        let (inexact, errors) = evidence(&normal, &right, &scaled(kind, factor))?;
-        Some((kind, factor, inexact - exact - chance, errors))
-    });
-    let (kind, factor, evidence, errors) = weighed.max_by(|a, b| a.2.total_cmp(&b.2))?;
+        let tried: Vec<(f64, f64, DVector<f64>)> = FACTORS
+            .iter()
+            .filter_map(|&factor| {
+                let (inexact, errors) = evidence(&normal, &right, &scaled(kind, factor))?;
+                Some((inexact - exact, factor, errors))
+            })
+            .collect();
+        // Every width is as probable as any other, before the readings.
+        let mean = log_sum(tried.iter().map(|t| t.0)) - (tried.len() as f64).ln();
+        let (_, factor, errors) = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((kind, factor, mean - (DOUBTED.len() as f64).ln(), errors))
+    };
+    let (kind, factor, evidence, errors) =
+        DOUBTED.iter().filter_map(|&kind| at(kind)).max_by(|a, b| a.2.total_cmp(&b.2))?;
     let unit = kind.standard_deviation(&rest.campaign.hexapod.tolerances);
     let errors = errors.rows_range(kind.columns()).iter().map(|e| e * unit * factor).collect();
     Some(Tolerance { kind, size: unit * factor, evidence, errors })
