@@ -12,7 +12,8 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, ConditionReadings, row_sigma};
 use crate::estimation::fit::{Fit, Start, TermSpec, columns, refit};
-use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::estimation::linearization::{Linearization, ModelPoint, beside};
+use crate::estimation::lsq::solve;
 use crate::estimation::noise::{Noise, NoiseLevel};
 use crate::estimation::tolerances::within_tolerances_at;
 
@@ -170,6 +171,26 @@ pub fn held_out_test(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Resul
         ChiSquared::new(numbers).map_err(|_| unknown(()))?.cdf(chi2)
     };
     Ok(HeldOutTest { chi2, numbers, chance: 1.0 - below })
+}
+
+/// By how much held-out chi-square falls when more columns are fitted to a campaign beside a fit: below zero when they predict worse.
+///
+/// # Errors
+/// As [`prediction_errors`] and [`solve`].
+pub fn held_out_gain(
+    campaign: &Campaign,
+    holdout: &Dataset,
+    fit: &Fit,
+    more: impl Fn(&Linearization) -> DMatrix<f64>,
+) -> Result<f64, ModelError> {
+    let with = |lin: &Linearization| beside(&[columns(lin, &fit.point), more(lin)]);
+    let here = Linearization::at(campaign, &fit.point)?;
+    let increments = solve(&with(&here), &here.residuals())?.x;
+    let held = Campaign::held_out(&campaign.hexapod, holdout, campaign.noise, &fit.point.machine)?;
+    let there = Linearization::at(&held, &fit.point)?;
+    let before = there.residuals();
+    let after = &before - with(&there) * increments;
+    Ok(before.norm_squared() - after.norm_squared())
 }
 
 /// A square root of a covariance, `C = R R'`; its entries may differ by many orders.

@@ -101,14 +101,10 @@ pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
 }
 
 impl Judgement {
-    /// Held-out readings show nothing outside the catalogue: the answer is what else is sure.
+    /// Held-out readings show nothing outside the catalogue. Effects that were found beside it may have taken its place: they are open.
     pub(crate) fn withdraw_outside(&mut self) {
-        let doubtful = self.present.iter().any(|(id, p)| *p >= DOUBT && !self.sure.contains(id));
-        self.verdict = match (self.sure.is_empty(), doubtful) {
-            (true, false) => Verdict::Adequate,
-            (false, false) => Verdict::Named,
-            (_, true) => Verdict::Ambiguous,
-        };
+        let something = self.present.values().any(|p| *p >= DOUBT);
+        self.verdict = if something { Verdict::Ambiguous } else { Verdict::Adequate };
     }
 }
 

@@ -9,7 +9,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, average_over_shapes, fit};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::{
-    HeldOutTest, Residual, held_out_test, leave_poses_out, prediction_errors, residuals, summarise,
+    Residual, held_out_gain, held_out_test, leave_poses_out, prediction_errors, residuals, summarise,
 };
 use crate::inference::candidates::{Candidate, CandidateKind};
 use crate::inference::diagnosis::{RankedSets, wanted};
@@ -24,10 +24,6 @@ const REFUTED_CHANCE: f64 = 1e-5;
 const SURVIVAL_CHANCE: f64 = 1e-3;
 /// Held-out readings that are this probable under a model do not speak against it.
 const NOTICED_CHANCE: f64 = 0.05;
-/// Standard deviations of chi-square by which an error must raise it to be noticed nearly always.
-const SHOWS: f64 = 3.3;
-/// An error that adds less than this share to the variance of the noise does not matter: 1 % of the error.
-const SMALL_EXCESS: f64 = 0.02;
 /// Sets faced with the holdout file once the best one is refuted.
 const SETS_FACED: usize = 40;
 /// Candidates whose absorbed bias is worth a fit of their own.
@@ -80,10 +76,11 @@ impl Context<'_> {
     /// credible. Something outside the catalogue must show there too, where it would.
     pub(super) fn face_holdout(&self, judgement: &mut Judgement, last: &Fit) {
         let Some(holdout) = self.holdout.filter(|_| self.campaign.noise.allows_verdict()) else { return };
-        let test = |fit: &Fit| held_out_test(self.campaign, holdout, fit);
-        let survives = |fit: &Fit, chance: f64| test(fit).is_ok_and(|t| t.chance > chance);
+        let survives = |fit: &Fit, chance: f64| {
+            held_out_test(self.campaign, holdout, fit).is_ok_and(|t| t.chance > chance)
+        };
         if judgement.verdict == Verdict::Outside {
-            if test(last).is_ok_and(|t| self.shows_nothing(&t, last)) {
+            if self.shows_nothing(holdout, last) {
                 judgement.withdraw_outside();
             }
             return;
@@ -117,12 +114,26 @@ impl Context<'_> {
         last.lack_of_fit_dof > 0.0 && level.dof > 0.0 && self.outcome.candidates.iter().any(would_show)
     }
 
-    /// True when the held-out readings are as the fit expects them, though what it leaves in its own readings would show there, or is
-    /// too little to matter.
-    fn shows_nothing(&self, test: &HeldOutTest, last: &Fit) -> bool {
-        let excess = (last.lack_of_fit / last.lack_of_fit_dof.max(1.0) - 1.0).max(0.0);
-        let would_show = excess * test.numbers > SHOWS * (2.0 * test.numbers).sqrt();
-        test.chance > NOTICED_CHANCE && (would_show || excess < SMALL_EXCESS)
+    /// True when the held-out readings are as the fit expects them, and the pattern found makes them no better predicted.
+    fn shows_nothing(&self, holdout: &Dataset, last: &Fit) -> bool {
+        let test = held_out_test(self.campaign, holdout, last);
+        test.is_ok_and(|t| t.chance > NOTICED_CHANCE) && !self.pattern_predicts(holdout, last)
+    }
+
+    /// True when the most probable pattern makes held-out readings better predicted.
+    fn pattern_predicts(&self, holdout: &Dataset, last: &Fit) -> bool {
+        let pattern_of = |set: &Set| {
+            set.members.iter().find_map(|&m| match &self.outcome.candidates[m].kind {
+                CandidateKind::Pattern(pattern) => Some(*pattern),
+                CandidateKind::Term(_) => None,
+            })
+        };
+        let Some(pattern) = self.outcome.sets.sets.iter().find_map(pattern_of) else { return false };
+        let Ok(here) = Linearization::at(self.campaign, &last.point) else { return false };
+        let range = pattern.spread(&here.conditions);
+        let block =
+            |lin: &Linearization| lin.block_of(pattern.width(), |c, out| pattern.actions(c, range, out));
+        held_out_gain(self.campaign, holdout, last, block).is_ok_and(|gain| gain > 0.0)
     }
 
     /// Prediction errors, and the predictive density where poses are left out.
