@@ -18,6 +18,8 @@ const BALL_RADIUS: f64 = 0.12;
 /// Standard deviation of one coordinate of a ball, m.
 const BALL_SIGMA: f64 = 1e-6;
 
+/// How well the noise of a pose follows from that of the balls, which is known here, relative.
+const NOISE_TOLERANCE: f64 = 0.01;
 /// Load that the deflection is read under, N, downwards.
 pub fn effective_load() -> f64 {
     EFFECTIVE_KG * GRAVITY
@@ -44,7 +46,9 @@ pub enum Covariates {
 impl PaperMachine {
     /// The paper-like machine; noise is drawn from `seed`.
     pub fn new(seed: u64) -> Self {
-        Self { hexapod: RING_A.hexapod("paper-like"), balls: Balls::triangle(BALL_RADIUS, BALL_SIGMA), seed }
+        let mut hexapod = RING_A.hexapod("paper-like");
+        hexapod.tolerances.noise = NOISE_TOLERANCE;
+        Self { hexapod, balls: Balls::triangle(BALL_RADIUS, BALL_SIGMA), seed }
     }
 
     /// The world with the stiffnesses of Table 2 and further effects.

@@ -52,6 +52,23 @@ impl TryFrom<String> for NoiseSource {
     }
 }
 
+/// Covariance of the six coordinates of a reading: its lower triangle, row by row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxesCovariance([f64; 21]);
+
+impl AxesCovariance {
+    /// The symmetric matrix with this lower triangle.
+    pub fn new(covariance: &Matrix6) -> Self {
+        let mut entries = (0..6).flat_map(|i| (0..=i).map(move |j| (i, j)));
+        Self(std::array::from_fn(|_| entries.next().map_or(0.0, |at| covariance[at])))
+    }
+
+    /// The matrix.
+    pub fn matrix(&self) -> Matrix6 {
+        Matrix6::from_fn(|i, j| self.0[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)])
+    }
+}
+
 /// What errors of different readings have in common. Shares are of the variance of one reading.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Structure {
@@ -80,7 +97,7 @@ pub enum Structure {
     /// The six coordinates of a reading are not equally good, or err together.
     Axes {
         /// Their covariance, in units of the standard deviations that are stated.
-        covariance: Matrix6,
+        covariance: AxesCovariance,
     },
 }
 

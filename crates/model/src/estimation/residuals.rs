@@ -163,12 +163,12 @@ pub fn held_out_test(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Resul
     let explained = inner.cholesky().map_or(0.0, |factor| along.dot(&factor.solve(&along)));
     let (chi2, numbers) = ((d.norm_squared() - explained).max(0.0), d.len() as f64);
     let NoiseLevel { sum, dof } = campaign.noise_level();
-    let unknown = |_| ModelError::NotFinite { what: "the held-out data" };
+    let unknown = || ModelError::NotFinite { what: "the held-out data" };
     let below = if dof.is_finite() && dof > 0.0 {
-        let law = FisherSnedecor::new(numbers, dof).map_err(|_| unknown(()))?;
+        let law = FisherSnedecor::new(numbers, dof).map_err(|_| unknown())?;
         law.cdf(chi2 / numbers * dof / sum)
     } else {
-        ChiSquared::new(numbers).map_err(|_| unknown(()))?.cdf(chi2)
+        ChiSquared::new(numbers).map_err(|_| unknown())?.cdf(chi2)
     };
     Ok(HeldOutTest { chi2, numbers, chance: 1.0 - below })
 }

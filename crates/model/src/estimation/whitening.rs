@@ -150,7 +150,7 @@ impl Common {
         match noise.structure {
             Structure::Independent | Structure::Setup { .. } => Self::Nothing,
             Structure::Axes { covariance } => {
-                let inverse = covariance.cholesky().and_then(|factor| factor.l().try_inverse());
+                let inverse = covariance.matrix().cholesky().and_then(|factor| factor.l().try_inverse());
                 inverse.map_or(Self::Nothing, |w| Self::Axes(Box::new(w)))
             }
             Structure::Reference { .. } => Self::Shared {

@@ -3,7 +3,7 @@
 use crate::metrology::InstrumentFrames;
 use hexbench_core::Pose;
 
-/// InstrumentFrames with one of their twelve numbers changed (metrology first), m or rad.
+/// Frames with one of their twelve numbers changed (metrology first), m or rad.
 pub(super) fn shifted(frames: &InstrumentFrames, k: usize, step: f64) -> InstrumentFrames {
     let (mut metrology, mut target) = (frames.metrology.to_array(), frames.target.to_array());
     if k < 6 {

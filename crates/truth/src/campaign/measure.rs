@@ -14,7 +14,7 @@ use crate::{
 pub struct SimulatedCampaign {
     /// The machine.
     pub world: World,
-    /// InstrumentFrames of the instrument; they matter for absolute poses only.
+    /// Frames of the instrument; they matter for absolute poses only.
     pub frames: InstrumentFrames,
     /// Noise of the instrument.
     pub noise: InstrumentNoise,

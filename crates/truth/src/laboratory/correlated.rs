@@ -14,7 +14,7 @@ use crate::campaign::PlanRow;
 pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
     id: "correlated-0.8",
     title: "errors of the six coordinates correlate by 0.8",
-    findings: &[],
+    findings: &["noise-level"],
     fault: &Correlated { rho: 0.8 },
 }];
 

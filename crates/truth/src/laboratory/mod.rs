@@ -43,7 +43,7 @@ pub trait LaboratoryFault: Debug + Send + Sync {
     fn slip(&self, _data: &mut Dataset, _sigma: &Vector6, _rng: &mut Pcg64) {}
 }
 
-/// FaultEntry of the registry.
+/// Entry of the registry.
 #[derive(Debug, Clone, Copy)]
 pub struct FaultEntry {
     /// Its id: kebab-case, with its size.
@@ -103,7 +103,7 @@ pub fn registry() -> impl Iterator<Item = &'static FaultEntry> + Clone {
     FILES.iter().copied().flatten()
 }
 
-/// FaultEntry of an id; none of an unknown one.
+/// Entry of an id; none of an unknown one.
 pub fn entry(id: &str) -> Option<&'static FaultEntry> {
     registry().find(|e| e.id == id)
 }

@@ -2,7 +2,7 @@
 //!
 //! `x -> q round(x / q)`: an error of up to `q / 2`, with the standard deviation `q / sqrt(12)` where the noise is wider than `q`.
 //!
-//! Source: Widrow, Kollar 2008, Quantization InstrumentNoise.
+//! Source: Widrow, Kollar 2008, Quantization Noise.
 
 use hexbench_core::Dataset;
 use rand_pcg::Pcg64;

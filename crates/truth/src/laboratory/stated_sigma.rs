@@ -20,7 +20,7 @@ const fn entry(id: &'static str, title: &'static str, fault: &'static StatedSigm
     FaultEntry { id, title, findings: &["noise-level"], fault }
 }
 
-/// InstrumentNoise that is not as stated.
+/// Noise that is not as stated.
 #[derive(Debug)]
 struct StatedSigma {
     /// True over stated standard deviation.

@@ -13,7 +13,7 @@ use crate::campaign::PlanRow;
 pub(super) const FAULTS: [FaultEntry; 1] = [FaultEntry {
     id: "uneven-axis-2.5x",
     title: "z 2.5 times noisier than x and y, pooled sigma stated",
-    findings: &[],
+    findings: &["noise-level"],
     fault: &UnevenAxis { ratio: 2.5 },
 }];
 

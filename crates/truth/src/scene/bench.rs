@@ -59,7 +59,7 @@ impl<'a> VirtualBench<'a> {
         self.scene
     }
 
-    /// InstrumentFrames of the instrument.
+    /// Frames of the instrument.
     pub fn frames(&self) -> &InstrumentFrames {
         &self.frames
     }

@@ -98,7 +98,7 @@ impl Scene {
         }
     }
 
-    /// InstrumentFrames of the instrument: that of the measuring machine is never quite that of the hexapod; that of the target
+    /// Frames of the instrument: that of the measuring machine is never quite that of the hexapod; that of the target
     /// matters for absolute poses only.
     pub fn frames(&self) -> InstrumentFrames {
         let drawn = InstrumentFrames::aligned(&mut self.streams().of(ScenePurpose::InstrumentFrames, 0));

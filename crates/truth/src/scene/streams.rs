@@ -16,7 +16,7 @@ pub enum ScenePurpose {
     Surroundings(PartName),
     /// Noise of a row of a part.
     Noise(PartName),
-    /// InstrumentFrames of the instrument.
+    /// Frames of the instrument.
     InstrumentFrames,
 }
 

@@ -681,7 +681,7 @@ export type UntestableReport = {
 };
 
 /** What the data say. */
-export type Verdict = "adequate" | "named" | "ambiguous" | "outside" | "measurement";
+export type Verdict = "adequate" | "named" | "ambiguous" | "outside" | "measurement" | "undecided";
 
 /** Body of `POST /api/benches/{id}/export`. */
 export type Export = {

@@ -21,7 +21,7 @@ use self::scatter::{Kind, Statement, statements};
 use self::tolerance::{Tolerance, inexact_inputs};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::noise::{Noise, NoiseSource, SharedReference, Structure};
+use crate::estimation::noise::{AxesCovariance, Noise, NoiseSource, SharedReference, Structure};
 use crate::estimation::tolerances::{InputKind, within_tolerances};
 use crate::inference::diagnosis::RankedSets;
 
@@ -81,7 +81,7 @@ pub fn examine(
     // Many errors that are far off are tails; one or two are blunders.
     let tails = first.statements.first().filter(|s| matches!(s.kind, Kind::Tails(_)));
     if let Some(&tails) = tails.filter(|t| t.evidence - first.stated > cleaned.gain) {
-        return Ok(settled(whole, data, first, tails));
+        return Ok(settled(whole, data, first, &tails));
     }
     let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
@@ -91,7 +91,7 @@ pub fn examine(
         found.kind.set(&mut examined.tolerances, found.size);
         return Ok(examined);
     }
-    Ok(settled(cleaned.examined, data, &cleaned.last, best))
+    Ok(settled(cleaned.examined, data, &cleaned.last, &best))
 }
 
 /// Readings looked at.
@@ -160,7 +160,7 @@ fn without_faults(
 }
 
 /// What remains is judged by the best statement about it.
-fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: Statement) -> Examined {
+fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: &Statement) -> Examined {
     let gain = best.evidence - look.stated;
     if matches!(best.kind, Kind::Law) && gain > BELIEVED {
         // Physics without a name: what it does to a condition is no fault of its load or pose.
@@ -179,36 +179,29 @@ fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: Statement)
     if gain < BELIEVED || (is_level && from_data) {
         return examined;
     }
-    examined.findings.push(finding(&best, gain));
+    examined.findings.push(finding(best, gain));
     apply(&mut examined, &look.rows, best);
     examined
 }
 
 fn errors_of_inputs(found: &Tolerance) -> Finding {
-    let (size, text, next) = match found.kind {
-        InputKind::LoadGain => {
-            let (component, error) = LOADS
-                .iter()
-                .zip(&found.errors)
-                .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
-                .map_or(("", 0.0), |(name, error)| (*name, *error));
-            (
-                format!("{component} {:+.1} %", 100.0 * error),
-                format!(
-                    "loads that are larger or smaller than written explain the readings better than loads as written, and \
-                         better than any effect; {component} most, by {:+.1} %",
-                    100.0 * error
-                ),
-                "calibrate the load cell, weigh the masses, measure the lever arms",
-            )
-        }
-        _ => {
-            let size = format!("{:.2} mm", found.size * 1e3);
-            let text = format!(
-                "joints about {size} off the drawing explain the readings better than joints as drawn, and better than any effect"
-            );
-            (size, text, "measure where the joints are, or calibrate the machine")
-        }
+    let (size, text, next) = if found.kind == InputKind::LoadGain {
+        let largest = LOADS.iter().zip(&found.errors).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        let (component, error) = largest.map_or(("", 0.0), |(name, error)| (*name, 100.0 * error));
+        (
+            format!("{component} {error:+.1} %"),
+            format!(
+                "loads that are larger or smaller than written explain the readings better than loads as written, and better than \
+                 any effect; {component} most, by {error:+.1} %"
+            ),
+            "calibrate the load cell, weigh the masses, measure the lever arms",
+        )
+    } else {
+        let size = format!("{:.2} mm", found.size * 1e3);
+        let text = format!(
+            "joints about {size} off the drawing explain the readings better than joints as drawn, and better than any effect"
+        );
+        (size, text, "measure where the joints are, or calibrate the machine")
     };
     Finding {
         kind: FindingKind::Tolerance,
@@ -221,7 +214,7 @@ fn errors_of_inputs(found: &Tolerance) -> Finding {
 }
 
 /// Weighs the readings as the statement says.
-fn apply(examined: &mut Examined, remainder: &[Vector6], best: Statement) {
+fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
     let noise = &mut examined.noise;
     match best.kind {
         Kind::Tails(freedom) => {
@@ -252,14 +245,15 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: Statement) {
     }
     if let Structure::Axes { covariance } = &mut noise.structure {
         // Standard deviations as stated stay those of translations and rotations on the whole.
-        let whole = |k: usize| ((0..3).map(|i| covariance[(k + i, k + i)]).sum::<f64>() / 3.0).sqrt();
+        let read = covariance.matrix();
+        let whole = |k: usize| ((0..3).map(|i| read[(k + i, k + i)]).sum::<f64>() / 3.0).sqrt();
         let scale = Vector6::from_fn(|k, _| if k < 3 { whole(0) } else { whole(3) });
         noise.translation *= scale[0];
         noise.rotation *= scale[3];
         for row in &mut examined.data.observations {
             row.sigma = row.sigma.map(|sigma| std::array::from_fn(|k| sigma[k] * scale[k]));
         }
-        *covariance = Matrix6::from_fn(|i, j| covariance[(i, j)] / (scale[i] * scale[j]));
+        *covariance = AxesCovariance::new(&Matrix6::from_fn(|i, j| read[(i, j)] / (scale[i] * scale[j])));
     }
 }
 
@@ -306,6 +300,7 @@ fn finding(best: &Statement, gain: f64) -> Finding {
             "read the reference more often, and measure the conditions in random order",
         ),
         Kind::Common(Structure::Axes { covariance }) => {
+            let covariance = covariance.matrix();
             let sigma = covariance.diagonal().map(f64::sqrt);
             let (least, most) = (sigma.imin(), sigma.imax());
             let related = |&(i, j): &(usize, usize)| (covariance[(i, j)] / (sigma[i] * sigma[j])).abs();

@@ -12,7 +12,7 @@ use nalgebra::Matrix6;
 use statrs::function::gamma::ln_gamma;
 
 use super::remainder::Remainder;
-use crate::estimation::noise::{NoiseSource, SharedReference, Structure};
+use crate::estimation::noise::{AxesCovariance, NoiseSource, SharedReference, Structure};
 use crate::estimation::whitening::Filter;
 
 /// How well an instrument's noise is known, relative.
@@ -235,7 +235,11 @@ impl Judge {
         let level = (log_det / 12.0).exp();
         let fit = -0.5 * self.rows.len() as f64 * log_det - 0.5 * self.numbers();
         let evidence = fit + self.surprise(level) - self.penalty(21.0);
-        Some(Statement { kind: Kind::Common(Structure::Axes { covariance }), level: 1.0, evidence })
+        Some(Statement {
+            kind: Kind::Common(Structure::Axes { covariance: AxesCovariance::new(&covariance) }),
+            level: 1.0,
+            evidence,
+        })
     }
 
     /// Student's t; its level is that of the Gaussian in the middle of it.
