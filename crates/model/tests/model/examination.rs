@@ -163,3 +163,41 @@ fn noise_that_is_stated_too_small_is_told_and_the_machine_still_judged() {
         assert_eq!(d.added, sound.added, "{name}");
     }
 }
+
+#[test]
+fn a_load_cell_that_is_off_throughout_is_told_with_its_component_and_names_no_effect() {
+    let (hexapod, mut data) = clean();
+    for o in &mut data.observations {
+        o.wrench.force.x *= 1.06;
+        o.reference.force.x *= 1.06;
+    }
+    let d = told(&hexapod, &data);
+    assert_eq!((d.verdict, kinds(&d)), (Verdict::Measurement, vec![FindingKind::Tolerance]));
+    assert!(d.findings[0].size.starts_with("fx -"), "{}", d.findings[0].size);
+}
+
+#[test]
+fn coordinates_that_are_not_equally_good_are_a_matter_of_the_noise() {
+    let (hexapod, mut data) = clean();
+    // Independent errors, uniform within three standard deviations (Weyl's sequence, scrambled by Knuth's multiplier).
+    for (i, o) in (1_u32..).zip(&mut data.observations) {
+        let scrambled = i.wrapping_mul(2_654_435_761).rotate_left(16).wrapping_mul(2_246_822_519);
+        o.measured[2] += 1.5e-6 * (f64::from(scrambled) / f64::from(u32::MAX) * 2.0 - 1.0);
+    }
+    let d = told(&hexapod, &data);
+    assert_eq!((d.verdict, kinds(&d)), (Verdict::Measurement, vec![FindingKind::NoiseLevel]));
+    assert!(d.findings[0].text.contains("c by"), "{}", d.findings[0].text);
+}
+
+#[test]
+fn readings_that_cannot_judge_leave_the_verdict_undecided() {
+    let (hexapod, data) = clean();
+    let hexapod = Hexapod { metrology: None, ..hexapod };
+    // One reading of every condition and no stated noise: nothing tells noise from what the springs leave.
+    let mut seen = std::collections::HashSet::new();
+    let first =
+        data.observations.iter().filter(|o| seen.insert((o.pose_id, o.wrench.to_array().map(f64::to_bits))));
+    let data = Dataset { observations: first.copied().collect(), ..data.clone() };
+    let d = told(&hexapod, &data);
+    assert_eq!((d.verdict, d.added.len()), (Verdict::Undecided, 0));
+}

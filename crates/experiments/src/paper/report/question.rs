@@ -63,7 +63,7 @@ pub(super) fn hidden(study: &Reproduction) -> Section {
 .table(Table::named(header).rows((0..6).map(row)))
 .paragraph(format!(
         "\"springs alone\" is what noise would leave if the support were rigid. The chance of errors as large as this run's is then {}: \
-         with its noise stated, the paper's own validation would have rejected its model. Correction takes dc from {} to {} um. A \
+         with its noise stated, the paper's own validation would have spoken against its model. Correction takes dc from {} to {} um. A \
          weighted fit of the same nine readings hides most of the effect in the springs (chance {}).",
         chance(paper.chance),
         number(study.hidden.before[2], 1),
