@@ -90,7 +90,7 @@ impl InputKind {
 }
 
 /// Reading over the standard deviation of what is its own, per standard deviation of every input; six rows for each condition,
-/// [`InputKind::COLUMNS`] columns.
+/// [`InputKind::COLUMNS`] columns; nothing for absolute poses.
 ///
 /// # Errors
 /// As [`Linearization::at`].
@@ -99,16 +99,16 @@ pub fn input_columns(
     point: &ModelPoint,
     tolerances: &Tolerances,
 ) -> Result<DMatrix<f64>, ModelError> {
+    if campaign.is_absolute() {
+        // There joints are an effect of the catalogue, frames are estimated, and springs alone say little of what loads do.
+        return Ok(DMatrix::zeros(6 * campaign.groups.len(), InputKind::COLUMNS));
+    }
     let bare = campaign.clone().unwhitened();
     let start = Linearization::at(&bare, point)?;
     let here = start.residuals();
     let inputs: Vec<(InputKind, usize)> =
         InputKind::ALL.iter().flat_map(|&kind| (0..kind.count()).map(move |k| (kind, k))).collect();
     let column = |&(kind, k): &(InputKind, usize)| -> Result<DVector<f64>, ModelError> {
-        if campaign.is_absolute() && matches!(kind, InputKind::Joints | InputKind::Frame) {
-            // There joints are an effect of the catalogue, and frames are estimated.
-            return Ok(DVector::zeros(here.len()));
-        }
         if kind == InputKind::Frame {
             return Ok(turned_readings(&bare, &start, k) * tolerances.frame);
         }
