@@ -8,7 +8,7 @@
 //! An algorithm is a program that is called with a case folder and a folder for its answer. What it sees is a copy of the
 //! public files; what it says is compared with what was hidden, a diagnosis as in the other experiments.
 //!
-//! - [`Suite`]: which cases, a frozen protocol; [`make()`] writes the challenge, [`Challenge`] opens and checks it.
+//! - [`ChallengeSuite`]: which cases, a frozen protocol; [`make()`] writes the challenge, [`Challenge`] opens and checks it.
 //! - [`run`]: a program under limits of time, memory and output, case by case, resumable.
 //! - [`answer`]: what a program wrote, read strictly.
 //! - [`score`]: errors, coverage, proper scores, several programs beside each other.

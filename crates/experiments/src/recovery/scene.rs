@@ -118,7 +118,7 @@ impl RecoveryCampaign {
     /// The training part under loads scaled by a factor, as an ideal instrument reads it.
     ///
     /// # Errors
-    /// As [`Campaign::ideal`].
+    /// As [`SimulatedCampaign::ideal`].
     pub fn ideal_under(&self, factor: f64) -> Result<Dataset, TruthError> {
         let mut plan = rows(&self.case.measurements);
         for Situation { wrench, reference, .. } in plan.iter_mut().map(|row| &mut row.situation) {

@@ -87,7 +87,7 @@ impl Work {
     /// Reads the study and opens its folder, which is made.
     ///
     /// # Errors
-    /// As [`Study::read`], [`Runner::new`], [`Journal::open`].
+    /// As [`SweepStudy::read`], [`Runner::new`], [`Journal::open`].
     pub fn open(study: &Path, folder: &Path) -> Result<Self, StudyError> {
         let runner = Runner::new(SweepStudy::read(study)?)?;
         let journal = Journal::open(folder, runner.identity(), runner.shards())?;

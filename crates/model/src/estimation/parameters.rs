@@ -1,7 +1,7 @@
 //! The parameter vector: which numbers a model has, in which order, where each acts and what is known of it beforehand.
 //!
 //! Everything with one entry per number follows from it: the columns of the regressor, the covariance, the names in files
-//! and messages. The values themselves are where they act, in the [`Point`].
+//! and messages. The values themselves are where they act, in the `ModelPoint`.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -10,6 +10,9 @@ use crate::inference::search::{Set, Sets};
 pub const NAMED: f64 = 0.95;
 /// Probability of any further effect above which a named set is not the whole answer.
 const DOUBT: f64 = 0.5;
+/// Probability of something outside the catalogue beside sure effects, above which they are not the whole answer; before any readings
+/// it is 3 %.
+const SUSPICION: f64 = 0.1;
 /// Share of probability a credible set holds.
 const CREDIBLE: f64 = 0.95;
 
@@ -92,7 +95,7 @@ pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
         Verdict::Outside
     } else if none >= DOUBT {
         Verdict::Adequate
-    } else if sure.is_empty() || doubtful || outside > 1.0 - NAMED {
+    } else if sure.is_empty() || doubtful || outside > SUSPICION {
         Verdict::Ambiguous
     } else {
         Verdict::Named
@@ -101,6 +104,12 @@ pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
 }
 
 impl Judgement {
+    /// True when nothing but a suspicion of something outside the catalogue keeps sure effects from being named.
+    pub(crate) fn is_only_suspicious(&self) -> bool {
+        let doubtful = self.present.iter().any(|(id, p)| *p >= DOUBT && !self.sure.contains(id));
+        self.verdict == Verdict::Ambiguous && !self.sure.is_empty() && !doubtful && self.outside <= DOUBT
+    }
+
     /// Held-out readings show nothing outside the catalogue. Effects that were found beside it may have taken its place: they are open.
     pub(crate) fn withdraw_outside(&mut self) {
         let something = self.present.values().any(|p| *p >= DOUBT);

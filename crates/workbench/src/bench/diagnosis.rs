@@ -49,7 +49,7 @@ impl LoadedCampaign {
     /// Compares a guess with what is hidden.
     ///
     /// # Errors
-    /// [`Kind::Conflict`] for measurements whose truth nobody here knows.
+    /// [`RefusalKind::Conflict`] for measurements whose truth nobody here knows.
     pub fn reveal(&self, guess: &Guess) -> Result<Revealed, Refusal> {
         let unknown = || {
             Refusal::new(

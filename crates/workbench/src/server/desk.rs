@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::bench::{self, Given, LoadedCampaign, Refusal};
 use crate::wire::{Ask, Export, Guess, Open, Selection, ServerLimits};
 
-/// An engine. [`Bench`] is the one there is; tests bring others, slow ones and ones that fall over.
+/// An engine. [`LoadedCampaign`] is the one there is; tests bring others, slow ones and ones that fall over.
 ///
 /// # Errors
 /// Everything but the catalogue may be refused with a [`Refusal`].

@@ -86,6 +86,9 @@ impl Context<'_> {
             return;
         }
         if survives(last, REFUTED_CHANCE) {
+            if judgement.is_only_suspicious() && self.shows_nothing(holdout, last) {
+                judgement.verdict = Verdict::Named;
+            }
             return;
         }
         judgement.verdict = Verdict::Ambiguous;
