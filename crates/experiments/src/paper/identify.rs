@@ -6,7 +6,7 @@ use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
 use hexbench_model::estimation::paper::{block, fit_paper};
-use hexbench_model::estimation::residuals::held_out_test;
+use hexbench_model::estimation::residuals::held_out_chance;
 
 use super::bench::{PaperMachine, sigma};
 
@@ -90,7 +90,7 @@ impl Identified {
 
     /// Chance of errors as large as these if springs are all there is.
     pub(crate) fn chance(&self, data: &Dataset) -> Result<f64, ModelError> {
-        held_out_test(&self.campaign, data, &self.fit).map(|test| test.chance)
+        held_out_chance(&self.campaign, data, &self.fit)
     }
 }
 

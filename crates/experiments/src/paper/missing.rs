@@ -1,6 +1,6 @@
 //! The missing effect: what the paper's plan says of it, and what a richer one does.
 
-use hexbench_model::estimation::residuals::held_out_test;
+use hexbench_model::estimation::residuals::held_out_chance;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{DiagnosisStudy, diagnose};
 use hexbench_model::terms::catalogue;
@@ -75,7 +75,7 @@ fn finding(
             terms: report.terms.clone(),
             chi2_reduced: error.chi2_reduced,
             error: error.per_coordinate,
-            chance: held_out_test(&campaign, held_out, fit)?.chance,
+            chance: held_out_chance(&campaign, held_out, fit)?,
         });
     }
     let best = diagnosis.candidates.iter().take(SHOWN);

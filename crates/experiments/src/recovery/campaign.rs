@@ -6,7 +6,7 @@ use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
 use hexbench_model::estimation::frames::ReadingAxes;
 use hexbench_model::estimation::noise::scatter;
-use hexbench_model::estimation::residuals::{held_out_test, prediction_errors, summarise};
+use hexbench_model::estimation::residuals::{held_out_chance, prediction_errors, summarise};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -119,7 +119,7 @@ fn chance_of_larger(chi2: f64, dof: f64) -> f64 {
 
 /// One-sided: predictions fail by being too far away.
 fn predicted(scene: &RecoveryCampaign, campaign: &Campaign, fit: &Fit) -> Result<Tally, ModelError> {
-    let chance = held_out_test(campaign, &scene.case.holdout, fit)?.chance;
+    let chance = held_out_chance(campaign, &scene.case.holdout, fit)?;
     Ok(Tally::interval(chance >= 0.05))
 }
 

@@ -3,7 +3,7 @@
 use hexbench_core::statistics::{mean, root_mean_square};
 use hexbench_model::estimation::estimate::estimates;
 use hexbench_model::estimation::fit::Fit;
-use hexbench_model::estimation::residuals::held_out_test;
+use hexbench_model::estimation::residuals::held_out_chance;
 use serde::{Deserialize, Serialize};
 
 use super::distance::{PulledDistance, of_effects, of_springs};
@@ -57,7 +57,7 @@ impl Fitted {
         let all = pulls(&scene, &fit);
         let geometry = combinations(&scene, &fit);
         let believed = |distance: Option<PulledDistance>| distance.filter(|_| !misfit);
-        let chance = held_out_test(&campaign, &scene.case.holdout, &fit)?.chance;
+        let chance = held_out_chance(&campaign, &scene.case.holdout, &fit)?;
         Ok(Self {
             stiffness_error: stiffness_error(&all),
             effect_error: effect_error(&all, geometry.as_ref()),

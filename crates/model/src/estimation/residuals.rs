@@ -130,19 +130,9 @@ pub fn prediction_errors(
     Ok(residuals(&campaign, &holdout.observations, &lin))
 }
 
-/// Held-out readings beside what a fit expects of them: noise with all that is known of it, inputs within their tolerances, and the
-/// uncertainty of every parameter, which all readings share.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HeldOutTest {
-    /// Squared distance in standard deviations, pure error left out.
-    pub chi2: f64,
-    /// Averaged numbers.
-    pub numbers: f64,
-    /// Chance of such a distance or a larger one if the model is right.
-    pub chance: f64,
-}
-
-/// Tests a fit to a campaign on other readings.
+/// Chance that held-out readings are as far from a fit to a campaign as they are, or farther, if the model is right: beside noise with
+/// all that is known of it, inputs within their tolerances, and the uncertainty of every parameter, which all readings share; pure
+/// error left out.
 ///
 /// ```text
 /// chi2 = d' (I + Z Z')^-1 d,   Z = J C^1/2,   chi2 / n over sum / dof follows F(n, dof)
@@ -152,7 +142,7 @@ pub struct HeldOutTest {
 ///
 /// # Errors
 /// As [`prediction_errors`].
-pub fn held_out_test(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Result<HeldOutTest, ModelError> {
+pub fn held_out_chance(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Result<f64, ModelError> {
     let held = Campaign::held_out(&campaign.hexapod, holdout, campaign.noise, &fit.point.machine)?;
     let held = if campaign.inexact.is_some() { within_tolerances_at(held, &fit.point) } else { held };
     let lin = Linearization::at(&held, &fit.point)?;
@@ -170,7 +160,7 @@ pub fn held_out_test(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Resul
     } else {
         ChiSquared::new(numbers).map_err(|_| unknown())?.cdf(chi2)
     };
-    Ok(HeldOutTest { chi2, numbers, chance: 1.0 - below })
+    Ok(1.0 - below)
 }
 
 /// By how much held-out chi-square falls when more columns are fitted to a campaign beside a fit: below zero when they predict worse.

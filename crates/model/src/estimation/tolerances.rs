@@ -123,6 +123,9 @@ pub fn input_columns(
 /// A campaign whose inputs are as good as the tolerances of its machine; as it is where springs cannot be fitted.
 #[must_use]
 pub fn within_tolerances(campaign: Campaign) -> Campaign {
+    if campaign.is_absolute() {
+        return campaign;
+    }
     match fit(&campaign, &[], None) {
         Ok(springs) => within_tolerances_at(campaign, &springs.point),
         Err(_) => campaign,

@@ -90,7 +90,7 @@ pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
     let mut first: Vec<(Explanation, f64)> = first.into_iter().collect();
     first.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     let sure: Vec<String> = present.iter().filter(|(_, p)| **p >= NAMED).map(|(id, _)| id.clone()).collect();
-    let doubtful = present.iter().any(|(id, p)| *p >= DOUBT && !sure.contains(id));
+    let doubtful = is_doubtful(&present, &sure);
     let verdict = if outside > DOUBT {
         Verdict::Outside
     } else if none >= DOUBT {
@@ -106,7 +106,7 @@ pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
 impl Judgement {
     /// True when nothing but a suspicion of something outside the catalogue keeps sure effects from being named.
     pub(crate) fn is_only_suspicious(&self) -> bool {
-        let doubtful = self.present.iter().any(|(id, p)| *p >= DOUBT && !self.sure.contains(id));
+        let doubtful = is_doubtful(&self.present, &self.sure);
         self.verdict == Verdict::Ambiguous && !self.sure.is_empty() && !doubtful && self.outside <= DOUBT
     }
 
@@ -115,6 +115,11 @@ impl Judgement {
         let something = self.present.values().any(|p| *p >= DOUBT);
         self.verdict = if something { Verdict::Ambiguous } else { Verdict::Adequate };
     }
+}
+
+/// True when an effect that is not sure is more probable than not.
+fn is_doubtful(present: &BTreeMap<String, f64>, sure: &[String]) -> bool {
+    present.iter().any(|(id, p)| *p >= DOUBT && !sure.contains(id))
 }
 
 /// The member of a set that explains most when it stands alone.

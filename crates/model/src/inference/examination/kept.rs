@@ -6,7 +6,6 @@ use super::Examined;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::noise::Noise;
-use crate::estimation::tolerances::within_tolerances;
 
 impl Examined {
     /// The examined readings with the rows of `data` that were left out put back, and their campaign. `noise`: before the
@@ -29,8 +28,7 @@ impl Examined {
                 None => row.sigma.map(|sigma| sigma.map(|s| s * scale)),
             };
         }
-        let hexapod = Hexapod { tolerances: self.tolerances, ..hexapod.clone() };
-        let campaign = within_tolerances(Campaign::with_noise(&hexapod, &all, self.noise)?);
+        let campaign = self.campaign_of(hexapod, &all)?;
         Ok((all, campaign))
     }
 }

@@ -55,8 +55,13 @@ impl Examined {
     /// # Errors
     /// As [`Campaign::with_noise`].
     pub fn campaign(&self, hexapod: &Hexapod) -> Result<Campaign, ModelError> {
+        self.campaign_of(hexapod, &self.data)
+    }
+
+    /// A campaign of readings with the noise and the tolerances found.
+    fn campaign_of(&self, hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError> {
         let hexapod = Hexapod { tolerances: self.tolerances, ..hexapod.clone() };
-        Ok(within_tolerances(Campaign::with_noise(&hexapod, &self.data, self.noise)?))
+        Ok(within_tolerances(Campaign::with_noise(&hexapod, data, self.noise)?))
     }
 }
 

@@ -102,13 +102,14 @@ fn take_out(basis: &DMatrix<f64>, inputs: &DMatrix<f64>, means: &mut DVector<f64
     factor.solve(&normal).trace()
 }
 
+/// Columns of springs, frames and the terms found.
+pub(super) fn explained(lin: &Linearization, point: &ModelPoint) -> Vec<DMatrix<f64>> {
+    let terms = point.active.iter().map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape));
+    std::iter::once(lin.common_block()).chain(terms).collect()
+}
+
 fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
-    let found = || {
-        let mut columns = vec![lin.common_block()];
-        columns.extend(point.active.iter().map(|a| lin.term_block(a.term.as_ref(), a.rich, a.shape)));
-        columns
-    };
-    let mut columns = found();
+    let mut columns = explained(lin, point);
     for candidate in &outcome.candidates {
         let CandidateKind::Term(term) = &candidate.kind else { continue };
         let forms: Vec<(bool, f64)> = candidate
@@ -122,5 +123,5 @@ fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> 
     }
     let basis = orthonormal(&beside(&columns));
     let most = LARGEST_SHARE * lin.equations() as f64;
-    if basis.ncols() as f64 <= most { basis } else { orthonormal(&beside(&found())) }
+    if basis.ncols() as f64 <= most { basis } else { orthonormal(&beside(&explained(lin, point))) }
 }

@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::remainder::Remainder;
+use super::remainder::{Remainder, explained};
 use crate::estimation::linearization::beside;
 use crate::estimation::tolerances::InputKind;
 use crate::inference::candidates::{orthonormal, project, target};
@@ -34,9 +34,7 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     if rest.campaign.is_absolute() {
         return None;
     }
-    let mut common = vec![rest.lin.common_block()];
-    common.extend(rest.point.active.iter().map(|a| rest.lin.term_block(a.term.as_ref(), a.rich, a.shape)));
-    let basis = orthonormal(&beside(&common));
+    let basis = orthonormal(&beside(&explained(&rest.lin, rest.point)));
     let mut y = target(&rest.lin, rest.point);
     project(&basis, &mut y);
     let overlap = basis.tr_mul(&rest.inputs);

@@ -9,7 +9,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, average_over_shapes, fit};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::{
-    Residual, held_out_gain, held_out_test, leave_poses_out, prediction_errors, residuals, summarise,
+    Residual, held_out_chance, held_out_gain, leave_poses_out, prediction_errors, residuals, summarise,
 };
 use crate::inference::candidates::{Candidate, CandidateKind};
 use crate::inference::diagnosis::{RankedSets, wanted};
@@ -76,9 +76,8 @@ impl Context<'_> {
     /// credible. Something outside the catalogue must show there too, where it would.
     pub(super) fn face_holdout(&self, judgement: &mut Judgement, last: &Fit) {
         let Some(holdout) = self.holdout.filter(|_| self.campaign.noise.allows_verdict()) else { return };
-        let survives = |fit: &Fit, chance: f64| {
-            held_out_test(self.campaign, holdout, fit).is_ok_and(|t| t.chance > chance)
-        };
+        let survives =
+            |fit: &Fit, chance: f64| held_out_chance(self.campaign, holdout, fit).is_ok_and(|p| p > chance);
         if judgement.verdict == Verdict::Outside {
             if self.shows_nothing(holdout, last) {
                 judgement.withdraw_outside();
@@ -119,8 +118,8 @@ impl Context<'_> {
 
     /// True when the held-out readings are as the fit expects them, and the pattern found makes them no better predicted.
     fn shows_nothing(&self, holdout: &Dataset, last: &Fit) -> bool {
-        let test = held_out_test(self.campaign, holdout, last);
-        test.is_ok_and(|t| t.chance > NOTICED_CHANCE) && !self.pattern_predicts(holdout, last)
+        let chance = held_out_chance(self.campaign, holdout, last);
+        chance.is_ok_and(|p| p > NOTICED_CHANCE) && !self.pattern_predicts(holdout, last)
     }
 
     /// True when the most probable pattern makes held-out readings better predicted.
