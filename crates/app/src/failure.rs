@@ -377,6 +377,7 @@ fn exit_of(cause: &ModelError) -> Exit {
         ModelError::NotFinite { .. }
         | ModelError::Mismatch(_)
         | ModelError::Astray { .. }
+        | ModelError::Misread { .. }
         | ModelError::NoReading { .. } => Exit::BadInput,
         _ => Exit::NotDetermined,
     }

@@ -36,6 +36,7 @@ pub(crate) enum Command {
     Demo(commands::demo::Arguments),
     Simulate(commands::simulate::Arguments),
     Poses(commands::poses::Arguments),
+    Check(commands::check::Arguments),
     Compare(commands::compare::Arguments),
     Diagnose(commands::diagnose::Arguments),
     Runs(commands::runs::Arguments),

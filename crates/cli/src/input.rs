@@ -5,6 +5,9 @@ use std::path::Path;
 pub(crate) use hexbench_app::input::{catalogue_with, model, user_terms};
 use hexbench_core::files::{TableReading, read_conditions, read_hexapod, read_measurements, read_plan};
 use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::inference::misread::Change;
+use hexbench_model::results::diagnose::misread_findings;
+use hexbench_model::terms::catalogue;
 
 use crate::failure::Failure;
 use crate::output::report;
@@ -27,6 +30,17 @@ pub(crate) fn conditions(path: &Path) -> Result<Dataset, Failure> {
 /// Poses and loads to be measured.
 pub(crate) fn plan(path: &Path) -> Result<Dataset, Failure> {
     Ok(told(path, read_plan(path)?))
+}
+
+/// Says on standard error how files are read otherwise than they say, and what they seem to mean instead.
+pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &[Change]) {
+    if !read_as.is_empty() {
+        let all: Vec<String> = read_as.iter().map(ToString::to_string).collect();
+        report::note(&format!("the files are read otherwise than they say, as asked: {}", all.join(", then ")));
+    }
+    for finding in misread_findings(hexapod, data, &catalogue()).into_iter().flatten().take(1) {
+        report::warn(&finding.text, &finding.next);
+    }
 }
 
 fn told(path: &Path, reading: TableReading) -> Dataset {

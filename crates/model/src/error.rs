@@ -82,6 +82,16 @@ pub enum ModelError {
         /// How far they are.
         left: Departure,
     },
+    /// Nothing can be computed from the files as they are written; read otherwise they are sound.
+    #[error("{cause}; {meaning}")]
+    Misread {
+        /// What is impossible as they are written.
+        cause: Box<ModelError>,
+        /// What they seem to mean.
+        meaning: String,
+        /// What to do.
+        next: String,
+    },
     /// Lines to be left out hold no reading.
     #[error("{lines} of the measurements {} no reading", if lines.is_one() { "has" } else { "have" })]
     NoReading {
@@ -122,6 +132,7 @@ impl ModelError {
                  that each row has the pose that was commanded; readings held out are read in the same frames.",
                 if file.is_empty() { data } else { file }
             ),
+            Self::Misread { next, .. } => format!("{}.", sentence(next)),
             Self::NoReading { readings, .. } => {
                 let where_to = readings
                     .map_or(String::new(), |(a, b)| format!("; its readings stand in lines {a} to {b}"));
@@ -130,6 +141,12 @@ impl ModelError {
             Self::Mismatch(_) => "Give a holdout file of the same kind as the data.".into(),
         }
     }
+}
+
+/// The same with a capital letter.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|c| c.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 fn place(file: &str) -> String {

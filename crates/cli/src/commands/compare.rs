@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use hexbench_model::inference::misread::{AsMeant, Change};
 use hexbench_model::results::compare::compare;
 use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::{readings, subject};
@@ -25,6 +26,9 @@ pub(crate) struct Arguments {
     /// Also compare with these readings, which no fit has seen
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
+    /// Read the files as meaning something else than they say: KIND=VALUE as `hexbench check` names it; may be given several times
+    #[arg(long, value_name = "KIND=VALUE")]
+    read_as: Vec<Change>,
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -50,25 +54,28 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let data = input::measurements(&arguments.data)?;
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
+    let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as);
+    let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
+    input::warn_of_misread(hexapod, data, &arguments.read_as);
     let model = arguments.model.as_deref().map(input::model).transpose()?;
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
-    let compared = compare(&hexapod, &data, model.as_ref(), holdout.as_ref()).map_err(failed)?;
+    let compared = compare(hexapod, data, model.as_ref(), holdout).map_err(failed)?;
     let result = &compared.comparison;
     if let Some(path) = &arguments.json {
         let run =
-            origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
+            origin((hexapod, &arguments.hexapod), (data, &arguments.data), arguments.holdout.as_deref())?;
         write_json(screen, path, &WithOrigin { result, run })?;
     }
     if let Some(file) = &arguments.table {
-        let frame = readings(&hexapod, &data, holdout.as_ref(), &compared).map_err(failed)?;
+        let frame = readings(hexapod, data, holdout, &compared).map_err(failed)?;
         file.write(frame, arguments.files())?;
     }
     arguments.page.write(screen, || {
         let provenance = provenance(arguments.files())?;
-        Ok(charts::comparison(&hexapod, &data, holdout.as_ref(), &compared, &provenance)?)
+        Ok(charts::comparison(hexapod, data, holdout, &compared, &provenance)?)
     })?;
     if arguments.json.as_deref() != Some(Path::new("-")) && !arguments.page.to_stdout() {
-        let about = subject::entries(&data, holdout.as_ref(), &compared.campaign.noise);
+        let about = subject::entries(data, holdout, &compared.campaign.noise);
         screen.show(&words::comparison(&hexapod.name, about, result))?;
     }
     let reached = result.holdout.unwrap_or(result.error).chi2_reduced;

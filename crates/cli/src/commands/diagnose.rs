@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use hexbench_core::{Dataset, Hexapod, LineRange};
 use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
+use hexbench_model::inference::misread::{AsMeant, Change};
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::runs::WithOrigin;
@@ -37,6 +38,10 @@ pub(crate) struct Arguments {
     /// Keep every reading in the fit: readings that seem wrong are still told, but not left out
     #[arg(long)]
     keep_all: bool,
+    /// Read the files as meaning something else than they say, machine, data and holdout alike: KIND=VALUE as a finding names it
+    /// (deflection-sign=reversed); may be given several times, applied in order
+    #[arg(long, value_name = "KIND=VALUE")]
+    read_as: Vec<Change>,
     /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -77,7 +82,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let data = input::measurements(&arguments.data)?;
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
     let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
-    let options = DiagnoseOptions { exclude: arguments.exclude.clone(), keep_all: arguments.keep_all };
+    let options = DiagnoseOptions {
+        exclude: arguments.exclude.clone(),
+        keep_all: arguments.keep_all,
+        read_as: arguments.read_as.clone(),
+    };
     let study = study(&hexapod, &data, holdout.as_ref(), &terms, &options)?;
     let to_stdout = arguments.json.as_deref() == Some(Path::new("-")) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
@@ -85,7 +94,13 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
         write_json(screen, path, &WithOrigin { result: &study.diagnosis, run })?;
     }
-    let subject = ReportSubject { hexapod: &hexapod, data: &data, holdout: holdout.as_ref(), study: &study };
+    let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as);
+    let subject = ReportSubject {
+        hexapod: &meant.hexapod,
+        data: &meant.data,
+        holdout: meant.holdout.as_deref(),
+        study: &study,
+    };
     arguments.page.write(screen, || {
         let read = [&arguments.hexapod, &arguments.data]
             .into_iter()

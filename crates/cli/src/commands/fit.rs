@@ -7,6 +7,7 @@ use hexbench_app::fit::{added, fitted, model};
 use hexbench_core::files::content_hash;
 use hexbench_model::application::model_file::Estimator;
 use hexbench_model::error::ModelError;
+use hexbench_model::inference::misread::{AsMeant, Change};
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare;
 use hexbench_report::words::fitted;
@@ -34,6 +35,9 @@ pub(crate) struct Arguments {
     /// A term file of your own (term/1); it is added to the model. May be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
+    /// Read the files as meaning something else than they say: KIND=VALUE as `hexbench check` names it; may be given several times
+    #[arg(long, value_name = "KIND=VALUE")]
+    read_as: Vec<Change>,
     /// Write the model to FILE (model.toml)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -53,11 +57,14 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let data = input::measurements(&arguments.data)?;
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
+    let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as);
+    let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
+    input::warn_of_misread(hexapod, data, &arguments.read_as);
     let estimator = if arguments.estimator == Method::Paper { Estimator::Paper } else { Estimator::Gls };
     let added = added(&arguments.add, input::user_terms(&arguments.terms)?, estimator)?;
     let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
-    let campaign = prepare(&hexapod, &data).map_err(failed)?;
-    let task = JudgedTask { hexapod: &hexapod, data: &data, campaign: &campaign, holdout: holdout.as_ref() };
+    let campaign = prepare(hexapod, data).map_err(failed)?;
+    let task = JudgedTask { hexapod, data, campaign: &campaign, holdout };
     let judged = fitted(&task, &added, estimator)?;
     screen.show(&fitted::page(&task, &judged, estimator))?;
     let Some(path) = &arguments.output else { return Ok(()) };

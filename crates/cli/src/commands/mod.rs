@@ -1,6 +1,7 @@
 //! One file per subcommand, each with its `Arguments` and `run`.
 
 pub(crate) mod challenge;
+pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod compensate;
 pub(crate) mod completions;
@@ -33,6 +34,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Demo(arguments) => demo::run(arguments, &screen),
         Command::Simulate(arguments) => simulate::run(arguments, &screen),
         Command::Poses(arguments) => poses::run(arguments, &screen),
+        Command::Check(arguments) => check::run(arguments, &screen),
         Command::Compare(arguments) => compare::run(arguments, &screen),
         Command::Fit(arguments) => fit::run(arguments, &screen),
         Command::Predict(arguments) => predict::run(arguments, &screen),

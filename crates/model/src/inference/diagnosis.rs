@@ -100,6 +100,39 @@ pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<RankedSet
     }
 }
 
+/// A campaign explained by its springs and nothing else, where a search for effects would be beside the point.
+///
+/// # Errors
+/// As [`fit`].
+pub fn springs_alone(campaign: &Campaign) -> Result<RankedSets, ModelError> {
+    let baseline = fit_baseline(campaign)?;
+    let lin = Linearization::at(campaign, &baseline.point)?;
+    let natural = baseline.natural(&lin);
+    let (gram, candidates) = Collector::new(&lin, natural).finish(campaign, &baseline.point);
+    let sets = TermSearch::new(&gram, &candidates, false).run(0);
+    let best = baseline.clone();
+    Ok(RankedSets { candidates, untestable: Vec::new(), sets, gram, baseline, best, natural, lin, rounds: 0 })
+}
+
+/// What a campaign could show beside its springs: every effect in its ideal form, and those the file cannot test.
+///
+/// # Errors
+/// As [`fit`].
+pub fn visible(
+    campaign: &Campaign,
+    terms: &[Arc<dyn Term>],
+) -> Result<(Gram, Vec<Candidate>, Vec<Untestable>), ModelError> {
+    let baseline = fit_baseline(campaign)?;
+    let lin = Linearization::at(campaign, &baseline.point)?;
+    let (testable, mut untestable) = split(terms, campaign, &lin);
+    let effort = Effort { rich: false, scan: false };
+    let (gram, candidates) =
+        collect(campaign, &baseline.point, &lin, &testable, baseline.natural(&lin), effort);
+    let (candidates, faint) = noticeable(candidates, &gram);
+    untestable.extend(faint);
+    Ok((gram, candidates, untestable))
+}
+
 /// What a round looks at beyond the ideal forms.
 #[derive(Clone, Copy)]
 struct Effort {

@@ -104,6 +104,20 @@ pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
 }
 
 impl Judgement {
+    /// What is wrong is in the data: no effect is weighed.
+    pub(crate) fn of_the_data() -> Self {
+        let rest = Explanation::SPECIAL.into_iter().filter(|e| *e != Explanation::Nothing).map(|e| (e, 0.0));
+        Self {
+            verdict: Verdict::Measurement,
+            first: std::iter::once((Explanation::Nothing, 1.0)).chain(rest).collect(),
+            present: BTreeMap::new(),
+            credible: vec![Explanation::Nothing],
+            sure: Vec::new(),
+            outside: 0.0,
+            refuted: false,
+        }
+    }
+
     /// True when nothing but a suspicion of something outside the catalogue keeps sure effects from being named.
     pub(crate) fn is_only_suspicious(&self) -> bool {
         let doubtful = is_doubtful(&self.present, &self.sure);

@@ -1,6 +1,7 @@
 //! What is reported: diagnosis, comparison, next readings, runs beside each other.
 
 pub mod answer;
+pub mod check;
 pub mod compare;
 pub mod diagnose;
 pub mod next;

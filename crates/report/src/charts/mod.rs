@@ -45,6 +45,11 @@ pub enum ReportError {
 /// [`ReportError`] when a chart cannot be made.
 pub fn diagnosis(subject: &ReportSubject<'_>, provenance: &Provenance) -> Result<Page, ReportError> {
     let data = Data::of_study(subject)?;
+    if subject.study.diagnosis.is_misread() {
+        let looked_at = [Some(predicted::section(&data)?), machine::section(&data)?];
+        let page = looked_at.into_iter().flatten().fold(words::diagnosis(subject), Page::with);
+        return Ok(page.with(provenance.section(subject.study.diagnosis.noise.source)));
+    }
     let sections = [
         Some(predicted::section(&data)?),
         machine::section(&data)?,

@@ -39,6 +39,11 @@ pub fn sentences(d: &Diagnosis) -> Vec<String> {
         Verdict::Named => vec![lacks(&d.added), error_statement(&d.steps)],
         Verdict::Ambiguous => ambiguous(d),
         Verdict::Outside => outside(d),
+        Verdict::Measurement if d.is_misread() => vec![
+            "The files do not seem to mean what they say, as stated above. Until they are corrected, or read otherwise by --read-as, \
+             nothing follows for the machine: no effect is weighed and no stiffness is given."
+                .to_owned(),
+        ],
         Verdict::Measurement if d.keep_all => vec![
             "What is wrong is in the data, as told above. Even with all readings kept the springs alone explain these measurements: \
              nothing of the machine is missing that they could show."

@@ -1,6 +1,6 @@
 //! Faults of the data, before anything is said of the machine.
 
-use hexbench_model::inference::examination::Finding;
+use hexbench_model::inference::examination::{Finding, FindingKind};
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{Alternative, Diagnosis};
 use hexbench_model::results::words::joined;
@@ -15,8 +15,9 @@ const MOST_LINES: usize = 6;
 pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     Section::new("The data")
         .id("findings")
+        .with((!d.read_as.is_empty()).then(|| Block::colored(Mood::Doubt, read_as(&d.read_as))))
         .list(d.findings.iter().map(sentence))
-        .with((!d.findings.is_empty()).then(|| Block::colored(Mood::Doubt, aside(d))))
+        .with((!d.findings.is_empty() && !d.is_misread()).then(|| Block::colored(Mood::Doubt, aside(d))))
         .with(d.alternative.as_ref().map(|other| Block::paragraph(changes(d, other))))
         .with((!d.excluded.is_empty()).then(|| Block::colored(Mood::Doubt, excluded(&d.excluded))))
         .unless_empty()
@@ -26,6 +27,9 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
 fn aside(d: &Diagnosis) -> String {
     let concerned: usize = d.findings.iter().filter(|f| f.excludes()).map(|f| f.rows.len()).sum();
     match (concerned, d.keep_all) {
+        (0, _) if d.findings.iter().all(|f| f.kind == FindingKind::Holdout) => {
+            "The measurements themselves are weighed as they are.".to_owned()
+        }
         (0, _) => {
             "The readings are weighed accordingly; what follows is said of the machine alone.".to_owned()
         }
@@ -36,6 +40,11 @@ fn aside(d: &Diagnosis) -> String {
             format!("These {n} readings are kept, as asked: they take part in everything that follows.")
         }
     }
+}
+
+/// `Read as asked: deflection-sign=reversed.`
+pub(super) fn read_as(changes: &[String]) -> String {
+    format!("The files are read otherwise than they say, as asked: {}.", changes.join(", then "))
 }
 
 /// `Left out before anything else, as asked: line 12.`
@@ -104,7 +113,7 @@ fn leg_change(d: &Diagnosis, other: &Alternative) -> String {
 }
 
 /// `Load, lines 12 and 13 (> 99 %): ... Do this.`
-fn sentence(finding: &Finding) -> String {
+pub(super) fn sentence(finding: &Finding) -> String {
     let lines = if finding.rows.is_empty() { String::new() } else { format!(", {}", lines(&finding.rows)) };
     let Finding { kind, probability, text, size, next, .. } = finding;
     let size = if text.contains(size.as_str()) { String::new() } else { format!(" ({size})") };

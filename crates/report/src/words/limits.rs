@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use hexbench_model::effects::untestable::Reason;
+use hexbench_model::effects::untestable::{Reason, Untestable};
 use hexbench_model::inference::power::Detectable;
 use hexbench_model::results::diagnose::Diagnosis;
 
@@ -14,8 +14,13 @@ const NO_BREAK: &str = "\u{a0}";
 
 /// Effects that the file cannot test, by reason.
 pub(super) fn untestable(d: &Diagnosis) -> Option<Section> {
+    not_tested(&d.untestable)
+}
+
+/// The same of any list of effects.
+pub(super) fn not_tested(untestable: &[Untestable]) -> Option<Section> {
     let mut reasons: BTreeMap<String, (&Reason, Vec<&str>)> = BTreeMap::new();
-    for u in &d.untestable {
+    for u in untestable {
         reasons.entry(u.why.to_string()).or_insert((&u.why, Vec::new())).1.push(u.term);
     }
     let reason = |(sentence, (why, terms)): (String, (&Reason, Vec<&str>))| {
@@ -31,9 +36,14 @@ pub(super) fn untestable(d: &Diagnosis) -> Option<Section> {
 
 /// The smallest size of each effect, then of each parameter.
 pub(super) fn section(d: &Diagnosis) -> Section {
-    let mut terms: Vec<&str> = d.detectable.iter().map(|row| row.term.as_str()).collect();
+    smallest(&d.detectable)
+}
+
+/// The same of any list of sizes.
+pub(super) fn smallest(detectable: &[Detectable]) -> Section {
+    let mut terms: Vec<&str> = detectable.iter().map(|row| row.term.as_str()).collect();
     terms.dedup();
-    let parts: Vec<String> = terms.iter().filter_map(|term| short_size(&d.detectable, term)).collect();
+    let parts: Vec<String> = terms.iter().filter_map(|term| short_size(detectable, term)).collect();
     let section = Section::new("Smallest effect these data would show")
         .id("limits")
         .remark("seen in 9 of 10 such campaigns, false alarm in 1 of 100")
@@ -42,7 +52,7 @@ pub(super) fn section(d: &Diagnosis) -> Section {
         } else {
             format!("{}.", parts.join("; "))
         });
-    if d.detectable.is_empty() { section } else { section.table(every_size(d)) }
+    if detectable.is_empty() { section } else { section.table(every_size(detectable)) }
 }
 
 /// `term size unit` kept on one line; the smallest size among the parameters in the unit of the first.
@@ -55,11 +65,11 @@ fn short_size(all: &[Detectable], term: &str) -> Option<String> {
 }
 
 /// Detail: every parameter.
-fn every_size(d: &Diagnosis) -> Table {
+fn every_size(detectable: &[Detectable]) -> Table {
     let row = |row: &Detectable| {
         let size = row.size_at_90_percent_power.map_or("none".to_owned(), |s| significant(s, 2));
         [format!("{}.{}", row.term, row.parameter), size, row.unit.clone()]
     };
     let columns = [PageColumn::words("parameter"), PageColumn::number("size"), PageColumn::words("unit")];
-    Table::new(columns).rows(d.detectable.iter().map(row)).brief(0)
+    Table::new(columns).rows(detectable.iter().map(row)).brief(0)
 }

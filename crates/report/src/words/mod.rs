@@ -2,6 +2,7 @@
 //!
 //! Computing and judging are `hexbench-model`'s, layout is [`crate::render`]'s, charts are [`crate::charts`]'s.
 
+mod check;
 pub mod comparison;
 pub mod conclusion;
 pub mod confidence;
@@ -24,6 +25,7 @@ mod spread;
 mod stiffness;
 pub mod subject;
 
+pub use check::check;
 pub use comparison::comparison;
 pub use demo::demo;
 pub(crate) use leg_space::by_load;
@@ -45,9 +47,11 @@ pub fn diagnosis(subject: &ReportSubject<'_>) -> Page {
     let d = &subject.study.diagnosis;
     let page =
         Page { subject: subject.entries(), ..Page::new(format!("Diagnosis of {}", subject.hexapod.name)) };
-    page.with(findings::section(d))
-        .with(conclusion::section(d))
-        .with(confidence::section(d))
+    let page = page.with(findings::section(d)).with(conclusion::section(d));
+    if d.is_misread() {
+        return page.with(notes::section(d)).with(notes::conventions());
+    }
+    page.with(confidence::section(d))
         .with(ladder::section(d))
         .with(size::section(d))
         .with(stiffness::section(subject.hexapod, d))

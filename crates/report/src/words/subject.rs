@@ -56,7 +56,8 @@ pub fn noise(noise: &Noise) -> String {
     format!("{t} um and {r} urad per reading, {}", origin(noise.source))
 }
 
-fn origin(source: NoiseSource) -> &'static str {
+/// Where a noise level comes from.
+pub fn origin(source: NoiseSource) -> &'static str {
     match source {
         NoiseSource::Metrology => "stated in [metrology]",
         NoiseSource::Columns => "stated in the sigma_* columns",

@@ -25,6 +25,44 @@ pub enum FindingKind {
     Drift,
     /// Joints are not where the drawing has them.
     Tolerance,
+    /// Deflections, or translations, with the other sign.
+    DeflectionSign,
+    /// Loads, or forces, with the other sign.
+    WrenchSign,
+    /// Loaded and reference state exchanged.
+    StatesExchanged,
+    /// Rotations with the other sign.
+    RotationSign,
+    /// Moments with the other sign.
+    MomentSign,
+    /// Numbers in another unit than stated.
+    Unit,
+    /// Numbers in other axes than stated.
+    Axes,
+    /// Joints of base and platform that do not belong to the same leg.
+    LegOrder,
+    /// Base joints given as platform joints, and the other way round.
+    JointsExchanged,
+    /// Moments, deflections, poses or joints that refer to another point.
+    Origin,
+    /// A joint that is not where the file has it.
+    Geometry,
+    /// Loads in the axes of the platform.
+    WrenchFrame,
+    /// Deflections in the axes of the platform.
+    DeflectionFrame,
+    /// Angles that turn in another order.
+    AngleConvention,
+    /// Differences of angles given as a rotation vector, or the other way round.
+    RotationConvention,
+    /// The load of the reference state is not in the file.
+    ReferenceMissing,
+    /// Columns whose rows do not belong together.
+    RowOrder,
+    /// Rows that are copies of others.
+    Copies,
+    /// A file of readings held out that does not serve as one.
+    Holdout,
 }
 
 impl FindingKind {
@@ -35,11 +73,43 @@ impl FindingKind {
 
     /// True for statements about the noise.
     pub fn is_of_noise(self) -> bool {
+        matches!(
+            self,
+            Self::NoiseLevel | Self::HeavyTails | Self::SharedReference | Self::SetupError | Self::Drift
+        )
+    }
+
+    /// True when the file as a whole does not say what its author meant: nothing follows for the machine until it does.
+    pub fn is_of_file(self) -> bool {
         match self {
-            Self::NoiseLevel | Self::HeavyTails | Self::SharedReference | Self::SetupError | Self::Drift => {
-                true
-            }
-            Self::Blunder | Self::Pose | Self::Load | Self::Tolerance => false,
+            Self::DeflectionSign
+            | Self::WrenchSign
+            | Self::StatesExchanged
+            | Self::RotationSign
+            | Self::MomentSign
+            | Self::Unit
+            | Self::Axes
+            | Self::LegOrder
+            | Self::JointsExchanged
+            | Self::Origin
+            | Self::Geometry
+            | Self::WrenchFrame
+            | Self::DeflectionFrame
+            | Self::AngleConvention
+            | Self::RotationConvention
+            | Self::ReferenceMissing
+            | Self::RowOrder => true,
+            Self::Blunder
+            | Self::Pose
+            | Self::Load
+            | Self::NoiseLevel
+            | Self::HeavyTails
+            | Self::SharedReference
+            | Self::SetupError
+            | Self::Drift
+            | Self::Tolerance
+            | Self::Copies
+            | Self::Holdout => false,
         }
     }
 
@@ -55,6 +125,59 @@ impl FindingKind {
             Self::SetupError => "Set-up error",
             Self::Drift => "Drift",
             Self::Tolerance => "Tolerance",
+            Self::DeflectionSign => "Sign of the deflections",
+            Self::WrenchSign => "Sign of the loads",
+            Self::StatesExchanged => "Loaded and reference state exchanged",
+            Self::RotationSign => "Sign of the rotations",
+            Self::MomentSign => "Sign of the moments",
+            Self::Unit => "Unit",
+            Self::Axes => "Axes",
+            Self::LegOrder => "Order of the legs",
+            Self::JointsExchanged => "Base and platform exchanged",
+            Self::Origin => "Point of reference",
+            Self::Geometry => "Position of a joint",
+            Self::WrenchFrame => "Frame of the loads",
+            Self::DeflectionFrame => "Frame of the deflections",
+            Self::AngleConvention => "Convention of the angles",
+            Self::RotationConvention => "Convention of the rotations",
+            Self::ReferenceMissing => "Reference load missing",
+            Self::RowOrder => "Order of the rows",
+            Self::Copies => "Copied rows",
+            Self::Holdout => "Held-out file",
+        }
+    }
+
+    /// The word of the files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Blunder => "blunder",
+            Self::Pose => "pose",
+            Self::Load => "load",
+            Self::NoiseLevel => "noise-level",
+            Self::HeavyTails => "heavy-tails",
+            Self::SharedReference => "shared-reference",
+            Self::SetupError => "setup-error",
+            Self::Drift => "drift",
+            Self::Tolerance => "tolerance",
+            Self::DeflectionSign => "deflection-sign",
+            Self::WrenchSign => "wrench-sign",
+            Self::StatesExchanged => "states-exchanged",
+            Self::RotationSign => "rotation-sign",
+            Self::MomentSign => "moment-sign",
+            Self::Unit => "unit",
+            Self::Axes => "axes",
+            Self::LegOrder => "leg-order",
+            Self::JointsExchanged => "joints-exchanged",
+            Self::Origin => "origin",
+            Self::Geometry => "geometry",
+            Self::WrenchFrame => "wrench-frame",
+            Self::DeflectionFrame => "deflection-frame",
+            Self::AngleConvention => "angle-convention",
+            Self::RotationConvention => "rotation-convention",
+            Self::ReferenceMissing => "reference-missing",
+            Self::RowOrder => "row-order",
+            Self::Copies => "copies",
+            Self::Holdout => "holdout",
         }
     }
 }
@@ -80,7 +203,10 @@ pub struct Finding {
 impl Finding {
     /// True when the readings of its rows took no part in the fit.
     pub fn excludes(&self) -> bool {
-        matches!(self.kind, FindingKind::Blunder | FindingKind::Pose | FindingKind::Load)
+        matches!(
+            self.kind,
+            FindingKind::Blunder | FindingKind::Pose | FindingKind::Load | FindingKind::Copies
+        )
     }
 }
 

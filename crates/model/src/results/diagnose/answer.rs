@@ -4,7 +4,7 @@ use super::averaged::averaged_springs;
 use super::context::Context;
 use super::report::StepReport;
 use crate::error::ModelError;
-use crate::estimation::estimate::{Estimates, estimates_with};
+use crate::estimation::estimate::{Estimates, estimates, estimates_with};
 use crate::estimation::fit::{Fit, TermSpec};
 use crate::inference::diagnosis::{RankedSets, wanted};
 use crate::inference::examination::Finding;
@@ -26,6 +26,9 @@ pub(super) struct Answer {
 
 impl Answer {
     pub(super) fn of(context: &Context<'_>, findings: &[Finding]) -> Result<Self, ModelError> {
+        if findings.iter().any(|f| f.kind.is_of_file()) {
+            return Self::of_misread(context);
+        }
         let outcome = context.outcome;
         let mut judgement = judge(&outcome.sets, &outcome.candidates);
         let best = outcome.sets.sets.first();
@@ -43,6 +46,16 @@ impl Answer {
         }
         let numbers = estimates_with(&averaged_springs(outcome, last), last);
         Ok(Self { added: named(&judgement, &order), judgement, order, fits, steps, numbers })
+    }
+
+    /// A file that does not mean what it says: nothing follows for the machine, and no number is given.
+    fn of_misread(context: &Context<'_>) -> Result<Self, ModelError> {
+        let (fits, steps) = context.steps(&[])?;
+        let known = estimates(&context.outcome.baseline);
+        let names = known.determined.into_iter().map(|e| e.name).chain(known.not_determined);
+        let numbers = Estimates { determined: Vec::new(), not_determined: names.collect() };
+        let judgement = Judgement::of_the_data();
+        Ok(Self { judgement, order: Vec::new(), fits, steps, added: Vec::new(), numbers })
     }
 }
 

@@ -14,6 +14,7 @@ use crate::estimation::residuals::{residuals, summarise};
 use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::{RankedSets, explain};
 use crate::inference::examination::{Examined, Finding, examine};
+use crate::inference::misread::copies;
 use crate::inference::verdict::{Verdict, judge};
 
 /// Rounds of explaining and examining.
@@ -43,7 +44,10 @@ impl BothWays {
         terms: &[Arc<dyn Term>],
         keep_all: bool,
     ) -> Result<Self, ModelError> {
-        let (cleaned, kept) = judged(hexapod, data, terms)?;
+        let (cleaned, kept) = match copies(data) {
+            Some(found) => without_copies(hexapod, data, terms, found)?,
+            None => judged(hexapod, data, terms)?,
+        };
         Ok(match kept {
             Some(kept) if keep_all => Self { answer: kept?, other: Some(Ok(cleaned)) },
             other => Self { answer: cleaned, other },
@@ -52,6 +56,23 @@ impl BothWays {
 }
 
 type Kept = Option<Result<Judged, ModelError>>;
+
+/// The same without rows that are copies of others, and with all rows.
+fn without_copies(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    terms: &[Arc<dyn Term>],
+    found: Finding,
+) -> Result<(Judged, Kept), ModelError> {
+    let observations = data.observations.iter().filter(|o| !found.rows.contains(&o.line)).copied().collect();
+    let first = Dataset { observations, ..data.clone() };
+    let mut answer = judged(hexapod, &first, terms)?.0;
+    let mut kept = judged(hexapod, data, terms).map(|both| both.0);
+    for judged in std::iter::once(&mut answer).chain(kept.as_mut().ok()) {
+        judged.findings.insert(0, found.clone());
+    }
+    Ok((answer, Some(kept)))
+}
 
 /// Explains a campaign and examines its readings in turn, until nothing more is found; and with the readings left out put back.
 fn judged(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Result<(Judged, Kept), ModelError> {

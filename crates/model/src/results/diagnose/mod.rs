@@ -4,7 +4,9 @@ mod alternative;
 mod answer;
 mod averaged;
 mod context;
+mod foreign;
 mod judged;
+mod misread;
 mod next;
 mod notes;
 mod options;
@@ -17,8 +19,12 @@ use hexbench_core::{Dataset, Hexapod};
 pub use self::alternative::Alternative;
 use self::answer::Answer;
 use self::context::Context;
+pub use self::foreign::held_out_finding;
 pub use self::judged::prepare;
+pub use self::misread::misread_findings;
+use self::foreign::foreign;
 use self::judged::{BothWays, Judged};
+use self::misread::misread;
 use self::notes::{outside, suspects, warnings};
 pub use self::options::DiagnoseOptions;
 pub use self::report::{
@@ -34,6 +40,7 @@ use crate::estimation::residuals::residuals;
 use crate::inference::candidates::Candidate;
 use crate::inference::diagnosis::RankedSets;
 use crate::inference::explanation::Explanation;
+use crate::inference::misread::{AsMeant, held_in};
 use crate::inference::power::detectable;
 use crate::inference::selection::{HeldOut, same_kind};
 use crate::inference::verdict::Judgement;
@@ -80,15 +87,29 @@ pub fn diagnose_with(
     terms: &[Arc<dyn Term>],
     options: &DiagnoseOptions,
 ) -> Result<DiagnosisStudy, ModelError> {
+    let meant = AsMeant::of(hexapod, data, holdout, &options.read_as);
+    let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     if let Some(held) = holdout {
         same_kind(data, held)?;
         same_frames(hexapod, data, held)?;
     }
     let (data, excluded) = options.applied(data)?;
-    let BothWays { answer: judged, other } = BothWays::of(hexapod, &data, terms, options.keep_all)?;
-    let Judged { data, campaign, outcome, findings } = judged;
-    let context = Context { hexapod, data: &data, holdout, campaign: &campaign, outcome: &outcome };
-    let answer = Answer::of(&context, &findings)?;
+    let held_in = holdout.and_then(|held| held_in(&data, held));
+    let holdout = holdout.filter(|_| held_in.is_none());
+    let BothWays { answer: judged, other } = match misread(hexapod, &data, terms)? {
+        Some(answer) => BothWays { answer, other: None },
+        None => BothWays::of(hexapod, &data, terms, options.keep_all)?,
+    };
+    let Judged { data, campaign, outcome, mut findings } = judged;
+    findings.extend(held_in);
+    let mut context = Context { hexapod, data: &data, holdout, campaign: &campaign, outcome: &outcome };
+    let mut answer = Answer::of(&context, &findings)?;
+    if let Some(finding) = holdout.and_then(|held| foreign(hexapod, held, &answer.steps)) {
+        findings.push(finding);
+        context.holdout = None;
+        answer = Answer::of(&context, &findings)?;
+    }
+    let holdout = context.holdout;
     let (alternative, unknown) = alternative::of(hexapod, holdout, other);
     let Answer { judgement, order, fits, steps, added, numbers } = answer;
     let last = fits.last().unwrap_or(&outcome.baseline);
@@ -130,6 +151,7 @@ pub fn diagnose_with(
         findings,
         excluded,
         keep_all: options.keep_all,
+        read_as: options.read_as.iter().map(ToString::to_string).collect(),
         alternative,
     };
     Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits })

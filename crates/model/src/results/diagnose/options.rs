@@ -5,14 +5,17 @@ use std::borrow::Cow;
 use hexbench_core::{Dataset, LineRange};
 
 use crate::error::ModelError;
+use crate::inference::misread::Change;
 
 /// How a diagnosis treats the readings.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct DiagnoseOptions {
     /// Lines of the file left out before anything else.
     pub exclude: Vec<LineRange>,
     /// Every other reading takes part in the fit; readings that seem wrong are told only.
     pub keep_all: bool,
+    /// What the file means otherwise than it says, applied to machine, data and holdout in this order.
+    pub read_as: Vec<Change>,
 }
 
 impl DiagnoseOptions {
@@ -27,6 +30,13 @@ impl DiagnoseOptions {
     #[must_use]
     pub fn with_keep_all(mut self, keep_all: bool) -> Self {
         self.keep_all = keep_all;
+        self
+    }
+
+    /// With the file read by these changes.
+    #[must_use]
+    pub fn with_read_as(mut self, changes: impl IntoIterator<Item = Change>) -> Self {
+        self.read_as.extend(changes);
         self
     }
 

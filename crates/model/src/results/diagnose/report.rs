@@ -71,11 +71,18 @@ pub struct Diagnosis {
     pub excluded: Vec<u64>,
     /// Readings that were found wrong took part in the fit because somebody asked for it.
     pub keep_all: bool,
+    /// What the file was read as meaning otherwise than it says because somebody asked for it, as `KIND=VALUE`.
+    pub read_as: Vec<String>,
     /// The answer the other way, where findings leave readings out or would do so.
     pub alternative: Option<Alternative>,
 }
 
 impl Diagnosis {
+    /// True when the files do not seem to mean what they say.
+    pub fn is_misread(&self) -> bool {
+        self.findings.iter().any(|f| f.kind.is_of_file())
+    }
+
     /// Stiffness of a leg, from 0, where the data determine it.
     pub fn stiffness(&self, leg: usize) -> Option<&Estimate> {
         let name = stiffness_name(leg);

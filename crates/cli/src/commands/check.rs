@@ -1,0 +1,49 @@
+//! `hexbench check HEXAPOD [DATA] [HOLDOUT]`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_model::error::ModelError;
+use hexbench_model::inference::misread::Change;
+use hexbench_model::results::check::check;
+use hexbench_model::terms::catalogue;
+use hexbench_report::words;
+
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{Screen, write_json};
+
+/// Are machine and files what they should be? What is understood of them, what looks wrong, what they could show
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The machine: hexapod.toml
+    hexapod: PathBuf,
+    /// Deflections or absolute poses: measurements.csv
+    data: Option<PathBuf>,
+    /// Readings that no fit is to see
+    holdout: Option<PathBuf>,
+    /// Read the files as meaning something else than they say: KIND=VALUE as a finding names it (deflection-sign=reversed); may be
+    /// given several times, applied in order
+    #[arg(long, value_name = "KIND=VALUE")]
+    read_as: Vec<Change>,
+    /// Write all of it to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+/// Check and report; exit code 1 when something has to be put right first.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let hexapod = input::hexapod(&arguments.hexapod)?;
+    let data = arguments.data.as_deref().map(input::measurements).transpose()?;
+    let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
+    let source = data.as_ref().map_or_else(|| arguments.hexapod.display().to_string(), |d| d.source.clone());
+    let failed = |cause: ModelError| Failure::Model { cause, data: source };
+    let found = check(&hexapod, data.as_ref(), holdout.as_ref(), &catalogue(), &arguments.read_as).map_err(failed)?;
+    if let Some(path) = &arguments.json {
+        write_json(screen, path, &found)?;
+    }
+    if arguments.json.as_deref() != Some(Path::new("-")) {
+        screen.show(&words::check(&hexapod.name, &found))?;
+    }
+    if found.ready { Ok(()) } else { Err(Failure::Check("the files do not seem to mean what they say".to_owned())) }
+}

@@ -1,0 +1,470 @@
+//! One thing that a file may mean otherwise than it says, and the file read that way.
+
+use hexbench_core::{Dataset, Hexapod, Measurand, Pose, Vector3, Wrench};
+use nalgebra::Rotation3;
+
+use super::row_order::RowOrder;
+use super::turn::{AngleOrder, SignedAxes, small_rotation};
+use crate::inference::examination::FindingKind;
+use crate::machine::kinematics::euler_rate_matrix;
+
+/// Another reading of a file. Lengths in m, angles in rad, loads in N and N m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Change {
+    /// Numbers with the other sign.
+    Reversed(Signed),
+    /// Loaded and reference state exchanged.
+    StatesExchanged,
+    /// A group of numbers times a factor.
+    Scaled(Group, f64),
+    /// Axes named otherwise.
+    Renamed(Target, SignedAxes),
+    /// Axes turned by a rotation vector.
+    Turned(Target, Vector3),
+    /// Platform joint of each leg, from zero.
+    LegOrder([u8; 6]),
+    /// Base and platform joints exchanged.
+    JointsExchanged,
+    /// Another point of origin, away from the one stated.
+    Origin(Origin, Vector3),
+    /// One coordinate of a joint is off by so much.
+    Joint(JointCoordinate, f64),
+    /// The wrench is written in the axes of the platform.
+    WrenchMobile,
+    /// The deflections are written in the axes of the platform.
+    DeflectionMobile,
+    /// Angles of the poses, and of the deflections too, turn in another order.
+    Angles(AngleOrder),
+    /// Angles of the poses alone turn in another order.
+    PoseAngles(AngleOrder),
+    /// Rotations of the deflections are a rotation vector, or differences of Euler angles, whichever the file does not say.
+    OtherRotations,
+    /// A constant load in the reference state that the file does not have.
+    Preload(Wrench),
+    /// The loaded columns hold the change of load already.
+    LoadIsChange,
+    /// Rows belong together in another order.
+    Rows(RowOrder),
+}
+
+/// Numbers that may have the other sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Signed {
+    /// All six numbers of a deflection.
+    Readings,
+    /// Its translations.
+    Translations,
+    /// Its rotations.
+    Rotations,
+    /// One of the six, from zero.
+    Reading(u8),
+    /// All six components of the loads, in both states.
+    Wrench,
+    /// Their forces.
+    Forces,
+    /// Their moments.
+    Moments,
+    /// One of the six, from zero.
+    Load(u8),
+}
+
+/// Numbers that share a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Group {
+    /// Translations of the readings.
+    Translations,
+    /// Rotations of the readings.
+    Rotations,
+    /// Both.
+    Readings,
+    /// Forces of both states.
+    Forces,
+    /// Moments of both states.
+    Moments,
+    /// Both.
+    Loads,
+    /// Positions of the poses.
+    PosePositions,
+    /// Angles of the poses.
+    PoseAngles,
+    /// Base joints.
+    BaseJoints,
+    /// Platform joints.
+    PlatformJoints,
+    /// Both.
+    Joints,
+    /// The stated noise.
+    Noise,
+}
+
+/// What may be written in other axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Target {
+    /// Deflections: translations and rotations as vectors.
+    Readings,
+    /// The columns of the deflections as they stand, whatever their axes were.
+    ReadingColumns,
+    /// Loads of both states: forces and moments as vectors.
+    Wrench,
+    /// The columns of the loads as they stand, whatever their axes were.
+    WrenchColumns,
+    /// Commanded poses.
+    Poses,
+    /// All joints.
+    Joints,
+    /// Base joints.
+    BaseJoints,
+    /// Platform joints.
+    PlatformJoints,
+}
+
+/// What may refer to another point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// Moments about a point of the fixed frame.
+    MomentsFixed,
+    /// Moments about a point of the platform, mobile frame.
+    MomentsMobile,
+    /// Deflections of a point of the platform, mobile frame.
+    ReadingsMobile,
+    /// Poses that start elsewhere: positions minus this.
+    Poses,
+    /// Platform joints from another origin: coordinates minus this.
+    PlatformJoints,
+}
+
+/// A coordinate of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct JointCoordinate {
+    /// True at the platform.
+    pub platform: bool,
+    /// Leg, from zero.
+    pub leg: u8,
+    /// x, y, z from zero.
+    pub axis: u8,
+}
+
+impl JointCoordinate {
+    /// All 36 of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        (0..36u8).map(|k| Self { platform: k >= 18, leg: k % 18 / 3, axis: k % 3 })
+    }
+
+    /// Its value, m.
+    pub fn of(self, hexapod: &Hexapod) -> f64 {
+        let joints = if self.platform { &hexapod.platform_joints } else { &hexapod.base_joints };
+        joints[usize::from(self.leg)][usize::from(self.axis)]
+    }
+
+    fn of_mut(self, hexapod: &mut Hexapod) -> &mut f64 {
+        let joints = if self.platform { &mut hexapod.platform_joints } else { &mut hexapod.base_joints };
+        &mut joints[usize::from(self.leg)][usize::from(self.axis)]
+    }
+}
+
+impl Change {
+    /// Kind of the mistake.
+    pub fn kind(&self) -> FindingKind {
+        match self {
+            Self::Reversed(Signed::Readings | Signed::Translations | Signed::Reading(0..=2)) => {
+                FindingKind::DeflectionSign
+            }
+            Self::Reversed(Signed::Rotations | Signed::Reading(_)) => FindingKind::RotationSign,
+            Self::Reversed(Signed::Wrench | Signed::Forces | Signed::Load(0..=2)) => FindingKind::WrenchSign,
+            Self::Reversed(Signed::Moments | Signed::Load(_)) => FindingKind::MomentSign,
+            Self::StatesExchanged => FindingKind::StatesExchanged,
+            Self::Scaled(..) => FindingKind::Unit,
+            Self::Renamed(..) | Self::Turned(..) => FindingKind::Axes,
+            Self::LegOrder(_) => FindingKind::LegOrder,
+            Self::JointsExchanged => FindingKind::JointsExchanged,
+            Self::Origin(..) => FindingKind::Origin,
+            Self::Joint(..) => FindingKind::Geometry,
+            Self::WrenchMobile => FindingKind::WrenchFrame,
+            Self::DeflectionMobile => FindingKind::DeflectionFrame,
+            Self::Angles(_) | Self::PoseAngles(_) => FindingKind::AngleConvention,
+            Self::OtherRotations => FindingKind::RotationConvention,
+            Self::Preload(_) | Self::LoadIsChange => FindingKind::ReferenceMissing,
+            Self::Rows(_) => FindingKind::RowOrder,
+        }
+    }
+
+    /// True when legs stand as they did: neither joints nor poses are concerned.
+    pub(super) fn keeps_legs(&self) -> bool {
+        match self {
+            Self::Reversed(_)
+            | Self::StatesExchanged
+            | Self::WrenchMobile
+            | Self::DeflectionMobile
+            | Self::OtherRotations
+            | Self::Preload(_)
+            | Self::LoadIsChange => true,
+            Self::Scaled(group, _) => {
+                !matches!(
+                    group,
+                    Group::PosePositions
+                        | Group::PoseAngles
+                        | Group::BaseJoints
+                        | Group::PlatformJoints
+                        | Group::Joints
+                )
+            }
+            Self::Renamed(target, _) | Self::Turned(target, _) => {
+                !matches!(target, Target::Poses | Target::Joints | Target::BaseJoints | Target::PlatformJoints)
+            }
+            Self::Origin(origin, _) => !matches!(origin, Origin::Poses | Origin::PlatformJoints),
+            Self::LegOrder(_)
+            | Self::JointsExchanged
+            | Self::Joint(..)
+            | Self::Angles(_)
+            | Self::PoseAngles(_)
+            | Self::Rows(_) => false,
+        }
+    }
+
+    /// Numbers of it that are fitted.
+    pub fn sizes(&self) -> usize {
+        match self {
+            Self::Turned(..) | Self::Origin(..) => 3,
+            Self::Preload(_) => 6,
+            Self::Joint(..) => 1,
+            _ => 0,
+        }
+    }
+
+    /// Reads machine and measurements that way.
+    pub fn apply(&self, hexapod: &mut Hexapod, data: &mut Dataset) {
+        self.apply_to_machine(hexapod);
+        if let Self::Rows(order) = self {
+            order.apply(data);
+            return;
+        }
+        if self.needs_rotation_vectors() {
+            to_rotation_vectors(data);
+        }
+        for row in &mut data.observations {
+            self.apply_to_row(row, data.measurand);
+        }
+        match self {
+            Self::OtherRotations if data.measurand == Measurand::DeflectionEuler => {
+                data.measurand = Measurand::DeflectionRotationVector;
+            }
+            Self::OtherRotations => data.measurand = Measurand::DeflectionEuler,
+            Self::Angles(_) if data.measurand == Measurand::DeflectionEuler => {
+                data.measurand = Measurand::DeflectionRotationVector;
+            }
+            Self::Preload(_) | Self::LoadIsChange => data.columns.reference = true,
+            _ => {}
+        }
+    }
+
+    /// Numbers of a rotation that are to be read in other axes are a vector there.
+    fn needs_rotation_vectors(&self) -> bool {
+        matches!(
+            self,
+            Self::Renamed(Target::Readings, _)
+                | Self::Turned(Target::Readings, _)
+                | Self::Origin(Origin::ReadingsMobile, _)
+        )
+    }
+
+    fn apply_to_machine(&self, hexapod: &mut Hexapod) {
+        let Hexapod { base_joints: base, platform_joints: platform, .. } = hexapod;
+        let mut all = |turn: &dyn Fn(&Vector3) -> Vector3, target: Target| {
+            if matches!(target, Target::Joints | Target::BaseJoints) {
+                base.iter_mut().for_each(|a| *a = turn(a));
+            }
+            if matches!(target, Target::Joints | Target::PlatformJoints) {
+                platform.iter_mut().for_each(|b| *b = turn(b));
+            }
+        };
+        match *self {
+            Self::Renamed(target, axes) => all(&|v| axes.renamed(v), target),
+            Self::Turned(target, by) => all(&|v| Rotation3::new(by) * v, target),
+            Self::Scaled(group, factor) => match group {
+                Group::BaseJoints => all(&|v| v * factor, Target::BaseJoints),
+                Group::PlatformJoints => all(&|v| v * factor, Target::PlatformJoints),
+                Group::Joints => all(&|v| v * factor, Target::Joints),
+                Group::Noise => {
+                    if let Some(metrology) = &mut hexapod.metrology {
+                        metrology.sigma_translation *= factor;
+                        metrology.sigma_rotation *= factor;
+                    }
+                }
+                _ => {}
+            },
+            Self::LegOrder(order) => *platform = order.map(|k| platform[usize::from(k)]),
+            Self::JointsExchanged => std::mem::swap(base, platform),
+            Self::Origin(Origin::PlatformJoints, from) => platform.iter_mut().for_each(|b| *b -= from),
+            Self::Joint(coordinate, off) => *coordinate.of_mut(hexapod) += off,
+            _ => {}
+        }
+    }
+
+    fn apply_to_row(&self, row: &mut hexbench_core::Observation, measurand: Measurand) {
+        let (mut shift, mut turn) = halves(&row.measured);
+        let rotation = row.pose.rotation();
+        match *self {
+            Self::Reversed(signed) => reverse(signed, row),
+            Self::StatesExchanged => std::mem::swap(&mut row.wrench, &mut row.reference),
+            Self::Scaled(group, factor) => scale(group, factor, row),
+            Self::Renamed(target, axes) => match target {
+                Target::Readings | Target::ReadingColumns => {
+                    let hand = if target == Target::Readings { axes.handedness() } else { 1.0 };
+                    row.measured = joined(&axes.renamed(&shift), &(axes.renamed(&turn) * hand));
+                    row.sigma = row.sigma.map(|s| renamed_sigma(axes, &s));
+                }
+                Target::Wrench | Target::WrenchColumns => {
+                    let hand = if target == Target::Wrench { axes.handedness() } else { 1.0 };
+                    for_both(row, |w| {
+                        w.force = axes.renamed(&w.force);
+                        w.moment = axes.renamed(&w.moment) * hand;
+                    });
+                }
+                Target::Poses => row.pose = axes.pose(&row.pose),
+                Target::Joints | Target::BaseJoints | Target::PlatformJoints => {}
+            },
+            Self::Turned(target, by) => {
+                let by = Rotation3::new(by);
+                match target {
+                    Target::Readings | Target::ReadingColumns => {
+                        row.measured = joined(&(by * shift), &(by * turn));
+                    }
+                    Target::Wrench | Target::WrenchColumns => for_both(row, |w| {
+                        w.force = by * w.force;
+                        w.moment = by * w.moment;
+                    }),
+                    Target::Poses => {
+                        let r = by.matrix() * row.pose.rotation() * by.matrix().transpose();
+                        row.pose = Pose::from_rotation(by * row.pose.translation, &r);
+                    }
+                    Target::Joints | Target::BaseJoints | Target::PlatformJoints => {}
+                }
+            }
+            Self::Origin(origin, at) => match origin {
+                Origin::MomentsFixed => {
+                    let arm = at - row.pose.translation;
+                    for_both(row, |w| w.moment += arm.cross(&w.force));
+                }
+                Origin::MomentsMobile => {
+                    let arm = rotation * at;
+                    for_both(row, |w| w.moment += arm.cross(&w.force));
+                }
+                Origin::ReadingsMobile => {
+                    shift -= turn.cross(&(rotation * at));
+                    row.measured = joined(&shift, &turn);
+                }
+                Origin::Poses => row.pose.translation -= at,
+                Origin::PlatformJoints => {}
+            },
+            Self::WrenchMobile => for_both(row, |w| {
+                w.force = rotation * w.force;
+                w.moment = rotation * w.moment;
+            }),
+            Self::DeflectionMobile => {
+                turn = rotation * turn;
+                if measurand == Measurand::DeflectionEuler {
+                    // The numbers are a small rotation in mobile axes; the file wants changes of angles.
+                    let rates = euler_rate_matrix(&row.pose.angles).try_inverse();
+                    turn = rates.map_or(turn, |m| m * turn);
+                }
+                row.measured = joined(&(rotation * shift), &turn);
+            }
+            Self::Angles(order) => {
+                if measurand == Measurand::DeflectionEuler {
+                    turn = order.turned_by(&row.pose.angles, &turn);
+                    row.measured = joined(&shift, &turn);
+                }
+                row.pose = Pose::from_rotation(row.pose.translation, &order.rotation(&row.pose.angles));
+            }
+            Self::PoseAngles(order) => {
+                row.pose = Pose::from_rotation(row.pose.translation, &order.rotation(&row.pose.angles));
+            }
+            Self::Preload(load) => row.reference = load,
+            Self::LoadIsChange => {
+                row.wrench.force += row.reference.force;
+                row.wrench.moment += row.reference.moment;
+            }
+            Self::LegOrder(_)
+            | Self::JointsExchanged
+            | Self::Joint(..)
+            | Self::OtherRotations
+            | Self::Rows(_) => {}
+        }
+    }
+}
+
+/// Rotations of deflections as rotation vectors, where they are differences of Euler angles.
+fn to_rotation_vectors(data: &mut Dataset) {
+    if data.measurand != Measurand::DeflectionEuler {
+        return;
+    }
+    data.measurand = Measurand::DeflectionRotationVector;
+    for row in &mut data.observations {
+        let (shift, turn) = halves(&row.measured);
+        let there = Pose { translation: row.pose.translation, angles: row.pose.angles + turn };
+        row.measured = joined(&shift, &small_rotation(&row.pose.rotation(), &there.rotation()));
+    }
+}
+
+fn reverse(signed: Signed, row: &mut hexbench_core::Observation) {
+    let readings = |row: &mut hexbench_core::Observation, range: std::ops::Range<usize>| {
+        row.measured[range].iter_mut().for_each(|x| *x = -*x);
+    };
+    let loads = |row: &mut hexbench_core::Observation, range: std::ops::Range<usize>| {
+        for_both(row, |w| {
+            let mut all = w.to_array();
+            all[range.clone()].iter_mut().for_each(|x| *x = -*x);
+            *w = Wrench::from_array(all);
+        });
+    };
+    match signed {
+        Signed::Readings => readings(row, 0..6),
+        Signed::Translations => readings(row, 0..3),
+        Signed::Rotations => readings(row, 3..6),
+        Signed::Reading(k) => readings(row, usize::from(k)..usize::from(k) + 1),
+        Signed::Wrench => loads(row, 0..6),
+        Signed::Forces => loads(row, 0..3),
+        Signed::Moments => loads(row, 3..6),
+        Signed::Load(k) => loads(row, usize::from(k)..usize::from(k) + 1),
+    }
+}
+
+fn scale(group: Group, factor: f64, row: &mut hexbench_core::Observation) {
+    if matches!(group, Group::Translations | Group::Readings) {
+        row.measured[..3].iter_mut().for_each(|x| *x *= factor);
+    }
+    if matches!(group, Group::Rotations | Group::Readings) {
+        row.measured[3..].iter_mut().for_each(|x| *x *= factor);
+    }
+    if matches!(group, Group::Forces | Group::Loads) {
+        for_both(row, |w| w.force *= factor);
+    }
+    if matches!(group, Group::Moments | Group::Loads) {
+        for_both(row, |w| w.moment *= factor);
+    }
+    match group {
+        Group::PosePositions => row.pose.translation *= factor,
+        Group::PoseAngles => row.pose.angles *= factor,
+        Group::Noise => row.sigma = row.sigma.map(|s| s.map(|x| x * factor)),
+        _ => {}
+    }
+}
+
+fn for_both(row: &mut hexbench_core::Observation, mut change: impl FnMut(&mut Wrench)) {
+    change(&mut row.wrench);
+    change(&mut row.reference);
+}
+
+/// Translation and rotation of a reading.
+fn halves(measured: &[f64; 6]) -> (Vector3, Vector3) {
+    (Vector3::from_column_slice(&measured[..3]), Vector3::from_column_slice(&measured[3..]))
+}
+
+fn joined(shift: &Vector3, turn: &Vector3) -> [f64; 6] {
+    [shift.x, shift.y, shift.z, turn.x, turn.y, turn.z]
+}
+
+fn renamed_sigma(axes: SignedAxes, sigma: &[f64; 6]) -> [f64; 6] {
+    let (shift, turn) = halves(sigma);
+    joined(&axes.renamed(&shift).abs(), &axes.renamed(&turn).abs())
+}

@@ -1,0 +1,151 @@
+//! The ways in which a file may mean something else than it says.
+
+use std::f64::consts::PI;
+
+use hexbench_core::{Dataset, Hexapod, Vector3};
+
+use super::change::{Change, Group, JointCoordinate, Origin, Signed, Target};
+use super::row_order::RowOrder;
+use super::turn::{AngleOrder, SignedAxes};
+
+/// Ratios of units that are taken for one another: powers of ten, degrees and radians, seconds of arc and microradians,
+/// kilograms, pounds, inches.
+const FACTORS: [f64; 14] = [
+    10.0,
+    100.0,
+    1e3,
+    1e6,
+    1e9,
+    180.0 / PI,
+    60.0,
+    3600.0,
+    PI / 0.648,
+    9.806_65,
+    4.448_222,
+    25.4,
+    17_453.292_52,
+    9_806.65,
+];
+/// Points closer to each other than this are one, m.
+const ONE_POINT: f64 = 1e-3;
+
+/// Everything that is tried at first.
+pub(super) fn singles(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
+    let mut all = cheap(data);
+    all.extend(machines(hexapod));
+    all.extend(leg_orders().into_iter().map(Change::LegOrder));
+    all.extend(origins(hexapod, data).into_iter().map(|(origin, at)| Change::Origin(origin, at)));
+    all
+}
+
+/// What is tried beside another mistake: signs, units, frames, axes, angles.
+pub(super) fn cheap(data: &Dataset) -> Vec<Change> {
+    let mut all = signs();
+    all.extend(units());
+    let targets =
+        [Target::Readings, Target::ReadingColumns, Target::Wrench, Target::Joints, Target::Poses];
+    let axes = SignedAxes::all();
+    all.extend(targets.iter().flat_map(|&t| axes.iter().map(move |&a| Change::Renamed(t, a))));
+    // Right-handed columns are vectors.
+    let left = axes.iter().filter(|a| a.handedness() < 0.0);
+    all.extend(left.map(|&a| Change::Renamed(Target::WrenchColumns, a)));
+    all.extend([Change::WrenchMobile, Change::DeflectionMobile, Change::OtherRotations]);
+    all.extend(AngleOrder::ALL.iter().flat_map(|&o| [Change::Angles(o), Change::PoseAngles(o)]));
+    if data.columns.reference {
+        all.extend([Change::StatesExchanged, Change::LoadIsChange]);
+    }
+    all
+}
+
+/// Rows in another order.
+pub(super) fn row_orders() -> impl Iterator<Item = Change> {
+    RowOrder::ALL.into_iter().map(Change::Rows)
+}
+
+fn signs() -> Vec<Change> {
+    let groups = [
+        Signed::Readings,
+        Signed::Wrench,
+        Signed::Rotations,
+        Signed::Moments,
+        Signed::Translations,
+        Signed::Forces,
+    ];
+    let single = (0..6).flat_map(|k| [Signed::Reading(k), Signed::Load(k)]);
+    groups.into_iter().chain(single).map(Change::Reversed).collect()
+}
+
+fn units() -> Vec<Change> {
+    let groups = [
+        Group::Translations,
+        Group::Rotations,
+        Group::Readings,
+        Group::Forces,
+        Group::Moments,
+        Group::PosePositions,
+        Group::PoseAngles,
+        Group::BaseJoints,
+        Group::PlatformJoints,
+        Group::Joints,
+        Group::Noise,
+    ];
+    let both = |group| FACTORS.into_iter().flat_map(move |f| [Change::Scaled(group, f), Change::Scaled(group, f.recip())]);
+    groups.into_iter().flat_map(both).collect()
+}
+
+/// Joints in other axes, exchanged, or with a sign lost.
+fn machines(hexapod: &Hexapod) -> Vec<Change> {
+    let mut all = vec![Change::JointsExchanged];
+    let upright: Vec<SignedAxes> = SignedAxes::all().into_iter().filter(|a| a.keeps_vertical()).collect();
+    for target in [Target::BaseJoints, Target::PlatformJoints] {
+        all.extend(upright.iter().map(|&axes| Change::Renamed(target, axes)));
+    }
+    let lost = |coordinate: JointCoordinate| {
+        let off = -2.0 * coordinate.of(hexapod);
+        (off.abs() > ONE_POINT).then_some(Change::Joint(coordinate, off))
+    };
+    all.extend(JointCoordinate::all().filter_map(lost));
+    all
+}
+
+/// All orders of six legs but the one of the file.
+fn leg_orders() -> Vec<[u8; 6]> {
+    fn grow(order: &mut Vec<u8>, all: &mut Vec<[u8; 6]>) {
+        if let Ok(full) = <[u8; 6]>::try_from(order.as_slice()) {
+            all.push(full);
+            return;
+        }
+        for leg in (0..6).filter(|l| !order.contains(l)).collect::<Vec<_>>() {
+            order.push(leg);
+            grow(order, all);
+            order.pop();
+        }
+    }
+    let mut all = Vec::with_capacity(720);
+    grow(&mut Vec::new(), &mut all);
+    all.retain(|order| *order != [0, 1, 2, 3, 4, 5]);
+    all
+}
+
+/// Points to which moments may refer, and heights that may be counted twice or not at all.
+fn origins(hexapod: &Hexapod, data: &Dataset) -> Vec<(Origin, Vector3)> {
+    let base = hexapod.base_centre();
+    let platform = hexapod.platform_joints.iter().sum::<Vector3>() / 6.0;
+    let rows = data.observations.len().max(1) as f64;
+    let position = data.observations.iter().map(|o| o.pose.translation).sum::<Vector3>() / rows;
+    let mut all = vec![(Origin::MomentsFixed, Vector3::zeros()), (Origin::MomentsFixed, base)];
+    let points = hexapod.payload_centre.into_iter().chain([platform, -platform]);
+    for point in points.filter(|p| p.norm() > ONE_POINT) {
+        all.extend([(Origin::MomentsMobile, point), (Origin::ReadingsMobile, point)]);
+    }
+    let mut heights = vec![platform.z - base.z, platform.z, base.z, position.z];
+    heights.retain(|h| h.abs() > ONE_POINT);
+    for height in heights.iter().flat_map(|h| [*h, -h]) {
+        let up = Vector3::new(0.0, 0.0, height);
+        all.extend([(Origin::Poses, up), (Origin::PlatformJoints, up)]);
+    }
+    if position.norm() > ONE_POINT {
+        all.push((Origin::Poses, position));
+    }
+    all
+}

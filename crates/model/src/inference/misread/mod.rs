@@ -1,0 +1,241 @@
+//! The file as its author may have meant it: other signs, units, axes, legs, frames, angles, rows.
+//!
+//! A file that does not say what its author meant is explained by no effect, and yet some set of effects explains it best. So
+//! before any physics, springs alone are fitted to the file as written. Where they explain it to within little more than the noise,
+//! nothing else is tried. Where they do not, every other reading of the file is tried the same way, one by one and then two at
+//! once; those that explain it far better are candidates, for the diagnosis to weigh against every effect of the catalogue.
+
+mod change;
+mod copies;
+mod hypotheses;
+mod name;
+mod refine;
+mod row_order;
+mod sample;
+mod text;
+mod turn;
+
+use std::borrow::Cow;
+
+use hexbench_core::{Dataset, Hexapod};
+use rayon::prelude::*;
+
+pub use self::change::{Change, Group, JointCoordinate, Origin, Signed, Target};
+pub use self::copies::{copies, held_in};
+pub use self::name::{ChangeError, KINDS};
+pub use self::row_order::RowOrder;
+use self::sample::{Sample, Springs};
+pub use self::text::{Answered, AsWritten, finding, meaning};
+pub use self::turn::{AngleOrder, SignedAxes};
+
+/// Springs that leave less than this many times the noise explain a file well enough: no mistake in it can matter much.
+const SOUND_LEVEL: f64 = 1.1;
+/// Repeats of a sound file scatter within this factor of the stated noise.
+const SOUND_SCATTER: f64 = 6.0;
+/// Another reading of the file leaves at most this share of what the file as written leaves.
+const WORTH_A_LOOK: f64 = 0.9;
+/// Twice the log-likelihood another reading of a file has to gain.
+const GAIN: f64 = 40.0;
+/// Readings of a file this close to one another, in twice the log-likelihood, explain it alike.
+const ALIKE: f64 = 8.0;
+/// What a number that is fitted costs, in twice the log-likelihood: the logarithm of some hundred readings.
+const SIZE: f64 = 6.0;
+/// Single mistakes beside which a second one is tried.
+const FIRST_OF_TWO: usize = 5;
+/// A second mistake is only believed when it leaves at most this share of what the first one leaves.
+const SECOND_SHARE: f64 = 0.4;
+/// Readings of a file looked at closely.
+const LOOKED_AT: usize = 48;
+/// Readings of a file handed on.
+const MOST_WAYS: usize = 8;
+
+/// Machine and measurements as they are meant.
+#[derive(Debug, Clone)]
+pub struct AsMeant<'a> {
+    /// The machine.
+    pub hexapod: Cow<'a, Hexapod>,
+    /// The readings.
+    pub data: Cow<'a, Dataset>,
+    /// Readings held out.
+    pub holdout: Option<Cow<'a, Dataset>>,
+}
+
+impl<'a> AsMeant<'a> {
+    /// Files read with changes, one after the other; the files themselves when there are none.
+    pub fn of(
+        hexapod: &'a Hexapod,
+        data: &'a Dataset,
+        holdout: Option<&'a Dataset>,
+        changes: &[Change],
+    ) -> Self {
+        let (hexapod, data) = (Cow::Borrowed(hexapod), Cow::Borrowed(data));
+        let mut all = Self { hexapod, data, holdout: holdout.map(Cow::Borrowed) };
+        for change in changes {
+            // The machine of the holdout is that of the data: it changes once.
+            if let Some(held) = &mut all.holdout {
+                change.apply(&mut all.hexapod.clone().into_owned(), held.to_mut());
+            }
+            change.apply(all.hexapod.to_mut(), all.data.to_mut());
+        }
+        all
+    }
+}
+
+/// A way to read a file.
+#[derive(Debug, Clone)]
+pub struct Way {
+    /// What is read otherwise.
+    pub changes: Vec<Change>,
+    /// What springs alone leave of the readings that way, over the noise.
+    pub level: f64,
+    /// Twice the negative log-likelihood, to a constant of the file, with what so many alternatives cost.
+    cost: f64,
+    /// The part of it that is not what the springs leave, relative to the file as written: repeats, units, alternatives.
+    pub beside_springs: f64,
+}
+
+/// A file as it is written, and other ways to read it.
+#[derive(Debug, Clone)]
+pub struct Readings {
+    /// What springs alone leave of the readings as written, over the noise; none where the machine is singular.
+    pub level: Option<f64>,
+    /// Some leg would have a negative stiffness as the file is written.
+    pub is_negative: bool,
+    /// Other ways that explain the file far better, best first.
+    pub ways: Vec<Way>,
+}
+
+impl Readings {
+    /// Ways that explain the file like one of them, the best first; those that take more mistakes than others are none of them.
+    pub fn like(&self, way: &Way) -> Vec<&Way> {
+        let alike: Vec<&Way> = self.ways.iter().filter(|w| (w.cost - way.cost).abs() <= ALIKE).collect();
+        let fewest = alike.iter().map(|w| w.changes.len()).min();
+        alike.into_iter().filter(|w| Some(w.changes.len()) == fewest).collect()
+    }
+}
+
+/// Other ways to read a file that springs alone do not explain as it is written; none when they do, or when no other way is better.
+pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
+    if data.is_absolute() {
+        return None;
+    }
+    let sample = Sample::new(hexapod, data)?;
+    let written = sample.springs(&[]);
+    if written.as_ref().is_some_and(|springs| is_sound(springs, &sample)) {
+        return None;
+    }
+    let search = Search { sample: &sample, written: written.as_ref() };
+    let mut ways = search.singles(hexapod, data);
+    if ways.first().is_none_or(|best| best.level > SOUND_LEVEL) {
+        let second = search.pairs(&ways);
+        ways.extend(second);
+        sort(&mut ways);
+    }
+    ways.retain(|way| search.is_worth_a_look(way));
+    if ways.is_empty() {
+        return None;
+    }
+    ways.truncate(MOST_WAYS);
+    let is_negative = written.as_ref().is_some_and(|w| w.negative > 0);
+    Some(Readings { level: written.map(|w| w.level), is_negative, ways })
+}
+
+fn is_sound(springs: &Springs, sample: &Sample) -> bool {
+    let scatter = springs.scatter.max(springs.scatter.recip());
+    springs.level < SOUND_LEVEL && springs.negative == 0 && (!sample.noise_is_stated || scatter < SOUND_SCATTER)
+}
+
+fn sort(ways: &mut [Way]) {
+    ways.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+}
+
+/// The search among other ways to read a file.
+struct Search<'a> {
+    sample: &'a Sample,
+    written: Option<&'a Springs>,
+}
+
+impl Search<'_> {
+    /// Every single mistake, best first.
+    fn singles(&self, hexapod: &Hexapod, data: &Dataset) -> Vec<Way> {
+        let all = hypotheses::singles(hexapod, data).into_iter().map(|change| vec![change]).collect();
+        let mut ways = self.looked_at(all);
+        ways.extend(refine::refined(self.sample).into_iter().filter_map(|change| self.way(vec![change])));
+        ways.extend(hypotheses::row_orders().filter_map(|change| self.reordered(hexapod, data, change)));
+        sort(&mut ways);
+        ways
+    }
+
+    /// A second mistake beside each of the best single ones.
+    fn pairs(&self, singles: &[Way]) -> Vec<Way> {
+        let mut first: Vec<&Way> = Vec::new();
+        for way in singles.iter().filter(|w| !matches!(w.changes[..], [Change::Rows(_)])) {
+            let known = first.iter().any(|f| f.changes[0].kind() == way.changes[0].kind());
+            if !known && first.len() < FIRST_OF_TWO {
+                first.push(way);
+            }
+        }
+        let second = hypotheses::cheap(&self.sample.data);
+        let pairs = first.iter().flat_map(|f| second.iter().map(move |&s| vec![f.changes[0], s])).collect();
+        let mut both = self.looked_at(pairs);
+        let best = singles.first().map_or(f64::INFINITY, |best| best.level);
+        both.retain(|way| way.level < SECOND_SHARE * best);
+        both
+    }
+
+    /// The best of many, by a coarse look at all of them.
+    fn looked_at(&self, all: Vec<Vec<Change>>) -> Vec<Way> {
+        let coarse = self.sample.coarse();
+        let look = |changes: Vec<Change>| {
+            let springs = coarse.springs(&changes).filter(|springs| springs.negative == 0)?;
+            Some((springs.cost + charge(&changes), changes))
+        };
+        let mut looked: Vec<(f64, Vec<Change>)> = all.into_par_iter().filter_map(look).collect();
+        looked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        looked.truncate(LOOKED_AT);
+        looked.into_par_iter().filter_map(|(_, changes)| self.way(changes)).collect()
+    }
+
+    fn way(&self, changes: Vec<Change>) -> Option<Way> {
+        let springs = self.sample.springs(&changes).filter(|springs| springs.negative == 0)?;
+        Some(self.of(&springs, changes))
+    }
+
+    /// The rows in another order make other averages.
+    fn reordered(&self, hexapod: &Hexapod, data: &Dataset, change: Change) -> Option<Way> {
+        let (mut hexapod, mut data) = (hexapod.clone(), data.clone());
+        change.apply(&mut hexapod, &mut data);
+        let sample = Sample::new(&hexapod, &data)?;
+        let springs = sample.springs(&[]).filter(|springs| springs.negative == 0)?;
+        Some(self.of(&springs, vec![change]))
+    }
+
+    fn of(&self, springs: &Springs, changes: Vec<Change>) -> Way {
+        let charge = charge(&changes);
+        let as_written = self.written.map_or(0.0, |w| w.cost - w.lack);
+        Way {
+            changes,
+            level: springs.level,
+            cost: springs.cost + charge,
+            beside_springs: springs.cost - springs.lack + charge - as_written,
+        }
+    }
+
+    fn is_worth_a_look(&self, way: &Way) -> bool {
+        self.written.is_none_or(|written| {
+            let better = written.cost - way.cost > GAIN;
+            let is_admissible = written.negative == 0;
+            better && (!is_admissible || way.level < WORTH_A_LOOK * written.level || way.level < SOUND_LEVEL)
+        })
+    }
+}
+
+/// Twice the logarithm of how many mistakes of the kind there are.
+fn charge(changes: &[Change]) -> f64 {
+    let of_kind = |change: &Change| match change {
+        Change::LegOrder(_) => 720.0_f64,
+        Change::Renamed(..) | Change::Scaled(..) => 300.0,
+        _ => 60.0,
+    };
+    changes.iter().map(|change| 2.0 * of_kind(change).ln() + change.sizes() as f64 * SIZE).sum()
+}

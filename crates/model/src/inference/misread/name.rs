@@ -1,0 +1,292 @@
+//! Names of changes as `--read-as` takes them: `KIND=VALUE`, lengths in mm, angles in degrees.
+
+use std::fmt;
+use std::str::FromStr;
+
+use hexbench_core::{Vector3, Wrench};
+
+use super::change::{Change, Group, JointCoordinate, Origin, Signed, Target};
+use super::row_order::RowOrder;
+use super::turn::{AngleOrder, SignedAxes};
+
+const SIGNED: [(&str, &str, Signed); 18] = [
+    ("deflection-sign", "reversed", Signed::Readings),
+    ("deflection-sign", "translations", Signed::Translations),
+    ("deflection-sign", "da", Signed::Reading(0)),
+    ("deflection-sign", "db", Signed::Reading(1)),
+    ("deflection-sign", "dc", Signed::Reading(2)),
+    ("rotation-sign", "reversed", Signed::Rotations),
+    ("rotation-sign", "dalpha", Signed::Reading(3)),
+    ("rotation-sign", "dbeta", Signed::Reading(4)),
+    ("rotation-sign", "dgamma", Signed::Reading(5)),
+    ("wrench-sign", "reversed", Signed::Wrench),
+    ("wrench-sign", "forces", Signed::Forces),
+    ("wrench-sign", "fx", Signed::Load(0)),
+    ("wrench-sign", "fy", Signed::Load(1)),
+    ("wrench-sign", "fz", Signed::Load(2)),
+    ("moment-sign", "reversed", Signed::Moments),
+    ("moment-sign", "mx", Signed::Load(3)),
+    ("moment-sign", "my", Signed::Load(4)),
+    ("moment-sign", "mz", Signed::Load(5)),
+];
+
+const GROUPS: [(&str, Group); 12] = [
+    ("translations", Group::Translations),
+    ("rotations", Group::Rotations),
+    ("readings", Group::Readings),
+    ("forces", Group::Forces),
+    ("moments", Group::Moments),
+    ("loads", Group::Loads),
+    ("pose-positions", Group::PosePositions),
+    ("pose-angles", Group::PoseAngles),
+    ("base-joints", Group::BaseJoints),
+    ("platform-joints", Group::PlatformJoints),
+    ("joints", Group::Joints),
+    ("noise", Group::Noise),
+];
+
+const TARGETS: [(&str, Target); 8] = [
+    ("readings", Target::Readings),
+    ("reading-columns", Target::ReadingColumns),
+    ("wrench", Target::Wrench),
+    ("wrench-columns", Target::WrenchColumns),
+    ("poses", Target::Poses),
+    ("joints", Target::Joints),
+    ("base-joints", Target::BaseJoints),
+    ("platform-joints", Target::PlatformJoints),
+];
+
+const ORIGINS: [(&str, Origin); 5] = [
+    ("moments-fixed", Origin::MomentsFixed),
+    ("moments-mobile", Origin::MomentsMobile),
+    ("readings-mobile", Origin::ReadingsMobile),
+    ("poses", Origin::Poses),
+    ("platform-joints", Origin::PlatformJoints),
+];
+
+const AXES: [char; 3] = ['x', 'y', 'z'];
+
+/// Word of a variant in its table.
+fn word<T: PartialEq + Copy>(table: &[(&'static str, T)], value: T) -> &'static str {
+    table.iter().find(|(_, v)| *v == value).map_or("", |(word, _)| word)
+}
+
+fn value<T: Copy>(table: &[(&str, T)], word: &str) -> Option<T> {
+    table.iter().find(|(w, _)| *w == word).map(|(_, v)| *v)
+}
+
+impl Group {
+    /// Word for the group.
+    pub fn word(self) -> &'static str {
+        word(&GROUPS, self)
+    }
+}
+
+impl Target {
+    /// Word for what is written in axes.
+    pub fn word(self) -> &'static str {
+        word(&TARGETS, self)
+    }
+}
+
+impl Origin {
+    /// Word for what refers to a point.
+    pub fn word(self) -> &'static str {
+        word(&ORIGINS, self)
+    }
+}
+
+impl fmt::Display for JointCoordinate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let end = if self.platform { "platform" } else { "base" };
+        write!(f, "{end}-{}-{}", self.leg + 1, AXES[usize::from(self.axis)])
+    }
+}
+
+impl fmt::Display for SignedAxes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, axis) in self.axes().into_iter().enumerate() {
+            let sign = if axis < 0 { "-" } else { "" };
+            let comma = if k > 0 { "," } else { "" };
+            write!(f, "{comma}{sign}{}", AXES[usize::from(axis.unsigned_abs()) - 1])?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}=", self.kind().word())?;
+        match self {
+            Self::Reversed(signed) => {
+                let found = SIGNED.iter().find(|(_, _, s)| s == signed);
+                f.write_str(found.map_or("", |(_, word, _)| word))
+            }
+            Self::StatesExchanged | Self::JointsExchanged => f.write_str("yes"),
+            Self::Scaled(group, factor) => write!(f, "{}*{}", group.word(), short(*factor)),
+            Self::Renamed(target, axes) => write!(f, "{}:{axes}", target.word()),
+            Self::Turned(target, by) => {
+                write!(f, "{}:turned:{}", target.word(), triple(&by.map(f64::to_degrees)))
+            }
+            Self::LegOrder(order) => f.write_str(&order.map(|k| (k + 1).to_string()).join(",")),
+            Self::Origin(origin, at) => write!(f, "{}:{}", origin.word(), triple(&(at * 1e3))),
+            Self::Joint(coordinate, off) => write!(f, "{coordinate}:{}", short(off * 1e3)),
+            Self::WrenchMobile | Self::DeflectionMobile => f.write_str("mobile"),
+            Self::Angles(order) => f.write_str(order.word()),
+            Self::PoseAngles(order) => write!(f, "poses:{}", order.word()),
+            Self::OtherRotations => f.write_str("other"),
+            Self::Preload(load) => f.write_str(&load.to_array().map(short).join(",")),
+            Self::LoadIsChange => f.write_str("change"),
+            Self::Rows(order) => f.write_str(order.word()),
+        }
+    }
+}
+
+/// A number with the digits that matter.
+fn short(x: f64) -> String {
+    let text = format!("{x:.6e}").parse::<f64>().unwrap_or(x).to_string();
+    if text.len() > 12 { format!("{x:.5e}") } else { text }
+}
+
+fn triple(v: &Vector3) -> String {
+    [short(v.x), short(v.y), short(v.z)].join(",")
+}
+
+/// A change that `--read-as` does not know.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ChangeError {
+    /// Not `KIND=VALUE`.
+    #[error("{0:?} is not KIND=VALUE, as in deflection-sign=reversed")]
+    Form(String),
+    /// A kind that nothing is read by.
+    #[error("{0:?} is no kind of mistake a file can be read by; known: {kinds}", kinds = KINDS.map(|(kind, _)| kind).join(", "))]
+    Kind(String),
+    /// A value that the kind does not take.
+    #[error("{kind} does not take {value:?}; it takes {takes}")]
+    Value {
+        /// The kind.
+        kind: &'static str,
+        /// What was asked of it.
+        value: String,
+        /// What it takes.
+        takes: &'static str,
+    },
+}
+
+/// Kinds by which a file may be read, with what they take.
+pub const KINDS: [(&str, &str); 17] = [
+    ("deflection-sign", "reversed, translations, da, db or dc"),
+    ("rotation-sign", "reversed, dalpha, dbeta or dgamma"),
+    ("wrench-sign", "reversed, forces, fx, fy or fz"),
+    ("moment-sign", "reversed, mx, my or mz"),
+    ("states-exchanged", "yes"),
+    (
+        "unit",
+        "GROUP*FACTOR; groups: translations, rotations, readings, forces, moments, loads, pose-positions, pose-angles, base-joints, \
+         platform-joints, joints, noise",
+    ),
+    (
+        "axes",
+        "WHAT:AXES as in readings:y,-x,z, or WHAT:turned:RX,RY,RZ in degrees; what: readings, reading-columns, wrench, \
+         wrench-columns, poses, joints, base-joints, platform-joints",
+    ),
+    ("leg-order", "the six platform joints in their order, as in 2,3,4,5,6,1"),
+    ("joints-exchanged", "yes"),
+    ("origin", "WHAT:X,Y,Z in mm; what: moments-fixed, moments-mobile, readings-mobile, poses, platform-joints"),
+    ("geometry", "JOINT:MM as in base-2-y:-1.5"),
+    ("wrench-frame", "mobile"),
+    ("deflection-frame", "mobile"),
+    (
+        "angle-convention",
+        "moving-x-y-z, fixed-x-z-y, fixed-y-x-z, fixed-y-z-x, fixed-z-x-y, rotation-vector or inverse; with poses: before it for the \
+         poses alone",
+    ),
+    ("rotation-convention", "other"),
+    ("reference-missing", "change, or the load of the reference state: FX,FY,FZ,MX,MY,MZ in N and N m"),
+    ("row-order", "loads-from-below, loads-from-above, loads-reversed, poses-from-below or poses-from-above"),
+];
+
+impl FromStr for Change {
+    type Err = ChangeError;
+
+    fn from_str(text: &str) -> Result<Self, ChangeError> {
+        let (kind, given) = text.split_once('=').ok_or_else(|| ChangeError::Form(text.to_owned()))?;
+        let known = KINDS.iter().find(|(known, _)| *known == kind);
+        let (kind, takes) = *known.ok_or_else(|| ChangeError::Kind(kind.to_owned()))?;
+        parsed(kind, given).ok_or_else(|| ChangeError::Value { kind, value: given.to_owned(), takes })
+    }
+}
+
+fn parsed(kind: &str, given: &str) -> Option<Change> {
+    let yes = |change: Change| (given == "yes").then_some(change);
+    let mobile = |change: Change| (given == "mobile").then_some(change);
+    match kind {
+        "states-exchanged" => yes(Change::StatesExchanged),
+        "joints-exchanged" => yes(Change::JointsExchanged),
+        "wrench-frame" => mobile(Change::WrenchMobile),
+        "deflection-frame" => mobile(Change::DeflectionMobile),
+        "rotation-convention" => (given == "other").then_some(Change::OtherRotations),
+        "unit" => {
+            let (group, factor) = given.split_once('*')?;
+            let factor: f64 = factor.parse().ok()?;
+            (factor.is_finite() && factor > 0.0).then_some(Change::Scaled(value(&GROUPS, group)?, factor))
+        }
+        "axes" => {
+            let (target, axes) = given.split_once(':')?;
+            let target = value(&TARGETS, target)?;
+            if let Some(by) = axes.strip_prefix("turned:") {
+                return Some(Change::Turned(target, Vector3::from(numbers(by)?).map(f64::to_radians)));
+            }
+            Some(Change::Renamed(target, signed_axes(axes)?))
+        }
+        "leg-order" => leg_order(given).map(Change::LegOrder),
+        "origin" => {
+            let (origin, at) = given.split_once(':')?;
+            Some(Change::Origin(value(&ORIGINS, origin)?, Vector3::from(numbers(at)?) * 1e-3))
+        }
+        "geometry" => {
+            let (joint, off) = given.split_once(':')?;
+            let coordinate = JointCoordinate::all().find(|c| c.to_string() == joint)?;
+            let [off] = numbers(off)?;
+            Some(Change::Joint(coordinate, off * 1e-3))
+        }
+        "angle-convention" => {
+            let order = |word: &str| AngleOrder::ALL.into_iter().find(|o| o.word() == word);
+            match given.strip_prefix("poses:") {
+                Some(rest) => order(rest).map(Change::PoseAngles),
+                None => order(given).map(Change::Angles),
+            }
+        }
+        "reference-missing" if given == "change" => Some(Change::LoadIsChange),
+        "reference-missing" => numbers(given).map(|w| Change::Preload(Wrench::from_array(w))),
+        "row-order" => RowOrder::ALL.into_iter().find(|o| o.word() == given).map(Change::Rows),
+        _ => {
+            let known = SIGNED.iter().find(|(k, word, _)| *k == kind && *word == given)?;
+            Some(Change::Reversed(known.2))
+        }
+    }
+}
+
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let all: Vec<f64> = text.split(',').map(|x| x.trim().parse().ok()).collect::<Option<_>>()?;
+    let all: [f64; N] = all.try_into().ok()?;
+    all.iter().all(|x| x.is_finite()).then_some(all)
+}
+
+fn signed_axes(text: &str) -> Option<SignedAxes> {
+    let axis = |text: &str| {
+        let (sign, name) = text.strip_prefix('-').map_or((1, text), |rest| (-1, rest));
+        let at = AXES.iter().position(|a| name == a.to_string())?;
+        Some(sign * (i8::try_from(at).ok()? + 1))
+    };
+    let all: Vec<i8> = text.split(',').map(axis).collect::<Option<_>>()?;
+    SignedAxes::new(all.try_into().ok()?)
+}
+
+fn leg_order(text: &str) -> Option<[u8; 6]> {
+    let leg = |text: &str| text.parse::<u8>().ok()?.checked_sub(1);
+    let order: [u8; 6] = text.split(',').map(leg).collect::<Option<Vec<_>>>()?.try_into().ok()?;
+    let mut sorted = order;
+    sorted.sort_unstable();
+    (sorted == [0, 1, 2, 3, 4, 5]).then_some(order)
+}

@@ -1,0 +1,163 @@
+//! Mistakes that have a size: turned axes, another point of reference, a load that was left out, a joint elsewhere.
+//!
+//! The size is found by Gauss-Newton on what the springs leave of the readings, with derivatives by differences.
+
+use hexbench_core::{Vector3, Wrench};
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::change::{Change, JointCoordinate, Origin, Target};
+use super::sample::Sample;
+
+/// Iterations at most.
+const MOST_STEPS: usize = 8;
+/// Gain of chi-square, relative, below which a size has settled.
+const SETTLED: f64 = 1e-4;
+/// Turns smaller than this are what a tolerance is for, rad.
+const LEAST_TURN: f64 = 0.01;
+/// The largest turn that is looked for beside other names of the axes, rad.
+const LARGEST_TURN: f64 = 0.8;
+/// Share of the platform's radius below which another point of reference is a small effect and no mistake.
+const LEAST_OFFSET: f64 = 0.1;
+/// The same for a joint.
+const LEAST_JOINT: f64 = 0.03;
+/// Sizes are looked for up to so many radii of the platform.
+const MOST_RADII: f64 = 20.0;
+/// Joints that are looked at closely.
+const JOINTS_REFINED: usize = 3;
+/// Heights from which the search for a height begins, in heights of the machine.
+const HEIGHTS: [f64; 9] = [-2.0, -1.0, -0.5, -0.2, 0.0, 0.2, 0.5, 1.0, 2.0];
+/// Step of the differences, in natural units of the size.
+const STEP: f64 = 1e-4;
+
+/// A mistake with a size.
+#[derive(Debug, Clone, Copy)]
+enum Sized {
+    Turn(Target),
+    Point(Origin),
+    Height(Origin),
+    Preload,
+    Joint(JointCoordinate),
+}
+
+impl Sized {
+    /// The mistake at a size, given in radians, in radii of the platform or in the typical force.
+    fn change(self, sample: &Sample, v: &[f64]) -> Change {
+        let radius = sample.hexapod.platform_radius();
+        match self {
+            Self::Turn(target) => Change::Turned(target, Vector3::from_column_slice(v)),
+            Self::Point(origin) => Change::Origin(origin, Vector3::from_column_slice(v) * radius),
+            Self::Height(origin) => Change::Origin(origin, Vector3::new(0.0, 0.0, v[0] * radius)),
+            Self::Preload => {
+                let force = typical_force(sample);
+                let unit = |k: usize| if k < 3 { force } else { force * radius };
+                Change::Preload(Wrench::from_array(std::array::from_fn(|k| v[k] * unit(k))))
+            }
+            Self::Joint(coordinate) => Change::Joint(coordinate, v[0] * radius),
+        }
+    }
+
+    /// Where the search begins.
+    fn start(self, sample: &Sample) -> Vec<f64> {
+        match self {
+            Self::Turn(_) | Self::Point(_) => vec![0.0; 3],
+            Self::Preload => vec![0.0; 6],
+            Self::Joint(_) => vec![0.0],
+            Self::Height(_) => {
+                let hexapod = &sample.hexapod;
+                let platform = hexapod.platform_joints.iter().map(|b| b.z).sum::<f64>() / 6.0;
+                let radius = hexapod.platform_radius();
+                let height = (platform - hexapod.base_centre().z).abs().max(radius) / radius;
+                let square = |h: &f64| {
+                    let left = sample.residuals(&[self.change(sample, &[*h])]);
+                    left.map_or(f64::INFINITY, |r| r.norm_squared())
+                };
+                let all = HEIGHTS.map(|share| share * height);
+                vec![all.into_iter().min_by(|a, b| square(a).total_cmp(&square(b))).unwrap_or(0.0)]
+            }
+        }
+    }
+
+    /// True when the size is neither what a tolerance is for nor out of reach.
+    fn counts(self, values: &DVector<f64>) -> bool {
+        let range = match self {
+            Self::Turn(_) => LEAST_TURN..LARGEST_TURN,
+            Self::Point(_) | Self::Height(_) => LEAST_OFFSET..MOST_RADII,
+            Self::Preload => 0.02..100.0,
+            Self::Joint(_) => LEAST_JOINT..MOST_RADII,
+        };
+        range.contains(&values.norm())
+    }
+}
+
+/// Every mistake with a size, at the size that explains most.
+pub(super) fn refined(sample: &Sample) -> Vec<Change> {
+    let coarse = sample.coarse();
+    let mut all = vec![
+        Sized::Turn(Target::Readings),
+        Sized::Turn(Target::Wrench),
+        Sized::Point(Origin::MomentsMobile),
+        Sized::Point(Origin::MomentsFixed),
+        Sized::Point(Origin::ReadingsMobile),
+        Sized::Height(Origin::Poses),
+        Sized::Height(Origin::PlatformJoints),
+    ];
+    if sample.data.observations.iter().all(|o| o.reference == Wrench::default()) {
+        all.push(Sized::Preload);
+    }
+    all.extend(promising_joints(&coarse));
+    let at_best = |mistake: &Sized| {
+        let first = minimized(&coarse, *mistake, mistake.start(&coarse))?;
+        let values = minimized(sample, *mistake, first.as_slice().to_vec())?;
+        mistake.counts(&values).then(|| mistake.change(sample, values.as_slice()))
+    };
+    all.par_iter().filter_map(at_best).collect()
+}
+
+/// Joints whose position, to first order, explains most.
+fn promising_joints(sample: &Sample) -> Vec<Sized> {
+    let Some(here) = sample.residuals(&[]) else { return Vec::new() };
+    let gain = |coordinate: JointCoordinate| {
+        let mistake = Sized::Joint(coordinate);
+        let there = sample.residuals(&[mistake.change(sample, &[STEP])])?;
+        let slope = (there - &here) / STEP;
+        Some((slope.dot(&here).powi(2) / slope.norm_squared().max(f64::MIN_POSITIVE), mistake))
+    };
+    let all: Vec<JointCoordinate> = JointCoordinate::all().collect();
+    let mut all: Vec<(f64, Sized)> = all.into_par_iter().filter_map(gain).collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    all.into_iter().take(JOINTS_REFINED).map(|(_, mistake)| mistake).collect()
+}
+
+fn typical_force(sample: &Sample) -> f64 {
+    let rows = &sample.data.observations;
+    let sum: f64 = rows.iter().map(|o| o.wrench.force.norm_squared()).sum();
+    (sum / rows.len().max(1) as f64).sqrt().max(1e-3)
+}
+
+/// The size that leaves least.
+fn minimized(sample: &Sample, mistake: Sized, start: Vec<f64>) -> Option<DVector<f64>> {
+    let residuals = |values: &DVector<f64>| sample.residuals(&[mistake.change(sample, values.as_slice())]);
+    let mut values = DVector::from_vec(start);
+    let mut here = residuals(&values)?;
+    for _ in 0..MOST_STEPS {
+        let mut jacobian = DMatrix::zeros(here.len(), values.len());
+        for k in 0..values.len() {
+            let mut there = values.clone();
+            there[k] += STEP;
+            jacobian.set_column(k, &((residuals(&there)? - &here) / STEP));
+        }
+        let normal = jacobian.tr_mul(&jacobian);
+        let damped = &normal + DMatrix::from_diagonal(&(normal.diagonal() * 1e-9).add_scalar(1e-300));
+        let step = damped.cholesky()?.solve(&jacobian.tr_mul(&here));
+        let before = here.norm_squared();
+        let mut shortened = (0..5).map(|n| &values - &step * 0.5_f64.powi(n));
+        let better = shortened.find_map(|v| residuals(&v).filter(|r| r.norm_squared() < before).map(|r| (r, v)));
+        let Some((residual, moved)) = better else { break };
+        (here, values) = (residual, moved);
+        if before - here.norm_squared() < SETTLED * before {
+            break;
+        }
+    }
+    values.iter().all(|v| v.is_finite()).then_some(values)
+}

@@ -1,0 +1,337 @@
+//! How well springs explain a file read in one way or another, cheaply.
+//!
+//! Springs alone explain a sound file to within a few noises, a misread one to within hundreds. So the springs are fitted to first
+//! order in the deflection, to averaged readings of at most a few hundred conditions:
+//!
+//! ```text
+//! y = H P diag(P' (W - W0)) c,   P = L^-1
+//! ```
+//!
+//! and a way of reading is weighed by twice the negative log-likelihood of the readings as the file holds them. Their noise may be
+//! larger than stated by what springs do not explain; repeats may scatter a few times more or less than stated, not a thousand times.
+
+use hexbench_core::{Dataset, Hexapod, Matrix6, Measurand, Vector6};
+use nalgebra::DVector;
+
+use super::change::{Change, Group};
+use crate::estimation::campaign::Campaign;
+use crate::estimation::noise::NoiseSource;
+use crate::machine::geometry::Machine;
+use crate::machine::kinematics::{Legs, euler_rate_matrix};
+
+/// Conditions looked at.
+const MOST_CONDITIONS: usize = 96;
+/// Conditions that tell what deserves a closer look.
+const FEW_CONDITIONS: usize = 24;
+/// Error of the linear springs, relative to the readings: deflections are small, but not infinitely so.
+const LINEAR_SHARE: f64 = 2e-3;
+/// Repeats may scatter so many times more or less than stated.
+const NOISE_OFF: f64 = 3.0;
+/// A compliance this many standard deviations below zero is no spring.
+const NEGATIVE_SIGMAS: f64 = 3.0;
+
+/// A file, thinned to what tells one way of reading it from another.
+#[derive(Debug, Clone)]
+pub(super) struct Sample {
+    /// The machine.
+    pub(super) hexapod: Hexapod,
+    /// Averaged readings.
+    pub(super) data: Dataset,
+    /// Standard deviations of the averages.
+    sigma: Vec<Vector6>,
+    /// Conditions of the file for each one here.
+    stands_for: f64,
+    /// Squares of repeats about their average over the stated variance, per coordinate.
+    repeats: Vector6,
+    /// Their degrees of freedom, per coordinate.
+    repeats_dof: f64,
+    /// Legs at each pose; none at singular ones.
+    legs: Vec<Option<Legs>>,
+    /// True where the stated noise says something.
+    pub(super) noise_is_stated: bool,
+}
+
+/// Springs fitted to a file read in one way.
+#[derive(Debug, Clone)]
+pub(super) struct Springs {
+    /// Twice the negative log-likelihood, to a constant of the file.
+    pub(super) cost: f64,
+    /// The part of it that the residuals make.
+    pub(super) lack: f64,
+    /// Residuals over noise, root mean square.
+    pub(super) level: f64,
+    /// Legs whose compliance would be negative.
+    pub(super) negative: usize,
+    /// Repeats' scatter over what is stated.
+    pub(super) scatter: f64,
+}
+
+/// Normal equations of the springs.
+struct Normal {
+    n: Matrix6,
+    right: Vector6,
+    square: f64,
+}
+
+impl Sample {
+    /// Averages a file; none when it has nothing to average.
+    pub(super) fn new(hexapod: &Hexapod, data: &Dataset) -> Option<Self> {
+        let campaign = Campaign::new(hexapod, data).ok()?.independent();
+        let chosen: Vec<_> = spread(campaign.groups.len(), MOST_CONDITIONS).map(|i| &campaign.groups[i]).collect();
+        let (mut repeats, mut dof) = (Vector6::zeros(), 0.0);
+        for group in &campaign.groups {
+            let sigma = campaign.noise.sigma();
+            for &i in &group.rows {
+                let row = &data.observations[i as usize];
+                let sigma = row.sigma.unwrap_or(sigma);
+                let off = campaign.axes.difference(&group.mean.measured, &row.measured);
+                repeats += Vector6::from_fn(|k, _| (off[k] / sigma[k]).powi(2));
+            }
+            dof += (group.rows.len() - 1) as f64;
+        }
+        let means = chosen.iter().map(|g| g.mean).collect();
+        let thinned = Dataset { observations: means, ..like(data) };
+        let sigma = chosen.iter().map(|g| Vector6::from_column_slice(&g.sigma)).collect();
+        let noise_is_stated =
+            matches!(campaign.noise.source, NoiseSource::Metrology | NoiseSource::Columns);
+        let legs = legs(hexapod, &thinned);
+        Some(Self {
+            hexapod: hexapod.clone(),
+            data: thinned,
+            sigma,
+            stands_for: campaign.groups.len() as f64 / chosen.len() as f64,
+            repeats,
+            repeats_dof: dof,
+            legs,
+            noise_is_stated,
+        })
+    }
+
+    /// The same with fewer conditions.
+    pub(super) fn coarse(&self) -> Self {
+        let chosen: Vec<usize> = spread(self.sigma.len(), FEW_CONDITIONS).collect();
+        let observations = chosen.iter().map(|&i| self.data.observations[i]).collect();
+        Self {
+            data: Dataset { observations, ..like(&self.data) },
+            sigma: chosen.iter().map(|&i| self.sigma[i]).collect(),
+            legs: chosen.iter().map(|&i| self.legs[i]).collect(),
+            stands_for: self.stands_for * self.sigma.len() as f64 / chosen.len() as f64,
+            ..self.clone()
+        }
+    }
+
+    /// The springs of the file read with changes, one after the other; none where the machine is singular.
+    pub(super) fn springs(&self, changes: &[Change]) -> Option<Springs> {
+        let mut hexapod = self.hexapod.clone();
+        let mut data = self.data.clone();
+        changes.iter().for_each(|change| change.apply(&mut hexapod, &mut data));
+        if changes.iter().all(Change::keeps_legs) {
+            return self.fit(&data, &self.legs, changes);
+        }
+        self.fit(&data, &legs(&hexapod, &data), changes)
+    }
+
+    fn fit(&self, data: &Dataset, legs: &[Option<Legs>], changes: &[Change]) -> Option<Springs> {
+        let factors = Factors::of(changes);
+        let mut normal = Normal { n: Matrix6::zeros(), right: Vector6::zeros(), square: 0.0 };
+        self.whitened(data, legs, &factors, |columns, read| {
+            normal.n += columns.tr_mul(columns);
+            normal.right += columns.tr_mul(read);
+            normal.square += read.norm_squared();
+        })?;
+        self.judged(&normal, &factors)
+    }
+
+    /// Readings less what the springs explain of them, over the noise, of the file read with changes; six for each condition.
+    pub(super) fn residuals(&self, changes: &[Change]) -> Option<DVector<f64>> {
+        let mut hexapod = self.hexapod.clone();
+        let mut data = self.data.clone();
+        changes.iter().for_each(|change| change.apply(&mut hexapod, &mut data));
+        let kept = changes.iter().all(Change::keeps_legs);
+        let moved = if kept { Vec::new() } else { legs(&hexapod, &data) };
+        let legs = if kept { &self.legs } else { &moved };
+        let factors = Factors::of(changes);
+        let mut rows = Vec::with_capacity(data.observations.len());
+        self.whitened(&data, legs, &factors, |columns, read| rows.push((*columns, *read)))?;
+        let mut normal = Normal { n: Matrix6::zeros(), right: Vector6::zeros(), square: 0.0 };
+        for (columns, read) in &rows {
+            normal.n += columns.tr_mul(columns);
+            normal.right += columns.tr_mul(read);
+            normal.square += read.norm_squared();
+        }
+        let (compliances, ..) = non_negative(&normal, (self.numbers() - 6.0).max(1.0))?;
+        let all = rows.iter().flat_map(|(columns, read)| {
+            let left: Vector6 = read - columns * compliances;
+            (0..6).map(move |k| left[k])
+        });
+        Some(DVector::from_iterator(6 * rows.len(), all))
+    }
+
+    /// Columns of the springs and readings of every condition, over the noise; none at a singular pose.
+    fn whitened(
+        &self,
+        data: &Dataset,
+        legs: &[Option<Legs>],
+        factors: &Factors,
+        mut take: impl FnMut(&Matrix6, &Vector6),
+    ) -> Option<()> {
+        let motions = motions(data);
+        let floor = floors(&motions);
+        for (((row, motion), legs), sigma) in data.observations.iter().zip(&motions).zip(legs).zip(&self.sigma) {
+            let legs = legs.as_ref()?;
+            let force = legs.forces(&(row.wrench.to_vector() - row.reference.to_vector()));
+            let weight = sigma.zip_map(&floor, |s, f| (s * factors.noise).hypot(f).recip());
+            let mut columns = legs.platform_jacobian;
+            for leg in 0..6 {
+                let column = columns.column(leg).component_mul(&weight) * force[leg];
+                columns.set_column(leg, &column);
+            }
+            take(&columns, &motion.component_mul(&weight));
+        }
+        Some(())
+    }
+
+    fn judged(&self, normal: &Normal, factors: &Factors) -> Option<Springs> {
+        let numbers = 6.0 * self.data.observations.len() as f64;
+        let freedom = (numbers - 6.0).max(1.0);
+        let (_, chi2, negative) = non_negative(normal, freedom)?;
+        let variance = (chi2 / freedom).max(1.0);
+        let lack = self.stands_for * numbers * (variance.ln() + chi2 / freedom / variance);
+        let (mut repeats, mut scatter) = (0.0, 1.0);
+        if self.repeats_dof > 0.0 {
+            let scale = Vector6::from_fn(|k, _| (factors.reading(k) / factors.noise).powi(2));
+            let squares = self.repeats.component_mul(&scale) / self.repeats_dof;
+            scatter = squares.mean().sqrt();
+            if self.noise_is_stated {
+                let cost = |v: f64| {
+                    let level = v.clamp(NOISE_OFF.powi(-2), NOISE_OFF.powi(2));
+                    self.repeats_dof * (level.ln() + v / level)
+                };
+                repeats = squares.iter().map(|v| cost(*v)).sum();
+            }
+        }
+        let each = self.stands_for * self.data.observations.len() as f64 + self.repeats_dof;
+        let density: f64 = (0..6).map(|k| (factors.reading(k) / factors.noise).ln()).sum::<f64>();
+        let cost = lack + repeats - 2.0 * each * density;
+        cost.is_finite().then_some(Springs { cost, lack, level: (chi2 / freedom).sqrt(), negative, scatter })
+    }
+
+    /// Numbers of the readings.
+    pub(super) fn numbers(&self) -> f64 {
+        6.0 * self.data.observations.len() as f64
+    }
+}
+
+/// At most so many of so many, spread over all of them; no rhythm of the file is in step with theirs.
+fn spread(all: usize, most: usize) -> impl Iterator<Item = usize> {
+    let stride = all.div_ceil(most).max(1);
+    (0..all.div_ceil(stride)).map(move |k| (k * stride + k * 7 % stride).min(all - 1))
+}
+
+/// What changes do to the unit of the readings.
+struct Factors {
+    translation: f64,
+    rotation: f64,
+    noise: f64,
+}
+
+impl Factors {
+    fn of(changes: &[Change]) -> Self {
+        let mut all = Self { translation: 1.0, rotation: 1.0, noise: 1.0 };
+        for change in changes {
+            match change {
+                Change::Scaled(Group::Translations, factor) => all.translation *= factor,
+                Change::Scaled(Group::Rotations, factor) => all.rotation *= factor,
+                Change::Scaled(Group::Readings, factor) => {
+                    all.translation *= factor;
+                    all.rotation *= factor;
+                }
+                Change::Scaled(Group::Noise, factor) => all.noise *= factor,
+                _ => {}
+            }
+        }
+        all
+    }
+
+    fn reading(&self, coordinate: usize) -> f64 {
+        if coordinate < 3 { self.translation } else { self.rotation }
+    }
+}
+
+/// The same file without readings.
+pub(super) fn like(data: &Dataset) -> Dataset {
+    let (source, measurand, columns) = (data.source.clone(), data.measurand, data.columns);
+    Dataset { source, measurand, columns, observations: Vec::new() }
+}
+
+fn legs(hexapod: &Hexapod, data: &Dataset) -> Vec<Option<Legs>> {
+    let machine = Machine::nominal(hexapod);
+    let mut last: Option<(hexbench_core::Pose, Option<Legs>)> = None;
+    let at = |row: &hexbench_core::Observation| {
+        if let Some((pose, legs)) = &last {
+            if *pose == row.pose {
+                return *legs;
+            }
+        }
+        let legs = machine.legs(&row.pose).ok();
+        last = Some((row.pose, legs));
+        legs
+    };
+    data.observations.iter().map(at).collect()
+}
+
+/// Readings as geometric twists, m and rad.
+fn motions(data: &Dataset) -> Vec<Vector6> {
+    let euler = data.measurand == Measurand::DeflectionEuler;
+    let motion = |row: &hexbench_core::Observation| {
+        let mut motion = Vector6::from_column_slice(&row.measured);
+        if euler {
+            let turn = euler_rate_matrix(&row.pose.angles) * motion.fixed_rows::<3>(3);
+            motion.fixed_rows_mut::<3>(3).copy_from(&turn);
+        }
+        motion
+    };
+    data.observations.iter().map(motion).collect()
+}
+
+/// What the linear springs may miss, per coordinate.
+fn floors(motions: &[Vector6]) -> Vector6 {
+    let n = (3 * motions.len()).max(1) as f64;
+    let rms = |first: usize| {
+        let sum: f64 = motions.iter().map(|m| m.fixed_rows::<3>(first).norm_squared()).sum();
+        (sum / n).sqrt() * LINEAR_SHARE
+    };
+    let (shift, turn) = (rms(0), rms(3));
+    Vector6::from_fn(|k, _| if k < 3 { shift } else { turn })
+}
+
+/// Least squares with compliances that are not negative: a leg that would have one is held at zero. Compliances, chi-square and
+/// the number of such legs.
+fn non_negative(normal: &Normal, freedom: f64) -> Option<(Vector6, f64, usize)> {
+    let mut held = [false; 6];
+    loop {
+        let mut n = normal.n;
+        let mut right = normal.right;
+        let scale = normal.n.diagonal().amax();
+        for leg in (0..6).filter(|&l| held[l] || normal.n[(l, l)] <= 1e-18 * scale) {
+            n.row_mut(leg).fill(0.0);
+            n.column_mut(leg).fill(0.0);
+            n[(leg, leg)] = 1.0;
+            right[leg] = 0.0;
+        }
+        // Columns of springs may differ by orders of magnitude.
+        let size = n.diagonal().map(f64::sqrt);
+        let scaled = Matrix6::from_fn(|i, j| n[(i, j)] / (size[i] * size[j]));
+        let factor = (scaled + Matrix6::identity() * 1e-12).cholesky()?;
+        let solution = factor.solve(&right.component_div(&size)).component_div(&size);
+        let chi2 = (normal.square - solution.dot(&right)).max(0.0);
+        let inverse = factor.inverse();
+        let level = (chi2 / freedom).max(1.0).sqrt();
+        let sigmas = |leg: usize| solution[leg] * size[leg] / (inverse[(leg, leg)].sqrt() * level);
+        let worst = (0..6).filter(|&l| !held[l]).min_by(|&a, &b| sigmas(a).total_cmp(&sigmas(b)));
+        match worst {
+            Some(leg) if sigmas(leg) < -NEGATIVE_SIGMAS => held[leg] = true,
+            _ => return Some((solution, chi2, held.iter().filter(|h| **h).count())),
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! A misread file in words.
+
+use super::change::{Change, Group, Origin, Signed, Target};
+use super::Way;
+use crate::inference::examination::Finding;
+
+/// What explains the file as it is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AsWritten {
+    /// Nothing: the legs do not determine the motion of the platform.
+    Nothing,
+    /// Only legs of negative stiffness.
+    Negative,
+    /// The best explanation leaves so many times the noise.
+    Level(f64),
+}
+
+/// How a reading of the file did against the file as it is written.
+#[derive(Debug, Clone, Copy)]
+pub struct Answered {
+    /// As written.
+    pub written: AsWritten,
+    /// Error over the noise the other way.
+    pub other: f64,
+}
+
+/// What is told of a way to read the file. `alike`: the ways that explain the file like it; `share`: its probability among them.
+pub fn finding(way: &Way, alike: &[&Way], answered: Answered, share: f64) -> Finding {
+    let others: Vec<String> = alike
+        .iter()
+        .filter(|other| other.changes != way.changes)
+        .map(|other| command(&other.changes))
+        .collect();
+    let meaning = way.changes.iter().map(meaning).collect::<Vec<_>>().join(", and ");
+    let other = times(answered.other);
+    let (size, written) = match answered.written {
+        AsWritten::Level(level) => (
+            format!("error {other} instead of {} times the noise", times(level)),
+            format!("as the file is written, the best explanation leaves {} times the noise", times(level)),
+        ),
+        AsWritten::Negative => (
+            "negative stiffness".to_owned(),
+            "as the file is written, the legs have a negative stiffness".to_owned(),
+        ),
+        AsWritten::Nothing => (
+            "singular poses".to_owned(),
+            "as the file is written, the legs do not determine the motion of the platform".to_owned(),
+        ),
+    };
+    let alike = match others.len() {
+        0 => String::new(),
+        1 => format!("; {} explains the file as well", others[0]),
+        _ => format!("; these explain the file as well: {}", others.join(", ")),
+    };
+    Finding {
+        kind: way.changes[0].kind(),
+        probability: share,
+        rows: Vec::new(),
+        size,
+        text: format!("{meaning}; read so, the error is {other} times the noise; {written}{alike}"),
+        next: format!(
+            "{}; to see the answer of the file read so, add {}",
+            advice(&way.changes[0], !others.is_empty()),
+            command(&way.changes)
+        ),
+    }
+}
+
+/// The option that reads a file so.
+fn command(changes: &[Change]) -> String {
+    changes.iter().map(|change| format!("--read-as {change}")).collect::<Vec<_>>().join(" ")
+}
+
+fn times(level: f64) -> String {
+    match level {
+        x if x < 10.0 => format!("{x:.2}"),
+        x if x < 1000.0 => format!("{x:.0}"),
+        x => format!("{x:.0e}"),
+    }
+}
+
+/// What the author of the file meant, if this is the mistake.
+pub fn meaning(change: &Change) -> String {
+    match change {
+        Change::Reversed(signed) => format!("{} the other sign", reversed(*signed)),
+        Change::StatesExchanged => "the columns of the loaded and of the reference state seem exchanged".to_owned(),
+        Change::Scaled(group, factor) => format!(
+            "{} seem {} the unit the file states{}",
+            scaled(*group),
+            if *factor > 1.0 { format!("{} times", number(*factor)) } else { format!("1/{} of", number(factor.recip())) },
+            units(*group, *factor)
+        ),
+        Change::Renamed(target, axes) => {
+            let hand = if axes.handedness() < 0.0 { ", which are left-handed" } else { "" };
+            format!("x, y, z of {} seem to be {axes} of the file{hand}", written_in(*target))
+        }
+        Change::Turned(target, by) => {
+            format!("the axes of {} seem turned by {:.1} degrees", written_in(*target), by.norm().to_degrees())
+        }
+        Change::LegOrder(order) => {
+            let legs = order.map(|k| (k + 1).to_string()).join(", ");
+            format!("the legs seem to end at the platform joints {legs}, in this order")
+        }
+        Change::JointsExchanged => "base joints and platform joints seem exchanged".to_owned(),
+        Change::Origin(origin, at) => {
+            let at = at * 1e3;
+            let point = format!("({:.1}, {:.1}, {:.1}) mm", at.x, at.y, at.z);
+            match origin {
+                Origin::MomentsFixed => format!("the moments seem to be about the point {point} of the fixed frame, not about the mobile origin"),
+                Origin::MomentsMobile => format!("the moments seem to be about the point {point} of the platform, not about the mobile origin"),
+                Origin::ReadingsMobile => format!("the deflections seem to be those of the point {point} of the platform, not of the mobile origin"),
+                Origin::Poses => format!("the positions of the poses seem to start at {point}, as where the home height is counted twice or left out"),
+                Origin::PlatformJoints => format!("the platform joints seem to be given from {point}, as where the home height is counted twice or left out"),
+            }
+        }
+        Change::Joint(coordinate, off) => {
+            format!("the joint coordinate {coordinate} of the hexapod file seems off by {:.2} mm", -off * 1e3)
+        }
+        Change::WrenchMobile => "the loads seem to be written in the axes of the platform, not in fixed axes".to_owned(),
+        Change::DeflectionMobile => "the deflections seem to be written in the axes of the platform, not in fixed axes".to_owned(),
+        Change::Angles(order) => format!("{}, it seems, in poses and deflections", order.text()),
+        Change::PoseAngles(order) => format!("{}, it seems, in the poses", order.text()),
+        Change::OtherRotations => "the rotations seem to be a rotation vector where the file says differences of angles, or the other way round".to_owned(),
+        Change::Preload(load) => {
+            let [fx, fy, fz, mx, my, mz] = load.to_array();
+            format!("the reference state seems to carry a load that the file does not have, about ({fx:.3}, {fy:.3}, {fz:.3}) N and ({mx:.3}, {my:.3}, {mz:.3}) N m")
+        }
+        Change::LoadIsChange => "the load columns seem to hold the change of load, loaded minus reference, already".to_owned(),
+        Change::Rows(order) => format!("rows seem to have slipped: {}", order.text()),
+    }
+}
+
+fn reversed(signed: Signed) -> String {
+    const READINGS: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
+    const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+    match signed {
+        Signed::Readings => "the deflections seem to be reference minus loaded: they have".to_owned(),
+        Signed::Translations => "the translations of the deflections seem to have".to_owned(),
+        Signed::Rotations => "the rotations of the deflections seem to have".to_owned(),
+        Signed::Reading(k) => format!("{} seems to have", READINGS[usize::from(k)]),
+        Signed::Wrench => "the loads seem to be those on the machine's support, not on the platform: they have".to_owned(),
+        Signed::Forces => "the forces seem to have".to_owned(),
+        Signed::Moments => "the moments seem to have".to_owned(),
+        Signed::Load(k) => format!("{} seems to have", LOADS[usize::from(k)]),
+    }
+}
+
+fn scaled(group: Group) -> &'static str {
+    match group {
+        Group::Translations => "the translations of the deflections",
+        Group::Rotations => "the rotations of the deflections",
+        Group::Readings => "the deflections",
+        Group::Forces => "the forces",
+        Group::Moments => "the moments",
+        Group::Loads => "the loads",
+        Group::PosePositions => "the positions of the poses",
+        Group::PoseAngles => "the angles of the poses",
+        Group::BaseJoints => "the base joints",
+        Group::PlatformJoints => "the platform joints",
+        Group::Joints => "the joints",
+        Group::Noise => "the stated noise",
+    }
+}
+
+fn written_in(target: Target) -> &'static str {
+    match target {
+        Target::Readings => "the deflections",
+        Target::ReadingColumns => "the columns of the deflections",
+        Target::Wrench => "the loads",
+        Target::WrenchColumns => "the columns of the loads",
+        Target::Poses => "the poses",
+        Target::Joints => "the joints",
+        Target::BaseJoints => "the base joints",
+        Target::PlatformJoints => "the platform joints",
+    }
+}
+
+/// Pairs of units with this ratio, for those who look for the mistake.
+fn units(group: Group, factor: f64) -> &'static str {
+    let is = |ratio: f64| (factor / ratio - 1.0).abs() < 1e-3 || (factor * ratio - 1.0).abs() < 1e-3;
+    let is_angle = matches!(group, Group::Rotations | Group::PoseAngles | Group::Readings);
+    match group {
+        _ if is_angle && is(57.295_78) => ": degrees and radians",
+        _ if is_angle && is(4.848_137) => ": seconds of arc and microradians",
+        _ if is_angle && is(17_453.292_5) => ": degrees and microradians",
+        Group::Forces | Group::Moments | Group::Loads if is(9.806_65) => ": kilograms and newtons",
+        Group::Forces | Group::Moments | Group::Loads if is(4.448_222) => ": pounds and newtons",
+        Group::Moments if is(1e3) => ": newton millimeters and newton meters",
+        _ if is(25.4) => ": inches and millimeters",
+        _ if is(1e3) => ": a thousandth",
+        _ => "",
+    }
+}
+
+fn number(x: f64) -> String {
+    if x < 1e4 { format!("{:.4}", x).trim_end_matches('0').trim_end_matches('.').to_owned() } else { format!("{x:.3e}") }
+}
+
+fn advice(change: &Change, is_one_of_many: bool) -> &'static str {
+    let only = match change {
+        Change::Reversed(_) | Change::StatesExchanged => {
+            "press on the platform by hand: a pull along an axis moves it along that axis; look at the signs of that line, and \
+             correct the file"
+        }
+        Change::Scaled(..) => "check the units of these columns against the instrument, and correct the names of the columns or the values",
+        Change::LegOrder(_) | Change::JointsExchanged | Change::Joint(..) => {
+            "compare the joints of the hexapod file with the drawing, leg by leg, and correct it"
+        }
+        Change::Rows(_) => "compare the file with the log of the measurement, and put the rows in order",
+        Change::Preload(_) | Change::LoadIsChange => {
+            "write the loads of both states, ref_fx_N to ref_mz_Nm and fx_N to mz_Nm, each as applied to the platform"
+        }
+        _ => "check in which frame, about which point and in which convention these columns were written, and correct the file",
+    };
+    if is_one_of_many {
+        "the readings alone cannot tell these apart: check each against the machine, and correct the file"
+    } else {
+        only
+    }
+}

@@ -1,0 +1,182 @@
+//! Axes that were named otherwise, and angles that turn in another order.
+
+use hexbench_core::{Matrix3, Pose, Vector3};
+use nalgebra::Rotation3;
+
+/// Axes of the file in terms of those meant: entry `k` is the axis of the file, from 1 and with its sign, that is axis `k`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct SignedAxes([i8; 3]);
+
+impl SignedAxes {
+    /// Every naming of three axes but the one of the file.
+    pub fn all() -> Vec<Self> {
+        let orders = [[1, 2, 3], [1, 3, 2], [2, 1, 3], [2, 3, 1], [3, 1, 2], [3, 2, 1]];
+        let signed = |order: [i8; 3], signs: u8| {
+            Self(std::array::from_fn(|k| if signs & (1 << k) == 0 { order[k] } else { -order[k] }))
+        };
+        let every = orders.iter().flat_map(|&order| (0..8).map(move |signs| signed(order, signs)));
+        every.filter(|axes| axes.0 != [1, 2, 3]).collect()
+    }
+
+    /// From three signed axes; `None` unless each axis occurs once.
+    pub fn new(axes: [i8; 3]) -> Option<Self> {
+        let mut sorted = axes.map(i8::abs);
+        sorted.sort_unstable();
+        (sorted == [1, 2, 3]).then_some(Self(axes))
+    }
+
+    /// The three signed axes.
+    pub fn axes(self) -> [i8; 3] {
+        self.0
+    }
+
+    /// A vector of the file in the axes meant; left-handed axes also reverse rotations and moments.
+    pub fn renamed(self, v: &Vector3) -> Vector3 {
+        Vector3::from_fn(|k, _| f64::from(self.0[k].signum()) * v[usize::from(self.0[k].unsigned_abs()) - 1])
+    }
+
+    /// The same of a pose: its rotation is that of the body, seen in other axes.
+    pub fn pose(self, pose: &Pose) -> Pose {
+        let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|e| self.renamed(&e));
+        let turn = Matrix3::from_columns(&columns);
+        Pose::from_rotation(turn * pose.translation, &(turn * pose.rotation() * turn.transpose()))
+    }
+
+    /// 1 for right-handed axes, -1 for left-handed ones.
+    pub fn handedness(self) -> f64 {
+        let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|e| self.renamed(&e));
+        Matrix3::from_columns(&columns).determinant().signum()
+    }
+
+    /// True when z stays the vertical axis.
+    pub fn keeps_vertical(self) -> bool {
+        self.0[2].abs() == 3
+    }
+}
+
+/// Order in which the three angles of a pose turn the platform, about fixed axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum AngleOrder {
+    /// x, then z, then y.
+    Xzy,
+    /// y, then x, then z.
+    Yxz,
+    /// y, then z, then x.
+    Yzx,
+    /// z, then x, then y.
+    Zxy,
+    /// z, then y, then x: the same as x, y, z about axes that move with the platform.
+    Zyx,
+    /// The three numbers are a rotation vector.
+    RotationVector,
+    /// x, then y, then z, but from the platform to the fixed frame.
+    Inverse,
+}
+
+impl AngleOrder {
+    /// All that are not the order of the file format.
+    pub const ALL: [Self; 7] =
+        [Self::Zyx, Self::Xzy, Self::Yxz, Self::Yzx, Self::Zxy, Self::RotationVector, Self::Inverse];
+
+    /// One word, as `--read-as` takes it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Xzy => "fixed-x-z-y",
+            Self::Yxz => "fixed-y-x-z",
+            Self::Yzx => "fixed-y-z-x",
+            Self::Zxy => "fixed-z-x-y",
+            Self::Zyx => "moving-x-y-z",
+            Self::RotationVector => "rotation-vector",
+            Self::Inverse => "inverse",
+        }
+    }
+
+    /// What it means, in a sentence.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Xzy => "the angles turn about the fixed axes x, z, y, one after the other",
+            Self::Yxz => "the angles turn about the fixed axes y, x, z, one after the other",
+            Self::Yzx => "the angles turn about the fixed axes y, z, x, one after the other",
+            Self::Zxy => "the angles turn about the fixed axes z, x, y, one after the other",
+            Self::Zyx => "the angles turn about axes x, y, z that move with the platform, as the U, V, W of many controllers do",
+            Self::RotationVector => "the three angles are the components of a rotation vector",
+            Self::Inverse => "the angles turn from the platform to the fixed frame",
+        }
+    }
+
+    /// Rotation matrix of three angles, rad.
+    pub fn rotation(self, angles: &Vector3) -> Matrix3 {
+        let [x, y, z] = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
+        let (rx, ry, rz) = (
+            Rotation3::from_axis_angle(&x, angles.x),
+            Rotation3::from_axis_angle(&y, angles.y),
+            Rotation3::from_axis_angle(&z, angles.z),
+        );
+        let turned = match self {
+            Self::Xzy => ry * rz * rx,
+            Self::Yxz => rz * rx * ry,
+            Self::Yzx => rx * rz * ry,
+            Self::Zxy => ry * rx * rz,
+            Self::Zyx => rx * ry * rz,
+            Self::RotationVector => Rotation3::new(*angles),
+            Self::Inverse => (rz * ry * rx).inverse(),
+        };
+        *turned.matrix()
+    }
+
+    /// Rotation vector (fixed axes, rad) of a small change of the angles.
+    pub fn turned_by(self, angles: &Vector3, change: &Vector3) -> Vector3 {
+        small_rotation(&self.rotation(angles), &self.rotation(&(angles + change)))
+    }
+}
+
+/// Rotation vector from one attitude to another close by, rad.
+pub(super) fn small_rotation(from: &Matrix3, to: &Matrix3) -> Vector3 {
+    let r = to * from.transpose();
+    0.5 * Vector3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_axes_have_forty_seven_other_names() {
+        let all = SignedAxes::all();
+        let distinct: std::collections::HashSet<_> = all.iter().collect();
+        assert_eq!((all.len(), distinct.len()), (47, 47));
+        assert_eq!(all.iter().filter(|a| a.handedness() > 0.0).count(), 23);
+    }
+
+    #[test]
+    fn a_pose_in_other_axes_moves_points_as_vectors_are_renamed() {
+        let pose = Pose::from_array([0.01, -0.02, 0.03, 0.2, -0.3, 0.4]);
+        let point = Vector3::new(0.1, 0.2, -0.05);
+        for axes in SignedAxes::all() {
+            let there = axes.pose(&pose);
+            let moved = there.translation + there.rotation() * axes.renamed(&point);
+            let expected = axes.renamed(&(pose.translation + pose.rotation() * point));
+            assert!((moved - expected).norm() < 1e-15, "{axes:?}");
+        }
+    }
+
+    #[test]
+    fn moving_axes_are_fixed_axes_in_the_other_order() {
+        let angles = Vector3::new(0.3, -0.2, 0.5);
+        let r = AngleOrder::Zyx.rotation(&angles);
+        let x = Rotation3::from_axis_angle(&Vector3::x_axis(), 0.3);
+        let y = Rotation3::from_axis_angle(&(x * Vector3::y_axis()), -0.2);
+        let z = Rotation3::from_axis_angle(&(y * x * Vector3::z_axis()), 0.5);
+        assert!(((z * y * x).matrix() - r).amax() < 1e-15);
+    }
+
+    #[test]
+    fn small_changes_of_angles_are_rotation_vectors() {
+        let angles = Vector3::new(0.3, -0.2, 0.5);
+        let change = Vector3::new(1e-6, -2e-6, 3e-6);
+        let same = crate::machine::kinematics::euler_rate_matrix(&Vector3::new(0.3, -0.2, 0.5)) * change;
+        let pose = |a: &Vector3| Pose { translation: Vector3::zeros(), angles: *a }.rotation();
+        let found = small_rotation(&pose(&angles), &pose(&(angles + change)));
+        assert!((found - same).norm() < 1e-11, "{found} {same}");
+    }
+}

@@ -1,0 +1,92 @@
+//! The machine as it is understood.
+
+use hexbench_core::{Hexapod, Pose, Vector3};
+use serde::Serialize;
+
+use crate::error::ModelError;
+use crate::machine::geometry::Machine;
+
+/// Condition number of the leg Jacobian, in units of the platform's radius, beyond which small errors of joints matter much.
+const POOR_CONDITION: f64 = 30.0;
+/// A machine lower than this share of its platform's radius is flat: the planes of the joints seem to coincide.
+const FLAT: f64 = 0.1;
+
+/// The machine as the hexapod file describes it.
+#[derive(Debug, Clone, Serialize)]
+pub struct MachineCheck {
+    /// Mean distance of the base joints from their center, mm.
+    pub base_radius_mm: f64,
+    /// Mean distance of the platform joints from their center, mm.
+    pub platform_radius_mm: f64,
+    /// From the mean of the base joints up to that of the platform joints at the zero pose, mm.
+    pub height_mm: f64,
+    /// Length of each leg at the zero pose, mm.
+    pub home_lengths_mm: [f64; 6],
+    /// Angle of each leg from the vertical at the zero pose, degrees.
+    pub inclination_deg: [f64; 6],
+    /// Condition number of the leg Jacobian at the zero pose, moments in units of the platform's radius.
+    pub condition: f64,
+    /// Stated shortest and longest leg, mm.
+    pub stroke_mm: Option<[f64; 2]>,
+}
+
+impl MachineCheck {
+    /// # Errors
+    /// [`ModelError::SingularPose`] at the zero pose.
+    pub(super) fn of(hexapod: &Hexapod) -> Result<Self, ModelError> {
+        let legs = Machine::nominal(hexapod).legs(&Pose::default())?;
+        let mean = |joints: &[Vector3; 6]| joints.iter().sum::<Vector3>() / 6.0;
+        let (base, platform) = (mean(&hexapod.base_joints), mean(&hexapod.platform_joints));
+        let radius = |joints: &[Vector3; 6], center: Vector3| {
+            1e3 * joints.iter().map(|j| (j - center).norm()).sum::<f64>() / 6.0
+        };
+        let mut jacobian = legs.leg_jacobian;
+        jacobian.fixed_columns_mut::<3>(3).unscale_mut(hexapod.platform_radius().max(1e-9));
+        let singular = jacobian.singular_values();
+        Ok(Self {
+            base_radius_mm: radius(&hexapod.base_joints, base),
+            platform_radius_mm: radius(&hexapod.platform_joints, platform),
+            height_mm: 1e3 * (platform.z - base.z),
+            home_lengths_mm: std::array::from_fn(|leg| 1e3 * legs.lengths[leg]),
+            inclination_deg: std::array::from_fn(|leg| {
+                legs.directions[leg].z.abs().clamp(0.0, 1.0).acos().to_degrees()
+            }),
+            condition: singular.max() / singular.min().max(f64::MIN_POSITIVE),
+            stroke_mm: hexapod.stroke.map(|s| s.map(|x| 1e3 * x)),
+        })
+    }
+
+    /// What looks odd.
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        if self.height_mm.abs() < FLAT * self.platform_radius_mm {
+            all.push(format!(
+                "base and platform joints are {:.1} mm apart at the zero pose: if both are given from their own planes, the home height \
+                 is missing; add it to the z of the platform joints, or take it off those of the base",
+                self.height_mm
+            ));
+        }
+        if self.height_mm < 0.0 {
+            all.push("the platform joints are below the base joints at the zero pose: is z pointing up?".to_owned());
+        }
+        if self.condition > POOR_CONDITION {
+            all.push(format!(
+                "the condition number of the legs at the zero pose is {:.0}: errors of joints and loads are enlarged by as much",
+                self.condition
+            ));
+        }
+        let outside = |stroke: [f64; 2]| {
+            self.home_lengths_mm.iter().any(|q| *q < stroke[0] || *q > stroke[1])
+        };
+        if let Some(stroke) = self.stroke_mm.filter(|s| outside(*s)) {
+            all.push(format!(
+                "legs are {:.1} to {:.1} mm long at the zero pose, outside the stated stroke of {:.1} to {:.1} mm",
+                self.home_lengths_mm.iter().copied().fold(f64::INFINITY, f64::min),
+                self.home_lengths_mm.iter().copied().fold(0.0, f64::max),
+                stroke[0],
+                stroke[1]
+            ));
+        }
+        all
+    }
+}

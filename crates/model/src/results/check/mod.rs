@@ -1,0 +1,102 @@
+//! Are machine and files what they should be? What is understood of them, what looks wrong, what they could show.
+
+mod machine;
+mod readings;
+
+use std::sync::Arc;
+
+use hexbench_core::{Dataset, Hexapod};
+use serde::Serialize;
+
+pub use self::machine::MachineCheck;
+pub use self::readings::ReadingsCheck;
+use crate::effects::term::Term;
+use crate::effects::untestable::Untestable;
+use crate::error::ModelError;
+use crate::inference::diagnosis::visible;
+use crate::inference::examination::Finding;
+use crate::inference::misread::{AsMeant, Change, copies, held_in};
+use crate::inference::power::{Detectable, detectable};
+use crate::results::diagnose::{held_out_finding, misread_findings, prepare};
+
+/// What a check found.
+#[derive(Debug, Clone, Serialize)]
+pub struct Check {
+    /// `check/1`.
+    pub format: &'static str,
+    /// True when nothing was found that has to be put right first.
+    pub ready: bool,
+    /// The machine.
+    pub machine: MachineCheck,
+    /// The measurements, when there are any.
+    pub measurements: Option<ReadingsCheck>,
+    /// The readings held out, when there are any.
+    pub holdout: Option<ReadingsCheck>,
+    /// What is wrong with the files.
+    pub findings: Vec<Finding>,
+    /// What looks odd, and may be right.
+    pub remarks: Vec<String>,
+    /// Smallest size of each effect that the measurements would show.
+    pub detectable: Vec<Detectable>,
+    /// Effects that the measurements cannot test.
+    pub untestable: Vec<Untestable>,
+    /// What the files were read as meaning otherwise than they say because somebody asked for it, as `KIND=VALUE`.
+    pub read_as: Vec<String>,
+}
+
+/// Checks a machine, and what was measured on it.
+///
+/// # Errors
+/// As [`prepare`], where nothing at all can be fitted; [`ModelError::SingularPose`] at the zero pose.
+pub fn check(
+    hexapod: &Hexapod,
+    data: Option<&Dataset>,
+    holdout: Option<&Dataset>,
+    terms: &[Arc<dyn Term>],
+    read_as: &[Change],
+) -> Result<Check, ModelError> {
+    let changes: Vec<String> = read_as.iter().map(ToString::to_string).collect();
+    let Some(data) = data else {
+        let machine = MachineCheck::of(hexapod)?;
+        let remarks = machine.remarks();
+        return Ok(Check {
+            format: "check/1",
+            ready: true,
+            machine,
+            measurements: None,
+            holdout: None,
+            findings: Vec::new(),
+            remarks,
+            detectable: Vec::new(),
+            untestable: Vec::new(),
+            read_as: changes,
+        });
+    };
+    let meant = AsMeant::of(hexapod, data, holdout, read_as);
+    let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
+    let machine = MachineCheck::of(hexapod)?;
+    let mut findings = misread_findings(hexapod, data, terms).unwrap_or_default();
+    findings.extend(copies(data));
+    let measurements = ReadingsCheck::of(hexapod, data)?;
+    if let Some(held) = holdout {
+        let own = held_in(data, held);
+        let foreign = || held_out_finding(hexapod, data, held).ok().flatten();
+        findings.extend(own.or_else(|| if findings.is_empty() { foreign() } else { None }));
+    }
+    let holdout = holdout.map(|held| ReadingsCheck::of(hexapod, held)).transpose()?;
+    let campaign = prepare(hexapod, data)?;
+    let (gram, candidates, untestable) = visible(&campaign, terms)?;
+    let remarks = machine.remarks().into_iter().chain(measurements.remarks(&machine));
+    Ok(Check {
+        format: "check/1",
+        ready: findings.is_empty(),
+        remarks: remarks.collect(),
+        machine,
+        measurements: Some(measurements),
+        holdout,
+        detectable: if findings.is_empty() { detectable(&gram, &candidates, &[]) } else { Vec::new() },
+        findings,
+        untestable,
+        read_as: changes,
+    })
+}

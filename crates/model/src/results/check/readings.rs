@@ -1,0 +1,155 @@
+//! A file of readings as it is understood.
+
+use hexbench_core::{Dataset, Hexapod};
+use serde::Serialize;
+
+use super::machine::MachineCheck;
+use crate::error::ModelError;
+use crate::estimation::fit::fit_baseline;
+use crate::estimation::noise::{NoiseSource, scatter};
+use crate::machine::geometry::Machine;
+use crate::results::diagnose::prepare;
+
+/// Repeats may scatter by this factor more or less than stated without a remark.
+const SCATTER_OFF: f64 = 1.5;
+/// Fitted stiffnesses may be off the nominal ones by this factor without a remark.
+const STIFFNESS_OFF: f64 = 3.0;
+
+/// Smallest and largest of something.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Range {
+    /// The smallest.
+    pub least: f64,
+    /// The largest.
+    pub most: f64,
+}
+
+impl Range {
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let none = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
+        values.fold(none, |r, x| Self { least: r.least.min(x), most: r.most.max(x) })
+    }
+}
+
+/// Readings and what they were taken at.
+#[derive(Debug, Clone, Serialize)]
+pub struct ReadingsCheck {
+    /// Name of the file.
+    pub file: String,
+    /// What was read: `deflections` or `absolute poses`.
+    pub measurand: &'static str,
+    /// Rows.
+    pub rows: usize,
+    /// Different poses.
+    pub poses: usize,
+    /// Different conditions: pose, loads, approach, temperature, time.
+    pub conditions: usize,
+    /// Lengths of the legs over all poses, mm.
+    pub leg_lengths_mm: Range,
+    /// Largest angle of a pose, degrees.
+    pub largest_angle_deg: f64,
+    /// Largest force, N.
+    pub largest_force_n: f64,
+    /// Largest moment, N m.
+    pub largest_moment_nm: f64,
+    /// Forces in the legs, tension positive, N.
+    pub leg_forces_n: Range,
+    /// Root mean square of the translations read, um; of deflections only.
+    pub translation_rms_um: Option<f64>,
+    /// Root mean square of the rotations read, urad; of deflections only.
+    pub rotation_rms_urad: Option<f64>,
+    /// Noise used: of one translation, um, and of one rotation, urad.
+    pub noise: [f64; 2],
+    /// Where it comes from.
+    pub noise_source: NoiseSource,
+    /// Scatter of repeats, um and urad, where there are any.
+    pub repeats: Option<[f64; 2]>,
+    /// Error of the springs alone over the noise.
+    pub springs_level: Option<f64>,
+    /// Stiffness of each leg by springs alone, N/um.
+    pub stiffness_n_per_um: Option<[f64; 6]>,
+    /// Nominal stiffness, N/um, where stated.
+    pub nominal_n_per_um: Option<[f64; 6]>,
+}
+
+impl ReadingsCheck {
+    /// # Errors
+    /// As [`prepare`].
+    pub(super) fn of(hexapod: &Hexapod, data: &Dataset) -> Result<Self, ModelError> {
+        let campaign = prepare(hexapod, data)?;
+        let machine = Machine::nominal(hexapod);
+        let rows = &data.observations;
+        let mut poses: Vec<[u64; 6]> = rows.iter().map(|o| o.pose.to_array().map(f64::to_bits)).collect();
+        poses.sort_unstable();
+        poses.dedup();
+        let legs: Vec<_> =
+            campaign.groups.iter().filter_map(|g| Some((&g.mean, machine.legs(&g.mean.pose).ok()?))).collect();
+        let springs = fit_baseline(&campaign).ok();
+        let repeated = scatter(rows, &campaign.axes);
+        let rms = |first: usize| {
+            let sum: f64 = rows.iter().flat_map(|o| &o.measured[first..first + 3]).map(|x| x * x).sum();
+            1e6 * (sum / (3 * rows.len()).max(1) as f64).sqrt()
+        };
+        let deflections = !data.is_absolute();
+        let largest = |of: &dyn Fn(&hexbench_core::Observation) -> f64| rows.iter().map(of).fold(0.0, f64::max);
+        Ok(Self {
+            file: data.source.clone(),
+            measurand: data.measurand.readings(),
+            rows: rows.len(),
+            poses: poses.len(),
+            conditions: campaign.groups.len(),
+            leg_lengths_mm: Range::of(legs.iter().flat_map(|(_, l)| l.lengths.iter().map(|q| 1e3 * q).collect::<Vec<_>>())),
+            largest_angle_deg: largest(&|o| o.pose.angles.amax().to_degrees()),
+            largest_force_n: largest(&|o| o.wrench.force.norm()),
+            largest_moment_nm: largest(&|o| o.wrench.moment.norm()),
+            leg_forces_n: Range::of(
+                legs.iter().flat_map(|(o, l)| l.forces(&o.wrench.to_vector()).iter().copied().collect::<Vec<_>>()),
+            ),
+            translation_rms_um: deflections.then(|| rms(0)),
+            rotation_rms_urad: deflections.then(|| rms(3)),
+            noise: [campaign.noise.translation * 1e6, campaign.noise.rotation * 1e6],
+            noise_source: campaign.noise.source,
+            repeats: (repeated.dof > 0.0).then(|| {
+                [repeated.variance_translation, repeated.variance_rotation].map(|v| 1e6 * v.sqrt())
+            }),
+            springs_level: springs
+                .as_ref()
+                .filter(|_| campaign.noise.allows_verdict())
+                .map(|fit| fit.chi2_reduced().sqrt()),
+            stiffness_n_per_um: springs.map(|fit| fit.point.compliances.map(|c| 1e-6 / c).into()),
+            nominal_n_per_um: hexapod.nominal_stiffness.map(|k| k.map(|k| 1e-6 * k)),
+        })
+    }
+
+    /// What looks odd.
+    pub(super) fn remarks(&self, machine: &MachineCheck) -> Vec<String> {
+        let mut all = Vec::new();
+        let q = self.leg_lengths_mm;
+        if let Some([short, long]) = machine.stroke_mm.filter(|s| q.least < s[0] || q.most > s[1]) {
+            all.push(format!(
+                "the legs would be {:.1} to {:.1} mm long at these poses, outside the stated stroke of {short:.1} to {long:.1} mm: check \
+                 the poses, the joints and the home height",
+                q.least, q.most
+            ));
+        }
+        if let Some([shift, turn]) = self.repeats.filter(|_| self.noise_source != NoiseSource::Repeats) {
+            let off = |seen: f64, stated: f64| (seen / stated).max(stated / seen) > SCATTER_OFF;
+            if off(shift, self.noise[0]) || off(turn, self.noise[1]) {
+                all.push(format!(
+                    "repeats scatter by {shift:.3} um and {turn:.3} urad, but {:.3} um and {:.3} urad are stated",
+                    self.noise[0], self.noise[1]
+                ));
+            }
+        }
+        if let (Some(found), Some(nominal)) = (self.stiffness_n_per_um, self.nominal_n_per_um) {
+            let ratio = (0..6).map(|leg| (found[leg] / nominal[leg]).abs().ln()).sum::<f64>() / 6.0;
+            if ratio.abs() > STIFFNESS_OFF.ln() {
+                all.push(format!(
+                    "the legs are {:.3} times as stiff as stated: check the units of loads and readings, and the nominal stiffness",
+                    ratio.exp()
+                ));
+            }
+        }
+        all
+    }
+}

@@ -1,0 +1,116 @@
+//! The page of a check.
+
+use hexbench_model::effects::untestable::Untestable;
+use hexbench_model::results::check::{Check, MachineCheck, ReadingsCheck};
+
+use super::{findings, limits, notes, subject};
+use crate::number::significant;
+use crate::page::{Block, Definition, Mood, Page, Section};
+
+/// What is understood of the files, what is wrong with them, what they could show.
+pub fn check(machine: &str, c: &Check) -> Page {
+    let files_read = c.measurements.iter().chain(&c.holdout).map(|m| Definition::new("data", about(m)));
+    let files = [("Measurements", &c.measurements), ("Readings held out", &c.holdout)];
+    let readings = files.into_iter().filter_map(|(title, file)| Some(measurements(title, file.as_ref()?)));
+    let page = Page { subject: files_read.collect(), ..Page::new(format!("Check of {machine}")) }
+        .with(verdict(c))
+        .with(wrong(c))
+        .with(Section::new("What looks odd").id("remarks").list(c.remarks.iter().map(|r| format!("{r}."))).unless_empty())
+        .with(joints(&c.machine))
+        .with_all(readings);
+    if !c.ready || c.measurements.is_none() {
+        return page.with(notes::conventions());
+    }
+    let untestable: &[Untestable] = &c.untestable;
+    page.with(limits::smallest(&c.detectable)).with(limits::not_tested(untestable)).with(notes::conventions())
+}
+
+fn verdict(c: &Check) -> Section {
+    let (word, mood, sentence) = match (&c.measurements, c.ready) {
+        (None, _) => ("READ", Mood::Good, "The machine is understood as stated below. Compare it with the drawing; then give the measurements too."),
+        (Some(_), true) => ("READY", Mood::Good, "The files are understood as stated below. Next: `hexbench diagnose`."),
+        (Some(_), false) => (
+            "NOT READY",
+            Mood::Bad,
+            "The files do not seem to mean what they say. Correct them, or see what changes when they are read otherwise, by --read-as.",
+        ),
+    };
+    Section::new("Verdict").with(Block::Verdict { word: word.to_owned(), mood, sentences: vec![sentence.to_owned()] })
+}
+
+fn wrong(c: &Check) -> Option<Section> {
+    Section::new("What is wrong")
+        .id("findings")
+        .with((!c.read_as.is_empty()).then(|| Block::colored(Mood::Doubt, findings::read_as(&c.read_as))))
+        .list(c.findings.iter().map(findings::sentence))
+        .unless_empty()
+}
+
+fn joints(m: &MachineCheck) -> Section {
+    let list = |values: &[f64; 6], digits: usize| values.map(|x| format!("{x:.digits$}")).join("  ");
+    let stroke = m.stroke_mm.map_or("not stated".to_owned(), |[a, b]| format!("{a:.1} to {b:.1} mm"));
+    Section::new("The machine").id("machine").remark("at the zero pose").with(Block::entries([
+        Definition::new(
+            "joints",
+            format!(
+                "base on a mean radius of {:.1} mm, platform of {:.1} mm, {:.1} mm above it",
+                m.base_radius_mm, m.platform_radius_mm, m.height_mm
+            ),
+        ),
+        Definition::new("leg lengths", format!("{} mm", list(&m.home_lengths_mm, 2))),
+        Definition::new("inclination", format!("{} deg from the vertical", list(&m.inclination_deg, 1))),
+        Definition::new("stroke", stroke),
+        Definition::new("condition", format!("{:.1}, moments over the radius of the platform", m.condition)),
+    ]))
+}
+
+fn about(m: &ReadingsCheck) -> String {
+    format!("{}: {} {} at {} poses, {} conditions", m.file, m.rows, m.measurand, m.poses, m.conditions)
+}
+
+fn measurements(title: &str, m: &ReadingsCheck) -> Section {
+    let digits = |x: f64| significant(x, 3);
+    let mut all = vec![
+        Definition::new(
+            "poses",
+            format!(
+                "legs {:.2} to {:.2} mm long, angles up to {} deg",
+                m.leg_lengths_mm.least,
+                m.leg_lengths_mm.most,
+                digits(m.largest_angle_deg)
+            ),
+        ),
+        Definition::new(
+            "loads",
+            format!(
+                "up to {} N and {} N m; in the legs {} to {} N, tension positive",
+                digits(m.largest_force_n),
+                digits(m.largest_moment_nm),
+                digits(m.leg_forces_n.least),
+                digits(m.leg_forces_n.most)
+            ),
+        ),
+    ];
+    if let (Some(shift), Some(turn)) = (m.translation_rms_um, m.rotation_rms_urad) {
+        all.push(Definition::new(
+            "deflections",
+            format!("{} um and {} urad, root mean square", digits(shift), digits(turn)),
+        ));
+    }
+    let repeats = m.repeats.map_or("nothing is repeated".to_owned(), |[shift, turn]| {
+        format!("repeats scatter by {} um and {} urad", digits(shift), digits(turn))
+    });
+    all.push(Definition::new(
+        "noise",
+        format!("{} um and {} urad per reading, {}; {repeats}", digits(m.noise[0]), digits(m.noise[1]), subject::origin(m.noise_source)),
+    ));
+    if let Some(k) = m.stiffness_n_per_um {
+        let list = |k: [f64; 6]| k.map(digits).join("  ");
+        let nominal = m.nominal_n_per_um.map_or(String::new(), |n| format!("; nominal {}", list(n)));
+        all.push(Definition::new("stiffness", format!("{} N/um by springs alone{nominal}", list(k))));
+    }
+    if let Some(level) = m.springs_level {
+        all.push(Definition::new("springs", format!("alone they leave {} times the noise", digits(level))));
+    }
+    Section::new(title).id(if title.starts_with("Readings") { "holdout" } else { "measurements" }).with(Block::entries(all))
+}
