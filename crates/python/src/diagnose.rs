@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use hexbench_app::{Failure, input};
 use hexbench_core::{LineRange, NoLines};
+use hexbench_model::inference::misread::{Change, ChangeError};
 use hexbench_model::results::compare::{ComparedModel, compare as compared_with};
 use hexbench_model::results::diagnose::{DiagnoseOptions, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::runs::{Origin, WithOrigin};
@@ -87,12 +88,8 @@ impl PyDiagnosis {
 }
 
 fn subject_of((about, study): &(About, DiagnosisStudy)) -> ReportSubject<'_> {
-    ReportSubject {
-        hexapod: &about.measured.machine.hexapod,
-        data: &about.measured.data,
-        holdout: about.holdout.as_ref().map(|h| &h.data),
-        study,
-    }
+    let holdout = about.holdout.as_ref().map(|h| &h.data);
+    ReportSubject::of(&about.measured.machine.hexapod, &about.measured.data, holdout, study)
 }
 
 /// Name the physical effect the model lacks.
@@ -104,17 +101,27 @@ pub(crate) fn diagnose(
     terms: Vec<PathBuf>,
     exclude: Vec<String>,
     keep_all: bool,
+    read_as: Vec<String>,
 ) -> PyResult<PyDiagnosis> {
     let about = About::of(campaign, holdout);
     beside(py, move || {
         let all = input::catalogue_with(&input::user_terms(&terms)?);
         let held = about.holdout.as_ref().map(|h| &h.data);
-        let options = DiagnoseOptions { exclude: lines(&exclude)?, keep_all };
+        let options = DiagnoseOptions { exclude: lines(&exclude)?, keep_all, read_as: changes(&read_as)? };
         let study =
             diagnose_with(&about.measured.machine.hexapod, &about.measured.data, held, &all, &options);
         let study = study.map_err(|cause| about.failure(cause))?;
         Ok(PyDiagnosis(Arc::new((about, study))))
     })
+}
+
+/// `deflection-sign=reversed`.
+fn changes(texts: &[String]) -> Result<Vec<Change>, Failure> {
+    let refused = |message: String| Failure::Usage { message, next: String::new() };
+    texts
+        .iter()
+        .map(|text| text.parse().map_err(|cause: ChangeError| refused(format!("read_as: {cause}"))))
+        .collect()
 }
 
 /// `12`, `12-15`.

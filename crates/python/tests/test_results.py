@@ -14,7 +14,7 @@ import hexbench
 KEYS = {
     "format", "verdict", "added", "model", "richer", "candidates", "present", "credible_set", "steps", "holdout", "noise",
     "parameters", "not_determined", "untestable", "detectable", "next", "separation", "absorbed", "suspects", "outside",
-    "warnings", "findings", "excluded", "keep_all", "alternative", "run",
+    "warnings", "findings", "excluded", "keep_all", "read_as", "alternative", "run",
 }  # fmt: skip
 
 

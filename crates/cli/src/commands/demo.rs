@@ -40,7 +40,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let data = read_measurements_from(CASE.data.as_bytes(), "measurements.csv")?.dataset;
     let holdout = read_measurements_from(CASE.holdout.as_bytes(), "holdout.csv")?.dataset;
     let study = study(&hexapod, &data, Some(&holdout), &catalogue(), &DiagnoseOptions::default())?;
-    let subject = ReportSubject { hexapod: &hexapod, data: &data, holdout: Some(&holdout), study: &study };
+    let subject = ReportSubject::of(&hexapod, &data, Some(&holdout), &study);
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
     screen.show(&words::demo(&subject).map_err(failed)?)?;
     if arguments.no_report { Ok(()) } else { page(&subject, arguments.output.as_deref(), screen) }

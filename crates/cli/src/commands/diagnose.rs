@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use hexbench_core::{Dataset, Hexapod, LineRange};
 use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
-use hexbench_model::inference::misread::{AsMeant, Change};
+use hexbench_model::inference::misread::Change;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::runs::WithOrigin;
@@ -94,13 +94,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
         write_json(screen, path, &WithOrigin { result: &study.diagnosis, run })?;
     }
-    let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as);
-    let subject = ReportSubject {
-        hexapod: &meant.hexapod,
-        data: &meant.data,
-        holdout: meant.holdout.as_deref(),
-        study: &study,
-    };
+    let subject = ReportSubject::of(&hexapod, &data, holdout.as_ref(), &study);
     arguments.page.write(screen, || {
         let read = [&arguments.hexapod, &arguments.data]
             .into_iter()

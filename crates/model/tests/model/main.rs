@@ -12,6 +12,7 @@ mod examination;
 mod frames;
 mod kinematics;
 mod least_squares;
+mod misread;
 mod model_file;
 mod next;
 mod paper;

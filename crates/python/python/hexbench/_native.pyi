@@ -136,7 +136,12 @@ def compare(campaign: Campaign, model: Model | None, holdout: Campaign | None) -
     """Compare a model, or springs fitted to the data, with measurements."""
 
 def diagnose(
-    campaign: Campaign, holdout: Campaign | None, terms: Sequence[str], exclude: Sequence[str], keep_all: bool
+    campaign: Campaign,
+    holdout: Campaign | None,
+    terms: Sequence[str],
+    exclude: Sequence[str],
+    keep_all: bool,
+    read_as: Sequence[str],
 ) -> Diagnosis:
     """Name the physical effect the model lacks."""
 

@@ -108,6 +108,8 @@ class Diagnosis:
     excluded: list[int]
     #: Whether readings that were found wrong took part in the fit all the same.
     keep_all: bool
+    #: What the files were read as meaning otherwise than they say, as ``KIND=VALUE``, because ``read_as`` asked for it.
+    read_as: list[str]
     #: The answer the other way, where findings leave readings out or would do so: ``rows`` (lines concerned), ``verdict``,
     #: ``added``, ``stiffness`` (six, None where open), ``chi2_reduced``; None where nothing differs.
     alternative: dict[str, Any] | None
@@ -179,6 +181,7 @@ def diagnose(
     terms: Sequence[str | PathLike[str]] = (),
     exclude: Sequence[int | str] = (),
     keep_all: bool = False,
+    read_as: Sequence[str] = (),
 ) -> Diagnosis:
     """Name the physical effect that the model lacks, and show the held-out error fall.
 
@@ -195,11 +198,14 @@ def diagnose(
         memory: its row and two), or ranges such as ``"12-15"``.
     keep_all : bool
         Keep every other reading in the fit; findings are still told.
+    read_as : sequence of str
+        Read the files as meaning something else than they say: ``KIND=VALUE`` as a finding names it
+        (``"deflection-sign=reversed"``), applied in order.
 
     Returns
     -------
     Diagnosis
-        ``verdict`` is ``adequate``, ``named``, ``ambiguous``, ``outside`` or ``measurement``; bad news is a result, not an
+        ``verdict`` is ``adequate``, ``named``, ``ambiguous``, ``outside``, ``measurement`` or ``undecided``; bad news is a result, not an
         exception.
 
     Raises
@@ -208,7 +214,9 @@ def diagnose(
         When nothing can be computed, or a line of ``exclude`` has no reading.
     """
     own = [fspath(t) for t in terms]
-    return Diagnosis(_native.diagnose(campaign._made, held_out(campaign, holdout), own, _lines(exclude), bool(keep_all)))
+    changes = [read_as] if isinstance(read_as, str) else list(read_as)
+    held = held_out(campaign, holdout)
+    return Diagnosis(_native.diagnose(campaign._made, held, own, _lines(exclude), bool(keep_all), changes))
 
 
 def terms() -> list[dict[str, Any]]:

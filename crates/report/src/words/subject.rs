@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::estimation::noise::{Noise, NoiseSource};
+use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::results::diagnose::DiagnosisStudy;
 
 use crate::number::significant;
@@ -21,7 +22,27 @@ pub struct ReportSubject<'a> {
     pub study: &'a DiagnosisStudy,
 }
 
-impl ReportSubject<'_> {
+impl<'a> ReportSubject<'a> {
+    /// A diagnosis of files, as it read them: otherwise than they say where somebody asked for it, without a held-out file that it set
+    /// aside.
+    pub fn of(
+        hexapod: &'a Hexapod,
+        data: &'a Dataset,
+        holdout: Option<&'a Dataset>,
+        study: &'a DiagnosisStudy,
+    ) -> Self {
+        let is_used = study.diagnosis.holdout == HeldOut::File;
+        match &study.as_meant {
+            Some(meant) => Self {
+                hexapod: &meant.hexapod,
+                data: &meant.data,
+                holdout: meant.holdout.as_deref().filter(|_| is_used),
+                study,
+            },
+            None => Self { hexapod, data, holdout: holdout.filter(|_| is_used), study },
+        }
+    }
+
     /// Files and noise.
     pub fn entries(&self) -> Vec<Definition> {
         let mut all = entries(self.data, self.holdout, &self.study.campaign.noise);

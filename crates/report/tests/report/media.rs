@@ -43,12 +43,7 @@ static COMPARISONS: LazyLock<Pages> = LazyLock::new(comparisons);
 fn diagnoses() -> Pages {
     let page = |case: &Case| {
         let study = diagnose(&case.hexapod, &case.data, Some(&case.holdout), &catalogue()).unwrap();
-        let subject = ReportSubject {
-            hexapod: &case.hexapod,
-            data: &case.data,
-            holdout: Some(&case.holdout),
-            study: &study,
-        };
+        let subject = ReportSubject::of(&case.hexapod, &case.data, Some(&case.holdout), &study);
         (case.name.clone(), diagnosis(&subject), charts::diagnosis(&subject, &provenance()).unwrap())
     };
     cases().iter().map(page).collect()

@@ -25,7 +25,7 @@ impl LoadedCampaign {
     /// What a page about these data is about.
     pub(super) fn subject<'a>(&'a self, study: &'a DiagnosisStudy) -> ReportSubject<'a> {
         let c = &self.contents;
-        ReportSubject { hexapod: &c.hexapod, data: &c.data, holdout: c.holdout.as_ref(), study }
+        ReportSubject::of(&c.hexapod, &c.data, c.holdout.as_ref(), study)
     }
 
     /// Names the effect that is missing.

@@ -32,8 +32,6 @@ pub use self::turn::{AngleOrder, SignedAxes};
 const SOUND_LEVEL: f64 = 1.1;
 /// Repeats of a sound file scatter within this factor of the stated noise.
 const SOUND_SCATTER: f64 = 6.0;
-/// Another reading of the file leaves at most this share of what the file as written leaves.
-const WORTH_A_LOOK: f64 = 0.9;
 /// Twice the log-likelihood another reading of a file has to gain.
 const GAIN: f64 = 40.0;
 /// Readings of a file this close to one another, in twice the log-likelihood, explain it alike.
@@ -78,6 +76,15 @@ impl<'a> AsMeant<'a> {
             change.apply(all.hexapod.to_mut(), all.data.to_mut());
         }
         all
+    }
+
+    /// The same, held by itself.
+    pub fn into_owned(self) -> AsMeant<'static> {
+        AsMeant {
+            hexapod: Cow::Owned(self.hexapod.into_owned()),
+            data: Cow::Owned(self.data.into_owned()),
+            holdout: self.holdout.map(|held| Cow::Owned(held.into_owned())),
+        }
     }
 }
 
@@ -221,12 +228,9 @@ impl Search<'_> {
         }
     }
 
+    /// True for what explains the file far better; as written, legs of negative stiffness explain nothing.
     fn is_worth_a_look(&self, way: &Way) -> bool {
-        self.written.is_none_or(|written| {
-            let better = written.cost - way.cost > GAIN;
-            let is_admissible = written.negative == 0;
-            better && (!is_admissible || way.level < WORTH_A_LOOK * written.level || way.level < SOUND_LEVEL)
-        })
+        self.written.is_none_or(|written| written.negative > 0 || written.cost - way.cost > GAIN)
     }
 }
 

@@ -37,16 +37,17 @@ pub(super) struct BothWays {
 }
 
 impl BothWays {
-    /// `keep_all`: the answer has all readings.
+    /// `explained`: the readings as stated, where that is done already; `keep_all`: the answer has all readings.
     pub(super) fn of(
         hexapod: &Hexapod,
         data: &Dataset,
         terms: &[Arc<dyn Term>],
+        explained: Option<Box<(Campaign, RankedSets)>>,
         keep_all: bool,
     ) -> Result<Self, ModelError> {
         let (cleaned, kept) = match copies(data) {
             Some(found) => without_copies(hexapod, data, terms, found)?,
-            None => judged(hexapod, data, terms)?,
+            None => judged(hexapod, data, terms, explained)?,
         };
         Ok(match kept {
             Some(kept) if keep_all => Self { answer: kept?, other: Some(Ok(cleaned)) },
@@ -66,8 +67,8 @@ fn without_copies(
 ) -> Result<(Judged, Kept), ModelError> {
     let observations = data.observations.iter().filter(|o| !found.rows.contains(&o.line)).copied().collect();
     let first = Dataset { observations, ..data.clone() };
-    let mut answer = judged(hexapod, &first, terms)?.0;
-    let mut kept = judged(hexapod, data, terms).map(|both| both.0);
+    let mut answer = judged(hexapod, &first, terms, None)?.0;
+    let mut kept = judged(hexapod, data, terms, None).map(|both| both.0);
     for judged in std::iter::once(&mut answer).chain(kept.as_mut().ok()) {
         judged.findings.insert(0, found.clone());
     }
@@ -75,10 +76,21 @@ fn without_copies(
 }
 
 /// Explains a campaign and examines its readings in turn, until nothing more is found; and with the readings left out put back.
-fn judged(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Result<(Judged, Kept), ModelError> {
-    let campaign = prepare(hexapod, data)?;
+fn judged(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    terms: &[Arc<dyn Term>],
+    explained: Option<Box<(Campaign, RankedSets)>>,
+) -> Result<(Judged, Kept), ModelError> {
+    let (campaign, outcome) = match explained {
+        Some(known) => *known,
+        None => {
+            let campaign = prepare(hexapod, data)?;
+            let outcome = explain(&campaign, terms)?;
+            (campaign, outcome)
+        }
+    };
     let noise = campaign.noise;
-    let outcome = explain(&campaign, terms)?;
     let as_stated = Judged { data: data.clone(), campaign, outcome, findings: Vec::new() };
     let mut judged = as_stated.clone();
     let mut last = None;

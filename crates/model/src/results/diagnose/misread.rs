@@ -8,8 +8,9 @@ use rayon::prelude::*;
 use super::judged::{Judged, prepare};
 use crate::effects::term::Term;
 use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
-use crate::inference::diagnosis::{explain, springs_alone};
+use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
 use crate::inference::examination::Finding;
 use crate::inference::misread::{Answered, AsWritten, Change, Origin, Readings, Target, Way, finding, other_readings};
 
@@ -27,6 +28,8 @@ const SOUND_LEVEL: f64 = 1.15;
 const EVIDENT_LEVEL: f64 = 2.0;
 /// Share of the platform's radius, and the turn in rad, beyond which an offset or a tilt of the loads is no effect of the machine.
 const NO_EFFECT: f64 = 0.3;
+/// Standard deviations of chi-square by which an error may exceed the noise and still be taken for it.
+const NOISE_SIGMAS: f64 = 2.0;
 /// A compliance this many standard deviations below zero is no spring.
 const NEGATIVE_SIGMAS: f64 = 3.0;
 
@@ -36,34 +39,51 @@ struct Explained {
     cost: f64,
     /// Error over the noise.
     level: f64,
+    /// True when the error is what the noise alone leaves as often as not, or nearly.
+    is_noise: bool,
     /// True when every leg is a spring.
     is_machine: bool,
 }
 
-/// The file as written, with springs alone, and what it seems to mean instead; none when it seems to mean what it says.
+/// A file before any effect is weighed.
+pub(super) enum FirstLook {
+    /// It does not seem to mean what it says: springs alone, and what it seems to mean instead.
+    Misread(Box<Judged>),
+    /// It seems to mean what it says; with its explanation, where that had to be known.
+    Sound(Option<Box<(Campaign, RankedSets)>>),
+}
+
+/// Looks whether a file means what it says.
 ///
 /// # Errors
-/// As [`prepare`], for a file that can be fitted in no way as it is written.
-pub(super) fn misread(
+/// As [`prepare`]; [`ModelError::Misread`] where nothing can be fitted as the file is written.
+pub(super) fn first_look(
     hexapod: &Hexapod,
     data: &Dataset,
     terms: &[Arc<dyn Term>],
-) -> Result<Option<Judged>, ModelError> {
-    let Some(findings) = misread_findings(hexapod, data, terms) else { return Ok(None) };
-    let campaign = prepare(hexapod, data).map_err(|cause| match findings.first() {
+) -> Result<FirstLook, ModelError> {
+    let Some(readings) = other_readings(hexapod, data) else { return Ok(FirstLook::Sound(None)) };
+    let mut weighing = Weighing { hexapod, data, terms, readings: &readings, written: None };
+    let Some(findings) = weighing.findings() else {
+        return Ok(FirstLook::Sound(weighing.written.map(Box::new)));
+    };
+    let as_written = prepare(hexapod, data).and_then(|campaign| {
+        let outcome = springs_alone(&campaign)?;
+        Ok((campaign, outcome))
+    });
+    let (campaign, outcome) = as_written.map_err(|cause| match findings.first() {
         Some(f) => {
             ModelError::Misread { cause: Box::new(cause), meaning: f.text.clone(), next: f.next.clone() }
         }
         None => cause,
     })?;
-    let outcome = springs_alone(&campaign)?;
-    Ok(Some(Judged { data: data.clone(), campaign, outcome, findings }))
+    Ok(FirstLook::Misread(Box::new(Judged { data: data.clone(), campaign, outcome, findings })))
 }
 
 /// What a file seems to mean instead of what it says; none when it seems to mean what it says.
 pub fn misread_findings(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
     let readings = other_readings(hexapod, data)?;
-    Weighing { hexapod, data, terms, readings: &readings }.findings()
+    Weighing { hexapod, data, terms, readings: &readings, written: None }.findings()
 }
 
 /// Other readings of a file against the file as written, each with the effects that explain it best.
@@ -72,10 +92,12 @@ struct Weighing<'a> {
     data: &'a Dataset,
     terms: &'a [Arc<dyn Term>],
     readings: &'a Readings,
+    /// The file as written, explained, once that is done.
+    written: Option<(Campaign, RankedSets)>,
 }
 
 impl Weighing<'_> {
-    fn findings(&self) -> Option<Vec<Finding>> {
+    fn findings(&mut self) -> Option<Vec<Finding>> {
         let best = self.readings.ways.first()?;
         let springs = match (self.readings.level, self.readings.is_negative) {
             (None, _) => AsWritten::Nothing,
@@ -86,9 +108,14 @@ impl Weighing<'_> {
         if is_evident && best.level < SOUND_LEVEL && !is_like_an_effect(best) {
             return Some(self.of(best, Answered { written: springs, other: best.level }));
         }
-        let written = self.explained(None);
+        self.written = self.explain(None);
+        let written = self.written.as_ref().map(|(campaign, outcome)| Explained::of(campaign, outcome, None));
+        // What effects explain to the noise needs no other reading, unless one is no effect by its size.
+        if written.as_ref().is_some_and(|w| w.is_machine && w.is_noise) && !is_like_an_effect(best) {
+            return None;
+        }
         let candidates = self.candidates();
-        let all: Vec<Option<Explained>> = candidates.par_iter().map(|way| self.explained(Some(way))).collect();
+        let all: Vec<Option<Explained>> = candidates.par_iter().map(|way| self.explained(way)).collect();
         let all = candidates.iter().zip(all).filter_map(|(way, explained)| Some((*way, explained?)));
         let machines = all.filter(|(_, explained)| explained.is_machine);
         let (way, other) = machines.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))?;
@@ -140,23 +167,34 @@ impl Weighing<'_> {
         chosen
     }
 
-    fn explained(&self, way: Option<&Way>) -> Option<Explained> {
+    fn explained(&self, way: &Way) -> Option<Explained> {
+        let (campaign, outcome) = self.explain(Some(way))?;
+        Some(Explained::of(&campaign, &outcome, Some(way)))
+    }
+
+    fn explain(&self, way: Option<&Way>) -> Option<(Campaign, RankedSets)> {
         let (mut hexapod, mut data) = (self.hexapod.clone(), self.data.clone());
         for change in way.iter().flat_map(|way| &way.changes) {
             change.apply(&mut hexapod, &mut data);
         }
         let campaign = prepare(&hexapod, &data).ok()?;
         let outcome = explain(&campaign, self.terms).ok()?;
+        Some((campaign, outcome))
+    }
+}
+
+impl Explained {
+    fn of(campaign: &Campaign, outcome: &RankedSets, way: Option<&Way>) -> Self {
         let best = &outcome.best;
         let numbers = 6.0 * campaign.groups.len() as f64;
-        let variance = best.lack_of_fit / best.lack_of_fit_dof.max(1.0);
+        let dof = best.lack_of_fit_dof.max(1.0);
+        let variance = best.lack_of_fit / dof;
         let level = variance.max(1.0);
-        let lack = numbers * (level.ln() + variance / level) + best.parameters.iter().count() as f64 * numbers.ln();
-        Some(Explained {
-            cost: lack + way.map_or(0.0, |way| way.beside_springs),
-            level: variance.sqrt(),
-            is_machine: is_machine(best),
-        })
+        let parameters = best.parameters.iter().count() as f64;
+        let lack = numbers * (level.ln() + variance / level) + parameters * numbers.ln();
+        let beside = way.map_or(0.0, |way| way.beside_springs);
+        let is_noise = variance < 1.0 + NOISE_SIGMAS * (2.0 / dof).sqrt();
+        Self { cost: lack + beside, level: variance.sqrt(), is_noise, is_machine: is_machine(best) }
     }
 }
 

@@ -24,7 +24,7 @@ pub use self::judged::prepare;
 pub use self::misread::misread_findings;
 use self::foreign::foreign;
 use self::judged::{BothWays, Judged};
-use self::misread::misread;
+use self::misread::{FirstLook, first_look};
 use self::notes::{outside, suspects, warnings};
 pub use self::options::DiagnoseOptions;
 pub use self::report::{
@@ -60,6 +60,8 @@ pub struct DiagnosisStudy {
     pub campaign: Campaign,
     /// Fits of the steps.
     pub fits: Vec<Fit>,
+    /// Machine and files as they were read, where somebody asked to read them otherwise than they say.
+    pub as_meant: Option<AsMeant<'static>>,
 }
 
 /// Diagnose a dataset; held-out poses come from `holdout`, else poses are left out in turn.
@@ -96,9 +98,9 @@ pub fn diagnose_with(
     let (data, excluded) = options.applied(data)?;
     let held_in = holdout.and_then(|held| held_in(&data, held));
     let holdout = holdout.filter(|_| held_in.is_none());
-    let BothWays { answer: judged, other } = match misread(hexapod, &data, terms)? {
-        Some(answer) => BothWays { answer, other: None },
-        None => BothWays::of(hexapod, &data, terms, options.keep_all)?,
+    let BothWays { answer: judged, other } = match first_look(hexapod, &data, terms)? {
+        FirstLook::Misread(answer) => BothWays { answer: *answer, other: None },
+        FirstLook::Sound(explained) => BothWays::of(hexapod, &data, terms, explained, options.keep_all)?,
     };
     let Judged { data, campaign, outcome, mut findings } = judged;
     findings.extend(held_in);
@@ -154,7 +156,8 @@ pub fn diagnose_with(
         read_as: options.read_as.iter().map(ToString::to_string).collect(),
         alternative,
     };
-    Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits })
+    let as_meant = (!options.read_as.is_empty()).then(|| meant.clone().into_owned());
+    Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits, as_meant })
 }
 
 fn candidates(judgement: &Judgement, outcome: &RankedSets) -> Vec<CandidateReport> {

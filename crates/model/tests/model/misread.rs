@@ -1,0 +1,222 @@
+//! Files that do not mean what they say are found, with what they seem to mean, and pass for no effect.
+
+use hexbench_core::{Dataset, Hexapod, Observation, Pose, Vector3};
+use hexbench_model::inference::examination::FindingKind;
+use hexbench_model::inference::misread::{AngleOrder, Change, KINDS, Target};
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::check::check;
+use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, diagnose, diagnose_with};
+use hexbench_model::terms::catalogue;
+
+use crate::cases;
+
+/// A mistake as a user makes it in the files of a campaign, and its word.
+type Mistake = (FindingKind, fn(&mut Hexapod, &mut Dataset));
+
+const MISTAKES: [Mistake; 12] = [
+    (FindingKind::DeflectionSign, |_, data| each(data, |o| o.measured = o.measured.map(|x| -x))),
+    (FindingKind::RotationSign, |_, data| each(data, |o| o.measured[3..].iter_mut().for_each(|x| *x = -*x))),
+    (FindingKind::MomentSign, |_, data| {
+        each(data, |o| {
+            o.wrench.moment *= -1.0;
+            o.reference.moment *= -1.0;
+        });
+    }),
+    (FindingKind::Unit, |_, data| each(data, |o| o.measured[3..].iter_mut().for_each(|x| *x *= 1e-3))),
+    (FindingKind::Axes, |_, data| {
+        each(data, |o| o.measured = turned(&o.measured, |v| Vector3::new(-v.y, v.x, v.z)));
+    }),
+    (FindingKind::LegOrder, |hexapod, _| hexapod.platform_joints.swap(0, 1)),
+    (FindingKind::JointsExchanged, |hexapod, _| {
+        std::mem::swap(&mut hexapod.base_joints, &mut hexapod.platform_joints);
+    }),
+    (FindingKind::WrenchFrame, |_, data| {
+        each(data, |o| {
+            let back = o.pose.rotation().transpose();
+            for w in [&mut o.wrench, &mut o.reference] {
+                (w.force, w.moment) = (back * w.force, back * w.moment);
+            }
+        });
+    }),
+    (FindingKind::ReferenceMissing, |_, data| {
+        each(data, |o| o.reference = hexbench_core::Wrench::default());
+        data.columns.reference = false;
+    }),
+    (FindingKind::RowOrder, |_, data| {
+        let loads: Vec<_> = data.observations.iter().map(|o| (o.wrench, o.reference)).collect();
+        for (i, o) in data.observations.iter_mut().enumerate() {
+            (o.wrench, o.reference) = loads[(i + 1) % loads.len()];
+        }
+    }),
+    (FindingKind::Origin, |_, data| each(data, |o| o.pose.translation.z += 0.12)),
+    (FindingKind::Geometry, |hexapod, _| hexapod.base_joints[2].x += 0.009),
+];
+
+fn each(data: &mut Dataset, change: impl FnMut(&mut Observation)) {
+    data.observations.iter_mut().for_each(change);
+}
+
+fn turned(measured: &[f64; 6], turn: impl Fn(&Vector3) -> Vector3) -> [f64; 6] {
+    let (shift, rotation) = measured.split_at(3);
+    let parts = [shift, rotation].map(|part| turn(&Vector3::from_column_slice(part)));
+    std::array::from_fn(|k| parts[k / 3][k % 3])
+}
+
+fn told(hexapod: &Hexapod, data: &Dataset) -> Diagnosis {
+    diagnose(hexapod, data, None, &catalogue()).unwrap().diagnosis
+}
+
+fn read_as(d: &Diagnosis) -> Change {
+    let text = d.findings[0].next.rsplit("--read-as ").next().unwrap();
+    text.parse().unwrap()
+}
+
+#[test]
+fn mistakes_are_found_with_their_cause_and_no_effect_is_claimed() {
+    for case in ["mujoco-clean", "mujoco-foundation"] {
+        let (hexapod, data, _) = cases::case(case);
+        for (kind, mistake) in MISTAKES {
+            let (mut hexapod, mut data) = (hexapod.clone(), data.clone());
+            mistake(&mut hexapod, &mut data);
+            let d = told(&hexapod, &data);
+            assert_eq!(d.verdict, Verdict::Measurement, "{case}, {kind:?}: {:?}", d.findings);
+            assert!(d.findings.iter().any(|f| f.kind == kind), "{case}, {kind:?}: {:?}", d.findings);
+            assert!(d.findings.iter().all(|f| f.kind.is_of_file()), "{case}, {kind:?}: {:?}", d.findings);
+            assert!(d.added.is_empty() && d.parameters.is_empty(), "{case}, {kind:?}");
+        }
+    }
+}
+
+#[test]
+fn read_as_the_finding_says_the_file_gives_the_answer_of_the_sound_one() {
+    let (hexapod, data, _) = cases::case("mujoco-foundation");
+    let sound = told(&hexapod, &data);
+    for (kind, mistake) in MISTAKES {
+        let (mut hexapod, mut data) = (hexapod.clone(), data.clone());
+        mistake(&mut hexapod, &mut data);
+        let change = read_as(&told(&hexapod, &data));
+        // A size that springs alone have found is where to look, not what to write.
+        if change.sizes() > 0 {
+            continue;
+        }
+        let options = DiagnoseOptions::default().with_read_as([change]);
+        let d = diagnose_with(&hexapod, &data, None, &catalogue(), &options).unwrap().diagnosis;
+        assert_eq!(d.added, sound.added, "{kind:?} by {change}");
+        assert_eq!(d.read_as, [change.to_string()]);
+    }
+}
+
+#[test]
+fn signs_that_no_reading_tells_apart_are_all_named() {
+    let (hexapod, mut data, _) = cases::case("mujoco-clean");
+    each(&mut data, |o| o.measured = o.measured.map(|x| -x));
+    let d = told(&hexapod, &data);
+    for kind in [FindingKind::DeflectionSign, FindingKind::WrenchSign, FindingKind::StatesExchanged] {
+        assert!(d.findings.iter().any(|f| f.kind == kind), "{kind:?}: {:?}", d.findings);
+    }
+    let sum: f64 = d.findings.iter().map(|f| f.probability).sum();
+    assert!((sum - 1.0).abs() < 1e-12, "{sum}");
+}
+
+#[test]
+fn angles_about_moving_axes_are_found_where_they_matter() {
+    let (hexapod, mut data, _) = cases::case("mujoco-foundation");
+    each(&mut data, |o| {
+        let r = o.pose.rotation();
+        let beta = r[(0, 2)].asin();
+        let (alpha, gamma) = ((-r[(1, 2)]).atan2(r[(2, 2)]), (-r[(0, 1)]).atan2(r[(0, 0)]));
+        o.pose = Pose { translation: o.pose.translation, angles: Vector3::new(alpha, beta, gamma) };
+    });
+    let d = told(&hexapod, &data);
+    assert_eq!(d.findings[0].kind, FindingKind::AngleConvention, "{:?}", d.findings);
+}
+
+#[test]
+fn a_file_that_nothing_can_be_fitted_to_is_refused_with_what_it_seems_to_mean() {
+    let (mut hexapod, data, _) = cases::case("mujoco-clean");
+    hexapod.platform_joints.rotate_right(1);
+    let error = diagnose(&hexapod, &data, None, &catalogue()).map(|_| ()).unwrap_err();
+    assert!(error.to_string().contains("platform joints 2, 3, 4, 5, 6, 1"), "{error}");
+    assert!(error.next_step("").contains("--read-as leg-order=2,3,4,5,6,1"), "{}", error.next_step(""));
+}
+
+#[test]
+fn sound_files_are_ready_and_mean_what_they_say() {
+    for case in ["mujoco-clean", "mujoco-foundation", "friction", "two-effects", "contact", "not-in-catalogue"] {
+        let (hexapod, data, holdout) = cases::case(case);
+        let found = check(&hexapod, Some(&data), Some(&holdout), &catalogue(), &[]).unwrap();
+        assert!(found.ready, "{case}: {:?}", found.findings);
+        assert!(found.measurements.is_some_and(|m| m.rows == data.observations.len()));
+    }
+}
+
+#[test]
+fn copies_are_left_out_and_a_held_out_file_that_holds_nothing_out_is_set_aside() {
+    let (hexapod, mut data, holdout) = cases::case("mujoco-clean");
+    let last = data.observations.last().unwrap().line;
+    let copies: Vec<_> = data.observations.iter().take(40).copied().collect();
+    data.observations.extend((1..).zip(copies).map(|(k, o)| Observation { repeat: 9, line: last + k, ..o }));
+    let d = told(&hexapod, &data);
+    assert_eq!((d.findings[0].kind, d.findings[0].rows.len()), (FindingKind::Copies, 40));
+    assert_eq!(d.verdict, Verdict::Measurement);
+    let d = diagnose(&hexapod, &holdout, Some(&holdout), &catalogue()).unwrap().diagnosis;
+    assert_eq!(d.findings[0].kind, FindingKind::Holdout);
+}
+
+#[test]
+fn a_held_out_file_of_another_sign_or_machine_does_not_belong_to_the_measurements() {
+    let (hexapod, data, holdout) = cases::case("mujoco-clean");
+    let mut reversed = holdout.clone();
+    each(&mut reversed, |o| o.measured = o.measured.map(|x| -x));
+    let mut softer = holdout;
+    each(&mut softer, |o| o.measured = o.measured.map(|x| 2.0 * x));
+    for held in [reversed, softer] {
+        let d = diagnose(&hexapod, &data, Some(&held), &catalogue()).unwrap().diagnosis;
+        assert_eq!((d.verdict, d.findings[0].kind), (Verdict::Measurement, FindingKind::Holdout));
+    }
+}
+
+#[test]
+fn every_change_is_written_as_it_is_read() {
+    let all = [
+        "deflection-sign=reversed",
+        "rotation-sign=dgamma",
+        "wrench-sign=fz",
+        "moment-sign=mx",
+        "states-exchanged=yes",
+        "unit=rotations*4.848137",
+        "axes=readings:y,-x,z",
+        "axes=wrench:turned:0.5,0,-2",
+        "leg-order=2,3,4,5,6,1",
+        "joints-exchanged=yes",
+        "origin=moments-fixed:0,0,-95",
+        "geometry=base-2-y:-1.5",
+        "wrench-frame=mobile",
+        "deflection-frame=mobile",
+        "angle-convention=moving-x-y-z",
+        "angle-convention=poses:rotation-vector",
+        "rotation-convention=other",
+        "reference-missing=0,0,-119.7,0,0,0",
+        "reference-missing=change",
+        "row-order=loads-from-below",
+    ];
+    for text in all {
+        let change: Change = text.parse().unwrap();
+        assert_eq!(change.to_string(), text);
+    }
+    for (kind, _) in KINDS {
+        assert!(all.iter().any(|text| text.starts_with(&format!("{kind}="))), "{kind}");
+        let error = format!("{kind}=nonsense").parse::<Change>().unwrap_err();
+        assert!(error.to_string().contains(kind), "{error}");
+    }
+    assert!("nonsense".parse::<Change>().is_err() && "unit=loads*-1".parse::<Change>().is_err());
+}
+
+#[test]
+fn words_of_findings_are_those_of_the_files() {
+    for (kind, _) in MISTAKES {
+        assert_eq!(serde_json::to_string(&kind).unwrap(), format!("\"{}\"", kind.word()));
+    }
+    assert_eq!(Target::Readings.word(), "readings");
+    assert_eq!(AngleOrder::Zyx.word(), "moving-x-y-z");
+}
