@@ -59,7 +59,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     input::warn_of_misread(hexapod, data, &arguments.read_as);
     let model = arguments.model.as_deref().map(input::model).transpose()?;
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
-    let compared = compare(hexapod, data, model.as_ref(), holdout).map_err(failed)?;
+    let mut compared = compare(hexapod, data, model.as_ref(), holdout).map_err(failed)?;
+    compared.comparison.read_as = arguments.read_as.iter().map(ToString::to_string).collect();
     let result = &compared.comparison;
     if let Some(path) = &arguments.json {
         let run =

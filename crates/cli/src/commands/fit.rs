@@ -68,7 +68,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let judged = fitted(&task, &added, estimator)?;
     screen.show(&fitted::page(&task, &judged, estimator))?;
     let Some(path) = &arguments.output else { return Ok(()) };
-    let model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
+    let mut model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
+    model.data.read_as = arguments.read_as.iter().map(ToString::to_string).collect();
     let unsaved = |cause| Failure::ModelFile { path: path.clone(), cause: Box::new(cause) };
     let text = model.to_toml().map_err(unsaved)?;
     screen.write_to(path, &text)

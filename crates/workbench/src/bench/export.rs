@@ -55,6 +55,7 @@ impl LoadedCampaign {
             file: data.source.clone(),
             sha256: text_hash(&self.files.data),
             readings: data.observations.len(),
+            read_as: Vec::new(),
         };
         Ok(Model::new(&self.campaign, &fit, Estimator::Gls, origin).to_toml()?)
     }

@@ -33,6 +33,9 @@ pub(super) struct Data {
     pub(super) file: String,
     pub(super) sha256: String,
     pub(super) readings: usize,
+    /// Absent when the files mean what they say.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) read_as: Vec<String>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]

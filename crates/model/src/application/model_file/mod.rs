@@ -52,6 +52,8 @@ pub struct DataOrigin {
     pub sha256: String,
     /// Readings used.
     pub readings: usize,
+    /// What the files were read as meaning otherwise than they say, as `KIND=VALUE`.
+    pub read_as: Vec<String>,
 }
 
 /// A fitted model with everything needed to use it.

@@ -49,7 +49,12 @@ pub(super) fn model(file: File) -> Result<Model, ModelFileError> {
         parameters: Parameters::at(&point, measurand == Measurand::AbsolutePose),
         determined: Vec::new(),
         point,
-        data: DataOrigin { file: file.data.file, sha256: file.data.sha256, readings: file.data.readings },
+        data: DataOrigin {
+            file: file.data.file,
+            sha256: file.data.sha256,
+            readings: file.data.readings,
+            read_as: file.data.read_as,
+        },
         chi2: file.chi2,
         dof: file.degrees_of_freedom,
         settled: file.settled,

@@ -28,6 +28,7 @@ pub(super) fn file(model: &Model) -> File {
             file: model.data.file.clone(),
             sha256: model.data.sha256.clone(),
             readings: model.data.readings,
+            read_as: model.data.read_as.clone(),
         },
         noise: noise(model),
         hexapod: hexapod(&model.hexapod),

@@ -78,6 +78,8 @@ pub struct Comparison {
     pub design: Design,
     /// Bias of the leg stiffnesses by effects that could hide in these data.
     pub hidden: Vec<HiddenBias>,
+    /// What the files were read as meaning otherwise than they say because somebody asked for it, as `KIND=VALUE`.
+    pub read_as: Vec<String>,
 }
 
 /// A comparison with what it was made from, for charts.
@@ -201,6 +203,7 @@ fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>, settled: bool
         period: Spectra::of(judged).and_then(|s| s.peak),
         design: design(judged),
         hidden: hidden_biases(judged),
+        read_as: Vec::new(),
     }
 }
 

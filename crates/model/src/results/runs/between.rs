@@ -188,6 +188,9 @@ fn warnings(a: &Run, b: &Run) -> Vec<String> {
             "The readings that count were chosen otherwise: lines left out by name, or all kept.".to_owned(),
         );
     }
+    if a.read_as != b.read_as {
+        all.push("The files were read otherwise: one of them, or both in different ways, not as it says.".to_owned());
+    }
     all
 }
 
@@ -305,6 +308,7 @@ mod tests {
             origin: Some(origin()),
             excluded: Vec::new(),
             keep_all: false,
+            read_as: Vec::new(),
         }
     }
 

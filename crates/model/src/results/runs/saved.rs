@@ -82,6 +82,8 @@ pub struct SavedDiagnosis {
     excluded: Vec<u64>,
     #[serde(default)]
     keep_all: bool,
+    #[serde(default)]
+    read_as: Vec<String>,
     run: Option<Origin>,
 }
 
@@ -114,6 +116,8 @@ pub struct SavedComparison {
     error: ErrorSummary,
     holdout: Option<ErrorSummary>,
     coordinates: Vec<SavedCoordinate>,
+    #[serde(default)]
+    read_as: Vec<String>,
     run: Option<Origin>,
 }
 
@@ -167,6 +171,8 @@ pub struct Run {
     pub excluded: Vec<u64>,
     /// Readings that seem wrong took part in the fit.
     pub keep_all: bool,
+    /// What the files were read as meaning otherwise than they say.
+    pub read_as: Vec<String>,
     /// Absent in files of versions that did not write it.
     pub origin: Option<Origin>,
 }
@@ -192,6 +198,7 @@ impl Run {
             parameters: d.parameters,
             excluded: d.excluded,
             keep_all: d.keep_all,
+            read_as: d.read_as,
             origin: d.run,
         }
     }
@@ -212,6 +219,7 @@ impl Run {
             parameters: Vec::new(),
             excluded: Vec::new(),
             keep_all: false,
+            read_as: c.read_as,
             origin: c.run,
         }
     }
