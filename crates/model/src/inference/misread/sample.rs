@@ -67,10 +67,29 @@ pub(super) struct Springs {
 }
 
 /// Normal equations of the springs.
+#[derive(Default)]
 struct Normal {
     n: Matrix6,
     right: Vector6,
     square: f64,
+    /// Sum of the logarithms of the weights, the density of the readings in the unit of the file.
+    density: f64,
+}
+
+impl Normal {
+    fn add(&mut self, row: &Whitened) {
+        self.n += row.columns.tr_mul(&row.columns);
+        self.right += row.columns.tr_mul(&row.read);
+        self.square += row.read.norm_squared();
+        self.density += row.density;
+    }
+}
+
+/// Columns of the springs and readings of a condition, over the noise.
+struct Whitened {
+    columns: Matrix6,
+    read: Vector6,
+    density: f64,
 }
 
 impl Sample {
@@ -133,12 +152,8 @@ impl Sample {
 
     fn fit(&self, data: &Dataset, legs: &[Option<Legs>], changes: &[Change]) -> Option<Springs> {
         let factors = Factors::of(changes);
-        let mut normal = Normal { n: Matrix6::zeros(), right: Vector6::zeros(), square: 0.0 };
-        self.whitened(data, legs, &factors, |columns, read| {
-            normal.n += columns.tr_mul(columns);
-            normal.right += columns.tr_mul(read);
-            normal.square += read.norm_squared();
-        })?;
+        let mut normal = Normal::default();
+        self.whitened(data, legs, &factors, |row| normal.add(&row))?;
         self.judged(&normal, &factors)
     }
 
@@ -152,16 +167,12 @@ impl Sample {
         let legs = if kept { &self.legs } else { &moved };
         let factors = Factors::of(changes);
         let mut rows = Vec::with_capacity(data.observations.len());
-        self.whitened(&data, legs, &factors, |columns, read| rows.push((*columns, *read)))?;
-        let mut normal = Normal { n: Matrix6::zeros(), right: Vector6::zeros(), square: 0.0 };
-        for (columns, read) in &rows {
-            normal.n += columns.tr_mul(columns);
-            normal.right += columns.tr_mul(read);
-            normal.square += read.norm_squared();
-        }
+        self.whitened(&data, legs, &factors, |row| rows.push(row))?;
+        let mut normal = Normal::default();
+        rows.iter().for_each(|row| normal.add(row));
         let (compliances, ..) = non_negative(&normal, (self.numbers() - 6.0).max(1.0))?;
-        let all = rows.iter().flat_map(|(columns, read)| {
-            let left: Vector6 = read - columns * compliances;
+        let all = rows.iter().flat_map(|row| {
+            let left: Vector6 = row.read - row.columns * compliances;
             (0..6).map(move |k| left[k])
         });
         Some(DVector::from_iterator(6 * rows.len(), all))
@@ -173,7 +184,7 @@ impl Sample {
         data: &Dataset,
         legs: &[Option<Legs>],
         factors: &Factors,
-        mut take: impl FnMut(&Matrix6, &Vector6),
+        mut take: impl FnMut(Whitened),
     ) -> Option<()> {
         let motions = motions(data);
         let floor = floors(&motions);
@@ -186,7 +197,8 @@ impl Sample {
                 let column = columns.column(leg).component_mul(&weight) * force[leg];
                 columns.set_column(leg, &column);
             }
-            take(&columns, &motion.component_mul(&weight));
+            let density = (0..6).map(|k| (weight[k] * factors.reading(k)).ln()).sum();
+            take(Whitened { columns, read: motion.component_mul(&weight), density });
         }
         Some(())
     }
@@ -196,7 +208,8 @@ impl Sample {
         let freedom = (numbers - 6.0).max(1.0);
         let (_, chi2, negative) = non_negative(normal, freedom)?;
         let variance = (chi2 / freedom).max(1.0);
-        let lack = self.stands_for * numbers * (variance.ln() + chi2 / freedom / variance);
+        let spread = numbers * (variance.ln() + chi2 / freedom / variance);
+        let lack = self.stands_for * (spread - 2.0 * normal.density);
         let (mut repeats, mut scatter) = (0.0, 1.0);
         if self.repeats_dof > 0.0 {
             let scale = Vector6::from_fn(|k, _| (factors.reading(k) / factors.noise).powi(2));
@@ -210,9 +223,8 @@ impl Sample {
                 repeats = squares.iter().map(|v| cost(*v)).sum();
             }
         }
-        let each = self.stands_for * self.data.observations.len() as f64 + self.repeats_dof;
-        let density: f64 = (0..6).map(|k| (factors.reading(k) / factors.noise).ln()).sum::<f64>();
-        let cost = lack + repeats - 2.0 * each * density;
+        let density: f64 = (0..6).map(|k| (factors.reading(k) / factors.noise).ln()).sum();
+        let cost = lack + repeats - 2.0 * self.repeats_dof * density;
         cost.is_finite().then_some(Springs { cost, lack, level: (chi2 / freedom).sqrt(), negative, scatter })
     }
 
