@@ -10,6 +10,7 @@ mod compare;
 mod evidence;
 mod examination;
 mod frames;
+mod gain;
 mod kinematics;
 mod least_squares;
 mod model_file;

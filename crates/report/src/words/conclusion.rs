@@ -1,12 +1,13 @@
 //! The verdict in a sentence or two.
 
 use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::inference::gain::GainOutcome;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{Diagnosis, StepReport};
 use hexbench_model::results::words::{joined, joined_with};
 use hexbench_model::terms::catalogue;
 
-use crate::number::multiple;
+use crate::number::{hundredths, multiple};
 use crate::page::{Block, Mood, Section};
 
 /// The verdict.
@@ -25,7 +26,17 @@ pub fn section(d: &Diagnosis) -> Section {
 
 /// The verdict in a sentence or two.
 pub fn sentences(d: &Diagnosis) -> Vec<String> {
+    let mut all = verdict(d);
+    all.extend(d.steps.iter().filter_map(|step| held_out_remark(d, step)));
+    all
+}
+
+/// The verdict itself.
+fn verdict(d: &Diagnosis) -> Vec<String> {
     match d.verdict {
+        Verdict::Adequate if !d.small.is_empty() => {
+            vec!["The springs alone are good enough: no effect is worth naming.".to_owned()]
+        }
         Verdict::Adequate => vec![
             "The springs alone explain these measurements: nothing is missing that these data could show. What \
              they could not show is listed below."
@@ -49,6 +60,26 @@ pub fn sentences(d: &Diagnosis) -> Vec<String> {
              the machine is missing that they could show."
                 .to_owned(),
         ],
+    }
+}
+
+/// What held-out poses say of the effect of a step, where that is less than the readings fitted say.
+fn held_out_remark(d: &Diagnosis, step: &StepReport) -> Option<String> {
+    let id = step.terms.last()?;
+    if d.small.contains(id) {
+        let share = hundredths(step.worth?.share.max(0.0));
+        return Some(format!(
+            "{id} is sure, but worth {share} % of the error on held-out poses: it stays in the model and is not named."
+        ));
+    }
+    match step.gain?.outcome {
+        GainOutcome::Open if d.added.contains(id) => {
+            Some(format!("The held-out poses are too few to confirm {id}: it rests on the readings fitted."))
+        }
+        GainOutcome::Refuted => Some(format!(
+            "The readings fitted ask for {id}, but held-out poses are not better predicted with it: it is not named."
+        )),
+        GainOutcome::Open | GainOutcome::Shown => None,
     }
 }
 

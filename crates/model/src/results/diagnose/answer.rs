@@ -8,6 +8,7 @@ use crate::estimation::estimate::{Estimates, estimates_with};
 use crate::estimation::fit::{Fit, TermSpec};
 use crate::inference::diagnosis::{RankedSets, wanted};
 use crate::inference::examination::Finding;
+use crate::inference::gain::GainOutcome;
 use crate::inference::search::Set;
 use crate::inference::verdict::{Judgement, Verdict, judge};
 
@@ -21,6 +22,8 @@ pub(super) struct Answer {
     pub(super) steps: Vec<StepReport>,
     /// Effects named.
     pub(super) added: Vec<String>,
+    /// Sure effects that are not worth naming.
+    pub(super) small: Vec<String>,
     pub(super) numbers: Estimates,
 }
 
@@ -34,6 +37,7 @@ impl Answer {
         demote_what_does_not_survive(&mut judgement, &steps);
         let last = fits.last().unwrap_or(&outcome.baseline);
         context.face_holdout(&mut judgement, last);
+        let small = withdraw_what_is_small(&mut judgement, &steps);
         if judgement.verdict == Verdict::Adequate {
             judgement.verdict = match (context.can_judge(last), findings.is_empty()) {
                 (false, _) => Verdict::Undecided,
@@ -42,7 +46,7 @@ impl Answer {
             };
         }
         let numbers = estimates_with(&averaged_springs(outcome, last), last);
-        Ok(Self { added: named(&judgement, &order), judgement, order, fits, steps, numbers })
+        Ok(Self { added: named(&judgement, &order), small, judgement, order, fits, steps, numbers })
     }
 }
 
@@ -67,24 +71,28 @@ fn addition_order(set: &Set, outcome: &RankedSets) -> Vec<TermSpec> {
     order
 }
 
-/// An effect whose addition does not make held-out readings better predicted is not named.
+/// An effect that held-out readings refute is not named.
 fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport]) {
-    for pair in steps.windows(2) {
-        let Some(newest) = pair[1].terms.last() else { continue };
-        let better = match (&pair[0], &pair[1]) {
-            (StepReport { log_density: Some(before), .. }, StepReport { log_density: Some(after), .. }) => {
-                after > before
-            }
-            (StepReport { holdout: Some(before), .. }, StepReport { holdout: Some(after), .. }) => {
-                after.chi2_reduced < before.chi2_reduced
-            }
-            _ => continue,
-        };
-        if !better && judgement.sure.contains(newest) {
+    for step in steps {
+        let Some(newest) = step.terms.last() else { continue };
+        let is_refuted = step.gain.is_some_and(|gain| gain.outcome == GainOutcome::Refuted);
+        if is_refuted && judgement.sure.contains(newest) {
             judgement.sure.retain(|id| id != newest);
             if judgement.verdict == Verdict::Named {
                 judgement.verdict = Verdict::Ambiguous;
             }
         }
     }
+}
+
+/// Takes sure effects that are too small to be named out of a judgement; without any other the springs are good enough.
+fn withdraw_what_is_small(judgement: &mut Judgement, steps: &[StepReport]) -> Vec<String> {
+    let is_small = |step: &&StepReport| step.worth.is_some_and(|worth| worth.is_small());
+    let newest = steps.iter().filter(is_small).filter_map(|step| step.terms.last());
+    let small: Vec<String> = newest.filter(|id| judgement.sure.contains(id)).cloned().collect();
+    judgement.sure.retain(|id| !small.contains(id));
+    if judgement.verdict == Verdict::Named && judgement.sure.is_empty() {
+        judgement.verdict = Verdict::Adequate;
+    }
+    small
 }

@@ -90,7 +90,7 @@ pub fn diagnose_with(
     let context = Context { hexapod, data: &data, holdout, campaign: &campaign, outcome: &outcome };
     let answer = Answer::of(&context, &findings)?;
     let (alternative, unknown) = alternative::of(hexapod, holdout, other);
-    let Answer { judgement, order, fits, steps, added, numbers } = answer;
+    let Answer { judgement, order, fits, steps, added, small, numbers } = answer;
     let last = fits.last().unwrap_or(&outcome.baseline);
     let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &last.point)?);
     let model: Vec<String> = order.iter().map(|w| w.term.info().id.to_owned()).collect();
@@ -102,6 +102,7 @@ pub fn diagnose_with(
         verdict: judgement.verdict,
         added,
         model,
+        small,
         richer,
         candidates: candidates(&judgement, &outcome),
         present: judgement.present.clone(),

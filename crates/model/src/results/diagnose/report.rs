@@ -13,6 +13,7 @@ use crate::estimation::parameters::stiffness_name;
 use crate::estimation::residuals::ErrorSummary;
 use crate::inference::examination::Finding;
 use crate::inference::explanation::Explanation;
+use crate::inference::gain::{HeldOutGain, Worth};
 use crate::inference::power::Detectable;
 use crate::inference::selection::HeldOut;
 use crate::inference::verdict::Verdict;
@@ -27,8 +28,10 @@ pub struct Diagnosis {
     pub verdict: Verdict,
     /// Effects named, in the order in which they were added.
     pub added: Vec<String>,
-    /// Terms of the fitted model the numbers below belong to; equals `added` for a named verdict.
+    /// Terms of the fitted model the numbers below belong to; for a named verdict `added` and `small` together.
     pub model: Vec<String>,
+    /// Effects that are sure and take too little off the held-out error to be named, in the order in which they were added.
+    pub small: Vec<String>,
     /// Terms of the model that needed their richer form.
     pub richer: Vec<String>,
     /// Probability of every first addition, of `outside` and of `none`.
@@ -107,9 +110,10 @@ pub struct StepReport {
     pub fitted: ErrorSummary,
     /// Error on held-out poses.
     pub holdout: Option<ErrorSummary>,
-    /// Logarithm of the predictive density of poses left out in turn; absent with a holdout file.
-    #[serde(skip)]
-    pub log_density: Option<f64>,
+    /// What held-out poses say of the effect added last; absent where nothing was added, or nothing could be held out.
+    pub gain: Option<HeldOutGain>,
+    /// Share of the held-out error which that effect takes off; absent likewise.
+    pub worth: Option<Worth>,
 }
 
 /// Noise of one reading.
