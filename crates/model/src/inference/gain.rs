@@ -12,6 +12,8 @@ use crate::estimation::foreseen::Foreseen;
 
 /// Chance that is not believed in: a useless effect passes, and one that is really there fails, in so many cases.
 pub const UNLIKELY: f64 = 0.05;
+/// Probability that an effect needs where held-out readings lean against it without being able to tell.
+const BEYOND_DOUBT: f64 = 0.99;
 /// An effect that takes less than this share off the held-out error is not worth naming. A tenth of what a noise statement is usually
 /// off by: nobody could see a smaller one by measuring again.
 pub const WORTH_NAMING: f64 = 0.01;
@@ -29,10 +31,13 @@ pub const WORTH_NAMING: f64 = 0.01;
 /// chance if real  Phi((D - E) / max(s, S)): of a gain as small as this one if the effect is there as fitted
 /// ```
 ///
-/// Shown: the chance is at most 5 %. Refuted: it is not, and neither is the chance if real: the gain would have shown, and did not, or
-/// the readings speak against it. Open: these readings are too few to judge; then the evidence of the readings fitted stands.
+/// - shown: the chance is at most 5 %;
+/// - refuted: `D` is not above zero, and the chance if real is at most 5 %: the gain would have shown, and did not;
+/// - open: these readings cannot tell. The evidence `P` of the readings fitted stands where they lean towards the effect; where they
+///   lean against it, `P e^D / (1 - P + P e^D)` has to be 99 % still.
+///
 /// So a useless effect is shown in 5 % at most, and a real one refuted in 5 % at most. A useless one that seems sure in the readings
-/// fitted survives as open where these promise little: beyond nine nats in 5 % at most, at half as many in one case of three.
+/// fitted survives as open where these promise little; where it promises nine nats or more, in 5 % at most.
 ///
 /// Source: predictive densities of what was left out, Geisser and Eddy (1979), Journal of the American Statistical Association 74;
 /// their paired differences, Vehtari, Gelman and Gabry (2017), Statistics and Computing 27, section 5.
@@ -58,7 +63,7 @@ pub struct HeldOutGain {
 pub enum GainOutcome {
     /// They are better foreseen with it, by more than chance.
     Shown,
-    /// They are too few to judge.
+    /// They cannot tell.
     Open,
     /// They would be better foreseen with it if it were there, and are not.
     Refuted,
@@ -72,6 +77,16 @@ impl HeldOutGain {
             sums.add(smaller, larger);
         }
         sums.judged()
+    }
+
+    /// True when an effect of this probability, which the readings fitted give it, is still sure.
+    pub fn leaves_sure(&self, probability: f64) -> bool {
+        let odds = probability / (1.0 - probability).max(f64::MIN_POSITIVE) * self.nats.exp();
+        match self.outcome {
+            GainOutcome::Shown => true,
+            GainOutcome::Refuted => false,
+            GainOutcome::Open => self.nats >= 0.0 || odds >= BEYOND_DOUBT / (1.0 - BEYOND_DOUBT),
+        }
     }
 }
 
@@ -108,7 +123,7 @@ impl Sums {
             if widest > 0.0 { Normal::standard().cdf((nats - self.expected) / widest) } else { 1.0 };
         let outcome = match chance {
             Some(p) if p <= UNLIKELY => GainOutcome::Shown,
-            _ if chance_if_real <= UNLIKELY => GainOutcome::Refuted,
+            _ if nats <= 0.0 && chance_if_real <= UNLIKELY => GainOutcome::Refuted,
             _ => GainOutcome::Open,
         };
         HeldOutGain { outcome, nats, expected_nats: self.expected, chance, chance_if_real }

@@ -8,7 +8,6 @@ use crate::estimation::estimate::{Estimates, estimates_with};
 use crate::estimation::fit::{Fit, TermSpec};
 use crate::inference::diagnosis::{RankedSets, wanted};
 use crate::inference::examination::Finding;
-use crate::inference::gain::GainOutcome;
 use crate::inference::search::Set;
 use crate::inference::verdict::{Judgement, Verdict, judge};
 
@@ -71,12 +70,13 @@ fn addition_order(set: &Set, outcome: &RankedSets) -> Vec<TermSpec> {
     order
 }
 
-/// An effect that held-out readings refute is not named.
+/// An effect that does not stay sure on held-out readings is not named.
 fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport]) {
     for step in steps {
         let Some(newest) = step.terms.last() else { continue };
-        let is_refuted = step.gain.is_some_and(|gain| gain.outcome == GainOutcome::Refuted);
-        if is_refuted && judgement.sure.contains(newest) {
+        let probability = judgement.present.get(newest).copied().unwrap_or(0.0);
+        let survives = step.gain.is_none_or(|gain| gain.leaves_sure(probability));
+        if !survives && judgement.sure.contains(newest) {
             judgement.sure.retain(|id| id != newest);
             if judgement.verdict == Verdict::Named {
                 judgement.verdict = Verdict::Ambiguous;
