@@ -68,7 +68,7 @@ fn every_key_of_the_contract_is_there() {
         assert_keys(&d["run"], &origin, "run");
         assert_keys(&d["noise"], &["translation_um", "rotation_urad", "source"], "noise");
         for step in d["steps"].as_array().unwrap() {
-            assert_keys(step, &["terms", "gain", "worth"], "step");
+            assert_keys(step, &["terms", "chance", "gain", "worth"], "step");
             assert_error(step, "step");
             assert_error(&step["holdout"], "holdout");
         }

@@ -1,6 +1,5 @@
 //! The ladder: error on held-out poses, step by step, beside the noise.
 
-use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::results::diagnose::{Diagnosis, StepReport};
 
@@ -13,9 +12,7 @@ const COORDINATES: [&str; 6] = ["a um", "b um", "c um", "alpha urad", "beta urad
 /// One row per step of the model, then the noise.
 pub fn section(d: &Diagnosis) -> Section {
     let title = if d.steps.len() > 1 { "The error falls" } else { "The error" };
-    let errors: Vec<(&StepReport, ErrorSummary)> =
-        d.steps.iter().map(|s| (s, s.holdout.unwrap_or(s.fitted))).collect();
-    let largest = errors.iter().map(|(_, e)| e.times_noise()).fold(1.0, f64::max);
+    let largest = d.steps.iter().map(|s| s.error().times_noise()).fold(1.0, f64::max);
     let columns = [
         PageColumn::words("model"),
         PageColumn::number("um"),
@@ -26,8 +23,8 @@ pub fn section(d: &Diagnosis) -> Section {
     .chain([PageColumn::bars()])
     .chain(COORDINATES.map(|title| PageColumn::number(title).detail()));
     let mut table = Table::new(columns);
-    for (step, error) in &errors {
-        table.row(row(name(step), error, largest));
+    for step in &d.steps {
+        table.row(row(step, largest));
     }
     table.row(noise(d, largest));
     Section::new(title).id("ladder").remark(how_held_out(d)).table(table)
@@ -47,11 +44,12 @@ pub fn name(step: &StepReport) -> String {
     step.terms.last().map_or_else(|| "springs alone".to_owned(), |term| format!("+ {term}"))
 }
 
-fn row(name: String, error: &ErrorSummary, largest: f64) -> Vec<Cell> {
+fn row(step: &StepReport, largest: f64) -> Vec<Cell> {
+    let error = step.error();
     let times = error.times_noise();
-    let mood = if error.is_at_the_noise() { Mood::Good } else { Mood::Bad };
+    let mood = if step.is_at_the_noise() { Mood::Good } else { Mood::Bad };
     let digits = |x: f64| Cell::from(significant(x, 3));
-    let head = [name.into(), digits(error.rms.translation_um), digits(error.rms.rotation_urad)];
+    let head = [name(step).into(), digits(error.rms.translation_um), digits(error.rms.rotation_urad)];
     let bar = Cell::colored_bar(at_least_one(times / largest), mood);
     head.into_iter().chain([multiple(times).into(), bar]).chain(error.per_coordinate.map(digits)).collect()
 }

@@ -7,7 +7,7 @@ use super::report::{AbsorbedReport, StepReport};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, average_over_shapes, fit};
-use crate::estimation::foreseen::{Foreseen, held_campaign, held_out_chance};
+use crate::estimation::foreseen::{Foreseen, Misfit, held_campaign, held_out_chance};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::{
     ErrorSummary, held_out_gain, leave_poses_out, prediction_errors, residuals, summarise,
@@ -48,6 +48,8 @@ pub(super) struct Context<'a> {
 /// Errors of one step on held-out readings.
 struct HeldOutErrors {
     summary: ErrorSummary,
+    /// Of an error as large as this if the model is right.
+    chance: Option<f64>,
     /// What the fits foresee of the readings that were held out together.
     foreseen: Vec<Foreseen>,
 }
@@ -87,6 +89,7 @@ impl Context<'_> {
             terms: terms.iter().map(|w| w.term.info().id.to_owned()).collect(),
             fitted: summarise(&rows, Some(fitted.dof)),
             holdout: after.map(|errors| errors.summary),
+            chance: after.and_then(|errors| errors.chance),
             gain: both.map(|(b, a)| HeldOutGain::of(&b.foreseen, &a.foreseen)),
             worth: both.map(|(b, a)| {
                 let chi2 = [b, a].map(|errors| errors.summary.chi2_reduced);
@@ -167,10 +170,18 @@ impl Context<'_> {
             let errors = prediction_errors(self.hexapod, holdout, self.campaign.noise, &fitted.point).ok()?;
             let held = held_campaign(self.campaign, holdout, fitted).ok()?;
             let foreseen = vec![Foreseen::of(&held, fitted).ok()?];
-            return Some(HeldOutErrors { summary: summarise(&errors, None), foreseen });
+            let chance = self.chance(foreseen[0].misfit);
+            return Some(HeldOutErrors { summary: summarise(&errors, None), chance, foreseen });
         }
         let left = leave_poses_out(self.campaign, &self.data.observations, terms, &fitted.point).ok()?;
-        Some(HeldOutErrors { summary: summarise(&left.residuals, None), foreseen: left.foreseen })
+        let chance = self.chance(left.misfit(fitted.lack_of_fit_dof));
+        Some(HeldOutErrors { summary: summarise(&left.residuals, None), chance, foreseen: left.foreseen })
+    }
+
+    /// Chance of a misfit, where the noise is known apart from what the model leaves.
+    fn chance(&self, misfit: Misfit) -> Option<f64> {
+        let known = self.campaign.noise.allows_verdict();
+        known.then(|| misfit.chance(self.campaign.noise_level()).ok()).flatten()
     }
 
     /// Readings that separate the most probable explanations, when none is sure.

@@ -13,7 +13,7 @@ use crate::estimation::parameters::stiffness_name;
 use crate::estimation::residuals::ErrorSummary;
 use crate::inference::examination::Finding;
 use crate::inference::explanation::Explanation;
-use crate::inference::gain::{HeldOutGain, Worth};
+use crate::inference::gain::{HeldOutGain, UNLIKELY, Worth};
 use crate::inference::power::Detectable;
 use crate::inference::selection::HeldOut;
 use crate::inference::verdict::Verdict;
@@ -110,10 +110,25 @@ pub struct StepReport {
     pub fitted: ErrorSummary,
     /// Error on held-out poses.
     pub holdout: Option<ErrorSummary>,
+    /// Chance of an error on held-out poses as large as this if the model is right, with all that is known of noise, tolerances and
+    /// parameters; absent where nothing could be held out or the noise is not known apart from the residuals.
+    pub chance: Option<f64>,
     /// What held-out poses say of the effect added last; absent where nothing was added, or nothing could be held out.
     pub gain: Option<HeldOutGain>,
     /// Share of the held-out error which that effect takes off; absent likewise.
     pub worth: Option<Worth>,
+}
+
+impl StepReport {
+    /// Error on held-out poses, else on the readings fitted.
+    pub fn error(&self) -> ErrorSummary {
+        self.holdout.unwrap_or(self.fitted)
+    }
+
+    /// True when that error is what the noise gives: by its chance where that is known, else by its size.
+    pub fn is_at_the_noise(&self) -> bool {
+        self.chance.map_or_else(|| self.error().is_at_the_noise(), |chance| chance > UNLIKELY)
+    }
 }
 
 /// Noise of one reading.
