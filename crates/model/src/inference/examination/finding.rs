@@ -23,6 +23,8 @@ pub enum FindingKind {
     SetupError,
     /// Errors of neighboring rows resemble each other.
     Drift,
+    /// Readings are rounded to a step larger than their noise.
+    Resolution,
     /// Joints are not where the drawing has them.
     Tolerance,
 }
@@ -36,9 +38,12 @@ impl FindingKind {
     /// True for statements about the noise.
     pub fn is_of_noise(self) -> bool {
         match self {
-            Self::NoiseLevel | Self::HeavyTails | Self::SharedReference | Self::SetupError | Self::Drift => {
-                true
-            }
+            Self::NoiseLevel
+            | Self::HeavyTails
+            | Self::SharedReference
+            | Self::SetupError
+            | Self::Drift
+            | Self::Resolution => true,
             Self::Blunder | Self::Pose | Self::Load | Self::Tolerance => false,
         }
     }
@@ -54,6 +59,7 @@ impl FindingKind {
             Self::SharedReference => "Shared reference",
             Self::SetupError => "Set-up error",
             Self::Drift => "Drift",
+            Self::Resolution => "Resolution",
             Self::Tolerance => "Tolerance",
         }
     }
