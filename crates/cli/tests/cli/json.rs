@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::support::{cases, diagnose, text};
 
-const TOP: [&str; 21] = [
+const TOP: [&str; 22] = [
     "format",
     "verdict",
     "added",
@@ -12,6 +12,7 @@ const TOP: [&str; 21] = [
     "candidates",
     "credible_set",
     "steps",
+    "nested",
     "noise",
     "parameters",
     "untestable",

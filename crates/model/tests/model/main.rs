@@ -14,6 +14,7 @@ mod gain;
 mod kinematics;
 mod least_squares;
 mod model_file;
+mod nested;
 mod next;
 mod paper;
 mod recovery;

@@ -80,6 +80,8 @@ class Diagnosis:
     credible_set: list[str]
     #: Errors, fitted and held out, of every step of the model, springs alone first; ``gain`` and ``worth`` of the effect added.
     steps: list[dict[str, Any]]
+    #: The error on poses left out of the choice of terms as well, and the terms ``chosen``; None with a holdout file.
+    nested: dict[str, Any] | None
     #: How the held-out error was obtained.
     holdout: str
     #: The noise of one reading: ``translation_um``, ``rotation_urad``, ``source``.

@@ -1,10 +1,10 @@
 //! The ladder: error on held-out poses, step by step, beside the noise.
 
 use hexbench_model::inference::selection::HeldOut;
-use hexbench_model::results::diagnose::{Diagnosis, StepReport};
+use hexbench_model::results::diagnose::{Diagnosis, NestedReport, StepReport};
 
 use crate::number::{multiple, significant};
-use crate::page::{Cell, Mood, PageColumn, Section, Table};
+use crate::page::{Block, Cell, Mood, PageColumn, Section, Table};
 
 /// Names of the measured numbers, translations first.
 const COORDINATES: [&str; 6] = ["a um", "b um", "c um", "alpha urad", "beta urad", "gamma urad"];
@@ -27,7 +27,25 @@ pub fn section(d: &Diagnosis) -> Section {
         table.row(row(step, largest));
     }
     table.row(noise(d, largest));
-    Section::new(title).id("ladder").remark(how_held_out(d)).table(table)
+    Section::new(title)
+        .id("ladder")
+        .remark(how_held_out(d))
+        .table(table)
+        .with(d.nested.as_ref().map(|nested| Block::paragraph(chosen_anew(d, nested))))
+}
+
+/// `With the terms chosen anew ...: 1.08 times the noise ...`
+fn chosen_anew(d: &Diagnosis, nested: &NestedReport) -> String {
+    let parts = nested.chosen.len();
+    let same = match nested.agreeing(&d.model) {
+        n if n == parts => "every time the same".to_owned(),
+        n => format!("the same in {n} of {parts} cases"),
+    };
+    format!(
+        "The terms of these steps were chosen with all poses. Chosen anew without each of {parts} parts of them, among the best sets of \
+         the whole search, they are {same}, and the error on the part left out is {} times the noise.",
+        multiple(nested.error.times_noise())
+    )
 }
 
 /// Where the held-out error comes from.

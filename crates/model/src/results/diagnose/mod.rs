@@ -5,6 +5,7 @@ mod answer;
 mod averaged;
 mod context;
 mod judged;
+mod nested;
 mod next;
 mod notes;
 mod options;
@@ -19,6 +20,7 @@ use self::answer::Answer;
 use self::context::Context;
 pub use self::judged::prepare;
 use self::judged::{BothWays, Judged};
+pub use self::nested::NestedReport;
 use self::notes::{outside, suspects, warnings};
 pub use self::options::DiagnoseOptions;
 pub use self::report::{
@@ -108,6 +110,11 @@ pub fn diagnose_with(
         present: judgement.present.clone(),
         credible_set: judgement.credible.clone(),
         steps,
+        nested: if holdout.is_none() {
+            NestedReport::of(&campaign, &data.observations, &outcome)
+        } else {
+            None
+        },
         holdout: if holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn },
         noise: NoiseReport {
             translation_um: campaign.noise.translation * 1e6,

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::alternative::Alternative;
+use super::nested::NestedReport;
 use crate::effects::untestable::Untestable;
 use crate::estimation::estimate::Estimate;
 use crate::estimation::noise::NoiseSource;
@@ -43,6 +44,8 @@ pub struct Diagnosis {
     pub credible_set: Vec<Explanation>,
     /// Error per step of the model, springs alone first.
     pub steps: Vec<StepReport>,
+    /// Error on poses left out in turn, of the fit and of the choice of terms; absent with a holdout file and where none can be left out.
+    pub nested: Option<NestedReport>,
     /// How the held-out error was obtained.
     #[cfg_attr(feature = "typescript", ts(as = "String"))]
     pub holdout: HeldOut,
