@@ -37,13 +37,17 @@ impl Foreseen {
     /// # Errors
     /// As [`Linearization::at`].
     pub fn of(held: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
+        let alone = held.clone().independent();
+        Self::seen(held, &Linearization::at(&alone, &fit.point)?, fit)
+    }
+
+    /// The same where the readings have been linearised as if they shared nothing.
+    pub(crate) fn seen(held: &Campaign, lin: &Linearization, fit: &Fit) -> Result<Self, ModelError> {
         let misfit = Misfit::of(held, fit)?;
         let inputs = held.inexact.as_ref().map(|inexact| own_to_whole(held, &inexact.columns));
-        let alone = held.clone().independent();
-        let lin = Linearization::at(&alone, &fit.point)?;
-        let parameters = columns(&lin, &fit.point) * root(&fit.covariance);
+        let parameters = columns(lin, &fit.point) * root(&fit.covariance);
         Ok(Self {
-            poses: alone.groups.iter().map(pose_key).collect(),
+            poses: held.groups.iter().map(pose_key).collect(),
             residuals: lin.residuals(),
             spread: beside(&std::iter::once(parameters).chain(inputs).collect::<Vec<_>>()),
             misfit,

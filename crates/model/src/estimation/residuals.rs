@@ -190,10 +190,9 @@ pub(crate) fn errors_on(
     rows: &[Observation],
     fit: &Fit,
 ) -> Result<(Vec<Residual>, Foreseen), ModelError> {
-    let foreseen = Foreseen::of(held, fit)?;
     let alone = held.clone().independent();
     let lin = Linearization::at(&alone, &fit.point)?;
-    Ok((residuals(&alone, rows, &lin), foreseen))
+    Ok((residuals(&alone, rows, &lin), Foreseen::seen(held, &lin, fit)?))
 }
 
 /// What comes of leaving each part of the poses out, in order; of a part: the groups kept, and those left out.
