@@ -38,12 +38,13 @@ pub fn section(d: &Diagnosis) -> Section {
 fn chosen_anew(d: &Diagnosis, nested: &NestedReport) -> String {
     let parts = nested.chosen.len();
     let same = match nested.agreeing(&d.model) {
-        n if n == parts => "every time the same".to_owned(),
-        n => format!("the same in {n} of {parts} cases"),
+        n if n == parts && d.model.is_empty() => "none is chosen".to_owned(),
+        n if n == parts => "they are the same every time".to_owned(),
+        n => format!("they are the same in {n} of {parts} cases"),
     };
     format!(
         "The terms of these steps were chosen with all poses. Chosen anew without each of {parts} parts of them, among the best sets of \
-         the whole search, they are {same}, and the error on the part left out is {} times the noise.",
+         the whole search, {same}, and the error on the part left out is {} times the noise.",
         multiple(nested.error.times_noise())
     )
 }
