@@ -243,6 +243,17 @@ fn a_coarse_step_in_some_columns_does_not_hide_an_effect() {
 }
 
 #[test]
+fn repeats_that_are_rounded_alike_are_no_unknown_effect() {
+    // Four times the noise in translation, seven times in rotation: repeats of a condition often read the same.
+    let (hexapod, data) = clean();
+    let d = told(&hexapod, &rounded(&data, 2e-6, 2e-5));
+    assert_eq!((d.verdict, kinds(&d)), (Verdict::Measurement, vec![FindingKind::Resolution]));
+    let (hexapod, data, _) = cases::case("friction");
+    let d = told(&hexapod, &rounded(&data, 2e-6, 2e-5));
+    assert_ne!(d.verdict, Verdict::Outside, "{:?}", d.findings);
+}
+
+#[test]
 fn a_step_below_the_noise_says_nothing() {
     let (hexapod, data) = clean();
     assert_eq!(kinds(&told(&hexapod, &rounded(&data, 1e-7, 1e-6))), []);

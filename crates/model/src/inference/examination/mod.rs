@@ -31,6 +31,8 @@ use crate::inference::diagnosis::RankedSets;
 const BELIEVED: f64 = 8.0;
 /// The same for errors of joints and loads, nats: every machine is built and loaded to a tolerance, so odds of 20 to 1 are enough.
 const LIKELY: f64 = 3.0;
+/// Share of the variance common to repeats below which it changes no standard deviation by more than a percent or two.
+const LEAST_SHARED: f64 = 0.02;
 /// Coordinates of a reading.
 const AXES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 /// Components of a load.
@@ -77,7 +79,17 @@ pub fn examine(
     noise: Noise,
     outcome: &RankedSets,
 ) -> Result<Examined, ModelError> {
-    let whole = as_rounded(hexapod, data, noise);
+    let (whole, shared) = as_rounded(hexapod, data, noise);
+    let mut examined = examined(hexapod, whole, outcome)?;
+    let is_free = matches!(examined.noise.structure, Structure::Independent);
+    if is_free && shared > LEAST_SHARED {
+        examined.noise.structure = Structure::Setup { share: shared };
+    }
+    Ok(examined)
+}
+
+/// Readings examined for anything but their rounding.
+fn examined(hexapod: &Hexapod, whole: Examined, outcome: &RankedSets) -> Result<Examined, ModelError> {
     let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
     let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
     // Many errors that are far off are tails; one or two are blunders.
@@ -96,14 +108,16 @@ pub fn examine(
     Ok(settled(cleaned.examined, &whole, &cleaned.last, &best))
 }
 
-/// All readings, with what their rounding adds to the noise.
-fn as_rounded(hexapod: &Hexapod, data: &Dataset, noise: Noise) -> Examined {
+/// All readings, with what their rounding adds to the noise, and the share of the variance that repeats have in common by it.
+fn as_rounded(hexapod: &Hexapod, data: &Dataset, noise: Noise) -> (Examined, f64) {
     let (mut data, mut noise, mut findings) = (data.clone(), noise.independent(), Vec::new());
+    let mut shared = 0.0;
     if let Some(resolution) = Resolution::of(&data, &noise) {
         findings.push(resolution.finding());
         resolution.apply(&mut data, &mut noise);
+        shared = resolution.shared;
     }
-    Examined { data, noise, findings, tolerances: hexapod.tolerances }
+    (Examined { data, noise, findings, tolerances: hexapod.tolerances }, shared)
 }
 
 /// Readings looked at.

@@ -2,9 +2,16 @@
 //!
 //! Every value of a column is then a whole multiple of one decimal step `q`. Rounding errs evenly within half a step on either side,
 //! which adds `q^2 / 12` to the variance of a reading (Widrow and Kollar 2008, Quantization Noise, chapter 4). Differences of rounded
-//! readings are multiples of the step too.
+//! readings are multiples of the step too. Where the noise is smaller than the step, repeats are rounded alike: with a noise `s` they
+//! share the variance of the mean rounding error,
+//!
+//! ```text
+//! q^2 / (2 pi^2)  sum over h = 1, 2, ... of exp(-4 pi^2 h^2 s^2 / q^2) / h^2
+//! ```
 
-use hexbench_core::statistics::root_mean_square;
+use std::f64::consts::PI;
+
+use hexbench_core::statistics::{mean, root_mean_square};
 use hexbench_core::{Dataset, Measurand};
 
 use super::finding::{Finding, FindingKind};
@@ -59,9 +66,20 @@ impl Column {
     }
 }
 
+/// Harmonics of the rounding error that are summed: without noise they have 98 % of its variance.
+const HARMONICS: i32 = 30;
+
+/// Variance that readings of one true value share when they are rounded to `step` beside a noise `sigma`.
+fn shared_variance(step: f64, sigma: f64) -> f64 {
+    let harmonic = |h: i32| (-(2.0 * PI * f64::from(h) * sigma / step).powi(2)).exp() / f64::from(h * h);
+    if step > 0.0 { step * step / (2.0 * PI * PI) * (1..=HARMONICS).map(harmonic).sum::<f64>() } else { 0.0 }
+}
+
 /// Steps of the columns, SI; zero where there is none that matters.
 pub(super) struct Resolution {
     steps: [f64; 6],
+    /// Share of the variance of a reading that its repeats have in common by rounding.
+    pub(super) shared: f64,
     measurand: Measurand,
     readings: usize,
 }
@@ -74,14 +92,19 @@ impl Resolution {
             return None;
         }
         let columns = Column::all(data.measurand);
+        let sigma = |k: usize| root_mean_square(rows.iter().map(|o| row_sigma(o, noise)[k])).unwrap_or(0.0);
         let step = |k: usize| {
             let values: Vec<f64> = rows.iter().map(|o| o.measured[k] / columns[k].size).collect();
-            let sigma = root_mean_square(rows.iter().map(|o| row_sigma(o, noise)[k])).unwrap_or(0.0);
-            step(&values).map(|q| q * columns[k].size).filter(|q| *q > MATTERS * sigma).unwrap_or(0.0)
+            step(&values).map(|q| q * columns[k].size).filter(|q| *q > MATTERS * sigma(k)).unwrap_or(0.0)
         };
         let steps: [f64; 6] = std::array::from_fn(step);
+        let share = |k: usize| {
+            let (q, sigma) = (steps[k], sigma(k));
+            shared_variance(q, sigma) / (sigma * sigma + q * q / 12.0).max(f64::MIN_POSITIVE)
+        };
+        let shared = mean((0..6).map(share)).unwrap_or(0.0);
         let any = steps.iter().any(|q| *q > 0.0);
-        any.then_some(Self { steps, measurand: data.measurand, readings: rows.len() })
+        any.then_some(Self { steps, shared, measurand: data.measurand, readings: rows.len() })
     }
 
     /// Readings and noise with what rounding adds. Noise taken from repeats or residuals has it already, as far as it shows there.
@@ -148,6 +171,14 @@ fn step(values: &[f64]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn repeats_share_the_rounding_that_their_noise_does_not_spread() {
+        let whole = 4.0 / 12.0;
+        assert!((shared_variance(2.0, 0.0) / whole - 1.0).abs() < 0.03);
+        assert!(shared_variance(2.0, 1.0) < 1e-3 * whole);
+        assert!(shared_variance(0.0, 1.0).abs() < f64::EPSILON);
+    }
 
     #[test]
     fn the_step_of_a_column_is_the_largest_decimal_one_that_fits_all_values() {
