@@ -80,7 +80,7 @@ pub fn examine(
     outcome: &RankedSets,
 ) -> Result<Examined, ModelError> {
     let (whole, shared) = as_rounded(hexapod, data, noise);
-    let mut examined = examined(hexapod, whole, outcome)?;
+    let mut examined = examined(hexapod, &whole, outcome)?;
     let is_free = matches!(examined.noise.structure, Structure::Independent);
     if is_free && shared > LEAST_SHARED {
         examined.noise.structure = Structure::Setup { share: shared };
@@ -89,13 +89,13 @@ pub fn examine(
 }
 
 /// Readings examined for anything but their rounding.
-fn examined(hexapod: &Hexapod, whole: Examined, outcome: &RankedSets) -> Result<Examined, ModelError> {
+fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result<Examined, ModelError> {
     let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
     let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
     // Many errors that are far off are tails; one or two are blunders.
     let tails = first.statements.first().filter(|s| matches!(s.kind, Kind::Tails(_)));
     if let Some(&tails) = tails.filter(|t| t.evidence - first.stated > cleaned.gain) {
-        return Ok(settled(whole.clone(), &whole, first, &tails));
+        return Ok(settled(whole.clone(), whole, first, &tails));
     }
     let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
@@ -105,7 +105,7 @@ fn examined(hexapod: &Hexapod, whole: Examined, outcome: &RankedSets) -> Result<
         found.kind.set(&mut examined.tolerances, found.size);
         return Ok(examined);
     }
-    Ok(settled(cleaned.examined, &whole, &cleaned.last, &best))
+    Ok(settled(cleaned.examined, whole, &cleaned.last, &best))
 }
 
 /// All readings, with what their rounding adds to the noise, and the share of the variance that repeats have in common by it.
