@@ -67,9 +67,17 @@ impl Trial {
     }
 }
 
-/// Right, honest or wrong about hidden effects.
+/// Right, honest or wrong about hidden effects. An effect that is told as sure, but too small to be named, is told.
 pub fn outcome(hidden: &[&str], d: &Diagnosis) -> Outcome {
-    outcome_of(hidden, d.verdict, &d.added, &d.credible_set)
+    let told = told(d);
+    let small_alone = d.verdict == Verdict::Adequate && !told.is_empty();
+    let verdict = if small_alone { Verdict::Named } else { d.verdict };
+    outcome_of(hidden, verdict, &told, &d.credible_set)
+}
+
+/// Effects that a diagnosis says are there: those named, then those too small to be named.
+pub fn told(d: &Diagnosis) -> Vec<String> {
+    d.added.iter().chain(&d.small).cloned().collect()
 }
 
 /// The same for an answer from anywhere: the verdict, the effects named, and those not excluded.

@@ -4,13 +4,15 @@ use serde_json::Value;
 
 use crate::support::{cases, diagnose, text};
 
-const TOP: [&str; 20] = [
+const TOP: [&str; 22] = [
     "format",
     "verdict",
     "added",
+    "small",
     "candidates",
     "credible_set",
     "steps",
+    "nested",
     "noise",
     "parameters",
     "untestable",
@@ -67,7 +69,7 @@ fn every_key_of_the_contract_is_there() {
         assert_keys(&d["run"], &origin, "run");
         assert_keys(&d["noise"], &["translation_um", "rotation_urad", "source"], "noise");
         for step in d["steps"].as_array().unwrap() {
-            assert_keys(step, &["terms"], "step");
+            assert_keys(step, &["terms", "chance", "gain", "worth"], "step");
             assert_error(step, "step");
             assert_error(&step["holdout"], "holdout");
         }

@@ -62,11 +62,14 @@ fn every_effect_can_be_explained() {
 }
 
 #[test]
-fn the_demo_ends_with_the_foundation_named_and_the_error_at_the_noise() {
+fn the_demo_ends_with_the_foundation_named_and_the_chance_of_what_is_left() {
     let page = text(hexbench().args(["demo", "--no-report"]).output().unwrap());
     let end = page.split("Verdict").last().unwrap();
     let words = end.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.contains("base-compliance") && words.contains("it is at the noise"), "{words}");
+    assert!(
+        words.contains("base-compliance") && words.contains("still above the noise (chance 1 %)"),
+        "{words}"
+    );
 }
 
 #[test]

@@ -4,7 +4,7 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::Diagnosis;
 use serde::{Deserialize, Serialize};
 
-use crate::trial::{Outcome, Trial};
+use crate::trial::{Outcome, Trial, told};
 
 /// What became of the hidden truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -57,6 +57,7 @@ impl Fate {
             (Outcome::Right, _) => Self::Right,
             (Outcome::Honest, _) => Self::Honest,
             (Outcome::Wrong, Verdict::Ambiguous | Verdict::Undecided) => Self::Undecided,
+            (Outcome::Wrong, Verdict::Adequate) if invents(d, &trial.hidden) => Self::FalseName,
             (Outcome::Wrong, Verdict::Adequate | Verdict::Measurement) => Self::Missed,
             (Outcome::Wrong, Verdict::Outside) => Self::FalseOutside,
             (Outcome::Wrong, Verdict::Named) if invents(d, &trial.hidden) => Self::FalseName,
@@ -66,5 +67,5 @@ impl Fate {
 }
 
 fn invents(d: &Diagnosis, hidden: &[&str]) -> bool {
-    d.added.iter().any(|id| !hidden.contains(&id.as_str()))
+    told(d).iter().any(|id| !hidden.contains(&id.as_str()))
 }

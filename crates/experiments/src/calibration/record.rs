@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Fate;
 use crate::harness::words::{self, Word};
-use crate::trial::{Trial, TrialError};
+use crate::trial::{Trial, TrialError, told};
 
 /// What was hidden in a campaign, and what was said about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -149,10 +149,10 @@ impl CalibrationRecord {
 
 fn confidence(study: &DiagnosisStudy) -> Option<f64> {
     let d = &study.diagnosis;
-    let added: Vec<&str> = d.added.iter().map(String::as_str).collect();
+    let told = told(d);
+    let told: Vec<&str> = told.iter().map(String::as_str).collect();
     match d.verdict {
-        Verdict::Named => Some(probability_of(study, &added)),
-        Verdict::Adequate | Verdict::Measurement => Some(probability_of(study, &[])),
+        Verdict::Named | Verdict::Adequate | Verdict::Measurement => Some(probability_of(study, &told)),
         Verdict::Outside => Some(probability_outside(study)),
         Verdict::Ambiguous | Verdict::Undecided => None,
     }

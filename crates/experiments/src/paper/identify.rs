@@ -5,8 +5,8 @@ use hexbench_core::{Dataset, Matrix6, Vector6};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
+use hexbench_model::estimation::foreseen::held_out_chance;
 use hexbench_model::estimation::paper::{block, fit_paper};
-use hexbench_model::estimation::residuals::held_out_chance;
 
 use super::bench::{PaperMachine, sigma};
 

@@ -1,6 +1,6 @@
 //! The missing effect: what the paper's plan says of it, and what a richer one does.
 
-use hexbench_model::estimation::residuals::held_out_chance;
+use hexbench_model::estimation::foreseen::held_out_chance;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{DiagnosisStudy, diagnose};
 use hexbench_model::terms::catalogue;

@@ -4,9 +4,10 @@ use hexbench_core::Metrology;
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
+use hexbench_model::estimation::foreseen::held_out_chance;
 use hexbench_model::estimation::frames::ReadingAxes;
 use hexbench_model::estimation::noise::scatter;
-use hexbench_model::estimation::residuals::{held_out_chance, prediction_errors, summarise};
+use hexbench_model::estimation::residuals::{prediction_errors, summarise};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 

@@ -3,7 +3,7 @@
 use hexbench_core::statistics::{mean, root_mean_square};
 use hexbench_model::estimation::estimate::estimates;
 use hexbench_model::estimation::fit::Fit;
-use hexbench_model::estimation::residuals::held_out_chance;
+use hexbench_model::estimation::foreseen::held_out_chance;
 use serde::{Deserialize, Serialize};
 
 use super::distance::{PulledDistance, of_effects, of_springs};

@@ -123,6 +123,11 @@ pub struct Campaign {
     pub inexact: Option<Arc<Inexact>>,
 }
 
+/// Bits of the commanded pose: readings of equal bits are readings of one pose.
+pub(crate) fn pose_key(group: &ConditionReadings) -> [u64; 6] {
+    group.mean.pose.to_array().map(|x| (x + 0.0).to_bits())
+}
+
 impl Condition {
     /// Geometric twist of the platform at the mobile origin that reads like this; zero at beta = +-90 deg, where a reading says nothing
     /// of two rotations.
@@ -503,7 +508,7 @@ fn group(rows: &[Observation], noise: &Noise, axes: &ReadingAxes) -> Vec<Conditi
     let mut records: HashMap<[u64; 6], usize> = HashMap::new();
     for g in &mut groups {
         average(g, rows, noise, axes);
-        let pose = g.mean.pose.to_array().map(|x| (x + 0.0).to_bits());
+        let pose = pose_key(g);
         let next = records.len();
         g.record = *records.entry(pose).or_insert(next);
     }

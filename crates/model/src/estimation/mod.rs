@@ -4,6 +4,7 @@ pub mod campaign;
 pub mod estimate;
 pub mod fit;
 pub mod fit_named;
+pub mod foreseen;
 pub mod frames;
 pub mod linearization;
 pub mod lsq;

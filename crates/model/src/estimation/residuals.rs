@@ -3,19 +3,18 @@
 use std::collections::HashMap;
 
 use hexbench_core::statistics::{mean, median};
-use hexbench_core::{Dataset, Hexapod, Matrix6, Observation, Vector6};
+use hexbench_core::{Dataset, Hexapod, Observation, Vector6};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use crate::error::ModelError;
-use crate::estimation::campaign::{Campaign, ConditionReadings, row_sigma};
+use crate::estimation::campaign::{Campaign, ConditionReadings, pose_key, row_sigma};
 use crate::estimation::fit::{Fit, Start, TermSpec, columns, refit};
+use crate::estimation::foreseen::{Foreseen, Misfit};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
 use crate::estimation::lsq::solve;
-use crate::estimation::noise::{Noise, NoiseLevel};
-use crate::estimation::tolerances::within_tolerances_at;
+use crate::estimation::noise::Noise;
 
 /// Most folds of a leave-poses-out validation.
 const MOST_FOLDS: usize = 12;
@@ -130,39 +129,6 @@ pub fn prediction_errors(
     Ok(residuals(&campaign, &holdout.observations, &lin))
 }
 
-/// Chance that held-out readings are as far from a fit to a campaign as they are, or farther, if the model is right: beside noise with
-/// all that is known of it, inputs within their tolerances, and the uncertainty of every parameter, which all readings share; pure
-/// error left out.
-///
-/// ```text
-/// chi2 = d' (I + Z Z')^-1 d,   Z = J C^1/2,   chi2 / n over sum / dof follows F(n, dof)
-/// ```
-///
-/// with the residuals `d` and columns `J` whitened, the covariance `C` of the parameters, and what is known of the noise level.
-///
-/// # Errors
-/// As [`prediction_errors`].
-pub fn held_out_chance(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Result<f64, ModelError> {
-    let held = Campaign::held_out(&campaign.hexapod, holdout, campaign.noise, &fit.point.machine)?;
-    let held = if campaign.inexact.is_some() { within_tolerances_at(held, &fit.point) } else { held };
-    let lin = Linearization::at(&held, &fit.point)?;
-    let d = lin.residuals();
-    let z = columns(&lin, &fit.point) * root(&fit.covariance);
-    let inner = z.tr_mul(&z) + DMatrix::identity(z.ncols(), z.ncols());
-    let along = z.tr_mul(&d);
-    let explained = inner.cholesky().map_or(0.0, |factor| along.dot(&factor.solve(&along)));
-    let (chi2, numbers) = ((d.norm_squared() - explained).max(0.0), d.len() as f64);
-    let NoiseLevel { sum, dof } = campaign.noise_level();
-    let unknown = || ModelError::NotFinite { what: "the held-out data" };
-    let below = if dof.is_finite() && dof > 0.0 {
-        let law = FisherSnedecor::new(numbers, dof).map_err(|_| unknown())?;
-        law.cdf(chi2 / numbers * dof / sum)
-    } else {
-        ChiSquared::new(numbers).map_err(|_| unknown())?.cdf(chi2)
-    };
-    Ok(1.0 - below)
-}
-
 /// By how much held-out chi-square falls when more columns are fitted to a campaign beside a fit: below zero when they predict worse.
 ///
 /// # Errors
@@ -183,59 +149,20 @@ pub fn held_out_gain(
     Ok(before.norm_squared() - after.norm_squared())
 }
 
-/// A square root of a covariance, `C = R R'`; its entries may differ by many orders.
-fn root(covariance: &DMatrix<f64>) -> DMatrix<f64> {
-    let sizes = covariance.diagonal().map(|x| x.max(0.0).sqrt());
-    let share = |i: usize, j: usize| {
-        let product = sizes[i] * sizes[j];
-        if product > 0.0 { covariance[(i, j)] / product } else { 0.0 }
-    };
-    let n = sizes.len();
-    let eigen = DMatrix::from_fn(n, n, share).symmetric_eigen();
-    let lengths = eigen.eigenvalues.map(|x| x.max(0.0).sqrt());
-    DMatrix::from_diagonal(&sizes) * eigen.eigenvectors * DMatrix::from_diagonal(&lengths)
-}
-
-/// Averaged readings beside what a fit expects of them, uncertainty of its parameters included.
-struct Expected {
-    /// Sum of squared distances in units of noise plus uncertainty.
-    chi2: f64,
-    /// Logarithm of the determinant of noise plus uncertainty, in units of the noise.
-    log_det: f64,
-}
-
-impl Expected {
-    /// `lin` is the fit seen at these readings.
-    fn of(lin: &Linearization, fit: &Fit) -> Self {
-        let jacobian = columns(lin, &fit.point);
-        let mut expected = Self { chi2: 0.0, log_det: 0.0 };
-        for i in 0..lin.conditions.len() {
-            let j = jacobian.rows(6 * i, 6);
-            let spread = j * &fit.covariance * j.transpose();
-            let total = Matrix6::identity() + spread.fixed_view::<6, 6>(0, 0);
-            let Some(factor) = total.cholesky() else { continue };
-            let d = lin.residual(i);
-            expected.chi2 += d.dot(&factor.solve(&d));
-            expected.log_det += 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
-        }
-        expected
-    }
-
-    /// Logarithm of the predictive density of the readings, up to a constant of the noise.
-    fn log_density(&self) -> f64 {
-        -0.5 * (self.chi2 + self.log_det)
-    }
-}
-
 /// Errors on poses left out in turn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
     /// Of every reading.
     pub residuals: Vec<Residual>,
-    /// Sum of the logarithms of the predictive densities of what was left out (Geisser and Eddy 1979, Journal of the American
-    /// Statistical Association 74): unlike the errors it does not hold against an effect that the pose left out was the only one to
-    /// determine it.
-    pub log_density: f64,
+    /// What the fits to the others foresee of each part left out.
+    pub foreseen: Vec<Foreseen>,
+}
+
+impl LeftOut {
+    /// How far all of them are from what is foreseen; `dof`: degrees of freedom of the fit to all averaged readings.
+    pub fn misfit(&self, dof: f64) -> Misfit {
+        Misfit::left_out_in_turn(self.foreseen.iter().map(|f| f.misfit), dof)
+    }
 }
 
 /// Prediction errors when poses are left out in turn and the model is fitted to the others; `rows` are the readings of the campaign.
@@ -248,37 +175,53 @@ pub fn leave_poses_out(
     wanted: &[TermSpec],
     start: &ModelPoint,
 ) -> Result<LeftOut, ModelError> {
-    let fold_of = folds(campaign);
+    let start = Start::at(campaign, wanted, start)?;
+    let parts = each_part_left_out(campaign, MOST_FOLDS, |kept, held| {
+        let fitted = refit(campaign, wanted, &start, kept)?;
+        errors_on(&campaign.part(held), rows, &fitted)
+    })?;
+    let (residuals, foreseen): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+    Ok(LeftOut { residuals: residuals.into_iter().flatten().collect(), foreseen })
+}
+
+/// Errors of a fit on readings it has not seen, and what it foresees of them.
+pub(crate) fn errors_on(
+    held: &Campaign,
+    rows: &[Observation],
+    fit: &Fit,
+) -> Result<(Vec<Residual>, Foreseen), ModelError> {
+    let alone = held.clone().independent();
+    let lin = Linearization::at(&alone, &fit.point)?;
+    Ok((residuals(&alone, rows, &lin), Foreseen::seen(held, &lin, fit)?))
+}
+
+/// What comes of leaving each part of the poses out, in order; of a part: the groups kept, and those left out.
+pub(crate) fn each_part_left_out<T: Send>(
+    campaign: &Campaign,
+    most: usize,
+    of: impl Fn(&[usize], &[usize]) -> Result<T, ModelError> + Sync,
+) -> Result<Vec<T>, ModelError> {
+    let fold_of = folds(campaign, most);
     let count = fold_of.iter().max().map_or(0, |last| last + 1);
     if count < 2 {
         return Err(ModelError::TooFewEquations { equations: 6, unknowns: 12 });
     }
-    let start = Start::at(campaign, wanted, start)?;
-    let errors: Vec<(Vec<Residual>, f64)> = (0..count)
-        .into_par_iter()
-        .map(|fold| {
-            let [kept, held] = [false, true].map(|inside| {
-                (0..fold_of.len()).filter(|&g| (fold_of[g] == fold) == inside).collect::<Vec<_>>()
-            });
-            let fitted = refit(campaign, wanted, &start, &kept)?;
-            let held = campaign.part(&held).independent();
-            let lin = Linearization::at(&held, &fitted.point)?;
-            Ok((residuals(&held, rows, &lin), Expected::of(&lin, &fitted).log_density()))
-        })
-        .collect::<Result<_, ModelError>>()?;
-    let log_density = errors.iter().map(|e| e.1).sum();
-    Ok(LeftOut { residuals: errors.into_iter().flat_map(|e| e.0).collect(), log_density })
+    let part = |fold: usize| {
+        let (held, kept): (Vec<usize>, Vec<usize>) = (0..fold_of.len()).partition(|&g| fold_of[g] == fold);
+        of(&kept, &held)
+    };
+    (0..count).into_par_iter().map(part).collect()
 }
 
 /// Fold of every group: groups of equal pose belong to one; poses are dealt out in order of appearance.
-fn folds(campaign: &Campaign) -> Vec<usize> {
+fn folds(campaign: &Campaign, most: usize) -> Vec<usize> {
     let mut known = HashMap::new();
     let number = |g: &ConditionReadings| {
         let next = known.len();
-        *known.entry(g.mean.pose.to_array().map(|x| (x + 0.0).to_bits())).or_insert(next)
+        *known.entry(pose_key(g)).or_insert(next)
     };
     let poses: Vec<usize> = campaign.groups.iter().map(number).collect();
-    let count = known.len().clamp(1, MOST_FOLDS);
+    let count = known.len().clamp(1, most);
     poses.into_iter().map(|pose| pose % count).collect()
 }
 

@@ -1,5 +1,6 @@
 //! Diagnosis: linearise, search, fit, linearise again at the best set, until the best set stays.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -30,6 +31,8 @@ const DOUBTFUL_CHANCE: f64 = 0.1;
 const FEW_PARAMETERS: usize = 3;
 /// Conditions looked at by scans.
 const SCANNED_CONDITIONS: usize = 400;
+/// Best sets of the whole search whose members are weighed again on a part of the campaign.
+const SETS_SEARCHED_ANEW: usize = 12;
 /// Most effects in a set.
 const MOST_EFFECTS: usize = 4;
 
@@ -197,22 +200,64 @@ fn collect(
     // Scans only choose what to weigh; the weighing itself uses every condition.
     let scanned = lin.thinned(SCANNED_CONDITIONS);
     for term in terms {
-        let grid = term.shape_grid(&scanned.conditions);
-        let shapes = if term.info().shape.is_none() {
-            vec![1.0]
-        } else if grid.len() > LONG_GRID {
-            vec![Scanner::new(&scanned, point, Some(term.info().id)).best_shape(term.as_ref(), &grid)]
-        } else if grid.is_empty() {
-            continue;
-        } else {
-            grid.clone()
-        };
-        collector.add_term(term, &shapes, grid.len(), rich_shape(term.as_ref(), point, effort));
+        add_term(&mut collector, term, &scanned, point, rich_shape(term.as_ref(), point, effort));
     }
     for (pattern, log_weight) in patterns(campaign, &scanned, point, effort.scan) {
         collector.add_pattern(pattern, log_weight);
     }
     collector.finish(campaign, point)
+}
+
+/// Adds a term in its shapes, of which a long grid leaves the best one; none where no shape is sensible.
+fn add_term(
+    collector: &mut Collector<'_>,
+    term: &Arc<dyn Term>,
+    scanned: &Linearization,
+    point: &ModelPoint,
+    rich: Option<f64>,
+) {
+    let grid = term.shape_grid(&scanned.conditions);
+    let shapes = if term.info().shape.is_none() {
+        vec![1.0]
+    } else if grid.len() > LONG_GRID {
+        vec![Scanner::new(scanned, point, Some(term.info().id)).best_shape(term.as_ref(), &grid)]
+    } else if grid.is_empty() {
+        return;
+    } else {
+        grid.clone()
+    };
+    collector.add_term(term, &shapes, grid.len(), rich);
+}
+
+/// Terms of the best set of part of a campaign, searched anew among the members of the best sets of the whole of it; `lin`: of the
+/// part, where the whole search ended.
+pub(crate) fn chosen_anew(part: &Campaign, lin: &Linearization, whole: &RankedSets) -> Vec<TermSpec> {
+    let point = &whole.best.point;
+    let mut collector = Collector::new(lin, whole.natural);
+    let scanned = lin.thinned(SCANNED_CONDITIONS);
+    for candidate in whole.best_members(SETS_SEARCHED_ANEW) {
+        match &candidate.kind {
+            CandidateKind::Term(term) => {
+                let blocks = candidate.blocks.iter().map(|&b| &whole.gram.blocks[b]);
+                let rich = blocks.clone().find(|b| b.rich).map(|b| b.shape);
+                add_term(&mut collector, term, &scanned, point, rich);
+            }
+            CandidateKind::Pattern(pattern) => collector.add_pattern(*pattern, candidate.log_weight),
+        }
+    }
+    let (gram, candidates) = collector.finish(part, point);
+    let search = TermSearch::new(&gram, &candidates, part.noise.allows_verdict());
+    let sets = search.among(&whole.candidates).run(MOST_EFFECTS);
+    sets.sets.first().map(|s| wanted(s, &gram, &candidates, &whole.natural)).unwrap_or_default()
+}
+
+impl RankedSets {
+    /// Candidates that are in one of so many best sets, in their order.
+    fn best_members(&self, sets: usize) -> impl Iterator<Item = &Candidate> {
+        let best: BTreeSet<usize> =
+            self.sets.sets.iter().take(sets).flat_map(|s| s.members.iter().copied()).collect();
+        best.into_iter().map(|m| &self.candidates[m])
+    }
 }
 
 /// Shape at which the richer form of a term competes: that of a term in the model; and bodies that yield in any way always

@@ -6,6 +6,7 @@ pub mod diagnosis;
 pub mod evidence;
 pub mod examination;
 pub mod explanation;
+pub mod gain;
 pub mod misread;
 pub mod pattern;
 pub(crate) mod period;

@@ -72,9 +72,13 @@ pub struct TermSearch<'a> {
 impl<'a> TermSearch<'a> {
     /// Prepare; `discrepancy` is possible where the noise level is known independently of the model.
     pub fn new(gram: &'a Gram, candidates: &'a [Candidate], discrepancy: bool) -> Self {
-        // The patterns together count as one more effect.
-        let terms = candidates.iter().filter(|c| matches!(c.kind, CandidateKind::Term(_))).count();
-        Self { gram, candidates, effects: (terms + 1) as f64, discrepancy, done: BTreeMap::new() }
+        Self { gram, candidates, effects: effects(candidates), discrepancy, done: BTreeMap::new() }
+    }
+
+    /// The same for some of these candidates: the others count in the prior, as if they had been looked at.
+    #[must_use]
+    pub fn among(self, all: &[Candidate]) -> Self {
+        Self { effects: effects(all), ..self }
     }
 
     /// Search from nothing up to `most` effects.
@@ -196,6 +200,11 @@ impl<'a> TermSearch<'a> {
         let weights: Vec<f64> = sets.iter().flat_map(|s| [s.log_weight, s.log_weight_discrepant]).collect();
         Sets { log_total: log_sum(weights.iter().copied()), sets }
     }
+}
+
+/// Effects that share the prior; the patterns together count as one more.
+fn effects(candidates: &[Candidate]) -> f64 {
+    (candidates.iter().filter(|c| matches!(c.kind, CandidateKind::Term(_))).count() + 1) as f64
 }
 
 fn sort(sets: &mut [Set]) {

@@ -201,3 +201,60 @@ fn readings_that_cannot_judge_leave_the_verdict_undecided() {
     let d = told(&hexapod, &data);
     assert_eq!((d.verdict, d.added.len()), (Verdict::Undecided, 0));
 }
+
+/// The same readings written down in whole multiples of a step, m and rad.
+fn rounded(data: &Dataset, length: f64, angle: f64) -> Dataset {
+    let mut data = data.clone();
+    for o in &mut data.observations {
+        for (k, x) in o.measured.iter_mut().enumerate() {
+            let step = if k < 3 { length } else { angle };
+            *x = (*x / step).round() * step;
+        }
+    }
+    data
+}
+
+#[test]
+fn readings_rounded_to_more_than_their_noise_have_a_resolution_and_its_variance() {
+    let (hexapod, data) = clean();
+    let d = told(&hexapod, &rounded(&data, 1e-6, 1e-5));
+    assert_eq!((d.verdict, kinds(&d)), (Verdict::Measurement, vec![FindingKind::Resolution]));
+    assert_eq!(d.findings[0].size, "1 um in da, db, dc, 10 urad in dalpha, dbeta, dgamma");
+    let stated = hexapod.metrology.unwrap();
+    let expected = [
+        stated.sigma_translation.hypot(1e-6 / 12_f64.sqrt()),
+        stated.sigma_rotation.hypot(1e-5 / 12_f64.sqrt()),
+    ];
+    let used = [d.noise.translation_um, d.noise.rotation_urad];
+    for (used, expected) in used.iter().zip(expected) {
+        assert!((used / expected * 1e-6 - 1.0).abs() < 1e-9, "{used} for {expected:e}");
+    }
+}
+
+#[test]
+fn a_coarse_step_in_some_columns_does_not_hide_an_effect() {
+    let (hexapod, data, _) = cases::case("mujoco-foundation");
+    let d = told(&hexapod, &rounded(&data, 1e-9, 1e-5));
+    assert_eq!(
+        (kinds(&d), d.added.as_slice()),
+        (vec![FindingKind::Resolution], &["base-compliance".to_owned()][..])
+    );
+    assert_eq!(d.findings[0].size, "10 urad in dalpha, dbeta, dgamma");
+}
+
+#[test]
+fn repeats_that_are_rounded_alike_are_no_unknown_effect() {
+    // Four times the noise in translation, seven times in rotation: repeats of a condition often read the same.
+    let (hexapod, data) = clean();
+    let d = told(&hexapod, &rounded(&data, 2e-6, 2e-5));
+    assert_eq!((d.verdict, kinds(&d)), (Verdict::Measurement, vec![FindingKind::Resolution]));
+    let (hexapod, data, _) = cases::case("friction");
+    let d = told(&hexapod, &rounded(&data, 2e-6, 2e-5));
+    assert_ne!(d.verdict, Verdict::Outside, "{:?}", d.findings);
+}
+
+#[test]
+fn a_step_below_the_noise_says_nothing() {
+    let (hexapod, data) = clean();
+    assert_eq!(kinds(&told(&hexapod, &rounded(&data, 1e-7, 1e-6))), []);
+}

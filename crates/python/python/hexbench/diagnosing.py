@@ -62,12 +62,14 @@ class Diagnosis:
 
     #: ``diagnosis/1``.
     format: str
-    #: ``adequate``, ``named``, ``ambiguous``, ``outside`` or ``measurement``.
+    #: ``adequate``, ``named``, ``ambiguous``, ``outside``, ``measurement`` or ``undecided``.
     verdict: str
     #: Effects named, in the order in which they were added.
     added: list[str]
     #: Terms of the fitted model that the numbers belong to.
     model: list[str]
+    #: Effects that are sure and take less than 1 % off the held-out error; they are in the model and not named.
+    small: list[str]
     #: Terms of the model that needed their richer form.
     richer: list[str]
     #: Probability of every first addition, of ``outside`` and of ``none``; best first.
@@ -76,8 +78,10 @@ class Diagnosis:
     present: dict[str, float]
     #: Smallest set of effects that holds 95 % of the probability.
     credible_set: list[str]
-    #: Errors, fitted and held out, of every step of the model; springs alone first.
+    #: Errors, fitted and held out, of every step of the model, springs alone first; ``gain`` and ``worth`` of the effect added.
     steps: list[dict[str, Any]]
+    #: The error on poses left out of the choice of terms as well, and the terms ``chosen``; None with a holdout file.
+    nested: dict[str, Any] | None
     #: How the held-out error was obtained.
     holdout: str
     #: The noise of one reading: ``translation_um``, ``rotation_urad``, ``source``.

@@ -1,12 +1,13 @@
 //! The verdict in a sentence or two.
 
 use hexbench_model::inference::explanation::Explanation;
-use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::inference::gain::GainOutcome;
+use hexbench_model::inference::verdict::{NAMED, Verdict};
 use hexbench_model::results::diagnose::{Diagnosis, StepReport};
 use hexbench_model::results::words::{joined, joined_with};
 use hexbench_model::terms::catalogue;
 
-use crate::number::multiple;
+use crate::number::{hundredths, multiple, percent};
 use crate::page::{Block, Mood, Section};
 
 /// The verdict.
@@ -25,7 +26,17 @@ pub fn section(d: &Diagnosis) -> Section {
 
 /// The verdict in a sentence or two.
 pub fn sentences(d: &Diagnosis) -> Vec<String> {
+    let mut all = verdict(d);
+    all.extend(d.steps.iter().filter_map(|step| held_out_remark(d, step)));
+    all
+}
+
+/// The verdict itself.
+fn verdict(d: &Diagnosis) -> Vec<String> {
     match d.verdict {
+        Verdict::Adequate if !d.small.is_empty() => {
+            vec!["The springs alone are good enough: no effect is worth naming.".to_owned()]
+        }
         Verdict::Adequate => vec![
             "The springs alone explain these measurements: nothing is missing that these data could show. What \
              they could not show is listed below."
@@ -57,6 +68,29 @@ pub fn sentences(d: &Diagnosis) -> Vec<String> {
     }
 }
 
+/// What held-out poses say of the effect of a step, where that is less than the readings fitted say.
+fn held_out_remark(d: &Diagnosis, step: &StepReport) -> Option<String> {
+    let id = step.terms.last()?;
+    if d.small.contains(id) {
+        let share = hundredths(step.worth?.share.max(0.0));
+        return Some(format!(
+            "{id} is sure, but worth {share} % of the error on held-out poses: it stays in the model and is not named."
+        ));
+    }
+    let gain = step.gain?;
+    if d.added.contains(id) {
+        let rests = format!(
+            "Held-out poses do not confirm {id} by more than chance: it rests on the readings fitted."
+        );
+        return (gain.outcome == GainOutcome::Open).then_some(rests);
+    }
+    let is_sure = d.present.get(id).is_some_and(|p| *p >= NAMED) && d.verdict == Verdict::Ambiguous;
+    let unnamed = format!(
+        "The readings fitted ask for {id}, but held-out poses are not better predicted with it: it is not named."
+    );
+    (is_sure && gain.nats <= 0.0).then_some(unnamed)
+}
+
 /// `The model lacks one effect: the foundation yields (base-compliance).`
 pub fn lacks(ids: &[String]) -> String {
     let names: Vec<String> = ids.iter().map(|id| described(id)).collect();
@@ -80,15 +114,22 @@ fn lower_first(text: &str) -> String {
 
 /// How the held-out error falls, in multiples of the noise.
 pub fn error_statement(steps: &[StepReport]) -> String {
-    let ends = || Some((steps.first()?.holdout?, steps.last()?.holdout?));
-    let Some((before, after)) = ends() else { return "No poses could be held out.".to_owned() };
-    let where_to = if after.is_at_the_noise() { ": it is at the noise" } else { ", still above the noise" };
+    let ends = || Some((steps.first()?.holdout?, steps.last()?, steps.last()?.holdout?));
+    let Some((before, last, after)) = ends() else { return "No poses could be held out.".to_owned() };
     format!(
-        "Adding {} brings the error on held-out poses from {} to {} times the noise{where_to}.",
+        "Adding {} brings the error on held-out poses from {} to {} times the noise{}.",
         if steps.len() > 2 { "them" } else { "it" },
         multiple(before.times_noise()),
-        multiple(after.times_noise())
+        multiple(after.times_noise()),
+        beside_the_noise(last)
     )
+}
+
+/// `: it is at the noise (chance 31 %)`, or `, above the noise (chance 1 %)`.
+fn beside_the_noise(step: &StepReport) -> String {
+    let chance = step.chance.map_or(String::new(), |p| format!(" (chance {})", percent(p)));
+    let place = if step.is_at_the_noise() { ": it is at the noise" } else { ", still above the noise" };
+    format!("{place}{chance}")
 }
 
 fn ambiguous(d: &Diagnosis) -> Vec<String> {

@@ -1,11 +1,10 @@
 //! The ladder: error on held-out poses, step by step, beside the noise.
 
-use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::HeldOut;
-use hexbench_model::results::diagnose::{Diagnosis, StepReport};
+use hexbench_model::results::diagnose::{Diagnosis, NestedReport, StepReport};
 
 use crate::number::{multiple, significant};
-use crate::page::{Cell, Mood, PageColumn, Section, Table};
+use crate::page::{Block, Cell, Mood, PageColumn, Section, Table};
 
 /// Names of the measured numbers, translations first.
 const COORDINATES: [&str; 6] = ["a um", "b um", "c um", "alpha urad", "beta urad", "gamma urad"];
@@ -13,9 +12,7 @@ const COORDINATES: [&str; 6] = ["a um", "b um", "c um", "alpha urad", "beta urad
 /// One row per step of the model, then the noise.
 pub fn section(d: &Diagnosis) -> Section {
     let title = if d.steps.len() > 1 { "The error falls" } else { "The error" };
-    let errors: Vec<(&StepReport, ErrorSummary)> =
-        d.steps.iter().map(|s| (s, s.holdout.unwrap_or(s.fitted))).collect();
-    let largest = errors.iter().map(|(_, e)| e.times_noise()).fold(1.0, f64::max);
+    let largest = d.steps.iter().map(|s| s.error().times_noise()).fold(1.0, f64::max);
     let columns = [
         PageColumn::words("model"),
         PageColumn::number("um"),
@@ -26,11 +23,30 @@ pub fn section(d: &Diagnosis) -> Section {
     .chain([PageColumn::bars()])
     .chain(COORDINATES.map(|title| PageColumn::number(title).detail()));
     let mut table = Table::new(columns);
-    for (step, error) in &errors {
-        table.row(row(name(step), error, largest));
+    for step in &d.steps {
+        table.row(row(step, largest));
     }
     table.row(noise(d, largest));
-    Section::new(title).id("ladder").remark(how_held_out(d)).table(table)
+    Section::new(title)
+        .id("ladder")
+        .remark(how_held_out(d))
+        .table(table)
+        .with(d.nested.as_ref().map(|nested| Block::paragraph(chosen_anew(d, nested))))
+}
+
+/// `With the terms chosen anew ...: 1.08 times the noise ...`
+fn chosen_anew(d: &Diagnosis, nested: &NestedReport) -> String {
+    let parts = nested.chosen.len();
+    let same = match nested.agreeing(&d.model) {
+        n if n == parts && d.model.is_empty() => "none is chosen".to_owned(),
+        n if n == parts => "they are the same every time".to_owned(),
+        n => format!("they are the same in {n} of {parts} cases"),
+    };
+    format!(
+        "The terms of these steps were chosen with all poses. Chosen anew without each of {parts} parts of them, among the best sets of \
+         the whole search, {same}, and the error on the part left out is {} times the noise.",
+        multiple(nested.error.times_noise())
+    )
 }
 
 /// Where the held-out error comes from.
@@ -47,11 +63,12 @@ pub fn name(step: &StepReport) -> String {
     step.terms.last().map_or_else(|| "springs alone".to_owned(), |term| format!("+ {term}"))
 }
 
-fn row(name: String, error: &ErrorSummary, largest: f64) -> Vec<Cell> {
+fn row(step: &StepReport, largest: f64) -> Vec<Cell> {
+    let error = step.error();
     let times = error.times_noise();
-    let mood = if error.is_at_the_noise() { Mood::Good } else { Mood::Bad };
+    let mood = if step.is_at_the_noise() { Mood::Good } else { Mood::Bad };
     let digits = |x: f64| Cell::from(significant(x, 3));
-    let head = [name.into(), digits(error.rms.translation_um), digits(error.rms.rotation_urad)];
+    let head = [name(step).into(), digits(error.rms.translation_um), digits(error.rms.rotation_urad)];
     let bar = Cell::colored_bar(at_least_one(times / largest), mood);
     head.into_iter().chain([multiple(times).into(), bar]).chain(error.per_coordinate.map(digits)).collect()
 }

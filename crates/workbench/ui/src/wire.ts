@@ -455,8 +455,10 @@ export type Diagnosis = {
   verdict: Verdict;
   /** Effects named, in the order in which they were added. */
   added: Array<string>;
-  /** Terms of the fitted model the numbers below belong to; equals `added` for a named verdict. */
+  /** Terms of the fitted model the numbers below belong to; for a named verdict `added` and `small` together. */
   model: Array<string>;
+  /** Effects that are sure and take too little off the held-out error to be named, in the order in which they were added. */
+  small: Array<string>;
   /** Terms of the model that needed their richer form. */
   richer: Array<string>;
   /** Probability of every first addition, of `outside` and of `none`. */
@@ -469,6 +471,8 @@ export type Diagnosis = {
   credible_set: Array<string>;
   /** Error per step of the model, springs alone first. */
   steps: Array<StepReport>;
+  /** Error on poses left out in turn, of the fit and of the choice of terms; absent with a holdout file and where none can be left out. */
+  nested: NestedReport | null;
   /** How the held-out error was obtained. */
   holdout: string;
   /** The noise level used. */
@@ -532,10 +536,60 @@ export type Finding = {
 };
 
 /** Kind of a fault of the data; the words are those of `diagnosis.json`. */
-export type FindingKind = "blunder" | "pose" | "load" | "noise-level" | "heavy-tails" | "shared-reference" | "setup-error" | "drift" | "tolerance";
+export type FindingKind = "blunder" | "pose" | "load" | "noise-level" | "heavy-tails" | "shared-reference" | "setup-error" | "drift" | "resolution" | "tolerance";
+
+/** Whether held-out readings show an effect. */
+export type GainOutcome = "shown" | "open" | "refuted";
+
+/**
+ * What held-out readings say of an effect that was added to a model.
+ * For every condition `k` held out (averaged readings at one pose under one load) both models state a predictive density
+ * (`Foreseen`); `d_k` is the difference of their logarithms, above zero where the larger model foresees better. Conditions at one
+ * pose share what the pose has of its own, so that sums over poses are what counts:
+ * ```text
+ * D_p = sum over the conditions of pose p of d_k,    D = sum D_p,    S^2 = n / (n - 1) sum (D_p - D / n)^2
+ * chance          one-sided, Student's t with n - 1 degrees of freedom, of a D like this one when the larger model gains nothing
+ * E, s            mean and standard deviation of D if the larger model is right as fitted, its parameters uncertain
+ * chance if real  Phi((D - E) / max(s, S)): of a gain as small as this one if the effect is there as fitted
+ * ```
+ * - shown: the chance is at most 5 %;
+ * - refuted: `D` is not above zero, and the chance if real is at most 5 %: the gain would have shown, and did not;
+ * - open: these readings cannot tell. The evidence `P` of the readings fitted stands where they lean towards the effect; where they
+ * lean against it, `P e^D / (1 - P + P e^D)` has to be 99 % still.
+ * So a useless effect is shown in 5 % at most, and a real one refuted in 5 % at most. A useless one that seems sure in the readings
+ * fitted survives as open where these promise little; where it promises nine nats or more, in 5 % at most.
+ * Source: predictive densities of what was left out, Geisser and Eddy (1979), Journal of the American Statistical Association 74;
+ * their paired differences, Vehtari, Gelman and Gabry (2017), Statistics and Computing 27, section 5.
+ */
+export type HeldOutGain = {
+  /** What it comes to. */
+  outcome: GainOutcome;
+  /** `D`, nats. */
+  nats: number;
+  /** `E`, nats. */
+  expected_nats: number;
+  /** Chance of a gain like this one from an effect that gains nothing; absent with fewer than two poses. */
+  chance: number | null;
+  /** Chance of a gain as small as this one if the effect is there as fitted. */
+  chance_if_real: number;
+};
 
 /** Color of a word, a bar or a line. */
 export type Mood = "good" | "doubt" | "bad";
+
+/** Errors on poses left out of the choice of terms and of the fit. */
+export type NestedReport = {
+  /** Terms chosen without each part of the poses, in the order of their names. */
+  chosen: Array<Array<string>>;
+  /** Sum of squared whitened residuals per degree of freedom (per number for held-out data). */
+  chi2_reduced: number;
+  /** Root mean square of the residuals. */
+  rms: Rms;
+  /** Root mean square of each coordinate: um for translations, urad for rotations. */
+  per_coordinate: Six;
+  /** Scalar residuals behind it. */
+  count: number;
+};
 
 /** A proposed reading. */
 export type NextReport = {
@@ -642,6 +696,15 @@ export type StepReport = {
   terms: Array<string>;
   /** Error on held-out poses. */
   holdout: ErrorSummary | null;
+  /**
+   * Chance of an error on held-out poses as large as this if the model is right, with all that is known of noise, tolerances and
+   * parameters; absent where nothing could be held out or the noise is not known apart from the residuals.
+   */
+  chance: number | null;
+  /** What held-out poses say of the effect added last; absent where nothing was added, or nothing could be held out. */
+  gain: HeldOutGain | null;
+  /** Share of the held-out error which that effect takes off; absent likewise. */
+  worth: Worth | null;
   /** Sum of squared whitened residuals per degree of freedom (per number for held-out data). */
   chi2_reduced: number;
   /** Root mean square of the residuals. */
@@ -682,6 +745,19 @@ export type UntestableReport = {
 
 /** What the data say. */
 export type Verdict = "adequate" | "named" | "ambiguous" | "outside" | "measurement" | "undecided";
+
+/**
+ * Share of the held-out error that an effect takes off: whitened root mean square, noise included.
+ * ```text
+ * share = 1 - sqrt(chi2 after / chi2 before),   expected: chi2 before = chi2 after + sum delta^2 / numbers
+ * ```
+ */
+export type Worth = {
+  /** As measured; below zero where the error grows. */
+  share: number;
+  /** As the fitted effect promises for these readings. */
+  expected_share: number;
+};
 
 /** Body of `POST /api/benches/{id}/export`. */
 export type Export = {

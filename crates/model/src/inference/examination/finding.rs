@@ -23,6 +23,8 @@ pub enum FindingKind {
     SetupError,
     /// Errors of neighboring rows resemble each other.
     Drift,
+    /// Readings are rounded to a step larger than their noise.
+    Resolution,
     /// Joints are not where the drawing has them.
     Tolerance,
     /// Deflections, or translations, with the other sign.
@@ -65,120 +67,89 @@ pub enum FindingKind {
     Holdout,
 }
 
+/// What a fault of the data concerns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Concern {
+    /// Single readings.
+    Readings,
+    /// Conditions as a whole, as an effect of the machine does.
+    Conditions,
+    /// Conditions, of which the readings are left out.
+    WrongConditions,
+    /// The noise of all readings.
+    Noise,
+    /// The noise of conditions as a whole.
+    NoiseOfConditions,
+    /// What the file as a whole means.
+    File,
+    /// The readings held out.
+    Holdout,
+}
+
 impl FindingKind {
+    /// Word of the files, a few words, capitalized, and what it concerns.
+    fn entry(self) -> (&'static str, &'static str, Concern) {
+        match self {
+            Self::Blunder => ("blunder", "Blunder", Concern::Readings),
+            Self::Pose => ("pose", "Wrong pose", Concern::WrongConditions),
+            Self::Load => ("load", "Wrong load", Concern::WrongConditions),
+            Self::NoiseLevel => ("noise-level", "Noise level", Concern::Noise),
+            Self::HeavyTails => ("heavy-tails", "Heavy tails", Concern::Noise),
+            Self::SharedReference => ("shared-reference", "Shared reference", Concern::Noise),
+            Self::SetupError => ("setup-error", "Set-up error", Concern::NoiseOfConditions),
+            Self::Drift => ("drift", "Drift", Concern::Noise),
+            Self::Resolution => ("resolution", "Resolution", Concern::Noise),
+            Self::Tolerance => ("tolerance", "Tolerance", Concern::Conditions),
+            Self::DeflectionSign => ("deflection-sign", "Sign of the deflections", Concern::File),
+            Self::WrenchSign => ("wrench-sign", "Sign of the loads", Concern::File),
+            Self::StatesExchanged => {
+                ("states-exchanged", "Loaded and reference state exchanged", Concern::File)
+            }
+            Self::RotationSign => ("rotation-sign", "Sign of the rotations", Concern::File),
+            Self::MomentSign => ("moment-sign", "Sign of the moments", Concern::File),
+            Self::Unit => ("unit", "Unit", Concern::File),
+            Self::Axes => ("axes", "Axes", Concern::File),
+            Self::LegOrder => ("leg-order", "Order of the legs", Concern::File),
+            Self::JointsExchanged => ("joints-exchanged", "Base and platform exchanged", Concern::File),
+            Self::Origin => ("origin", "Point of reference", Concern::File),
+            Self::Geometry => ("geometry", "Position of a joint", Concern::File),
+            Self::WrenchFrame => ("wrench-frame", "Frame of the loads", Concern::File),
+            Self::DeflectionFrame => ("deflection-frame", "Frame of the deflections", Concern::File),
+            Self::AngleConvention => ("angle-convention", "Convention of the angles", Concern::File),
+            Self::RotationConvention => ("rotation-convention", "Convention of the rotations", Concern::File),
+            Self::ReferenceMissing => ("reference-missing", "Reference load missing", Concern::File),
+            Self::RowOrder => ("row-order", "Order of the rows", Concern::File),
+            Self::Copies => ("copies", "Copied rows", Concern::Readings),
+            Self::Holdout => ("holdout", "Held-out file", Concern::Holdout),
+        }
+    }
+
     /// True for faults that concern a condition as a whole, as an effect of the machine does.
     pub fn is_of_conditions(self) -> bool {
-        matches!(self, Self::Pose | Self::Load | Self::SetupError | Self::Tolerance)
+        matches!(
+            self.entry().2,
+            Concern::Conditions | Concern::WrongConditions | Concern::NoiseOfConditions
+        )
     }
 
     /// True for statements about the noise.
     pub fn is_of_noise(self) -> bool {
-        matches!(
-            self,
-            Self::NoiseLevel | Self::HeavyTails | Self::SharedReference | Self::SetupError | Self::Drift
-        )
+        matches!(self.entry().2, Concern::Noise | Concern::NoiseOfConditions)
     }
 
     /// True when the file as a whole does not say what its author meant: nothing follows for the machine until it does.
     pub fn is_of_file(self) -> bool {
-        match self {
-            Self::DeflectionSign
-            | Self::WrenchSign
-            | Self::StatesExchanged
-            | Self::RotationSign
-            | Self::MomentSign
-            | Self::Unit
-            | Self::Axes
-            | Self::LegOrder
-            | Self::JointsExchanged
-            | Self::Origin
-            | Self::Geometry
-            | Self::WrenchFrame
-            | Self::DeflectionFrame
-            | Self::AngleConvention
-            | Self::RotationConvention
-            | Self::ReferenceMissing
-            | Self::RowOrder => true,
-            Self::Blunder
-            | Self::Pose
-            | Self::Load
-            | Self::NoiseLevel
-            | Self::HeavyTails
-            | Self::SharedReference
-            | Self::SetupError
-            | Self::Drift
-            | Self::Tolerance
-            | Self::Copies
-            | Self::Holdout => false,
-        }
+        self.entry().2 == Concern::File
     }
 
     /// A few words, capitalized.
     pub fn title(self) -> &'static str {
-        match self {
-            Self::Blunder => "Blunder",
-            Self::Pose => "Wrong pose",
-            Self::Load => "Wrong load",
-            Self::NoiseLevel => "Noise level",
-            Self::HeavyTails => "Heavy tails",
-            Self::SharedReference => "Shared reference",
-            Self::SetupError => "Set-up error",
-            Self::Drift => "Drift",
-            Self::Tolerance => "Tolerance",
-            Self::DeflectionSign => "Sign of the deflections",
-            Self::WrenchSign => "Sign of the loads",
-            Self::StatesExchanged => "Loaded and reference state exchanged",
-            Self::RotationSign => "Sign of the rotations",
-            Self::MomentSign => "Sign of the moments",
-            Self::Unit => "Unit",
-            Self::Axes => "Axes",
-            Self::LegOrder => "Order of the legs",
-            Self::JointsExchanged => "Base and platform exchanged",
-            Self::Origin => "Point of reference",
-            Self::Geometry => "Position of a joint",
-            Self::WrenchFrame => "Frame of the loads",
-            Self::DeflectionFrame => "Frame of the deflections",
-            Self::AngleConvention => "Convention of the angles",
-            Self::RotationConvention => "Convention of the rotations",
-            Self::ReferenceMissing => "Reference load missing",
-            Self::RowOrder => "Order of the rows",
-            Self::Copies => "Copied rows",
-            Self::Holdout => "Held-out file",
-        }
+        self.entry().1
     }
 
     /// The word of the files.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Blunder => "blunder",
-            Self::Pose => "pose",
-            Self::Load => "load",
-            Self::NoiseLevel => "noise-level",
-            Self::HeavyTails => "heavy-tails",
-            Self::SharedReference => "shared-reference",
-            Self::SetupError => "setup-error",
-            Self::Drift => "drift",
-            Self::Tolerance => "tolerance",
-            Self::DeflectionSign => "deflection-sign",
-            Self::WrenchSign => "wrench-sign",
-            Self::StatesExchanged => "states-exchanged",
-            Self::RotationSign => "rotation-sign",
-            Self::MomentSign => "moment-sign",
-            Self::Unit => "unit",
-            Self::Axes => "axes",
-            Self::LegOrder => "leg-order",
-            Self::JointsExchanged => "joints-exchanged",
-            Self::Origin => "origin",
-            Self::Geometry => "geometry",
-            Self::WrenchFrame => "wrench-frame",
-            Self::DeflectionFrame => "deflection-frame",
-            Self::AngleConvention => "angle-convention",
-            Self::RotationConvention => "rotation-convention",
-            Self::ReferenceMissing => "reference-missing",
-            Self::RowOrder => "row-order",
-            Self::Copies => "copies",
-            Self::Holdout => "holdout",
-        }
+        self.entry().0
     }
 }
 
@@ -203,10 +174,7 @@ pub struct Finding {
 impl Finding {
     /// True when the readings of its rows took no part in the fit.
     pub fn excludes(&self) -> bool {
-        matches!(
-            self.kind,
-            FindingKind::Blunder | FindingKind::Pose | FindingKind::Load | FindingKind::Copies
-        )
+        matches!(self.kind.entry().2, Concern::Readings | Concern::WrongConditions)
     }
 }
 

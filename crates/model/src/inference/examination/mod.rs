@@ -8,6 +8,7 @@ mod blunders;
 mod finding;
 mod kept;
 mod remainder;
+mod resolution;
 mod scatter;
 mod tolerance;
 
@@ -17,6 +18,7 @@ use self::blunders::{Fault, worst};
 use self::finding::probability;
 pub use self::finding::{Finding, FindingKind};
 use self::remainder::Remainder;
+use self::resolution::Resolution;
 use self::scatter::{Kind, Statement, statements};
 use self::tolerance::{Tolerance, inexact_inputs};
 use crate::error::ModelError;
@@ -29,6 +31,8 @@ use crate::inference::diagnosis::RankedSets;
 const BELIEVED: f64 = 8.0;
 /// The same for errors of joints and loads, nats: every machine is built and loaded to a tolerance, so odds of 20 to 1 are enough.
 const LIKELY: f64 = 3.0;
+/// Share of the variance common to repeats below which it changes no standard deviation by more than a percent or two.
+const LEAST_SHARED: f64 = 0.02;
 /// Coordinates of a reading.
 const AXES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 /// Components of a load.
@@ -75,18 +79,23 @@ pub fn examine(
     noise: Noise,
     outcome: &RankedSets,
 ) -> Result<Examined, ModelError> {
-    let whole = Examined {
-        data: data.clone(),
-        noise: noise.independent(),
-        findings: Vec::new(),
-        tolerances: hexapod.tolerances,
-    };
+    let (whole, shared) = as_rounded(hexapod, data, noise);
+    let mut examined = examined(hexapod, &whole, outcome)?;
+    let is_free = matches!(examined.noise.structure, Structure::Independent);
+    if is_free && shared > LEAST_SHARED {
+        examined.noise.structure = Structure::Setup { share: shared };
+    }
+    Ok(examined)
+}
+
+/// Readings examined for anything but their rounding.
+fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result<Examined, ModelError> {
     let cleaned = without_faults(hexapod, whole.clone(), outcome)?;
     let first = cleaned.first.as_ref().unwrap_or(&cleaned.last);
     // Many errors that are far off are tails; one or two are blunders.
     let tails = first.statements.first().filter(|s| matches!(s.kind, Kind::Tails(_)));
     if let Some(&tails) = tails.filter(|t| t.evidence - first.stated > cleaned.gain) {
-        return Ok(settled(whole, data, first, &tails));
+        return Ok(settled(whole.clone(), whole, first, &tails));
     }
     let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
@@ -96,7 +105,19 @@ pub fn examine(
         found.kind.set(&mut examined.tolerances, found.size);
         return Ok(examined);
     }
-    Ok(settled(cleaned.examined, data, &cleaned.last, &best))
+    Ok(settled(cleaned.examined, whole, &cleaned.last, &best))
+}
+
+/// All readings, with what their rounding adds to the noise, and the share of the variance that repeats have in common by it.
+fn as_rounded(hexapod: &Hexapod, data: &Dataset, noise: Noise) -> (Examined, f64) {
+    let (mut data, mut noise, mut findings) = (data.clone(), noise.independent(), Vec::new());
+    let mut shared = 0.0;
+    if let Some(resolution) = Resolution::of(&data, &noise) {
+        findings.push(resolution.finding());
+        resolution.apply(&mut data, &mut noise);
+        shared = resolution.shared;
+    }
+    (Examined { data, noise, findings, tolerances: hexapod.tolerances }, shared)
 }
 
 /// Readings looked at.
@@ -164,20 +185,16 @@ fn without_faults(
     }
 }
 
-/// What remains is judged by the best statement about it.
-fn settled(mut examined: Examined, data: &Dataset, look: &Look, best: &Statement) -> Examined {
+/// What remains is judged by the best statement about it; `whole`: with all readings.
+fn settled(mut examined: Examined, whole: &Examined, look: &Look, best: &Statement) -> Examined {
     let gain = best.evidence - look.stated;
     if matches!(best.kind, Kind::Law) && gain > BELIEVED {
         // Physics without a name: what it does to a condition is no fault of its load or pose.
-        if examined.findings.iter().any(|f| f.kind != FindingKind::Blunder) {
-            return Examined {
-                data: data.clone(),
-                noise: examined.noise,
-                findings: Vec::new(),
-                tolerances: examined.tolerances,
-            };
-        }
-        return examined;
+        return if examined.findings.iter().any(|f| f.kind.is_of_conditions()) {
+            whole.clone()
+        } else {
+            examined
+        };
     }
     let is_level = best.kind == Kind::Level;
     let from_data = matches!(examined.noise.source, NoiseSource::Repeats | NoiseSource::Residuals);

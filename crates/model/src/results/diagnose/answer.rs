@@ -21,6 +21,8 @@ pub(super) struct Answer {
     pub(super) steps: Vec<StepReport>,
     /// Effects named.
     pub(super) added: Vec<String>,
+    /// Sure effects that are not worth naming.
+    pub(super) small: Vec<String>,
     pub(super) numbers: Estimates,
 }
 
@@ -37,6 +39,7 @@ impl Answer {
         demote_what_does_not_survive(&mut judgement, &steps);
         let last = fits.last().unwrap_or(&outcome.baseline);
         context.face_holdout(&mut judgement, last);
+        let small = withdraw_what_is_small(&mut judgement, &steps);
         if judgement.verdict == Verdict::Adequate {
             judgement.verdict = match (context.can_judge(last), findings.is_empty()) {
                 (false, _) => Verdict::Undecided,
@@ -45,7 +48,7 @@ impl Answer {
             };
         }
         let numbers = estimates_with(&averaged_springs(outcome, last), last);
-        Ok(Self { added: named(&judgement, &order), judgement, order, fits, steps, numbers })
+        Ok(Self { added: named(&judgement, &order), small, judgement, order, fits, steps, numbers })
     }
 
     /// A file that does not mean what it says: nothing follows for the machine, and no number is given.
@@ -55,7 +58,7 @@ impl Answer {
         let names = known.determined.into_iter().map(|e| e.name).chain(known.not_determined);
         let numbers = Estimates { determined: Vec::new(), not_determined: names.collect() };
         let judgement = Judgement::of_the_data();
-        Ok(Self { judgement, order: Vec::new(), fits, steps, added: Vec::new(), numbers })
+        Ok(Self { judgement, order: Vec::new(), fits, steps, added: Vec::new(), small: Vec::new(), numbers })
     }
 }
 
@@ -80,24 +83,29 @@ fn addition_order(set: &Set, outcome: &RankedSets) -> Vec<TermSpec> {
     order
 }
 
-/// An effect whose addition does not make held-out readings better predicted is not named.
+/// An effect that does not stay sure on held-out readings is not named.
 fn demote_what_does_not_survive(judgement: &mut Judgement, steps: &[StepReport]) {
-    for pair in steps.windows(2) {
-        let Some(newest) = pair[1].terms.last() else { continue };
-        let better = match (&pair[0], &pair[1]) {
-            (StepReport { log_density: Some(before), .. }, StepReport { log_density: Some(after), .. }) => {
-                after > before
-            }
-            (StepReport { holdout: Some(before), .. }, StepReport { holdout: Some(after), .. }) => {
-                after.chi2_reduced < before.chi2_reduced
-            }
-            _ => continue,
-        };
-        if !better && judgement.sure.contains(newest) {
+    for step in steps {
+        let Some(newest) = step.terms.last() else { continue };
+        let probability = judgement.present.get(newest).copied().unwrap_or(0.0);
+        let survives = step.gain.is_none_or(|gain| gain.leaves_sure(probability));
+        if !survives && judgement.sure.contains(newest) {
             judgement.sure.retain(|id| id != newest);
             if judgement.verdict == Verdict::Named {
                 judgement.verdict = Verdict::Ambiguous;
             }
         }
     }
+}
+
+/// Takes sure effects that are too small to be named out of a judgement; without any other the springs are good enough.
+fn withdraw_what_is_small(judgement: &mut Judgement, steps: &[StepReport]) -> Vec<String> {
+    let is_small = |step: &&StepReport| step.worth.is_some_and(|worth| worth.is_small());
+    let newest = steps.iter().filter(is_small).filter_map(|step| step.terms.last());
+    let small: Vec<String> = newest.filter(|id| judgement.sure.contains(id)).cloned().collect();
+    judgement.sure.retain(|id| !small.contains(id));
+    if judgement.verdict == Verdict::Named && judgement.sure.is_empty() {
+        judgement.verdict = Verdict::Adequate;
+    }
+    small
 }

@@ -7,13 +7,15 @@ use super::report::{AbsorbedReport, StepReport};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, average_over_shapes, fit};
+use crate::estimation::foreseen::{Foreseen, Misfit, held_campaign, held_out_chance};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::{
-    Residual, held_out_chance, held_out_gain, leave_poses_out, prediction_errors, residuals, summarise,
+    ErrorSummary, held_out_gain, leave_poses_out, prediction_errors, residuals, summarise,
 };
 use crate::inference::candidates::{Candidate, CandidateKind};
 use crate::inference::diagnosis::{RankedSets, wanted};
 use crate::inference::explanation::Explanation;
+use crate::inference::gain::{HeldOutGain, Worth};
 use crate::inference::search::Set;
 use crate::inference::verdict::{Judgement, Verdict};
 use crate::results::next::{Effort, RivalExplanation, candidate_readings, propose};
@@ -43,10 +45,20 @@ pub(super) struct Context<'a> {
     pub(super) outcome: &'a RankedSets,
 }
 
+/// Errors of one step on held-out readings.
+struct HeldOutErrors {
+    summary: ErrorSummary,
+    /// Of an error as large as this if the model is right.
+    chance: Option<f64>,
+    /// What the fits foresee of the readings that were held out together.
+    foreseen: Vec<Foreseen>,
+}
+
 impl Context<'_> {
     /// Fit and errors of every prefix of the additions.
     pub(super) fn steps(&self, order: &[TermSpec]) -> Result<(Vec<Fit>, Vec<StepReport>), ModelError> {
         let (mut fits, mut steps) = (Vec::new(), Vec::new());
+        let mut before: Option<HeldOutErrors> = None;
         for n in 0..=order.len() {
             let fitted = if n == 0 {
                 self.outcome.baseline.clone()
@@ -55,21 +67,35 @@ impl Context<'_> {
                 average_over_shapes(self.campaign, &mut fitted)?;
                 fitted
             };
-            let rows = residuals(
-                self.campaign,
-                &self.data.observations,
-                &Linearization::at(self.campaign, &fitted.point)?,
-            );
-            let held_out = self.held_out(&order[..n], &fitted);
-            steps.push(StepReport {
-                terms: order[..n].iter().map(|w| w.term.info().id.to_owned()).collect(),
-                fitted: summarise(&rows, Some(fitted.dof)),
-                log_density: held_out.as_ref().and_then(|h| h.1),
-                holdout: held_out.map(|h| summarise(&h.0, None)),
-            });
+            let after = self.held_out(&order[..n], &fitted);
+            steps.push(self.step(&order[..n], &fitted, before.as_ref(), after.as_ref())?);
+            before = after;
             fits.push(fitted);
         }
         Ok((fits, steps))
+    }
+
+    fn step(
+        &self,
+        terms: &[TermSpec],
+        fitted: &Fit,
+        before: Option<&HeldOutErrors>,
+        after: Option<&HeldOutErrors>,
+    ) -> Result<StepReport, ModelError> {
+        let lin = Linearization::at(self.campaign, &fitted.point)?;
+        let rows = residuals(self.campaign, &self.data.observations, &lin);
+        let both = before.zip(after);
+        Ok(StepReport {
+            terms: terms.iter().map(|w| w.term.info().id.to_owned()).collect(),
+            fitted: summarise(&rows, Some(fitted.dof)),
+            holdout: after.map(|errors| errors.summary),
+            chance: after.and_then(|errors| errors.chance),
+            gain: both.map(|(b, a)| HeldOutGain::of(&b.foreseen, &a.foreseen)),
+            worth: both.map(|(b, a)| {
+                let chi2 = [b, a].map(|errors| errors.summary.chi2_reduced);
+                Worth::of(&b.foreseen, &a.foreseen, chi2, a.summary.count)
+            }),
+        })
     }
 
     /// A sure answer whose predictions fail on the holdout file is not sure: everything that does survive there becomes
@@ -138,14 +164,24 @@ impl Context<'_> {
         held_out_gain(self.campaign, holdout, last, block).is_ok_and(|gain| gain > 0.0)
     }
 
-    /// Prediction errors, and the predictive density where poses are left out.
-    fn held_out(&self, terms: &[TermSpec], fitted: &Fit) -> Option<(Vec<Residual>, Option<f64>)> {
-        let noise = self.campaign.noise;
+    /// Errors on the holdout file, else on poses left out in turn.
+    fn held_out(&self, terms: &[TermSpec], fitted: &Fit) -> Option<HeldOutErrors> {
         if let Some(holdout) = self.holdout {
-            return Some((prediction_errors(self.hexapod, holdout, noise, &fitted.point).ok()?, None));
+            let errors = prediction_errors(self.hexapod, holdout, self.campaign.noise, &fitted.point).ok()?;
+            let held = held_campaign(self.campaign, holdout, fitted).ok()?;
+            let foreseen = vec![Foreseen::of(&held, fitted).ok()?];
+            let chance = self.chance(foreseen[0].misfit);
+            return Some(HeldOutErrors { summary: summarise(&errors, None), chance, foreseen });
         }
         let left = leave_poses_out(self.campaign, &self.data.observations, terms, &fitted.point).ok()?;
-        Some((left.residuals, Some(left.log_density)))
+        let chance = self.chance(left.misfit(fitted.lack_of_fit_dof));
+        Some(HeldOutErrors { summary: summarise(&left.residuals, None), chance, foreseen: left.foreseen })
+    }
+
+    /// Chance of a misfit, where the noise is known apart from what the model leaves.
+    fn chance(&self, misfit: Misfit) -> Option<f64> {
+        let known = self.campaign.noise.allows_verdict();
+        known.then(|| misfit.chance(self.campaign.noise_level()).ok()).flatten()
     }
 
     /// Readings that separate the most probable explanations, when none is sure.

@@ -7,6 +7,7 @@ mod context;
 mod foreign;
 mod judged;
 mod misread;
+mod nested;
 mod next;
 mod notes;
 mod options;
@@ -25,6 +26,7 @@ pub use self::misread::misread_findings;
 use self::foreign::foreign;
 use self::judged::{BothWays, Judged};
 use self::misread::{FirstLook, first_look};
+pub use self::nested::NestedReport;
 use self::notes::{outside, suspects, warnings};
 pub use self::options::DiagnoseOptions;
 pub use self::report::{
@@ -106,14 +108,15 @@ pub fn diagnose_with(
     findings.extend(held_in);
     let mut context = Context { hexapod, data: &data, holdout, campaign: &campaign, outcome: &outcome };
     let mut answer = Answer::of(&context, &findings)?;
-    if let Some(finding) = holdout.and_then(|held| foreign(hexapod, held, &answer.steps)) {
+    let is_misread = findings.iter().any(|f| f.kind.is_of_file());
+    if let Some(finding) = holdout.filter(|_| !is_misread).and_then(|held| foreign(hexapod, held, &answer.steps)) {
         findings.push(finding);
         context.holdout = None;
         answer = Answer::of(&context, &findings)?;
     }
     let holdout = context.holdout;
     let (alternative, unknown) = alternative::of(hexapod, holdout, other);
-    let Answer { judgement, order, fits, steps, added, numbers } = answer;
+    let Answer { judgement, order, fits, steps, added, small, numbers } = answer;
     let last = fits.last().unwrap_or(&outcome.baseline);
     let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &last.point)?);
     let model: Vec<String> = order.iter().map(|w| w.term.info().id.to_owned()).collect();
@@ -125,11 +128,17 @@ pub fn diagnose_with(
         verdict: judgement.verdict,
         added,
         model,
+        small,
         richer,
         candidates: candidates(&judgement, &outcome),
         present: judgement.present.clone(),
         credible_set: judgement.credible.clone(),
         steps,
+        nested: if holdout.is_none() && !is_misread {
+            NestedReport::of(&campaign, &data.observations, &outcome)
+        } else {
+            None
+        },
         holdout: if holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn },
         noise: NoiseReport {
             translation_um: campaign.noise.translation * 1e6,

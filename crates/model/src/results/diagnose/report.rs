@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::alternative::Alternative;
+use super::nested::NestedReport;
 use crate::effects::untestable::Untestable;
 use crate::estimation::estimate::Estimate;
 use crate::estimation::noise::NoiseSource;
@@ -13,6 +14,7 @@ use crate::estimation::parameters::stiffness_name;
 use crate::estimation::residuals::ErrorSummary;
 use crate::inference::examination::Finding;
 use crate::inference::explanation::Explanation;
+use crate::inference::gain::{HeldOutGain, UNLIKELY, Worth};
 use crate::inference::power::Detectable;
 use crate::inference::selection::HeldOut;
 use crate::inference::verdict::Verdict;
@@ -27,8 +29,10 @@ pub struct Diagnosis {
     pub verdict: Verdict,
     /// Effects named, in the order in which they were added.
     pub added: Vec<String>,
-    /// Terms of the fitted model the numbers below belong to; equals `added` for a named verdict.
+    /// Terms of the fitted model the numbers below belong to; for a named verdict `added` and `small` together.
     pub model: Vec<String>,
+    /// Effects that are sure and take too little off the held-out error to be named, in the order in which they were added.
+    pub small: Vec<String>,
     /// Terms of the model that needed their richer form.
     pub richer: Vec<String>,
     /// Probability of every first addition, of `outside` and of `none`.
@@ -40,6 +44,8 @@ pub struct Diagnosis {
     pub credible_set: Vec<Explanation>,
     /// Error per step of the model, springs alone first.
     pub steps: Vec<StepReport>,
+    /// Error on poses left out in turn, of the fit and of the choice of terms; absent with a holdout file and where none can be left out.
+    pub nested: Option<NestedReport>,
     /// How the held-out error was obtained.
     #[cfg_attr(feature = "typescript", ts(as = "String"))]
     pub holdout: HeldOut,
@@ -114,9 +120,25 @@ pub struct StepReport {
     pub fitted: ErrorSummary,
     /// Error on held-out poses.
     pub holdout: Option<ErrorSummary>,
-    /// Logarithm of the predictive density of poses left out in turn; absent with a holdout file.
-    #[serde(skip)]
-    pub log_density: Option<f64>,
+    /// Chance of an error on held-out poses as large as this if the model is right, with all that is known of noise, tolerances and
+    /// parameters; absent where nothing could be held out or the noise is not known apart from the residuals.
+    pub chance: Option<f64>,
+    /// What held-out poses say of the effect added last; absent where nothing was added, or nothing could be held out.
+    pub gain: Option<HeldOutGain>,
+    /// Share of the held-out error which that effect takes off; absent likewise.
+    pub worth: Option<Worth>,
+}
+
+impl StepReport {
+    /// Error on held-out poses, else on the readings fitted.
+    pub fn error(&self) -> ErrorSummary {
+        self.holdout.unwrap_or(self.fitted)
+    }
+
+    /// True when that error is what the noise gives: by its chance where that is known, else by its size.
+    pub fn is_at_the_noise(&self) -> bool {
+        self.chance.map_or_else(|| self.error().is_at_the_noise(), |chance| chance > UNLIKELY)
+    }
 }
 
 /// Noise of one reading.

@@ -1,0 +1,169 @@
+//! Readings held out from a fit beside what the fit foresees of them, the uncertainty of its parameters included.
+
+use hexbench_core::{Dataset, Matrix6, Vector6};
+use nalgebra::{DMatrix, DVector, SMatrix};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+
+use crate::error::ModelError;
+use crate::estimation::campaign::{Campaign, pose_key};
+use crate::estimation::fit::{Fit, columns};
+use crate::estimation::linearization::{Linearization, beside};
+use crate::estimation::noise::NoiseLevel;
+use crate::estimation::tolerances::within_tolerances_at;
+
+/// Averaged readings that a fit has not seen, beside what it foresees of them.
+///
+/// ```text
+/// r ~ N(0, I + Z Z'),   Z = [J C^1/2, U]
+/// ```
+///
+/// with the residuals `r` and the columns `J` of the parameters over the noise of the readings, the covariance `C` of the parameters,
+/// and the columns `U` of inputs that are known to a tolerance. Six rows for each condition.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Foreseen {
+    /// Bits of the commanded pose of each condition.
+    pub(crate) poses: Vec<[u64; 6]>,
+    /// `r`.
+    pub(crate) residuals: DVector<f64>,
+    /// `Z`.
+    pub(crate) spread: DMatrix<f64>,
+    /// How far the readings are from what is foreseen, taken together.
+    pub misfit: Misfit,
+}
+
+impl Foreseen {
+    /// What a fit foresees of held-out readings; what they share is part of the noise of each.
+    ///
+    /// # Errors
+    /// As [`Linearization::at`].
+    pub fn of(held: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
+        let alone = held.clone().independent();
+        Self::seen(held, &Linearization::at(&alone, &fit.point)?, fit)
+    }
+
+    /// The same where the readings have been linearised as if they shared nothing.
+    pub(crate) fn seen(held: &Campaign, lin: &Linearization, fit: &Fit) -> Result<Self, ModelError> {
+        let misfit = Misfit::of(held, fit)?;
+        let inputs = held.inexact.as_ref().map(|inexact| own_to_whole(held, &inexact.columns));
+        let parameters = columns(lin, &fit.point) * root(&fit.covariance);
+        Ok(Self {
+            poses: held.groups.iter().map(pose_key).collect(),
+            residuals: lin.residuals(),
+            spread: beside(&std::iter::once(parameters).chain(inputs).collect::<Vec<_>>()),
+            misfit,
+        })
+    }
+
+    /// Residual of one condition.
+    pub(crate) fn residual(&self, condition: usize) -> Vector6 {
+        self.residuals.fixed_rows::<6>(6 * condition).into_owned()
+    }
+
+    /// Covariance of the residual of one condition: noise and uncertainty.
+    pub(crate) fn covariance(&self, condition: usize) -> Matrix6 {
+        let z = self.spread.rows(6 * condition, 6);
+        let product: SMatrix<f64, 6, 6> = (z * z.transpose()).fixed_view::<6, 6>(0, 0).into_owned();
+        Matrix6::identity() + product
+    }
+}
+
+/// Columns over what is a reading's own of the noise, seen over all of its noise.
+fn own_to_whole(campaign: &Campaign, columns: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut scaled = columns.clone();
+    for (i, mut row) in scaled.row_iter_mut().enumerate() {
+        let group = &campaign.groups[i / 6];
+        let (own, shared) = (group.sigma[i % 6], group.shared[i % 6]);
+        row *= own / own.hypot(shared);
+    }
+    scaled
+}
+
+/// Held-out readings in the frames of a fit to a campaign, their inputs as good as those of the campaign.
+///
+/// # Errors
+/// As [`Campaign::held_out`].
+pub fn held_campaign(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Result<Campaign, ModelError> {
+    let held = Campaign::held_out(&campaign.hexapod, holdout, campaign.noise, &fit.point.machine)?;
+    Ok(if campaign.inexact.is_some() { within_tolerances_at(held, &fit.point) } else { held })
+}
+
+/// How far held-out readings are from what a fit foresees.
+///
+/// ```text
+/// chi2 = d' (I + Z Z')^-1 d,   Z = J C^1/2
+/// ```
+///
+/// with the residuals `d` and columns `J` freed of what the readings have in common (noise, inputs within their tolerances).
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Misfit {
+    chi2: f64,
+    numbers: f64,
+}
+
+impl Misfit {
+    /// Of readings held out from a fit.
+    ///
+    /// # Errors
+    /// As [`Linearization::at`].
+    pub fn of(held: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
+        let lin = Linearization::at(held, &fit.point)?;
+        let d = lin.residuals();
+        let z = columns(&lin, &fit.point) * root(&fit.covariance);
+        let inner = z.tr_mul(&z) + DMatrix::identity(z.ncols(), z.ncols());
+        let along = z.tr_mul(&d);
+        let explained = inner.cholesky().map_or(0.0, |factor| along.dot(&factor.solve(&along)));
+        Ok(Self { chi2: (d.norm_squared() - explained).max(0.0), numbers: d.len() as f64 })
+    }
+
+    /// Of all readings, each left out of one of several fits that share most of theirs: so many numbers scatter like the degrees of
+    /// freedom of the fit to all of them (for equal leverages their sum is the residual chi-square of that fit, enlarged).
+    #[must_use]
+    pub fn left_out_in_turn(parts: impl Iterator<Item = Self>, dof: f64) -> Self {
+        let sum = parts.fold(Self::default(), |all, one| Self {
+            chi2: all.chi2 + one.chi2,
+            numbers: all.numbers + one.numbers,
+        });
+        let numbers = dof.clamp(0.0, sum.numbers);
+        Self { chi2: sum.chi2 * numbers / sum.numbers.max(1.0), numbers }
+    }
+
+    /// Chance of a misfit like this or larger if the model is right; `chi2 / n over sum / dof` follows `F(n, dof)`, with what is known
+    /// of the noise level.
+    ///
+    /// # Errors
+    /// [`ModelError::NotFinite`] without a number to judge by.
+    pub fn chance(&self, level: NoiseLevel) -> Result<f64, ModelError> {
+        let NoiseLevel { sum, dof } = level;
+        let unknown = || ModelError::NotFinite { what: "the held-out data" };
+        let below = if dof.is_finite() && dof > 0.0 {
+            let law = FisherSnedecor::new(self.numbers, dof).map_err(|_| unknown())?;
+            law.cdf(self.chi2 / self.numbers * dof / sum)
+        } else {
+            ChiSquared::new(self.numbers).map_err(|_| unknown())?.cdf(self.chi2)
+        };
+        if below.is_finite() { Ok(1.0 - below) } else { Err(unknown()) }
+    }
+}
+
+/// Chance that held-out readings are as far from a fit to a campaign as they are, or farther, if the model is right: beside noise with
+/// all that is known of it, inputs within their tolerances, and the uncertainty of every parameter, which all readings share; pure
+/// error left out.
+///
+/// # Errors
+/// As [`held_campaign`] and [`Misfit::chance`].
+pub fn held_out_chance(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Result<f64, ModelError> {
+    Misfit::of(&held_campaign(campaign, holdout, fit)?, fit)?.chance(campaign.noise_level())
+}
+
+/// A square root of a covariance, `C = R R'`; its entries may differ by many orders.
+fn root(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let sizes = covariance.diagonal().map(|x| x.max(0.0).sqrt());
+    let share = |i: usize, j: usize| {
+        let product = sizes[i] * sizes[j];
+        if product > 0.0 { covariance[(i, j)] / product } else { 0.0 }
+    };
+    let n = sizes.len();
+    let eigen = DMatrix::from_fn(n, n, share).symmetric_eigen();
+    let lengths = eigen.eigenvalues.map(|x| x.max(0.0).sqrt());
+    DMatrix::from_diagonal(&sizes) * eigen.eigenvectors * DMatrix::from_diagonal(&lengths)
+}

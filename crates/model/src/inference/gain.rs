@@ -1,0 +1,214 @@
+//! What an effect is worth on readings that no fit has seen: is the gain more than chance, and is it a gain worth naming?
+
+use std::collections::BTreeMap;
+
+use hexbench_core::statistics::standard_deviation;
+use hexbench_core::{Matrix6, Vector6};
+use nalgebra::{Cholesky, Const, DVector};
+use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+
+use crate::estimation::foreseen::Foreseen;
+
+/// Chance that is not believed in: a useless effect passes, and one that is really there fails, in so many cases.
+pub const UNLIKELY: f64 = 0.05;
+/// Probability that an effect needs where held-out readings lean against it without being able to tell.
+const BEYOND_DOUBT: f64 = 0.99;
+/// An effect that takes less than this share off the held-out error is not worth naming. A tenth of what a noise statement is usually
+/// off by: nobody could see a smaller one by measuring again.
+pub const WORTH_NAMING: f64 = 0.01;
+
+/// What held-out readings say of an effect that was added to a model.
+///
+/// For every condition `k` held out (averaged readings at one pose under one load) both models state a predictive density
+/// ([`Foreseen`]); `d_k` is the difference of their logarithms, above zero where the larger model foresees better. Conditions at one
+/// pose share what the pose has of its own, so that sums over poses are what counts:
+///
+/// ```text
+/// D_p = sum over the conditions of pose p of d_k,    D = sum D_p,    S^2 = n / (n - 1) sum (D_p - D / n)^2
+/// chance          one-sided, Student's t with n - 1 degrees of freedom, of a D like this one when the larger model gains nothing
+/// E, s            mean and standard deviation of D if the larger model is right as fitted, its parameters uncertain
+/// chance if real  Phi((D - E) / max(s, S)): of a gain as small as this one if the effect is there as fitted
+/// ```
+///
+/// - shown: the chance is at most 5 %;
+/// - refuted: `D` is not above zero, and the chance if real is at most 5 %: the gain would have shown, and did not;
+/// - open: these readings cannot tell. The evidence `P` of the readings fitted stands where they lean towards the effect; where they
+///   lean against it, `P e^D / (1 - P + P e^D)` has to be 99 % still.
+///
+/// So a useless effect is shown in 5 % at most, and a real one refuted in 5 % at most. A useless one that seems sure in the readings
+/// fitted survives as open where these promise little; where it promises nine nats or more, in 5 % at most.
+///
+/// Source: predictive densities of what was left out, Geisser and Eddy (1979), Journal of the American Statistical Association 74;
+/// their paired differences, Vehtari, Gelman and Gabry (2017), Statistics and Computing 27, section 5.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct HeldOutGain {
+    /// What it comes to.
+    pub outcome: GainOutcome,
+    /// `D`, nats.
+    pub nats: f64,
+    /// `E`, nats.
+    pub expected_nats: f64,
+    /// Chance of a gain like this one from an effect that gains nothing; absent with fewer than two poses.
+    pub chance: Option<f64>,
+    /// Chance of a gain as small as this one if the effect is there as fitted.
+    pub chance_if_real: f64,
+}
+
+/// Whether held-out readings show an effect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+#[serde(rename_all = "kebab-case")]
+pub enum GainOutcome {
+    /// They are better foreseen with it, by more than chance.
+    Shown,
+    /// They cannot tell.
+    Open,
+    /// They would be better foreseen with it if it were there, and are not.
+    Refuted,
+}
+
+impl HeldOutGain {
+    /// Of the larger model over the smaller one; each with the parts of the readings that were held out together.
+    pub fn of(before: &[Foreseen], after: &[Foreseen]) -> Self {
+        let mut sums = Sums::default();
+        for (smaller, larger) in before.iter().zip(after) {
+            sums.add(smaller, larger);
+        }
+        sums.judged()
+    }
+
+    /// True when an effect of this probability, which the readings fitted give it, is still sure.
+    pub fn leaves_sure(&self, probability: f64) -> bool {
+        let odds = probability / (1.0 - probability).max(f64::MIN_POSITIVE) * self.nats.exp();
+        match self.outcome {
+            GainOutcome::Shown => true,
+            GainOutcome::Refuted => false,
+            GainOutcome::Open => self.nats >= 0.0 || odds >= BEYOND_DOUBT / (1.0 - BEYOND_DOUBT),
+        }
+    }
+}
+
+/// Sums over held-out conditions.
+#[derive(Default)]
+struct Sums {
+    /// `D_p`.
+    poses: BTreeMap<[u64; 6], f64>,
+    expected: f64,
+    variance: f64,
+}
+
+impl Sums {
+    /// Another part of the readings.
+    fn add(&mut self, smaller: &Foreseen, larger: &Foreseen) {
+        let mut slope = DVector::zeros(larger.residuals.len());
+        for (k, pose) in larger.poses.iter().enumerate() {
+            let Some(one) = Difference::of(smaller, larger, k) else { continue };
+            *self.poses.entry(*pose).or_default() += one.gain;
+            self.expected += one.expected;
+            self.variance += one.variance;
+            slope.fixed_rows_mut::<6>(6 * k).copy_from(&one.slope);
+        }
+        // What is uncertain of the parameters and inputs acts on all conditions alike.
+        self.variance += slope.norm_squared() + larger.spread.tr_mul(&slope).norm_squared();
+    }
+
+    fn judged(&self) -> HeldOutGain {
+        let nats: f64 = self.poses.values().sum();
+        let spread = self.spread();
+        let chance = spread.map(|s| above(nats / s, self.poses.len() as f64 - 1.0));
+        let widest = self.variance.sqrt().max(spread.unwrap_or(0.0));
+        let chance_if_real =
+            if widest > 0.0 { Normal::standard().cdf((nats - self.expected) / widest) } else { 1.0 };
+        let outcome = match chance {
+            Some(p) if p <= UNLIKELY => GainOutcome::Shown,
+            _ if nats <= 0.0 && chance_if_real <= UNLIKELY => GainOutcome::Refuted,
+            _ => GainOutcome::Open,
+        };
+        HeldOutGain { outcome, nats, expected_nats: self.expected, chance, chance_if_real }
+    }
+
+    /// `S`; none with fewer than two poses, or where all of them gain the same.
+    fn spread(&self) -> Option<f64> {
+        let one = standard_deviation(self.poses.values().copied())?;
+        let spread = one * (self.poses.len() as f64).sqrt();
+        (spread > 0.0).then_some(spread)
+    }
+}
+
+/// Chance that Student's t lies above a value.
+fn above(t: f64, freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |law| law.sf(t))
+}
+
+/// One condition: difference of the logarithms of the predictive densities, and its law if the larger model is right.
+///
+/// With the residuals `r0`, `r1 = r0 - delta` and the covariances `V0`, `V1` of smaller and larger model:
+///
+/// ```text
+/// d    = (r0' V0^-1 r0 - r1' V1^-1 r1 + ln |V0| - ln |V1|) / 2
+/// E d  = (delta' V0^-1 delta - tr (V0^-1 V1 - I) + ln |V0| - ln |V1|) / 2
+/// var d = |V1^1/2 slope|^2 + tr (((V0^-1 - V1^-1) V1)^2) / 2,   slope = V0^-1 delta
+/// ```
+///
+/// The trace is what errors of the parameters add to the square of `delta` on average: it takes the place of the square of its truth.
+struct Difference {
+    gain: f64,
+    expected: f64,
+    /// The second part of the variance.
+    variance: f64,
+    slope: Vector6,
+}
+
+impl Difference {
+    fn of(smaller: &Foreseen, larger: &Foreseen, k: usize) -> Option<Self> {
+        let (r0, r1) = (smaller.residual(k), larger.residual(k));
+        let v1 = larger.covariance(k);
+        let (f0, f1) = (smaller.covariance(k).cholesky()?, v1.cholesky()?);
+        let logs = log_det(&f0) - log_det(&f1);
+        let delta = r0 - r1;
+        let slope = f0.solve(&delta);
+        let ratio = f0.solve(&v1);
+        let excess = ratio - Matrix6::identity();
+        Some(Self {
+            gain: 0.5 * (r0.dot(&f0.solve(&r0)) - r1.dot(&f1.solve(&r1)) + logs),
+            expected: 0.5 * (delta.dot(&slope) - excess.trace() + logs),
+            variance: 0.5 * (excess * excess).trace(),
+            slope,
+        })
+    }
+}
+
+fn log_det(factor: &Cholesky<f64, Const<6>>) -> f64 {
+    2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>()
+}
+
+/// Share of the held-out error that an effect takes off: whitened root mean square, noise included.
+///
+/// ```text
+/// share = 1 - sqrt(chi2 after / chi2 before),   expected: chi2 before = chi2 after + sum delta^2 / numbers
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
+pub struct Worth {
+    /// As measured; below zero where the error grows.
+    pub share: f64,
+    /// As the fitted effect promises for these readings.
+    pub expected_share: f64,
+}
+
+impl Worth {
+    /// From the reduced chi-squares of `numbers` held-out numbers.
+    pub fn of(before: &[Foreseen], after: &[Foreseen], chi2: [f64; 2], numbers: usize) -> Self {
+        let change = |(a, b): (&Foreseen, &Foreseen)| (&a.residuals - &b.residuals).norm_squared();
+        let promised: f64 = before.iter().zip(after).map(change).sum::<f64>() / numbers.max(1) as f64;
+        let share = |before: f64| if before > 0.0 { 1.0 - (chi2[1] / before).sqrt() } else { 0.0 };
+        Self { share: share(chi2[0]), expected_share: share(chi2[1] + promised) }
+    }
+
+    /// True when neither what was measured nor what is promised is worth naming.
+    pub fn is_small(&self) -> bool {
+        self.share < WORTH_NAMING && self.expected_share < WORTH_NAMING
+    }
+}
