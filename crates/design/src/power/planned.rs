@@ -69,7 +69,7 @@ impl Planned {
 
     /// The tolerances that the plan assumes; none where inputs count as exact, because no error of them shows or poses are absolute.
     pub fn tolerances(&self) -> Option<StatedTolerances> {
-        self.campaign.inexact.as_ref().map(|_| StatedTolerances::from(&self.campaign.hexapod.tolerances))
+        self.campaign.assumed_tolerances()
     }
 
     /// Condition number of the whitened columns of the springs (and frames) at unit length.

@@ -48,7 +48,7 @@ impl PlanReport<'_> {
         let mut growth = self.power.study.growth_by_tolerances();
         growth.retain(|(term, _)| self.is_told(term));
         growth.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let times = |x: f64| format!("x{}", significant(x, 2));
+        let times = |x: f64| format!("x{}", significant(x, 3));
         let cost = match growth[..] {
             [] => return Some(format!("Tolerances: {assumed}.")),
             [(_, only)] => times(only),

@@ -8,7 +8,7 @@ use super::{PowerCheck, Simulated};
 
 /// Header of [`sizes`].
 pub(super) const SIZES: [&str; 7] =
-    ["effect", "usual", "chance %", "seen from", "unit", "x usual", "x exact inputs"];
+    ["effect", "usual", "chance %", "seen from", "unit", "x usual", "x exact"];
 /// Header of [`springs`].
 pub(super) const SPRINGS: [&str; 4] = ["effect", "absorbed", "bias at usual size", "bias when seen"];
 /// Header of [`taken_for`].
@@ -35,7 +35,7 @@ pub(super) fn sizes(e: &EffectPower) -> Vec<String> {
         multiples(&e.seen_at),
         e.seen_at_with_exact_inputs
             .filter(|_| e.shows())
-            .map_or(NONE.to_owned(), |exact| significant(e.seen_at.middle / exact, 2)),
+            .map_or(NONE.to_owned(), |exact| significant(e.seen_at.middle / exact, 3)),
     ]
 }
 
