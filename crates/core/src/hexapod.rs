@@ -1,6 +1,6 @@
 //! The machine as its drawings describe it.
 
-use crate::Vector3;
+use crate::{Tolerances, Vector3};
 
 /// Nominal hexapod: joints, and what else its owner states about it. SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,38 +25,6 @@ pub struct Hexapod {
     pub payload_centre: Option<Vector3>,
     /// How well all of this, and the loads, are known.
     pub tolerances: Tolerances,
-}
-
-/// What the numbers of a machine and its loads are worth: one standard deviation each, never zero.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tolerances {
-    /// Of every coordinate of a joint, m.
-    pub joints: f64,
-    /// Of the scale of every component of the loads, relative.
-    pub load_gain: f64,
-    /// Of the direction of the loads about each axis, rad.
-    pub load_direction: f64,
-    /// Of the point at which the loads act, each coordinate in the mobile frame, m.
-    pub load_point: f64,
-    /// Of the axes of the readings about each axis, rad.
-    pub frame: f64,
-    /// Of a stated standard deviation of the noise, relative.
-    pub noise: f64,
-}
-
-impl Default for Tolerances {
-    /// A machine built with care and loaded by hand: joints to 0.05 mm, load cells to 0.2 %, directions to 0.05 degrees, the point of
-    /// attack to 0.5 mm, axes to 0.02 degrees, a stated noise to 10 %.
-    fn default() -> Self {
-        Self {
-            joints: 5e-5,
-            load_gain: 2e-3,
-            load_direction: 0.05_f64.to_radians(),
-            load_point: 5e-4,
-            frame: 0.02_f64.to_radians(),
-            noise: 0.1,
-        }
-    }
 }
 
 /// Standard deviation of ONE reading of a deflection or of an absolute pose.

@@ -16,14 +16,16 @@ pub mod line_range;
 pub mod pose;
 pub mod statistics;
 pub mod streams;
+pub mod tolerances;
 pub mod wrench;
 
 pub use approach::Approach;
 pub use balls::{BallPlace, BallPlaces, BallRecord};
 pub use dataset::{Columns, Dataset, Measurand, Observation};
-pub use hexapod::{Hexapod, Metrology, Tolerances};
+pub use hexapod::{Hexapod, Metrology};
 pub use line_range::{LineRange, NoLines};
 pub use pose::Pose;
+pub use tolerances::{StatedTolerances, Tolerances};
 pub use wrench::Wrench;
 
 /// A point or direction, metres or unit length.

@@ -84,6 +84,8 @@ pub enum Purpose {
     PowerUsualNoise = 512,
     /// Power in the simulated world: noise of campaigns with an effect as large as is seen.
     PowerSeenNoise = 513,
+    /// Power in the simulated world: errors of the inputs of a campaign.
+    PowerInputErrors = 514,
     /// Effects a plan confuses: what a trial is, and the readings at random beside those chosen.
     ConfusionTrial = 520,
     /// Effects a plan confuses: noise of further readings.

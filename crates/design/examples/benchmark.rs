@@ -14,7 +14,7 @@ use hexbench_core::files::{read_conditions, read_hexapod};
 use hexbench_core::{Hexapod, Pose, Vector6};
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space_file::read_space;
-use hexbench_design::{Objective, PoseProblem, Space};
+use hexbench_design::{Criterion, Objective, PoseProblem, Space};
 use hexbench_model::estimation::spring_trials::SpringTrials;
 
 const POSES: usize = 3;
@@ -56,7 +56,7 @@ fn starts(machine: &str, space: &str, count: usize) -> Done {
 fn search(machine: &str, space: &str, starts: &str) -> Done {
     let (hexapod, space) = problem(machine, space)?;
     let regressor = SpringRegressor::new(&hexapod, &space.settings(), 1, Weights::UNWEIGHTED);
-    let (criterion, known) = (&Objective::O1, None);
+    let (criterion, known) = (&Objective::from(Criterion::O1), None);
     let problem = PoseProblem {
         hexapod: &hexapod,
         space: &space,

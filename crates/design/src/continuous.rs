@@ -39,7 +39,7 @@ pub struct PoseProblem<'a, R> {
     pub criterion: &'a Objective,
     /// Number of poses.
     pub poses: usize,
-    /// Information (p x p) that is there without them.
+    /// Information that is there without them, inputs included.
     pub known: Option<&'a DMatrix<f64>>,
 }
 
@@ -75,13 +75,13 @@ impl<R: PoseRegressor> PoseProblem<'_, R> {
         poses.len() * self.regressor.readings()
     }
 
-    /// Sum of what is known and of the information of poses (p x p).
+    /// Sum of what is known and of the information of poses, inputs included.
     ///
     /// # Errors
     /// A singular pose.
     pub fn information(&self, poses: &[Pose]) -> Result<DMatrix<f64>, DesignError> {
-        let p = self.regressor.parameters();
-        let mut information = self.known.cloned().unwrap_or_else(|| DMatrix::zeros(p, p));
+        let n = self.regressor.width();
+        let mut information = self.known.cloned().unwrap_or_else(|| DMatrix::zeros(n, n));
         poses.iter().try_for_each(|pose| self.regressor.inform(pose, &mut information))?;
         Ok(information)
     }
@@ -261,6 +261,7 @@ mod tests {
 
     use super::*;
     use crate::Budget;
+    use crate::Criterion;
     use crate::regressor::{SpringRegressor, Weights};
     use crate::space::{Conditions, Loading};
     use crate::test_machine::machine;
@@ -289,7 +290,7 @@ mod tests {
             hexapod: &hexapod,
             space: &space,
             regressor: &regressor,
-            criterion: &Objective::O1,
+            criterion: &Objective::from(Criterion::O1),
             poses: 3,
             known: None,
         };
@@ -311,7 +312,7 @@ mod tests {
             hexapod: &hexapod,
             space: &space,
             regressor: &regressor,
-            criterion: &Objective::O5,
+            criterion: &Objective::from(Criterion::O5),
             poses: 3,
             known: None,
         };

@@ -17,9 +17,13 @@
 //!
 //! Some authors take 1/N for the exponent of O1: the same name, another number. O2, O4 and all criteria but O1 and D depend on
 //! the units of the parameters; the columns of `J` here belong to relative changes, see [`crate::regressor`].
+//!
+//! Where joints, loads and axes count as known to a tolerance only, `M` is the information that is left of the parameters
+//! ([`hexbench_model::estimation::nuisance`]).
 
 use hexbench_core::Hexapod;
 use hexbench_core::statistics::mean;
+use hexbench_model::estimation::nuisance::{marginal, slope_of_whole};
 use nalgebra::{DMatrix, DVector};
 
 use crate::regressor::PoseRegressor;
@@ -49,7 +53,15 @@ pub enum Criterion<B = ()> {
 }
 
 /// A criterion ready to be computed: I holds the mean information `B` (p x p) over the workspace.
-pub type Objective = Criterion<DMatrix<f64>>;
+type Ready = Criterion<DMatrix<f64>>;
+
+/// A criterion of the parameters for information matrices that hold parameters first and then inputs that are known to a tolerance
+/// only: errors of the inputs are taken out before anything is computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Objective {
+    criterion: Ready,
+    inputs: usize,
+}
 
 /// Eigenvalues below this share of the largest count as zero: the plan does not determine all parameters.
 const DETERMINED: f64 = 1e-13;
@@ -137,7 +149,8 @@ impl Criterion {
         space: &Space,
         regressor: &R,
     ) -> Result<Objective, DesignError> {
-        self.with(|()| mean_information(hexapod, space, regressor))
+        let criterion = self.with(|()| mean_information(hexapod, space, regressor))?;
+        Ok(Objective { criterion, inputs: regressor.inputs() })
     }
 }
 
@@ -148,17 +161,65 @@ fn mean_information<R: PoseRegressor>(
 ) -> Result<DMatrix<f64>, DesignError> {
     const POSES: usize = 256;
     const SEED: u32 = 0;
-    let p = regressor.parameters();
-    let mut mean = DMatrix::zeros(p, p);
+    let (p, width) = (regressor.parameters(), regressor.width());
+    let mut mean = DMatrix::zeros(width, width);
     for pose in space.poses(hexapod, POSES, SEED)? {
         regressor.inform(&pose, &mut mean)?;
     }
-    Ok(mean / POSES as f64)
+    Ok(mean.view((0, 0), (p, p)) / POSES as f64)
+}
+
+impl From<Ready> for Objective {
+    /// For information matrices without inputs: all are exact.
+    fn from(criterion: Ready) -> Self {
+        Self { criterion, inputs: 0 }
+    }
 }
 
 impl Objective {
+    /// The same for information matrices whose last rows are so many inputs that are known to a tolerance only.
+    #[must_use]
+    pub fn with_inputs(self, inputs: usize) -> Self {
+        Self { inputs, ..self }
+    }
+
+    /// The criterion.
+    pub fn criterion(&self) -> &Criterion<DMatrix<f64>> {
+        &self.criterion
+    }
+
+    /// Number of parameters of an information matrix.
+    pub fn parameters(&self, information: &DMatrix<f64>) -> usize {
+        information.nrows() - self.inputs
+    }
+
+    /// Information of the parameters (p x p), inputs being as good as their tolerances.
+    pub fn of_parameters(&self, information: &DMatrix<f64>) -> DMatrix<f64> {
+        marginal(information, self.parameters(information))
+    }
+
+    /// Slope of a function by the whole information, from that by the information of the parameters.
+    pub fn of_whole(&self, information: &DMatrix<f64>, slope: &DMatrix<f64>) -> DMatrix<f64> {
+        slope_of_whole(information, self.parameters(information), slope)
+    }
+
     /// Value for the information matrix of a plan with `readings` readings; zero when it does not determine all parameters.
     pub fn value(&self, information: &DMatrix<f64>, readings: usize) -> f64 {
+        self.criterion.value(&self.of_parameters(information), readings)
+    }
+
+    /// Value, and the symmetric matrix `G` with `d value = trace(G dM)`. `G` is zero where the value is.
+    ///
+    /// The smallest and largest eigenvalues have no derivative where two of them meet; one of the two is then followed.
+    pub fn gradient(&self, information: &DMatrix<f64>, readings: usize) -> (f64, DMatrix<f64>) {
+        let (value, slope) = self.criterion.gradient(&self.of_parameters(information), readings);
+        (value, self.of_whole(information, &slope))
+    }
+}
+
+impl Ready {
+    /// As [`Objective::value`] for the information of the parameters.
+    fn value(&self, information: &DMatrix<f64>, readings: usize) -> f64 {
         match self {
             Self::D => of_cholesky(information, |l| mean_log(l).exp()),
             Self::O1 => {
@@ -171,10 +232,8 @@ impl Objective {
         }
     }
 
-    /// Value, and the symmetric matrix `G` with `d value = trace(G dM)`. `G` is zero where the value is.
-    ///
-    /// The smallest and largest eigenvalues have no derivative where two of them meet; one of the two is then followed.
-    pub fn gradient(&self, information: &DMatrix<f64>, readings: usize) -> (f64, DMatrix<f64>) {
+    /// As [`Objective::gradient`] for the information of the parameters.
+    fn gradient(&self, information: &DMatrix<f64>, readings: usize) -> (f64, DMatrix<f64>) {
         let nothing = || (0.0, DMatrix::zeros(information.nrows(), information.ncols()));
         if let Self::I(mean) = self {
             let Some(c) = information.clone().cholesky() else { return nothing() };
@@ -256,7 +315,7 @@ fn mean_log(diagonal: &DVector<f64>) -> f64 {
 mod tests {
     use super::*;
 
-    fn all(p: usize) -> [Objective; 9] {
+    fn all(p: usize) -> [Ready; 9] {
         let mean = DMatrix::from_fn(p, p, |i, j| if i == j { 1.0 + i as f64 } else { 0.2 });
         Criterion::ALL.map(|criterion| criterion.with(|()| Ok::<_, ()>(mean.clone())).unwrap())
     }

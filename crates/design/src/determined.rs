@@ -25,12 +25,14 @@ pub fn undetermined(information: &DMatrix<f64>) -> Vec<usize> {
     (0..affected.len()).filter(|&k| affected[k] > SHARE).collect()
 }
 
-/// Refuses parameters that a sum over everything a space offers leaves undetermined.
+/// Refuses parameters that a sum over everything a space offers leaves undetermined. What follows the named ones, inputs known to a
+/// tolerance, makes a parameter less well known, never undetermined.
 ///
 /// # Errors
 /// [`DesignError::NeverDetermined`] with their names.
 pub fn require_determined(information: &DMatrix<f64>, names: &[String]) -> Result<(), DesignError> {
-    let missing = undetermined(information);
+    let parameters = names.len();
+    let missing = undetermined(&information.view((0, 0), (parameters, parameters)).into_owned());
     if missing.is_empty() {
         return Ok(());
     }

@@ -21,7 +21,7 @@ pub struct Visit {
 }
 
 impl Visit {
-    /// Adds the information of its readings (p x p).
+    /// Adds the information of its readings, inputs included.
     ///
     /// # Errors
     /// A singular pose.
@@ -34,7 +34,7 @@ impl Visit {
     }
 }
 
-/// Sum of the information of visits (p x p).
+/// Sum of the information of visits, inputs included.
 ///
 /// # Errors
 /// A singular pose.
@@ -42,8 +42,8 @@ pub fn information<'v, R: SettingRegressor>(
     visits: impl IntoIterator<Item = &'v Visit>,
     regressor: &R,
 ) -> Result<DMatrix<f64>, DesignError> {
-    let p = regressor.parameters();
-    let mut sum = DMatrix::zeros(p, p);
+    let n = regressor.width();
+    let mut sum = DMatrix::zeros(n, n);
     visits.into_iter().try_for_each(|visit| visit.inform(regressor, &mut sum))?;
     Ok(sum)
 }
@@ -87,6 +87,7 @@ mod tests {
 
     use super::*;
     use crate::Budget;
+    use crate::Criterion;
     use crate::regressor::{PoseRegressor, SpringRegressor, Weights};
     use crate::space::{Conditions, Loading};
     use crate::test_machine::machine;
@@ -116,9 +117,11 @@ mod tests {
         let poses = space.poses(&hexapod, 3, 1).unwrap();
         let mut visits: Vec<Visit> =
             poses.into_iter().zip(counts.clone()).map(|(pose, counts)| Visit { pose, counts }).collect();
-        let value = |visits: &[Visit]| Objective::A.value(&information(visits, &regressor).unwrap(), 1);
+        let value = |visits: &[Visit]| {
+            Objective::from(Criterion::A).value(&information(visits, &regressor).unwrap(), 1)
+        };
         let before = value(&visits);
-        refine(&hexapod, &space, &regressor, &Objective::A, &mut visits).unwrap();
+        refine(&hexapod, &space, &regressor, &Objective::from(Criterion::A), &mut visits).unwrap();
         assert!(value(&visits) > 1.2 * before, "{} from {before}", value(&visits));
         for (visit, counts) in visits.iter().zip(counts) {
             assert_eq!(visit.counts, counts);

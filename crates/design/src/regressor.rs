@@ -17,19 +17,29 @@ pub trait PoseRegressor: Sync {
     /// Number of parameters p.
     fn parameters(&self) -> usize;
 
+    /// Number of inputs r that are known to a tolerance only; their columns follow those of the parameters.
+    fn inputs(&self) -> usize {
+        0
+    }
+
+    /// Rows of an information matrix: p + r.
+    fn width(&self) -> usize {
+        self.parameters() + self.inputs()
+    }
+
     /// Readings of one pose: the sum of the repeats of all settings.
     fn readings(&self) -> usize;
 
     /// Names of the parameters.
     fn names(&self) -> Vec<String>;
 
-    /// Adds `J'J` of the pose (p x p) to `information`.
+    /// Adds `J'J` of the pose ((p + r) x (p + r)) to `information`.
     ///
     /// # Errors
     /// A singular pose.
     fn inform(&self, pose: &Pose, information: &mut DMatrix<f64>) -> Result<(), DesignError>;
 
-    /// Derivatives of `trace(G J'J)` by the six pose coordinates (per m and per rad), for a symmetric `G` (p x p).
+    /// Derivatives of `trace(G J'J)` by the six pose coordinates (per m and per rad), for a symmetric `G` of the same size.
     ///
     /// # Errors
     /// A singular pose.
@@ -38,7 +48,7 @@ pub trait PoseRegressor: Sync {
 
 /// A regressor that can tell its settings apart.
 pub trait SettingRegressor: PoseRegressor + Sized {
-    /// Information of one reading under each setting (p x p each).
+    /// Information of one reading under each setting ((p + r) x (p + r) each).
     ///
     /// # Errors
     /// A singular pose.

@@ -7,7 +7,7 @@ mod search;
 use std::path::Path;
 use std::sync::Arc;
 
-use hexbench_core::Hexapod;
+use hexbench_core::{Hexapod, StatedTolerances};
 use hexbench_design::budget::{Amount, Budget};
 use hexbench_design::nominal;
 use hexbench_design::regressor::{ModelRegressor, SpringRegressor, Weights};
@@ -18,6 +18,7 @@ use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::fit_named::term_named;
 use hexbench_model::estimation::noise::Noise;
 use hexbench_model::estimation::parameters::stiffness_name;
+use hexbench_model::estimation::tolerances::InputKind;
 use hexbench_model::terms::catalogue;
 use nalgebra::DMatrix;
 
@@ -25,6 +26,10 @@ use crate::Failure;
 pub use page::page;
 use search::Bench;
 pub use search::StartedSearch;
+
+/// Combinations of inputs that a search for a plan weighs: the errors that matter most. Its time grows with the square of parameters
+/// and combinations. The uncertainties of what it finds weigh all of them.
+const SEARCHED_INPUTS: usize = 12;
 
 /// What somebody wants of a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +48,7 @@ pub struct Wish {
     pub criterion: Option<Criterion>,
     /// Terms of the catalogue that the plan has to determine too.
     pub terms: Vec<String>,
-    /// Searches from different starts; 128 for poses, 16 for readings and hours unless said.
+    /// Searches from different starts; 16 unless said, 128 for poses whose inputs count as exact.
     pub starts: Option<u16>,
     /// Seed of the starts.
     pub seed: u32,
@@ -73,8 +78,12 @@ pub struct Designed {
     pub best: f64,
     /// Its value for the rounded poses.
     pub value: f64,
-    /// Information matrix of the rounded poses.
+    /// Information matrix of the rounded poses; inputs count as exact.
     pub information: DMatrix<f64>,
+    /// The same when joints, loads and axes are as good as the tolerances of the machine; none without a stated noise.
+    pub within_tolerances: Option<DMatrix<f64>>,
+    /// Those tolerances.
+    pub tolerances: StatedTolerances,
     /// The parameters.
     pub parameters: Vec<Quantity>,
     /// Where poses were looked for.
@@ -125,16 +134,21 @@ pub fn design(
     let terms = wanted(&wish.terms)?;
     let weights = weights(hexapod);
     let settings = space.settings();
-    let bench = Bench { wish, begun, hexapod, space: &space };
-    if terms.is_empty() {
-        let regressor = SpringRegressor::new(hexapod, &settings, 1, weights);
-        return bench.design(&regressor, springs(hexapod));
-    }
     let noise = Noise::stated(1.0 / weights.translation, 1.0 / weights.rotation);
     let nominal = nominal::compliance(hexapod);
-    let regressor = ModelRegressor::new(hexapod, nominal, noise, &terms, &settings, 1)?;
-    let promised = springs(hexapod).into_iter().chain(sized(&terms, regressor.sizes())).collect();
-    bench.design(&regressor, promised)
+    let exact = ModelRegressor::new(hexapod, nominal, noise, &terms, &settings, 1)?;
+    let promised = springs(hexapod).into_iter().chain(sized(&terms, exact.sizes())).collect();
+    // Without a noise, errors of inputs have nothing to be compared with.
+    let within = |most| exact.clone().within_tolerances(&space, most);
+    let all = hexapod.metrology.map(|_| within(InputKind::COLUMNS)).transpose()?;
+    let bench = Bench { wish, begun, hexapod, space: &space, inexact: all.as_ref() };
+    match &all {
+        Some(_) if bench.criterion() != Criterion::O1 => bench.design(&within(SEARCHED_INPUTS)?, promised),
+        _ if terms.is_empty() => {
+            bench.design(&SpringRegressor::new(hexapod, &settings, 1, weights), promised)
+        }
+        _ => bench.design(&exact, promised),
+    }
 }
 
 /// The budget that is asked for.

@@ -1,11 +1,13 @@
 //! The page of `hexbench design`.
 
 use hexbench_core::Wrench;
+use hexbench_core::statistics::median;
 use hexbench_design::budget::Amount;
 use hexbench_design::determined::unit_diagonal;
 use hexbench_design::space::Setting;
 use hexbench_model::machine::observability::Observability;
 use hexbench_report::{Block, Page, PageColumn, Section, Table, number};
+use nalgebra::DMatrix;
 
 use super::{Designed, Visit};
 
@@ -16,6 +18,11 @@ const WORTH_TELLING: f64 = 0.5;
 impl Designed {
     fn readings(&self) -> usize {
         self.visits.iter().flat_map(|v| &v.counts).sum()
+    }
+
+    /// Information by inputs as good as they are known.
+    fn known(&self) -> &DMatrix<f64> {
+        self.within_tolerances.as_ref().unwrap_or(&self.information)
     }
 
     /// Seconds that the plan takes.
@@ -108,19 +115,37 @@ fn hours(seconds: f64) -> String {
 }
 
 fn quality(plan: &Designed) -> Section {
-    let eigen = plan.information.clone().symmetric_eigenvalues();
-    let o = Observability::new(eigen.iter().map(|l| l.max(0.0).sqrt()), plan.readings());
+    let observability = |information: &DMatrix<f64>| {
+        let eigen = information.symmetric_eigenvalues();
+        Observability::new(eigen.iter().map(|l| l.max(0.0).sqrt()), plan.readings())
+    };
+    let (paper, o) = (observability(&plan.information), observability(plan.known()));
     let chosen = format!("{} = {}", plan.criterion, number::significant(plan.value, 6));
     let units = if plan.weighted {
         "rows in units of the noise, columns in relative changes"
     } else {
         "m and rad side by side, as in the paper; state [metrology] to weigh them"
     };
-    let values = [o.o1, o.o2, o.o3, o.o4, o.o5, 1.0 / o.o2].map(|v| number::significant(v, 4));
+    let values = [paper.o1, o.o2, o.o3, o.o4, o.o5, 1.0 / o.o2].map(|v| number::significant(v, 4));
     let columns = ["O1", "O2", "O3", "O4", "O5", "condition"].map(PageColumn::number);
     Section::new("How good")
         .paragraph(format!("{chosen} ({units})."))
         .table(Table::new(columns).rows([values]))
+        .with(tolerances(plan).map(Block::paragraph))
+}
+
+/// What is assumed of the inputs, and what it costs; none where they count as exact.
+fn tolerances(plan: &Designed) -> Option<String> {
+    let uncertainties = |m: &DMatrix<f64>| Some(m.clone().cholesky()?.inverse().diagonal().map(f64::sqrt));
+    let (inexact, exact) =
+        (uncertainties(plan.within_tolerances.as_ref()?)?, uncertainties(&plan.information)?);
+    let grown = median(inexact.iter().zip(&exact).map(|(a, b)| a / b))?;
+    Some(format!(
+        "Tolerances: {}; uncertainties are x{} in the median of what exact inputs would give. O1 takes inputs as exact, as in the \
+         paper; everything else weighs their tolerances, as a diagnosis does.",
+        plan.tolerances,
+        number::significant(grown, 3),
+    ))
 }
 
 fn sure(plan: &Designed) -> Section {
@@ -170,7 +195,7 @@ fn floored(share: f64) -> f64 {
 
 /// Standard uncertainties that the plan promises.
 fn uncertainty(plan: &Designed) -> Option<Section> {
-    let covariance = plan.information.clone().cholesky()?.inverse();
+    let covariance = plan.known().clone().cholesky()?.inverse();
     let columns = [
         PageColumn::words(""),
         PageColumn::number("uncertainty"),
@@ -198,7 +223,7 @@ fn uncertainty(plan: &Designed) -> Option<Section> {
 
 /// The pairs of parameters that the plan separates worst.
 fn correlations(plan: &Designed) -> Option<Section> {
-    let correlation = unit_diagonal(&plan.information.clone().cholesky()?.inverse());
+    let correlation = unit_diagonal(&plan.known().clone().cholesky()?.inverse());
     let p = plan.parameters.len();
     let mut pairs: Vec<(usize, usize)> = (0..p).flat_map(|i| (i + 1..p).map(move |j| (i, j))).collect();
     pairs.sort_by(|a, b| correlation[*b].abs().total_cmp(&correlation[*a].abs()));

@@ -1,13 +1,15 @@
 //! The search of `hexbench design`: few poses, or readings within a budget.
 
-use hexbench_core::{Hexapod, Pose};
+use hexbench_core::{Hexapod, Pose, StatedTolerances};
 use hexbench_design::budget::Amount;
 use hexbench_design::determined::require_determined;
 use hexbench_design::exchange::bound::efficiency;
 use hexbench_design::exchange::{Candidates, Exchange, ExchangedPlan};
 use hexbench_design::refine::{information, refine};
-use hexbench_design::regressor::SettingRegressor;
+use hexbench_design::regressor::{ModelRegressor, SettingRegressor};
 use hexbench_design::{Criterion, Objective, PoseProblem, PoseSearch, Space, Visit};
+use hexbench_model::estimation::nuisance::marginal;
+use nalgebra::DMatrix;
 
 use super::{Designed, Quantity, Wish};
 use crate::Failure;
@@ -15,37 +17,53 @@ use crate::Failure;
 /// Hears how many starts there are, and gives what hears of the end of each.
 pub type StartedSearch<'a> = dyn Fn(u64) -> Box<dyn Fn() + Sync> + 'a;
 
+/// Starts of a search whose rows have closed forms with exact derivatives.
+const MANY_STARTS: u16 = 128;
+/// Starts of any other.
+const FEW_STARTS: u16 = 16;
+
 /// What the search is made of.
 pub(super) struct Bench<'a> {
     pub(super) wish: &'a Wish,
     pub(super) begun: &'a StartedSearch<'a>,
     pub(super) hexapod: &'a Hexapod,
     pub(super) space: &'a Space,
+    /// With inputs as good as their tolerances, where a noise is stated.
+    pub(super) inexact: Option<&'a ModelRegressor<'a>>,
 }
 
 impl Bench<'_> {
+    /// What makes a plan good: as wished, else O1 as in the paper for poses, D for a budget.
+    pub(super) fn criterion(&self) -> Criterion {
+        let usual = if self.space.budget.limit.is_some() { Criterion::D } else { Criterion::O1 };
+        self.wish.criterion.unwrap_or(usual)
+    }
+
     /// The plan with rounded poses.
     pub(super) fn design<R: SettingRegressor>(
         &self,
         regressor: &R,
         promised: Vec<Quantity>,
     ) -> Result<Designed, Failure> {
-        let usual = if self.space.budget.limit.is_some() { Criterion::D } else { Criterion::O1 };
-        let named = self.wish.criterion.unwrap_or(usual);
-        let criterion = named.objective(self.hexapod, self.space, regressor)?;
+        let criterion = self.criterion().objective(self.hexapod, self.space, regressor)?;
         let found = match self.space.budget.limit {
             None => self.few_poses(regressor, &criterion)?,
             Some(amount) => self.within(amount, regressor, &criterion)?,
         };
         let best = information(&found.visits, regressor)?;
         let visits = merged(found.visits.into_iter().map(|v| Visit { pose: rounded(&v.pose), ..v }));
-        let information = information(&visits, regressor)?;
+        let rounded = information(&visits, regressor)?;
+        let p = regressor.parameters();
+        let weighed =
+            |inexact| -> Result<DMatrix<f64>, Failure> { Ok(marginal(&information(&visits, inexact)?, p)) };
         let readings = visits.iter().flat_map(|v| &v.counts).sum();
         Ok(Designed {
-            criterion: criterion.name(),
+            criterion: criterion.criterion().name(),
             best: criterion.value(&best, readings),
-            value: criterion.value(&information, readings),
-            information,
+            value: criterion.value(&rounded, readings),
+            within_tolerances: self.inexact.map(weighed).transpose()?,
+            tolerances: StatedTolerances::from(&self.hexapod.tolerances),
+            information: rounded.view((0, 0), (p, p)).into_owned(),
             parameters: promised,
             space: self.space.clone(),
             visits,
@@ -70,7 +88,7 @@ impl Bench<'_> {
             poses: usize::from(self.wish.poses.unwrap_or(3)),
             known: None,
         };
-        let (starts, ended) = self.starts(128);
+        let (starts, ended) = self.starts(if regressor.inputs() > 0 { FEW_STARTS } else { MANY_STARTS });
         let found = problem.search(starts, self.wish.seed, &*ended);
         let PoseSearch { best, starts, ended, agreeing } = found?;
         let visit = |pose: Pose| Visit { pose, counts: counts.clone() };
@@ -94,7 +112,7 @@ impl Bench<'_> {
         let (mut candidates, mut poses) =
             Candidates::spread(hexapod, space, regressor, amount, usize::from(count), seed)?;
         require_determined(&candidates.whole(), &regressor.names())?;
-        let (starts, ended) = self.starts(16);
+        let (starts, ended) = self.starts(FEW_STARTS);
         let ExchangedPlan { members, agreeing, .. } =
             Exchange::new(&candidates, criterion).search(starts, seed.into(), &*ended)?;
         let mut visits = candidates.visits(&poses, &members);

@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     /// A term of the catalogue that the plan has to determine too; may be given several times
     #[arg(long = "add", value_name = "TERM")]
     terms: Vec<String>,
-    /// Searches from different starts (default: 128 for poses, 16 for readings and hours)
+    /// Searches from different starts (default: 16; 128 for poses whose inputs count as exact)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     starts: Option<u16>,
     /// Seed of the starts

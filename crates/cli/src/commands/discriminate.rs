@@ -148,6 +148,7 @@ fn new_plan(
         sizes: sizes.collect(),
         breakers: breakers(terms),
         candidates: candidate_readings.len(),
+        tolerances: contest.tolerances(),
         seed: arguments.seed,
     })
 }
@@ -197,6 +198,7 @@ fn next_readings(
         sizes: Vec::new(),
         breakers: breakers(terms),
         candidates: candidate_readings.len(),
+        tolerances: campaign.assumed_tolerances(),
         seed: arguments.seed,
     })
 }

@@ -1,6 +1,6 @@
 //! The page of `hexbench discriminate`.
 
-use hexbench_core::Observation;
+use hexbench_core::{Observation, StatedTolerances};
 use hexbench_design::discriminate::Distance;
 use hexbench_model::results::next::Separation;
 use hexbench_report::number::{percent, significant};
@@ -31,6 +31,8 @@ pub(crate) struct Discriminated {
     pub(crate) breakers: Vec<(String, String)>,
     /// Readings chosen from.
     pub(crate) candidates: usize,
+    /// How well inputs are assumed to be known; none where they count as exact.
+    pub(crate) tolerances: Option<StatedTolerances>,
     /// Seed of the poses tried.
     pub(crate) seed: u32,
 }
@@ -102,6 +104,7 @@ impl Discriminated {
             "readings": self.readings.iter().map(Planned::value).collect::<Vec<_>>(),
             "pairs": self.pairs,
             "sizes": self.sizes.iter().map(sizes).collect::<Vec<_>>(),
+            "tolerances": self.tolerances,
             "seed": self.seed,
         })
     }
@@ -211,7 +214,14 @@ fn promise(p: &Promise) -> String {
 }
 
 fn assumptions(found: &Discriminated) -> Section {
-    let chosen = format!("Chosen from {} readings (seed {}).", found.candidates, found.seed);
+    let tolerances =
+        found.tolerances.map(|assumed| format!(" Tolerances: {assumed}; what they allow separates nothing."));
+    let chosen = format!(
+        "Chosen from {} readings (seed {}).{}",
+        found.candidates,
+        found.seed,
+        tolerances.unwrap_or_default()
+    );
     if found.sizes.is_empty() {
         return Section::new("How it was chosen").paragraph(chosen);
     }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Vector6};
+use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, StatedTolerances, Vector6};
 use hexbench_model::effects::term::Term;
 use hexbench_model::effects::untestable::{Reason, why_untestable};
 use hexbench_model::error::ModelError;
@@ -11,6 +11,8 @@ use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::natural;
 use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
 use hexbench_model::estimation::noise::Noise;
+use hexbench_model::estimation::nuisance::{ShownInputs, marginal};
+use hexbench_model::estimation::tolerances::{InputKind, input_columns};
 use hexbench_model::inference::candidates::sizes;
 use hexbench_model::inference::evidence::{NOTICEABLE, WIDEST, log_sum};
 use nalgebra::{DMatrix, DVector};
@@ -34,6 +36,8 @@ pub struct Contest<'a> {
     noise: Noise,
     forms: Vec<Form>,
     rivals: usize,
+    /// Combinations of inputs whose errors show, [`InputKind::COLUMNS`] rows.
+    inputs: DMatrix<f64>,
 }
 
 /// A rival at one shape, with its columns.
@@ -85,9 +89,12 @@ impl<'a> Contest<'a> {
         readings: usize,
         visible: f64,
     ) -> Result<Self, DesignError> {
-        let mut contest = Self { hexapod, springs, noise, forms: Vec::new(), rivals: terms.len() };
+        let inputs = DMatrix::zeros(InputKind::COLUMNS, 0);
+        let mut contest = Self { hexapod, springs, noise, forms: Vec::new(), rivals: terms.len(), inputs };
         let (campaign, point, lin) = contest.linearized(candidate_readings)?;
         let natural = natural(&point, &lin);
+        contest.inputs =
+            ShownInputs::of(&input_columns(&campaign, &point, &hexapod.tolerances)?).combinations;
         let untestable =
             |term: &Arc<dyn Term>, why: Reason| ModelError::Untestable { id: term.info().id.to_owned(), why };
         let mut at = 6;
@@ -104,9 +111,11 @@ impl<'a> Contest<'a> {
             }
         }
         let share = readings as f64 / candidate_readings.len().max(1) as f64;
+        let all = at + contest.inputs.ncols();
         let even =
-            contest.informations(candidate_readings)?.iter().fold(DMatrix::zeros(at, at), |sum, m| sum + m)
+            contest.informations(candidate_readings)?.iter().fold(DMatrix::zeros(all, all), |sum, m| sum + m)
                 * share;
+        let even = contest.with_inputs_unknown(&even);
         for k in 0..contest.forms.len() {
             let shown = distance(&even, &contest.forms[k], None);
             if WIDEST * shown <= NOTICEABLE {
@@ -122,6 +131,11 @@ impl<'a> Contest<'a> {
         self.rivals
     }
 
+    /// How well inputs are assumed to be known; none where no error of them shows.
+    pub fn tolerances(&self) -> Option<StatedTolerances> {
+        (self.inputs.ncols() > 0).then(|| StatedTolerances::from(&self.hexapod.tolerances))
+    }
+
     /// Parameters of a rival in the size at which it counts (shown units), at its middle shape.
     pub fn assumed(&self, rival: usize) -> Vec<(&'static str, f64, &'static str)> {
         let own: Vec<&Form> = self.forms.iter().filter(|f| f.rival == rival).collect();
@@ -130,13 +144,19 @@ impl<'a> Contest<'a> {
         named.map(|(p, s)| (p.name, s * form.size * p.per_si, p.unit)).collect()
     }
 
-    /// Information matrix of every reading.
+    /// Information of springs and effects by that of a plan: errors of the inputs are taken out.
+    fn with_inputs_unknown(&self, information: &DMatrix<f64>) -> DMatrix<f64> {
+        marginal(information, information.nrows() - self.inputs.ncols())
+    }
+
+    /// Information matrix of every reading: springs, effects, and the inputs that are known to a tolerance only.
     ///
     /// # Errors
     /// A singular pose.
     pub fn informations(&self, readings: &[Observation]) -> Result<Vec<DMatrix<f64>>, DesignError> {
-        let (campaign, _, lin) = self.linearized(readings)?;
-        let width = self.forms.last().map_or(6, |f| f.columns.end);
+        let (campaign, point, lin) = self.linearized(readings)?;
+        let parameters = self.forms.last().map_or(6, |f| f.columns.end);
+        let width = parameters + self.inputs.ncols();
         let mut rows = DMatrix::zeros(lin.equations(), width);
         let springs = DMatrix::from_diagonal(&DVector::from_column_slice(self.springs.as_slice()));
         rows.columns_mut(0, 6).copy_from(&(lin.common_block() * springs));
@@ -145,6 +165,8 @@ impl<'a> Contest<'a> {
             let block = lin.term_block(form.term.as_ref(), false, form.shape) * sizes;
             rows.columns_mut(form.columns.start, form.columns.len()).copy_from(&block);
         }
+        let inputs = input_columns(&campaign, &point, &self.hexapod.tolerances)? * &self.inputs;
+        rows.columns_mut(parameters, inputs.ncols()).copy_from(&inputs);
         // Equal readings are averaged: each has its share of their information.
         let mut all = vec![DMatrix::zeros(width, width); readings.len()];
         for (i, group) in campaign.groups.iter().enumerate() {
@@ -180,6 +202,7 @@ impl<'a> Contest<'a> {
     pub fn distances(&self, information: &DMatrix<f64>) -> Vec<Distance> {
         let pairs =
             (0..self.rivals).flat_map(|a| (0..self.rivals).filter(move |b| *b != a).map(move |b| [a, b]));
+        let information = &self.with_inputs_unknown(information);
         let least = |[a, b]: [usize; 2]| {
             let of = |rival: usize| self.forms.iter().filter(move |f| f.rival == rival);
             let all = of(a).flat_map(|x| of(b).map(move |y| distance(information, x, Some(y))));

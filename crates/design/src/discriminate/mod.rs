@@ -12,6 +12,9 @@
 //! makes the smallest distance over all ordered pairs as large as it can, in the smooth form `(sum T^-2q)^(-1/2q)` that an exchange
 //! can climb. An effect of unknown shape counts at several shapes, the least favourable of both sides.
 //!
+//! Joints, loads and axes are known to the tolerances of the machine only: what an error of them may do to the readings tells no effect
+//! from another ([`hexbench_model::estimation::nuisance`]).
+//!
 //! Each effect is taken so large that readings spread evenly over the space would show it beside free springs by a chosen number of
 //! standard deviations.
 

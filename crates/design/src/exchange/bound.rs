@@ -8,14 +8,21 @@
 //! ```
 //!
 //! for every plan `M*` out of the candidates `I_k`. For D this is the variance function of Kiefer and Wolfowitz 1960; at the best
-//! approximate plan both sides are equal. It is approached by moving weight from the worst member to the best candidate (vertex
+//! approximate plan both sides are equal. With inputs that are known to a tolerance only `phi` is still concave but grows more than in
+//! proportion; `phi(M) - trace(G M)` then comes on top, and for a share of the budget
+//!
+//! ```text
+//! phi <= phi(M) - trace(G M) + share max_k trace(G I_k) / cost_k
+//! ```
+//!
+//! The best approximate plan is approached by moving weight from the worst member to the best candidate (vertex
 //! exchange, Böhning 1986). The smallest eigenvalue (E, O3) has no gradient where several meet, as they do at the best plan; there
 //! `G` may be any matrix of trace one, and that of a smooth minimum is taken. Changes of pose count no time here, so that the bound holds for all plans.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::Candidates;
-use crate::Objective;
+use crate::{Criterion, Objective};
 
 /// Moves of weight.
 const MOST_MOVES: usize = 3000;
@@ -31,10 +38,10 @@ const STEPS: usize = 30;
 
 /// Power that brings a criterion to degree one, where it is concave; none for ratios of eigenvalues, which are not.
 pub fn degree_one(criterion: &Objective) -> Option<f64> {
-    match criterion {
-        Objective::D | Objective::A | Objective::E | Objective::I(_) => Some(1.0),
-        Objective::O1 | Objective::O3 | Objective::O5 => Some(2.0),
-        Objective::O2 | Objective::O4 => None,
+    match criterion.criterion() {
+        Criterion::D | Criterion::A | Criterion::E | Criterion::I(_) => Some(1.0),
+        Criterion::O1 | Criterion::O3 | Criterion::O5 => Some(2.0),
+        Criterion::O2 | Criterion::O4 => None,
     }
 }
 
@@ -43,7 +50,17 @@ pub fn degree_one(criterion: &Objective) -> Option<f64> {
 pub fn efficiency(candidates: &Candidates, criterion: &Objective, members: &[usize]) -> Option<f64> {
     let power = degree_one(criterion)?;
     let value = criterion.value(&candidates.sum(members), 1).powf(power);
-    Some((value / upper_bound(candidates, criterion, power, members)).min(1.0))
+    Some(least_share(candidates, criterion, power, members, value).min(1.0))
+}
+
+/// Plane that lies above the criterion, whatever the plan.
+struct Tangent {
+    /// Criterion of the plan at which it touches.
+    value: f64,
+    /// Its height for no information at all.
+    offset: f64,
+    /// How much it rises when the whole budget goes to each candidate.
+    slopes: Vec<f64>,
 }
 
 /// Weights of an approximate plan with its information.
@@ -57,15 +74,24 @@ struct Approximate<'a> {
     information: DMatrix<f64>,
 }
 
-fn upper_bound(candidates: &Candidates, criterion: &Objective, power: f64, members: &[usize]) -> f64 {
+/// Share of the budget without which no plan reaches a value.
+fn least_share(
+    candidates: &Candidates,
+    criterion: &Objective,
+    power: f64,
+    members: &[usize],
+    wanted: f64,
+) -> f64 {
     let mut plan = Approximate::of(candidates, criterion, power, members);
-    let (mut bound, mut vain) = (f64::INFINITY, 0);
+    let (mut share, mut bound, mut vain) = (0.0_f64, f64::INFINITY, 0);
     for _ in 0..MOST_MOVES {
-        let (value, slopes) = plan.slopes();
+        let Tangent { value, offset, slopes } = plan.tangent();
         let best = (0..slopes.len()).reduce(|a, b| if slopes[b] > slopes[a] { b } else { a });
         let Some(best) = best else { break };
-        vain = if slopes[best] < bound * (1.0 - WORTHWHILE) { 0 } else { vain + 1 };
-        bound = bound.min(slopes[best]);
+        let highest = offset + slopes[best];
+        share = share.max((wanted - offset) / slopes[best]);
+        vain = if highest < bound * (1.0 - WORTHWHILE) { 0 } else { vain + 1 };
+        bound = bound.min(highest);
         if vain > PATIENCE {
             break;
         }
@@ -77,7 +103,7 @@ fn upper_bound(candidates: &Candidates, criterion: &Objective, power: f64, membe
             break;
         }
     }
-    bound
+    share
 }
 
 impl<'a> Approximate<'a> {
@@ -91,14 +117,15 @@ impl<'a> Approximate<'a> {
         for weight in &mut weights {
             *weight /= spent;
         }
-        let p = candidates.parameters();
-        let information = DMatrix::zeros(p, p);
+        let n = candidates.width();
+        let information = DMatrix::zeros(n, n);
         let mut plan = Self { candidates, criterion, power, sharpness: None, weights, information };
         for (k, &weight) in plan.weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
             plan.information += plan.whole(k) * weight;
         }
-        if matches!(criterion, Objective::E | Objective::O3) {
-            plan.sharpness = Some(SHARPNESS / plan.information.clone().symmetric_eigenvalues().min());
+        if matches!(criterion.criterion(), Criterion::E | Criterion::O3) {
+            let least = criterion.of_parameters(&plan.information).symmetric_eigenvalues().min();
+            plan.sharpness = Some(SHARPNESS / least);
         }
         plan
     }
@@ -115,7 +142,10 @@ impl<'a> Approximate<'a> {
 
     fn value(&self, information: &DMatrix<f64>) -> f64 {
         match self.sharpness {
-            Some(sharpness) => smooth_minimum(&information.clone().symmetric_eigenvalues(), sharpness).0,
+            Some(sharpness) => {
+                let eigenvalues = self.criterion.of_parameters(information).symmetric_eigenvalues();
+                smooth_minimum(&eigenvalues, sharpness).0
+            }
             None => self.criterion.value(information, 1).powf(self.power),
         }
     }
@@ -123,20 +153,27 @@ impl<'a> Approximate<'a> {
     /// Value and gradient.
     fn gradient(&self) -> (f64, DMatrix<f64>) {
         if let Some(sharpness) = self.sharpness {
-            let eigen = self.information.clone().symmetric_eigen();
+            let eigen = self.criterion.of_parameters(&self.information).symmetric_eigen();
             let (value, shares) = smooth_minimum(&eigen.eigenvalues, sharpness);
             let v = &eigen.eigenvectors;
-            return (value, v * DMatrix::from_diagonal(&shares) * v.transpose());
+            let slope = v * DMatrix::from_diagonal(&shares) * v.transpose();
+            return (value, self.criterion.of_whole(&self.information, &slope));
         }
         let (value, slope) = self.criterion.gradient(&self.information, 1);
         (value.powf(self.power), slope * (self.power * value.powf(self.power - 1.0)))
     }
 
-    /// Value, and its slope towards each candidate.
-    fn slopes(&self) -> (f64, Vec<f64>) {
+    /// The plane that touches the criterion at this plan.
+    fn tangent(&self) -> Tangent {
         let (value, slope) = self.gradient();
         let towards = |(k, m): (usize, &DMatrix<f64>)| slope.dot(m) * self.readings(k);
-        (value, self.candidates.information.iter().enumerate().map(towards).collect())
+        let slopes = self.candidates.information.iter().enumerate().map(towards).collect();
+        // The gradient by the parameters alone is a part of it; of degree one, its product with their information is the height.
+        let n = self.criterion.parameters(&self.information);
+        let own = slope.view((0, 0), (n, n)).into_owned();
+        let height = own.dot(&self.criterion.of_parameters(&self.information));
+        let offset = if n == slope.nrows() { 0.0 } else { height - slope.dot(&self.information) };
+        Tangent { value, offset, slopes }
     }
 
     /// Moves as much weight as is best; false when none helps.

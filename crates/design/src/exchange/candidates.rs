@@ -12,7 +12,7 @@ use crate::{DesignError, Space, Visit};
 /// setting.
 #[derive(Debug, Clone)]
 pub struct Candidates {
-    /// Information of each (p x p).
+    /// Information of each, inputs included.
     pub information: Vec<DMatrix<f64>>,
     /// Cost of the reading under each setting, in the unit of the budget.
     pub costs: Vec<f64>,
@@ -110,8 +110,8 @@ impl Candidates {
         Ok(members)
     }
 
-    /// Number of parameters.
-    pub fn parameters(&self) -> usize {
+    /// Rows of an information matrix: parameters and inputs.
+    pub fn width(&self) -> usize {
         self.information.first().map_or(0, DMatrix::ncols)
     }
 
@@ -140,13 +140,13 @@ impl Candidates {
 
     /// Sum of the information of members.
     pub fn sum(&self, members: &[usize]) -> DMatrix<f64> {
-        let p = self.parameters();
-        members.iter().fold(DMatrix::zeros(p, p), |sum, &k| sum + &self.information[k])
+        let n = self.width();
+        members.iter().fold(DMatrix::zeros(n, n), |sum, &k| sum + &self.information[k])
     }
 
     /// Sum of the information of all candidates.
     pub fn whole(&self) -> DMatrix<f64> {
-        let p = self.parameters();
-        self.information.iter().fold(DMatrix::zeros(p, p), |sum, m| sum + m)
+        let n = self.width();
+        self.information.iter().fold(DMatrix::zeros(n, n), |sum, m| sum + m)
     }
 }

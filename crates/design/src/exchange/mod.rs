@@ -79,10 +79,12 @@ impl<'a> Exchange<'a> {
         let ends: Vec<ExchangedPlan> = (0..starts as u64).into_par_iter().map(end).collect();
         // The first of equals, so that the order of threads does not matter.
         let best = ends.iter().cloned().reduce(|a, b| if b.value > a.value { b } else { a });
-        let determines = |plan: &ExchangedPlan| undetermined(&self.candidates.sum(&plan.members)).is_empty();
+        let determines = |plan: &ExchangedPlan| {
+            undetermined(&self.criterion.of_parameters(&self.candidates.sum(&plan.members))).is_empty()
+        };
         let Some(mut best) = best.filter(determines) else {
             return Err(DesignError::NotDetermined {
-                parameters: self.ridge.ncols(),
+                parameters: self.criterion.parameters(&self.ridge),
                 hint: "allow more readings or more time",
             });
         };
@@ -213,6 +215,7 @@ fn leave_a_pose(draft: &mut Draft<'_, '_>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Criterion;
 
     /// Rows `1, x, x^2, ...` of points.
     fn rows(points: &[f64], degree: usize) -> Vec<DMatrix<f64>> {
@@ -222,7 +225,7 @@ mod tests {
 
     fn best(rows: &[DMatrix<f64>], size: usize, starts: usize) -> ExchangedPlan {
         let candidates = Candidates::of_rows(rows, size);
-        Exchange::new(&candidates, &Objective::D).search(starts, 1, &|| ()).unwrap()
+        Exchange::new(&candidates, &Objective::from(Criterion::D)).search(starts, 1, &|| ()).unwrap()
     }
 
     /// Exact D-optimal designs of a quadratic on {-1, 0, 1}: det X'X for 3 to 7 points.
@@ -262,7 +265,7 @@ mod tests {
     fn too_few_readings_are_refused() {
         let candidates = rows(&[-1.0, 0.0, 1.0], 2);
         let candidates = Candidates::of_rows(&candidates, 2);
-        let found = Exchange::new(&candidates, &Objective::D).search(4, 1, &|| ());
+        let found = Exchange::new(&candidates, &Objective::from(Criterion::D)).search(4, 1, &|| ());
         assert!(matches!(found, Err(DesignError::NotDetermined { .. })));
     }
 }

@@ -74,6 +74,8 @@ pub struct EffectPower {
     pub unit: &'static str,
     /// Multiple of the usual size that is seen with the wanted power; over the examples.
     pub seen_at: Range,
+    /// The same of the middle example if every input were exact; absent where inputs count as exact anyway, or where none is.
+    pub seen_at_with_exact_inputs: Option<f64>,
     /// Largest multiple of the usual size that makes physical sense.
     pub sensible: f64,
     /// Chance to be seen at the usual size.
@@ -126,6 +128,7 @@ impl EffectPower {
             usual_size: subject.size(example),
             unit,
             seen_at,
+            seen_at_with_exact_inputs: None,
             sensible,
             power_at_usual_size: judge.power_at_usual_size(index),
             parameters_determined: test.map_or(0, PreparedTest::parameters),
@@ -139,6 +142,19 @@ impl EffectPower {
             example: example.clone(),
             example_index: index,
         }
+    }
+
+    /// Adds what the same plan would show of the middle example if every input were exact.
+    pub(super) fn compare_with_exact(
+        &mut self,
+        exact: &Planned,
+        subject: &EffectSizes,
+        settings: &PowerSettings,
+    ) {
+        let test = PreparedTest::new(exact, subject.term.as_ref(), settings);
+        let judge = Judge { planned: exact, subject, test: test.as_ref(), wanted: settings.power };
+        let seen_at = judge.seen_at(&self.example);
+        self.seen_at_with_exact_inputs = Some(seen_at).filter(|s| s.is_finite());
     }
 
     /// True when it shows at some sensible size.

@@ -1,12 +1,13 @@
 //! A plan as the model sees it before anything is measured.
 
-use hexbench_core::{Dataset, Hexapod, Vector6};
+use hexbench_core::{Dataset, Hexapod, StatedTolerances, Vector6};
 use hexbench_model::effects::term::{Natural, Term};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::natural;
 use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
 use hexbench_model::estimation::noise::Noise;
+use hexbench_model::estimation::tolerances::within_tolerances_at;
 use hexbench_model::inference::absorption::Absorption;
 use nalgebra::DVector;
 
@@ -15,7 +16,7 @@ use crate::DesignError;
 /// Changes of leg force below this count as none, N.
 const NO_FORCE_N: f64 = 1e-9;
 
-/// A plan linearised at what plain springs would let it read.
+/// A plan linearised at what plain springs would let it read, by inputs as good as the tolerances of the machine.
 pub struct Planned {
     /// The plan with the readings expected of springs alone.
     pub campaign: Campaign,
@@ -49,8 +50,26 @@ impl Planned {
         if lin.conditions.iter().all(|c| c.force_change().amax() < NO_FORCE_N) {
             return Err(ModelError::NoLoad.into());
         }
+        Self::of(within_tolerances_at(campaign, &point), point)
+    }
+
+    /// The same plan as if every input were exact.
+    ///
+    /// # Errors
+    /// As [`Planned::new`].
+    pub fn with_exact_inputs(&self) -> Result<Self, DesignError> {
+        Self::of(Campaign { inexact: None, ..self.campaign.clone() }, self.point.clone())
+    }
+
+    fn of(campaign: Campaign, point: ModelPoint) -> Result<Self, DesignError> {
+        let lin = Linearization::at(&campaign, &point)?;
         let (natural, absorption) = (natural(&point, &lin), Absorption::of(&lin));
         Ok(Self { campaign, point, lin, natural, absorption })
+    }
+
+    /// The tolerances that the plan assumes; none where inputs count as exact, because no error of them shows or poses are absolute.
+    pub fn tolerances(&self) -> Option<StatedTolerances> {
+        self.campaign.assumed_tolerances()
     }
 
     /// Condition number of the whitened columns of the springs (and frames) at unit length.

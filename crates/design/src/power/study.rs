@@ -1,10 +1,12 @@
 //! All effects under one plan.
 
+use hexbench_core::StatedTolerances;
 use hexbench_model::effects::untestable::{Untestable, why_untestable};
 use serde::Serialize;
 
 use super::alike::alike;
 use super::{Alike, EffectPower, EffectSizes, Planned, PreparedTest};
+use crate::DesignError;
 
 /// What is asked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -31,6 +33,8 @@ impl Default for PowerSettings {
 pub struct PowerStudy {
     /// What was asked.
     pub settings: PowerSettings,
+    /// How well the inputs are assumed to be known; absent where they count as exact.
+    pub tolerances: Option<StatedTolerances>,
     /// Effects the plan can test.
     pub effects: Vec<EffectPower>,
     /// Those it cannot.
@@ -42,8 +46,26 @@ pub struct PowerStudy {
     pub tests: Vec<Option<PreparedTest>>,
 }
 
+impl PowerStudy {
+    /// How many times as large as with exact inputs an effect must be to be seen, for every effect that shows.
+    pub fn growth_by_tolerances(&self) -> Vec<(&'static str, f64)> {
+        let of = |e: &EffectPower| {
+            let exact = e.seen_at_with_exact_inputs.filter(|_| e.shows())?;
+            Some((e.term, e.seen_at.middle / exact))
+        };
+        self.effects.iter().filter_map(of).collect()
+    }
+}
+
 /// Power of a plan for these subjects.
-pub fn study(planned: &Planned, subjects: Vec<EffectSizes>, settings: PowerSettings) -> PowerStudy {
+///
+/// # Errors
+/// As [`Planned::new`].
+pub fn study(
+    planned: &Planned,
+    subjects: Vec<EffectSizes>,
+    settings: PowerSettings,
+) -> Result<PowerStudy, DesignError> {
     let mut untestable = Vec::new();
     let mut testable = Vec::new();
     for subject in subjects {
@@ -54,11 +76,18 @@ pub fn study(planned: &Planned, subjects: Vec<EffectSizes>, settings: PowerSetti
     }
     let tests: Vec<Option<PreparedTest>> =
         testable.iter().map(|s| PreparedTest::new(planned, s.term.as_ref(), &settings)).collect();
-    let effects: Vec<EffectPower> = testable
+    let mut effects: Vec<EffectPower> = testable
         .iter()
         .zip(&tests)
         .map(|(s, test)| EffectPower::of(planned, s, test.as_ref(), &settings))
         .collect();
+    let tolerances = planned.tolerances();
+    if tolerances.is_some() {
+        let exact = planned.with_exact_inputs()?;
+        for (effect, subject) in effects.iter_mut().zip(&testable) {
+            effect.compare_with_exact(&exact, subject, &settings);
+        }
+    }
     let alike = alike(planned, &testable, &effects, &settings);
-    PowerStudy { settings, effects, untestable, alike, tests }
+    Ok(PowerStudy { settings, tolerances, effects, untestable, alike, tests })
 }

@@ -8,12 +8,14 @@ use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::natural;
 use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
 use hexbench_model::estimation::noise::Noise;
+use hexbench_model::estimation::nuisance::ShownInputs;
+use hexbench_model::estimation::tolerances::{InputKind, input_columns};
 use hexbench_model::inference::candidates::sizes;
 use nalgebra::{DMatrix, DVector};
 
 use super::{PoseRegressor, SettingRegressor, leg_names};
-use crate::DesignError;
 use crate::space::Setting;
+use crate::{DesignError, Space};
 
 /// A term with its shape value and the natural sizes of its parameters.
 #[derive(Clone)]
@@ -35,6 +37,8 @@ pub struct ModelRegressor<'a> {
     terms: Vec<Wanted>,
     settings: Vec<Setting>,
     counts: Vec<usize>,
+    /// Combinations of inputs whose errors show, [`InputKind::COLUMNS`] rows; no columns where all are exact.
+    inputs: DMatrix<f64>,
 }
 
 impl<'a> ModelRegressor<'a> {
@@ -52,9 +56,10 @@ impl<'a> ModelRegressor<'a> {
         repeats: usize,
     ) -> Result<Self, DesignError> {
         let counts = vec![repeats; settings.len()];
+        let inputs = DMatrix::zeros(InputKind::COLUMNS, 0);
         let mut regressor =
-            Self { hexapod, springs, noise, terms: Vec::new(), settings: settings.to_vec(), counts };
-        let (point, lin) = regressor.linearized(regressor.readings(&Pose::default()))?;
+            Self { hexapod, springs, noise, terms: Vec::new(), settings: settings.to_vec(), counts, inputs };
+        let (_, point, lin) = regressor.linearized(regressor.readings(&Pose::default()))?;
         let natural = natural(&point, &lin);
         let wanted = |term: &Arc<dyn Term>| {
             let grid = term.shape_grid(&lin.conditions);
@@ -63,6 +68,22 @@ impl<'a> ModelRegressor<'a> {
         };
         regressor.terms = terms.iter().map(wanted).collect();
         Ok(regressor)
+    }
+
+    /// The same with joints, loads and axes as good as the tolerances of the machine: the `most` combinations of their errors that show
+    /// most at poses all over a space.
+    ///
+    /// # Errors
+    /// As [`Space::poses`]; a singular pose.
+    pub fn within_tolerances(mut self, space: &Space, most: usize) -> Result<Self, DesignError> {
+        const POSES: usize = 32;
+        const SEED: u32 = 0;
+        let poses = space.poses(self.hexapod, POSES, SEED)?;
+        let readings = poses.iter().flat_map(|pose| self.readings(pose)).collect();
+        let (campaign, point, _) = self.linearized(readings)?;
+        let columns = input_columns(&campaign, &point, &self.hexapod.tolerances)?;
+        self.inputs = ShownInputs::most(&columns, most).combinations;
+        Ok(self)
     }
 
     /// One reading of a pose under each setting.
@@ -75,7 +96,10 @@ impl<'a> ModelRegressor<'a> {
         self.terms.iter().flat_map(|w| w.sizes.iter().copied())
     }
 
-    fn linearized(&self, readings: Vec<Observation>) -> Result<(ModelPoint, Linearization), DesignError> {
+    fn linearized(
+        &self,
+        readings: Vec<Observation>,
+    ) -> Result<(Campaign, ModelPoint, Linearization), DesignError> {
         // Numbered one by one, so that no two are averaged.
         let numbered = (1..).zip(readings).map(|(id, o)| Observation { pose_id: id, repeat: 1, ..o });
         let dataset = Dataset {
@@ -87,16 +111,16 @@ impl<'a> ModelRegressor<'a> {
         let campaign = Campaign::with_noise(self.hexapod, &dataset, self.noise)?;
         let point = ModelPoint { compliances: self.springs, ..ModelPoint::start(&campaign) };
         let lin = Linearization::at(&campaign, &point)?;
-        Ok((point, lin))
+        Ok((campaign, point, lin))
     }
 
-    /// Whitened rows of readings, six each, one column per parameter.
+    /// Whitened rows of readings, six each, one column per parameter and per combination of inputs.
     ///
     /// # Errors
     /// A singular pose.
     pub fn rows(&self, readings: Vec<Observation>) -> Result<DMatrix<f64>, DesignError> {
-        let (_, lin) = self.linearized(readings)?;
-        let mut rows = DMatrix::zeros(lin.equations(), self.parameters());
+        let (campaign, point, lin) = self.linearized(readings)?;
+        let mut rows = DMatrix::zeros(lin.equations(), self.width());
         let springs =
             lin.common_block() * DMatrix::from_diagonal(&DVector::from_column_slice(self.springs.as_slice()));
         rows.columns_mut(0, 6).copy_from(&springs);
@@ -108,6 +132,10 @@ impl<'a> ModelRegressor<'a> {
             }
             rows.columns_mut(at, block.ncols()).copy_from(&block);
             at += block.ncols();
+        }
+        if self.inputs() > 0 {
+            let columns = input_columns(&campaign, &point, &self.hexapod.tolerances)?;
+            rows.columns_mut(at, self.inputs()).copy_from(&(columns * &self.inputs));
         }
         Ok(rows)
     }
@@ -135,6 +163,10 @@ impl PoseRegressor for ModelRegressor<'_> {
         6 + self.terms.iter().map(|w| w.term.info().parameters.len()).sum::<usize>()
     }
 
+    fn inputs(&self) -> usize {
+        self.inputs.ncols()
+    }
+
     fn readings(&self) -> usize {
         self.counts.iter().sum()
     }
@@ -148,9 +180,14 @@ impl PoseRegressor for ModelRegressor<'_> {
     }
 
     fn inform(&self, pose: &Pose, information: &mut DMatrix<f64>) -> Result<(), DesignError> {
-        let mut rows = self.rows(self.readings(pose))?;
-        for (k, &count) in self.counts.iter().enumerate() {
-            rows.rows_mut(6 * k, 6).scale_mut((count as f64).sqrt());
+        let read: Vec<(&Setting, usize)> =
+            self.settings.iter().zip(self.counts.iter().copied()).filter(|(_, count)| *count > 0).collect();
+        if read.is_empty() {
+            return Ok(());
+        }
+        let mut rows = self.rows(read.iter().map(|(s, _)| reading(*pose, s)).collect())?;
+        for (k, (_, count)) in read.iter().enumerate() {
+            rows.rows_mut(6 * k, 6).scale_mut((*count as f64).sqrt());
         }
         information.gemm_tr(1.0, &rows, &rows, 1.0);
         Ok(())
@@ -159,11 +196,11 @@ impl PoseRegressor for ModelRegressor<'_> {
     /// By central differences: terms state no derivative by the pose.
     fn slopes(&self, pose: &Pose, g: &DMatrix<f64>) -> Result<[f64; 6], DesignError> {
         const STEP: f64 = 1e-6;
-        let p = self.parameters();
+        let n = self.width();
         let along = |k: usize, step: f64| -> Result<f64, DesignError> {
             let mut x = pose.to_array();
             x[k] += step;
-            let mut information = DMatrix::zeros(p, p);
+            let mut information = DMatrix::zeros(n, n);
             self.inform(&Pose::from_array(x), &mut information)?;
             Ok(g.dot(&information))
         };

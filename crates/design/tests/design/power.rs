@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{
-    Approach, Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vector3, Vector6, Wrench,
+    Approach, Columns, Dataset, Hexapod, Measurand, Observation, Pose, Tolerances, Vector3, Vector6, Wrench,
 };
 use hexbench_design::power::{
     EffectSizes, Planned, PowerSettings, PowerStudy, PreparedTest, Visibility, study,
@@ -88,7 +88,7 @@ fn term(id: &str) -> Arc<dyn Term> {
 
 fn studied(planned: &Planned, ids: &[&str]) -> PowerStudy {
     let subjects = ids.iter().map(|id| EffectSizes::natural(&term(id), planned)).collect();
-    study(planned, subjects, PowerSettings { draws: 40, ..PowerSettings::default() })
+    study(planned, subjects, PowerSettings { draws: 40, ..PowerSettings::default() }).unwrap()
 }
 
 #[test]
@@ -108,7 +108,12 @@ fn twice_the_noise_takes_twice_the_size_and_four_repeats_half_of_it() {
     let ids = ["bracket-compliance", "leg-coupling", "load-offset"];
     let sizes = |repeats, factor| -> Vec<f64> {
         let planned = planned(&ALL_WAYS, repeats, noise(factor, f64::INFINITY));
-        studied(&planned, &ids).effects.iter().map(|e| e.usual_size * e.seen_at.middle).collect()
+        // Repeats make the noise smaller, not the errors of the inputs.
+        studied(&planned.with_exact_inputs().unwrap(), &ids)
+            .effects
+            .iter()
+            .map(|e| e.usual_size * e.seen_at.middle)
+            .collect()
     };
     let single = sizes(1, 1.0);
     for (other, factor) in [(sizes(1, 2.0), 2.0), (sizes(4, 1.0), 0.5)] {
@@ -192,6 +197,51 @@ fn an_estimated_noise_takes_a_larger_effect() {
     let [stated, many, few] = [f64::INFINITY, 600.0, 18.0].map(size);
     assert!(stated < many && many < few, "{stated} {many} {few}");
     assert!(many / stated < 1.02, "{many} {stated}");
+}
+
+/// The plan of [`planned`] for a machine whose tolerances are `factor` times the usual ones.
+fn planned_within(factor: f64) -> Planned {
+    let t = Tolerances::default();
+    let tolerances = Tolerances {
+        joints: t.joints * factor,
+        load_gain: t.load_gain * factor,
+        load_direction: t.load_direction * factor,
+        load_point: t.load_point * factor,
+        frame: t.frame * factor,
+        ..t
+    };
+    let hexapod = Hexapod { tolerances, ..machine() };
+    let springs = Vector6::repeat(1.0 / 4e6);
+    Planned::new(&hexapod, &plan(&ALL_WAYS, 2), springs, noise(1.0, f64::INFINITY)).unwrap()
+}
+
+#[test]
+fn inputs_as_good_as_exact_change_no_figure() {
+    let ids = ["bracket-compliance", "leg-coupling", "load-offset", "leg-nonlinearity"];
+    let nearly = planned_within(1e-9);
+    let exact = nearly.with_exact_inputs().unwrap();
+    let told = |planned| format!("{:?}", studied(planned, &ids));
+    assert_eq!(nearly.tolerances(), None);
+    assert_eq!(told(&nearly), told(&exact));
+}
+
+#[test]
+fn the_less_inputs_are_known_the_larger_an_effect_must_be() {
+    /// A large error of an input leaves nothing of what looks like it.
+    const MOST: f64 = 1.0 + 1e-9;
+    let ids = ["bracket-compliance", "leg-coupling", "load-offset", "base-compliance"];
+    let sizes = |factor| -> Vec<f64> {
+        studied(&planned_within(factor), &ids).effects.iter().map(|e| e.seen_at.middle).collect()
+    };
+    let all = [1e-9, 0.3, 1.0, 3.0].map(sizes);
+    for pair in all.windows(2) {
+        let grown = pair[0].iter().zip(&pair[1]).all(|(less, more)| *less <= more * MOST);
+        assert!(grown, "{pair:?}");
+    }
+    let usual = studied(&planned_within(1.0), &ids);
+    let told: Vec<f64> = usual.effects.iter().filter_map(|e| e.seen_at_with_exact_inputs).collect();
+    assert_eq!(told, all[0], "what exact inputs would show is told beside");
+    assert!(all[3][2] > 2.0 * all[0][2], "an error of the point of attack looks like load-offset: {all:?}");
 }
 
 #[test]

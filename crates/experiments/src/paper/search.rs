@@ -6,7 +6,7 @@
 use hexbench_core::{Hexapod, Measurand, Pose, Vector6};
 use hexbench_design::regressor::{SpringRegressor, Weights};
 use hexbench_design::space::{Conditions, Loading};
-use hexbench_design::{Budget, Objective, PoseProblem, Space};
+use hexbench_design::{Budget, Criterion, Objective, PoseProblem, Space};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::paper::block;
 use hexbench_model::machine::kinematics::leg_lengths;
@@ -80,7 +80,7 @@ pub fn best_poses(
         hexapod,
         space: &space,
         regressor: &SpringRegressor::new(hexapod, &space.settings(), 1, Weights::UNWEIGHTED),
-        criterion: &Objective::O1,
+        criterion: &Objective::from(Criterion::O1),
         poses: POSES,
         known: None,
     };

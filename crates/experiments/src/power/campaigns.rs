@@ -8,12 +8,11 @@ use hexbench_core::statistics::Proportion;
 use hexbench_core::streams::Purpose;
 use hexbench_design::power::{EffectSizes, Planned, PowerSettings, PowerStudy, PreparedTest, study};
 use hexbench_model::effects::term::Term;
-use hexbench_model::error::ModelError;
-use hexbench_truth::TruthError;
+use hexbench_truth::{Mechanism, TruthError};
 use serde::{Deserialize, Serialize};
 
 use super::PowerPlan;
-use super::simulate::{AnswerAndFate, Bench, NoiseOf, Simulated, SimulatedAnswers};
+use super::simulate::{AnswerAndFate, Bench, Inputs, NoiseOf, Simulated, SimulatedAnswers};
 use super::study::{Power, PowerCheck, PowerError, Simulation};
 use super::usual::{Usual, usual};
 use crate::harness::{Field, Gathered, Protocol, TrialResult};
@@ -30,16 +29,22 @@ pub struct Campaigns<'a> {
     parts: Vec<Part>,
 }
 
-/// Equal campaigns but for the noise.
+/// Equal campaigns but for the noise and the errors of the inputs.
 struct Part {
     /// What is simulated: number of the effect and multiple of its usual size; `None`: nothing is hidden.
     effect: Option<(usize, f64)>,
+    mechanism: Option<Box<dyn Mechanism>>,
+    /// What is read when inputs and instrument are exact.
     ideal: Vec<Vector6>,
     noise: NoiseOf,
     is_diagnosed: bool,
 }
 
 impl Part {
+    fn effects(&self) -> Vec<Box<dyn Mechanism>> {
+        self.mechanism.iter().map(|m| m.scaled(1.0)).collect()
+    }
+
     /// True at the usual size of an effect.
     fn is_usual(&self) -> bool {
         self.noise.0 == Purpose::PowerUsualNoise
@@ -73,7 +78,7 @@ impl<'a> Campaigns<'a> {
         let subject = |(term, known): (&Arc<dyn Term>, &Option<Usual>)| {
             known.as_ref().map_or_else(|| EffectSizes::natural(term, &planned), |u| u.subject.clone())
         };
-        let study = study(&planned, terms.iter().zip(&known).map(subject).collect(), settings);
+        let study = study(&planned, terms.iter().zip(&known).map(subject).collect(), settings)?;
         let checks = vec![PowerCheck::default(); study.effects.len()];
         let bench = Bench::new(plan, settings.seed);
         let mut all = Self { bench, terms, study, simulation, checks, parts: Vec::new() };
@@ -81,6 +86,7 @@ impl<'a> Campaigns<'a> {
             let ideal = all.bench.ideal(Vec::new())?;
             all.parts.push(Part {
                 effect: None,
+                mechanism: None,
                 ideal,
                 noise: (Purpose::PowerCleanNoise, 0),
                 is_diagnosed: false,
@@ -116,8 +122,9 @@ impl<'a> Campaigns<'a> {
         let seen_at = effect.shows().then_some(effect.seen_at.middle);
         let part = |(scale, noise, is_diagnosed): (f64, Purpose, bool)| {
             let mechanism = usual.mechanisms[effect.example_index].scaled(scale);
-            let ideal = self.bench.ideal(vec![mechanism])?;
-            Ok(Part { effect: Some((k, scale)), ideal, noise: (noise, k as u64), is_diagnosed })
+            let ideal = self.bench.ideal(vec![mechanism.scaled(1.0)])?;
+            let (effect, mechanism) = (Some((k, scale)), Some(mechanism));
+            Ok(Part { effect, mechanism, ideal, noise: (noise, k as u64), is_diagnosed })
         };
         let seen = seen_at.map(|scale| (scale, Purpose::PowerSeenNoise, self.simulation.diagnoses));
         std::iter::once((1.0, Purpose::PowerUsualNoise, false)).chain(seen).map(part).collect()
@@ -148,7 +155,7 @@ impl<'a> Campaigns<'a> {
             }
             return Ok(());
         };
-        let (left, bias_percent) = self.bench.without_noise(&part.ideal)?;
+        let (left, bias_percent) = self.bench.without_noise(&part.ideal, Inputs::WithinTolerances)?;
         let chance = self.study.tests[k].as_ref().map_or(f64::NAN, |test| test.chance(&left));
         let simulated = Simulated {
             scale,
@@ -178,7 +185,7 @@ impl<'a> Campaigns<'a> {
 
 impl Protocol for Campaigns<'_> {
     type Record = PowerRecord;
-    type Error = ModelError;
+    type Error = PowerError;
 
     fn identity(&self) -> Identity {
         let Simulation { campaigns, diagnoses } = self.simulation;
@@ -192,16 +199,16 @@ impl Protocol for Campaigns<'_> {
             ("plan", text_hash(&format!("{:?}", self.bench.plan()))),
             ("terms", text_hash(&terms.join(", "))),
         ];
-        Identity::new("power", "power-trials/2", settings)
+        Identity::new("power", "power-trials/3", settings)
     }
 
     fn trials(&self) -> u64 {
         (self.parts.len() * self.simulation.campaigns) as u64
     }
 
-    fn trial(&self, number: u64) -> Result<PowerRecord, ModelError> {
+    fn trial(&self, number: u64) -> Result<PowerRecord, PowerError> {
         let (part, k) = self.place(number);
-        let data = self.bench.data(&part.ideal, Some((part.noise, k)));
+        let data = self.bench.measured(part.effects(), (part.noise, k))?;
         let residuals = self.bench.residuals(&data)?;
         let seen = self.tests(part).iter().map(|t| t.as_ref().is_some_and(|t| t.sees(&residuals))).collect();
         let asked = part.effect.filter(|_| part.is_diagnosed);

@@ -4,7 +4,7 @@ use hexbench_core::statistics::Proportion;
 use hexbench_design::power::{EffectPower, Planned, Visibility};
 use hexbench_report::number::significant;
 use hexbench_report::words::written_by;
-use hexbench_report::{Page, Section, Table};
+use hexbench_report::{Block, Page, Section, Table};
 use hexbench_truth::Scene;
 use hexbench_truth::scene::{PartName, VirtualBench};
 
@@ -107,6 +107,7 @@ fn one_plan(studied: &Studied, charts: &str) -> Vec<Section> {
     let head = Section::new(format!("The plan `{}`", studied.name))
         .paragraph(report.subject())
         .paragraph(report.summary())
+        .with(report.tolerances().map(Block::paragraph))
         .figure(figure("power.svg"), "Chance to see each effect over its size, computed and simulated");
     let body = report.seen().into_iter().chain(report.blind()).map(Section::within);
     let mut all: Vec<Section> = std::iter::once(head).chain(body).collect();

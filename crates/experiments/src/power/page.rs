@@ -2,11 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use hexbench_core::statistics::median;
 use hexbench_design::power::{EffectPower, NOTHING, Visibility};
 use hexbench_model::effects::untestable::Reason;
 use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_report::number::significant;
-use hexbench_report::{Page, Section, Table};
+use hexbench_report::{Block, Page, Section, Table};
 
 use super::tables::{self, chance};
 use super::{Power, PowerPlan};
@@ -30,10 +31,36 @@ impl PlanReport<'_> {
     /// The page.
     pub fn document(&self) -> Page {
         Page::new("What this plan sees")
-            .with(Section::lead().paragraph(self.subject()).paragraph(self.summary()))
+            .with(self.lead())
             .with_all(self.seen())
             .with(self.blind())
             .with(Section::new("How it is computed").list(self.notes()))
+    }
+
+    fn lead(&self) -> Section {
+        let tolerances = self.tolerances().map(Block::paragraph);
+        Section::lead().paragraph(self.subject()).paragraph(self.summary()).with(tolerances)
+    }
+
+    /// How well inputs are assumed to be known, and what that costs; none where they count as exact.
+    pub(super) fn tolerances(&self) -> Option<String> {
+        let assumed = self.power.study.tolerances?;
+        let mut growth = self.power.study.growth_by_tolerances();
+        growth.retain(|(term, _)| self.is_told(term));
+        growth.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let times = |x: f64| format!("x{}", significant(x, 3));
+        let cost = match growth[..] {
+            [] => return Some(format!("Tolerances: {assumed}.")),
+            [(_, only)] => times(only),
+            _ => {
+                let (term, most) = growth[growth.len() - 1];
+                let usual = median(growth.iter().map(|g| g.1)).unwrap_or(most);
+                format!("{} in the median, {} for {term},", times(usual), times(most))
+            }
+        };
+        Some(format!(
+            "Tolerances: {assumed}; the smallest size that is seen is {cost} of what exact inputs would give."
+        ))
     }
 
     /// Tables of the effects that leave something beside the springs.
@@ -241,6 +268,13 @@ impl PlanReport<'_> {
              counts, and the threshold is raised by simulation until noise alone passes it only as often as allowed."
                 .to_owned(),
         ];
+        if self.power.study.tolerances.is_some() {
+            notes.push(
+                "Joints, loads and axes are known to their [tolerances] only: what an error of them may do to the readings does \
+                 not count as seen, as in the diagnosis; simulated campaigns have inputs off by them."
+                    .to_owned(),
+            );
+        }
         if self.plan.noise.source == NoiseSource::Repeats {
             notes.push(format!(
                 "The noise is estimated from the repeats ({:.0} degrees of freedom): F instead of chi-square.",

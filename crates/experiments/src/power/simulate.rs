@@ -8,11 +8,13 @@ use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Dataset, Observation, Vector6};
 use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
+use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::fit_baseline;
 use hexbench_model::estimation::linearization::Linearization;
+use hexbench_model::estimation::tolerances::within_tolerances;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{diagnose, prepare};
-use hexbench_truth::campaign::{PlanRow, SimulatedCampaign};
+use hexbench_truth::campaign::{InputErrors, PlanRow, SimulatedCampaign};
 use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{Mechanism, TruthError, World};
 use nalgebra::DVector;
@@ -87,6 +89,15 @@ pub struct Simulated {
 /// Which noise campaigns get: what they are for, the number of their effect.
 pub(super) type NoiseOf = (Purpose, u64);
 
+/// What a fit takes the inputs for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Inputs {
+    /// As exact.
+    Exact,
+    /// As good as the tolerances of the machine.
+    WithinTolerances,
+}
+
 /// The machine of a plan in the simulated world.
 pub(super) struct Bench<'a> {
     plan: &'a PowerPlan,
@@ -99,20 +110,37 @@ impl<'a> Bench<'a> {
         Self { plan, rows: plan.rows.observations.iter().map(PlanRow::from).collect(), seed }
     }
 
-    /// What an ideal instrument reads of a machine with these effects, m and rad.
+    /// What an ideal instrument reads of a machine with these effects when every input is exact, m and rad.
     pub(super) fn ideal(&self, effects: Vec<Box<dyn Mechanism>>) -> Result<Vec<Vector6>, TruthError> {
+        self.campaign(effects).ideal(&self.rows, self.plan.rows.measurand)
+    }
+
+    fn campaign(&self, effects: Vec<Box<dyn Mechanism>>) -> SimulatedCampaign {
         let mut world = World::new(self.plan.hexapod.clone(), &self.plan.stiffness);
         world.mechanisms = effects;
-        let campaign = SimulatedCampaign {
-            world,
-            frames: InstrumentFrames::default(),
-            noise: InstrumentNoise::default(),
+        SimulatedCampaign { world, frames: InstrumentFrames::default(), noise: InstrumentNoise::default() }
+    }
+
+    /// Readings of a campaign with these effects: inputs off by their tolerances, where the plan weighs them, and noise.
+    pub(super) fn measured(
+        &self,
+        effects: Vec<Box<dyn Mechanism>>,
+        (of, k): (NoiseOf, u64),
+    ) -> Result<Dataset, TruthError> {
+        let PowerPlan { hexapod, rows, .. } = self.plan;
+        let ideal = if rows.is_absolute() {
+            self.ideal(effects)?
+        } else {
+            let numbers = [of.0 as u64, of.1, k];
+            let rng = &mut stream(self.seed, Purpose::PowerInputErrors, numbers);
+            let errors = InputErrors::drawn(hexapod, &hexapod.tolerances, rng);
+            errors.ideal(self.campaign(effects), &self.rows, rows.measurand)?
         };
-        campaign.ideal(&self.rows, self.plan.rows.measurand)
+        Ok(self.data(&ideal, Some((of, k))))
     }
 
     /// Readings with the noise of a campaign; without noise as they are.
-    pub(super) fn data(&self, ideal: &[Vector6], noise: Option<(NoiseOf, u64)>) -> Dataset {
+    fn data(&self, ideal: &[Vector6], noise: Option<(NoiseOf, u64)>) -> Dataset {
         let mut rng = noise.map(|((purpose, effect), k)| stream(self.seed, purpose, [effect, k]));
         let mut noise = |row: usize| match &mut rng {
             Some(rng) => {
@@ -144,12 +172,17 @@ impl<'a> Bench<'a> {
     }
 
     /// What springs fitted to ideal readings leave (whitened residuals), and how their stiffness changes, percent.
-    pub(super) fn without_noise(&self, ideal: &[Vector6]) -> Result<(DVector<f64>, [f64; 6]), ModelError> {
-        let campaign = hexbench_model::estimation::campaign::Campaign::with_noise(
-            &self.plan.machine(),
-            &self.data(ideal, None),
-            self.plan.noise,
-        )?;
+    pub(super) fn without_noise(
+        &self,
+        ideal: &[Vector6],
+        inputs: Inputs,
+    ) -> Result<(DVector<f64>, [f64; 6]), ModelError> {
+        let data = self.data(ideal, None);
+        let exact = Campaign::with_noise(&self.plan.machine(), &data, self.plan.noise)?;
+        let campaign = match inputs {
+            Inputs::Exact => exact,
+            Inputs::WithinTolerances => within_tolerances(exact),
+        };
         let fit = fit_baseline(&campaign)?;
         let fitted = |leg: usize| 1.0 / fit.point.compliances[leg];
         let bias = std::array::from_fn(|leg| 100.0 * (fitted(leg) / self.plan.stiffness[leg] - 1.0));

@@ -7,7 +7,8 @@ use hexbench_report::number::significant;
 use super::{PowerCheck, Simulated};
 
 /// Header of [`sizes`].
-pub(super) const SIZES: [&str; 6] = ["effect", "usual", "chance %", "seen from", "unit", "x usual"];
+pub(super) const SIZES: [&str; 7] =
+    ["effect", "usual", "chance %", "seen from", "unit", "x usual", "x exact"];
 /// Header of [`springs`].
 pub(super) const SPRINGS: [&str; 4] = ["effect", "absorbed", "bias at usual size", "bias when seen"];
 /// Header of [`taken_for`].
@@ -23,7 +24,7 @@ pub(super) const PARAMETERS: [&str; 3] = ["parameter", "seen from", "unit"];
 /// Where there is nothing to tell.
 const NONE: &str = "-";
 
-/// Usual size, chance to see it, smallest size that is seen.
+/// Usual size, chance to see it, smallest size that is seen, and how that compares with exact inputs.
 pub(super) fn sizes(e: &EffectPower) -> Vec<String> {
     vec![
         e.term.to_owned(),
@@ -32,6 +33,9 @@ pub(super) fn sizes(e: &EffectPower) -> Vec<String> {
         e.size_seen().map_or("never".to_owned(), |s| significant(s, 2)),
         e.unit.to_owned(),
         multiples(&e.seen_at),
+        e.seen_at_with_exact_inputs
+            .filter(|_| e.shows())
+            .map_or(NONE.to_owned(), |exact| significant(e.seen_at.middle / exact, 3)),
     ]
 }
 

@@ -7,8 +7,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use hexbench_core::{
-    Approach, Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, Vector3, Vector6,
-    Wrench,
+    Approach, Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, StatedTolerances,
+    Vector3, Vector6, Wrench,
 };
 use nalgebra::{DMatrix, Rotation3};
 
@@ -306,6 +306,11 @@ impl Campaign {
             _ => (0.0, 0.0),
         };
         NoiseLevel { sum: worth + repeats, dof: worth + dof }
+    }
+
+    /// The tolerances of the inputs; none where they count as exact, because no error of them shows or poses are absolute.
+    pub fn assumed_tolerances(&self) -> Option<StatedTolerances> {
+        self.inexact.as_ref().map(|_| StatedTolerances::from(&self.hexapod.tolerances))
     }
 
     /// True in absolute mode.

@@ -238,6 +238,18 @@ impl Linearization {
         block
     }
 
+    /// Columns of the inputs that are known to a tolerance only, per tolerance; none when all are taken as exact.
+    pub fn input_block(&self) -> Option<DMatrix<f64>> {
+        self.whitening.inputs()
+    }
+
+    /// Columns of reading over the standard deviation of what is its own, whitened as all others.
+    #[must_use]
+    pub fn whitened(&self, mut columns: DMatrix<f64>) -> DMatrix<f64> {
+        self.whitening.apply(&mut columns);
+        columns
+    }
+
     /// Columns of a term.
     pub fn term_block(&self, term: &dyn Term, rich: bool, shape: f64) -> DMatrix<f64> {
         let mut block = DMatrix::zeros(self.equations(), parameter_count(term, rich));

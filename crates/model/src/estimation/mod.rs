@@ -9,6 +9,7 @@ pub mod frames;
 pub mod linearization;
 pub mod lsq;
 pub mod noise;
+pub mod nuisance;
 pub mod paper;
 pub(crate) mod parallel;
 pub mod parameters;

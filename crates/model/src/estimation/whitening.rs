@@ -19,10 +19,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::estimation::campaign::{Campaign, ConditionReadings};
 use crate::estimation::noise::{Noise, Structure};
-
-/// A combination of inputs whose errors move the readings by a smaller squared number of standard deviations does not show: leaving
-/// it out changes no standard deviation by more than half of this.
-const SHOWS: f64 = 1e-4;
+use crate::estimation::nuisance::ShownInputs;
 
 /// The transform of a list of conditions.
 #[derive(Debug, Clone)]
@@ -77,6 +74,13 @@ impl Whitening {
         matches!(self.noise, Common::Nothing) && self.inputs.is_none()
     }
 
+    /// Transformed columns of the inputs that are known to a tolerance only; none when all are taken as exact.
+    pub fn inputs(&self) -> Option<DMatrix<f64>> {
+        let mut columns = self.inputs.as_ref()?.columns.clone();
+        self.apply(&mut columns);
+        Some(columns)
+    }
+
     /// Transforms columns with six rows per condition.
     pub fn apply(&self, columns: &mut DMatrix<f64>) {
         self.noise.apply(columns);
@@ -115,15 +119,13 @@ impl Inexact {
     fn whitened(noise: &Common, columns: DMatrix<f64>) -> Option<Self> {
         let mut z = columns.clone();
         noise.apply(&mut z);
-        let eigen = z.tr_mul(&z).symmetric_eigen();
-        let kept: Vec<usize> = (0..z.ncols()).filter(|&k| eigen.eigenvalues[k] > SHOWS).collect();
-        if kept.is_empty() {
+        let shown = ShownInputs::of(&z);
+        if shown.squares.is_empty() {
             return None;
         }
-        let mut basis = &z * eigen.eigenvectors.select_columns(&kept);
-        let mut taken = DVector::zeros(kept.len());
-        for (i, &k) in kept.iter().enumerate() {
-            let square = eigen.eigenvalues[k];
+        let mut basis = &z * shown.combinations;
+        let mut taken = DVector::zeros(shown.squares.len());
+        for (i, square) in shown.squares.iter().enumerate() {
             basis.column_mut(i).scale_mut(square.sqrt().recip());
             taken[i] = 1.0 - (1.0 + square).sqrt().recip();
         }

@@ -107,7 +107,7 @@ def design(
     add : sequence of str
         Terms that the plan has to determine too.
     starts : int, optional
-        Searches from different starts: 128 for poses, 16 for readings and hours unless said.
+        Searches from different starts: 16 unless said, 128 for poses whose inputs count as exact.
     seed : int
         Seed of the starts.
 

@@ -4,6 +4,7 @@ mod absolute;
 mod case;
 mod fault;
 mod files;
+mod input_errors;
 pub mod machines;
 mod measure;
 mod plan;
@@ -12,6 +13,7 @@ mod scheme;
 mod signature;
 
 pub use case::{CaseKind, CaseSpec, SimulatedCase};
+pub use input_errors::InputErrors;
 pub use measure::{SimulatedCampaign, measure};
 pub use plan::{MeasurementPlan, PlanKind, PlanRow, Schemes};
 pub(crate) use scheme::pose_of;

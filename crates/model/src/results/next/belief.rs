@@ -6,7 +6,9 @@ use nalgebra::{DMatrix, DVector};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, columns};
-use crate::estimation::linearization::Linearization;
+use crate::estimation::linearization::{Linearization, beside};
+use crate::estimation::nuisance::{InputsAfterFit, ShownInputs};
+use crate::estimation::tolerances::input_columns;
 
 /// Gaussian expectation of every reading of a list: mean, and the columns by which uncertain parameters move it. Units of
 /// the noise of one reading, six rows per reading.
@@ -18,14 +20,34 @@ pub(super) struct Belief {
 }
 
 impl Belief {
-    /// Expectation of a fit.
+    /// Expectation of a fit to a campaign. Inputs that the campaign knows to a tolerance only are no better known in what follows it,
+    /// but for what its readings tell of them.
     ///
     /// # Errors
     /// [`ModelError::SingularPose`].
-    pub(super) fn of(plan: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
+    pub(super) fn of(plan: &Campaign, campaign: &Campaign, fit: &Fit) -> Result<Self, ModelError> {
         let lin = Linearization::at(plan, &fit.point)?;
-        let rows = columns(&lin, &fit.point);
-        Ok(Self { mean: lin.predictions(), rows, covariance: fit.covariance.clone() })
+        let exact = Self {
+            mean: lin.predictions(),
+            rows: columns(&lin, &fit.point),
+            covariance: fit.covariance.clone(),
+        };
+        let in_hand = Linearization::at(campaign, &fit.point)?;
+        let Some(known) = in_hand.input_block() else { return Ok(exact) };
+        let to_come = lin.whitened(input_columns(plan, &fit.point, &plan.hexapod.tolerances)?);
+        let shown = ShownInputs::of(&to_come).combinations;
+        let after = InputsAfterFit::of(
+            &columns(&in_hand, &fit.point),
+            &(known * &shown),
+            &in_hand.residuals(),
+            &fit.covariance,
+        );
+        let to_come = to_come * shown;
+        Ok(Self {
+            mean: exact.mean + &to_come * after.mean,
+            rows: beside(&[exact.rows, to_come]),
+            covariance: after.covariance,
+        })
     }
 
     /// Mean and covariance of some readings, noise included; a reading that occurs twice is read twice.

@@ -1,7 +1,7 @@
 //! The next measurements: which readings best separate explanations that the data in hand leave open.
 //!
-//! An explanation is a fitted model with what is known of its parameters (springs and effects), so readings separate it from
-//! another only by what neither can refit. Readings are chosen one after the other, each beside those chosen before, out of a
+//! An explanation is a fitted model with what is known of its parameters (springs and effects) and of its inputs (joints, loads and
+//! axes, to their tolerances), so readings separate it from another only by what neither can refit. Readings are chosen one after the other, each beside those chosen before, out of a
 //! candidate readings of round numbers; the same one may be chosen again.
 
 mod belief;
@@ -131,7 +131,7 @@ pub fn propose(
         return Ok(ProposedReadings::default());
     }
     let plan = as_plan(campaign, candidate_readings)?;
-    let beliefs = beliefs(&plan, rivals)?;
+    let beliefs = beliefs(&plan, campaign, rivals)?;
     let simplicity: Vec<usize> = plan.groups.iter().map(|g| kind::effort(&g.mean)).collect();
     let chosen = chosen(&beliefs, rivals, &simplicity, effort);
     let taken: Vec<usize> = chosen.iter().map(|c| c.0).collect();
@@ -172,15 +172,19 @@ pub fn forecasts(
     readings: &[Observation],
 ) -> Result<Vec<(Between, Separation)>, ModelError> {
     let plan = as_plan(campaign, readings)?;
-    let beliefs = beliefs(&plan, rivals)?;
+    let beliefs = beliefs(&plan, campaign, rivals)?;
     let list: Vec<usize> =
         plan.groups.iter().enumerate().flat_map(|(i, g)| std::iter::repeat_n(i, g.rows.len())).collect();
     let of = |p: Between| Some((p, pair(&beliefs, p, &list)?.separation()));
     Ok(pairs(rivals.len()).into_iter().filter_map(of).collect())
 }
 
-fn beliefs(plan: &Campaign, rivals: &[RivalExplanation]) -> Result<Vec<Belief>, ModelError> {
-    rivals.par_iter().map(|r| Belief::of(plan, &r.fit)).collect()
+fn beliefs(
+    plan: &Campaign,
+    campaign: &Campaign,
+    rivals: &[RivalExplanation],
+) -> Result<Vec<Belief>, ModelError> {
+    rivals.par_iter().map(|r| Belief::of(plan, campaign, &r.fit)).collect()
 }
 
 fn pairs(rivals: usize) -> Vec<Between> {
@@ -267,7 +271,7 @@ fn say(
     let half = candidate_readings::half_ranges(campaign);
     let plan = as_plan(campaign, &readings)?;
     let place = places(&plan, readings.len());
-    let beliefs = beliefs(&plan, rivals)?;
+    let beliefs = beliefs(&plan, campaign, rivals)?;
     let weights: Vec<f64> = rivals.iter().map(|r| r.weight.max(f64::MIN_POSITIVE)).collect();
     let mut choice = Choice::new(&beliefs, &weights);
     for (k, p) in proposals.iter_mut().enumerate() {

@@ -1,0 +1,95 @@
+//! How well the inputs of a model are known.
+
+use std::fmt;
+
+use serde::Serialize;
+
+/// What the numbers of a machine and its loads are worth: one standard deviation each, never zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerances {
+    /// Of every coordinate of a joint, m.
+    pub joints: f64,
+    /// Of the scale of every component of the loads, relative.
+    pub load_gain: f64,
+    /// Of the direction of the loads about each axis, rad.
+    pub load_direction: f64,
+    /// Of the point at which the loads act, each coordinate in the mobile frame, m.
+    pub load_point: f64,
+    /// Of the axes of the readings about each axis, rad.
+    pub frame: f64,
+    /// Of a stated standard deviation of the noise, relative.
+    pub noise: f64,
+}
+
+impl Default for Tolerances {
+    /// A machine built with care and loaded by hand: joints to 0.05 mm, load cells to 0.2 %, directions to 0.05 degrees, the point of
+    /// attack to 0.5 mm, axes to 0.02 degrees, a stated noise to 10 %.
+    fn default() -> Self {
+        Self {
+            joints: 5e-5,
+            load_gain: 2e-3,
+            load_direction: 0.05_f64.to_radians(),
+            load_point: 5e-4,
+            frame: 0.02_f64.to_radians(),
+            noise: 0.1,
+        }
+    }
+}
+
+/// Tolerances of the inputs of a model in the units of the hexapod file, as a plan assumes them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StatedTolerances {
+    /// Of every coordinate of a joint.
+    pub joints_mm: f64,
+    /// Of the scale of every component of the loads, relative.
+    pub load_gain: f64,
+    /// Of the direction of the loads about each axis.
+    pub load_direction_deg: f64,
+    /// Of the point at which the loads act.
+    pub load_point_mm: f64,
+    /// Of the axes of the readings about each axis.
+    pub frame_deg: f64,
+}
+
+impl From<&Tolerances> for StatedTolerances {
+    fn from(t: &Tolerances) -> Self {
+        Self {
+            joints_mm: plain(t.joints * 1e3),
+            load_gain: t.load_gain,
+            load_direction_deg: plain(t.load_direction.to_degrees()),
+            load_point_mm: plain(t.load_point * 1e3),
+            frame_deg: plain(t.frame.to_degrees()),
+        }
+    }
+}
+
+impl fmt::Display for StatedTolerances {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "joints {} mm, load gain {} %, load direction {} deg, load point {} mm, axes of the readings {} deg",
+            self.joints_mm,
+            plain(100.0 * self.load_gain),
+            self.load_direction_deg,
+            self.load_point_mm,
+            self.frame_deg
+        )
+    }
+}
+
+/// Without the rounding that a change of unit brings: twelve digits.
+fn plain(x: f64) -> f64 {
+    format!("{x:.11e}").parse().unwrap_or(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn usual_tolerances_are_told_in_the_units_of_the_file() {
+        let told = StatedTolerances::from(&Tolerances::default()).to_string();
+        let expected = "joints 0.05 mm, load gain 0.2 %, load direction 0.05 deg, load point 0.5 mm, axes of the readings 0.02 deg";
+        assert_eq!(told, expected);
+    }
+}
