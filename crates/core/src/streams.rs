@@ -110,6 +110,8 @@ pub enum Purpose {
     RegressFits = 540,
     /// Regression: seed of the diagnoses of a run.
     RegressDiagnoses = 541,
+    /// Regression: seed of the laboratories of a run.
+    RegressLaboratories = 542,
 
     /// Challenge: order of the cases.
     ChallengeOrder = 600,

@@ -14,6 +14,8 @@ pub enum LimitGroup {
     Diagnosis,
     /// Probabilities against what came true.
     Probabilities,
+    /// Answers on campaigns with faults of the laboratory.
+    Laboratories,
     /// Fits of readings without noise.
     NoiseFree,
     /// Deterministic counts of work.
@@ -22,8 +24,15 @@ pub enum LimitGroup {
 
 impl LimitGroup {
     /// All of them, in the order of the pages.
-    pub const ALL: [Self; 6] =
-        [Self::Accuracy, Self::Honesty, Self::Diagnosis, Self::Probabilities, Self::NoiseFree, Self::Effort];
+    pub const ALL: [Self; 7] = [
+        Self::Accuracy,
+        Self::Honesty,
+        Self::Diagnosis,
+        Self::Probabilities,
+        Self::Laboratories,
+        Self::NoiseFree,
+        Self::Effort,
+    ];
 
     /// A word for names of test cases.
     pub fn word(self) -> &'static str {
@@ -32,6 +41,7 @@ impl LimitGroup {
             Self::Honesty => "honesty",
             Self::Diagnosis => "diagnosis",
             Self::Probabilities => "probabilities",
+            Self::Laboratories => "laboratories",
             Self::NoiseFree => "noise-free",
             Self::Effort => "effort",
         }
@@ -46,6 +56,10 @@ impl LimitGroup {
             Self::Diagnosis | Self::Probabilities => {
                 "`hexbench validate calibration -o DIR` shows which truths are now told wrongly; `--case` writes one of them as \
                  files."
+            }
+            Self::Laboratories => {
+                "`hexbench validate robustness -o DIR` shows what each fault of the laboratory is told as now; `--case` writes a \
+                 campaign as files."
             }
             Self::NoiseFree => {
                 "Compare the equation of the term with the mechanism of the same name: without noise nothing else is at work."

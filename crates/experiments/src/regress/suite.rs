@@ -6,7 +6,7 @@ use crate::calibration::TrialPortion;
 use crate::recovery::scene::{HiddenSubject, subjects};
 
 /// Version of the suites: another one when anything that is drawn or measured changes, so that old baselines are refused.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 /// Seed unless another is given, and of the first run behind a baseline.
 pub const SEED: u64 = 1;
 /// Runs behind a baseline: with so many its own luck is small beside that of the run compared with it.
@@ -31,7 +31,30 @@ pub struct RegressSuite {
     pub machines: usize,
     /// Campaigns that are diagnosed.
     pub portions: Vec<TrialPortion>,
+    /// Faults of laboratories whose campaigns are diagnosed.
+    pub faults: Vec<&'static str>,
+    /// Campaigns of each of them: as many on clean machines as with an effect.
+    pub laboratory: usize,
 }
+
+/// One fault of each sort, in a size that laboratories have; the careful one first.
+const FAULTS: [&str; 13] = [
+    "none",
+    "noise-1.3x",
+    "student-3-variance",
+    "correlated-0.8",
+    "drift-1",
+    "shared-reference",
+    "setup-0.5",
+    "rounded-0.1um",
+    "outlier-20",
+    "rows-swapped",
+    "pose-1mm",
+    "load-gain-1",
+    "joints-0.05mm",
+];
+/// Those of the quick suite: none, and one that is found and taken out.
+const FEW_FAULTS: usize = 2;
 
 /// Diagnoses of the full suite: every effect twice alone, and what else a diagnosis can meet.
 const DIAGNOSED: [TrialPortion; 7] = [
@@ -56,14 +79,32 @@ impl RegressSuite {
     /// The suite that a baseline is committed for.
     pub fn full() -> Self {
         let portions = DIAGNOSED.to_vec();
-        Self { name: "full", version: VERSION, subjects: subjects(), fits: 9, machines: 3, portions }
+        Self {
+            name: "full",
+            version: VERSION,
+            subjects: subjects(),
+            fits: 9,
+            machines: 3,
+            portions,
+            faults: FAULTS.to_vec(),
+            laboratory: 4,
+        }
     }
 
     /// A small one that shows how everything works; it notices gross faults only.
     pub fn quick() -> Self {
         let chosen = subjects().into_iter().filter(|s| FEW_SUBJECTS.contains(&s.name)).collect();
         let portions = FEW_DIAGNOSED.to_vec();
-        Self { name: "quick", version: VERSION, subjects: chosen, fits: 3, machines: 1, portions }
+        Self {
+            name: "quick",
+            version: VERSION,
+            subjects: chosen,
+            fits: 3,
+            machines: 1,
+            portions,
+            faults: FAULTS[..FEW_FAULTS].to_vec(),
+            laboratory: 2,
+        }
     }
 
     /// The same without the campaigns that have no noise, and are thus the same in every run.
@@ -75,6 +116,6 @@ impl RegressSuite {
     /// Campaigns of one run.
     pub fn campaigns(&self) -> usize {
         let diagnosed: usize = self.portions.iter().map(|p| p.trials).sum();
-        self.subjects.len() * (self.fits + self.machines) + diagnosed
+        self.subjects.len() * (self.fits + self.machines) + diagnosed + self.faults.len() * self.laboratory
     }
 }

@@ -2,16 +2,19 @@
 
 use hexbench_core::streams::{Purpose, derived_seed};
 use hexbench_truth::campaign::{CaseKind, SimulatedCase};
+use hexbench_truth::laboratory;
 use serde::{Deserialize, Serialize};
 
 use super::answered::Answered;
 use super::fitted::Fitted;
 use super::suite::{DISTANCES, MACHINES_SEED, RegressSuite};
 use crate::TrialError;
+use crate::calibration::CalibrationRecord;
 use crate::harness::{Field, Gathered, Protocol, TrialResult};
 use crate::journal::Identity;
 use crate::recovery::noiseless::{Noiseless, recover};
 use crate::recovery::scene::{HiddenSubject, RecoveryCampaign};
+use crate::robustness::{self, RobustnessRecord};
 
 /// A campaign of a subject: what it gave, or nothing.
 #[derive(Debug, Clone)]
@@ -31,6 +34,8 @@ pub struct SuiteTrials {
     pub machines: Vec<OfSubject<Noiseless>>,
     /// Campaigns diagnosed.
     pub answers: Vec<Option<Answered>>,
+    /// Campaigns of laboratories that do something wrong, diagnosed.
+    pub laboratories: Vec<Option<RobustnessRecord>>,
     /// Why campaigns gave no answer.
     pub failures: Vec<String>,
 }
@@ -40,6 +45,7 @@ enum Job {
     Machine(HiddenSubject, usize),
     Fit(HiddenSubject, usize),
     Diagnose(CaseKind, usize),
+    Laboratory(robustness::Job),
 }
 
 /// What is known of one campaign.
@@ -51,6 +57,8 @@ pub enum RegressRecord {
     Fit(Fitted),
     /// Diagnosed.
     Answer(Box<Answered>),
+    /// Diagnosed, of a laboratory that does something wrong.
+    Laboratory(Box<RobustnessRecord>),
 }
 
 /// Runs of a suite, one for each seed. Campaigns without noise are the same in all: the first run has them.
@@ -101,7 +109,7 @@ impl Protocol for SuiteRuns<'_> {
     /// Not how many runs: more of them go on where fewer have ended.
     fn identity(&self) -> Identity {
         let suite = format!("{} {}", self.suite.name, self.suite.version);
-        Identity::new("regress", "regress-trials/1", [("suite", suite), ("seed", self.seed.to_string())])
+        Identity::new("regress", "regress-trials/2", [("suite", suite), ("seed", self.seed.to_string())])
     }
 
     fn trials(&self) -> u64 {
@@ -130,13 +138,34 @@ impl Protocol for SuiteRuns<'_> {
             fitted("chi2", "chi-square per degree of freedom", |f| Some(f.chi2_reduced)),
             fitted("holdout", "chi-square per number of held-out readings", |f| Some(f.holdout)),
             Field::text("answer", "what the diagnosis said", |r: &RegressRecord| {
-                if let RegressRecord::Answer(found) = r { found.record.answer() } else { String::new() }
+                answered(r).map_or(String::new(), CalibrationRecord::answer)
             }),
             Field::text("fate", "what became of the truth", |r: &RegressRecord| {
-                if let RegressRecord::Answer(found) = r { found.record.fate.word() } else { "" }
+                answered(r).map_or("", |found| found.fate.word())
             }),
         ]
     }
+}
+
+/// What was said, where a diagnosis was asked.
+fn answered(r: &RegressRecord) -> Option<&CalibrationRecord> {
+    match r {
+        RegressRecord::Answer(found) => Some(&found.record),
+        RegressRecord::Laboratory(found) => Some(&found.answer),
+        RegressRecord::Machine(_) | RegressRecord::Fit(_) => None,
+    }
+}
+
+/// Campaigns of laboratories, every one another machine, so that none counts twice.
+fn laboratories(suite: &RegressSuite) -> impl Iterator<Item = Job> {
+    let faults = suite.faults.iter().filter_map(|id| laboratory::entry(id));
+    let each = suite.laboratory;
+    (0..).zip(faults).flat_map(move |(number, fault)| {
+        (number * each..(number + 1) * each).map(move |campaign| {
+            let kind = if campaign.is_multiple_of(2) { CaseKind::Clean } else { CaseKind::Single };
+            Job::Laboratory(robustness::Job { fault, kind, index: campaign / 2 })
+        })
+    })
 }
 
 /// The longest first: no thread is left alone with one of them at the end. The campaigns without noise last.
@@ -145,7 +174,11 @@ fn jobs(suite: &RegressSuite) -> Vec<Job> {
     let of_each = |count: usize, job: fn(HiddenSubject, usize) -> Job| {
         suite.subjects.iter().flat_map(move |&s| (0..count).map(move |i| job(s, i)))
     };
-    diagnosed.chain(of_each(suite.fits, Job::Fit)).chain(of_each(suite.machines, Job::Machine)).collect()
+    diagnosed
+        .chain(laboratories(suite))
+        .chain(of_each(suite.fits, Job::Fit))
+        .chain(of_each(suite.machines, Job::Machine))
+        .collect()
 }
 
 impl Job {
@@ -164,6 +197,10 @@ impl Job {
                 )?;
                 Ok(RegressRecord::Answer(Box::new(Answered::to(&case)?)))
             }
+            Self::Laboratory(job) => {
+                let seed = derived_seed(seed, Purpose::RegressLaboratories, []);
+                Ok(RegressRecord::Laboratory(Box::new(RobustnessRecord::of(job, seed)?)))
+            }
         }
     }
 
@@ -172,6 +209,7 @@ impl Job {
             Self::Machine(s, _) => format!("{} without noise", s.name),
             Self::Fit(s, _) => s.name.to_owned(),
             Self::Diagnose(kind, _) => kind.name().to_owned(),
+            Self::Laboratory(job) => job.name(),
         }
     }
 }
@@ -198,6 +236,11 @@ impl SuiteTrials {
                 let found = record
                     .and_then(|r| if let RegressRecord::Answer(found) = r { Some(*found) } else { None });
                 self.answers.push(found);
+            }
+            Job::Laboratory(_) => {
+                let found = record
+                    .and_then(|r| if let RegressRecord::Laboratory(found) = r { Some(*found) } else { None });
+                self.laboratories.push(found);
             }
         }
     }

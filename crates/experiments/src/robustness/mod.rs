@@ -16,6 +16,7 @@ mod violation;
 pub use document::{headlines, page};
 pub use findings::{Detection, detections};
 pub use mistakes::{FaultMistakes, mistakes};
+pub(crate) use protocol::Job;
 pub use protocol::{DISTANCE, RobustnessProtocol, SEED, TRIALS};
 pub use record::RobustnessRecord;
 pub use study::{Robustness, case};

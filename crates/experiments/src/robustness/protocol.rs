@@ -30,18 +30,18 @@ impl Default for RobustnessProtocol {
 
 /// What a trial is.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Job {
+pub(crate) struct Job {
     /// What the laboratory does.
-    pub(super) fault: &'static FaultEntry,
+    pub(crate) fault: &'static FaultEntry,
     /// A clean machine, or one effect.
-    pub(super) kind: CaseKind,
+    pub(crate) kind: CaseKind,
     /// Number within the kind; the same number is the same campaign whatever the fault.
-    pub(super) index: usize,
+    pub(crate) index: usize,
 }
 
 impl Job {
     /// Fault, kind and number.
-    pub(super) fn name(self) -> String {
+    pub(crate) fn name(self) -> String {
         format!("{}/{}-{:04}", self.fault.id, self.kind.name(), self.index)
     }
 

@@ -116,6 +116,13 @@ fn scope(suite: &RegressSuite, baseline: &Baseline, limits: &[RegressLimit]) -> 
             diagnosed.join(", ")
         ),
         format!(
+            "{} diagnoses of campaigns in which the laboratory does something wrong, {} of each fault, half of them on clean \
+             machines: {}.",
+            suite.faults.len() * suite.laboratory,
+            suite.laboratory,
+            suite.faults.join(", ")
+        ),
+        format!(
             "{} campaigns without noise, {} of each, drawn once and for all (seed {MACHINES_SEED}).",
             suite.subjects.len() * suite.machines,
             suite.machines

@@ -44,7 +44,9 @@ pub(super) fn general() -> Vec<RegressLimit> {
             LimitTest::Share,
             |t| {
                 let fits = t.fits.iter().map(|f| f.found.is_none());
-                fits.chain(t.answers.iter().map(Option::is_none)).map(share).collect()
+                let answers = t.answers.iter().map(Option::is_none);
+                let laboratories = t.laboratories.iter().map(Option::is_none);
+                fits.chain(answers).chain(laboratories).map(share).collect()
             },
         ),
     ]

@@ -5,6 +5,7 @@ mod diagnosis;
 mod effort;
 mod exact;
 mod honesty;
+mod laboratory;
 
 use super::fitted::Fitted;
 use super::limit::{LimitTest, LimitUnit, RegressLimit};
@@ -30,6 +31,7 @@ pub fn limits(suite: &RegressSuite) -> Vec<RegressLimit> {
     all.extend(honesty::general());
     all.extend(diagnosis::answers());
     all.extend(diagnosis::probabilities());
+    all.extend(laboratory::all());
     all.extend(suite.subjects.iter().flat_map(|&s| exact::of_subject(s)));
     all.push(exact::bounds());
     all.extend(effort::counts());
