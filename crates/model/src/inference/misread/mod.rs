@@ -99,6 +99,8 @@ pub struct Way {
     cost: f64,
     /// The part of it that is not what the springs leave, relative to the file as written: repeats, units, alternatives.
     pub beside_springs: f64,
+    /// What springs alone gain by it over the file as written, in twice the log-likelihood; infinite where that is singular.
+    pub gain: f64,
 }
 
 /// A file as it is written, and other ways to read it.
@@ -223,6 +225,7 @@ impl Search<'_> {
         Way {
             changes,
             level: springs.level,
+            gain: self.written.map_or(f64::INFINITY, |w| w.cost - springs.cost - charge),
             cost: springs.cost + charge,
             beside_springs: springs.cost - springs.lack + charge - as_written,
         }
@@ -230,7 +233,7 @@ impl Search<'_> {
 
     /// True for what explains the file far better; as written, legs of negative stiffness explain nothing.
     fn is_worth_a_look(&self, way: &Way) -> bool {
-        self.written.is_none_or(|written| written.negative > 0 || written.cost - way.cost > GAIN)
+        way.gain > GAIN || self.written.is_some_and(|written| written.negative > 0)
     }
 }
 

@@ -72,7 +72,7 @@ struct Normal {
     n: Matrix6,
     right: Vector6,
     square: f64,
-    /// Sum of the logarithms of the weights, the density of the readings in the unit of the file.
+    /// Sum of the logarithms of the weights over those of the file as written.
     density: f64,
 }
 
@@ -197,7 +197,7 @@ impl Sample {
                 let column = columns.column(leg).component_mul(&weight) * force[leg];
                 columns.set_column(leg, &column);
             }
-            let density = (0..6).map(|k| (weight[k] * factors.reading(k)).ln()).sum();
+            let density = (0..6).map(|k| (weight[k] * sigma[k] * factors.reading(k)).ln()).sum();
             take(Whitened { columns, read: motion.component_mul(&weight), density });
         }
         Some(())

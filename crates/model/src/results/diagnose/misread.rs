@@ -28,6 +28,8 @@ const SOUND_LEVEL: f64 = 1.15;
 const EVIDENT_LEVEL: f64 = 2.0;
 /// Share of the platform's radius, and the turn in rad, beyond which an offset or a tilt of the loads is no effect of the machine.
 const NO_EFFECT: f64 = 0.3;
+/// With so many legs of negative stiffness a file has some sign wrong, whatever else is at work.
+const NEGATIVE_LEGS: usize = 4;
 /// Standard deviations of chi-square by which an error may exceed the noise and still be taken for it.
 const NOISE_SIGMAS: f64 = 2.0;
 /// A compliance this many standard deviations below zero is no spring.
@@ -37,12 +39,14 @@ const NEGATIVE_SIGMAS: f64 = 3.0;
 struct Explained {
     /// Twice the negative log-likelihood, to a constant of the file.
     cost: f64,
+    /// The same of springs alone.
+    springs_cost: f64,
     /// Error over the noise.
     level: f64,
     /// True when the error is what the noise alone leaves as often as not, or nearly.
     is_noise: bool,
-    /// True when every leg is a spring.
-    is_machine: bool,
+    /// Legs that would have a negative stiffness.
+    negative: usize,
 }
 
 /// A file before any effect is weighed.
@@ -110,22 +114,30 @@ impl Weighing<'_> {
         }
         self.written = self.explain(None);
         let written = self.written.as_ref().map(|(campaign, outcome)| Explained::of(campaign, outcome, None));
-        // What effects explain to the noise needs no other reading, unless one is no effect by its size.
-        if written.as_ref().is_some_and(|w| w.is_machine && w.is_noise) && !is_like_an_effect(best) {
+        if written.as_ref().is_some_and(|w| self.needs_no_other_reading(w)) {
             return None;
         }
         let candidates = self.candidates();
         let all: Vec<Option<Explained>> = candidates.par_iter().map(|way| self.explained(way)).collect();
         let all = candidates.iter().zip(all).filter_map(|(way, explained)| Some((*way, explained?)));
-        let machines = all.filter(|(_, explained)| explained.is_machine);
+        let machines = all.filter(|(_, explained)| explained.negative == 0);
         let (way, other) = machines.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))?;
         let as_written = match &written {
             None => AsWritten::Nothing,
-            Some(w) if !w.is_machine => AsWritten::Negative,
-            Some(w) if self.is_better(way, &other, w) => AsWritten::Level(w.level),
-            Some(_) => return None,
+            Some(w) if !self.is_better(way, &other, w) => return None,
+            Some(w) if w.negative > 0 => AsWritten::Negative,
+            Some(w) => AsWritten::Level(w.level),
         };
         Some(self.of(way, Answered { written: as_written, other: other.level }))
+    }
+
+    /// True when effects explain the file as written to the noise, and no other reading of it does nearly as well with springs alone,
+    /// or by a size that no effect has.
+    fn needs_no_other_reading(&self, written: &Explained) -> bool {
+        let springs_do = |way: &Way| written.springs_cost - way.gain < written.cost - GAIN;
+        let is_no_effect = |way: &Way| is_like_an_effect(way) && self.is_no_effect(way);
+        let ways = &self.readings.ways;
+        written.negative == 0 && written.is_noise && !ways.iter().any(|w| springs_do(w) || is_no_effect(w))
     }
 
     /// What is reported of a way of reading and of those that explain the file alike.
@@ -140,9 +152,12 @@ impl Weighing<'_> {
         if is_like_an_effect(way) {
             return self.is_no_effect(way) && other.cost < written.cost + GAIN;
         }
+        if written.negative >= NEGATIVE_LEGS {
+            return true;
+        }
         // Any way of reading soaks up a little of what no effect explains: it has to explain most of it, or everything.
         let is_most = other.level < BETTER_SHARE * written.level || other.level < SOUND_LEVEL;
-        written.cost - other.cost > GAIN && is_most
+        is_most && (written.negative > 0 || written.cost - other.cost > GAIN)
     }
 
     /// True for sizes that no effect of a machine has.
@@ -186,16 +201,25 @@ impl Weighing<'_> {
 impl Explained {
     fn of(campaign: &Campaign, outcome: &RankedSets, way: Option<&Way>) -> Self {
         let best = &outcome.best;
-        let numbers = 6.0 * campaign.groups.len() as f64;
+        let beside = way.map_or(0.0, |way| way.beside_springs);
         let dof = best.lack_of_fit_dof.max(1.0);
         let variance = best.lack_of_fit / dof;
-        let level = variance.max(1.0);
-        let parameters = best.parameters.iter().count() as f64;
-        let lack = numbers * (level.ln() + variance / level) + parameters * numbers.ln();
-        let beside = way.map_or(0.0, |way| way.beside_springs);
-        let is_noise = variance < 1.0 + NOISE_SIGMAS * (2.0 / dof).sqrt();
-        Self { cost: lack + beside, level: variance.sqrt(), is_noise, is_machine: is_machine(best) }
+        Self {
+            cost: lack(campaign, best) + beside,
+            springs_cost: lack(campaign, &outcome.baseline) + beside,
+            level: variance.sqrt(),
+            is_noise: variance < 1.0 + NOISE_SIGMAS * (2.0 / dof).sqrt(),
+            negative: negative_legs(best),
+        }
     }
+}
+
+/// Twice the negative log-likelihood of averaged readings whose noise may be larger than stated, and what the parameters cost.
+fn lack(campaign: &Campaign, fit: &Fit) -> f64 {
+    let numbers = 6.0 * campaign.groups.len() as f64;
+    let variance = fit.lack_of_fit / fit.lack_of_fit_dof.max(1.0);
+    let level = variance.max(1.0);
+    numbers * (level.ln() + variance / level) + fit.parameters.iter().count() as f64 * numbers.ln()
 }
 
 /// True when the catalogue has an effect that does the same: only the size tells a mistake from it.
@@ -208,6 +232,6 @@ fn is_like_an_effect(way: &Way) -> bool {
     })
 }
 
-fn is_machine(fit: &Fit) -> bool {
-    (0..6).all(|leg| fit.point.compliances[leg] > -NEGATIVE_SIGMAS * fit.std(leg))
+fn negative_legs(fit: &Fit) -> usize {
+    (0..6).filter(|&leg| fit.point.compliances[leg] < -NEGATIVE_SIGMAS * fit.std(leg)).count()
 }
