@@ -52,6 +52,8 @@ pub enum Purpose {
     CaseFrames = 106,
     /// Case: what a fault of the laboratory hits.
     CaseFault = 107,
+    /// Case: what a misstatement of its files hits.
+    CaseMisstatement = 108,
 
     /// Comparison of two worlds: machine, plan and situation.
     WorldsSituation = 200,
