@@ -27,6 +27,7 @@ pub mod power;
 pub mod recovery;
 pub mod regress;
 pub mod robustness;
+mod shares;
 pub mod sweep;
 pub mod trial;
 

@@ -67,6 +67,12 @@ impl Trial {
     }
 }
 
+/// Kinds of the findings in the words of the file, the first first.
+pub fn kinds(d: &Diagnosis) -> Vec<String> {
+    let word = |kind| serde_json::to_value(kind).ok()?.as_str().map(str::to_owned);
+    d.findings.iter().filter_map(|finding| word(finding.kind)).collect()
+}
+
 /// Right, honest or wrong about hidden effects.
 pub fn outcome(hidden: &[&str], d: &Diagnosis) -> Outcome {
     outcome_of(hidden, d.verdict, &d.added, &d.credible_set)

@@ -7,6 +7,7 @@ pub(crate) mod power;
 pub(crate) mod recovery;
 pub(crate) mod regress;
 pub(crate) mod robustness;
+mod written;
 
 use clap::{Args, Subcommand};
 
