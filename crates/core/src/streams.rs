@@ -111,6 +111,9 @@ pub enum Purpose {
     /// Regression: seed of the diagnoses of a run.
     RegressDiagnoses = 541,
 
+    /// Misread files: seed of a sound campaign in a scene.
+    MisreadScene = 550,
+
     /// Challenge: order of the cases.
     ChallengeOrder = 600,
     /// Challenge: seed of a group of cases.
