@@ -52,7 +52,12 @@ pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
         AXES,
         &Exchanged { subject: Subject::Loads },
     ),
-    machine("joints-yaw-90", "All joints are in axes turned by 90 deg about z.", OF_JOINTS, &TurnedJoints(YAW_90)),
+    machine(
+        "joints-yaw-90",
+        "All joints are in axes turned by 90 deg about z.",
+        OF_JOINTS,
+        &TurnedJoints(YAW_90),
+    ),
     machine(
         "joints-yaw-180",
         "All joints are in axes turned by 180 deg about z.",
@@ -61,7 +66,12 @@ pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
     ),
     machine("joints-z-down", "All joints are in axes with z down.", OF_JOINTS, &TurnedJoints(Z_DOWN)),
     machine("joints-left-handed", "All joints are in left-handed axes.", OF_JOINTS, &TurnedJoints(MIRRORED)),
-    machine("joints-yaw-5", "All joints are in axes turned by 5 deg about z.", OF_JOINTS, &TurnedJoints(YAW_5)),
+    machine(
+        "joints-yaw-5",
+        "All joints are in axes turned by 5 deg about z.",
+        OF_JOINTS,
+        &TurnedJoints(YAW_5),
+    ),
 ];
 
 const YAW_2: Turn = Turn::About(Axis::Z, 2.0);

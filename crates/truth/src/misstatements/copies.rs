@@ -18,7 +18,11 @@ const fn measurements(
 pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
     measurements("rows-copied-as-repeats", "Every row is copied as one repeat more.", &Copies::Repeats),
     measurements("rows-copied-as-poses", "Every row is copied as one of another pose.", &Copies::Poses),
-    measurements("first-repeats-copied", "The first reading of a condition is copied over the others.", &Copies::First),
+    measurements(
+        "first-repeats-copied",
+        "The first reading of a condition is copied over the others.",
+        &Copies::First,
+    ),
 ];
 
 /// What copies stand for.

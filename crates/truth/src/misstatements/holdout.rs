@@ -82,7 +82,8 @@ fn elsewhere(case: &SimulatedCase, rng: &mut Pcg64) -> Result<Dataset, TruthErro
     let rows: Vec<PlanRow> = case.holdout.observations.iter().map(PlanRow::from).collect();
     let mut on = |family: &str| {
         let world = World::new(machines::draw(family, rng), &machines::leg_stiffness(family, rng));
-        let campaign = SimulatedCampaign { world, frames: InstrumentFrames::default(), noise: case.spec.noise };
+        let campaign =
+            SimulatedCampaign { world, frames: InstrumentFrames::default(), noise: case.spec.noise };
         measure(&campaign, &rows, case.holdout.measurand, &case.holdout.source, rng)
     };
     let mut others = machines::FAMILIES.iter().filter(|family| **family != case.spec.family);

@@ -99,12 +99,7 @@ pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
         UNIT,
         &scaled(Numbers::Pose(FIRST), 0.1),
     ),
-    tables(
-        "moments-nmm-as-nm",
-        "Moments in N mm are declared N m.",
-        UNIT,
-        &scaled(Numbers::Load(LAST), 1e3),
-    ),
+    tables("moments-nmm-as-nm", "Moments in N mm are declared N m.", UNIT, &scaled(Numbers::Load(LAST), 1e3)),
     tables(
         "forces-kg-as-n",
         "Forces are the masses that were hung up, in kg, declared N.",
@@ -117,12 +112,7 @@ pub(super) const MISSTATEMENTS: &[MisstatementEntry] = &[
         UNIT,
         &scaled(Numbers::Load(FIRST), 1.0 / LBF_N),
     ),
-    tables(
-        "forces-kn-as-n",
-        "Forces in kN are declared N.",
-        UNIT,
-        &scaled(Numbers::Load(FIRST), 1e-3),
-    ),
+    tables("forces-kn-as-n", "Forces in kN are declared N.", UNIT, &scaled(Numbers::Load(FIRST), 1e-3)),
     tables(
         "fz-kg-as-n",
         "Weights in kg stand beside lateral forces in N.",
