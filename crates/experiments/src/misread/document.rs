@@ -25,14 +25,19 @@ pub fn page(study: &Misread) -> Page {
                 .table(by("machine", |r| &r.campaign.kind)),
         )
         .with(section("False alarms", ALARMS, sheets::false_alarms(records)))
-        .with(section("False alarms one by one", ONE_BY_ONE, sheets::alarms(records)).unless_empty())
-        .with(section("Refused", REFUSED, sheets::refusals(records)).detail())
+        .with_all(unless_empty("False alarms one by one", ONE_BY_ONE, sheets::alarms(records)))
+        .with_all(unless_empty("Refused", REFUSED, sheets::refusals(records)))
         .with(
             Section::new("Without a campaign")
                 .list(study.failures.iter().map(|(name, why)| format!("{name}: {why}")))
                 .unless_empty(),
         )
         .with(again(study).detail())
+}
+
+/// None without rows.
+fn unless_empty(title: &str, words: &str, table: Table) -> Option<Section> {
+    (!table.rows.is_empty()).then(|| Section::new(title).paragraph(words).table(table).detail())
 }
 
 /// The figures everything else explains, one sentence each.
@@ -67,13 +72,14 @@ fn extremes(records: &[MisreadRecord], words: &str, fate: MisreadFate, most: boo
     let mut all: Vec<(String, Proportion)> = MisreadGroup::of_each_misstatement(records)
         .into_iter()
         .map(|group| (group.name.clone(), group.share(fate)))
-        .filter(|(_, share)| share.of > 0)
+        .filter(|(_, share)| share.of > 0 && (share.hits > 0 || !most))
         .collect();
     all.sort_by(
         |(_, a), (_, b)| if most { b.rate().total_cmp(&a.rate()) } else { a.rate().total_cmp(&b.rate()) },
     );
     let listed = all.iter().take(LISTED).map(|(name, share)| format!("{name} ({} %)", percent(*share)));
-    format!("{words}: {}.", listed.collect::<Vec<_>>().join(", "))
+    let listed: Vec<String> = listed.collect();
+    format!("{words}: {}.", if listed.is_empty() { "none".to_owned() } else { listed.join(", ") })
 }
 
 fn introduction(study: &Misread) -> Section {
@@ -83,9 +89,9 @@ fn introduction(study: &Misread) -> Section {
         .paragraph(LIMITS)
         .paragraph(format!(
             "Files were written wrongly in {} ways as users do it, {trials} campaigns each, read again as any file is, and diagnosed; \
-             beside them {sound} sound campaigns, some of them in {} scenes (seed {seed}; {} of {} could not be made).",
+             beside them {sound} sound campaigns{} (seed {seed}; {} of {} could not be made).",
             misstatements.len(),
-            scenes.len(),
+            if scenes.is_empty() { String::new() } else { format!(", some of them in {} scenes", scenes.len()) },
             study.failures.len(),
             study.records.len() + study.failures.len(),
         ))

@@ -105,12 +105,10 @@ pub(super) enum Job {
 const MISREAD: [CaseKind; 2] = [CaseKind::Clean, CaseKind::Single];
 
 impl Job {
-    /// Families in turn, each clean and then with an effect.
-    fn misread(entry: &'static MisstatementEntry, campaign: usize) -> Self {
-        let (family, round) = (FAMILIES[campaign % FAMILIES.len()], campaign / FAMILIES.len());
-        let kind = MISREAD[round % MISREAD.len()];
-        // Another effect of the catalogue for every family.
-        let index = campaign % FAMILIES.len() + round / MISREAD.len() * FAMILIES.len();
+    /// Families in turn, clean and with an effect by turns; after two rounds every family has had both.
+    fn misread(entry: &'static MisstatementEntry, index: usize) -> Self {
+        let (family, round) = (FAMILIES[index % FAMILIES.len()], index / FAMILIES.len());
+        let kind = MISREAD[(index % FAMILIES.len() + round) % MISREAD.len()];
         Self::Misread { entry, family, kind, index }
     }
 

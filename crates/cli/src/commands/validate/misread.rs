@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     /// Folder for the table of trials and the summary tables
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
-    /// Campaigns of each misstatement: families of machines in turn, clean and with one effect
+    /// Campaigns of each misstatement: families of machines in turn, clean and with one effect by turns
     #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     trials: u32,
     /// Campaigns in which nothing is misstated
