@@ -142,7 +142,7 @@ fn robustness_goes_on_where_it_was_stopped() {
 #[test]
 fn a_study_of_misread_files_goes_on_where_it_was_stopped() {
     let protocol = |seed| {
-        MisreadProtocol { seed, trials: 2, sound: 2, ..Default::default() }
+        MisreadProtocol { seed, trials: 2, sound: 4, ..Default::default() }
             .with_misstatements(&["wrench-negated", "holdout-is-training"])
     };
     survives(&protocol(3), &protocol(4));
