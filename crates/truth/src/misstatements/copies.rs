@@ -42,7 +42,9 @@ impl Misstatement for Copies {
             Self::First => {
                 for of in rows.chunk_by_mut(|a, b| a.pose_id == b.pose_id && a.wrench == b.wrench) {
                     let first = of[0].measured;
-                    of.iter_mut().for_each(|row| row.measured = first);
+                    for row in of {
+                        row.measured = first;
+                    }
                 }
             }
         }

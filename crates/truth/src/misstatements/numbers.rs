@@ -29,7 +29,9 @@ impl Numbers {
     /// Changes each of them in a row.
     pub(super) fn change(self, row: &mut Observation, to: impl Fn(f64) -> f64) {
         let changed = |mut six: [f64; 6], places: &[usize]| {
-            places.iter().for_each(|&k| six[k] = to(six[k]));
+            for &k in places {
+                six[k] = to(six[k]);
+            }
             six
         };
         match self {

@@ -77,6 +77,8 @@ fn shift_poses(rows: &mut [Observation]) {
     let mut poses: Vec<Pose> = rows.chunk_by(|a, b| a.pose_id == b.pose_id).map(|of| of[0].pose).collect();
     poses.rotate_right(1);
     for (of, pose) in rows.chunk_by_mut(|a, b| a.pose_id == b.pose_id).zip(poses) {
-        of.iter_mut().for_each(|row| row.pose = pose);
+        for row in of {
+            row.pose = pose;
+        }
     }
 }
