@@ -52,6 +52,8 @@ pub enum Purpose {
     CaseFrames = 106,
     /// Case: what a fault of the laboratory hits.
     CaseFault = 107,
+    /// Case: what a misstatement of its files hits.
+    CaseMisstatement = 108,
 
     /// Comparison of two worlds: machine, plan and situation.
     WorldsSituation = 200,
@@ -112,6 +114,9 @@ pub enum Purpose {
     RegressDiagnoses = 541,
     /// Regression: seed of the laboratories of a run.
     RegressLaboratories = 542,
+
+    /// Misread files: seed of a sound campaign in a scene.
+    MisreadScene = 550,
 
     /// Challenge: order of the cases.
     ChallengeOrder = 600,

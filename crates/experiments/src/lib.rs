@@ -6,6 +6,7 @@
 //! | [`recovery`] | is what was hidden found, with honest uncertainty? |
 //! | [`calibration`] | how far can the stated probabilities be trusted? |
 //! | [`robustness`] | what do laboratories that do not keep to the assumptions get? |
+//! | [`misread`] | is it found that a file does not say what its author meant? |
 //! | [`discriminate`] | do the proposed readings tell effects apart? |
 //! | [`power`] | which effects does a plan show? |
 //! | [`regress`] | did a change make anything worse? |
@@ -22,11 +23,13 @@ pub mod discriminate;
 pub mod error;
 pub mod harness;
 pub mod journal;
+pub mod misread;
 pub mod paper;
 pub mod power;
 pub mod recovery;
 pub mod regress;
 pub mod robustness;
+mod shares;
 pub mod sweep;
 pub mod trial;
 

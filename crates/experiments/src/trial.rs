@@ -67,6 +67,11 @@ impl Trial {
     }
 }
 
+/// Kinds of the findings in the words of the file, the first first.
+pub fn kinds(d: &Diagnosis) -> Vec<String> {
+    d.findings.iter().map(|finding| finding.kind.word().to_owned()).collect()
+}
+
 /// Right, honest or wrong about hidden effects. An effect that is told as sure, but too small to be named, is told.
 pub fn outcome(hidden: &[&str], d: &Diagnosis) -> Outcome {
     let told = told(d);

@@ -16,8 +16,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     // A scene is a machine, a plan, an instrument, and what is hidden.
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/hidden-1");
     let scene = Scene::read(&folder)?;
-    let [measurements, holdout] =
-        [measured(&scene, PartName::Training)?, measured(&scene, PartName::Holdout)?];
+    let bench = VirtualBench::new(&scene, false);
+    let [measurements, holdout] = [bench.dataset(PartName::Training)?, bench.dataset(PartName::Holdout)?];
     println!("{}: {} readings of {}", scene.name, measurements.observations.len(), scene.hexapod.name);
 
     // From here on nothing is known but the drawing of the machine and the readings.
@@ -40,18 +40,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         assert!(off.abs() < AGREES, "{name} is {off:.1} standard deviations off");
     }
     Ok(())
-}
-
-/// Every reading of a part of the plan, as a file of measurements would hold it.
-fn measured(scene: &Scene, part: PartName) -> Result<Dataset, Box<dyn Error>> {
-    let bench = VirtualBench::new(scene, false);
-    let rows = bench.measure(part, 0..scene.part(part).len())?;
-    Ok(Dataset {
-        source: part.file().to_owned(),
-        measurand: scene.measurand(),
-        columns: bench.columns(),
-        observations: rows.into_iter().map(|row| row.observation).collect(),
-    })
 }
 
 #[test]

@@ -20,6 +20,7 @@
 //! - [`mechanisms`]: one file for each physical effect, all of them in [`mechanisms::REGISTRY`].
 //! - [`metrology`]: what the instrument adds.
 //! - [`laboratory`]: what laboratories do to data, one file for each fault.
+//! - [`misstatements`]: what files say that their authors did not mean.
 //! - [`mjcf`]: the structure written for MuJoCo, so that another program can say where it comes to rest.
 //! - [`campaign`]: machines, plans, sizes and the case folders made of them.
 //! - [`scene`]: a folder that describes a machine with hidden effects, a plan and an instrument.
@@ -32,6 +33,7 @@ pub mod law;
 mod linear;
 pub mod mechanisms;
 pub mod metrology;
+pub mod misstatements;
 pub mod mjcf;
 pub mod scene;
 pub mod setup;

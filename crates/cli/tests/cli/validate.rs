@@ -108,6 +108,41 @@ fn robustness_writes_trials_tables_and_a_document() {
     );
 }
 
+/// One machine whose readings have the opposite sign, and a sound one.
+const MISREAD: [&str; 8] =
+    ["validate", "misread", "--trials", "1", "--sound", "1", "--misstatement", "deflection-negated"];
+
+#[test]
+fn misread_writes_trials_tables_and_a_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, markdown) = (folder.path().join("study"), folder.path().join("docs/misread.md"));
+    let mut command = hexbench();
+    let page =
+        text(command.args(MISREAD).arg("-o").arg(&out).arg("--markdown").arg(&markdown).output().unwrap());
+    assert!(page.contains("deflection-negated"), "{page}");
+    let names: Vec<String> = files_of(&out).into_iter().map(|(name, _)| name).collect();
+    for wanted in ["trials.csv", "misstatements.csv", "families.csv", "plans.csv", "false-alarms.csv"] {
+        assert!(names.iter().any(|n| n == wanted), "{wanted} in {names:?}");
+    }
+    let trials = fs::read_to_string(out.join("trials.csv")).unwrap();
+    assert_eq!(trials.lines().count(), 3, "{trials}");
+    let document = fs::read_to_string(&markdown).unwrap();
+    let banner = "Written by `hexbench validate misread --markdown FILE`; do not edit.";
+    assert_eq!(document.lines().nth(2), Some(banner), "{document}");
+}
+
+#[test]
+fn a_misread_campaign_is_written_as_files_that_the_diagnosis_reads() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = hexbench();
+    let case = ["validate", "misread", "--case", "wrench-yaw-90/ring_c-clean-0001", "-o"];
+    let line = text(command.args(case).arg(folder.path()).output().unwrap());
+    let words: Vec<&str> = line.split_whitespace().collect();
+    hexbench().args(&words[1..]).assert().success();
+    hexbench().args(["validate", "misread", "--case", "magic/ring_c-clean-0001", "-o", "x"]).assert().code(2);
+    hexbench().args(["validate", "misread", "--misstatement", "magic", "-o", "x"]).assert().code(2);
+}
+
 #[test]
 fn a_campaign_with_a_fault_is_written_as_files_that_the_diagnosis_reads() {
     let folder = tempfile::tempdir().unwrap();

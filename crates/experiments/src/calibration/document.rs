@@ -13,6 +13,7 @@ use super::{
     false_names_among_named, false_outside, is_well_visible, stiffness_coverage,
 };
 use crate::calibration::Fate;
+use crate::shares::told;
 
 /// The page: figures, tables and the charts of a folder beside it.
 pub fn page(study: &Calibration, charts: &str) -> Page {
@@ -92,11 +93,6 @@ pub fn headlines(records: &[CalibrationRecord]) -> Vec<String> {
             told(stiffness_coverage(right_answers()))
         ),
     ]
-}
-
-/// `9 of 2002 (0.4 %, 0.2 .. 0.9)`.
-fn told(p: Proportion) -> String {
-    format!("{} of {} ({} %, {})", p.hits, p.of, hundredths(p.rate()), sheets::bounds(p))
 }
 
 fn introduction(study: &Calibration) -> Section {

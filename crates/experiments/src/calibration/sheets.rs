@@ -7,6 +7,7 @@ use super::trust::{HeldOutQuantiles, credible_coverage, stiffness_coverage};
 use super::{
     CalibrationRecord, Claims, ConfusionMatrix, Curve, Fate, Mix, bins, is_well_visible, mistakes, scores,
 };
+use crate::shares::bounds;
 use hexbench_report::Table;
 use hexbench_report::number::hundredths;
 
@@ -213,9 +214,4 @@ fn example(r: &CalibrationRecord) -> String {
 
 fn of_kind(records: &[CalibrationRecord], kind: CaseKind) -> impl Iterator<Item = &CalibrationRecord> {
     records.iter().filter(move |r| r.kind == kind)
-}
-
-pub(super) fn bounds(p: Proportion) -> String {
-    let [low, high] = p.interval();
-    format!("{} .. {}", hundredths(low), hundredths(high))
 }

@@ -50,14 +50,7 @@ impl Studied {
 /// [`PowerError`].
 pub fn plan_of(scene: &Scene) -> Result<PowerPlan, PowerError> {
     let bench = VirtualBench::new(scene, true);
-    let part = scene.part(PartName::Training);
-    let measured = bench.measure(PartName::Training, 0..part.len())?;
-    let rows = hexbench_core::Dataset {
-        source: scene.name.clone(),
-        measurand: scene.measurand(),
-        columns: bench.columns(),
-        observations: measured.iter().map(|m| m.observation).collect(),
-    };
+    let rows = hexbench_core::Dataset { source: scene.name.clone(), ..bench.dataset(PartName::Training)? };
     PowerPlan::new(scene.hexapod.clone(), rows, scene.leg_stiffness).ok_or(PowerError::NoNoise)
 }
 

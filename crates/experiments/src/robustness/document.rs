@@ -8,6 +8,7 @@ use hexbench_truth::laboratory;
 
 use super::{DISTANCE, Robustness, RobustnessProtocol, RobustnessRecord, Violation, sheets};
 use crate::calibration::MOST_FALSE_NAMES;
+use crate::shares::told;
 
 /// The page.
 pub fn page(study: &Robustness) -> Page {
@@ -71,19 +72,6 @@ fn weakest<'a>(
     let listed: Vec<String> =
         all.iter().take(LISTED).map(|(title, p)| format!("{title} ({} %)", hundredths(p.rate()))).collect();
     format!("{words}: {}.", listed.join("; "))
-}
-
-/// `9 of 2002 (0.4 %, 0.2 .. 0.9)`.
-fn told(p: Proportion) -> String {
-    let [low, high] = p.interval();
-    format!(
-        "{} of {} ({} %, {} .. {})",
-        p.hits,
-        p.of,
-        hundredths(p.rate()),
-        hundredths(low),
-        hundredths(high)
-    )
 }
 
 fn introduction(study: &Robustness) -> Section {

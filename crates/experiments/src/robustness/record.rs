@@ -2,14 +2,13 @@
 
 use hexbench_core::statistics::Proportion;
 use hexbench_model::inference::verdict::Verdict;
-use hexbench_model::results::diagnose::DiagnosisStudy;
 use hexbench_truth::laboratory;
 use serde::{Deserialize, Serialize};
 
 use super::protocol::Job;
 use crate::calibration;
 use crate::harness::words::{self, Word};
-use crate::trial::{Outcome, Trial, TrialError, outcome_of};
+use crate::trial::{Outcome, Trial, TrialError, kinds, outcome_of};
 
 /// Standard deviations that hold 95 % of a normal law.
 const COVERED: f64 = 1.96;
@@ -36,7 +35,7 @@ impl RobustnessRecord {
         Ok(Self {
             fault: job.fault.id,
             index: job.index as u64,
-            findings: kinds(&trial.study),
+            findings: kinds(&trial.study.diagnosis),
             answer: calibration::CalibrationRecord::of_trial(&case, &trial),
         })
     }
@@ -86,10 +85,4 @@ impl RobustnessRecord {
     pub fn stiffness_coverage(&self) -> Proportion {
         Proportion::count(self.answer.stiffness_z.iter().flatten(), |z| z.abs() <= COVERED)
     }
-}
-
-/// Kinds of the findings in the words of the file.
-fn kinds(study: &DiagnosisStudy) -> Vec<String> {
-    let word = |kind| serde_json::to_value(kind).ok()?.as_str().map(str::to_owned);
-    study.diagnosis.findings.iter().filter_map(|finding| word(finding.kind)).collect()
 }

@@ -6,6 +6,7 @@ use hexbench_report::Table;
 use hexbench_report::number::hundredths;
 
 use super::{RobustnessRecord, Violation, detections, mistakes};
+use crate::shares::{bounds, counted};
 
 /// Most groups of wrong answers that get a line.
 const MOST_GROUPS: usize = 25;
@@ -126,18 +127,4 @@ pub fn mistakes_table(records: &[RobustnessRecord]) -> Table {
 
 fn example(r: &RobustnessRecord) -> String {
     format!("{:04} ({}, {})", r.index, r.answer.hidden_words(), r.answer.plan.name())
-}
-
-/// `9 of 20 (23.1 .. 68.5 %)`; a dash of nothing.
-fn counted(p: Proportion) -> String {
-    if p.of == 0 { "-".to_owned() } else { format!("{} of {} ({} %)", p.hits, p.of, bounds(p)) }
-}
-
-/// Exact 95 % bounds in percent; a dash of nothing.
-fn bounds(p: Proportion) -> String {
-    if p.of == 0 {
-        return "-".to_owned();
-    }
-    let [low, high] = p.interval();
-    format!("{} .. {}", hundredths(low), hundredths(high))
 }

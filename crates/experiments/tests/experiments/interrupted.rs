@@ -10,6 +10,7 @@ use hexbench_experiments::calibration;
 use hexbench_experiments::discriminate::{self, CONFUSIONS};
 use hexbench_experiments::harness::{self, Gathered, Progress, Protocol, Sharded, Silent, compute};
 use hexbench_experiments::journal::Journal;
+use hexbench_experiments::misread::MisreadProtocol;
 use hexbench_experiments::paper::Again;
 use hexbench_experiments::power::{Campaigns, Simulation, plan_of};
 use hexbench_experiments::recovery::protocol::Recovery;
@@ -134,6 +135,15 @@ fn robustness_goes_on_where_it_was_stopped() {
     let protocol = |seed| {
         robustness::RobustnessProtocol { seed, trials: 4, ..Default::default() }
             .with_faults(&["drift-1", "joints-0.2mm"])
+    };
+    survives(&protocol(3), &protocol(4));
+}
+
+#[test]
+fn a_study_of_misread_files_goes_on_where_it_was_stopped() {
+    let protocol = |seed| {
+        MisreadProtocol { seed, trials: 2, sound: 4, ..Default::default() }
+            .with_misstatements(&["wrench-negated", "holdout-is-training"])
     };
     survives(&protocol(3), &protocol(4));
 }

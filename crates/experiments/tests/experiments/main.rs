@@ -5,6 +5,7 @@ mod calibration;
 mod challenge;
 mod discriminate;
 mod interrupted;
+mod misread;
 mod paper;
 mod power;
 mod recovery;

@@ -14,9 +14,9 @@ use crate::estimation::foreseen::Foreseen;
 pub const UNLIKELY: f64 = 0.05;
 /// Probability that an effect needs where held-out readings lean against it without being able to tell.
 const BEYOND_DOUBT: f64 = 0.99;
-/// An effect that takes less than this share off the held-out error is not worth naming. A tenth of what a noise statement is usually
+/// An effect that takes less than this share off the held-out error is not worth naming. A twentieth of what a noise statement is usually
 /// off by: nobody could see a smaller one by measuring again.
-pub const WORTH_NAMING: f64 = 0.01;
+pub const WORTH_NAMING: f64 = 0.005;
 
 /// What held-out readings say of an effect that was added to a model.
 ///

@@ -68,7 +68,7 @@ class Diagnosis:
     added: list[str]
     #: Terms of the fitted model that the numbers belong to.
     model: list[str]
-    #: Effects that are sure and take less than 1 % off the held-out error; they are in the model and not named.
+    #: Effects that are sure and take less than 0.5 % off the held-out error; they are in the model and not named.
     small: list[str]
     #: Terms of the model that needed their richer form.
     richer: list[str]

@@ -32,7 +32,24 @@ impl SimulatedCase {
         seed: u64,
         distance: Option<[f64; 2]>,
     ) -> Result<Self, TruthError> {
-        let attempt = |n| CaseSpec::draw(kind, index, seed, n, distance).build_in(laboratory);
-        (1..ATTEMPTS).fold(attempt(0), |made, n| made.or_else(|_| attempt(n)))
+        first_made(|n| CaseSpec::draw(kind, index, seed, n, distance).build_in(laboratory))
     }
+
+    /// A case of usual size on a machine of a family, one of [`machines::FAMILIES`](super::machines::FAMILIES).
+    ///
+    /// # Errors
+    /// As [`SimulatedCase::draw`].
+    pub fn draw_on(
+        family: &'static str,
+        kind: CaseKind,
+        index: usize,
+        seed: u64,
+    ) -> Result<Self, TruthError> {
+        first_made(|n| CaseSpec { family, ..CaseSpec::draw(kind, index, seed, n, None) }.build())
+    }
+}
+
+/// What the first attempt gives that succeeds, else what the last one does.
+fn first_made<T, E>(attempt: impl Fn(u64) -> Result<T, E>) -> Result<T, E> {
+    (1..ATTEMPTS).fold(attempt(0), |made, n| made.or_else(|_| attempt(n)))
 }

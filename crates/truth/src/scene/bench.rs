@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use hexbench_core::{Columns, Measurand, Observation, Pose, Vector6};
+use hexbench_core::{Columns, Dataset, Measurand, Observation, Pose, Vector6};
 use rand_pcg::Pcg64;
 
 use super::{Instrument, PartName, Scene, ScenePurpose};
@@ -99,6 +99,20 @@ impl<'a> VirtualBench<'a> {
             measured.push(self.read(&row, index, ideal, &mut rng).map_err(failed)?);
         }
         Ok(measured)
+    }
+
+    /// All rows of a part, measured, as its file would hold them.
+    ///
+    /// # Errors
+    /// [`RowError`].
+    pub fn dataset(&self, name: PartName) -> Result<Dataset, RowError> {
+        let rows = self.measure(name, 0..self.scene.part(name).len())?;
+        Ok(Dataset {
+            source: name.file().to_owned(),
+            measurand: self.scene.measurand(),
+            columns: self.columns(),
+            observations: rows.into_iter().map(|row| row.observation).collect(),
+        })
     }
 
     fn ideal(&self, row: &PlanRow) -> Result<Ideal, TruthError> {

@@ -4,6 +4,7 @@
 mod campaigns;
 mod common;
 mod laboratory;
+mod misstatements;
 mod mjcf;
 mod physics;
 mod reference_cases;

@@ -13,6 +13,7 @@ use hexbench_report::table::csv;
 use hexbench_report::{Block, Definition, Section};
 use hexbench_truth::campaign::CaseKind;
 
+use super::written;
 use crate::failure::Failure;
 use crate::output::{Screen, TrialFiles};
 
@@ -82,11 +83,7 @@ fn write(study: &Calibration, arguments: &Arguments, screen: &Screen) -> Result<
         files.push((path.clone(), markdown(&page(study, &beside))));
         files.extend(charts.into_iter().map(|c| (folder.join(c.file), c.svg)));
     }
-    for (path, text) in &files {
-        Screen::make_folder_of(path)?;
-        screen.write_to(path, text)?;
-    }
-    Ok(files.into_iter().map(|(path, _)| path).collect())
+    written::write_all(files, screen)
 }
 
 fn tables(study: &Calibration) -> impl Iterator<Item = (&'static str, String)> {
@@ -119,12 +116,7 @@ fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(),
         ),
     })?;
     let case = calibration::case(kind, index, arguments.seed).map_err(Failure::Trial)?;
-    let folder = arguments.out.join(&case.spec.id);
-    case.write(&folder).map_err(|cause| Failure::Trial(cause.into()))?;
-    let path = folder.display();
-    screen.write(&format!(
-        "hexbench diagnose {path}/hexapod.toml {path}/measurements.csv --holdout {path}/holdout.csv\n"
-    ))
+    written::write_case(&case, &arguments.out.join(&case.spec.id), screen)
 }
 
 fn parse(trial: &str) -> Option<(CaseKind, usize)> {

@@ -2,11 +2,13 @@
 
 pub(crate) mod calibration;
 pub(crate) mod discriminate;
+pub(crate) mod misread;
 pub(crate) mod paper;
 pub(crate) mod power;
 pub(crate) mod recovery;
 pub(crate) mod regress;
 pub(crate) mod robustness;
+mod written;
 
 use clap::{Args, Subcommand};
 
@@ -29,6 +31,7 @@ enum Study {
     Paper(paper::Arguments),
     Calibration(calibration::Arguments),
     Robustness(robustness::Arguments),
+    Misread(misread::Arguments),
     Discriminate(discriminate::Arguments),
     Power(power::Arguments),
     Regress(regress::Arguments),
@@ -41,6 +44,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Paper(arguments) => paper::run(arguments, screen),
         Study::Calibration(arguments) => calibration::run(arguments, screen),
         Study::Robustness(arguments) => robustness::run(arguments, screen),
+        Study::Misread(arguments) => misread::run(arguments, screen),
         Study::Discriminate(arguments) => discriminate::run(arguments, screen),
         Study::Power(arguments) => power::run(arguments, screen),
         Study::Regress(arguments) => regress::run(arguments, screen),

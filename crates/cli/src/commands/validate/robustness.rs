@@ -1,6 +1,5 @@
 //! `hexbench validate robustness`.
 
-use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -8,9 +7,10 @@ use hexbench_experiments::harness;
 use hexbench_experiments::robustness::{self, Robustness, RobustnessProtocol, SEED, TRIALS, page, sheets};
 use hexbench_report::Section;
 use hexbench_report::render::markdown;
-use hexbench_report::table::{Frame, TableFormat, csv};
+use hexbench_report::table::{Frame, csv};
 use hexbench_truth::laboratory;
 
+use super::written;
 use crate::failure::Failure;
 use crate::output::{Screen, TrialFiles};
 
@@ -71,10 +71,7 @@ fn write(
     let out = |name: &str| arguments.out.join(name);
     let records = &study.records;
     let mut files = vec![
-        (
-            out("trials.csv"),
-            csv_of(trials).map_err(|cause| Failure::Output { path: out("trials.csv"), cause })?,
-        ),
+        written::csv_file(out("trials.csv"), trials)?,
         (out("violations.csv"), csv::text(&sheets::violations(records))),
         (out("findings.csv"), csv::text(&sheets::findings(records))),
         (out("counts.csv"), csv::text(&sheets::counts(records))),
@@ -82,17 +79,7 @@ fn write(
         (out("mistakes.csv"), csv::text(&sheets::mistakes_table(records))),
     ];
     files.extend(arguments.markdown.iter().map(|path| (path.clone(), markdown(&page(study)))));
-    for (path, text) in &files {
-        Screen::make_folder_of(path)?;
-        screen.write_to(path, text)?;
-    }
-    Ok(files.into_iter().map(|(path, _)| path).collect())
-}
-
-fn csv_of(frame: &Frame) -> io::Result<String> {
-    let mut text = Vec::new();
-    frame.write(TableFormat::Csv, &mut text)?;
-    String::from_utf8(text).map_err(io::Error::other)
+    written::write_all(files, screen)
 }
 
 fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
@@ -103,10 +90,5 @@ fn write_case(trial: &str, arguments: &Arguments, screen: &Screen) -> Result<(),
             .to_owned(),
     })?;
     let case = case.map_err(Failure::Trial)?;
-    let folder = arguments.out.join(trial.replace('/', "-"));
-    case.write(&folder).map_err(|cause| Failure::Trial(cause.into()))?;
-    let path = folder.display();
-    screen.write(&format!(
-        "hexbench diagnose {path}/hexapod.toml {path}/measurements.csv --holdout {path}/holdout.csv\n"
-    ))
+    written::write_case(&case, &arguments.out.join(trial.replace('/', "-")), screen)
 }

@@ -1,0 +1,116 @@
+//! `hexbench validate misread`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use hexbench_experiments::harness;
+use hexbench_experiments::misread::{
+    self, Misread, MisreadGroup, MisreadProtocol, MisreadScene, SEED, SOUND, TRIALS, page, sheets,
+};
+use hexbench_report::Section;
+use hexbench_report::render::markdown;
+use hexbench_report::table::{Frame, csv};
+use hexbench_truth::misstatements;
+
+use super::written;
+use crate::failure::Failure;
+use crate::output::{Screen, TrialFiles};
+
+/// Say whether files that do not say what is meant are found: signs, units, axes, leg orders, frames, angles, rows
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder for the table of trials and the summary tables
+    #[arg(short = 'o', long, value_name = "DIR")]
+    out: PathBuf,
+    /// Campaigns of each misstatement: families of machines in turn, clean and with one effect by turns
+    #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    trials: u32,
+    /// Campaigns in which nothing is misstated
+    #[arg(long, value_name = "N", default_value_t = SOUND, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    sound: u32,
+    /// Seed of everything that is drawn
+    #[arg(long, value_name = "S", default_value_t = SEED)]
+    seed: u64,
+    /// Only this misstatement; give it again for more
+    #[arg(long = "misstatement", value_name = "MISSTATEMENT", value_parser = misstatement)]
+    misstatements: Vec<&'static str>,
+    /// Folders of scenes in which some of the campaigns without a misstatement are measured
+    #[arg(long, value_name = "SCENE", num_args = 1..)]
+    scenes: Vec<PathBuf>,
+    /// Write the study as a document too
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    /// Write the files of this one trial instead, such as `fz-negated/ring_a-clean-0000`
+    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "sound", "misstatements", "markdown", "journal", "table"])]
+    case: Option<String>,
+    #[command(flatten)]
+    kept: TrialFiles,
+}
+
+fn misstatement(id: &str) -> Result<&'static str, String> {
+    let all = || misstatements::registry().map(|entry| entry.id);
+    let known = all().find(|known| *known == id);
+    known.ok_or_else(|| format!("misstatements are {}", all().collect::<Vec<_>>().join(", ")))
+}
+
+/// Run the study, write its files, tell the main figures.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let protocol = protocol(arguments)?;
+    if let Some(trial) = &arguments.case {
+        return write_case(trial, &protocol, arguments, screen);
+    }
+    let gathered = arguments.kept.run(&protocol)?;
+    let trials = harness::table(&protocol, &gathered);
+    let study = Misread::of(protocol, gathered);
+    let written = written::write_all(files(&study, &trials, arguments)?, screen)?;
+    let names = written.iter().map(|path| path.display().to_string());
+    screen.show(&page(&study).with(Section::new("Written").list(names)))
+}
+
+fn protocol(arguments: &Arguments) -> Result<MisreadProtocol, Failure> {
+    let all = MisreadProtocol::default();
+    let asked = &arguments.misstatements;
+    let chosen = if asked.is_empty() { all } else { all.with_misstatements(asked) };
+    let scenes = arguments.scenes.iter().map(|folder| MisreadScene::of(folder));
+    Ok(MisreadProtocol {
+        seed: arguments.seed,
+        trials: arguments.trials as usize,
+        sound: arguments.sound as usize,
+        scenes: scenes.collect::<Result<_, _>>()?,
+        ..chosen
+    })
+}
+
+fn files(study: &Misread, trials: &Frame, arguments: &Arguments) -> Result<Vec<(PathBuf, String)>, Failure> {
+    let out = |name: &str| arguments.out.join(name);
+    let records = &study.records;
+    let families = sheets::groups("family", &MisreadGroup::of_each(records, |r| &r.campaign.family));
+    let plans = sheets::groups("plan", &MisreadGroup::of_each(records, |r| &r.campaign.plan));
+    let mut files = vec![
+        written::csv_file(out("trials.csv"), trials)?,
+        (out("misstatements.csv"), csv::text(&sheets::misstatements(records))),
+        (out("families.csv"), csv::text(&families)),
+        (out("plans.csv"), csv::text(&plans)),
+        (out("false-alarms.csv"), csv::text(&sheets::false_alarms(records))),
+        (out("refusals.csv"), csv::text(&sheets::refusals(records))),
+    ];
+    files.extend(arguments.markdown.iter().map(|path| (path.clone(), markdown(&page(study)))));
+    Ok(files)
+}
+
+fn write_case(
+    trial: &str,
+    protocol: &MisreadProtocol,
+    arguments: &Arguments,
+    screen: &Screen,
+) -> Result<(), Failure> {
+    let campaign = misread::case(trial, protocol).ok_or_else(|| Failure::Usage {
+        message: format!("`{trial}` is no trial"),
+        next: "Give a misstatement, a machine and a number, such as fz-negated/ring_a-clean-0000, or sound/single-10x-0002, or with \
+               `--scenes` scene/cubic-3x-0015; `--misstatement x` lists the misstatements."
+            .to_owned(),
+    })?;
+    let folder = arguments.out.join(trial.replace('/', "-"));
+    campaign.and_then(|campaign| campaign.write(&folder)).map_err(Failure::Trial)?;
+    written::tell(&folder, screen)
+}

@@ -1,0 +1,42 @@
+//! What studies write: tables, documents, the files of one trial.
+
+use std::path::{Path, PathBuf};
+
+use hexbench_report::table::{Frame, TableFormat};
+use hexbench_truth::campaign::SimulatedCase;
+
+use crate::failure::Failure;
+use crate::output::Screen;
+
+/// Writes files into folders that are made; returns their paths.
+pub(super) fn write_all(files: Vec<(PathBuf, String)>, screen: &Screen) -> Result<Vec<PathBuf>, Failure> {
+    for (path, text) in &files {
+        Screen::make_folder_of(path)?;
+        screen.write_to(path, text)?;
+    }
+    Ok(files.into_iter().map(|(path, _)| path).collect())
+}
+
+/// A table of trials for a file of comma-separated values.
+pub(super) fn csv_file(path: PathBuf, frame: &Frame) -> Result<(PathBuf, String), Failure> {
+    let mut text = Vec::new();
+    let written = frame.write(TableFormat::Csv, &mut text);
+    match written.and_then(|()| String::from_utf8(text).map_err(std::io::Error::other)) {
+        Ok(text) => Ok((path, text)),
+        Err(cause) => Err(Failure::Output { path, cause }),
+    }
+}
+
+/// Writes one campaign as files, and how to diagnose it.
+pub(super) fn write_case(case: &SimulatedCase, folder: &Path, screen: &Screen) -> Result<(), Failure> {
+    case.write(folder).map_err(|cause| Failure::Trial(cause.into()))?;
+    tell(folder, screen)
+}
+
+/// Says how to diagnose the campaign in a folder.
+pub(super) fn tell(folder: &Path, screen: &Screen) -> Result<(), Failure> {
+    let path = folder.display();
+    screen.write(&format!(
+        "hexbench diagnose {path}/hexapod.toml {path}/measurements.csv --holdout {path}/holdout.csv\n"
+    ))
+}

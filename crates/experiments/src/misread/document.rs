@@ -1,0 +1,147 @@
+//! The study as a page.
+
+use hexbench_core::statistics::Proportion;
+use hexbench_report::words::written_by;
+use hexbench_report::{Block, Page, Section, Table};
+
+use super::false_alarms::blamed;
+use super::{Misread, MisreadFate, MisreadGroup, MisreadProtocol, MisreadRecord, sheets};
+use crate::shares::{percent, told};
+
+/// The page.
+pub fn page(study: &Misread) -> Page {
+    let records = &study.records;
+    let section = |title: &str, words: &str, table: Table| Section::new(title).paragraph(words).table(table);
+    let by = |title: &'static str, word: fn(&MisreadRecord) -> &str| {
+        sheets::groups(title, &MisreadGroup::of_each(records, word))
+    };
+    Page::new("How a file that does not say what is meant is found")
+        .with(introduction(study).detail())
+        .with(Section::new("In short").list(headlines(records)))
+        .with(section("Misstatement by misstatement", MISSTATEMENTS, sheets::misstatements(records)))
+        .with(
+            section("Machines, plans and effects", GROUPS, by("family", |r| &r.campaign.family))
+                .table(by("plan", |r| &r.campaign.plan))
+                .table(by("machine", |r| &r.campaign.kind)),
+        )
+        .with(section("False alarms", ALARMS, sheets::false_alarms(records)))
+        .with_all(unless_empty("False alarms one by one", ONE_BY_ONE, sheets::alarms(records)))
+        .with_all(unless_empty("Refused", REFUSED, sheets::refusals(records)))
+        .with(
+            Section::new("Without a campaign")
+                .list(study.failures.iter().map(|(name, why)| format!("{name}: {why}")))
+                .unless_empty(),
+        )
+        .with(again(study).detail())
+}
+
+/// None without rows.
+fn unless_empty(title: &str, words: &str, table: Table) -> Option<Section> {
+    (!table.rows.is_empty()).then(|| Section::new(title).paragraph(words).table(table).detail())
+}
+
+/// The figures everything else explains, one sentence each.
+pub fn headlines(records: &[MisreadRecord]) -> Vec<String> {
+    let all = MisreadGroup::of_all(records);
+    let share = |fate| told(all.share(fate));
+    vec![
+        format!("A misstatement matters in {}; elsewhere no data can show it.", told(all.matters())),
+        format!(
+            "Where it matters, a right cause is named first in {}, among others in {}; only wrong causes in {}.",
+            share(MisreadFate::Named),
+            share(MisreadFate::AmongOthers),
+            share(MisreadFate::WrongCause),
+        ),
+        format!(
+            "Noticed without a cause: {}; refused: {}; silent: {}.",
+            share(MisreadFate::Noticed),
+            share(MisreadFate::Refused),
+            share(MisreadFate::Silent),
+        ),
+        format!("The answer is wrong and looks right to the springs in {}.", told(all.looks_right())),
+        format!("Files of sound campaigns are blamed in {}.", told(blamed(records, |_| true))),
+        extremes(records, "Least often named first", MisreadFate::Named, false),
+        extremes(records, "Most often called by a wrong cause", MisreadFate::WrongCause, true),
+        extremes(records, "Most often silent", MisreadFate::Silent, true),
+    ]
+}
+
+/// The five misstatements in which a fate is most or least frequent.
+fn extremes(records: &[MisreadRecord], words: &str, fate: MisreadFate, most: bool) -> String {
+    const LISTED: usize = 5;
+    let mut all: Vec<(String, Proportion)> = MisreadGroup::of_each_misstatement(records)
+        .into_iter()
+        .map(|group| (group.name.clone(), group.share(fate)))
+        .filter(|(_, share)| share.of > 0 && (share.hits > 0 || !most))
+        .collect();
+    all.sort_by(
+        |(_, a), (_, b)| if most { b.rate().total_cmp(&a.rate()) } else { a.rate().total_cmp(&b.rate()) },
+    );
+    let listed = all.iter().take(LISTED).map(|(name, share)| format!("{name} ({} %)", percent(*share)));
+    let listed: Vec<String> = listed.collect();
+    format!("{words}: {}.", if listed.is_empty() { "none".to_owned() } else { listed.join(", ") })
+}
+
+fn introduction(study: &Misread) -> Section {
+    let MisreadProtocol { seed, trials, sound, misstatements, scenes } = &study.protocol;
+    Section::lead()
+        .paragraph(written_by("hexbench validate misread --markdown FILE"))
+        .paragraph(LIMITS)
+        .paragraph(format!(
+            "Files were written wrongly in {} ways as users do it, {trials} campaigns each, read again as any file is, and diagnosed; \
+             beside them {sound} sound campaigns{} (seed {seed}; {} of {} could not be made).",
+            misstatements.len(),
+            if scenes.is_empty() { String::new() } else { format!(", some of them in {} scenes", scenes.len()) },
+            study.failures.len(),
+            study.records.len() + study.failures.len(),
+        ))
+        .list([
+            "Machines and plans are drawn as for the calibration; the misread campaigns go through the seven families in turn, clean and \
+             with one effect of the catalogue at its usual size (distance 22). However it is written, the same number is the same campaign.",
+            "Sound campaigns are of all kinds of the calibration: clean, one effect, two, one outside the catalogue, richer forms, the plan \
+             of the paper, absolute poses, and in the bundled scenes with another seed; effects at the usual size, at 3 and at 10 times, or as large as machine and plan allow.",
+            "A misstatement matters when six springs fitted to the files as written differ from those fitted to the files as meant: \
+             chi-square per degree of freedom, in the fit or held out, by more than 20 %; a stiffness by more than 5 of its standard \
+             deviations and 2 %; a standard deviation of one by more than 20 %; when readings repeat others to the last digit; or when \
+             nothing can be fitted.",
+            "Bounds of shares are exact binomial 95 % bounds (Clopper and Pearson).",
+        ])
+}
+
+const LIMITS: &str = "Limits: simulated deflections with a stated noise and one misstatement at a time, of the whole file and of the size \
+that users make it; absolute poses are in the sound campaigns only, and no file states a nominal stiffness.";
+
+const MISSTATEMENTS: &str = "Counts, then percent of the campaigns in which the misstatement matters. Right words: those of \
+`findings[].kind` that are right, several where readings cannot tell them apart, and effects of the catalogue that say the same. Looks \
+right: it matters, but neither the misfit of the springs nor a sign nor a copy shows it. Named: the first finding about the whole file is \
+right. Noticed: the verdict is measurement, outside, ambiguous or undecided, without a cause. Refused: a message instead of an answer. \
+Silent: the springs are called adequate or effects are named without a word about the file. Most often: the first finding about the \
+file, else the verdict.";
+
+const GROUPS: &str = "The same figures over all misstatements.";
+
+const ALARMS: &str =
+    "Sound campaigns with a finding about the whole file, by kind and by the size of the effects.";
+
+const ONE_BY_ONE: &str = "Any of them is written as files with `--case`.";
+
+const REFUSED: &str = "Files that are not read, or from which nothing can be computed.";
+
+fn again(study: &Misread) -> Section {
+    let MisreadProtocol { seed, trials, sound, misstatements, scenes } = &study.protocol;
+    let chosen: String = if *misstatements == MisreadProtocol::default().misstatements {
+        String::new()
+    } else {
+        misstatements.iter().flat_map(|id| [" --misstatement ", id]).collect()
+    };
+    let scenes = if scenes.is_empty() { "" } else { " --scenes scenes/*/" };
+    Section::new("Again")
+        .with(Block::code(format!(
+            "hexbench validate misread --seed {seed} --trials {trials} --sound {sound}{chosen}{scenes} -o DIR --markdown docs/results/misread.md\n\
+             hexbench validate misread --seed {seed} --case fz-negated/ring_a-clean-0000 -o DIR"
+        )))
+        .paragraph(
+            "The first writes every trial, the tables and this page; the second writes one campaign as files for `hexbench diagnose`. \
+             The same seed gives the same bytes on any number of threads.",
+        )
+}

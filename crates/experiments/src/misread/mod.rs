@@ -1,0 +1,30 @@
+//! Whether it is found that a file does not say what its author meant.
+//!
+//! Campaigns are measured as they should be, and one convention of their files is broken as users break it
+//! ([`hexbench_truth::misstatements`]): signs, units, axes, leg orders, frames, angles, rows. They are read as any file is and
+//! diagnosed; what is found is held against what was done. Sound campaigns, with effects of all sizes, count false alarms.
+//!
+//! Whether a misstatement matters at all is decided once, by [`PlainChange`]: springs alone fitted to the files as meant and as written.
+
+mod case;
+mod document;
+mod false_alarms;
+mod fate;
+mod files;
+mod group;
+mod plain;
+mod protocol;
+mod record;
+mod scene;
+pub mod sheets;
+mod study;
+
+pub use case::{MisreadCampaign, case};
+pub use document::{headlines, page};
+pub use fate::{MisreadFate, WHOLE_FILE};
+pub use group::MisreadGroup;
+pub use plain::PlainChange;
+pub use protocol::{MisreadProtocol, SEED, SOUND, TRIALS};
+pub use record::{MeasuredCampaign, MisreadRecord};
+pub use scene::MisreadScene;
+pub use study::Misread;

@@ -1,0 +1,166 @@
+//! The protocol: every misstatement meets machines of every family, clean and with one effect; beside them sound campaigns.
+
+use hexbench_truth::campaign::CaseKind;
+use hexbench_truth::campaign::machines::FAMILIES;
+use hexbench_truth::misstatements::{self, MisstatementEntry};
+
+use super::MisreadScene;
+
+/// Seed of the committed figures.
+pub const SEED: u64 = 4_407;
+/// Campaigns of each misstatement: every family, clean and with one effect.
+pub const TRIALS: u32 = 14;
+/// Sound campaigns.
+pub const SOUND: u32 = 1_000;
+/// Sizes of the effects of sound campaigns over the usual one.
+pub(super) const SIZES: [u32; 3] = [1, 3, 10];
+
+/// What is run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MisreadProtocol {
+    /// Decides everything that is drawn.
+    pub seed: u64,
+    /// Campaigns of each misstatement.
+    pub trials: usize,
+    /// Campaigns in which nothing is misstated.
+    pub sound: usize,
+    /// Ids of the misstatements, in their order; unknown ones are left out.
+    pub misstatements: Vec<&'static str>,
+    /// Scenes in which some of the sound campaigns are measured.
+    pub scenes: Vec<MisreadScene>,
+}
+
+impl Default for MisreadProtocol {
+    fn default() -> Self {
+        let misstatements = misstatements::registry().map(|entry| entry.id).collect();
+        Self { seed: SEED, trials: TRIALS as usize, sound: SOUND as usize, misstatements, scenes: Vec::new() }
+    }
+}
+
+impl MisreadProtocol {
+    /// These misstatements only.
+    #[must_use]
+    pub fn with_misstatements(self, ids: &[&str]) -> Self {
+        let misstatements = self.misstatements.into_iter().filter(|id| ids.contains(id)).collect();
+        Self { misstatements, ..self }
+    }
+
+    fn entries(&self) -> Vec<&'static MisstatementEntry> {
+        self.misstatements.iter().filter_map(|id| misstatements::entry(id)).collect()
+    }
+
+    /// How many trials there are.
+    pub(super) fn all(&self) -> usize {
+        self.entries().len() * self.trials + self.sound
+    }
+
+    /// What a trial is. Campaign after campaign, each written in all ways; then the sound ones.
+    pub(super) fn job(&self, number: u64) -> Job {
+        let entries = self.entries();
+        let number = usize::try_from(number).unwrap_or(usize::MAX);
+        let misread = entries.len() * self.trials;
+        let campaign = number / entries.len().max(1);
+        match entries.get(number % entries.len().max(1)) {
+            Some(entry) if number < misread => Job::misread(entry, campaign),
+            _ => Job::sound(number.saturating_sub(misread), &self.scenes),
+        }
+    }
+}
+
+/// What a trial is.
+#[derive(Debug, Clone)]
+pub(super) enum Job {
+    /// A campaign whose files are written wrongly.
+    Misread {
+        /// How.
+        entry: &'static MisstatementEntry,
+        /// Family of the machine.
+        family: &'static str,
+        /// A clean machine, or one effect.
+        kind: CaseKind,
+        /// Number within the kind; the same number is the same campaign however it is written.
+        index: usize,
+    },
+    /// A sound campaign.
+    Sound {
+        /// Its kind.
+        kind: CaseKind,
+        /// Size of its effects over the usual one.
+        size: u32,
+        /// Number within the kind.
+        index: usize,
+    },
+    /// A sound campaign in a scene.
+    Scene {
+        /// The scene.
+        scene: MisreadScene,
+        /// Size of its effects over those it has.
+        size: u32,
+        /// Number of the campaign.
+        index: usize,
+    },
+}
+
+/// Kinds of campaigns that are written wrongly.
+const MISREAD: [CaseKind; 2] = [CaseKind::Clean, CaseKind::Single];
+
+impl Job {
+    /// Families in turn, clean and with an effect by turns; after two rounds every family has had both.
+    fn misread(entry: &'static MisstatementEntry, index: usize) -> Self {
+        let (family, round) = (FAMILIES[index % FAMILIES.len()], index / FAMILIES.len());
+        let kind = MISREAD[(index % FAMILIES.len() + round) % MISREAD.len()];
+        Self::Misread { entry, family, kind, index }
+    }
+
+    /// Kinds in turn, and behind each round one in a scene where there are scenes.
+    fn sound(number: usize, scenes: &[MisreadScene]) -> Self {
+        let round = CaseKind::ALL.len() + usize::from(!scenes.is_empty());
+        let index = number / round;
+        if let Some(&kind) = CaseKind::ALL.get(number % round) {
+            return Self::Sound { kind, size: SIZES[index % SIZES.len()], index };
+        }
+        let size = SIZES[index / scenes.len() % SIZES.len()];
+        Self::Scene { scene: scenes[index % scenes.len()].clone(), size, index }
+    }
+
+    /// What is done to which campaign: `fz-negated/ring_a-clean-0000`, `sound/single-10x-0002`, `scene/paper-3x-0014`.
+    pub(super) fn name(&self) -> String {
+        match self {
+            Self::Misread { entry, family, kind, index } => {
+                format!("{}/{family}-{}-{index:04}", entry.id, kind.name())
+            }
+            Self::Sound { kind, size, index } => format!("sound/{}-{size}x-{index:04}", kind.name()),
+            Self::Scene { scene, size, index } => format!("scene/{}-{size}x-{index:04}", scene.name),
+        }
+    }
+
+    /// The trial of a name.
+    pub(super) fn parse(name: &str, scenes: &[MisreadScene]) -> Option<Self> {
+        const MOST_DIGITS: usize = 6;
+        let (how, rest) = name.split_once('/')?;
+        let (rest, index) = rest.rsplit_once('-').filter(|(_, index)| index.len() <= MOST_DIGITS)?;
+        let index = index.parse().ok()?;
+        if let Some(entry) = misstatements::entry(how) {
+            let (family, kind) = MISREAD.into_iter().find_map(|k| Some((before(rest, k.name())?, k)))?;
+            let family = FAMILIES.iter().copied().find(|f| *f == family)?;
+            return Some(Self::Misread { entry, family, kind, index });
+        }
+        let (of, size) = SIZES.into_iter().find_map(|s| Some((before(rest, &format!("{s}x"))?, s)))?;
+        match how {
+            "sound" => {
+                let kind = CaseKind::ALL.into_iter().find(|k| k.name() == of)?;
+                Some(Self::Sound { kind, size, index })
+            }
+            "scene" => {
+                let scene = scenes.iter().find(|scene| scene.name == of)?.clone();
+                Some(Self::Scene { scene, size, index })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// What stands before a last word and its hyphen.
+fn before<'a>(text: &'a str, last: &str) -> Option<&'a str> {
+    text.strip_suffix(last)?.strip_suffix('-')
+}
