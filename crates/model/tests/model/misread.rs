@@ -191,14 +191,20 @@ fn every_change_is_written_as_it_is_read() {
         "joints-exchanged=yes",
         "origin=moments-fixed:0,0,-95",
         "geometry=base-2-y:-1.5",
+        "unit=fz*9.80665",
+        "axes=pose-angle-columns:z,y,x",
         "wrench-frame=mobile",
+        "wrench-frame=moments-mobile",
         "deflection-frame=mobile",
         "angle-convention=moving-x-y-z",
         "angle-convention=poses:rotation-vector",
         "rotation-convention=other",
         "reference-missing=0,0,-119.7,0,0,0",
         "reference-missing=change",
+        "reference-missing=twice",
         "row-order=loads-from-below",
+        "row-order=load-of-the-next",
+        "row-order=readings-reversed",
     ];
     for text in all {
         let change: Change = text.parse().unwrap();

@@ -26,11 +26,13 @@ pub enum Change {
     /// Base and platform joints exchanged.
     JointsExchanged,
     /// Another point of origin, away from the one stated.
-    Origin(Origin, Vector3),
+    Origin(ReferencePoint, Vector3),
     /// One coordinate of a joint is off by so much.
     Joint(JointCoordinate, f64),
     /// The wrench is written in the axes of the platform.
     WrenchMobile,
+    /// Its moments are, its forces are not.
+    MomentsMobile,
     /// The deflections are written in the axes of the platform.
     DeflectionMobile,
     /// Angles of the poses, and of the deflections too, turn in another order.
@@ -43,6 +45,8 @@ pub enum Change {
     Preload(Wrench),
     /// The loaded columns hold the change of load already.
     LoadIsChange,
+    /// The loaded columns hold the load of the reference state twice.
+    LoadHoldsReference,
     /// Rows belong together in another order.
     Rows(RowOrder),
 }
@@ -93,6 +97,10 @@ pub enum Group {
     PlatformJoints,
     /// Both.
     Joints,
+    /// One of the six numbers of the readings, from zero.
+    Reading(u8),
+    /// One of the six components of the loads, from zero.
+    Load(u8),
     /// The stated noise.
     Noise,
 }
@@ -110,6 +118,8 @@ pub enum Target {
     WrenchColumns,
     /// Commanded poses.
     Poses,
+    /// The columns of the angles of the poses as they stand.
+    PoseAngleColumns,
     /// All joints.
     Joints,
     /// Base joints.
@@ -120,7 +130,7 @@ pub enum Target {
 
 /// What may refer to another point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Origin {
+pub enum ReferencePoint {
     /// Moments about a point of the fixed frame.
     MomentsFixed,
     /// Moments about a point of the platform, mobile frame.
@@ -179,25 +189,27 @@ impl Change {
             Self::JointsExchanged => FindingKind::JointsExchanged,
             Self::Origin(..) => FindingKind::Origin,
             Self::Joint(..) => FindingKind::Geometry,
-            Self::WrenchMobile => FindingKind::WrenchFrame,
+            Self::WrenchMobile | Self::MomentsMobile => FindingKind::WrenchFrame,
             Self::DeflectionMobile => FindingKind::DeflectionFrame,
             Self::Angles(_) | Self::PoseAngles(_) => FindingKind::AngleConvention,
             Self::OtherRotations => FindingKind::RotationConvention,
-            Self::Preload(_) | Self::LoadIsChange => FindingKind::ReferenceMissing,
+            Self::Preload(_) | Self::LoadIsChange | Self::LoadHoldsReference => FindingKind::ReferenceMissing,
             Self::Rows(_) => FindingKind::RowOrder,
         }
     }
 
     /// True when legs stand as they did: neither joints nor poses are concerned.
-    pub(super) fn keeps_legs(&self) -> bool {
+    pub(crate) fn keeps_legs(&self) -> bool {
         match self {
             Self::Reversed(_)
             | Self::StatesExchanged
             | Self::WrenchMobile
+            | Self::MomentsMobile
             | Self::DeflectionMobile
             | Self::OtherRotations
             | Self::Preload(_)
-            | Self::LoadIsChange => true,
+            | Self::LoadIsChange
+            | Self::LoadHoldsReference => true,
             Self::Scaled(group, _) => {
                 !matches!(
                     group,
@@ -209,9 +221,12 @@ impl Change {
                 )
             }
             Self::Renamed(target, _) | Self::Turned(target, _) => {
-                !matches!(target, Target::Poses | Target::Joints | Target::BaseJoints | Target::PlatformJoints)
+                matches!(
+                    target,
+                    Target::Readings | Target::ReadingColumns | Target::Wrench | Target::WrenchColumns
+                )
             }
-            Self::Origin(origin, _) => !matches!(origin, Origin::Poses | Origin::PlatformJoints),
+            Self::Origin(origin, _) => !matches!(origin, ReferencePoint::Poses | ReferencePoint::PlatformJoints),
             Self::LegOrder(_)
             | Self::JointsExchanged
             | Self::Joint(..)
@@ -219,6 +234,17 @@ impl Change {
             | Self::PoseAngles(_)
             | Self::Rows(_) => false,
         }
+    }
+
+    /// True when it changes what the readings are beside their stated noise.
+    pub(super) fn is_of_the_scale(&self) -> bool {
+        matches!(
+            self,
+            Self::Scaled(
+                Group::Translations | Group::Rotations | Group::Readings | Group::Reading(_) | Group::Noise,
+                _
+            )
+        )
     }
 
     /// Numbers of it that are fitted.
@@ -263,7 +289,7 @@ impl Change {
             self,
             Self::Renamed(Target::Readings, _)
                 | Self::Turned(Target::Readings, _)
-                | Self::Origin(Origin::ReadingsMobile, _)
+                | Self::Origin(ReferencePoint::ReadingsMobile, _)
         )
     }
 
@@ -294,7 +320,7 @@ impl Change {
             },
             Self::LegOrder(order) => *platform = order.map(|k| platform[usize::from(k)]),
             Self::JointsExchanged => std::mem::swap(base, platform),
-            Self::Origin(Origin::PlatformJoints, from) => platform.iter_mut().for_each(|b| *b -= from),
+            Self::Origin(ReferencePoint::PlatformJoints, from) => platform.iter_mut().for_each(|b| *b -= from),
             Self::Joint(coordinate, off) => *coordinate.of_mut(hexapod) += off,
             _ => {}
         }
@@ -321,6 +347,7 @@ impl Change {
                     });
                 }
                 Target::Poses => row.pose = axes.pose(&row.pose),
+                Target::PoseAngleColumns => row.pose.angles = axes.renamed(&row.pose.angles),
                 Target::Joints | Target::BaseJoints | Target::PlatformJoints => {}
             },
             Self::Turned(target, by) => {
@@ -337,29 +364,33 @@ impl Change {
                         let r = by.matrix() * row.pose.rotation() * by.matrix().transpose();
                         row.pose = Pose::from_rotation(by * row.pose.translation, &r);
                     }
-                    Target::Joints | Target::BaseJoints | Target::PlatformJoints => {}
+                    Target::PoseAngleColumns
+                    | Target::Joints
+                    | Target::BaseJoints
+                    | Target::PlatformJoints => {}
                 }
             }
             Self::Origin(origin, at) => match origin {
-                Origin::MomentsFixed => {
+                ReferencePoint::MomentsFixed => {
                     let arm = at - row.pose.translation;
                     for_both(row, |w| w.moment += arm.cross(&w.force));
                 }
-                Origin::MomentsMobile => {
+                ReferencePoint::MomentsMobile => {
                     let arm = rotation * at;
                     for_both(row, |w| w.moment += arm.cross(&w.force));
                 }
-                Origin::ReadingsMobile => {
+                ReferencePoint::ReadingsMobile => {
                     shift -= turn.cross(&(rotation * at));
                     row.measured = joined(&shift, &turn);
                 }
-                Origin::Poses => row.pose.translation -= at,
-                Origin::PlatformJoints => {}
+                ReferencePoint::Poses => row.pose.translation -= at,
+                ReferencePoint::PlatformJoints => {}
             },
             Self::WrenchMobile => for_both(row, |w| {
                 w.force = rotation * w.force;
                 w.moment = rotation * w.moment;
             }),
+            Self::MomentsMobile => for_both(row, |w| w.moment = rotation * w.moment),
             Self::DeflectionMobile => {
                 turn = rotation * turn;
                 if measurand == Measurand::DeflectionEuler {
@@ -383,6 +414,10 @@ impl Change {
             Self::LoadIsChange => {
                 row.wrench.force += row.reference.force;
                 row.wrench.moment += row.reference.moment;
+            }
+            Self::LoadHoldsReference => {
+                row.wrench.force -= row.reference.force;
+                row.wrench.moment -= row.reference.moment;
             }
             Self::LegOrder(_)
             | Self::JointsExchanged
@@ -445,6 +480,12 @@ fn scale(group: Group, factor: f64, row: &mut hexbench_core::Observation) {
     match group {
         Group::PosePositions => row.pose.translation *= factor,
         Group::PoseAngles => row.pose.angles *= factor,
+        Group::Reading(k) => row.measured[usize::from(k)] *= factor,
+        Group::Load(k) => for_both(row, |w| {
+            let mut all = w.to_array();
+            all[usize::from(k)] *= factor;
+            *w = Wrench::from_array(all);
+        }),
         Group::Noise => row.sigma = row.sigma.map(|s| s.map(|x| x * factor)),
         _ => {}
     }

@@ -11,7 +11,7 @@ const FEWEST: usize = 2;
 /// Rounding alone may explain this share of the copies at most.
 const ROUNDED_SHARE: f64 = 0.02;
 /// Share of held-out readings that stand in the measurements, beyond which the file holds nothing out.
-const SAME_FILE: f64 = 0.5;
+const SAME_FILE: f64 = 0.1;
 
 /// Rows whose six numbers are those of an earlier row, digit by digit.
 pub fn copies(data: &Dataset) -> Option<Finding> {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use hexbench_core::{Dataset, Hexapod, Vector3};
 
-use super::change::{Change, Group, JointCoordinate, Origin, Signed, Target};
+use super::change::{Change, Group, JointCoordinate, ReferencePoint, Signed, Target};
 use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 
@@ -26,6 +26,12 @@ const FACTORS: [f64; 14] = [
     17_453.292_52,
     9_806.65,
 ];
+/// The same for a single column.
+const COLUMN_FACTORS: [f64; 5] = [1e3, 1e6, 9.806_65, 4.448_222, 25.4];
+/// A diameter taken for a radius.
+const DIAMETER: [f64; 1] = [2.0];
+/// Turns of the platform against the base that a drawing may mean otherwise, degrees.
+const PLATFORM_TURNS: [f64; 6] = [30.0, -30.0, 60.0, -60.0, 120.0, -120.0];
 /// Points closer to each other than this are one, m.
 const ONE_POINT: f64 = 1e-3;
 
@@ -49,10 +55,17 @@ pub(super) fn cheap(data: &Dataset) -> Vec<Change> {
     // Right-handed columns are vectors.
     let left = axes.iter().filter(|a| a.handedness() < 0.0);
     all.extend(left.map(|&a| Change::Renamed(Target::WrenchColumns, a)));
-    all.extend([Change::WrenchMobile, Change::DeflectionMobile, Change::OtherRotations]);
+    let orders = axes.iter().filter(|a| a.axes().iter().all(|axis| *axis > 0));
+    all.extend(orders.map(|&a| Change::Renamed(Target::PoseAngleColumns, a)));
+    all.extend([
+        Change::WrenchMobile,
+        Change::MomentsMobile,
+        Change::DeflectionMobile,
+        Change::OtherRotations,
+    ]);
     all.extend(AngleOrder::ALL.iter().flat_map(|&o| [Change::Angles(o), Change::PoseAngles(o)]));
     if data.columns.reference {
-        all.extend([Change::StatesExchanged, Change::LoadIsChange]);
+        all.extend([Change::StatesExchanged, Change::LoadIsChange, Change::LoadHoldsReference]);
     }
     all
 }
@@ -89,13 +102,25 @@ fn units() -> Vec<Change> {
         Group::Joints,
         Group::Noise,
     ];
-    let both = |group| FACTORS.into_iter().flat_map(move |f| [Change::Scaled(group, f), Change::Scaled(group, f.recip())]);
-    groups.into_iter().flat_map(both).collect()
+    let each = |group, factors: &'static [f64]| {
+        factors.iter().flat_map(move |f| [Change::Scaled(group, *f), Change::Scaled(group, f.recip())])
+    };
+    let columns = (0..6).flat_map(|k| [Group::Reading(k), Group::Load(k)]);
+    let rings = [Group::BaseJoints, Group::PlatformJoints];
+    groups
+        .into_iter()
+        .flat_map(|group| each(group, &FACTORS))
+        .chain(columns.flat_map(|group| each(group, &COLUMN_FACTORS)))
+        .chain(rings.into_iter().flat_map(|group| each(group, &DIAMETER)))
+        .collect()
 }
 
 /// Joints in other axes, exchanged, or with a sign lost.
 fn machines(hexapod: &Hexapod) -> Vec<Change> {
     let mut all = vec![Change::JointsExchanged];
+    all.extend(PLATFORM_TURNS.iter().map(|deg| {
+        Change::Turned(Target::PlatformJoints, Vector3::new(0.0, 0.0, deg.to_radians()))
+    }));
     let upright: Vec<SignedAxes> = SignedAxes::all().into_iter().filter(|a| a.keeps_vertical()).collect();
     for target in [Target::BaseJoints, Target::PlatformJoints] {
         all.extend(upright.iter().map(|&axes| Change::Renamed(target, axes)));
@@ -128,24 +153,20 @@ fn leg_orders() -> Vec<[u8; 6]> {
 }
 
 /// Points to which moments may refer, and heights that may be counted twice or not at all.
-fn origins(hexapod: &Hexapod, data: &Dataset) -> Vec<(Origin, Vector3)> {
+fn origins(hexapod: &Hexapod, data: &Dataset) -> Vec<(ReferencePoint, Vector3)> {
     let base = hexapod.base_centre();
     let platform = hexapod.platform_joints.iter().sum::<Vector3>() / 6.0;
     let rows = data.observations.len().max(1) as f64;
     let position = data.observations.iter().map(|o| o.pose.translation).sum::<Vector3>() / rows;
-    let mut all = vec![(Origin::MomentsFixed, Vector3::zeros()), (Origin::MomentsFixed, base)];
-    let points = hexapod.payload_centre.into_iter().chain([platform, -platform]);
-    for point in points.filter(|p| p.norm() > ONE_POINT) {
-        all.extend([(Origin::MomentsMobile, point), (Origin::ReadingsMobile, point)]);
-    }
+    let mut all = vec![(ReferencePoint::MomentsFixed, Vector3::zeros()), (ReferencePoint::MomentsFixed, base)];
     let mut heights = vec![platform.z - base.z, platform.z, base.z, position.z];
     heights.retain(|h| h.abs() > ONE_POINT);
     for height in heights.iter().flat_map(|h| [*h, -h]) {
         let up = Vector3::new(0.0, 0.0, height);
-        all.extend([(Origin::Poses, up), (Origin::PlatformJoints, up)]);
+        all.extend([(ReferencePoint::Poses, up), (ReferencePoint::PlatformJoints, up)]);
     }
     if position.norm() > ONE_POINT {
-        all.push((Origin::Poses, position));
+        all.push((ReferencePoint::Poses, position));
     }
     all
 }

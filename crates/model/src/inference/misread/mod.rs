@@ -20,12 +20,12 @@ use std::borrow::Cow;
 use hexbench_core::{Dataset, Hexapod};
 use rayon::prelude::*;
 
-pub use self::change::{Change, Group, JointCoordinate, Origin, Signed, Target};
+pub use self::change::{Change, Group, JointCoordinate, ReferencePoint, Signed, Target};
 pub use self::copies::{copies, held_in};
 pub use self::name::{ChangeError, KINDS};
 pub use self::row_order::RowOrder;
 use self::sample::{Sample, Springs};
-pub use self::text::{Answered, AsWritten, finding, meaning};
+pub use self::text::{AgainstWritten, AsWritten, finding, meaning};
 pub use self::turn::{AngleOrder, SignedAxes};
 
 /// Springs that leave less than this many times the noise explain a file well enough: no mistake in it can matter much.
@@ -38,12 +38,14 @@ const GAIN: f64 = 40.0;
 const ALIKE: f64 = 8.0;
 /// What a number that is fitted costs, in twice the log-likelihood: the logarithm of some hundred readings.
 const SIZE: f64 = 6.0;
+/// Readings in their true unit have at least this share of the stated noise: in too large a unit they agree with anything.
+const QUIETEST: f64 = 0.4;
 /// Single mistakes beside which a second one is tried.
 const FIRST_OF_TWO: usize = 5;
 /// A second mistake is only believed when it leaves at most this share of what the first one leaves.
 const SECOND_SHARE: f64 = 0.4;
 /// Readings of a file looked at closely.
-const LOOKED_AT: usize = 48;
+const LOOKED_AT: usize = 72;
 /// Readings of a file handed on.
 const MOST_WAYS: usize = 8;
 
@@ -103,6 +105,13 @@ pub struct Way {
     pub gain: f64,
 }
 
+impl Way {
+    /// True when a number of it is fitted.
+    pub fn has_size(&self) -> bool {
+        self.changes.iter().any(|change| change.sizes() > 0)
+    }
+}
+
 /// A file as it is written, and other ways to read it.
 #[derive(Debug, Clone)]
 pub struct Readings {
@@ -141,6 +150,7 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
         sort(&mut ways);
     }
     ways.retain(|way| search.is_worth_a_look(way));
+    drop_any_unit(&mut ways);
     if ways.is_empty() {
         return None;
     }
@@ -152,6 +162,20 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
 fn is_sound(springs: &Springs, sample: &Sample) -> bool {
     let scatter = springs.scatter.max(springs.scatter.recip());
     springs.level < SOUND_LEVEL && springs.negative == 0 && (!sample.noise_is_stated || scatter < SOUND_SCATTER)
+}
+
+/// Numbers that any small factor explains alike are in no other unit: they are only taken out of the account.
+fn drop_any_unit(ways: &mut Vec<Way>) {
+    let unit = |way: &Way| match way.changes[..] {
+        [Change::Scaled(group, factor)] => Some((group, factor, way.cost)),
+        _ => None,
+    };
+    let units: Vec<(Group, f64, f64)> = ways.iter().filter_map(unit).collect();
+    ways.retain(|way| {
+        let Some((group, factor, cost)) = unit(way) else { return true };
+        let is_other = |f: f64| (f / factor).ln().abs() > std::f64::consts::LN_2;
+        !units.iter().any(|(g, f, c)| *g == group && is_other(*f) && (c - cost).abs() < 2.0 * ALIKE)
+    });
 }
 
 fn sort(ways: &mut [Way]) {
@@ -196,7 +220,7 @@ impl Search<'_> {
     fn looked_at(&self, all: Vec<Vec<Change>>) -> Vec<Way> {
         let coarse = self.sample.coarse();
         let look = |changes: Vec<Change>| {
-            let springs = coarse.springs(&changes).filter(|springs| springs.negative == 0)?;
+            let springs = admissible(&coarse, &changes)?;
             Some((springs.cost + charge(&changes), changes))
         };
         let mut looked: Vec<(f64, Vec<Change>)> = all.into_par_iter().filter_map(look).collect();
@@ -206,7 +230,7 @@ impl Search<'_> {
     }
 
     fn way(&self, changes: Vec<Change>) -> Option<Way> {
-        let springs = self.sample.springs(&changes).filter(|springs| springs.negative == 0)?;
+        let springs = admissible(self.sample, &changes)?;
         Some(self.of(&springs, changes))
     }
 
@@ -235,6 +259,14 @@ impl Search<'_> {
     fn is_worth_a_look(&self, way: &Way) -> bool {
         way.gain > GAIN || self.written.is_some_and(|written| written.negative > 0)
     }
+}
+
+/// Springs of a file read with changes, where all of them are springs and the readings are no quieter than their noise.
+fn admissible(sample: &Sample, changes: &[Change]) -> Option<Springs> {
+    let springs = sample.springs(changes).filter(|springs| springs.negative == 0)?;
+    let of_the_scale = sample.noise_is_stated && changes.iter().any(Change::is_of_the_scale);
+    let too_quiet = of_the_scale && sample.levels(changes)?.min() < QUIETEST;
+    (!too_quiet).then_some(springs)
 }
 
 /// Twice the logarithm of how many mistakes of the kind there are.

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use hexbench_core::{Vector3, Wrench};
 
-use super::change::{Change, Group, JointCoordinate, Origin, Signed, Target};
+use super::change::{Change, Group, JointCoordinate, ReferencePoint, Signed, Target};
 use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 
@@ -30,7 +30,7 @@ const SIGNED: [(&str, &str, Signed); 18] = [
     ("moment-sign", "mz", Signed::Load(5)),
 ];
 
-const GROUPS: [(&str, Group); 12] = [
+const GROUPS: [(&str, Group); 24] = [
     ("translations", Group::Translations),
     ("rotations", Group::Rotations),
     ("readings", Group::Readings),
@@ -43,25 +43,38 @@ const GROUPS: [(&str, Group); 12] = [
     ("platform-joints", Group::PlatformJoints),
     ("joints", Group::Joints),
     ("noise", Group::Noise),
+    ("da", Group::Reading(0)),
+    ("db", Group::Reading(1)),
+    ("dc", Group::Reading(2)),
+    ("dalpha", Group::Reading(3)),
+    ("dbeta", Group::Reading(4)),
+    ("dgamma", Group::Reading(5)),
+    ("fx", Group::Load(0)),
+    ("fy", Group::Load(1)),
+    ("fz", Group::Load(2)),
+    ("mx", Group::Load(3)),
+    ("my", Group::Load(4)),
+    ("mz", Group::Load(5)),
 ];
 
-const TARGETS: [(&str, Target); 8] = [
+const TARGETS: [(&str, Target); 9] = [
     ("readings", Target::Readings),
     ("reading-columns", Target::ReadingColumns),
     ("wrench", Target::Wrench),
     ("wrench-columns", Target::WrenchColumns),
     ("poses", Target::Poses),
+    ("pose-angle-columns", Target::PoseAngleColumns),
     ("joints", Target::Joints),
     ("base-joints", Target::BaseJoints),
     ("platform-joints", Target::PlatformJoints),
 ];
 
-const ORIGINS: [(&str, Origin); 5] = [
-    ("moments-fixed", Origin::MomentsFixed),
-    ("moments-mobile", Origin::MomentsMobile),
-    ("readings-mobile", Origin::ReadingsMobile),
-    ("poses", Origin::Poses),
-    ("platform-joints", Origin::PlatformJoints),
+const ORIGINS: [(&str, ReferencePoint); 5] = [
+    ("moments-fixed", ReferencePoint::MomentsFixed),
+    ("moments-mobile", ReferencePoint::MomentsMobile),
+    ("readings-mobile", ReferencePoint::ReadingsMobile),
+    ("poses", ReferencePoint::Poses),
+    ("platform-joints", ReferencePoint::PlatformJoints),
 ];
 
 const AXES: [char; 3] = ['x', 'y', 'z'];
@@ -89,7 +102,7 @@ impl Target {
     }
 }
 
-impl Origin {
+impl ReferencePoint {
     /// Word for what refers to a point.
     pub fn word(self) -> &'static str {
         word(&ORIGINS, self)
@@ -132,11 +145,13 @@ impl fmt::Display for Change {
             Self::Origin(origin, at) => write!(f, "{}:{}", origin.word(), triple(&(at * 1e3))),
             Self::Joint(coordinate, off) => write!(f, "{coordinate}:{}", short(off * 1e3)),
             Self::WrenchMobile | Self::DeflectionMobile => f.write_str("mobile"),
+            Self::MomentsMobile => f.write_str("moments-mobile"),
             Self::Angles(order) => f.write_str(order.word()),
             Self::PoseAngles(order) => write!(f, "poses:{}", order.word()),
             Self::OtherRotations => f.write_str("other"),
             Self::Preload(load) => f.write_str(&load.to_array().map(short).join(",")),
             Self::LoadIsChange => f.write_str("change"),
+            Self::LoadHoldsReference => f.write_str("twice"),
             Self::Rows(order) => f.write_str(order.word()),
         }
     }
@@ -183,18 +198,18 @@ pub const KINDS: [(&str, &str); 17] = [
     (
         "unit",
         "GROUP*FACTOR; groups: translations, rotations, readings, forces, moments, loads, pose-positions, pose-angles, base-joints, \
-         platform-joints, joints, noise",
+         platform-joints, joints, noise, or one column: da to dgamma, fx to mz",
     ),
     (
         "axes",
         "WHAT:AXES as in readings:y,-x,z, or WHAT:turned:RX,RY,RZ in degrees; what: readings, reading-columns, wrench, \
-         wrench-columns, poses, joints, base-joints, platform-joints",
+         wrench-columns, poses, pose-angle-columns, joints, base-joints, platform-joints",
     ),
     ("leg-order", "the six platform joints in their order, as in 2,3,4,5,6,1"),
     ("joints-exchanged", "yes"),
     ("origin", "WHAT:X,Y,Z in mm; what: moments-fixed, moments-mobile, readings-mobile, poses, platform-joints"),
     ("geometry", "JOINT:MM as in base-2-y:-1.5"),
-    ("wrench-frame", "mobile"),
+    ("wrench-frame", "mobile or moments-mobile"),
     ("deflection-frame", "mobile"),
     (
         "angle-convention",
@@ -202,8 +217,12 @@ pub const KINDS: [(&str, &str); 17] = [
          poses alone",
     ),
     ("rotation-convention", "other"),
-    ("reference-missing", "change, or the load of the reference state: FX,FY,FZ,MX,MY,MZ in N and N m"),
-    ("row-order", "loads-from-below, loads-from-above, loads-reversed, poses-from-below or poses-from-above"),
+    ("reference-missing", "change, twice, or the load of the reference state: FX,FY,FZ,MX,MY,MZ in N and N m"),
+    (
+        "row-order",
+        "loads-from-below, loads-from-above, loads-reversed, load-of-the-next, load-of-the-last, poses-from-below, poses-from-above, \
+         readings-from-below, readings-from-above or readings-reversed",
+    ),
 ];
 
 impl FromStr for Change {
@@ -223,6 +242,7 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
     match kind {
         "states-exchanged" => yes(Change::StatesExchanged),
         "joints-exchanged" => yes(Change::JointsExchanged),
+        "wrench-frame" if given == "moments-mobile" => Some(Change::MomentsMobile),
         "wrench-frame" => mobile(Change::WrenchMobile),
         "deflection-frame" => mobile(Change::DeflectionMobile),
         "rotation-convention" => (given == "other").then_some(Change::OtherRotations),
@@ -258,6 +278,7 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
             }
         }
         "reference-missing" if given == "change" => Some(Change::LoadIsChange),
+        "reference-missing" if given == "twice" => Some(Change::LoadHoldsReference),
         "reference-missing" => numbers(given).map(|w| Change::Preload(Wrench::from_array(w))),
         "row-order" => RowOrder::ALL.into_iter().find(|o| o.word() == given).map(Change::Rows),
         _ => {

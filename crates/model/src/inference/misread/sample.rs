@@ -153,12 +153,17 @@ impl Sample {
     fn fit(&self, data: &Dataset, legs: &[Option<Legs>], changes: &[Change]) -> Option<Springs> {
         let factors = Factors::of(changes);
         let mut normal = Normal::default();
-        self.whitened(data, legs, &factors, |row| normal.add(&row))?;
+        self.whitened(data, legs, &factors, LINEAR_SHARE, |row| normal.add(&row))?;
         self.judged(&normal, &factors)
     }
 
     /// Readings less what the springs explain of them, over the noise, of the file read with changes; six for each condition.
     pub(super) fn residuals(&self, changes: &[Change]) -> Option<DVector<f64>> {
+        self.residuals_over(changes, LINEAR_SHARE)
+    }
+
+    /// The same over the noise and a share of the readings.
+    fn residuals_over(&self, changes: &[Change], share: f64) -> Option<DVector<f64>> {
         let mut hexapod = self.hexapod.clone();
         let mut data = self.data.clone();
         changes.iter().for_each(|change| change.apply(&mut hexapod, &mut data));
@@ -167,7 +172,7 @@ impl Sample {
         let legs = if kept { &self.legs } else { &moved };
         let factors = Factors::of(changes);
         let mut rows = Vec::with_capacity(data.observations.len());
-        self.whitened(&data, legs, &factors, |row| rows.push(row))?;
+        self.whitened(&data, legs, &factors, share, |row| rows.push(row))?;
         let mut normal = Normal::default();
         rows.iter().for_each(|row| normal.add(row));
         let (compliances, ..) = non_negative(&normal, (self.numbers() - 6.0).max(1.0))?;
@@ -178,16 +183,28 @@ impl Sample {
         Some(DVector::from_iterator(6 * rows.len(), all))
     }
 
+    /// Root mean square of the residuals over the stated noise, per coordinate.
+    pub(super) fn levels(&self, changes: &[Change]) -> Option<Vector6> {
+        let all = self.residuals_over(changes, 0.0)?;
+        let conditions = self.data.observations.len();
+        let freedom = (self.numbers() - 6.0).max(1.0) / 6.0;
+        Some(Vector6::from_fn(|k, _| {
+            let sum: f64 = (0..conditions).map(|c| all[6 * c + k].powi(2)).sum();
+            (sum / freedom).sqrt()
+        }))
+    }
+
     /// Columns of the springs and readings of every condition, over the noise; none at a singular pose.
     fn whitened(
         &self,
         data: &Dataset,
         legs: &[Option<Legs>],
         factors: &Factors,
+        share: f64,
         mut take: impl FnMut(Whitened),
     ) -> Option<()> {
         let motions = motions(data);
-        let floor = floors(&motions);
+        let floor = floors(&motions, share);
         for (((row, motion), legs), sigma) in data.observations.iter().zip(&motions).zip(legs).zip(&self.sigma) {
             let legs = legs.as_ref()?;
             let force = legs.forces(&(row.wrench.to_vector() - row.reference.to_vector()));
@@ -307,11 +324,11 @@ fn motions(data: &Dataset) -> Vec<Vector6> {
 }
 
 /// What the linear springs may miss, per coordinate.
-fn floors(motions: &[Vector6]) -> Vector6 {
+fn floors(motions: &[Vector6], share: f64) -> Vector6 {
     let n = (3 * motions.len()).max(1) as f64;
     let rms = |first: usize| {
         let sum: f64 = motions.iter().map(|m| m.fixed_rows::<3>(first).norm_squared()).sum();
-        (sum / n).sqrt() * LINEAR_SHARE
+        (sum / n).sqrt() * share
     };
     let (shift, turn) = (rms(0), rms(3));
     Vector6::from_fn(|k, _| if k < 3 { shift } else { turn })

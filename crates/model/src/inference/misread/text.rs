@@ -1,8 +1,13 @@
 //! A misread file in words.
 
-use super::change::{Change, Group, Origin, Signed, Target};
+use super::change::{Change, Group, ReferencePoint, Signed, Target};
 use super::Way;
 use crate::inference::examination::Finding;
+
+/// The six numbers of a reading.
+const READINGS: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
+/// The six components of a load.
+const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 
 /// What explains the file as it is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +22,7 @@ pub enum AsWritten {
 
 /// How a reading of the file did against the file as it is written.
 #[derive(Debug, Clone, Copy)]
-pub struct Answered {
+pub struct AgainstWritten {
     /// As written.
     pub written: AsWritten,
     /// Error over the noise the other way.
@@ -25,7 +30,7 @@ pub struct Answered {
 }
 
 /// What is told of a way to read the file. `alike`: the ways that explain the file like it; `share`: its probability among them.
-pub fn finding(way: &Way, alike: &[&Way], answered: Answered, share: f64) -> Finding {
+pub fn finding(way: &Way, alike: &[&Way], answered: AgainstWritten, share: f64) -> Finding {
     let others: Vec<String> = alike
         .iter()
         .filter(|other| other.changes != way.changes)
@@ -106,17 +111,18 @@ pub fn meaning(change: &Change) -> String {
             let at = at * 1e3;
             let point = format!("({:.1}, {:.1}, {:.1}) mm", at.x, at.y, at.z);
             match origin {
-                Origin::MomentsFixed => format!("the moments seem to be about the point {point} of the fixed frame, not about the mobile origin"),
-                Origin::MomentsMobile => format!("the moments seem to be about the point {point} of the platform, not about the mobile origin"),
-                Origin::ReadingsMobile => format!("the deflections seem to be those of the point {point} of the platform, not of the mobile origin"),
-                Origin::Poses => format!("the positions of the poses seem to start at {point}, as where the home height is counted twice or left out"),
-                Origin::PlatformJoints => format!("the platform joints seem to be given from {point}, as where the home height is counted twice or left out"),
+                ReferencePoint::MomentsFixed => format!("the moments seem to be about the point {point} of the fixed frame, not about the mobile origin"),
+                ReferencePoint::MomentsMobile => format!("the moments seem to be about the point {point} of the platform, not about the mobile origin"),
+                ReferencePoint::ReadingsMobile => format!("the deflections seem to be those of the point {point} of the platform, not of the mobile origin"),
+                ReferencePoint::Poses => format!("the positions of the poses seem to start at {point}, as where the home height is counted twice or left out"),
+                ReferencePoint::PlatformJoints => format!("the platform joints seem to be given from {point}, as where the home height is counted twice or left out"),
             }
         }
         Change::Joint(coordinate, off) => {
             format!("the joint coordinate {coordinate} of the hexapod file seems off by {:.2} mm", -off * 1e3)
         }
         Change::WrenchMobile => "the loads seem to be written in the axes of the platform, not in fixed axes".to_owned(),
+        Change::MomentsMobile => "the moments seem to be written in the axes of the platform, not in fixed axes".to_owned(),
         Change::DeflectionMobile => "the deflections seem to be written in the axes of the platform, not in fixed axes".to_owned(),
         Change::Angles(order) => format!("{}, it seems, in poses and deflections", order.text()),
         Change::PoseAngles(order) => format!("{}, it seems, in the poses", order.text()),
@@ -126,13 +132,12 @@ pub fn meaning(change: &Change) -> String {
             format!("the reference state seems to carry a load that the file does not have, about ({fx:.3}, {fy:.3}, {fz:.3}) N and ({mx:.3}, {my:.3}, {mz:.3}) N m")
         }
         Change::LoadIsChange => "the load columns seem to hold the change of load, loaded minus reference, already".to_owned(),
+        Change::LoadHoldsReference => "the load columns seem to hold the load of the reference state twice".to_owned(),
         Change::Rows(order) => format!("rows seem to have slipped: {}", order.text()),
     }
 }
 
 fn reversed(signed: Signed) -> String {
-    const READINGS: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
-    const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
     match signed {
         Signed::Readings => "the deflections seem to be reference minus loaded: they have".to_owned(),
         Signed::Translations => "the translations of the deflections seem to have".to_owned(),
@@ -158,6 +163,8 @@ fn scaled(group: Group) -> &'static str {
         Group::BaseJoints => "the base joints",
         Group::PlatformJoints => "the platform joints",
         Group::Joints => "the joints",
+        Group::Reading(k) => READINGS[usize::from(k)],
+        Group::Load(k) => LOADS[usize::from(k)],
         Group::Noise => "the stated noise",
     }
 }
@@ -169,6 +176,7 @@ fn written_in(target: Target) -> &'static str {
         Target::Wrench => "the loads",
         Target::WrenchColumns => "the columns of the loads",
         Target::Poses => "the poses",
+        Target::PoseAngleColumns => "the angle columns of the poses",
         Target::Joints => "the joints",
         Target::BaseJoints => "the base joints",
         Target::PlatformJoints => "the platform joints",
@@ -207,7 +215,7 @@ fn advice(change: &Change, is_one_of_many: bool) -> &'static str {
             "compare the joints of the hexapod file with the drawing, leg by leg, and correct it"
         }
         Change::Rows(_) => "compare the file with the log of the measurement, and put the rows in order",
-        Change::Preload(_) | Change::LoadIsChange => {
+        Change::Preload(_) | Change::LoadIsChange | Change::LoadHoldsReference => {
             "write the loads of both states, ref_fx_N to ref_mz_Nm and fx_N to mz_Nm, each as applied to the platform"
         }
         _ => "check in which frame, about which point and in which convention these columns were written, and correct the file",

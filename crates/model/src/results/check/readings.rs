@@ -17,14 +17,14 @@ const STIFFNESS_OFF: f64 = 3.0;
 
 /// Smallest and largest of something.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Range {
+pub struct Extent {
     /// The smallest.
     pub least: f64,
     /// The largest.
     pub most: f64,
 }
 
-impl Range {
+impl Extent {
     fn of(values: impl Iterator<Item = f64>) -> Self {
         let none = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
         values.fold(none, |r, x| Self { least: r.least.min(x), most: r.most.max(x) })
@@ -45,7 +45,7 @@ pub struct ReadingsCheck {
     /// Different conditions: pose, loads, approach, temperature, time.
     pub conditions: usize,
     /// Lengths of the legs over all poses, mm.
-    pub leg_lengths_mm: Range,
+    pub leg_lengths_mm: Extent,
     /// Largest angle of a pose, degrees.
     pub largest_angle_deg: f64,
     /// Largest force, N.
@@ -53,7 +53,7 @@ pub struct ReadingsCheck {
     /// Largest moment, N m.
     pub largest_moment_nm: f64,
     /// Forces in the legs, tension positive, N.
-    pub leg_forces_n: Range,
+    pub leg_forces_n: Extent,
     /// Root mean square of the translations read, um; of deflections only.
     pub translation_rms_um: Option<f64>,
     /// Root mean square of the rotations read, urad; of deflections only.
@@ -98,11 +98,11 @@ impl ReadingsCheck {
             rows: rows.len(),
             poses: poses.len(),
             conditions: campaign.groups.len(),
-            leg_lengths_mm: Range::of(legs.iter().flat_map(|(_, l)| l.lengths.iter().map(|q| 1e3 * q).collect::<Vec<_>>())),
+            leg_lengths_mm: Extent::of(legs.iter().flat_map(|(_, l)| l.lengths.iter().map(|q| 1e3 * q).collect::<Vec<_>>())),
             largest_angle_deg: largest(&|o| o.pose.angles.amax().to_degrees()),
             largest_force_n: largest(&|o| o.wrench.force.norm()),
             largest_moment_nm: largest(&|o| o.wrench.moment.norm()),
-            leg_forces_n: Range::of(
+            leg_forces_n: Extent::of(
                 legs.iter().flat_map(|(o, l)| l.forces(&o.wrench.to_vector()).iter().copied().collect::<Vec<_>>()),
             ),
             translation_rms_um: deflections.then(|| rms(0)),

@@ -8,12 +8,14 @@ use crate::error::ModelError;
 use crate::estimation::fit::fit_baseline;
 use crate::estimation::residuals::{prediction_errors, summarise};
 use crate::inference::examination::{Finding, FindingKind};
-use crate::inference::misread::{meaning, other_readings};
+use crate::inference::misread::{Change, Way, meaning, other_readings};
 
 /// Held-out readings missed by this many times what the fitted ones are missed by do not belong to them.
-const FOREIGN: f64 = 5.0;
+const FOREIGN: f64 = 3.0;
 /// Springs of their own miss such readings by at most this share of it.
-const OWN_SHARE: f64 = 0.3;
+const OWN_SHARE: f64 = 0.4;
+/// They explain a machine without effects: what springs cannot explain, the measurements may not have shown.
+const OWN_LEVEL: f64 = 2.0;
 
 /// The same before anything but springs is fitted.
 ///
@@ -48,8 +50,10 @@ fn foreign_by(hexapod: &Hexapod, holdout: &Dataset, missed: f64, fitted: f64) ->
     let campaign = prepare(hexapod, holdout).ok()?;
     let own = fit_baseline(&campaign).ok()?.chi2_reduced().sqrt();
     let way = other_readings(hexapod, holdout).and_then(|r| r.ways.into_iter().next());
-    let better = way.filter(|way| way.level < OWN_SHARE * missed);
-    if better.is_none() && own > OWN_SHARE * missed {
+    // The machine is that of the measurements.
+    let is_of_readings = |way: &Way| !way.has_size() && way.changes.iter().all(Change::keeps_legs);
+    let better = way.filter(|way| is_of_readings(way) && way.level < OWN_SHARE * missed);
+    if better.is_none() && own > OWN_LEVEL.min(OWN_SHARE * missed) {
         return None;
     }
     let why = better.map_or_else(

@@ -12,7 +12,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
 use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
 use crate::inference::examination::Finding;
-use crate::inference::misread::{Answered, AsWritten, Change, Origin, Readings, Target, Way, finding, other_readings};
+use crate::inference::misread::{AgainstWritten, AsWritten, Readings, Way, finding, other_readings};
 
 /// Ways to read a file that are weighed against the effects.
 const WAYS_EXPLAINED: usize = 3;
@@ -20,14 +20,16 @@ const WAYS_EXPLAINED: usize = 3;
 const MOST_REPORTED: usize = 6;
 /// Twice the log-likelihood by which another reading of the file, with its effects, has to be better than the file as written.
 const GAIN: f64 = 40.0;
-/// Share of the error as written that another reading may leave.
+/// The same for a reading with a size, whose numbers are charged for already, and springs alone.
+const SIZE_GAIN: f64 = 25.0;
+/// Share of the error as written that another reading with a size may leave.
 const BETTER_SHARE: f64 = 0.7;
+/// The same for one without a size that leaves more than the noise: what no effect explains may be smaller in many other readings.
+const FAR_BETTER_SHARE: f64 = 0.2;
 /// Error over the noise that springs alone leave of a sound file at most.
 const SOUND_LEVEL: f64 = 1.15;
 /// Error over the noise of springs alone beyond which a mistake without a size, that explains all of it, needs no rivals.
 const EVIDENT_LEVEL: f64 = 2.0;
-/// Share of the platform's radius, and the turn in rad, beyond which an offset or a tilt of the loads is no effect of the machine.
-const NO_EFFECT: f64 = 0.3;
 /// With so many legs of negative stiffness a file has some sign wrong, whatever else is at work.
 const NEGATIVE_LEGS: usize = 4;
 /// Standard deviations of chi-square by which an error may exceed the noise and still be taken for it.
@@ -109,8 +111,9 @@ impl Weighing<'_> {
             (Some(level), false) => AsWritten::Level(level),
         };
         let is_evident = !matches!(springs, AsWritten::Level(level) if level < EVIDENT_LEVEL);
-        if is_evident && best.level < SOUND_LEVEL && !is_like_an_effect(best) {
-            return Some(self.of(best, Answered { written: springs, other: best.level }));
+        let has_size = best.has_size() && matches!(springs, AsWritten::Level(_));
+        if is_evident && best.level < SOUND_LEVEL && !has_size {
+            return Some(self.of(best, AgainstWritten { written: springs, other: best.level }));
         }
         self.written = self.explain(None);
         let written = self.written.as_ref().map(|(campaign, outcome)| Explained::of(campaign, outcome, None));
@@ -128,20 +131,17 @@ impl Weighing<'_> {
             Some(w) if w.negative > 0 => AsWritten::Negative,
             Some(w) => AsWritten::Level(w.level),
         };
-        Some(self.of(way, Answered { written: as_written, other: other.level }))
+        Some(self.of(way, AgainstWritten { written: as_written, other: other.level }))
     }
 
-    /// True when effects explain the file as written to the noise, and no other reading of it does nearly as well with springs alone,
-    /// or by a size that no effect has.
+    /// True when effects explain the file as written to the noise, and no other reading does better with springs alone.
     fn needs_no_other_reading(&self, written: &Explained) -> bool {
-        let springs_do = |way: &Way| written.springs_cost - way.gain < written.cost - GAIN;
-        let is_no_effect = |way: &Way| is_like_an_effect(way) && self.is_no_effect(way);
-        let ways = &self.readings.ways;
-        written.negative == 0 && written.is_noise && !ways.iter().any(|w| springs_do(w) || is_no_effect(w))
+        let better = |way: &Way| springs_do_better(way, written);
+        written.negative == 0 && written.is_noise && !self.readings.ways.iter().any(better)
     }
 
     /// What is reported of a way of reading and of those that explain the file alike.
-    fn of(&self, way: &Way, answered: Answered) -> Vec<Finding> {
+    fn of(&self, way: &Way, answered: AgainstWritten) -> Vec<Finding> {
         let mut alike = self.readings.like(way);
         alike.truncate(MOST_REPORTED);
         let share = 1.0 / alike.len().max(1) as f64;
@@ -149,25 +149,17 @@ impl Weighing<'_> {
     }
 
     fn is_better(&self, way: &Way, other: &Explained, written: &Explained) -> bool {
-        if is_like_an_effect(way) {
-            return self.is_no_effect(way) && other.cost < written.cost + GAIN;
+        let gained = written.negative > 0 || written.cost - other.cost > GAIN;
+        let springs = self.readings.level.unwrap_or(f64::INFINITY);
+        let is_all = other.is_noise || other.level < SOUND_LEVEL;
+        if way.has_size() {
+            // A size soaks up a little of anything: it has to explain everything, and most of it without effects.
+            let beside_effects = gained && is_all && !written.is_noise && way.level < BETTER_SHARE * springs;
+            return beside_effects || springs_do_better(way, written);
         }
-        if written.negative >= NEGATIVE_LEGS {
-            return true;
-        }
-        // Any way of reading soaks up a little of what no effect explains: it has to explain most of it, or everything.
-        let is_most = other.level < BETTER_SHARE * written.level || other.level < SOUND_LEVEL;
-        is_most && (written.negative > 0 || written.cost - other.cost > GAIN)
-    }
-
-    /// True for sizes that no effect of a machine has.
-    fn is_no_effect(&self, way: &Way) -> bool {
-        let radius = self.hexapod.platform_radius();
-        way.changes.iter().all(|change| match change {
-            Change::Origin(_, at) => at.norm() > NO_EFFECT * radius,
-            Change::Turned(_, by) => by.norm() > NO_EFFECT,
-            _ => true,
-        })
+        let far = |now: f64, before: f64| now < FAR_BETTER_SHARE * before;
+        let is_far_better = far(other.level, written.level) && far(way.level, springs);
+        written.negative >= NEGATIVE_LEGS || (gained && (is_all || is_far_better))
     }
 
     /// The best way of reading, and the best ones that do not explain the file alike.
@@ -222,14 +214,15 @@ fn lack(campaign: &Campaign, fit: &Fit) -> f64 {
     numbers * (level.ln() + variance / level) + fit.parameters.iter().count() as f64 * numbers.ln()
 }
 
-/// True when the catalogue has an effect that does the same: only the size tells a mistake from it.
-fn is_like_an_effect(way: &Way) -> bool {
-    way.changes.iter().all(|change| {
-        matches!(
-            change,
-            Change::Origin(Origin::MomentsMobile | Origin::ReadingsMobile, _) | Change::Turned(Target::Wrench, _)
-        )
-    })
+/// True when springs alone explain another reading of the file better than effects explain the file as written; with a size, to the
+/// noise.
+fn springs_do_better(way: &Way, written: &Explained) -> bool {
+    let springs = written.springs_cost - way.gain;
+    if way.has_size() {
+        way.level < SOUND_LEVEL && springs < written.cost - SIZE_GAIN
+    } else {
+        springs < written.cost - GAIN
+    }
 }
 
 fn negative_legs(fit: &Fit) -> usize {
