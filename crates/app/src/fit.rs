@@ -50,8 +50,12 @@ pub fn fitted(
 
 /// The model of a fit, to be kept; `sha256` is that of the file of the data.
 pub fn model(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator, sha256: String) -> Model {
-    let origin =
-        DataOrigin { file: task.data.source.clone(), sha256, readings: task.data.observations.len(), read_as: Vec::new() };
+    let origin = DataOrigin {
+        file: task.data.source.clone(),
+        sha256,
+        readings: task.data.observations.len(),
+        read_as: Vec::new(),
+    };
     Model::new(task.campaign, &judged.fit, estimator, origin)
 }
 

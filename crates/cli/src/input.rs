@@ -36,7 +36,10 @@ pub(crate) fn plan(path: &Path) -> Result<Dataset, Failure> {
 pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &[Change]) {
     if !read_as.is_empty() {
         let all: Vec<String> = read_as.iter().map(ToString::to_string).collect();
-        report::note(&format!("the files are read otherwise than they say, as asked: {}", all.join(", then ")));
+        report::note(&format!(
+            "the files are read otherwise than they say, as asked: {}",
+            all.join(", then ")
+        ));
     }
     for finding in misread_findings(hexapod, data, &catalogue()).into_iter().flatten().take(1) {
         report::warn(&finding.text, &finding.next);

@@ -38,12 +38,17 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
     let source = data.as_ref().map_or_else(|| arguments.hexapod.display().to_string(), |d| d.source.clone());
     let failed = |cause: ModelError| Failure::Model { cause, data: source };
-    let found = check(&hexapod, data.as_ref(), holdout.as_ref(), &catalogue(), &arguments.read_as).map_err(failed)?;
+    let found =
+        check(&hexapod, data.as_ref(), holdout.as_ref(), &catalogue(), &arguments.read_as).map_err(failed)?;
     if let Some(path) = &arguments.json {
         write_json(screen, path, &found)?;
     }
     if arguments.json.as_deref() != Some(Path::new("-")) {
         screen.show(&words::check(&hexapod.name, &found))?;
     }
-    if found.ready { Ok(()) } else { Err(Failure::Check("the files do not seem to mean what they say".to_owned())) }
+    if found.ready {
+        Ok(())
+    } else {
+        Err(Failure::Check("the files do not seem to mean what they say".to_owned()))
+    }
 }

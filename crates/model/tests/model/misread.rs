@@ -142,7 +142,9 @@ fn a_file_that_nothing_can_be_fitted_to_is_refused_with_what_it_seems_to_mean() 
 
 #[test]
 fn sound_files_are_ready_and_mean_what_they_say() {
-    for case in ["mujoco-clean", "mujoco-foundation", "friction", "two-effects", "contact", "not-in-catalogue"] {
+    for case in
+        ["mujoco-clean", "mujoco-foundation", "friction", "two-effects", "contact", "not-in-catalogue"]
+    {
         let (hexapod, data, holdout) = cases::case(case);
         let found = check(&hexapod, Some(&data), Some(&holdout), &catalogue(), &[]).unwrap();
         assert!(found.ready, "{case}: {:?}", found.findings);

@@ -37,8 +37,12 @@ fn model(hexapod: &Hexapod, data: &Dataset, terms: &[(&str, bool, f64)]) -> Mode
         })
         .collect();
     let fitted = fit(&campaign, &wanted, None).unwrap();
-    let origin =
-        DataOrigin { file: data.source.clone(), sha256: "0".repeat(64), readings: campaign.readings, read_as: Vec::new() };
+    let origin = DataOrigin {
+        file: data.source.clone(),
+        sha256: "0".repeat(64),
+        readings: campaign.readings,
+        read_as: Vec::new(),
+    };
     Model::new(&campaign, &fitted, Estimator::Gls, origin)
 }
 

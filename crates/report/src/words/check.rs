@@ -15,7 +15,12 @@ pub fn check(machine: &str, c: &Check) -> Page {
     let page = Page { subject: files_read.collect(), ..Page::new(format!("Check of {machine}")) }
         .with(verdict(c))
         .with(wrong(c))
-        .with(Section::new("What looks odd").id("remarks").list(c.remarks.iter().map(|r| format!("{r}."))).unless_empty())
+        .with(
+            Section::new("What looks odd")
+                .id("remarks")
+                .list(c.remarks.iter().map(|r| format!("{r}.")))
+                .unless_empty(),
+        )
         .with(joints(&c.machine))
         .with_all(readings);
     if !c.ready || c.measurements.is_none() {
@@ -27,15 +32,25 @@ pub fn check(machine: &str, c: &Check) -> Page {
 
 fn verdict(c: &Check) -> Section {
     let (word, mood, sentence) = match (&c.measurements, c.ready) {
-        (None, _) => ("READ", Mood::Good, "The machine is understood as stated below. Compare it with the drawing; then give the measurements too."),
-        (Some(_), true) => ("READY", Mood::Good, "The files are understood as stated below. Next: `hexbench diagnose`."),
+        (None, _) => (
+            "READ",
+            Mood::Good,
+            "The machine is understood as stated below. Compare it with the drawing; then give the measurements too.",
+        ),
+        (Some(_), true) => {
+            ("READY", Mood::Good, "The files are understood as stated below. Next: `hexbench diagnose`.")
+        }
         (Some(_), false) => (
             "NOT READY",
             Mood::Bad,
             "The files do not seem to mean what they say. Correct them, or see what changes when they are read otherwise, by --read-as.",
         ),
     };
-    Section::new("Verdict").with(Block::Verdict { word: word.to_owned(), mood, sentences: vec![sentence.to_owned()] })
+    Section::new("Verdict").with(Block::Verdict {
+        word: word.to_owned(),
+        mood,
+        sentences: vec![sentence.to_owned()],
+    })
 }
 
 fn wrong(c: &Check) -> Option<Section> {
@@ -102,7 +117,12 @@ fn measurements(title: &str, m: &ReadingsCheck) -> Section {
     });
     all.push(Definition::new(
         "noise",
-        format!("{} um and {} urad per reading, {}; {repeats}", digits(m.noise[0]), digits(m.noise[1]), subject::origin(m.noise_source)),
+        format!(
+            "{} um and {} urad per reading, {}; {repeats}",
+            digits(m.noise[0]),
+            digits(m.noise[1]),
+            subject::origin(m.noise_source)
+        ),
     ));
     if let Some(k) = m.stiffness_n_per_um {
         let list = |k: [f64; 6]| k.map(digits).join("  ");
@@ -112,5 +132,7 @@ fn measurements(title: &str, m: &ReadingsCheck) -> Section {
     if let Some(level) = m.springs_level {
         all.push(Definition::new("springs", format!("alone they leave {} times the noise", digits(level))));
     }
-    Section::new(title).id(if title.starts_with("Readings") { "holdout" } else { "measurements" }).with(Block::entries(all))
+    Section::new(title)
+        .id(if title.starts_with("Readings") { "holdout" } else { "measurements" })
+        .with(Block::entries(all))
 }

@@ -503,6 +503,8 @@ export type Diagnosis = {
   excluded: Array<number>;
   /** Readings that were found wrong took part in the fit because somebody asked for it. */
   keep_all: boolean;
+  /** What the file was read as meaning otherwise than it says because somebody asked for it, as `KIND=VALUE`. */
+  read_as: Array<string>;
   /** The answer the other way, where findings leave readings out or would do so. */
   alternative: Alternative | null;
 };
@@ -536,7 +538,7 @@ export type Finding = {
 };
 
 /** Kind of a fault of the data; the words are those of `diagnosis.json`. */
-export type FindingKind = "blunder" | "pose" | "load" | "noise-level" | "heavy-tails" | "shared-reference" | "setup-error" | "drift" | "resolution" | "tolerance";
+export type FindingKind = "blunder" | "pose" | "load" | "noise-level" | "heavy-tails" | "shared-reference" | "setup-error" | "drift" | "resolution" | "tolerance" | "deflection-sign" | "wrench-sign" | "states-exchanged" | "rotation-sign" | "moment-sign" | "unit" | "axes" | "leg-order" | "joints-exchanged" | "origin" | "geometry" | "wrench-frame" | "deflection-frame" | "angle-convention" | "rotation-convention" | "reference-missing" | "row-order" | "copies" | "holdout";
 
 /** Whether held-out readings show an effect. */
 export type GainOutcome = "shown" | "open" | "refuted";

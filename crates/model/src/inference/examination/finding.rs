@@ -126,10 +126,7 @@ impl FindingKind {
 
     /// True for faults that concern a condition as a whole, as an effect of the machine does.
     pub fn is_of_conditions(self) -> bool {
-        matches!(
-            self.entry().2,
-            Concern::Conditions | Concern::WrongConditions | Concern::NoiseOfConditions
-        )
+        matches!(self.entry().2, Concern::Conditions | Concern::WrongConditions | Concern::NoiseOfConditions)
     }
 
     /// True for statements about the noise.

@@ -210,23 +210,23 @@ impl Change {
             | Self::Preload(_)
             | Self::LoadIsChange
             | Self::LoadHoldsReference => true,
-            Self::Scaled(group, _) => {
-                !matches!(
-                    group,
-                    Group::PosePositions
-                        | Group::PoseAngles
-                        | Group::BaseJoints
-                        | Group::PlatformJoints
-                        | Group::Joints
-                )
-            }
+            Self::Scaled(group, _) => !matches!(
+                group,
+                Group::PosePositions
+                    | Group::PoseAngles
+                    | Group::BaseJoints
+                    | Group::PlatformJoints
+                    | Group::Joints
+            ),
             Self::Renamed(target, _) | Self::Turned(target, _) => {
                 matches!(
                     target,
                     Target::Readings | Target::ReadingColumns | Target::Wrench | Target::WrenchColumns
                 )
             }
-            Self::Origin(origin, _) => !matches!(origin, ReferencePoint::Poses | ReferencePoint::PlatformJoints),
+            Self::Origin(origin, _) => {
+                !matches!(origin, ReferencePoint::Poses | ReferencePoint::PlatformJoints)
+            }
             Self::LegOrder(_)
             | Self::JointsExchanged
             | Self::Joint(..)
@@ -320,7 +320,9 @@ impl Change {
             },
             Self::LegOrder(order) => *platform = order.map(|k| platform[usize::from(k)]),
             Self::JointsExchanged => std::mem::swap(base, platform),
-            Self::Origin(ReferencePoint::PlatformJoints, from) => platform.iter_mut().for_each(|b| *b -= from),
+            Self::Origin(ReferencePoint::PlatformJoints, from) => {
+                platform.iter_mut().for_each(|b| *b -= from)
+            }
             Self::Joint(coordinate, off) => *coordinate.of_mut(hexapod) += off,
             _ => {}
         }

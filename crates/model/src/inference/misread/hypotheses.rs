@@ -8,28 +8,17 @@ use super::change::{Change, Group, JointCoordinate, ReferencePoint, Signed, Targ
 use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 
-/// Ratios of units that are taken for one another: powers of ten, degrees and radians, seconds of arc and microradians,
-/// kilograms, pounds, inches.
-const FACTORS: [f64; 14] = [
-    10.0,
-    100.0,
-    1e3,
-    1e6,
-    1e9,
-    180.0 / PI,
-    60.0,
-    3600.0,
-    PI / 0.648,
-    9.806_65,
-    4.448_222,
-    25.4,
-    17_453.292_52,
-    9_806.65,
-];
-/// The same for a single column.
-const COLUMN_FACTORS: [f64; 5] = [1e3, 1e6, 9.806_65, 4.448_222, 25.4];
-/// A diameter taken for a radius.
-const DIAMETER: [f64; 1] = [2.0];
+/// Ratios of units of length: inches, powers of ten.
+const LENGTHS: [f64; 5] = [10.0, 100.0, 1e3, 1e6, 25.4];
+/// Of angles: degrees, minutes and seconds of arc, radians and their thousandths and millionths.
+const ANGLES: [f64; 9] =
+    [1e3, 1e6, 180.0 / PI, 60.0, 3600.0, PI / 0.648, PI * 1e3 / 180.0, PI * 1e6 / 180.0, 648.0 / PI];
+/// Of forces and moments: kilograms, pounds, powers of ten.
+const LOADS: [f64; 5] = [1e3, 1e6, 9.806_65, 4.448_222, 9_806.65];
+/// Of readings or noise as a whole: a smaller ratio is for the noise level to tell.
+const WHOLE: [f64; 3] = [25.4, 1e3, 1e6];
+/// Of joints: those of lengths, and a diameter taken for a radius.
+const JOINTS: [f64; 6] = [10.0, 100.0, 1e3, 1e6, 25.4, 2.0];
 /// Turns of the platform against the base that a drawing may mean otherwise, degrees.
 const PLATFORM_TURNS: [f64; 6] = [30.0, -30.0, 60.0, -60.0, 120.0, -120.0];
 /// Points closer to each other than this are one, m.
@@ -48,8 +37,7 @@ pub(super) fn singles(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
 pub(super) fn cheap(data: &Dataset) -> Vec<Change> {
     let mut all = signs();
     all.extend(units());
-    let targets =
-        [Target::Readings, Target::ReadingColumns, Target::Wrench, Target::Joints, Target::Poses];
+    let targets = [Target::Readings, Target::ReadingColumns, Target::Wrench, Target::Joints, Target::Poses];
     let axes = SignedAxes::all();
     all.extend(targets.iter().flat_map(|&t| axes.iter().map(move |&a| Change::Renamed(t, a))));
     // Right-handed columns are vectors.
@@ -102,25 +90,32 @@ fn units() -> Vec<Change> {
         Group::Joints,
         Group::Noise,
     ];
-    let each = |group, factors: &'static [f64]| {
-        factors.iter().flat_map(move |f| [Change::Scaled(group, *f), Change::Scaled(group, f.recip())])
-    };
     let columns = (0..6).flat_map(|k| [Group::Reading(k), Group::Load(k)]);
-    let rings = [Group::BaseJoints, Group::PlatformJoints];
-    groups
-        .into_iter()
-        .flat_map(|group| each(group, &FACTORS))
-        .chain(columns.flat_map(|group| each(group, &COLUMN_FACTORS)))
-        .chain(rings.into_iter().flat_map(|group| each(group, &DIAMETER)))
-        .collect()
+    let each = |group| {
+        factors(group).iter().flat_map(move |f| [Change::Scaled(group, *f), Change::Scaled(group, f.recip())])
+    };
+    groups.into_iter().chain(columns).flat_map(each).collect()
+}
+
+/// Ratios of units in which numbers of a group may be written.
+fn factors(group: Group) -> &'static [f64] {
+    match group {
+        Group::Translations | Group::PosePositions | Group::Reading(0..=2) => &LENGTHS,
+        Group::Rotations | Group::PoseAngles | Group::Reading(_) => &ANGLES,
+        Group::Forces | Group::Moments | Group::Loads | Group::Load(_) => &LOADS,
+        Group::BaseJoints | Group::PlatformJoints | Group::Joints => &JOINTS,
+        Group::Readings | Group::Noise => &WHOLE,
+    }
 }
 
 /// Joints in other axes, exchanged, or with a sign lost.
 fn machines(hexapod: &Hexapod) -> Vec<Change> {
     let mut all = vec![Change::JointsExchanged];
-    all.extend(PLATFORM_TURNS.iter().map(|deg| {
-        Change::Turned(Target::PlatformJoints, Vector3::new(0.0, 0.0, deg.to_radians()))
-    }));
+    all.extend(
+        PLATFORM_TURNS
+            .iter()
+            .map(|deg| Change::Turned(Target::PlatformJoints, Vector3::new(0.0, 0.0, deg.to_radians()))),
+    );
     let upright: Vec<SignedAxes> = SignedAxes::all().into_iter().filter(|a| a.keeps_vertical()).collect();
     for target in [Target::BaseJoints, Target::PlatformJoints] {
         all.extend(upright.iter().map(|&axes| Change::Renamed(target, axes)));
@@ -158,7 +153,8 @@ fn origins(hexapod: &Hexapod, data: &Dataset) -> Vec<(ReferencePoint, Vector3)> 
     let platform = hexapod.platform_joints.iter().sum::<Vector3>() / 6.0;
     let rows = data.observations.len().max(1) as f64;
     let position = data.observations.iter().map(|o| o.pose.translation).sum::<Vector3>() / rows;
-    let mut all = vec![(ReferencePoint::MomentsFixed, Vector3::zeros()), (ReferencePoint::MomentsFixed, base)];
+    let mut all =
+        vec![(ReferencePoint::MomentsFixed, Vector3::zeros()), (ReferencePoint::MomentsFixed, base)];
     let mut heights = vec![platform.z - base.z, platform.z, base.z, position.z];
     heights.retain(|h| h.abs() > ONE_POINT);
     for height in heights.iter().flat_map(|h| [*h, -h]) {

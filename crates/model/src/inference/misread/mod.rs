@@ -106,6 +106,11 @@ pub struct Way {
 }
 
 impl Way {
+    /// True when nothing but signs changes.
+    pub fn is_a_sign(&self) -> bool {
+        self.changes.iter().all(|change| matches!(change, Change::Reversed(_) | Change::StatesExchanged))
+    }
+
     /// True when a number of it is fitted.
     pub fn has_size(&self) -> bool {
         self.changes.iter().any(|change| change.sizes() > 0)
@@ -161,7 +166,9 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
 
 fn is_sound(springs: &Springs, sample: &Sample) -> bool {
     let scatter = springs.scatter.max(springs.scatter.recip());
-    springs.level < SOUND_LEVEL && springs.negative == 0 && (!sample.noise_is_stated || scatter < SOUND_SCATTER)
+    springs.level < SOUND_LEVEL
+        && springs.negative == 0
+        && (!sample.noise_is_stated || scatter < SOUND_SCATTER)
 }
 
 /// Numbers that any small factor explains alike are in no other unit: they are only taken out of the account.
@@ -209,7 +216,11 @@ impl Search<'_> {
             }
         }
         let second = hypotheses::cheap(&self.sample.data);
-        let pairs = first.iter().flat_map(|f| second.iter().map(move |&s| vec![f.changes[0], s])).collect();
+        let pairs = first.iter().flat_map(|f| {
+            let others = second.iter().filter(|s| s.kind() != f.changes[0].kind());
+            others.map(move |&s| vec![f.changes[0], s])
+        });
+        let pairs = pairs.collect();
         let mut both = self.looked_at(pairs);
         let best = singles.first().map_or(f64::INFINITY, |best| best.level);
         both.retain(|way| way.level < SECOND_SHARE * best);

@@ -207,7 +207,10 @@ pub const KINDS: [(&str, &str); 17] = [
     ),
     ("leg-order", "the six platform joints in their order, as in 2,3,4,5,6,1"),
     ("joints-exchanged", "yes"),
-    ("origin", "WHAT:X,Y,Z in mm; what: moments-fixed, moments-mobile, readings-mobile, poses, platform-joints"),
+    (
+        "origin",
+        "WHAT:X,Y,Z in mm; what: moments-fixed, moments-mobile, readings-mobile, poses, platform-joints",
+    ),
     ("geometry", "JOINT:MM as in base-2-y:-1.5"),
     ("wrench-frame", "mobile or moments-mobile"),
     ("deflection-frame", "mobile"),
@@ -217,7 +220,10 @@ pub const KINDS: [(&str, &str); 17] = [
          poses alone",
     ),
     ("rotation-convention", "other"),
-    ("reference-missing", "change, twice, or the load of the reference state: FX,FY,FZ,MX,MY,MZ in N and N m"),
+    (
+        "reference-missing",
+        "change, twice, or the load of the reference state: FX,FY,FZ,MX,MY,MZ in N and N m",
+    ),
     (
         "row-order",
         "loads-from-below, loads-from-above, loads-reversed, load-of-the-next, load-of-the-last, poses-from-below, poses-from-above, \

@@ -40,7 +40,6 @@ const STEP: f64 = 1e-4;
 #[derive(Debug, Clone, Copy)]
 enum Sized {
     Turn(Target),
-    Point(ReferencePoint),
     Height(ReferencePoint),
     Preload,
     Joint(JointCoordinate),
@@ -52,7 +51,6 @@ impl Sized {
         let radius = sample.hexapod.platform_radius();
         match self {
             Self::Turn(target) => Change::Turned(target, Vector3::from_column_slice(v)),
-            Self::Point(origin) => Change::Origin(origin, Vector3::from_column_slice(v) * radius),
             Self::Height(origin) => Change::Origin(origin, Vector3::new(0.0, 0.0, v[0] * radius)),
             Self::Preload => {
                 let force = typical_force(sample);
@@ -66,7 +64,7 @@ impl Sized {
     /// Where the search begins.
     fn start(self, sample: &Sample) -> Vec<f64> {
         match self {
-            Self::Turn(_) | Self::Point(_) => vec![0.0; 3],
+            Self::Turn(_) => vec![0.0; 3],
             Self::Preload => vec![0.0; 6],
             Self::Joint(_) => vec![0.0],
             Self::Height(_) => {
@@ -86,14 +84,15 @@ impl Sized {
 
     /// True for loads that are tilted, but not turned about the vertical: the catalogue has an effect for that.
     fn is_like_an_effect(self, values: &DVector<f64>) -> bool {
-        matches!(self, Self::Turn(Target::Wrench)) && values[2].abs() < UPRIGHT_SHARE * values.norm()
+        matches!(self, Self::Turn(Target::Wrench | Target::Joints))
+            && values[2].abs() < UPRIGHT_SHARE * values.norm()
     }
 
     /// True when the size is neither what a tolerance is for nor out of reach.
     fn counts(self, values: &DVector<f64>) -> bool {
         let range = match self {
             Self::Turn(_) => LEAST_TURN..LARGEST_TURN,
-            Self::Point(_) | Self::Height(_) => LEAST_OFFSET..MOST_RADII,
+            Self::Height(_) => LEAST_OFFSET..MOST_RADII,
             Self::Preload => LEAST_PRELOAD..100.0,
             Self::Joint(_) => LEAST_JOINT..MOST_RADII,
         };
@@ -108,7 +107,6 @@ pub(super) fn refined(sample: &Sample) -> Vec<Change> {
         Sized::Turn(Target::Readings),
         Sized::Turn(Target::Wrench),
         Sized::Turn(Target::Joints),
-        Sized::Point(ReferencePoint::MomentsFixed),
         Sized::Height(ReferencePoint::Poses),
         Sized::Height(ReferencePoint::PlatformJoints),
     ];
@@ -119,7 +117,8 @@ pub(super) fn refined(sample: &Sample) -> Vec<Change> {
     let at_best = |mistake: &Sized| {
         let first = minimized(&coarse, *mistake, mistake.start(&coarse))?;
         let values = minimized(sample, *mistake, first.as_slice().to_vec())?;
-        (mistake.counts(&values) && !mistake.is_like_an_effect(&values)).then(|| mistake.change(sample, values.as_slice()))
+        (mistake.counts(&values) && !mistake.is_like_an_effect(&values))
+            .then(|| mistake.change(sample, values.as_slice()))
     };
     all.par_iter().filter_map(at_best).collect()
 }
@@ -162,7 +161,8 @@ fn minimized(sample: &Sample, mistake: Sized, start: Vec<f64>) -> Option<DVector
         let step = damped.cholesky()?.solve(&jacobian.tr_mul(&here));
         let before = here.norm_squared();
         let mut shortened = (0..5).map(|n| &values - &step * 0.5_f64.powi(n));
-        let better = shortened.find_map(|v| residuals(&v).filter(|r| r.norm_squared() < before).map(|r| (r, v)));
+        let better =
+            shortened.find_map(|v| residuals(&v).filter(|r| r.norm_squared() < before).map(|r| (r, v)));
         let Some((residual, moved)) = better else { break };
         (here, values) = (residual, moved);
         if before - here.norm_squared() < SETTLED * before {

@@ -64,8 +64,12 @@ impl RowOrder {
             Self::LoadsBelow => "the load of each reading stands one row below it",
             Self::LoadsAbove => "the load of each reading stands one row above it",
             Self::LoadsReversed => "the loads of each pose stand in reverse order",
-            Self::LoadOfNext => "the load of each reading is written beside the load after it at the same pose",
-            Self::LoadOfLast => "the load of each reading is written beside the load before it at the same pose",
+            Self::LoadOfNext => {
+                "the load of each reading is written beside the load after it at the same pose"
+            }
+            Self::LoadOfLast => {
+                "the load of each reading is written beside the load before it at the same pose"
+            }
             Self::ReadingsBelow => "each reading stands one row below its pose and load",
             Self::ReadingsAbove => "each reading stands one row above its pose and load",
             Self::ReadingsReversed => "the readings of the file stand in reverse order",

@@ -96,7 +96,8 @@ impl Sample {
     /// Averages a file; none when it has nothing to average.
     pub(super) fn new(hexapod: &Hexapod, data: &Dataset) -> Option<Self> {
         let campaign = Campaign::new(hexapod, data).ok()?.independent();
-        let chosen: Vec<_> = spread(campaign.groups.len(), MOST_CONDITIONS).map(|i| &campaign.groups[i]).collect();
+        let chosen: Vec<_> =
+            spread(campaign.groups.len(), MOST_CONDITIONS).map(|i| &campaign.groups[i]).collect();
         let (mut repeats, mut dof) = (Vector6::zeros(), 0.0);
         for group in &campaign.groups {
             let sigma = campaign.noise.sigma();
@@ -111,8 +112,7 @@ impl Sample {
         let means = chosen.iter().map(|g| g.mean).collect();
         let thinned = Dataset { observations: means, ..like(data) };
         let sigma = chosen.iter().map(|g| Vector6::from_column_slice(&g.sigma)).collect();
-        let noise_is_stated =
-            matches!(campaign.noise.source, NoiseSource::Metrology | NoiseSource::Columns);
+        let noise_is_stated = matches!(campaign.noise.source, NoiseSource::Metrology | NoiseSource::Columns);
         let legs = legs(hexapod, &thinned);
         Some(Self {
             hexapod: hexapod.clone(),
@@ -205,7 +205,9 @@ impl Sample {
     ) -> Option<()> {
         let motions = motions(data);
         let floor = floors(&motions, share);
-        for (((row, motion), legs), sigma) in data.observations.iter().zip(&motions).zip(legs).zip(&self.sigma) {
+        for (((row, motion), legs), sigma) in
+            data.observations.iter().zip(&motions).zip(legs).zip(&self.sigma)
+        {
             let legs = legs.as_ref()?;
             let force = legs.forces(&(row.wrench.to_vector() - row.reference.to_vector()));
             let weight = sigma.zip_map(&floor, |s, f| (s * factors.noise).hypot(f).recip());

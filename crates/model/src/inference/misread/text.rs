@@ -1,7 +1,7 @@
 //! A misread file in words.
 
-use super::change::{Change, Group, ReferencePoint, Signed, Target};
 use super::Way;
+use super::change::{Change, Group, ReferencePoint, Signed, Target};
 use crate::inference::examination::Finding;
 
 /// The six numbers of a reading.
@@ -143,7 +143,9 @@ fn reversed(signed: Signed) -> String {
         Signed::Translations => "the translations of the deflections seem to have".to_owned(),
         Signed::Rotations => "the rotations of the deflections seem to have".to_owned(),
         Signed::Reading(k) => format!("{} seems to have", READINGS[usize::from(k)]),
-        Signed::Wrench => "the loads seem to be those on the machine's support, not on the platform: they have".to_owned(),
+        Signed::Wrench => {
+            "the loads seem to be those on the machine's support, not on the platform: they have".to_owned()
+        }
         Signed::Forces => "the forces seem to have".to_owned(),
         Signed::Moments => "the moments seem to have".to_owned(),
         Signed::Load(k) => format!("{} seems to have", LOADS[usize::from(k)]),
@@ -201,7 +203,11 @@ fn units(group: Group, factor: f64) -> &'static str {
 }
 
 fn number(x: f64) -> String {
-    if x < 1e4 { format!("{:.4}", x).trim_end_matches('0').trim_end_matches('.').to_owned() } else { format!("{x:.3e}") }
+    if x < 1e4 {
+        format!("{:.4}", x).trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        format!("{x:.3e}")
+    }
 }
 
 fn advice(change: &Change, is_one_of_many: bool) -> &'static str {
@@ -210,7 +216,9 @@ fn advice(change: &Change, is_one_of_many: bool) -> &'static str {
             "press on the platform by hand: a pull along an axis moves it along that axis; look at the signs of that line, and \
              correct the file"
         }
-        Change::Scaled(..) => "check the units of these columns against the instrument, and correct the names of the columns or the values",
+        Change::Scaled(..) => {
+            "check the units of these columns against the instrument, and correct the names of the columns or the values"
+        }
         Change::LegOrder(_) | Change::JointsExchanged | Change::Joint(..) => {
             "compare the joints of the hexapod file with the drawing, leg by leg, and correct it"
         }
@@ -218,7 +226,9 @@ fn advice(change: &Change, is_one_of_many: bool) -> &'static str {
         Change::Preload(_) | Change::LoadIsChange | Change::LoadHoldsReference => {
             "write the loads of both states, ref_fx_N to ref_mz_Nm and fx_N to mz_Nm, each as applied to the platform"
         }
-        _ => "check in which frame, about which point and in which convention these columns were written, and correct the file",
+        _ => {
+            "check in which frame, about which point and in which convention these columns were written, and correct the file"
+        }
     };
     if is_one_of_many {
         "the readings alone cannot tell these apart: check each against the machine, and correct the file"

@@ -98,7 +98,9 @@ impl AngleOrder {
             Self::Yxz => "the angles turn about the fixed axes y, x, z, one after the other",
             Self::Yzx => "the angles turn about the fixed axes y, z, x, one after the other",
             Self::Zxy => "the angles turn about the fixed axes z, x, y, one after the other",
-            Self::Zyx => "the angles turn about axes x, y, z that move with the platform, as the U, V, W of many controllers do",
+            Self::Zyx => {
+                "the angles turn about axes x, y, z that move with the platform, as the U, V, W of many controllers do"
+            }
             Self::RotationVector => "the three angles are the components of a rotation vector",
             Self::Inverse => "the angles turn from the platform to the fixed frame",
         }

@@ -67,7 +67,10 @@ impl MachineCheck {
             ));
         }
         if self.height_mm < 0.0 {
-            all.push("the platform joints are below the base joints at the zero pose: is z pointing up?".to_owned());
+            all.push(
+                "the platform joints are below the base joints at the zero pose: is z pointing up?"
+                    .to_owned(),
+            );
         }
         if self.condition > POOR_CONDITION {
             all.push(format!(
@@ -75,9 +78,8 @@ impl MachineCheck {
                 self.condition
             ));
         }
-        let outside = |stroke: [f64; 2]| {
-            self.home_lengths_mm.iter().any(|q| *q < stroke[0] || *q > stroke[1])
-        };
+        let outside =
+            |stroke: [f64; 2]| self.home_lengths_mm.iter().any(|q| *q < stroke[0] || *q > stroke[1]);
         if let Some(stroke) = self.stroke_mm.filter(|s| outside(*s)) {
             all.push(format!(
                 "legs are {:.1} to {:.1} mm long at the zero pose, outside the stated stroke of {:.1} to {:.1} mm",

@@ -82,8 +82,11 @@ impl ReadingsCheck {
         let mut poses: Vec<[u64; 6]> = rows.iter().map(|o| o.pose.to_array().map(f64::to_bits)).collect();
         poses.sort_unstable();
         poses.dedup();
-        let legs: Vec<_> =
-            campaign.groups.iter().filter_map(|g| Some((&g.mean, machine.legs(&g.mean.pose).ok()?))).collect();
+        let legs: Vec<_> = campaign
+            .groups
+            .iter()
+            .filter_map(|g| Some((&g.mean, machine.legs(&g.mean.pose).ok()?)))
+            .collect();
         let springs = fit_baseline(&campaign).ok();
         let repeated = scatter(rows, &campaign.axes);
         let rms = |first: usize| {
@@ -91,27 +94,30 @@ impl ReadingsCheck {
             1e6 * (sum / (3 * rows.len()).max(1) as f64).sqrt()
         };
         let deflections = !data.is_absolute();
-        let largest = |of: &dyn Fn(&hexbench_core::Observation) -> f64| rows.iter().map(of).fold(0.0, f64::max);
+        let largest =
+            |of: &dyn Fn(&hexbench_core::Observation) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         Ok(Self {
             file: data.source.clone(),
             measurand: data.measurand.readings(),
             rows: rows.len(),
             poses: poses.len(),
             conditions: campaign.groups.len(),
-            leg_lengths_mm: Extent::of(legs.iter().flat_map(|(_, l)| l.lengths.iter().map(|q| 1e3 * q).collect::<Vec<_>>())),
+            leg_lengths_mm: Extent::of(
+                legs.iter().flat_map(|(_, l)| l.lengths.iter().map(|q| 1e3 * q).collect::<Vec<_>>()),
+            ),
             largest_angle_deg: largest(&|o| o.pose.angles.amax().to_degrees()),
             largest_force_n: largest(&|o| o.wrench.force.norm()),
             largest_moment_nm: largest(&|o| o.wrench.moment.norm()),
             leg_forces_n: Extent::of(
-                legs.iter().flat_map(|(o, l)| l.forces(&o.wrench.to_vector()).iter().copied().collect::<Vec<_>>()),
+                legs.iter()
+                    .flat_map(|(o, l)| l.forces(&o.wrench.to_vector()).iter().copied().collect::<Vec<_>>()),
             ),
             translation_rms_um: deflections.then(|| rms(0)),
             rotation_rms_urad: deflections.then(|| rms(3)),
             noise: [campaign.noise.translation * 1e6, campaign.noise.rotation * 1e6],
             noise_source: campaign.noise.source,
-            repeats: (repeated.dof > 0.0).then(|| {
-                [repeated.variance_translation, repeated.variance_rotation].map(|v| 1e6 * v.sqrt())
-            }),
+            repeats: (repeated.dof > 0.0)
+                .then(|| [repeated.variance_translation, repeated.variance_rotation].map(|v| 1e6 * v.sqrt())),
             springs_level: springs
                 .as_ref()
                 .filter(|_| campaign.noise.allows_verdict())

@@ -25,7 +25,7 @@ const SIZE_GAIN: f64 = 25.0;
 /// Share of the error as written that another reading with a size may leave.
 const BETTER_SHARE: f64 = 0.7;
 /// The same for one without a size that leaves more than the noise: what no effect explains may be smaller in many other readings.
-const FAR_BETTER_SHARE: f64 = 0.2;
+const FAR_BETTER_SHARE: f64 = 0.3;
 /// Error over the noise that springs alone leave of a sound file at most.
 const SOUND_LEVEL: f64 = 1.15;
 /// Error over the noise of springs alone beyond which a mistake without a size, that explains all of it, needs no rivals.
@@ -159,7 +159,8 @@ impl Weighing<'_> {
         }
         let far = |now: f64, before: f64| now < FAR_BETTER_SHARE * before;
         let is_far_better = far(other.level, written.level) && far(way.level, springs);
-        written.negative >= NEGATIVE_LEGS || (gained && (is_all || is_far_better))
+        let is_reversed = written.negative >= NEGATIVE_LEGS && way.is_a_sign();
+        is_reversed || (gained && (is_all || is_far_better))
     }
 
     /// The best way of reading, and the best ones that do not explain the file alike.

@@ -20,11 +20,11 @@ use hexbench_core::{Dataset, Hexapod};
 pub use self::alternative::Alternative;
 use self::answer::Answer;
 use self::context::Context;
+use self::foreign::foreign;
 pub use self::foreign::held_out_finding;
 pub use self::judged::prepare;
-pub use self::misread::misread_findings;
-use self::foreign::foreign;
 use self::judged::{BothWays, Judged};
+pub use self::misread::misread_findings;
 use self::misread::{FirstLook, first_look};
 pub use self::nested::NestedReport;
 use self::notes::{outside, suspects, warnings};
@@ -109,7 +109,9 @@ pub fn diagnose_with(
     let mut context = Context { hexapod, data: &data, holdout, campaign: &campaign, outcome: &outcome };
     let mut answer = Answer::of(&context, &findings)?;
     let is_misread = findings.iter().any(|f| f.kind.is_of_file());
-    if let Some(finding) = holdout.filter(|_| !is_misread).and_then(|held| foreign(hexapod, held, &answer.steps)) {
+    if let Some(finding) =
+        holdout.filter(|_| !is_misread).and_then(|held| foreign(hexapod, held, &answer.steps))
+    {
         findings.push(finding);
         context.holdout = None;
         answer = Answer::of(&context, &findings)?;

@@ -189,7 +189,10 @@ fn warnings(a: &Run, b: &Run) -> Vec<String> {
         );
     }
     if a.read_as != b.read_as {
-        all.push("The files were read otherwise: one of them, or both in different ways, not as it says.".to_owned());
+        all.push(
+            "The files were read otherwise: one of them, or both in different ways, not as it says."
+                .to_owned(),
+        );
     }
     all
 }
