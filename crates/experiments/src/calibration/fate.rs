@@ -57,10 +57,11 @@ impl Fate {
             (Outcome::Right, _) => Self::Right,
             (Outcome::Honest, _) => Self::Honest,
             (Outcome::Wrong, Verdict::Ambiguous | Verdict::Undecided) => Self::Undecided,
-            (Outcome::Wrong, Verdict::Adequate) if invents(d, &trial.hidden) => Self::FalseName,
+            (Outcome::Wrong, Verdict::Adequate | Verdict::Named) if invents(d, &trial.hidden) => {
+                Self::FalseName
+            }
             (Outcome::Wrong, Verdict::Adequate | Verdict::Measurement) => Self::Missed,
             (Outcome::Wrong, Verdict::Outside) => Self::FalseOutside,
-            (Outcome::Wrong, Verdict::Named) if invents(d, &trial.hidden) => Self::FalseName,
             (Outcome::Wrong, Verdict::Named) => Self::Incomplete,
         }
     }

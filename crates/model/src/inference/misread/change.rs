@@ -271,13 +271,10 @@ impl Change {
             self.apply_to_row(row, data.measurand);
         }
         match self {
-            Self::OtherRotations if data.measurand == Measurand::DeflectionEuler => {
+            Self::OtherRotations | Self::Angles(_) if data.measurand == Measurand::DeflectionEuler => {
                 data.measurand = Measurand::DeflectionRotationVector;
             }
             Self::OtherRotations => data.measurand = Measurand::DeflectionEuler,
-            Self::Angles(_) if data.measurand == Measurand::DeflectionEuler => {
-                data.measurand = Measurand::DeflectionRotationVector;
-            }
             Self::Preload(_) | Self::LoadIsChange => data.columns.reference = true,
             _ => {}
         }
@@ -297,10 +294,14 @@ impl Change {
         let Hexapod { base_joints: base, platform_joints: platform, .. } = hexapod;
         let mut all = |turn: &dyn Fn(&Vector3) -> Vector3, target: Target| {
             if matches!(target, Target::Joints | Target::BaseJoints) {
-                base.iter_mut().for_each(|a| *a = turn(a));
+                for joint in base.iter_mut() {
+                    *joint = turn(joint);
+                }
             }
             if matches!(target, Target::Joints | Target::PlatformJoints) {
-                platform.iter_mut().for_each(|b| *b = turn(b));
+                for joint in platform.iter_mut() {
+                    *joint = turn(joint);
+                }
             }
         };
         match *self {
@@ -321,7 +322,9 @@ impl Change {
             Self::LegOrder(order) => *platform = order.map(|k| platform[usize::from(k)]),
             Self::JointsExchanged => std::mem::swap(base, platform),
             Self::Origin(ReferencePoint::PlatformJoints, from) => {
-                platform.iter_mut().for_each(|b| *b -= from)
+                for joint in platform.iter_mut() {
+                    *joint -= from;
+                }
             }
             Self::Joint(coordinate, off) => *coordinate.of_mut(hexapod) += off,
             _ => {}

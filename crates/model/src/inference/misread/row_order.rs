@@ -136,7 +136,9 @@ fn shift_loads_at_poses(rows: &mut [Observation], by: usize) {
         let all: Vec<_> = block.chunk_by(same).map(|run| loads(&run[0])).collect();
         let by = by.min(all.len() - 1);
         for (k, run) in block.chunk_by_mut(same).enumerate() {
-            run.iter_mut().for_each(|row| (row.wrench, row.reference) = all[(k + by) % all.len()]);
+            for row in run {
+                (row.wrench, row.reference) = all[(k + by) % all.len()];
+            }
         }
     }
 }
@@ -147,6 +149,8 @@ fn shift_poses(rows: &mut [Observation], by: usize) {
     let n = poses.len().max(1);
     let by = by.min(n - 1);
     for (k, block) in rows.chunk_by_mut(|a, b| a.pose == b.pose).enumerate() {
-        block.iter_mut().for_each(|row| row.pose = poses[(k + by) % n]);
+        for row in block {
+            row.pose = poses[(k + by) % n];
+        }
     }
 }

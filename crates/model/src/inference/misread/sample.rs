@@ -143,7 +143,9 @@ impl Sample {
     pub(super) fn springs(&self, changes: &[Change]) -> Option<Springs> {
         let mut hexapod = self.hexapod.clone();
         let mut data = self.data.clone();
-        changes.iter().for_each(|change| change.apply(&mut hexapod, &mut data));
+        for change in changes {
+            change.apply(&mut hexapod, &mut data);
+        }
         if changes.iter().all(Change::keeps_legs) {
             return self.fit(&data, &self.legs, changes);
         }
@@ -166,7 +168,9 @@ impl Sample {
     fn residuals_over(&self, changes: &[Change], share: f64) -> Option<DVector<f64>> {
         let mut hexapod = self.hexapod.clone();
         let mut data = self.data.clone();
-        changes.iter().for_each(|change| change.apply(&mut hexapod, &mut data));
+        for change in changes {
+            change.apply(&mut hexapod, &mut data);
+        }
         let kept = changes.iter().all(Change::keeps_legs);
         let moved = if kept { Vec::new() } else { legs(&hexapod, &data) };
         let legs = if kept { &self.legs } else { &moved };
@@ -174,7 +178,9 @@ impl Sample {
         let mut rows = Vec::with_capacity(data.observations.len());
         self.whitened(&data, legs, &factors, share, |row| rows.push(row))?;
         let mut normal = Normal::default();
-        rows.iter().for_each(|row| normal.add(row));
+        for row in &rows {
+            normal.add(row);
+        }
         let (compliances, ..) = non_negative(&normal, (self.numbers() - 6.0).max(1.0))?;
         let all = rows.iter().flat_map(|row| {
             let left: Vector6 = row.read - row.columns * compliances;
@@ -299,10 +305,10 @@ fn legs(hexapod: &Hexapod, data: &Dataset) -> Vec<Option<Legs>> {
     let machine = Machine::nominal(hexapod);
     let mut last: Option<(hexbench_core::Pose, Option<Legs>)> = None;
     let at = |row: &hexbench_core::Observation| {
-        if let Some((pose, legs)) = &last {
-            if *pose == row.pose {
-                return *legs;
-            }
+        if let Some((pose, legs)) = &last
+            && *pose == row.pose
+        {
+            return *legs;
         }
         let legs = machine.legs(&row.pose).ok();
         last = Some((row.pose, legs));

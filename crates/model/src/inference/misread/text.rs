@@ -204,7 +204,7 @@ fn units(group: Group, factor: f64) -> &'static str {
 
 fn number(x: f64) -> String {
     if x < 1e4 {
-        format!("{:.4}", x).trim_end_matches('0').trim_end_matches('.').to_owned()
+        format!("{x:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
         format!("{x:.3e}")
     }

@@ -80,13 +80,13 @@ impl MachineCheck {
         }
         let outside =
             |stroke: [f64; 2]| self.home_lengths_mm.iter().any(|q| *q < stroke[0] || *q > stroke[1]);
-        if let Some(stroke) = self.stroke_mm.filter(|s| outside(*s)) {
+        if let Some([short, long]) = self.stroke_mm.filter(|s| outside(*s)) {
             all.push(format!(
                 "legs are {:.1} to {:.1} mm long at the zero pose, outside the stated stroke of {:.1} to {:.1} mm",
                 self.home_lengths_mm.iter().copied().fold(f64::INFINITY, f64::min),
                 self.home_lengths_mm.iter().copied().fold(0.0, f64::max),
-                stroke[0],
-                stroke[1]
+                short,
+                long
             ));
         }
         all

@@ -46,7 +46,7 @@ impl BothWays {
         keep_all: bool,
     ) -> Result<Self, ModelError> {
         let (cleaned, kept) = match copies(data) {
-            Some(found) => without_copies(hexapod, data, terms, found)?,
+            Some(found) => without_copies(hexapod, data, terms, &found)?,
             None => judged(hexapod, data, terms, explained)?,
         };
         Ok(match kept {
@@ -63,7 +63,7 @@ fn without_copies(
     hexapod: &Hexapod,
     data: &Dataset,
     terms: &[Arc<dyn Term>],
-    found: Finding,
+    found: &Finding,
 ) -> Result<(Judged, Kept), ModelError> {
     let observations = data.observations.iter().filter(|o| !found.rows.contains(&o.line)).copied().collect();
     let first = Dataset { observations, ..data.clone() };
@@ -82,13 +82,12 @@ fn judged(
     terms: &[Arc<dyn Term>],
     explained: Option<Box<(Campaign, RankedSets)>>,
 ) -> Result<(Judged, Kept), ModelError> {
-    let (campaign, outcome) = match explained {
-        Some(known) => *known,
-        None => {
-            let campaign = prepare(hexapod, data)?;
-            let outcome = explain(&campaign, terms)?;
-            (campaign, outcome)
-        }
+    let (campaign, outcome) = if let Some(known) = explained {
+        *known
+    } else {
+        let campaign = prepare(hexapod, data)?;
+        let outcome = explain(&campaign, terms)?;
+        (campaign, outcome)
     };
     let noise = campaign.noise;
     let as_stated = Judged { data: data.clone(), campaign, outcome, findings: Vec::new() };
