@@ -116,7 +116,8 @@ fn leg_change(d: &Diagnosis, other: &Alternative) -> String {
 pub(super) fn sentence(finding: &Finding) -> String {
     let lines = if finding.rows.is_empty() { String::new() } else { format!(", {}", lines(&finding.rows)) };
     let Finding { kind, probability, text, size, next, .. } = finding;
-    let size = if text.contains(size.as_str()) { String::new() } else { format!(" ({size})") };
+    let is_said = kind.is_of_file() || text.contains(size.as_str());
+    let size = if is_said { String::new() } else { format!(" ({size})") };
     format!("{}{lines} ({}): {text}{size}. To do: {next}.", kind.title(), percent(*probability))
 }
 

@@ -38,7 +38,8 @@ pub(super) fn cheap(data: &Dataset) -> Vec<Change> {
     let mut all = signs();
     all.extend(units());
     let targets = [Target::Readings, Target::ReadingColumns, Target::Wrench, Target::Joints, Target::Poses];
-    let axes = SignedAxes::all();
+    // All three reversed are a sign.
+    let axes: Vec<SignedAxes> = SignedAxes::all().into_iter().filter(|a| a.axes() != [-1, -2, -3]).collect();
     all.extend(targets.iter().flat_map(|&t| axes.iter().map(move |&a| Change::Renamed(t, a))));
     // Right-handed columns are vectors.
     let left = axes.iter().filter(|a| a.handedness() < 0.0);

@@ -29,45 +29,51 @@ pub struct AgainstWritten {
     pub other: f64,
 }
 
-/// What is told of a way to read the file. `alike`: the ways that explain the file like it; `share`: its probability among them.
+/// What is reported of a way to read the file. `alike`: the ways that explain the file like it, the best first; `share`: its
+/// probability among them.
 pub fn finding(way: &Way, alike: &[&Way], answered: AgainstWritten, share: f64) -> Finding {
-    let others: Vec<String> = alike
-        .iter()
-        .filter(|other| other.changes != way.changes)
-        .map(|other| command(&other.changes))
-        .collect();
     let meaning = way.changes.iter().map(meaning).collect::<Vec<_>>().join(", and ");
-    let other = times(answered.other);
-    let (size, written) = match answered.written {
-        AsWritten::Level(level) => (
-            format!("error {other} instead of {} times the noise", times(level)),
-            format!("as the file is written, the best explanation leaves {} times the noise", times(level)),
+    let (size, written) = answered.words();
+    let see = format!("to see the answer of the file read so, add {}", command(&way.changes));
+    let is_first = alike.first().is_none_or(|first| first.changes == way.changes);
+    let (text, next) = match (is_first, alike.len()) {
+        (true, 0 | 1) => (format!("{meaning}; {written}"), format!("{}; {see}", advice(&way.changes[0]))),
+        (true, n) => (
+            format!(
+                "{meaning}; {written}; what {} explains the file as well",
+                if n == 2 { "follows" } else { "follows, each alone," }
+            ),
+            format!(
+                "the readings alone cannot tell these apart: check each against the machine, and correct the file; {see}"
+            ),
         ),
-        AsWritten::Negative => (
-            "negative stiffness".to_owned(),
-            "as the file is written, the legs have a negative stiffness".to_owned(),
-        ),
-        AsWritten::Nothing => (
-            "singular poses".to_owned(),
-            "as the file is written, the legs do not determine the motion of the platform".to_owned(),
-        ),
+        (false, _) => (format!("or else {meaning}"), see),
     };
-    let alike = match others.len() {
-        0 => String::new(),
-        1 => format!("; {} explains the file as well", others[0]),
-        _ => format!("; these explain the file as well: {}", others.join(", ")),
-    };
-    Finding {
-        kind: way.changes[0].kind(),
-        probability: share,
-        rows: Vec::new(),
-        size,
-        text: format!("{meaning}; read so, the error is {other} times the noise; {written}{alike}"),
-        next: format!(
-            "{}; to see the answer of the file read so, add {}",
-            advice(&way.changes[0], !others.is_empty()),
-            command(&way.changes)
-        ),
+    Finding { kind: way.changes[0].kind(), probability: share, rows: Vec::new(), size, text, next }
+}
+
+impl AgainstWritten {
+    /// A few words, and a sentence.
+    fn words(self) -> (String, String) {
+        let read_so = format!("read so, the error is {} times the noise", times(self.other));
+        let (size, written) = match self.written {
+            AsWritten::Level(level) => (
+                format!("error {} instead of {} times the noise", times(self.other), times(level)),
+                format!(
+                    "as the file is written, the best explanation leaves {} times the noise",
+                    times(level)
+                ),
+            ),
+            AsWritten::Negative => (
+                "negative stiffness".to_owned(),
+                "as the file is written, legs have a negative stiffness".to_owned(),
+            ),
+            AsWritten::Nothing => (
+                "singular poses".to_owned(),
+                "as the file is written, the legs do not determine the motion of the platform".to_owned(),
+            ),
+        };
+        (size, format!("{read_so}; {written}"))
     }
 }
 
@@ -210,8 +216,8 @@ fn number(x: f64) -> String {
     }
 }
 
-fn advice(change: &Change, is_one_of_many: bool) -> &'static str {
-    let only = match change {
+fn advice(change: &Change) -> &'static str {
+    match change {
         Change::Reversed(_) | Change::StatesExchanged => {
             "press on the platform by hand: a pull along an axis moves it along that axis; look at the signs of that line, and \
              correct the file"
@@ -229,10 +235,5 @@ fn advice(change: &Change, is_one_of_many: bool) -> &'static str {
         _ => {
             "check in which frame, about which point and in which convention these columns were written, and correct the file"
         }
-    };
-    if is_one_of_many {
-        "the readings alone cannot tell these apart: check each against the machine, and correct the file"
-    } else {
-        only
     }
 }
