@@ -49,7 +49,7 @@ pub fn diagnosis(subject: &ReportSubject<'_>) -> Page {
         Page { subject: subject.entries(), ..Page::new(format!("Diagnosis of {}", subject.hexapod.name)) };
     let page = page.with(findings::section(d)).with(conclusion::section(d));
     if d.is_misread() {
-        return page.with(notes::section(d)).with(notes::conventions());
+        return page.with(notes::conventions());
     }
     page.with(confidence::section(d))
         .with(ladder::section(d))
