@@ -209,8 +209,8 @@ def diagnose(
     Returns
     -------
     Diagnosis
-        ``verdict`` is ``adequate``, ``named``, ``ambiguous``, ``outside``, ``measurement`` or ``undecided``; bad news is a result, not an
-        exception.
+        ``verdict`` is ``adequate``, ``named``, ``ambiguous``, ``outside``, ``measurement`` or ``undecided``; bad news is a
+        result, not an exception.
 
     Raises
     ------
