@@ -5,12 +5,12 @@ use std::path::Path;
 pub(crate) use hexbench_app::input::{catalogue_with, model, user_terms};
 use hexbench_core::files::{TableReading, read_conditions, read_hexapod, read_measurements, read_plan};
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::inference::misread::Change;
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
 
 use crate::failure::Failure;
 use crate::output::report;
+use crate::read_as::ReadAs;
 
 /// The machine of a hexapod file.
 pub(crate) fn hexapod(path: &Path) -> Result<Hexapod, Failure> {
@@ -33,9 +33,9 @@ pub(crate) fn plan(path: &Path) -> Result<Dataset, Failure> {
 }
 
 /// Says on standard error how files are read otherwise than they say, and what they seem to mean instead.
-pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &[Change]) {
-    if !read_as.is_empty() {
-        let all: Vec<String> = read_as.iter().map(ToString::to_string).collect();
+pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &ReadAs) {
+    let all = read_as.names();
+    if !all.is_empty() {
         report::note(&format!(
             "the files are read otherwise than they say, as asked: {}",
             all.join(", then ")

@@ -1,11 +1,11 @@
 //! Comparisons and diagnoses.
 
+use std::fmt::Display;
 use std::path::PathBuf;
+use std::str::FromStr;
 use std::sync::Arc;
 
 use hexbench_app::{Failure, input};
-use hexbench_core::{LineRange, NoLines};
-use hexbench_model::inference::misread::{Change, ChangeError};
 use hexbench_model::results::compare::{ComparedModel, compare as compared_with};
 use hexbench_model::results::diagnose::{DiagnoseOptions, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::runs::{Origin, WithOrigin};
@@ -107,7 +107,11 @@ pub(crate) fn diagnose(
     beside(py, move || {
         let all = input::catalogue_with(&input::user_terms(&terms)?);
         let held = about.holdout.as_ref().map(|h| &h.data);
-        let options = DiagnoseOptions { exclude: lines(&exclude)?, keep_all, read_as: changes(&read_as)? };
+        let options = DiagnoseOptions {
+            exclude: parsed("exclude", &exclude)?,
+            keep_all,
+            read_as: parsed("read_as", &read_as)?,
+        };
         let study =
             diagnose_with(&about.measured.machine.hexapod, &about.measured.data, held, &all, &options);
         let study = study.map_err(|cause| about.failure(cause))?;
@@ -115,22 +119,10 @@ pub(crate) fn diagnose(
     })
 }
 
-/// `deflection-sign=reversed`.
-fn changes(texts: &[String]) -> Result<Vec<Change>, Failure> {
-    let refused = |message: String| Failure::Usage { message, next: String::new() };
-    texts
-        .iter()
-        .map(|text| text.parse().map_err(|cause: ChangeError| refused(format!("read_as: {cause}"))))
-        .collect()
-}
-
-/// `12`, `12-15`.
-fn lines(texts: &[String]) -> Result<Vec<LineRange>, Failure> {
-    let refused = |message: String| Failure::Usage { message, next: String::new() };
-    texts
-        .iter()
-        .map(|text| text.parse().map_err(|cause: NoLines| refused(format!("exclude: {cause}"))))
-        .collect()
+/// Every text as what it says: `12-15` of `exclude`, `deflection-sign=reversed` of `read_as`.
+fn parsed<T: FromStr<Err: Display>>(argument: &str, texts: &[String]) -> Result<Vec<T>, Failure> {
+    let refused = |cause| Failure::Usage { message: format!("{argument}: {cause}"), next: String::new() };
+    texts.iter().map(|text| text.parse().map_err(refused)).collect()
 }
 
 /// A comparison.

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_model::error::ModelError;
-use hexbench_model::inference::misread::Change;
 use hexbench_model::results::check::check;
 use hexbench_model::terms::catalogue;
 use hexbench_report::words;
@@ -12,6 +11,7 @@ use hexbench_report::words;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{Screen, write_json};
+use crate::read_as::ReadAs;
 
 /// Are machine and files what they should be? What is understood of them, what looks wrong, what they could show
 #[derive(Debug, Args)]
@@ -22,10 +22,8 @@ pub(crate) struct Arguments {
     data: Option<PathBuf>,
     /// Readings that no fit is to see
     holdout: Option<PathBuf>,
-    /// Read the files as meaning something else than they say: KIND=VALUE as a finding names it (deflection-sign=reversed); may be
-    /// given several times, applied in order
-    #[arg(long, value_name = "KIND=VALUE")]
-    read_as: Vec<Change>,
+    #[command(flatten)]
+    read_as: ReadAs,
     /// Write all of it to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -38,8 +36,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
     let source = data.as_ref().map_or_else(|| arguments.hexapod.display().to_string(), |d| d.source.clone());
     let failed = |cause: ModelError| Failure::Model { cause, data: source };
-    let found =
-        check(&hexapod, data.as_ref(), holdout.as_ref(), &catalogue(), &arguments.read_as).map_err(failed)?;
+    let found = check(&hexapod, data.as_ref(), holdout.as_ref(), &catalogue(), &arguments.read_as.changes)
+        .map_err(failed)?;
     if let Some(path) = &arguments.json {
         write_json(screen, path, &found)?;
     }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_model::inference::misread::{AsMeant, Change};
+use hexbench_model::inference::misread::AsMeant;
 use hexbench_model::results::compare::compare;
 use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::{readings, subject};
@@ -12,6 +12,7 @@ use hexbench_report::{charts, words};
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{PageFiles, Screen, TableFile, origin, provenance, write_json};
+use crate::read_as::ReadAs;
 
 /// Compare a model with measurements: errors beside the noise, where they sit, what they follow
 #[derive(Debug, Args)]
@@ -26,9 +27,8 @@ pub(crate) struct Arguments {
     /// Also compare with these readings, which no fit has seen
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
-    /// Read the files as meaning something else than they say: KIND=VALUE as `hexbench check` names it; may be given several times
-    #[arg(long, value_name = "KIND=VALUE")]
-    read_as: Vec<Change>,
+    #[command(flatten)]
+    read_as: ReadAs,
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -54,13 +54,13 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let data = input::measurements(&arguments.data)?;
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
-    let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as);
+    let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);
     let model = arguments.model.as_deref().map(input::model).transpose()?;
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
     let mut compared = compare(hexapod, data, model.as_ref(), holdout).map_err(failed)?;
-    compared.comparison.read_as = arguments.read_as.iter().map(ToString::to_string).collect();
+    compared.comparison.read_as = arguments.read_as.names();
     let result = &compared.comparison;
     if let Some(path) = &arguments.json {
         let run =

@@ -7,7 +7,6 @@ use clap::{Args, ValueEnum};
 use hexbench_core::{Dataset, Hexapod, LineRange};
 use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
-use hexbench_model::inference::misread::Change;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::runs::WithOrigin;
@@ -17,6 +16,7 @@ use hexbench_report::{charts, words};
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{PageFiles, Screen, origin, provenance, write_json};
+use crate::read_as::ReadAs;
 
 /// Name the physical effect the model lacks, and show the held-out error fall
 #[derive(Debug, Args)]
@@ -38,10 +38,8 @@ pub(crate) struct Arguments {
     /// Keep every reading in the fit: readings that seem wrong are still told, but not left out
     #[arg(long)]
     keep_all: bool,
-    /// Read the files as meaning something else than they say, machine, data and holdout alike: KIND=VALUE as a finding names it
-    /// (deflection-sign=reversed); may be given several times, applied in order
-    #[arg(long, value_name = "KIND=VALUE")]
-    read_as: Vec<Change>,
+    #[command(flatten)]
+    read_as: ReadAs,
     /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -85,7 +83,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let options = DiagnoseOptions {
         exclude: arguments.exclude.clone(),
         keep_all: arguments.keep_all,
-        read_as: arguments.read_as.clone(),
+        read_as: arguments.read_as.changes.clone(),
     };
     let study = study(&hexapod, &data, holdout.as_ref(), &terms, &options)?;
     let to_stdout = arguments.json.as_deref() == Some(Path::new("-")) || arguments.page.to_stdout();

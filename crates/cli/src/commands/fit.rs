@@ -7,7 +7,7 @@ use hexbench_app::fit::{added, fitted, model};
 use hexbench_core::files::content_hash;
 use hexbench_model::application::model_file::Estimator;
 use hexbench_model::error::ModelError;
-use hexbench_model::inference::misread::{AsMeant, Change};
+use hexbench_model::inference::misread::AsMeant;
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare;
 use hexbench_report::words::fitted;
@@ -15,6 +15,7 @@ use hexbench_report::words::fitted;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Screen;
+use crate::read_as::ReadAs;
 
 /// Fit leg stiffnesses and the effects you name, and save the model
 #[derive(Debug, Args)]
@@ -35,9 +36,8 @@ pub(crate) struct Arguments {
     /// A term file of your own (term/1); it is added to the model. May be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
-    /// Read the files as meaning something else than they say: KIND=VALUE as `hexbench check` names it; may be given several times
-    #[arg(long, value_name = "KIND=VALUE")]
-    read_as: Vec<Change>,
+    #[command(flatten)]
+    read_as: ReadAs,
     /// Write the model to FILE (model.toml)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let data = input::measurements(&arguments.data)?;
     let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
-    let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as);
+    let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);
     let estimator = if arguments.estimator == Method::Paper { Estimator::Paper } else { Estimator::Gls };
@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     screen.show(&fitted::page(&task, &judged, estimator))?;
     let Some(path) = &arguments.output else { return Ok(()) };
     let mut model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
-    model.data.read_as = arguments.read_as.iter().map(ToString::to_string).collect();
+    model.data.read_as = arguments.read_as.names();
     let unsaved = |cause| Failure::ModelFile { path: path.clone(), cause: Box::new(cause) };
     let text = model.to_toml().map_err(unsaved)?;
     screen.write_to(path, &text)

@@ -120,17 +120,17 @@ pub fn springs_alone(campaign: &Campaign) -> Result<RankedSets, ModelError> {
 /// What a campaign could show beside its springs: every effect in its ideal form, and those the file cannot test.
 ///
 /// # Errors
-/// As [`fit`].
+/// As [`Linearization::at`].
 pub fn visible(
     campaign: &Campaign,
+    springs: &Fit,
     terms: &[Arc<dyn Term>],
 ) -> Result<(Gram, Vec<Candidate>, Vec<Untestable>), ModelError> {
-    let baseline = fit_baseline(campaign)?;
-    let lin = Linearization::at(campaign, &baseline.point)?;
+    let lin = Linearization::at(campaign, &springs.point)?;
     let (testable, mut untestable) = split(terms, campaign, &lin);
     let effort = Effort { rich: false, scan: false };
     let (gram, candidates) =
-        collect(campaign, &baseline.point, &lin, &testable, baseline.natural(&lin), effort);
+        collect(campaign, &springs.point, &lin, &testable, springs.natural(&lin), effort);
     let (candidates, faint) = noticeable(candidates, &gram);
     untestable.extend(faint);
     Ok((gram, candidates, untestable))

@@ -12,7 +12,7 @@ use hexbench_report::render::markdown;
 use hexbench_report::table::{Frame, csv};
 use hexbench_truth::misstatements;
 
-use super::written;
+use super::{known, written};
 use crate::failure::Failure;
 use crate::output::{Screen, TrialFiles};
 
@@ -48,9 +48,7 @@ pub(crate) struct Arguments {
 }
 
 fn misstatement(id: &str) -> Result<&'static str, String> {
-    let all = || misstatements::registry().map(|entry| entry.id);
-    let known = all().find(|known| *known == id);
-    known.ok_or_else(|| format!("misstatements are {}", all().collect::<Vec<_>>().join(", ")))
+    known(id, "misstatements", misstatements::registry().map(|entry| entry.id))
 }
 
 /// Run the study, write its files, tell the main figures.

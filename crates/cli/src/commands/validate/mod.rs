@@ -50,3 +50,14 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Regress(arguments) => regress::run(arguments, screen),
     }
 }
+
+/// The id of a registry that a user means; `what` the registry holds.
+fn known(
+    id: &str,
+    what: &str,
+    mut all: impl Iterator<Item = &'static str> + Clone,
+) -> Result<&'static str, String> {
+    let listed = all.clone();
+    all.find(|known| *known == id)
+        .ok_or_else(|| format!("{what} are {}", listed.collect::<Vec<_>>().join(", ")))
+}

@@ -10,7 +10,7 @@ use hexbench_report::render::markdown;
 use hexbench_report::table::{Frame, csv};
 use hexbench_truth::laboratory;
 
-use super::written;
+use super::{known, written};
 use crate::failure::Failure;
 use crate::output::{Screen, TrialFiles};
 
@@ -40,9 +40,7 @@ pub(crate) struct Arguments {
 }
 
 fn fault(id: &str) -> Result<&'static str, String> {
-    let all = || laboratory::registry().map(|entry| entry.id);
-    let known = all().find(|known| *known == id);
-    known.ok_or_else(|| format!("faults are {}", all().collect::<Vec<_>>().join(", ")))
+    known(id, "faults", laboratory::registry().map(|entry| entry.id))
 }
 
 /// Run the study, write its files, tell the main figures.

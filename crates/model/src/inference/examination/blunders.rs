@@ -9,6 +9,7 @@ use hexbench_core::statistics::median;
 use hexbench_core::{Pose, Vector6};
 use nalgebra::{DMatrix, DVector};
 
+use super::READINGS;
 use super::finding::{Finding, FindingKind, probability};
 use super::remainder::Remainder;
 use crate::estimation::campaign::Campaign;
@@ -36,8 +37,6 @@ const POSE: [(&str, &str, f64); 6] = [
     ("beta", "deg", 57.295_779_513_082_32),
     ("gamma", "deg", 57.295_779_513_082_32),
 ];
-/// Names of the measured values.
-const VALUES: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
 
 /// A fault that readings speak for.
 pub(super) struct Fault {
@@ -96,7 +95,7 @@ fn numbers(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     let size = z((i, k));
     let odds = evidence(size * size, scale.single, 1, 6 * rest.rows.len());
     let line = rest.data.observations[i].line;
-    let value = VALUES[k];
+    let value = READINGS[k];
     let sigma = format!("{:.0} sigma", size.abs());
     let text = format!("{value} in line {line} is {sigma} away from what the other readings allow");
     Some(fault(FindingKind::Blunder, vec![i], rest, odds, sigma, text, "read the record of this line again"))

@@ -175,6 +175,11 @@ impl Finding {
     }
 }
 
+/// True when the files do not seem to mean what they say.
+pub fn is_misread(findings: &[Finding]) -> bool {
+    findings.iter().any(|finding| finding.kind.is_of_file())
+}
+
 /// Probability from a difference of log-evidences.
 pub(super) fn probability(nats: f64) -> f64 {
     1.0 / (1.0 + (-nats).exp())

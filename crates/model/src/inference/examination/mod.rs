@@ -16,7 +16,7 @@ use hexbench_core::{Dataset, Hexapod, Matrix6, Tolerances, Vector6};
 
 use self::blunders::{Fault, worst};
 use self::finding::probability;
-pub use self::finding::{Finding, FindingKind};
+pub use self::finding::{Finding, FindingKind, is_misread};
 use self::remainder::Remainder;
 use self::resolution::Resolution;
 use self::scatter::{Kind, Statement, statements};
@@ -35,8 +35,10 @@ const LIKELY: f64 = 3.0;
 const LEAST_SHARED: f64 = 0.02;
 /// Coordinates of a reading.
 const AXES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
+/// Columns of a reading.
+pub(crate) const READINGS: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
 /// Components of a load.
-const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+pub(crate) const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 /// One reading in so many may be left out; beyond it something else is wrong.
 const MOST_LEFT_OUT: usize = 10;
 

@@ -22,10 +22,11 @@ use rayon::prelude::*;
 
 pub use self::change::{Change, Group, JointCoordinate, ReferencePoint, Signed, Target};
 pub use self::copies::{copies, held_in};
-pub use self::name::{ChangeError, KINDS};
+pub use self::name::{ChangeError, KINDS, names};
 pub use self::row_order::RowOrder;
 use self::sample::{Sample, Springs};
-pub use self::text::{AgainstWritten, AsWritten, finding, meaning};
+use self::text::meaning;
+pub use self::text::{AgainstWritten, AsWritten, finding};
 pub use self::turn::{AngleOrder, SignedAxes};
 
 /// Springs that leave less than this many times the noise explain a file well enough: no mistake in it can matter much.
@@ -106,6 +107,11 @@ pub struct Way {
 }
 
 impl Way {
+    /// What the author of the file meant, if this is what went wrong.
+    pub fn meaning(&self) -> String {
+        self.changes.iter().map(meaning).collect::<Vec<_>>().join(", and ")
+    }
+
     /// True when nothing but signs changes.
     pub fn is_a_sign(&self) -> bool {
         self.changes.iter().all(|change| matches!(change, Change::Reversed(_) | Change::StatesExchanged))
@@ -247,9 +253,8 @@ impl Search<'_> {
 
     /// The rows in another order make other averages.
     fn reordered(&self, hexapod: &Hexapod, data: &Dataset, change: Change) -> Option<Way> {
-        let (mut hexapod, mut data) = (hexapod.clone(), data.clone());
-        change.apply(&mut hexapod, &mut data);
-        let sample = Sample::new(&hexapod, &data)?;
+        let meant = AsMeant::of(hexapod, data, None, &[change]);
+        let sample = Sample::new(&meant.hexapod, &meant.data)?;
         let springs = sample.springs(&[]).filter(|springs| springs.negative == 0)?;
         Some(self.of(&springs, vec![change]))
     }

@@ -157,6 +157,11 @@ impl fmt::Display for Change {
     }
 }
 
+/// Names of changes, in their order.
+pub fn names(changes: &[Change]) -> Vec<String> {
+    changes.iter().map(ToString::to_string).collect()
+}
+
 /// A number with the digits that matter.
 fn short(x: f64) -> String {
     let text = format!("{x:.6e}").parse::<f64>().unwrap_or(x).to_string();

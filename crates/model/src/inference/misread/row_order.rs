@@ -1,6 +1,6 @@
 //! Rows that belong together in another order.
 
-use hexbench_core::{Dataset, Observation, Pose, Wrench};
+use hexbench_core::{Dataset, Observation, Wrench};
 
 /// Columns of the file that stand in other rows than the readings they belong to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,26 +83,26 @@ impl RowOrder {
     pub(super) fn apply(self, data: &mut Dataset) {
         let rows = &mut data.observations;
         match self {
-            Self::LoadsBelow => shift_loads(rows, 1),
-            Self::LoadsAbove => shift_loads(rows, usize::MAX),
+            Self::LoadsBelow => shift_loads(rows, Neighbor::Below),
+            Self::LoadsAbove => shift_loads(rows, Neighbor::Above),
             Self::LoadsReversed => {
                 for block in rows.chunk_by_mut(|a, b| a.pose == b.pose) {
                     let loads: Vec<_> = block.iter().rev().map(loads).collect();
-                    for (row, (wrench, reference)) in block.iter_mut().zip(loads) {
-                        (row.wrench, row.reference) = (wrench, reference);
+                    for (row, loads) in block.iter_mut().zip(loads) {
+                        set_loads(row, loads);
                     }
                 }
             }
-            Self::LoadOfNext => shift_loads_at_poses(rows, 1),
-            Self::LoadOfLast => shift_loads_at_poses(rows, usize::MAX),
-            Self::ReadingsBelow => shift_readings(rows, 1),
-            Self::ReadingsAbove => shift_readings(rows, usize::MAX),
+            Self::LoadOfNext => shift_loads_at_poses(rows, Neighbor::Below),
+            Self::LoadOfLast => shift_loads_at_poses(rows, Neighbor::Above),
+            Self::ReadingsBelow => shift_readings(rows, Neighbor::Below),
+            Self::ReadingsAbove => shift_readings(rows, Neighbor::Above),
             Self::ReadingsReversed => {
                 let all: Vec<_> = rows.iter().rev().map(|row| row.measured).collect();
                 rows.iter_mut().zip(all).for_each(|(row, measured)| row.measured = measured);
             }
-            Self::PosesBelow => shift_poses(rows, 1),
-            Self::PosesAbove => shift_poses(rows, usize::MAX),
+            Self::PosesBelow => shift_poses(rows, Neighbor::Below),
+            Self::PosesAbove => shift_poses(rows, Neighbor::Above),
         }
     }
 }
@@ -111,46 +111,64 @@ fn loads(row: &Observation) -> (Wrench, Wrench) {
     (row.wrench, row.reference)
 }
 
-fn shift_loads(rows: &mut [Observation], by: usize) {
-    let all: Vec<_> = rows.iter().map(loads).collect();
-    let n = rows.len().max(1);
-    let by = by.min(n - 1);
-    for (i, row) in rows.iter_mut().enumerate() {
-        (row.wrench, row.reference) = all[(i + by) % n];
+/// Where a row takes from what is its own.
+#[derive(Clone, Copy)]
+enum Neighbor {
+    Below,
+    Above,
+}
+
+impl Neighbor {
+    /// Every entry is that of its neighbor; the sequence is closed.
+    fn rolled<T>(self, mut all: Vec<T>) -> Vec<T> {
+        if !all.is_empty() {
+            match self {
+                Self::Below => all.rotate_left(1),
+                Self::Above => all.rotate_right(1),
+            }
+        }
+        all
     }
 }
 
-fn shift_readings(rows: &mut [Observation], by: usize) {
-    let all: Vec<_> = rows.iter().map(|row| row.measured).collect();
-    let n = rows.len().max(1);
-    let by = by.min(n - 1);
-    for (i, row) in rows.iter_mut().enumerate() {
-        row.measured = all[(i + by) % n];
+fn set_loads(row: &mut Observation, (wrench, reference): (Wrench, Wrench)) {
+    (row.wrench, row.reference) = (wrench, reference);
+}
+
+fn shift_loads(rows: &mut [Observation], from: Neighbor) {
+    let all = from.rolled(rows.iter().map(loads).collect());
+    for (row, loads) in rows.iter_mut().zip(all) {
+        set_loads(row, loads);
     }
 }
 
-/// At every pose each run of rows with one load takes the load of the run after it (`by` 1) or before it.
-fn shift_loads_at_poses(rows: &mut [Observation], by: usize) {
+fn shift_readings(rows: &mut [Observation], from: Neighbor) {
+    let all = from.rolled(rows.iter().map(|row| row.measured).collect());
+    for (row, measured) in rows.iter_mut().zip(all) {
+        row.measured = measured;
+    }
+}
+
+/// At every pose each run of rows with one load takes the load of a neighboring run.
+fn shift_loads_at_poses(rows: &mut [Observation], from: Neighbor) {
+    let same = |a: &Observation, b: &Observation| loads(a) == loads(b);
     for block in rows.chunk_by_mut(|a, b| a.pose == b.pose) {
-        let same = |a: &Observation, b: &Observation| loads(a) == loads(b);
-        let all: Vec<_> = block.chunk_by(same).map(|run| loads(&run[0])).collect();
-        let by = by.min(all.len() - 1);
-        for (k, run) in block.chunk_by_mut(same).enumerate() {
+        let all = from.rolled(block.chunk_by(same).map(|run| loads(&run[0])).collect());
+        for (run, loads) in block.chunk_by_mut(same).zip(all) {
             for row in run {
-                (row.wrench, row.reference) = all[(k + by) % all.len()];
+                set_loads(row, loads);
             }
         }
     }
 }
 
-/// Every block of rows with one pose takes the pose of the block after it (`by` 1) or before it.
-fn shift_poses(rows: &mut [Observation], by: usize) {
-    let poses: Vec<Pose> = rows.chunk_by(|a, b| a.pose == b.pose).map(|block| block[0].pose).collect();
-    let n = poses.len().max(1);
-    let by = by.min(n - 1);
-    for (k, block) in rows.chunk_by_mut(|a, b| a.pose == b.pose).enumerate() {
+/// Every block of rows with one pose takes the pose of a neighboring block.
+fn shift_poses(rows: &mut [Observation], from: Neighbor) {
+    let same = |a: &Observation, b: &Observation| a.pose == b.pose;
+    let all = from.rolled(rows.chunk_by(same).map(|block| block[0].pose).collect());
+    for (block, pose) in rows.chunk_by_mut(same).zip(all) {
         for row in block {
-            row.pose = poses[(k + by) % n];
+            row.pose = pose;
         }
     }
 }

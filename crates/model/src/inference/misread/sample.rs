@@ -10,9 +10,12 @@
 //! and a way of reading is weighed by twice the negative log-likelihood of the readings as the file holds them. Their noise may be
 //! larger than stated by what springs do not explain; repeats may scatter a few times more or less than stated, not a thousand times.
 
+use std::borrow::Cow;
+
 use hexbench_core::{Dataset, Hexapod, Matrix6, Measurand, Vector6};
 use nalgebra::DVector;
 
+use super::AsMeant;
 use super::change::{Change, Group};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::noise::NoiseSource;
@@ -141,22 +144,9 @@ impl Sample {
 
     /// The springs of the file read with changes, one after the other; none where the machine is singular.
     pub(super) fn springs(&self, changes: &[Change]) -> Option<Springs> {
-        let mut hexapod = self.hexapod.clone();
-        let mut data = self.data.clone();
-        for change in changes {
-            change.apply(&mut hexapod, &mut data);
-        }
-        if changes.iter().all(Change::keeps_legs) {
-            return self.fit(&data, &self.legs, changes);
-        }
-        self.fit(&data, &legs(&hexapod, &data), changes)
-    }
-
-    fn fit(&self, data: &Dataset, legs: &[Option<Legs>], changes: &[Change]) -> Option<Springs> {
-        let factors = Factors::of(changes);
         let mut normal = Normal::default();
-        self.whitened(data, legs, &factors, LINEAR_SHARE, |row| normal.add(&row))?;
-        self.judged(&normal, &factors)
+        self.whitened(changes, LINEAR_SHARE, |row| normal.add(&row))?;
+        self.judged(&normal, &Factors::of(changes))
     }
 
     /// Readings less what the springs explain of them, over the noise, of the file read with changes; six for each condition.
@@ -166,22 +156,13 @@ impl Sample {
 
     /// The same over the noise and a share of the readings.
     fn residuals_over(&self, changes: &[Change], share: f64) -> Option<DVector<f64>> {
-        let mut hexapod = self.hexapod.clone();
-        let mut data = self.data.clone();
-        for change in changes {
-            change.apply(&mut hexapod, &mut data);
-        }
-        let kept = changes.iter().all(Change::keeps_legs);
-        let moved = if kept { Vec::new() } else { legs(&hexapod, &data) };
-        let legs = if kept { &self.legs } else { &moved };
-        let factors = Factors::of(changes);
-        let mut rows = Vec::with_capacity(data.observations.len());
-        self.whitened(&data, legs, &factors, share, |row| rows.push(row))?;
+        let mut rows = Vec::with_capacity(self.data.observations.len());
+        self.whitened(changes, share, |row| rows.push(row))?;
         let mut normal = Normal::default();
         for row in &rows {
             normal.add(row);
         }
-        let (compliances, ..) = non_negative(&normal, (self.numbers() - 6.0).max(1.0))?;
+        let (compliances, ..) = non_negative(&normal, self.freedom())?;
         let all = rows.iter().flat_map(|row| {
             let left: Vector6 = row.read - row.columns * compliances;
             (0..6).map(move |k| left[k])
@@ -193,26 +174,24 @@ impl Sample {
     pub(super) fn levels(&self, changes: &[Change]) -> Option<Vector6> {
         let all = self.residuals_over(changes, 0.0)?;
         let conditions = self.data.observations.len();
-        let freedom = (self.numbers() - 6.0).max(1.0) / 6.0;
+        let freedom = self.freedom() / 6.0;
         Some(Vector6::from_fn(|k, _| {
             let sum: f64 = (0..conditions).map(|c| all[6 * c + k].powi(2)).sum();
             (sum / freedom).sqrt()
         }))
     }
 
-    /// Columns of the springs and readings of every condition, over the noise; none at a singular pose.
-    fn whitened(
-        &self,
-        data: &Dataset,
-        legs: &[Option<Legs>],
-        factors: &Factors,
-        share: f64,
-        mut take: impl FnMut(Whitened),
-    ) -> Option<()> {
-        let motions = motions(data);
+    /// Columns of the springs and readings of every condition of the file read with changes, over the noise and a share of the
+    /// readings; none at a singular pose.
+    fn whitened(&self, changes: &[Change], share: f64, mut take: impl FnMut(Whitened)) -> Option<()> {
+        let AsMeant { hexapod, data, .. } = AsMeant::of(&self.hexapod, &self.data, None, changes);
+        let kept = changes.iter().all(Change::keeps_legs);
+        let legs = if kept { Cow::Borrowed(&self.legs) } else { Cow::Owned(legs(&hexapod, &data)) };
+        let factors = Factors::of(changes);
+        let motions = motions(&data);
         let floor = floors(&motions, share);
         for (((row, motion), legs), sigma) in
-            data.observations.iter().zip(&motions).zip(legs).zip(&self.sigma)
+            data.observations.iter().zip(&motions).zip(legs.iter()).zip(&self.sigma)
         {
             let legs = legs.as_ref()?;
             let force = legs.forces(&(row.wrench.to_vector() - row.reference.to_vector()));
@@ -229,8 +208,7 @@ impl Sample {
     }
 
     fn judged(&self, normal: &Normal, factors: &Factors) -> Option<Springs> {
-        let numbers = 6.0 * self.data.observations.len() as f64;
-        let freedom = (numbers - 6.0).max(1.0);
+        let (numbers, freedom) = (self.numbers(), self.freedom());
         let (_, chi2, negative) = non_negative(normal, freedom)?;
         let variance = (chi2 / freedom).max(1.0);
         let spread = numbers * (variance.ln() + chi2 / freedom / variance);
@@ -254,8 +232,13 @@ impl Sample {
     }
 
     /// Numbers of the readings.
-    pub(super) fn numbers(&self) -> f64 {
+    fn numbers(&self) -> f64 {
         6.0 * self.data.observations.len() as f64
+    }
+
+    /// Degrees of freedom that the springs leave them.
+    fn freedom(&self) -> f64 {
+        (self.numbers() - 6.0).max(1.0)
     }
 }
 

@@ -2,12 +2,7 @@
 
 use super::Way;
 use super::change::{Change, Group, ReferencePoint, Signed, Target};
-use crate::inference::examination::Finding;
-
-/// The six numbers of a reading.
-const READINGS: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
-/// The six components of a load.
-const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+use crate::inference::examination::{Finding, LOADS, READINGS};
 
 /// What explains the file as it is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +27,7 @@ pub struct AgainstWritten {
 /// What is reported of a way to read the file. `alike`: the ways that explain the file like it, the best first; `share`: its
 /// probability among them.
 pub fn finding(way: &Way, alike: &[&Way], answered: AgainstWritten, share: f64) -> Finding {
-    let meaning = way.changes.iter().map(meaning).collect::<Vec<_>>().join(", and ");
+    let meaning = way.meaning();
     let (size, written) = answered.words();
     let see = format!("to see the answer of the file read so, add {}", command(&way.changes));
     let is_first = alike.first().is_none_or(|first| first.changes == way.changes);
@@ -91,7 +86,7 @@ fn times(level: f64) -> String {
 }
 
 /// What the author of the file meant, if this is the mistake.
-pub fn meaning(change: &Change) -> String {
+pub(super) fn meaning(change: &Change) -> String {
     match change {
         Change::Reversed(signed) => format!("{} the other sign", reversed(*signed)),
         Change::StatesExchanged => "the columns of the loaded and of the reference state seem exchanged".to_owned(),

@@ -13,9 +13,10 @@ pub use self::readings::ReadingsCheck;
 use crate::effects::term::Term;
 use crate::effects::untestable::Untestable;
 use crate::error::ModelError;
+use crate::estimation::fit::fit_baseline;
 use crate::inference::diagnosis::visible;
 use crate::inference::examination::Finding;
-use crate::inference::misread::{AsMeant, Change, copies, held_in};
+use crate::inference::misread::{AsMeant, Change, copies, held_in, names};
 use crate::inference::power::{Detectable, detectable};
 use crate::results::diagnose::{held_out_finding, misread_findings, prepare};
 
@@ -55,48 +56,55 @@ pub fn check(
     terms: &[Arc<dyn Term>],
     read_as: &[Change],
 ) -> Result<Check, ModelError> {
-    let changes: Vec<String> = read_as.iter().map(ToString::to_string).collect();
-    let Some(data) = data else {
+    let Some(data) = data else { return Ok(Check { read_as: names(read_as), ..Check::of(hexapod)? }) };
+    let meant = AsMeant::of(hexapod, data, holdout, read_as);
+    let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
+    let of_machine = Check::of(hexapod)?;
+    let mut findings = misread_findings(hexapod, data, terms).unwrap_or_default();
+    findings.extend(copies(data));
+    let campaign = prepare(hexapod, data)?;
+    let springs = fit_baseline(&campaign)?;
+    let measurements = ReadingsCheck::of(hexapod, data, &campaign, Some(&springs));
+    if let Some(held) = holdout {
+        let own = held_in(data, held);
+        let foreign = || held_out_finding(hexapod, &campaign, &springs, held).ok().flatten();
+        findings.extend(own.or_else(|| if findings.is_empty() { foreign() } else { None }));
+    }
+    let held_out = |held: &Dataset| {
+        let campaign = prepare(hexapod, held)?;
+        Ok(ReadingsCheck::of(hexapod, held, &campaign, fit_baseline(&campaign).ok().as_ref()))
+    };
+    let holdout = holdout.map(held_out).transpose()?;
+    let (gram, candidates, untestable) = visible(&campaign, &springs, terms)?;
+    let remarks = measurements.remarks(&of_machine.machine);
+    Ok(Check {
+        ready: findings.is_empty(),
+        measurements: Some(measurements),
+        holdout,
+        remarks: of_machine.remarks.iter().cloned().chain(remarks).collect(),
+        detectable: if findings.is_empty() { detectable(&gram, &candidates, &[]) } else { Vec::new() },
+        findings,
+        untestable,
+        read_as: names(read_as),
+        ..of_machine
+    })
+}
+
+impl Check {
+    /// Of a machine alone, and what looks odd about it.
+    fn of(hexapod: &Hexapod) -> Result<Self, ModelError> {
         let machine = MachineCheck::of(hexapod)?;
-        let remarks = machine.remarks();
-        return Ok(Check {
+        Ok(Self {
             format: "check/1",
             ready: true,
+            remarks: machine.remarks(),
             machine,
             measurements: None,
             holdout: None,
             findings: Vec::new(),
-            remarks,
             detectable: Vec::new(),
             untestable: Vec::new(),
-            read_as: changes,
-        });
-    };
-    let meant = AsMeant::of(hexapod, data, holdout, read_as);
-    let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
-    let machine = MachineCheck::of(hexapod)?;
-    let mut findings = misread_findings(hexapod, data, terms).unwrap_or_default();
-    findings.extend(copies(data));
-    let measurements = ReadingsCheck::of(hexapod, data)?;
-    if let Some(held) = holdout {
-        let own = held_in(data, held);
-        let foreign = || held_out_finding(hexapod, data, held).ok().flatten();
-        findings.extend(own.or_else(|| if findings.is_empty() { foreign() } else { None }));
+            read_as: Vec::new(),
+        })
     }
-    let holdout = holdout.map(|held| ReadingsCheck::of(hexapod, held)).transpose()?;
-    let campaign = prepare(hexapod, data)?;
-    let (gram, candidates, untestable) = visible(&campaign, terms)?;
-    let remarks = machine.remarks().into_iter().chain(measurements.remarks(&machine));
-    Ok(Check {
-        format: "check/1",
-        ready: findings.is_empty(),
-        remarks: remarks.collect(),
-        machine,
-        measurements: Some(measurements),
-        holdout,
-        detectable: if findings.is_empty() { detectable(&gram, &candidates, &[]) } else { Vec::new() },
-        findings,
-        untestable,
-        read_as: changes,
-    })
 }

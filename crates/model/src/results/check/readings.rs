@@ -4,11 +4,10 @@ use hexbench_core::{Dataset, Hexapod};
 use serde::Serialize;
 
 use super::machine::MachineCheck;
-use crate::error::ModelError;
-use crate::estimation::fit::fit_baseline;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::Fit;
 use crate::estimation::noise::{NoiseSource, scatter};
 use crate::machine::geometry::Machine;
-use crate::results::diagnose::prepare;
 
 /// Repeats may scatter by this factor more or less than stated without a remark.
 const SCATTER_OFF: f64 = 1.5;
@@ -73,10 +72,8 @@ pub struct ReadingsCheck {
 }
 
 impl ReadingsCheck {
-    /// # Errors
-    /// As [`prepare`].
-    pub(super) fn of(hexapod: &Hexapod, data: &Dataset) -> Result<Self, ModelError> {
-        let campaign = prepare(hexapod, data)?;
+    /// Of a file, averaged, and the springs fitted to it.
+    pub(super) fn of(hexapod: &Hexapod, data: &Dataset, campaign: &Campaign, springs: Option<&Fit>) -> Self {
         let machine = Machine::nominal(hexapod);
         let rows = &data.observations;
         let mut poses: Vec<[u64; 6]> = rows.iter().map(|o| o.pose.to_array().map(f64::to_bits)).collect();
@@ -87,7 +84,6 @@ impl ReadingsCheck {
             .iter()
             .filter_map(|g| Some((&g.mean, machine.legs(&g.mean.pose).ok()?)))
             .collect();
-        let springs = fit_baseline(&campaign).ok();
         let repeated = scatter(rows, &campaign.axes);
         let rms = |first: usize| {
             let sum: f64 = rows.iter().flat_map(|o| &o.measured[first..first + 3]).map(|x| x * x).sum();
@@ -96,7 +92,7 @@ impl ReadingsCheck {
         let deflections = !data.is_absolute();
         let largest =
             |of: &dyn Fn(&hexbench_core::Observation) -> f64| rows.iter().map(of).fold(0.0, f64::max);
-        Ok(Self {
+        Self {
             file: data.source.clone(),
             measurand: data.measurand.readings(),
             rows: rows.len(),
@@ -119,12 +115,11 @@ impl ReadingsCheck {
             repeats: (repeated.dof > 0.0)
                 .then(|| [repeated.variance_translation, repeated.variance_rotation].map(|v| 1e6 * v.sqrt())),
             springs_level: springs
-                .as_ref()
                 .filter(|_| campaign.noise.allows_verdict())
                 .map(|fit| fit.chi2_reduced().sqrt()),
             stiffness_n_per_um: springs.map(|fit| fit.point.compliances.map(|c| 1e-6 / c).into()),
             nominal_n_per_um: hexapod.nominal_stiffness.map(|k| k.map(|k| 1e-6 * k)),
-        })
+        }
     }
 
     /// What looks odd.

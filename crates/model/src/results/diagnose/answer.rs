@@ -7,7 +7,7 @@ use crate::error::ModelError;
 use crate::estimation::estimate::{Estimates, estimates, estimates_with};
 use crate::estimation::fit::{Fit, TermSpec};
 use crate::inference::diagnosis::{RankedSets, wanted};
-use crate::inference::examination::Finding;
+use crate::inference::examination::{Finding, is_misread};
 use crate::inference::search::Set;
 use crate::inference::verdict::{Judgement, Verdict, judge};
 
@@ -28,7 +28,7 @@ pub(super) struct Answer {
 
 impl Answer {
     pub(super) fn of(context: &Context<'_>, findings: &[Finding]) -> Result<Self, ModelError> {
-        if findings.iter().any(|f| f.kind.is_of_file()) {
+        if is_misread(findings) {
             return Self::of_misread(context);
         }
         let outcome = context.outcome;

@@ -5,10 +5,11 @@ use hexbench_core::{Dataset, Hexapod};
 use super::judged::prepare;
 use super::report::StepReport;
 use crate::error::ModelError;
-use crate::estimation::fit::fit_baseline;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::{Fit, fit_baseline};
 use crate::estimation::residuals::{prediction_errors, summarise};
 use crate::inference::examination::{Finding, FindingKind};
-use crate::inference::misread::{Change, Way, meaning, other_readings};
+use crate::inference::misread::{Change, Way, other_readings};
 
 /// Held-out readings missed by this many times what the fitted ones are missed by do not belong to them.
 const FOREIGN: f64 = 3.0;
@@ -17,28 +18,27 @@ const OWN_SHARE: f64 = 0.4;
 /// They explain a machine without effects: what springs cannot explain, the measurements may not have shown.
 const OWN_LEVEL: f64 = 2.0;
 
-/// The same before anything but springs is fitted.
-///
-/// # Errors
-/// As [`prepare`] and [`fit_baseline`].
-pub fn held_out_finding(
-    hexapod: &Hexapod,
-    data: &Dataset,
-    holdout: &Dataset,
-) -> Result<Option<Finding>, ModelError> {
-    let campaign = prepare(hexapod, data)?;
-    let springs = fit_baseline(&campaign)?;
-    let errors = prediction_errors(hexapod, holdout, campaign.noise, &springs.point)?;
-    let missed = summarise(&errors, None).chi2_reduced.sqrt();
-    Ok(foreign_by(hexapod, holdout, missed, springs.chi2_reduced().sqrt()))
-}
-
 /// What is wrong with the held-out readings, when neither springs nor effects of the measurements predict them, but springs of their
 /// own do, or another reading of the file.
 pub(super) fn foreign(hexapod: &Hexapod, holdout: &Dataset, steps: &[StepReport]) -> Option<Finding> {
     let last = steps.last()?;
     let missed = last.holdout.as_ref()?.chi2_reduced.sqrt();
     foreign_by(hexapod, holdout, missed, last.fitted.chi2_reduced.sqrt())
+}
+
+/// The same before anything but springs is fitted.
+///
+/// # Errors
+/// As [`prediction_errors`].
+pub fn held_out_finding(
+    hexapod: &Hexapod,
+    campaign: &Campaign,
+    springs: &Fit,
+    holdout: &Dataset,
+) -> Result<Option<Finding>, ModelError> {
+    let errors = prediction_errors(hexapod, holdout, campaign.noise, &springs.point)?;
+    let missed = summarise(&errors, None).chi2_reduced.sqrt();
+    Ok(foreign_by(hexapod, holdout, missed, springs.chi2_reduced().sqrt()))
 }
 
 /// `missed`, `fitted`: errors of the held-out and of the fitted readings over the noise.
@@ -62,7 +62,7 @@ fn foreign_by(hexapod: &Hexapod, holdout: &Dataset, missed: f64, fitted: f64) ->
                 "springs fitted to them alone miss them by {own:.1}: they seem to be of another machine, or of this one after a change"
             )
         },
-        |way| way.changes.iter().map(meaning).collect::<Vec<_>>().join(", and "),
+        |way| way.meaning(),
     );
     Some(Finding {
         kind: FindingKind::Holdout,

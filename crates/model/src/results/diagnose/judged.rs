@@ -46,7 +46,7 @@ impl BothWays {
         keep_all: bool,
     ) -> Result<Self, ModelError> {
         let (cleaned, kept) = match copies(data) {
-            Some(found) => without_copies(hexapod, data, terms, &found)?,
+            Some(found) => without_copies(hexapod, data, terms, explained, &found)?,
             None => judged(hexapod, data, terms, explained)?,
         };
         Ok(match kept {
@@ -63,12 +63,13 @@ fn without_copies(
     hexapod: &Hexapod,
     data: &Dataset,
     terms: &[Arc<dyn Term>],
+    explained: Option<Box<(Campaign, RankedSets)>>,
     found: &Finding,
 ) -> Result<(Judged, Kept), ModelError> {
     let observations = data.observations.iter().filter(|o| !found.rows.contains(&o.line)).copied().collect();
     let first = Dataset { observations, ..data.clone() };
     let mut answer = judged(hexapod, &first, terms, None)?.0;
-    let mut kept = judged(hexapod, data, terms, None).map(|both| both.0);
+    let mut kept = judged(hexapod, data, terms, explained).map(|both| both.0);
     for judged in std::iter::once(&mut answer).chain(kept.as_mut().ok()) {
         judged.findings.insert(0, found.clone());
     }

@@ -12,7 +12,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
 use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
 use crate::inference::examination::Finding;
-use crate::inference::misread::{AgainstWritten, AsWritten, Readings, Way, finding, other_readings};
+use crate::inference::misread::{AgainstWritten, AsMeant, AsWritten, Readings, Way, finding, other_readings};
 
 /// Ways to read a file that are weighed against the effects.
 const WAYS_EXPLAINED: usize = 3;
@@ -181,11 +181,9 @@ impl Weighing<'_> {
     }
 
     fn explain(&self, way: Option<&Way>) -> Option<(Campaign, RankedSets)> {
-        let (mut hexapod, mut data) = (self.hexapod.clone(), self.data.clone());
-        for change in way.iter().flat_map(|way| &way.changes) {
-            change.apply(&mut hexapod, &mut data);
-        }
-        let campaign = prepare(&hexapod, &data).ok()?;
+        let changes = way.map_or(&[][..], |way| &way.changes);
+        let meant = AsMeant::of(self.hexapod, self.data, None, changes);
+        let campaign = prepare(&meant.hexapod, &meant.data).ok()?;
         let outcome = explain(&campaign, self.terms).ok()?;
         Some((campaign, outcome))
     }

@@ -41,8 +41,9 @@ use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::residuals;
 use crate::inference::candidates::Candidate;
 use crate::inference::diagnosis::RankedSets;
+use crate::inference::examination::is_misread;
 use crate::inference::explanation::Explanation;
-use crate::inference::misread::{AsMeant, held_in};
+use crate::inference::misread::{AsMeant, held_in, names};
 use crate::inference::power::detectable;
 use crate::inference::selection::{HeldOut, same_kind};
 use crate::inference::verdict::Judgement;
@@ -108,7 +109,7 @@ pub fn diagnose_with(
     findings.extend(held_in);
     let mut context = Context { hexapod, data: &data, holdout, campaign: &campaign, outcome: &outcome };
     let mut answer = Answer::of(&context, &findings)?;
-    let is_misread = findings.iter().any(|f| f.kind.is_of_file());
+    let is_misread = is_misread(&findings);
     if let Some(finding) =
         holdout.filter(|_| !is_misread).and_then(|held| foreign(hexapod, held, &answer.steps))
     {
@@ -164,10 +165,10 @@ pub fn diagnose_with(
         findings,
         excluded,
         keep_all: options.keep_all,
-        read_as: options.read_as.iter().map(ToString::to_string).collect(),
+        read_as: names(&options.read_as),
         alternative,
     };
-    let as_meant = (!options.read_as.is_empty()).then(|| meant.clone().into_owned());
+    let as_meant = (!options.read_as.is_empty()).then(|| meant.into_owned());
     Ok(DiagnosisStudy { diagnosis, outcome, data, campaign, fits, as_meant })
 }
 

@@ -12,7 +12,7 @@ use crate::estimation::estimate::Estimate;
 use crate::estimation::noise::NoiseSource;
 use crate::estimation::parameters::stiffness_name;
 use crate::estimation::residuals::ErrorSummary;
-use crate::inference::examination::Finding;
+use crate::inference::examination::{Finding, is_misread};
 use crate::inference::explanation::Explanation;
 use crate::inference::gain::{HeldOutGain, UNLIKELY, Worth};
 use crate::inference::power::Detectable;
@@ -86,7 +86,7 @@ pub struct Diagnosis {
 impl Diagnosis {
     /// True when the files do not seem to mean what they say.
     pub fn is_misread(&self) -> bool {
-        self.findings.iter().any(|f| f.kind.is_of_file())
+        is_misread(&self.findings)
     }
 
     /// Stiffness of a leg, from 0, where the data determine it.
