@@ -7,7 +7,8 @@ use std::path::Path;
 /// Writes a file through `fill` so that readers see the old file or the complete new one, never a part.
 ///
 /// The bytes go to a temporary file in the same folder, are flushed to the disk and renamed. Nothing is left behind
-/// when something fails.
+/// when something fails. A link stays a link: what it points at is written. What is no file (`/dev/null`,
+/// `/dev/stdout`, a pipe) must not be renamed over; it receives the bytes once they are complete.
 ///
 /// # Errors
 /// Whatever `fill`, the disk or the folder report; a full disk is reported and not lost in a dropped buffer.
@@ -26,6 +27,12 @@ pub fn atomic_write(
     path: &Path,
     fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> io::Result<()> {
+    if fs::metadata(path).is_ok_and(|old| !old.is_file() && !old.is_dir()) {
+        let mut bytes = Vec::new();
+        fill(&mut bytes)?;
+        return fs::OpenOptions::new().write(true).open(path)?.write_all(&bytes);
+    }
+    let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut temporary = tempfile::Builder::new();
     temporary.prefix(".hexbench-").suffix(".part");
@@ -71,6 +78,32 @@ mod tests {
         assert!(failed.is_err());
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let [link, file] = ["link", "file"].map(|name| folder.path().join(name));
+        fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        atomic_write(&link, |out| out.write_all(b"new")).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(&file).unwrap(), b"new");
+    }
+
+    /// A socket stands for all that is no file: nothing may be renamed over it, also where the user might.
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_file_is_not_replaced() {
+        use std::os::unix::fs::FileTypeExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("socket");
+        let _listener = std::os::unix::net::UnixListener::bind(&path).unwrap();
+        assert!(atomic_write(&path, |out| out.write_all(b"new")).is_err());
+        assert!(fs::metadata(&path).unwrap().file_type().is_socket());
+        assert!(atomic_write(Path::new("/dev/null"), |out| out.write_all(b"gone")).is_ok());
+        assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
     }
 
     #[test]
