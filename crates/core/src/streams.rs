@@ -114,6 +114,8 @@ pub enum Purpose {
     RegressDiagnoses = 541,
     /// Regression: seed of the laboratories of a run.
     RegressLaboratories = 542,
+    /// Regression: seed of the files of a run that do not say what is meant.
+    RegressFiles = 543,
 
     /// Misread files: seed of a sound campaign in a scene.
     MisreadScene = 550,

@@ -100,6 +100,7 @@ fn introduction(study: &Misread) -> Section {
              with one effect of the catalogue at its usual size (distance 22). However it is written, the same number is the same campaign.",
             "Sound campaigns are of all kinds of the calibration: clean, one effect, two, one outside the catalogue, richer forms, the plan \
              of the paper, absolute poses, and in the bundled scenes with another seed; effects at the usual size, at 3 and at 10 times, or as large as machine and plan allow.",
+            "A mass that nobody counted (out:load-mass-error) is a load left out of the file: `reference-missing` is true of it, and no false alarm.",
             "A misstatement matters when six springs fitted to the files as written differ from those fitted to the files as meant: \
              chi-square per degree of freedom, in the fit or held out, by more than 20 %; a stiffness by more than 5 of its standard \
              deviations and 2 %; a standard deviation of one by more than 20 %; when readings repeat others to the last digit; or when \

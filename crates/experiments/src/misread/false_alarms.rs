@@ -8,9 +8,14 @@ use super::MisreadRecord;
 pub(super) const RANGES: [(&str, [f64; 2]); 3] =
     [("usual size", [0.0, 2.0]), ("3 times", [2.0, 6.0]), ("10 times", [6.0, f64::INFINITY])];
 
+/// A hidden effect that is itself a load left out of the file, and the finding that says so.
+const LEFT_OUT: (&str, &str) = ("out:load-mass-error", "reference-missing");
+
 /// True for a sound campaign whose file is blamed.
-pub(super) fn is_blamed(record: &MisreadRecord) -> bool {
-    record.misstatement.is_none() && record.about_file().next().is_some()
+pub(crate) fn is_blamed(record: &MisreadRecord) -> bool {
+    let lacks_a_load = record.campaign.hidden.split('+').any(|id| id == LEFT_OUT.0);
+    let is_false = |kind: &str| !(lacks_a_load && kind == LEFT_OUT.1);
+    record.misstatement.is_none() && record.about_file().any(is_false)
 }
 
 /// Sound campaigns that are blamed, of those that pass.

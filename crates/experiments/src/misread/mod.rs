@@ -21,9 +21,11 @@ mod study;
 
 pub use case::{MisreadCampaign, case};
 pub use document::{headlines, page};
+pub(crate) use false_alarms::is_blamed;
 pub use fate::{MisreadFate, WHOLE_FILE};
 pub use group::MisreadGroup;
 pub use plain::PlainChange;
+pub(crate) use protocol::Job;
 pub use protocol::{MisreadProtocol, SEED, SOUND, TRIALS};
 pub use record::{MeasuredCampaign, MisreadRecord};
 pub use scene::MisreadScene;

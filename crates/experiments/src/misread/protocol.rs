@@ -50,12 +50,12 @@ impl MisreadProtocol {
     }
 
     /// How many trials there are.
-    pub(super) fn all(&self) -> usize {
+    pub(crate) fn all(&self) -> usize {
         self.entries().len() * self.trials + self.sound
     }
 
     /// What a trial is. Campaign after campaign, each written in all ways; then the sound ones.
-    pub(super) fn job(&self, number: u64) -> Job {
+    pub(crate) fn job(&self, number: u64) -> Job {
         let entries = self.entries();
         let number = usize::try_from(number).unwrap_or(usize::MAX);
         let misread = entries.len() * self.trials;
@@ -69,7 +69,7 @@ impl MisreadProtocol {
 
 /// What a trial is.
 #[derive(Debug, Clone)]
-pub(super) enum Job {
+pub(crate) enum Job {
     /// A campaign whose files are written wrongly.
     Misread {
         /// How.
@@ -124,7 +124,7 @@ impl Job {
     }
 
     /// What is done to which campaign: `fz-negated/ring_a-clean-0000`, `sound/single-10x-0002`, `scene/paper-3x-0014`.
-    pub(super) fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         match self {
             Self::Misread { entry, family, kind, index } => {
                 format!("{}/{family}-{}-{index:04}", entry.id, kind.name())

@@ -75,7 +75,7 @@ impl MeasuredCampaign {
 
 impl MisreadRecord {
     /// Draws the campaign, writes its files, diagnoses them.
-    pub(super) fn of(job: &Job, seed: u64) -> Result<Self, TrialError> {
+    pub(crate) fn of(job: &Job, seed: u64) -> Result<Self, TrialError> {
         let mut campaign = job.meant(seed)?;
         let meant = ReadFiles::of(&campaign);
         job.write(&mut campaign)?;

@@ -16,6 +16,8 @@ pub enum LimitGroup {
     Probabilities,
     /// Answers on campaigns with faults of the laboratory.
     Laboratories,
+    /// Answers on files that do not say what is meant, and on sound ones.
+    Files,
     /// Fits of readings without noise.
     NoiseFree,
     /// Deterministic counts of work.
@@ -24,12 +26,13 @@ pub enum LimitGroup {
 
 impl LimitGroup {
     /// All of them, in the order of the pages.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Accuracy,
         Self::Honesty,
         Self::Diagnosis,
         Self::Probabilities,
         Self::Laboratories,
+        Self::Files,
         Self::NoiseFree,
         Self::Effort,
     ];
@@ -42,6 +45,7 @@ impl LimitGroup {
             Self::Diagnosis => "diagnosis",
             Self::Probabilities => "probabilities",
             Self::Laboratories => "laboratories",
+            Self::Files => "files",
             Self::NoiseFree => "noise-free",
             Self::Effort => "effort",
         }
@@ -60,6 +64,9 @@ impl LimitGroup {
             Self::Laboratories => {
                 "`hexbench validate robustness -o DIR` shows what each fault of the laboratory is told as now; `--case` writes a \
                  campaign as files."
+            }
+            Self::Files => {
+                "`hexbench validate misread -o DIR` shows what each misstatement is told as now; `--case` writes a campaign as files."
             }
             Self::NoiseFree => {
                 "Compare the equation of the term with the mechanism of the same name: without noise nothing else is at work."

@@ -6,7 +6,7 @@ use crate::calibration::TrialPortion;
 use crate::recovery::scene::{HiddenSubject, subjects};
 
 /// Version of the suites: another one when anything that is drawn or measured changes, so that old baselines are refused.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 /// Seed unless another is given, and of the first run behind a baseline.
 pub const SEED: u64 = 1;
 /// Runs behind a baseline: with so many its own luck is small beside that of the run compared with it.
@@ -35,6 +35,12 @@ pub struct RegressSuite {
     pub faults: Vec<&'static str>,
     /// Campaigns of each of them: as many on clean machines as with an effect.
     pub laboratory: usize,
+    /// Misstatements whose files are diagnosed.
+    pub misstatements: Vec<&'static str>,
+    /// Campaigns of each of them.
+    pub misread: usize,
+    /// Sound campaigns whose files are looked at for misstatements.
+    pub sound: usize,
 }
 
 /// One fault of each sort, in a size that laboratories have; the careful one first.
@@ -55,6 +61,28 @@ const FAULTS: [&str; 13] = [
 ];
 /// Those of the quick suite: none, and one that is found and taken out.
 const FEW_FAULTS: usize = 2;
+
+/// One misstatement of each sort, as users make them.
+const MISSTATEMENTS: [&str; 16] = [
+    "deflection-negated",
+    "fz-negated",
+    "moments-negated",
+    "states-exchanged",
+    "reference-missing",
+    "translations-mm-as-um",
+    "pose-angles-rad-as-deg",
+    "forces-kg-as-n",
+    "readings-yaw-90",
+    "wrench-in-mobile-axes",
+    "all-angles-intrinsic",
+    "moments-about-base-center",
+    "platform-joints-shifted-2",
+    "joints-exchanged",
+    "readings-shifted-row",
+    "rows-copied-as-repeats",
+];
+/// Those of the quick suite.
+const FEW_MISSTATEMENTS: usize = 2;
 
 /// Diagnoses of the full suite: every effect twice alone, and what else a diagnosis can meet.
 const DIAGNOSED: [TrialPortion; 7] = [
@@ -88,6 +116,9 @@ impl RegressSuite {
             portions,
             faults: FAULTS.to_vec(),
             laboratory: 4,
+            misstatements: MISSTATEMENTS.to_vec(),
+            misread: 2,
+            sound: 48,
         }
     }
 
@@ -104,6 +135,9 @@ impl RegressSuite {
             portions,
             faults: FAULTS[..FEW_FAULTS].to_vec(),
             laboratory: 2,
+            misstatements: MISSTATEMENTS[..FEW_MISSTATEMENTS].to_vec(),
+            misread: 1,
+            sound: 2,
         }
     }
 
@@ -116,6 +150,7 @@ impl RegressSuite {
     /// Campaigns of one run.
     pub fn campaigns(&self) -> usize {
         let diagnosed: usize = self.portions.iter().map(|p| p.trials).sum();
-        self.subjects.len() * (self.fits + self.machines) + diagnosed + self.faults.len() * self.laboratory
+        let files = self.misstatements.len() * self.misread + self.sound;
+        self.subjects.len() * (self.fits + self.machines) + diagnosed + self.faults.len() * self.laboratory + files
     }
 }

@@ -14,6 +14,7 @@ use crate::harness::{Field, Gathered, Protocol, TrialResult};
 use crate::journal::Identity;
 use crate::recovery::noiseless::{Noiseless, recover};
 use crate::recovery::scene::{HiddenSubject, RecoveryCampaign};
+use crate::misread::{self, MisreadProtocol, MisreadRecord};
 use crate::robustness::{self, RobustnessRecord};
 
 /// A campaign of a subject: what it gave, or nothing.
@@ -36,16 +37,19 @@ pub struct SuiteTrials {
     pub answers: Vec<Option<Answered>>,
     /// Campaigns of laboratories that do something wrong, diagnosed.
     pub laboratories: Vec<Option<RobustnessRecord>>,
+    /// Campaigns whose files do not say what is meant, and sound ones, diagnosed.
+    pub files: Vec<Option<MisreadRecord>>,
     /// Why campaigns gave no answer.
     pub failures: Vec<String>,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 enum Job {
     Machine(HiddenSubject, usize),
     Fit(HiddenSubject, usize),
     Diagnose(CaseKind, usize),
     Laboratory(robustness::Job),
+    Files(misread::Job),
 }
 
 /// What is known of one campaign.
@@ -59,6 +63,8 @@ pub enum RegressRecord {
     Answer(Box<Answered>),
     /// Diagnosed, of a laboratory that does something wrong.
     Laboratory(Box<RobustnessRecord>),
+    /// Diagnosed, from files that do not say what is meant or sound ones.
+    Files(Box<MisreadRecord>),
 }
 
 /// Runs of a suite, one for each seed. Campaigns without noise are the same in all: the first run has them.
@@ -86,7 +92,7 @@ impl<'a> SuiteRuns<'a> {
         let mut runs: Vec<SuiteTrials> = vec![SuiteTrials::default(); self.count];
         for (number, answer) in (0..).zip(gathered.answers) {
             let (run, job) = self.place(number);
-            runs[run].add(job, answer);
+            runs[run].add(&job, answer);
         }
         runs
     }
@@ -96,8 +102,8 @@ impl<'a> SuiteRuns<'a> {
         let number = usize::try_from(number).unwrap_or(usize::MAX);
         let noisy = self.suite.without_machines().campaigns();
         match number.checked_sub(self.jobs.len()) {
-            None => (0, self.jobs[number]),
-            Some(later) => (1 + later / noisy, self.jobs[later % noisy]),
+            None => (0, self.jobs[number].clone()),
+            Some(later) => (1 + later / noisy, self.jobs[later % noisy].clone()),
         }
     }
 }
@@ -152,7 +158,7 @@ fn answered(r: &RegressRecord) -> Option<&CalibrationRecord> {
     match r {
         RegressRecord::Answer(found) => Some(&found.record),
         RegressRecord::Laboratory(found) => Some(&found.answer),
-        RegressRecord::Machine(_) | RegressRecord::Fit(_) => None,
+        RegressRecord::Machine(_) | RegressRecord::Fit(_) | RegressRecord::Files(_) => None,
     }
 }
 
@@ -168,6 +174,17 @@ fn laboratories(suite: &RegressSuite) -> impl Iterator<Item = Job> {
     })
 }
 
+/// Campaigns whose files do not say what is meant, and sound ones.
+fn files(suite: &RegressSuite) -> impl Iterator<Item = Job> {
+    let protocol = MisreadProtocol {
+        trials: suite.misread,
+        sound: suite.sound,
+        misstatements: suite.misstatements.clone(),
+        ..MisreadProtocol::default()
+    };
+    (0..protocol.all() as u64).map(move |number| Job::Files(protocol.job(number)))
+}
+
 /// The longest first: no thread is left alone with one of them at the end. The campaigns without noise last.
 fn jobs(suite: &RegressSuite) -> Vec<Job> {
     let diagnosed = suite.portions.iter().flat_map(|p| (0..p.trials).map(|i| Job::Diagnose(p.kind, i)));
@@ -176,22 +193,23 @@ fn jobs(suite: &RegressSuite) -> Vec<Job> {
     };
     diagnosed
         .chain(laboratories(suite))
+        .chain(files(suite))
         .chain(of_each(suite.fits, Job::Fit))
         .chain(of_each(suite.machines, Job::Machine))
         .collect()
 }
 
 impl Job {
-    fn run(self, seed: u64) -> Result<RegressRecord, TrialError> {
+    fn run(&self, seed: u64) -> Result<RegressRecord, TrialError> {
         match self {
-            Self::Machine(s, i) => Ok(RegressRecord::Machine(machine(&s, i)?)),
+            Self::Machine(s, i) => Ok(RegressRecord::Machine(machine(s, *i)?)),
             Self::Fit(s, i) => {
-                Ok(RegressRecord::Fit(Fitted::run(&s, i, derived_seed(seed, Purpose::RegressFits, []))?))
+                Ok(RegressRecord::Fit(Fitted::run(s, *i, derived_seed(seed, Purpose::RegressFits, []))?))
             }
             Self::Diagnose(kind, i) => {
                 let case = SimulatedCase::draw(
-                    kind,
-                    i,
+                    *kind,
+                    *i,
                     derived_seed(seed, Purpose::RegressDiagnoses, []),
                     Some(DISTANCES),
                 )?;
@@ -199,17 +217,22 @@ impl Job {
             }
             Self::Laboratory(job) => {
                 let seed = derived_seed(seed, Purpose::RegressLaboratories, []);
-                Ok(RegressRecord::Laboratory(Box::new(RobustnessRecord::of(job, seed)?)))
+                Ok(RegressRecord::Laboratory(Box::new(RobustnessRecord::of(*job, seed)?)))
+            }
+            Self::Files(job) => {
+                let seed = derived_seed(seed, Purpose::RegressFiles, []);
+                Ok(RegressRecord::Files(Box::new(MisreadRecord::of(job, seed)?)))
             }
         }
     }
 
-    fn name(self) -> String {
+    fn name(&self) -> String {
         match self {
             Self::Machine(s, _) => format!("{} without noise", s.name),
             Self::Fit(s, _) => s.name.to_owned(),
             Self::Diagnose(kind, _) => kind.name().to_owned(),
             Self::Laboratory(job) => job.name(),
+            Self::Files(job) => job.name(),
         }
     }
 }
@@ -219,18 +242,18 @@ fn machine(subject: &HiddenSubject, index: usize) -> Result<Noiseless, TrialErro
 }
 
 impl SuiteTrials {
-    fn add(&mut self, job: Job, answer: TrialResult<RegressRecord>) {
+    fn add(&mut self, job: &Job, answer: TrialResult<RegressRecord>) {
         let record = answer.map_err(|why| self.failures.push(format!("{}: {why}", job.name()))).ok();
         match job {
             Job::Machine(subject, _) => {
                 let found = record
                     .and_then(|r| if let RegressRecord::Machine(found) = r { Some(found) } else { None });
-                self.machines.push(OfSubject { subject, found });
+                self.machines.push(OfSubject { subject: *subject, found });
             }
             Job::Fit(subject, _) => {
                 let found =
                     record.and_then(|r| if let RegressRecord::Fit(found) = r { Some(found) } else { None });
-                self.fits.push(OfSubject { subject, found });
+                self.fits.push(OfSubject { subject: *subject, found });
             }
             Job::Diagnose(..) => {
                 let found = record
@@ -241,6 +264,11 @@ impl SuiteTrials {
                 let found = record
                     .and_then(|r| if let RegressRecord::Laboratory(found) = r { Some(*found) } else { None });
                 self.laboratories.push(found);
+            }
+            Job::Files(_) => {
+                let found = record
+                    .and_then(|r| if let RegressRecord::Files(found) = r { Some(*found) } else { None });
+                self.files.push(found);
             }
         }
     }

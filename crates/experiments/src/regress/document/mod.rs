@@ -123,6 +123,13 @@ fn scope(suite: &RegressSuite, baseline: &Baseline, limits: &[RegressLimit]) -> 
             suite.faults.join(", ")
         ),
         format!(
+            "{} diagnoses of campaigns whose files do not say what is meant, {} of each misstatement: {}; and {} of sound ones.",
+            suite.misstatements.len() * suite.misread,
+            suite.misread,
+            suite.misstatements.join(", "),
+            suite.sound
+        ),
+        format!(
             "{} campaigns without noise, {} of each, drawn once and for all (seed {MACHINES_SEED}).",
             suite.subjects.len() * suite.machines,
             suite.machines

@@ -4,6 +4,7 @@ mod accuracy;
 mod diagnosis;
 mod effort;
 mod exact;
+mod files;
 mod honesty;
 mod laboratory;
 
@@ -32,6 +33,7 @@ pub fn limits(suite: &RegressSuite) -> Vec<RegressLimit> {
     all.extend(diagnosis::answers());
     all.extend(diagnosis::probabilities());
     all.extend(laboratory::all());
+    all.extend(files::all());
     all.extend(suite.subjects.iter().flat_map(|&s| exact::of_subject(s)));
     all.push(exact::bounds());
     all.extend(effort::counts());
