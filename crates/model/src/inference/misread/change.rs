@@ -70,6 +70,8 @@ pub enum Signed {
     Moments,
     /// One of the six, from zero.
     Load(u8),
+    /// All six components of the loads in the reference state.
+    Reference,
 }
 
 /// Numbers that share a unit.
@@ -180,7 +182,7 @@ impl Change {
                 FindingKind::DeflectionSign
             }
             Self::Reversed(Signed::Rotations | Signed::Reading(_)) => FindingKind::RotationSign,
-            Self::Reversed(Signed::Wrench | Signed::Forces | Signed::Load(0..=2)) => FindingKind::WrenchSign,
+            Self::Reversed(Signed::Wrench | Signed::Forces | Signed::Load(0..=2) | Signed::Reference) => FindingKind::WrenchSign,
             Self::Reversed(Signed::Moments | Signed::Load(_)) => FindingKind::MomentSign,
             Self::StatesExchanged => FindingKind::StatesExchanged,
             Self::Scaled(..) => FindingKind::Unit,
@@ -466,6 +468,7 @@ fn reverse(signed: Signed, row: &mut hexbench_core::Observation) {
         Signed::Forces => loads(row, 0..3),
         Signed::Moments => loads(row, 3..6),
         Signed::Load(k) => loads(row, usize::from(k)..usize::from(k) + 1),
+        Signed::Reference => row.reference = Wrench::from_array(row.reference.to_array().map(|x| -x)),
     }
 }
 

@@ -54,6 +54,7 @@ pub(super) fn cheap(data: &Dataset) -> Vec<Change> {
     ]);
     all.extend(AngleOrder::ALL.iter().flat_map(|&o| [Change::Angles(o), Change::PoseAngles(o)]));
     if data.columns.reference {
+        all.push(Change::Reversed(Signed::Reference));
         all.extend([Change::StatesExchanged, Change::LoadIsChange, Change::LoadHoldsReference]);
     }
     all

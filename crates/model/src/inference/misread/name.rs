@@ -9,7 +9,7 @@ use super::change::{Change, Group, JointCoordinate, ReferencePoint, Signed, Targ
 use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 
-const SIGNED: [(&str, &str, Signed); 18] = [
+const SIGNED: [(&str, &str, Signed); 19] = [
     ("deflection-sign", "reversed", Signed::Readings),
     ("deflection-sign", "translations", Signed::Translations),
     ("deflection-sign", "da", Signed::Reading(0)),
@@ -21,6 +21,7 @@ const SIGNED: [(&str, &str, Signed); 18] = [
     ("rotation-sign", "dgamma", Signed::Reading(5)),
     ("wrench-sign", "reversed", Signed::Wrench),
     ("wrench-sign", "forces", Signed::Forces),
+    ("wrench-sign", "reference", Signed::Reference),
     ("wrench-sign", "fx", Signed::Load(0)),
     ("wrench-sign", "fy", Signed::Load(1)),
     ("wrench-sign", "fz", Signed::Load(2)),

@@ -112,7 +112,9 @@ impl Weighing<'_> {
         };
         let is_evident = !matches!(springs, AsWritten::Level(level) if level < EVIDENT_LEVEL);
         let has_size = best.has_size() && matches!(springs, AsWritten::Level(_));
-        if is_evident && best.level < SOUND_LEVEL && !has_size {
+        // An effect, large enough, turns the sign of a leg as well.
+        let may_be_an_effect = matches!(springs, AsWritten::Negative) && !best.is_a_sign();
+        if is_evident && best.level < SOUND_LEVEL && !has_size && !may_be_an_effect {
             return Some(self.of(best, AgainstWritten { written: springs, other: best.level }));
         }
         self.written = self.explain(None);
