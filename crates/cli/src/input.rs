@@ -3,7 +3,7 @@
 use std::path::Path;
 
 pub(crate) use hexbench_app::input::{catalogue_with, model, user_terms};
-use hexbench_core::files::{TableReading, read_conditions, read_hexapod, read_measurements, read_plan};
+use hexbench_core::files::{TableReading, read_campaign, read_conditions, read_hexapod, read_plan};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
@@ -17,9 +17,9 @@ pub(crate) fn hexapod(path: &Path) -> Result<Hexapod, Failure> {
     Ok(read_hexapod(path)?)
 }
 
-/// The measurements of a file; what the reader noticed goes to standard error.
-pub(crate) fn measurements(path: &Path) -> Result<Dataset, Failure> {
-    Ok(told(path, read_measurements(path)?))
+/// The measurements of a file of a machine; what the reader noticed goes to standard error.
+pub(crate) fn measurements(hexapod: &Hexapod, path: &Path) -> Result<Dataset, Failure> {
+    Ok(told(path, read_campaign(hexapod, path)?))
 }
 
 /// Poses and loads that need no measurement.

@@ -25,6 +25,7 @@ impl States {
     pub(crate) fn csv(&self, source: &str) -> String {
         let columns = Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false };
         let dataset = Dataset {
+            blocks: hexbench_core::Dataset::pose_blocks(),
             source: source.to_owned(),
             measurand: Measurand::AbsolutePose,
             columns,

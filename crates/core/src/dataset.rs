@@ -1,7 +1,6 @@
 //! Measurements: what was commanded, what was applied, what was read.
 
-use crate::Approach;
-use crate::{LineRange, Pose, Wrench};
+use crate::{Approach, Channel, LineRange, Pose, UNREAD, Wrench};
 
 /// What the six measured numbers of an observation are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -45,10 +44,24 @@ pub struct Observation {
     pub delta_t: f64,
     /// Time from the reference reading to the loaded reading, s.
     pub elapsed: f64,
-    /// Measured values: translation (m), rotation (rad), meaning as in [`Measurand`].
+    /// What the six numbers are: one of the [`Dataset::blocks`].
+    pub block: usize,
+    /// Measured values: translation (m), rotation (rad), meaning as in [`Measurand`]; of other blocks, what their channels read.
     pub measured: [f64; 6],
-    /// Standard deviation of each measured value when the row states it, m and rad.
+    /// Standard deviation of each measured value when the row states it, m and rad; [`UNREAD`] of one that was not read.
     pub sigma: Option<[f64; 6]>,
+}
+
+impl Observation {
+    /// True for a number that was read.
+    pub fn is_read(&self, number: usize) -> bool {
+        self.sigma.is_none_or(|sigma| sigma[number] < UNREAD)
+    }
+
+    /// How many of the six numbers were read.
+    pub fn numbers(&self) -> usize {
+        (0..6).filter(|&k| self.is_read(k)).count()
+    }
 }
 
 /// Which optional columns the file had; a term whose column is missing cannot be tested.
@@ -75,11 +88,29 @@ pub struct Dataset {
     pub measurand: Measurand,
     /// Optional columns present.
     pub columns: Columns,
+    /// What the six numbers of observations are; the first block alone, a full pose, unless something else was read. A row of a
+    /// file with more than six numbers makes several observations, which share its line.
+    pub blocks: Vec<[Channel; 6]>,
     /// The rows in file order.
     pub observations: Vec<Observation>,
 }
 
 impl Dataset {
+    /// What the six numbers of an observation are.
+    pub fn channels(&self, observation: &Observation) -> [Channel; 6] {
+        self.blocks.get(observation.block).copied().unwrap_or(Channel::POSE)
+    }
+
+    /// The blocks of a file in which every row is a full pose.
+    pub fn pose_blocks() -> Vec<[Channel; 6]> {
+        vec![Channel::POSE]
+    }
+
+    /// True when something else was read than a full pose in every row.
+    pub fn has_other_readings(&self) -> bool {
+        self.blocks != [Channel::POSE] || self.observations.iter().any(|o| o.numbers() < 6)
+    }
+
     /// True in absolute mode.
     pub fn is_absolute(&self) -> bool {
         self.measurand == Measurand::AbsolutePose
@@ -101,6 +132,7 @@ impl Dataset {
             source: self.source.clone(),
             measurand: self.measurand,
             columns: self.columns,
+            blocks: self.blocks.clone(),
             observations,
         };
         Ok((rest, out.iter().map(|o| o.line).collect()))

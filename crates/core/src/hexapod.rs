@@ -1,6 +1,6 @@
 //! The machine as its drawings describe it.
 
-use crate::{Tolerances, Vector3};
+use crate::{Sensor, Tolerances, Vector3};
 
 /// Nominal hexapod: joints, and what else its owner states about it. SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +23,8 @@ pub struct Hexapod {
     pub mounting_plane_z: Option<f64>,
     /// Centre of gravity of the payload, mobile frame, m, when stated.
     pub payload_centre: Option<Vector3>,
+    /// What reads deflections beside or instead of the full pose.
+    pub sensors: Vec<Sensor>,
     /// How well all of this, and the loads, are known.
     pub tolerances: Tolerances,
 }
@@ -53,6 +55,7 @@ impl Hexapod {
             brackets: None,
             mounting_plane_z: None,
             payload_centre: None,
+            sensors: Vec::new(),
             tolerances: Tolerances::default(),
         }
     }

@@ -14,6 +14,7 @@ pub mod files;
 pub mod hexapod;
 pub mod line_range;
 pub mod pose;
+pub mod sensor;
 pub mod statistics;
 pub mod streams;
 pub mod tolerances;
@@ -25,6 +26,7 @@ pub use dataset::{Columns, Dataset, Measurand, Observation};
 pub use hexapod::{Hexapod, Metrology};
 pub use line_range::{LineRange, NoLines};
 pub use pose::Pose;
+pub use sensor::{Channel, NumberKind, Sensor, SensorKind, UNREAD};
 pub use tolerances::{StatedTolerances, Tolerances};
 pub use wrench::Wrench;
 

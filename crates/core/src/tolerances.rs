@@ -19,11 +19,15 @@ pub struct Tolerances {
     pub frame: f64,
     /// Of a stated standard deviation of the noise, relative.
     pub noise: f64,
+    /// Of each coordinate of the point that a sensor looks at, m.
+    pub sensor_point: f64,
+    /// Of the direction or axis of a sensor, rad.
+    pub sensor_direction: f64,
 }
 
 impl Default for Tolerances {
     /// A machine built with care and loaded by hand: joints to 0.05 mm, load cells to 0.2 %, directions to 0.05 degrees, the point of
-    /// attack to 0.5 mm, axes to 0.02 degrees, a stated noise to 10 %.
+    /// attack to 0.5 mm, axes to 0.02 degrees, a stated noise to 10 %, sensors set up by hand to 0.5 mm and 0.5 degrees.
     fn default() -> Self {
         Self {
             joints: 5e-5,
@@ -32,6 +36,8 @@ impl Default for Tolerances {
             load_point: 5e-4,
             frame: 0.02_f64.to_radians(),
             noise: 0.1,
+            sensor_point: 5e-4,
+            sensor_direction: 0.5_f64.to_radians(),
         }
     }
 }

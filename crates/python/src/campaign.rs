@@ -7,7 +7,7 @@ use hexbench_app::Failure;
 use hexbench_core::Dataset;
 use hexbench_core::files::{
     Cells, FileError, GroupPurpose, MemoryColumn, TableReading, content_hash, measurements_to_columns,
-    measurements_to_csv, read_columns, read_measurements, read_measurements_from,
+    measurements_to_csv, read_campaign, read_campaign_from, read_columns,
 };
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -38,7 +38,7 @@ impl PyCampaign {
     fn read(py: Python<'_>, hexapod: &PyHexapod, path: PathBuf) -> PyResult<(Self, Noticed)> {
         let machine = Arc::clone(&hexapod.0);
         beside(py, move || {
-            let reading = read_measurements(&path)?;
+            let reading = read_campaign(&machine.hexapod, &path)?;
             let origin = Origin { name: path.display().to_string(), sha256: content_hash(&path)? };
             Ok(Self::of(machine, reading, origin))
         })
@@ -55,7 +55,7 @@ impl PyCampaign {
     ) -> PyResult<Self> {
         let machine = Arc::clone(&hexapod.0);
         beside(py, move || {
-            let reading = read_measurements_from(text.as_bytes(), &name)?;
+            let reading = read_campaign_from(&machine.hexapod, text.as_bytes(), &name)?;
             let origin = Origin { name: origin.0, sha256: origin.1 };
             Ok(Self::of(machine, reading, origin).0)
         })
@@ -79,7 +79,7 @@ impl PyCampaign {
         let machine = Arc::clone(&hexapod.0);
         let columns = memory_columns(py, names, &columns)?;
         beside(py, move || {
-            let reading = read_columns(&columns, &name, GroupPurpose::Measurements)?;
+            let reading = read_columns(&columns, &name, GroupPurpose::Measurements, Some(&machine.hexapod))?;
             let origin = Origin::in_memory(&name, &csv(&reading.dataset));
             Ok(Self::of(machine, reading, origin))
         })
@@ -160,7 +160,7 @@ pub(crate) fn conditions(
     let columns = memory_columns(py, names, columns)?;
     let name = name.to_owned();
     beside(py, move || {
-        read_columns(&columns, &name, GroupPurpose::Conditions)
+        read_columns(&columns, &name, GroupPurpose::Conditions, None)
             .map(|reading| reading.dataset)
             .map_err(|cause: FileError| Failure::File(cause))
     })

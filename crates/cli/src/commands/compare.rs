@@ -52,8 +52,8 @@ impl Arguments {
 /// Compare and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
-    let data = input::measurements(&arguments.data)?;
-    let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
+    let data = input::measurements(&hexapod, &arguments.data)?;
+    let holdout = arguments.holdout.as_deref().map(|path| input::measurements(&hexapod, path)).transpose()?;
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);

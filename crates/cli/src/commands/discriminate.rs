@@ -160,7 +160,7 @@ fn next_readings(
     terms: &[Arc<dyn Term>],
     path: &Path,
 ) -> Result<Discriminated, Failure> {
-    let data = input::measurements(path)?;
+    let data = input::measurements(hexapod, path)?;
     let source = path.display().to_string();
     let of_model = |cause| Failure::Model { cause, data: source.clone() };
     let campaign = prepare(hexapod, &data).map_err(of_model)?;
@@ -245,6 +245,7 @@ fn table(found: &Discriminated) -> String {
         (1..).take(r.repeats).map(move |repeat| Observation { pose_id, repeat, ..r.observation })
     });
     let rows = Dataset {
+        blocks: hexbench_core::Dataset::pose_blocks(),
         source: String::new(),
         measurand: Measurand::DeflectionEuler,
         columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },

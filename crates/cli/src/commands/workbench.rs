@@ -49,10 +49,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 /// The files, once it is clear that they can be used.
 fn given(arguments: &Arguments) -> Result<Option<Given>, Failure> {
     let (Some(hexapod), Some(data)) = (&arguments.hexapod, &arguments.data) else { return Ok(None) };
-    input::hexapod(hexapod)?;
-    input::measurements(data)?;
+    let machine = input::hexapod(hexapod)?;
+    input::measurements(&machine, data)?;
     let holdout = arguments.holdout.as_deref();
-    holdout.map(input::measurements).transpose()?;
+    holdout.map(|path| input::measurements(&machine, path)).transpose()?;
     let holdout = holdout.map(text).transpose()?;
     Ok(Some(Given { hexapod: text(hexapod)?, data: text(data)?, holdout }))
 }

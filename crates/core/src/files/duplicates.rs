@@ -41,7 +41,8 @@ pub(crate) fn drop_copies(
     };
     let copies = fingerprints.copies(|one, other| numbers(one) == numbers(other));
     let last = copies.last()?[1];
-    let lines = copies.iter().map(|pair| pair.map(|i| observations[i].line)).collect::<Vec<_>>();
+    let mut lines = copies.iter().map(|pair| pair.map(|i| observations[i].line)).collect::<Vec<_>>();
+    lines.dedup();
     let mut is_copy = vec![false; last + 1];
     for [_, copy] in &copies {
         is_copy[*copy] = true;

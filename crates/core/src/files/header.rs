@@ -1,13 +1,16 @@
 //! From the names of the columns to a plan for reading rows.
 
 use super::column_name::{Named, read_column_name};
-use super::columns::{COLUMNS, Column, Group};
+use super::columns::{COLUMNS, Column, Group, MEASURED};
 use super::error::Fault;
 use super::line::Line;
+use super::sensor_columns::{
+    SensorSource, blocks, refuse_missing_sensors, refuse_unknown_sensor, sensor_column,
+};
 use super::units::Unit;
 use super::warning::Notice;
 use super::{FileProblem, Warning};
-use crate::{Columns, Measurand};
+use crate::{Channel, Columns, Hexapod, Measurand, Sensor};
 
 /// One column of a file that is read.
 #[derive(Debug, Clone, Copy)]
@@ -26,6 +29,22 @@ pub(crate) struct Plan {
     pub(crate) measurand: Measurand,
     pub(crate) columns: Columns,
     pub(crate) has_pose: bool,
+    /// For every cell: the sensor it belongs to.
+    pub(crate) of_sensors: Vec<Option<SensorSource>>,
+    /// What the numbers of observations are.
+    pub(crate) blocks: Vec<[Channel; 6]>,
+    /// Standard deviations that the machine states, number by number; none where they have to be known and are not.
+    pub(crate) stated: Vec<[Option<f64>; 6]>,
+}
+
+impl Plan {
+    /// True for the cell of a reading, which may be empty: nothing was read.
+    pub(crate) fn may_be_empty(&self, cell: usize) -> bool {
+        let is_pose = |source: &Source| {
+            matches!(source.column.group, Group::Deflection | Group::Euler | Group::RotationVector)
+        };
+        self.of_sensors[cell].is_some() || self.sources[cell].as_ref().is_some_and(is_pose)
+    }
 }
 
 /// What a table is read for.
@@ -54,17 +73,29 @@ impl GroupPurpose {
 pub(crate) fn read_header(
     line: &Line<'_>,
     purpose: GroupPurpose,
+    machine: Option<&Hexapod>,
     warnings: &mut Vec<Warning>,
 ) -> Result<Plan, Fault> {
+    let sensors = machine.map_or(&[][..], |m| &m.sensors);
     let mut sources = Vec::with_capacity(line.len());
+    let mut of_sensors = vec![None; line.len()];
     for cell in 0..line.len() {
         let text = line.text(cell);
         let place = line.place(cell).with_name(text);
+        if let Some(source) = sensor_column(text, sensors) {
+            let source = source.map_err(|problem| Fault::new(place, problem))?;
+            of_sensors[cell] = (purpose == GroupPurpose::Measurements).then_some(source);
+            sources.push(None);
+            continue;
+        }
         match read_column_name(text) {
             Ok(Named::Known(column, _)) if purpose.passes_over(column.group) => sources.push(None),
             Ok(Named::Known(column, unit)) => sources.push(Some(Source { column, unit })),
             Ok(Named::Private) => sources.push(None),
             Ok(Named::Unknown) => {
+                if machine.is_some() {
+                    refuse_unknown_sensor(text).map_err(|problem| Fault::new(place.clone(), problem))?;
+                }
                 warnings.push(Warning::new(place, Notice::IgnoredColumn));
                 sources.push(None);
             }
@@ -73,7 +104,19 @@ pub(crate) fn read_header(
     }
     let names = (0..line.len()).map(|cell| line.text(cell).to_owned()).collect();
     refuse_duplicates(&sources, line)?;
-    plan(sources, names, purpose).map_err(|problem| Fault::new(line.whole_place(), problem))
+    if purpose == GroupPurpose::Measurements {
+        refuse_missing_sensors(&of_sensors, sensors, line).map_err(|(cell, problem)| {
+            let place = cell.map_or(line.whole_place(), |cell| line.place(cell).with_name(line.text(cell)));
+            Fault::new(place, problem)
+        })?;
+    }
+    let mut plan =
+        plan(sources, names, purpose, sensors).map_err(|problem| Fault::new(line.whole_place(), problem))?;
+    plan.of_sensors = of_sensors;
+    let metrology = machine.and_then(|m| m.metrology);
+    plan.stated =
+        plan.blocks.iter().map(|b| b.map(|channel| channel.stated_sigma(sensors, metrology))).collect();
+    Ok(plan)
 }
 
 /// A first line that names no columns.
@@ -121,6 +164,11 @@ impl Present<'_> {
         self.0.iter().flatten().any(|source| fills(source.column))
     }
 
+    /// True when one of the six measured numbers has a column.
+    fn reads_pose(&self, measurand: Measurand, number: usize) -> bool {
+        measured_groups(measurand).iter().any(|group| self.fills(*group, MEASURED + number))
+    }
+
     /// Usual names of the columns of a group that are not there.
     fn missing(&self, group: Group) -> Vec<String> {
         let columns = COLUMNS.iter().filter(|column| column.group == group && column.is_usual_name());
@@ -142,11 +190,20 @@ fn plan(
     sources: Vec<Option<Source>>,
     names: Vec<String>,
     purpose: GroupPurpose,
+    sensors: &[Sensor],
 ) -> Result<Plan, FileProblem> {
     let present = Present(&sources);
     let (measurand, measured) = match purpose {
-        GroupPurpose::Measurements => measurand(&present).map(|m| (m, measured_groups(m)))?,
+        GroupPurpose::Measurements => {
+            let measurand = measurand(&present, sensors)?;
+            (measurand, if measurand == Measurand::AbsolutePose { measured_groups(measurand) } else { &[] })
+        }
         GroupPurpose::Conditions | GroupPurpose::Plan => (Measurand::DeflectionEuler, &[][..]),
+    };
+    let poses: Vec<usize> = (0..6).filter(|&k| present.reads_pose(measurand, k)).collect();
+    let blocks = match purpose {
+        GroupPurpose::Measurements => blocks(&poses, sensors),
+        GroupPurpose::Conditions | GroupPurpose::Plan => vec![Channel::POSE],
     };
     let groups = [Group::Pose, Group::Wrench].into_iter().chain(measured.iter().copied());
     let missing: Vec<String> = groups.flat_map(|group| present.missing(group)).collect();
@@ -158,7 +215,16 @@ fn plan(
         return Err(FileProblem::ReferenceOfAbsolutePose);
     }
     let has_pose = present.fills(Group::Number, super::columns::POSE_ID);
-    Ok(Plan { sources, names, measurand, columns, has_pose })
+    Ok(Plan {
+        sources,
+        names,
+        measurand,
+        columns,
+        has_pose,
+        of_sensors: Vec::new(),
+        blocks,
+        stated: Vec::new(),
+    })
 }
 
 fn optional_columns(present: &Present<'_>) -> Result<Columns, FileProblem> {
@@ -172,13 +238,18 @@ fn optional_columns(present: &Present<'_>) -> Result<Columns, FileProblem> {
     })
 }
 
-fn measurand(present: &Present<'_>) -> Result<Measurand, FileProblem> {
+fn measurand(present: &Present<'_>, sensors: &[Sensor]) -> Result<Measurand, FileProblem> {
     let euler = present.any(Group::Euler);
     let vector = present.any(Group::RotationVector);
     let deflection = present.any(Group::Deflection) || euler || vector;
     match (deflection, present.any(Group::Absolute)) {
         (true, true) => Err(FileProblem::TwoModes),
-        (false, false) => Err(FileProblem::NothingMeasured),
+        (false, false) if sensors.is_empty() => Err(FileProblem::NothingMeasured),
+        (false, true) if !sensors.is_empty() => Err(FileProblem::Rule {
+            rule: "sensors read deflections, and the table holds absolute poses".to_owned(),
+            next: "Remove the [[sensor]] tables from the hexapod file, or give da_um ... instead of measured_a_mm ...".to_owned(),
+        }),
+        (false, false) => Ok(Measurand::DeflectionRotationVector),
         (false, true) => Ok(Measurand::AbsolutePose),
         (true, false) if euler && vector => Err(FileProblem::TwoRotations),
         (true, false) if vector => Ok(Measurand::DeflectionRotationVector),

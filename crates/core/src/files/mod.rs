@@ -2,7 +2,7 @@
 //!
 //! | file | read | write |
 //! |---|---|---|
-//! | `measurements.csv` | [`read_measurements`] | [`write_measurements`] |
+//! | `measurements.csv` | [`read_campaign`], without sensors [`read_measurements`] | [`write_measurements`] |
 //! | poses and loads to predict | [`read_conditions`] | - |
 //! | poses and loads to be measured | [`read_plan`] | - |
 //! | any of these, in memory | [`read_columns`] | [`measurements_to_columns`] |
@@ -36,6 +36,7 @@ mod read_conditions;
 mod read_hexapod;
 mod read_measurements;
 mod row;
+mod sensor_columns;
 mod stated_unit;
 mod table;
 mod toml_file;
@@ -57,7 +58,7 @@ pub use read_balls::{read_ball_places, read_balls};
 pub use read_columns::{Cells, MemoryColumn, read_columns};
 pub use read_conditions::{read_conditions, read_plan};
 pub use read_hexapod::{parse_hexapod, read_hexapod};
-pub use read_measurements::{read_measurements, read_measurements_from};
+pub use read_measurements::{read_campaign, read_campaign_from, read_measurements, read_measurements_from};
 pub use table::TableReading;
 pub use toml_file::{Format, read_toml, read_toml_text};
 pub use toml_value::{Item, KeyUnit, TomlSection};

@@ -8,10 +8,10 @@ use super::header::GroupPurpose;
 use super::line::Line;
 use super::lines::RawLine;
 use super::number::parse_number;
-use super::row::{defaults, fill, observation};
+use super::row::FilledRow;
 use super::table::{Table, TableReading};
 use super::{FileError, FilePlace, FileProblem};
-use crate::Observation;
+use crate::Hexapod;
 
 /// Stands between names of columns; it is replaced in names, as are quotation marks and line ends.
 const SEPARATOR: char = '\u{1f}';
@@ -53,6 +53,13 @@ impl Cells {
         }
     }
 
+    fn is_empty(&self, row: usize) -> bool {
+        match self {
+            Self::Numbers(cells) => cells[row].is_nan(),
+            Self::Texts(cells) => cells[row].trim().is_empty(),
+        }
+    }
+
     fn text(&self, row: usize) -> String {
         match self {
             Self::Numbers(cells) => cells[row].to_string(),
@@ -61,8 +68,8 @@ impl Cells {
     }
 }
 
-/// Reads a table from memory as [`super::read_measurements`], [`super::read_conditions`] or [`super::read_plan`] read one from a
-/// file; `name` stands for the file in messages.
+/// Reads a table from memory as [`super::read_campaign`] (without a machine [`super::read_measurements`]), [`super::read_conditions`] or
+/// [`super::read_plan`] read one from a file; `name` stands for the file in messages. NaN is an empty cell.
 ///
 /// The line of an observation is that of the file which [`super::write_measurements`] would make of the table: the row, from 0,
 /// and two.
@@ -73,26 +80,30 @@ pub fn read_columns(
     columns: &[MemoryColumn],
     name: &str,
     purpose: GroupPurpose,
+    machine: Option<&Hexapod>,
 ) -> Result<TableReading, FileError> {
-    table(columns, purpose).and_then(|table| table.finish(name)).map_err(|fault| {
+    table(columns, purpose, machine).and_then(|table| table.finish(name)).map_err(|fault| {
         let place = fault.place.without_line();
         Fault::new(place, *fault.problem).in_file(Path::new(name))
     })
 }
 
-fn table(columns: &[MemoryColumn], purpose: GroupPurpose) -> Result<Table, Fault> {
+fn table(columns: &[MemoryColumn], purpose: GroupPurpose, machine: Option<&Hexapod>) -> Result<Table, Fault> {
     let Some(first) = columns.first() else { return Err(Fault::new(FilePlace::file(), FileProblem::Empty)) };
     let names: Vec<String> = columns.iter().map(|column| plain(&column.name)).collect();
     let header = names.join(&SEPARATOR.to_string());
     let raw = RawLine { text: &header, number: 1, start: 0, ended: true };
     let mut borders = Vec::new();
-    let mut table = Table::new(&Line::cut(raw, SEPARATOR as u8, &mut borders)?, purpose)?;
+    let mut table = Table::new(&Line::cut(raw, SEPARATOR as u8, &mut borders)?, purpose, machine)?;
     // There are no lines to be named.
     table.warnings.iter_mut().for_each(|w| w.place = std::mem::take(&mut w.place).without_line());
     refuse_other_lengths(first, columns)?;
     for row in 0..first.cells.len() {
         let read = read_row(columns, &table, row)?;
-        table.push(&read, &RowCells { columns, row });
+        table.push(&read, row as u64 + 2, &RowCells { columns, row }).map_err(|problem| {
+            let place = FilePlace::cell(row, "", "");
+            Fault::new(place, problem)
+        })?;
     }
     Ok(table)
 }
@@ -109,16 +120,30 @@ fn refuse_other_lengths(first: &MemoryColumn, columns: &[MemoryColumn]) -> Resul
     Err(Fault::new(FilePlace::file(), FileProblem::Rule { rule, next }))
 }
 
-fn read_row(columns: &[MemoryColumn], table: &Table, row: usize) -> Result<Observation, Fault> {
-    let mut filled = defaults();
-    for (column, source) in columns.iter().zip(&table.plan.sources) {
-        let Some(source) = source else { continue };
-        column.cells.number(row).and_then(|value| fill(&mut filled, source, value)).map_err(|problem| {
-            let place = FilePlace::cell(row, &column.name, &column.cells.text(row));
-            Fault::new(place, source.sharpened(problem))
+fn read_row(columns: &[MemoryColumn], table: &Table, row: usize) -> Result<FilledRow, Fault> {
+    let plan = &table.plan;
+    let mut filled = FilledRow::new();
+    for (cell, column) in columns.iter().enumerate() {
+        if plan.may_be_empty(cell) && column.cells.is_empty(row) {
+            filled.leave_out(plan, cell);
+            continue;
+        }
+        let put = match (&plan.sources[cell], &plan.of_sensors[cell]) {
+            (Some(source), _) => column
+                .cells
+                .number(row)
+                .and_then(|value| filled.fill(source, value))
+                .map_err(|problem| source.sharpened(problem)),
+            (None, Some(source)) => {
+                column.cells.number(row).and_then(|value| filled.fill_sensor(source, value))
+            }
+            (None, None) => continue,
+        };
+        put.map_err(|problem| {
+            Fault::new(FilePlace::cell(row, &column.name, &column.cells.text(row)), problem)
         })?;
     }
-    Ok(observation(&filled, &table.plan, row as u64 + 2, table.running_number()))
+    Ok(filled)
 }
 
 /// All cells of a row.
@@ -165,7 +190,7 @@ mod tests {
     }
 
     fn message(text: &str) -> String {
-        read_columns(&columns(text), "frame", GroupPurpose::Measurements).unwrap_err().to_string()
+        read_columns(&columns(text), "frame", GroupPurpose::Measurements, None).unwrap_err().to_string()
     }
 
     const GOOD: [&str; 2] =
@@ -175,14 +200,14 @@ mod tests {
     fn a_table_in_memory_is_read_as_its_file() {
         let text = text(&GOOD);
         let file = read_measurements_from(text.as_bytes(), "frame").unwrap();
-        let memory = read_columns(&columns(&text), "frame", GroupPurpose::Measurements).unwrap();
+        let memory = read_columns(&columns(&text), "frame", GroupPurpose::Measurements, None).unwrap();
         assert_eq!(memory, file);
     }
 
     #[test]
     fn what_is_written_as_columns_is_what_is_written_as_text() {
         let dataset =
-            read_columns(&columns(&text(&GOOD)), "frame", GroupPurpose::Measurements).unwrap().dataset;
+            read_columns(&columns(&text(&GOOD)), "frame", GroupPurpose::Measurements, None).unwrap().dataset;
         let mut csv = Vec::new();
         measurements_to_csv(&mut csv, &dataset).unwrap();
         let expected = columns(std::str::from_utf8(&csv).unwrap());
@@ -212,7 +237,7 @@ mod tests {
         let strange = message("a_mm,\"x\u{1f}y\n1,2\n");
         assert!(strange.starts_with("frame: no measured values"), "{strange}");
         assert_eq!(message(&text(&[])), "frame: there is a header but no row of measurements");
-        let none = read_columns(&[], "frame", GroupPurpose::Measurements).unwrap_err().to_string();
+        let none = read_columns(&[], "frame", GroupPurpose::Measurements, None).unwrap_err().to_string();
         assert_eq!(none, "frame: the file is empty");
     }
 
@@ -220,7 +245,7 @@ mod tests {
     fn columns_of_unequal_length_are_refused() {
         let mut columns = columns(&text(&GOOD));
         columns[3].cells = Cells::Numbers(vec![1.0]);
-        let told = read_columns(&columns, "frame", GroupPurpose::Measurements).unwrap_err().to_string();
+        let told = read_columns(&columns, "frame", GroupPurpose::Measurements, None).unwrap_err().to_string();
         assert_eq!(told, "frame: b_mm has 1 values, pose has 2");
     }
 }

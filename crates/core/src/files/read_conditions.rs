@@ -15,7 +15,7 @@ use std::path::Path;
 /// The first thing that is wrong, with line, column, value and next step.
 pub fn read_conditions(path: &Path) -> Result<TableReading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, GroupPurpose::Conditions).map_err(|fault| fault.in_file(path))
+    read_named(path, &name, GroupPurpose::Conditions, None).map_err(|fault| fault.in_file(path))
 }
 
 /// Reads a plan: poses and loads that are to be measured.
@@ -26,7 +26,7 @@ pub fn read_conditions(path: &Path) -> Result<TableReading, FileError> {
 /// As [`read_conditions`].
 pub fn read_plan(path: &Path) -> Result<TableReading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, GroupPurpose::Plan).map_err(|fault| fault.in_file(path))
+    read_named(path, &name, GroupPurpose::Plan, None).map_err(|fault| fault.in_file(path))
 }
 
 #[cfg(test)]

@@ -5,11 +5,11 @@ use super::header::{GroupPurpose, refuse_numbers};
 use super::line::{Line, whole_place};
 use super::lines::{Lines, RawLine};
 use super::number::{Decimals, parse_number};
-use super::row::{defaults, fill, observation};
+use super::row::FilledRow;
 use super::table::{Table, TableReading};
 use super::warning::Notice;
 use super::{FileError, FilePlace, FileProblem, Warning};
-use crate::Observation;
+use crate::Hexapod;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::ops::Range;
@@ -33,11 +33,39 @@ const BUFFER_BYTES: usize = 1 << 18;
 /// ```
 pub fn read_measurements(path: &Path) -> Result<TableReading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, GroupPurpose::Measurements).map_err(|fault| fault.in_file(path))
+    read_named(path, &name, GroupPurpose::Measurements, None).map_err(|fault| fault.in_file(path))
 }
 
-pub(crate) fn read_named(path: &Path, name: &str, purpose: GroupPurpose) -> Result<TableReading, Fault> {
-    read_table(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?), name, purpose)
+/// The same of a machine whose sensors fill columns of their own; any of the six pose columns may be absent, and a cell of a
+/// reading that was not taken is empty.
+///
+/// # Errors
+/// As [`read_measurements`]; a column without its sensor, a sensor without its column, a row without any reading.
+pub fn read_campaign(hexapod: &Hexapod, path: &Path) -> Result<TableReading, FileError> {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    read_named(path, &name, GroupPurpose::Measurements, Some(hexapod)).map_err(|fault| fault.in_file(path))
+}
+
+/// The same from memory or a stream; `name` stands for the file in messages.
+///
+/// # Errors
+/// As [`read_campaign`].
+pub fn read_campaign_from(
+    hexapod: &Hexapod,
+    input: impl BufRead,
+    name: &str,
+) -> Result<TableReading, FileError> {
+    read_table(input, name, GroupPurpose::Measurements, Some(hexapod))
+        .map_err(|fault| fault.in_file(Path::new(name)))
+}
+
+pub(crate) fn read_named(
+    path: &Path,
+    name: &str,
+    purpose: GroupPurpose,
+    machine: Option<&Hexapod>,
+) -> Result<TableReading, Fault> {
+    read_table(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?), name, purpose, machine)
 }
 
 /// The same from memory or a stream; `name` stands for the file in messages.
@@ -45,12 +73,17 @@ pub(crate) fn read_named(path: &Path, name: &str, purpose: GroupPurpose) -> Resu
 /// # Errors
 /// As [`read_measurements`].
 pub fn read_measurements_from(input: impl BufRead, name: &str) -> Result<TableReading, FileError> {
-    read_table(input, name, GroupPurpose::Measurements).map_err(|fault| fault.in_file(Path::new(name)))
+    read_table(input, name, GroupPurpose::Measurements, None).map_err(|fault| fault.in_file(Path::new(name)))
 }
 
-fn read_table(input: impl BufRead, name: &str, purpose: GroupPurpose) -> Result<TableReading, Fault> {
+fn read_table(
+    input: impl BufRead,
+    name: &str,
+    purpose: GroupPurpose,
+    machine: Option<&Hexapod>,
+) -> Result<TableReading, Fault> {
     let mut lines = Lines::new(input);
-    let mut table = start(&mut lines, purpose)?;
+    let mut table = start(&mut lines, purpose, machine)?;
     let mut cells = Vec::new();
     while let Some(raw) = lines.next_line()? {
         if !is_skipped(raw.text, table.separator) {
@@ -60,7 +93,11 @@ fn read_table(input: impl BufRead, name: &str, purpose: GroupPurpose) -> Result<
     table.finish(name)
 }
 
-fn start<R: BufRead>(lines: &mut Lines<R>, purpose: GroupPurpose) -> Result<Csv, Fault> {
+fn start<R: BufRead>(
+    lines: &mut Lines<R>,
+    purpose: GroupPurpose,
+    machine: Option<&Hexapod>,
+) -> Result<Csv, Fault> {
     while let Some(raw) = lines.next_line()? {
         if raw.text.trim().is_empty() || raw.text.starts_with('#') {
             continue;
@@ -68,7 +105,7 @@ fn start<R: BufRead>(lines: &mut Lines<R>, purpose: GroupPurpose) -> Result<Csv,
         if raw.text.contains('\r') {
             return Err(Fault::new(FilePlace::file(), FileProblem::CarriageReturnLines));
         }
-        return Csv::new(raw, purpose);
+        return Csv::new(raw, purpose, machine);
     }
     Err(Fault::new(FilePlace::file(), FileProblem::Empty))
 }
@@ -92,12 +129,12 @@ struct Csv {
 }
 
 impl Csv {
-    fn new(header: RawLine<'_>, purpose: GroupPurpose) -> Result<Self, Fault> {
+    fn new(header: RawLine<'_>, purpose: GroupPurpose, machine: Option<&Hexapod>) -> Result<Self, Fault> {
         let (separator, name) = separator_of(header.text);
         let mut borders = Vec::new();
         let line = Line::cut(header, separator, &mut borders)?;
         refuse_numbers(&line)?;
-        let mut table = Table::new(&line, purpose)?;
+        let mut table = Table::new(&line, purpose, machine)?;
         if let Some(name) = name {
             table.warnings.insert(0, Warning::new(whole_place(&header), Notice::Separator(name)));
         }
@@ -107,8 +144,10 @@ impl Csv {
     fn add(&mut self, raw: RawLine<'_>, cells: &mut Vec<Range<usize>>) -> Result<(), Fault> {
         let line = Line::cut(raw, self.separator, cells).map_err(|fault| self.cut_off(&raw, fault))?;
         self.refuse_other_length(&line, raw.ended)?;
-        let observation = self.observation(&line)?;
-        self.table.push(&observation, raw.text);
+        let row = self.row(&line)?;
+        self.table
+            .push(&row, line.number(), raw.text)
+            .map_err(|problem| Fault::new(line.whole_place(), problem))?;
         if !raw.ended {
             self.table.warnings.push(Warning::new(whole_place(&raw), Notice::NoFinalNewline));
         }
@@ -135,20 +174,28 @@ impl Csv {
         Err(Fault::new(line.whole_place(), problem))
     }
 
-    fn observation(&mut self, line: &Line<'_>) -> Result<Observation, Fault> {
+    fn row(&mut self, line: &Line<'_>) -> Result<FilledRow, Fault> {
         let plan = &self.table.plan;
-        let mut row = defaults();
-        for (cell, source) in plan.sources.iter().enumerate() {
-            let Some(source) = source else { continue };
+        let mut row = FilledRow::new();
+        for cell in 0..plan.sources.len() {
             let text = line.text(cell);
-            let filled = number_of(text, self.separator, &mut self.decimals, line.number())
-                .and_then(|value| fill(&mut row, source, value));
+            if text.is_empty() && plan.may_be_empty(cell) {
+                row.leave_out(plan, cell);
+                continue;
+            }
+            let mut number = || number_of(text, self.separator, &mut self.decimals, line.number());
+            let filled = match (&plan.sources[cell], &plan.of_sensors[cell]) {
+                (Some(source), _) => number()
+                    .and_then(|value| row.fill(source, value))
+                    .map_err(|problem| source.sharpened(problem)),
+                (None, Some(source)) => number().and_then(|value| row.fill_sensor(source, value)),
+                (None, None) => continue,
+            };
             filled.map_err(|problem| {
-                let place = line.place(cell).with_name(&plan.names[cell]).with_value(text);
-                Fault::new(place, source.sharpened(problem))
+                Fault::new(line.place(cell).with_name(&plan.names[cell]).with_value(text), problem)
             })?;
         }
-        Ok(observation(&row, plan, line.number(), self.table.running_number()))
+        Ok(row)
     }
 
     fn finish(mut self, name: &str) -> Result<TableReading, Fault> {

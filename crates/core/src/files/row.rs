@@ -5,8 +5,8 @@ use super::columns::{
     APPROACH, DELTA_T, ELAPSED, Group, MEASURED, POSE, POSE_ID, REFERENCE, REPEAT, Row, SIGMA, WRENCH,
 };
 use super::header::{Plan, Source};
-use crate::Approach;
-use crate::{Observation, Pose, Wrench};
+use super::sensor_columns::SensorSource;
+use crate::{Approach, Channel, Measurand, Observation, Pose, UNREAD, Wrench};
 use std::f64::consts::TAU;
 
 /// Largest whole number that every smaller one is kept apart from.
@@ -15,8 +15,118 @@ const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 /// Largest believable angle, rad: a full turn, and a rounding.
 const LARGEST_ANGLE: f64 = TAU * (1.0 + 1e-12);
 
+/// A row while its cells are read.
+pub(crate) struct FilledRow {
+    row: Row,
+    /// What cells of sensors hold, SI.
+    sensors: Vec<(SensorSource, f64)>,
+    /// Pose numbers that were not read.
+    unread: [bool; 6],
+}
+
+impl FilledRow {
+    /// Before any cell is read.
+    pub(crate) fn new() -> Self {
+        Self { row: defaults(), sensors: Vec::new(), unread: [false; 6] }
+    }
+
+    /// An empty cell of a reading.
+    pub(crate) fn leave_out(&mut self, plan: &Plan, cell: usize) {
+        if let Some(source) = &plan.sources[cell] {
+            source.column.places.range().for_each(|place| self.unread[place - MEASURED] = true);
+        }
+    }
+
+    /// Puts one number into its place, in SI, after checking it.
+    pub(crate) fn fill(&mut self, source: &Source, value: f64) -> Result<(), FileProblem> {
+        fill(&mut self.row, source, value)
+    }
+
+    /// The same for a column of a sensor.
+    pub(crate) fn fill_sensor(&mut self, source: &SensorSource, value: f64) -> Result<(), FileProblem> {
+        let si = source.unit.to_si(value);
+        if !si.is_finite() {
+            return Err(FileProblem::TooLarge);
+        }
+        if source.is_sigma && si <= 0.0 {
+            return Err(FileProblem::Sigma);
+        }
+        self.sensors.push((*source, si));
+        Ok(())
+    }
+
+    /// Whether loaded and reference wrench are the same.
+    pub(crate) fn lacks_load(&self) -> bool {
+        six(&self.row, WRENCH) == six(&self.row, REFERENCE)
+    }
+
+    /// Adds the observations of the row, block by block.
+    ///
+    /// # Errors
+    /// A number whose standard deviation has to be known and is not; a row without any reading.
+    pub(crate) fn observations(
+        &self,
+        plan: &Plan,
+        line: u64,
+        running: i64,
+        all: &mut Vec<Observation>,
+    ) -> Result<(), FileProblem> {
+        let one = observation(&self.row, plan, line, running);
+        let is_full = plan.blocks == [Channel::POSE] && self.unread == [false; 6];
+        if is_full || plan.measurand == Measurand::AbsolutePose {
+            all.push(one);
+            return Ok(());
+        }
+        let before = all.len();
+        for (number, (block, stated)) in plan.blocks.iter().zip(&plan.stated).enumerate() {
+            let (mut measured, mut sigma) = ([0.0; 6], [UNREAD; 6]);
+            for k in 0..6 {
+                let Some((value, own)) = self.read(plan, &one, block[k]) else { continue };
+                (measured[k], sigma[k]) = (value, own.or(stated[k]).ok_or_else(no_sigma)?);
+            }
+            if sigma != [UNREAD; 6] {
+                all.push(Observation { block: number, measured, sigma: Some(sigma), ..one });
+            }
+        }
+        if all.len() == before {
+            return Err(FileProblem::Rule {
+                rule: "nothing was read in this row: all its cells of readings are empty".to_owned(),
+                next: "Remove the row.".to_owned(),
+            });
+        }
+        Ok(())
+    }
+
+    /// What a channel read, and the standard deviation the row states for it.
+    fn read(&self, plan: &Plan, one: &Observation, channel: Channel) -> Option<(f64, Option<f64>)> {
+        match channel {
+            Channel::Nothing => None,
+            Channel::Pose(k) => {
+                let own = plan.columns.sigma.then(|| self.row[SIGMA + k]);
+                (!self.unread[k]).then_some((one.measured[k], own))
+            }
+            Channel::Sensor { sensor, .. } => {
+                let value = self.sensors.iter().find(|(s, _)| !s.is_sigma && s.channel == channel)?.1;
+                let of_sensor = |s: &SensorSource| {
+                    s.is_sigma
+                        && matches!(s.channel, Channel::Sensor { sensor: other, .. } if other == sensor)
+                };
+                Some((value, self.sensors.iter().find(|(s, _)| of_sensor(s)).map(|(_, sigma)| *sigma)))
+            }
+        }
+    }
+}
+
+/// Pose numbers beside sensors or empty cells need a weight.
+pub(crate) fn no_sigma() -> FileProblem {
+    FileProblem::Rule {
+        rule: "the standard deviations of the pose numbers are not stated, and cells are empty or sensors stand beside them".to_owned(),
+        next: "Add [metrology] with sigma_translation_um and sigma_rotation_urad to the hexapod file, or sigma_ columns to this one.".to_owned(),
+    }
+}
+
 /// A row before its cells are read: the values of absent columns.
-pub(crate) fn defaults() -> Row {
+fn defaults() -> Row {
     let mut row = [0.0; super::columns::PLACES];
     row[APPROACH] = Approach::default().sign();
     row[REPEAT] = 1.0;
@@ -24,7 +134,7 @@ pub(crate) fn defaults() -> Row {
 }
 
 /// Puts one number into its place, in SI, after checking it.
-pub(crate) fn fill(row: &mut Row, source: &Source, value: f64) -> Result<(), FileProblem> {
+fn fill(row: &mut Row, source: &Source, value: f64) -> Result<(), FileProblem> {
     let si = source.unit.to_si(value);
     check(source, si)?;
     row[source.column.places.range()].fill(si);
@@ -49,7 +159,7 @@ fn check(source: &Source, si: f64) -> Result<(), FileProblem> {
 }
 
 /// The observation of a filled row.
-pub(crate) fn observation(row: &Row, plan: &Plan, line: u64, running: i64) -> Observation {
+fn observation(row: &Row, plan: &Plan, line: u64, running: i64) -> Observation {
     Observation {
         pose_id: if plan.has_pose { whole(row[POSE_ID]) } else { running },
         repeat: whole(row[REPEAT]),
@@ -60,6 +170,7 @@ pub(crate) fn observation(row: &Row, plan: &Plan, line: u64, running: i64) -> Ob
         approach: Approach::of_sign(row[APPROACH]).unwrap_or_default(),
         delta_t: row[DELTA_T],
         elapsed: row[ELAPSED],
+        block: 0,
         measured: six(row, MEASURED),
         sigma: plan.columns.sigma.then(|| six(row, SIGMA)),
     }

@@ -7,9 +7,10 @@ use super::duplicates::{Fingerprints, drop_copies};
 use super::error::Fault;
 use super::header::{GroupPurpose, Plan, Source, read_header};
 use super::line::Line;
+use super::row::{FilledRow, no_sigma};
 use super::warning::Notice;
 use super::{FilePlace, FileProblem, Warning};
-use crate::{Dataset, Measurand, Observation};
+use crate::{Dataset, Hexapod, Measurand, Observation};
 
 /// A table as read, and what the reader noticed on the way.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,38 +29,57 @@ pub(crate) struct Table {
     /// True when numbers were written with a decimal comma.
     pub(crate) decimal_comma: bool,
     observations: Vec<Observation>,
+    rows: usize,
     fingerprints: Fingerprints,
     no_load_difference: Vec<u64>,
 }
 
 impl Table {
     /// A table of no rows yet.
-    pub(crate) fn new(header: &Line<'_>, purpose: GroupPurpose) -> Result<Self, Fault> {
+    pub(crate) fn new(
+        header: &Line<'_>,
+        purpose: GroupPurpose,
+        machine: Option<&Hexapod>,
+    ) -> Result<Self, Fault> {
         let mut warnings = Vec::new();
-        let plan = read_header(header, purpose, &mut warnings)?;
+        let plan = read_header(header, purpose, machine, &mut warnings)?;
         Ok(Self {
             purpose,
             plan,
             warnings,
             decimal_comma: false,
             observations: Vec::new(),
+            rows: 0,
             fingerprints: Fingerprints::default(),
             no_load_difference: Vec::new(),
         })
     }
 
     /// Number of the next row, from 1.
-    pub(crate) fn running_number(&self) -> i64 {
-        i64::try_from(self.observations.len() + 1).unwrap_or(i64::MAX)
+    fn running_number(&self) -> i64 {
+        i64::try_from(self.rows + 1).unwrap_or(i64::MAX)
     }
 
     /// Adds a row; `cells` is what two copies have in common.
-    pub(crate) fn push(&mut self, observation: &Observation, cells: &(impl Hash + ?Sized)) {
-        if self.compares_loads() && observation.wrench == observation.reference {
-            self.no_load_difference.push(observation.line);
+    ///
+    /// # Errors
+    /// As [`FilledRow::observations`].
+    pub(crate) fn push(
+        &mut self,
+        row: &FilledRow,
+        line: u64,
+        cells: &(impl Hash + ?Sized),
+    ) -> Result<(), FileProblem> {
+        if self.compares_loads() && row.lacks_load() {
+            self.no_load_difference.push(line);
         }
-        self.observations.push(*observation);
-        self.fingerprints.note(cells);
+        let before = self.observations.len();
+        row.observations(&self.plan, line, self.running_number(), &mut self.observations)?;
+        self.rows += 1;
+        for observation in &self.observations[before..] {
+            self.fingerprints.note(&(observation.block, cells));
+        }
+        Ok(())
     }
 
     fn compares_loads(&self) -> bool {
@@ -81,11 +101,27 @@ impl Table {
             let notice = Notice::NoLoadDifference { lines: self.no_load_difference };
             self.warnings.push(Warning::new(FilePlace::file(), notice));
         }
-        let Plan { measurand, columns, .. } = self.plan;
-        let dataset =
-            Dataset { source: name.to_owned(), measurand, columns, observations: self.observations };
+        let Plan { measurand, columns, blocks, .. } = self.plan;
+        let mut dataset =
+            Dataset { source: name.to_owned(), measurand, columns, blocks, observations: self.observations };
+        if dataset.has_other_readings() {
+            state_sigmas(&mut dataset, &self.plan.stated)?;
+        }
         Ok(TableReading { dataset, warnings: self.warnings })
     }
+}
+
+/// Every number of a file with sensors or empty cells is weighed by its own standard deviation.
+fn state_sigmas(dataset: &mut Dataset, stated: &[[Option<f64>; 6]]) -> Result<(), Fault> {
+    for o in dataset.observations.iter_mut().filter(|o| o.sigma.is_none()) {
+        let mut sigma = [0.0; 6];
+        for (own, stated) in sigma.iter_mut().zip(&stated[o.block]) {
+            *own = stated.ok_or_else(|| Fault::new(FilePlace::file(), no_sigma()))?;
+        }
+        o.sigma = Some(sigma);
+    }
+    dataset.columns.sigma = true;
+    Ok(())
 }
 
 impl Source {

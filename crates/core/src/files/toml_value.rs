@@ -168,9 +168,14 @@ fn known_key(
     spelled: &str,
     keys: &'static [KeyUnit],
 ) -> Result<(&'static KeyUnit, &'static Unit), FileProblem> {
-    let key =
-        keys.iter().find(|key| key.unit_in(spelled).is_some()).ok_or_else(|| unknown_key(spelled, keys))?;
-    Ok((key, stated_unit(key.name, key.kind, key.usual_name(), key.unit_in(spelled))?))
+    let unit = |key: &KeyUnit| stated_unit(key.name, key.kind, key.usual_name(), key.unit_in(spelled));
+    // A key may be listed for several kinds of quantity: the unit decides.
+    let mut meant = keys.iter().filter(|key| key.unit_in(spelled).is_some());
+    let first = meant.next().ok_or_else(|| unknown_key(spelled, keys))?;
+    match unit(first) {
+        Ok(unit) => Ok((first, unit)),
+        Err(problem) => meant.find_map(|key| Some((key, unit(key).ok()?))).ok_or(problem),
+    }
 }
 
 fn unknown_key(spelled: &str, keys: &[KeyUnit]) -> FileProblem {

@@ -3,7 +3,7 @@
 use super::read_hexapod::FORMAT;
 use super::units::{PLAIN, unit_named};
 use super::{Dimension, FileError, atomic_write};
-use crate::{Hexapod, Tolerances, Vector3};
+use crate::{Hexapod, Sensor, SensorKind, Tolerances, Vector3};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -33,6 +33,7 @@ pub fn hexapod_to_toml(hexapod: &Hexapod) -> String {
         add(&mut text, "center_of_gravity_mm", &point(&centre));
     }
     add_tolerances(&mut text, &hexapod.tolerances);
+    hexapod.sensors.iter().for_each(|sensor| add_sensor(&mut text, sensor));
     text
 }
 
@@ -48,6 +49,35 @@ fn add_tolerances(text: &mut String, tolerances: &Tolerances) {
     add(text, "load_point_mm", &millimetres(tolerances.load_point));
     add(text, "frame_deg", &in_unit(tolerances.frame, "deg", Dimension::Angle));
     add(text, "noise", &format!("{:?}", tolerances.noise));
+    add(text, "sensor_point_mm", &millimetres(tolerances.sensor_point));
+    add(text, "sensor_direction_deg", &in_unit(tolerances.sensor_direction, "deg", Dimension::Angle));
+}
+
+fn add_sensor(text: &mut String, sensor: &Sensor) {
+    text.push_str("\n[[sensor]]\n");
+    add(text, "name", &format!("{:?}", sensor.name));
+    add(text, "kind", &format!("{:?}", sensor.kind.word()));
+    let um = |sigma: f64| in_unit(sigma, "um", Dimension::Length);
+    let plain = |v: &Vector3| list(&[v.x, v.y, v.z].map(|x| format!("{x:?}")));
+    match &sensor.kind {
+        SensorKind::Distance { point: at, direction, sigma } => {
+            add(text, "point_mm", &point(at));
+            add(text, "direction", &plain(direction));
+            add(text, "sigma_um", &um(*sigma));
+        }
+        SensorKind::Point { point: at, sigma } => {
+            add(text, "point_mm", &point(at));
+            add(text, "sigma_um", &list(&sigma.map(um)));
+        }
+        SensorKind::Inclination { axis, sigma } => {
+            add(text, "axis", &plain(axis));
+            add(text, "sigma_urad", &in_unit(*sigma, "urad", Dimension::Angle));
+        }
+        SensorKind::LegLength { leg, sigma } => {
+            add(text, "leg", &format!("{}", leg + 1));
+            add(text, "sigma_um", &um(*sigma));
+        }
+    }
 }
 
 /// Writes `hexapod.toml` whole or not at all.

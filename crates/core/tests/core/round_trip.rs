@@ -59,6 +59,7 @@ prop_compose! {
         measured in uniform6(-1e-3..1e-3_f64), sigma in uniform6(1e-12..1e-3_f64),
     ) -> Observation {
         Observation {
+        block: 0,
             pose_id: pose_id.into(), repeat, line: 0,
             pose: Pose::from_array(pose), wrench: Wrench::from_array(wrench), reference: Wrench::from_array(reference),
             approach: if up { Approach::Direct } else { Approach::Overloaded }, delta_t, elapsed, measured, sigma: Some(sigma),
@@ -84,7 +85,7 @@ prop_compose! {
     ) -> Dataset {
         let columns = Columns { reference: columns.reference && measurand != Measurand::AbsolutePose, ..columns };
         let observations = rows.iter().map(|row| as_stated(row, columns)).collect();
-        Dataset { source: "measurements.csv".into(), measurand, columns, observations }
+        Dataset { blocks: hexbench_core::Dataset::pose_blocks(), source: "measurements.csv".into(), measurand, columns, observations }
     }
 }
 
@@ -115,6 +116,7 @@ prop_compose! {
         load_gain in prop::option::of(1e-6..1.0_f64),
     ) -> Hexapod {
         Hexapod {
+        sensors: Vec::new(),
             name, base_joints, platform_joints, nominal_stiffness, brackets, mounting_plane_z: z,
             metrology: sigma.map(|[t, r]| Metrology { sigma_translation: t, sigma_rotation: r }),
             stroke: shortest.map(|length| [length, length + 0.1]),
@@ -205,6 +207,7 @@ fn a_dataset_that_could_not_be_read_again_is_not_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("measurements.csv");
     let row = Observation {
+        block: 0,
         pose_id: 7,
         repeat: 1,
         line: 0,
@@ -218,6 +221,7 @@ fn a_dataset_that_could_not_be_read_again_is_not_written() {
         sigma: None,
     };
     let dataset = Dataset {
+        blocks: hexbench_core::Dataset::pose_blocks(),
         source: String::new(),
         measurand: Measurand::DeflectionEuler,
         columns: Columns::default(),

@@ -184,6 +184,7 @@ impl<'a> Contest<'a> {
         readings: &[Observation],
     ) -> Result<(Campaign, ModelPoint, Linearization), DesignError> {
         let dataset = Dataset {
+            blocks: Dataset::pose_blocks(),
             source: String::new(),
             measurand: Measurand::DeflectionEuler,
             columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },

@@ -103,6 +103,7 @@ impl<'a> ModelRegressor<'a> {
         // Numbered one by one, so that no two are averaged.
         let numbered = (1..).zip(readings).map(|(id, o)| Observation { pose_id: id, repeat: 1, ..o });
         let dataset = Dataset {
+            blocks: Dataset::pose_blocks(),
             source: String::new(),
             measurand: Measurand::DeflectionEuler,
             columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },
@@ -144,6 +145,7 @@ impl<'a> ModelRegressor<'a> {
 /// A reading to be taken.
 pub fn reading(pose: Pose, setting: &Setting) -> Observation {
     Observation {
+        block: 0,
         pose_id: 1,
         repeat: 1,
         line: 0,

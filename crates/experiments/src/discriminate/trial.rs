@@ -136,6 +136,7 @@ fn listed(d: &Diagnosis) -> Vec<Observation> {
 fn observation(r: &NextReport) -> Observation {
     let si = |k: usize| if k < 3 { r.pose[k] * 1e-3 } else { r.pose[k].to_radians() };
     Observation {
+        block: 0,
         pose_id: 1,
         repeat: 1,
         line: 0,

@@ -113,7 +113,13 @@ pub fn unread(situation: Situation) -> Observation {
 fn dataset(source: &str, covariates: Covariates, observations: Vec<Observation>) -> Dataset {
     let known = covariates == Covariates::All;
     let columns = Columns { reference: true, approach: known, delta_t: known, elapsed: known, sigma: true };
-    Dataset { source: source.to_owned(), measurand: Measurand::DeflectionEuler, columns, observations }
+    Dataset {
+        blocks: hexbench_core::Dataset::pose_blocks(),
+        source: source.to_owned(),
+        measurand: Measurand::DeflectionEuler,
+        columns,
+        observations,
+    }
 }
 
 /// A pose without tilt: a, b, c in mm, gamma in deg.

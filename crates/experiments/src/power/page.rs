@@ -332,7 +332,7 @@ fn untestable(why: &Reason) -> String {
 fn source(source: NoiseSource) -> &'static str {
     match source {
         NoiseSource::Columns => "sigma columns of the plan",
-        NoiseSource::Metrology => "as stated",
+        NoiseSource::Metrology | NoiseSource::Sensors => "as stated",
         NoiseSource::Repeats => "to be estimated from repeats",
         NoiseSource::Residuals => "unknown",
     }

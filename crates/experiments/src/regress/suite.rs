@@ -151,6 +151,9 @@ impl RegressSuite {
     pub fn campaigns(&self) -> usize {
         let diagnosed: usize = self.portions.iter().map(|p| p.trials).sum();
         let files = self.misstatements.len() * self.misread + self.sound;
-        self.subjects.len() * (self.fits + self.machines) + diagnosed + self.faults.len() * self.laboratory + files
+        self.subjects.len() * (self.fits + self.machines)
+            + diagnosed
+            + self.faults.len() * self.laboratory
+            + files
     }
 }

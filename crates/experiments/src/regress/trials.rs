@@ -12,9 +12,9 @@ use crate::TrialError;
 use crate::calibration::CalibrationRecord;
 use crate::harness::{Field, Gathered, Protocol, TrialResult};
 use crate::journal::Identity;
+use crate::misread::{self, MisreadProtocol, MisreadRecord};
 use crate::recovery::noiseless::{Noiseless, recover};
 use crate::recovery::scene::{HiddenSubject, RecoveryCampaign};
-use crate::misread::{self, MisreadProtocol, MisreadRecord};
 use crate::robustness::{self, RobustnessRecord};
 
 /// A campaign of a subject: what it gave, or nothing.

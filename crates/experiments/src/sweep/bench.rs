@@ -47,6 +47,7 @@ impl Ideal {
             row.read(line, (ideal + error()).into(), None)
         };
         Dataset {
+            blocks: hexbench_core::Dataset::pose_blocks(),
             source: source.to_owned(),
             measurand: Measurand::DeflectionEuler,
             columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },

@@ -129,8 +129,10 @@ fn dataset(model: &Model, rows: &[Observation], measurand: Measurand) -> Dataset
         Measurand::AbsolutePose => machine.target_pose(&o.pose).to_array(),
         _ => [0.0; 6],
     };
-    let observations = rows.iter().map(|o| Observation { measured: guess(o), sigma: None, ..*o }).collect();
-    Dataset { source: String::new(), measurand, columns: hexbench_core::Columns::default(), observations }
+    let observations =
+        rows.iter().map(|o| Observation { measured: guess(o), sigma: None, block: 0, ..*o }).collect();
+    let (source, columns) = (String::new(), hexbench_core::Columns::default());
+    Dataset { source, measurand, columns, blocks: Dataset::pose_blocks(), observations }
 }
 
 /// Frames in which a prediction is read.

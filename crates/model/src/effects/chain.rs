@@ -139,6 +139,11 @@ impl Link {
         Self { force, elastic, motion, reader, bare_reader, legs_to_motion, springs: *springs, relief }
     }
 
+    /// Motion of the platform, geometric twist at the mobile origin.
+    pub fn motion(&self) -> Vector6 {
+        self.motion
+    }
+
     /// Predicted reading, whitened.
     pub fn prediction(&self) -> Vector6 {
         self.reader * self.motion

@@ -7,8 +7,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use hexbench_core::{
-    Approach, Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, StatedTolerances,
-    Vector3, Vector6, Wrench,
+    Approach, Channel, Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, NumberKind, Observation, Pose,
+    SensorKind, StatedTolerances, UNREAD, Vector3, Vector6, Wrench,
 };
 use nalgebra::{DMatrix, Rotation3};
 
@@ -28,6 +28,10 @@ use crate::machine::kinematics::{Legs, euler_rate_matrix};
 pub struct ConditionReadings {
     /// Inputs, as of the first reading; `measured` is the weighted mean.
     pub mean: Observation,
+    /// What the six numbers are.
+    pub channels: [Channel; 6],
+    /// How many readings each number was read in.
+    pub reads: [u32; 6],
     /// Standard deviation of each mean value, without what it shares with others of its record.
     pub sigma: [f64; 6],
     /// Standard deviation of what it shares with them.
@@ -73,6 +77,8 @@ pub struct Condition {
     pub observer: Matrix6,
     /// 1 / sigma of each averaged value.
     pub weight: Vector6,
+    /// How many of the six numbers were read.
+    pub numbers: usize,
 }
 
 /// Leg forces (N, tension positive) along the way from the unloaded machine to the reading.
@@ -105,10 +111,16 @@ pub struct Campaign {
     pub measurand: Measurand,
     /// Optional columns present.
     pub columns: Columns,
+    /// What the six numbers of a reading are.
+    pub blocks: Vec<[Channel; 6]>,
     /// Averaged readings in order of first appearance.
     pub groups: Vec<ConditionReadings>,
     /// Number of readings.
     pub readings: usize,
+    /// Numbers read in all of them: six each, unless something else was read than a full pose.
+    pub numbers: usize,
+    /// True when every reading is a full pose.
+    pub reads_poses: bool,
     /// Noise of one reading.
     pub noise: Noise,
     /// Sum of squared whitened differences between readings and their mean.
@@ -196,8 +208,9 @@ impl Campaign {
             return Err(ModelError::TooFewEquations { equations: 0, unknowns: 6 });
         }
         let axes = ReadingAxes::of(&frames);
-        let groups = group(&dataset.observations, &noise, &axes);
-        let like = Like { hexapod, measurand: dataset.measurand, columns: dataset.columns, noise, frames };
+        let groups = group(dataset, &noise, &axes);
+        let (measurand, columns, blocks) = (dataset.measurand, dataset.columns, &dataset.blocks);
+        let like = Like { hexapod, measurand, columns, blocks, noise, frames };
         Ok(Self::of_groups(&like, groups))
     }
 
@@ -218,17 +231,23 @@ impl Campaign {
     }
 
     fn of_groups(like: &Like<'_>, groups: Vec<ConditionReadings>) -> Self {
-        let Like { hexapod, measurand, columns, noise, frames } = *like;
+        let Like { hexapod, measurand, columns, blocks, noise, frames } = *like;
         let readings: usize = groups.iter().map(|g| g.rows.len()).sum();
         let pure_error = groups.iter().map(|g| g.pure_error).sum();
-        let pure_error_dof = 6.0 * (readings - groups.len()) as f64;
+        let numbers: usize = groups.iter().flat_map(|g| g.reads).map(|reads| reads as usize).sum();
+        let means: usize = groups.iter().map(ConditionReadings::numbers).sum();
+        let reads_poses = numbers == 6 * readings && groups.iter().all(|g| g.channels == Channel::POSE);
+        let pure_error_dof = (numbers - means) as f64;
         let hexapod = hexapod.clone();
         Self {
             hexapod,
             measurand,
             columns,
+            blocks: blocks.clone(),
             groups,
             readings,
+            numbers,
+            reads_poses,
             noise,
             pure_error,
             pure_error_dof,
@@ -257,7 +276,8 @@ impl Campaign {
         let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
         let rows: Vec<usize> = groups.iter().flat_map(|&g| 6 * g..6 * g + 6).collect();
         let (measurand, columns, noise, frames) = (self.measurand, self.columns, self.noise, self.frames);
-        let like = Like { hexapod: &self.hexapod, measurand, columns, noise, frames };
+        let blocks = &self.blocks;
+        let like = Like { hexapod: &self.hexapod, measurand, columns, blocks, noise, frames };
         let part = Self::of_groups(&like, kept);
         match &self.inexact {
             Some(all) => part.with_inexact(all.columns.select_rows(&rows)),
@@ -299,7 +319,9 @@ impl Campaign {
             NoiseSource::Repeats => return NoiseLevel { sum: self.noise.dof, dof: self.noise.dof },
             NoiseSource::Residuals => 0.0,
             // A chi-square of so many degrees of freedom scatters as much as the stated standard deviation may.
-            NoiseSource::Columns | NoiseSource::Metrology => 0.5 / self.hexapod.tolerances.noise.powi(2),
+            NoiseSource::Columns | NoiseSource::Sensors | NoiseSource::Metrology => {
+                0.5 / self.hexapod.tolerances.noise.powi(2)
+            }
         };
         let (repeats, dof) = match self.noise.structure {
             Structure::Independent => (self.pure_error, self.pure_error_dof),
@@ -311,6 +333,21 @@ impl Campaign {
     /// The tolerances of the inputs; none where they count as exact, because no error of them shows or poses are absolute.
     pub fn assumed_tolerances(&self) -> Option<StatedTolerances> {
         self.inexact.as_ref().map(|_| StatedTolerances::from(&self.hexapod.tolerances))
+    }
+
+    /// What the numbers of a reading with these standard deviations are.
+    pub fn kinds_of(&self, group: &ConditionReadings, sigma: &[f64; 6]) -> [NumberKind; 6] {
+        std::array::from_fn(|k| match group.channels[k] {
+            Channel::Nothing => NumberKind::Unread,
+            _ if sigma[k] >= UNREAD => NumberKind::Unread,
+            channel if channel.is_angle(&self.hexapod.sensors) => NumberKind::Angle,
+            _ => NumberKind::Length,
+        })
+    }
+
+    /// Name of a number of a group: its column, without unit.
+    pub fn name_of(&self, group: usize, number: usize) -> String {
+        self.groups[group].channels[number].name(&self.hexapod.sensors, self.measurand)
     }
 
     /// True in absolute mode.
@@ -336,11 +373,16 @@ impl Campaign {
         let stance = if self.is_absolute() {
             Stance::measured(machine, o)?
         } else {
-            Stance::deflected(machine, springs, o, self.measurand)?
+            let measured = self.reads_poses.then_some((&o.measured, self.measurand));
+            Stance::deflected(machine, springs, o, measured)?
         };
         let commanded_lengths = machine.commanded_lengths(&o.pose);
         let legs = stance.legs;
-        let observer = self.observer(machine, &stance.pose, &o.measured);
+        let mut observer = self.observer(machine, &stance.pose, &o.measured);
+        if group.channels != Channel::POSE {
+            let rows = group.channels.map(|channel| self.seen_by(channel, &stance, &observer));
+            observer = Matrix6::from_rows(&rows.map(|row| row.transpose()));
+        }
         let reading = if self.is_absolute() {
             // Exact closure at the measured pose: no forward kinematics is needed.
             observer * legs.platform_jacobian * (legs.lengths - commanded_lengths)
@@ -370,8 +412,34 @@ impl Campaign {
             reading,
             observer,
             weight: Vector6::from_fn(|k, _| 1.0 / group.sigma[k]),
+            numbers: group.numbers(),
             legs,
         })
+    }
+
+    /// What one channel reads per unit of the geometric twist at the mobile origin; of the pose halfway between the states, so that what
+    /// is left out is of third order in the deflection.
+    fn seen_by(&self, channel: Channel, stance: &Stance, pose_numbers: &Matrix6) -> Vector6 {
+        let along = |u: &Vector3, arm: &Vector3| {
+            let moment = arm.cross(u);
+            Vector6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
+        };
+        let arm = |point: &Vector3| stance.pose.rotation() * point;
+        match channel {
+            Channel::Nothing => Vector6::zeros(),
+            Channel::Pose(k) => pose_numbers.row(k).transpose(),
+            Channel::Sensor { sensor, number } => match self.hexapod.sensors.get(sensor).map(|s| &s.kind) {
+                Some(SensorKind::Distance { point, direction, .. }) => along(direction, &arm(point)),
+                Some(SensorKind::Point { point, .. }) => along(&Vector3::ith(number, 1.0), &arm(point)),
+                Some(SensorKind::Inclination { axis, .. }) => {
+                    Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z)
+                }
+                Some(SensorKind::LegLength { leg, .. }) => {
+                    along(&stance.legs.directions[*leg], &stance.legs.arms[*leg])
+                }
+                None => Vector6::zeros(),
+            },
+        }
     }
 
     /// Measured coordinates from the geometric twist: Euler differences for Euler readings, and the lever arm of
@@ -411,22 +479,32 @@ impl Stance {
 
     /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
     /// the finite deflection is of third order. The reference pose is the commanded one plus the small deflection that
-    /// the springs give it; the loaded pose lies a measured deflection further.
+    /// the springs give it; the loaded pose lies a measured deflection further, or one as the springs give it where no pose was
+    /// measured.
     fn deflected(
         machine: &Machine,
         springs: &Vector6,
         o: &Observation,
-        measurand: Measurand,
+        measured: Option<(&[f64; 6], Measurand)>,
     ) -> Result<Self, ModelError> {
         let commanded = machine.legs(&o.pose)?;
-        let reference_wrench = machine.effective_wrench(&o.reference, &o.pose);
-        let sag = commanded.platform_jacobian * springs.component_mul(&commanded.forces(&reference_wrench));
+        let sag_under = |wrench: &Wrench| {
+            let forces = commanded.forces(&machine.effective_wrench(wrench, &o.pose));
+            commanded.platform_jacobian * springs.component_mul(&forces)
+        };
+        let sag = sag_under(&o.reference);
         let reference = moved(&o.pose, &sag, 1.0);
-        let mut motion = Vector6::from_column_slice(&o.measured);
-        if measurand == Measurand::DeflectionEuler {
-            let rotation = euler_rate_matrix(&o.pose.angles) * motion.fixed_rows::<3>(3);
-            motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
-        }
+        let motion = match measured {
+            None => sag_under(&o.wrench) - sag,
+            Some((measured, measurand)) => {
+                let mut motion = Vector6::from_column_slice(measured);
+                if measurand == Measurand::DeflectionEuler {
+                    let rotation = euler_rate_matrix(&o.pose.angles) * motion.fixed_rows::<3>(3);
+                    motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
+                }
+                motion
+            }
+        };
         let pose = moved(&reference, &motion, 0.5);
         let legs = machine.legs(&pose)?;
         Ok(Self {
@@ -455,9 +533,23 @@ fn observer_matrix(axes: &Matrix3, lever: &Vector3, rates: &Matrix3) -> Matrix6 
 }
 
 impl ConditionReadings {
-    fn of(first: &Observation) -> Self {
+    fn of(first: &Observation, channels: [Channel; 6]) -> Self {
         let rows = Vec::with_capacity(1);
-        Self { mean: *first, sigma: [0.0; 6], shared: [0.0; 6], record: 0, rows, pure_error: 0.0 }
+        Self {
+            mean: *first,
+            channels,
+            reads: [0; 6],
+            sigma: [0.0; 6],
+            shared: [0.0; 6],
+            record: 0,
+            rows,
+            pure_error: 0.0,
+        }
+    }
+
+    /// How many of the six numbers were read at all.
+    pub fn numbers(&self) -> usize {
+        self.reads.iter().filter(|reads| **reads > 0).count()
     }
 }
 
@@ -466,6 +558,7 @@ struct Like<'a> {
     hexapod: &'a Hexapod,
     measurand: Measurand,
     columns: Columns,
+    blocks: &'a Vec<[Channel; 6]>,
     noise: Noise,
     frames: Frames,
 }
@@ -497,8 +590,9 @@ fn known_frames(dataset: &Dataset, machine: &Machine) -> Frames {
     if dataset.is_absolute() { Frames::of(machine) } else { Frames::default() }
 }
 
-fn group(rows: &[Observation], noise: &Noise, axes: &ReadingAxes) -> Vec<ConditionReadings> {
-    let mut index: HashMap<[u64; 21], usize> = HashMap::new();
+fn group(data: &Dataset, noise: &Noise, axes: &ReadingAxes) -> Vec<ConditionReadings> {
+    let rows = &data.observations;
+    let mut index: HashMap<[u64; 22], usize> = HashMap::new();
     let mut groups: Vec<ConditionReadings> = Vec::new();
     // Neighbors that resemble each other are no repeats of each other.
     let drifts = matches!(noise.structure, Structure::Drift { .. });
@@ -506,16 +600,16 @@ fn group(rows: &[Observation], noise: &Noise, axes: &ReadingAxes) -> Vec<Conditi
         let next = groups.len();
         let slot = if drifts { next } else { *index.entry(key(row)).or_insert(next) };
         if slot == next {
-            groups.push(ConditionReadings::of(row));
+            groups.push(ConditionReadings::of(row, data.channels(row)));
         }
         groups[slot].rows.push(u32::try_from(i).unwrap_or(u32::MAX));
     }
-    let mut records: HashMap<[u64; 6], usize> = HashMap::new();
+    let mut records: HashMap<([u64; 6], usize), usize> = HashMap::new();
     for g in &mut groups {
         average(g, rows, noise, axes);
-        let pose = pose_key(g);
+        let record = (pose_key(g), g.mean.block);
         let next = records.len();
-        g.record = *records.entry(pose).or_insert(next);
+        g.record = *records.entry(record).or_insert(next);
     }
     groups
 }
@@ -532,6 +626,7 @@ fn average(group: &mut ConditionReadings, rows: &[Observation], noise: &Noise, a
             let w = sigma[k].powi(-2);
             weights[k] += w;
             sums[k] += w * off[k];
+            group.reads[k] += u32::from(sigma[k] < UNREAD);
         }
     }
     let mean = axes.moved(&first, &std::array::from_fn(|k| sums[k] / weights[k]));
@@ -545,9 +640,9 @@ fn average(group: &mut ConditionReadings, rows: &[Observation], noise: &Noise, a
 /// Splits the variance of a mean of independent readings into what is its own and what is shared.
 fn share_out(group: &mut ConditionReadings, noise: &Noise) {
     let own = noise.structure.own_share();
-    let readings = group.rows.len() as f64;
     for k in 0..6 {
         // As if every reading had the same level, which those of a record have to have.
+        let readings = f64::from(group.reads[k].max(1));
         let one = group.sigma[k] * readings.sqrt();
         let (mean, shared) = match noise.structure {
             Structure::Independent | Structure::Axes { .. } => continue,
@@ -580,8 +675,9 @@ fn whitened_square(row: &Observation, mean: &[f64; 6], noise: &Noise, axes: &Rea
     (0..6).map(|k| (off[k] / sigma[k]).powi(2)).sum()
 }
 
-fn key(row: &Observation) -> [u64; 21] {
-    let mut key = [0; 21];
+fn key(row: &Observation) -> [u64; 22] {
+    let mut key = [0; 22];
+    key[21] = row.block as u64;
     let parts = [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array()];
     let rest = [row.approach.sign(), row.delta_t, row.elapsed];
     for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain(&rest)) {

@@ -164,7 +164,7 @@ fn fit_from(
         effort.iterations += 1;
         let solution = step(&state, &point, &parameters)?;
         // Relative to the misfit: a wrong model need not be settled to the last digit.
-        let small = SETTLED_CHI2 * (objective / state.equations() as f64).max(1.0);
+        let small = SETTLED_CHI2 * (objective / state.numbers()).max(1.0);
         let most = objective + 0.5 * small;
         let (next, next_state, next_objective) =
             search(campaign, &point, &solution.x, &parameters, most, &mut effort)?;
@@ -400,9 +400,9 @@ fn finish(
         point,
         covariance: solution.covariance.clone(),
         chi2: lack_of_fit + campaign.pure_error,
-        dof: (6 * campaign.readings) as f64 - unknowns,
+        dof: campaign.numbers as f64 - unknowns,
         lack_of_fit,
-        lack_of_fit_dof: state.equations() as f64 - unknowns,
+        lack_of_fit_dof: state.numbers() - unknowns,
         parameters,
         solution,
         iterations,

@@ -112,7 +112,7 @@ impl Misfit {
         let inner = z.tr_mul(&z) + DMatrix::identity(z.ncols(), z.ncols());
         let along = z.tr_mul(&d);
         let explained = inner.cholesky().map_or(0.0, |factor| along.dot(&factor.solve(&along)));
-        Ok(Self { chi2: (d.norm_squared() - explained).max(0.0), numbers: d.len() as f64 })
+        Ok(Self { chi2: (d.norm_squared() - explained).max(0.0), numbers: lin.numbers() })
     }
 
     /// Of all readings, each left out of one of several fits that share most of theirs: so many numbers scatter like the degrees of

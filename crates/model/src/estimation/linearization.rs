@@ -179,6 +179,11 @@ impl Linearization {
         6 * self.conditions.len()
     }
 
+    /// Averaged numbers that were read: six for each condition, unless something else was read than full poses.
+    pub fn numbers(&self) -> f64 {
+        self.conditions.iter().map(|c| c.numbers).sum::<usize>() as f64
+    }
+
     /// Number of columns every model has: six springs, in absolute mode also two frames.
     pub fn common_columns(&self) -> usize {
         common_count(self.absolute)
@@ -188,6 +193,11 @@ impl Linearization {
     pub fn residual(&self, condition: usize) -> Vector6 {
         let c = &self.conditions[condition];
         c.reading.component_mul(&c.weight) - self.links[condition].prediction()
+    }
+
+    /// Motion of the platform at one condition: geometric twist at the mobile origin, m and rad.
+    pub fn motion(&self, condition: usize) -> Vector6 {
+        self.links[condition].motion()
     }
 
     /// Prediction at one condition in measured coordinates, m and rad.

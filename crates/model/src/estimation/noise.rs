@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use hexbench_core::statistics::Welford;
+use hexbench_core::statistics::{Welford, root_mean_square};
 use hexbench_core::{Dataset, Hexapod, Matrix6, Observation};
 
 use crate::estimation::campaign::frames_of;
@@ -14,6 +14,8 @@ use crate::estimation::frames::ReadingAxes;
 pub enum NoiseSource {
     /// `sigma_*` columns of the file.
     Columns,
+    /// `[[sensor]]` tables of the hexapod file, beside `[metrology]` and `sigma` columns.
+    Sensors,
     /// `[metrology]` of the hexapod file.
     Metrology,
     /// Scatter of repeated readings.
@@ -24,12 +26,14 @@ pub enum NoiseSource {
 
 impl NoiseSource {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Columns, Self::Metrology, Self::Repeats, Self::Residuals];
+    pub const ALL: [Self; 5] =
+        [Self::Columns, Self::Sensors, Self::Metrology, Self::Repeats, Self::Residuals];
 
     /// One word for files and tables.
     pub fn word(self) -> &'static str {
         match self {
             Self::Columns => "sigma columns",
+            Self::Sensors => "sensors",
             Self::Metrology => "metrology",
             Self::Repeats => "repeats",
             Self::Residuals => "residuals",
@@ -173,6 +177,11 @@ impl Noise {
         [t, t, t, r, r, r]
     }
 
+    /// True when somebody has stated the level.
+    pub fn is_stated(&self) -> bool {
+        matches!(self.source, NoiseSource::Columns | NoiseSource::Sensors | NoiseSource::Metrology)
+    }
+
     /// True when the level is known well enough to say that a model is adequate.
     pub fn allows_verdict(&self) -> bool {
         self.source != NoiseSource::Residuals
@@ -195,6 +204,9 @@ const ENOUGH_REPEATS: f64 = 9.0;
 
 /// Noise by the rule of the file format: columns, then metrology, then repeats. `None` leaves the residuals.
 pub fn stated_or_repeated(hexapod: &Hexapod, dataset: &Dataset) -> Option<Noise> {
+    if dataset.has_other_readings() {
+        return Some(from_sensors(hexapod, dataset));
+    }
     if dataset.columns.sigma {
         return Some(from_columns(&dataset.observations));
     }
@@ -213,6 +225,26 @@ pub fn stated_or_repeated(hexapod: &Hexapod, dataset: &Dataset) -> Option<Noise>
         dof: 2.0 * scatter.dof,
         structure: Structure::Independent,
     })
+}
+
+/// Of readings that are not full poses every number states its own; on the average, of lengths and of angles.
+fn from_sensors(hexapod: &Hexapod, dataset: &Dataset) -> Noise {
+    let mean = |angles: bool| {
+        let of_row = |o: &Observation| {
+            let (o, channels) = (*o, dataset.channels(o));
+            let counts = move |k: &usize| o.is_read(*k) && channels[*k].is_angle(&hexapod.sensors) == angles;
+            (0..6).filter(counts).filter_map(move |k| o.sigma.map(|s| s[k]))
+        };
+        root_mean_square(dataset.observations.iter().flat_map(of_row))
+    };
+    let radius = hexapod.platform_radius().max(1e-6);
+    let (translation, rotation) = match (mean(false), mean(true)) {
+        (Some(t), Some(r)) => (t, r),
+        (Some(t), None) => (t, t / radius),
+        (None, Some(r)) => (r * radius, r),
+        (None, None) => (1e-6, 1e-6 / radius),
+    };
+    Noise { source: NoiseSource::Sensors, ..Noise::stated(translation, rotation) }
 }
 
 fn from_columns(rows: &[Observation]) -> Noise {

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use hexbench_core::statistics::{mean, median};
-use hexbench_core::{Dataset, Hexapod, Observation, Vector6};
+use hexbench_core::statistics::{mean, median, root_mean_square};
+use hexbench_core::{Dataset, Hexapod, NumberKind, Observation, Vector6};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -28,8 +28,17 @@ pub struct Residual {
     pub condition: usize,
     /// m and rad.
     pub value: Vector6,
-    /// Divided by the standard deviation of one reading.
+    /// Divided by the standard deviation of one reading; zero for what was not read.
     pub whitened: Vector6,
+    /// What the numbers are.
+    pub kinds: [NumberKind; 6],
+}
+
+impl Residual {
+    /// How many numbers were read.
+    pub fn numbers(&self) -> usize {
+        self.kinds.iter().filter(|kind| **kind != NumberKind::Unread).count()
+    }
 }
 
 /// Size of a set of residuals.
@@ -83,9 +92,11 @@ pub fn residuals(campaign: &Campaign, rows: &[Observation], lin: &Linearization)
             let reading = &rows[row as usize];
             let sigma = row_sigma(reading, &campaign.noise);
             let off = campaign.axes.difference(&group.mean.measured, &reading.measured);
-            let value = Vector6::from_fn(|k, _| mean[k] * group.sigma[k] + off[k]);
+            let kinds = campaign.kinds_of(group, &sigma);
+            let one = |k: usize| mean[k] * group.sigma[k] + off[k];
+            let value = Vector6::from_fn(|k, _| if kinds[k] == NumberKind::Unread { 0.0 } else { one(k) });
             let whitened = Vector6::from_fn(|k, _| value[k] / sigma[k]);
-            all.push(Residual { row: row as usize, condition, value, whitened });
+            all.push(Residual { row: row as usize, condition, value, whitened, kinds });
         }
     }
     all.sort_by_key(|r| r.row);
@@ -94,16 +105,23 @@ pub fn residuals(campaign: &Campaign, rows: &[Observation], lin: &Linearization)
 
 /// Summarise residuals; `dof` of the chi-square, or their number when `None`.
 pub fn summarise(residuals: &[Residual], dof: Option<f64>) -> ErrorSummary {
-    let n = residuals.len().max(1) as f64;
-    let square = |k: usize| mean(residuals.iter().map(|r| r.value[k] * r.value[k])).unwrap_or(0.0);
+    let count: usize = residuals.iter().map(Residual::numbers).sum();
+    let is_read = |r: &&Residual, k: usize| r.kinds[k] != NumberKind::Unread;
+    let square = |k: usize| {
+        mean(residuals.iter().filter(|r| is_read(r, k)).map(|r| r.value[k] * r.value[k])).unwrap_or(0.0)
+    };
     let mean_square: [f64; 6] = std::array::from_fn(square);
     let chi2: f64 = residuals.iter().map(|r| r.whitened.norm_squared()).sum();
-    let root = |from: usize| mean(mean_square[from..from + 3].iter().copied()).unwrap_or(0.0).sqrt() * 1e6;
+    let root = |kind: NumberKind| {
+        let of_row =
+            |r: &Residual| (0..6).filter(|&k| r.kinds[k] == kind).map(|k| r.value[k]).collect::<Vec<_>>();
+        root_mean_square(residuals.iter().flat_map(of_row)).unwrap_or(0.0) * 1e6
+    };
     ErrorSummary {
-        chi2_reduced: chi2 / dof.unwrap_or(6.0 * n).max(1.0),
-        rms: Rms { translation_um: root(0), rotation_urad: root(3) },
+        chi2_reduced: chi2 / dof.unwrap_or(count as f64).max(1.0),
+        rms: Rms { translation_um: root(NumberKind::Length), rotation_urad: root(NumberKind::Angle) },
         per_coordinate: mean_square.map(|s| s.sqrt() * 1e6),
-        count: 6 * residuals.len(),
+        count,
     }
 }
 

@@ -62,7 +62,7 @@ mod tests {
     fn scatter(values: &[f64]) -> ResidualScatter {
         let residual = |(row, chunk): (usize, &[f64])| {
             let whitened = Vector6::from_column_slice(chunk);
-            Residual { row, condition: row, value: whitened, whitened }
+            Residual { kinds: [hexbench_core::NumberKind::Length; 6], row, condition: row, value: whitened, whitened }
         };
         ResidualScatter::of(&values.chunks_exact(6).enumerate().map(residual).collect::<Vec<_>>())
     }

@@ -7,12 +7,12 @@
 
 use std::ops::Range;
 
-use hexbench_core::{Tolerances, Vector3, Vector6, Wrench};
+use hexbench_core::{Channel, SensorKind, Tolerances, Vector3, Vector6, Wrench};
 use nalgebra::{DMatrix, DVector, Rotation3};
 use rayon::prelude::*;
 
 use crate::error::ModelError;
-use crate::estimation::campaign::{Campaign, moved};
+use crate::estimation::campaign::{Campaign, Condition, moved};
 use crate::estimation::fit::fit;
 use crate::estimation::linearization::{Linearization, ModelPoint};
 
@@ -90,7 +90,7 @@ impl InputKind {
 }
 
 /// Reading over the standard deviation of what is its own, per standard deviation of every input; six rows for each condition,
-/// [`InputKind::COLUMNS`] columns; nothing for absolute poses.
+/// [`InputKind::COLUMNS`] columns, and those of the sensors where there are any; nothing for absolute poses.
 ///
 /// # Errors
 /// As [`Linearization::at`].
@@ -116,7 +116,10 @@ pub fn input_columns(
         // A residual falls as the prediction rises.
         Ok((&here - there) * (kind.standard_deviation(tolerances) / kind.step()))
     };
-    let columns: Vec<DVector<f64>> = inputs.par_iter().map(column).collect::<Result<_, _>>()?;
+    let mut columns: Vec<DVector<f64>> = inputs.par_iter().map(column).collect::<Result<_, _>>()?;
+    if !bare.reads_poses {
+        columns.extend(of_sensors(&bare, &start, tolerances));
+    }
     Ok(DMatrix::from_columns(&columns))
 }
 
@@ -200,12 +203,89 @@ fn move_joint(campaign: &mut Campaign, point: &mut ModelPoint, k: usize) -> Resu
 fn turned_readings(campaign: &Campaign, lin: &Linearization, k: usize) -> DVector<f64> {
     let mut column = DVector::zeros(lin.equations());
     for (i, group) in campaign.groups.iter().enumerate() {
+        let sigma = Vector6::from_column_slice(&group.sigma);
+        if group.channels != Channel::POSE {
+            let at = &lin.conditions[i];
+            let turned = at.observer * cross_both(k, &lin.motion(i));
+            column.fixed_rows_mut::<6>(6 * i).copy_from(&turned.component_div(&sigma));
+            continue;
+        }
         let read = lin.predicted(i);
         let turn = |v: Vector3| axis(k).cross(&v);
         let (shift, twist) = (turn(read.fixed_rows::<3>(0).into()), turn(read.fixed_rows::<3>(3).into()));
         let turned = Vector6::new(shift.x, shift.y, shift.z, twist.x, twist.y, twist.z);
-        let sigma = Vector6::from_column_slice(&group.sigma);
         column.fixed_rows_mut::<6>(6 * i).copy_from(&turned.component_div(&sigma));
+    }
+    column
+}
+
+/// `e_k x v` and `e_k x w` of a twist.
+fn cross_both(k: usize, twist: &Vector6) -> Vector6 {
+    let turn = |first: usize| axis(k).cross(&twist.fixed_rows::<3>(first).into_owned());
+    let (v, w) = (turn(0), turn(3));
+    Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z)
+}
+
+/// Reading over the standard deviation of its noise, per tolerance of the place and of the direction of every sensor.
+///
+/// With the motion `[v; w]` of the platform and the arm `r` of the point:
+///
+/// ```text
+/// distance      d y = (w x R dp) . u + (v + w x r) . (e x u)      e: small turn of the direction
+/// point         d y =  w x R dp
+/// inclination   d y =  w . (e x a)
+/// ```
+fn of_sensors(campaign: &Campaign, lin: &Linearization, tolerances: &Tolerances) -> Vec<DVector<f64>> {
+    let sensors = &campaign.hexapod.sensors;
+    let mut columns = Vec::new();
+    for (index, sensor) in sensors.iter().enumerate() {
+        let point = matches!(sensor.kind, SensorKind::Distance { .. } | SensorKind::Point { .. });
+        let turns = matches!(sensor.kind, SensorKind::Distance { .. } | SensorKind::Inclination { .. });
+        for k in (0..3).filter(|_| point) {
+            columns.push(sensor_column(campaign, lin, index, |at, motion, number| {
+                let w: Vector3 = motion.fixed_rows::<3>(3).into_owned();
+                let moved = w.cross(&(at.pose.rotation() * (axis(k) * tolerances.sensor_point)));
+                match &sensor.kind {
+                    SensorKind::Distance { direction, .. } => direction.dot(&moved),
+                    _ => moved[number],
+                }
+            }));
+        }
+        for k in (0..3).filter(|_| turns) {
+            columns.push(sensor_column(campaign, lin, index, |at, motion, _| {
+                let v: Vector3 = motion.fixed_rows::<3>(0).into_owned();
+                let w: Vector3 = motion.fixed_rows::<3>(3).into_owned();
+                let turn = axis(k) * tolerances.sensor_direction;
+                match &sensor.kind {
+                    SensorKind::Distance { point, direction, .. } => {
+                        (v + w.cross(&(at.pose.rotation() * point))).dot(&turn.cross(direction))
+                    }
+                    SensorKind::Inclination { axis, .. } => w.dot(&turn.cross(axis)),
+                    _ => 0.0,
+                }
+            }));
+        }
+    }
+    columns
+}
+
+/// A column that acts on the numbers of one sensor.
+fn sensor_column(
+    campaign: &Campaign,
+    lin: &Linearization,
+    index: usize,
+    value: impl Fn(&Condition, &Vector6, usize) -> f64,
+) -> DVector<f64> {
+    let mut column = DVector::zeros(lin.equations());
+    for (i, group) in campaign.groups.iter().enumerate() {
+        for (k, channel) in group.channels.iter().enumerate() {
+            if let Channel::Sensor { sensor, number } = *channel
+                && sensor == index
+                && group.reads[k] > 0
+            {
+                column[6 * i + k] = value(&lin.conditions[i], &lin.motion(i), number) / group.sigma[k];
+            }
+        }
     }
     column
 }

@@ -162,7 +162,7 @@ impl<'a> Collector<'a> {
             g,
             b: rest.view((0, width), (width, 1)).column(0).into_owned(),
             yy: rest[(width, width)].max(0.0),
-            equations: (self.lin.equations() - root.ncols()) as f64,
+            equations: self.lin.numbers() - root.ncols() as f64,
             level: campaign.noise_level(),
             blocks,
             absorbed: root.rows(0, 6) * overlap.columns(0, width),

@@ -81,6 +81,7 @@ pub fn noise(noise: &Noise) -> String {
 pub fn origin(source: NoiseSource) -> &'static str {
     match source {
         NoiseSource::Metrology => "stated in [metrology]",
+        NoiseSource::Sensors => "stated for each sensor, on the average",
         NoiseSource::Columns => "stated in the sigma_* columns",
         NoiseSource::Repeats => "from repeated readings",
         NoiseSource::Residuals => "taken from the residuals themselves",

@@ -76,6 +76,7 @@ pub(super) fn read(
         .map(|(i, ((row, r), error))| row.read(i as u64 + 2, (r + error).into(), None));
     let deflections = measurand != Measurand::AbsolutePose;
     Ok(Dataset {
+        blocks: Dataset::pose_blocks(),
         source: source.to_owned(),
         measurand,
         columns: Columns {

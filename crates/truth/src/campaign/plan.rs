@@ -28,6 +28,7 @@ impl PlanRow {
     pub fn read(&self, line: u64, measured: [f64; 6], sigma: Option<[f64; 6]>) -> Observation {
         let Situation { pose, wrench, reference, approach, delta_t, elapsed } = self.situation;
         Observation {
+            block: 0,
             pose_id: self.pose_id,
             repeat: self.repeat,
             line,

@@ -108,6 +108,7 @@ impl<'a> VirtualBench<'a> {
     pub fn dataset(&self, name: PartName) -> Result<Dataset, RowError> {
         let rows = self.measure(name, 0..self.scene.part(name).len())?;
         Ok(Dataset {
+            blocks: Dataset::pose_blocks(),
             source: name.file().to_owned(),
             measurand: self.scene.measurand(),
             columns: self.columns(),

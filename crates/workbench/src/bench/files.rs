@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::files::{parse_hexapod, read_measurements_from};
+use hexbench_core::files::{parse_hexapod, read_campaign_from};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::effects::user_term;
 use hexbench_model::{effects::term::Term, terms::catalogue};
@@ -61,8 +61,9 @@ impl Files {
     pub(super) fn read(&self, limits: &ServerLimits) -> Result<Contents, Refusal> {
         let [machine, data, holdout] = &self.names;
         let mut warnings = Vec::new();
+        let hexapod = parse_hexapod(&self.hexapod, machine)?;
         let mut measurements = |text: &str, name: &str| {
-            let reading = read_measurements_from(text.as_bytes(), name)?;
+            let reading = read_campaign_from(&hexapod, text.as_bytes(), name)?;
             let rows = reading.dataset.observations.len();
             if rows > limits.rows {
                 let rule = format!("{name} has {rows} readings; at most {} are accepted", limits.rows);
@@ -75,12 +76,9 @@ impl Files {
             warnings.extend(reading.warnings.iter().map(|w| format!("{name}: {w} {}", w.next_step())));
             Ok(reading.dataset)
         };
-        Ok(Contents {
-            hexapod: parse_hexapod(&self.hexapod, machine)?,
-            data: measurements(&self.data, data)?,
-            holdout: self.holdout.as_deref().map(|text| measurements(text, holdout)).transpose()?,
-            warnings,
-        })
+        let data = measurements(&self.data, data)?;
+        let holdout = self.holdout.as_deref().map(|text| measurements(text, holdout)).transpose()?;
+        Ok(Contents { hexapod, data, holdout, warnings })
     }
 }
 

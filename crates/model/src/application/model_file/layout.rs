@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use hexbench_core::Tolerances;
 use serde::{Deserialize, Serialize};
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -73,6 +74,26 @@ pub(super) struct HexapodTable {
     /// Absent when they are the usual ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) tolerances: Option<TolerancesTable>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) sensors: Vec<SensorTable>,
+}
+
+/// A sensor, SI.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SensorTable {
+    pub(super) name: String,
+    pub(super) kind: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) point_m: Option<[f64; 3]>,
+    /// Direction of a distance, axis of an inclination.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) direction: Option<[f64; 3]>,
+    /// From one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) leg: Option<usize>,
+    /// Of each of its numbers, m or rad.
+    pub(super) sigma: Vec<f64>,
 }
 
 /// Standard deviations of inputs, SI.
@@ -85,6 +106,18 @@ pub(super) struct TolerancesTable {
     pub(super) load_point_m: f64,
     pub(super) frame_rad: f64,
     pub(super) noise: f64,
+    #[serde(default = "usual_sensor_point")]
+    pub(super) sensor_point_m: f64,
+    #[serde(default = "usual_sensor_direction")]
+    pub(super) sensor_direction_rad: f64,
+}
+
+fn usual_sensor_point() -> f64 {
+    Tolerances::default().sensor_point
+}
+
+fn usual_sensor_direction() -> f64 {
+    Tolerances::default().sensor_direction
 }
 
 #[derive(Debug, Serialize, Deserialize)]

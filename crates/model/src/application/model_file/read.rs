@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use hexbench_core::files::nearest;
-use hexbench_core::{Hexapod, Measurand, Metrology, Tolerances, Vector3, Vector6};
+use hexbench_core::{Hexapod, Measurand, Metrology, Sensor, SensorKind, Tolerances, Vector3, Vector6};
 use nalgebra::{DMatrix, Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::layout::{
-    File, Frame, HexapodTable, LegTable, NoiseTable, ParameterTable, TermTable, TolerancesTable,
+    File, Frame, HexapodTable, LegTable, NoiseTable, ParameterTable, SensorTable, TermTable, TolerancesTable,
 };
 use super::write::mode_word;
 use super::{DataOrigin, Estimator, Model, ModelFileError};
@@ -124,11 +124,48 @@ fn hexapod(t: &HexapodTable) -> Result<Hexapod, ModelFileError> {
         mounting_plane_z: t.mounting_plane_z_m,
         payload_centre: t.payload_centre_m.map(Vector3::from),
         tolerances: t.tolerances.as_ref().map_or(Ok(Tolerances::default()), tolerances)?,
+        sensors: t.sensors.iter().map(sensor).collect::<Result<_, _>>()?,
     })
 }
 
+fn sensor(t: &SensorTable) -> Result<Sensor, ModelFileError> {
+    let key = format!("hexapod.sensors: {}", t.name);
+    finite(&key, &t.sigma)?;
+    finite(&key, t.point_m.as_ref().map_or(&[], |p| p.as_slice()))?;
+    finite(&key, t.direction.as_ref().map_or(&[], |d| d.as_slice()))?;
+    let lacks = |what: &str| rule(key.clone(), format!("a sensor of kind {} needs {what}", t.kind));
+    let point = || t.point_m.map(Vector3::from).ok_or_else(|| lacks("point_m"));
+    let direction = || t.direction.map(Vector3::from).ok_or_else(|| lacks("direction"));
+    let leg =
+        || t.leg.filter(|l| (1..=6).contains(l)).map(|l| l - 1).ok_or_else(|| lacks("a leg from 1 to 6"));
+    if t.sigma.iter().any(|s| *s <= 0.0) {
+        return Err(lacks("standard deviations greater than zero"));
+    }
+    let one = || t.sigma.first().copied().ok_or_else(|| lacks("sigma"));
+    let kind = match t.kind.as_str() {
+        "distance" => SensorKind::Distance { point: point()?, direction: direction()?, sigma: one()? },
+        "point" => {
+            let sigma = t.sigma.as_slice().try_into().map_err(|_| lacks("three standard deviations"))?;
+            SensorKind::Point { point: point()?, sigma }
+        }
+        "inclination" => SensorKind::Inclination { axis: direction()?, sigma: one()? },
+        "leg-length" => SensorKind::LegLength { leg: leg()?, sigma: one()? },
+        _ => return Err(rule(key, "the kind must be distance, point, inclination or leg-length")),
+    };
+    Ok(Sensor { name: t.name.clone(), kind })
+}
+
 fn tolerances(t: &TolerancesTable) -> Result<Tolerances, ModelFileError> {
-    let all = [t.joints_m, t.load_gain, t.load_direction_rad, t.load_point_m, t.frame_rad, t.noise];
+    let all = [
+        t.joints_m,
+        t.load_gain,
+        t.load_direction_rad,
+        t.load_point_m,
+        t.frame_rad,
+        t.noise,
+        t.sensor_point_m,
+        t.sensor_direction_rad,
+    ];
     finite("hexapod.tolerances", &all)?;
     if all.iter().any(|x| *x <= 0.0) {
         return Err(rule("hexapod.tolerances", "every tolerance must be greater than zero"));
@@ -140,6 +177,8 @@ fn tolerances(t: &TolerancesTable) -> Result<Tolerances, ModelFileError> {
         load_point: t.load_point_m,
         frame: t.frame_rad,
         noise: t.noise,
+        sensor_point: t.sensor_point_m,
+        sensor_direction: t.sensor_direction_rad,
     })
 }
 

@@ -2,12 +2,12 @@
 
 use nalgebra::Isometry3;
 
-use hexbench_core::{Hexapod, Measurand, Tolerances};
+use hexbench_core::{Hexapod, Measurand, Sensor, SensorKind, Tolerances};
 
 use super::Model;
 use super::layout::{
-    Covariance, Data, File, Frame, Frames, HexapodTable, LegTable, NoiseTable, ParameterTable, TermTable,
-    TolerancesTable,
+    Covariance, Data, File, Frame, Frames, HexapodTable, LegTable, NoiseTable, ParameterTable, SensorTable,
+    TermTable, TolerancesTable,
 };
 use crate::estimation::linearization::Active;
 use crate::estimation::parameters::parameter_names;
@@ -81,7 +81,27 @@ fn hexapod(h: &Hexapod) -> HexapodTable {
             load_point_m: h.tolerances.load_point,
             frame_rad: h.tolerances.frame,
             noise: h.tolerances.noise,
+            sensor_point_m: h.tolerances.sensor_point,
+            sensor_direction_rad: h.tolerances.sensor_direction,
         }),
+        sensors: h.sensors.iter().map(sensor).collect(),
+    }
+}
+
+fn sensor(sensor: &Sensor) -> SensorTable {
+    let bare = SensorTable {
+        name: sensor.name.clone(),
+        kind: sensor.kind.word().to_owned(),
+        sigma: (0..sensor.kind.numbers()).map(|k| sensor.kind.sigma(k)).collect(),
+        ..SensorTable::default()
+    };
+    match sensor.kind {
+        SensorKind::Distance { point, direction, .. } => {
+            SensorTable { point_m: Some(point.into()), direction: Some(direction.into()), ..bare }
+        }
+        SensorKind::Point { point, .. } => SensorTable { point_m: Some(point.into()), ..bare },
+        SensorKind::Inclination { axis, .. } => SensorTable { direction: Some(axis.into()), ..bare },
+        SensorKind::LegLength { leg, .. } => SensorTable { leg: Some(leg + 1), ..bare },
     }
 }
 

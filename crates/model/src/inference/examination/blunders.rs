@@ -9,7 +9,6 @@ use hexbench_core::statistics::median;
 use hexbench_core::{Pose, Vector6};
 use nalgebra::{DMatrix, DVector};
 
-use super::READINGS;
 use super::finding::{Finding, FindingKind, probability};
 use super::remainder::Remainder;
 use crate::estimation::campaign::Campaign;
@@ -71,8 +70,12 @@ impl Scale {
         let typical = |squares: &mut dyn Iterator<Item = f64>| {
             median(squares).map_or(1.0, |m| (m / MEDIAN_SQUARE).max(1.0))
         };
-        let single = typical(&mut rest.rows.iter().flat_map(|r| r.iter().map(|x| x * x).collect::<Vec<_>>()));
-        let mean = typical(&mut rest.means.iter().map(|x| x * x));
+        let read = |i: usize| rest.data.observations[i];
+        let rows = (0..rest.rows.len())
+            .flat_map(|i| (0..6).filter(move |&k| read(i).is_read(k)).map(move |k| (i, k)));
+        let single = typical(&mut rows.map(|(i, k)| rest.rows[i][k].powi(2)));
+        let of_group = |n: &usize| rest.campaign.groups[n / 6].reads[n % 6] > 0;
+        let mean = typical(&mut (0..rest.means.len()).filter(of_group).map(|n| rest.means[n].powi(2)));
         Self { single, mean: mean.max(single) }
     }
 }
@@ -93,9 +96,9 @@ fn numbers(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     let all = (0..rest.rows.len()).flat_map(|i| (0..6).map(move |k| (i, k)));
     let (i, k) = all.max_by(|&a, &b| z(a).abs().total_cmp(&z(b).abs()))?;
     let size = z((i, k));
-    let odds = evidence(size * size, scale.single, 1, 6 * rest.rows.len());
+    let odds = evidence(size * size, scale.single, 1, rest.campaign.numbers);
     let line = rest.data.observations[i].line;
-    let value = READINGS[k];
+    let value = rest.campaign.name_of(rest.group_of[i], k);
     let sigma = format!("{:.0} sigma", size.abs());
     let text = format!("{value} in line {line} is {sigma} away from what the other readings allow");
     Some(fault(FindingKind::Blunder, vec![i], rest, odds, sigma, text, "read the record of this line again"))
@@ -110,7 +113,7 @@ fn rows(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
             .sum::<f64>()
     };
     let i = (0..rest.rows.len()).max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
-    let odds = evidence(gain(&i), scale.single, 6, rest.rows.len());
+    let odds = evidence(gain(&i), scale.single, rest.data.observations[i].numbers(), rest.rows.len());
     let line = rest.data.observations[i].line;
     let size = format!("{:.0} sigma", rest.rows[i].amax());
     let text = format!(

@@ -81,7 +81,7 @@ impl<'a> Remainder<'a> {
 
     /// Degrees of freedom of the averaged numbers.
     pub(super) fn freedom(&self) -> f64 {
-        (self.means.len() - self.basis.ncols()) as f64 - self.taken
+        self.lin.numbers() - self.basis.ncols() as f64 - self.taken
     }
 
     /// Readings of a group.
@@ -122,6 +122,6 @@ fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> 
         columns.extend(chosen.map(|&(rich, shape)| lin.term_block(term.as_ref(), rich, shape)));
     }
     let basis = orthonormal(&beside(&columns));
-    let most = LARGEST_SHARE * lin.equations() as f64;
+    let most = LARGEST_SHARE * lin.numbers();
     if basis.ncols() as f64 <= most { basis } else { orthonormal(&beside(&explained(lin, point))) }
 }

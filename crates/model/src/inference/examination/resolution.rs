@@ -16,7 +16,7 @@ use hexbench_core::{Dataset, Measurand};
 
 use super::finding::{Finding, FindingKind};
 use crate::estimation::campaign::row_sigma;
-use crate::estimation::noise::{Noise, NoiseSource};
+use crate::estimation::noise::Noise;
 
 /// Least readings that can tell a step: by chance all of them are multiples of twice the true one in `2^-n` of all cases.
 const LEAST_READINGS: usize = 10;
@@ -88,7 +88,7 @@ impl Resolution {
     /// Of readings with this noise; none when no step matters.
     pub(super) fn of(data: &Dataset, noise: &Noise) -> Option<Self> {
         let rows = &data.observations;
-        if rows.len() < LEAST_READINGS {
+        if rows.len() < LEAST_READINGS || data.has_other_readings() {
             return None;
         }
         let columns = Column::all(data.measurand);
@@ -109,7 +109,7 @@ impl Resolution {
 
     /// Readings and noise with what rounding adds. Noise taken from repeats or residuals has it already, as far as it shows there.
     pub(super) fn apply(&self, data: &mut Dataset, noise: &mut Noise) {
-        let is_stated = matches!(noise.source, NoiseSource::Metrology | NoiseSource::Columns);
+        let is_stated = noise.is_stated();
         let wider = |sigma: f64, rounding: f64| {
             if is_stated { sigma.hypot(rounding) } else { sigma.max(rounding) }
         };

@@ -12,7 +12,7 @@ use nalgebra::Matrix6;
 use statrs::function::gamma::ln_gamma;
 
 use super::remainder::Remainder;
-use crate::estimation::noise::{AxesCovariance, NoiseSource, SharedReference, Structure};
+use crate::estimation::noise::{AxesCovariance, SharedReference, Structure};
 use crate::estimation::whitening::Filter;
 
 /// How well an instrument's noise is known, relative.
@@ -73,8 +73,10 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
             }),
         );
     }
-    all.push(judge.drift());
-    all.extend(judge.axes());
+    if rest.campaign.reads_poses {
+        all.push(judge.drift());
+        all.extend(judge.axes());
+    }
     all.push(judge.tails());
     all.push(judge.law(rest));
     all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
@@ -85,6 +87,9 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
 struct Judge {
     /// Single readings over the stated noise, freed of what the fit took.
     rows: Vec<Vector6>,
+    /// Which of their numbers were read, and how many in all.
+    read: Vec<[bool; 6]>,
+    numbers: f64,
     /// Line of each in the file.
     lines: Vec<usize>,
     /// Rows of each group, pose, and repeat at a pose.
@@ -103,7 +108,7 @@ struct Judge {
 
 impl Judge {
     fn new(rest: &Remainder<'_>) -> Self {
-        let freed = (rest.means.len() as f64 / rest.freedom().max(1.0)).sqrt();
+        let freed = (rest.lin.numbers() / rest.freedom().max(1.0)).sqrt();
         let means: Vec<Vector6> =
             (0..rest.campaign.groups.len()).map(|g| rest.means.fixed_rows::<6>(6 * g) * freed).collect();
         let row = |i: usize| {
@@ -114,6 +119,7 @@ impl Judge {
         let rows: Vec<Vector6> = (0..rest.rows.len()).map(row).collect();
         let all: f64 = rows.iter().map(Vector6::norm_squared).sum();
         let between: f64 = means.iter().map(Vector6::norm_squared).sum();
+        // Of readings of one block: those of another look at other things.
         let record = |i: usize| rest.campaign.groups[rest.group_of[i]].record;
         let repeat = |i: usize| rest.data.observations[i].repeat;
         Self {
@@ -121,16 +127,18 @@ impl Judge {
             poses: gathered(rows.len(), record),
             records: gathered(rows.len(), |i| (record(i), repeat(i))),
             within: (all - between).max(0.0),
-            is_stated: matches!(rest.campaign.noise.source, NoiseSource::Metrology | NoiseSource::Columns),
+            is_stated: rest.campaign.noise.is_stated(),
             has_repeats: rows.len() > means.len(),
             lines: rest.data.observations.iter().map(|o| usize::try_from(o.line).unwrap_or(0)).collect(),
+            read: rest.data.observations.iter().map(|o| std::array::from_fn(|k| o.is_read(k))).collect(),
+            numbers: rest.campaign.numbers as f64,
             rows,
             means,
         }
     }
 
     fn numbers(&self) -> f64 {
-        6.0 * self.rows.len() as f64
+        self.numbers
     }
 
     /// What a level costs that is not the stated one.
@@ -176,23 +184,26 @@ impl Judge {
 
     /// Rows of a block share an error.
     fn blocks(&self, blocks: &[Vec<usize>], structure: impl Fn(f64) -> Structure) -> Statement {
-        let sums: Vec<(f64, f64, f64)> = blocks.iter().map(|rows| self.sums(rows)).collect();
+        let sums: Vec<(f64, f64, f64)> =
+            blocks.iter().flat_map(|rows| (0..6).filter_map(|k| self.sums(rows, k))).collect();
         let law = |share: f64| {
             let of = |&(m, all, common): &(f64, f64, f64)| {
                 let (own, joint) = (1.0 - share, 1.0 + (m - 1.0) * share);
-                (3.0 * ((m - 1.0) * own.ln() + joint.ln()), (all - common) / own + common / joint)
+                (0.5 * ((m - 1.0) * own.ln() + joint.ln()), (all - common) / own + common / joint)
             };
             sums.iter().map(of).fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1))
         };
         self.best(|share| Kind::Common(structure(share)), law)
     }
 
-    /// Number of rows, their squares, and the squares of their mean.
-    fn sums(&self, rows: &[usize]) -> (f64, f64, f64) {
-        let m = rows.len() as f64;
-        let all = rows.iter().map(|&i| self.rows[i].norm_squared()).sum();
-        let sum: Vector6 = rows.iter().map(|&i| self.rows[i]).sum();
-        (m, all, sum.norm_squared() / m)
+    /// How many of these rows have a number, their squares, and the square of their mean; none where no row has it.
+    fn sums(&self, rows: &[usize], number: usize) -> Option<(f64, f64, f64)> {
+        let (mut m, mut all, mut sum) = (0.0, 0.0, 0.0);
+        for &i in rows.iter().filter(|&&i| self.read[i][number]) {
+            let x = self.rows[i][number];
+            (m, all, sum) = (m + 1.0, all + x * x, sum + x);
+        }
+        (m > 0.0).then(|| (m, all, sum * sum / m))
     }
 
     /// Part of each row resembles the row before.
@@ -244,12 +255,14 @@ impl Judge {
 
     /// Student's t; its level is that of the Gaussian in the middle of it.
     fn tails(&self) -> Statement {
+        let of_row = |i: usize| (0..6).filter(move |&k| self.read[i][k]).map(move |k| self.rows[i][k]);
+        let read: Vec<f64> = (0..self.rows.len()).flat_map(of_row).collect();
         let at = |freedom: f64, level: f64| {
             // Over the constant of a Gaussian, which the other statements leave out.
             let constant =
                 ln_gamma(f64::midpoint(freedom, 1.0)) - ln_gamma(0.5 * freedom) - 0.5 * (0.5 * freedom).ln();
             let one = |x: &f64| -f64::midpoint(freedom, 1.0) * (1.0 + (x / level).powi(2) / freedom).ln();
-            let sum: f64 = self.rows.iter().flat_map(|r| r.iter()).map(one).sum();
+            let sum: f64 = read.iter().map(one).sum();
             sum + self.numbers() * (constant - level.ln())
         };
         let levels = (-12..=12).map(|k| (0.1 * f64::from(k)).exp());

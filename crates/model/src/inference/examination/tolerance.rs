@@ -41,7 +41,7 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     let normal = rest.inputs.tr_mul(&rest.inputs) - overlap.tr_mul(&overlap);
     let right: DVector<f64> = rest.inputs.tr_mul(&y);
     let scaled = |kind: InputKind, factor: f64| {
-        let mut scales = DVector::repeat(InputKind::COLUMNS, 1.0);
+        let mut scales = DVector::repeat(rest.inputs.ncols(), 1.0);
         scales.rows_range_mut(kind.columns()).fill(factor);
         scales
     };

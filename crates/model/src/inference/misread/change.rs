@@ -182,7 +182,9 @@ impl Change {
                 FindingKind::DeflectionSign
             }
             Self::Reversed(Signed::Rotations | Signed::Reading(_)) => FindingKind::RotationSign,
-            Self::Reversed(Signed::Wrench | Signed::Forces | Signed::Load(0..=2) | Signed::Reference) => FindingKind::WrenchSign,
+            Self::Reversed(Signed::Wrench | Signed::Forces | Signed::Load(0..=2) | Signed::Reference) => {
+                FindingKind::WrenchSign
+            }
             Self::Reversed(Signed::Moments | Signed::Load(_)) => FindingKind::MomentSign,
             Self::StatesExchanged => FindingKind::StatesExchanged,
             Self::Scaled(..) => FindingKind::Unit,

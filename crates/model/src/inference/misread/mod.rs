@@ -145,7 +145,7 @@ impl Readings {
 
 /// Other ways to read a file that springs alone do not explain as it is written; none when they do, or when no other way is better.
 pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
-    if data.is_absolute() {
+    if data.is_absolute() || data.has_other_readings() {
         return None;
     }
     let sample = Sample::new(hexapod, data)?;

@@ -18,7 +18,6 @@ use nalgebra::DVector;
 use super::AsMeant;
 use super::change::{Change, Group};
 use crate::estimation::campaign::Campaign;
-use crate::estimation::noise::NoiseSource;
 use crate::machine::geometry::Machine;
 use crate::machine::kinematics::{Legs, euler_rate_matrix};
 
@@ -115,7 +114,7 @@ impl Sample {
         let means = chosen.iter().map(|g| g.mean).collect();
         let thinned = Dataset { observations: means, ..like(data) };
         let sigma = chosen.iter().map(|g| Vector6::from_column_slice(&g.sigma)).collect();
-        let noise_is_stated = matches!(campaign.noise.source, NoiseSource::Metrology | NoiseSource::Columns);
+        let noise_is_stated = campaign.noise.is_stated();
         let legs = legs(hexapod, &thinned);
         Some(Self {
             hexapod: hexapod.clone(),
@@ -281,7 +280,7 @@ impl Factors {
 /// The same file without readings.
 pub(super) fn like(data: &Dataset) -> Dataset {
     let (source, measurand, columns) = (data.source.clone(), data.measurand, data.columns);
-    Dataset { source, measurand, columns, observations: Vec::new() }
+    Dataset { source, measurand, columns, blocks: data.blocks.clone(), observations: Vec::new() }
 }
 
 fn legs(hexapod: &Hexapod, data: &Dataset) -> Vec<Option<Legs>> {

@@ -150,7 +150,9 @@ fn reversed(signed: Signed) -> String {
         Signed::Forces => "the forces seem to have".to_owned(),
         Signed::Moments => "the moments seem to have".to_owned(),
         Signed::Load(k) => format!("{} seems to have", LOADS[usize::from(k)]),
-        Signed::Reference => "the loads of the reference state, but not those of the loaded one, seem to have".to_owned(),
+        Signed::Reference => {
+            "the loads of the reference state, but not those of the loaded one, seem to have".to_owned()
+        }
     }
 }
 

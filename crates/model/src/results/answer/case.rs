@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hexbench_core::files::{read_conditions, read_hexapod, read_measurements};
+use hexbench_core::files::{read_campaign, read_conditions, read_hexapod};
 use hexbench_core::{Dataset, Hexapod};
 
 use super::AnswerError;
@@ -24,9 +24,10 @@ impl CaseFiles {
     /// # Errors
     /// The first thing that is wrong with a file.
     pub fn read(folder: &Path) -> Result<Self, AnswerError> {
+        let hexapod = read_hexapod(&folder.join("hexapod.toml"))?;
         Ok(Self {
-            hexapod: read_hexapod(&folder.join("hexapod.toml"))?,
-            measurements: read_measurements(&folder.join("measurements.csv"))?.dataset,
+            measurements: read_campaign(&hexapod, &folder.join("measurements.csv"))?.dataset,
+            hexapod,
             asked: read_conditions(&folder.join("predict.csv"))?.dataset,
         })
     }

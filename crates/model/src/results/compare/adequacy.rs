@@ -74,10 +74,10 @@ impl Adequacy {
 /// All tests the data allow.
 pub fn adequacy(judged: &JudgedModel<'_>) -> Adequacy {
     let lack = judged.lin.residuals().norm_squared();
-    let dof = judged.lin.equations() as f64 - judged.rank;
+    let dof = judged.lin.numbers() - judged.rank;
     let (pure, pure_dof) = (judged.campaign.pure_error, judged.campaign.pure_error_dof);
     let noise = judged.campaign.noise;
-    let stated = matches!(noise.source, NoiseSource::Columns | NoiseSource::Metrology);
+    let stated = noise.is_stated();
     let by_repeats = (noise.source == NoiseSource::Repeats).then(|| f_test(lack, dof, noise.dof, noise.dof));
     Adequacy {
         lack_of_fit_chi2: if stated { chi2_test(lack, dof) } else { None },

@@ -3,7 +3,7 @@
 //! `e = L H^-1 r` with `r` the residual of the averaged readings, `H` the observer (measured coordinates from twist) and
 //! `L` the geometric leg Jacobian; the covariance of `e` follows from that of the reading.
 
-use hexbench_core::statistics::root_mean_square;
+use hexbench_core::{Channel, statistics::root_mean_square};
 use hexbench_core::{Matrix6, Vector6};
 use serde::Serialize;
 
@@ -35,6 +35,12 @@ pub struct LegSpace {
 pub fn leg_space(campaign: &Campaign, lin: &Linearization) -> LegSpace {
     let mut space = LegSpace { elongation: Vec::new(), sigma: Vec::new() };
     for (i, (c, group)) in lin.conditions.iter().zip(&campaign.groups).enumerate() {
+        if group.channels != Channel::POSE || group.numbers() < 6 {
+            // Fewer numbers than legs, or numbers of other things: not determined.
+            space.elongation.push(Vector6::zeros());
+            space.sigma.push(Vector6::repeat(f64::INFINITY));
+            continue;
+        }
         // Only at beta = +-90 deg, where the reading says nothing of two rotations.
         let to_legs = c.observer.try_inverse().map_or_else(Matrix6::zeros, |h| c.legs.leg_jacobian * h);
         let whitened = to_legs * Matrix6::from_diagonal(&Vector6::from_column_slice(&group.sigma));

@@ -183,7 +183,7 @@ impl<'a> JudgedModel<'a> {
 }
 
 fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>, settled: bool) -> Comparison {
-    let dof = 6.0 * judged.rows.len() as f64 - judged.rank;
+    let dof = judged.campaign.numbers as f64 - judged.rank;
     Comparison {
         format: "comparison/1",
         terms: judged.point.active.iter().map(|a| a.id().to_owned()).collect(),

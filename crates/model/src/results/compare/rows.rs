@@ -40,21 +40,18 @@ pub struct Outlier {
 /// Poses with the largest errors, worst first.
 pub fn worst_poses(judged: &JudgedModel<'_>) -> Vec<WorstPose> {
     let mut poses: BTreeMap<i64, (u64, usize, f64)> = BTreeMap::new();
+    let mut numbers: BTreeMap<i64, usize> = BTreeMap::new();
     for r in &judged.rows {
         let o = &judged.data.observations[r.row];
         let entry = poses.entry(o.pose_id).or_insert((o.line, 0, 0.0));
         entry.1 += 1;
         entry.2 += r.whitened.norm_squared();
+        *numbers.entry(o.pose_id).or_default() += r.numbers();
     }
-    let rms = |n: usize, sum: f64| (sum / (6 * n) as f64).sqrt();
+    let rms = |pose: i64, sum: f64| (sum / numbers[&pose].max(1) as f64).sqrt();
     let mut all: Vec<WorstPose> = poses
         .into_iter()
-        .map(|(pose, (line, readings, sum))| WorstPose {
-            pose,
-            line,
-            readings,
-            whitened_rms: rms(readings, sum),
-        })
+        .map(|(pose, (line, readings, sum))| WorstPose { pose, line, readings, whitened_rms: rms(pose, sum) })
         .collect();
     all.sort_by(|a, b| b.whitened_rms.total_cmp(&a.whitened_rms));
     all.truncate(POSES);
@@ -64,10 +61,11 @@ pub fn worst_poses(judged: &JudgedModel<'_>) -> Vec<WorstPose> {
 /// Readings whose distance over six coordinates is beyond chance, against the typical distance in the file, so that a bad
 /// model does not make every reading suspect.
 pub fn outliers(judged: &JudgedModel<'_>) -> Vec<Outlier> {
-    let Ok(law) = ChiSquared::new(6.0) else { return Vec::new() };
+    let laws: Vec<Option<ChiSquared>> = (0..=6).map(|n| ChiSquared::new(f64::from(n)).ok()).collect();
     let typical = typical_square(&judged.rows).max(1.0);
     let n = judged.rows.len() as f64;
     let candidate = |r: &crate::estimation::residuals::Residual| {
+        let law = laws[r.numbers()].as_ref()?;
         let p = (n * law.sf(r.whitened.norm_squared() / typical)).min(1.0);
         let line = judged.data.observations[r.row].line;
         (p < CHANCE).then(|| Outlier { line, z: r.whitened.amax(), p })

@@ -147,7 +147,7 @@ pub fn prepare(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError
     let first = fit(&campaign, &[], None)?;
     let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &first.point)?);
     let rms = summarise(&rows, None).rms;
-    let inflate = (6.0 * rows.len() as f64 / first.dof.max(1.0)).sqrt();
+    let inflate = (campaign.numbers as f64 / first.dof.max(1.0)).sqrt();
     let noise = Noise {
         translation: (rms.translation_um * 1e-6 * inflate).max(1e-12),
         rotation: (rms.rotation_urad * 1e-6 * inflate).max(1e-12),

@@ -64,11 +64,14 @@ impl Belief {
 /// # Errors
 /// [`ModelError::TooFewEquations`] for an empty list.
 pub(super) fn as_plan(campaign: &Campaign, readings: &[Observation]) -> Result<Campaign, ModelError> {
-    let once = readings.iter().map(|o| Observation { sigma: None, ..*o });
+    // What is read with sensors states its noise number by number.
+    let sigma = |o: &Observation| o.sigma.filter(|_| !campaign.reads_poses);
+    let once = readings.iter().map(|o| Observation { sigma: sigma(o), ..*o });
     let dataset = Dataset {
         source: String::new(),
         measurand: campaign.measurand,
         columns: campaign.columns,
+        blocks: campaign.blocks.clone(),
         observations: once.collect(),
     };
     Campaign::in_frames(&campaign.hexapod, &dataset, campaign.noise, campaign.frames)

@@ -7,6 +7,7 @@ use super::random::Random;
 /// A reading of a pose under a load, nothing measured yet.
 pub(crate) fn reading(pose: Pose, wrench: Wrench, reference: Wrench) -> Observation {
     Observation {
+        block: 0,
         pose_id: 0,
         repeat: 1,
         line: 2,
@@ -27,7 +28,7 @@ pub(crate) fn dataset(measurand: Measurand, mut observations: Vec<Observation>) 
         o.line = i as u64 + 2;
     }
     let columns = Columns { reference: true, ..Columns::default() };
-    Dataset { source: "test".into(), measurand, columns, observations }
+    Dataset { blocks: hexbench_core::Dataset::pose_blocks(), source: "test".into(), measurand, columns, observations }
 }
 
 /// A pose within +-`millimetres` and +-`degrees` of zero.

@@ -1,0 +1,129 @@
+//! Columns that the sensors of a machine fill.
+
+use super::column_name::without_brackets;
+use super::line::Line;
+use super::stated_unit::stated_unit;
+use super::units::{Unit, unit_named};
+use super::{Dimension, FileProblem};
+use crate::{Channel, Sensor, SensorKind};
+
+/// A column of a sensor.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SensorSource {
+    /// What it reads.
+    pub(crate) channel: Channel,
+    /// True when it holds standard deviations, of all numbers of the sensor.
+    pub(crate) is_sigma: bool,
+    pub(crate) unit: &'static Unit,
+}
+
+/// The column of a sensor that `text` names; none when it names no sensor.
+pub(crate) fn sensor_column(text: &str, sensors: &[Sensor]) -> Option<Result<SensorSource, FileProblem>> {
+    let (base, bracketed) = without_brackets(text.trim());
+    let base = base.trim().replace([' ', '-'], "_").to_lowercase();
+    let rest_of = |sensor: &Sensor| {
+        let rest = base.strip_prefix(&sensor.name)?;
+        (rest.is_empty() || rest.starts_with('_')).then(|| rest.trim_start_matches('_').to_owned())
+    };
+    let named = sensors.iter().enumerate().filter_map(|(i, s)| Some((i, s, rest_of(s)?)));
+    let (index, sensor, rest) = named.max_by_key(|(_, s, _)| s.name.len())?;
+    Some(source(index, sensor, &rest, bracketed))
+}
+
+fn source(
+    index: usize,
+    sensor: &Sensor,
+    rest: &str,
+    bracketed: Option<&str>,
+) -> Result<SensorSource, FileProblem> {
+    let (is_sigma, rest) = rest.strip_prefix("sigma").map_or((false, rest), |r| (true, r.trim_matches('_')));
+    let has_axis = !is_sigma && matches!(sensor.kind, SensorKind::Point { .. });
+    let (axis, unit) = if has_axis { rest.split_once('_').unwrap_or((rest, "")) } else { ("", rest) };
+    let Some(number) = (if has_axis { ["x", "y", "z"].iter().position(|a| *a == axis) } else { Some(0) })
+    else {
+        let rule = format!("{} is a point: its columns are {}", sensor.name, usual_names(sensor).join(", "));
+        return Err(FileProblem::Rule { rule, next: "Name the axis in the column.".to_owned() });
+    };
+    let kind = if sensor.kind.is_angle() { Dimension::Angle } else { Dimension::Length };
+    let usual = usual_names(sensor)[number].clone();
+    let unit = bracketed.or(Some(unit).filter(|u| !u.is_empty()));
+    let unit = stated_unit(&sensor.column(number), kind, usual, unit)?;
+    Ok(SensorSource { channel: Channel::Sensor { sensor: index, number }, is_sigma, unit })
+}
+
+/// Names of the columns of a sensor with their usual units.
+pub(crate) fn usual_names(sensor: &Sensor) -> Vec<String> {
+    let unit = if sensor.kind.is_angle() { "urad" } else { "um" };
+    (0..sensor.kind.numbers()).map(|number| format!("{}_{unit}", sensor.column(number))).collect()
+}
+
+/// Refuses an unknown column that looks like that of a sensor: ignored, it would be believed to be in use.
+pub(crate) fn refuse_unknown_sensor(text: &str) -> Result<(), FileProblem> {
+    let (base, bracketed) = without_brackets(text.trim());
+    let (stem, unit) = match bracketed {
+        Some(unit) => (base.trim(), unit),
+        None => base.trim().rsplit_once('_').unwrap_or((base, "")),
+    };
+    let of_kind = |kind| unit_named(unit, kind).is_some_and(|u| u.kind == kind);
+    if unit.is_empty() || !(of_kind(Dimension::Length) || of_kind(Dimension::Angle)) {
+        return Ok(());
+    }
+    let rule = format!("no sensor of the hexapod file is called \"{}\"", stem.to_lowercase());
+    let next = "Add a [[sensor]] of that name to the hexapod file, or begin the name of the column with x_ to have it ignored.";
+    Err(FileProblem::Rule { rule, next: next.to_owned() })
+}
+
+/// Every number of every sensor has one column.
+pub(crate) fn refuse_missing_sensors(
+    cells: &[Option<SensorSource>],
+    sensors: &[Sensor],
+    line: &Line<'_>,
+) -> Result<(), (Option<usize>, FileProblem)> {
+    let values = |channel: Channel, is_sigma: bool| {
+        let is_it = move |s: &SensorSource| s.channel == channel && s.is_sigma == is_sigma;
+        (0..cells.len()).filter(move |&cell| cells[cell].as_ref().is_some_and(is_it))
+    };
+    for (index, sensor) in sensors.iter().enumerate() {
+        for number in 0..sensor.kind.numbers() {
+            let channel = Channel::Sensor { sensor: index, number };
+            for is_sigma in [false, true] {
+                let mut all = values(channel, is_sigma);
+                let first = all.next();
+                if let (Some(first), Some(later)) = (first, all.next()) {
+                    let problem = FileProblem::DuplicateColumn {
+                        quantity: sensor.column(number),
+                        first: first + 1,
+                        first_name: line.text(first).into(),
+                    };
+                    return Err((Some(later), problem));
+                }
+                if !is_sigma && first.is_none() {
+                    let rule = format!("sensor \"{}\" of the hexapod file has no column", sensor.name);
+                    let names = usual_names(sensor).join(", ");
+                    let next = format!(
+                        "Add {names}, with empty cells where nothing was read, or remove the sensor."
+                    );
+                    return Err((None, FileProblem::Rule { rule, next }));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Channels in blocks of six: a full pose by itself, the rest as it comes.
+pub(crate) fn blocks(pose: &[usize], sensors: &[Sensor]) -> Vec<[Channel; 6]> {
+    let of_sensors = sensors
+        .iter()
+        .enumerate()
+        .flat_map(|(sensor, s)| (0..s.kind.numbers()).map(move |number| Channel::Sensor { sensor, number }));
+    let poses = pose.iter().map(|&k| Channel::Pose(k));
+    let block =
+        |channels: &[Channel]| std::array::from_fn(|k| channels.get(k).copied().unwrap_or(Channel::Nothing));
+    if pose.len() == 6 {
+        let rest: Vec<Channel> = of_sensors.collect();
+        return std::iter::once(Channel::POSE).chain(rest.chunks(6).map(block)).collect();
+    }
+    let all: Vec<Channel> = poses.chain(of_sensors).collect();
+    all.chunks(6).map(block).collect()
+}

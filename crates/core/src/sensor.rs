@@ -1,0 +1,172 @@
+//! What reads a deflection when no full pose does: gauges, reflectors, levels, scales.
+//!
+//! A sensor reads the difference between the loaded and the reference state. With `p` a point of the platform (mobile frame) and
+//! `[R, t]` the pose of the platform:
+//!
+//! ```text
+//! distance      u . (R_l p + t_l - R_r p - t_r)     u: direction, fixed axes
+//! point              R_l p + t_l - R_r p - t_r       three numbers, fixed axes
+//! inclination   a . rotation vector                  a: axis, fixed axes
+//! leg-length    |q_i| loaded - |q_i| reference       q_i: from base joint to platform joint
+//! ```
+
+use crate::{Measurand, Metrology, Vector3};
+
+/// Standard deviation of a number that was not read (m or rad): it weighs nothing beside any that was.
+pub const UNREAD: f64 = 1e15;
+
+/// A sensor of a machine. SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    /// Name, with which its columns begin.
+    pub name: String,
+    /// What it reads.
+    pub kind: SensorKind,
+}
+
+/// What a sensor reads, and the standard deviation of one reading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SensorKind {
+    /// Displacement of a point along a direction: dial gauge, interferometer, capacitive probe.
+    Distance {
+        /// Point of the platform, mobile frame, m.
+        point: Vector3,
+        /// Unit vector, fixed axes.
+        direction: Vector3,
+        /// m.
+        sigma: f64,
+    },
+    /// Displacement of a point: reflector of a tracker, ball of a coordinate measuring machine.
+    Point {
+        /// Point of the platform, mobile frame, m.
+        point: Vector3,
+        /// Along each of the fixed axes, m.
+        sigma: [f64; 3],
+    },
+    /// Rotation about an axis: level, autocollimator.
+    Inclination {
+        /// Unit vector, fixed axes.
+        axis: Vector3,
+        /// rad.
+        sigma: f64,
+    },
+    /// Growth of the distance between the two joints of a leg: scale beside it.
+    LegLength {
+        /// Leg, from zero.
+        leg: usize,
+        /// m.
+        sigma: f64,
+    },
+}
+
+impl SensorKind {
+    /// Its word in files.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Distance { .. } => "distance",
+            Self::Point { .. } => "point",
+            Self::Inclination { .. } => "inclination",
+            Self::LegLength { .. } => "leg-length",
+        }
+    }
+
+    /// Numbers in one reading.
+    pub fn numbers(&self) -> usize {
+        if matches!(self, Self::Point { .. }) { 3 } else { 1 }
+    }
+
+    /// True when it reads angles.
+    pub fn is_angle(&self) -> bool {
+        matches!(self, Self::Inclination { .. })
+    }
+
+    /// Standard deviation of one of its numbers, m or rad.
+    pub fn sigma(&self, number: usize) -> f64 {
+        match self {
+            Self::Point { sigma, .. } => sigma[number],
+            Self::Distance { sigma, .. }
+            | Self::Inclination { sigma, .. }
+            | Self::LegLength { sigma, .. } => *sigma,
+        }
+    }
+}
+
+impl Sensor {
+    /// Name of one of its columns, without unit: `g1`, or `ball_x`.
+    pub fn column(&self, number: usize) -> String {
+        match self.kind {
+            SensorKind::Point { .. } => format!("{}_{}", self.name, ["x", "y", "z"][number]),
+            _ => self.name.clone(),
+        }
+    }
+}
+
+/// What a number that was or was not read is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum NumberKind {
+    /// It was not read.
+    #[default]
+    Unread,
+    /// A length, m.
+    Length,
+    /// An angle, rad.
+    Angle,
+}
+
+/// What one number of a row reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Channel {
+    /// One of the six pose numbers: translations, then rotations.
+    Pose(usize),
+    /// One number of a sensor.
+    Sensor {
+        /// Index of the sensor in its machine.
+        sensor: usize,
+        /// Which of its numbers.
+        number: usize,
+    },
+    /// Nothing: a place that is left over.
+    #[default]
+    Nothing,
+}
+
+impl Channel {
+    /// The six numbers of a full pose.
+    pub const POSE: [Self; 6] =
+        [Self::Pose(0), Self::Pose(1), Self::Pose(2), Self::Pose(3), Self::Pose(4), Self::Pose(5)];
+
+    /// True when it reads an angle.
+    pub fn is_angle(self, sensors: &[Sensor]) -> bool {
+        match self {
+            Self::Pose(k) => k >= 3,
+            Self::Sensor { sensor, .. } => sensors.get(sensor).is_some_and(|s| s.kind.is_angle()),
+            Self::Nothing => false,
+        }
+    }
+
+    /// Name of its column, without unit.
+    pub fn name(self, sensors: &[Sensor], measurand: Measurand) -> String {
+        let rotations = match measurand {
+            Measurand::DeflectionRotationVector => ["drx", "dry", "drz"],
+            Measurand::DeflectionEuler | Measurand::AbsolutePose => ["dalpha", "dbeta", "dgamma"],
+        };
+        match self {
+            Self::Pose(k) if k < 3 => ["da", "db", "dc"][k].to_owned(),
+            Self::Pose(k) => rotations[k - 3].to_owned(),
+            Self::Sensor { sensor, number } => {
+                sensors.get(sensor).map_or_else(String::new, |s| s.column(number))
+            }
+            Self::Nothing => String::new(),
+        }
+    }
+
+    /// Standard deviation that the machine states for it, m or rad.
+    pub fn stated_sigma(self, sensors: &[Sensor], metrology: Option<Metrology>) -> Option<f64> {
+        match self {
+            Self::Pose(k) if k < 3 => metrology.map(|m| m.sigma_translation),
+            Self::Pose(_) => metrology.map(|m| m.sigma_rotation),
+            Self::Sensor { sensor, number } => sensors.get(sensor).map(|s| s.kind.sigma(number)),
+            Self::Nothing => Some(UNREAD),
+        }
+    }
+}
