@@ -79,6 +79,8 @@ pub struct Condition {
     pub weight: Vector6,
     /// How many of the six numbers were read.
     pub numbers: usize,
+    /// True when they are those of a pose.
+    pub reads_pose: bool,
 }
 
 /// Leg forces (N, tension positive) along the way from the unloaded machine to the reading.
@@ -142,8 +144,11 @@ pub(crate) fn pose_key(group: &ConditionReadings) -> [u64; 6] {
 
 impl Condition {
     /// Geometric twist of the platform at the mobile origin that reads like this; zero at beta = +-90 deg, where a reading says nothing
-    /// of two rotations.
+    /// of two rotations, and where something else than a full pose was read.
     pub fn motion(&self, reading: &Vector6) -> Vector6 {
+        if !self.reads_pose || self.numbers < 6 {
+            return Vector6::zeros();
+        }
         self.observer.try_inverse().map_or_else(Vector6::zeros, |h| h * reading)
     }
 
@@ -413,6 +418,7 @@ impl Campaign {
             observer,
             weight: Vector6::from_fn(|k, _| 1.0 / group.sigma[k]),
             numbers: group.numbers(),
+            reads_pose: group.channels == Channel::POSE,
             legs,
         })
     }

@@ -1,6 +1,7 @@
 //! `metrology-drift`: the measurement drifts with time.
 //!
-//! What drifts are the numbers as the file states them: three coordinates, and three Euler angles or a rotation vector.
+//! What drifts are the numbers as the file states them: three coordinates, and three Euler angles or a rotation vector. Read with sensors,
+//! the frame on which they stand drifts: three coordinates and a rotation vector.
 
 use hexbench_core::Matrix6;
 
@@ -43,8 +44,9 @@ impl Term for MetrologyDrift {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        // The motion of the platform that would read like the drift.
-        let motion = at.observer.try_inverse().unwrap_or_else(Matrix6::identity) * at.elapsed;
+        // The motion of the platform that would read like the drift; sensors stand on a frame that drifts as a whole.
+        let of_numbers = if at.reads_pose { at.observer.try_inverse() } else { None };
+        let motion = of_numbers.unwrap_or_else(Matrix6::identity) * at.elapsed;
         out.extend(motion.column_iter().map(|c| Action::Twist(c.into_owned())));
     }
 }
