@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use hexbench_app::Failure;
-use hexbench_core::Dataset;
 use hexbench_core::files::{
-    Cells, FileError, GroupPurpose, MemoryColumn, TableReading, content_hash, measurements_to_columns,
-    measurements_to_csv, read_campaign, read_campaign_from, read_columns,
+    Cells, FileError, GroupPurpose, MemoryColumn, TableReading, campaign_to_csv, content_hash,
+    measurements_to_columns, read_campaign, read_campaign_from, read_columns,
 };
+use hexbench_core::{Dataset, Hexapod};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -80,7 +80,7 @@ impl PyCampaign {
         let columns = memory_columns(py, names, &columns)?;
         beside(py, move || {
             let reading = read_columns(&columns, &name, GroupPurpose::Measurements, Some(&machine.hexapod))?;
-            let origin = Origin::in_memory(&name, &csv(&reading.dataset));
+            let origin = Origin::in_memory(&name, &csv(&machine.hexapod, &reading.dataset));
             Ok(Self::of(machine, reading, origin))
         })
     }
@@ -93,7 +93,7 @@ impl PyCampaign {
 
     /// The text of measurements.csv.
     fn to_csv(&self) -> String {
-        csv(&self.0.data)
+        csv(&self.0.machine.hexapod, &self.0.data)
     }
 
     /// Number of readings.
@@ -125,9 +125,9 @@ impl PyCampaign {
 }
 
 /// The file that would be written. Numbers that a reader has passed can be written.
-fn csv(data: &Dataset) -> String {
+fn csv(hexapod: &Hexapod, data: &Dataset) -> String {
     let mut text = Vec::new();
-    let _ = measurements_to_csv(&mut text, data);
+    let _ = campaign_to_csv(&mut text, hexapod, data);
     String::from_utf8_lossy(&text).into_owned()
 }
 

@@ -2,7 +2,7 @@
 //!
 //! | file | read | write |
 //! |---|---|---|
-//! | `measurements.csv` | [`read_campaign`], without sensors [`read_measurements`] | [`write_measurements`] |
+//! | `measurements.csv` | [`read_campaign`], without sensors [`read_measurements`] | [`write_campaign`], of full poses [`write_measurements`] |
 //! | poses and loads to predict | [`read_conditions`] | - |
 //! | poses and loads to be measured | [`read_plan`] | - |
 //! | any of these, in memory | [`read_columns`] | [`measurements_to_columns`] |
@@ -43,6 +43,7 @@ mod toml_file;
 mod toml_value;
 mod units;
 mod warning;
+mod write_campaign;
 mod write_hexapod;
 mod write_measurements;
 
@@ -64,6 +65,7 @@ pub use toml_file::{Format, read_toml, read_toml_text};
 pub use toml_value::{Item, KeyUnit, TomlSection};
 pub use units::{Dimension, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};
+pub use write_campaign::{campaign_to_csv, write_campaign};
 pub use write_hexapod::{hexapod_to_toml, write_hexapod};
 pub use write_measurements::{
     MeasurementsWriter, conditions_to_columns, measurements_to_columns, measurements_to_csv,

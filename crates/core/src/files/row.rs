@@ -121,7 +121,7 @@ impl FilledRow {
 pub(crate) fn no_sigma() -> FileProblem {
     FileProblem::Rule {
         rule: "the standard deviations of the pose numbers are not stated, and cells are empty or sensors stand beside them".to_owned(),
-        next: "Add [metrology] with sigma_translation_um and sigma_rotation_urad to the hexapod file, or sigma_ columns to this one.".to_owned(),
+        next: "Fill in the numbers, or add [metrology] with sigma_translation_um and sigma_rotation_urad to the hexapod file, or sigma_ columns to this one.".to_owned(),
     }
 }
 

@@ -110,6 +110,13 @@ impl MeasurementsWriter {
     }
 }
 
+impl MeasurementsWriter {
+    /// The cells of a row, without the end of the line.
+    pub(crate) fn cells(&self, out: &mut dyn Write, row: &Observation) -> io::Result<()> {
+        write_cells(out, &self.columns, &row_of(row), row)
+    }
+}
+
 /// A column with its unit.
 #[derive(Debug)]
 struct Written {
@@ -157,6 +164,11 @@ fn row_of(observation: &Observation) -> Row {
 }
 
 fn write_row(out: &mut dyn Write, columns: &[Written], row: &Row, source: &Observation) -> io::Result<()> {
+    write_cells(out, columns, row, source)?;
+    out.write_all(b"\n")
+}
+
+fn write_cells(out: &mut dyn Write, columns: &[Written], row: &Row, source: &Observation) -> io::Result<()> {
     for (position, Written { column, unit }) in columns.iter().enumerate() {
         if position > 0 {
             out.write_all(b",")?;
@@ -168,7 +180,7 @@ fn write_row(out: &mut dyn Write, columns: &[Written], row: &Row, source: &Obser
             _ => return Err(not_finite(column, source)),
         }
     }
-    out.write_all(b"\n")
+    Ok(())
 }
 
 fn not_finite(column: &Column, observation: &Observation) -> io::Error {
@@ -178,7 +190,7 @@ fn not_finite(column: &Column, observation: &Observation) -> io::Error {
 }
 
 /// Plain decimals in the ordinary range, an exponent beyond it; every digit that is needed and no more.
-fn write_number(out: &mut dyn Write, value: f64) -> io::Result<()> {
+pub(crate) fn write_number(out: &mut dyn Write, value: f64) -> io::Result<()> {
     let size = value.abs();
     if size == 0.0 || (1e-5..1e15).contains(&size) {
         write!(out, "{value}")

@@ -4,4 +4,5 @@
 mod bad_input;
 mod documented_formats;
 mod round_trip;
+mod sensors;
 mod streams;

@@ -52,7 +52,7 @@ fn plan(loads: &[[f64; 6]], repeats: i64) -> Dataset {
     for (pose_id, pose) in (1..).zip(poses) {
         for (wait, load) in [20.0, 60.0, 120.0, 240.0].into_iter().zip(loads) {
             observations.extend((1..=repeats).map(|repeat| Observation {
-        block: 0,
+                block: 0,
                 pose_id,
                 repeat,
                 line: 2,
@@ -68,7 +68,13 @@ fn plan(loads: &[[f64; 6]], repeats: i64) -> Dataset {
         }
     }
     let columns = Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false };
-    Dataset { blocks: hexbench_core::Dataset::pose_blocks(), source: "plan".into(), measurand: Measurand::DeflectionEuler, columns, observations }
+    Dataset {
+        blocks: hexbench_core::Dataset::pose_blocks(),
+        source: "plan".into(),
+        measurand: Measurand::DeflectionEuler,
+        columns,
+        observations,
+    }
 }
 
 const DOWN: [f64; 6] = [0.0, 0.0, -340.0, 0.0, 0.0, 0.0];

@@ -129,7 +129,9 @@ pub fn summarise(residuals: &[Residual], dof: Option<f64>) -> ErrorSummary {
 /// make every reading suspect.
 pub(crate) fn typical_square(rows: &[Residual]) -> f64 {
     const MEDIAN_OF_SIX: f64 = 5.348;
-    median(rows.iter().map(|r| r.whitened.norm_squared())).unwrap_or(0.0) / MEDIAN_OF_SIX
+    // The median of chi-square is nearly proportional to its degrees of freedom.
+    let over = |r: &Residual| r.whitened.norm_squared() * 6.0 / r.numbers().max(1) as f64;
+    median(rows.iter().map(over)).unwrap_or(0.0) / MEDIAN_OF_SIX
 }
 
 /// Prediction errors of a fitted model on other readings.

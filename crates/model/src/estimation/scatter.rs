@@ -1,5 +1,6 @@
 //! Are residuals noise? Histogram and normal plot of residuals in units of the noise, as numbers to be drawn.
 
+use hexbench_core::NumberKind;
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::estimation::residuals::Residual;
@@ -20,7 +21,11 @@ pub struct ResidualScatter {
 impl ResidualScatter {
     /// Of these readings.
     pub fn of(readings: &[Residual]) -> Self {
-        let mut sorted: Vec<f64> = readings.iter().flat_map(|r| r.whitened.data.0[0]).collect();
+        let read = |r: &Residual| {
+            let (whitened, kinds) = (r.whitened, r.kinds);
+            (0..6).filter(move |&k| kinds[k] != NumberKind::Unread).map(move |k| whitened[k])
+        };
+        let mut sorted: Vec<f64> = readings.iter().flat_map(read).collect();
         sorted.sort_by(f64::total_cmp);
         Self { sorted }
     }
@@ -62,7 +67,13 @@ mod tests {
     fn scatter(values: &[f64]) -> ResidualScatter {
         let residual = |(row, chunk): (usize, &[f64])| {
             let whitened = Vector6::from_column_slice(chunk);
-            Residual { kinds: [hexbench_core::NumberKind::Length; 6], row, condition: row, value: whitened, whitened }
+            Residual {
+                kinds: [hexbench_core::NumberKind::Length; 6],
+                row,
+                condition: row,
+                value: whitened,
+                whitened,
+            }
         };
         ResidualScatter::of(&values.chunks_exact(6).enumerate().map(residual).collect::<Vec<_>>())
     }

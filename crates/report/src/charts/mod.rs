@@ -46,9 +46,20 @@ pub enum ReportError {
 pub fn diagnosis(subject: &ReportSubject<'_>, provenance: &Provenance) -> Result<Page, ReportError> {
     let data = Data::of_study(subject)?;
     if subject.study.diagnosis.is_misread() {
+        if !subject.study.campaign.reads_poses {
+            return Ok(
+                words::diagnosis(subject).with(provenance.section(subject.study.diagnosis.noise.source))
+            );
+        }
         let looked_at = [Some(predicted::section(&data)?), machine::section(&data)?];
         let page = looked_at.into_iter().flatten().fold(words::diagnosis(subject), Page::with);
         return Ok(page.with(provenance.section(subject.study.diagnosis.noise.source)));
+    }
+    if !subject.study.campaign.reads_poses {
+        return Ok(words::diagnosis(subject)
+            .with_after("ladder", [scatter::section(&data)?])
+            .with_after("stiffness", correlation::section(subject)?)
+            .with(provenance.section(subject.study.diagnosis.noise.source)));
     }
     let sections = [
         Some(predicted::section(&data)?),
@@ -79,6 +90,11 @@ pub fn comparison(
     let c = &compared.comparison;
     let data = Data::of_comparison(hexapod, readings, holdout, compared)?;
     let about = subject::entries(readings, holdout, &compared.campaign.noise);
+    if !compared.campaign.reads_poses {
+        return Ok(words::comparison(&hexapod.name, about, c)
+            .with_after("adequacy", [scatter::section(&data)?])
+            .with(provenance.section(c.noise_source)));
+    }
     let seen: [Option<Section>; 3] =
         [Some(predicted::section(&data)?), machine::section(&data)?, Some(leg_map::section(&data)?)];
     let residuals: [Option<Section>; 3] =

@@ -1,5 +1,6 @@
 //! The page of a comparison.
 
+use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::results::compare::Comparison;
 use hexbench_model::results::compare::absorbed::HiddenBias;
@@ -79,15 +80,25 @@ fn errors(c: &Comparison) -> Section {
         let sizes =
             [e.rms.translation_um, e.rms.rotation_urad, e.chi2_reduced].map(|x| significant(x, 3).into());
         let times = [multiple(e.times_noise()).into(), Cell::bar(e.times_noise() / largest)];
-        let name = Cell::from(format!("{name} ({})", e.count / 6));
+        let of_poses = c.noise_source != NoiseSource::Sensors;
+        let count = if of_poses { (e.count / 6).to_string() } else { format!("{} numbers", e.count) };
+        let name = Cell::from(format!("{name} ({count})"));
         table.row(std::iter::once(name).chain(sizes).chain(times));
     }
     Section::new("The error").id("errors").remark("root mean square").table(table)
 }
 
 fn coordinates(c: &Comparison) -> Section {
+    let remark =
+        format!("root mean square beside the noise ({}); bias with its t test", c.noise_source.word());
+    let title = if c.noise_source == NoiseSource::Sensors { "Sensors" } else { "Coordinates" };
+    Section::new(title).remark(remark).table(coordinate_table(&c.coordinates))
+}
+
+/// Error of every coordinate or sensor beside its noise.
+pub(super) fn coordinate_table(coordinates: &[Coordinate]) -> Table {
     let ratio = |x: &Coordinate| x.rms / x.noise;
-    let largest = c.coordinates.iter().map(ratio).fold(1.0, f64::max);
+    let largest = coordinates.iter().map(ratio).fold(1.0, f64::max);
     let names = ["rms", "noise", "ratio", "bias", "t", "chance"].map(PageColumn::number);
     let columns = std::iter::once(PageColumn::words("")).chain(names);
     let columns = columns.chain([PageColumn::words("unit"), PageColumn::bars().detail()]);
@@ -101,16 +112,11 @@ fn coordinates(c: &Comparison) -> Section {
             x.p.map_or("-".to_owned(), chance),
         ];
         let numbers = numbers.map(Cell::from).into_iter();
-        std::iter::once(Cell::from(x.name))
+        std::iter::once(Cell::from(x.name.clone()))
             .chain(numbers)
             .chain([x.unit.into(), Cell::bar(ratio(x) / largest)])
     };
-    Section::new("Coordinates")
-        .remark(format!(
-            "root mean square beside the noise ({}); bias with its t test",
-            c.noise_source.word()
-        ))
-        .table(Table::new(columns).rows(c.coordinates.iter().map(row)))
+    Table::new(columns).rows(coordinates.iter().map(row))
 }
 
 fn adequacy(c: &Comparison) -> Option<Section> {
@@ -165,13 +171,20 @@ fn outliers(c: &Comparison) -> Section {
     section.table(table.brief(BRIEF))
 }
 
-fn legs(c: &Comparison) -> Section {
+fn legs(c: &Comparison) -> Option<Section> {
+    if c.legs.is_empty() {
+        return None;
+    }
     let row = |name: &str, cell: fn(&LegResidual) -> String| {
         std::iter::once(name.to_owned()).chain(c.legs.iter().map(cell)).collect::<Vec<_>>()
     };
     let table = Table::named(row("leg", |l| l.leg.to_string()))
         .rows([row("rms", |l| significant(l.rms_um, 3)), row("noise alone", |l| significant(l.noise_um, 3))]);
-    Section::new("Legs").remark("elongation each leg would need to explain the residuals, um").table(table)
+    Some(
+        Section::new("Legs")
+            .remark("elongation each leg would need to explain the residuals, um")
+            .table(table),
+    )
 }
 
 fn follows(c: &Comparison) -> Section {

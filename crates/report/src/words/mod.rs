@@ -35,11 +35,21 @@ pub use runs::runs;
 pub use spread::spread;
 pub use subject::ReportSubject;
 
-use crate::page::Page;
+use hexbench_model::results::diagnose::Diagnosis;
+
+use crate::page::{Page, Section};
 
 /// What every document that a command writes begins with.
 pub fn written_by(command: &str) -> String {
     format!("Written by `{command}`; do not edit.")
+}
+
+/// What the fitted model leaves of every sensor.
+fn sensors(d: &Diagnosis) -> Option<Section> {
+    let table = comparison::coordinate_table(&d.sensors);
+    let section =
+        Section::new("Sensors").remark("what the fitted model leaves: root mean square, bias and its t test");
+    (!d.sensors.is_empty()).then(|| section.table(table))
 }
 
 /// The diagnosis.
@@ -53,6 +63,7 @@ pub fn diagnosis(subject: &ReportSubject<'_>) -> Page {
     }
     page.with(confidence::section(d))
         .with(ladder::section(d))
+        .with(sensors(d))
         .with(size::section(d))
         .with(stiffness::section(subject.hexapod, d))
         .with(next::section(d))

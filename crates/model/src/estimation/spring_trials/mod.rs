@@ -196,7 +196,7 @@ mod tests {
     fn readings() -> Vec<Observation> {
         let poses = [[2.6, 0.8, -0.7, 15.8], [10.0, -3.4, -0.8, -11.0], [-7.8, -3.2, 1.8, -11.3]];
         let of = |[a, b, c, gamma]: [f64; 4]| Observation {
-        block: 0,
+            block: 0,
             pose_id: 1,
             repeat: 1,
             line: 0,

@@ -1,18 +1,25 @@
-//! Error of every measured coordinate beside the noise, and its bias.
+//! Error of every measured coordinate or sensor beside the noise, and its bias.
 
 use hexbench_core::statistics::{mean, root_mean_square, standard_deviation};
+use hexbench_core::{Channel, NumberKind, Observation};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::{JudgedModel, coordinate_names};
+use super::coordinate_names;
+use crate::estimation::campaign::{Campaign, row_sigma};
+use crate::estimation::linearization::Linearization;
+use crate::estimation::residuals::Residual;
 
-/// One measured coordinate; um or urad.
+/// One measured coordinate, or one number of a sensor; um or urad.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Coordinate {
-    /// Name.
-    pub name: &'static str,
+    /// Name: that of its column, without unit.
+    pub name: String,
     /// Unit of the numbers.
     pub unit: &'static str,
+    /// How often it was read.
+    pub readings: usize,
     /// Root mean square residual of single readings.
     pub rms: f64,
     /// Standard deviation of one reading.
@@ -25,20 +32,56 @@ pub struct Coordinate {
     pub p: Option<f64>,
 }
 
-/// All six.
-pub fn coordinates(judged: &JudgedModel<'_>) -> Vec<Coordinate> {
-    let names = coordinate_names(judged.campaign.measurand);
-    let noise = judged.campaign.noise.sigma();
-    (0..6).map(|k| coordinate(judged, k, names[k], noise[k])).collect()
+/// All of them, in the order of the columns.
+pub fn coordinates(
+    campaign: &Campaign,
+    rows: &[Residual],
+    readings: &[Observation],
+    lin: &Linearization,
+) -> Vec<Coordinate> {
+    let channels = campaign.blocks.iter().flatten().copied().filter(|channel| *channel != Channel::Nothing);
+    channels.map(|channel| coordinate(campaign, rows, readings, lin, channel)).collect()
 }
 
-fn coordinate(judged: &JudgedModel<'_>, k: usize, name: &'static str, noise: f64) -> Coordinate {
-    let rms = root_mean_square(judged.rows.iter().map(|r| r.value[k])).unwrap_or(0.0);
-    let groups = &judged.campaign.groups;
-    let means: Vec<f64> = (0..groups.len()).map(|i| judged.lin.residual(i)[k] * groups[i].sigma[k]).collect();
+fn coordinate(
+    campaign: &Campaign,
+    rows: &[Residual],
+    readings: &[Observation],
+    lin: &Linearization,
+    channel: Channel,
+) -> Coordinate {
+    let groups = &campaign.groups;
+    let place = |group: usize| groups[group].channels.iter().position(|c| *c == channel);
+    let read: Vec<(f64, f64)> = rows
+        .iter()
+        .filter_map(|r| Some((r, place(r.condition)?)))
+        .filter(|(r, k)| r.kinds[*k] != NumberKind::Unread)
+        .map(|(r, k)| (r.value[k], row_sigma(&readings[r.row], &campaign.noise)[k]))
+        .collect();
+    let of_group = |i: usize| {
+        let k = place(i).filter(|&k| groups[i].reads[k] > 0)?;
+        Some(lin.residual(i)[k] * groups[i].sigma[k])
+    };
+    let means: Vec<f64> = (0..groups.len()).filter_map(of_group).collect();
     let (bias, t, p) = bias(&means);
-    let unit = if k < 3 { "um" } else { "urad" };
-    Coordinate { name, unit, rms: rms * 1e6, noise: noise * 1e6, bias: bias * 1e6, t, p }
+    let noise = root_mean_square(read.iter().map(|r| r.1));
+    Coordinate {
+        name: name(campaign, channel),
+        unit: if channel.is_angle(&campaign.hexapod.sensors) { "urad" } else { "um" },
+        readings: read.len(),
+        rms: root_mean_square(read.iter().map(|r| r.0)).unwrap_or(0.0) * 1e6,
+        noise: noise.unwrap_or(0.0) * 1e6,
+        bias: bias * 1e6,
+        t,
+        p,
+    }
+}
+
+fn name(campaign: &Campaign, channel: Channel) -> String {
+    match channel {
+        Channel::Pose(k) => coordinate_names(campaign.measurand)[k].to_owned(),
+        other => other.name(&campaign.hexapod.sensors, campaign.measurand),
+    }
 }
 
 /// Mean, t-value and two-sided p of a sample against zero.

@@ -184,6 +184,8 @@ impl<'a> JudgedModel<'a> {
 
 fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>, settled: bool) -> Comparison {
     let dof = judged.campaign.numbers as f64 - judged.rank;
+    // Other readings than full poses do not determine the elongation of every leg.
+    let seen = judged.campaign.reads_poses;
     Comparison {
         format: "comparison/1",
         terms: judged.point.active.iter().map(|a| a.id().to_owned()).collect(),
@@ -194,13 +196,13 @@ fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>, settled: bool
         noise_source: judged.campaign.noise.source,
         error: summarise(&judged.rows, Some(dof)),
         holdout,
-        coordinates: coordinates(judged),
+        coordinates: coordinates(judged.campaign, &judged.rows, &judged.data.observations, &judged.lin),
         adequacy: adequacy(judged),
         worst_poses: worst_poses(judged),
         outliers: outliers(judged),
-        legs: legs::summaries(judged),
-        associations: associations(judged),
-        period: Spectra::of(judged).and_then(|s| s.peak),
+        legs: if seen { legs::summaries(judged) } else { Vec::new() },
+        associations: if seen { associations(judged) } else { Vec::new() },
+        period: Spectra::of(judged).filter(|_| seen).and_then(|s| s.peak),
         design: design(judged),
         hidden: hidden_biases(judged),
         read_as: Vec::new(),

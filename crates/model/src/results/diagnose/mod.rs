@@ -47,6 +47,7 @@ use crate::inference::misread::{AsMeant, held_in, names};
 use crate::inference::power::detectable;
 use crate::inference::selection::{HeldOut, same_kind};
 use crate::inference::verdict::Judgement;
+use crate::results::compare::coordinates::coordinates;
 
 /// Cosine beyond which two signatures count as indistinguishable.
 const LOOK_ALIKE: f64 = 0.95;
@@ -121,7 +122,13 @@ pub fn diagnose_with(
     let (alternative, unknown) = alternative::of(hexapod, holdout, other);
     let Answer { judgement, order, fits, steps, added, small, numbers } = answer;
     let last = fits.last().unwrap_or(&outcome.baseline);
-    let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &last.point)?);
+    let lin = Linearization::at(&campaign, &last.point)?;
+    let rows = residuals(&campaign, &data.observations, &lin);
+    let sensors = if campaign.reads_poses {
+        Vec::new()
+    } else {
+        coordinates(&campaign, &rows, &data.observations, &lin)
+    };
     let model: Vec<String> = order.iter().map(|w| w.term.info().id.to_owned()).collect();
     let richer = order.iter().filter(|w| w.rich).map(|w| w.term.info().id.to_owned()).collect();
     let best = outcome.sets.sets.first();
@@ -159,6 +166,7 @@ pub fn diagnose_with(
         next: next.readings,
         separation: next.separation,
         absorbed: context.absorbed(&order, &judgement),
+        sensors,
         suspects: suspects(&rows, &data),
         outside: outside(&judgement, &outcome),
         warnings: warnings(&campaign, &data, last, &judgement).into_iter().chain(unknown).collect(),

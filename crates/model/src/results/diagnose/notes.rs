@@ -20,10 +20,13 @@ const CONTRADICTION_CHANCE: f64 = 1e-4;
 
 /// Readings whose chi-square over six coordinates is beyond chance for a file of this size.
 pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<SuspiciousReading> {
-    let Ok(chi2) = ChiSquared::new(6.0) else { return Vec::new() };
-    let limit = chi2.inverse_cdf(1.0 - SUSPECT_CHANCE / rows.len().max(1) as f64);
+    let limit = |freedom: usize| {
+        let law = ChiSquared::new(freedom as f64).ok();
+        law.map_or(f64::INFINITY, |law| law.inverse_cdf(1.0 - SUSPECT_CHANCE / rows.len().max(1) as f64))
+    };
+    let limits: Vec<f64> = (0..=6).map(limit).collect();
     let scale = typical_square(rows).max(1.0);
-    let far = rows.iter().filter(|r| r.whitened.norm_squared() > limit * scale);
+    let far = rows.iter().filter(|r| r.whitened.norm_squared() > limits[r.numbers()] * scale);
     far.map(|r| SuspiciousReading { row: data.observations[r.row].line, z: r.whitened.amax() }).collect()
 }
 

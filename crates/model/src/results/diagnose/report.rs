@@ -18,6 +18,7 @@ use crate::inference::gain::{HeldOutGain, UNLIKELY, Worth};
 use crate::inference::power::Detectable;
 use crate::inference::selection::HeldOut;
 use crate::inference::verdict::Verdict;
+use crate::results::compare::coordinates::Coordinate;
 
 /// Result of `diagnose`.
 #[derive(Debug, Clone, Serialize)]
@@ -65,6 +66,9 @@ pub struct Diagnosis {
     pub separation: Vec<SeparationReport>,
     /// What an effect does to the leg stiffnesses when it is left out.
     pub absorbed: Vec<AbsorbedReport>,
+    /// What the fitted model leaves of every sensor; empty where full poses were read.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sensors: Vec<Coordinate>,
     /// Readings far from every prediction.
     pub suspects: Vec<SuspiciousReading>,
     /// The unexplained pattern.

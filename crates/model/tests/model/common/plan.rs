@@ -28,7 +28,13 @@ pub(crate) fn dataset(measurand: Measurand, mut observations: Vec<Observation>) 
         o.line = i as u64 + 2;
     }
     let columns = Columns { reference: true, ..Columns::default() };
-    Dataset { blocks: hexbench_core::Dataset::pose_blocks(), source: "test".into(), measurand, columns, observations }
+    Dataset {
+        blocks: hexbench_core::Dataset::pose_blocks(),
+        source: "test".into(),
+        measurand,
+        columns,
+        observations,
+    }
 }
 
 /// A pose within +-`millimetres` and +-`degrees` of zero.
