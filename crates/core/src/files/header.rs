@@ -4,6 +4,7 @@ use super::column_name::{Named, read_column_name};
 use super::columns::{COLUMNS, Column, Group, MEASURED};
 use super::error::Fault;
 use super::line::Line;
+use super::row::no_sigma;
 use super::sensor_columns::{
     SensorSource, blocks, refuse_missing_sensors, refuse_unknown_sensor, sensor_column,
 };
@@ -29,6 +30,8 @@ pub(crate) struct Plan {
     pub(crate) measurand: Measurand,
     pub(crate) columns: Columns,
     pub(crate) has_pose: bool,
+    /// True where columns of readings may be absent, and their cells empty: the machine states what the others are worth.
+    pub(crate) may_lack_readings: bool,
     /// For every cell: the sensor it belongs to.
     pub(crate) of_sensors: Vec<Option<SensorSource>>,
     /// What the numbers of observations are.
@@ -43,7 +46,8 @@ impl Plan {
         let is_pose = |source: &Source| {
             matches!(source.column.group, Group::Deflection | Group::Euler | Group::RotationVector)
         };
-        self.of_sensors[cell].is_some() || self.sources[cell].as_ref().is_some_and(is_pose)
+        self.may_lack_readings
+            && (self.of_sensors[cell].is_some() || self.sources[cell].as_ref().is_some_and(is_pose))
     }
 }
 
@@ -111,11 +115,15 @@ pub(crate) fn read_header(
         })?;
     }
     let mut plan =
-        plan(sources, names, purpose, sensors).map_err(|problem| Fault::new(line.whole_place(), problem))?;
+        plan(sources, names, purpose, machine).map_err(|problem| Fault::new(line.whole_place(), problem))?;
     plan.of_sensors = of_sensors;
     let metrology = machine.and_then(|m| m.metrology);
     plan.stated =
         plan.blocks.iter().map(|b| b.map(|channel| channel.stated_sigma(sensors, metrology))).collect();
+    let is_weighed = plan.columns.sigma || plan.stated.iter().flatten().all(Option::is_some);
+    if plan.blocks != [Channel::POSE] && !is_weighed {
+        return Err(Fault::new(line.whole_place(), no_sigma()));
+    }
     Ok(plan)
 }
 
@@ -190,13 +198,15 @@ fn plan(
     sources: Vec<Option<Source>>,
     names: Vec<String>,
     purpose: GroupPurpose,
-    sensors: &[Sensor],
+    machine: Option<&Hexapod>,
 ) -> Result<Plan, FileProblem> {
+    let sensors = machine.map_or(&[][..], |m| &m.sensors);
     let present = Present(&sources);
     let (measurand, measured) = match purpose {
         GroupPurpose::Measurements => {
             let measurand = measurand(&present, sensors)?;
-            (measurand, if measurand == Measurand::AbsolutePose { measured_groups(measurand) } else { &[] })
+            let all = machine.is_none() || measurand == Measurand::AbsolutePose;
+            (measurand, if all { measured_groups(measurand) } else { &[] })
         }
         GroupPurpose::Conditions | GroupPurpose::Plan => (Measurand::DeflectionEuler, &[][..]),
     };
@@ -221,6 +231,7 @@ fn plan(
         measurand,
         columns,
         has_pose,
+        may_lack_readings: machine.is_some(),
         of_sensors: Vec::new(),
         blocks,
         stated: Vec::new(),
