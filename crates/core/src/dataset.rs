@@ -101,6 +101,17 @@ impl Dataset {
         self.blocks.get(observation.block).copied().unwrap_or(Channel::POSE)
     }
 
+    /// How many numbers of a sensor were read.
+    pub fn numbers_of(&self, sensor: usize) -> usize {
+        let is_it =
+            |channel: &Channel| matches!(channel, Channel::Sensor { sensor: other, .. } if *other == sensor);
+        let of_row = |o: &Observation| {
+            let channels = self.channels(o);
+            (0..6).filter(|&k| is_it(&channels[k]) && o.is_read(k)).count()
+        };
+        self.observations.iter().map(of_row).sum()
+    }
+
     /// The blocks of a file in which every row is a full pose.
     pub fn pose_blocks() -> Vec<[Channel; 6]> {
         vec![Channel::POSE]

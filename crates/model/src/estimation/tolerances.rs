@@ -236,37 +236,47 @@ fn cross_both(k: usize, twist: &Vector6) -> Vector6 {
 /// inclination   d y =  w . (e x a)
 /// ```
 fn of_sensors(campaign: &Campaign, lin: &Linearization, tolerances: &Tolerances) -> Vec<DVector<f64>> {
-    let sensors = &campaign.hexapod.sensors;
-    let mut columns = Vec::new();
-    for (index, sensor) in sensors.iter().enumerate() {
-        let point = matches!(sensor.kind, SensorKind::Distance { .. } | SensorKind::Point { .. });
-        let turns = matches!(sensor.kind, SensorKind::Distance { .. } | SensorKind::Inclination { .. });
-        for k in (0..3).filter(|_| point) {
-            columns.push(sensor_column(campaign, lin, index, |at, motion, number| {
-                let w: Vector3 = motion.fixed_rows::<3>(3).into_owned();
-                let moved = w.cross(&(at.pose.rotation() * (axis(k) * tolerances.sensor_point)));
-                match &sensor.kind {
-                    SensorKind::Distance { direction, .. } => direction.dot(&moved),
-                    _ => moved[number],
-                }
-            }));
+    let units = [tolerances.sensor_point, tolerances.sensor_direction];
+    let each = (0..campaign.hexapod.sensors.len()).flat_map(|index| {
+        let blocks = sensor_columns(campaign, lin, index).into_iter().zip(units);
+        blocks.filter_map(|(block, unit)| block.map(|block| block * unit))
+    });
+    each.flat_map(|block| block.column_iter().map(DVector::from).collect::<Vec<_>>()).collect()
+}
+
+/// Reading over the standard deviation of its noise, per metre of the point of a sensor and per radian of its direction, three columns
+/// each; none where it has no point or no direction.
+pub(crate) fn sensor_columns(
+    campaign: &Campaign,
+    lin: &Linearization,
+    index: usize,
+) -> [Option<DMatrix<f64>>; 2] {
+    let kind = &campaign.hexapod.sensors[index].kind;
+    let block = |value: &dyn Fn(&Condition, &Vector6, usize, Vector3) -> f64| {
+        let columns: Vec<DVector<f64>> = (0..3)
+            .map(|k| {
+                sensor_column(campaign, lin, index, |at, motion, number| value(at, motion, number, axis(k)))
+            })
+            .collect();
+        Some(DMatrix::from_columns(&columns))
+    };
+    let spin = |motion: &Vector6| -> Vector3 { motion.fixed_rows::<3>(3).into_owned() };
+    let moved =
+        |at: &Condition, motion: &Vector6, by: Vector3| spin(motion).cross(&(at.pose.rotation() * by));
+    match kind {
+        SensorKind::Distance { point, direction, .. } => [
+            block(&|at, motion, _, by| direction.dot(&moved(at, motion, by))),
+            block(&|at, motion, _, turn| {
+                let shift: Vector3 = motion.fixed_rows::<3>(0).into_owned();
+                (shift + moved(at, motion, *point)).dot(&turn.cross(direction))
+            }),
+        ],
+        SensorKind::Point { .. } => [block(&|at, motion, number, by| moved(at, motion, by)[number]), None],
+        SensorKind::Inclination { axis, .. } => {
+            [None, block(&|_, motion, _, turn| spin(motion).dot(&turn.cross(axis)))]
         }
-        for k in (0..3).filter(|_| turns) {
-            columns.push(sensor_column(campaign, lin, index, |at, motion, _| {
-                let v: Vector3 = motion.fixed_rows::<3>(0).into_owned();
-                let w: Vector3 = motion.fixed_rows::<3>(3).into_owned();
-                let turn = axis(k) * tolerances.sensor_direction;
-                match &sensor.kind {
-                    SensorKind::Distance { point, direction, .. } => {
-                        (v + w.cross(&(at.pose.rotation() * point))).dot(&turn.cross(direction))
-                    }
-                    SensorKind::Inclination { axis, .. } => w.dot(&turn.cross(axis)),
-                    _ => 0.0,
-                }
-            }));
-        }
+        SensorKind::LegLength { .. } => [None, None],
     }
-    columns
 }
 
 /// A column that acts on the numbers of one sensor.

@@ -65,6 +65,12 @@ pub enum FindingKind {
     Copies,
     /// A file of readings held out that does not serve as one.
     Holdout,
+    /// A sensor that reads with the other sign.
+    SensorSign,
+    /// A sensor whose numbers are in another unit than stated.
+    SensorFactor,
+    /// A sensor that stands elsewhere or looks in another direction.
+    SensorPlace,
 }
 
 /// What a fault of the data concerns.
@@ -119,6 +125,9 @@ impl FindingKind {
             Self::RotationConvention => ("rotation-convention", "Convention of the rotations", Concern::File),
             Self::ReferenceMissing => ("reference-missing", "Reference load missing", Concern::File),
             Self::RowOrder => ("row-order", "Order of the rows", Concern::File),
+            Self::SensorSign => ("sensor-sign", "Sign of a sensor", Concern::File),
+            Self::SensorFactor => ("sensor-factor", "Factor of a sensor", Concern::File),
+            Self::SensorPlace => ("sensor-place", "Place of a sensor", Concern::File),
             Self::Copies => ("copies", "Copied rows", Concern::Readings),
             Self::Holdout => ("holdout", "Held-out file", Concern::Holdout),
         }

@@ -1,6 +1,6 @@
 //! One thing that a file may mean otherwise than it says, and the file read that way.
 
-use hexbench_core::{Dataset, Hexapod, Measurand, Pose, Vector3, Wrench};
+use hexbench_core::{Channel, Dataset, Hexapod, Measurand, Pose, SensorKind, Vector3, Wrench};
 use nalgebra::Rotation3;
 
 use super::row_order::RowOrder;
@@ -49,6 +49,14 @@ pub enum Change {
     LoadHoldsReference,
     /// Rows belong together in another order.
     Rows(RowOrder),
+    /// A sensor reads with the other sign.
+    SensorReversed(&'static str),
+    /// Its numbers times a factor.
+    SensorScaled(&'static str, f64),
+    /// It looks at a point that is elsewhere by so much, mobile frame.
+    SensorMoved(&'static str, Vector3),
+    /// It looks in a direction, or about an axis, that is turned by a rotation vector.
+    SensorTurned(&'static str, Vector3),
 }
 
 /// Numbers that may have the other sign.
@@ -199,6 +207,9 @@ impl Change {
             Self::OtherRotations => FindingKind::RotationConvention,
             Self::Preload(_) | Self::LoadIsChange | Self::LoadHoldsReference => FindingKind::ReferenceMissing,
             Self::Rows(_) => FindingKind::RowOrder,
+            Self::SensorReversed(_) => FindingKind::SensorSign,
+            Self::SensorScaled(..) => FindingKind::SensorFactor,
+            Self::SensorMoved(..) | Self::SensorTurned(..) => FindingKind::SensorPlace,
         }
     }
 
@@ -213,7 +224,11 @@ impl Change {
             | Self::OtherRotations
             | Self::Preload(_)
             | Self::LoadIsChange
-            | Self::LoadHoldsReference => true,
+            | Self::LoadHoldsReference
+            | Self::SensorReversed(_)
+            | Self::SensorScaled(..)
+            | Self::SensorMoved(..)
+            | Self::SensorTurned(..) => true,
             Self::Scaled(group, _) => !matches!(
                 group,
                 Group::PosePositions
@@ -254,7 +269,8 @@ impl Change {
     /// Numbers of it that are fitted.
     pub fn sizes(&self) -> usize {
         match self {
-            Self::Turned(..) | Self::Origin(..) => 3,
+            Self::Turned(..) | Self::Origin(..) | Self::SensorMoved(..) => 3,
+            Self::SensorTurned(..) => 2,
             Self::Preload(_) => 6,
             Self::Joint(..) => 1,
             _ => 0,
@@ -267,6 +283,11 @@ impl Change {
         if let Self::Rows(order) = self {
             order.apply(data);
             return;
+        }
+        match *self {
+            Self::SensorReversed(name) => return scale_sensor(hexapod, data, name, -1.0),
+            Self::SensorScaled(name, factor) => return scale_sensor(hexapod, data, name, factor),
+            _ => {}
         }
         if self.needs_rotation_vectors() {
             to_rotation_vectors(data);
@@ -331,6 +352,22 @@ impl Change {
                 }
             }
             Self::Joint(coordinate, off) => *coordinate.of_mut(hexapod) += off,
+            Self::SensorMoved(name, by) => {
+                if let Some(SensorKind::Distance { point, .. } | SensorKind::Point { point, .. }) =
+                    kind_of(hexapod, name)
+                {
+                    *point += by;
+                }
+            }
+            Self::SensorTurned(name, by) => {
+                if let Some(
+                    SensorKind::Distance { direction: along, .. }
+                    | SensorKind::Inclination { axis: along, .. },
+                ) = kind_of(hexapod, name)
+                {
+                    *along = Rotation3::new(by) * *along;
+                }
+            }
             _ => {}
         }
     }
@@ -432,7 +469,11 @@ impl Change {
             | Self::JointsExchanged
             | Self::Joint(..)
             | Self::OtherRotations
-            | Self::Rows(_) => {}
+            | Self::Rows(_)
+            | Self::SensorReversed(_)
+            | Self::SensorScaled(..)
+            | Self::SensorMoved(..)
+            | Self::SensorTurned(..) => {}
         }
     }
 }
@@ -447,6 +488,24 @@ fn to_rotation_vectors(data: &mut Dataset) {
         let (shift, turn) = halves(&row.measured);
         let there = Pose { translation: row.pose.translation, angles: row.pose.angles + turn };
         row.measured = joined(&shift, &small_rotation(&row.pose.rotation(), &there.rotation()));
+    }
+}
+
+fn kind_of<'a>(hexapod: &'a mut Hexapod, name: &str) -> Option<&'a mut SensorKind> {
+    hexapod.sensors.iter_mut().find(|s| s.name == name).map(|s| &mut s.kind)
+}
+
+/// The numbers of one sensor times a factor.
+fn scale_sensor(hexapod: &Hexapod, data: &mut Dataset, name: &str, factor: f64) {
+    let Some(index) = hexapod.sensors.iter().position(|s| s.name == name) else { return };
+    let blocks = data.blocks.clone();
+    for row in &mut data.observations {
+        let channels = blocks.get(row.block).copied().unwrap_or(Channel::POSE);
+        for (value, channel) in row.measured.iter_mut().zip(channels) {
+            if matches!(channel, Channel::Sensor { sensor, .. } if sensor == index) {
+                *value *= factor;
+            }
+        }
     }
 }
 

@@ -8,6 +8,8 @@ use crate::inference::examination::{Finding, FindingKind};
 
 /// Fewer rows may be alike by chance, where readings are rounded.
 const FEWEST: usize = 2;
+/// Rows of fewer numbers are not compared.
+const LEAST_NUMBERS: usize = 3;
 /// Rounding alone may explain this share of the copies at most.
 const ROUNDED_SHARE: f64 = 0.02;
 /// Share of held-out readings that stand in the measurements, beyond which the file holds nothing out.
@@ -67,7 +69,8 @@ fn digits(row: &Observation) -> [u64; 6] {
 }
 
 fn says_something(row: &Observation) -> bool {
-    row.measured.iter().any(|x| *x != 0.0)
+    // Few numbers agree by chance.
+    row.numbers() >= LEAST_NUMBERS && row.measured.iter().any(|x| *x != 0.0)
 }
 
 /// Readings of one condition that are alike by their rounding alone: pairs of neighbors, times the chance that six numbers agree when

@@ -12,6 +12,7 @@ mod name;
 mod refine;
 mod row_order;
 mod sample;
+mod sensor_search;
 mod text;
 mod turn;
 
@@ -145,8 +146,11 @@ impl Readings {
 
 /// Other ways to read a file that springs alone do not explain as it is written; none when they do, or when no other way is better.
 pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
-    if data.is_absolute() || data.has_other_readings() {
+    if data.is_absolute() {
         return None;
+    }
+    if data.has_other_readings() {
+        return sensor_search::other_readings(hexapod, data);
     }
     let sample = Sample::new(hexapod, data)?;
     let written = sample.springs(&[]);

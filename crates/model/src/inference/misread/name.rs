@@ -8,6 +8,7 @@ use hexbench_core::{Vector3, Wrench};
 use super::change::{Change, Group, JointCoordinate, ReferencePoint, Signed, Target};
 use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
+use crate::effects::intern;
 
 const SIGNED: [(&str, &str, Signed); 19] = [
     ("deflection-sign", "reversed", Signed::Readings),
@@ -154,6 +155,10 @@ impl fmt::Display for Change {
             Self::LoadIsChange => f.write_str("change"),
             Self::LoadHoldsReference => f.write_str("twice"),
             Self::Rows(order) => f.write_str(order.word()),
+            Self::SensorReversed(name) => f.write_str(name),
+            Self::SensorScaled(name, factor) => write!(f, "{name}*{}", short(*factor)),
+            Self::SensorMoved(name, by) => write!(f, "{name}:{}", triple(&(by * 1e3))),
+            Self::SensorTurned(name, by) => write!(f, "{name}:turned:{}", triple(&by.map(f64::to_degrees))),
         }
     }
 }
@@ -195,10 +200,10 @@ pub enum ChangeError {
 }
 
 /// Kinds by which a file may be read, with what they take.
-pub const KINDS: [(&str, &str); 17] = [
+pub const KINDS: [(&str, &str); 20] = [
     ("deflection-sign", "reversed, translations, da, db or dc"),
     ("rotation-sign", "reversed, dalpha, dbeta or dgamma"),
-    ("wrench-sign", "reversed, forces, fx, fy or fz"),
+    ("wrench-sign", "reversed, forces, reference, fx, fy or fz"),
     ("moment-sign", "reversed, mx, my or mz"),
     ("states-exchanged", "yes"),
     (
@@ -234,6 +239,12 @@ pub const KINDS: [(&str, &str); 17] = [
         "row-order",
         "loads-from-below, loads-from-above, loads-reversed, load-of-the-next, load-of-the-last, poses-from-below, poses-from-above, \
          readings-from-below, readings-from-above or readings-reversed",
+    ),
+    ("sensor-sign", "the name of a sensor"),
+    ("sensor-factor", "SENSOR*FACTOR as in g1*25.4"),
+    (
+        "sensor-place",
+        "SENSOR:X,Y,Z in mm, by which its point is elsewhere, or SENSOR:turned:RX,RY,RZ in degrees",
     ),
 ];
 
@@ -292,6 +303,20 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
         "reference-missing" if given == "change" => Some(Change::LoadIsChange),
         "reference-missing" if given == "twice" => Some(Change::LoadHoldsReference),
         "reference-missing" => numbers(given).map(|w| Change::Preload(Wrench::from_array(w))),
+        "sensor-sign" => (!given.is_empty()).then(|| Change::SensorReversed(intern::text(given))),
+        "sensor-factor" => {
+            let (name, factor) = given.split_once('*')?;
+            let factor: f64 = factor.parse().ok()?;
+            (factor.is_finite() && factor > 0.0).then(|| Change::SensorScaled(intern::text(name), factor))
+        }
+        "sensor-place" => {
+            let (name, by) = given.split_once(':')?;
+            let name = intern::text(name);
+            Some(match by.strip_prefix("turned:") {
+                Some(by) => Change::SensorTurned(name, Vector3::from(numbers(by)?).map(f64::to_radians)),
+                None => Change::SensorMoved(name, Vector3::from(numbers(by)?) * 1e-3),
+            })
+        }
         "row-order" => RowOrder::ALL.into_iter().find(|o| o.word() == given).map(Change::Rows),
         _ => {
             let known = SIGNED.iter().find(|(k, word, _)| *k == kind && *word == given)?;

@@ -132,6 +132,21 @@ pub(super) fn meaning(change: &Change) -> String {
             let [fx, fy, fz, mx, my, mz] = load.to_array();
             format!("the reference state seems to carry a load that the file does not have, about ({fx:.3}, {fy:.3}, {fz:.3}) N and ({mx:.3}, {my:.3}, {mz:.3}) N m")
         }
+        Change::SensorReversed(name) => format!("sensor {name} seems to read with the other sign"),
+        Change::SensorScaled(name, factor) => format!(
+            "the numbers of sensor {name} seem {} the unit the file states",
+            if *factor > 1.0 { format!("{} times", number(*factor)) } else { format!("1/{} of", number(factor.recip())) },
+        ),
+        Change::SensorMoved(name, by) => {
+            let by = by * 1e3;
+            format!(
+                "the point of sensor {name} seems to be elsewhere by ({:.1}, {:.1}, {:.1}) mm on the platform",
+                by.x, by.y, by.z
+            )
+        }
+        Change::SensorTurned(name, by) => {
+            format!("the direction of sensor {name} seems turned by {:.1} degrees", by.norm().to_degrees())
+        }
         Change::LoadIsChange => "the load columns seem to hold the change of load, loaded minus reference, already".to_owned(),
         Change::LoadHoldsReference => "the load columns seem to hold the load of the reference state twice".to_owned(),
         Change::Rows(order) => format!("rows seem to have slipped: {}", order.text()),

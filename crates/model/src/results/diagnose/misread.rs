@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::judged::{Judged, prepare};
 use crate::effects::term::Term;
 use crate::error::ModelError;
-use crate::estimation::campaign::Campaign;
+use crate::estimation::campaign::{Campaign, ConditionReadings};
 use crate::estimation::fit::Fit;
 use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
 use crate::inference::examination::Finding;
@@ -209,7 +209,7 @@ impl Explained {
 
 /// Twice the negative log-likelihood of averaged readings whose noise may be larger than stated, and what the parameters cost.
 fn lack(campaign: &Campaign, fit: &Fit) -> f64 {
-    let numbers = 6.0 * campaign.groups.len() as f64;
+    let numbers = campaign.groups.iter().map(ConditionReadings::numbers).sum::<usize>() as f64;
     let variance = fit.lack_of_fit / fit.lack_of_fit_dof.max(1.0);
     let level = variance.max(1.0);
     numbers * (level.ln() + variance / level) + fit.parameters.iter().count() as f64 * numbers.ln()
