@@ -22,6 +22,8 @@ pub struct Sensor {
     pub name: String,
     /// What it reads.
     pub kind: SensorKind,
+    /// Tolerances of its place and direction over those of the machine: one, unless it is known to stand worse than others.
+    pub looseness: f64,
 }
 
 /// What a sensor reads, and the standard deviation of one reading.
@@ -92,6 +94,11 @@ impl SensorKind {
 }
 
 impl Sensor {
+    /// A sensor that stands as well as any.
+    pub fn new(name: impl Into<String>, kind: SensorKind) -> Self {
+        Self { name: name.into(), kind, looseness: 1.0 }
+    }
+
     /// Name of one of its columns, without unit: `g1`, or `ball_x`.
     pub fn column(&self, number: usize) -> String {
         match self.kind {

@@ -219,7 +219,7 @@ fn sensor(section: &TomlSection<'_>) -> Result<Sensor, Fault> {
             "the name of a sensor begins with a small letter and goes on with small letters, digits and _";
         return Err(name.breaks(rule, "Write for example g1 or level_x."));
     }
-    Ok(Sensor { name: text.to_owned(), kind: sensor_kind(section)? })
+    Ok(Sensor::new(text, sensor_kind(section)?))
 }
 
 fn sensor_kind(section: &TomlSection<'_>) -> Result<SensorKind, Fault> {

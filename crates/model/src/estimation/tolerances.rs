@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use hexbench_core::{Channel, SensorKind, Tolerances, Vector3, Vector6, Wrench};
+use hexbench_core::{Channel, Sensor, SensorKind, Tolerances, Vector3, Vector6, Wrench};
 use nalgebra::{DMatrix, DVector, Rotation3};
 use rayon::prelude::*;
 
@@ -238,10 +238,27 @@ fn cross_both(k: usize, twist: &Vector6) -> Vector6 {
 fn of_sensors(campaign: &Campaign, lin: &Linearization, tolerances: &Tolerances) -> Vec<DVector<f64>> {
     let units = [tolerances.sensor_point, tolerances.sensor_direction];
     let each = (0..campaign.hexapod.sensors.len()).flat_map(|index| {
-        let blocks = sensor_columns(campaign, lin, index).into_iter().zip(units);
+        let looseness = campaign.hexapod.sensors[index].looseness;
+        let blocks = sensor_columns(campaign, lin, index).into_iter().zip(units.map(|unit| unit * looseness));
         blocks.filter_map(|(block, unit)| block.map(|block| block * unit))
     });
     each.flat_map(|block| block.column_iter().map(DVector::from).collect::<Vec<_>>()).collect()
+}
+
+/// Columns of the place and of the direction of a sensor among those of all inputs; none where it has none, or where full poses are
+/// read.
+pub(crate) fn columns_of_sensor(sensors: &[Sensor], index: usize) -> [Option<Range<usize>>; 2] {
+    let has = |sensor: &Sensor| match sensor.kind {
+        SensorKind::Distance { .. } => [true, true],
+        SensorKind::Point { .. } => [true, false],
+        SensorKind::Inclination { .. } => [false, true],
+        SensorKind::LegLength { .. } => [false, false],
+    };
+    let before: usize = sensors[..index].iter().flat_map(has).filter(|has| *has).count();
+    let first = InputKind::COLUMNS + 3 * before;
+    let [place, direction] = has(&sensors[index]);
+    let next = first + 3 * usize::from(place);
+    [place.then_some(first..first + 3), direction.then_some(next..next + 3)]
 }
 
 /// Reading over the standard deviation of its noise, per metre of the point of a sensor and per radian of its direction, three columns

@@ -4,11 +4,13 @@ mod balls;
 mod cmm;
 mod frames;
 mod noise;
+mod sensors;
 
 pub use balls::{Balls, Registration};
 pub use cmm::{Cmm, CmmPose, CmmRecord, Surroundings};
 pub use frames::InstrumentFrames;
 pub use noise::InstrumentNoise;
+pub use sensors::read_sensors;
 
 use hexbench_core::{Matrix3, Pose};
 

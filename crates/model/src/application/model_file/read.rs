@@ -152,7 +152,7 @@ fn sensor(t: &SensorTable) -> Result<Sensor, ModelFileError> {
         "leg-length" => SensorKind::LegLength { leg: leg()?, sigma: one()? },
         _ => return Err(rule(key, "the kind must be distance, point, inclination or leg-length")),
     };
-    Ok(Sensor { name: t.name.clone(), kind })
+    Ok(Sensor::new(&t.name, kind))
 }
 
 fn tolerances(t: &TolerancesTable) -> Result<Tolerances, ModelFileError> {

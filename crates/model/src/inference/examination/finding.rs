@@ -127,7 +127,7 @@ impl FindingKind {
             Self::RowOrder => ("row-order", "Order of the rows", Concern::File),
             Self::SensorSign => ("sensor-sign", "Sign of a sensor", Concern::File),
             Self::SensorFactor => ("sensor-factor", "Factor of a sensor", Concern::File),
-            Self::SensorPlace => ("sensor-place", "Place of a sensor", Concern::File),
+            Self::SensorPlace => ("sensor-place", "Place of a sensor", Concern::Conditions),
             Self::Copies => ("copies", "Copied rows", Concern::Readings),
             Self::Holdout => ("holdout", "Held-out file", Concern::Holdout),
         }

@@ -12,7 +12,7 @@ mod resolution;
 mod scatter;
 mod tolerance;
 
-use hexbench_core::{Dataset, Hexapod, Matrix6, Tolerances, Vector6};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Sensor, Tolerances, Vector6};
 
 use self::blunders::{Fault, worst};
 use self::finding::probability;
@@ -20,7 +20,7 @@ pub use self::finding::{Finding, FindingKind, is_misread};
 use self::remainder::Remainder;
 use self::resolution::Resolution;
 use self::scatter::{Kind, Statement, statements};
-use self::tolerance::{Tolerance, inexact_inputs};
+use self::tolerance::{Doubted, Tolerance, inexact_inputs};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::noise::{AxesCovariance, Noise, NoiseSource, SharedReference, Structure};
@@ -41,6 +41,8 @@ pub(crate) const READINGS: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dg
 pub(crate) const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 /// One reading in so many may be left out; beyond it something else is wrong.
 const MOST_LEFT_OUT: usize = 10;
+/// Faults of a file that are looked for: where there are more, something else is wrong, and each costs a search.
+const MOST_FAULTS: usize = 16;
 
 /// Readings without their faults.
 #[derive(Debug, Clone)]
@@ -53,6 +55,8 @@ pub struct Examined {
     pub findings: Vec<Finding>,
     /// What the inputs are worth.
     tolerances: Tolerances,
+    /// A sensor that stands worse than the others, and how much worse.
+    loose: Option<(usize, f64)>,
 }
 
 impl Examined {
@@ -66,7 +70,10 @@ impl Examined {
 
     /// A campaign of readings with the noise and the tolerances found.
     fn campaign_of(&self, hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError> {
-        let hexapod = Hexapod { tolerances: self.tolerances, ..hexapod.clone() };
+        let mut hexapod = Hexapod { tolerances: self.tolerances, ..hexapod.clone() };
+        if let Some((sensor, looseness)) = self.loose {
+            hexapod.sensors[sensor].looseness = looseness;
+        }
         Ok(within_tolerances(Campaign::with_noise(&hexapod, data, self.noise)?))
     }
 }
@@ -103,8 +110,16 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     let rivals = best.evidence - cleaned.last.stated;
     if let Some(found) = cleaned.last.inputs.as_ref().filter(|w| w.evidence > LIKELY.max(rivals)) {
         let mut examined = cleaned.examined;
-        examined.findings.push(errors_of_inputs(found));
-        found.kind.set(&mut examined.tolerances, found.size);
+        match found.doubted {
+            Doubted::Inputs(kind) => {
+                examined.findings.push(errors_of_inputs(found, kind));
+                kind.set(&mut examined.tolerances, found.size);
+            }
+            Doubted::Place(sensor) | Doubted::Direction(sensor) => {
+                examined.findings.push(sensor_elsewhere(found, &hexapod.sensors[sensor]));
+                examined.loose = Some((sensor, found.factor));
+            }
+        }
         return Ok(examined);
     }
     Ok(settled(cleaned.examined, whole, &cleaned.last, &best))
@@ -119,7 +134,7 @@ fn as_rounded(hexapod: &Hexapod, data: &Dataset, noise: Noise) -> (Examined, f64
         resolution.apply(&mut data, &mut noise);
         shared = resolution.shared;
     }
-    (Examined { data, noise, findings, tolerances: hexapod.tolerances }, shared)
+    (Examined { data, noise, findings, tolerances: hexapod.tolerances, loose: None }, shared)
 }
 
 /// Readings looked at.
@@ -174,7 +189,7 @@ fn without_faults(
             gain += last.statements.first().map_or(0.0, |best| best.evidence - last.stated).max(0.0);
             return Ok(Cleaned { examined, first, last, gain });
         };
-        most -= fault.rows.len();
+        most = if examined.findings.len() < MOST_FAULTS { most - fault.rows.len() } else { 0 };
         gain -= fault.cost;
         before = Some(last.stated);
         first.get_or_insert(last);
@@ -208,8 +223,39 @@ fn settled(mut examined: Examined, whole: &Examined, look: &Look, best: &Stateme
     examined
 }
 
-fn errors_of_inputs(found: &Tolerance) -> Finding {
-    let (size, text, next) = if found.kind == InputKind::LoadGain {
+/// A sensor that does not stand or look as the file says, beside whatever else is at work.
+fn sensor_elsewhere(found: &Tolerance, sensor: &Sensor) -> Finding {
+    let name = &sensor.name;
+    let off: f64 = found.errors.iter().map(|e| e * e).sum::<f64>().sqrt();
+    let (size, text) = if let Doubted::Place(_) = found.doubted {
+        let mm: Vec<String> = found.errors.iter().map(|e| format!("{:+.1}", e * 1e3)).collect();
+        (
+            format!("{:.1} mm", off * 1e3),
+            format!(
+                "sensor {name} seems to look at another point of the platform than stated: ({}) mm from it",
+                mm.join(", ")
+            ),
+        )
+    } else {
+        let size = format!("{:.1} deg", off.to_degrees());
+        (
+            size.clone(),
+            format!("sensor {name} seems to look in another direction than stated, {size} from it"),
+        )
+    };
+    Finding {
+        kind: FindingKind::SensorPlace,
+        probability: probability(found.evidence),
+        rows: Vec::new(),
+        text: format!("{text}; it is taken to be that uncertain"),
+        size,
+        next: "measure where the sensor stands and which way it looks, and correct the hexapod file"
+            .to_owned(),
+    }
+}
+
+fn errors_of_inputs(found: &Tolerance, kind: InputKind) -> Finding {
+    let (size, text, next) = if kind == InputKind::LoadGain {
         let largest = LOADS.iter().zip(&found.errors).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         let (component, error) = largest.map_or(("", 0.0), |(name, error)| (*name, 100.0 * error));
         (

@@ -4,11 +4,14 @@
 //! tolerances or beyond, that is told: with a Gaussian for the errors, the evidence for them over exact inputs follows from the
 //! same columns, beside the springs and the effects found.
 
+use std::ops::Range;
+
+use hexbench_core::Tolerances;
 use nalgebra::{DMatrix, DVector};
 
 use super::remainder::{Remainder, explained};
 use crate::estimation::linearization::beside;
-use crate::estimation::tolerances::InputKind;
+use crate::estimation::tolerances::{InputKind, columns_of_sensor};
 use crate::inference::candidates::{orthonormal, project, target};
 use crate::inference::evidence::log_sum;
 
@@ -17,10 +20,26 @@ const FACTORS: [f64; 5] = [1.0, 2.0, 4.0, 10.0, 25.0];
 /// Inputs whose errors are told. The catalogue has terms for the direction and the point of the loads.
 const DOUBTED: [InputKind; 2] = [InputKind::Joints, InputKind::LoadGain];
 
+/// Multiples of the tolerance by which a sensor may stand worse than others.
+const LOOSE: [f64; 4] = [4.0, 10.0, 25.0, 60.0];
+
+/// Inputs that share a tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Doubted {
+    /// Joints or loads.
+    Inputs(InputKind),
+    /// The place of a sensor.
+    Place(usize),
+    /// The direction of a sensor.
+    Direction(usize),
+}
+
 /// Inputs with errors, as the readings tell of them.
 pub(super) struct Tolerance {
     /// Which.
-    pub(super) kind: InputKind,
+    pub(super) doubted: Doubted,
+    /// Their tolerance over the stated one.
+    pub(super) factor: f64,
     /// Standard deviation of one of them, SI.
     pub(super) size: f64,
     /// Evidence over these inputs being exact, nats.
@@ -40,30 +59,60 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     let overlap = basis.tr_mul(&rest.inputs);
     let normal = rest.inputs.tr_mul(&rest.inputs) - overlap.tr_mul(&overlap);
     let right: DVector<f64> = rest.inputs.tr_mul(&y);
-    let scaled = |kind: InputKind, factor: f64| {
+    let scaled = |columns: &Range<usize>, factor: f64| {
         let mut scales = DVector::repeat(rest.inputs.ncols(), 1.0);
-        scales.rows_range_mut(kind.columns()).fill(factor);
+        scales.rows_range_mut(columns.clone()).fill(factor);
         scales
     };
-    let at = |kind: InputKind| {
-        let (exact, _) = evidence(&normal, &right, &scaled(kind, 0.0))?;
-        let tried: Vec<(f64, f64, DVector<f64>)> = FACTORS
+    let all = doubted(rest);
+    let at = |(doubted, columns): &(Doubted, Range<usize>)| {
+        // A sensor is set up to its tolerance; joints and loads are exact where they are not told of.
+        let (usual, factors) =
+            if matches!(doubted, Doubted::Inputs(_)) { (0.0, &FACTORS[..]) } else { (1.0, &LOOSE[..]) };
+        let (before, _) = evidence(&normal, &right, &scaled(columns, usual))?;
+        let tried: Vec<(f64, f64, DVector<f64>)> = factors
             .iter()
             .filter_map(|&factor| {
-                let (inexact, errors) = evidence(&normal, &right, &scaled(kind, factor))?;
-                Some((inexact - exact, factor, errors))
+                let (inexact, errors) = evidence(&normal, &right, &scaled(columns, factor))?;
+                Some((inexact - before, factor, errors))
             })
             .collect();
         // Every width is as probable as any other, before the readings.
         let mean = log_sum(tried.iter().map(|t| t.0)) - (tried.len() as f64).ln();
         let (_, factor, errors) = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some((kind, factor, mean - (DOUBTED.len() as f64).ln(), errors))
+        Some((*doubted, columns.clone(), factor, mean - (all.len() as f64).ln(), errors))
     };
-    let (kind, factor, evidence, errors) =
-        DOUBTED.iter().filter_map(|&kind| at(kind)).max_by(|a, b| a.2.total_cmp(&b.2))?;
-    let unit = kind.standard_deviation(&rest.campaign.hexapod.tolerances);
-    let errors = errors.rows_range(kind.columns()).iter().map(|e| e * unit * factor).collect();
-    Some(Tolerance { kind, size: unit * factor, evidence, errors })
+    let (doubted, columns, factor, evidence, errors) =
+        all.iter().filter_map(at).max_by(|a, b| a.3.total_cmp(&b.3))?;
+    let unit = doubted.standard_deviation(&rest.campaign.hexapod.tolerances);
+    let errors = errors.rows_range(columns).iter().map(|e| e * unit * factor).collect();
+    Some(Tolerance { doubted, factor, size: unit * factor, evidence, errors })
+}
+
+/// Inputs that are doubted, with their columns.
+fn doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize>)> {
+    let mut all: Vec<(Doubted, Range<usize>)> =
+        DOUBTED.iter().map(|&kind| (Doubted::Inputs(kind), kind.columns())).collect();
+    if !rest.campaign.reads_poses {
+        let sensors = &rest.campaign.hexapod.sensors;
+        for index in 0..sensors.len() {
+            let [place, direction] = columns_of_sensor(sensors, index);
+            all.extend(place.map(|columns| (Doubted::Place(index), columns)));
+            all.extend(direction.map(|columns| (Doubted::Direction(index), columns)));
+        }
+    }
+    all
+}
+
+impl Doubted {
+    /// Standard deviation of one of them, SI.
+    fn standard_deviation(self, tolerances: &Tolerances) -> f64 {
+        match self {
+            Self::Inputs(kind) => kind.standard_deviation(tolerances),
+            Self::Place(_) => tolerances.sensor_point,
+            Self::Direction(_) => tolerances.sensor_direction,
+        }
+    }
 }
 
 /// Logarithm of the evidence for errors with these standard deviations over none, and the most probable ones in units of them.

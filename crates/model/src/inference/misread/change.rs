@@ -209,7 +209,8 @@ impl Change {
             Self::Rows(_) => FindingKind::RowOrder,
             Self::SensorReversed(_) => FindingKind::SensorSign,
             Self::SensorScaled(..) => FindingKind::SensorFactor,
-            Self::SensorMoved(..) | Self::SensorTurned(..) => FindingKind::SensorPlace,
+            Self::SensorMoved(..) => FindingKind::SensorPlace,
+            Self::SensorTurned(..) => FindingKind::Axes,
         }
     }
 

@@ -214,7 +214,7 @@ pub const KINDS: [(&str, &str); 20] = [
     (
         "axes",
         "WHAT:AXES as in readings:y,-x,z, or WHAT:turned:RX,RY,RZ in degrees; what: readings, reading-columns, wrench, \
-         wrench-columns, poses, pose-angle-columns, joints, base-joints, platform-joints",
+         wrench-columns, poses, pose-angle-columns, joints, base-joints, platform-joints, or with turned a sensor",
     ),
     ("leg-order", "the six platform joints in their order, as in 2,3,4,5,6,1"),
     ("joints-exchanged", "yes"),
@@ -242,10 +242,7 @@ pub const KINDS: [(&str, &str); 20] = [
     ),
     ("sensor-sign", "the name of a sensor"),
     ("sensor-factor", "SENSOR*FACTOR as in g1*25.4"),
-    (
-        "sensor-place",
-        "SENSOR:X,Y,Z in mm, by which its point is elsewhere, or SENSOR:turned:RX,RY,RZ in degrees",
-    ),
+    ("sensor-place", "SENSOR:X,Y,Z in mm, by which its point is elsewhere"),
 ];
 
 impl FromStr for Change {
@@ -276,11 +273,13 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
         }
         "axes" => {
             let (target, axes) = given.split_once(':')?;
-            let target = value(&TARGETS, target)?;
-            if let Some(by) = axes.strip_prefix("turned:") {
-                return Some(Change::Turned(target, Vector3::from(numbers(by)?).map(f64::to_radians)));
+            let by = |text| numbers(text).map(|by| Vector3::from(by).map(f64::to_radians));
+            match (value(&TARGETS, target), axes.strip_prefix("turned:")) {
+                (Some(target), Some(text)) => Some(Change::Turned(target, by(text)?)),
+                (Some(target), None) => Some(Change::Renamed(target, signed_axes(axes)?)),
+                (None, Some(text)) => Some(Change::SensorTurned(intern::text(target), by(text)?)),
+                (None, None) => None,
             }
-            Some(Change::Renamed(target, signed_axes(axes)?))
         }
         "leg-order" => leg_order(given).map(Change::LegOrder),
         "origin" => {
@@ -311,11 +310,7 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
         }
         "sensor-place" => {
             let (name, by) = given.split_once(':')?;
-            let name = intern::text(name);
-            Some(match by.strip_prefix("turned:") {
-                Some(by) => Change::SensorTurned(name, Vector3::from(numbers(by)?).map(f64::to_radians)),
-                None => Change::SensorMoved(name, Vector3::from(numbers(by)?) * 1e-3),
-            })
+            Some(Change::SensorMoved(intern::text(name), Vector3::from(numbers(by)?) * 1e-3))
         }
         "row-order" => RowOrder::ALL.into_iter().find(|o| o.word() == given).map(Change::Rows),
         _ => {

@@ -1,7 +1,7 @@
-//! Files of machines with sensors: other signs, factors, places of a sensor, other loads, other joints.
+//! Files of machines with sensors: other signs, factors and axes of a sensor, other loads, other joints.
 //!
 //! The numbers of such a file are not six to a row, so what springs leave of it is found by fitting them as any model is fitted, to
-//! part of the rows of a long file.
+//! part of the rows of a long file. A sensor a little beside its place is no mistake of the file: the examination finds it, beside effects.
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
@@ -15,9 +15,6 @@ use super::{AsMeant, GAIN, MOST_WAYS, Readings, SOUND_LEVEL, Way, charge, hypoth
 use crate::effects::intern;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::fit;
-use crate::estimation::linearization::{Linearization, beside};
-use crate::estimation::lsq::solve;
-use crate::estimation::tolerances::sensor_columns;
 
 /// Lines of a file that are looked at.
 const MOST_LINES: usize = 120;
@@ -27,12 +24,6 @@ const OF_LENGTHS: [f64; 5] = [25.4, 10.0, 1e3, 100.0, 2.0];
 const OF_ANGLES: [f64; 4] = [PI / 0.648, 1e3, PI * 1e6 / 180.0, 2.0];
 /// A compliance this many standard deviations below zero is no spring.
 const NEGATIVE_SIGMAS: f64 = 3.0;
-/// Places of a sensor found step by step.
-const STEPS: usize = 4;
-/// A place off by less is a matter of tolerance, in tolerances.
-const LEAST_OFF: f64 = 5.0;
-/// A place farther off is somewhere else altogether: m.
-const MOST_OFF: f64 = 1.0;
 
 /// Other ways to read such a file that springs alone do not explain as it is written.
 pub(super) fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
@@ -50,7 +41,6 @@ pub(super) fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readin
     );
     let mut ways: Vec<Way> =
         all.into_par_iter().filter_map(|change| bench.way(change, written.as_ref())).collect();
-    ways.extend(bench.places().into_iter().filter_map(|change| bench.way(change, written.as_ref())));
     sort(&mut ways);
     let is_negative = written.as_ref().is_some_and(|w| w.negative > 0);
     ways.retain(|way| way.gain > GAIN || is_negative);
@@ -61,7 +51,7 @@ pub(super) fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readin
     Some(Readings { level: written.map(|w| w.level), is_negative, ways })
 }
 
-/// What may be wrong with one sensor, sizes that are fitted left out.
+/// What may be wrong with one sensor.
 fn of_sensor(sensor: &Sensor) -> Vec<Change> {
     let name = intern::text(&sensor.name);
     let factors: &[f64] = if sensor.kind.is_angle() { &OF_ANGLES } else { &OF_LENGTHS };
@@ -167,45 +157,5 @@ impl<'a> Bench<'a> {
         let cost = springs.cost + charge(&changes);
         let gain = written.map_or(f64::INFINITY, |w| w.cost - cost);
         Some(Way { gain, level: springs.level, cost, beside_springs: cost - springs.cost, changes })
-    }
-
-    /// Every sensor where it explains most, to first order in steps; those within a few tolerances left out.
-    fn places(&self) -> Vec<Change> {
-        let all: Vec<usize> = (0..self.hexapod.sensors.len()).collect();
-        all.par_iter().flat_map_iter(|&sensor| self.place(sensor)).collect()
-    }
-
-    fn place(&self, sensor: usize) -> Vec<Change> {
-        let name = intern::text(&self.hexapod.sensors[sensor].name);
-        let tolerances = &self.hexapod.tolerances;
-        let mut found = Vec::new();
-        for (least, most, change) in [
-            (tolerances.sensor_point, MOST_OFF, Change::SensorMoved as fn(&'static str, Vector3) -> Change),
-            (tolerances.sensor_direction, PI, Change::SensorTurned),
-        ] {
-            let is_turn = most == PI;
-            let mut size = Vector3::zeros();
-            for _ in 0..STEPS {
-                let Some(step) = self.step(sensor, is_turn, &change(name, size)) else { break };
-                size += step;
-            }
-            if (LEAST_OFF * least..most).contains(&size.norm()) {
-                found.push(change(name, size));
-            }
-        }
-        found
-    }
-
-    /// The next step towards the place or direction that explains most, springs adapting to it.
-    fn step(&self, sensor: usize, is_turn: bool, from: &Change) -> Option<Vector3> {
-        let meant = AsMeant::of(self.hexapod, &self.data, None, std::slice::from_ref(from));
-        let campaign = Campaign::new(&meant.hexapod, &meant.data).ok()?;
-        let fit = fit(&campaign, &[], None).ok()?;
-        let lin = Linearization::at(&campaign, &fit.point).ok()?;
-        let [point, direction] = sensor_columns(&campaign, &lin, sensor);
-        let block = if is_turn { direction } else { point }?;
-        let solution = solve(&beside(&[lin.common_block(), block]), &lin.residuals()).ok()?;
-        let x = solution.x.rows(6, 3);
-        x.iter().all(|v| v.is_finite()).then(|| Vector3::new(x[0], x[1], x[2]))
     }
 }
