@@ -54,6 +54,8 @@ pub enum Purpose {
     CaseFault = 107,
     /// Case: what a misstatement of its files hits.
     CaseMisstatement = 108,
+    /// Case: noise and empty cells of its sensors.
+    CaseSensors = 109,
 
     /// Comparison of two worlds: machine, plan and situation.
     WorldsSituation = 200,

@@ -29,6 +29,7 @@ pub mod power;
 pub mod recovery;
 pub mod regress;
 pub mod robustness;
+pub mod sensors;
 mod shares;
 pub mod sweep;
 pub mod trial;

@@ -19,5 +19,6 @@ pub use mistakes::{FaultMistakes, mistakes};
 pub(crate) use protocol::Job;
 pub use protocol::{DISTANCE, RobustnessProtocol, SEED, TRIALS};
 pub use record::RobustnessRecord;
+pub(crate) use study::fields;
 pub use study::{Robustness, case};
 pub use violation::Violation;

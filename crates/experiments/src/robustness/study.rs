@@ -68,41 +68,46 @@ impl harness::Protocol for RobustnessProtocol {
     }
 
     fn fields(&self) -> Vec<Field<RobustnessRecord>> {
-        let p = |name| (name, "1");
-        vec![
-            Field::text("fault", "what the laboratory does", |r: &RobustnessRecord| r.fault),
-            Field::text("hidden", "hidden effect", |r: &RobustnessRecord| r.answer.hidden_words()),
-            Field::text("family", "family of the machine", |r: &RobustnessRecord| r.answer.family),
-            Field::text("plan", "plan of the measurements", |r: &RobustnessRecord| r.answer.plan.name()),
-            Field::text("verdict", "the verdict", |r: &RobustnessRecord| r.answer.verdict.word()),
-            Field::text("added", "effects named", |r: &RobustnessRecord| r.answer.added.join("+")),
-            Field::text("findings", "kinds of the findings", |r: &RobustnessRecord| r.findings.join("+")),
-            Field::text("outcome", "right, honest or wrong about the machine", |r: &RobustnessRecord| {
-                r.outcome().word()
-            }),
-            Field::number(
-                p("is_right"),
-                "clean machine called so, hidden effect named first",
-                |r: &RobustnessRecord| f64::from(u8::from(r.is_right())),
-            ),
-            Field::number(
-                p("outside"),
-                "probability of something outside the catalogue",
-                |r: &RobustnessRecord| r.answer.outside,
-            ),
-            Field::number(
-                p("stiffness_covered"),
-                "share of the stiffnesses within 1.96 std",
-                |r: &RobustnessRecord| r.stiffness_coverage().rate(),
-            ),
-            Field::number(
-                p("holdout_springs"),
-                "held-out chi-square per number, springs",
-                |r: &RobustnessRecord| r.answer.holdout[0],
-            ),
-            Field::number(p("holdout_final"), "the same of the final model", |r: &RobustnessRecord| {
-                r.answer.holdout[1]
-            }),
-        ]
+        fields("fault", "what the laboratory does")
     }
+}
+
+/// Columns of the table of trials; `name` and `meaning` of the first one.
+pub(crate) fn fields(name: &'static str, meaning: &'static str) -> Vec<Field<RobustnessRecord>> {
+    let p = |name| (name, "1");
+    vec![
+        Field::text(name, meaning, |r: &RobustnessRecord| r.fault),
+        Field::text("hidden", "hidden effect", |r: &RobustnessRecord| r.answer.hidden_words()),
+        Field::text("family", "family of the machine", |r: &RobustnessRecord| r.answer.family),
+        Field::text("plan", "plan of the measurements", |r: &RobustnessRecord| r.answer.plan.name()),
+        Field::text("verdict", "the verdict", |r: &RobustnessRecord| r.answer.verdict.word()),
+        Field::text("added", "effects named", |r: &RobustnessRecord| r.answer.added.join("+")),
+        Field::text("findings", "kinds of the findings", |r: &RobustnessRecord| r.findings.join("+")),
+        Field::text("outcome", "right, honest or wrong about the machine", |r: &RobustnessRecord| {
+            r.outcome().word()
+        }),
+        Field::number(
+            p("is_right"),
+            "clean machine called so, hidden effect named first",
+            |r: &RobustnessRecord| f64::from(u8::from(r.is_right())),
+        ),
+        Field::number(
+            p("outside"),
+            "probability of something outside the catalogue",
+            |r: &RobustnessRecord| r.answer.outside,
+        ),
+        Field::number(
+            p("stiffness_covered"),
+            "share of the stiffnesses within 1.96 std",
+            |r: &RobustnessRecord| r.stiffness_coverage().rate(),
+        ),
+        Field::number(
+            p("holdout_springs"),
+            "held-out chi-square per number, springs",
+            |r: &RobustnessRecord| r.answer.holdout[0],
+        ),
+        Field::number(p("holdout_final"), "the same of the final model", |r: &RobustnessRecord| {
+            r.answer.holdout[1]
+        }),
+    ]
 }

@@ -10,6 +10,7 @@ mod measure;
 mod plan;
 mod redraw;
 mod scheme;
+mod sensor_set;
 mod signature;
 
 pub use case::{CaseKind, CaseSpec, SimulatedCase};
@@ -18,6 +19,7 @@ pub use measure::{SimulatedCampaign, measure};
 pub use plan::{MeasurementPlan, PlanKind, PlanRow, Schemes};
 pub(crate) use scheme::pose_of;
 pub use scheme::{Poses, Scheme, Spread, usual_half_range_mm_deg};
+pub use sensor_set::{SensorFault, SensorSet};
 pub use signature::{Yardstick, rms};
 
 use rand::RngExt;

@@ -8,6 +8,7 @@ pub(crate) mod power;
 pub(crate) mod recovery;
 pub(crate) mod regress;
 pub(crate) mod robustness;
+pub(crate) mod sensors;
 mod written;
 
 use clap::{Args, Subcommand};
@@ -32,6 +33,7 @@ enum Study {
     Calibration(calibration::Arguments),
     Robustness(robustness::Arguments),
     Misread(misread::Arguments),
+    Sensors(sensors::Arguments),
     Discriminate(discriminate::Arguments),
     Power(power::Arguments),
     Regress(regress::Arguments),
@@ -45,6 +47,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Calibration(arguments) => calibration::run(arguments, screen),
         Study::Robustness(arguments) => robustness::run(arguments, screen),
         Study::Misread(arguments) => misread::run(arguments, screen),
+        Study::Sensors(arguments) => sensors::run(arguments, screen),
         Study::Discriminate(arguments) => discriminate::run(arguments, screen),
         Study::Power(arguments) => power::run(arguments, screen),
         Study::Regress(arguments) => regress::run(arguments, screen),
