@@ -427,6 +427,26 @@ export type Cell = string | {
   mood: Mood | null;
 };
 
+/** One measured coordinate, or one number of a sensor; um or urad. */
+export type Coordinate = {
+  /** Name: that of its column, without unit. */
+  name: string;
+  /** Unit of the numbers. */
+  unit: string;
+  /** How often it was read. */
+  readings: number;
+  /** Root mean square residual of single readings. */
+  rms: number;
+  /** Standard deviation of one reading. */
+  noise: number;
+  /** Mean residual over conditions. */
+  bias: number;
+  /** Bias over its standard error, from the scatter of the conditions. */
+  t: number | null;
+  /** Chance of a bias this far from zero by scatter alone. */
+  p: number | null;
+};
+
 /** A name and what is said of it. */
 export type Definition = {
   /** The name. */
@@ -491,6 +511,8 @@ export type Diagnosis = {
   separation: Array<SeparationReport>;
   /** What an effect does to the leg stiffnesses when it is left out. */
   absorbed: Array<AbsorbedReport>;
+  /** What the fitted model leaves of every sensor; empty where full poses were read. */
+  sensors: Array<Coordinate>;
   /** Readings far from every prediction. */
   suspects: Array<SuspiciousReading>;
   /** The unexplained pattern. */
@@ -538,7 +560,7 @@ export type Finding = {
 };
 
 /** Kind of a fault of the data; the words are those of `diagnosis.json`. */
-export type FindingKind = "blunder" | "pose" | "load" | "noise-level" | "heavy-tails" | "shared-reference" | "setup-error" | "drift" | "resolution" | "tolerance" | "deflection-sign" | "wrench-sign" | "states-exchanged" | "rotation-sign" | "moment-sign" | "unit" | "axes" | "leg-order" | "joints-exchanged" | "origin" | "geometry" | "wrench-frame" | "deflection-frame" | "angle-convention" | "rotation-convention" | "reference-missing" | "row-order" | "copies" | "holdout";
+export type FindingKind = "blunder" | "pose" | "load" | "noise-level" | "heavy-tails" | "shared-reference" | "setup-error" | "drift" | "resolution" | "tolerance" | "deflection-sign" | "wrench-sign" | "states-exchanged" | "rotation-sign" | "moment-sign" | "unit" | "axes" | "leg-order" | "joints-exchanged" | "origin" | "geometry" | "wrench-frame" | "deflection-frame" | "angle-convention" | "rotation-convention" | "reference-missing" | "row-order" | "copies" | "holdout" | "sensor-sign" | "sensor-factor" | "sensor-place";
 
 /** Whether held-out readings show an effect. */
 export type GainOutcome = "shown" | "open" | "refuted";
