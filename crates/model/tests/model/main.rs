@@ -20,6 +20,7 @@ mod next;
 mod paper;
 mod recovery;
 mod registry;
+mod sensors;
 mod stiffness_matrices;
 mod turning;
 mod use_model;

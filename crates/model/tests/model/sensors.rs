@@ -1,0 +1,252 @@
+//! Campaigns read with gauges, points, levels and scales, made by an independent world of finite deflections.
+
+use hexbench_core::{
+    Channel, Dataset, Hexapod, Measurand, Observation, Sensor, SensorKind, UNREAD, Vector3, Vector6,
+};
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::{Fit, fit_baseline};
+use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::diagnose::diagnose;
+use hexbench_model::terms::catalogue;
+
+use crate::common::plan::{dataset, rich_plan};
+use crate::common::random::Random;
+use crate::common::world::World;
+use crate::common::{PAPER_STIFFNESS, measured_machine, paper_machine};
+
+/// Noise so small that nothing but the error of the model is left.
+const NO_NOISE_M: f64 = 1e-12;
+/// Of a gauge.
+const GAUGE_M: f64 = 0.2e-6;
+
+fn ring_point(degrees: f64) -> Vector3 {
+    let (s, c) = degrees.to_radians().sin_cos();
+    Vector3::new(0.15 * c, 0.15 * s, 0.04)
+}
+
+fn gauges(sigma: f64) -> Vec<Sensor> {
+    let one = |(k, degrees): (usize, f64)| {
+        let (s, c) = degrees.to_radians().sin_cos();
+        let direction = if k % 2 == 0 { Vector3::z() } else { Vector3::new(-s, c, 0.0) };
+        Sensor::new(format!("g{k}"), SensorKind::Distance { point: ring_point(degrees), direction, sigma })
+    };
+    [0.0, 60.0, 120.0, 180.0, 240.0, 300.0].into_iter().enumerate().map(one).collect()
+}
+
+fn balls(sigma: f64) -> Vec<Sensor> {
+    let one = |k: u8| {
+        let point = ring_point(20.0 + 120.0 * f64::from(k));
+        Sensor::new(format!("ball{k}"), SensorKind::Point { point, sigma: [sigma; 3] })
+    };
+    (0..3).map(one).collect()
+}
+
+fn scales(sigma: f64) -> Vec<Sensor> {
+    (0..6).map(|leg| Sensor::new(format!("scale{leg}"), SensorKind::LegLength { leg, sigma })).collect()
+}
+
+/// The readings of all sensors, with noise, in blocks of six.
+fn read(world: &World, hexapod: &Hexapod, plan: &[Observation], seed: Option<u64>) -> Dataset {
+    let channels: Vec<Channel> = (hexapod.sensors.iter().enumerate())
+        .flat_map(|(sensor, s)| (0..s.kind.numbers()).map(move |number| Channel::Sensor { sensor, number }))
+        .collect();
+    let blocks: Vec<[Channel; 6]> = channels
+        .chunks(6)
+        .map(|part| std::array::from_fn(|k| part.get(k).copied().unwrap_or_default()))
+        .collect();
+    let mut random = Random::new(seed.unwrap_or(1));
+    let mut data = dataset(Measurand::DeflectionRotationVector, Vec::new());
+    for (line, o) in (2..).zip(plan) {
+        let [before, after] = [&o.reference, &o.wrench].map(|wrench| world.rest(&o.pose, wrench));
+        let numbers: Vec<f64> = hexapod
+            .sensors
+            .iter()
+            .flat_map(|s| {
+                let shift = |p: &Vector3| {
+                    (after * nalgebra::Point3::from(*p)) - (before * nalgebra::Point3::from(*p))
+                };
+                match s.kind {
+                    SensorKind::Distance { point, direction, .. } => vec![direction.dot(&shift(&point))],
+                    SensorKind::Point { point, .. } => shift(&point).iter().copied().collect(),
+                    SensorKind::Inclination { axis, .. } => {
+                        vec![axis.dot(&(after.rotation * before.rotation.inverse()).scaled_axis())]
+                    }
+                    SensorKind::LegLength { leg, .. } => {
+                        let end = nalgebra::Point3::from(hexapod.platform_joints[leg]);
+                        let length = |place: &nalgebra::Isometry3<f64>| {
+                            ((place * end).coords - hexapod.base_joints[leg]).norm()
+                        };
+                        vec![length(&after) - length(&before)]
+                    }
+                }
+            })
+            .collect();
+        for (block, part) in channels.chunks(6).enumerate() {
+            let (mut measured, mut sigma) = ([0.0; 6], [UNREAD; 6]);
+            for (k, channel) in part.iter().enumerate() {
+                let Channel::Sensor { sensor, number } = *channel else { continue };
+                sigma[k] = hexapod.sensors[sensor].kind.sigma(number);
+                let error = if seed.is_some() { random.normal() * sigma[k] } else { 0.0 };
+                measured[k] = numbers[6 * block + k] + error;
+            }
+            data.observations.push(Observation { line, block, measured, sigma: Some(sigma), ..*o });
+        }
+    }
+    data.blocks = blocks;
+    data.columns.sigma = true;
+    data
+}
+
+fn with(sensors: Vec<Sensor>) -> Hexapod {
+    Hexapod { sensors, ..paper_machine() }
+}
+
+fn springs(hexapod: &Hexapod, data: &Dataset) -> Fit {
+    fit_baseline(&Campaign::new(hexapod, data).unwrap()).unwrap()
+}
+
+fn worst_error(fit: &Fit) -> f64 {
+    let errors = (0..6).map(|leg| (fit.point.compliances[leg] * PAPER_STIFFNESS[leg] - 1.0).abs());
+    errors.fold(0.0, f64::max)
+}
+
+#[test]
+fn what_gauges_balls_and_scales_read_gives_the_springs_to_second_order() {
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    for sensors in [gauges(NO_NOISE_M), balls(NO_NOISE_M), scales(NO_NOISE_M)] {
+        let hexapod = with(sensors);
+        let error = |load: f64| {
+            worst_error(&springs(&hexapod, &read(&world, &hexapod, &rich_plan(12, load, 5), None)))
+        };
+        let [usual, fourfold] = [error(1.0), error(4.0)];
+        let name = &hexapod.sensors[0].name;
+        assert!(usual < 2e-6, "{name}: {usual:e}");
+        // Of second order in the load: sixteenfold, where a model linear in the deflection has fourfold.
+        assert!(fourfold < 3e-5 && fourfold > 8.0 * usual, "{name}: {usual:e} {fourfold:e}");
+    }
+}
+
+#[test]
+fn the_same_six_numbers_are_the_same_campaign_whatever_reads_them() {
+    let (sigma_m, sigma_rad) = (0.5e-6, 3e-6);
+    let pose = measured_machine(sigma_m, sigma_rad);
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let mut poses = world.measure(Measurand::DeflectionRotationVector, &rich_plan(30, 1.0, 7));
+    let mut random = Random::new(3);
+    for o in &mut poses.observations {
+        let noise = Vector6::from_fn(|k, _| random.normal() * if k < 3 { sigma_m } else { sigma_rad });
+        o.measured = std::array::from_fn(|k| o.measured[k] + noise[k]);
+    }
+    let level = |k: usize| {
+        Sensor::new(
+            format!("level{k}"),
+            SensorKind::Inclination { axis: Vector3::ith(k, 1.0), sigma: sigma_rad },
+        )
+    };
+    let levels = Hexapod { sensors: (0..3).map(level).collect(), ..pose.clone() };
+    let mut read = poses.clone();
+    let sensor = |sensor| Channel::Sensor { sensor, number: 0 };
+    read.blocks =
+        vec![[Channel::Pose(0), Channel::Pose(1), Channel::Pose(2), sensor(0), sensor(1), sensor(2)]];
+    read.columns.sigma = true;
+    for o in &mut read.observations {
+        o.sigma = Some([sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad]);
+    }
+    let [as_pose, as_levels] = [springs(&pose, &poses), springs(&levels, &read)];
+    for leg in 0..6 {
+        let (a, b) = (&as_pose, &as_levels);
+        let apart = (a.point.compliances[leg] - b.point.compliances[leg]).abs() / a.std(leg);
+        assert!(apart < 1e-2, "leg {leg}: {apart:e} standard deviations");
+        assert!((a.std(leg) / b.std(leg) - 1.0).abs() < 1e-3, "leg {leg}");
+    }
+    assert!((as_pose.dof - as_levels.dof).abs() < 1e-6);
+}
+
+#[test]
+fn cells_left_empty_widen_the_intervals_and_are_not_counted() {
+    let hexapod = with(gauges(GAUGE_M));
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let whole = read(&world, &hexapod, &rich_plan(60, 1.0, 11), Some(4));
+    let mut random = Random::new(9);
+    let mut holes = whole.clone();
+    let mut empty = 0;
+    for o in &mut holes.observations {
+        for k in 0..6 {
+            if random.unit() < 0.2 {
+                o.measured[k] = 0.0;
+                o.sigma.as_mut().unwrap()[k] = UNREAD;
+                empty += 1;
+            }
+        }
+    }
+    let [all, some] = [springs(&hexapod, &whole), springs(&hexapod, &holes)];
+    assert!((all.dof - some.dof - f64::from(empty)).abs() < 1e-6);
+    let wider = (0..6).map(|leg| some.std(leg) / all.std(leg)).sum::<f64>() / 6.0;
+    // A fifth of the numbers less: intervals wider by 1 / sqrt(0.8) on the average.
+    assert!((wider - 0.8_f64.sqrt().recip()).abs() < 0.06, "{wider}");
+    assert!(
+        (0..6)
+            .all(|leg| (some.point.compliances[leg] - PAPER_STIFFNESS[leg].recip()).abs()
+                < 4.5 * some.std(leg))
+    );
+}
+
+#[test]
+fn one_gauge_determines_what_it_can_and_no_more() {
+    let hexapod = with(gauges(GAUGE_M).into_iter().take(1).collect());
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let flat: Vec<Observation> = rich_plan(1, 1.0, 11).into_iter().cycle().take(8).collect();
+    let data = read(&world, &hexapod, &flat, Some(4));
+    let answer = diagnose(&hexapod, &data, None, &catalogue()).unwrap().diagnosis;
+    assert!(answer.parameters.is_empty(), "one number cannot give a stiffness: {:?}", answer.parameters);
+    assert_ne!(answer.verdict, Verdict::Named);
+}
+
+#[test]
+fn a_gauge_with_the_wrong_sign_or_factor_is_a_misread_file_and_a_sound_one_is_not() {
+    let hexapod = with(gauges(GAUGE_M));
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let sound = read(&world, &hexapod, &rich_plan(60, 1.0, 11), Some(4));
+    let said = |data: &Dataset| diagnose(&hexapod, data, None, &catalogue()).unwrap().diagnosis;
+    let answer = said(&sound);
+    assert_eq!((answer.verdict, answer.findings.len()), (Verdict::Adequate, 0), "{:?}", answer.findings);
+    for (factor, kind) in [(-1.0, "sensor-sign"), (25.4, "sensor-factor")] {
+        let mut wrong = sound.clone();
+        wrong.observations.iter_mut().for_each(|o| o.measured[2] *= factor);
+        let answer = said(&wrong);
+        assert_eq!(answer.verdict, Verdict::Measurement);
+        assert_eq!(answer.findings[0].kind.word(), kind);
+        assert!(
+            answer.findings[0].text.contains("g2") && answer.added.is_empty(),
+            "{}",
+            answer.findings[0].text
+        );
+    }
+}
+
+#[test]
+fn a_gauge_beside_its_place_is_told_with_its_size_and_the_machine_is_judged_all_the_same() {
+    let truth = with(gauges(GAUGE_M));
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let data = read(&world, &truth, &rich_plan(60, 1.0, 11), Some(4));
+    let mut stated = truth.clone();
+    let SensorKind::Distance { point, .. } = &mut stated.sensors[0].kind else { panic!("a gauge") };
+    point.x += 0.01;
+    let answer = diagnose(&stated, &data, None, &catalogue()).unwrap().diagnosis;
+    let finding = &answer.findings[0];
+    assert_eq!(finding.kind.word(), "sensor-place");
+    assert!(finding.text.contains("g0"), "{}", finding.text);
+    let mm: f64 = finding.size.trim_end_matches(" mm").parse().unwrap();
+    assert!((mm - 10.0).abs() < 3.0, "{}", finding.size);
+    assert!(answer.added.is_empty());
+    for leg in 0..6 {
+        let k = answer.parameters.iter().find(|p| p.name == format!("leg-{}.stiffness", leg + 1)).unwrap();
+        assert!(
+            (k.value - PAPER_STIFFNESS[leg] * 1e-6).abs() < 4.5 * k.std,
+            "{}: {} +- {}",
+            k.name,
+            k.value,
+            k.std
+        );
+    }
+}
