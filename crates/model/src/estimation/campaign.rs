@@ -73,6 +73,8 @@ pub struct Condition {
     pub observer: Matrix6,
     /// 1 / sigma of each averaged value.
     pub weight: Vector6,
+    /// Compliances of the leg springs where the model is linearised, m/N.
+    pub springs: Vector6,
 }
 
 /// Leg forces (N, tension positive) along the way from the unloaded machine to the reading.
@@ -370,6 +372,7 @@ impl Campaign {
             reading,
             observer,
             weight: Vector6::from_fn(|k, _| 1.0 / group.sigma[k]),
+            springs: *springs,
             legs,
         })
     }

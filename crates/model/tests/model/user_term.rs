@@ -146,7 +146,7 @@ fn hostile_term_files_are_refused_in_words() {
         (swap("scale = 50", "scale = -1"), "positive number"),
         (swap("scale = 50", "scale = nan"), "positive number"),
         (swap("nm/N", "furlong"), "per_si"),
-        (swap("name = \"size\"", "name = \"df\""), "already has a meaning"),
+        (swap("name = \"size\"", "name = \"df\""), "is a variable of formulas: f - f0, N"),
         (swap("title", "titel"), "unknown field"),
         (swap("term/1", "term/2"), "term/1"),
         (swap("elongation =", "wrench ="), "invalid"),

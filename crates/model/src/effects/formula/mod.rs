@@ -82,6 +82,24 @@ enum Step {
 pub struct Formula {
     text: String,
     steps: Vec<Step>,
+    /// Numbers that wait at once.
+    depth: usize,
+}
+
+/// Numbers that may wait at once without memory of their own.
+const SHALLOW: usize = 16;
+
+fn depth(steps: &[Step]) -> usize {
+    let (mut waiting, mut most) = (0_usize, 1);
+    for step in steps {
+        match step {
+            Step::Push(_) | Step::Load(_) => waiting += 1,
+            Step::Unary(_) => {}
+            Step::Binary(_) => waiting -= 1,
+        }
+        most = most.max(waiting);
+    }
+    most
 }
 
 impl Formula {
@@ -99,27 +117,39 @@ impl Formula {
             return Err(FormulaError::Empty);
         }
         let steps = parser::parse(&tokens, length, variables)?;
-        Ok(Self { text: text.trim().to_owned(), steps })
+        let depth = depth(&steps);
+        Ok(Self { text: text.trim().to_owned(), steps, depth })
     }
 
     /// Value for these values of the variables, in the order in which they were named; may be infinite or NaN.
     pub fn value(&self, variables: &[f64]) -> f64 {
-        let mut stack: Vec<f64> = Vec::with_capacity(8);
+        let mut shallow = [f64::NAN; SHALLOW];
+        let mut deep = Vec::new();
+        let stack = if self.depth <= SHALLOW {
+            &mut shallow[..]
+        } else {
+            deep.resize(self.depth, f64::NAN);
+            &mut deep[..]
+        };
+        let mut top = 0;
         for step in &self.steps {
             match *step {
-                Step::Push(number) => stack.push(number),
-                Step::Load(k) => stack.push(variables.get(k).copied().unwrap_or(f64::NAN)),
-                Step::Unary(f) => {
-                    let x = stack.pop().unwrap_or(f64::NAN);
-                    stack.push(f(x));
+                Step::Push(number) => {
+                    stack[top] = number;
+                    top += 1;
                 }
+                Step::Load(k) => {
+                    stack[top] = variables.get(k).copied().unwrap_or(f64::NAN);
+                    top += 1;
+                }
+                Step::Unary(f) => stack[top - 1] = f(stack[top - 1]),
                 Step::Binary(f) => {
-                    let (y, x) = (stack.pop().unwrap_or(f64::NAN), stack.pop().unwrap_or(f64::NAN));
-                    stack.push(f(x, y));
+                    top -= 1;
+                    stack[top - 1] = f(stack[top - 1], stack[top]);
                 }
             }
         }
-        stack.pop().unwrap_or(f64::NAN)
+        stack[0]
     }
 
     /// True when the formula mentions a variable.
@@ -166,9 +196,9 @@ pub fn functions() -> impl Iterator<Item = &'static str> {
     UNARY.iter().map(|f| f.0).chain(BINARY.iter().map(|f| f.0))
 }
 
-/// True when a name already means something in every formula.
+/// True when a name means something in every formula. `tau` is free: a time constant may be called so, and then is no number.
 pub fn is_reserved(name: &str) -> bool {
-    functions().chain(CONSTANTS.iter().map(|c| c.0)).any(|known| known == name)
+    name == "pi" || functions().any(|known| known == name)
 }
 
 #[cfg(test)]

@@ -53,6 +53,8 @@ pub(super) struct File {
     pub(super) physics: String,
     pub(super) elongation: Option<String>,
     pub(super) wrench: Option<[String; 6]>,
+    /// Legs that an elongation belongs to, from 1; all when absent.
+    legs: Option<Vec<usize>>,
     #[serde(alias = "parameter")]
     parameters: Vec<FileParameter>,
     pub(super) shape: Option<FileShape>,
@@ -108,6 +110,23 @@ impl File {
             all.push(p.resolve()?);
         }
         Ok(all)
+    }
+
+    /// Which legs an elongation acts on.
+    pub(super) fn legs(&self) -> Result<[bool; 6], UserTermError> {
+        let Some(listed) = &self.legs else { return Ok([true; 6]) };
+        let refused = |why: &str| Err(UserTermError::rule("legs", why.to_owned()));
+        if self.elongation.is_none() {
+            return refused("only an elongation belongs to legs");
+        }
+        let mut legs = [false; 6];
+        for &leg in listed {
+            match leg.checked_sub(1).and_then(|k| legs.get_mut(k)) {
+                Some(taken) if !*taken => *taken = true,
+                _ => return refused("a list of different leg numbers from 1 to 6, such as [1, 4]"),
+            }
+        }
+        if listed.is_empty() { refused("names at least one leg, such as [1, 4]") } else { Ok(legs) }
     }
 
     /// Shape and its grid, SI.
@@ -195,9 +214,17 @@ fn check_name(name: &str) -> Result<(), UserTermError> {
         return Err(UserTermError::rule("name", why));
     }
     let variable = super::variables::OF_LEG.contains(&name) || super::variables::OF_READING.contains(&name);
-    if variable || is_reserved(name) {
-        let why = format!("`{name}` already has a meaning in formulas; choose another");
-        return Err(UserTermError::rule("name", why));
-    }
-    Ok(())
+    let taken = if variable {
+        let [unit, meaning] = super::variables::meaning(name);
+        format!(
+            "a variable of formulas: {meaning}{}",
+            if unit.is_empty() { String::new() } else { format!(", {unit}") }
+        )
+    } else if is_reserved(name) {
+        "a function or a number of formulas".to_owned()
+    } else {
+        return Ok(());
+    };
+    let why = format!("`{name}` is {taken}; call the parameter otherwise, for example `{name}_size`");
+    Err(UserTermError::rule("name", why))
 }

@@ -39,6 +39,7 @@ use crate::machine::geometry::Machine;
 
 use file::File;
 pub use help::{EXAMPLE, FormulaVariable, functions, units, variables};
+pub(crate) use variables::LegVariables;
 use variables::{OF_LEG, OF_READING};
 
 /// Largest file read, bytes.
@@ -109,6 +110,8 @@ struct UserTerm {
     info: TermInfo,
     definition: String,
     effect: Effect,
+    /// Legs on which an elongation acts.
+    legs: [bool; 6],
     grid: Vec<f64>,
 }
 
@@ -143,7 +146,7 @@ pub fn parse(text: &str) -> Result<Arc<dyn Term>, UserTermError> {
     refuse_idle_parameters(&effect, &parameters, shape.as_ref().map(|s| &s.0))?;
     check_linearity(&effect, &parameters, &grid)?;
     let info = info(&file, &parameters, shape.map(|s| s.0), &effect);
-    Ok(Arc::new(UserTerm { info, definition: text.to_owned(), effect, grid }))
+    Ok(Arc::new(UserTerm { info, definition: text.to_owned(), effect, legs: file.legs()?, grid }))
 }
 
 /// The term a file describes.
@@ -252,12 +255,14 @@ fn info(file: &File, parameters: &[ParameterInfo], shape: Option<Shape>, effect:
 }
 
 impl UserTerm {
-    /// Value of one formula with parameter `k` at one and the others at zero.
-    fn unit(&self, formula: &Formula, variables: &[f64], k: usize, shape: f64) -> f64 {
-        let mut values = variables.to_vec();
+    /// Value of one formula with parameter `k` at one and the others at zero; `values` holds the variables.
+    fn unit(&self, formula: &Formula, values: &mut Vec<f64>, k: usize, shape: f64) -> f64 {
+        let variables = values.len();
         values.extend((0..self.info.parameters.len()).map(|j| f64::from(u8::from(j == k))));
         values.push(shape);
-        formula.value(&values)
+        let value = formula.value(values);
+        values.truncate(variables);
+        value
     }
 
     fn elongation(
@@ -268,19 +273,24 @@ impl UserTerm {
         k: usize,
         shape: f64,
     ) -> Vector6 {
-        let reading = variables::of_reading(at);
+        let mut values = Vec::with_capacity(OF_LEG.len() + OF_READING.len() + self.info.parameters.len() + 1);
         Vector6::from_fn(|leg, _| {
-            let mut values = variables::of_leg(machine, at, leg).to_vec();
-            values.extend(&reading);
-            self.unit(formula, &values, k, shape)
+            if !self.legs[leg] {
+                return 0.0;
+            }
+            values.clear();
+            variables::push_of_leg(machine, at, leg, &mut values);
+            variables::push_of_reading(at, &mut values);
+            self.unit(formula, &mut values, k, shape)
         })
     }
 
     fn wrench(&self, formulas: &[Option<Formula>], at: &Condition, k: usize, shape: f64) -> Vector6 {
-        let reading = variables::of_reading(at);
+        let mut values = Vec::with_capacity(OF_READING.len() + self.info.parameters.len() + 1);
+        variables::push_of_reading(at, &mut values);
         Vector6::from_fn(|axis, _| {
             let formula = formulas.get(axis).and_then(Option::as_ref);
-            formula.map_or(0.0, |f| self.unit(f, &reading, k, shape))
+            formula.map_or(0.0, |f| self.unit(f, &mut values, k, shape))
         })
     }
 
@@ -293,10 +303,11 @@ impl UserTerm {
 
     /// The variables with which the effect went wrong in component `index` (leg or axis, from zero).
     fn story(&self, machine: &Machine, at: &Condition, index: usize) -> String {
-        let mut values = variables::of_reading(at);
+        let mut values = Vec::new();
         if matches!(self.effect, Effect::Elongation(_)) {
-            values.splice(0..0, variables::of_leg(machine, at, index));
+            variables::push_of_leg(machine, at, index, &mut values);
         }
+        variables::push_of_reading(at, &mut values);
         let formulas = self.effect.formulas();
         variables::describe(&self.effect.variables(), &values, |k| formulas.iter().any(|f| f.uses(k)))
     }

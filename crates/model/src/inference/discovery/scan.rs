@@ -1,0 +1,181 @@
+//! All laws of the grammar, weighed one by one beside what is in the model.
+
+use rayon::prelude::*;
+
+use super::law::{Law, Product};
+use super::legs::{LegSigns, choices};
+use super::space::{ElongationSpace, LegSums, Room};
+use super::tables::{Tables, Values};
+use crate::error::ModelError;
+use crate::inference::evidence::{log_sum, single, widths};
+
+/// Steps of the search for the best constant between two of its grid.
+const GOLDEN_STEPS: usize = 18;
+/// Choices of legs kept of one product.
+const LEGS_KEPT: usize = 3;
+
+/// A law and what speaks for it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ScoredLaw {
+    /// The law.
+    pub(crate) law: Law,
+    /// Log-evidence plus the logarithm of the prior, relative to no law.
+    pub(crate) score: f64,
+    /// Logarithm of the prior: minus the length of the law's description, nats.
+    pub(crate) log_prior: f64,
+}
+
+/// What a scan found.
+pub(crate) struct Scanned {
+    /// Laws, best first; of one product in the same legs the best constant only.
+    pub(crate) laws: Vec<ScoredLaw>,
+    /// Laws weighed, every choice of legs and value of a constant counted.
+    pub(crate) tried: usize,
+}
+
+/// The scan.
+pub(crate) struct LawScan<'a> {
+    pub(crate) space: &'a ElongationSpace,
+    pub(crate) tables: &'a Tables,
+    pub(crate) products: &'a [(Product, f64)],
+}
+
+struct Bench {
+    room: Room,
+    columns: [Values; 2],
+}
+
+impl LawScan<'_> {
+    /// The best laws, at most so many, their constants refined.
+    pub(crate) fn run(&self, most: usize) -> Result<Scanned, ModelError> {
+        let legs = choices();
+        let tasks: Vec<(usize, f64)> = (0..self.products.len())
+            .flat_map(|k| self.tables.grid(&self.products[k].0).iter().map(move |&c| (k, c)))
+            .collect();
+        let best = |bench: &mut Bench, &(k, constant): &(usize, f64)| self.best_of(bench, k, constant, &legs);
+        let scored: Vec<Vec<ScoredLaw>> =
+            tasks.par_iter().map_init(|| self.bench(), best).collect::<Result<_, _>>()?;
+        let mut laws = best_constants(scored.into_iter().flatten());
+        laws.truncate(most);
+        let refined: Result<Vec<ScoredLaw>, ModelError> =
+            laws.par_iter().map_init(|| self.bench(), |bench, law| self.refined(bench, law)).collect();
+        let mut laws = refined?;
+        sort(&mut laws);
+        Ok(Scanned { laws, tried: tasks.len() * legs.len() })
+    }
+
+    fn bench(&self) -> Bench {
+        Bench { room: self.space.room(), columns: [Vec::new(), Vec::new()] }
+    }
+
+    fn sums<'b>(
+        &self,
+        bench: &'b mut Bench,
+        product: &Product,
+        constant: f64,
+    ) -> Result<&'b LegSums, ModelError> {
+        let width = self.tables.columns(product, constant, &mut bench.columns)?;
+        let columns = [&bench.columns[0][..], &bench.columns[1][..]];
+        Ok(self.space.sums(&columns[..width], &mut bench.room))
+    }
+
+    fn best_of(
+        &self,
+        bench: &mut Bench,
+        k: usize,
+        constant: f64,
+        legs: &[(LegSigns, f64)],
+    ) -> Result<Vec<ScoredLaw>, ModelError> {
+        let (product, of_product) = self.products[k];
+        let sums = self.sums(bench, &product, constant)?;
+        let mut scored: Vec<ScoredLaw> = legs
+            .iter()
+            .map(|&(legs, of_legs)| {
+                let log_prior = of_product + of_legs;
+                let score = self.evidence(sums, &legs) + log_prior;
+                ScoredLaw { law: Law { product, legs, constant }, score, log_prior }
+            })
+            .collect();
+        sort(&mut scored);
+        scored.truncate(LEGS_KEPT);
+        Ok(scored)
+    }
+
+    /// Log-evidence of a choice of legs, averaged over the widths of the prior.
+    fn evidence(&self, sums: &LegSums, legs: &LegSigns) -> f64 {
+        let (b, g) = sums.of(&legs.0);
+        let signature = (g[0] + if sums.columns == 2 { g[2] } else { 0.0 }).max(0.0).sqrt();
+        let tried = widths(signature);
+        let each = |&width: &f64| {
+            let (drop, rest) =
+                if sums.columns == 2 { pair(b, g, width) } else { single(g[0], b[0], width, false) };
+            self.space.likelihood.gain(drop, 1.0) + rest
+        };
+        log_sum(tried.iter().map(each)) - (tried.len() as f64).ln()
+    }
+
+    /// The best constant between the neighbors of that of the grid.
+    fn refined(&self, bench: &mut Bench, found: &ScoredLaw) -> Result<ScoredLaw, ModelError> {
+        let Law { product, legs, constant } = found.law;
+        let grid = self.tables.grid(&product);
+        let Some(at) = grid.iter().position(|&c| c == constant).filter(|_| product.constant().is_some())
+        else {
+            return Ok(*found);
+        };
+        let ends = [grid[at.saturating_sub(1)], grid[(at + 1).min(grid.len() - 1)]];
+        let mut at = |log: f64| -> Result<f64, ModelError> {
+            let sums = self.sums(bench, &product, log.exp())?;
+            Ok(self.evidence(sums, &legs))
+        };
+        let best = golden(ends.map(f64::ln), &mut at)?.exp();
+        let score = at(best.ln())? + found.log_prior;
+        Ok(if score > found.score {
+            ScoredLaw { law: Law { product, legs, constant: best }, score, ..*found }
+        } else {
+            *found
+        })
+    }
+}
+
+/// Drop of chi-square of two sizes with a common prior width, and the rest of their log-evidence.
+fn pair(b: [f64; 2], g: [f64; 3], width: f64) -> (f64, f64) {
+    let w = width * width;
+    let (a, c, d) = (1.0 + w * g[0], w * g[1], 1.0 + w * g[2]);
+    let det = (a * d - c * c).max(1.0);
+    let top = d * b[0] * b[0] - 2.0 * c * b[0] * b[1] + a * b[1] * b[1];
+    (w * top / det, -0.5 * det.ln())
+}
+
+/// Of every product in the same legs the best constant, best first.
+fn best_constants(scored: impl Iterator<Item = ScoredLaw>) -> Vec<ScoredLaw> {
+    let mut all: Vec<ScoredLaw> = scored.filter(|s| s.score.is_finite()).collect();
+    sort(&mut all);
+    let mut seen = std::collections::HashSet::new();
+    all.retain(|s| seen.insert((s.law.product, s.law.legs)));
+    all
+}
+
+/// Best first; in the order of the grammar where scores are equal.
+pub(crate) fn sort(laws: &mut [ScoredLaw]) {
+    let place = |s: &ScoredLaw| (s.law.product, s.law.legs);
+    laws.sort_by(|a, b| b.score.total_cmp(&a.score).then_with(|| place(a).cmp(&place(b))));
+}
+
+fn golden(ends: [f64; 2], f: &mut impl FnMut(f64) -> Result<f64, ModelError>) -> Result<f64, ModelError> {
+    const RATIO: f64 = 0.618_033_988_749_894_9;
+    let (mut low, mut high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    let (mut x, mut y) = (high - RATIO * (high - low), low + RATIO * (high - low));
+    let (mut fx, mut fy) = (f(x)?, f(y)?);
+    for _ in 0..GOLDEN_STEPS {
+        if fx > fy {
+            (high, y, fy) = (y, x, fx);
+            x = high - RATIO * (high - low);
+            fx = f(x)?;
+        } else {
+            (low, x, fx) = (x, y, fy);
+            y = low + RATIO * (high - low);
+            fy = f(y)?;
+        }
+    }
+    Ok(f64::midpoint(low, high))
+}

@@ -1,0 +1,156 @@
+//! Values of building blocks at every condition and leg, computed from their formulas once.
+
+use std::collections::BTreeMap;
+
+use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, MODULATIONS};
+use hexbench_core::statistics::mean;
+
+use super::law::{Head, Law, Product};
+use crate::effects::formula::Formula;
+use crate::effects::user_term::LegVariables;
+use crate::error::ModelError;
+use crate::estimation::linearization::Linearization;
+use crate::inference::period::period_grid;
+
+/// Values of a factor: six legs at every condition.
+pub(crate) type Values = Vec<[f64; 6]>;
+
+/// Blocks evaluated at the conditions of a linearised model.
+pub(crate) struct Tables {
+    variables: LegVariables,
+    plain: BTreeMap<&'static str, Values>,
+    constants: BTreeMap<Constant, Vec<f64>>,
+}
+
+impl Tables {
+    /// # Errors
+    /// [`ModelError::NotFinite`] for a block whose formula is none, which is a mistake of this program.
+    pub(crate) fn new(lin: &Linearization) -> Result<Self, ModelError> {
+        let variables = LegVariables::at(&lin.machine, &lin.conditions);
+        let constants = [Constant::Period, Constant::Force, Constant::Time, Constant::Exponent];
+        let constants = constants.into_iter().map(|c| (c, grid(c, lin))).collect();
+        let mut tables = Self { variables, plain: BTreeMap::new(), constants };
+        for block in CARRIERS.iter().chain(&COVARIATES).chain(&MODULATIONS) {
+            if block.constant.is_none() {
+                let values = tables.evaluated(block.text, None, 1.0)?;
+                tables.plain.insert(block.text, values);
+            }
+        }
+        Ok(tables)
+    }
+
+    /// Values worth trying of the constant of a product; one that means nothing where it has none.
+    pub(crate) fn grid(&self, product: &Product) -> &[f64] {
+        product.constant().map_or(&[1.0], |c| &self.constants[&c])
+    }
+
+    /// Columns of a product: one, or two for a wave.
+    pub(crate) fn columns(
+        &self,
+        product: &Product,
+        constant: f64,
+        out: &mut [Values; 2],
+    ) -> Result<usize, ModelError> {
+        let width = if product.is_wave() { 2 } else { 1 };
+        for (twin, column) in out.iter_mut().enumerate().take(width) {
+            column.clear();
+            column.resize(self.variables.conditions(), [1.0; 6]);
+            for block in product.blocks() {
+                self.multiply(block, twin == 1, constant, column)?;
+            }
+        }
+        Ok(width)
+    }
+
+    /// Size (SI) at which a law elongates the legs as much as their springs do, `elongation` metres.
+    pub(crate) fn scale(&self, law: &Law, elongation: f64) -> Result<f64, ModelError> {
+        let mut columns = [Vec::new(), Vec::new()];
+        let width = self.columns(&law.product, law.constant, &mut columns)?;
+        let square = mean(columns[..width].iter().flatten().flatten().map(|x| x * x)).unwrap_or(0.0);
+        Ok(if square > 0.0 { elongation / square.sqrt() } else { 1.0 })
+    }
+
+    fn multiply(&self, block: &Block, twin: bool, constant: f64, out: &mut Values) -> Result<(), ModelError> {
+        let text = block.twin.filter(|_| twin).unwrap_or(block.text);
+        let own;
+        let values = match self.plain.get(text) {
+            Some(known) => known,
+            None => {
+                own = self.evaluated(text, block.constant, constant)?;
+                &own
+            }
+        };
+        for (row, factor) in out.iter_mut().zip(values) {
+            (0..6).for_each(|leg| row[leg] *= factor[leg]);
+        }
+        Ok(())
+    }
+
+    fn evaluated(&self, text: &str, constant: Option<Constant>, value: f64) -> Result<Values, ModelError> {
+        let mut names = LegVariables::names();
+        names.extend(constant.map(Constant::name));
+        let formula =
+            Formula::parse(text, &names).map_err(|_| ModelError::NotFinite { what: "a building block" })?;
+        Ok(self.variables.values(&formula, value))
+    }
+
+    /// True when a product has a finite value everywhere and one that is not zero somewhere.
+    pub(crate) fn shows(&self, product: &Product) -> bool {
+        let varies = |b: &Block| {
+            self.plain.get(b.text).is_none_or(|values| {
+                let all = || values.iter().flatten();
+                all().all(|x| x.is_finite()) && all().any(|x| x.abs() > 0.0)
+            })
+        };
+        !self.grid(product).is_empty() && product.blocks().all(varies)
+    }
+
+    /// True when the readings have the columns of a head.
+    pub(crate) fn has(head: Head, elapsed: bool, delta_t: bool, approach: bool) -> bool {
+        use super::block::Family;
+        let (Head::Length(k) | Head::Compliance(k)) = head else { return true };
+        match COVARIATES[k].family {
+            Family::Temperature => delta_t,
+            Family::Time => elapsed,
+            Family::Approach => approach,
+            _ => true,
+        }
+    }
+}
+
+/// Values of a constant worth trying in these conditions, ascending.
+fn grid(constant: Constant, lin: &Linearization) -> Vec<f64> {
+    match constant {
+        Constant::Period => {
+            let mut periods = period_grid(&lin.conditions);
+            periods.reverse();
+            periods
+        }
+        Constant::Force => {
+            quantiles(lin.conditions.iter().flat_map(|c| c.force.iter().map(|f| f.abs()).collect::<Vec<_>>()))
+        }
+        Constant::Time => {
+            let longest = lin.conditions.iter().map(|c| c.elapsed).fold(0.0, f64::max);
+            if longest <= 0.0 {
+                return Vec::new();
+            }
+            (0..9).map(|k| longest / 30.0 * 90_f64.powf(f64::from(k) / 8.0)).collect()
+        }
+        Constant::Exponent => vec![0.3, 0.5, 0.7, 1.25, 1.5, 1.75, 2.5, 3.5, 4.5],
+    }
+}
+
+/// Nine values between which tenths of all lie.
+fn quantiles(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut sorted: Vec<f64> = values.filter(|x| *x > 0.0).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    if sorted.len() < 10 {
+        return Vec::new();
+    }
+    let mut cuts: Vec<f64> = (1..10).map(|k| sorted[k * sorted.len() / 10]).collect();
+    cuts.dedup();
+    cuts
+}
+
+/// The carrier of compliances is the first: laws rely on its place.
+const _: () = assert!(COMPLIANCE == 0);

@@ -1,0 +1,255 @@
+//! A law as a term file, as a formula and as a sentence.
+
+use std::fmt::Write as _;
+
+use super::block::{Block, CARRIERS, COMPLIANCE, Constant, Family};
+use super::law::{Head, Law};
+use crate::estimation::linearization::Linearization;
+use crate::inference::period::period_grid;
+
+/// Prefixes of metres, coarsest first, and how many make one.
+const PREFIXES: [(&str, f64); 6] =
+    [("m", 1.0), ("mm", 1e3), ("um", 1e6), ("nm", 1e9), ("pm", 1e12), ("fm", 1e15)];
+/// Longest id of a term.
+const LONGEST_ID: usize = 40;
+/// Values of a constant offered on each side of the one found, and how far they go.
+const SIDE_STEPS: i32 = 6;
+const SIDE_FACTOR: f64 = 2.0;
+/// A fit may carry a constant this many times as far as the values offered.
+const BEYOND: f64 = 2.0;
+
+impl Law {
+    /// Kebab-case name.
+    pub(crate) fn id(&self) -> String {
+        let slugs: Vec<&str> = self.product.blocks().map(|b| b.slug).collect();
+        let lead = if matches!(self.product.head, Head::Length(_)) { "length-" } else { "" };
+        let legs = self.legs.slug();
+        let mut id = format!("{lead}{}", slugs.join("-"));
+        id.truncate(LONGEST_ID - legs.len());
+        format!("{}{legs}", id.trim_end_matches('-'))
+    }
+
+    /// Names of its sizes.
+    pub(crate) fn size_names(&self) -> &'static [&'static str] {
+        if self.product.is_wave() { &["sine", "cosine"] } else { &["size"] }
+    }
+
+    /// Its formula for the elongation of a leg, m; everything SI.
+    pub(crate) fn formula(&self) -> String {
+        let sign = if self.legs.alternates() { "(-1)^leg*" } else { "" };
+        let named = self.size_names().iter().zip(self.product.formulas());
+        named.map(|(name, text)| format!("{name}*{sign}{text}")).collect::<Vec<_>>().join(" + ")
+    }
+
+    /// Unit of its sizes that makes `scale` (SI) a number people read, and how many of it make one SI unit.
+    pub(crate) fn unit(&self, scale: f64) -> (String, f64) {
+        let readable = PREFIXES.iter().find(|(_, per_si)| scale * per_si >= 1.0).unwrap_or(&PREFIXES[5]);
+        let symbols = ["N", "m", "K", "s"];
+        let power = |(symbol, power): (&str, f64)| match power {
+            p if p == 0.0 => None,
+            p if p == 1.0 => Some(symbol.to_owned()),
+            p => Some(format!("{symbol}^{p}")),
+        };
+        let below: Vec<String> = symbols.into_iter().zip(self.product.powers()).filter_map(power).collect();
+        let unit = match below.len() {
+            0 => readable.0.to_owned(),
+            1 => format!("{}/{}", readable.0, below[0]),
+            _ => format!("{}/({})", readable.0, below.join(" ")),
+        };
+        (unit, readable.1)
+    }
+
+    /// What it says, without a sign: `the compliance of all legs changes with temperature`.
+    pub(crate) fn sentence(&self, rises: Option<bool>) -> String {
+        let blocks: Vec<&Block> = self.product.blocks().collect();
+        let legs = self.legs.words();
+        let (subject, with) = match self.product.head {
+            Head::Length(_) => (format!("the length of {legs}"), &blocks[..]),
+            Head::Carrier(_) | Head::Compliance(_) => {
+                (blocks[0].words.replace("{legs}", &legs), &blocks[1..])
+            }
+        };
+        if with.is_empty() {
+            return format!("{subject}{} is not in the model", self.constant_words());
+        }
+        if let Some(wave) = with.iter().find(|b| b.twin.is_some()) {
+            let more: Vec<&str> = with.iter().filter(|b| b.slug != wave.slug).map(|b| b.words).collect();
+            let and =
+                if more.is_empty() { String::new() } else { format!(", more with {}", more.join(" and ")) };
+            return format!("{subject} repeats every {:.2} mm of leg length{and}", self.constant * 1e3);
+        }
+        let verb = match rises {
+            Some(true) => "grows",
+            Some(false) => "falls",
+            None => "changes",
+        };
+        let things: Vec<&str> = with.iter().map(|b| b.words).collect();
+        format!("{subject} {verb} with {}{}", things.join(" times "), self.constant_words())
+    }
+
+    fn constant_words(&self) -> String {
+        match self.product.constant() {
+            Some(Constant::Force) => format!(" (from about {:.0} N)", self.constant),
+            Some(Constant::Time) => format!(" (time constant {:.0} s)", self.constant),
+            Some(Constant::Exponent) => format!(" (exponent {:.2})", self.constant),
+            Some(Constant::Period) | None => String::new(),
+        }
+    }
+
+    /// What an engineer would look at, three things.
+    pub(crate) fn look_at(&self) -> [&'static str; 3] {
+        let families: Vec<Family> = self.product.blocks().map(|b| b.family).collect();
+        let has = |family: Family| families.contains(&family);
+        if self.product.is_wave() {
+            [
+                "the lead of the screw against this period, and its halves and thirds: nut, ball return, gear",
+                "the bearing of the screw and its preload, turned once by hand under load",
+                "the coupling and the encoder, if the period is one turn of the motor",
+            ]
+        } else if has(Family::Time) {
+            [
+                "what warms up while the load stands: motor current, brake, room",
+                "joints and threads that settle: the same load once more without unloading",
+                "adhesive or plastic parts in the leg, which creep",
+            ]
+        } else if has(Family::Temperature) {
+            [
+                "which part of the leg has another expansion than the rest, or is warmed on one side",
+                "where the temperature is read, against where the leg is warm",
+                "the preload of bearings and nuts, warm and cold",
+            ]
+        } else if has(Family::Approach) {
+            [
+                "play and friction in nut and joints: load and unload in small steps",
+                "a clamp or brake that slips when the load is exceeded",
+                "whether the order of the loads was kept in every row",
+            ]
+        } else if self
+            .product
+            .blocks()
+            .any(|b| b.slug.ends_with("-leg") || b.slug.ends_with("-legs") || b.slug == "both-neighbors")
+        {
+            [
+                "what the legs share: mount, bracket, plate or beam between their joints",
+                "bolts and welds of that part, and its stiffness between the joints",
+                "the two joints with only one of the legs loaded",
+            ]
+        } else if has(Family::Length) {
+            [
+                "the free length of screw or tube at both ends of the stroke, and what guides it",
+                "nut and bearing along the stroke: wear where it is used most",
+                "supports that touch at one end of the stroke only",
+            ]
+        } else if has(Family::Direction) || has(Family::Pose) {
+            [
+                "joints that bind or yield sideways when they are turned: play, cross springs, forks",
+                "mounts that are softer in one direction than in the other",
+                "cables and hoses that pull at this end of the workspace",
+            ]
+        } else if has(Family::Wrench) {
+            [
+                "the part through which the load is brought in",
+                "the plate between the joints under this component of the load",
+                "the load cell's axes and its crosstalk",
+            ]
+        } else {
+            [
+                "contacts and bearings of these legs that stiffen, open or give way with the force",
+                "threads, bolts and preload along the leg: which part unloads at this force",
+                "the leg alone in a testing machine over the same range of force",
+            ]
+        }
+    }
+
+    /// Values of its constant worth trying when it is fitted elsewhere, SI, ascending; and the limits.
+    fn constant_range(&self, lin: &Linearization) -> (Vec<f64>, [f64; 2]) {
+        if self.product.constant() == Some(Constant::Period) {
+            let near = |p: &f64| (self.constant / SIDE_FACTOR..self.constant * SIDE_FACTOR).contains(p);
+            let mut grid: Vec<f64> = period_grid(&lin.conditions).into_iter().filter(near).collect();
+            grid.push(self.constant);
+            grid.sort_unstable_by(f64::total_cmp);
+            let limits = [self.constant / (BEYOND * SIDE_FACTOR), self.constant * BEYOND * SIDE_FACTOR];
+            return (grid, limits);
+        }
+        let step = |k: i32| self.constant * SIDE_FACTOR.powf(f64::from(k) / f64::from(SIDE_STEPS));
+        let grid = (-SIDE_STEPS..=SIDE_STEPS).map(step).collect();
+        (grid, [step(-SIDE_STEPS) / BEYOND, step(SIDE_STEPS) * BEYOND])
+    }
+
+    /// The law as a term file; `scale`: its physically sensible size, SI; `rises`: whether what it says grows.
+    pub(crate) fn term_file(
+        &self,
+        scale: f64,
+        lin: &Linearization,
+        rises: Option<bool>,
+        source: &[String],
+    ) -> String {
+        let (unit, per_si) = self.unit(scale);
+        let sentence = self.sentence(rises);
+        let mut text = String::new();
+        for line in source {
+            let _ = writeln!(text, "# {line}");
+        }
+        let _ = write!(
+            text,
+            "format = \"term/1\"\nid = \"{}\"\ntitle = \"{}\"\nphysics = \"{}\"\nelongation = \"{}\"\n",
+            self.id(),
+            capital(&sentence),
+            sentence_with_end(&sentence),
+            self.formula(),
+        );
+        if let Some(legs) = self.legs.numbers() {
+            let _ = writeln!(text, "legs = {legs:?}");
+        }
+        for name in self.size_names() {
+            let _ = write!(
+                text,
+                "\n[[parameters]]\nname = \"{name}\"\nunit = \"{unit}\"\nper_si = {per_si:e}\nscale = {}\n",
+                rounded(scale * per_si),
+            );
+        }
+        if let Some(constant) = self.product.constant() {
+            let (grid, limits) = self.constant_range(lin);
+            let (unit, per_si) = constant.unit();
+            let shown = |values: &[f64]| {
+                values.iter().map(|v| format!("{}", digits(v * per_si))).collect::<Vec<_>>().join(", ")
+            };
+            let _ = write!(
+                text,
+                "\n[shape]\nname = \"{}\"\nunit = \"{unit}\"\nbounds = [{}]\ngrid = [{}]\n",
+                constant.name(),
+                shown(&limits),
+                shown(&grid),
+            );
+        }
+        text
+    }
+
+    /// True when a positive size means that what it describes grows; none where it has no such sense.
+    pub(crate) fn has_direction(&self) -> bool {
+        let is_carrier = match self.product.head {
+            Head::Carrier(k) => k == COMPLIANCE || CARRIERS[k].family == Family::Force,
+            Head::Length(_) | Head::Compliance(_) => true,
+        };
+        is_carrier && !self.legs.alternates() && !self.product.is_wave()
+    }
+}
+
+fn capital(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn sentence_with_end(sentence: &str) -> String {
+    format!("{}.", capital(sentence))
+}
+
+/// Two significant digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
+/// Seven significant digits.
+fn digits(value: f64) -> f64 {
+    format!("{value:.6e}").parse().unwrap_or(value)
+}
