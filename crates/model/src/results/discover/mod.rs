@@ -18,6 +18,7 @@ use self::judgement::Judged;
 pub use self::report::{AllLegs, Discovery, HeldOutFall, LawLegs, LawReport};
 use self::search::{Searched, search};
 use crate::effects::term::Term;
+use crate::effects::user_term::{self, UserTermError};
 use crate::error::ModelError;
 use crate::estimation::fit::Fit;
 use crate::inference::diagnosis::RankedSets;
@@ -52,6 +53,17 @@ pub struct DiscoveryStudy {
     pub fits: Vec<Fit>,
     /// The best law as a term file; none without any law.
     pub term_file: Option<String>,
+}
+
+impl DiscoveryStudy {
+    /// The law as a term, where one was found.
+    ///
+    /// # Errors
+    /// [`UserTermError`] for a file that is none, which is a mistake of this program.
+    pub fn law(&self) -> Result<Option<Arc<dyn Term>>, UserTermError> {
+        let file = self.term_file.as_deref().filter(|_| self.discovery.found);
+        file.map(user_term::parse).transpose()
+    }
 }
 
 /// Searches a law for what springs and catalogue leave; held-out poses come from `holdout`, else poses are left out in turn.
