@@ -191,6 +191,22 @@ static BINARY: [(&str, Binary); 4] =
 /// Names with a fixed value.
 static CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU)];
 
+/// Units that may stand behind a number, `8 mm`, and how many of each make one SI unit.
+static UNITS: [(&str, f64); 12] = [
+    ("m", 1.0),
+    ("mm", 1e3),
+    ("um", 1e6),
+    ("nm", 1e9),
+    ("N", 1.0),
+    ("kN", 1e-3),
+    ("K", 1.0),
+    ("s", 1.0),
+    ("min", 1.0 / 60.0),
+    ("rad", 1.0),
+    ("mrad", 1e3),
+    ("deg", 180.0 / std::f64::consts::PI),
+];
+
 /// Names of all functions.
 pub fn functions() -> impl Iterator<Item = &'static str> {
     UNARY.iter().map(|f| f.0).chain(BINARY.iter().map(|f| f.0))
@@ -226,6 +242,9 @@ mod tests {
             ("abs(-x)*sign(x - 3)", -2.0),
             ("+x", 2.0),
             ("cos(pi)", -1.0),
+            ("x/8 mm", 250.0),
+            ("2 min + 1 s", 121.0),
+            ("sin(90 deg)", 1.0),
         ];
         for (text, expected) in table {
             assert!(

@@ -1,7 +1,7 @@
 //! From words to steps: recursive descent with a limit on depth.
 
 use super::token::{Token, TokenKind};
-use super::{BINARY, CONSTANTS, FormulaError, MOST_DEPTH, Step, UNARY};
+use super::{BINARY, CONSTANTS, FormulaError, MOST_DEPTH, Step, UNARY, UNITS};
 use hexbench_core::files::nearest;
 
 /// Steps of a whole formula.
@@ -72,8 +72,9 @@ impl Parser<'_> {
     fn atom(&mut self) -> Result<(), FormulaError> {
         match self.tokens.get(self.at).map(|t| &t.kind) {
             Some(TokenKind::Number(number)) => {
-                self.steps.push(Step::Push(*number));
                 self.at += 1;
+                let per_si = self.take_unit();
+                self.steps.push(Step::Push(number / per_si));
                 Ok(())
             }
             Some(TokenKind::Name(name)) => {
@@ -87,6 +88,14 @@ impl Parser<'_> {
             }
             _ => Err(self.expected("a number, a name or `(`")),
         }
+    }
+
+    /// The unit behind a number, as how many of it make one SI unit; 1 without a unit.
+    fn take_unit(&mut self) -> f64 {
+        let Some(TokenKind::Name(name)) = self.tokens.get(self.at).map(|t| &t.kind) else { return 1.0 };
+        let Some((_, per_si)) = UNITS.iter().find(|unit| unit.0 == name) else { return 1.0 };
+        self.at += 1;
+        *per_si
     }
 
     fn name(&mut self, name: &str) -> Result<(), FormulaError> {

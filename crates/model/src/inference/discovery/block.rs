@@ -94,6 +94,7 @@ const N: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 const N2: [f64; 4] = [2.0, 0.0, 0.0, 0.0];
 const N3: [f64; 4] = [3.0, 0.0, 0.0, 0.0];
 const NM: [f64; 4] = [1.0, 1.0, 0.0, 0.0];
+const N2M: [f64; 4] = [2.0, 1.0, 0.0, 0.0];
 const M: [f64; 4] = [0.0, 1.0, 0.0, 0.0];
 const M2: [f64; 4] = [0.0, 2.0, 0.0, 0.0];
 const M3: [f64; 4] = [0.0, 3.0, 0.0, 0.0];
@@ -107,8 +108,11 @@ const ROOT_S: [f64; 4] = [0.0, 0.0, 0.0, 0.5];
 /// Index of the carrier of compliances among [`CARRIERS`].
 pub(crate) const COMPLIANCE: usize = 0;
 
+/// Index of the force under the load, which a compliance that something changes after the reference acts on.
+pub(crate) const LOADED: usize = CARRIERS.len() - 1;
+
 /// What a leg carries: differences between load and reference, zero without a load.
-pub(crate) const CARRIERS: [Block; 21] = [
+pub(crate) const CARRIERS: [Block; 28] = [
     block("compliance", "df", N, Family::Force, "the compliance of {legs}"),
     block(
         "square",
@@ -214,6 +218,49 @@ pub(crate) const CARRIERS: [Block; 21] = [
     block("moment-x", "(mx - ref_mx)", NM, Family::Wrench, "what {legs} yield under the moment about x"),
     block("moment-y", "(my - ref_my)", NM, Family::Wrench, "what {legs} yield under the moment about y"),
     block("moment-z", "(mz - ref_mz)", NM, Family::Wrench, "what {legs} yield under the moment about z"),
+    block(
+        "load-x",
+        "(f*fx - f0*ref_fx)",
+        N2,
+        Family::Force,
+        "what grows in {legs} with their force and the force along x at once",
+    ),
+    block(
+        "load-y",
+        "(f*fy - f0*ref_fy)",
+        N2,
+        Family::Force,
+        "what grows in {legs} with their force and the force along y at once",
+    ),
+    block(
+        "load-z",
+        "(f*fz - f0*ref_fz)",
+        N2,
+        Family::Force,
+        "what grows in {legs} with their force and the force along z at once",
+    ),
+    block(
+        "load-mx",
+        "(f*mx - f0*ref_mx)",
+        N2M,
+        Family::Force,
+        "what grows in {legs} with their force and the moment about x at once",
+    ),
+    block(
+        "load-my",
+        "(f*my - f0*ref_my)",
+        N2M,
+        Family::Force,
+        "what grows in {legs} with their force and the moment about y at once",
+    ),
+    block(
+        "load-mz",
+        "(f*mz - f0*ref_mz)",
+        N2M,
+        Family::Force,
+        "what grows in {legs} with their force and the moment about z at once",
+    ),
+    block("loaded", "f", N, Family::Force, "the compliance of {legs}"),
 ];
 
 /// What changes the length of a leg without any load; zero in the reference state.
@@ -239,7 +286,7 @@ pub(crate) const COVARIATES: [Block; 12] = [
 ];
 
 /// What changes a compliance, or the way in which a covariate acts.
-pub(crate) const MODULATIONS: [Block; 40] = [
+pub(crate) const MODULATIONS: [Block; 34] = [
     Block {
         twin: Some("cos(2*pi*q/period)"),
         ..inner(
@@ -251,6 +298,7 @@ pub(crate) const MODULATIONS: [Block; 40] = [
     block("length-2", "(q - q_home)^2", M2, Family::Length, "the square of the way from the home length"),
     block("length-3", "(q - q_home)^3", M3, Family::Length, "the cube of the way from the home length"),
     block("length-abs", "abs(q - q_home)", M, Family::Length, "the way from the home length"),
+    block("extension", "max(q - q_home, 0)", M, Family::Length, "leg length beyond the home length"),
     block("nx", "nx", NONE, Family::Direction, "the leg's inclination along x"),
     block("ny", "ny", NONE, Family::Direction, "the leg's inclination along y"),
     block("nz", "nz", NONE, Family::Direction, "the leg's steepness"),
@@ -279,11 +327,4 @@ pub(crate) const MODULATIONS: [Block; 40] = [
     block("beta-abs", "abs(beta)", NONE, Family::Pose, "the size of the tilt beta"),
     block("approach", "approach", NONE, Family::Approach, "the direction of approach"),
     block("preload", "f0", N, Family::Force, "the preload of the leg"),
-    block("mean-force", "(f + f0)/2", N, Family::Force, "the mean force of the leg"),
-    block("load-x", "fx", N, Family::Wrench, "the force along x"),
-    block("load-y", "fy", N, Family::Wrench, "the force along y"),
-    block("load-z", "fz", N, Family::Wrench, "the force along z"),
-    block("load-mx", "mx", NM, Family::Wrench, "the moment about x"),
-    block("load-my", "my", NM, Family::Wrench, "the moment about y"),
-    block("load-mz", "mz", NM, Family::Wrench, "the moment about z"),
 ];

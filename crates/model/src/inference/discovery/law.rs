@@ -1,7 +1,7 @@
 //! A law: a product of building blocks in some legs.
 
-use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, MODULATIONS};
-use super::legs::LegSigns;
+use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, LOADED, MODULATIONS};
+use super::legs::LegChoice;
 
 /// Prior probability that a law is a change of compliance, a change of length, or has another carrier.
 const OF_KIND: [f64; 3] = [0.4, 0.3, 0.3];
@@ -28,8 +28,10 @@ pub(crate) enum Head {
     Carrier(usize),
     /// Index of [`COVARIATES`]: elongation without a load.
     Length(usize),
-    /// Index of [`COVARIATES`], times the force change: a change of compliance.
+    /// Index of [`COVARIATES`], times the force change: a compliance that was the same in the reference state.
     Compliance(usize),
+    /// The same times the force under the load: a compliance that changed after the reference state.
+    Loaded(usize),
 }
 
 impl Head {
@@ -39,6 +41,7 @@ impl Head {
             Self::Carrier(k) => (&CARRIERS[k], None),
             Self::Length(k) => (&COVARIATES[k], None),
             Self::Compliance(k) => (&CARRIERS[COMPLIANCE], Some(&COVARIATES[k])),
+            Self::Loaded(k) => (&CARRIERS[LOADED], Some(&COVARIATES[k])),
         };
         std::iter::once(first).chain(second)
     }
@@ -90,8 +93,7 @@ impl Product {
         self.blocks().fold([0.0; 4], |sum, b| std::array::from_fn(|k| sum[k] + b.powers[k]))
     }
 
-    /// All products with the logarithm of the prior probability of each; `lengths`: also what changes lengths as pose or length do,
-    /// which shows in absolute poses only.
+    /// All products with the logarithm of the prior probability of each.
     pub(crate) fn all() -> Vec<(Self, f64)> {
         let mut all = compliances();
         all.extend(lengths());
@@ -108,13 +110,13 @@ fn shared(products: Vec<Product>, probability: f64) -> impl Iterator<Item = (Pro
 
 fn compliances() -> Vec<(Product, f64)> {
     let carrier = Head::Carrier(COMPLIANCE);
-    let by_covariate = (0..COVARIATES.len()).map(|k| Product::new(Head::Compliance(k), [None; 2]));
+    let heads = || (0..COVARIATES.len()).flat_map(|k| [Head::Compliance(k), Head::Loaded(k)]);
+    let by_covariate = heads().map(|head| Product::new(head, [None; 2]));
     let by_one = (0..MODULATIONS.len()).map(|k| Product::new(carrier, [Some(k), None]));
     let pairs = (0..MODULATIONS.len())
         .flat_map(|j| (j + 1..MODULATIONS.len()).map(move |k| Product::new(carrier, [Some(j), Some(k)])));
-    let with_covariate = (0..COVARIATES.len()).flat_map(|c| {
-        (0..MODULATIONS.len()).map(move |k| Product::new(Head::Compliance(c), [Some(k), None]))
-    });
+    let with_covariate =
+        heads().flat_map(|head| (0..MODULATIONS.len()).map(move |k| Product::new(head, [Some(k), None])));
     let one = shared(by_covariate.chain(by_one).collect(), OF_KIND[0] * OF_COMPLIANCE[0]);
     let two = shared(pairs.chain(with_covariate).collect(), OF_KIND[0] * OF_COMPLIANCE[1]);
     one.chain(two).collect()
@@ -129,7 +131,7 @@ fn lengths() -> Vec<(Product, f64)> {
 }
 
 fn carriers() -> Vec<(Product, f64)> {
-    let others = || (0..CARRIERS.len()).filter(|&k| k != COMPLIANCE);
+    let others = || (0..CARRIERS.len()).filter(|&k| k != COMPLIANCE && k != LOADED);
     let alone = others().map(|k| Product::new(Head::Carrier(k), [None; 2]));
     let with = others()
         .flat_map(|c| (0..MODULATIONS.len()).map(move |k| Product::new(Head::Carrier(c), [Some(k), None])));
@@ -143,7 +145,7 @@ pub(crate) struct Law {
     /// What it multiplies.
     pub(crate) product: Product,
     /// In which legs.
-    pub(crate) legs: LegSigns,
+    pub(crate) legs: LegChoice,
     /// Value of the constant inside, SI; 1 where there is none.
     pub(crate) constant: f64,
 }
@@ -155,7 +157,7 @@ impl Law {
         1 + factors
             + usize::from(self.product.constant().is_some())
             + usize::from(self.product.is_wave())
-            + usize::from(self.legs != LegSigns::ALL)
+            + usize::from(self.legs != LegChoice::ALL)
     }
 }
 

@@ -1,70 +1,122 @@
-//! Which legs a law concerns, and with which sign.
+//! Which legs a law concerns, and with which sign or size.
 
-/// Legs of a law, `+1`, `-1` or `0` for each.
+/// Legs of a law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct LegSigns(pub [i8; 6]);
+pub(crate) enum LegChoice {
+    /// One size for some of them, `+1`, `-1` or `0` for each.
+    Signed([i8; 6]),
+    /// A size of its own in each of them.
+    Each,
+}
 
 /// Even legs, and the opposite in odd ones.
-const IN_TURN: LegSigns = LegSigns([-1, 1, -1, 1, -1, 1]);
+const IN_TURN: LegChoice = LegChoice::Signed([-1, 1, -1, 1, -1, 1]);
 
-impl LegSigns {
+impl LegChoice {
     /// All legs alike.
-    pub const ALL: Self = Self([1; 6]);
+    pub(crate) const ALL: Self = Self::Signed([1; 6]);
 
-    /// Numbers of the legs from 1; none when all are concerned.
-    pub fn numbers(&self) -> Option<Vec<usize>> {
-        let some = self.0.contains(&0);
-        some.then(|| (0..6).filter(|&leg| self.0[leg] != 0).map(|leg| leg + 1).collect())
+    /// Sign of every leg; all `+1` where each has a size of its own.
+    pub(crate) fn signs(&self) -> [i8; 6] {
+        match self {
+            Self::Signed(signs) => *signs,
+            Self::Each => [1; 6],
+        }
     }
 
-    /// True when the sign differs from leg to leg.
-    pub fn alternates(&self) -> bool {
+    /// Numbers of the legs from 1; none when all are concerned.
+    pub(crate) fn numbers(&self) -> Option<Vec<usize>> {
+        let signs = self.signs();
+        let some = signs.contains(&0);
+        some.then(|| numbers_with(&signs, |s| s != 0))
+    }
+
+    /// True for even legs against odd ones.
+    pub(crate) fn alternates(&self) -> bool {
         *self == IN_TURN
     }
 
+    /// True when legs differ in sign or size.
+    pub(crate) fn differs(&self) -> bool {
+        *self == Self::Each || self.signs().contains(&-1)
+    }
+
+    /// Numbers of the legs that go with a size, and of those that go against it, where these are some only.
+    pub(crate) fn groups(&self) -> Vec<(i8, Option<Vec<usize>>)> {
+        let signs = self.signs();
+        if self.alternates() || !signs.contains(&-1) {
+            return vec![(1, self.numbers())];
+        }
+        [1, -1].into_iter().map(|sign| (sign, Some(numbers_with(&signs, |s| s == sign)))).collect()
+    }
+
     /// As a sentence names them.
-    pub fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         if self.alternates() {
             return "the even legs (the odd ones oppositely)".to_owned();
         }
-        match self.numbers() {
-            None => "all legs".to_owned(),
-            Some(one) if one.len() == 1 => format!("leg {}", one[0]),
-            Some(some) => {
-                let names: Vec<String> = some.iter().map(usize::to_string).collect();
-                let (last, first) =
-                    names.split_last().map_or((String::new(), &[][..]), |(l, f)| (l.clone(), f));
-                format!("legs {} and {last}", first.join(", "))
-            }
+        if *self == Self::Each {
+            return "every leg (each to a degree of its own)".to_owned();
         }
+        let groups = self.groups();
+        let named = groups.iter().map(|(_, numbers)| numbers.as_deref().map_or("all legs".to_owned(), named));
+        named.collect::<Vec<_>>().join(" (oppositely in ") + if groups.len() > 1 { ")" } else { "" }
     }
 
     /// For ids.
-    pub fn slug(&self) -> String {
+    pub(crate) fn slug(&self) -> String {
         if self.alternates() {
             return "-in-turn".to_owned();
         }
-        let joined = |some: Vec<usize>| some.iter().map(usize::to_string).collect::<String>();
-        self.numbers().map_or_else(String::new, |some| format!("-legs-{}", joined(some)))
+        if *self == Self::Each {
+            return "-leg-by-leg".to_owned();
+        }
+        let joined = |some: &[usize]| some.iter().map(usize::to_string).collect::<String>();
+        let groups = self.groups();
+        let slugs = groups.iter().filter_map(|(_, numbers)| numbers.as_deref()).map(joined);
+        slugs
+            .enumerate()
+            .map(|(k, legs)| if k == 0 { format!("-legs-{legs}") } else { format!("-{legs}") })
+            .collect()
+    }
+}
+
+fn numbers_with(signs: &[i8; 6], of: impl Fn(i8) -> bool) -> Vec<usize> {
+    (0..6).filter(|&leg| of(signs[leg])).map(|leg| leg + 1).collect()
+}
+
+fn named(numbers: &[usize]) -> String {
+    let names: Vec<String> = numbers.iter().map(usize::to_string).collect();
+    match names.split_last() {
+        Some((last, [])) => format!("leg {last}"),
+        Some((last, first)) => format!("legs {} and {last}", first.join(", ")),
+        None => String::new(),
     }
 }
 
 /// All choices of legs with the logarithm of the prior probability of each.
 ///
-/// All legs alike 0.45, one leg 0.25, legs in turn 0.08; of two legs 0.12, three 0.06, four or five 0.04, shared evenly.
-pub(crate) fn choices() -> Vec<(LegSigns, f64)> {
+/// All legs alike 0.40, one leg 0.24, legs in turn 0.08, each with its own size 0.06; of two legs 0.12 and oppositely 0.03, three 0.04,
+/// four or five 0.03, shared evenly.
+pub(crate) fn choices() -> Vec<(LegChoice, f64)> {
     let share = |legs: u32| match legs {
-        1 => 0.25 / 6.0,
+        1 => 0.24 / 6.0,
         2 => 0.12 / 15.0,
-        3 => 0.06 / 20.0,
-        6 => 0.45,
-        _ => 0.04 / 21.0,
+        3 => 0.04 / 20.0,
+        6 => 0.40,
+        _ => 0.03 / 21.0,
     };
     let subsets = (1_u32..64).map(|bits| {
-        let legs = LegSigns(std::array::from_fn(|leg| i8::from(bits >> leg & 1 == 1)));
+        let legs = LegChoice::Signed(std::array::from_fn(|leg| i8::from(bits >> leg & 1 == 1)));
         (legs, f64::ln(share(bits.count_ones())))
     });
-    subsets.chain([(IN_TURN, 0.08_f64.ln())]).collect()
+    let opposite = (0..6).flat_map(|i| {
+        (i + 1..6).map(move |j| {
+            let sign = |leg: usize| i8::from(leg == i) - i8::from(leg == j);
+            (LegChoice::Signed(std::array::from_fn(sign)), f64::ln(0.03 / 15.0))
+        })
+    });
+    subsets.chain(opposite).chain([(IN_TURN, 0.08_f64.ln()), (LegChoice::Each, 0.06_f64.ln())]).collect()
 }
 
 #[cfg(test)]
@@ -79,9 +131,11 @@ mod tests {
 
     #[test]
     fn legs_have_words() {
-        assert_eq!(LegSigns::ALL.words(), "all legs");
-        assert_eq!(LegSigns([0, 0, 0, 1, 0, 0]).words(), "leg 4");
-        assert_eq!(LegSigns([1, 0, 1, 0, 0, 1]).words(), "legs 1, 3 and 6");
-        assert_eq!(LegSigns([0, 0, 0, 1, 0, 1]).slug(), "-legs-46");
+        assert_eq!(LegChoice::ALL.words(), "all legs");
+        assert_eq!(LegChoice::Signed([0, 0, 0, 1, 0, 0]).words(), "leg 4");
+        assert_eq!(LegChoice::Signed([1, 0, 1, 0, 0, 1]).words(), "legs 1, 3 and 6");
+        assert_eq!(LegChoice::Signed([0, 1, 0, 0, -1, 0]).words(), "leg 2 (oppositely in leg 5)");
+        assert_eq!(LegChoice::Signed([0, 0, 0, 1, 0, 1]).slug(), "-legs-46");
+        assert_eq!(LegChoice::Signed([0, 1, 0, 0, -1, 0]).slug(), "-legs-2-5");
     }
 }

@@ -14,15 +14,16 @@ mod law;
 mod legs;
 mod scan;
 mod space;
+mod sum;
 mod tables;
 mod text;
 
 use std::sync::Arc;
 
 use self::law::{Law, Product};
-pub use self::legs::LegSigns;
 use self::scan::{LawScan, ScoredLaw};
 use self::space::ElongationSpace;
+pub use self::sum::LawSum;
 use self::tables::Tables;
 use crate::effects::term::{Natural, Term};
 use crate::effects::user_term;
@@ -32,6 +33,8 @@ use crate::estimation::linearization::{Linearization, ModelPoint};
 
 /// Conditions looked at by the scan; the weighing itself uses all of them.
 const SCANNED_CONDITIONS: usize = 400;
+/// Two constants that differ by less, in logarithm, are one.
+const SAME_CONSTANT: f64 = 0.05;
 /// Laws of one scan whose constants are refined.
 const REFINED: usize = 48;
 
@@ -49,52 +52,26 @@ pub struct LawTerm {
 }
 
 impl LawTerm {
-    fn of(
-        found: &ScoredLaw,
-        space: &ElongationSpace,
-        tables: &Tables,
-        lin: &Linearization,
-    ) -> Result<Self, ModelError> {
-        let scale = tables.scale(&found.law, space.elongation)?;
-        let text = found.law.term_file(scale, lin, None, &[]);
+    /// `rank`: how many of this name there are already.
+    fn of(found: &ScoredLaw, rank: usize, scale: f64, lin: &Linearization) -> Result<Self, ModelError> {
+        let id = if rank == 0 { found.law.id() } else { format!("{}-{}", found.law.id(), rank + 1) };
+        let law = &found.law;
+        let mut text = format!("format = \"term/1\"\nid = \"{id}\"\ntitle = \"{}\"\n", law.sentence(None));
+        for (formula, legs) in law.formulas("", true) {
+            text += &format!("[[laws]]\nelongation = \"{formula}\"\n");
+            text += &legs.map_or(String::new(), |legs| format!("legs = {legs:?}\n"));
+        }
+        text += &law.parameters_text(scale, "");
+        text += &law.shape_text(lin);
         let term =
             user_term::parse(&text).map_err(|e| ModelError::Selection(format!("a law is no term: {e}")))?;
         Ok(Self { law: found.law, term, log_prior: found.log_prior, score: found.score, scale })
     }
 
-    /// Which legs it concerns.
-    pub fn legs(&self) -> LegSigns {
-        self.law.legs
-    }
-
-    /// Formula of the elongation of a leg, m.
-    pub fn formula(&self) -> String {
-        self.law.formula()
-    }
-
-    /// Words in its sentence.
-    pub fn complexity(&self) -> usize {
-        self.law.complexity()
-    }
-
-    /// One sentence; `sizes` as fitted, `constant` the value of the constant inside, SI.
-    pub fn sentence(&self, sizes: &[f64], constant: f64) -> String {
-        Law { constant, ..self.law }.sentence(self.rises(sizes))
-    }
-
-    /// What an engineer would look at.
-    pub fn look_at(&self) -> [&'static str; 3] {
-        self.law.look_at()
-    }
-
-    /// The term file, with what is known of its origin as comments.
-    pub fn file(&self, lin: &Linearization, sizes: &[f64], constant: f64, source: &[String]) -> String {
-        Law { constant, ..self.law }.term_file(self.scale, lin, self.rises(sizes), source)
-    }
-
-    fn rises(&self, sizes: &[f64]) -> Option<bool> {
-        let size = sizes.first().copied().filter(|_| self.law.has_direction())?;
-        Some(size > 0.0)
+    /// True for the same law with about the same constant.
+    fn resembles(&self, found: &ScoredLaw) -> bool {
+        let (a, b) = (&self.law, &found.law);
+        a.product == b.product && a.legs == b.legs && (a.constant / b.constant).ln().abs() < SAME_CONSTANT
     }
 }
 
@@ -104,14 +81,6 @@ pub struct LawSearch {
     products: Vec<(Product, f64)>,
     scanned: Linearization,
     natural: Natural,
-}
-
-/// Laws that one scan found.
-pub struct FoundLaws {
-    /// Best first.
-    pub laws: Vec<LawTerm>,
-    /// Laws weighed, every choice of legs and every value of a constant counted.
-    pub tried: usize,
 }
 
 impl LawSearch {
@@ -129,23 +98,31 @@ impl LawSearch {
         Ok(Self { tables, products, scanned, natural })
     }
 
-    /// The best laws beside what a model has already, at most `most`; `lin`: linearised at `point`.
+    /// Adds the best laws beside what a model has already to those known, at most `most`; `lin`: linearised at `point`. The number of
+    /// laws weighed, every choice of legs and every value of a constant counted.
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn beside(
+    pub fn scan(
         &self,
         campaign: &Campaign,
         lin: &Linearization,
         point: &ModelPoint,
         most: usize,
-    ) -> Result<FoundLaws, ModelError> {
+        known: &mut Vec<LawTerm>,
+    ) -> Result<usize, ModelError> {
         let thin = lin.thinned(SCANNED_CONDITIONS);
         let space = ElongationSpace::new(&thin, point, campaign.noise_level(), &self.natural);
         let scan = LawScan { space: &space, tables: &self.tables, products: &self.products };
         let found = scan.run(REFINED)?;
-        let term = |s: &ScoredLaw| LawTerm::of(s, &space, &self.tables, &self.scanned);
-        let laws = found.laws.iter().take(most).map(term).collect::<Result<_, _>>()?;
-        Ok(FoundLaws { laws, tried: found.tried })
+        for law in found.laws.iter().take(most) {
+            if known.iter().any(|k| k.resembles(law)) {
+                continue;
+            }
+            let rank = known.iter().filter(|k| k.law.id() == law.law.id()).count();
+            let scale = self.tables.scale(&law.law, space.elongation)?;
+            known.push(LawTerm::of(law, rank, scale, &self.scanned)?);
+        }
+        Ok(found.tried)
     }
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::law::{Law, Product};
-use super::legs::{LegSigns, choices};
+use super::legs::{LegChoice, choices};
 use super::space::{ElongationSpace, LegSums, Room};
 use super::tables::{Tables, Values};
 use crate::error::ModelError;
@@ -19,7 +19,7 @@ const LEGS_KEPT: usize = 3;
 pub(crate) struct ScoredLaw {
     /// The law.
     pub(crate) law: Law,
-    /// Log-evidence plus the logarithm of the prior, relative to no law.
+    /// Log-evidence plus the logarithm of the prior, the values tried of its constant charged; relative to no law.
     pub(crate) score: f64,
     /// Logarithm of the prior: minus the length of the law's description, nats.
     pub(crate) log_prior: f64,
@@ -84,15 +84,16 @@ impl LawScan<'_> {
         bench: &mut Bench,
         k: usize,
         constant: f64,
-        legs: &[(LegSigns, f64)],
+        legs: &[(LegChoice, f64)],
     ) -> Result<Vec<ScoredLaw>, ModelError> {
         let (product, of_product) = self.products[k];
+        let charge = independent(self.tables.grid(&product).len()).ln();
         let sums = self.sums(bench, &product, constant)?;
         let mut scored: Vec<ScoredLaw> = legs
             .iter()
             .map(|&(legs, of_legs)| {
                 let log_prior = of_product + of_legs;
-                let score = self.evidence(sums, &legs) + log_prior;
+                let score = self.evidence(sums, &legs) + log_prior - charge;
                 ScoredLaw { law: Law { product, legs, constant }, score, log_prior }
             })
             .collect();
@@ -102,16 +103,31 @@ impl LawScan<'_> {
     }
 
     /// Log-evidence of a choice of legs, averaged over the widths of the prior.
-    fn evidence(&self, sums: &LegSums, legs: &LegSigns) -> f64 {
-        let (b, g) = sums.of(&legs.0);
+    fn evidence(&self, sums: &LegSums, legs: &LegChoice) -> f64 {
+        let LegChoice::Signed(signs) = legs else { return self.evidence_of_each(sums) };
+        let (b, g) = sums.of(signs);
         let signature = (g[0] + if sums.columns == 2 { g[2] } else { 0.0 }).max(0.0).sqrt();
+        self.averaged(signature, |width| {
+            if sums.columns == 2 { pair(b, g, width) } else { single(g[0], b[0], width, false) }
+        })
+    }
+
+    /// The same of a size in every leg.
+    fn evidence_of_each(&self, sums: &LegSums) -> f64 {
+        let size = 6 * sums.columns;
+        let trace: f64 = (0..size).map(|k| sums.g[k][k]).sum();
+        self.averaged(sums.scale * trace.max(0.0).sqrt(), |width| each(sums, size, sums.scale * width))
+    }
+
+    /// Average over the widths of a prior; `of`: drop of chi-square and the rest of the log-evidence at a width.
+    fn averaged(&self, signature: f64, of: impl Fn(f64) -> (f64, f64)) -> f64 {
         let tried = widths(signature);
-        let each = |&width: &f64| {
-            let (drop, rest) =
-                if sums.columns == 2 { pair(b, g, width) } else { single(g[0], b[0], width, false) };
+        let scores = tried.iter().map(|&width| {
+            let (drop, rest) = of(width);
             self.space.likelihood.gain(drop, 1.0) + rest
-        };
-        log_sum(tried.iter().map(each)) - (tried.len() as f64).ln()
+        });
+        let scores: Vec<f64> = scores.collect();
+        log_sum(scores.iter().copied()) - (tried.len() as f64).ln()
     }
 
     /// The best constant between the neighbors of that of the grid.
@@ -128,13 +144,18 @@ impl LawScan<'_> {
             Ok(self.evidence(sums, &legs))
         };
         let best = golden(ends.map(f64::ln), &mut at)?.exp();
-        let score = at(best.ln())? + found.log_prior;
+        let score = at(best.ln())? + found.log_prior - independent(grid.len()).ln();
         Ok(if score > found.score {
             ScoredLaw { law: Law { product, legs, constant: best }, score, ..*found }
         } else {
             *found
         })
     }
+}
+
+/// Values of a constant that count as different: neighbors of a grid resemble each other.
+fn independent(grid: usize) -> f64 {
+    (grid as f64 / 3.0).max(1.0)
 }
 
 /// Drop of chi-square of two sizes with a common prior width, and the rest of their log-evidence.
@@ -144,6 +165,24 @@ fn pair(b: [f64; 2], g: [f64; 3], width: f64) -> (f64, f64) {
     let det = (a * d - c * c).max(1.0);
     let top = d * b[0] * b[0] - 2.0 * c * b[0] * b[1] + a * b[1] * b[1];
     (w * top / det, -0.5 * det.ln())
+}
+
+/// The same of a size in every leg, by a Cholesky factor of `I + s^2 G`.
+fn each(sums: &LegSums, size: usize, s: f64) -> (f64, f64) {
+    let mut factor = [[0.0; 12]; 12];
+    let (mut forward, mut log_det, mut drop) = ([0.0; 12], 0.0, 0.0);
+    for i in 0..size {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
+            let entry = s * s * sums.g[i][j] + f64::from(u8::from(i == j)) - known;
+            factor[i][j] = if i == j { entry.max(1e-12).sqrt() } else { entry / factor[j][j] };
+        }
+        let known: f64 = (0..i).map(|k| factor[i][k] * forward[k]).sum();
+        forward[i] = (s * sums.b[i] - known) / factor[i][i];
+        drop += forward[i] * forward[i];
+        log_det += factor[i][i].ln();
+    }
+    (drop, -log_det)
 }
 
 /// Of every product in the same legs the best constant, best first.

@@ -108,7 +108,7 @@ impl Tables {
     /// True when the readings have the columns of a head.
     pub(crate) fn has(head: Head, elapsed: bool, delta_t: bool, approach: bool) -> bool {
         use super::block::Family;
-        let (Head::Length(k) | Head::Compliance(k)) = head else { return true };
+        let (Head::Length(k) | Head::Compliance(k) | Head::Loaded(k)) = head else { return true };
         match COVARIATES[k].family {
             Family::Temperature => delta_t,
             Family::Time => elapsed,

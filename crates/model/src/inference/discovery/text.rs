@@ -1,9 +1,8 @@
 //! A law as a term file, as a formula and as a sentence.
 
-use std::fmt::Write as _;
-
 use super::block::{Block, CARRIERS, COMPLIANCE, Constant, Family};
 use super::law::{Head, Law};
+use super::legs::LegChoice;
 use crate::estimation::linearization::Linearization;
 use crate::inference::period::period_grid;
 
@@ -11,7 +10,7 @@ use crate::inference::period::period_grid;
 const PREFIXES: [(&str, f64); 6] =
     [("m", 1.0), ("mm", 1e3), ("um", 1e6), ("nm", 1e9), ("pm", 1e12), ("fm", 1e15)];
 /// Longest id of a term.
-const LONGEST_ID: usize = 40;
+const LONGEST_ID: usize = 36;
 /// Values of a constant offered on each side of the one found, and how far they go.
 const SIDE_STEPS: i32 = 6;
 const SIDE_FACTOR: f64 = 2.0;
@@ -29,16 +28,34 @@ impl Law {
         format!("{}{legs}", id.trim_end_matches('-'))
     }
 
-    /// Names of its sizes.
-    pub(crate) fn size_names(&self) -> &'static [&'static str] {
-        if self.product.is_wave() { &["sine", "cosine"] } else { &["size"] }
+    /// Names of its sizes; `mark` tells the laws of a sum apart.
+    pub(crate) fn size_names(&self, mark: &str) -> Vec<String> {
+        let names: &[&str] = if self.product.is_wave() { &["sine", "cosine"] } else { &["size"] };
+        names.iter().map(|name| format!("{name}{mark}")).collect()
     }
 
-    /// Its formula for the elongation of a leg, m; everything SI.
-    pub(crate) fn formula(&self) -> String {
-        let sign = if self.legs.alternates() { "(-1)^leg*" } else { "" };
-        let named = self.size_names().iter().zip(self.product.formulas());
-        named.map(|(name, text)| format!("{name}*{sign}{text}")).collect::<Vec<_>>().join(" + ")
+    /// Formulas for the elongation of a leg (m; everything SI) in each of its groups of legs. `is_fitted`: the constant inside stands by
+    /// its name, else as a number.
+    pub(crate) fn formulas(&self, mark: &str, is_fitted: bool) -> Vec<(String, Option<Vec<usize>>)> {
+        let in_turn = if self.legs.alternates() { "(-1)^leg*" } else { "" };
+        let fixed = |text: String| match self.product.constant().filter(|_| !is_fitted) {
+            Some(constant) => with_number(&text, constant.name(), &self.constant_text(constant)),
+            None => text,
+        };
+        let formula = |sign: i8| {
+            let named = self.size_names(mark).into_iter().zip(self.product.formulas());
+            let minus = if sign < 0 { "-" } else { "" };
+            let terms: Vec<String> =
+                named.map(|(name, text)| format!("{minus}{name}*{in_turn}{}", fixed(text))).collect();
+            terms.join(" + ").replace("+ -", "- ")
+        };
+        self.legs.groups().into_iter().map(|(sign, numbers)| (formula(sign), numbers)).collect()
+    }
+
+    fn constant_text(&self, constant: Constant) -> String {
+        let (unit, per_si) = constant.unit();
+        let number = digits(self.constant * per_si);
+        if unit == "1" { number.to_string() } else { format!("({number} {unit})") }
     }
 
     /// Unit of its sizes that makes `scale` (SI) a number people read, and how many of it make one SI unit.
@@ -65,7 +82,7 @@ impl Law {
         let legs = self.legs.words();
         let (subject, with) = match self.product.head {
             Head::Length(_) => (format!("the length of {legs}"), &blocks[..]),
-            Head::Carrier(_) | Head::Compliance(_) => {
+            Head::Carrier(_) | Head::Compliance(_) | Head::Loaded(_) => {
                 (blocks[0].words.replace("{legs}", &legs), &blocks[1..])
             }
         };
@@ -176,72 +193,55 @@ impl Law {
         (grid, [step(-SIDE_STEPS) / BEYOND, step(SIDE_STEPS) * BEYOND])
     }
 
-    /// The law as a term file; `scale`: its physically sensible size, SI; `rises`: whether what it says grows.
-    pub(crate) fn term_file(
-        &self,
-        scale: f64,
-        lin: &Linearization,
-        rises: Option<bool>,
-        source: &[String],
-    ) -> String {
+    /// `[[parameters]]` of its sizes; `scale`: their physically sensible size, SI.
+    pub(crate) fn parameters_text(&self, scale: f64, mark: &str) -> String {
         let (unit, per_si) = self.unit(scale);
-        let sentence = self.sentence(rises);
-        let mut text = String::new();
-        for line in source {
-            let _ = writeln!(text, "# {line}");
-        }
-        let _ = write!(
-            text,
-            "format = \"term/1\"\nid = \"{}\"\ntitle = \"{}\"\nphysics = \"{}\"\nelongation = \"{}\"\n",
-            self.id(),
-            capital(&sentence),
-            sentence_with_end(&sentence),
-            self.formula(),
-        );
-        if let Some(legs) = self.legs.numbers() {
-            let _ = writeln!(text, "legs = {legs:?}");
-        }
-        for name in self.size_names() {
-            let _ = write!(
-                text,
-                "\n[[parameters]]\nname = \"{name}\"\nunit = \"{unit}\"\nper_si = {per_si:e}\nscale = {}\n",
-                rounded(scale * per_si),
-            );
-        }
-        if let Some(constant) = self.product.constant() {
-            let (grid, limits) = self.constant_range(lin);
-            let (unit, per_si) = constant.unit();
-            let shown = |values: &[f64]| {
-                values.iter().map(|v| format!("{}", digits(v * per_si))).collect::<Vec<_>>().join(", ")
-            };
-            let _ = write!(
-                text,
-                "\n[shape]\nname = \"{}\"\nunit = \"{unit}\"\nbounds = [{}]\ngrid = [{}]\n",
-                constant.name(),
-                shown(&limits),
-                shown(&grid),
-            );
-        }
-        text
+        let per_leg = if self.legs == LegChoice::Each { "per_leg = true\n" } else { "" };
+        let of = |name: String| {
+            let scale = rounded(scale * per_si);
+            format!(
+                "\n[[parameters]]\nname = \"{name}\"\nunit = \"{unit}\"\nper_si = {per_si:e}\nscale = {scale}\n{per_leg}"
+            )
+        };
+        self.size_names(mark).into_iter().map(of).collect()
+    }
+
+    /// `[shape]` of its constant.
+    pub(crate) fn shape_text(&self, lin: &Linearization) -> String {
+        let Some(constant) = self.product.constant() else { return String::new() };
+        let (grid, limits) = self.constant_range(lin);
+        let (unit, per_si) = constant.unit();
+        let shown = |values: &[f64]| {
+            values.iter().map(|v| digits(v * per_si).to_string()).collect::<Vec<_>>().join(", ")
+        };
+        let (name, limits, grid) = (constant.name(), shown(&limits), shown(&grid));
+        format!("\n[shape]\nname = \"{name}\"\nunit = \"{unit}\"\nbounds = [{limits}]\ngrid = [{grid}]\n")
     }
 
     /// True when a positive size means that what it describes grows; none where it has no such sense.
     pub(crate) fn has_direction(&self) -> bool {
         let is_carrier = match self.product.head {
             Head::Carrier(k) => k == COMPLIANCE || CARRIERS[k].family == Family::Force,
-            Head::Length(_) | Head::Compliance(_) => true,
+            Head::Length(_) | Head::Compliance(_) | Head::Loaded(_) => true,
         };
-        is_carrier && !self.legs.alternates() && !self.product.is_wave()
+        is_carrier && !self.legs.differs() && !self.product.is_wave()
     }
 }
 
-fn capital(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
-fn sentence_with_end(sentence: &str) -> String {
-    format!("{}.", capital(sentence))
+/// A formula with a number in the place of a name.
+fn with_number(text: &str, name: &str, number: &str) -> String {
+    let mut out = String::new();
+    let mut word = String::new();
+    for c in text.chars().chain([' ']) {
+        if c.is_ascii_alphanumeric() || c == '_' {
+            word.push(c);
+            continue;
+        }
+        out.push_str(if word == name { number } else { &word });
+        word.clear();
+        out.push(c);
+    }
+    out.trim_end().to_owned()
 }
 
 /// Two significant digits.

@@ -2,19 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use hexbench_core::Dataset;
-
-use super::Reason;
 use super::report::{Discovery, HeldOutFall, LawReport};
+use super::{Reason, Source};
 use crate::error::ModelError;
 use crate::estimation::estimate::{Estimate, estimates};
 use crate::estimation::fit::{Fit, TermSpec};
-use crate::estimation::linearization::Linearization;
 use crate::inference::diagnosis::{RankedSets, wanted};
-use crate::inference::discovery::LawTerm;
+use crate::inference::discovery::{LawSum, LawTerm};
 use crate::inference::search::Set;
-use crate::inference::verdict::{NAMED, Verdict};
-use crate::results::diagnose::{Context, Diagnosis, StepReport};
+use crate::inference::verdict::NAMED;
+use crate::results::diagnose::{Context, StepReport};
 
 /// Laws told.
 const MOST_TOLD: usize = 5;
@@ -22,168 +19,135 @@ const MOST_TOLD: usize = 5;
 const IDEAS: usize = 3;
 /// Probability above which a law counts as one that these readings do not tell from the best.
 const ALIKE: f64 = 0.02;
-/// Share of the excess over the noise that a law has to take off the held-out error, at least.
+/// Share of the excess over the noise that a law has to take off the held-out error, at least, where some remains.
 const MOST_OF_IT: f64 = 0.9;
+/// Chance of a held-out error as large as this below which something else is missing.
+const LEAST_CHANCE: f64 = 1e-3;
 
 /// What is said of the laws.
 pub(super) struct Judged {
-    reason: Reason,
-    text: String,
+    /// True when the first proposal convinces.
+    pub(super) convinces: bool,
+    /// True when nothing is left with it.
+    pub(super) is_at_the_noise: bool,
     beside: Vec<String>,
     laws: Vec<LawReport>,
-    /// Index of the best law, and its sizes and constant.
-    best: Option<(usize, Vec<f64>, f64)>,
     steps: Vec<StepReport>,
     pub(super) fits: Vec<Fit>,
     probability: f64,
+    pub(super) term_file: Option<String>,
 }
 
+/// Laws that stand in a set together, by their places in the list of laws.
+type Members = Vec<usize>;
+
 /// Weights of sets summed over what they contain.
-struct Weights {
+struct Weights<'a> {
     /// Probability that a law is at work.
     of_laws: f64,
-    /// The same of each law.
-    of_law: BTreeMap<&'static str, f64>,
+    /// Proposals, best set first, with the probability of each and its best set.
+    proposals: Vec<(Members, f64, &'a Set)>,
     /// Probability of each effect of the catalogue.
     of_effect: BTreeMap<&'static str, f64>,
-    /// Probability of a discrepancy that nothing describes.
-    discrepant: f64,
 }
 
 impl Judged {
     pub(super) fn of(
         context: &Context<'_>,
         laws: &[LawTerm],
-        diagnosis: &Diagnosis,
+        source: &Source<'_>,
     ) -> Result<Self, ModelError> {
-        let outcome = context.outcome;
-        let weights = Weights::of(outcome, laws);
-        let best = best_with_law(outcome, laws);
-        let Some(best) = best else { return Ok(Self::without(context, diagnosis, weights.of_laws)) };
-        let order = order(best, outcome, laws, &weights);
-        let (fits, steps) = context.steps(&order)?;
-        let is_law = |id: &str| laws.iter().any(|l| l.term.info().id == id);
-        let beside: Vec<String> =
-            order.iter().map(|w| w.term.info().id).filter(|id| !is_law(id)).map(str::to_owned).collect();
-        let convinces = weights.of_laws >= NAMED && survives(&steps, beside.len(), weights.of_laws);
-        let told = told(context, laws, &weights, best, &order)?;
-        if !convinces {
-            return Ok(Self {
-                laws: told.0,
-                best: told.1,
-                ..Self::without(context, diagnosis, weights.of_laws)
-            });
-        }
-        let text = told.0.first().map(|l| l.text.clone()).unwrap_or_default();
-        Ok(Self {
-            reason: Reason::Law,
-            text,
-            beside,
-            laws: told.0,
-            best: told.1,
-            steps,
-            fits,
-            probability: weights.of_laws,
-        })
-    }
-
-    /// No law convinces: what the catalogue says stands.
-    fn without(context: &Context<'_>, diagnosis: &Diagnosis, probability: f64) -> Self {
-        let last = diagnosis.steps.last();
-        let explained =
-            last.is_some_and(StepReport::is_at_the_noise) && diagnosis.verdict != Verdict::Outside;
-        let (reason, text) = if explained && !diagnosis.added.is_empty() {
-            (Reason::Catalogue, format!("the catalogue explains it: {}", diagnosis.added.join(" and ")))
-        } else if explained {
-            (
-                Reason::Catalogue,
-                "several explanations of the catalogue remain, and each explains the readings".to_owned(),
-            )
-        } else {
-            (
-                Reason::NoLawConvinces,
-                "something is missing, and no law of those searched convinces".to_owned(),
-            )
-        };
-        Self {
-            reason,
-            text,
-            beside: diagnosis.added.clone(),
+        let weights = Weights::of(context.outcome, laws);
+        let mut judged = Self {
+            convinces: false,
+            is_at_the_noise: false,
+            beside: Vec::new(),
             laws: Vec::new(),
-            best: None,
-            steps: diagnosis.steps.clone(),
-            fits: vec![context.outcome.baseline.clone()],
-            probability,
+            steps: Vec::new(),
+            fits: Vec::new(),
+            probability: weights.of_laws,
+            term_file: None,
+        };
+        for (rank, (members, probability, set)) in weights.proposals.iter().take(MOST_TOLD).enumerate() {
+            let order = weights.order(set, context.outcome, laws);
+            let (fits, steps) = context.steps(&order)?;
+            let Some(fitted) = fits.last() else { continue };
+            let beside = order.len() - members.len();
+            let mine: Vec<&LawTerm> = in_order(members, &order[beside..], laws);
+            let sum = LawSum::fitted(mine, &fitted.point.active);
+            let report = report(rank + 1, &sum, *probability, fitted, &steps, beside);
+            if rank == 0 {
+                judged.convinces = weights.of_laws >= NAMED && survives(&steps, beside, weights.of_laws);
+                judged.is_at_the_noise = steps.last().is_some_and(is_as_expected);
+                judged.beside = order[..beside].iter().map(|w| w.term.info().id.to_owned()).collect();
+                let file = sum.file(&context.outcome.lin, &source.comments(&report));
+                judged.term_file = Some(file);
+                (judged.steps, judged.fits) = (steps, fits);
+            }
+            judged.laws.push(report);
         }
+        name_alike(&mut judged.laws);
+        Ok(judged)
     }
 
-    /// The best law as a term file.
-    pub(super) fn term_file(&self, laws: &[LawTerm], lin: &Linearization, data: &Dataset) -> Option<String> {
-        let (index, sizes, constant) = self.best.as_ref()?;
-        let report = self.laws.first()?;
-        let sizes_told = report
-            .parameters
-            .iter()
-            .map(|p| format!("{} = {:.4} +- {:.2} {}", p.name, p.value, p.std, p.unit));
-        let mut source = vec![
-            format!(
-                "Found by hexbench {} in {}, {} readings",
-                env!("CARGO_PKG_VERSION"),
-                data.source,
-                data.observations.len()
-            ),
-            format!("probability {:.3}", report.probability),
-        ];
-        source.extend(
-            report
-                .held_out
-                .map(|h| format!("held-out error {:.2} -> {:.2} times the noise", h.before, h.after)),
-        );
-        source.extend(sizes_told);
-        Some(laws[*index].file(lin, sizes, *constant, &source))
-    }
-
-    pub(super) fn report(&self, verdict: Verdict, searched: usize) -> Discovery {
-        let found = self.reason == Reason::Law;
-        let mut laws = self.laws.clone();
-        if !found {
-            laws.truncate(IDEAS);
-        }
+    /// The discovery of a law.
+    pub(super) fn report(&self, template: Discovery) -> Discovery {
         Discovery {
-            format: "discovery/1",
-            found,
-            reason: self.reason,
-            text: self.text.clone(),
-            verdict,
+            found: true,
+            reason: Reason::Law,
+            text: self.laws.first().map(|l| l.text.clone()).unwrap_or_default(),
             beside: self.beside.clone(),
-            laws,
+            laws: self.laws.clone(),
             steps: self.steps.clone(),
             probability: self.probability,
-            searched,
-            warnings: Vec::new(),
+            ..template
         }
+    }
+
+    /// What the laws come to where none convinces.
+    pub(super) fn ideas(&self, template: Discovery) -> Discovery {
+        let laws = self.laws.iter().take(IDEAS).cloned().collect();
+        Discovery { laws, probability: self.probability, ..template }
     }
 }
 
-impl Weights {
-    fn of(outcome: &RankedSets, laws: &[LawTerm]) -> Self {
-        let mut weights =
-            Self { of_laws: 0.0, of_law: BTreeMap::new(), of_effect: BTreeMap::new(), discrepant: 0.0 };
+impl<'a> Weights<'a> {
+    fn of(outcome: &'a RankedSets, laws: &[LawTerm]) -> Self {
+        let mut weights = Self { of_laws: 0.0, proposals: Vec::new(), of_effect: BTreeMap::new() };
         for set in &outcome.sets.sets {
-            let discrepant = outcome.sets.discrepant_probability(set);
-            let all = outcome.sets.probability(set) + discrepant;
-            weights.discrepant += discrepant;
-            if has_law(set, outcome, laws) {
-                weights.of_laws += all;
+            let probability = outcome.sets.probability(set) + outcome.sets.discrepant_probability(set);
+            let ids = || set.members.iter().filter_map(|&m| outcome.candidates[m].id());
+            for id in ids().filter(|id| index_of(id, laws).is_none()) {
+                *weights.of_effect.entry(id).or_default() += probability;
             }
-            for id in set.members.iter().filter_map(|&m| outcome.candidates[m].id()) {
-                let place =
-                    if index_of(id, laws).is_some() { &mut weights.of_law } else { &mut weights.of_effect };
-                *place.entry(id).or_default() += all;
+            let members: Members = ids().filter_map(|id| index_of(id, laws)).collect();
+            if members.is_empty() {
+                continue;
+            }
+            weights.of_laws += probability;
+            match weights.proposals.iter_mut().find(|p| p.0 == members) {
+                Some(known) => known.1 += probability,
+                None => weights.proposals.push((members, probability, set)),
             }
         }
         weights.of_laws = weights.of_laws.min(1.0);
         weights
+    }
+
+    /// Terms of a set: effects of the catalogue that are sure, then laws, the one that explains most alone first.
+    fn order(&self, set: &Set, outcome: &RankedSets, laws: &[LawTerm]) -> Vec<TermSpec> {
+        let all = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
+        let law = |w: &TermSpec| index_of(w.term.info().id, laws);
+        let is_sure = |w: &TermSpec| self.of_effect.get(w.term.info().id).is_some_and(|p| *p >= NAMED);
+        let alone = |w: &TermSpec| {
+            let single = |s: &&Set| {
+                s.members.len() == 1 && outcome.candidates[s.members[0]].id() == Some(w.term.info().id)
+            };
+            outcome.sets.sets.iter().find(single).map_or(f64::NEG_INFINITY, |s| s.log_weight)
+        };
+        let mut order: Vec<TermSpec> = all.into_iter().filter(|w| law(w).is_some() || is_sure(w)).collect();
+        order.sort_by(|a, b| law(a).is_some().cmp(&law(b).is_some()).then(alone(b).total_cmp(&alone(a))));
+        order
     }
 }
 
@@ -191,22 +155,11 @@ fn index_of(id: &str, laws: &[LawTerm]) -> Option<usize> {
     laws.iter().position(|l| l.term.info().id == id)
 }
 
-fn has_law(set: &Set, outcome: &RankedSets, laws: &[LawTerm]) -> bool {
-    set.members.iter().any(|&m| outcome.candidates[m].id().is_some_and(|id| index_of(id, laws).is_some()))
-}
-
-fn best_with_law<'a>(outcome: &'a RankedSets, laws: &[LawTerm]) -> Option<&'a Set> {
-    outcome.sets.sets.iter().find(|s| has_law(s, outcome, laws))
-}
-
-/// Terms of a set: effects of the catalogue that are sure, then laws.
-fn order(set: &Set, outcome: &RankedSets, laws: &[LawTerm], weights: &Weights) -> Vec<TermSpec> {
-    let all = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
-    let is_law = |w: &TermSpec| index_of(w.term.info().id, laws).is_some();
-    let is_sure = |w: &TermSpec| weights.of_effect.get(w.term.info().id).is_some_and(|p| *p >= NAMED);
-    let mut order: Vec<TermSpec> = all.into_iter().filter(|w| is_law(w) || is_sure(w)).collect();
-    order.sort_by_key(is_law);
-    order
+fn in_order<'a>(members: &Members, order: &[TermSpec], laws: &'a [LawTerm]) -> Vec<&'a LawTerm> {
+    let place = |k: &usize| order.iter().position(|w| w.term.info().id == laws[*k].term.info().id);
+    let mut sorted = members.clone();
+    sorted.sort_by_key(place);
+    sorted.into_iter().map(|k| &laws[k]).collect()
 }
 
 /// True when held-out poses agree with every law, and the laws take most of what was left.
@@ -219,62 +172,46 @@ fn survives(steps: &[StepReport], beside: usize, probability: f64) -> bool {
     let (Some(first), Some(last)) = (steps.first(), steps.last()) else { return false };
     let excess = |step: &StepReport| (step.error().chi2_reduced - 1.0).max(0.0);
     let taken = 1.0 - excess(last) / excess(first).max(f64::MIN_POSITIVE);
-    agree && (last.is_at_the_noise() || taken >= MOST_OF_IT)
+    agree && (is_as_expected(last) || taken >= MOST_OF_IT)
 }
 
-type Told = (Vec<LawReport>, Option<(usize, Vec<f64>, f64)>);
+/// True when a held-out error is one that the model, noise and tolerances allow.
+fn is_as_expected(step: &StepReport) -> bool {
+    step.chance.map_or_else(|| step.is_at_the_noise(), |chance| chance > LEAST_CHANCE)
+}
 
-/// The laws that are told, best first, each fitted in the place of the best one.
-fn told(
-    context: &Context<'_>,
-    laws: &[LawTerm],
-    weights: &Weights,
-    best: &Set,
-    order: &[TermSpec],
-) -> Result<Told, ModelError> {
-    let outcome = context.outcome;
-    let leader =
-        best.members.iter().filter_map(|&m| outcome.candidates[m].id()).find_map(|id| index_of(id, laws));
-    let probability = |k: usize| weights.of_law.get(laws[k].term.info().id).copied().unwrap_or(0.0);
-    let mut ranked: Vec<usize> = (0..laws.len()).collect();
-    ranked.sort_by(|&a, &b| {
-        let first = |k: usize| Some(k) != leader;
-        first(a)
-            .cmp(&first(b))
-            .then(probability(b).total_cmp(&probability(a)))
-            .then(laws[b].score.total_cmp(&laws[a].score))
-    });
-    let rest: Vec<TermSpec> =
-        order.iter().filter(|w| index_of(w.term.info().id, laws).is_none()).cloned().collect();
-    let (mut reports, mut values) = (Vec::new(), None);
-    for (rank, &k) in ranked.iter().take(MOST_TOLD).enumerate() {
-        let mine = if Some(k) == leader { order.to_vec() } else { with(&rest, &laws[k], outcome) };
-        let Ok((fits, steps)) = context.steps(&mine) else { continue };
-        let Some(fitted) = fits.last() else { continue };
-        let id = laws[k].term.info().id;
-        let Some(active) = fitted.point.active.iter().find(|a| a.id() == id) else { continue };
-        if rank == 0 {
-            values = Some((k, active.values.clone(), active.shape));
-        }
-        let at = mine.iter().position(|w| w.term.info().id == id).unwrap_or(0);
-        let error = |step: &StepReport| step.error().times_noise();
-        reports.push(LawReport {
-            id: format!("law-{}", reports.len() + 1),
-            term: id.to_owned(),
-            formula: laws[k].formula(),
-            kind: "elongation",
-            legs: laws[k].legs().numbers().into(),
-            probability: probability(k).min(1.0),
-            complexity: laws[k].complexity(),
-            parameters: parameters(fitted, id),
-            held_out: Some(HeldOutFall { before: error(&steps[at]), after: error(&steps[at + 1]) }),
-            text: laws[k].sentence(&active.values, active.shape),
-            look_at: laws[k].look_at(),
-            alike: Vec::new(),
-        });
+fn report(
+    number: usize,
+    sum: &LawSum<'_>,
+    probability: f64,
+    fitted: &Fit,
+    steps: &[StepReport],
+    beside: usize,
+) -> LawReport {
+    let error = |step: &StepReport| step.error().times_noise();
+    let ends = steps.get(beside).zip(steps.last());
+    LawReport {
+        id: format!("law-{number}"),
+        term: sum.id(),
+        formula: sum.formula(),
+        kind: "elongation",
+        legs: sum.legs().into(),
+        probability: probability.min(1.0),
+        complexity: sum.complexity(),
+        parameters: parameters(fitted, &steps.last().map(|s| s.terms[beside..].to_vec()).unwrap_or_default()),
+        held_out: ends.map(|(before, after)| HeldOutFall { before: error(before), after: error(after) }),
+        text: sum.sentence(),
+        look_at: sum.look_at(),
+        alike: Vec::new(),
     }
-    name_alike(&mut reports);
-    Ok((reports, values))
+}
+
+/// What is known of the numbers of these terms.
+fn parameters(fitted: &Fit, ids: &[String]) -> Vec<Estimate> {
+    let own = |e: &Estimate| {
+        ids.iter().any(|id| e.name.strip_prefix(id.as_str()).is_some_and(|rest| rest.starts_with('.')))
+    };
+    estimates(fitted).determined.into_iter().filter(own).collect()
 }
 
 /// Laws that share the probability with another.
@@ -284,23 +221,4 @@ fn name_alike(reports: &mut [LawReport]) {
     for report in reports.iter_mut().filter(|r| r.probability >= ALIKE) {
         report.alike = shares.iter().filter(|id| **id != report.id).cloned().collect();
     }
-}
-
-/// Effects with a law in its best form.
-fn with(rest: &[TermSpec], law: &LawTerm, outcome: &RankedSets) -> Vec<TermSpec> {
-    let id = law.term.info().id;
-    let single = outcome
-        .sets
-        .sets
-        .iter()
-        .find(|s| s.members.len() == 1 && outcome.candidates[s.members[0]].id() == Some(id));
-    let own =
-        single.map(|s| wanted(s, &outcome.gram, &outcome.candidates, &outcome.natural)).unwrap_or_default();
-    rest.iter().cloned().chain(own).collect()
-}
-
-/// What is known of the numbers of a term.
-fn parameters(fitted: &Fit, id: &str) -> Vec<Estimate> {
-    let own = |e: &Estimate| e.name.strip_prefix(id).is_some_and(|rest| rest.starts_with('.'));
-    estimates(fitted).determined.into_iter().filter(own).collect()
 }

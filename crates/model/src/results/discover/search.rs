@@ -1,6 +1,5 @@
 //! Scans for laws beside several explanations, and the competition of what they find with the catalogue.
 
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::effects::term::Term;
@@ -11,7 +10,6 @@ use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::inference::diagnosis::{RankedSets, explain_with_laws, wanted};
 use crate::inference::discovery::{LawSearch, LawTerm};
 use crate::inference::search::Set;
-use crate::results::diagnose::DiagnosisStudy;
 
 /// Laws taken from the scan beside the springs alone.
 const BESIDE_SPRINGS: usize = 8;
@@ -36,16 +34,18 @@ struct Pool<'a> {
     campaign: &'a Campaign,
     grammar: LawSearch,
     laws: Vec<LawTerm>,
-    known: BTreeSet<&'static str>,
     tried: usize,
 }
 
-/// Searches laws beside what a diagnosis found.
-pub(super) fn search(study: &DiagnosisStudy, terms: &[Arc<dyn Term>]) -> Result<Searched, ModelError> {
-    let (campaign, outcome) = (&study.campaign, &study.outcome);
+/// Searches laws beside springs and catalogue; `outcome`: how the catalogue explains the campaign.
+pub(super) fn search(
+    campaign: &Campaign,
+    outcome: &RankedSets,
+    terms: &[Arc<dyn Term>],
+) -> Result<Searched, ModelError> {
     let lin = Linearization::at(campaign, &outcome.baseline.point)?;
     let grammar = LawSearch::new(campaign, &lin, outcome.natural)?;
-    let mut pool = Pool { campaign, grammar, laws: Vec::new(), known: BTreeSet::new(), tried: 0 };
+    let mut pool = Pool { campaign, grammar, laws: Vec::new(), tried: 0 };
     pool.scan(&outcome.baseline.point, BESIDE_SPRINGS)?;
     for point in explanations(campaign, outcome) {
         pool.scan(&point, BESIDE_OTHERS)?;
@@ -65,13 +65,7 @@ pub(super) fn search(study: &DiagnosisStudy, terms: &[Arc<dyn Term>]) -> Result<
 impl Pool<'_> {
     fn scan(&mut self, point: &ModelPoint, most: usize) -> Result<(), ModelError> {
         let lin = Linearization::at(self.campaign, point)?;
-        let found = self.grammar.beside(self.campaign, &lin, point, most)?;
-        self.tried += found.tried;
-        for law in found.laws {
-            if self.known.insert(law.term.info().id) {
-                self.laws.push(law);
-            }
-        }
+        self.tried += self.grammar.scan(self.campaign, &lin, point, most, &mut self.laws)?;
         Ok(())
     }
 }
