@@ -33,8 +33,8 @@ use crate::estimation::linearization::{Linearization, ModelPoint};
 
 /// Conditions looked at by the scan; the weighing itself uses all of them.
 const SCANNED_CONDITIONS: usize = 400;
-/// Two constants that differ by less, in logarithm, are one.
-const SAME_CONSTANT: f64 = 0.05;
+/// Two periods that differ by less, in logarithm, are one.
+const SAME_PERIOD: f64 = 0.05;
 /// Laws of one scan whose constants are refined.
 const REFINED: usize = 48;
 
@@ -68,10 +68,11 @@ impl LawTerm {
         Ok(Self { law: found.law, term, log_prior: found.log_prior, score: found.score, scale })
     }
 
-    /// True for the same law with about the same constant.
+    /// True for the same law; waves of two periods are two laws, any other constant is found again by the fit.
     fn resembles(&self, found: &ScoredLaw) -> bool {
         let (a, b) = (&self.law, &found.law);
-        a.product == b.product && a.legs == b.legs && (a.constant / b.constant).ln().abs() < SAME_CONSTANT
+        let differ = a.product.is_wave() && (a.constant / b.constant).ln().abs() > SAME_PERIOD;
+        a.product == b.product && a.legs == b.legs && !differ
     }
 }
 

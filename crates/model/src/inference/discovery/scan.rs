@@ -7,12 +7,16 @@ use super::legs::{LegChoice, choices};
 use super::space::{ElongationSpace, LegSums, Room};
 use super::tables::{Tables, Values};
 use crate::error::ModelError;
-use crate::inference::evidence::{log_sum, single, widths};
+use crate::inference::evidence::{WIDEST, log_sum, single, widths};
 
 /// Steps of the search for the best constant between two of its grid.
 const GOLDEN_STEPS: usize = 18;
 /// Choices of legs kept of one product.
 const LEGS_KEPT: usize = 3;
+/// Choices of legs of one product whose evidence is computed: those that fit best.
+const LEGS_LOOKED_AT: usize = 6;
+/// What the evidence usually takes off the likelihood for a size that is fitted, nats.
+const COST_OF_A_SIZE: f64 = 2.5;
 
 /// A law and what speaks for it.
 #[derive(Debug, Clone, Copy)]
@@ -89,17 +93,35 @@ impl LawScan<'_> {
         let (product, of_product) = self.products[k];
         let charge = independent(self.tables.grid(&product).len()).ln();
         let sums = self.sums(bench, &product, constant)?;
-        let mut scored: Vec<ScoredLaw> = legs
-            .iter()
-            .map(|&(legs, of_legs)| {
-                let log_prior = of_product + of_legs;
-                let score = self.evidence(sums, &legs) + log_prior - charge;
-                ScoredLaw { law: Law { product, legs, constant }, score, log_prior }
-            })
-            .collect();
+        let mut best = [(f64::NEG_INFINITY, LegChoice::Each, 0.0); LEGS_LOOKED_AT];
+        for &(legs, of_legs) in legs {
+            let promise = self.promise(sums, &legs) + of_legs;
+            if let Some(place) = best.iter().position(|known| known.0 < promise) {
+                best[place..].rotate_right(1);
+                best[place] = (promise, legs, of_legs);
+            }
+        }
+        let of = |(_, legs, of_legs): (f64, LegChoice, f64)| {
+            let log_prior = of_product + of_legs;
+            let score = self.evidence(sums, &legs) + log_prior - charge;
+            ScoredLaw { law: Law { product, legs, constant }, score, log_prior }
+        };
+        let mut scored = best.map(of);
         sort(&mut scored);
-        scored.truncate(LEGS_KEPT);
-        Ok(scored)
+        Ok(scored[..LEGS_KEPT].to_vec())
+    }
+
+    /// What the evidence of a choice of legs can be at most, less what all of them share: the likelihood at the best sizes.
+    fn promise(&self, sums: &LegSums, legs: &LegChoice) -> f64 {
+        let drop = match legs {
+            LegChoice::Each => each(sums, 6 * sums.columns, sums.scale * WIDEST).0,
+            LegChoice::Signed(signs) => {
+                let (b, g) = sums.of(signs);
+                if sums.columns == 2 { pair(b, g, WIDEST).0 } else { single(g[0], b[0], WIDEST, false).0 }
+            }
+        };
+        let sizes = if *legs == LegChoice::Each { 6 * sums.columns } else { sums.columns };
+        0.5 * drop - COST_OF_A_SIZE * sizes as f64
     }
 
     /// Log-evidence of a choice of legs, averaged over the widths of the prior.

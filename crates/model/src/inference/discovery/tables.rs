@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use rayon::prelude::*;
+
 use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, MODULATIONS};
 use hexbench_core::statistics::mean;
 
@@ -20,6 +22,8 @@ pub(crate) struct Tables {
     variables: LegVariables,
     plain: BTreeMap<&'static str, Values>,
     constants: BTreeMap<Constant, Vec<f64>>,
+    /// Of formulas with a constant: values for each of its grid.
+    gridded: BTreeMap<&'static str, Vec<Values>>,
 }
 
 impl Tables {
@@ -29,14 +33,35 @@ impl Tables {
         let variables = LegVariables::at(&lin.machine, &lin.conditions);
         let constants = [Constant::Period, Constant::Force, Constant::Time, Constant::Exponent];
         let constants = constants.into_iter().map(|c| (c, grid(c, lin))).collect();
-        let mut tables = Self { variables, plain: BTreeMap::new(), constants };
+        let mut tables = Self { variables, plain: BTreeMap::new(), constants, gridded: BTreeMap::new() };
         for block in CARRIERS.iter().chain(&COVARIATES).chain(&MODULATIONS) {
-            if block.constant.is_none() {
-                let values = tables.evaluated(block.text, None, 1.0)?;
-                tables.plain.insert(block.text, values);
+            for text in std::iter::once(block.text).chain(block.twin) {
+                tables.evaluate(text, block.constant)?;
             }
         }
         Ok(tables)
+    }
+
+    fn evaluate(&mut self, text: &'static str, constant: Option<Constant>) -> Result<(), ModelError> {
+        match constant {
+            None => {
+                let values = self.evaluated(text, None, 1.0)?;
+                self.plain.insert(text, values);
+            }
+            Some(c) => {
+                let of = |&value: &f64| self.evaluated(text, constant, value);
+                let values = self.constants[&c].par_iter().map(of).collect::<Result<_, _>>()?;
+                self.gridded.insert(text, values);
+            }
+        }
+        Ok(())
+    }
+
+    /// Values of a formula known already.
+    fn known(&self, text: &str, constant: Option<Constant>, value: f64) -> Option<&Values> {
+        let Some(c) = constant else { return self.plain.get(text) };
+        let at = self.constants[&c].binary_search_by(|known| known.total_cmp(&value)).ok()?;
+        self.gridded.get(text)?.get(at)
     }
 
     /// Values worth trying of the constant of a product; one that means nothing where it has none.
@@ -73,7 +98,7 @@ impl Tables {
     fn multiply(&self, block: &Block, twin: bool, constant: f64, out: &mut Values) -> Result<(), ModelError> {
         let text = block.twin.filter(|_| twin).unwrap_or(block.text);
         let own;
-        let values = match self.plain.get(text) {
+        let values = match self.known(text, block.constant, constant) {
             Some(known) => known,
             None => {
                 own = self.evaluated(text, block.constant, constant)?;
