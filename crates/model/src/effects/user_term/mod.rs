@@ -34,7 +34,7 @@ use hexbench_core::Vector6;
 use thiserror::Error;
 
 use crate::effects::chain::Action;
-use crate::effects::formula::FormulaError;
+use crate::effects::formula::{Dimension, FormulaError, dimension_of};
 use crate::effects::intern;
 use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Shape, Term, TermInfo};
 use crate::estimation::campaign::Condition;
@@ -150,12 +150,15 @@ pub fn parse(text: &str) -> Result<Arc<dyn Term>, UserTermError> {
     let shape = file.shape()?;
     refuse_same_name(&parameters, shape.as_ref().map(|s| &s.0))?;
     let grid = shape.as_ref().map_or_else(Vec::new, |s| s.1.clone());
-    let own: Vec<&str> = parameters.iter().map(|p| p.name).chain(shape.as_ref().map(|s| s.0.name)).collect();
+    // A size may have any unit: it is what makes the formula right.
+    let sizes = parameters.iter().map(|p| (p.name, None));
+    let own: Vec<_> = sizes.chain(shape.as_ref().map(|s| (s.0.name, dimension_of(s.0.unit)))).collect();
     let parts = Part::all(&file, &own)?;
     refuse_idle_parameters(&parts, &own)?;
     refuse_mixed_parameters(&parts, &parameters)?;
     check_linearity(&parts, &parameters, &grid)?;
     let (expanded, owners) = file.expanded(&parameters);
+    refuse_legs_of_others(&parts, &parameters, &owners)?;
     let info = info(&file, &expanded, shape.map(|s| s.0), &parts);
     let parameters = parameters.len();
     Ok(Arc::new(UserTerm { info, definition: text.to_owned(), parts, owners, parameters, grid }))
@@ -180,10 +183,10 @@ fn refuse_same_name(parameters: &[ParameterInfo], shape: Option<&Shape>) -> Resu
     same.map_or(Ok(()), |s| Err(UserTermError::rule("shape", format!("`{}` is also a parameter", s.name))))
 }
 
-fn refuse_idle_parameters(parts: &[Part], own: &[&str]) -> Result<(), UserTermError> {
+fn refuse_idle_parameters(parts: &[Part], own: &[(&str, Option<Dimension>)]) -> Result<(), UserTermError> {
     let idle = (0..own.len()).find(|&k| !parts.iter().any(|part| part.uses_own(k)));
     idle.map_or(Ok(()), |k| {
-        Err(UserTermError::rule("parameters", format!("`{}` appears in no formula", own[k])))
+        Err(UserTermError::rule("parameters", format!("`{}` appears in no formula", own[k].0)))
     })
 }
 
@@ -200,6 +203,20 @@ fn refuse_mixed_parameters(parts: &[Part], parameters: &[ParameterInfo]) -> Resu
         }
     }
     Ok(())
+}
+
+/// Only an elongation has a size in every leg.
+fn refuse_legs_of_others(
+    parts: &[Part],
+    parameters: &[ParameterInfo],
+    owners: &[Owner],
+) -> Result<(), UserTermError> {
+    let is_other = |k: usize| parts.iter().any(|p| p.uses_own(k) && p.kind != PartKind::Elongation);
+    let wrong = owners.iter().find(|owner| owner.leg.is_some() && is_other(owner.parameter));
+    wrong.map_or(Ok(()), |owner| {
+        let why = format!("`{}` stands in what does not belong to legs", parameters[owner.parameter].name);
+        Err(UserTermError::rule("per_leg", why))
+    })
 }
 
 fn check_linearity(parts: &[Part], parameters: &[ParameterInfo], grid: &[f64]) -> Result<(), UserTermError> {

@@ -6,7 +6,7 @@ use super::UserTermError;
 use super::file::{File, FileLaw};
 use super::variables::{self, OF_LEG, OF_READING};
 use crate::effects::chain::Action;
-use crate::effects::formula::Formula;
+use crate::effects::formula::{Dimension, Formula, dimension_of};
 use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
 
@@ -75,8 +75,8 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// The parts of a file; `own`: names of its parameters, then of its shape.
-    pub(super) fn all(file: &File, own: &[&str]) -> Result<Vec<Self>, UserTermError> {
+    /// The parts of a file; `own`: names of its parameters, then of its shape, with units where these are known.
+    pub(super) fn all(file: &File, own: &[(&str, Option<Dimension>)]) -> Result<Vec<Self>, UserTermError> {
         let mut parts = Vec::new();
         for law in file.laws() {
             parts.extend(Self::of(law, own)?);
@@ -88,7 +88,7 @@ impl Part {
         Ok(parts)
     }
 
-    fn of(law: &FileLaw, own: &[&str]) -> Result<Option<Self>, UserTermError> {
+    fn of(law: &FileLaw, own: &[(&str, Option<Dimension>)]) -> Result<Option<Self>, UserTermError> {
         let elongation = law.elongation.iter().map(|text| (PartKind::Elongation, std::slice::from_ref(text)));
         let six = [
             (PartKind::Wrench, &law.wrench),
@@ -106,10 +106,12 @@ impl Part {
             );
             return Err(UserTermError::rule(kind.key(), why));
         }
-        let names: Vec<&str> = kind.variables().into_iter().chain(own.iter().copied()).collect();
+        let of_kind =
+            kind.variables().into_iter().map(|name| (name, dimension_of(variables::meaning(name)[0])));
+        let (names, units): (Vec<&str>, Vec<_>) = of_kind.chain(own.iter().copied()).unzip();
         let parse = |text: &String| {
             let is_zero = kind != PartKind::Elongation && text.trim().is_empty();
-            (!is_zero).then(|| formula(kind.key(), text, &names)).transpose()
+            (!is_zero).then(|| formula(kind.key(), text, &names, &units)).transpose()
         };
         let formulas = texts.iter().map(parse).collect::<Result<_, _>>()?;
         Ok(Some(Self { kind, formulas, legs: law.legs(kind == PartKind::Elongation)? }))
@@ -175,7 +177,15 @@ impl Part {
     }
 }
 
-fn formula(key: &'static str, text: &str, names: &[&str]) -> Result<Formula, UserTermError> {
+fn formula(
+    key: &'static str,
+    text: &str,
+    names: &[&str],
+    units: &[Option<Dimension>],
+) -> Result<Formula, UserTermError> {
     let shown = || text.chars().take(60).collect();
-    Formula::parse(text, names).map_err(|error| UserTermError::Formula { key, formula: shown(), error })
+    let failed = |error| UserTermError::Formula { key, formula: shown(), error };
+    let formula = Formula::parse(text, names).map_err(failed)?;
+    formula.check_units(units).map_err(failed)?;
+    Ok(formula)
 }

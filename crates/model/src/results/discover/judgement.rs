@@ -97,7 +97,13 @@ impl Judged {
             reason: Reason::Law,
             text: self.laws.first().map(|l| l.text.clone()).unwrap_or_default(),
             beside: self.beside.clone(),
-            laws: self.laws.clone(),
+            laws: self
+                .laws
+                .iter()
+                .enumerate()
+                .filter(|(k, l)| *k == 0 || l.probability >= ALIKE)
+                .map(|l| l.1.clone())
+                .collect(),
             steps: self.steps.clone(),
             probability: self.probability,
             ..template
@@ -106,7 +112,8 @@ impl Judged {
 
     /// What the laws come to where none convinces.
     pub(super) fn ideas(&self, template: Discovery) -> Discovery {
-        let laws = self.laws.iter().take(IDEAS).cloned().collect();
+        let is_open = template.reason == Reason::NoLawConvinces;
+        let laws = self.laws.iter().take(if is_open { IDEAS } else { 0 }).cloned().collect();
         Discovery { laws, probability: self.probability, ..template }
     }
 }
