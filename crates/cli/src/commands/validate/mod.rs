@@ -1,6 +1,7 @@
 //! `hexbench validate`: studies that say how far the bench itself can be trusted, one file each.
 
 pub(crate) mod calibration;
+pub(crate) mod discover;
 pub(crate) mod discriminate;
 pub(crate) mod misread;
 pub(crate) mod paper;
@@ -32,6 +33,7 @@ enum Study {
     Calibration(calibration::Arguments),
     Robustness(robustness::Arguments),
     Misread(misread::Arguments),
+    Discover(discover::Arguments),
     Discriminate(discriminate::Arguments),
     Power(power::Arguments),
     Regress(regress::Arguments),
@@ -45,6 +47,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Calibration(arguments) => calibration::run(arguments, screen),
         Study::Robustness(arguments) => robustness::run(arguments, screen),
         Study::Misread(arguments) => misread::run(arguments, screen),
+        Study::Discover(arguments) => discover::run(arguments, screen),
         Study::Discriminate(arguments) => discriminate::run(arguments, screen),
         Study::Power(arguments) => power::run(arguments, screen),
         Study::Regress(arguments) => regress::run(arguments, screen),

@@ -44,13 +44,19 @@ impl Known {
     }
 }
 
+/// Equal powers; thirds are not exact.
+fn same(a: &[f64], b: &[f64]) -> bool {
+    const ROUNDING: f64 = 1e-9;
+    a.iter().zip(b).all(|(x, y)| (x - y).abs() < ROUNDING)
+}
+
 /// `m`, `N^2`, `a plain number`.
 fn shown(unit: Dimension) -> String {
     let names = ["N", "m", "K", "s"];
-    let power = |(name, p): (&str, f64)| {
-        (p != 0.0).then(|| if p == 1.0 { name.to_owned() } else { format!("{name}^{p}") })
-    };
-    let all: Vec<String> = names.into_iter().zip(unit).filter_map(power).collect();
+    let shown = names.into_iter().zip(unit).filter(|(_, p)| *p != 0.0);
+    let all: Vec<String> = shown
+        .map(|(name, p)| if same(&[p], &[1.0]) { name.to_owned() } else { format!("{name}^{p}") })
+        .collect();
     if all.is_empty() { "a plain number".to_owned() } else { all.join(" ") }
 }
 
@@ -99,7 +105,7 @@ fn binary(
         _ => {}
     }
     match (x, y) {
-        (Known::Unit(u), Known::Unit(v)) if u != v => {
+        (Known::Unit(u), Known::Unit(v)) if !same(&u, &v) => {
             Err(FormulaError::MixedUnits { left: shown(u), right: shown(v) })
         }
         (Known::Bare, other) | (other, Known::Bare) if other.is_length() && a.or(b) != Some(0.0) => {
@@ -114,7 +120,7 @@ fn binary(
 fn power(x: Known, exponent: Option<f64>) -> Known {
     match (x, exponent) {
         (Known::Unit(_), Some(exponent)) => x.to_power(exponent),
-        (Known::Unit(u), None) if u != PLAIN => Known::Nothing,
+        (Known::Unit(u), None) if !same(&u, &PLAIN) => Known::Nothing,
         _ => x,
     }
 }

@@ -59,7 +59,7 @@ pub(super) struct File {
     #[serde(default)]
     laws: Vec<FileLaw>,
     #[serde(skip)]
-    all: Vec<FileLaw>,
+    every_law: Vec<FileLaw>,
     #[serde(alias = "parameter")]
     parameters: Vec<FileParameter>,
     pub(super) shape: Option<FileShape>,
@@ -114,7 +114,7 @@ impl File {
             platform_motion: file.platform_motion.take(),
             legs: file.legs.take(),
         };
-        file.all = std::iter::once(own).chain(std::mem::take(&mut file.laws)).collect();
+        file.every_law = std::iter::once(own).chain(std::mem::take(&mut file.laws)).collect();
         if file.title.trim().is_empty() {
             return Err(UserTermError::rule(
                 "title",
@@ -140,8 +140,8 @@ impl File {
     }
 
     /// Laws: those of the file itself, then those of `[[laws]]`.
-    pub(super) fn laws(&self) -> &[FileLaw] {
-        &self.all
+    pub(super) fn every_law(&self) -> &[FileLaw] {
+        &self.every_law
     }
 
     /// Parameters of the term: those of the file, one for each leg where they differ from leg to leg.

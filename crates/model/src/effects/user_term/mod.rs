@@ -34,7 +34,7 @@ use hexbench_core::Vector6;
 use thiserror::Error;
 
 use crate::effects::chain::Action;
-use crate::effects::formula::{Dimension, FormulaError, dimension_of};
+use crate::effects::formula::{Dimension, Formula, FormulaError, dimension_of};
 use crate::effects::intern;
 use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Shape, Term, TermInfo};
 use crate::estimation::campaign::Condition;
@@ -229,7 +229,7 @@ fn check_linearity(parts: &[Part], parameters: &[ParameterInfo], grid: &[f64]) -
 
 fn info(file: &File, parameters: &[ParameterInfo], shape: Option<Shape>, parts: &[Part]) -> TermInfo {
     let formulas = parts.iter().flat_map(Part::formulas);
-    let equation = formulas.map(|f| f.text()).collect::<Vec<_>>().join("; ");
+    let equation = formulas.map(Formula::text).collect::<Vec<_>>().join("; ");
     let covariates = [("elapsed", Need::Elapsed), ("approach", Need::Approach), ("delta_T", Need::DeltaT)];
     let uses = |name: &str| parts.iter().any(|part| part.uses(name));
     let needs: Vec<Need> = covariates.into_iter().filter(|(name, _)| uses(name)).map(|c| c.1).collect();

@@ -78,7 +78,7 @@ impl Part {
     /// The parts of a file; `own`: names of its parameters, then of its shape, with units where these are known.
     pub(super) fn all(file: &File, own: &[(&str, Option<Dimension>)]) -> Result<Vec<Self>, UserTermError> {
         let mut parts = Vec::new();
-        for law in file.laws() {
+        for law in file.every_law() {
             parts.extend(Self::of(law, own)?);
         }
         if parts.is_empty() {

@@ -264,7 +264,7 @@ pub(crate) const CARRIERS: [Block; 28] = [
 ];
 
 /// What changes the length of a leg without any load; zero in the reference state.
-pub(crate) const COVARIATES: [Block; 12] = [
+pub(crate) const COVARIATES: [Block; 13] = [
     block("temperature", "delta_T", K, Family::Temperature, "temperature"),
     block("temperature-2", "delta_T^2", K2, Family::Temperature, "the square of temperature"),
     block("temperature-3", "delta_T^3", K3, Family::Temperature, "the cube of temperature"),
@@ -282,11 +282,12 @@ pub(crate) const COVARIATES: [Block; 12] = [
         Constant::Time,
         block("settling", "(1 - exp(-elapsed/tau))", NONE, Family::Time, "time towards an end value"),
     ),
+    inner(Constant::Time, block("jump", "step(elapsed - tau)", NONE, Family::Time, "time at once")),
     block("overload", "(1 - approach)/2", NONE, Family::Approach, "a load exceeded before"),
 ];
 
 /// What changes a compliance, or the way in which a covariate acts.
-pub(crate) const MODULATIONS: [Block; 34] = [
+pub(crate) const MODULATIONS: [Block; 37] = [
     Block {
         twin: Some("cos(2*pi*q/period)"),
         ..inner(
@@ -320,6 +321,9 @@ pub(crate) const MODULATIONS: [Block; 34] = [
     block("beta-2", "beta^2", NONE, Family::Pose, "the square of the tilt beta"),
     block("gamma-2", "gamma^2", NONE, Family::Pose, "the square of the turn gamma"),
     block("alpha-beta", "alpha*beta", NONE, Family::Pose, "the product of both tilts"),
+    block("a-3", "a^3", M3, Family::Pose, "the cube of the platform's place along x"),
+    block("b-3", "b^3", M3, Family::Pose, "the cube of the platform's place along y"),
+    block("c-3", "c^3", M3, Family::Pose, "the cube of the platform's height"),
     block("a-b", "a*b", M2, Family::Pose, "the product of the platform's places along x and y"),
     block("tilt-2", "(alpha^2 + beta^2)", NONE, Family::Pose, "the square of the tilt"),
     block("radius-2", "(a^2 + b^2)", M2, Family::Pose, "the square of the way from the middle"),

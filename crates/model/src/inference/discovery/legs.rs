@@ -17,45 +17,45 @@ impl LegChoice {
     pub(crate) const ALL: Self = Self::Signed([1; 6]);
 
     /// Sign of every leg; all `+1` where each has a size of its own.
-    pub(crate) fn signs(&self) -> [i8; 6] {
+    pub(crate) fn signs(self) -> [i8; 6] {
         match self {
-            Self::Signed(signs) => *signs,
+            Self::Signed(signs) => signs,
             Self::Each => [1; 6],
         }
     }
 
     /// Numbers of the legs from 1; none when all are concerned.
-    pub(crate) fn numbers(&self) -> Option<Vec<usize>> {
+    pub(crate) fn numbers(self) -> Option<Vec<usize>> {
         let signs = self.signs();
         let some = signs.contains(&0);
-        some.then(|| numbers_with(&signs, |s| s != 0))
+        some.then(|| numbers_with(signs, |s| s != 0))
     }
 
     /// True for even legs against odd ones.
-    pub(crate) fn alternates(&self) -> bool {
-        *self == IN_TURN
+    pub(crate) fn alternates(self) -> bool {
+        self == IN_TURN
     }
 
     /// True when legs differ in sign or size.
-    pub(crate) fn differs(&self) -> bool {
-        *self == Self::Each || self.signs().contains(&-1)
+    pub(crate) fn differs(self) -> bool {
+        self == Self::Each || self.signs().contains(&-1)
     }
 
     /// Numbers of the legs that go with a size, and of those that go against it, where these are some only.
-    pub(crate) fn groups(&self) -> Vec<(i8, Option<Vec<usize>>)> {
+    pub(crate) fn groups(self) -> Vec<(i8, Option<Vec<usize>>)> {
         let signs = self.signs();
         if self.alternates() || !signs.contains(&-1) {
             return vec![(1, self.numbers())];
         }
-        [1, -1].into_iter().map(|sign| (sign, Some(numbers_with(&signs, |s| s == sign)))).collect()
+        [1, -1].into_iter().map(|sign| (sign, Some(numbers_with(signs, |s| s == sign)))).collect()
     }
 
     /// As a sentence names them.
-    pub(crate) fn words(&self) -> String {
+    pub(crate) fn words(self) -> String {
         if self.alternates() {
             return "the even legs (the odd ones oppositely)".to_owned();
         }
-        if *self == Self::Each {
+        if self == Self::Each {
             return "every leg (each to a degree of its own)".to_owned();
         }
         let groups = self.groups();
@@ -64,11 +64,11 @@ impl LegChoice {
     }
 
     /// For ids.
-    pub(crate) fn slug(&self) -> String {
+    pub(crate) fn slug(self) -> String {
         if self.alternates() {
             return "-in-turn".to_owned();
         }
-        if *self == Self::Each {
+        if self == Self::Each {
             return "-leg-by-leg".to_owned();
         }
         let joined = |some: &[usize]| some.iter().map(usize::to_string).collect::<String>();
@@ -81,7 +81,7 @@ impl LegChoice {
     }
 }
 
-fn numbers_with(signs: &[i8; 6], of: impl Fn(i8) -> bool) -> Vec<usize> {
+fn numbers_with(signs: [i8; 6], of: impl Fn(i8) -> bool) -> Vec<usize> {
     (0..6).filter(|&leg| of(signs[leg])).map(|leg| leg + 1).collect()
 }
 

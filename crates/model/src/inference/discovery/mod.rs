@@ -18,6 +18,7 @@ mod sum;
 mod tables;
 mod text;
 
+use std::fmt::Write as _;
 use std::sync::Arc;
 
 use self::law::{Law, Product};
@@ -58,7 +59,7 @@ impl LawTerm {
         let law = &found.law;
         let mut text = format!("format = \"term/1\"\nid = \"{id}\"\ntitle = \"{}\"\n", law.sentence(None));
         for (formula, legs) in law.formulas("", true) {
-            text += &format!("[[laws]]\nelongation = \"{formula}\"\n");
+            let _ = write!(text, "[[laws]]\nelongation = \"{formula}\"\n");
             text += &legs.map_or(String::new(), |legs| format!("legs = {legs:?}\n"));
         }
         text += &law.parameters_text(scale, "");

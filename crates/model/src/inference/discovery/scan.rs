@@ -95,7 +95,7 @@ impl LawScan<'_> {
         let sums = self.sums(bench, &product, constant)?;
         let mut best = [(f64::NEG_INFINITY, LegChoice::Each, 0.0); LEGS_LOOKED_AT];
         for &(legs, of_legs) in legs {
-            let promise = self.promise(sums, &legs) + of_legs;
+            let promise = promise(sums, legs) + of_legs;
             if let Some(place) = best.iter().position(|known| known.0 < promise) {
                 best[place..].rotate_right(1);
                 best[place] = (promise, legs, of_legs);
@@ -103,7 +103,7 @@ impl LawScan<'_> {
         }
         let of = |(_, legs, of_legs): (f64, LegChoice, f64)| {
             let log_prior = of_product + of_legs;
-            let score = self.evidence(sums, &legs) + log_prior - charge;
+            let score = self.evidence(sums, legs) + log_prior - charge;
             ScoredLaw { law: Law { product, legs, constant }, score, log_prior }
         };
         let mut scored = best.map(of);
@@ -111,21 +111,8 @@ impl LawScan<'_> {
         Ok(scored[..LEGS_KEPT].to_vec())
     }
 
-    /// What the evidence of a choice of legs can be at most, less what all of them share: the likelihood at the best sizes.
-    fn promise(&self, sums: &LegSums, legs: &LegChoice) -> f64 {
-        let drop = match legs {
-            LegChoice::Each => each(sums, 6 * sums.columns, sums.scale * WIDEST).0,
-            LegChoice::Signed(signs) => {
-                let (b, g) = sums.of(signs);
-                if sums.columns == 2 { pair(b, g, WIDEST).0 } else { single(g[0], b[0], WIDEST, false).0 }
-            }
-        };
-        let sizes = if *legs == LegChoice::Each { 6 * sums.columns } else { sums.columns };
-        0.5 * drop - COST_OF_A_SIZE * sizes as f64
-    }
-
     /// Log-evidence of a choice of legs, averaged over the widths of the prior.
-    fn evidence(&self, sums: &LegSums, legs: &LegChoice) -> f64 {
+    fn evidence(&self, sums: &LegSums, legs: LegChoice) -> f64 {
         let LegChoice::Signed(signs) = legs else { return self.evidence_of_each(sums) };
         let (b, g) = sums.of(signs);
         let signature = (g[0] + if sums.columns == 2 { g[2] } else { 0.0 }).max(0.0).sqrt();
@@ -156,14 +143,15 @@ impl LawScan<'_> {
     fn refined(&self, bench: &mut Bench, found: &ScoredLaw) -> Result<ScoredLaw, ModelError> {
         let Law { product, legs, constant } = found.law;
         let grid = self.tables.grid(&product);
-        let Some(at) = grid.iter().position(|&c| c == constant).filter(|_| product.constant().is_some())
+        let Some(at) =
+            grid.binary_search_by(|c| c.total_cmp(&constant)).ok().filter(|_| product.constant().is_some())
         else {
             return Ok(*found);
         };
         let ends = [grid[at.saturating_sub(1)], grid[(at + 1).min(grid.len() - 1)]];
         let mut at = |log: f64| -> Result<f64, ModelError> {
             let sums = self.sums(bench, &product, log.exp())?;
-            Ok(self.evidence(sums, &legs))
+            Ok(self.evidence(sums, legs))
         };
         let best = golden(ends.map(f64::ln), &mut at)?.exp();
         let score = at(best.ln())? + found.log_prior - independent(grid.len()).ln();
@@ -173,6 +161,19 @@ impl LawScan<'_> {
             *found
         })
     }
+}
+
+/// What the evidence of a choice of legs can be at most, less what all of them share: the likelihood at the best sizes.
+fn promise(sums: &LegSums, legs: LegChoice) -> f64 {
+    let drop = match legs {
+        LegChoice::Each => each(sums, 6 * sums.columns, sums.scale * WIDEST).0,
+        LegChoice::Signed(signs) => {
+            let (b, g) = sums.of(signs);
+            if sums.columns == 2 { pair(b, g, WIDEST).0 } else { single(g[0], b[0], WIDEST, false).0 }
+        }
+    };
+    let sizes = if legs == LegChoice::Each { 6 * sums.columns } else { sums.columns };
+    0.5 * drop - COST_OF_A_SIZE * sizes as f64
 }
 
 /// Values of a constant that count as different: neighbors of a grid resemble each other.

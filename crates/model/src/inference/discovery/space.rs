@@ -149,7 +149,7 @@ pub(crate) struct LegSums {
 
 impl LegSums {
     /// Normal equations of one choice of legs: `b`, then `g` of first, mixed, second column.
-    pub(crate) fn of(&self, signs: &[i8; 6]) -> ([f64; 2], [f64; 3]) {
+    pub(crate) fn of(&self, signs: [i8; 6]) -> ([f64; 2], [f64; 3]) {
         let (mut b, mut g) = ([0.0; 2], [0.0; 3]);
         let concerned = |leg: &usize| signs[*leg] != 0;
         for i in (0..6).filter(concerned) {

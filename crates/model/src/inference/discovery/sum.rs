@@ -77,7 +77,10 @@ impl<'a> LawSum<'a> {
     /// fitted again elsewhere.
     pub fn file(&self, lin: &Linearization, source: &[String]) -> String {
         let sentence = capital(&self.sentence());
-        let mut text: String = source.iter().map(|line| format!("# {line}\n")).collect();
+        let mut text = String::new();
+        for line in source {
+            let _ = writeln!(text, "# {line}");
+        }
         let _ = write!(
             text,
             "format = \"term/1\"\nid = \"{}\"\ntitle = \"{sentence}\"\nphysics = \"{sentence}.\"\n",

@@ -98,12 +98,11 @@ impl Tables {
     fn multiply(&self, block: &Block, twin: bool, constant: f64, out: &mut Values) -> Result<(), ModelError> {
         let text = block.twin.filter(|_| twin).unwrap_or(block.text);
         let own;
-        let values = match self.known(text, block.constant, constant) {
-            Some(known) => known,
-            None => {
-                own = self.evaluated(text, block.constant, constant)?;
-                &own
-            }
+        let values = if let Some(known) = self.known(text, block.constant, constant) {
+            known
+        } else {
+            own = self.evaluated(text, block.constant, constant)?;
+            &own
         };
         for (row, factor) in out.iter_mut().zip(values) {
             (0..6).for_each(|leg| row[leg] *= factor[leg]);

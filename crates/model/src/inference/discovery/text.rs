@@ -62,12 +62,11 @@ impl Law {
     pub(crate) fn unit(&self, scale: f64) -> (String, f64) {
         let readable = PREFIXES.iter().find(|(_, per_si)| scale * per_si >= 1.0).unwrap_or(&PREFIXES[5]);
         let symbols = ["N", "m", "K", "s"];
-        let power = |(symbol, power): (&str, f64)| match power {
-            p if p == 0.0 => None,
-            p if p == 1.0 => Some(symbol.to_owned()),
-            p => Some(format!("{symbol}^{p}")),
+        let powers = symbols.into_iter().zip(self.product.powers()).filter(|(_, power)| *power > 0.0);
+        let written = |(symbol, power): (&str, f64)| {
+            if (power - 1.0).abs() < f64::EPSILON { symbol.to_owned() } else { format!("{symbol}^{power}") }
         };
-        let below: Vec<String> = symbols.into_iter().zip(self.product.powers()).filter_map(power).collect();
+        let below: Vec<String> = powers.map(written).collect();
         let unit = match below.len() {
             0 => readable.0.to_owned(),
             1 => format!("{}/{}", readable.0, below[0]),
@@ -94,6 +93,12 @@ impl Law {
             let and =
                 if more.is_empty() { String::new() } else { format!(", more with {}", more.join(" and ")) };
             return format!("{subject} repeats every {:.2} mm of leg length{and}", self.constant * 1e3);
+        }
+        if let Some(jump) = with.iter().find(|b| b.slug == "jump") {
+            let more: Vec<&str> = with.iter().filter(|b| b.slug != jump.slug).map(|b| b.words).collect();
+            let and =
+                if more.is_empty() { String::new() } else { format!(", more with {}", more.join(" and ")) };
+            return format!("{subject} jumps after {:.0} s{and}", self.constant);
         }
         let verb = match rises {
             Some(true) => "grows",
