@@ -3,7 +3,7 @@
 use hexbench_model::effects::user_term::parse;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{DiagnoseOptions, diagnose};
-use hexbench_model::results::discover::{DiscoveryStudy, Reason, discover};
+use hexbench_model::results::discover::{DiscoveryReason, DiscoveryStudy, discover};
 use hexbench_model::terms::catalogue;
 
 use crate::cases;
@@ -43,10 +43,10 @@ fn the_file_of_a_law_is_a_term_that_the_diagnosis_names() {
 #[test]
 fn nothing_is_found_on_a_sound_machine_or_where_the_catalogue_has_the_effect() {
     for (case, reason, beside) in [
-        ("mujoco-clean", Reason::NothingMissing, vec![]),
-        ("friction", Reason::Catalogue, vec!["joint-friction"]),
-        ("contact", Reason::Catalogue, vec!["leg-nonlinearity"]),
-        ("two-effects", Reason::Catalogue, vec!["base-compliance", "load-offset"]),
+        ("mujoco-clean", DiscoveryReason::NothingMissing, vec![]),
+        ("friction", DiscoveryReason::Catalogue, vec!["joint-friction"]),
+        ("contact", DiscoveryReason::Catalogue, vec!["leg-nonlinearity"]),
+        ("two-effects", DiscoveryReason::Catalogue, vec!["base-compliance", "load-offset"]),
     ] {
         let found = discovered(case).discovery;
         assert!(!found.found && found.laws.is_empty(), "{case}: {:?}", found.laws);

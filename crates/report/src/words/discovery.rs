@@ -2,7 +2,7 @@
 
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::estimation::estimate::Estimate;
-use hexbench_model::results::discover::{Discovery, DiscoveryStudy, LawReport, Reason};
+use hexbench_model::results::discover::{Discovery, DiscoveryReason, DiscoveryStudy, LawReport};
 use hexbench_model::results::words::joined;
 
 use super::{conclusion, ladder, notes, subject};
@@ -37,17 +37,17 @@ pub fn discovery(
 
 fn verdict(d: &Discovery) -> Section {
     let (word, mood) = match d.reason {
-        Reason::Law => ("LAW FOUND", Mood::Good),
-        Reason::NothingMissing | Reason::Catalogue => ("NO LAW NEEDED", Mood::Good),
-        Reason::Readings => ("NOTHING TO SEARCH", Mood::Doubt),
-        Reason::NoLawConvinces => ("NO LAW FOUND", Mood::Doubt),
+        DiscoveryReason::Law => ("LAW FOUND", Mood::Good),
+        DiscoveryReason::NothingMissing | DiscoveryReason::Catalogue => ("NO LAW NEEDED", Mood::Good),
+        DiscoveryReason::Readings => ("NOTHING TO SEARCH", Mood::Doubt),
+        DiscoveryReason::NoLawConvinces => ("NO LAW FOUND", Mood::Doubt),
     };
     Section::new("Verdict").with(Block::Verdict { word: word.to_owned(), mood, sentences: sentences(d) })
 }
 
 fn sentences(d: &Discovery) -> Vec<String> {
     let mut all = vec![format!("{}.", capital(&d.text))];
-    if let (Reason::Law, Some(best)) = (d.reason, d.laws.first()) {
+    if let (DiscoveryReason::Law, Some(best)) = (d.reason, d.laws.first()) {
         if !d.beside.is_empty() {
             all.push(format!("It stands beside {}.", joined(&d.beside)));
         }
@@ -127,17 +127,17 @@ fn look_for(d: &Discovery) -> Option<Section> {
 
 fn next(d: &Discovery) -> Option<Section> {
     let text = match d.reason {
-        Reason::Law => format!(
+        DiscoveryReason::Law => format!(
             "Write the law with -o {TERM_FILE}; then `hexbench diagnose ... --term {TERM_FILE}` weighs it like any effect, and \
              `hexbench fit ... --term {TERM_FILE} -o model.toml` keeps it for predictions and corrected commands. A law that returns in a \
              second campaign is the machine's; one that does not was this campaign's."
         ),
-        Reason::NoLawConvinces => {
+        DiscoveryReason::NoLawConvinces => {
             "Vary one thing at a time: length, direction, load, temperature, time. What the laws could not say may lie in what these \
              readings do not vary."
                 .to_owned()
         }
-        Reason::NothingMissing | Reason::Catalogue | Reason::Readings => return None,
+        DiscoveryReason::NothingMissing | DiscoveryReason::Catalogue | DiscoveryReason::Readings => return None,
     };
     Some(Section::new("Next").id("next").paragraph(text))
 }

@@ -6,16 +6,16 @@
 use super::{FormulaError, Step};
 
 /// Powers of newton, metre, kelvin and second; of a plain number all are zero.
-pub type Dimension = [f64; 4];
+pub type UnitPowers = [f64; 4];
 
 /// A plain number.
-pub const PLAIN: Dimension = [0.0; 4];
+pub const PLAIN: UnitPowers = [0.0; 4];
 
 /// What is known of a value on the stack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Known {
     /// Its unit.
-    Unit(Dimension),
+    Unit(UnitPowers),
     /// A number without a unit.
     Bare,
     /// Nothing: a size, or a power that is not a number.
@@ -51,7 +51,7 @@ fn same(a: &[f64], b: &[f64]) -> bool {
 }
 
 /// `m`, `N^2`, `a plain number`.
-fn shown(unit: Dimension) -> String {
+fn shown(unit: UnitPowers) -> String {
     let names = ["N", "m", "K", "s"];
     let shown = names.into_iter().zip(unit).filter(|(_, p)| *p != 0.0);
     let all: Vec<String> = shown
@@ -61,7 +61,7 @@ fn shown(unit: Dimension) -> String {
 }
 
 /// Refuses a formula whose units cannot be right; `units`: of its variables, none for those whose unit is not known.
-pub(super) fn check(steps: &[Step], units: &[Option<Dimension>]) -> Result<(), FormulaError> {
+pub(super) fn check(steps: &[Step], units: &[Option<UnitPowers>]) -> Result<(), FormulaError> {
     let mut stack: Vec<(Known, Option<f64>)> = Vec::new();
     for step in steps {
         let next = match *step {

@@ -8,7 +8,7 @@ mod dimension;
 mod parser;
 mod token;
 
-pub use dimension::{Dimension, PLAIN};
+pub use dimension::{PLAIN, UnitPowers};
 use thiserror::Error;
 
 /// Longest formula, in characters.
@@ -97,7 +97,7 @@ type Binary = fn(f64, f64) -> f64;
 #[derive(Debug, Clone, Copy)]
 enum Step {
     /// A number with the unit it was written with.
-    Push(f64, Option<Dimension>),
+    Push(f64, Option<UnitPowers>),
     Load(usize),
     /// A function or a sign, with its name.
     Unary(&'static str, Unary),
@@ -184,7 +184,7 @@ impl Formula {
     ///
     /// # Errors
     /// [`FormulaError::LengthInside`], [`FormulaError::BareLength`], [`FormulaError::MixedUnits`].
-    pub fn check_units(&self, units: &[Option<Dimension>]) -> Result<(), FormulaError> {
+    pub fn check_units(&self, units: &[Option<UnitPowers>]) -> Result<(), FormulaError> {
         dimension::check(&self.steps, units)
     }
 
@@ -227,13 +227,13 @@ static BINARY: [(&str, Binary); 4] =
 /// Names with a fixed value.
 static CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU)];
 
-const NEWTON: Dimension = [1.0, 0.0, 0.0, 0.0];
-const METRE: Dimension = [0.0, 1.0, 0.0, 0.0];
-const KELVIN: Dimension = [0.0, 0.0, 1.0, 0.0];
-const SECOND: Dimension = [0.0, 0.0, 0.0, 1.0];
+const NEWTON: UnitPowers = [1.0, 0.0, 0.0, 0.0];
+const METRE: UnitPowers = [0.0, 1.0, 0.0, 0.0];
+const KELVIN: UnitPowers = [0.0, 0.0, 1.0, 0.0];
+const SECOND: UnitPowers = [0.0, 0.0, 0.0, 1.0];
 
 /// Units that may stand behind a number, `8 mm`, how many of each make one SI unit, and what they measure.
-static UNITS: [(&str, f64, Dimension); 12] = [
+static UNITS: [(&str, f64, UnitPowers); 12] = [
     ("m", 1.0, METRE),
     ("mm", 1e3, METRE),
     ("um", 1e6, METRE),
@@ -249,7 +249,7 @@ static UNITS: [(&str, f64, Dimension); 12] = [
 ];
 
 /// What a unit of a variable or a shape measures; none for a unit that is not known here.
-pub fn dimension_of(unit: &str) -> Option<Dimension> {
+pub fn dimension_of(unit: &str) -> Option<UnitPowers> {
     match unit {
         "" | "1" | "%" | "urad" => Some(PLAIN),
         "N m" | "Nm" => Some([1.0, 1.0, 0.0, 0.0]),

@@ -1,7 +1,7 @@
 //! From words to steps: recursive descent with a limit on depth.
 
 use super::token::{Token, TokenKind};
-use super::{BINARY, CONSTANTS, Dimension, FormulaError, MOST_DEPTH, PLAIN, Step, UNARY, UNITS};
+use super::{BINARY, CONSTANTS, FormulaError, MOST_DEPTH, PLAIN, Step, UNARY, UNITS, UnitPowers};
 use hexbench_core::files::nearest;
 
 /// Steps of a whole formula.
@@ -100,7 +100,7 @@ impl Parser<'_> {
     }
 
     /// The unit behind a number: how many of it make one SI unit, and what it measures.
-    fn take_unit(&mut self) -> Option<(f64, Dimension)> {
+    fn take_unit(&mut self) -> Option<(f64, UnitPowers)> {
         let Some(TokenKind::Name(name)) = self.tokens.get(self.at).map(|t| &t.kind) else { return None };
         let (_, per_si, dimension) = UNITS.iter().find(|unit| unit.0 == name)?;
         self.at += 1;

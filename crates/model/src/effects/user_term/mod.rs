@@ -34,7 +34,7 @@ use hexbench_core::Vector6;
 use thiserror::Error;
 
 use crate::effects::chain::Action;
-use crate::effects::formula::{Dimension, Formula, FormulaError, dimension_of};
+use crate::effects::formula::{Formula, FormulaError, UnitPowers, dimension_of};
 use crate::effects::intern;
 use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Shape, Term, TermInfo};
 use crate::estimation::campaign::Condition;
@@ -42,7 +42,8 @@ use crate::machine::geometry::Machine;
 
 use file::File;
 pub use help::{EXAMPLE, FormulaVariable, functions, units, variables};
-use part::{Part, PartKind};
+use part::Part;
+pub(crate) use part::PartKind;
 pub(crate) use variables::LegVariables;
 use variables::{OF_LEG, OF_READING};
 
@@ -183,7 +184,7 @@ fn refuse_same_name(parameters: &[ParameterInfo], shape: Option<&Shape>) -> Resu
     same.map_or(Ok(()), |s| Err(UserTermError::rule("shape", format!("`{}` is also a parameter", s.name))))
 }
 
-fn refuse_idle_parameters(parts: &[Part], own: &[(&str, Option<Dimension>)]) -> Result<(), UserTermError> {
+fn refuse_idle_parameters(parts: &[Part], own: &[(&str, Option<UnitPowers>)]) -> Result<(), UserTermError> {
     let idle = (0..own.len()).find(|&k| !parts.iter().any(|part| part.uses_own(k)));
     idle.map_or(Ok(()), |k| {
         Err(UserTermError::rule("parameters", format!("`{}` appears in no formula", own[k].0)))

@@ -6,13 +6,13 @@ use super::UserTermError;
 use super::file::{File, FileLaw};
 use super::variables::{self, OF_LEG, OF_READING};
 use crate::effects::chain::Action;
-use crate::effects::formula::{Dimension, Formula, dimension_of};
+use crate::effects::formula::{Formula, UnitPowers, dimension_of};
 use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
 
 /// What six numbers, or one of each leg, stand for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum PartKind {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum PartKind {
     /// Extra elongation of each leg, m.
     Elongation,
     /// Change of the wrench on the platform, N and N m, mobile origin, fixed axes.
@@ -24,8 +24,11 @@ pub(super) enum PartKind {
 }
 
 impl PartKind {
+    /// Those that have six numbers of their own.
+    pub(crate) const BODIES: [Self; 3] = [Self::Wrench, Self::BaseMotion, Self::PlatformMotion];
+
     /// The key of files.
-    pub(super) fn key(self) -> &'static str {
+    pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Elongation => "elongation",
             Self::Wrench => "wrench",
@@ -43,7 +46,7 @@ impl PartKind {
     }
 
     /// The action of six numbers.
-    pub(super) fn action(self, at: &Condition, v: &Vector6) -> Action {
+    pub(crate) fn action(self, at: &Condition, v: &Vector6) -> Action {
         let halves = || (Vector3::new(v[0], v[1], v[2]), Vector3::new(v[3], v[4], v[5]));
         let twist = |v: Vector3, w: Vector3| Action::Twist(Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z));
         match self {
@@ -76,7 +79,7 @@ pub(super) struct Part {
 
 impl Part {
     /// The parts of a file; `own`: names of its parameters, then of its shape, with units where these are known.
-    pub(super) fn all(file: &File, own: &[(&str, Option<Dimension>)]) -> Result<Vec<Self>, UserTermError> {
+    pub(super) fn all(file: &File, own: &[(&str, Option<UnitPowers>)]) -> Result<Vec<Self>, UserTermError> {
         let mut parts = Vec::new();
         for law in file.every_law() {
             parts.extend(Self::of(law, own)?);
@@ -88,7 +91,7 @@ impl Part {
         Ok(parts)
     }
 
-    fn of(law: &FileLaw, own: &[(&str, Option<Dimension>)]) -> Result<Option<Self>, UserTermError> {
+    fn of(law: &FileLaw, own: &[(&str, Option<UnitPowers>)]) -> Result<Option<Self>, UserTermError> {
         let elongation = law.elongation.iter().map(|text| (PartKind::Elongation, std::slice::from_ref(text)));
         let six = [
             (PartKind::Wrench, &law.wrench),
@@ -181,7 +184,7 @@ fn formula(
     key: &'static str,
     text: &str,
     names: &[&str],
-    units: &[Option<Dimension>],
+    units: &[Option<UnitPowers>],
 ) -> Result<Formula, UserTermError> {
     let shown = || text.chars().take(60).collect();
     let failed = |error| UserTermError::Formula { key, formula: shown(), error };

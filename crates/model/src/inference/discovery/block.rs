@@ -71,7 +71,7 @@ pub(crate) struct Block {
     pub(crate) constant: Option<Constant>,
     /// What it varies with.
     pub(crate) family: Family,
-    /// As a subject (what a leg carries) or as what something goes with; `{legs}` stands for the legs.
+    /// As what something goes with; empty for a factor that makes a compliance of it.
     pub(crate) words: &'static str,
 }
 
@@ -95,6 +95,11 @@ const N2: [f64; 4] = [2.0, 0.0, 0.0, 0.0];
 const N3: [f64; 4] = [3.0, 0.0, 0.0, 0.0];
 const NM: [f64; 4] = [1.0, 1.0, 0.0, 0.0];
 const N2M: [f64; 4] = [2.0, 1.0, 0.0, 0.0];
+const NM2: [f64; 4] = [2.0, 2.0, 0.0, 0.0];
+const NK: [f64; 4] = [1.0, 0.0, 1.0, 0.0];
+const NMK: [f64; 4] = [1.0, 1.0, 1.0, 0.0];
+const NS: [f64; 4] = [1.0, 0.0, 0.0, 1.0];
+const NMS: [f64; 4] = [1.0, 1.0, 0.0, 1.0];
 const M: [f64; 4] = [0.0, 1.0, 0.0, 0.0];
 const M2: [f64; 4] = [0.0, 2.0, 0.0, 0.0];
 const M3: [f64; 4] = [0.0, 3.0, 0.0, 0.0];
@@ -113,28 +118,22 @@ pub(crate) const LOADED: usize = CARRIERS.len() - 1;
 
 /// What a leg carries: differences between load and reference, zero without a load.
 pub(crate) const CARRIERS: [Block; 28] = [
-    block("compliance", "df", N, Family::Force, "the compliance of {legs}"),
-    block(
-        "square",
-        "(f*abs(f) - f0*abs(f0))",
-        N2,
-        Family::Force,
-        "what grows in {legs} with the square of the force",
-    ),
-    block("cube", "(f^3 - f0^3)", N3, Family::Force, "what grows in {legs} with the cube of the force"),
+    block("compliance", "df", N, Family::Force, ""),
+    block("square", "(f*abs(f) - f0*abs(f0))", N2, Family::Force, "the square of the force"),
+    block("cube", "(f^3 - f0^3)", N3, Family::Force, "the cube of the force"),
     block(
         "even-square",
         "(f^2 - f0^2)",
         N2,
         Family::Force,
-        "what grows in {legs} with the square of the force, pulled or pressed alike",
+        "the square of the force, pulled or pressed alike",
     ),
     block(
         "magnitude",
         "(abs(f) - abs(f0))",
         N,
         Family::Force,
-        "the difference between pull and push of {legs}",
+        "the size of the force, pulled or pressed alike",
     ),
     inner(
         Constant::Exponent,
@@ -143,124 +142,40 @@ pub(crate) const CARRIERS: [Block; 28] = [
             "(sign(f)*abs(f/100)^p - sign(f0)*abs(f0/100)^p)",
             NONE,
             Family::Force,
-            "what grows in {legs} with a power of the force",
+            "a power of the force",
         ),
     ),
     inner(
         Constant::Force,
-        block(
-            "pull-beyond",
-            "(max(f - F, 0) - max(f0 - F, 0))",
-            N,
-            Family::Force,
-            "the compliance of {legs} pulled beyond a force",
-        ),
+        block("pull-beyond", "(max(f - F, 0) - max(f0 - F, 0))", N, Family::Force, "the pull beyond a force"),
     ),
     inner(
         Constant::Force,
-        block(
-            "push-beyond",
-            "(min(f + F, 0) - min(f0 + F, 0))",
-            N,
-            Family::Force,
-            "the compliance of {legs} pressed beyond a force",
-        ),
+        block("push-beyond", "(min(f + F, 0) - min(f0 + F, 0))", N, Family::Force, "the push beyond a force"),
     ),
     inner(
         Constant::Force,
-        block(
-            "saturating",
-            "(tanh(f/F) - tanh(f0/F))",
-            NONE,
-            Family::Force,
-            "what saturates in {legs} with the force",
-        ),
+        block("saturating", "(tanh(f/F) - tanh(f0/F))", NONE, Family::Force, "the force, saturating"),
     ),
-    block(
-        "step-square",
-        "df*abs(df)",
-        N2,
-        Family::Force,
-        "what grows in {legs} with the square of the load step",
-    ),
-    block("next-leg", "df_next", N, Family::Force, "what {legs} yield under the force of the next leg"),
-    block(
-        "previous-leg",
-        "df_previous",
-        N,
-        Family::Force,
-        "what {legs} yield under the force of the leg before",
-    ),
-    block(
-        "both-neighbors",
-        "(df_next + df_previous)",
-        N,
-        Family::Force,
-        "what {legs} yield under the forces of their neighbors",
-    ),
-    block(
-        "opposite-leg",
-        "df_opposite",
-        N,
-        Family::Force,
-        "what {legs} yield under the force of the opposite leg",
-    ),
-    block(
-        "other-legs",
-        "df_others",
-        N,
-        Family::Force,
-        "what {legs} yield under the forces of all other legs",
-    ),
-    block("force-x", "(fx - ref_fx)", N, Family::Wrench, "what {legs} yield under the force along x"),
-    block("force-y", "(fy - ref_fy)", N, Family::Wrench, "what {legs} yield under the force along y"),
-    block("force-z", "(fz - ref_fz)", N, Family::Wrench, "what {legs} yield under the force along z"),
-    block("moment-x", "(mx - ref_mx)", NM, Family::Wrench, "what {legs} yield under the moment about x"),
-    block("moment-y", "(my - ref_my)", NM, Family::Wrench, "what {legs} yield under the moment about y"),
-    block("moment-z", "(mz - ref_mz)", NM, Family::Wrench, "what {legs} yield under the moment about z"),
-    block(
-        "load-x",
-        "(f*fx - f0*ref_fx)",
-        N2,
-        Family::Force,
-        "what grows in {legs} with their force and the force along x at once",
-    ),
-    block(
-        "load-y",
-        "(f*fy - f0*ref_fy)",
-        N2,
-        Family::Force,
-        "what grows in {legs} with their force and the force along y at once",
-    ),
-    block(
-        "load-z",
-        "(f*fz - f0*ref_fz)",
-        N2,
-        Family::Force,
-        "what grows in {legs} with their force and the force along z at once",
-    ),
-    block(
-        "load-mx",
-        "(f*mx - f0*ref_mx)",
-        N2M,
-        Family::Force,
-        "what grows in {legs} with their force and the moment about x at once",
-    ),
-    block(
-        "load-my",
-        "(f*my - f0*ref_my)",
-        N2M,
-        Family::Force,
-        "what grows in {legs} with their force and the moment about y at once",
-    ),
-    block(
-        "load-mz",
-        "(f*mz - f0*ref_mz)",
-        N2M,
-        Family::Force,
-        "what grows in {legs} with their force and the moment about z at once",
-    ),
-    block("loaded", "f", N, Family::Force, "the compliance of {legs}"),
+    block("step-square", "df*abs(df)", N2, Family::Force, "the square of the load step"),
+    block("next-leg", "df_next", N, Family::Force, "the force of the next leg"),
+    block("previous-leg", "df_previous", N, Family::Force, "the force of the leg before"),
+    block("both-neighbors", "(df_next + df_previous)", N, Family::Force, "the forces of their neighbors"),
+    block("opposite-leg", "df_opposite", N, Family::Force, "the force of the opposite leg"),
+    block("other-legs", "df_others", N, Family::Force, "the forces of all other legs"),
+    block("force-x", "(fx - ref_fx)", N, Family::Wrench, "the force along x"),
+    block("force-y", "(fy - ref_fy)", N, Family::Wrench, "the force along y"),
+    block("force-z", "(fz - ref_fz)", N, Family::Wrench, "the force along z"),
+    block("moment-x", "(mx - ref_mx)", NM, Family::Wrench, "the moment about x"),
+    block("moment-y", "(my - ref_my)", NM, Family::Wrench, "the moment about y"),
+    block("moment-z", "(mz - ref_mz)", NM, Family::Wrench, "the moment about z"),
+    block("load-x", "(f*fx - f0*ref_fx)", N2, Family::Force, "its force times the force along x"),
+    block("load-y", "(f*fy - f0*ref_fy)", N2, Family::Force, "its force times the force along y"),
+    block("load-z", "(f*fz - f0*ref_fz)", N2, Family::Force, "its force times the force along z"),
+    block("load-mx", "(f*mx - f0*ref_mx)", N2M, Family::Force, "its force times the moment about x"),
+    block("load-my", "(f*my - f0*ref_my)", N2M, Family::Force, "its force times the moment about y"),
+    block("load-mz", "(f*mz - f0*ref_mz)", N2M, Family::Force, "its force times the moment about z"),
+    block("loaded", "f", N, Family::Force, ""),
 ];
 
 /// What changes the length of a leg without any load; zero in the reference state.
@@ -331,4 +246,63 @@ pub(crate) const MODULATIONS: [Block; 37] = [
     block("beta-abs", "abs(beta)", NONE, Family::Pose, "the size of the tilt beta"),
     block("approach", "approach", NONE, Family::Approach, "the direction of approach"),
     block("preload", "f0", N, Family::Force, "the preload of the leg"),
+];
+
+/// What moves base or platform, or loads it, beyond what the catalogue has: loads that act more than in proportion, or with temperature or
+/// time.
+pub(crate) const LOADS: [Block; 18] = [
+    block(
+        "fx-square",
+        "(fx*abs(fx) - ref_fx*abs(ref_fx))",
+        N2,
+        Family::Wrench,
+        "the square of the force along x",
+    ),
+    block(
+        "fy-square",
+        "(fy*abs(fy) - ref_fy*abs(ref_fy))",
+        N2,
+        Family::Wrench,
+        "the square of the force along y",
+    ),
+    block(
+        "fz-square",
+        "(fz*abs(fz) - ref_fz*abs(ref_fz))",
+        N2,
+        Family::Wrench,
+        "the square of the force along z",
+    ),
+    block(
+        "mx-square",
+        "(mx*abs(mx) - ref_mx*abs(ref_mx))",
+        NM2,
+        Family::Wrench,
+        "the square of the moment about x",
+    ),
+    block(
+        "my-square",
+        "(my*abs(my) - ref_my*abs(ref_my))",
+        NM2,
+        Family::Wrench,
+        "the square of the moment about y",
+    ),
+    block(
+        "mz-square",
+        "(mz*abs(mz) - ref_mz*abs(ref_mz))",
+        NM2,
+        Family::Wrench,
+        "the square of the moment about z",
+    ),
+    block("fx-temperature", "fx*delta_T", NK, Family::Temperature, "the force along x times temperature"),
+    block("fy-temperature", "fy*delta_T", NK, Family::Temperature, "the force along y times temperature"),
+    block("fz-temperature", "fz*delta_T", NK, Family::Temperature, "the force along z times temperature"),
+    block("mx-temperature", "mx*delta_T", NMK, Family::Temperature, "the moment about x times temperature"),
+    block("my-temperature", "my*delta_T", NMK, Family::Temperature, "the moment about y times temperature"),
+    block("mz-temperature", "mz*delta_T", NMK, Family::Temperature, "the moment about z times temperature"),
+    block("fx-time", "fx*elapsed", NS, Family::Time, "the force along x times time"),
+    block("fy-time", "fy*elapsed", NS, Family::Time, "the force along y times time"),
+    block("fz-time", "fz*elapsed", NS, Family::Time, "the force along z times time"),
+    block("mx-time", "mx*elapsed", NMS, Family::Time, "the moment about x times time"),
+    block("my-time", "my*elapsed", NMS, Family::Time, "the moment about y times time"),
+    block("mz-time", "mz*elapsed", NMS, Family::Time, "the moment about z times time"),
 ];

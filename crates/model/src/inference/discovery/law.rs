@@ -1,10 +1,12 @@
 //! A law: a product of building blocks in some legs.
 
-use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, LOADED, MODULATIONS};
+use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, LOADED, LOADS, MODULATIONS};
 use super::legs::LegChoice;
+use crate::effects::user_term::PartKind;
 
-/// Prior probability that a law is a change of compliance, a change of length, or has another carrier.
-const OF_KIND: [f64; 3] = [0.4, 0.3, 0.3];
+/// Prior probability that a law is a change of compliance, a change of length, an elongation with another carrier, or moves or loads
+/// base or platform.
+const OF_KIND: [f64; 4] = [0.36, 0.27, 0.27, 0.10];
 /// Prior probability that a compliance is changed by one thing, by two.
 const OF_COMPLIANCE: [f64; 2] = [0.75, 0.25];
 /// Prior probability that a covariate acts alone, through one thing more.
@@ -32,16 +34,19 @@ pub(crate) enum Head {
     Compliance(usize),
     /// The same times the force under the load: a compliance that changed after the reference state.
     Loaded(usize),
+    /// Base or platform moved or loaded along one axis; index of [`COVARIATES`], then of [`LOADS`].
+    Body(PartKind, usize),
 }
 
 impl Head {
     /// Blocks of the head.
-    fn blocks(self) -> impl Iterator<Item = &'static Block> {
+    pub(crate) fn blocks(self) -> impl Iterator<Item = &'static Block> {
         let (first, second) = match self {
             Self::Carrier(k) => (&CARRIERS[k], None),
             Self::Length(k) => (&COVARIATES[k], None),
             Self::Compliance(k) => (&CARRIERS[COMPLIANCE], Some(&COVARIATES[k])),
             Self::Loaded(k) => (&CARRIERS[LOADED], Some(&COVARIATES[k])),
+            Self::Body(_, k) => (COVARIATES.get(k).unwrap_or_else(|| &LOADS[k - COVARIATES.len()]), None),
         };
         std::iter::once(first).chain(second)
     }
@@ -55,6 +60,11 @@ impl Product {
     /// Its factors.
     pub(crate) fn blocks(&self) -> impl Iterator<Item = &'static Block> {
         self.head.blocks().chain(self.with.into_iter().flatten().map(|k| &MODULATIONS[k]))
+    }
+
+    /// What it acts on.
+    pub(crate) fn kind(&self) -> PartKind {
+        if let Head::Body(kind, _) = self.head { kind } else { PartKind::Elongation }
     }
 
     /// The constant inside, when there is one.
@@ -98,6 +108,7 @@ impl Product {
         let mut all = compliances();
         all.extend(lengths());
         all.extend(carriers());
+        all.extend(bodies());
         all
     }
 }
@@ -139,18 +150,35 @@ fn carriers() -> Vec<(Product, f64)> {
     one.chain(shared(with.collect(), OF_KIND[2] * OF_CARRIER[1])).collect()
 }
 
+fn bodies() -> Vec<(Product, f64)> {
+    let causes = 0..COVARIATES.len() + LOADS.len();
+    let of = |kind| causes.clone().map(move |k| Product::new(Head::Body(kind, k), [None; 2]));
+    shared(PartKind::BODIES.into_iter().flat_map(of).collect(), OF_KIND[3]).collect()
+}
+
 /// A product in some legs, with the value of its constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Law {
     /// What it multiplies.
     pub(crate) product: Product,
-    /// In which legs.
+    /// In which legs; along or about which axis for base and platform.
     pub(crate) legs: LegChoice,
     /// Value of the constant inside, SI; 1 where there is none.
     pub(crate) constant: f64,
 }
 
 impl Law {
+    /// Axis from zero of a law for base or platform.
+    pub(crate) fn axis(&self) -> Option<usize> {
+        let is_body = self.product.kind() != PartKind::Elongation;
+        is_body.then(|| self.legs.signs().iter().position(|s| *s != 0)).flatten()
+    }
+
+    /// Numbers of its legs from 1; none for all, or for base and platform.
+    pub(crate) fn leg_numbers(&self) -> Option<Vec<usize>> {
+        if self.axis().is_some() { None } else { self.legs.numbers() }
+    }
+
     /// Number of factors, of constants inside and of choices of legs: one for each word of the sentence.
     pub(crate) fn complexity(&self) -> usize {
         let factors = self.product.blocks().count();

@@ -119,6 +119,12 @@ pub(crate) fn choices() -> Vec<(LegChoice, f64)> {
     subsets.chain(opposite).chain([(IN_TURN, 0.08_f64.ln()), (LegChoice::Each, 0.06_f64.ln())]).collect()
 }
 
+/// All axes with the logarithm of the prior probability of each.
+pub(crate) fn axes() -> Vec<(LegChoice, f64)> {
+    let one = |axis: usize| LegChoice::Signed(std::array::from_fn(|k| i8::from(k == axis)));
+    (0..6).map(|axis| (one(axis), -f64::ln(6.0))).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

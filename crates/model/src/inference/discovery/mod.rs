@@ -18,12 +18,11 @@ mod sum;
 mod tables;
 mod text;
 
-use std::fmt::Write as _;
 use std::sync::Arc;
 
 use self::law::{Law, Product};
 use self::scan::{LawScan, ScoredLaw};
-use self::space::ElongationSpace;
+use self::space::{Spaces, natural_unit};
 pub use self::sum::LawSum;
 use self::tables::Tables;
 use crate::effects::term::{Natural, Term};
@@ -58,9 +57,9 @@ impl LawTerm {
         let id = if rank == 0 { found.law.id() } else { format!("{}-{}", found.law.id(), rank + 1) };
         let law = &found.law;
         let mut text = format!("format = \"term/1\"\nid = \"{id}\"\ntitle = \"{}\"\n", law.sentence(None));
-        for (formula, legs) in law.formulas("", true) {
-            let _ = write!(text, "[[laws]]\nelongation = \"{formula}\"\n");
-            text += &legs.map_or(String::new(), |legs| format!("legs = {legs:?}\n"));
+        for line in law.lines("", true) {
+            text += "[[laws]]\n";
+            text += &line.toml();
         }
         text += &law.parameters_text(scale, "");
         text += &law.shape_text(lin);
@@ -93,9 +92,7 @@ impl LawSearch {
     pub fn new(campaign: &Campaign, lin: &Linearization, natural: Natural) -> Result<Self, ModelError> {
         let scanned = lin.thinned(SCANNED_CONDITIONS);
         let tables = Tables::new(&scanned)?;
-        let has = campaign.columns;
-        let shown =
-            |p: &Product| Tables::has(p.head, has.elapsed, has.delta_t, has.approach) && tables.shows(p);
+        let shown = |p: &Product| Tables::has(p.head, campaign.columns) && tables.shows(p);
         let products = Product::all().into_iter().filter(|(p, _)| shown(p)).collect();
         Ok(Self { tables, products, scanned, natural })
     }
@@ -114,15 +111,18 @@ impl LawSearch {
         known: &mut Vec<LawTerm>,
     ) -> Result<usize, ModelError> {
         let thin = lin.thinned(SCANNED_CONDITIONS);
-        let space = ElongationSpace::new(&thin, point, campaign.noise_level(), &self.natural);
-        let scan = LawScan { space: &space, tables: &self.tables, products: &self.products };
+        let spaces = Spaces::new(&thin, point, campaign.noise_level(), &self.natural);
+        let scan = LawScan { spaces: &spaces, tables: &self.tables, products: &self.products };
         let found = scan.run(REFINED)?;
         for law in found.laws.iter().take(most) {
             if known.iter().any(|k| k.resembles(law)) {
                 continue;
             }
             let rank = known.iter().filter(|k| k.law.id() == law.law.id()).count();
-            let scale = self.tables.scale(&law.law, space.elongation)?;
+            let elongation = self.natural.compliance * self.natural.force;
+            let unit =
+                law.law.axis().map_or(1.0, |axis| natural_unit(law.law.product.kind(), axis, &self.natural));
+            let scale = unit * self.tables.scale(&law.law, elongation)?;
             known.push(LawTerm::of(law, rank, scale, &self.scanned)?);
         }
         Ok(found.tried)

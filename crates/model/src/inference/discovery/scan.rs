@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use super::law::{Law, Product};
-use super::legs::{LegChoice, choices};
-use super::space::{ElongationSpace, LegSums, Room};
+use super::legs::{LegChoice, axes, choices};
+use super::space::{LegSums, Room, Spaces};
 use super::tables::{Tables, Values};
+use crate::effects::user_term::PartKind;
 use crate::error::ModelError;
 use crate::inference::evidence::{WIDEST, log_sum, single, widths};
 
@@ -39,7 +40,7 @@ pub(crate) struct Scanned {
 
 /// The scan.
 pub(crate) struct LawScan<'a> {
-    pub(crate) space: &'a ElongationSpace,
+    pub(crate) spaces: &'a Spaces,
     pub(crate) tables: &'a Tables,
     pub(crate) products: &'a [(Product, f64)],
 }
@@ -52,11 +53,13 @@ struct Bench {
 impl LawScan<'_> {
     /// The best laws, at most so many, their constants refined.
     pub(crate) fn run(&self, most: usize) -> Result<Scanned, ModelError> {
-        let legs = choices();
+        let (legs, axes) = (choices(), axes());
+        let choices = |k: usize| if self.is_body(k) { &axes } else { &legs };
         let tasks: Vec<(usize, f64)> = (0..self.products.len())
             .flat_map(|k| self.tables.grid(&self.products[k].0).iter().map(move |&c| (k, c)))
             .collect();
-        let best = |bench: &mut Bench, &(k, constant): &(usize, f64)| self.best_of(bench, k, constant, &legs);
+        let best =
+            |bench: &mut Bench, &(k, constant): &(usize, f64)| self.best_of(bench, k, constant, choices(k));
         let scored: Vec<Vec<ScoredLaw>> =
             tasks.par_iter().map_init(|| self.bench(), best).collect::<Result<_, _>>()?;
         let mut laws = best_constants(scored.into_iter().flatten());
@@ -65,11 +68,15 @@ impl LawScan<'_> {
             laws.par_iter().map_init(|| self.bench(), |bench, law| self.refined(bench, law)).collect();
         let mut laws = refined?;
         sort(&mut laws);
-        Ok(Scanned { laws, tried: tasks.len() * legs.len() })
+        Ok(Scanned { laws, tried: tasks.iter().map(|t| choices(t.0).len()).sum() })
+    }
+
+    fn is_body(&self, k: usize) -> bool {
+        self.products[k].0.kind() != PartKind::Elongation
     }
 
     fn bench(&self) -> Bench {
-        Bench { room: self.space.room(), columns: [Vec::new(), Vec::new()] }
+        Bench { room: self.spaces.of(PartKind::Elongation).room(), columns: [Vec::new(), Vec::new()] }
     }
 
     fn sums<'b>(
@@ -80,7 +87,7 @@ impl LawScan<'_> {
     ) -> Result<&'b LegSums, ModelError> {
         let width = self.tables.columns(product, constant, &mut bench.columns)?;
         let columns = [&bench.columns[0][..], &bench.columns[1][..]];
-        Ok(self.space.sums(&columns[..width], &mut bench.room))
+        Ok(self.spaces.of(product.kind()).sums(&columns[..width], &mut bench.room))
     }
 
     fn best_of(
@@ -133,7 +140,7 @@ impl LawScan<'_> {
         let tried = widths(signature);
         let scores = tried.iter().map(|&width| {
             let (drop, rest) = of(width);
-            self.space.likelihood.gain(drop, 1.0) + rest
+            self.spaces.of(PartKind::Elongation).likelihood.gain(drop, 1.0) + rest
         });
         let scores: Vec<f64> = scores.collect();
         log_sum(scores.iter().copied()) - (tried.len() as f64).ln()

@@ -4,6 +4,7 @@ use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::term::Natural;
+use crate::effects::user_term::PartKind;
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
 use crate::estimation::noise::NoiseLevel;
 use crate::inference::candidates::{orthonormal, project, target};
@@ -32,7 +33,13 @@ pub(crate) struct ElongationSpace {
     pub(crate) elongation: f64,
 }
 
-impl ElongationSpace {
+/// Spaces of everything laws act on.
+pub(crate) struct Spaces {
+    elongation: ElongationSpace,
+    bodies: [ElongationSpace; 3],
+}
+
+impl Spaces {
     /// Of a linearised model; `point` holds what is in it beside the springs.
     pub(crate) fn new(lin: &Linearization, point: &ModelPoint, level: NoiseLevel, natural: &Natural) -> Self {
         let mut columns = vec![lin.common_block()];
@@ -46,11 +53,36 @@ impl ElongationSpace {
         let rows = [Some(lin.whitened(basis)), lin.input_block()];
         let rows = beside(&rows.into_iter().flatten().collect::<Vec<_>>());
         let residual = lin.whitened(DMatrix::from_column_slice(residual.len(), 1, residual.as_slice()));
+        let residual = residual.column(0).into_owned();
         let likelihood = Likelihood { yy, equations, level };
-        let elongation = natural.compliance * natural.force;
-        Self::of(&lin.elongation_readers(), &residual.column(0).into_owned(), &rows, likelihood, elongation)
+        let space = |kind: PartKind| {
+            let readers = lin.readers_of(|c, k| {
+                let mut one = Vector6::zeros();
+                one[k] = natural_unit(kind, k, natural);
+                kind.action(c, &one)
+            });
+            ElongationSpace::of(&readers, &residual, &rows, likelihood, natural.compliance * natural.force)
+        };
+        Self { elongation: space(PartKind::Elongation), bodies: PartKind::BODIES.map(space) }
     }
 
+    /// That of one kind.
+    pub(crate) fn of(&self, kind: PartKind) -> &ElongationSpace {
+        PartKind::BODIES.iter().position(|k| *k == kind).map_or(&self.elongation, |k| &self.bodies[k])
+    }
+}
+
+/// SI units of component `k` that are natural to one metre of elongation: rad on the platform radius, N on the compliance of a leg.
+pub(crate) fn natural_unit(kind: PartKind, k: usize, natural: &Natural) -> f64 {
+    match (kind, k < 3) {
+        (PartKind::Elongation, _) | (PartKind::BaseMotion | PartKind::PlatformMotion, true) => 1.0,
+        (PartKind::BaseMotion | PartKind::PlatformMotion, false) => 1.0 / natural.radius,
+        (PartKind::Wrench, true) => 1.0 / natural.compliance,
+        (PartKind::Wrench, false) => natural.radius / natural.compliance,
+    }
+}
+
+impl ElongationSpace {
     fn of(
         readers: &[Matrix6],
         residual: &DVector<f64>,

@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use super::LawTerm;
 use super::law::Law;
+use super::text::LawLine;
+use crate::effects::user_term::PartKind;
 use crate::estimation::linearization::{Active, Linearization};
 
 /// Longest id of a term.
@@ -37,20 +39,28 @@ impl<'a> LawSum<'a> {
         id.trim_end_matches('-').to_owned()
     }
 
-    /// Its formulas with the legs they belong to, where these are some only.
+    /// Its formulas with where they act, where that is not one elongation of all legs or of those of [`Self::legs`].
     pub fn formula(&self) -> String {
-        let written = |(formula, legs): (String, Option<Vec<usize>>)| match legs {
-            Some(legs) if self.parts() > 1 => format!("{formula} in {legs:?}"),
-            _ => formula,
+        let one = self.lines().count() == 1;
+        let written = |line: LawLine| match line.place() {
+            Some(place) if !one || line.kind != PartKind::Elongation => {
+                format!("{} in {place}", line.formula)
+            }
+            _ => line.formula,
         };
-        self.formulas().map(written).collect::<Vec<_>>().join(" + ")
+        self.lines().map(written).collect::<Vec<_>>().join(" + ")
+    }
+
+    /// What it gives: `elongation`, `wrench`, `base-motion` or `platform-motion`; of a sum that of the leading law.
+    pub fn kind(&self) -> String {
+        self.laws.first().map_or("elongation", |(_, law)| law.product.kind().key()).replace('_', "-")
     }
 
     /// Numbers of the legs it concerns, from 1; none for all.
     pub fn legs(&self) -> Option<Vec<usize>> {
         let mut all: Vec<usize> = Vec::new();
         for (_, law) in &self.laws {
-            all.extend(law.legs.numbers()?);
+            all.extend(law.leg_numbers()?);
         }
         all.sort_unstable();
         all.dedup();
@@ -86,11 +96,10 @@ impl<'a> LawSum<'a> {
             "format = \"term/1\"\nid = \"{}\"\ntitle = \"{sentence}\"\nphysics = \"{sentence}.\"\n",
             self.id()
         );
-        let one = self.parts() == 1;
-        for (formula, legs) in self.formulas() {
-            let head = if one { "" } else { "\n[[laws]]\n" };
-            let legs = legs.map_or(String::new(), |legs| format!("legs = {legs:?}\n"));
-            let _ = write!(text, "{head}elongation = \"{formula}\"\n{legs}");
+        let one = self.lines().count() == 1;
+        for line in self.lines() {
+            text += if one { "" } else { "\n[[laws]]\n" };
+            text += &line.toml();
         }
         for (k, (law, fitted)) in self.laws.iter().enumerate() {
             text += &fitted.parameters_text(law.scale, &mark(k));
@@ -99,13 +108,9 @@ impl<'a> LawSum<'a> {
         text + &shape.unwrap_or_default()
     }
 
-    fn formulas(&self) -> impl Iterator<Item = (String, Option<Vec<usize>>)> {
+    fn lines(&self) -> impl Iterator<Item = LawLine> {
         let fitted = self.with_shape();
-        self.laws.iter().enumerate().flat_map(move |(k, (_, law))| law.formulas(&mark(k), fitted == Some(k)))
-    }
-
-    fn parts(&self) -> usize {
-        self.formulas().count()
+        self.laws.iter().enumerate().flat_map(move |(k, (_, law))| law.lines(&mark(k), fitted == Some(k)))
     }
 
     /// The law whose constant is fitted.

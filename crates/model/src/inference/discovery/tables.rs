@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, MODULATIONS};
+use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, Family, LOADS, MODULATIONS};
+use hexbench_core::Columns;
 use hexbench_core::statistics::mean;
 
 use super::law::{Head, Law, Product};
@@ -34,7 +35,7 @@ impl Tables {
         let constants = [Constant::Period, Constant::Force, Constant::Time, Constant::Exponent];
         let constants = constants.into_iter().map(|c| (c, grid(c, lin))).collect();
         let mut tables = Self { variables, plain: BTreeMap::new(), constants, gridded: BTreeMap::new() };
-        for block in CARRIERS.iter().chain(&COVARIATES).chain(&MODULATIONS) {
+        for block in CARRIERS.iter().chain(&COVARIATES).chain(&MODULATIONS).chain(&LOADS) {
             for text in std::iter::once(block.text).chain(block.twin) {
                 tables.evaluate(text, block.constant)?;
             }
@@ -130,15 +131,14 @@ impl Tables {
     }
 
     /// True when the readings have the columns of a head.
-    pub(crate) fn has(head: Head, elapsed: bool, delta_t: bool, approach: bool) -> bool {
-        use super::block::Family;
-        let (Head::Length(k) | Head::Compliance(k) | Head::Loaded(k)) = head else { return true };
-        match COVARIATES[k].family {
-            Family::Temperature => delta_t,
-            Family::Time => elapsed,
-            Family::Approach => approach,
+    pub(crate) fn has(head: Head, columns: Columns) -> bool {
+        let of = |family: Family| match family {
+            Family::Temperature => columns.delta_t,
+            Family::Time => columns.elapsed,
+            Family::Approach => columns.approach,
             _ => true,
-        }
+        };
+        head.blocks().all(|block| of(block.family))
     }
 }
 

@@ -3,12 +3,51 @@
 use super::block::{Block, CARRIERS, COMPLIANCE, Constant, Family};
 use super::law::{Head, Law};
 use super::legs::LegChoice;
+use crate::effects::user_term::PartKind;
 use crate::estimation::linearization::Linearization;
 use crate::inference::period::period_grid;
 
-/// Prefixes of metres, coarsest first, and how many make one.
-const PREFIXES: [(&str, f64); 6] =
+/// Lengths, the longest first, and how many make a metre.
+const LENGTHS: [(&str, f64); 6] =
     [("m", 1.0), ("mm", 1e3), ("um", 1e6), ("nm", 1e9), ("pm", 1e12), ("fm", 1e15)];
+/// The same of angles.
+const ANGLES: [(&str, f64); 4] = [("mrad", 1e3), ("urad", 1e6), ("nrad", 1e9), ("prad", 1e12)];
+/// Axes of a body.
+const AXES: [&str; 6] = ["along x", "along y", "along z", "about x", "about y", "about z"];
+
+/// A formula of a law with what it acts on.
+pub(crate) struct LawLine {
+    pub(crate) kind: PartKind,
+    pub(crate) formula: String,
+    /// Axis of a body from zero.
+    axis: usize,
+    /// Legs of an elongation from 1; none for all.
+    pub(crate) legs: Option<Vec<usize>>,
+}
+
+impl LawLine {
+    /// As keys of a term file.
+    pub(crate) fn toml(&self) -> String {
+        let key = self.kind.key();
+        if self.kind != PartKind::Elongation {
+            let six: [String; 6] = std::array::from_fn(|k| {
+                if k == self.axis { format!("\"{}\"", self.formula) } else { "\"\"".to_owned() }
+            });
+            return format!("{key} = [{}]\n", six.join(", "));
+        }
+        let legs = self.legs.as_ref().map_or(String::new(), |legs| format!("legs = {legs:?}\n"));
+        format!("{key} = \"{}\"\n{legs}", self.formula)
+    }
+
+    /// Where it acts, where that is not all legs.
+    pub(crate) fn place(&self) -> Option<String> {
+        if self.kind != PartKind::Elongation {
+            return Some(format!("{} {}", self.kind.key().replace('_', " "), AXES[self.axis]));
+        }
+        self.legs.as_ref().map(|legs| format!("{legs:?}"))
+    }
+}
+
 /// Longest id of a term.
 const LONGEST_ID: usize = 36;
 /// Values of a constant offered on each side of the one found, and how far they go.
@@ -21,8 +60,15 @@ impl Law {
     /// Kebab-case name.
     pub(crate) fn id(&self) -> String {
         let slugs: Vec<&str> = self.product.blocks().map(|b| b.slug).collect();
-        let lead = if matches!(self.product.head, Head::Length(_)) { "length-" } else { "" };
-        let legs = self.legs.slug();
+        let lead = match self.product.head {
+            Head::Length(_) => "length-",
+            Head::Body(PartKind::Wrench, _) => "wrench-",
+            Head::Body(PartKind::BaseMotion, _) => "base-",
+            Head::Body(PartKind::PlatformMotion, _) => "platform-",
+            _ => "",
+        };
+        let legs =
+            self.axis().map_or_else(|| self.legs.slug(), |axis| format!("-{}", AXES[axis].replace(' ', "-")));
         let mut id = format!("{lead}{}", slugs.join("-"));
         id.truncate(LONGEST_ID - legs.len());
         format!("{}{legs}", id.trim_end_matches('-'))
@@ -34,9 +80,8 @@ impl Law {
         names.iter().map(|name| format!("{name}{mark}")).collect()
     }
 
-    /// Formulas for the elongation of a leg (m; everything SI) in each of its groups of legs. `is_fitted`: the constant inside stands by
-    /// its name, else as a number.
-    pub(crate) fn formulas(&self, mark: &str, is_fitted: bool) -> Vec<(String, Option<Vec<usize>>)> {
+    /// Its formulas (everything SI), one for each group of legs. `is_fitted`: the constant inside stands by its name, else as a number.
+    pub(crate) fn lines(&self, mark: &str, is_fitted: bool) -> Vec<LawLine> {
         let in_turn = if self.legs.alternates() { "(-1)^leg*" } else { "" };
         let fixed = |text: String| match self.product.constant().filter(|_| !is_fitted) {
             Some(constant) => with_number(&text, constant.name(), &self.constant_text(constant)),
@@ -49,7 +94,12 @@ impl Law {
                 named.map(|(name, text)| format!("{minus}{name}*{in_turn}{}", fixed(text))).collect();
             terms.join(" + ").replace("+ -", "- ")
         };
-        self.legs.groups().into_iter().map(|(sign, numbers)| (formula(sign), numbers)).collect()
+        let kind = self.product.kind();
+        if let Some(axis) = self.axis() {
+            return vec![LawLine { kind, formula: formula(1), axis, legs: None }];
+        }
+        let groups = self.legs.groups().into_iter();
+        groups.map(|(sign, legs)| LawLine { kind, formula: formula(sign), axis: 0, legs }).collect()
     }
 
     fn constant_text(&self, constant: Constant) -> String {
@@ -60,7 +110,14 @@ impl Law {
 
     /// Unit of its sizes that makes `scale` (SI) a number people read, and how many of it make one SI unit.
     pub(crate) fn unit(&self, scale: f64) -> (String, f64) {
-        let readable = PREFIXES.iter().find(|(_, per_si)| scale * per_si >= 1.0).unwrap_or(&PREFIXES[5]);
+        let units: &[(&str, f64)] = match (self.product.kind(), self.axis().is_some_and(|axis| axis >= 3)) {
+            (PartKind::Wrench, false) => &[("N", 1.0)],
+            (PartKind::Wrench, true) => &[("N m", 1.0)],
+            (PartKind::BaseMotion | PartKind::PlatformMotion, true) => &ANGLES,
+            _ => &LENGTHS,
+        };
+        let readable = units.iter().find(|(_, per_si)| scale * per_si >= 1.0).or(units.last());
+        let (above, per_si) = readable.copied().unwrap_or(("1", 1.0));
         let symbols = ["N", "m", "K", "s"];
         let powers = symbols.into_iter().zip(self.product.powers()).filter(|(_, power)| *power > 0.0);
         let written = |(symbol, power): (&str, f64)| {
@@ -68,26 +125,34 @@ impl Law {
         };
         let below: Vec<String> = powers.map(written).collect();
         let unit = match below.len() {
-            0 => readable.0.to_owned(),
-            1 => format!("{}/{}", readable.0, below[0]),
-            _ => format!("{}/({})", readable.0, below.join(" ")),
+            0 => above.to_owned(),
+            1 => format!("{above}/{}", below[0]),
+            _ => format!("{above}/({})", below.join(" ")),
         };
-        (unit, readable.1)
+        (unit, per_si)
     }
 
     /// What it says, without a sign: `the compliance of all legs changes with temperature`.
     pub(crate) fn sentence(&self, rises: Option<bool>) -> String {
-        let blocks: Vec<&Block> = self.product.blocks().collect();
-        let legs = self.legs.words();
-        let (subject, with) = match self.product.head {
-            Head::Length(_) => (format!("the length of {legs}"), &blocks[..]),
-            Head::Carrier(_) | Head::Compliance(_) | Head::Loaded(_) => {
-                (blocks[0].words.replace("{legs}", &legs), &blocks[1..])
-            }
+        let with: Vec<&Block> = self.product.blocks().filter(|b| !b.words.is_empty()).collect();
+        let what = match self.product.head {
+            Head::Length(_) => "length",
+            Head::Compliance(_) | Head::Loaded(_) | Head::Carrier(COMPLIANCE) => "compliance",
+            Head::Carrier(_) | Head::Body(..) => "elongation",
         };
-        if with.is_empty() {
-            return format!("{subject}{} is not in the model", self.constant_words());
-        }
+        let body = self.axis().map(|axis| {
+            let (axis, turns) = (AXES[axis], axis >= 3);
+            match self.product.kind() {
+                PartKind::Wrench => {
+                    format!("a {} {axis} on the platform", if turns { "moment" } else { "force" })
+                }
+                PartKind::BaseMotion => {
+                    format!("the {} of the base {axis}", if turns { "turn" } else { "place" })
+                }
+                _ => format!("the {} of the measured platform {axis}", if turns { "turn" } else { "place" }),
+            }
+        });
+        let subject = body.unwrap_or_else(|| format!("the {what} of {}", self.legs.words()));
         if let Some(wave) = with.iter().find(|b| b.twin.is_some()) {
             let more: Vec<&str> = with.iter().filter(|b| b.slug != wave.slug).map(|b| b.words).collect();
             let and =
@@ -122,6 +187,13 @@ impl Law {
     pub(crate) fn look_at(&self) -> [&'static str; 3] {
         let families: Vec<Family> = self.product.blocks().map(|b| b.family).collect();
         let has = |family: Family| families.contains(&family);
+        if self.axis().is_some() {
+            return [
+                "foundation, frame and platform: what yields, warms or slips between the joints and the floor",
+                "the instrument: its mount, its own warming, its distance from the machine",
+                "cables, hoses and covers that pull at the platform",
+            ];
+        }
         if self.product.is_wave() {
             [
                 "the lead of the screw against this period, and its halves and thirds: nut, ball return, gear",
@@ -227,7 +299,7 @@ impl Law {
     pub(crate) fn has_direction(&self) -> bool {
         let is_carrier = match self.product.head {
             Head::Carrier(k) => k == COMPLIANCE || CARRIERS[k].family == Family::Force,
-            Head::Length(_) | Head::Compliance(_) | Head::Loaded(_) => true,
+            Head::Length(_) | Head::Compliance(_) | Head::Loaded(_) | Head::Body(..) => true,
         };
         is_carrier && !self.legs.differs() && !self.product.is_wave()
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::report::{Discovery, HeldOutFall, LawReport};
-use super::{Reason, Source};
+use super::{DiscoveryReason, Source};
 use crate::error::ModelError;
 use crate::estimation::estimate::{Estimate, estimates};
 use crate::estimation::fit::{Fit, TermSpec};
@@ -94,7 +94,7 @@ impl Judged {
     pub(super) fn report(&self, template: Discovery) -> Discovery {
         Discovery {
             found: true,
-            reason: Reason::Law,
+            reason: DiscoveryReason::Law,
             text: self.laws.first().map(|l| l.text.clone()).unwrap_or_default(),
             beside: self.beside.clone(),
             laws: self
@@ -112,7 +112,7 @@ impl Judged {
 
     /// What the laws come to where none convinces.
     pub(super) fn ideas(&self, template: Discovery) -> Discovery {
-        let is_open = template.reason == Reason::NoLawConvinces;
+        let is_open = template.reason == DiscoveryReason::NoLawConvinces;
         let laws = self.laws.iter().take(if is_open { IDEAS } else { 0 }).cloned().collect();
         Discovery { laws, probability: self.probability, ..template }
     }
@@ -201,7 +201,7 @@ fn report(
         id: format!("law-{number}"),
         term: sum.id(),
         formula: sum.formula(),
-        kind: "elongation",
+        kind: sum.kind(),
         legs: sum.legs().into(),
         probability: probability.min(1.0),
         complexity: sum.complexity(),

@@ -34,7 +34,7 @@ use crate::results::words::joined;
 /// What a search for laws came to, in one word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Reason {
+pub enum DiscoveryReason {
     /// A law explains what is left, and held-out poses agree.
     Law,
     /// The springs explain the readings.
@@ -231,26 +231,32 @@ fn without_law(diagnosis: &Diagnosis) -> Discovery {
     }
 }
 
-fn reason(diagnosis: &Diagnosis) -> (Reason, String) {
+fn reason(diagnosis: &Diagnosis) -> (DiscoveryReason, String) {
     let at_the_noise = diagnosis.steps.last().is_some_and(StepReport::is_at_the_noise);
     let (reason, text) = match diagnosis.verdict {
         Verdict::Adequate => (
-            Reason::NothingMissing,
+            DiscoveryReason::NothingMissing,
             "nothing is missing: the springs explain the readings to within the noise",
         ),
         Verdict::Measurement => (
-            Reason::Readings,
+            DiscoveryReason::Readings,
             "what is wrong is in the data, not in the machine: see the findings of `hexbench diagnose`",
         ),
-        Verdict::Undecided => (Reason::Readings, "these readings cannot tell whether anything is missing"),
+        Verdict::Undecided => {
+            (DiscoveryReason::Readings, "these readings cannot tell whether anything is missing")
+        }
         Verdict::Named | Verdict::Ambiguous if at_the_noise && !diagnosis.added.is_empty() => {
-            return (Reason::Catalogue, format!("the catalogue explains it: {}", joined(&diagnosis.added)));
+            return (
+                DiscoveryReason::Catalogue,
+                format!("the catalogue explains it: {}", joined(&diagnosis.added)),
+            );
         }
-        Verdict::Named | Verdict::Ambiguous if at_the_noise => {
-            (Reason::Catalogue, "the catalogue explains it, in more than one way: see `hexbench diagnose`")
-        }
+        Verdict::Named | Verdict::Ambiguous if at_the_noise => (
+            DiscoveryReason::Catalogue,
+            "the catalogue explains it, in more than one way: see `hexbench diagnose`",
+        ),
         Verdict::Named | Verdict::Ambiguous | Verdict::Outside => {
-            (Reason::NoLawConvinces, "something is missing, and no law of those searched convinces")
+            (DiscoveryReason::NoLawConvinces, "something is missing, and no law of those searched convinces")
         }
     };
     (reason, text.to_owned())

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Reason;
+use super::DiscoveryReason;
 use crate::estimation::estimate::Estimate;
 use crate::inference::verdict::Verdict;
 use crate::results::diagnose::StepReport;
@@ -15,7 +15,7 @@ pub struct Discovery {
     /// True when the first law is convincing.
     pub found: bool,
     /// What it came to, in one word.
-    pub reason: Reason,
+    pub reason: DiscoveryReason,
     /// The same in a sentence.
     pub text: String,
     /// Verdict of the diagnosis with the catalogue alone.
@@ -41,10 +41,10 @@ pub struct LawReport {
     pub id: String,
     /// Id of the term its file describes.
     pub term: String,
-    /// Elongation of a leg, m; everything SI.
+    /// Elongation of a leg (m), or what `kind` says; everything SI.
     pub formula: String,
-    /// What the formula gives: `elongation`.
-    pub kind: &'static str,
+    /// What the formula gives: `elongation`, `wrench`, `base-motion`, `platform-motion`.
+    pub kind: String,
     /// Legs it concerns.
     pub legs: LawLegs,
     /// Probability.
