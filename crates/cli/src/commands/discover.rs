@@ -85,12 +85,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 /// The law as a term file; an idea that does not convince is not written, so that nobody takes it for a finding.
 fn write_law(path: Option<&Path>, study: &DiscoveryStudy, screen: &Screen) -> Result<(), Failure> {
     let Some(path) = path else { return Ok(()) };
-    match study.term_file.as_deref().filter(|_| study.discovery.found) {
-        Some(text) => screen.write_to(path, text),
-        None => {
-            let next = "Nothing, or see the ideas of the page: each can be written as a term file by hand.";
-            report::warn(&format!("{} is not written: no law was found", path.display()), next);
-            Ok(())
-        }
+    if let Some(text) = study.term_file.as_deref().filter(|_| study.discovery.found) {
+        return screen.write_to(path, text);
     }
+    let next = "Nothing, or see the ideas of the page: each can be written as a term file by hand.";
+    report::warn(&format!("{} is not written: no law was found", path.display()), next);
+    Ok(())
 }

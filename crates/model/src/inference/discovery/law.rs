@@ -78,14 +78,12 @@ impl Product {
     }
 
     /// True when no two factors vary with the same thing, at most one has a constant, and a wave, which costs as much as all other
-    /// products together, has one plain factor beside it.
+    /// products together, is one of the compliance.
     fn is_sound(&self) -> bool {
         let families: Vec<_> = self.blocks().map(|b| b.family).collect();
         let distinct = (1..families.len()).all(|k| !families[..k].contains(&families[k]));
         let constants = self.blocks().filter(|b| b.constant.is_some()).count();
-        let plain = |slug: &str| ["compliance", "temperature", "time"].contains(&slug);
-        let waves_alone = !self.is_wave()
-            || (families.len() == 2 && self.blocks().all(|b| b.twin.is_some() || plain(b.slug)));
+        let waves_alone = !self.is_wave() || (self.head == Head::Carrier(COMPLIANCE) && families.len() == 2);
         distinct && constants <= 1 && waves_alone
     }
 
