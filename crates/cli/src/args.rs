@@ -39,6 +39,7 @@ pub(crate) enum Command {
     Check(commands::check::Arguments),
     Compare(commands::compare::Arguments),
     Diagnose(commands::diagnose::Arguments),
+    Discover(commands::discover::Arguments),
     Runs(commands::runs::Arguments),
     Fit(commands::fit::Arguments),
     Predict(commands::predict::Arguments),

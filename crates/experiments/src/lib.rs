@@ -7,6 +7,7 @@
 //! | [`calibration`] | how far can the stated probabilities be trusted? |
 //! | [`robustness`] | what do laboratories that do not keep to the assumptions get? |
 //! | [`misread`] | is it found that a file does not say what its author meant? |
+//! | [`discovery`] | are laws found that no catalogue lists, and only where there are any? |
 //! | [`discriminate`] | do the proposed readings tell effects apart? |
 //! | [`power`] | which effects does a plan show? |
 //! | [`regress`] | did a change make anything worse? |
@@ -19,6 +20,7 @@
 
 pub mod calibration;
 pub mod challenge;
+pub mod discovery;
 pub mod discriminate;
 pub mod error;
 pub mod harness;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use hexbench_app::{Failure, input};
 use hexbench_model::results::compare::{ComparedModel, compare as compared_with};
 use hexbench_model::results::diagnose::{DiagnoseOptions, DiagnosisStudy, diagnose_with};
+use hexbench_model::results::discover::{DiscoveryStudy, discover as search_law};
 use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::Page;
 use hexbench_report::charts::{self, ReportError};
@@ -116,6 +117,59 @@ pub(crate) fn diagnose(
             diagnose_with(&about.measured.machine.hexapod, &about.measured.data, held, &all, &options);
         let study = study.map_err(|cause| about.failure(cause))?;
         Ok(PyDiagnosis(Arc::new((about, study))))
+    })
+}
+
+/// A search for laws that no catalogue lists.
+#[pyclass(frozen, name = "Discovery", module = "hexbench._native")]
+pub(crate) struct PyDiscovery(Arc<(About, DiscoveryStudy)>);
+
+#[pymethods]
+impl PyDiscovery {
+    /// The text of discovery.json.
+    fn json(&self, py: Python<'_>) -> PyResult<String> {
+        self.0.0.json(py, &self.0.1.discovery)
+    }
+
+    /// The page of the command.
+    fn text(&self, verbose: bool) -> String {
+        let (about, study) = self.0.as_ref();
+        let held = about.holdout.as_ref().map(|h| &h.data);
+        let subject =
+            ReportSubject::of(&about.measured.machine.hexapod, &about.measured.data, held, &study.diagnosis);
+        let page = words::discovery(subject.hexapod, subject.data, subject.holdout, study);
+        terminal(&page, Terminal { verbose, ..Terminal::default() })
+    }
+
+    /// The best law as a term file, where one was found.
+    fn term(&self) -> Option<String> {
+        let study = &self.0.1;
+        study.term_file.clone().filter(|_| study.discovery.found)
+    }
+}
+
+/// Search the law that no catalogue has.
+#[pyfunction]
+pub(crate) fn discover(
+    py: Python<'_>,
+    campaign: &PyCampaign,
+    holdout: Option<&PyCampaign>,
+    terms: Vec<PathBuf>,
+    exclude: Vec<String>,
+    read_as: Vec<String>,
+) -> PyResult<PyDiscovery> {
+    let about = About::of(campaign, holdout);
+    beside(py, move || {
+        let all = input::catalogue_with(&input::user_terms(&terms)?);
+        let held = about.holdout.as_ref().map(|h| &h.data);
+        let options = DiagnoseOptions {
+            exclude: parsed("exclude", &exclude)?,
+            keep_all: false,
+            read_as: parsed("read_as", &read_as)?,
+        };
+        let study = search_law(&about.measured.machine.hexapod, &about.measured.data, held, &all, &options);
+        let study = study.map_err(|cause| about.failure(cause))?;
+        Ok(PyDiscovery(Arc::new((about, study))))
     })
 }
 

@@ -34,7 +34,7 @@ mod _native {
     #[pymodule_export]
     use crate::design::{PyPlan, design};
     #[pymodule_export]
-    use crate::diagnose::{PyComparison, PyDiagnosis, compare, diagnose};
+    use crate::diagnose::{PyComparison, PyDiagnosis, PyDiscovery, compare, diagnose, discover};
     #[pymodule_export]
     use crate::machine::{PyHexapod, write_text};
     #[pymodule_export]

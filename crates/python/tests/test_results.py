@@ -204,3 +204,26 @@ def test_a_study_in_parts_has_the_bytes_of_the_command(command: Command, tmp_pat
     assert merged["taken"] == plan["shards"]
     for file in ("trials.parquet", "cells.csv", "study.md"):
         assert (tmp_path / "merged" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes(), file
+
+
+def test_a_discovery_is_that_of_the_command_byte_for_byte(tmp_path: Path, command: Command) -> None:
+    hexapod, data, holdout = case("not-in-catalogue")
+    told = command("discover", hexapod, data, "--holdout", holdout, "--json", "-").stdout
+    campaign = hexbench.load(hexapod, data)
+    found = hexbench.discover(campaign, holdout=holdout)
+    assert found.to_json() == told
+    keys = set(hexbench.Discovery.__annotations__) - {"_made"}
+    assert {key: getattr(found, key) for key in keys} == found.to_dict()
+    assert str(found) == command("discover", hexapod, data, "--holdout", holdout, "--color", "never").stdout
+    assert found.found and "period" in repr(found)
+    found.save(tmp_path / "term.toml")
+    diagnosis = hexbench.diagnose(campaign, holdout=holdout, terms=[tmp_path / "term.toml"])
+    assert (diagnosis.verdict, diagnosis.added) == ("named", [found.laws[0]["term"]])
+
+
+def test_nothing_is_discovered_on_a_sound_machine(tmp_path: Path) -> None:
+    hexapod, data, holdout = case("mujoco-clean")
+    nothing = hexbench.discover(hexbench.load(hexapod, data), holdout=holdout)
+    assert (nothing.found, nothing.reason, nothing.laws, nothing.term()) == (False, "nothing-missing", [], None)
+    with pytest.raises(ValueError, match="nothing is missing"):
+        nothing.save(tmp_path / "term.toml")

@@ -8,6 +8,7 @@ pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod design;
 pub(crate) mod diagnose;
+pub(crate) mod discover;
 pub(crate) mod discriminate;
 pub(crate) mod export;
 pub(crate) mod fit;
@@ -40,6 +41,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Predict(arguments) => predict::run(arguments, &screen),
         Command::Compensate(arguments) => compensate::run(arguments, &screen),
         Command::Diagnose(arguments) => diagnose::run(arguments, &screen),
+        Command::Discover(arguments) => discover::run(arguments, &screen),
         Command::Runs(arguments) => runs::run(arguments, &screen),
         Command::Export(arguments) => export::run(arguments, &screen),
         Command::Transient(arguments) => transient::run(arguments, &screen),

@@ -6,6 +6,7 @@ mod challenge;
 mod choice;
 mod demo;
 mod design;
+mod discover;
 mod discriminate;
 mod documents;
 mod exits;

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use hexbench_design::power::PowerSettings;
 use hexbench_experiments::ExperimentError;
 use hexbench_experiments::calibration;
+use hexbench_experiments::discovery::DiscoveryProtocol;
 use hexbench_experiments::discriminate::{self, CONFUSIONS};
 use hexbench_experiments::harness::{self, Gathered, Progress, Protocol, Sharded, Silent, compute};
 use hexbench_experiments::journal::Journal;
@@ -145,6 +146,12 @@ fn a_study_of_misread_files_goes_on_where_it_was_stopped() {
         MisreadProtocol { seed, trials: 2, sound: 4, ..Default::default() }
             .with_misstatements(&["wrench-negated", "holdout-is-training"])
     };
+    survives(&protocol(3), &protocol(4));
+}
+
+#[test]
+fn a_study_of_laws_goes_on_where_it_was_stopped() {
+    let protocol = |seed| DiscoveryProtocol { seed, outside: 2, listed: 2, clean: 6 };
     survives(&protocol(3), &protocol(4));
 }
 

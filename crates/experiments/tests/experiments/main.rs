@@ -3,6 +3,7 @@
 
 mod calibration;
 mod challenge;
+mod discovery;
 mod discriminate;
 mod interrupted;
 mod misread;

@@ -81,6 +81,8 @@ pub struct Condition {
     pub numbers: usize,
     /// True when they are those of a pose.
     pub reads_pose: bool,
+    /// Compliances of the leg springs where the model is linearised, m/N.
+    pub springs: Vector6,
 }
 
 /// Leg forces (N, tension positive) along the way from the unloaded machine to the reading.
@@ -419,6 +421,7 @@ impl Campaign {
             weight: Vector6::from_fn(|k, _| 1.0 / group.sigma[k]),
             numbers: group.numbers(),
             reads_pose: group.channels == Channel::POSE,
+            springs: *springs,
             legs,
         })
     }

@@ -231,6 +231,15 @@ impl Linearization {
         self.links.iter().map(Link::by_elongation).collect()
     }
 
+    /// Whitened reading per unit of six actions, at every condition.
+    pub fn readers_of(&self, action: impl Fn(&Condition, usize) -> Action) -> Vec<Matrix6> {
+        let of = |(c, link): (&Condition, &Link)| {
+            let columns: [Vector6; 6] = std::array::from_fn(|k| link.by_action(c, &action(c, k)));
+            Matrix6::from_columns(&columns)
+        };
+        self.conditions.iter().zip(&self.links).map(of).collect()
+    }
+
     /// Columns of springs and frames.
     pub fn common_block(&self) -> DMatrix<f64> {
         let mut block = DMatrix::zeros(self.equations(), self.common_columns());

@@ -123,6 +123,13 @@ impl<'a> Collector<'a> {
         self.push(Source::Term { term: Arc::clone(term), rich, shape }, block)
     }
 
+    /// Prior weight of the candidate added last, relative to a term of the catalogue.
+    pub fn weigh_last(&mut self, log_weight: f64) {
+        if let Some(last) = self.candidates.last_mut() {
+            last.log_weight = log_weight;
+        }
+    }
+
     /// Add a pattern with its prior weight relative to a term.
     pub fn add_pattern(&mut self, pattern: Pattern, log_weight: f64) {
         let range = pattern.spread(&self.lin.conditions);

@@ -12,6 +12,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::inference::candidates::{Candidate, CandidateKind, Collector, sizes};
+use crate::inference::discovery::LawTerm;
 use crate::inference::evidence::Gram;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};
 use crate::inference::scan::Scanner;
@@ -64,6 +65,18 @@ pub struct RankedSets {
 /// # Errors
 /// As [`fit`].
 pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<RankedSets, ModelError> {
+    explain_with_laws(campaign, terms, &[])
+}
+
+/// The same with laws that no catalogue lists among what competes; patterns without a name then do not.
+///
+/// # Errors
+/// As [`fit`].
+pub fn explain_with_laws(
+    campaign: &Campaign,
+    terms: &[Arc<dyn Term>],
+    laws: &[LawTerm],
+) -> Result<RankedSets, ModelError> {
     let baseline = fit_baseline(campaign)?;
     let mut best = baseline.clone();
     let mut lin = Linearization::at(campaign, &best.point)?;
@@ -72,7 +85,8 @@ pub fn explain(campaign: &Campaign, terms: &[Arc<dyn Term>]) -> Result<RankedSet
     let mut history: Vec<Vec<String>> = Vec::new();
     loop {
         let (testable, mut untestable) = split(terms, campaign, &lin);
-        let (gram, candidates) = collect(campaign, &best.point, &lin, &testable, natural, effort);
+        let rivals = Rivals { terms: &testable, laws };
+        let (gram, candidates) = collect(campaign, &best.point, &lin, rivals, natural, effort);
         let (candidates, faint) = noticeable(candidates, &gram);
         untestable.extend(faint);
         let sets = TermSearch::new(&gram, &candidates, campaign.noise.allows_verdict()).run(MOST_EFFECTS);
@@ -129,8 +143,8 @@ pub fn visible(
     let lin = Linearization::at(campaign, &springs.point)?;
     let (testable, mut untestable) = split(terms, campaign, &lin);
     let effort = Effort { rich: false, scan: false };
-    let (gram, candidates) =
-        collect(campaign, &springs.point, &lin, &testable, springs.natural(&lin), effort);
+    let rivals = Rivals { terms: &testable, laws: &[] };
+    let (gram, candidates) = collect(campaign, &springs.point, &lin, rivals, springs.natural(&lin), effort);
     let (candidates, faint) = noticeable(candidates, &gram);
     untestable.extend(faint);
     Ok((gram, candidates, untestable))
@@ -188,19 +202,33 @@ fn split(
     (testable, untestable)
 }
 
+/// What competes.
+#[derive(Clone, Copy)]
+struct Rivals<'a> {
+    terms: &'a [Arc<dyn Term>],
+    laws: &'a [LawTerm],
+}
+
 fn collect(
     campaign: &Campaign,
     point: &ModelPoint,
     lin: &Linearization,
-    terms: &[Arc<dyn Term>],
+    rivals: Rivals<'_>,
     natural: Natural,
     effort: Effort,
 ) -> (Gram, Vec<Candidate>) {
     let mut collector = Collector::new(lin, natural);
     // Scans only choose what to weigh; the weighing itself uses every condition.
     let scanned = lin.thinned(SCANNED_CONDITIONS);
-    for term in terms {
+    for term in rivals.terms {
         add_term(&mut collector, term, &scanned, point, rich_shape(term.as_ref(), point, effort));
+    }
+    for law in rivals.laws {
+        add_term(&mut collector, &law.term, &scanned, point, None);
+        collector.weigh_last(law.log_prior);
+    }
+    if !rivals.laws.is_empty() {
+        return collector.finish(campaign, point);
     }
     for (pattern, log_weight) in patterns(campaign, &scanned, point, effort.scan) {
         collector.add_pattern(pattern, log_weight);

@@ -103,6 +103,35 @@ impl PriorBlock {
     }
 }
 
+/// What a drop of chi-square is worth.
+#[derive(Debug, Clone, Copy)]
+pub struct Likelihood {
+    /// `y'y`.
+    pub yy: f64,
+    /// Equations left after the projection.
+    pub equations: f64,
+    /// What is known of the noise level beside them.
+    pub level: NoiseLevel,
+}
+
+impl Likelihood {
+    /// Logarithm of the likelihood gained by a drop of (inflated) chi-square, and lost by the inflation itself. The noise level is
+    /// integrated out: with `S` and `nu` known of it, `n` equations and an inflation `v` of what the model leaves,
+    ///
+    /// ```text
+    /// -n/2 ln v - (n + nu)/2 ln((S + yy/v - drop) / (S + yy))
+    /// ```
+    pub fn gain(&self, drop: f64, inflation: f64) -> f64 {
+        let lost = 0.5 * self.equations * inflation.ln();
+        if self.level.dof.is_infinite() {
+            return 0.5 * (drop + self.yy * (1.0 - 1.0 / inflation)) - lost;
+        }
+        let before = (self.level.sum + self.yy).max(f64::MIN_POSITIVE);
+        let after = (self.level.sum + self.yy / inflation - drop).max(1e-12 * before);
+        -lost - 0.5 * (self.equations + self.level.dof) * (after / before).ln()
+    }
+}
+
 /// A block with a prior width.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Variant {
@@ -205,20 +234,13 @@ impl Gram {
         (columns, DVector::from_vec(scale))
     }
 
-    /// Logarithm of the likelihood gained by a drop of (inflated) chi-square, and lost by the inflation itself. The noise level is
-    /// integrated out: with `S` and `nu` known of it, `n` equations and an inflation `v` of what the model leaves,
-    ///
-    /// ```text
-    /// -n/2 ln v - (n + nu)/2 ln((S + yy/v - drop) / (S + yy))
-    /// ```
     fn gain(&self, drop: f64, inflation: f64) -> f64 {
-        let lost = 0.5 * self.equations * inflation.ln();
-        if self.level.dof.is_infinite() {
-            return 0.5 * (drop + self.yy * (1.0 - 1.0 / inflation)) - lost;
-        }
-        let before = (self.level.sum + self.yy).max(f64::MIN_POSITIVE);
-        let after = (self.level.sum + self.yy / inflation - drop).max(1e-12 * before);
-        -lost - 0.5 * (self.equations + self.level.dof) * (after / before).ln()
+        self.likelihood().gain(drop, inflation)
+    }
+
+    /// What these equations say of a drop of chi-square.
+    pub fn likelihood(&self) -> Likelihood {
+        Likelihood { yy: self.yy, equations: self.equations, level: self.level }
     }
 
     /// Length of the whitened signature of one unit (SI) of every parameter of a block, less what springs, frames and
@@ -338,7 +360,7 @@ impl Rest {
 }
 
 /// Drop of chi-square of one parameter, and the rest of its log-evidence.
-fn single(e: f64, b: f64, g: f64, positive: bool) -> (f64, f64) {
+pub(crate) fn single(e: f64, b: f64, g: f64, positive: bool) -> (f64, f64) {
     let m = 1.0 + g * g * e.max(0.0);
     let sign = if positive { log_sign(g * b / m, 1.0 / m) } else { 0.0 };
     (g * g * b * b / m, sign - 0.5 * m.ln())

@@ -4,6 +4,7 @@ pub mod answer;
 pub mod check;
 pub mod compare;
 pub mod diagnose;
+pub mod discover;
 pub mod next;
 pub mod runs;
 pub mod words;

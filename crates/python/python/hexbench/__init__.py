@@ -1,4 +1,4 @@
-"""Virtual testbench for the elastostatics of hexapods: simulate, compare, fit, diagnose, design, predict.
+"""Virtual testbench for the elastostatics of hexapods: simulate, compare, fit, diagnose, discover, design, predict.
 
 >>> import hexbench
 >>> campaign = hexbench.load("hexapod.toml", "measurements.csv")          # doctest: +SKIP
@@ -15,6 +15,7 @@ from hexbench._native import __version__
 from hexbench.campaign import Campaign, load
 from hexbench.designing import Plan, design
 from hexbench.diagnosing import Comparison, Diagnosis, compare, diagnose, terms
+from hexbench.discovering import Discovery, discover
 from hexbench.errors import BadInput, HexbenchError, HexbenchWarning, InputOutput, NotDetermined, UsageError
 from hexbench.estimator import HexapodModel
 from hexbench.machine import Hexapod
@@ -26,6 +27,7 @@ __all__ = [
     "Campaign",
     "Comparison",
     "Diagnosis",
+    "Discovery",
     "Hexapod",
     "HexapodModel",
     "HexbenchError",
@@ -41,6 +43,7 @@ __all__ = [
     "compare",
     "design",
     "diagnose",
+    "discover",
     "fit",
     "load",
     "predict",

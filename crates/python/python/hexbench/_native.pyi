@@ -94,6 +94,13 @@ class Diagnosis:
     def text(self, verbose: bool) -> str: ...
     def html(self) -> str: ...
 
+class Discovery:
+    """A search for laws, by the native half."""
+
+    def json(self) -> str: ...
+    def text(self, verbose: bool) -> str: ...
+    def term(self) -> str | None: ...
+
 class Comparison:
     """A comparison."""
 
@@ -144,6 +151,15 @@ def diagnose(
     read_as: Sequence[str],
 ) -> Diagnosis:
     """Name the physical effect the model lacks."""
+
+def discover(
+    campaign: Campaign,
+    holdout: Campaign | None,
+    terms: Sequence[str],
+    exclude: Sequence[str],
+    read_as: Sequence[str],
+) -> Discovery:
+    """Search the law that no catalogue has."""
 
 def design(hexapod: Hexapod, space: str, wanted: Mapping[str, Any]) -> Plan:
     """Search a plan."""

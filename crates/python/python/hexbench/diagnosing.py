@@ -220,7 +220,7 @@ def diagnose(
     own = [fspath(t) for t in terms]
     changes = [read_as] if isinstance(read_as, str) else list(read_as)
     held = held_out(campaign, holdout)
-    return Diagnosis(_native.diagnose(campaign._made, held, own, _lines(exclude), bool(keep_all), changes))
+    return Diagnosis(_native.diagnose(campaign._made, held, own, lines_named(exclude), bool(keep_all), changes))
 
 
 def terms() -> list[dict[str, Any]]:
@@ -232,7 +232,8 @@ def terms() -> list[dict[str, Any]]:
     return _native.terms()
 
 
-def _lines(exclude: Sequence[int | str]) -> list[str]:
+def lines_named(exclude: Sequence[int | str]) -> list[str]:
+    """Return lines and ranges of lines as the command writes them."""
     named = [exclude] if isinstance(exclude, str) else exclude
     return [line if isinstance(line, str) else str(whole(line, "exclude", 1, _LAST_LINE)) for line in named]
 

@@ -117,7 +117,7 @@ impl<'a> Effect<'a> {
 
     fn is_periodic(&self) -> bool {
         let own = self.final_model.point.active.iter().find(|a| a.id() == self.id);
-        own.and_then(|a| a.term.info().shape).is_some_and(|shape| shape.name == "pitch")
+        own.and_then(|a| a.term.info().shape).is_some_and(|shape| PERIODS.contains(&shape.name))
     }
 
     fn dots(&self, leg: usize, x: &Over<'_>) -> Vec<Dot> {
@@ -131,8 +131,10 @@ impl<'a> Effect<'a> {
     }
 }
 
+/// Shapes that are periods of leg length.
+const PERIODS: [&str; 2] = ["pitch", "period"];
 /// Name of the variable of a periodic effect.
-const WITHIN: &str = "leg length within one pitch";
+const WITHIN: &str = "leg length within one period";
 
 /// The period, where a chart is folded at it.
 fn fold(shape: f64, title: &str) -> String {

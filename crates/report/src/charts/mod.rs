@@ -17,6 +17,7 @@ mod scatter;
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::error::ModelError;
 use hexbench_model::results::compare::ComparedModel;
+use hexbench_model::results::discover::DiscoveryStudy;
 
 use self::data::Data;
 use crate::page::{Page, Section};
@@ -74,6 +75,30 @@ pub fn diagnosis(subject: &ReportSubject<'_>, provenance: &Provenance) -> Result
         .with_after("ladder", sections.into_iter().flatten())
         .with_after("stiffness", correlation::section(subject)?)
         .with(provenance.section(subject.study.diagnosis.noise.source)))
+}
+
+/// The page of a search for laws with its charts; `subject`: the readings diagnosed with the law, or without one where none was found.
+///
+/// # Errors
+/// [`ReportError`] when a chart cannot be made.
+pub fn discovery(
+    subject: &ReportSubject<'_>,
+    found: &DiscoveryStudy,
+    provenance: &Provenance,
+) -> Result<Page, ReportError> {
+    let words = words::discovery(subject.hexapod, subject.data, subject.holdout, found);
+    let provenance = provenance.section(subject.study.diagnosis.noise.source);
+    if subject.study.diagnosis.is_misread() {
+        return Ok(words.with(provenance));
+    }
+    let data = Data::of_study(subject)?;
+    let sections = [
+        Some(predicted::section(&data)?),
+        explained::section(&data)?,
+        Some(residual_sheet::section(&data)?),
+        period::section(&data)?,
+    ];
+    Ok(words.with_after("ladder", sections.into_iter().flatten()).with(provenance))
 }
 
 /// The page of a comparison with its charts.

@@ -11,8 +11,13 @@ const COORDINATES: [&str; 6] = ["a um", "b um", "c um", "alpha urad", "beta urad
 
 /// One row per step of the model, then the noise.
 pub fn section(d: &Diagnosis) -> Section {
-    let title = if d.steps.len() > 1 { "The error falls" } else { "The error" };
-    let largest = d.steps.iter().map(|s| s.error().times_noise()).fold(1.0, f64::max);
+    of_steps(&d.steps, d).with(d.nested.as_ref().map(|nested| Block::paragraph(chosen_anew(d, nested))))
+}
+
+/// The same for steps of another model of the readings of a diagnosis.
+pub fn of_steps(steps: &[StepReport], d: &Diagnosis) -> Section {
+    let title = if steps.len() > 1 { "The error falls" } else { "The error" };
+    let largest = steps.iter().map(|s| s.error().times_noise()).fold(1.0, f64::max);
     let columns = [
         PageColumn::words("model"),
         PageColumn::number("um"),
@@ -23,15 +28,11 @@ pub fn section(d: &Diagnosis) -> Section {
     .chain([PageColumn::bars()])
     .chain(COORDINATES.map(|title| PageColumn::number(title).detail()));
     let mut table = Table::new(columns);
-    for step in &d.steps {
+    for step in steps {
         table.row(row(step, largest));
     }
     table.row(noise(d, largest));
-    Section::new(title)
-        .id("ladder")
-        .remark(how_held_out(d))
-        .table(table)
-        .with(d.nested.as_ref().map(|nested| Block::paragraph(chosen_anew(d, nested))))
+    Section::new(title).id("ladder").remark(how_held_out(d)).table(table)
 }
 
 /// `With the terms chosen anew ...: 1.08 times the noise ...`

@@ -7,8 +7,8 @@ use crate::page::Section;
 /// Where a pattern outside the catalogue points to.
 pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     let outside = d.outside.as_ref()?;
-    let text = "A pattern that returns in a second campaign deserves a term of its own; until then no held-out error \
-                falls and nothing is named.";
+    let text = "`hexbench discover` with the same files searches the law behind it, writes it as a term (-o term.toml) that \
+                `hexbench diagnose --term term.toml` weighs like any other, and shows whether the held-out error falls.";
     Some(Section::new("What to look for").id("look-for").paragraph(hint(outside)).paragraph(text))
 }
 

@@ -1,6 +1,7 @@
 //! `hexbench validate`: studies that say how far the bench itself can be trusted, one file each.
 
 pub(crate) mod calibration;
+pub(crate) mod discover;
 pub(crate) mod discriminate;
 pub(crate) mod misread;
 pub(crate) mod paper;
@@ -34,6 +35,7 @@ enum Study {
     Robustness(robustness::Arguments),
     Misread(misread::Arguments),
     Sensors(sensors::Arguments),
+    Discover(discover::Arguments),
     Discriminate(discriminate::Arguments),
     Power(power::Arguments),
     Regress(regress::Arguments),
@@ -48,6 +50,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Study::Robustness(arguments) => robustness::run(arguments, screen),
         Study::Misread(arguments) => misread::run(arguments, screen),
         Study::Sensors(arguments) => sensors::run(arguments, screen),
+        Study::Discover(arguments) => discover::run(arguments, screen),
         Study::Discriminate(arguments) => discriminate::run(arguments, screen),
         Study::Power(arguments) => power::run(arguments, screen),
         Study::Regress(arguments) => regress::run(arguments, screen),

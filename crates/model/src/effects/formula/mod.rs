@@ -4,9 +4,11 @@
 //! assignments and no calls into the program, so evaluation always ends. Text is at most [`MOST_CHARACTERS`] long and
 //! nested at most [`MOST_DEPTH`] deep, both checked before anything is parsed.
 
+mod dimension;
 mod parser;
 mod token;
 
+pub use dimension::{PLAIN, UnitPowers};
 use thiserror::Error;
 
 /// Longest formula, in characters.
@@ -55,6 +57,29 @@ pub enum FormulaError {
         /// Its place from 1.
         position: usize,
     },
+    /// A length where a plain number belongs.
+    #[error(
+        "the argument of {function} is a length; divide it by a length with its unit, as in `{function}(2*pi*q/(8 mm))`, or by a shape \
+         whose unit is a length"
+    )]
+    LengthInside {
+        /// The function.
+        function: &'static str,
+    },
+    /// A number beside a length that does not say its unit.
+    #[error("{number} stands beside a length without a unit; write it, as in `{number} mm` or `{number} m`")]
+    BareLength {
+        /// The number, as far as it is known.
+        number: f64,
+    },
+    /// A sum or a comparison of unlike things.
+    #[error("{left} and {right} cannot be added or compared; everything in a formula is SI")]
+    MixedUnits {
+        /// Unit on the left.
+        left: String,
+        /// Unit on the right.
+        right: String,
+    },
     /// A name nobody knows.
     #[error("`{name}` is no variable, parameter or function here{}", suggestion.as_ref().map(|s| format!("; did you mean `{s}`?")).unwrap_or_default())]
     Unknown {
@@ -71,10 +96,13 @@ type Binary = fn(f64, f64) -> f64;
 /// One step of evaluation on a stack.
 #[derive(Debug, Clone, Copy)]
 enum Step {
-    Push(f64),
+    /// A number with the unit it was written with.
+    Push(f64, Option<UnitPowers>),
     Load(usize),
-    Unary(Unary),
-    Binary(Binary),
+    /// A function or a sign, with its name.
+    Unary(&'static str, Unary),
+    /// A function or an operator, with its name.
+    Binary(&'static str, Binary),
 }
 
 /// A formula over named variables, ready to evaluate.
@@ -82,6 +110,24 @@ enum Step {
 pub struct Formula {
     text: String,
     steps: Vec<Step>,
+    /// Numbers that wait at once.
+    depth: usize,
+}
+
+/// Numbers that may wait at once without memory of their own.
+const SHALLOW: usize = 16;
+
+fn depth(steps: &[Step]) -> usize {
+    let (mut waiting, mut most) = (0_usize, 1);
+    for step in steps {
+        match step {
+            Step::Push(..) | Step::Load(_) => waiting += 1,
+            Step::Unary(..) => {}
+            Step::Binary(..) => waiting -= 1,
+        }
+        most = most.max(waiting);
+    }
+    most
 }
 
 impl Formula {
@@ -99,27 +145,47 @@ impl Formula {
             return Err(FormulaError::Empty);
         }
         let steps = parser::parse(&tokens, length, variables)?;
-        Ok(Self { text: text.trim().to_owned(), steps })
+        let depth = depth(&steps);
+        Ok(Self { text: text.trim().to_owned(), steps, depth })
     }
 
     /// Value for these values of the variables, in the order in which they were named; may be infinite or NaN.
     pub fn value(&self, variables: &[f64]) -> f64 {
-        let mut stack: Vec<f64> = Vec::with_capacity(8);
+        let mut shallow = [f64::NAN; SHALLOW];
+        let mut deep = Vec::new();
+        let stack = if self.depth <= SHALLOW {
+            &mut shallow[..]
+        } else {
+            deep.resize(self.depth, f64::NAN);
+            &mut deep[..]
+        };
+        let mut top = 0;
         for step in &self.steps {
             match *step {
-                Step::Push(number) => stack.push(number),
-                Step::Load(k) => stack.push(variables.get(k).copied().unwrap_or(f64::NAN)),
-                Step::Unary(f) => {
-                    let x = stack.pop().unwrap_or(f64::NAN);
-                    stack.push(f(x));
+                Step::Push(number, _) => {
+                    stack[top] = number;
+                    top += 1;
                 }
-                Step::Binary(f) => {
-                    let (y, x) = (stack.pop().unwrap_or(f64::NAN), stack.pop().unwrap_or(f64::NAN));
-                    stack.push(f(x, y));
+                Step::Load(k) => {
+                    stack[top] = variables.get(k).copied().unwrap_or(f64::NAN);
+                    top += 1;
+                }
+                Step::Unary(_, f) => stack[top - 1] = f(stack[top - 1]),
+                Step::Binary(_, f) => {
+                    top -= 1;
+                    stack[top - 1] = f(stack[top - 1], stack[top]);
                 }
             }
         }
-        stack.pop().unwrap_or(f64::NAN)
+        stack[0]
+    }
+
+    /// Refuses units that cannot be right; `units`: of the variables, none for those that may have any.
+    ///
+    /// # Errors
+    /// [`FormulaError::LengthInside`], [`FormulaError::BareLength`], [`FormulaError::MixedUnits`].
+    pub fn check_units(&self, units: &[Option<UnitPowers>]) -> Result<(), FormulaError> {
+        dimension::check(&self.steps, units)
     }
 
     /// True when the formula mentions a variable.
@@ -161,14 +227,46 @@ static BINARY: [(&str, Binary); 4] =
 /// Names with a fixed value.
 static CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU)];
 
+const NEWTON: UnitPowers = [1.0, 0.0, 0.0, 0.0];
+const METRE: UnitPowers = [0.0, 1.0, 0.0, 0.0];
+const KELVIN: UnitPowers = [0.0, 0.0, 1.0, 0.0];
+const SECOND: UnitPowers = [0.0, 0.0, 0.0, 1.0];
+
+/// Units that may stand behind a number, `8 mm`, how many of each make one SI unit, and what they measure.
+static UNITS: [(&str, f64, UnitPowers); 12] = [
+    ("m", 1.0, METRE),
+    ("mm", 1e3, METRE),
+    ("um", 1e6, METRE),
+    ("nm", 1e9, METRE),
+    ("N", 1.0, NEWTON),
+    ("kN", 1e-3, NEWTON),
+    ("K", 1.0, KELVIN),
+    ("s", 1.0, SECOND),
+    ("min", 1.0 / 60.0, SECOND),
+    ("rad", 1.0, PLAIN),
+    ("mrad", 1e3, PLAIN),
+    ("deg", 180.0 / std::f64::consts::PI, PLAIN),
+];
+
+/// What a unit of a variable or a shape measures; none for a unit that is not known here.
+pub fn dimension_of(unit: &str) -> Option<UnitPowers> {
+    match unit {
+        "" | "1" | "%" | "urad" => Some(PLAIN),
+        "N m" | "Nm" => Some([1.0, 1.0, 0.0, 0.0]),
+        "m/N" => Some([-1.0, 1.0, 0.0, 0.0]),
+        "N/m" => Some([1.0, -1.0, 0.0, 0.0]),
+        simple => UNITS.iter().find(|u| u.0 == simple).map(|u| u.2),
+    }
+}
+
 /// Names of all functions.
 pub fn functions() -> impl Iterator<Item = &'static str> {
     UNARY.iter().map(|f| f.0).chain(BINARY.iter().map(|f| f.0))
 }
 
-/// True when a name already means something in every formula.
+/// True when a name means something in every formula. `tau` is free: a time constant may be called so, and then is no number.
 pub fn is_reserved(name: &str) -> bool {
-    functions().chain(CONSTANTS.iter().map(|c| c.0)).any(|known| known == name)
+    name == "pi" || functions().any(|known| known == name)
 }
 
 #[cfg(test)]
@@ -196,6 +294,9 @@ mod tests {
             ("abs(-x)*sign(x - 3)", -2.0),
             ("+x", 2.0),
             ("cos(pi)", -1.0),
+            ("x/8 mm", 250.0),
+            ("2 min + 1 s", 121.0),
+            ("sin(90 deg)", 1.0),
         ];
         for (text, expected) in table {
             assert!(

@@ -1,7 +1,7 @@
 //! From words to steps: recursive descent with a limit on depth.
 
 use super::token::{Token, TokenKind};
-use super::{BINARY, CONSTANTS, FormulaError, MOST_DEPTH, Step, UNARY};
+use super::{BINARY, CONSTANTS, FormulaError, MOST_DEPTH, PLAIN, Step, UNARY, UNITS, UnitPowers};
 use hexbench_core::files::nearest;
 
 /// Steps of a whole formula.
@@ -30,7 +30,11 @@ impl Parser<'_> {
             p.product()?;
             while let Some(symbol) = p.take_any(&['+', '-']) {
                 p.product()?;
-                p.steps.push(Step::Binary(if symbol == '+' { |x, y| x + y } else { |x, y| x - y }));
+                p.steps.push(if symbol == '+' {
+                    Step::Binary("+", |x, y| x + y)
+                } else {
+                    Step::Binary("-", |x, y| x - y)
+                });
             }
             Ok(())
         })
@@ -41,7 +45,11 @@ impl Parser<'_> {
         self.signed()?;
         while let Some(symbol) = self.take_any(&['*', '/']) {
             self.signed()?;
-            self.steps.push(Step::Binary(if symbol == '*' { |x, y| x * y } else { |x, y| x / y }));
+            self.steps.push(if symbol == '*' {
+                Step::Binary("*", |x, y| x * y)
+            } else {
+                Step::Binary("/", |x, y| x / y)
+            });
         }
         Ok(())
     }
@@ -51,7 +59,7 @@ impl Parser<'_> {
         match self.take_any(&['-', '+']) {
             Some('-') => {
                 self.deeper(Self::signed)?;
-                self.steps.push(Step::Unary(|x| -x));
+                self.steps.push(Step::Unary("-", |x| -x));
                 Ok(())
             }
             Some(_) => self.deeper(Self::signed),
@@ -64,7 +72,7 @@ impl Parser<'_> {
         self.atom()?;
         if self.take_any(&['^']).is_some() {
             self.deeper(Self::signed)?;
-            self.steps.push(Step::Binary(f64::powf));
+            self.steps.push(Step::Binary("^", f64::powf));
         }
         Ok(())
     }
@@ -72,8 +80,10 @@ impl Parser<'_> {
     fn atom(&mut self) -> Result<(), FormulaError> {
         match self.tokens.get(self.at).map(|t| &t.kind) {
             Some(TokenKind::Number(number)) => {
-                self.steps.push(Step::Push(*number));
                 self.at += 1;
+                let unit = self.take_unit();
+                let si = unit.map_or(*number, |(per_si, _)| number / per_si);
+                self.steps.push(Step::Push(si, unit.map(|u| u.1)));
                 Ok(())
             }
             Some(TokenKind::Name(name)) => {
@@ -89,23 +99,31 @@ impl Parser<'_> {
         }
     }
 
+    /// The unit behind a number: how many of it make one SI unit, and what it measures.
+    fn take_unit(&mut self) -> Option<(f64, UnitPowers)> {
+        let Some(TokenKind::Name(name)) = self.tokens.get(self.at).map(|t| &t.kind) else { return None };
+        let (_, per_si, dimension) = UNITS.iter().find(|unit| unit.0 == name)?;
+        self.at += 1;
+        Some((*per_si, *dimension))
+    }
+
     fn name(&mut self, name: &str) -> Result<(), FormulaError> {
         if let Some(k) = self.variables.iter().position(|v| *v == name) {
             self.steps.push(Step::Load(k));
         } else if let Some((_, value)) = CONSTANTS.iter().find(|c| c.0 == name) {
-            self.steps.push(Step::Push(*value));
-        } else if let Some((_, function)) = UNARY.iter().find(|f| f.0 == name) {
+            self.steps.push(Step::Push(*value, Some(PLAIN)));
+        } else if let Some((name, function)) = UNARY.iter().find(|f| f.0 == name) {
             self.need('(', "`(`")?;
             self.sum()?;
             self.need(')', "`)`")?;
-            self.steps.push(Step::Unary(*function));
-        } else if let Some((_, function)) = BINARY.iter().find(|f| f.0 == name) {
+            self.steps.push(Step::Unary(name, *function));
+        } else if let Some((name, function)) = BINARY.iter().find(|f| f.0 == name) {
             self.need('(', "`(`")?;
             self.sum()?;
             self.need(',', "`,`")?;
             self.sum()?;
             self.need(')', "`)`")?;
-            self.steps.push(Step::Binary(*function));
+            self.steps.push(Step::Binary(name, *function));
         } else {
             return Err(self.unknown(name));
         }

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::UserTermError;
+use super::{Owner, UserTermError};
 use crate::effects::formula::is_reserved;
 use crate::effects::term::{ParameterInfo, Scale, Shape};
 use crate::inference::explanation::Explanation;
@@ -51,11 +51,30 @@ pub(super) struct File {
     pub(super) title: String,
     #[serde(default)]
     pub(super) physics: String,
-    pub(super) elongation: Option<String>,
-    pub(super) wrench: Option<[String; 6]>,
+    elongation: Option<String>,
+    wrench: Option<[String; 6]>,
+    base_motion: Option<[String; 6]>,
+    platform_motion: Option<[String; 6]>,
+    legs: Option<Vec<usize>>,
+    #[serde(default)]
+    laws: Vec<FileLaw>,
+    #[serde(skip)]
+    every_law: Vec<FileLaw>,
     #[serde(alias = "parameter")]
     parameters: Vec<FileParameter>,
     pub(super) shape: Option<FileShape>,
+}
+
+/// One law of a file: one of the first four keys.
+#[derive(Debug, Default, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FileLaw {
+    pub(super) elongation: Option<String>,
+    pub(super) wrench: Option<[String; 6]>,
+    pub(super) base_motion: Option<[String; 6]>,
+    pub(super) platform_motion: Option<[String; 6]>,
+    /// Legs that an elongation belongs to, from 1; all when absent.
+    legs: Option<Vec<usize>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -67,6 +86,8 @@ struct FileParameter {
     scale: f64,
     #[serde(default)]
     positive: bool,
+    #[serde(default)]
+    per_leg: bool,
 }
 
 #[derive(Debug, Deserialize)]
@@ -81,11 +102,19 @@ pub(super) struct FileShape {
 
 impl File {
     pub(super) fn parse(text: &str) -> Result<Self, UserTermError> {
-        let file: Self = toml::from_str(text).map_err(|e| UserTermError::Toml(e.to_string()))?;
+        let mut file: Self = toml::from_str(text).map_err(|e| UserTermError::Toml(e.to_string()))?;
         if file.format != "term/1" {
             return Err(UserTermError::rule("format", format!("`{}` must be \"term/1\"", file.format)));
         }
         check_id(&file.id)?;
+        let own = FileLaw {
+            elongation: file.elongation.take(),
+            wrench: file.wrench.take(),
+            base_motion: file.base_motion.take(),
+            platform_motion: file.platform_motion.take(),
+            legs: file.legs.take(),
+        };
+        file.every_law = std::iter::once(own).chain(std::mem::take(&mut file.laws)).collect();
         if file.title.trim().is_empty() {
             return Err(UserTermError::rule(
                 "title",
@@ -110,9 +139,48 @@ impl File {
         Ok(all)
     }
 
+    /// Laws: those of the file itself, then those of `[[laws]]`.
+    pub(super) fn every_law(&self) -> &[FileLaw] {
+        &self.every_law
+    }
+
+    /// Parameters of the term: those of the file, one for each leg where they differ from leg to leg.
+    pub(super) fn expanded(&self, parameters: &[ParameterInfo]) -> (Vec<ParameterInfo>, Vec<Owner>) {
+        let mut all = (Vec::new(), Vec::new());
+        for (k, (p, written)) in parameters.iter().zip(&self.parameters).enumerate() {
+            let legs: Vec<Option<usize>> =
+                if written.per_leg { (0..6).map(Some).collect() } else { vec![None] };
+            for leg in legs {
+                let name = leg.map_or(p.name, |leg| intern::text(&format!("{}-leg-{}", p.name, leg + 1)));
+                all.0.push(ParameterInfo { name, ..*p });
+                all.1.push(Owner { parameter: k, leg });
+            }
+        }
+        all
+    }
+
     /// Shape and its grid, SI.
     pub(super) fn shape(&self) -> Result<Option<(Shape, Vec<f64>)>, UserTermError> {
         self.shape.as_ref().map(FileShape::resolve).transpose()
+    }
+}
+
+impl FileLaw {
+    /// Which legs an elongation acts on.
+    pub(super) fn legs(&self, is_elongation: bool) -> Result<[bool; 6], UserTermError> {
+        let Some(listed) = &self.legs else { return Ok([true; 6]) };
+        let refused = |why: &str| Err(UserTermError::rule("legs", why.to_owned()));
+        if !is_elongation {
+            return refused("only an elongation belongs to legs");
+        }
+        let mut legs = [false; 6];
+        for &leg in listed {
+            match leg.checked_sub(1).and_then(|k| legs.get_mut(k)) {
+                Some(taken) if !*taken => *taken = true,
+                _ => return refused("a list of different leg numbers from 1 to 6, such as [1, 4]"),
+            }
+        }
+        if listed.is_empty() { refused("names at least one leg, such as [1, 4]") } else { Ok(legs) }
     }
 }
 
@@ -195,9 +263,17 @@ fn check_name(name: &str) -> Result<(), UserTermError> {
         return Err(UserTermError::rule("name", why));
     }
     let variable = super::variables::OF_LEG.contains(&name) || super::variables::OF_READING.contains(&name);
-    if variable || is_reserved(name) {
-        let why = format!("`{name}` already has a meaning in formulas; choose another");
-        return Err(UserTermError::rule("name", why));
-    }
-    Ok(())
+    let taken = if variable {
+        let [unit, meaning] = super::variables::meaning(name);
+        format!(
+            "a variable of formulas: {meaning}{}",
+            if unit.is_empty() { String::new() } else { format!(", {unit}") }
+        )
+    } else if is_reserved(name) {
+        "a function or a number of formulas".to_owned()
+    } else {
+        return Ok(());
+    };
+    let why = format!("`{name}` is {taken}; call the parameter otherwise, for example `{name}_size`");
+    Err(UserTermError::rule("name", why))
 }

@@ -97,6 +97,9 @@ fn sample(name: &str, trial: usize, k: usize) -> f64 {
     match name {
         "f" | "f0" | "df" | "fx" | "fy" | "fz" | "ref_fx" | "ref_fy" | "ref_fz" => 200.0 * r,
         "mx" | "my" | "mz" | "ref_mx" | "ref_my" | "ref_mz" => 20.0 * r,
+        name if name.starts_with("df_") || name.starts_with("f_") => 200.0 * r,
+        "c_i" => 2e-7 + 1e-7 * r,
+        "k_i" => 5e6 + 2e6 * r,
         "q" => 0.2 + 0.05 * r,
         "q_home" => 0.2,
         "leg" => 1.0 + (trial % 6) as f64,

@@ -14,24 +14,27 @@
 //! ```
 //!
 //! Instead of `elongation` there may be `wrench`, six formulas for the change of the wrench on the platform between
-//! reference and load (N, N m, mobile origin, fixed axes; "" for zero). Everything in formulas is SI. Variables of a
-//! leg: `f`, `f0`, `df` (N), `q`, `q_home` (m), `nx`, `ny`, `nz`, `leg` (1 to 6). Variables of the reading: `approach`,
-//! `delta_T`, `elapsed`, `a`, `b`, `c`, `alpha`, `beta`, `gamma`, `fx` ... `mz`, `ref_fx` ... `ref_mz`. A formula must be
-//! linear in its parameters; what is not goes into `[shape]` (one number, profiled): name, unit, bounds, grid.
+//! reference and load (N, N m, mobile origin, fixed axes; "" for zero), `base_motion` (m, rad, fixed origin and axes) or
+//! `platform_motion` (of what is measured against the platform joints; mobile origin and axes). `legs = [1, 4]` confines an
+//! elongation to some legs. Several laws in one file stand in `[[laws]]`, each with one of these keys; the term is their sum.
+//! A parameter with `per_leg = true` has a size of its own in every leg. Everything in formulas is SI; [`variables()`] lists
+//! what they may mention. A formula must be linear in its parameters; what is not goes into `[shape]` (one number, profiled):
+//! name, unit, bounds, grid.
 
 mod file;
 mod help;
 mod linearity;
+mod part;
 mod variables;
 
 use std::path::Path;
 use std::sync::Arc;
 
-use hexbench_core::{Vector3, Vector6};
+use hexbench_core::Vector6;
 use thiserror::Error;
 
 use crate::effects::chain::Action;
-use crate::effects::formula::{Formula, FormulaError};
+use crate::effects::formula::{Formula, FormulaError, UnitPowers, dimension_of};
 use crate::effects::intern;
 use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Shape, Term, TermInfo};
 use crate::estimation::campaign::Condition;
@@ -39,6 +42,9 @@ use crate::machine::geometry::Machine;
 
 use file::File;
 pub use help::{EXAMPLE, FormulaVariable, functions, units, variables};
+use part::Part;
+pub(crate) use part::PartKind;
+pub(crate) use variables::LegVariables;
 use variables::{OF_LEG, OF_READING};
 
 /// Largest file read, bytes.
@@ -98,17 +104,23 @@ impl UserTermError {
     }
 }
 
-/// What the formulas give.
-enum Effect {
-    Elongation(Formula),
-    Wrench(Vec<Option<Formula>>),
+/// Which parameter of the file, of which leg, a parameter of the term is.
+#[derive(Debug, Clone, Copy)]
+struct Owner {
+    parameter: usize,
+    /// The only leg it acts on.
+    leg: Option<usize>,
 }
 
 /// A term from a file.
 struct UserTerm {
     info: TermInfo,
     definition: String,
-    effect: Effect,
+    parts: Vec<Part>,
+    /// Of every parameter of the term.
+    owners: Vec<Owner>,
+    /// Parameters of the file.
+    parameters: usize,
     grid: Vec<f64>,
 }
 
@@ -139,11 +151,18 @@ pub fn parse(text: &str) -> Result<Arc<dyn Term>, UserTermError> {
     let shape = file.shape()?;
     refuse_same_name(&parameters, shape.as_ref().map(|s| &s.0))?;
     let grid = shape.as_ref().map_or_else(Vec::new, |s| s.1.clone());
-    let effect = effect(&file, &parameters, shape.as_ref().map(|s| &s.0))?;
-    refuse_idle_parameters(&effect, &parameters, shape.as_ref().map(|s| &s.0))?;
-    check_linearity(&effect, &parameters, &grid)?;
-    let info = info(&file, &parameters, shape.map(|s| s.0), &effect);
-    Ok(Arc::new(UserTerm { info, definition: text.to_owned(), effect, grid }))
+    // A size may have any unit: it is what makes the formula right.
+    let sizes = parameters.iter().map(|p| (p.name, None));
+    let own: Vec<_> = sizes.chain(shape.as_ref().map(|s| (s.0.name, dimension_of(s.0.unit)))).collect();
+    let parts = Part::all(&file, &own)?;
+    refuse_idle_parameters(&parts, &own)?;
+    refuse_mixed_parameters(&parts, &parameters)?;
+    check_linearity(&parts, &parameters, &grid)?;
+    let (expanded, owners) = file.expanded(&parameters);
+    refuse_legs_of_others(&parts, &parameters, &owners)?;
+    let info = info(&file, &expanded, shape.map(|s| s.0), &parts);
+    let parameters = parameters.len();
+    Ok(Arc::new(UserTerm { info, definition: text.to_owned(), parts, owners, parameters, grid }))
 }
 
 /// The term a file describes.
@@ -165,76 +184,56 @@ fn refuse_same_name(parameters: &[ParameterInfo], shape: Option<&Shape>) -> Resu
     same.map_or(Ok(()), |s| Err(UserTermError::rule("shape", format!("`{}` is also a parameter", s.name))))
 }
 
-fn effect(file: &File, parameters: &[ParameterInfo], shape: Option<&Shape>) -> Result<Effect, UserTermError> {
-    let own: Vec<&str> = parameters.iter().map(|p| p.name).chain(shape.map(|s| s.name)).collect();
-    let of_reading: Vec<&str> = OF_READING.into_iter().chain(own.iter().copied()).collect();
-    let of_leg: Vec<&str> = OF_LEG.into_iter().chain(of_reading.iter().copied()).collect();
-    match (&file.elongation, &file.wrench) {
-        (Some(text), None) => Ok(Effect::Elongation(formula("elongation", text, &of_leg)?)),
-        (None, Some(texts)) => {
-            let parse =
-                |t: &String| (!t.trim().is_empty()).then(|| formula("wrench", t, &of_reading)).transpose();
-            Ok(Effect::Wrench(texts.iter().map(parse).collect::<Result<_, _>>()?))
-        }
-        _ => Err(UserTermError::rule(
-            "elongation",
-            "exactly one of elongation and wrench is needed".to_owned(),
-        )),
-    }
+fn refuse_idle_parameters(parts: &[Part], own: &[(&str, Option<UnitPowers>)]) -> Result<(), UserTermError> {
+    let idle = (0..own.len()).find(|&k| !parts.iter().any(|part| part.uses_own(k)));
+    idle.map_or(Ok(()), |k| {
+        Err(UserTermError::rule("parameters", format!("`{}` appears in no formula", own[k].0)))
+    })
 }
 
-fn formula(key: &'static str, text: &str, names: &[&str]) -> Result<Formula, UserTermError> {
-    let shown = || text.chars().take(60).collect();
-    Formula::parse(text, names).map_err(|error| UserTermError::Formula { key, formula: shown(), error })
-}
-
-impl Effect {
-    fn formulas(&self) -> Vec<&Formula> {
-        match self {
-            Self::Elongation(f) => vec![f],
-            Self::Wrench(all) => all.iter().flatten().collect(),
-        }
-    }
-
-    /// Number of variables before the parameters in the formulas' list of names.
-    fn variables(&self) -> Vec<&'static str> {
-        match self {
-            Self::Elongation(_) => OF_LEG.into_iter().chain(OF_READING).collect(),
-            Self::Wrench(_) => OF_READING.to_vec(),
-        }
-    }
-
-    fn uses(&self, name: &str) -> bool {
-        let index = self.variables().iter().position(|v| *v == name);
-        index.is_some_and(|k| self.formulas().iter().any(|f| f.uses(k)))
-    }
-}
-
-fn refuse_idle_parameters(
-    effect: &Effect,
-    parameters: &[ParameterInfo],
-    shape: Option<&Shape>,
-) -> Result<(), UserTermError> {
-    let first = effect.variables().len();
-    let names = parameters.iter().map(|p| p.name).chain(shape.map(|s| s.name));
-    for (k, name) in names.enumerate() {
-        if !effect.formulas().iter().any(|f| f.uses(first + k)) {
-            return Err(UserTermError::rule("parameters", format!("`{name}` appears in no formula")));
+/// One parameter acts in one way.
+fn refuse_mixed_parameters(parts: &[Part], parameters: &[ParameterInfo]) -> Result<(), UserTermError> {
+    for (k, p) in parameters.iter().enumerate() {
+        let mut kinds = parts.iter().filter(|part| part.uses_own(k)).map(|part| part.kind);
+        let first = kinds.next();
+        if let Some(other) = kinds.find(|kind| Some(*kind) != first) {
+            let one = first.map_or("", PartKind::key);
+            let why =
+                format!("`{}` stands in {one} and in {}; give each its own parameter", p.name, other.key());
+            return Err(UserTermError::rule("laws", why));
         }
     }
     Ok(())
 }
 
-fn check_linearity(effect: &Effect, parameters: &[ParameterInfo], grid: &[f64]) -> Result<(), UserTermError> {
-    let variables = effect.variables();
-    effect.formulas().into_iter().try_for_each(|f| linearity::check(f, &variables, parameters, grid))
+/// Only an elongation has a size in every leg.
+fn refuse_legs_of_others(
+    parts: &[Part],
+    parameters: &[ParameterInfo],
+    owners: &[Owner],
+) -> Result<(), UserTermError> {
+    let is_other = |k: usize| parts.iter().any(|p| p.uses_own(k) && p.kind != PartKind::Elongation);
+    let wrong = owners.iter().find(|owner| owner.leg.is_some() && is_other(owner.parameter));
+    wrong.map_or(Ok(()), |owner| {
+        let why = format!("`{}` stands in what does not belong to legs", parameters[owner.parameter].name);
+        Err(UserTermError::rule("per_leg", why))
+    })
 }
 
-fn info(file: &File, parameters: &[ParameterInfo], shape: Option<Shape>, effect: &Effect) -> TermInfo {
-    let equation = effect.formulas().iter().map(|f| f.text()).collect::<Vec<_>>().join("; ");
+fn check_linearity(parts: &[Part], parameters: &[ParameterInfo], grid: &[f64]) -> Result<(), UserTermError> {
+    for part in parts {
+        let variables = part.kind.variables();
+        part.formulas().try_for_each(|f| linearity::check(f, &variables, parameters, grid))?;
+    }
+    Ok(())
+}
+
+fn info(file: &File, parameters: &[ParameterInfo], shape: Option<Shape>, parts: &[Part]) -> TermInfo {
+    let formulas = parts.iter().flat_map(Part::formulas);
+    let equation = formulas.map(Formula::text).collect::<Vec<_>>().join("; ");
     let covariates = [("elapsed", Need::Elapsed), ("approach", Need::Approach), ("delta_T", Need::DeltaT)];
-    let needs: Vec<Need> =
-        covariates.into_iter().filter(|(name, _)| effect.uses(name)).map(|c| c.1).collect();
+    let uses = |name: &str| parts.iter().any(|part| part.uses(name));
+    let needs: Vec<Need> = covariates.into_iter().filter(|(name, _)| uses(name)).map(|c| c.1).collect();
     TermInfo {
         id: intern::text(&file.id),
         title: intern::text(&file.title),
@@ -252,53 +251,19 @@ fn info(file: &File, parameters: &[ParameterInfo], shape: Option<Shape>, effect:
 }
 
 impl UserTerm {
-    /// Value of one formula with parameter `k` at one and the others at zero.
-    fn unit(&self, formula: &Formula, variables: &[f64], k: usize, shape: f64) -> f64 {
-        let mut values = variables.to_vec();
-        values.extend((0..self.info.parameters.len()).map(|j| f64::from(u8::from(j == k))));
-        values.push(shape);
-        formula.value(&values)
+    /// Memory for the values of one evaluation.
+    fn memory(&self) -> Vec<f64> {
+        Vec::with_capacity(OF_LEG.len() + OF_READING.len() + self.parameters + 1)
     }
 
-    fn elongation(
-        &self,
-        formula: &Formula,
-        machine: &Machine,
-        at: &Condition,
-        k: usize,
-        shape: f64,
-    ) -> Vector6 {
-        let reading = variables::of_reading(at);
-        Vector6::from_fn(|leg, _| {
-            let mut values = variables::of_leg(machine, at, leg).to_vec();
-            values.extend(&reading);
-            self.unit(formula, &values, k, shape)
-        })
+    /// Parameter `k` of the file at one and the others at zero, then the shape.
+    fn unit(&self, k: usize, shape: f64) -> Vec<f64> {
+        (0..self.parameters).map(|j| f64::from(u8::from(j == k))).chain([shape]).collect()
     }
 
-    fn wrench(&self, formulas: &[Option<Formula>], at: &Condition, k: usize, shape: f64) -> Vector6 {
-        let reading = variables::of_reading(at);
-        Vector6::from_fn(|axis, _| {
-            let formula = formulas.get(axis).and_then(Option::as_ref);
-            formula.map_or(0.0, |f| self.unit(f, &reading, k, shape))
-        })
-    }
-
-    fn vector(&self, machine: &Machine, at: &Condition, k: usize, shape: f64) -> Vector6 {
-        match &self.effect {
-            Effect::Elongation(f) => self.elongation(f, machine, at, k, shape),
-            Effect::Wrench(all) => self.wrench(all, at, k, shape),
-        }
-    }
-
-    /// The variables with which the effect went wrong in component `index` (leg or axis, from zero).
-    fn story(&self, machine: &Machine, at: &Condition, index: usize) -> String {
-        let mut values = variables::of_reading(at);
-        if matches!(self.effect, Effect::Elongation(_)) {
-            values.splice(0..0, variables::of_leg(machine, at, index));
-        }
-        let formulas = self.effect.formulas();
-        variables::describe(&self.effect.variables(), &values, |k| formulas.iter().any(|f| f.uses(k)))
+    /// Parts in which a parameter of the file stands.
+    fn parts_of(&self, k: usize) -> impl Iterator<Item = &Part> {
+        self.parts.iter().filter(move |part| part.uses_own(k))
     }
 }
 
@@ -308,25 +273,33 @@ impl Term for UserTerm {
     }
 
     fn actions(&self, machine: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
-        for k in 0..self.info.parameters.len() {
-            let vector = self.vector(machine, at, k, shape);
-            out.push(match &self.effect {
-                Effect::Elongation(_) => Action::Elongation(vector),
-                Effect::Wrench(_) => at.wrench_action(
-                    &Vector3::new(vector[0], vector[1], vector[2]),
-                    &Vector3::new(vector[3], vector[4], vector[5]),
-                ),
-            });
+        let mut memory = self.memory();
+        for owner in &self.owners {
+            let own = self.unit(owner.parameter, shape);
+            let mut sum = Vector6::zeros();
+            let mut kind = PartKind::Elongation;
+            for part in self.parts_of(owner.parameter) {
+                sum += part.vector(machine, at, &own, &mut memory);
+                kind = part.kind;
+            }
+            if let Some(leg) = owner.leg {
+                (0..6).filter(|&other| other != leg).for_each(|other| sum[other] = 0.0);
+            }
+            out.push(kind.action(at, &sum));
         }
     }
 
     fn fault(&self, machine: &Machine, at: &Condition) -> Option<String> {
         let shapes = if self.grid.is_empty() { vec![1.0] } else { self.grid.clone() };
-        for (k, shape) in (0..self.info.parameters.len()).flat_map(|k| shapes.iter().map(move |s| (k, *s))) {
-            let vector = self.vector(machine, at, k, shape);
-            if let Some(bad) = (0..6).find(|&i| !vector[i].is_finite()) {
-                let (formula, story) = (self.info.equation, self.story(machine, at, bad));
-                return Some(format!("`{formula}` gives {} at {story}", vector[bad]));
+        let mut memory = self.memory();
+        for (k, shape) in (0..self.parameters).flat_map(|k| shapes.iter().map(move |s| (k, *s))) {
+            let own = self.unit(k, shape);
+            for part in self.parts_of(k) {
+                let vector = part.vector(machine, at, &own, &mut memory);
+                if let Some(bad) = (0..6).find(|&i| !vector[i].is_finite()) {
+                    let (formula, story) = (self.info.equation, part.story(machine, at, bad));
+                    return Some(format!("`{formula}` gives {} at {story}", vector[bad]));
+                }
             }
         }
         None

@@ -1,14 +1,32 @@
 //! What a formula of a user term may mention.
 
+use crate::effects::formula::Formula;
 use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
 
 /// Variables that differ from leg to leg.
-pub(super) const OF_LEG: [&str; 9] = ["f", "f0", "df", "q", "q_home", "nx", "ny", "nz", "leg"];
+pub(super) const OF_LEG: [&str; 15] = [
+    "f",
+    "f0",
+    "df",
+    "q",
+    "q_home",
+    "nx",
+    "ny",
+    "nz",
+    "leg",
+    "df_next",
+    "df_previous",
+    "df_opposite",
+    "df_others",
+    "c_i",
+    "k_i",
+];
 /// Variables of the reading.
-pub(super) const OF_READING: [&str; 21] = [
+pub(super) const OF_READING: [&str; 33] = [
     "approach", "delta_T", "elapsed", "a", "b", "c", "alpha", "beta", "gamma", "fx", "fy", "fz", "mx", "my",
-    "mz", "ref_fx", "ref_fy", "ref_fz", "ref_mx", "ref_my", "ref_mz",
+    "mz", "ref_fx", "ref_fy", "ref_fz", "ref_mx", "ref_my", "ref_mz", "f_1", "f_2", "f_3", "f_4", "f_5",
+    "f_6", "df_1", "df_2", "df_3", "df_4", "df_5", "df_6",
 ];
 
 /// Unit and meaning of a variable.
@@ -21,6 +39,14 @@ pub(super) fn meaning(variable: &str) -> [&'static str; 2] {
         "q_home" => ["m", "leg length at the zero pose"],
         "nx" | "ny" | "nz" => ["", "direction of the leg, base joint to platform joint, fixed axes"],
         "leg" => ["", "number of the leg, 1 to 6"],
+        "df_next" => ["N", "df of the leg with the next number, leg 1 after leg 6"],
+        "df_previous" => ["N", "df of the leg with the number before"],
+        "df_opposite" => ["N", "df of the leg three numbers on"],
+        "df_others" => ["N", "sum of df over the five other legs"],
+        "c_i" => ["m/N", "compliance of the leg's spring"],
+        "k_i" => ["N/m", "stiffness of the leg's spring, 1/c_i"],
+        "f_1" | "f_2" | "f_3" | "f_4" | "f_5" | "f_6" => ["N", "force of one leg under the load"],
+        "df_1" | "df_2" | "df_3" | "df_4" | "df_5" | "df_6" => ["N", "df of one leg"],
         "approach" => ["", "+1: load reached from below, -1: from above"],
         "delta_T" => ["K", "temperature since the reference"],
         "elapsed" => ["s", "time since the reference"],
@@ -34,20 +60,67 @@ pub(super) fn meaning(variable: &str) -> [&'static str; 2] {
     }
 }
 
-/// Values of [`OF_READING`] at a condition, SI.
-pub(super) fn of_reading(at: &Condition) -> Vec<f64> {
-    let mut values = vec![at.approach.sign(), at.delta_t, at.elapsed];
+/// Appends the values of [`OF_READING`] at a condition, SI.
+pub(super) fn push_of_reading(at: &Condition, values: &mut Vec<f64>) {
+    values.extend([at.approach.sign(), at.delta_t, at.elapsed]);
     values.extend(at.pose.to_array());
     values.extend(at.wrench.to_array());
     values.extend(at.reference.to_array());
-    values
+    values.extend(at.force.iter());
+    values.extend(at.force_change().iter());
 }
 
-/// Values of [`OF_LEG`] for one leg (from zero) at a condition, SI; legs count from 1 in formulas.
-pub(super) fn of_leg(machine: &Machine, at: &Condition, leg: usize) -> [f64; 9] {
+/// Appends the values of [`OF_LEG`] for one leg (from zero) at a condition, SI; legs count from 1 in formulas.
+pub(super) fn push_of_leg(machine: &Machine, at: &Condition, leg: usize, values: &mut Vec<f64>) {
     let (f, f0, n) = (at.force[leg], at.reference_force[leg], at.legs.directions[leg]);
     let (q, q_home) = (at.commanded_lengths[leg], machine.home_lengths[leg]);
-    [f, f0, f - f0, q, q_home, n.x, n.y, n.z, (leg + 1) as f64]
+    values.extend([f, f0, f - f0, q, q_home, n.x, n.y, n.z, (leg + 1) as f64]);
+    let df = at.force_change();
+    values.extend([df[(leg + 1) % 6], df[(leg + 5) % 6], df[(leg + 3) % 6], df.sum() - df[leg]]);
+    // Before anything is fitted a spring has no compliance, and its stiffness no value.
+    let c = at.springs[leg];
+    values.extend([c, if c > 0.0 { c.recip() } else { 0.0 }]);
+}
+
+/// Values of all variables of a leg, for all legs at many conditions.
+pub(crate) struct LegVariables {
+    values: Vec<Vec<f64>>,
+}
+
+impl LegVariables {
+    /// At these conditions.
+    pub(crate) fn at(machine: &Machine, conditions: &[Condition]) -> Self {
+        let of = |c: &Condition, leg: usize| {
+            let mut values = Vec::with_capacity(OF_LEG.len() + OF_READING.len() + 1);
+            push_of_leg(machine, c, leg, &mut values);
+            push_of_reading(c, &mut values);
+            values
+        };
+        Self { values: conditions.iter().flat_map(|c| (0..6).map(move |leg| of(c, leg))).collect() }
+    }
+
+    /// Names of the variables, in the order of their values.
+    pub(crate) fn names() -> Vec<&'static str> {
+        OF_LEG.into_iter().chain(OF_READING).collect()
+    }
+
+    /// Number of conditions.
+    pub(crate) fn conditions(&self) -> usize {
+        self.values.len() / 6
+    }
+
+    /// A formula with one name more, which has this value, at every condition and leg.
+    pub(crate) fn values(&self, formula: &Formula, more: f64) -> Vec<[f64; 6]> {
+        let mut row = Vec::with_capacity(OF_LEG.len() + OF_READING.len() + 1);
+        let mut value = |values: &Vec<f64>| {
+            row.clear();
+            row.extend_from_slice(values);
+            row.push(more);
+            formula.value(&row)
+        };
+        let of = |six: &[Vec<f64>]| std::array::from_fn(|leg| value(&six[leg]));
+        self.values.chunks_exact(6).map(of).collect()
+    }
 }
 
 /// Names and values as `f = 12, q = 0.2, ...` for messages, only those that `mentioned` keeps.

@@ -37,12 +37,12 @@ const LEAST_ODDS: f64 = 0.1;
 /// Readings proposed at most.
 const PROPOSALS: usize = 6;
 
-pub(super) struct Context<'a> {
-    pub(super) hexapod: &'a Hexapod,
-    pub(super) data: &'a Dataset,
-    pub(super) holdout: Option<&'a Dataset>,
-    pub(super) campaign: &'a Campaign,
-    pub(super) outcome: &'a RankedSets,
+pub(crate) struct Context<'a> {
+    pub(crate) hexapod: &'a Hexapod,
+    pub(crate) data: &'a Dataset,
+    pub(crate) holdout: Option<&'a Dataset>,
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) outcome: &'a RankedSets,
 }
 
 /// Errors of one step on held-out readings.
@@ -56,7 +56,7 @@ struct HeldOutErrors {
 
 impl Context<'_> {
     /// Fit and errors of every prefix of the additions.
-    pub(super) fn steps(&self, order: &[TermSpec]) -> Result<(Vec<Fit>, Vec<StepReport>), ModelError> {
+    pub(crate) fn steps(&self, order: &[TermSpec]) -> Result<(Vec<Fit>, Vec<StepReport>), ModelError> {
         let (mut fits, mut steps) = (Vec::new(), Vec::new());
         let mut before: Option<HeldOutErrors> = None;
         for n in 0..=order.len() {

@@ -19,7 +19,7 @@ use hexbench_core::{Dataset, Hexapod};
 
 pub use self::alternative::Alternative;
 use self::answer::Answer;
-use self::context::Context;
+pub(crate) use self::context::Context;
 use self::foreign::foreign;
 pub use self::foreign::held_out_finding;
 pub use self::judged::prepare;

@@ -41,7 +41,7 @@ impl DiagnoseOptions {
     }
 
     /// The readings to be looked at, and the lines left out.
-    pub(super) fn applied<'a>(&self, data: &'a Dataset) -> Result<(Cow<'a, Dataset>, Vec<u64>), ModelError> {
+    pub(crate) fn applied<'a>(&self, data: &'a Dataset) -> Result<(Cow<'a, Dataset>, Vec<u64>), ModelError> {
         if self.exclude.is_empty() {
             return Ok((Cow::Borrowed(data), Vec::new()));
         }

@@ -1,0 +1,94 @@
+//! `hexbench discover HEXAPOD DATA`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_core::LineRange;
+use hexbench_model::results::diagnose::DiagnoseOptions;
+use hexbench_model::results::discover::{DiscoveryStudy, discover};
+use hexbench_model::results::runs::WithOrigin;
+use hexbench_report::words::ReportSubject;
+use hexbench_report::{charts, words};
+
+use super::diagnose;
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{PageFiles, Screen, origin, provenance, report, write_json};
+use crate::read_as::ReadAs;
+
+/// Search the law that no catalogue has, for what springs and catalogue leave
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The machine: hexapod.toml
+    hexapod: PathBuf,
+    /// Deflections or absolute poses: measurements.csv
+    data: PathBuf,
+    /// Readings kept out of every fit; without it poses are left out in turn
+    #[arg(long, value_name = "FILE")]
+    holdout: Option<PathBuf>,
+    /// A term file of your own (term/1) that competes with the catalogue; may be given several times
+    #[arg(long = "term", value_name = "FILE")]
+    terms: Vec<PathBuf>,
+    /// Leave the reading in this line of DATA out before anything else: a line, or a range (12-15); may be given several times
+    #[arg(long, value_name = "LINE", value_delimiter = ',')]
+    exclude: Vec<LineRange>,
+    #[command(flatten)]
+    read_as: ReadAs,
+    /// Write discovery.json to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write the best law to FILE: a term file (term/1) for `--term`; nothing is written where no law is found
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    page: PageFiles,
+}
+
+/// Search and tell.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let hexapod = input::hexapod(&arguments.hexapod)?;
+    let data = input::measurements(&arguments.data)?;
+    let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
+    let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
+    let options = DiagnoseOptions {
+        exclude: arguments.exclude.clone(),
+        keep_all: false,
+        read_as: arguments.read_as.changes.clone(),
+    };
+    let study = discover(&hexapod, &data, holdout.as_ref(), &terms, &options)
+        .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
+    let to_stdout = arguments.json.as_deref() == Some(Path::new("-")) || arguments.page.to_stdout();
+    if let Some(path) = &arguments.json {
+        let run =
+            origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
+        write_json(screen, path, &WithOrigin { result: &study.discovery, run })?;
+    }
+    write_law(arguments.output.as_deref(), &study, screen)?;
+    arguments.page.write(screen, || {
+        let law = study.law().ok().flatten();
+        let competing: Vec<_> = terms.iter().cloned().chain(law).collect();
+        let with_law = diagnose::study(&hexapod, &data, holdout.as_ref(), &competing, &options)?;
+        let subject = ReportSubject::of(&hexapod, &data, holdout.as_ref(), &with_law);
+        let read = [&arguments.hexapod, &arguments.data]
+            .into_iter()
+            .chain(&arguments.holdout)
+            .chain(&arguments.terms);
+        Ok(charts::discovery(&subject, &study, &provenance(read)?)?)
+    })?;
+    if !to_stdout {
+        let subject = ReportSubject::of(&hexapod, &data, holdout.as_ref(), &study.diagnosis);
+        screen.show(&words::discovery(subject.hexapod, subject.data, subject.holdout, &study))?;
+    }
+    Ok(())
+}
+
+/// The law as a term file; an idea that does not convince is not written, so that nobody takes it for a finding.
+fn write_law(path: Option<&Path>, study: &DiscoveryStudy, screen: &Screen) -> Result<(), Failure> {
+    let Some(path) = path else { return Ok(()) };
+    if let Some(text) = study.term_file.as_deref().filter(|_| study.discovery.found) {
+        return screen.write_to(path, text);
+    }
+    let next = "Nothing, or see the ideas of the page: each can be written as a term file by hand.";
+    report::warn(&format!("{} is not written: no law was found", path.display()), next);
+    Ok(())
+}

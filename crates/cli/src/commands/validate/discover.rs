@@ -1,0 +1,52 @@
+//! `hexbench validate discover`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use hexbench_experiments::discovery::{DiscoveryProtocol, DiscoveryTrials, SEED, page};
+use hexbench_experiments::harness;
+use hexbench_report::Section;
+use hexbench_report::render::markdown;
+
+use super::written;
+use crate::failure::Failure;
+use crate::output::{Screen, TrialFiles};
+
+/// Say whether laws that no catalogue lists are found, and only where there are any
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder for the table of trials
+    #[arg(short = 'o', long, value_name = "DIR")]
+    out: PathBuf,
+    /// Campaigns with an effect outside the catalogue
+    #[arg(long, value_name = "N", default_value_t = DiscoveryProtocol::default().outside)]
+    outside: usize,
+    /// Campaigns with an effect of the catalogue
+    #[arg(long, value_name = "N", default_value_t = DiscoveryProtocol::default().listed)]
+    listed: usize,
+    /// Campaigns on clean machines
+    #[arg(long, value_name = "N", default_value_t = DiscoveryProtocol::default().clean)]
+    clean: usize,
+    /// Seed of everything that is drawn
+    #[arg(long, value_name = "S", default_value_t = SEED)]
+    seed: u64,
+    /// Write the study as a document too
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    #[command(flatten)]
+    kept: TrialFiles,
+}
+
+/// Run the study, write its files, tell the main figures.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let Arguments { seed, outside, listed, clean, .. } = *arguments;
+    let protocol = DiscoveryProtocol { seed, outside, listed, clean };
+    let gathered = arguments.kept.run(&protocol)?;
+    let trials = harness::table(&protocol, &gathered);
+    let study = DiscoveryTrials::of(protocol, gathered);
+    let mut files = vec![written::csv_file(arguments.out.join("trials.csv"), &trials)?];
+    files.extend(arguments.markdown.iter().map(|path| (path.clone(), markdown(&page(&study)))));
+    let written = written::write_all(files, screen)?;
+    let names = written.iter().map(|path| path.display().to_string());
+    screen.show(&page(&study).with(Section::new("Written").list(names)))
+}

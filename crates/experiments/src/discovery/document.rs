@@ -1,0 +1,113 @@
+//! The study as a page.
+
+use hexbench_core::statistics::Proportion;
+use hexbench_report::words::written_by;
+use hexbench_report::{Block, Page, Section, Table};
+
+use super::protocol::{DISTANCES, DiscoveryProtocol};
+use super::{DiscoveryRecord, LawFate, sheets};
+use crate::harness::{self, Gathered};
+use crate::shares::told;
+
+/// All trials of a protocol.
+#[derive(Debug)]
+pub struct DiscoveryTrials {
+    /// What was run.
+    pub protocol: DiscoveryProtocol,
+    /// Trials with an answer.
+    pub records: Vec<DiscoveryRecord>,
+    /// Trials without one: name and reason.
+    pub failures: Vec<(String, String)>,
+}
+
+impl DiscoveryTrials {
+    /// What the trials of a protocol gave.
+    pub fn of(protocol: DiscoveryProtocol, gathered: Gathered<DiscoveryRecord>) -> Self {
+        let name = |n| harness::Protocol::name(&protocol, n);
+        let failures = gathered.failures().map(|(n, why)| (name(n), why.clone())).collect();
+        Self { records: gathered.answers.into_iter().flatten().collect(), failures, protocol }
+    }
+}
+
+/// The page.
+pub fn page(study: &DiscoveryTrials) -> Page {
+    let records = &study.records;
+    let section = |title: &str, words: &str, table: Table| Section::new(title).paragraph(words).table(table);
+    Page::new("Laws that no catalogue lists: found, and only where there are any")
+        .with(introduction(study).detail())
+        .with(Section::new("In short").list(headlines(records)))
+        .with(section("What was hidden, what was found", FATES, sheets::fates(records)))
+        .with(section("By distance", DISTANCE, sheets::distances(records)))
+        .with(section("Stated probability and what came true", STATED, sheets::stated(records)))
+        .with(
+            Section::new("Without an answer")
+                .list(study.failures.iter().map(|(name, why)| format!("{name}: {why}")))
+                .unless_empty(),
+        )
+        .with(again(study).detail())
+}
+
+/// The figures everything else explains, one sentence each.
+pub fn headlines(records: &[DiscoveryRecord]) -> Vec<String> {
+    let of = |what: fn(&DiscoveryRecord) -> bool| records.iter().filter(move |r| what(r));
+    let is_clean = |r: &DiscoveryRecord| r.hidden.is_empty();
+    let is_listed = |r: &DiscoveryRecord| !r.hidden.is_empty() && r.outside().is_none();
+    let is_unsayable = |r: &DiscoveryRecord| r.outside().is_some() && !r.is_sayable();
+    let good = |r: &&DiscoveryRecord| matches!(r.fate(), LawFate::Right | LawFate::Equivalent);
+    vec![
+        format!(
+            "Where a law of the grammar is hidden, it or one that predicts alike is found in {}; a wrong one in {}.",
+            told(Proportion::count(of(DiscoveryRecord::is_sayable), good)),
+            told(Proportion::count(of(DiscoveryRecord::is_sayable), |r| r.fate() == LawFate::Wrong)),
+        ),
+        format!(
+            "Where what is hidden is no law of the grammar, one that predicts alike is found in {}, a wrong one in {}.",
+            told(Proportion::count(of(is_unsayable), good)),
+            told(Proportion::count(of(is_unsayable), |r| r.fate() == LawFate::Wrong)),
+        ),
+        format!(
+            "On clean machines a law is invented in {}.",
+            told(Proportion::count(of(is_clean), |r| r.found))
+        ),
+        format!(
+            "Where the catalogue has the hidden effect, a law is named in its place in {}.",
+            told(Proportion::count(of(is_listed), |r| r.found))
+        ),
+    ]
+}
+
+fn introduction(study: &DiscoveryTrials) -> Section {
+    let p = &study.protocol;
+    Section::lead().paragraph(written_by("hexbench validate discover --markdown FILE")).paragraph(format!(
+        "{} campaigns with an effect outside the catalogue, {} with one of the catalogue and {} on clean machines went through \
+         `hexbench discover` with their held-out poses (seed {}, distances {} to {}; {} gave no answer). Machines, plans and effects are \
+         those of the calibration, made by the simulated world, which knows nothing of the grammar: five of its nine effects outside the \
+         catalogue are products of building blocks, four are not.",
+        p.outside,
+        p.listed,
+        p.clean,
+        p.seed,
+        DISTANCES[0],
+        DISTANCES[1],
+        study.failures.len(),
+    ))
+}
+
+const FATES: &str = "Right: the law found, or one it says it cannot be told from, is that of the hidden effect, and the held-out error is at the \
+noise. Equivalent: another formula, with the held-out error at the noise. Wrong: a law, and the error stays above the noise. Nothing: \
+no law and no effect is named. Catalogue: no law; effects of the catalogue are. Invented: a law where nothing outside the catalogue is hidden.";
+
+const DISTANCE: &str = "Effects that a law of the grammar describes. Distance: how many standard deviations of all readings together the effect \
+stands beyond what the springs absorb.";
+
+const STATED: &str = "The probability that some law is at work, before held-out poses are asked.";
+
+fn again(study: &DiscoveryTrials) -> Section {
+    let p = &study.protocol;
+    Section::new("Again")
+        .with(Block::code(format!(
+            "hexbench validate discover --seed {} --outside {} --listed {} --clean {} -o DIR --markdown docs/results/discover.md",
+            p.seed, p.outside, p.listed, p.clean
+        )))
+        .paragraph("The same seed gives the same bytes on any number of threads.")
+}

@@ -1,0 +1,97 @@
+//! The protocol: effects outside the catalogue, effects of the catalogue, clean machines.
+
+use hexbench_truth::campaign::CaseKind;
+
+use super::DiscoveryRecord;
+use crate::harness::{self, Field};
+use crate::journal::Identity;
+use crate::trial::TrialError;
+
+/// Seed of the committed figures.
+pub const SEED: u64 = 1_801;
+/// Distances of hidden effects: from what the diagnosis just sees to what nobody overlooks.
+pub const DISTANCES: [f64; 2] = [10.0, 60.0];
+
+/// What is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DiscoveryProtocol {
+    /// Decides everything that is drawn.
+    pub seed: u64,
+    /// Campaigns with an effect outside the catalogue.
+    pub outside: usize,
+    /// Campaigns with an effect of the catalogue.
+    pub listed: usize,
+    /// Campaigns on clean machines.
+    pub clean: usize,
+}
+
+impl Default for DiscoveryProtocol {
+    fn default() -> Self {
+        Self { seed: SEED, outside: 120, listed: 100, clean: 700 }
+    }
+}
+
+impl DiscoveryProtocol {
+    /// Kind and number within the kind.
+    pub(crate) fn job(&self, number: u64) -> (CaseKind, usize) {
+        let number = usize::try_from(number).unwrap_or(usize::MAX);
+        if number < self.outside {
+            (CaseKind::Outside, number)
+        } else if number < self.outside + self.listed {
+            (CaseKind::Single, number - self.outside)
+        } else {
+            (CaseKind::Clean, number - self.outside - self.listed)
+        }
+    }
+}
+
+impl harness::Protocol for DiscoveryProtocol {
+    type Record = DiscoveryRecord;
+    type Error = TrialError;
+
+    fn identity(&self) -> Identity {
+        let settings = [
+            ("seed", self.seed.to_string()),
+            ("outside", self.outside.to_string()),
+            ("listed", self.listed.to_string()),
+            ("clean", self.clean.to_string()),
+        ];
+        Identity::new("discover", "discover-trials/1", settings)
+    }
+
+    fn trials(&self) -> u64 {
+        (self.outside + self.listed + self.clean) as u64
+    }
+
+    fn trial(&self, number: u64) -> Result<DiscoveryRecord, TrialError> {
+        let (kind, index) = self.job(number);
+        DiscoveryRecord::of(kind, index, self.seed)
+    }
+
+    fn name(&self, number: u64) -> String {
+        let (kind, index) = self.job(number);
+        format!("{}-{index:04}", kind.name())
+    }
+
+    fn fields(&self) -> Vec<Field<DiscoveryRecord>> {
+        vec![
+            Field::text("hidden", "hidden effect", |r: &DiscoveryRecord| r.hidden.join("+")),
+            Field::text("family", "family of the machine", |r: &DiscoveryRecord| r.family),
+            Field::number(("distance", "1"), "distance of the hidden effect", |r: &DiscoveryRecord| {
+                r.distance
+            }),
+            Field::text("fate", "what it came to", |r: &DiscoveryRecord| r.fate().word()),
+            Field::text("formula", "formula of the law found", |r: &DiscoveryRecord| {
+                r.formulas.first().cloned().unwrap_or_default()
+            }),
+            Field::text("beside", "catalogue effects beside it", |r: &DiscoveryRecord| r.beside.join("+")),
+            Field::number(("probability", "1"), "probability of a law", |r: &DiscoveryRecord| r.probability),
+            Field::number(
+                ("before", "1"),
+                "held-out error of the springs, times the noise",
+                |r: &DiscoveryRecord| r.held_out[0],
+            ),
+            Field::number(("after", "1"), "the same of the final model", |r: &DiscoveryRecord| r.held_out[1]),
+        ]
+    }
+}

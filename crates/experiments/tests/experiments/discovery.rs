@@ -1,0 +1,33 @@
+//! A small study of laws: found where one is hidden, none on clean machines, the same on any number of threads.
+
+use hexbench_experiments::discovery::{DiscoveryProtocol, DiscoveryTrials, LawFate, page};
+use hexbench_experiments::harness::{self, Silent};
+use hexbench_report::render::markdown;
+
+/// Campaigns with an effect outside the catalogue: every effect once.
+const OUTSIDE: usize = 9;
+
+fn study(threads: usize) -> DiscoveryTrials {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let protocol =
+        DiscoveryProtocol { outside: OUTSIDE, listed: 2, clean: 6, ..DiscoveryProtocol::default() };
+    let gathered = pool.install(|| harness::run(&protocol, None, &Silent)).unwrap();
+    DiscoveryTrials::of(protocol, gathered)
+}
+
+#[test]
+fn laws_are_found_where_they_are_hidden_and_nowhere_else() {
+    let [one, three] = [1, 3].map(study);
+    assert_eq!(one.records, three.records);
+    assert!(one.failures.is_empty(), "{:?}", one.failures);
+    assert!(one.records.iter().all(|r| r.fate() != LawFate::Invented), "{:?}", one.records);
+    let good = |r: &&hexbench_experiments::discovery::DiscoveryRecord| {
+        r.is_sayable() && matches!(r.fate(), LawFate::Right | LawFate::Equivalent)
+    };
+    let sayable = one.records.iter().filter(|r| r.is_sayable()).count();
+    let found = one.records.iter().filter(good).count();
+    // Half of them: at distance 10 a law is seen and may yet look like an effect of the catalogue.
+    assert!(2 * found >= sayable, "{found} of {sayable}");
+    let text = markdown(&page(&one));
+    assert!(text.contains("Written by `hexbench validate discover --markdown FILE`; do not edit."), "{text}");
+}

@@ -1,0 +1,208 @@
+//! A law: a product of building blocks in some legs.
+
+use super::block::{Block, CARRIERS, COMPLIANCE, COVARIATES, Constant, LOADED, LOADS, MODULATIONS};
+use super::legs::LegChoice;
+use crate::effects::user_term::PartKind;
+
+/// Prior probability that a law is a change of compliance, a change of length, an elongation with another carrier, or moves or loads
+/// base or platform.
+const OF_KIND: [f64; 4] = [0.36, 0.27, 0.27, 0.10];
+/// Prior probability that a compliance is changed by one thing, by two.
+const OF_COMPLIANCE: [f64; 2] = [0.75, 0.25];
+/// Prior probability that a covariate acts alone, through one thing more.
+const OF_COVARIATE: [f64; 2] = [0.7, 0.3];
+/// The same for the other carriers.
+const OF_CARRIER: [f64; 2] = [0.7, 0.3];
+
+/// What a law multiplies, before legs are chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct Product {
+    /// The first factor.
+    pub(crate) head: Head,
+    /// Indices of [`MODULATIONS`], ascending.
+    pub(crate) with: [Option<usize>; 2],
+}
+
+/// The factor without which a law would act where nothing is different from the reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Head {
+    /// Index of [`CARRIERS`].
+    Carrier(usize),
+    /// Index of [`COVARIATES`]: elongation without a load.
+    Length(usize),
+    /// Index of [`COVARIATES`], times the force change: a compliance that was the same in the reference state.
+    Compliance(usize),
+    /// The same times the force under the load: a compliance that changed after the reference state.
+    Loaded(usize),
+    /// Base or platform moved or loaded along one axis; index of [`COVARIATES`], then of [`LOADS`].
+    Body(PartKind, usize),
+}
+
+impl Head {
+    /// Blocks of the head.
+    pub(crate) fn blocks(self) -> impl Iterator<Item = &'static Block> {
+        let (first, second) = match self {
+            Self::Carrier(k) => (&CARRIERS[k], None),
+            Self::Length(k) => (&COVARIATES[k], None),
+            Self::Compliance(k) => (&CARRIERS[COMPLIANCE], Some(&COVARIATES[k])),
+            Self::Loaded(k) => (&CARRIERS[LOADED], Some(&COVARIATES[k])),
+            Self::Body(_, k) => (COVARIATES.get(k).unwrap_or_else(|| &LOADS[k - COVARIATES.len()]), None),
+        };
+        std::iter::once(first).chain(second)
+    }
+}
+
+impl Product {
+    fn new(head: Head, with: [Option<usize>; 2]) -> Self {
+        Self { head, with }
+    }
+
+    /// Its factors.
+    pub(crate) fn blocks(&self) -> impl Iterator<Item = &'static Block> {
+        self.head.blocks().chain(self.with.into_iter().flatten().map(|k| &MODULATIONS[k]))
+    }
+
+    /// What it acts on.
+    pub(crate) fn kind(&self) -> PartKind {
+        if let Head::Body(kind, _) = self.head { kind } else { PartKind::Elongation }
+    }
+
+    /// The constant inside, when there is one.
+    pub(crate) fn constant(&self) -> Option<Constant> {
+        self.blocks().find_map(|b| b.constant)
+    }
+
+    /// True for two sizes.
+    pub(crate) fn is_wave(&self) -> bool {
+        self.blocks().any(|b| b.twin.is_some())
+    }
+
+    /// True when no two factors vary with the same thing, at most one has a constant, and a wave, which costs as much as all other
+    /// products together, is one of the compliance.
+    fn is_sound(&self) -> bool {
+        let families: Vec<_> = self.blocks().map(|b| b.family).collect();
+        let distinct = (1..families.len()).all(|k| !families[..k].contains(&families[k]));
+        let constants = self.blocks().filter(|b| b.constant.is_some()).count();
+        let waves_alone = !self.is_wave() || (self.head == Head::Carrier(COMPLIANCE) && families.len() == 2);
+        distinct && constants <= 1 && waves_alone
+    }
+
+    /// Formulas of its sizes without the sizes: one, or two for a wave.
+    pub(crate) fn formulas(&self) -> Vec<String> {
+        let joined = |twin: bool| {
+            let text = |b: &'static Block| b.twin.filter(|_| twin).unwrap_or(b.text);
+            self.blocks().map(text).collect::<Vec<_>>().join("*")
+        };
+        if self.is_wave() { vec![joined(false), joined(true)] } else { vec![joined(false)] }
+    }
+
+    /// Powers of N, m, K and s.
+    pub(crate) fn powers(&self) -> [f64; 4] {
+        self.blocks().fold([0.0; 4], |sum, b| std::array::from_fn(|k| sum[k] + b.powers[k]))
+    }
+
+    /// All products with the logarithm of the prior probability of each.
+    pub(crate) fn all() -> Vec<(Self, f64)> {
+        let mut all = compliances();
+        all.extend(lengths());
+        all.extend(carriers());
+        all.extend(bodies());
+        all
+    }
+}
+
+fn shared(products: Vec<Product>, probability: f64) -> impl Iterator<Item = (Product, f64)> {
+    let sound: Vec<Product> = products.into_iter().filter(Product::is_sound).collect();
+    let each = (probability / sound.len().max(1) as f64).ln();
+    sound.into_iter().map(move |p| (p, each))
+}
+
+fn compliances() -> Vec<(Product, f64)> {
+    let carrier = Head::Carrier(COMPLIANCE);
+    let heads = || (0..COVARIATES.len()).flat_map(|k| [Head::Compliance(k), Head::Loaded(k)]);
+    let by_covariate = heads().map(|head| Product::new(head, [None; 2]));
+    let by_one = (0..MODULATIONS.len()).map(|k| Product::new(carrier, [Some(k), None]));
+    let pairs = (0..MODULATIONS.len())
+        .flat_map(|j| (j + 1..MODULATIONS.len()).map(move |k| Product::new(carrier, [Some(j), Some(k)])));
+    let with_covariate =
+        heads().flat_map(|head| (0..MODULATIONS.len()).map(move |k| Product::new(head, [Some(k), None])));
+    let one = shared(by_covariate.chain(by_one).collect(), OF_KIND[0] * OF_COMPLIANCE[0]);
+    let two = shared(pairs.chain(with_covariate).collect(), OF_KIND[0] * OF_COMPLIANCE[1]);
+    one.chain(two).collect()
+}
+
+fn lengths() -> Vec<(Product, f64)> {
+    let alone = (0..COVARIATES.len()).map(|k| Product::new(Head::Length(k), [None; 2]));
+    let with = (0..COVARIATES.len())
+        .flat_map(|c| (0..MODULATIONS.len()).map(move |k| Product::new(Head::Length(c), [Some(k), None])));
+    let one = shared(alone.collect(), OF_KIND[1] * OF_COVARIATE[0]);
+    one.chain(shared(with.collect(), OF_KIND[1] * OF_COVARIATE[1])).collect()
+}
+
+fn carriers() -> Vec<(Product, f64)> {
+    let others = || (0..CARRIERS.len()).filter(|&k| k != COMPLIANCE && k != LOADED);
+    let alone = others().map(|k| Product::new(Head::Carrier(k), [None; 2]));
+    let with = others()
+        .flat_map(|c| (0..MODULATIONS.len()).map(move |k| Product::new(Head::Carrier(c), [Some(k), None])));
+    let one = shared(alone.collect(), OF_KIND[2] * OF_CARRIER[0]);
+    one.chain(shared(with.collect(), OF_KIND[2] * OF_CARRIER[1])).collect()
+}
+
+fn bodies() -> Vec<(Product, f64)> {
+    let causes = 0..COVARIATES.len() + LOADS.len();
+    let of = |kind| causes.clone().map(move |k| Product::new(Head::Body(kind, k), [None; 2]));
+    shared(PartKind::BODIES.into_iter().flat_map(of).collect(), OF_KIND[3]).collect()
+}
+
+/// A product in some legs, with the value of its constant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Law {
+    /// What it multiplies.
+    pub(crate) product: Product,
+    /// In which legs; along or about which axis for base and platform.
+    pub(crate) legs: LegChoice,
+    /// Value of the constant inside, SI; 1 where there is none.
+    pub(crate) constant: f64,
+}
+
+impl Law {
+    /// Axis from zero of a law for base or platform.
+    pub(crate) fn axis(&self) -> Option<usize> {
+        let is_body = self.product.kind() != PartKind::Elongation;
+        is_body.then(|| self.legs.signs().iter().position(|s| *s != 0)).flatten()
+    }
+
+    /// Numbers of its legs from 1; none for all, or for base and platform.
+    pub(crate) fn leg_numbers(&self) -> Option<Vec<usize>> {
+        if self.axis().is_some() { None } else { self.legs.numbers() }
+    }
+
+    /// Number of factors, of constants inside and of choices of legs: one for each word of the sentence.
+    pub(crate) fn complexity(&self) -> usize {
+        let factors = self.product.blocks().count();
+        1 + factors
+            + usize::from(self.product.constant().is_some())
+            + usize::from(self.product.is_wave())
+            + usize::from(self.legs != LegChoice::ALL)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_prior_over_products_sums_to_one() {
+        let total: f64 = Product::all().iter().map(|p| p.1.exp()).sum();
+        assert!((total - 1.0).abs() < 1e-9, "{total}");
+    }
+
+    #[test]
+    fn no_product_is_there_twice() {
+        let mut all: Vec<Product> = Product::all().into_iter().map(|p| p.0).collect();
+        let count = all.len();
+        all.sort();
+        all.dedup();
+        assert_eq!(all.len(), count);
+    }
+}

@@ -1,0 +1,250 @@
+//! All laws of the grammar, weighed one by one beside what is in the model.
+
+use rayon::prelude::*;
+
+use super::law::{Law, Product};
+use super::legs::{LegChoice, axes, choices};
+use super::space::{LegSums, Room, Spaces};
+use super::tables::{Tables, Values};
+use crate::effects::user_term::PartKind;
+use crate::error::ModelError;
+use crate::inference::evidence::{WIDEST, log_sum, single, widths};
+
+/// Steps of the search for the best constant between two of its grid.
+const GOLDEN_STEPS: usize = 18;
+/// Choices of legs kept of one product.
+const LEGS_KEPT: usize = 3;
+/// Choices of legs of one product whose evidence is computed: those that fit best.
+const LEGS_LOOKED_AT: usize = 6;
+/// What the evidence usually takes off the likelihood for a size that is fitted, nats.
+const COST_OF_A_SIZE: f64 = 2.5;
+
+/// A law and what speaks for it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ScoredLaw {
+    /// The law.
+    pub(crate) law: Law,
+    /// Log-evidence plus the logarithm of the prior, the values tried of its constant charged; relative to no law.
+    pub(crate) score: f64,
+    /// Logarithm of the prior: minus the length of the law's description, nats.
+    pub(crate) log_prior: f64,
+}
+
+/// What a scan found.
+pub(crate) struct Scanned {
+    /// Laws, best first; of one product in the same legs the best constant only.
+    pub(crate) laws: Vec<ScoredLaw>,
+    /// Laws weighed, every choice of legs and value of a constant counted.
+    pub(crate) tried: usize,
+}
+
+/// The scan.
+pub(crate) struct LawScan<'a> {
+    pub(crate) spaces: &'a Spaces,
+    pub(crate) tables: &'a Tables,
+    pub(crate) products: &'a [(Product, f64)],
+}
+
+struct Bench {
+    room: Room,
+    columns: [Values; 2],
+}
+
+impl LawScan<'_> {
+    /// The best laws, at most so many, their constants refined.
+    pub(crate) fn run(&self, most: usize) -> Result<Scanned, ModelError> {
+        let (legs, axes) = (choices(), axes());
+        let choices = |k: usize| if self.is_body(k) { &axes } else { &legs };
+        let tasks: Vec<(usize, f64)> = (0..self.products.len())
+            .flat_map(|k| self.tables.grid(&self.products[k].0).iter().map(move |&c| (k, c)))
+            .collect();
+        let best =
+            |bench: &mut Bench, &(k, constant): &(usize, f64)| self.best_of(bench, k, constant, choices(k));
+        let scored: Vec<Vec<ScoredLaw>> =
+            tasks.par_iter().map_init(|| self.bench(), best).collect::<Result<_, _>>()?;
+        let mut laws = best_constants(scored.into_iter().flatten());
+        laws.truncate(most);
+        let refined: Result<Vec<ScoredLaw>, ModelError> =
+            laws.par_iter().map_init(|| self.bench(), |bench, law| self.refined(bench, law)).collect();
+        let mut laws = refined?;
+        sort(&mut laws);
+        Ok(Scanned { laws, tried: tasks.iter().map(|t| choices(t.0).len()).sum() })
+    }
+
+    fn is_body(&self, k: usize) -> bool {
+        self.products[k].0.kind() != PartKind::Elongation
+    }
+
+    fn bench(&self) -> Bench {
+        Bench { room: self.spaces.of(PartKind::Elongation).room(), columns: [Vec::new(), Vec::new()] }
+    }
+
+    fn sums<'b>(
+        &self,
+        bench: &'b mut Bench,
+        product: &Product,
+        constant: f64,
+    ) -> Result<&'b LegSums, ModelError> {
+        let width = self.tables.columns(product, constant, &mut bench.columns)?;
+        let columns = [&bench.columns[0][..], &bench.columns[1][..]];
+        Ok(self.spaces.of(product.kind()).sums(&columns[..width], &mut bench.room))
+    }
+
+    fn best_of(
+        &self,
+        bench: &mut Bench,
+        k: usize,
+        constant: f64,
+        legs: &[(LegChoice, f64)],
+    ) -> Result<Vec<ScoredLaw>, ModelError> {
+        let (product, of_product) = self.products[k];
+        let charge = independent(self.tables.grid(&product).len()).ln();
+        let sums = self.sums(bench, &product, constant)?;
+        let mut best = [(f64::NEG_INFINITY, LegChoice::Each, 0.0); LEGS_LOOKED_AT];
+        for &(legs, of_legs) in legs {
+            let promise = promise(sums, legs) + of_legs;
+            if let Some(place) = best.iter().position(|known| known.0 < promise) {
+                best[place..].rotate_right(1);
+                best[place] = (promise, legs, of_legs);
+            }
+        }
+        let of = |(_, legs, of_legs): (f64, LegChoice, f64)| {
+            let log_prior = of_product + of_legs;
+            let score = self.evidence(sums, legs) + log_prior - charge;
+            ScoredLaw { law: Law { product, legs, constant }, score, log_prior }
+        };
+        let mut scored = best.map(of);
+        sort(&mut scored);
+        Ok(scored[..LEGS_KEPT].to_vec())
+    }
+
+    /// Log-evidence of a choice of legs, averaged over the widths of the prior.
+    fn evidence(&self, sums: &LegSums, legs: LegChoice) -> f64 {
+        let LegChoice::Signed(signs) = legs else { return self.evidence_of_each(sums) };
+        let (b, g) = sums.of(signs);
+        let signature = (g[0] + if sums.columns == 2 { g[2] } else { 0.0 }).max(0.0).sqrt();
+        self.averaged(signature, |width| {
+            if sums.columns == 2 { pair(b, g, width) } else { single(g[0], b[0], width, false) }
+        })
+    }
+
+    /// The same of a size in every leg.
+    fn evidence_of_each(&self, sums: &LegSums) -> f64 {
+        let size = 6 * sums.columns;
+        let trace: f64 = (0..size).map(|k| sums.g[k][k]).sum();
+        self.averaged(sums.scale * trace.max(0.0).sqrt(), |width| each(sums, size, sums.scale * width))
+    }
+
+    /// Average over the widths of a prior; `of`: drop of chi-square and the rest of the log-evidence at a width.
+    fn averaged(&self, signature: f64, of: impl Fn(f64) -> (f64, f64)) -> f64 {
+        let tried = widths(signature);
+        let scores = tried.iter().map(|&width| {
+            let (drop, rest) = of(width);
+            self.spaces.of(PartKind::Elongation).likelihood.gain(drop, 1.0) + rest
+        });
+        let scores: Vec<f64> = scores.collect();
+        log_sum(scores.iter().copied()) - (tried.len() as f64).ln()
+    }
+
+    /// The best constant between the neighbors of that of the grid.
+    fn refined(&self, bench: &mut Bench, found: &ScoredLaw) -> Result<ScoredLaw, ModelError> {
+        let Law { product, legs, constant } = found.law;
+        let grid = self.tables.grid(&product);
+        let Some(at) =
+            grid.binary_search_by(|c| c.total_cmp(&constant)).ok().filter(|_| product.constant().is_some())
+        else {
+            return Ok(*found);
+        };
+        let ends = [grid[at.saturating_sub(1)], grid[(at + 1).min(grid.len() - 1)]];
+        let mut at = |log: f64| -> Result<f64, ModelError> {
+            let sums = self.sums(bench, &product, log.exp())?;
+            Ok(self.evidence(sums, legs))
+        };
+        let best = golden(ends.map(f64::ln), &mut at)?.exp();
+        let score = at(best.ln())? + found.log_prior - independent(grid.len()).ln();
+        Ok(if score > found.score {
+            ScoredLaw { law: Law { product, legs, constant: best }, score, ..*found }
+        } else {
+            *found
+        })
+    }
+}
+
+/// What the evidence of a choice of legs can be at most, less what all of them share: the likelihood at the best sizes.
+fn promise(sums: &LegSums, legs: LegChoice) -> f64 {
+    let drop = match legs {
+        LegChoice::Each => each(sums, 6 * sums.columns, sums.scale * WIDEST).0,
+        LegChoice::Signed(signs) => {
+            let (b, g) = sums.of(signs);
+            if sums.columns == 2 { pair(b, g, WIDEST).0 } else { single(g[0], b[0], WIDEST, false).0 }
+        }
+    };
+    let sizes = if legs == LegChoice::Each { 6 * sums.columns } else { sums.columns };
+    0.5 * drop - COST_OF_A_SIZE * sizes as f64
+}
+
+/// Values of a constant that count as different: neighbors of a grid resemble each other.
+fn independent(grid: usize) -> f64 {
+    (grid as f64 / 3.0).max(1.0)
+}
+
+/// Drop of chi-square of two sizes with a common prior width, and the rest of their log-evidence.
+fn pair(b: [f64; 2], g: [f64; 3], width: f64) -> (f64, f64) {
+    let w = width * width;
+    let (a, c, d) = (1.0 + w * g[0], w * g[1], 1.0 + w * g[2]);
+    let det = (a * d - c * c).max(1.0);
+    let top = d * b[0] * b[0] - 2.0 * c * b[0] * b[1] + a * b[1] * b[1];
+    (w * top / det, -0.5 * det.ln())
+}
+
+/// The same of a size in every leg, by a Cholesky factor of `I + s^2 G`.
+fn each(sums: &LegSums, size: usize, s: f64) -> (f64, f64) {
+    let mut factor = [[0.0; 12]; 12];
+    let (mut forward, mut log_det, mut drop) = ([0.0; 12], 0.0, 0.0);
+    for i in 0..size {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
+            let entry = s * s * sums.g[i][j] + f64::from(u8::from(i == j)) - known;
+            factor[i][j] = if i == j { entry.max(1e-12).sqrt() } else { entry / factor[j][j] };
+        }
+        let known: f64 = (0..i).map(|k| factor[i][k] * forward[k]).sum();
+        forward[i] = (s * sums.b[i] - known) / factor[i][i];
+        drop += forward[i] * forward[i];
+        log_det += factor[i][i].ln();
+    }
+    (drop, -log_det)
+}
+
+/// Of every product in the same legs the best constant, best first.
+fn best_constants(scored: impl Iterator<Item = ScoredLaw>) -> Vec<ScoredLaw> {
+    let mut all: Vec<ScoredLaw> = scored.filter(|s| s.score.is_finite()).collect();
+    sort(&mut all);
+    let mut seen = std::collections::HashSet::new();
+    all.retain(|s| seen.insert((s.law.product, s.law.legs)));
+    all
+}
+
+/// Best first; in the order of the grammar where scores are equal.
+pub(crate) fn sort(laws: &mut [ScoredLaw]) {
+    let place = |s: &ScoredLaw| (s.law.product, s.law.legs);
+    laws.sort_by(|a, b| b.score.total_cmp(&a.score).then_with(|| place(a).cmp(&place(b))));
+}
+
+fn golden(ends: [f64; 2], f: &mut impl FnMut(f64) -> Result<f64, ModelError>) -> Result<f64, ModelError> {
+    const RATIO: f64 = 0.618_033_988_749_894_9;
+    let (mut low, mut high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    let (mut x, mut y) = (high - RATIO * (high - low), low + RATIO * (high - low));
+    let (mut fx, mut fy) = (f(x)?, f(y)?);
+    for _ in 0..GOLDEN_STEPS {
+        if fx > fy {
+            (high, y, fy) = (y, x, fx);
+            x = high - RATIO * (high - low);
+            fx = f(x)?;
+        } else {
+            (low, x, fx) = (x, y, fy);
+            y = low + RATIO * (high - low);
+            fy = f(y)?;
+        }
+    }
+    Ok(f64::midpoint(low, high))
+}

@@ -1,0 +1,332 @@
+//! A law as a term file, as a formula and as a sentence.
+
+use super::block::{Block, CARRIERS, COMPLIANCE, Constant, Family};
+use super::law::{Head, Law};
+use super::legs::LegChoice;
+use crate::effects::user_term::PartKind;
+use crate::estimation::linearization::Linearization;
+use crate::inference::period::period_grid;
+
+/// Lengths, the longest first, and how many make a metre.
+const LENGTHS: [(&str, f64); 6] =
+    [("m", 1.0), ("mm", 1e3), ("um", 1e6), ("nm", 1e9), ("pm", 1e12), ("fm", 1e15)];
+/// The same of angles.
+const ANGLES: [(&str, f64); 4] = [("mrad", 1e3), ("urad", 1e6), ("nrad", 1e9), ("prad", 1e12)];
+/// Axes of a body.
+const AXES: [&str; 6] = ["along x", "along y", "along z", "about x", "about y", "about z"];
+
+/// A formula of a law with what it acts on.
+pub(crate) struct LawLine {
+    pub(crate) kind: PartKind,
+    pub(crate) formula: String,
+    /// Axis of a body from zero.
+    axis: usize,
+    /// Legs of an elongation from 1; none for all.
+    pub(crate) legs: Option<Vec<usize>>,
+}
+
+impl LawLine {
+    /// As keys of a term file.
+    pub(crate) fn toml(&self) -> String {
+        let key = self.kind.key();
+        if self.kind != PartKind::Elongation {
+            let six: [String; 6] = std::array::from_fn(|k| {
+                if k == self.axis { format!("\"{}\"", self.formula) } else { "\"\"".to_owned() }
+            });
+            return format!("{key} = [{}]\n", six.join(", "));
+        }
+        let legs = self.legs.as_ref().map_or(String::new(), |legs| format!("legs = {legs:?}\n"));
+        format!("{key} = \"{}\"\n{legs}", self.formula)
+    }
+
+    /// Where it acts, where that is not all legs.
+    pub(crate) fn place(&self) -> Option<String> {
+        if self.kind != PartKind::Elongation {
+            return Some(format!("{} {}", self.kind.key().replace('_', " "), AXES[self.axis]));
+        }
+        self.legs.as_ref().map(|legs| format!("{legs:?}"))
+    }
+}
+
+/// Longest id of a term.
+const LONGEST_ID: usize = 36;
+/// Values of a constant offered on each side of the one found, and how far they go.
+const SIDE_STEPS: i32 = 6;
+const SIDE_FACTOR: f64 = 2.0;
+/// A fit may carry a constant this many times as far as the values offered.
+const BEYOND: f64 = 2.0;
+
+impl Law {
+    /// Kebab-case name.
+    pub(crate) fn id(&self) -> String {
+        let slugs: Vec<&str> = self.product.blocks().map(|b| b.slug).collect();
+        let lead = match self.product.head {
+            Head::Length(_) => "length-",
+            Head::Body(PartKind::Wrench, _) => "wrench-",
+            Head::Body(PartKind::BaseMotion, _) => "base-",
+            Head::Body(PartKind::PlatformMotion, _) => "platform-",
+            _ => "",
+        };
+        let legs =
+            self.axis().map_or_else(|| self.legs.slug(), |axis| format!("-{}", AXES[axis].replace(' ', "-")));
+        let mut id = format!("{lead}{}", slugs.join("-"));
+        id.truncate(LONGEST_ID - legs.len());
+        format!("{}{legs}", id.trim_end_matches('-'))
+    }
+
+    /// Names of its sizes; `mark` tells the laws of a sum apart.
+    pub(crate) fn size_names(&self, mark: &str) -> Vec<String> {
+        let names: &[&str] = if self.product.is_wave() { &["sine", "cosine"] } else { &["size"] };
+        names.iter().map(|name| format!("{name}{mark}")).collect()
+    }
+
+    /// Its formulas (everything SI), one for each group of legs. `is_fitted`: the constant inside stands by its name, else as a number.
+    pub(crate) fn lines(&self, mark: &str, is_fitted: bool) -> Vec<LawLine> {
+        let in_turn = if self.legs.alternates() { "(-1)^leg*" } else { "" };
+        let fixed = |text: String| match self.product.constant().filter(|_| !is_fitted) {
+            Some(constant) => with_number(&text, constant.name(), &self.constant_text(constant)),
+            None => text,
+        };
+        let formula = |sign: i8| {
+            let named = self.size_names(mark).into_iter().zip(self.product.formulas());
+            let minus = if sign < 0 { "-" } else { "" };
+            let terms: Vec<String> =
+                named.map(|(name, text)| format!("{minus}{name}*{in_turn}{}", fixed(text))).collect();
+            terms.join(" + ").replace("+ -", "- ")
+        };
+        let kind = self.product.kind();
+        if let Some(axis) = self.axis() {
+            return vec![LawLine { kind, formula: formula(1), axis, legs: None }];
+        }
+        let groups = self.legs.groups().into_iter();
+        groups.map(|(sign, legs)| LawLine { kind, formula: formula(sign), axis: 0, legs }).collect()
+    }
+
+    fn constant_text(&self, constant: Constant) -> String {
+        let (unit, per_si) = constant.unit();
+        let number = digits(self.constant * per_si);
+        if unit == "1" { number.to_string() } else { format!("({number} {unit})") }
+    }
+
+    /// Unit of its sizes that makes `scale` (SI) a number people read, and how many of it make one SI unit.
+    pub(crate) fn unit(&self, scale: f64) -> (String, f64) {
+        let units: &[(&str, f64)] = match (self.product.kind(), self.axis().is_some_and(|axis| axis >= 3)) {
+            (PartKind::Wrench, false) => &[("N", 1.0)],
+            (PartKind::Wrench, true) => &[("N m", 1.0)],
+            (PartKind::BaseMotion | PartKind::PlatformMotion, true) => &ANGLES,
+            _ => &LENGTHS,
+        };
+        let readable = units.iter().find(|(_, per_si)| scale * per_si >= 1.0).or(units.last());
+        let (above, per_si) = readable.copied().unwrap_or(("1", 1.0));
+        let symbols = ["N", "m", "K", "s"];
+        let powers = symbols.into_iter().zip(self.product.powers()).filter(|(_, power)| *power > 0.0);
+        let written = |(symbol, power): (&str, f64)| {
+            if (power - 1.0).abs() < f64::EPSILON { symbol.to_owned() } else { format!("{symbol}^{power}") }
+        };
+        let below: Vec<String> = powers.map(written).collect();
+        let unit = match below.len() {
+            0 => above.to_owned(),
+            1 => format!("{above}/{}", below[0]),
+            _ => format!("{above}/({})", below.join(" ")),
+        };
+        (unit, per_si)
+    }
+
+    /// What it says, without a sign: `the compliance of all legs changes with temperature`.
+    pub(crate) fn sentence(&self, rises: Option<bool>) -> String {
+        let with: Vec<&Block> = self.product.blocks().filter(|b| !b.words.is_empty()).collect();
+        let what = match self.product.head {
+            Head::Length(_) => "length",
+            Head::Compliance(_) | Head::Loaded(_) | Head::Carrier(COMPLIANCE) => "compliance",
+            Head::Carrier(_) | Head::Body(..) => "elongation",
+        };
+        let body = self.axis().map(|axis| {
+            let (axis, turns) = (AXES[axis], axis >= 3);
+            match self.product.kind() {
+                PartKind::Wrench => {
+                    format!("a {} {axis} on the platform", if turns { "moment" } else { "force" })
+                }
+                PartKind::BaseMotion => {
+                    format!("the {} of the base {axis}", if turns { "turn" } else { "place" })
+                }
+                _ => format!("the {} of the measured platform {axis}", if turns { "turn" } else { "place" }),
+            }
+        });
+        let subject = body.unwrap_or_else(|| format!("the {what} of {}", self.legs.words()));
+        if let Some(wave) = with.iter().find(|b| b.twin.is_some()) {
+            let more: Vec<&str> = with.iter().filter(|b| b.slug != wave.slug).map(|b| b.words).collect();
+            let and =
+                if more.is_empty() { String::new() } else { format!(", more with {}", more.join(" and ")) };
+            return format!("{subject} repeats every {:.2} mm of leg length{and}", self.constant * 1e3);
+        }
+        if let Some(jump) = with.iter().find(|b| b.slug == "jump") {
+            let more: Vec<&str> = with.iter().filter(|b| b.slug != jump.slug).map(|b| b.words).collect();
+            let and =
+                if more.is_empty() { String::new() } else { format!(", more with {}", more.join(" and ")) };
+            return format!("{subject} jumps after {:.0} s{and}", self.constant);
+        }
+        let verb = match rises {
+            Some(true) => "grows",
+            Some(false) => "falls",
+            None => "changes",
+        };
+        let things: Vec<&str> = with.iter().map(|b| b.words).collect();
+        format!("{subject} {verb} with {}{}", things.join(" times "), self.constant_words())
+    }
+
+    fn constant_words(&self) -> String {
+        match self.product.constant() {
+            Some(Constant::Force) => format!(" (from about {:.0} N)", self.constant),
+            Some(Constant::Time) => format!(" (time constant {:.0} s)", self.constant),
+            Some(Constant::Exponent) => format!(" (exponent {:.2})", self.constant),
+            Some(Constant::Period) | None => String::new(),
+        }
+    }
+
+    /// What an engineer would look at, three things.
+    pub(crate) fn look_at(&self) -> [&'static str; 3] {
+        let families: Vec<Family> = self.product.blocks().map(|b| b.family).collect();
+        let has = |family: Family| families.contains(&family);
+        if self.axis().is_some() {
+            return [
+                "foundation, frame and platform: what yields, warms or slips between the joints and the floor",
+                "the instrument: its mount, its own warming, its distance from the machine",
+                "cables, hoses and covers that pull at the platform",
+            ];
+        }
+        if self.product.is_wave() {
+            [
+                "the lead of the screw against this period, and its halves and thirds: nut, ball return, gear",
+                "the bearing of the screw and its preload, turned once by hand under load",
+                "the coupling and the encoder, if the period is one turn of the motor",
+            ]
+        } else if has(Family::Time) {
+            [
+                "what warms up while the load stands: motor current, brake, room",
+                "joints and threads that settle: the same load once more without unloading",
+                "adhesive or plastic parts in the leg, which creep",
+            ]
+        } else if has(Family::Temperature) {
+            [
+                "which part of the leg has another expansion than the rest, or is warmed on one side",
+                "where the temperature is read, against where the leg is warm",
+                "the preload of bearings and nuts, warm and cold",
+            ]
+        } else if has(Family::Approach) {
+            [
+                "play and friction in nut and joints: load and unload in small steps",
+                "a clamp or brake that slips when the load is exceeded",
+                "whether the order of the loads was kept in every row",
+            ]
+        } else if self
+            .product
+            .blocks()
+            .any(|b| b.slug.ends_with("-leg") || b.slug.ends_with("-legs") || b.slug == "both-neighbors")
+        {
+            [
+                "what the legs share: mount, bracket, plate or beam between their joints",
+                "bolts and welds of that part, and its stiffness between the joints",
+                "the two joints with only one of the legs loaded",
+            ]
+        } else if has(Family::Length) {
+            [
+                "the free length of screw or tube at both ends of the stroke, and what guides it",
+                "nut and bearing along the stroke: wear where it is used most",
+                "supports that touch at one end of the stroke only",
+            ]
+        } else if has(Family::Direction) || has(Family::Pose) {
+            [
+                "joints that bind or yield sideways when they are turned: play, cross springs, forks",
+                "mounts that are softer in one direction than in the other",
+                "cables and hoses that pull at this end of the workspace",
+            ]
+        } else if has(Family::Wrench) {
+            [
+                "the part through which the load is brought in",
+                "the plate between the joints under this component of the load",
+                "the load cell's axes and its crosstalk",
+            ]
+        } else {
+            [
+                "contacts and bearings of these legs that stiffen, open or give way with the force",
+                "threads, bolts and preload along the leg: which part unloads at this force",
+                "the leg alone in a testing machine over the same range of force",
+            ]
+        }
+    }
+
+    /// Values of its constant worth trying when it is fitted elsewhere, SI, ascending; and the limits.
+    fn constant_range(&self, lin: &Linearization) -> (Vec<f64>, [f64; 2]) {
+        if self.product.constant() == Some(Constant::Period) {
+            let near = |p: &f64| (self.constant / SIDE_FACTOR..self.constant * SIDE_FACTOR).contains(p);
+            let mut grid: Vec<f64> = period_grid(&lin.conditions).into_iter().filter(near).collect();
+            grid.push(self.constant);
+            grid.sort_unstable_by(f64::total_cmp);
+            let limits = [self.constant / (BEYOND * SIDE_FACTOR), self.constant * BEYOND * SIDE_FACTOR];
+            return (grid, limits);
+        }
+        let step = |k: i32| self.constant * SIDE_FACTOR.powf(f64::from(k) / f64::from(SIDE_STEPS));
+        let grid = (-SIDE_STEPS..=SIDE_STEPS).map(step).collect();
+        (grid, [step(-SIDE_STEPS) / BEYOND, step(SIDE_STEPS) * BEYOND])
+    }
+
+    /// `[[parameters]]` of its sizes; `scale`: their physically sensible size, SI.
+    pub(crate) fn parameters_text(&self, scale: f64, mark: &str) -> String {
+        let (unit, per_si) = self.unit(scale);
+        let per_leg = if self.legs == LegChoice::Each { "per_leg = true\n" } else { "" };
+        let of = |name: String| {
+            let scale = rounded(scale * per_si);
+            format!(
+                "\n[[parameters]]\nname = \"{name}\"\nunit = \"{unit}\"\nper_si = {per_si:e}\nscale = {scale}\n{per_leg}"
+            )
+        };
+        self.size_names(mark).into_iter().map(of).collect()
+    }
+
+    /// `[shape]` of its constant.
+    pub(crate) fn shape_text(&self, lin: &Linearization) -> String {
+        let Some(constant) = self.product.constant() else { return String::new() };
+        let (grid, limits) = self.constant_range(lin);
+        let (unit, per_si) = constant.unit();
+        let shown = |values: &[f64]| {
+            values.iter().map(|v| digits(v * per_si).to_string()).collect::<Vec<_>>().join(", ")
+        };
+        let (name, limits, grid) = (constant.name(), shown(&limits), shown(&grid));
+        format!("\n[shape]\nname = \"{name}\"\nunit = \"{unit}\"\nbounds = [{limits}]\ngrid = [{grid}]\n")
+    }
+
+    /// True when a positive size means that what it describes grows; none where it has no such sense.
+    pub(crate) fn has_direction(&self) -> bool {
+        let is_carrier = match self.product.head {
+            Head::Carrier(k) => k == COMPLIANCE || CARRIERS[k].family == Family::Force,
+            Head::Length(_) | Head::Compliance(_) | Head::Loaded(_) | Head::Body(..) => true,
+        };
+        is_carrier && !self.legs.differs() && !self.product.is_wave()
+    }
+}
+
+/// A formula with a number in the place of a name.
+fn with_number(text: &str, name: &str, number: &str) -> String {
+    let mut out = String::new();
+    let mut word = String::new();
+    for c in text.chars().chain([' ']) {
+        if c.is_ascii_alphanumeric() || c == '_' {
+            word.push(c);
+            continue;
+        }
+        out.push_str(if word == name { number } else { &word });
+        word.clear();
+        out.push(c);
+    }
+    out.trim_end().to_owned()
+}
+
+/// Two significant digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
+/// Seven significant digits.
+fn digits(value: f64) -> f64 {
+    format!("{value:.6e}").parse().unwrap_or(value)
+}

@@ -1,0 +1,231 @@
+//! From sets with laws to what is said of them.
+
+use std::collections::BTreeMap;
+
+use super::report::{Discovery, HeldOutFall, LawReport};
+use super::{DiscoveryReason, Source};
+use crate::error::ModelError;
+use crate::estimation::estimate::{Estimate, estimates};
+use crate::estimation::fit::{Fit, TermSpec};
+use crate::inference::diagnosis::{RankedSets, wanted};
+use crate::inference::discovery::{LawSum, LawTerm};
+use crate::inference::search::Set;
+use crate::inference::verdict::NAMED;
+use crate::results::diagnose::{Context, StepReport};
+
+/// Laws told.
+const MOST_TOLD: usize = 5;
+/// Ideas told where no law convinces.
+const IDEAS: usize = 3;
+/// Probability above which a law counts as one that these readings do not tell from the best.
+const ALIKE: f64 = 0.02;
+/// Share of the excess over the noise that a law has to take off the held-out error, at least, where some remains.
+const MOST_OF_IT: f64 = 0.9;
+/// Chance of a held-out error as large as this below which something else is missing.
+const LEAST_CHANCE: f64 = 1e-3;
+
+/// What is said of the laws.
+pub(super) struct Judged {
+    /// True when the first proposal convinces.
+    pub(super) convinces: bool,
+    /// True when nothing is left with it.
+    pub(super) is_at_the_noise: bool,
+    beside: Vec<String>,
+    laws: Vec<LawReport>,
+    steps: Vec<StepReport>,
+    pub(super) fits: Vec<Fit>,
+    probability: f64,
+    pub(super) term_file: Option<String>,
+}
+
+/// Laws that stand in a set together, by their places in the list of laws.
+type Members = Vec<usize>;
+
+/// Weights of sets summed over what they contain.
+struct Weights<'a> {
+    /// Probability that a law is at work.
+    of_laws: f64,
+    /// Proposals, best set first, with the probability of each and its best set.
+    proposals: Vec<(Members, f64, &'a Set)>,
+    /// Probability of each effect of the catalogue.
+    of_effect: BTreeMap<&'static str, f64>,
+}
+
+impl Judged {
+    pub(super) fn of(
+        context: &Context<'_>,
+        laws: &[LawTerm],
+        source: &Source<'_>,
+    ) -> Result<Self, ModelError> {
+        let weights = Weights::of(context.outcome, laws);
+        let mut judged = Self {
+            convinces: false,
+            is_at_the_noise: false,
+            beside: Vec::new(),
+            laws: Vec::new(),
+            steps: Vec::new(),
+            fits: Vec::new(),
+            probability: weights.of_laws,
+            term_file: None,
+        };
+        for (rank, (members, probability, set)) in weights.proposals.iter().take(MOST_TOLD).enumerate() {
+            let order = weights.order(set, context.outcome, laws);
+            let (fits, steps) = context.steps(&order)?;
+            let Some(fitted) = fits.last() else { continue };
+            let beside = order.len() - members.len();
+            let mine: Vec<&LawTerm> = in_order(members, &order[beside..], laws);
+            let sum = LawSum::fitted(mine, &fitted.point.active);
+            let report = report(rank + 1, &sum, *probability, fitted, &steps, beside);
+            if rank == 0 {
+                judged.convinces = weights.of_laws >= NAMED && survives(&steps, beside, weights.of_laws);
+                judged.is_at_the_noise = steps.last().is_some_and(is_as_expected);
+                judged.beside = order[..beside].iter().map(|w| w.term.info().id.to_owned()).collect();
+                let file = sum.file(&context.outcome.lin, &source.comments(&report));
+                judged.term_file = Some(file);
+                (judged.steps, judged.fits) = (steps, fits);
+            }
+            judged.laws.push(report);
+        }
+        name_alike(&mut judged.laws);
+        Ok(judged)
+    }
+
+    /// The discovery of a law.
+    pub(super) fn report(&self, template: Discovery) -> Discovery {
+        Discovery {
+            found: true,
+            reason: DiscoveryReason::Law,
+            text: self.laws.first().map(|l| l.text.clone()).unwrap_or_default(),
+            beside: self.beside.clone(),
+            laws: self
+                .laws
+                .iter()
+                .enumerate()
+                .filter(|(k, l)| *k == 0 || l.probability >= ALIKE)
+                .map(|l| l.1.clone())
+                .collect(),
+            steps: self.steps.clone(),
+            probability: self.probability,
+            ..template
+        }
+    }
+
+    /// What the laws come to where none convinces.
+    pub(super) fn ideas(&self, template: Discovery) -> Discovery {
+        let is_open = template.reason == DiscoveryReason::NoLawConvinces;
+        let laws = self.laws.iter().take(if is_open { IDEAS } else { 0 }).cloned().collect();
+        Discovery { laws, probability: self.probability, ..template }
+    }
+}
+
+impl<'a> Weights<'a> {
+    fn of(outcome: &'a RankedSets, laws: &[LawTerm]) -> Self {
+        let mut weights = Self { of_laws: 0.0, proposals: Vec::new(), of_effect: BTreeMap::new() };
+        for set in &outcome.sets.sets {
+            let probability = outcome.sets.probability(set) + outcome.sets.discrepant_probability(set);
+            let ids = || set.members.iter().filter_map(|&m| outcome.candidates[m].id());
+            for id in ids().filter(|id| index_of(id, laws).is_none()) {
+                *weights.of_effect.entry(id).or_default() += probability;
+            }
+            let members: Members = ids().filter_map(|id| index_of(id, laws)).collect();
+            if members.is_empty() {
+                continue;
+            }
+            weights.of_laws += probability;
+            match weights.proposals.iter_mut().find(|p| p.0 == members) {
+                Some(known) => known.1 += probability,
+                None => weights.proposals.push((members, probability, set)),
+            }
+        }
+        weights.of_laws = weights.of_laws.min(1.0);
+        weights
+    }
+
+    /// Terms of a set: effects of the catalogue that are sure, then laws, the one that explains most alone first.
+    fn order(&self, set: &Set, outcome: &RankedSets, laws: &[LawTerm]) -> Vec<TermSpec> {
+        let all = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
+        let law = |w: &TermSpec| index_of(w.term.info().id, laws);
+        let is_sure = |w: &TermSpec| self.of_effect.get(w.term.info().id).is_some_and(|p| *p >= NAMED);
+        let alone = |w: &TermSpec| {
+            let single = |s: &&Set| {
+                s.members.len() == 1 && outcome.candidates[s.members[0]].id() == Some(w.term.info().id)
+            };
+            outcome.sets.sets.iter().find(single).map_or(f64::NEG_INFINITY, |s| s.log_weight)
+        };
+        let mut order: Vec<TermSpec> = all.into_iter().filter(|w| law(w).is_some() || is_sure(w)).collect();
+        order.sort_by(|a, b| law(a).is_some().cmp(&law(b).is_some()).then(alone(b).total_cmp(&alone(a))));
+        order
+    }
+}
+
+fn index_of(id: &str, laws: &[LawTerm]) -> Option<usize> {
+    laws.iter().position(|l| l.term.info().id == id)
+}
+
+fn in_order<'a>(members: &Members, order: &[TermSpec], laws: &'a [LawTerm]) -> Vec<&'a LawTerm> {
+    let place = |k: &usize| order.iter().position(|w| w.term.info().id == laws[*k].term.info().id);
+    let mut sorted = members.clone();
+    sorted.sort_by_key(place);
+    sorted.into_iter().map(|k| &laws[k]).collect()
+}
+
+/// True when held-out poses agree with every law, and the laws take most of what was left.
+fn survives(steps: &[StepReport], beside: usize, probability: f64) -> bool {
+    let of_laws = &steps[(beside + 1).min(steps.len())..];
+    let agree = of_laws.iter().all(|step| {
+        step.gain.is_none_or(|gain| gain.leaves_sure(probability))
+            && step.worth.is_none_or(|worth| !worth.is_small())
+    });
+    let (Some(first), Some(last)) = (steps.first(), steps.last()) else { return false };
+    let excess = |step: &StepReport| (step.error().chi2_reduced - 1.0).max(0.0);
+    let taken = 1.0 - excess(last) / excess(first).max(f64::MIN_POSITIVE);
+    agree && (is_as_expected(last) || taken >= MOST_OF_IT)
+}
+
+/// True when a held-out error is one that the model, noise and tolerances allow.
+fn is_as_expected(step: &StepReport) -> bool {
+    step.chance.map_or_else(|| step.is_at_the_noise(), |chance| chance > LEAST_CHANCE)
+}
+
+fn report(
+    number: usize,
+    sum: &LawSum<'_>,
+    probability: f64,
+    fitted: &Fit,
+    steps: &[StepReport],
+    beside: usize,
+) -> LawReport {
+    let error = |step: &StepReport| step.error().times_noise();
+    let ends = steps.get(beside).zip(steps.last());
+    LawReport {
+        id: format!("law-{number}"),
+        term: sum.id(),
+        formula: sum.formula(),
+        kind: sum.kind(),
+        legs: sum.legs().into(),
+        probability: probability.min(1.0),
+        complexity: sum.complexity(),
+        parameters: parameters(fitted, &steps.last().map(|s| s.terms[beside..].to_vec()).unwrap_or_default()),
+        held_out: ends.map(|(before, after)| HeldOutFall { before: error(before), after: error(after) }),
+        text: sum.sentence(),
+        look_at: sum.look_at(),
+        alike: Vec::new(),
+    }
+}
+
+/// What is known of the numbers of these terms.
+fn parameters(fitted: &Fit, ids: &[String]) -> Vec<Estimate> {
+    let own = |e: &Estimate| {
+        ids.iter().any(|id| e.name.strip_prefix(id.as_str()).is_some_and(|rest| rest.starts_with('.')))
+    };
+    estimates(fitted).determined.into_iter().filter(own).collect()
+}
+
+/// Laws that share the probability with another.
+fn name_alike(reports: &mut [LawReport]) {
+    let shares: Vec<String> =
+        reports.iter().filter(|r| r.probability >= ALIKE).map(|r| r.id.clone()).collect();
+    for report in reports.iter_mut().filter(|r| r.probability >= ALIKE) {
+        report.alike = shares.iter().filter(|id| **id != report.id).cloned().collect();
+    }
+}

@@ -1,0 +1,263 @@
+//! Discovery: the law that no catalogue has, from files to a term file.
+//!
+//! The readings are diagnosed with the catalogue first. Where it leaves something, or where a simple law may do better than what it
+//! names, the laws of [`discovery`](crate::inference::discovery) are scanned beside the springs and beside the catalogue's own best
+//! explanations; the survivors compete with all effects of the catalogue, each set at its own optimum. Held-out poses have the last
+//! word.
+
+mod judgement;
+mod report;
+mod search;
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use hexbench_core::{Dataset, Hexapod};
+use serde::Serialize;
+
+use self::judgement::Judged;
+pub use self::report::{AllLegs, Discovery, HeldOutFall, LawLegs, LawReport};
+use self::search::{Searched, search};
+use crate::effects::term::Term;
+use crate::effects::user_term::{self, UserTermError};
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::Fit;
+use crate::inference::diagnosis::{RankedSets, explain};
+use crate::inference::selection::HeldOut;
+use crate::inference::verdict::Verdict;
+use crate::results::diagnose::{
+    Context, DiagnoseOptions, Diagnosis, DiagnosisStudy, StepReport, diagnose_with, prepare,
+};
+use crate::results::words::joined;
+
+/// What a search for laws came to, in one word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DiscoveryReason {
+    /// A law explains what is left, and held-out poses agree.
+    Law,
+    /// The springs explain the readings.
+    NothingMissing,
+    /// Effects of the catalogue explain them.
+    Catalogue,
+    /// What is wrong is in the data, or they cannot judge.
+    Readings,
+    /// Laws were weighed, and none convinces.
+    NoLawConvinces,
+}
+
+/// Everything behind a discovery.
+pub struct DiscoveryStudy {
+    /// What people read.
+    pub discovery: Discovery,
+    /// The diagnosis with the catalogue.
+    pub diagnosis: DiagnosisStudy,
+    /// The search with laws; none where there was nothing to search for.
+    pub outcome: Option<RankedSets>,
+    /// Fits of the steps.
+    pub fits: Vec<Fit>,
+    /// The best law as a term file; none without any law.
+    pub term_file: Option<String>,
+}
+
+impl DiscoveryStudy {
+    /// The law as a term, where one was found.
+    ///
+    /// # Errors
+    /// [`UserTermError`] for a file that is none, which is a mistake of this program.
+    pub fn law(&self) -> Result<Option<Arc<dyn Term>>, UserTermError> {
+        let file = self.term_file.as_deref().filter(|_| self.discovery.found);
+        file.map(user_term::parse).transpose()
+    }
+}
+
+/// Searches a law for what springs and catalogue leave; held-out poses come from `holdout`, else poses are left out in turn.
+///
+/// # Errors
+/// As [`diagnose_with`].
+pub fn discover(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    holdout: Option<&Dataset>,
+    terms: &[Arc<dyn Term>],
+    options: &DiagnoseOptions,
+) -> Result<DiscoveryStudy, ModelError> {
+    let study = diagnose_with(hexapod, data, holdout, terms, options)?;
+    let attempt = Attempts { hexapod, holdout, terms, diagnosis: &study };
+    let as_stated = attempt.as_stated(data, options)?;
+    if let Some((outcome, judged, searched)) =
+        as_stated.filter(|(_, judged, _)| judged.convinces && judged.is_at_the_noise)
+    {
+        let warnings = vec![needless(&study)];
+        let template = Discovery { searched, warnings, ..without_law(&study.diagnosis) };
+        return Ok(finished(judged.report(template), judged, Some(outcome), study));
+    }
+    match attempt.as_examined()? {
+        None => {
+            let fits = study.fits.clone();
+            let discovery = without_law(&study.diagnosis);
+            Ok(DiscoveryStudy { discovery, diagnosis: study, outcome: None, fits, term_file: None })
+        }
+        Some((outcome, judged, searched)) => {
+            let template = Discovery { searched, ..without_law(&study.diagnosis) };
+            let discovery = if judged.convinces { judged.report(template) } else { judged.ideas(template) };
+            Ok(finished(discovery, judged, Some(outcome), study))
+        }
+    }
+}
+
+fn finished(
+    discovery: Discovery,
+    judged: Judged,
+    outcome: Option<RankedSets>,
+    diagnosis: DiagnosisStudy,
+) -> DiscoveryStudy {
+    DiscoveryStudy { discovery, outcome, fits: judged.fits, term_file: judged.term_file, diagnosis }
+}
+
+/// Where a law was found.
+pub(crate) struct Source<'a> {
+    data: &'a Dataset,
+}
+
+impl Source<'_> {
+    /// Lines that a term file begins with.
+    fn comments(&self, law: &LawReport) -> Vec<String> {
+        let version = env!("CARGO_PKG_VERSION");
+        let mut lines = vec![
+            format!(
+                "Found by hexbench {version} in {}, {} readings.",
+                self.data.source,
+                self.data.observations.len()
+            ),
+            format!("Probability {:.3}.", law.probability),
+        ];
+        let held = law
+            .held_out
+            .map(|h| format!("Held-out error {:.2} -> {:.2} times the noise.", h.before, h.after));
+        lines.extend(held);
+        lines.extend(
+            law.parameters.iter().map(|p| format!("{} = {:.5} +- {:.2} {}", p.name, p.value, p.std, p.unit)),
+        );
+        lines
+    }
+}
+
+/// One way to look at the readings.
+type Attempt = (RankedSets, Judged, usize);
+
+/// The readings, looked at in two ways.
+struct Attempts<'a> {
+    hexapod: &'a Hexapod,
+    holdout: Option<&'a Dataset>,
+    terms: &'a [Arc<dyn Term>],
+    diagnosis: &'a DiagnosisStudy,
+}
+
+impl Attempts<'_> {
+    /// With every reading and the noise as stated, where the diagnosis found a fault of the data: a law that it does not know looks like
+    /// wrong loads, wrong poses or noise that readings share.
+    fn as_stated(&self, data: &Dataset, options: &DiagnoseOptions) -> Result<Option<Attempt>, ModelError> {
+        let diagnosis = &self.diagnosis.diagnosis;
+        if diagnosis.findings.is_empty() || diagnosis.is_misread() {
+            return Ok(None);
+        }
+        let meant = self.diagnosis.as_meant.as_ref().map_or(data, |meant| &*meant.data);
+        let (data, _) = options.applied(meant)?;
+        let campaign = prepare(self.machine(), &data)?;
+        if !campaign.noise.allows_verdict() {
+            return Ok(None);
+        }
+        let outcome = explain(&campaign, self.terms)?;
+        self.made(&data, &campaign, &outcome).map(Some)
+    }
+
+    /// As the diagnosis left them.
+    fn as_examined(&self) -> Result<Option<Attempt>, ModelError> {
+        let verdict = self.diagnosis.diagnosis.verdict;
+        if matches!(verdict, Verdict::Adequate | Verdict::Measurement | Verdict::Undecided) {
+            return Ok(None);
+        }
+        let DiagnosisStudy { data, campaign, outcome, .. } = self.diagnosis;
+        self.made(data, campaign, outcome).map(Some)
+    }
+
+    fn made(&self, data: &Dataset, campaign: &Campaign, outcome: &RankedSets) -> Result<Attempt, ModelError> {
+        let Searched { outcome, laws, tried } = search(campaign, outcome, self.terms)?;
+        let context =
+            Context { hexapod: self.machine(), data, holdout: self.held_out(), campaign, outcome: &outcome };
+        let judged = Judged::of(&context, &laws, &Source { data })?;
+        Ok((outcome, judged, tried))
+    }
+
+    fn machine(&self) -> &Hexapod {
+        self.diagnosis.as_meant.as_ref().map_or(self.hexapod, |meant| &meant.hexapod)
+    }
+
+    /// The readings held out, unless the diagnosis found that they are of another machine or among those fitted.
+    fn held_out(&self) -> Option<&Dataset> {
+        let meant = self.diagnosis.as_meant.as_ref().and_then(|meant| meant.holdout.as_deref());
+        meant.or(self.holdout).filter(|_| self.diagnosis.diagnosis.holdout == HeldOut::File)
+    }
+}
+
+/// What the law makes of the faults that the diagnosis saw.
+fn needless(study: &DiagnosisStudy) -> String {
+    let kinds: BTreeSet<String> =
+        study.diagnosis.findings.iter().map(|f| f.kind.title().to_owned()).collect();
+    let kinds: Vec<String> = kinds.into_iter().collect();
+    format!(
+        "without the law the readings look faulty ({}); with it all of them are explained as they stand",
+        joined(&kinds)
+    )
+}
+
+/// What there is to say without any law.
+fn without_law(diagnosis: &Diagnosis) -> Discovery {
+    let (reason, text) = reason(diagnosis);
+    Discovery {
+        format: "discovery/1",
+        found: false,
+        reason,
+        text,
+        verdict: diagnosis.verdict,
+        beside: diagnosis.added.clone(),
+        laws: Vec::new(),
+        steps: diagnosis.steps.clone(),
+        probability: 0.0,
+        searched: 0,
+        warnings: diagnosis.warnings.clone(),
+    }
+}
+
+fn reason(diagnosis: &Diagnosis) -> (DiscoveryReason, String) {
+    let at_the_noise = diagnosis.steps.last().is_some_and(StepReport::is_at_the_noise);
+    let (reason, text) = match diagnosis.verdict {
+        Verdict::Adequate => (
+            DiscoveryReason::NothingMissing,
+            "nothing is missing: the springs explain the readings to within the noise",
+        ),
+        Verdict::Measurement => (
+            DiscoveryReason::Readings,
+            "what is wrong is in the data, not in the machine: see the findings of `hexbench diagnose`",
+        ),
+        Verdict::Undecided => {
+            (DiscoveryReason::Readings, "these readings cannot tell whether anything is missing")
+        }
+        Verdict::Named | Verdict::Ambiguous if at_the_noise && !diagnosis.added.is_empty() => {
+            return (
+                DiscoveryReason::Catalogue,
+                format!("the catalogue explains it: {}", joined(&diagnosis.added)),
+            );
+        }
+        Verdict::Named | Verdict::Ambiguous if at_the_noise => (
+            DiscoveryReason::Catalogue,
+            "the catalogue explains it, in more than one way: see `hexbench diagnose`",
+        ),
+        Verdict::Named | Verdict::Ambiguous | Verdict::Outside => {
+            (DiscoveryReason::NoLawConvinces, "something is missing, and no law of those searched convinces")
+        }
+    };
+    (reason, text.to_owned())
+}
