@@ -41,7 +41,7 @@ use crate::TrialError;
 
 /// Noise stated to the fit of ideal readings: so small that it goes on until its steps are rounding, and that no prior is
 /// heard.
-const NO_NOISE: Metrology = Metrology { sigma_translation: 1e-12, sigma_rotation: 6e-12 };
+pub(crate) const NO_NOISE: Metrology = Metrology { sigma_translation: 1e-12, sigma_rotation: 6e-12 };
 /// Roundings of one leg length between world and model: pose, rotation, frames, closure.
 const ROUNDINGS: f64 = 64.0;
 
