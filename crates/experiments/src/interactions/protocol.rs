@@ -31,7 +31,12 @@ impl InteractionsProtocol {
         let all = effects();
         let pairs = all.iter().enumerate().flat_map(|(i, a)| all[i + 1..].iter().map(move |b| vec![*a, *b]));
         let alone = all.iter().map(|a| vec![*a]);
-        let drawn = (0..triples).map(|n| triple(&all, seed, n));
+        let mut drawn: Vec<Vec<&'static str>> = Vec::new();
+        let mut numbers = 0..;
+        while drawn.len() < triples {
+            let next = numbers.next().map(|n| triple(&all, seed, n)).filter(|t| !drawn.contains(t));
+            drawn.extend(next);
+        }
         Self { seed, sets: alone.chain(pairs).chain(drawn).collect() }
     }
 
@@ -48,8 +53,8 @@ fn effects() -> Vec<&'static str> {
 }
 
 /// Three different effects in the order of the catalogue.
-fn triple(all: &[&'static str], seed: u64, number: usize) -> Vec<&'static str> {
-    let mut rng = stream(seed, Purpose::InteractionTriple, [number as u64]);
+fn triple(all: &[&'static str], seed: u64, number: u64) -> Vec<&'static str> {
+    let mut rng = stream(seed, Purpose::InteractionTriple, [number]);
     let mut left: Vec<usize> = (0..all.len()).collect();
     let mut chosen: Vec<usize> = (0..3).map(|_| left.swap_remove(rng.random_range(0..left.len()))).collect();
     chosen.sort_unstable();

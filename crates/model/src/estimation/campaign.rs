@@ -7,21 +7,20 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use hexbench_core::{
-    Approach, Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, Observation, Pose, StatedTolerances,
-    Vector3, Vector6, Wrench,
+    Approach, Columns, Dataset, Hexapod, Matrix6, Measurand, Observation, Pose, StatedTolerances, Vector3,
+    Vector6, Wrench,
 };
 use nalgebra::{DMatrix, Rotation3};
 
-use crate::effects::chain::Action;
 use crate::error::ModelError;
+use crate::estimation::equilibrium::Tangent;
 use crate::estimation::frames::{Frames, ReadingAxes};
 use crate::estimation::noise::{
     Noise, NoiseLevel, NoiseSource, SharedReference, Structure, stated_or_repeated,
 };
-use crate::estimation::parallel::try_map;
 use crate::estimation::whitening::Inexact;
 use crate::machine::geometry::Machine;
-use crate::machine::kinematics::{Legs, euler_rate_matrix};
+use crate::machine::kinematics::Legs;
 
 /// Readings that share pose, loads, approach, temperature and time, averaged.
 #[derive(Debug, Clone)]
@@ -55,12 +54,18 @@ pub struct Condition {
     pub wrench: Wrench,
     /// Wrench in the reference state.
     pub reference: Wrench,
-    /// Forces in the leg springs under the load, N, tension positive: the leg forces less what friction holds.
+    /// What acts in the reference state and under the load, and where.
+    pub states: [LoadState; 2],
+    /// Forces in the legs under the load, N, tension positive: what nothing beside the legs holds.
     pub force: Vector6,
-    /// Forces in the leg springs in the reference state, N.
+    /// Forces in the legs in the reference state, N.
     pub reference_force: Vector6,
+    /// Change of the forces in the leg springs, N: of the leg forces, less what friction holds.
+    pub spring_change: Vector6,
     /// Leg forces along the way to the reading.
     pub path: LoadPath,
+    /// How the structure yields about these forces.
+    pub tangent: Tangent,
     /// How the load was reached.
     pub approach: Approach,
     /// Temperature difference, K.
@@ -73,6 +78,17 @@ pub struct Condition {
     pub observer: Matrix6,
     /// 1 / sigma of each averaged value.
     pub weight: Vector6,
+}
+
+/// What acts on the platform in one state. Fixed frame, SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadState {
+    /// Where the platform is, to second order in the deflection.
+    pub pose: Pose,
+    /// The wrench `[F; M]` that acts at its origin, fixed axes: offsets and tilts of the load included.
+    pub wrench: Vector6,
+    /// Unit vectors along the legs, from base joint to platform joint.
+    pub directions: [Vector3; 6],
 }
 
 /// Leg forces (N, tension positive) along the way from the unloaded machine to the reading.
@@ -135,6 +151,30 @@ impl Condition {
         self.observer.try_inverse().map_or_else(Vector6::zeros, |h| h * reading)
     }
 
+    /// Sets the forces in the legs (N) in the reference state and under the load; the largest ones on the way as the load is exceeded.
+    pub fn set_forces(&mut self, [reference, load]: [Vector6; 2], limits: &Vector6) {
+        let extreme = match self.approach {
+            Approach::Direct => load,
+            Approach::Overloaded => reference + Approach::OVERLOAD * (load - reference),
+        };
+        self.set_path(LoadPath { reference, extreme, load }, limits);
+    }
+
+    /// Sets the forces in the legs, and with them those in the springs, beside which friction holds up to `limits` (N).
+    pub fn set_path(&mut self, path: LoadPath, limits: &Vector6) {
+        (self.reference_force, self.force, self.path) = (path.reference, path.load, path);
+        self.spring_change = Vector6::from_fn(|leg, _| {
+            let [rest, loaded] = self.path.spring_forces(leg, limits[leg].max(0.0));
+            loaded - rest
+        });
+    }
+
+    /// Change of the pull of a leg on its base joint between reference and load, fixed axes, N.
+    pub fn pull_change(&self, leg: usize) -> Vector3 {
+        let [reference, loaded] = &self.states;
+        loaded.directions[leg] * self.force[leg] - reference.directions[leg] * self.reference_force[leg]
+    }
+
     /// Change of leg force between reference and load, N.
     pub fn force_change(&self) -> Vector6 {
         self.force - self.reference_force
@@ -150,11 +190,6 @@ impl Condition {
         -self.legs.forces(&(wrench * self.force[leg]))
     }
 
-    /// The leg forces that an extra force and moment at the mobile origin add. Fixed axes, N and N m.
-    pub fn wrench_action(&self, force: &Vector3, moment: &Vector3) -> Action {
-        let wrench = Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
-        Action::Force(self.legs.forces(&wrench))
-    }
 }
 
 impl Campaign {
@@ -317,125 +352,6 @@ impl Campaign {
     pub fn is_absolute(&self) -> bool {
         self.measurand == Measurand::AbsolutePose
     }
-
-    /// Conditions of this campaign on a machine whose legs have these compliances (m/N).
-    ///
-    /// # Errors
-    /// [`ModelError::SingularPose`] for the first pose in file order that is singular.
-    pub fn conditions(&self, machine: &Machine, springs: &Vector6) -> Result<Vec<Condition>, ModelError> {
-        try_map(&self.groups, |g| self.condition(machine, springs, g))
-    }
-
-    fn condition(
-        &self,
-        machine: &Machine,
-        springs: &Vector6,
-        group: &ConditionReadings,
-    ) -> Result<Condition, ModelError> {
-        let o = &group.mean;
-        let stance = if self.is_absolute() {
-            Stance::measured(machine, o)?
-        } else {
-            Stance::deflected(machine, springs, o, self.measurand)?
-        };
-        let commanded_lengths = machine.commanded_lengths(&o.pose);
-        let legs = stance.legs;
-        let observer = self.observer(machine, &stance.pose, &o.measured);
-        let reading = if self.is_absolute() {
-            // Exact closure at the measured pose: no forward kinematics is needed.
-            observer * legs.platform_jacobian * (legs.lengths - commanded_lengths)
-        } else {
-            Vector6::from_column_slice(&o.measured)
-        };
-        let change = stance.force - stance.reference_force;
-        let extreme = match o.approach {
-            Approach::Direct => stance.force,
-            Approach::Overloaded => stance.reference_force + Approach::OVERLOAD * change,
-        };
-        let path = LoadPath { reference: stance.reference_force, extreme, load: stance.force };
-        let springs_at: [[f64; 2]; 6] =
-            std::array::from_fn(|leg| path.spring_forces(leg, machine.friction_limits[leg].max(0.0)));
-        Ok(Condition {
-            pose: stance.pose,
-            commanded_lengths,
-            extension: commanded_lengths - machine.home_lengths,
-            wrench: o.wrench,
-            reference: if self.is_absolute() { Wrench::default() } else { o.reference },
-            force: Vector6::from_fn(|leg, _| springs_at[leg][1]),
-            reference_force: Vector6::from_fn(|leg, _| springs_at[leg][0]),
-            path,
-            approach: o.approach,
-            delta_t: o.delta_t,
-            elapsed: o.elapsed,
-            reading,
-            observer,
-            weight: Vector6::from_fn(|k, _| 1.0 / group.sigma[k]),
-            legs,
-        })
-    }
-
-    /// Measured coordinates from the geometric twist: Euler differences for Euler readings, and the lever arm of
-    /// the target in absolute mode.
-    fn observer(&self, machine: &Machine, pose: &Pose, measured: &[f64; 6]) -> Matrix6 {
-        match self.measurand {
-            Measurand::DeflectionRotationVector => return Matrix6::identity(),
-            Measurand::DeflectionEuler => {
-                let rates = ReadingAxes::default().rates(&pose.to_array());
-                return observer_matrix(&Matrix3::identity(), &Vector3::zeros(), &rates);
-            }
-            Measurand::AbsolutePose => {}
-        }
-        let lever = pose.rotation() * machine.target_frame.translation.vector;
-        let axes = *machine.metrology_frame.rotation.to_rotation_matrix().matrix();
-        observer_matrix(&axes, &lever, &self.axes.rates(measured))
-    }
-}
-
-/// Where the legs stand and what they carry.
-struct Stance {
-    pose: Pose,
-    legs: Legs,
-    force: Vector6,
-    reference_force: Vector6,
-}
-
-impl Stance {
-    /// Absolute mode: the measured pose, brought back to the platform, is the loaded pose.
-    fn measured(machine: &Machine, o: &Observation) -> Result<Self, ModelError> {
-        let pose = machine.platform_pose(&Pose::from_array(o.measured));
-        let legs = machine.legs(&pose)?;
-        let force = legs.forces(&machine.effective_wrench(&o.wrench, &pose));
-        // A pose is measured against nothing: its reference is the unloaded machine.
-        Ok(Self { pose, legs, force, reference_force: Vector6::zeros() })
-    }
-
-    /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
-    /// the finite deflection is of third order. The reference pose is the commanded one plus the small deflection that
-    /// the springs give it; the loaded pose lies a measured deflection further.
-    fn deflected(
-        machine: &Machine,
-        springs: &Vector6,
-        o: &Observation,
-        measurand: Measurand,
-    ) -> Result<Self, ModelError> {
-        let commanded = machine.legs(&o.pose)?;
-        let reference_wrench = machine.effective_wrench(&o.reference, &o.pose);
-        let sag = commanded.platform_jacobian * springs.component_mul(&commanded.forces(&reference_wrench));
-        let reference = moved(&o.pose, &sag, 1.0);
-        let mut motion = Vector6::from_column_slice(&o.measured);
-        if measurand == Measurand::DeflectionEuler {
-            let rotation = euler_rate_matrix(&o.pose.angles) * motion.fixed_rows::<3>(3);
-            motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
-        }
-        let pose = moved(&reference, &motion, 0.5);
-        let legs = machine.legs(&pose)?;
-        Ok(Self {
-            force: machine.forces_near(&legs, &moved(&reference, &motion, 1.0), &o.wrench),
-            reference_force: machine.forces_near(&legs, &reference, &o.reference),
-            pose,
-            legs,
-        })
-    }
 }
 
 /// A pose after a share of a small geometric twist; the same motion in whatever axes it is written.
@@ -443,15 +359,6 @@ pub(crate) fn moved(pose: &Pose, twist: &Vector6, share: f64) -> Pose {
     let turn = Rotation3::new(share * twist.fixed_rows::<3>(3));
     let translation = pose.translation + share * twist.fixed_rows::<3>(0);
     Pose::from_rotation(translation, &(turn.matrix() * pose.rotation()))
-}
-
-/// `diag(I, rates) diag(axes, axes) [I, -[lever]x; 0, I]`.
-fn observer_matrix(axes: &Matrix3, lever: &Vector3, rates: &Matrix3) -> Matrix6 {
-    let mut h = Matrix6::zeros();
-    h.fixed_view_mut::<3, 3>(0, 0).copy_from(axes);
-    h.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-axes * lever.cross_matrix()));
-    h.fixed_view_mut::<3, 3>(3, 3).copy_from(&(rates * axes));
-    h
 }
 
 impl ConditionReadings {

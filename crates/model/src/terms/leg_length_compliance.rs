@@ -28,6 +28,6 @@ impl Term for LegLengthCompliance {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        out.push(Action::Elongation(at.extension.component_mul(&at.force_change())));
+        out.push(Action::Elongation(at.extension.component_mul(&at.spring_change)));
     }
 }

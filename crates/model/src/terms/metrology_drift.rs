@@ -2,7 +2,7 @@
 //!
 //! What drifts are the numbers as the file states them: three coordinates, and three Euler angles or a rotation vector.
 
-use hexbench_core::Matrix6;
+use hexbench_core::Vector6;
 
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Scale, Term, TermInfo};
@@ -43,8 +43,6 @@ impl Term for MetrologyDrift {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        // The motion of the platform that would read like the drift.
-        let motion = at.observer.try_inverse().unwrap_or_else(Matrix6::identity) * at.elapsed;
-        out.extend(motion.column_iter().map(|c| Action::Twist(c.into_owned())));
+        out.extend((0..6).map(|k| Action::Reading(Vector6::ith(k, at.elapsed))));
     }
 }

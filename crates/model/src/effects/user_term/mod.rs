@@ -27,7 +27,7 @@ mod variables;
 use std::path::Path;
 use std::sync::Arc;
 
-use hexbench_core::{Vector3, Vector6};
+use hexbench_core::Vector6;
 use thiserror::Error;
 
 use crate::effects::chain::Action;
@@ -312,10 +312,7 @@ impl Term for UserTerm {
             let vector = self.vector(machine, at, k, shape);
             out.push(match &self.effect {
                 Effect::Elongation(_) => Action::Elongation(vector),
-                Effect::Wrench(_) => at.wrench_action(
-                    &Vector3::new(vector[0], vector[1], vector[2]),
-                    &Vector3::new(vector[3], vector[4], vector[5]),
-                ),
+                Effect::Wrench(_) => Action::Wrench(vector),
             });
         }
     }
