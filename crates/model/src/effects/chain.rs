@@ -134,7 +134,7 @@ impl Load {
     /// Elongation of the legs between reference and load at the forces of a condition, m, displacements of their joints along them
     /// included; the springs have compliances `c`.
     pub(crate) fn stretch(&self, at: &Condition, springs: &Vector6) -> Vector6 {
-        let own = springs.component_mul(&(at.spring_change + self.force)) + self.elongation;
+        let own = springs.component_mul(&(at.spring_change() + self.force)) + self.elongation;
         self.shift.map_or(own, |shift| own + along(at, &shift))
     }
 
@@ -280,7 +280,7 @@ impl Link {
             }
         };
         Self {
-            force: condition.spring_change + load.force,
+            force: condition.spring_change() + load.force,
             motion: elastic + load.twist(),
             added: load.reading.component_mul(&condition.weight),
             reader,

@@ -60,8 +60,8 @@ pub struct Condition {
     pub force: Vector6,
     /// Forces in the legs in the reference state, N.
     pub reference_force: Vector6,
-    /// Change of the forces in the leg springs, N: of the leg forces, less what friction holds.
-    pub spring_change: Vector6,
+    /// Forces in the leg springs in the two states, N: the leg forces, less what friction holds.
+    pub spring_forces: [Vector6; 2],
     /// Leg forces along the way to the reading.
     pub path: LoadPath,
     /// How the structure yields about these forces.
@@ -89,6 +89,8 @@ pub struct LoadState {
     pub wrench: Vector6,
     /// Unit vectors along the legs, from base joint to platform joint.
     pub directions: [Vector3; 6],
+    /// Lengths of the legs, m.
+    pub lengths: Vector6,
 }
 
 /// Leg forces (N, tension positive) along the way from the unloaded machine to the reading.
@@ -163,16 +165,20 @@ impl Condition {
     /// Sets the forces in the legs, and with them those in the springs, beside which friction holds up to `limits` (N).
     pub fn set_path(&mut self, path: LoadPath, limits: &Vector6) {
         (self.reference_force, self.force, self.path) = (path.reference, path.load, path);
-        self.spring_change = Vector6::from_fn(|leg, _| {
-            let [rest, loaded] = self.path.spring_forces(leg, limits[leg].max(0.0));
-            loaded - rest
-        });
+        let of_leg: [[f64; 2]; 6] =
+            std::array::from_fn(|leg| path.spring_forces(leg, limits[leg].max(0.0)));
+        self.spring_forces = [0, 1].map(|state| Vector6::from_fn(|leg, _| of_leg[leg][state]));
     }
 
     /// Change of the pull of a leg on its base joint between reference and load, fixed axes, N.
     pub fn pull_change(&self, leg: usize) -> Vector3 {
         let [reference, loaded] = &self.states;
         loaded.directions[leg] * self.force[leg] - reference.directions[leg] * self.reference_force[leg]
+    }
+
+    /// Change of the forces in the leg springs between reference and load, N.
+    pub fn spring_change(&self) -> Vector6 {
+        self.spring_forces[1] - self.spring_forces[0]
     }
 
     /// Change of leg force between reference and load, N.

@@ -148,7 +148,7 @@ fn standing(machine: &Machine, o: &Observation, pose: Pose, legs: Legs, states: 
         states,
         force: none,
         reference_force: none,
-        spring_change: none,
+        spring_forces: [none; 2],
         path: LoadPath { reference: none, extreme: none, load: none },
         tangent: Tangent::default(),
         approach: o.approach,
@@ -165,7 +165,7 @@ fn standing(machine: &Machine, o: &Observation, pose: Pose, legs: Legs, states: 
 fn measured(machine: &Machine, o: &Observation) -> Result<Condition, ModelError> {
     let pose = machine.platform_pose(&Pose::from_array(o.measured));
     let legs = machine.legs(&pose)?;
-    let state = |wrench| LoadState { pose, wrench, directions: legs.directions };
+    let state = |wrench| LoadState { pose, wrench, directions: legs.directions, lengths: legs.lengths };
     let states = [Vector6::zeros(), machine.effective_wrench(&o.wrench, &pose)].map(state);
     let o = Observation { reference: Wrench::default(), ..*o };
     let mut at = standing(machine, &o, pose, legs, states);
@@ -235,8 +235,10 @@ impl Structure<'_> {
         let state = |pose: &Pose, wrench: &Wrench, displaced: &JointDisplacement| {
             let wrench = machine.effective_wrench(wrench, pose);
             let [base, platform] = displaced.joints(machine, pose);
-            let (force, directions) = forces_near(&legs, &base, &platform, pose, &wrench);
-            (force, LoadState { pose: *pose, wrench, directions })
+            let (force, spans) = forces_near(&legs, &base, &platform, pose, &wrench);
+            let lengths = Vector6::from_fn(|leg, _| spans[leg].norm());
+            let directions = std::array::from_fn(|leg| spans[leg] / lengths[leg]);
+            (force, LoadState { pose: *pose, wrench, directions, lengths })
         };
         let before = state(reference, &o.reference, &displaced[0]);
         let after = state(loaded, &o.wrench, &displaced[1]);
@@ -266,6 +268,7 @@ impl Structure<'_> {
             pose: o.pose,
             wrench,
             directions: legs.directions,
+            lengths: legs.lengths,
         });
         let mut at = standing(self.machine, &o, o.pose, legs, states);
         at.set_forces([Vector6::zeros(), force], &self.machine.friction_limits);

@@ -44,7 +44,7 @@ impl Legs {
     }
 }
 
-/// Leg forces (N) and leg directions at a pose a small deflection away from known legs: one step of refinement on `L' f = W`, whose error is
+/// Leg forces (N) and vectors from base joint to platform joint (m) at a pose a small deflection away from known legs: one step of refinement on `L' f = W`, whose error is
 /// of second order in the change of the Jacobian.
 pub fn forces_near(
     known: &Legs,
@@ -56,14 +56,15 @@ pub fn forces_near(
     let rotation = pose.rotation();
     let first = known.forces(wrench);
     let mut unbalanced = *wrench;
-    let directions = std::array::from_fn(|leg| {
+    let spans = std::array::from_fn(|leg| {
         let arm = rotation * platform[leg];
-        let direction = (pose.translation + arm - base[leg]).normalize();
+        let span = pose.translation + arm - base[leg];
+        let direction = span.normalize();
         let (pull, moment) = (direction * first[leg], arm.cross(&direction) * first[leg]);
         unbalanced -= Vector6::new(pull.x, pull.y, pull.z, moment.x, moment.y, moment.z);
-        direction
+        span
     });
-    (first + known.forces(&unbalanced), directions)
+    (first + known.forces(&unbalanced), spans)
 }
 
 /// Leg lengths only, m: `q_i = |t + R B_i - A_i|`.
