@@ -99,6 +99,7 @@ impl Protocol for InteractionsProtocol {
             number("parameter_bound", "what it may be", |r| r.parameter.bound),
             Field::text("parameter", "its name", |r: &InteractionRecord| r.name.clone()),
             number("open", "numbers that the data leave open", |r| r.open as f64),
+            number("resting", "readings in which a leg rests within its play", |r| r.resting as f64),
         ]
     }
 }

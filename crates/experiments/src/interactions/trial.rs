@@ -2,19 +2,21 @@
 
 use std::sync::Arc;
 
+use hexbench_core::Observation;
 use hexbench_core::streams::{Purpose, derived_seed};
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::fit_named::fit_named;
+use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::terms::catalogue;
-use hexbench_truth::campaign::{CaseKind, CaseSpec, PlanKind};
+use hexbench_truth::campaign::{CaseKind, CaseSpec, PlanKind, PlanRow};
 use hexbench_truth::metrology::InstrumentNoise;
 use serde::{Deserialize, Serialize};
 
 use crate::TrialError;
-use crate::recovery::noiseless::{Bounded, NO_NOISE};
-use crate::recovery::pulls::{Known, PullGroup, known, pulls};
+use crate::recovery::noiseless::{Bounded, NO_NOISE, linearisation_error};
+use crate::recovery::pulls::{Known, Pull, PullGroup, known, pulls};
 use crate::recovery::scene::RecoveryCampaign;
 
 /// Largest relative error of a leg stiffness.
@@ -41,6 +43,8 @@ pub struct InteractionRecord {
     pub name: String,
     /// Numbers that the data leave open.
     pub open: usize,
+    /// Readings in which a leg carries nothing and rests anywhere within its play.
+    pub resting: usize,
 }
 
 impl InteractionRecord {
@@ -49,20 +53,25 @@ impl InteractionRecord {
         let scene = scene(set, size, seed)?;
         let campaign = Campaign::new(&scene.hexapod_stating(Some(NO_NOISE)), &scene.ideal_of_same_form()?)?;
         let fit = fit_named(&campaign, &terms(set))?;
-        Ok(Self::compared(set, size, &scene, &fit))
+        let lin = Linearization::at(&campaign, &fit.point)?;
+        let second_order = linearisation_error(&lin, &fit, &campaign.groups);
+        Ok(Self::compared(set, size, &scene, &fit, second_order))
     }
 
-    fn compared(set: &[&'static str], size: f64, scene: &RecoveryCampaign, fit: &Fit) -> Self {
+    /// `second_order`: length of the error that the second order of the deflection leaves in the whitened readings.
+    fn compared(
+        set: &[&'static str],
+        size: f64,
+        scene: &RecoveryCampaign,
+        fit: &Fit,
+        second_order: f64,
+    ) -> Self {
         let truths = known(scene, fit);
         let found = pulls(scene, fit);
-        let error = |p: &crate::recovery::pulls::Pull| {
-            (p.estimate.value - p.known.value).abs() / measure(&p.known, &truths)
-        };
-        let worst = |stiffness: bool, bound: f64| {
+        let worst = |stiffness: bool, least: f64| {
             let own = found.iter().filter(|p| (p.known.group == PullGroup::Stiffness) == stiffness);
-            own.map(|p| (Bounded { error: error(p), bound }, p.known.name.clone()))
-                .reduce(|a, b| if a.0.worse(b.0) == a.0 { a } else { b })
-                .unwrap_or((Bounded { error: 0.0, bound }, String::new()))
+            let bounded = own.map(|p| (bounded(p, &truths, least, second_order), p.known.name.clone()));
+            bounded.reduce(|a, b| if a.0.worse(b.0) == a.0 { a } else { b }).unwrap_or_default()
         };
         let (parameter, name) = worst(false, LARGEST_PARAMETER_ERROR);
         Self {
@@ -72,12 +81,22 @@ impl InteractionRecord {
             parameter,
             name,
             open: truths.len() - found.len(),
+            resting: resting(scene),
         }
     }
 
     /// True when every number is known and within its bound.
     pub fn holds(&self) -> bool {
         self.open == 0 && self.stiffness.holds() && self.parameter.holds()
+    }
+}
+
+/// Relative error of a number; `least` is allowed in any case, and what errors of that length in all readings can do to it.
+fn bounded(pull: &Pull, truths: &[Known], least: f64, second_order: f64) -> Bounded {
+    let measure = measure(&pull.known, truths);
+    Bounded {
+        error: (pull.estimate.value - pull.known.value).abs() / measure,
+        bound: least.max(pull.estimate.std * second_order / measure),
     }
 }
 
@@ -114,4 +133,13 @@ fn scene(set: &[&'static str], size: f64, seed: u64) -> Result<RecoveryCampaign,
         *mechanism = mechanism.scaled(size);
     }
     Ok(RecoveryCampaign { case })
+}
+
+/// Readings in which a leg rests within its play: a state that the model, whose legs push or pull, does not have.
+fn resting(scene: &RecoveryCampaign) -> usize {
+    let world = &scene.case.campaign.world;
+    let rests = |o: &&Observation| {
+        world.reading(&PlanRow::from(*o).situation).is_ok_and(|r| r.equilibrium.forces.contains(&0.0))
+    };
+    scene.case.measurements.observations.iter().filter(rests).count()
 }

@@ -18,7 +18,7 @@
 use hexbench_core::{Matrix6, Pose, Vector3, Vector6};
 
 use crate::estimation::campaign::Condition;
-use crate::estimation::equilibrium::against;
+use crate::estimation::equilibrium::{Tangent, against, compliance};
 use crate::machine::bending;
 use crate::machine::geometry::Machine;
 use crate::machine::kinematics::Legs;
@@ -238,6 +238,8 @@ fn along(at: &Condition, shift: &[Vector3; 6]) -> Vector6 {
 pub struct Link {
     /// `phi`, N.
     force: Vector6,
+    /// Motion of the legs' platform against their base, geometric twist.
+    elastic: Vector6,
     /// Motion of the platform, geometric twist.
     motion: Vector6,
     /// What the instrument adds, whitened.
@@ -249,14 +251,10 @@ pub struct Link {
     /// `(I + S K)^-1 J`.
     legs_to_motion: Matrix6,
     springs: Vector6,
-    /// Tangent compliances of the legs in the reference state and under the load.
-    compliance: [Matrix6; 2],
-    /// Motion of the legs' platform against their base in the same states, geometric twists.
-    of_legs: [Vector6; 2],
     /// Stiffness of the joints against turns of their leg.
     bending: Option<[f64; 2]>,
-    /// Displacements of the base joints in the two states; none where nothing displaces them.
-    shift: Option<[[Vector3; 6]; 2]>,
+    /// Displacement of the base joints between reference and load.
+    shift: Option<[Vector3; 6]>,
     /// Relief by K beyond what the forces have already, N.
     relief: Vector6,
 }
@@ -264,36 +262,32 @@ pub struct Link {
 impl Link {
     /// The chain of a condition under compliances `springs` (m/N) and the summed actions `load`.
     pub fn at(condition: &Condition, springs: &Vector6, load: &Load) -> Self {
-        let (j, tangent) = (condition.legs.platform_jacobian, &condition.tangent);
+        let j = condition.legs.platform_jacobian;
         let stretch = load.stretch(condition, springs);
         let bare_reader = whitened(condition);
         let reader = load.target.map_or(bare_reader, |d| bare_reader * (Matrix6::identity() + d));
-        let compliance = [tangent.reference(springs), tangent.loaded(springs)];
         let (legs_to_motion, elastic, relief) = match load.beside(condition) {
             None => (j, j * stretch, Vector6::zeros()),
             Some(beside) => {
-                let legs_to_motion = against(&j, &compliance[1], &beside.stiffness) * j;
+                let compliance = compliance(condition, springs, |t| t.loaded);
+                let legs_to_motion = against(&j, &compliance, &beside.stiffness) * j;
                 let held = |motion: &Vector6| beside.held(&condition.legs, motion, load.shift.as_ref());
-                let assumed = tangent.relief - j.tr_mul(&held(&Vector6::zeros()));
-                let elastic = legs_to_motion * (stretch + compliance[1] * assumed);
-                (legs_to_motion, elastic, j.tr_mul(&held(&elastic)) - tangent.relief)
+                let assumed = condition.relief - j.tr_mul(&held(&Vector6::zeros()));
+                let elastic = legs_to_motion * (stretch + compliance * assumed);
+                (legs_to_motion, elastic, j.tr_mul(&held(&elastic)) - condition.relief)
             }
         };
         Self {
             force: condition.spring_change() + load.force,
+            elastic,
             motion: elastic + load.twist(),
             added: load.reading.component_mul(&condition.weight),
             reader,
             bare_reader,
             legs_to_motion,
             springs: *springs,
-            compliance,
             bending: load.bending,
-            shift: load.shift.map(|change| {
-                let before = tangent.shift.unwrap_or_default();
-                [before, std::array::from_fn(|leg| before[leg] + change[leg])]
-            }),
-            of_legs: [tangent.sag, tangent.sag + elastic],
+            shift: load.shift,
             relief,
         }
     }
@@ -316,39 +310,54 @@ impl Link {
     /// Derivative of the whitened reading by a parameter with this action.
     pub fn by_action(&self, condition: &Condition, action: &Action) -> Vector6 {
         let by_stretch = |e: &Vector6| self.legs_to_motion * e;
-        let by_force = |f: &Vector6| self.legs_to_motion * (self.compliance[1] * f);
+        let by_force = |f: &Vector6| self.legs_to_motion * self.yielding(condition, |t| &t.loaded, f);
         let j = &condition.legs.platform_jacobian;
         match action {
             Action::Force(f) => self.reader * by_stretch(&self.springs.component_mul(f)),
-            Action::Wrench(w) => self.reader * (by_force(&j.tr_mul(w)) + condition.tangent.series * w),
+            Action::Wrench(w) => {
+                let series = condition.tangent.as_ref().map_or_else(Vector6::zeros, |t| t.series * w);
+                self.reader * (by_force(&j.tr_mul(w)) + series)
+            }
             Action::Elongation(e) => self.reader * by_stretch(e),
-            Action::Base(x) | Action::Plate(x) => self.reader * x,
             Action::Shift(a) => {
                 let bent = self.bending.map(|k| j.tr_mul(&bending::wrench(&condition.legs, k, a)));
-                self.reader * (by_stretch(&along(condition, a)) + bent.map_or_else(Vector6::zeros, |f| by_force(&f)))
+                let turned = bent.map_or_else(Vector6::zeros, |f| by_force(&f));
+                self.reader * (by_stretch(&along(condition, a)) + turned)
             }
+            Action::Base(x) | Action::Plate(x) => self.reader * x,
             Action::Joint { elongation, force } => self.reader * (by_stretch(elongation) + by_force(force)),
             Action::Frame { twist, force } => self.reader * (twist + by_force(force)),
             Action::Target(d) => self.bare_reader * (d * self.motion),
             Action::Reading(y) => y.component_mul(&condition.weight),
-            Action::Stiffness(k) => self.reader * self.relieved(j, self.of_legs.map(|motion| k * motion)),
+            Action::Stiffness(k) => {
+                let beside = BesideLegs { stiffness: *k, bending: [0.0; 2] };
+                self.reader * self.relieved(condition, &beside)
+            }
             Action::Bending(k) => {
-                let (legs, matrix) = (&condition.legs, bending::stiffness(&condition.legs, *k));
-                let held = |s: usize| {
-                    let by_shift = self.shift.map(|shift| bending::wrench(legs, *k, &shift[s]));
-                    matrix * self.of_legs[s] - by_shift.unwrap_or_default()
-                };
-                self.reader * self.relieved(j, [held(0), held(1)])
+                let beside = BesideLegs { stiffness: bending::stiffness(&condition.legs, *k), bending: *k };
+                self.reader * self.relieved(condition, &beside)
             }
         }
     }
-}
 
-impl Link {
-    /// Motion of the platform when these wrenches are taken off the legs in the two states.
-    fn relieved(&self, j: &Matrix6, [reference, loaded]: [Vector6; 2]) -> Vector6 {
-        let less = self.compliance[1] * j.tr_mul(&loaded) - self.compliance[0] * j.tr_mul(&reference);
-        -(self.legs_to_motion * less)
+    /// Elongations of the legs by a change of their forces, by a tangent of a condition.
+    fn yielding(&self, at: &Condition, of: fn(&Tangent) -> &Matrix6, force: &Vector6) -> Vector6 {
+        at.tangent.as_deref().map_or_else(|| self.springs.component_mul(force), |t| of(t) * force)
+    }
+
+    /// Motion of the platform when something more stands beside the legs.
+    fn relieved(&self, at: &Condition, beside: &BesideLegs) -> Vector6 {
+        let before = at.tangent.as_ref().map(|t| t.shift);
+        let after = self.shift.map(|change| {
+            let before = before.unwrap_or_default();
+            std::array::from_fn(|leg| before[leg] + change[leg])
+        });
+        let held = |motion: &Vector6, shift: Option<&[Vector3; 6]>| {
+            at.legs.platform_jacobian.tr_mul(&beside.held(&at.legs, motion, shift))
+        };
+        let loaded = self.yielding(at, |t| &t.loaded, &held(&(at.sag + self.elastic), after.as_ref()));
+        let reference = self.yielding(at, |t| &t.reference, &held(&at.sag, before.as_ref()));
+        -(self.legs_to_motion * (loaded - reference))
     }
 }
 

@@ -64,8 +64,12 @@ pub struct Condition {
     pub spring_forces: [Vector6; 2],
     /// Leg forces along the way to the reading.
     pub path: LoadPath,
-    /// How the structure yields about these forces.
-    pub tangent: Tangent,
+    /// Motion of the legs' platform against their base in the reference state, geometric twist.
+    pub sag: Vector6,
+    /// Change of leg force between reference and load that stands beside the legs and that the forces here are without, N.
+    pub relief: Vector6,
+    /// How the structure yields about these forces; none: by its springs alone.
+    pub tangent: Option<Box<Tangent>>,
     /// How the load was reached.
     pub approach: Approach,
     /// Temperature difference, K.

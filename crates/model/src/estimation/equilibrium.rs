@@ -34,30 +34,23 @@ const STEP: f64 = 1e-6;
 /// How the structure yields about the forces it carries.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Tangent {
-    /// Leg elongations by leg forces under the load, m/N (6x6); none: the springs alone.
-    pub loaded: Option<Matrix6>,
+    /// Leg elongations by leg forces under the load, m/N (6x6).
+    pub loaded: Matrix6,
     /// The same by those in the reference state.
-    pub reference: Option<Matrix6>,
+    pub reference: Matrix6,
     /// Twist of what yields in series with all legs by the wrench at the mobile origin (6x6), fixed axes.
     pub series: Matrix6,
-    /// Motion of the legs' platform against their base in the reference state, geometric twist.
-    pub sag: Vector6,
-    /// Displacement of the base joints on their brackets in the reference state, fixed axes, m; none where nothing displaces them.
-    pub shift: Option<[Vector3; 6]>,
-    /// Change of leg force between reference and load that stands beside the legs, N: `J' K d` as the forces have it.
-    pub relief: Vector6,
+    /// Displacement of the base joints on their brackets in the reference state, fixed axes, m.
+    pub shift: [Vector3; 6],
 }
 
-impl Tangent {
-    /// [`Tangent::loaded`] beside springs of these compliances.
-    pub(crate) fn loaded(&self, springs: &Vector6) -> Matrix6 {
-        self.loaded.unwrap_or_else(|| Matrix6::from_diagonal(springs))
-    }
-
-    /// [`Tangent::reference`] beside springs of these compliances.
-    pub(crate) fn reference(&self, springs: &Vector6) -> Matrix6 {
-        self.reference.unwrap_or_else(|| Matrix6::from_diagonal(springs))
-    }
+/// When the tangent is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tangents {
+    /// Where the forces, or the columns of the active terms themselves, depend on it.
+    ForFit,
+    /// Wherever terms are active: columns of any other term follow.
+    ForAll,
 }
 
 /// What lies between platform and ground.
@@ -66,6 +59,8 @@ struct Structure<'a> {
     springs: &'a Vector6,
     /// Terms that act at a condition; those that calibrate the machine are part of it.
     active: Vec<&'a Active>,
+    /// True when the tangent is wanted whatever the terms do.
+    with_tangent: bool,
 }
 
 impl Campaign {
@@ -78,9 +73,13 @@ impl Campaign {
         machine: &Machine,
         springs: &Vector6,
         active: &[Active],
+        tangents: Tangents,
     ) -> Result<Vec<Condition>, ModelError> {
-        let active = active.iter().filter(|a| !a.term.calibrates()).collect();
-        let structure = Structure { machine, springs, active };
+        let (calibrating, active): (Vec<&Active>, Vec<&Active>) =
+            active.iter().partition(|a| a.term.calibrates());
+        // What calibrates the machine, its loads and joints, moves the forces of all legs.
+        let with_tangent = tangents == Tangents::ForAll || !calibrating.is_empty();
+        let structure = Structure { machine, springs, active, with_tangent };
         try_map(&self.groups, |g| self.condition(&structure, g))
     }
 
@@ -91,8 +90,8 @@ impl Campaign {
     ) -> Result<Condition, ModelError> {
         let (o, machine) = (&group.mean, structure.machine);
         let mut out = Vec::new();
-        let mut at = if self.is_absolute() {
-            measured(machine, o)?
+        let (mut at, shift) = if self.is_absolute() {
+            (measured(machine, o)?, None)
         } else {
             deflected(structure, o, self.measurand, &mut out)?
         };
@@ -104,7 +103,7 @@ impl Campaign {
         } else {
             Vector6::from_column_slice(&o.measured)
         };
-        structure.settle(&mut at, &mut out);
+        structure.settle(&mut at, shift, structure.with_tangent, &mut out);
         Ok(at)
     }
 
@@ -134,11 +133,17 @@ fn observer_matrix(axes: &Matrix3, lever: &Vector3, rates: &Matrix3) -> Matrix6 
     h
 }
 
-/// A condition whose legs carry what statics says, not yet read.
-fn standing(machine: &Machine, o: &Observation, pose: Pose, legs: Legs, states: [LoadState; 2]) -> Condition {
+/// A condition whose legs stand at a pose and carry there what statics says, not yet read.
+fn standing(machine: &Machine, o: &Observation, pose: Pose, legs: Legs) -> Condition {
     let none = Vector6::zeros();
     let commanded_lengths = machine.commanded_lengths(&o.pose);
-    Condition {
+    let states = [&o.reference, &o.wrench].map(|wrench| LoadState {
+        pose,
+        wrench: machine.effective_wrench(wrench, &pose),
+        directions: legs.directions,
+        lengths: legs.lengths,
+    });
+    let mut at = Condition {
         pose,
         legs,
         commanded_lengths,
@@ -150,56 +155,52 @@ fn standing(machine: &Machine, o: &Observation, pose: Pose, legs: Legs, states: 
         reference_force: none,
         spring_forces: [none; 2],
         path: LoadPath { reference: none, extreme: none, load: none },
-        tangent: Tangent::default(),
+        sag: none,
+        relief: none,
+        tangent: None,
         approach: o.approach,
         delta_t: o.delta_t,
         elapsed: o.elapsed,
         reading: none,
         observer: Matrix6::identity(),
         weight: Vector6::repeat(1.0),
-    }
+    };
+    at.set_forces(states.map(|s| legs.forces(&s.wrench)), &machine.friction_limits);
+    at
 }
 
 /// Absolute mode: the measured pose, brought back to the platform, is the loaded pose. A pose is measured against nothing: its
 /// reference is the unloaded machine.
 fn measured(machine: &Machine, o: &Observation) -> Result<Condition, ModelError> {
     let pose = machine.platform_pose(&Pose::from_array(o.measured));
-    let legs = machine.legs(&pose)?;
-    let state = |wrench| LoadState { pose, wrench, directions: legs.directions, lengths: legs.lengths };
-    let states = [Vector6::zeros(), machine.effective_wrench(&o.wrench, &pose)].map(state);
     let o = Observation { reference: Wrench::default(), ..*o };
-    let mut at = standing(machine, &o, pose, legs, states);
-    at.set_forces(states.map(|s| legs.forces(&s.wrench)), &machine.friction_limits);
-    Ok(at)
+    Ok(standing(machine, &o, pose, machine.legs(&pose)?))
 }
 
 /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
 /// the finite deflection is of third order. The reference pose is the commanded one plus the small deflection that
-/// the structure gives it; the loaded pose lies a measured deflection further.
+/// the structure gives it; the loaded pose lies a measured deflection further. Also the displacement of the base joints on their
+/// brackets in the reference state.
 fn deflected(
     structure: &Structure<'_>,
     o: &Observation,
     measurand: Measurand,
     out: &mut Vec<Action>,
-) -> Result<Condition, ModelError> {
-    let sag = structure.sag(o, out)?;
+) -> Result<(Condition, Option<[Vector3; 6]>), ModelError> {
+    let mut at = standing(structure.machine, o, o.pose, structure.machine.legs(&o.pose)?);
+    let sag = structure.sag(&at, out);
+    let before = sag.displacement.unwrap_or_default();
+    let displaced = structure.load(&at, out).displacement(&at).map(|change| [before, before.and(&change, 1.0)]);
     let reference = moved(&o.pose, &sag.whole, 1.0);
     let mut motion = Vector6::from_column_slice(&o.measured);
     if measurand == Measurand::DeflectionEuler {
         let rotation = euler_rate_matrix(&o.pose.angles) * motion.fixed_rows::<3>(3);
         motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
     }
-    let poses = [0.0, 0.5, 1.0].map(|share| moved(&reference, &motion, share));
-    let before = sag.displacement.unwrap_or_default();
-    let first = structure.between(o, &poses, &[before, before])?;
-    let change = structure.load(&first, out).displacement(&first);
-    let mut at = match change {
-        Some(change) => structure.between(o, &poses, &[before, before.and(&change, 1.0)])?,
-        None => first,
-    };
-    at.tangent.sag = sag.of_legs;
-    at.tangent.shift = sag.shift;
-    Ok(at)
+    let [halfway, loaded] = [0.5, 1.0].map(|share| moved(&reference, &motion, share));
+    structure.place(&mut at, halfway, [reference, loaded], displaced)?;
+    at.sag = sag.of_legs;
+    Ok((at, sag.shift))
 }
 
 /// Deflection in the reference state, to first order.
@@ -220,66 +221,70 @@ impl Structure<'_> {
         load(self.machine, at, self.active.iter().copied(), out)
     }
 
-    /// A condition that stands halfway between reference and loaded pose, its legs loaded as statics says. `displaced`: how the
-    /// joints are in the two states.
-    fn between(
+    /// Puts a condition halfway between its states, its legs loaded as statics says where they are. `displaced`: how the joints are in
+    /// the two states; none: as drawn.
+    fn place(
         &self,
-        o: &Observation,
-        [reference, halfway, loaded]: &[Pose; 3],
-        displaced: &[JointDisplacement; 2],
-    ) -> Result<Condition, ModelError> {
+        at: &mut Condition,
+        halfway: Pose,
+        poses: [Pose; 2],
+        displaced: Option<[JointDisplacement; 2]>,
+    ) -> Result<(), ModelError> {
         let machine = self.machine;
-        let mean = JointDisplacement::default().and(&displaced[0], 0.5).and(&displaced[1], 0.5);
-        let [base, platform] = mean.joints(machine, halfway);
-        let legs = Legs::at(&base, &platform, halfway)?;
-        let state = |pose: &Pose, wrench: &Wrench, displaced: &JointDisplacement| {
-            let wrench = machine.effective_wrench(wrench, pose);
-            let [base, platform] = displaced.joints(machine, pose);
-            let (force, spans) = forces_near(&legs, &base, &platform, pose, &wrench);
-            let lengths = Vector6::from_fn(|leg, _| spans[leg].norm());
-            let directions = std::array::from_fn(|leg| spans[leg] / lengths[leg]);
-            (force, LoadState { pose: *pose, wrench, directions, lengths })
+        let joints = |pose: &Pose, displaced: Option<JointDisplacement>| {
+            displaced.map_or([machine.base_joints, machine.platform_joints], |d| d.joints(machine, pose))
         };
-        let before = state(reference, &o.reference, &displaced[0]);
-        let after = state(loaded, &o.wrench, &displaced[1]);
-        let mut at = standing(machine, o, *halfway, legs, [before.1, after.1]);
-        at.set_forces([before.0, after.0], &machine.friction_limits);
-        Ok(at)
+        let mean = displaced.map(|[a, b]| JointDisplacement::default().and(&a, 0.5).and(&b, 0.5));
+        let [base, platform] = joints(&halfway, mean);
+        (at.pose, at.legs) = (halfway, Legs::at(&base, &platform, &halfway)?);
+        let mut forces = [Vector6::zeros(); 2];
+        for (k, wrench) in [at.reference, at.wrench].iter().enumerate() {
+            let (state, pose) = (&mut at.states[k], poses[k]);
+            let [base, platform] = joints(&pose, displaced.map(|d| d[k]));
+            (state.pose, state.wrench) = (pose, machine.effective_wrench(wrench, &pose));
+            let (force, spans) = forces_near(&at.legs, &base, &platform, &pose, &state.wrench);
+            state.lengths = Vector6::from_fn(|leg, _| spans[leg].norm());
+            state.directions = std::array::from_fn(|leg| spans[leg] / state.lengths[leg]);
+            forces[k] = force;
+        }
+        at.set_forces(forces, &machine.friction_limits);
+        Ok(())
     }
 
-    /// The reference state: a load of its own on the unloaded machine, when nothing has yet warmed, drifted or crept.
-    fn sag(&self, o: &Observation, out: &mut Vec<Action>) -> Result<Sag, ModelError> {
-        let legs = self.machine.legs(&o.pose)?;
-        let wrench = self.machine.effective_wrench(&o.reference, &o.pose);
-        let force = legs.forces(&wrench);
+    /// The reference state of a condition at its commanded pose: a load of its own on the unloaded machine, when nothing has yet
+    /// warmed, drifted or crept.
+    fn sag(&self, commanded: &Condition, out: &mut Vec<Action>) -> Sag {
+        let j = commanded.legs.platform_jacobian;
         if self.active.is_empty() {
-            let whole = legs.platform_jacobian * self.springs.component_mul(&force);
-            return Ok(Sag { of_legs: whole, whole, shift: None, displacement: None });
+            let whole = j * self.springs.component_mul(&commanded.reference_force);
+            return Sag { of_legs: whole, whole, shift: None, displacement: None };
         }
-        let o = Observation {
-            wrench: o.reference,
+        let mut at = Condition {
+            wrench: commanded.reference,
             reference: Wrench::default(),
             approach: Approach::Direct,
             delta_t: 0.0,
             elapsed: 0.0,
-            ..*o
+            ..commanded.clone()
         };
-        let states = [Vector6::zeros(), wrench].map(|wrench| LoadState {
-            pose: o.pose,
-            wrench,
-            directions: legs.directions,
-            lengths: legs.lengths,
-        });
-        let mut at = standing(self.machine, &o, o.pose, legs, states);
-        at.set_forces([Vector6::zeros(), force], &self.machine.friction_limits);
-        let load = self.settle(&mut at, out);
-        let of_legs = at.legs.platform_jacobian * load.stretch(&at, self.springs);
+        at.states[1].wrench = at.states[0].wrench;
+        at.states[0].wrench = Vector6::zeros();
+        at.set_forces([Vector6::zeros(), commanded.reference_force], &self.machine.friction_limits);
+        let load = self.settle(&mut at, None, false, out);
+        let of_legs = j * load.stretch(&at, self.springs);
         let displacement = load.displacement(&at);
-        Ok(Sag { of_legs, whole: of_legs + load.twist(), shift: load.shift(), displacement })
+        Sag { of_legs, whole: of_legs + load.twist(), shift: load.shift(), displacement }
     }
 
     /// Brings the forces of a condition to rest, and says how the structure yields about them; what the terms do there.
-    fn settle(&self, at: &mut Condition, out: &mut Vec<Action>) -> Load {
+    /// `shift`: displacement of the base joints on their brackets in the reference state.
+    fn settle(
+        &self,
+        at: &mut Condition,
+        shift: Option<[Vector3; 6]>,
+        with_tangent: bool,
+        out: &mut Vec<Action>,
+    ) -> Load {
         if self.active.is_empty() {
             return Load::default();
         }
@@ -289,8 +294,11 @@ impl Structure<'_> {
             let forces = [at.reference_force, at.force + at.legs.forces(&wrench)];
             at.set_forces(forces, &self.machine.friction_limits);
         }
-        self.set_tangent(at, &load, out);
-        if load.beside(at).is_none() {
+        let beside = load.beside(at);
+        if with_tangent || beside.is_some() {
+            at.tangent = Some(Box::new(self.tangent(at, shift, &load, out)));
+        }
+        if beside.is_none() {
             return load;
         }
         self.relieve(at, out);
@@ -312,56 +320,86 @@ impl Structure<'_> {
 
     /// The same for the load alone, reached over known `extreme` leg forces.
     fn relieve_load(&self, at: &mut Condition, extreme: Option<Vector6>, out: &mut Vec<Action>) {
-        let (j, compliance) = (at.legs.platform_jacobian, at.tangent.loaded(self.springs));
         let Some(beside) = self.load(at, out).beside(at) else { return };
+        let (j, limits) = (at.legs.platform_jacobian, &self.machine.friction_limits);
+        let compliance = compliance(at, self.springs, |t| t.loaded);
         let by_stretch = against(&j, &compliance, &beside.stiffness) * j;
-        let before = j.tr_mul(&beside.held(&at.legs, &at.tangent.sag, at.tangent.shift.as_ref()));
+        let shift_before = at.tangent.as_ref().map(|t| t.shift);
+        let before = j.tr_mul(&beside.held(&at.legs, &at.sag, shift_before.as_ref()));
         let [reference, load] = [at.reference_force, at.force].map(|f| f - before);
         let small = SETTLED * at.force.amax();
         for _ in 0..MOST_STEPS {
-            let assumed = at.tangent.relief;
-            at.set_forces([reference, load - assumed], &self.machine.friction_limits);
+            let assumed = at.relief;
+            at.set_forces([reference, load - assumed], limits);
             if let Some(extreme) = extreme {
-                at.set_path(LoadPath { extreme, ..at.path }, &self.machine.friction_limits);
+                at.set_path(LoadPath { extreme, ..at.path }, limits);
             }
             let here = self.load(at, out);
             let by_shift = -j.tr_mul(&beside.held(&at.legs, &Vector6::zeros(), here.shift().as_ref()));
             let motion = by_stretch * (here.stretch(at, self.springs) + compliance * (assumed + by_shift));
-            at.tangent.relief = j.tr_mul(&(beside.stiffness * motion)) - by_shift;
-            if (at.tangent.relief - assumed).amax() <= small {
+            at.relief = j.tr_mul(&(beside.stiffness * motion)) - by_shift;
+            if (at.relief - assumed).amax() <= small {
                 break;
             }
         }
     }
 
     /// Differences of what the terms do by the forces of each leg and by the wrench.
-    fn set_tangent(&self, at: &mut Condition, load: &Load, out: &mut Vec<Action>) {
+    fn tangent(
+        &self,
+        at: &Condition,
+        shift: Option<[Vector3; 6]>,
+        load: &Load,
+        out: &mut Vec<Action>,
+    ) -> Tangent {
+        let springs = Matrix6::from_diagonal(self.springs);
+        let shift = shift.unwrap_or_default();
+        let mut tangent = Tangent { loaded: springs, reference: springs, series: Matrix6::zeros(), shift };
         if load.stretches() {
-            let stretch = load.stretch(at, self.springs);
-            let step = STEP * (1.0 + at.force.amax());
-            let mut by = |side: usize| {
-                let mut columns = Matrix6::zeros();
-                for leg in 0..6 {
-                    let mut beside = at.clone();
-                    let mut forces = [at.reference_force, at.force];
-                    forces[side][leg] += step;
-                    beside.set_forces(forces, &self.machine.friction_limits);
-                    let moved = self.load(&beside, out).stretch(&beside, self.springs);
-                    columns.set_column(leg, &((moved - stretch) / step));
-                }
-                columns
-            };
-            (at.tangent.reference, at.tangent.loaded) = (Some(-by(0)), Some(by(1)));
-        }
-        if load.twist() != Vector6::zeros() {
-            for axis in 0..6 {
-                let mut beside = at.clone();
-                beside.states[1].wrench[axis] += 1.0;
-                let column = self.load(&beside, out).twist() - load.twist();
-                at.tangent.series.set_column(axis, &column);
+            let yielding = self.only(at, Load::stretches, out);
+            tangent.loaded = yielding.by_forces(at, 1, out);
+            if at.sag != Vector6::zeros() {
+                tangent.reference = -yielding.by_forces(at, 0, out);
             }
         }
+        if load.twist() != Vector6::zeros() {
+            let bodies = self.only(at, |load| load.twist() != Vector6::zeros(), out);
+            let mut beside = at.clone();
+            for axis in 0..6 {
+                beside.states[1].wrench[axis] += 1.0;
+                tangent.series.set_column(axis, &(bodies.load(&beside, out).twist() - load.twist()));
+                beside.states[1].wrench[axis] = at.states[1].wrench[axis];
+            }
+        }
+        tangent
     }
+
+    /// The structure with those of its terms alone that do something at a condition.
+    fn only(&self, at: &Condition, does: impl Fn(&Load) -> bool, out: &mut Vec<Action>) -> Self {
+        let own = self.active.iter().filter(|a| does(&load(self.machine, at, std::iter::once(**a), out)));
+        Self { active: own.copied().collect(), ..*self }
+    }
+
+    /// Elongations by the leg forces of one state (6x6).
+    fn by_forces(&self, at: &Condition, state: usize, out: &mut Vec<Action>) -> Matrix6 {
+        let stretch = self.load(at, out).stretch(at, self.springs);
+        let step = STEP * (1.0 + at.force.amax());
+        let mut beside = at.clone();
+        let mut columns = Matrix6::zeros();
+        for leg in 0..6 {
+            let mut forces = [at.reference_force, at.force];
+            forces[state][leg] += step;
+            beside.set_forces(forces, &self.machine.friction_limits);
+            let moved = self.load(&beside, out).stretch(&beside, self.springs);
+            columns.set_column(leg, &((moved - stretch) / step));
+        }
+        columns
+    }
+}
+
+/// A tangent compliance of a condition; without one, that of the springs.
+pub(crate) fn compliance(at: &Condition, springs: &Vector6, of: fn(&Tangent) -> Matrix6) -> Matrix6 {
+    at.tangent.as_deref().map_or_else(|| Matrix6::from_diagonal(springs), of)
 }
 
 /// `(I + J C J' K)^-1`: the share of a motion of the legs that a stiffness beside them leaves.

@@ -10,7 +10,7 @@ use crate::effects::chain::{Action, Link};
 use crate::effects::term::{Rich, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition};
-use crate::estimation::equilibrium::load;
+use crate::estimation::equilibrium::{Tangents, load};
 use crate::estimation::parallel::map;
 use crate::estimation::parameters::common_count;
 use crate::estimation::whitening::Whitening;
@@ -132,8 +132,17 @@ impl Linearization {
     /// # Errors
     /// [`ModelError::SingularPose`].
     pub fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
+        Self::with(campaign, point, Tangents::ForAll)
+    }
+
+    /// The same for a fit of the terms at the point: columns of other terms may take the structure for its springs.
+    pub(crate) fn to_fit(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
+        Self::with(campaign, point, Tangents::ForFit)
+    }
+
+    fn with(campaign: &Campaign, point: &ModelPoint, tangents: Tangents) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
-        let conditions = campaign.conditions(&machine, &point.compliances, &point.active)?;
+        let conditions = campaign.conditions(&machine, &point.compliances, &point.active, tangents)?;
         let links = map(&conditions, |c| link(&machine, c, point));
         let whitening = Whitening::of(campaign);
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })

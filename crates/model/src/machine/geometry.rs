@@ -67,6 +67,9 @@ impl Machine {
 
     /// The wrench that acts at the mobile origin when the load is offset and tilted.
     pub fn effective_wrench(&self, wrench: &Wrench, pose: &Pose) -> Vector6 {
+        if self.load_tilt == Vector3::zeros() && self.load_point == Vector3::zeros() {
+            return wrench.to_vector();
+        }
         let force = Rotation3::new(self.load_tilt) * wrench.force;
         let moment = wrench.moment + (pose.rotation() * self.load_point).cross(&force);
         Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
