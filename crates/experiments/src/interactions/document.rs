@@ -85,14 +85,23 @@ fn key(r: &InteractionRecord) -> String {
 
 fn summary(study: &Interactions, before: &BTreeMap<String, Before>) -> Table {
     let mut table = Table::named([
-        "effects", "size", "sets", "within", "before", "stiffness, worst", "before", "parameter, worst", "before",
+        "effects",
+        "size",
+        "sets",
+        "within",
+        "before",
+        "stiffness, worst",
+        "before",
+        "parameter, worst",
+        "before",
     ]);
     for (count, words) in [(1, "one"), (2, "two"), (3, "three")] {
         for size in [1.0, 10.0] {
             let own: Vec<&InteractionRecord> =
                 study.records.iter().filter(|r| r.effects.len() == count && r.size == size).collect();
             let was: Vec<Before> = own.iter().filter_map(|r| before.get(&key(r)).copied()).collect();
-            let worst = |errors: &mut dyn Iterator<Item = f64>| errors.reduce(f64::max).map_or_else(dash, percent);
+            let worst =
+                |errors: &mut dyn Iterator<Item = f64>| errors.reduce(f64::max).map_or_else(dash, percent);
             table.row([
                 words.to_owned(),
                 format!("x{size}"),
@@ -123,7 +132,8 @@ fn beyond(study: &Interactions) -> Table {
     ])
     .words_in(8);
     for r in study.broken() {
-        let numbers = [r.stiffness.error, r.stiffness.bound, r.parameter.error, r.parameter.bound].map(percent);
+        let numbers =
+            [r.stiffness.error, r.stiffness.bound, r.parameter.error, r.parameter.bound].map(percent);
         let start = [r.effects.join(" + "), format!("x{}", r.size)];
         let rest = [r.open.to_string(), r.resting.to_string(), r.name.clone()];
         table.row(start.into_iter().chain(numbers).chain(rest));
@@ -132,13 +142,13 @@ fn beyond(study: &Interactions) -> Table {
 }
 
 fn compared(study: &Interactions, before: &BTreeMap<String, Before>) -> Table {
-    let excess = |b: &Before| {
-        (b.stiffness / LARGEST_STIFFNESS_ERROR).max(b.parameter / LARGEST_PARAMETER_ERROR)
-    };
+    let excess =
+        |b: &Before| (b.stiffness / LARGEST_STIFFNESS_ERROR).max(b.parameter / LARGEST_PARAMETER_ERROR);
     let mut all: Vec<(&InteractionRecord, &Before)> =
         study.records.iter().filter_map(|r| Some((r, before.get(&key(r))?))).collect();
     all.sort_by(|a, b| excess(b.1).total_cmp(&excess(a.1)));
-    let mut table = Table::named(["effects", "size", "stiffness before", "after", "parameter before", "after"]);
+    let mut table =
+        Table::named(["effects", "size", "stiffness before", "after", "parameter before", "after"]);
     for (r, b) in all.into_iter().take(LISTED) {
         let numbers = [b.stiffness, r.stiffness.error, b.parameter, r.parameter.error].map(percent);
         table.row([r.effects.join(" + "), format!("x{}", r.size)].into_iter().chain(numbers));

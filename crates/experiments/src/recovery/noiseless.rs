@@ -107,7 +107,11 @@ fn combined([miss, std]: &[f64; 2], error: f64) -> Bounded {
 }
 
 /// `|d|` of a campaign of deflections.
-pub(crate) fn linearisation_error(lin: &Linearization, fit: &Fit, groups: &[campaign::ConditionReadings]) -> f64 {
+pub(crate) fn linearisation_error(
+    lin: &Linearization,
+    fit: &Fit,
+    groups: &[campaign::ConditionReadings],
+) -> f64 {
     let readers = lin.elongation_readers();
     let effects = effect_lengths(lin, fit);
     let of = |i: usize| {
@@ -158,12 +162,7 @@ fn effect_lengths(lin: &Linearization, fit: &Fit) -> Vec<Added> {
 
 /// Relative change of the leg Jacobian on the way from the commanded pose.
 /// `by_force`: whitened reading per leg force.
-fn jacobian_change(
-    lin: &Linearization,
-    at: &Condition,
-    commanded: &Pose,
-    by_force: &Matrix6<f64>,
-) -> f64 {
+fn jacobian_change(lin: &Linearization, at: &Condition, commanded: &Pose, by_force: &Matrix6<f64>) -> f64 {
     let Ok(start) = lin.machine.legs(commanded) else { return f64::INFINITY };
     let reader = Matrix6::from_diagonal(&at.weight) * at.observer;
     let size = |metric: &Matrix6<f64>, change: &Matrix6<f64>| {

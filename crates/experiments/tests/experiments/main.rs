@@ -4,6 +4,7 @@
 mod calibration;
 mod challenge;
 mod discriminate;
+mod interactions;
 mod interrupted;
 mod misread;
 mod paper;

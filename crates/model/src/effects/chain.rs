@@ -159,9 +159,8 @@ impl Load {
             return None;
         }
         let shift = self.shift.unwrap_or_default();
-        let moved = |twist: &Vector6, arm: &Vector3| {
-            twist.fixed_rows::<3>(0) + twist.fixed_rows::<3>(3).cross(arm)
-        };
+        let moved =
+            |twist: &Vector6, arm: &Vector3| twist.fixed_rows::<3>(0) + twist.fixed_rows::<3>(3).cross(arm);
         let of_leg = |leg: usize| at.legs.arms[leg] - at.legs.directions[leg] * at.legs.lengths[leg];
         Some(JointDisplacement {
             base: std::array::from_fn(|leg| shift[leg] + moved(&self.base, &of_leg(leg))),

@@ -169,8 +169,7 @@ impl Condition {
     /// Sets the forces in the legs, and with them those in the springs, beside which friction holds up to `limits` (N).
     pub fn set_path(&mut self, path: LoadPath, limits: &Vector6) {
         (self.reference_force, self.force, self.path) = (path.reference, path.load, path);
-        let of_leg: [[f64; 2]; 6] =
-            std::array::from_fn(|leg| path.spring_forces(leg, limits[leg].max(0.0)));
+        let of_leg: [[f64; 2]; 6] = std::array::from_fn(|leg| path.spring_forces(leg, limits[leg].max(0.0)));
         self.spring_forces = [0, 1].map(|state| Vector6::from_fn(|leg, _| of_leg[leg][state]));
     }
 
@@ -199,7 +198,6 @@ impl Condition {
         let wrench = Vector6::new(turn.x, turn.y, turn.z, moment.x, moment.y, moment.z);
         -self.legs.forces(&(wrench * self.force[leg]))
     }
-
 }
 
 impl Campaign {

@@ -190,7 +190,8 @@ fn deflected(
     let mut at = standing(structure.machine, o, o.pose, structure.machine.legs(&o.pose)?);
     let sag = structure.sag(&at, out);
     let before = sag.displacement.unwrap_or_default();
-    let displaced = structure.load(&at, out).displacement(&at).map(|change| [before, before.and(&change, 1.0)]);
+    let displaced =
+        structure.load(&at, out).displacement(&at).map(|change| [before, before.and(&change, 1.0)]);
     let reference = moved(&o.pose, &sag.whole, 1.0);
     let mut motion = Vector6::from_column_slice(&o.measured);
     if measurand == Measurand::DeflectionEuler {

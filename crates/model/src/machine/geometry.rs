@@ -59,7 +59,6 @@ impl Machine {
         Legs::at(&self.base_joints, &self.platform_joints, pose)
     }
 
-
     /// Lengths the controller commands: inverse kinematics of the nominal machine, m.
     pub fn commanded_lengths(&self, pose: &Pose) -> Vector6 {
         leg_lengths(&self.nominal.base_joints, &self.nominal.platform_joints, pose)

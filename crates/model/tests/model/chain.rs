@@ -73,7 +73,9 @@ fn one_of_each(random: &mut Random) -> Vec<Action> {
         Action::Plate(twist(random, 0.3 * FORCE * COMPLIANCE)),
         Action::Target(target),
         Action::Reading(twist(random, 0.3 * FORCE * COMPLIANCE)),
-        Action::Shift(std::array::from_fn(|_| Vector3::from_fn(|_, _| random.within(0.3 * FORCE * COMPLIANCE)))),
+        Action::Shift(std::array::from_fn(|_| {
+            Vector3::from_fn(|_, _| random.within(0.3 * FORCE * COMPLIANCE))
+        })),
         // A second one of the kinds that multiply others.
         Action::Stiffness(stiffness(random)),
         Action::Bending([0.05 / COMPLIANCE * RADIUS * RADIUS; 2]),

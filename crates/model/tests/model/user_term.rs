@@ -19,6 +19,14 @@ elongation = "size*(nx^2 + ny^2)*df"
 parameters = [{ name = "size", unit = "nm/N", scale = 50, positive = true }]
 "#;
 
+const TENSION: &str = r#"
+format = "term/1"
+id = "my-tension"
+title = "Legs are softer when they pull"
+elongation = "size*(max(f, 0) - max(f0, 0))"
+parameters = [{ name = "size", unit = "nm/N", scale = 50 }]
+"#;
+
 fn wanted(term: &Arc<dyn Term>, shape: f64, prior: f64) -> TermSpec {
     let prior = vec![prior; term.info().parameters.len()];
     TermSpec { term: Arc::clone(term), rich: false, shape, prior }
@@ -41,7 +49,7 @@ fn same_fit(own: &str, id: &str, shape: f64, case: &str) {
 
 #[test]
 fn a_user_term_equal_to_a_catalogue_term_gives_the_same_fit() {
-    same_fit(BRACKET, "bracket-compliance", 1.0, "mujoco-foundation");
+    same_fit(TENSION, "leg-asymmetry", 1.0, "mujoco-foundation");
     let tilt = r#"
         format = "term/1"
         id = "my-nonlinearity"

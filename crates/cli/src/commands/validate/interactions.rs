@@ -40,7 +40,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let broken = study.broken().count();
     if arguments.check && broken > 0 {
-        return Err(Failure::Check(format!("{broken} of {} sets are beyond their bounds", study.records.len())));
+        return Err(Failure::Check(format!(
+            "{broken} of {} sets are beyond their bounds",
+            study.records.len()
+        )));
     }
     Ok(())
 }
