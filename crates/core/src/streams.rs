@@ -122,6 +122,11 @@ pub enum Purpose {
     /// Misread files: seed of a sound campaign in a scene.
     MisreadScene = 550,
 
+    /// Interactions: seed of the machine, plan and sizes of a set of effects.
+    InteractionCase = 560,
+    /// Interactions: the effects of a triple.
+    InteractionTriple = 561,
+
     /// Challenge: order of the cases.
     ChallengeOrder = 600,
     /// Challenge: seed of a group of cases.

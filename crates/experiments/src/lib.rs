@@ -4,6 +4,7 @@
 //! | experiment | question |
 //! |---|---|
 //! | [`recovery`] | is what was hidden found, with honest uncertainty? |
+//! | [`interactions`] | are the numbers right when effects act together? |
 //! | [`calibration`] | how far can the stated probabilities be trusted? |
 //! | [`robustness`] | what do laboratories that do not keep to the assumptions get? |
 //! | [`misread`] | is it found that a file does not say what its author meant? |
@@ -24,6 +25,7 @@ pub mod discovery;
 pub mod discriminate;
 pub mod error;
 pub mod harness;
+pub mod interactions;
 pub mod journal;
 pub mod misread;
 pub mod paper;

@@ -59,7 +59,7 @@ pub struct Instant<'a> {
     pub nominal_lengths: [f64; 6],
     /// Nominal leg lengths at the zero pose, m.
     pub home_lengths: [f64; 6],
-    /// Leg forces found in the reference state, N; zero until it was solved.
+    /// Forces of the leg springs in the reference state, N; zero until it was solved.
     pub reference_forces: [f64; 6],
 }
 

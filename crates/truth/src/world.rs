@@ -80,7 +80,7 @@ impl World {
         let mut moment = self.moment(situation)?;
         let reference = self.state(&moment, situation.reference, &[LegMemory::default(); 6])?;
         let before = self.read(&moment, &reference);
-        moment.reference_forces = reference.forces;
+        moment.reference_forces = reference.memory.map(|leg| leg.spring_force);
         let loaded = self.load(&mut moment, reference.memory)?;
         Ok([before, loaded.pose])
     }

@@ -47,8 +47,8 @@ pub(crate) struct Arguments {
 /// Search and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
-    let data = input::measurements(&arguments.data)?;
-    let holdout = arguments.holdout.as_deref().map(input::measurements).transpose()?;
+    let data = input::measurements(&hexapod, &arguments.data)?;
+    let holdout = arguments.holdout.as_deref().map(|path| input::measurements(&hexapod, path)).transpose()?;
     let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
     let options = DiagnoseOptions {
         exclude: arguments.exclude.clone(),

@@ -7,21 +7,20 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use hexbench_core::{
-    Approach, Channel, Columns, Dataset, Hexapod, Matrix3, Matrix6, Measurand, NumberKind, Observation, Pose,
-    SensorKind, StatedTolerances, UNREAD, Vector3, Vector6, Wrench,
+    Approach, Channel, Columns, Dataset, Hexapod, Matrix6, Measurand, NumberKind, Observation, Pose,
+    StatedTolerances, UNREAD, Vector3, Vector6, Wrench,
 };
 use nalgebra::{DMatrix, Rotation3};
 
-use crate::effects::chain::Action;
 use crate::error::ModelError;
+use crate::estimation::equilibrium::Tangent;
 use crate::estimation::frames::{Frames, ReadingAxes};
 use crate::estimation::noise::{
     Noise, NoiseLevel, NoiseSource, SharedReference, Structure, stated_or_repeated,
 };
-use crate::estimation::parallel::try_map;
 use crate::estimation::whitening::Inexact;
 use crate::machine::geometry::Machine;
-use crate::machine::kinematics::{Legs, euler_rate_matrix};
+use crate::machine::kinematics::Legs;
 
 /// Readings that share pose, loads, approach, temperature and time, averaged.
 #[derive(Debug, Clone)]
@@ -59,12 +58,22 @@ pub struct Condition {
     pub wrench: Wrench,
     /// Wrench in the reference state.
     pub reference: Wrench,
-    /// Forces in the leg springs under the load, N, tension positive: the leg forces less what friction holds.
+    /// What acts in the reference state and under the load, and where.
+    pub states: [LoadState; 2],
+    /// Forces in the legs under the load, N, tension positive: what nothing beside the legs holds.
     pub force: Vector6,
-    /// Forces in the leg springs in the reference state, N.
+    /// Forces in the legs in the reference state, N.
     pub reference_force: Vector6,
+    /// Forces in the leg springs in the two states, N: the leg forces, less what friction holds.
+    pub spring_forces: [Vector6; 2],
     /// Leg forces along the way to the reading.
     pub path: LoadPath,
+    /// Motion of the legs' platform against their base in the reference state, geometric twist.
+    pub sag: Vector6,
+    /// Change of leg force between reference and load that stands beside the legs and that the forces here are without, N.
+    pub relief: Vector6,
+    /// How the structure yields about these forces; none: by its springs alone.
+    pub tangent: Option<Box<Tangent>>,
     /// How the load was reached.
     pub approach: Approach,
     /// Temperature difference, K.
@@ -83,6 +92,19 @@ pub struct Condition {
     pub reads_pose: bool,
     /// Compliances of the leg springs where the model is linearised, m/N.
     pub springs: Vector6,
+}
+
+/// What acts on the platform in one state. Fixed frame, SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadState {
+    /// Where the platform is, to second order in the deflection.
+    pub pose: Pose,
+    /// The wrench `[F; M]` that acts at its origin, fixed axes: offsets and tilts of the load included.
+    pub wrench: Vector6,
+    /// Unit vectors along the legs, from base joint to platform joint.
+    pub directions: [Vector3; 6],
+    /// Lengths of the legs, m.
+    pub lengths: Vector6,
 }
 
 /// Leg forces (N, tension positive) along the way from the unloaded machine to the reading.
@@ -154,6 +176,33 @@ impl Condition {
         self.observer.try_inverse().map_or_else(Vector6::zeros, |h| h * reading)
     }
 
+    /// Sets the forces in the legs (N) in the reference state and under the load; the largest ones on the way as the load is exceeded.
+    pub fn set_forces(&mut self, [reference, load]: [Vector6; 2], limits: &Vector6) {
+        let extreme = match self.approach {
+            Approach::Direct => load,
+            Approach::Overloaded => reference + Approach::OVERLOAD * (load - reference),
+        };
+        self.set_path(LoadPath { reference, extreme, load }, limits);
+    }
+
+    /// Sets the forces in the legs, and with them those in the springs, beside which friction holds up to `limits` (N).
+    pub fn set_path(&mut self, path: LoadPath, limits: &Vector6) {
+        (self.reference_force, self.force, self.path) = (path.reference, path.load, path);
+        let of_leg: [[f64; 2]; 6] = std::array::from_fn(|leg| path.spring_forces(leg, limits[leg].max(0.0)));
+        self.spring_forces = [0, 1].map(|state| Vector6::from_fn(|leg, _| of_leg[leg][state]));
+    }
+
+    /// Change of the pull of a leg on its base joint between reference and load, fixed axes, N.
+    pub fn pull_change(&self, leg: usize) -> Vector3 {
+        let [reference, loaded] = &self.states;
+        loaded.directions[leg] * self.force[leg] - reference.directions[leg] * self.reference_force[leg]
+    }
+
+    /// Change of the forces in the leg springs between reference and load, N.
+    pub fn spring_change(&self) -> Vector6 {
+        self.spring_forces[1] - self.spring_forces[0]
+    }
+
     /// Change of leg force between reference and load, N.
     pub fn force_change(&self) -> Vector6 {
         self.force - self.reference_force
@@ -167,12 +216,6 @@ impl Condition {
         let moment = arm.cross(&n) + self.legs.arms[leg].cross(&turn);
         let wrench = Vector6::new(turn.x, turn.y, turn.z, moment.x, moment.y, moment.z);
         -self.legs.forces(&(wrench * self.force[leg]))
-    }
-
-    /// The leg forces that an extra force and moment at the mobile origin add. Fixed axes, N and N m.
-    pub fn wrench_action(&self, force: &Vector3, moment: &Vector3) -> Action {
-        let wrench = Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
-        Action::Force(self.legs.forces(&wrench))
     }
 }
 
@@ -361,168 +404,6 @@ impl Campaign {
     pub fn is_absolute(&self) -> bool {
         self.measurand == Measurand::AbsolutePose
     }
-
-    /// Conditions of this campaign on a machine whose legs have these compliances (m/N).
-    ///
-    /// # Errors
-    /// [`ModelError::SingularPose`] for the first pose in file order that is singular.
-    pub fn conditions(&self, machine: &Machine, springs: &Vector6) -> Result<Vec<Condition>, ModelError> {
-        try_map(&self.groups, |g| self.condition(machine, springs, g))
-    }
-
-    fn condition(
-        &self,
-        machine: &Machine,
-        springs: &Vector6,
-        group: &ConditionReadings,
-    ) -> Result<Condition, ModelError> {
-        let o = &group.mean;
-        let stance = if self.is_absolute() {
-            Stance::measured(machine, o)?
-        } else {
-            let measured = self.reads_poses.then_some((&o.measured, self.measurand));
-            Stance::deflected(machine, springs, o, measured)?
-        };
-        let commanded_lengths = machine.commanded_lengths(&o.pose);
-        let legs = stance.legs;
-        let mut observer = self.observer(machine, &stance.pose, &o.measured);
-        if group.channels != Channel::POSE {
-            let rows = group.channels.map(|channel| self.seen_by(channel, &stance, &observer));
-            observer = Matrix6::from_rows(&rows.map(|row| row.transpose()));
-        }
-        let reading = if self.is_absolute() {
-            // Exact closure at the measured pose: no forward kinematics is needed.
-            observer * legs.platform_jacobian * (legs.lengths - commanded_lengths)
-        } else {
-            Vector6::from_column_slice(&o.measured)
-        };
-        let change = stance.force - stance.reference_force;
-        let extreme = match o.approach {
-            Approach::Direct => stance.force,
-            Approach::Overloaded => stance.reference_force + Approach::OVERLOAD * change,
-        };
-        let path = LoadPath { reference: stance.reference_force, extreme, load: stance.force };
-        let springs_at: [[f64; 2]; 6] =
-            std::array::from_fn(|leg| path.spring_forces(leg, machine.friction_limits[leg].max(0.0)));
-        Ok(Condition {
-            pose: stance.pose,
-            commanded_lengths,
-            extension: commanded_lengths - machine.home_lengths,
-            wrench: o.wrench,
-            reference: if self.is_absolute() { Wrench::default() } else { o.reference },
-            force: Vector6::from_fn(|leg, _| springs_at[leg][1]),
-            reference_force: Vector6::from_fn(|leg, _| springs_at[leg][0]),
-            path,
-            approach: o.approach,
-            delta_t: o.delta_t,
-            elapsed: o.elapsed,
-            reading,
-            observer,
-            weight: Vector6::from_fn(|k, _| 1.0 / group.sigma[k]),
-            numbers: group.numbers(),
-            reads_pose: group.channels == Channel::POSE,
-            springs: *springs,
-            legs,
-        })
-    }
-
-    /// What one channel reads per unit of the geometric twist at the mobile origin; of the pose halfway between the states, so that what
-    /// is left out is of third order in the deflection.
-    fn seen_by(&self, channel: Channel, stance: &Stance, pose_numbers: &Matrix6) -> Vector6 {
-        let along = |u: &Vector3, arm: &Vector3| {
-            let moment = arm.cross(u);
-            Vector6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
-        };
-        let arm = |point: &Vector3| stance.pose.rotation() * point;
-        match channel {
-            Channel::Nothing => Vector6::zeros(),
-            Channel::Pose(k) => pose_numbers.row(k).transpose(),
-            Channel::Sensor { sensor, number } => match self.hexapod.sensors.get(sensor).map(|s| &s.kind) {
-                Some(SensorKind::Distance { point, direction, .. }) => along(direction, &arm(point)),
-                Some(SensorKind::Point { point, .. }) => along(&Vector3::ith(number, 1.0), &arm(point)),
-                Some(SensorKind::Inclination { axis, .. }) => {
-                    Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z)
-                }
-                Some(SensorKind::LegLength { leg, .. }) => {
-                    along(&stance.legs.directions[*leg], &stance.legs.arms[*leg])
-                }
-                None => Vector6::zeros(),
-            },
-        }
-    }
-
-    /// Measured coordinates from the geometric twist: Euler differences for Euler readings, and the lever arm of
-    /// the target in absolute mode.
-    fn observer(&self, machine: &Machine, pose: &Pose, measured: &[f64; 6]) -> Matrix6 {
-        match self.measurand {
-            Measurand::DeflectionRotationVector => return Matrix6::identity(),
-            Measurand::DeflectionEuler => {
-                let rates = ReadingAxes::default().rates(&pose.to_array());
-                return observer_matrix(&Matrix3::identity(), &Vector3::zeros(), &rates);
-            }
-            Measurand::AbsolutePose => {}
-        }
-        let lever = pose.rotation() * machine.target_frame.translation.vector;
-        let axes = *machine.metrology_frame.rotation.to_rotation_matrix().matrix();
-        observer_matrix(&axes, &lever, &self.axes.rates(measured))
-    }
-}
-
-/// Where the legs stand and what they carry.
-struct Stance {
-    pose: Pose,
-    legs: Legs,
-    force: Vector6,
-    reference_force: Vector6,
-}
-
-impl Stance {
-    /// Absolute mode: the measured pose, brought back to the platform, is the loaded pose.
-    fn measured(machine: &Machine, o: &Observation) -> Result<Self, ModelError> {
-        let pose = machine.platform_pose(&Pose::from_array(o.measured));
-        let legs = machine.legs(&pose)?;
-        let force = legs.forces(&machine.effective_wrench(&o.wrench, &pose));
-        // A pose is measured against nothing: its reference is the unloaded machine.
-        Ok(Self { pose, legs, force, reference_force: Vector6::zeros() })
-    }
-
-    /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
-    /// the finite deflection is of third order. The reference pose is the commanded one plus the small deflection that
-    /// the springs give it; the loaded pose lies a measured deflection further, or one as the springs give it where no pose was
-    /// measured.
-    fn deflected(
-        machine: &Machine,
-        springs: &Vector6,
-        o: &Observation,
-        measured: Option<(&[f64; 6], Measurand)>,
-    ) -> Result<Self, ModelError> {
-        let commanded = machine.legs(&o.pose)?;
-        let sag_under = |wrench: &Wrench| {
-            let forces = commanded.forces(&machine.effective_wrench(wrench, &o.pose));
-            commanded.platform_jacobian * springs.component_mul(&forces)
-        };
-        let sag = sag_under(&o.reference);
-        let reference = moved(&o.pose, &sag, 1.0);
-        let motion = match measured {
-            None => sag_under(&o.wrench) - sag,
-            Some((measured, measurand)) => {
-                let mut motion = Vector6::from_column_slice(measured);
-                if measurand == Measurand::DeflectionEuler {
-                    let rotation = euler_rate_matrix(&o.pose.angles) * motion.fixed_rows::<3>(3);
-                    motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
-                }
-                motion
-            }
-        };
-        let pose = moved(&reference, &motion, 0.5);
-        let legs = machine.legs(&pose)?;
-        Ok(Self {
-            force: machine.forces_near(&legs, &moved(&reference, &motion, 1.0), &o.wrench),
-            reference_force: machine.forces_near(&legs, &reference, &o.reference),
-            pose,
-            legs,
-        })
-    }
 }
 
 /// A pose after a share of a small geometric twist; the same motion in whatever axes it is written.
@@ -530,15 +411,6 @@ pub(crate) fn moved(pose: &Pose, twist: &Vector6, share: f64) -> Pose {
     let turn = Rotation3::new(share * twist.fixed_rows::<3>(3));
     let translation = pose.translation + share * twist.fixed_rows::<3>(0);
     Pose::from_rotation(translation, &(turn.matrix() * pose.rotation()))
-}
-
-/// `diag(I, rates) diag(axes, axes) [I, -[lever]x; 0, I]`.
-fn observer_matrix(axes: &Matrix3, lever: &Vector3, rates: &Matrix3) -> Matrix6 {
-    let mut h = Matrix6::zeros();
-    h.fixed_view_mut::<3, 3>(0, 0).copy_from(axes);
-    h.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-axes * lever.cross_matrix()));
-    h.fixed_view_mut::<3, 3>(3, 3).copy_from(&(rates * axes));
-    h
 }
 
 impl ConditionReadings {

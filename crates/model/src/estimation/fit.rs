@@ -136,7 +136,7 @@ pub fn fit(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>)
         campaign.refuse_astray(&campaign.frames, "")?;
     }
     let point = start_point(campaign, wanted, start);
-    let state = Linearization::at(campaign, &point)?;
+    let state = Linearization::to_fit(campaign, &point)?;
     fit_from(campaign, wanted, point, state)
 }
 
@@ -208,7 +208,7 @@ impl Start {
     /// [`ModelError::SingularPose`].
     pub fn at(campaign: &Campaign, wanted: &[TermSpec], point: &ModelPoint) -> Result<Self, ModelError> {
         let point = start_point(campaign, wanted, Some(point));
-        let state = Linearization::at(campaign, &point)?;
+        let state = Linearization::to_fit(campaign, &point)?;
         Ok(Self { point, state })
     }
 }
@@ -363,7 +363,7 @@ fn search(
     loop {
         let next = parameters.moved(point, x.as_slice(), factor);
         effort.tried += 1;
-        let outcome = Linearization::at(campaign, &next);
+        let outcome = Linearization::to_fit(campaign, &next);
         let small = factor < 1e-3;
         match outcome {
             Ok(state) => {
@@ -372,7 +372,7 @@ fn search(
                     return Ok((next, state, value));
                 }
                 if small {
-                    let state = Linearization::at(campaign, point)?;
+                    let state = Linearization::to_fit(campaign, point)?;
                     let value = state.residuals().norm_squared() + parameters.penalty(point);
                     return Ok((point.clone(), state, value));
                 }

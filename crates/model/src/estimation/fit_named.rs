@@ -99,11 +99,33 @@ pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>
         }
         let prior = prior(term.as_ref(), *richer, &natural);
         let next = TermSpec { term: Arc::clone(term), rich: *richer, shape: 1.0, prior };
-        let (start, better) = best_start(campaign, &wanted, &next, &fitted, &lin)?;
-        wanted.push(start);
-        fitted = better;
+        let place = wanted.len();
+        (wanted, fitted) = best_start(campaign, &wanted, (place, &next), &fitted, &lin)?;
     }
     let fitted = together(campaign, &wanted, fitted);
+    reshaped(campaign, wanted, fitted)
+}
+
+/// The best fit when every shape is chosen once more beside all other terms: while one of them was missing, another shape may have
+/// made up for it.
+fn reshaped(
+    campaign: &Campaign,
+    mut wanted: Vec<TermSpec>,
+    mut fitted: Fit,
+) -> Result<(Vec<TermSpec>, Fit), ModelError> {
+    for place in 0..wanted.len() {
+        if wanted.len() < 2 || wanted[place].term.info().shape.is_none() {
+            continue;
+        }
+        let mut others = wanted.clone();
+        let next = others.remove(place);
+        let without = fit(campaign, &others, Some(&fitted.point))?;
+        let lin = Linearization::at(campaign, &without.point)?;
+        let (again, better) = best_start(campaign, &others, (place, &next), &without, &lin)?;
+        if better.chi2 < fitted.chi2 {
+            (wanted, fitted) = (again, better);
+        }
+    }
     Ok((wanted, fitted))
 }
 
@@ -132,21 +154,21 @@ fn refuse_twice(added: &[Added]) -> Result<(), ModelError> {
     })
 }
 
-/// The fit with one more term, from the most promising of its shapes.
+/// The fit with one more term at its place among the others, from the most promising of its shapes.
 fn best_start(
     campaign: &Campaign,
-    before: &[TermSpec],
-    next: &TermSpec,
+    others: &[TermSpec],
+    (place, next): (usize, &TermSpec),
     fitted: &Fit,
     lin: &Linearization,
-) -> Result<(TermSpec, Fit), ModelError> {
-    let mut best: Option<(TermSpec, Fit)> = None;
+) -> Result<(Vec<TermSpec>, Fit), ModelError> {
+    let mut best: Option<(Vec<TermSpec>, Fit)> = None;
     let mut failure = None;
     for shape in promising_shapes(next, fitted, lin) {
-        let start = TermSpec { shape, ..next.clone() };
-        let all: Vec<TermSpec> = before.iter().cloned().chain([start.clone()]).collect();
+        let mut all = others.to_vec();
+        all.insert(place, TermSpec { shape, ..next.clone() });
         match fit(campaign, &all, Some(&fitted.point)) {
-            Ok(f) if best.as_ref().is_none_or(|(_, b)| f.chi2 < b.chi2) => best = Some((start, f)),
+            Ok(f) if best.as_ref().is_none_or(|(_, b)| f.chi2 < b.chi2) => best = Some((all, f)),
             Ok(_) => {}
             Err(e) => failure = Some(e),
         }

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use hexbench_core::{Matrix6, Vector3, Vector6};
 use nalgebra::{DMatrix, DVector};
 
-use crate::effects::chain::{Action, Link, Load};
+use crate::effects::chain::{Action, Link};
 use crate::effects::term::{Rich, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition};
+use crate::estimation::equilibrium::{Tangents, load};
 use crate::estimation::parallel::map;
 use crate::estimation::parameters::common_count;
 use crate::estimation::whitening::Whitening;
@@ -131,8 +132,17 @@ impl Linearization {
     /// # Errors
     /// [`ModelError::SingularPose`].
     pub fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
+        Self::with(campaign, point, Tangents::ForAll)
+    }
+
+    /// The same for a fit of the terms at the point: columns of other terms may take the structure for its springs.
+    pub(crate) fn to_fit(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
+        Self::with(campaign, point, Tangents::ForFit)
+    }
+
+    fn with(campaign: &Campaign, point: &ModelPoint, tangents: Tangents) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
-        let conditions = campaign.conditions(&machine, &point.compliances)?;
+        let conditions = campaign.conditions(&machine, &point.compliances, &point.active, tangents)?;
         let links = map(&conditions, |c| link(&machine, c, point));
         let whitening = Whitening::of(campaign);
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
@@ -325,14 +335,8 @@ fn write_actions(
 }
 
 fn link(machine: &Machine, at: &Condition, point: &ModelPoint) -> Link {
-    let mut load = Load::default();
-    let mut out = Vec::new();
-    for a in point.active.iter().filter(|a| !a.term.calibrates()) {
-        actions(a.term.as_ref(), a.rich, a.shape, machine, at, &mut out);
-        for (action, value) in out.iter().zip(&a.values) {
-            load.add(action, *value);
-        }
-    }
+    let active = point.active.iter().filter(|a| !a.term.calibrates());
+    let load = load(machine, at, active, &mut Vec::new());
     Link::at(at, &point.compliances, &load)
 }
 

@@ -1,6 +1,7 @@
 //! Numbers from readings: campaigns and their noise, parameters, least squares, residuals.
 
 pub mod campaign;
+pub mod equilibrium;
 pub mod estimate;
 pub mod fit;
 pub mod fit_named;

@@ -1,24 +1,34 @@
 //! A body on springs that carries the whole machine or the measured targets.
 
-use hexbench_core::{Matrix3, Vector3, Vector6};
+use hexbench_core::{Matrix3, Pose, Vector3, Vector6};
 
 use crate::effects::chain::Action;
 use crate::estimation::campaign::Condition;
 
-/// Rigid motion of a body under the transported wrench, in its own axes at its own centre.
+/// Rigid motion of a body under the change of the transported wrench, in its own axes at its own centre.
 pub(crate) struct YieldingBody {
+    act: fn(Vector6) -> Action,
     axes: Matrix3,
     lever: Vector3,
     wrench: Vector6,
 }
 
 impl YieldingBody {
-    /// `axes`: body axes to fixed axes; `lever`: from the centre of the body to the mobile origin, fixed axes, m.
-    pub(crate) fn new(at: &Condition, axes: Matrix3, lever: Vector3) -> Self {
-        let force = at.wrench.force - at.reference.force;
-        let moment = at.wrench.moment - at.reference.moment + lever.cross(&force);
-        let (f, m) = (axes.tr_mul(&force), axes.tr_mul(&moment));
-        Self { axes, lever, wrench: Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z) }
+    /// A body whose axes (to fixed axes) and whose lever from its centre to the mobile origin (fixed axes, m) follow the platform as
+    /// `place` says: what it carries is taken where it is in either state. `act`: what its motion does.
+    pub(crate) fn new(
+        act: fn(Vector6) -> Action,
+        at: &Condition,
+        place: impl Fn(&Pose) -> (Matrix3, Vector3),
+    ) -> Self {
+        let [reference, loaded] = at.states.map(|state| {
+            let (axes, lever) = place(&state.pose);
+            let (force, moment) = (state.wrench.fixed_rows::<3>(0), state.wrench.fixed_rows::<3>(3));
+            let (f, m) = (axes.tr_mul(&force), axes.tr_mul(&(moment + lever.cross(&force))));
+            Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
+        });
+        let (axes, lever) = place(&at.pose);
+        Self { act, axes, lever, wrench: loaded - reference }
     }
 
     /// Motion of the mobile origin by a unit diagonal compliance `C_kk`.
@@ -39,6 +49,6 @@ impl YieldingBody {
     fn motion(&self, twist: &Vector6) -> Action {
         let rotation = self.axes * twist.fixed_rows::<3>(3);
         let shift = self.axes * twist.fixed_rows::<3>(0) + rotation.cross(&self.lever);
-        Action::Twist(Vector6::new(shift.x, shift.y, shift.z, rotation.x, rotation.y, rotation.z))
+        (self.act)(Vector6::new(shift.x, shift.y, shift.z, rotation.x, rotation.y, rotation.z))
     }
 }

@@ -4,7 +4,7 @@ use hexbench_core::{Hexapod, Pose, Vector3, Vector6, Wrench};
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 
 use crate::error::ModelError;
-use crate::machine::kinematics::{Legs, forces_near, leg_lengths};
+use crate::machine::kinematics::{Legs, leg_lengths};
 
 /// Joints and frames at the current point of linearisation.
 #[derive(Debug, Clone)]
@@ -59,12 +59,6 @@ impl Machine {
         Legs::at(&self.base_joints, &self.platform_joints, pose)
     }
 
-    /// Leg forces (N) under a wrench at a pose a small deflection away from known legs.
-    pub fn forces_near(&self, known: &Legs, pose: &Pose, wrench: &Wrench) -> Vector6 {
-        let wrench = self.effective_wrench(wrench, pose);
-        forces_near(known, &self.base_joints, &self.platform_joints, pose, &wrench)
-    }
-
     /// Lengths the controller commands: inverse kinematics of the nominal machine, m.
     pub fn commanded_lengths(&self, pose: &Pose) -> Vector6 {
         leg_lengths(&self.nominal.base_joints, &self.nominal.platform_joints, pose)
@@ -72,6 +66,9 @@ impl Machine {
 
     /// The wrench that acts at the mobile origin when the load is offset and tilted.
     pub fn effective_wrench(&self, wrench: &Wrench, pose: &Pose) -> Vector6 {
+        if self.load_tilt == Vector3::zeros() && self.load_point == Vector3::zeros() {
+            return wrench.to_vector();
+        }
         let force = Rotation3::new(self.load_tilt) * wrench.force;
         let moment = wrench.moment + (pose.rotation() * self.load_point).cross(&force);
         Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)

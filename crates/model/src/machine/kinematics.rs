@@ -44,7 +44,7 @@ impl Legs {
     }
 }
 
-/// Leg forces at a pose a small deflection away from known legs, N: one step of refinement on `L' f = W`, whose error is
+/// Leg forces (N) and vectors from base joint to platform joint (m) at a pose a small deflection away from known legs: one step of refinement on `L' f = W`, whose error is
 /// of second order in the change of the Jacobian.
 pub fn forces_near(
     known: &Legs,
@@ -52,17 +52,19 @@ pub fn forces_near(
     platform: &[Vector3; 6],
     pose: &Pose,
     wrench: &Vector6,
-) -> Vector6 {
+) -> (Vector6, [Vector3; 6]) {
     let rotation = pose.rotation();
     let first = known.forces(wrench);
     let mut unbalanced = *wrench;
-    for leg in 0..6 {
+    let spans = std::array::from_fn(|leg| {
         let arm = rotation * platform[leg];
-        let direction = (pose.translation + arm - base[leg]).normalize() * first[leg];
-        let moment = arm.cross(&direction);
-        unbalanced -= Vector6::new(direction.x, direction.y, direction.z, moment.x, moment.y, moment.z);
-    }
-    first + known.forces(&unbalanced)
+        let span = pose.translation + arm - base[leg];
+        let direction = span.normalize();
+        let (pull, moment) = (direction * first[leg], arm.cross(&direction) * first[leg]);
+        unbalanced -= Vector6::new(pull.x, pull.y, pull.z, moment.x, moment.y, moment.z);
+        span
+    });
+    (first + known.forces(&unbalanced), spans)
 }
 
 /// Leg lengths only, m: `q_i = |t + R B_i - A_i|`.

@@ -1,6 +1,7 @@
 //! The machine: geometry, kinematics, leg forces, and poses found from balls.
 
 pub mod batch;
+pub(crate) mod bending;
 pub(crate) mod body;
 pub mod geometry;
 pub mod kinematics;

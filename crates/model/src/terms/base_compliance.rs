@@ -48,6 +48,5 @@ impl Term for BaseCompliance {
 }
 
 fn body(machine: &Machine, at: &Condition) -> YieldingBody {
-    let lever = at.pose.translation - machine.base_centre;
-    YieldingBody::new(at, Matrix3::identity(), lever)
+    YieldingBody::new(Action::Base, at, |pose| (Matrix3::identity(), pose.translation - machine.base_centre))
 }

@@ -1,6 +1,6 @@
 //! `bracket-compliance`: joint mounts yield sideways.
 
-use hexbench_core::Vector6;
+use hexbench_core::Vector3;
 
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
@@ -14,7 +14,7 @@ static INFO: TermInfo = TermInfo {
     title: "Joint mounts yield sideways",
     chapter: Chapter::Joints,
     physics: "The mounts of the base joints are softer along the base plane than along its normal.",
-    equation: "e = c_lat (n_x^2 + n_y^2) (f - f0)",
+    equation: "a = c_lat [f n_x, f n_y, 0] less the same at f0, e = n . a",
     source: "Kalas et al. 2018, list of suspects: incomplete stiffness model",
     shows: "the inclination of the legs varies",
     how_to_isolate: "measure at poses far from the centre, where the legs stand steeper and flatter",
@@ -30,7 +30,10 @@ impl Term for BracketCompliance {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        let lateral = |leg: usize| 1.0 - at.legs.directions[leg].z.powi(2);
-        out.push(Action::Elongation(Vector6::from_fn(|leg, _| lateral(leg) * at.force_change()[leg])));
+        let sideways = |leg: usize| {
+            let pull = at.pull_change(leg);
+            Vector3::new(pull.x, pull.y, 0.0)
+        };
+        out.push(Action::Shift(std::array::from_fn(sideways)));
     }
 }

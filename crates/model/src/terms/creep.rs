@@ -28,7 +28,7 @@ impl Term for Creep {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
-        out.push(Action::Force(at.force_change() * (1.0 - (-at.elapsed / shape).exp())));
+        out.push(Action::Force(at.spring_change() * (1.0 - (-at.elapsed / shape).exp())));
     }
 
     fn shape_grid(&self, conditions: &[Condition]) -> Vec<f64> {

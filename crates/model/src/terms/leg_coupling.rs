@@ -1,6 +1,6 @@
 //! `leg-coupling`: two legs share a bracket.
 
-use hexbench_core::Vector6;
+use hexbench_core::Vector3;
 
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Scale, Term, TermInfo};
@@ -14,7 +14,7 @@ static INFO: TermInfo = TermInfo {
     title: "Two legs share a bracket",
     chapter: Chapter::Joints,
     physics: "The force of one leg moves the joint of its neighbour on the same bracket.",
-    equation: "e_i += c_x (n_i . n_j) (f_j - f0_j) for each pair",
+    equation: "a_i = c_x (f_j n_j less the same at f0), e_i += n_i . a_i for each pair",
     source: "Klimchik et al. 2014, Mech. Mach. Theory 81 (coupled compliances)",
     shows: "lateral loads are measured",
     how_to_isolate: "load sideways and about the vertical axis, so that the legs of a pair take opposite forces",
@@ -30,13 +30,11 @@ impl Term for LegCoupling {
     }
 
     fn actions(&self, machine: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        let change = at.force_change();
-        let mut e = Vector6::zeros();
+        let mut shift = [Vector3::zeros(); 6];
         for &[i, j] in &machine.bracket_pairs {
-            let cosine = at.legs.directions[i].dot(&at.legs.directions[j]);
-            e[i] += cosine * change[j];
-            e[j] += cosine * change[i];
+            shift[i] += at.pull_change(j);
+            shift[j] += at.pull_change(i);
         }
-        out.push(Action::Elongation(e));
+        out.push(Action::Shift(shift));
     }
 }

@@ -12,7 +12,7 @@ static INFO: TermInfo = TermInfo {
     title: "Leg compliance grows with leg length",
     chapter: Chapter::Legs,
     physics: "The screw or rod of a leg yields more the further the leg is extended.",
-    equation: "e = s (q - q_home) (f - f0)",
+    equation: "e = s ((q - q_home) f - (q0 - q_home) f0), q the present length",
     source: "Merlet, Parallel Robots, 2nd ed. 2006, ch. 9 (stiffness of actuated links)",
     shows: "the poses use a long stroke",
     how_to_isolate: "repeat the loads at poses with short and with long legs",
@@ -27,7 +27,9 @@ impl Term for LegLengthCompliance {
         &INFO
     }
 
-    fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        out.push(Action::Elongation(at.extension.component_mul(&at.force_change())));
+    fn actions(&self, machine: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
+        let [reference, loaded] =
+            [0, 1].map(|s| (at.states[s].lengths - machine.home_lengths).component_mul(&at.spring_forces[s]));
+        out.push(Action::Elongation(loaded - reference));
     }
 }

@@ -1,6 +1,6 @@
 //! `leg-weight`: the legs are not massless.
 
-use hexbench_core::Vector3;
+use hexbench_core::{Vector3, Vector6};
 
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Scale, Term, TermInfo};
@@ -31,7 +31,7 @@ impl Term for LegWeight {
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         let share = -0.5 * Vector3::z();
-        let moment = at.legs.arms.iter().map(|arm| arm.cross(&share)).sum();
-        out.push(at.wrench_action(&(6.0 * share), &moment));
+        let moment: Vector3 = at.legs.arms.iter().map(|arm| arm.cross(&share)).sum();
+        out.push(Action::Wrench(Vector6::new(0.0, 0.0, 6.0 * share.z, moment.x, moment.y, moment.z)));
     }
 }

@@ -1,6 +1,6 @@
 //! `load-offset`: the load acts beside the mobile origin.
 
-use hexbench_core::Vector3;
+use hexbench_core::{Vector3, Vector6};
 
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
@@ -37,7 +37,7 @@ impl Term for LoadOffset {
         let (rotation, force) = (at.pose.rotation(), at.wrench.force - at.reference.force);
         for k in 0..3 {
             let moment = rotation.column(k).cross(&force);
-            out.push(at.wrench_action(&Vector3::zeros(), &moment));
+            out.push(Action::Wrench(Vector6::new(0.0, 0.0, 0.0, moment.x, moment.y, moment.z)));
         }
     }
 

@@ -1,6 +1,6 @@
 //! `load-tilt`: the load is not quite aligned.
 
-use hexbench_core::Vector3;
+use hexbench_core::{Vector3, Vector6};
 
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, ParameterInfo, Rich, Scale, Term, TermInfo};
@@ -35,7 +35,8 @@ impl Term for LoadTilt {
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         let force = at.wrench.force - at.reference.force;
         for axis in [Vector3::x(), Vector3::y()] {
-            out.push(at.wrench_action(&axis.cross(&force), &Vector3::zeros()));
+            let turned = axis.cross(&force);
+            out.push(Action::Wrench(Vector6::new(turned.x, turned.y, turned.z, 0.0, 0.0, 0.0)));
         }
     }
 

@@ -3,7 +3,7 @@
 //! What drifts are the numbers as the file states them: three coordinates, and three Euler angles or a rotation vector. Read with sensors,
 //! the frame on which they stand drifts: three coordinates and a rotation vector.
 
-use hexbench_core::Matrix6;
+use hexbench_core::Vector6;
 
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Scale, Term, TermInfo};
@@ -44,9 +44,9 @@ impl Term for MetrologyDrift {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
-        // The motion of the platform that would read like the drift; sensors stand on a frame that drifts as a whole.
-        let of_numbers = if at.reads_pose { at.observer.try_inverse() } else { None };
-        let motion = of_numbers.unwrap_or_else(Matrix6::identity) * at.elapsed;
-        out.extend(motion.column_iter().map(|c| Action::Twist(c.into_owned())));
+        let read = |k: usize| Vector6::ith(k, at.elapsed);
+        // Sensors stand on a frame that drifts as a whole.
+        let seen = |k: usize| if at.reads_pose { read(k) } else { at.observer * read(k) };
+        out.extend((0..6).map(|k| Action::Reading(seen(k))));
     }
 }

@@ -48,5 +48,5 @@ impl Term for PlatformCompliance {
 }
 
 fn body(at: &Condition) -> YieldingBody {
-    YieldingBody::new(at, at.pose.rotation(), Vector3::zeros())
+    YieldingBody::new(Action::Plate, at, |pose| (pose.rotation(), Vector3::zeros()))
 }

@@ -1,8 +1,9 @@
 //! The first-order chain from load to reading: its derivatives, and its linearity in each parameter alone.
 
-use hexbench_core::{Matrix6, Measurand, Vector6};
+use hexbench_core::{Matrix6, Measurand, Vector3, Vector6};
 use hexbench_model::effects::chain::{Action, Link, Load};
 use hexbench_model::estimation::campaign::{Campaign, Condition};
+use hexbench_model::estimation::equilibrium::Tangents;
 use hexbench_model::machine::geometry::Machine;
 use proptest::prelude::*;
 
@@ -38,7 +39,8 @@ fn condition(random: &mut Random, measurand: Measurand) -> Condition {
     let hexapod = common::measured_machine(0.5e-6, 3e-6);
     let campaign = Campaign::new(&hexapod, &data).unwrap();
     let springs = Vector6::repeat(COMPLIANCE);
-    campaign.conditions(&Machine::nominal(&paper_machine()), &springs).unwrap().remove(0)
+    let machine = Machine::nominal(&paper_machine());
+    campaign.conditions(&machine, &springs, &[], Tangents::ForFit).unwrap().remove(0)
 }
 
 fn vector(random: &mut Random, size: f64) -> Vector6 {
@@ -67,10 +69,16 @@ fn one_of_each(random: &mut Random) -> Vec<Action> {
         Action::Force(vector(random, 0.3 * FORCE)),
         Action::Elongation(vector(random, 0.3 * FORCE * COMPLIANCE)),
         Action::Stiffness(stiffness(random)),
-        Action::Twist(twist(random, 0.3 * FORCE * COMPLIANCE)),
+        Action::Base(twist(random, 0.3 * FORCE * COMPLIANCE)),
+        Action::Plate(twist(random, 0.3 * FORCE * COMPLIANCE)),
         Action::Target(target),
+        Action::Reading(twist(random, 0.3 * FORCE * COMPLIANCE)),
+        Action::Shift(std::array::from_fn(|_| {
+            Vector3::from_fn(|_, _| random.within(0.3 * FORCE * COMPLIANCE))
+        })),
         // A second one of the kinds that multiply others.
         Action::Stiffness(stiffness(random)),
+        Action::Bending([0.05 / COMPLIANCE * RADIUS * RADIUS; 2]),
     ]
 }
 
@@ -156,7 +164,7 @@ proptest! {
         let scale = link.prediction().amax();
         for (k, action) in case.actions.iter().enumerate() {
             // A stiffness beside the legs enters through an inverse and is the one exception.
-            if matches!(action, Action::Stiffness(_)) {
+            if matches!(action, Action::Stiffness(_) | Action::Bending(_)) {
                 continue;
             }
             for far in [-2.0, 7.0] {
@@ -207,6 +215,6 @@ fn a_stiffness_beside_the_legs_adds_to_theirs() {
 fn nothing_moves_without_a_change_of_load() {
     let mut random = Random::new(10);
     let mut c = condition(&mut random, Measurand::DeflectionEuler);
-    c.reference_force = c.force;
+    c.set_forces([c.force; 2], &Vector6::zeros());
     assert_eq!(Link::at(&c, &Vector6::repeat(COMPLIANCE), &Load::default()).prediction(), Vector6::zeros());
 }

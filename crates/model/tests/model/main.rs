@@ -12,6 +12,7 @@ mod evidence;
 mod examination;
 mod frames;
 mod gain;
+mod interactions;
 mod kinematics;
 mod least_squares;
 mod misread;

@@ -38,7 +38,14 @@ fn actions_of(term: &dyn Term, rich: bool, shape: f64, at: &Condition) -> Vec<Ac
 /// Elements of an action.
 fn elements(action: &Action) -> Vec<f64> {
     match action {
-        Action::Force(v) | Action::Elongation(v) | Action::Twist(v) => v.iter().copied().collect(),
+        Action::Force(v)
+        | Action::Wrench(v)
+        | Action::Elongation(v)
+        | Action::Base(v)
+        | Action::Plate(v)
+        | Action::Reading(v) => v.iter().copied().collect(),
+        Action::Shift(all) => all.iter().flatten().copied().collect(),
+        Action::Bending(k) => k.to_vec(),
         Action::Stiffness(m) | Action::Target(m) => m.iter().copied().collect(),
         Action::Joint { elongation: first, force } | Action::Frame { twist: first, force } => {
             first.iter().chain(force).copied().collect()

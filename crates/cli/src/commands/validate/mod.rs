@@ -3,6 +3,7 @@
 pub(crate) mod calibration;
 pub(crate) mod discover;
 pub(crate) mod discriminate;
+pub(crate) mod interactions;
 pub(crate) mod misread;
 pub(crate) mod paper;
 pub(crate) mod power;
@@ -31,6 +32,7 @@ pub(crate) struct Arguments {
 enum Study {
     Recovery(recovery::Arguments),
     Paper(paper::Arguments),
+    Interactions(interactions::Arguments),
     Calibration(calibration::Arguments),
     Robustness(robustness::Arguments),
     Misread(misread::Arguments),
@@ -46,6 +48,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     match &arguments.study {
         Study::Recovery(arguments) => recovery::run(arguments, screen),
         Study::Paper(arguments) => paper::run(arguments, screen),
+        Study::Interactions(arguments) => interactions::run(arguments, screen),
         Study::Calibration(arguments) => calibration::run(arguments, screen),
         Study::Robustness(arguments) => robustness::run(arguments, screen),
         Study::Misread(arguments) => misread::run(arguments, screen),

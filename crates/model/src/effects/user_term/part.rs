@@ -48,21 +48,18 @@ impl PartKind {
     /// The action of six numbers.
     pub(crate) fn action(self, at: &Condition, v: &Vector6) -> Action {
         let halves = || (Vector3::new(v[0], v[1], v[2]), Vector3::new(v[3], v[4], v[5]));
-        let twist = |v: Vector3, w: Vector3| Action::Twist(Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z));
+        let twist = |v: Vector3, w: Vector3| Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
         match self {
             Self::Elongation => Action::Elongation(*v),
-            Self::Wrench => {
-                let (force, moment) = halves();
-                at.wrench_action(&force, &moment)
-            }
+            Self::Wrench => Action::Wrench(*v),
             Self::BaseMotion => {
                 let (shift, turn) = halves();
-                twist(shift + turn.cross(&at.pose.translation), turn)
+                Action::Base(twist(shift + turn.cross(&at.pose.translation), turn))
             }
             Self::PlatformMotion => {
                 let (shift, turn) = halves();
                 let axes = at.pose.rotation();
-                twist(axes * shift, axes * turn)
+                Action::Plate(twist(axes * shift, axes * turn))
             }
         }
     }

@@ -2,6 +2,7 @@
 
 pub(crate) mod plan;
 pub(crate) mod random;
+pub(crate) mod structure;
 pub(crate) mod terms;
 pub(crate) mod world;
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use hexbench_core::{Approach, Dataset, Hexapod, Observation, Vector6};
 use hexbench_model::effects::term::{Natural, Term};
 use hexbench_model::estimation::campaign::{Campaign, Condition};
+use hexbench_model::estimation::equilibrium::Tangents;
 use hexbench_model::machine::geometry::Machine;
 use hexbench_model::terms::catalogue;
 
@@ -40,7 +41,8 @@ pub(crate) fn rows(count: usize, seed: u64) -> Vec<Observation> {
 pub(crate) fn conditions_on(hexapod: &Hexapod, data: &Dataset) -> Vec<Condition> {
     let stated = Hexapod { metrology: measured_machine(0.5e-6, 3e-6).metrology, ..hexapod.clone() };
     let campaign = Campaign::new(&stated, data).unwrap();
-    campaign.conditions(&Machine::nominal(hexapod), &Vector6::repeat(SPRING)).unwrap()
+    let (machine, springs) = (Machine::nominal(hexapod), Vector6::repeat(SPRING));
+    campaign.conditions(&machine, &springs, &[], Tangents::ForFit).unwrap()
 }
 
 /// The paper's machine with its brackets stated.

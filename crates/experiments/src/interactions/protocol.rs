@@ -1,0 +1,137 @@
+//! Which effects meet.
+
+use hexbench_core::streams::{Purpose, stream};
+use hexbench_truth::mechanisms::{REGISTRY, Shows};
+use rand::RngExt;
+
+use super::trial::InteractionRecord;
+use crate::TrialError;
+use crate::harness::{Field, Gathered, Protocol};
+use crate::journal::Identity;
+
+/// Seed of the committed figures.
+pub const SEED: u64 = 17;
+/// Triples in the committed figures.
+pub const TRIPLES: usize = 60;
+/// Sizes as multiples of the usual one.
+const SIZES: [f64; 2] = [1.0, 10.0];
+
+/// Sets of effects, each at every size.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InteractionsProtocol {
+    /// Decides everything that is drawn.
+    pub seed: u64,
+    /// Ids of the effects of each set.
+    pub sets: Vec<Vec<&'static str>>,
+}
+
+impl InteractionsProtocol {
+    /// Every effect alone, every pair, and this many triples.
+    pub fn new(seed: u64, triples: usize) -> Self {
+        let all = effects();
+        let pairs = all.iter().enumerate().flat_map(|(i, a)| all[i + 1..].iter().map(move |b| vec![*a, *b]));
+        let alone = all.iter().map(|a| vec![*a]);
+        let mut drawn: Vec<Vec<&'static str>> = Vec::new();
+        let mut numbers = 0..;
+        while drawn.len() < triples {
+            let next = numbers.next().map(|n| triple(&all, seed, n)).filter(|t| !drawn.contains(t));
+            drawn.extend(next);
+        }
+        Self { seed, sets: alone.chain(pairs).chain(drawn).collect() }
+    }
+
+    /// Set and size of a trial.
+    fn place(&self, number: u64) -> (&[&'static str], f64) {
+        let number = usize::try_from(number).unwrap_or(usize::MAX);
+        (&self.sets[number / SIZES.len()], SIZES[number % SIZES.len()])
+    }
+}
+
+/// Ids of the effects that deflections show.
+fn effects() -> Vec<&'static str> {
+    REGISTRY.iter().filter(|e| e.shows == Shows::Deflection).map(|e| e.id).collect()
+}
+
+/// Three different effects in the order of the catalogue.
+fn triple(all: &[&'static str], seed: u64, number: u64) -> Vec<&'static str> {
+    let mut rng = stream(seed, Purpose::InteractionTriple, [number]);
+    let mut left: Vec<usize> = (0..all.len()).collect();
+    let mut chosen: Vec<usize> = (0..3).map(|_| left.swap_remove(rng.random_range(0..left.len()))).collect();
+    chosen.sort_unstable();
+    chosen.into_iter().map(|k| all[k]).collect()
+}
+
+impl Protocol for InteractionsProtocol {
+    type Record = InteractionRecord;
+    type Error = TrialError;
+
+    fn identity(&self) -> Identity {
+        let sets: Vec<String> = self.sets.iter().map(|set| set.join(" + ")).collect();
+        Identity::new(
+            "interactions",
+            "interactions-trials/1",
+            [("seed", self.seed.to_string()), ("sets", sets.join(", "))],
+        )
+    }
+
+    fn trials(&self) -> u64 {
+        (self.sets.len() * SIZES.len()) as u64
+    }
+
+    fn trial(&self, number: u64) -> Result<InteractionRecord, TrialError> {
+        let (set, size) = self.place(number);
+        InteractionRecord::of(set, size, self.seed)
+    }
+
+    fn name(&self, number: u64) -> String {
+        let (set, size) = self.place(number);
+        format!("{} x{size}", set.join(" + "))
+    }
+
+    fn fields(&self) -> Vec<Field<InteractionRecord>> {
+        vec![
+            number("size", "multiple of the usual size", |r| r.size),
+            number("stiffness_error", "largest relative error of a leg stiffness", |r| r.stiffness.error),
+            number("stiffness_bound", "what it may be", |r| r.stiffness.bound),
+            number("parameter_error", "relative error of the parameter closest to its bound", |r| {
+                r.parameter.error
+            }),
+            number("parameter_bound", "what it may be", |r| r.parameter.bound),
+            Field::text("parameter", "its name", |r: &InteractionRecord| r.name.clone()),
+            number("open", "numbers that the data leave open", |r| r.open as f64),
+            number("resting", "readings in which a leg rests within its play", |r| r.resting as f64),
+        ]
+    }
+}
+
+fn number(
+    name: &str,
+    meaning: &'static str,
+    value: fn(&InteractionRecord) -> f64,
+) -> Field<InteractionRecord> {
+    Field::number((name, "1"), meaning, value)
+}
+
+/// What all sets gave.
+#[derive(Debug)]
+pub struct Interactions {
+    /// What was run.
+    pub protocol: InteractionsProtocol,
+    /// Answers in the order of the protocol.
+    pub records: Vec<InteractionRecord>,
+    /// Sets without an answer: name and reason.
+    pub failures: Vec<(String, String)>,
+}
+
+impl Interactions {
+    /// What the trials of a protocol gave.
+    pub fn of(protocol: InteractionsProtocol, gathered: Gathered<InteractionRecord>) -> Self {
+        let failures = gathered.failures().map(|(n, why)| (protocol.name(n), why.clone())).collect();
+        Self { records: gathered.answers.into_iter().flatten().collect(), failures, protocol }
+    }
+
+    /// Answers with a number beyond its bound.
+    pub fn broken(&self) -> impl Iterator<Item = &InteractionRecord> {
+        self.records.iter().filter(|r| !r.holds())
+    }
+}

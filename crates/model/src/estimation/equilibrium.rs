@@ -1,0 +1,483 @@
+//! Where the machine comes to rest: leg forces, and how the structure yields about them, given all parameters.
+//!
+//! In each state `s`, reference and loaded, the legs and what stands beside them share the load:
+//!
+//! ```text
+//! f_s = L_s^-T W_s - J' K d_s        leg forces, K the stiffness beside the legs
+//! d_s = J e_s                        motion of the legs' platform against their base
+//! e_s = e(f_s)                       elongation by the springs and *all* terms at these forces
+//! ```
+//!
+//! One step of Newton's method with the tangent compliance `C = de/df` of all legs (6x6, off the diagonal where legs share a
+//! bracket) is `d = (I + J C J' K)^-1 J (e + C r)`, `r` the relief `J' K d` assumed before. Without stiffness beside the legs the
+//! forces are determined by statics and nothing is iterated. The tangent is taken from the laws of the terms themselves, by differences: a
+//! term that is added takes part without a further word.
+
+use hexbench_core::{
+    Approach, Channel, Matrix3, Matrix6, Measurand, Observation, Pose, SensorKind, Vector3, Vector6, Wrench,
+};
+
+use crate::effects::chain::{Action, JointDisplacement, Load};
+use crate::error::ModelError;
+use crate::estimation::campaign::{Campaign, Condition, ConditionReadings, LoadPath, LoadState, moved};
+use crate::estimation::frames::ReadingAxes;
+use crate::estimation::linearization::{Active, actions};
+use crate::estimation::parallel::try_map;
+use crate::machine::geometry::Machine;
+use crate::machine::kinematics::{Legs, euler_rate_matrix, forces_near};
+
+/// Steps of Newton's method; each gains the curvature of the legs times the share that stands beside them.
+const MOST_STEPS: usize = 12;
+/// Change of the relief, relative to the leg forces, at which it has settled: rounding of sums of six.
+const SETTLED: f64 = 1e-14;
+/// Step of the differences relative to the leg forces: laws bend over newtons, and rounding stays below 1e-9 of a compliance.
+const STEP: f64 = 1e-6;
+
+/// How the structure yields about the forces it carries.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Tangent {
+    /// Leg elongations by leg forces under the load, m/N (6x6).
+    pub loaded: Matrix6,
+    /// The same by those in the reference state.
+    pub reference: Matrix6,
+    /// Twist of what yields in series with all legs by the wrench at the mobile origin (6x6), fixed axes.
+    pub series: Matrix6,
+    /// Displacement of the base joints on their brackets in the reference state, fixed axes, m.
+    pub shift: [Vector3; 6],
+}
+
+/// When the tangent is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tangents {
+    /// Where the forces, or the columns of the active terms themselves, depend on it.
+    ForFit,
+    /// Wherever terms are active: columns of any other term follow.
+    ForAll,
+}
+
+/// What lies between platform and ground.
+struct Structure<'a> {
+    machine: &'a Machine,
+    springs: &'a Vector6,
+    /// Terms that act at a condition; those that calibrate the machine are part of it.
+    active: Vec<&'a Active>,
+    /// True when the tangent is wanted whatever the terms do.
+    with_tangent: bool,
+}
+
+impl Campaign {
+    /// Conditions of this campaign on a machine whose legs have these compliances (m/N), under active terms.
+    ///
+    /// # Errors
+    /// [`ModelError::SingularPose`] for the first pose in file order that is singular.
+    pub fn conditions(
+        &self,
+        machine: &Machine,
+        springs: &Vector6,
+        active: &[Active],
+        tangents: Tangents,
+    ) -> Result<Vec<Condition>, ModelError> {
+        let (calibrating, active): (Vec<&Active>, Vec<&Active>) =
+            active.iter().partition(|a| a.term.calibrates());
+        // What calibrates the machine, its loads and joints, moves the forces of all legs.
+        let with_tangent = tangents == Tangents::ForAll || !calibrating.is_empty();
+        let structure = Structure { machine, springs, active, with_tangent };
+        try_map(&self.groups, |g| self.condition(&structure, g))
+    }
+
+    fn condition(
+        &self,
+        structure: &Structure<'_>,
+        group: &ConditionReadings,
+    ) -> Result<Condition, ModelError> {
+        let (o, machine) = (&group.mean, structure.machine);
+        let mut out = Vec::new();
+        let (mut at, shift) = if self.is_absolute() {
+            (measured(structure, o)?, None)
+        } else {
+            let measured = self.reads_poses.then_some((&o.measured, self.measurand));
+            deflected(structure, o, measured, &mut out)?
+        };
+        at.weight = Vector6::from_fn(|k, _| 1.0 / group.sigma[k]);
+        (at.numbers, at.reads_pose) = (group.numbers(), group.channels == Channel::POSE);
+        at.observer = self.observer(machine, &at.pose, &o.measured);
+        if !at.reads_pose {
+            let rows = group.channels.map(|channel| self.seen_by(channel, &at, &at.observer));
+            at.observer = Matrix6::from_rows(&rows.map(|row| row.transpose()));
+        }
+        at.reading = if self.is_absolute() {
+            // Exact closure at the measured pose: no forward kinematics is needed.
+            at.observer * at.legs.platform_jacobian * (at.legs.lengths - at.commanded_lengths)
+        } else {
+            Vector6::from_column_slice(&o.measured)
+        };
+        structure.settle(&mut at, shift, structure.with_tangent, &mut out);
+        Ok(at)
+    }
+
+    /// What one channel reads per unit of the geometric twist at the mobile origin; of the pose halfway between the states, so that what
+    /// is left out is of third order in the deflection.
+    fn seen_by(&self, channel: Channel, at: &Condition, pose_numbers: &Matrix6) -> Vector6 {
+        let along = |u: &Vector3, arm: &Vector3| {
+            let moment = arm.cross(u);
+            Vector6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
+        };
+        let arm = |point: &Vector3| at.pose.rotation() * point;
+        match channel {
+            Channel::Nothing => Vector6::zeros(),
+            Channel::Pose(k) => pose_numbers.row(k).transpose(),
+            Channel::Sensor { sensor, number } => match self.hexapod.sensors.get(sensor).map(|s| &s.kind) {
+                Some(SensorKind::Distance { point, direction, .. }) => along(direction, &arm(point)),
+                Some(SensorKind::Point { point, .. }) => along(&Vector3::ith(number, 1.0), &arm(point)),
+                Some(SensorKind::Inclination { axis, .. }) => {
+                    Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z)
+                }
+                Some(SensorKind::LegLength { leg, .. }) => {
+                    along(&at.legs.directions[*leg], &at.legs.arms[*leg])
+                }
+                None => Vector6::zeros(),
+            },
+        }
+    }
+
+    /// Measured coordinates from the geometric twist: Euler differences for Euler readings, and the lever arm of
+    /// the target in absolute mode.
+    fn observer(&self, machine: &Machine, pose: &Pose, measured: &[f64; 6]) -> Matrix6 {
+        match self.measurand {
+            Measurand::DeflectionRotationVector => return Matrix6::identity(),
+            Measurand::DeflectionEuler => {
+                let rates = ReadingAxes::default().rates(&pose.to_array());
+                return observer_matrix(&Matrix3::identity(), &Vector3::zeros(), &rates);
+            }
+            Measurand::AbsolutePose => {}
+        }
+        let lever = pose.rotation() * machine.target_frame.translation.vector;
+        let axes = *machine.metrology_frame.rotation.to_rotation_matrix().matrix();
+        observer_matrix(&axes, &lever, &self.axes.rates(measured))
+    }
+}
+
+/// `diag(I, rates) diag(axes, axes) [I, -[lever]x; 0, I]`.
+fn observer_matrix(axes: &Matrix3, lever: &Vector3, rates: &Matrix3) -> Matrix6 {
+    let mut h = Matrix6::zeros();
+    h.fixed_view_mut::<3, 3>(0, 0).copy_from(axes);
+    h.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-axes * lever.cross_matrix()));
+    h.fixed_view_mut::<3, 3>(3, 3).copy_from(&(rates * axes));
+    h
+}
+
+/// A condition whose legs stand at a pose and carry there what statics says, not yet read.
+fn standing(structure: &Structure<'_>, o: &Observation, pose: Pose, legs: Legs) -> Condition {
+    let machine = structure.machine;
+    let none = Vector6::zeros();
+    let commanded_lengths = machine.commanded_lengths(&o.pose);
+    let states = [&o.reference, &o.wrench].map(|wrench| LoadState {
+        pose,
+        wrench: machine.effective_wrench(wrench, &pose),
+        directions: legs.directions,
+        lengths: legs.lengths,
+    });
+    let mut at = Condition {
+        pose,
+        legs,
+        commanded_lengths,
+        extension: commanded_lengths - machine.home_lengths,
+        wrench: o.wrench,
+        reference: o.reference,
+        states,
+        force: none,
+        reference_force: none,
+        spring_forces: [none; 2],
+        path: LoadPath { reference: none, extreme: none, load: none },
+        sag: none,
+        relief: none,
+        tangent: None,
+        approach: o.approach,
+        delta_t: o.delta_t,
+        elapsed: o.elapsed,
+        reading: none,
+        observer: Matrix6::identity(),
+        weight: Vector6::repeat(1.0),
+        numbers: 6,
+        reads_pose: true,
+        springs: *structure.springs,
+    };
+    at.set_forces(states.map(|s| legs.forces(&s.wrench)), &machine.friction_limits);
+    at
+}
+
+/// Absolute mode: the measured pose, brought back to the platform, is the loaded pose. A pose is measured against nothing: its
+/// reference is the unloaded machine.
+fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Condition, ModelError> {
+    let machine = structure.machine;
+    let pose = machine.platform_pose(&Pose::from_array(o.measured));
+    let o = Observation { reference: Wrench::default(), ..*o };
+    Ok(standing(structure, &o, pose, machine.legs(&pose)?))
+}
+
+/// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
+/// the finite deflection is of third order. The reference pose is the commanded one plus the small deflection that
+/// the structure gives it; the loaded pose lies a measured deflection further, or one as the structure gives it where no pose was
+/// measured. Also the displacement of the base joints on their
+/// brackets in the reference state.
+fn deflected(
+    structure: &Structure<'_>,
+    o: &Observation,
+    measured: Option<(&[f64; 6], Measurand)>,
+    out: &mut Vec<Action>,
+) -> Result<(Condition, Option<[Vector3; 6]>), ModelError> {
+    let mut at = standing(structure, o, o.pose, structure.machine.legs(&o.pose)?);
+    let sag = structure.sag(&at, out);
+    let before = sag.displacement.unwrap_or_default();
+    let displaced =
+        structure.load(&at, out).displacement(&at).map(|change| [before, before.and(&change, 1.0)]);
+    let reference = moved(&o.pose, &sag.whole, 1.0);
+    let motion = match measured {
+        None => structure.motion(&at, out),
+        Some((measured, measurand)) => {
+            let mut motion = Vector6::from_column_slice(measured);
+            if measurand == Measurand::DeflectionEuler {
+                let rotation = euler_rate_matrix(&o.pose.angles) * motion.fixed_rows::<3>(3);
+                motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
+            }
+            motion
+        }
+    };
+    let [halfway, loaded] = [0.5, 1.0].map(|share| moved(&reference, &motion, share));
+    structure.place(&mut at, halfway, [reference, loaded], displaced)?;
+    at.sag = sag.of_legs;
+    Ok((at, sag.shift))
+}
+
+/// Deflection in the reference state, to first order.
+struct Sag {
+    /// Motion of the legs' platform against their base, geometric twist.
+    of_legs: Vector6,
+    /// Motion of the measured platform, geometric twist.
+    whole: Vector6,
+    /// Displacement of the base joints on their brackets.
+    shift: Option<[Vector3; 6]>,
+    /// Displacement of the joints by all that moves them.
+    displacement: Option<JointDisplacement>,
+}
+
+impl Structure<'_> {
+    /// What the terms do together at a condition.
+    fn load(&self, at: &Condition, out: &mut Vec<Action>) -> Load {
+        load(self.machine, at, self.active.iter().copied(), out)
+    }
+
+    /// Puts a condition halfway between its states, its legs loaded as statics says where they are. `displaced`: how the joints are in
+    /// the two states; none: as drawn.
+    fn place(
+        &self,
+        at: &mut Condition,
+        halfway: Pose,
+        poses: [Pose; 2],
+        displaced: Option<[JointDisplacement; 2]>,
+    ) -> Result<(), ModelError> {
+        let machine = self.machine;
+        let joints = |pose: &Pose, displaced: Option<JointDisplacement>| {
+            displaced.map_or([machine.base_joints, machine.platform_joints], |d| d.joints(machine, pose))
+        };
+        let mean = displaced.map(|[a, b]| JointDisplacement::default().and(&a, 0.5).and(&b, 0.5));
+        let [base, platform] = joints(&halfway, mean);
+        (at.pose, at.legs) = (halfway, Legs::at(&base, &platform, &halfway)?);
+        let mut forces = [Vector6::zeros(); 2];
+        for (k, wrench) in [at.reference, at.wrench].iter().enumerate() {
+            let (state, pose) = (&mut at.states[k], poses[k]);
+            let [base, platform] = joints(&pose, displaced.map(|d| d[k]));
+            (state.pose, state.wrench) = (pose, machine.effective_wrench(wrench, &pose));
+            let (force, spans) = forces_near(&at.legs, &base, &platform, &pose, &state.wrench);
+            state.lengths = Vector6::from_fn(|leg, _| spans[leg].norm());
+            state.directions = std::array::from_fn(|leg| spans[leg] / state.lengths[leg]);
+            forces[k] = force;
+        }
+        at.set_forces(forces, &machine.friction_limits);
+        Ok(())
+    }
+
+    /// The reference state of a condition at its commanded pose: a load of its own on the unloaded machine, when nothing has yet
+    /// warmed, drifted or crept.
+    fn sag(&self, commanded: &Condition, out: &mut Vec<Action>) -> Sag {
+        let j = commanded.legs.platform_jacobian;
+        if self.active.is_empty() {
+            let whole = j * self.springs.component_mul(&commanded.reference_force);
+            return Sag { of_legs: whole, whole, shift: None, displacement: None };
+        }
+        let mut at = Condition {
+            wrench: commanded.reference,
+            reference: Wrench::default(),
+            approach: Approach::Direct,
+            delta_t: 0.0,
+            elapsed: 0.0,
+            ..commanded.clone()
+        };
+        at.states[1].wrench = at.states[0].wrench;
+        at.states[0].wrench = Vector6::zeros();
+        at.set_forces([Vector6::zeros(), commanded.reference_force], &self.machine.friction_limits);
+        let load = self.settle(&mut at, None, false, out);
+        let of_legs = j * load.stretch(&at, self.springs);
+        let displacement = load.displacement(&at);
+        Sag { of_legs, whole: of_legs + load.twist(), shift: load.shift(), displacement }
+    }
+
+    /// Motion of the measured platform between reference and load, to first order, at the commanded pose.
+    fn motion(&self, commanded: &Condition, out: &mut Vec<Action>) -> Vector6 {
+        let j = commanded.legs.platform_jacobian;
+        if self.active.is_empty() {
+            return j * self.springs.component_mul(&commanded.force_change());
+        }
+        let mut at = commanded.clone();
+        let load = self.settle(&mut at, None, false, out);
+        j * load.stretch(&at, self.springs) + load.twist()
+    }
+
+    /// Brings the forces of a condition to rest, and says how the structure yields about them; what the terms do there.
+    /// `shift`: displacement of the base joints on their brackets in the reference state.
+    fn settle(
+        &self,
+        at: &mut Condition,
+        shift: Option<[Vector3; 6]>,
+        with_tangent: bool,
+        out: &mut Vec<Action>,
+    ) -> Load {
+        if self.active.is_empty() {
+            return Load::default();
+        }
+        let load = self.load(at, out);
+        if let Some(wrench) = load.wrench() {
+            at.states[1].wrench += wrench;
+            let forces = [at.reference_force, at.force + at.legs.forces(&wrench)];
+            at.set_forces(forces, &self.machine.friction_limits);
+        }
+        let beside = load.beside(at);
+        if with_tangent || beside.is_some() {
+            at.tangent = Some(Box::new(self.tangent(at, shift, &load, out)));
+        }
+        if beside.is_none() {
+            return load;
+        }
+        self.relieve(at, out);
+        self.load(at, out)
+    }
+
+    /// Takes off the legs what stands beside them, on every load of the way that leaves a trace.
+    fn relieve(&self, at: &mut Condition, out: &mut Vec<Action>) {
+        let slides = at.approach == Approach::Overloaded && self.machine.friction_limits.amax() > 0.0;
+        let extreme = slides.then(|| {
+            let mut exceeded =
+                Condition { approach: Approach::Direct, delta_t: 0.0, elapsed: 0.0, ..at.clone() };
+            exceeded.set_forces([at.reference_force, at.path.extreme], &self.machine.friction_limits);
+            self.relieve_load(&mut exceeded, None, out);
+            exceeded.force
+        });
+        self.relieve_load(at, extreme, out);
+    }
+
+    /// The same for the load alone, reached over known `extreme` leg forces.
+    fn relieve_load(&self, at: &mut Condition, extreme: Option<Vector6>, out: &mut Vec<Action>) {
+        let Some(beside) = self.load(at, out).beside(at) else { return };
+        let (j, limits) = (at.legs.platform_jacobian, &self.machine.friction_limits);
+        let compliance = compliance(at, self.springs, |t| t.loaded);
+        let by_stretch = against(&j, &compliance, &beside.stiffness) * j;
+        let shift_before = at.tangent.as_ref().map(|t| t.shift);
+        let before = j.tr_mul(&beside.held(&at.legs, &at.sag, shift_before.as_ref()));
+        let [reference, load] = [at.reference_force, at.force].map(|f| f - before);
+        let small = SETTLED * at.force.amax();
+        for _ in 0..MOST_STEPS {
+            let assumed = at.relief;
+            at.set_forces([reference, load - assumed], limits);
+            if let Some(extreme) = extreme {
+                at.set_path(LoadPath { extreme, ..at.path }, limits);
+            }
+            let here = self.load(at, out);
+            let by_shift = -j.tr_mul(&beside.held(&at.legs, &Vector6::zeros(), here.shift().as_ref()));
+            let motion = by_stretch * (here.stretch(at, self.springs) + compliance * (assumed + by_shift));
+            at.relief = j.tr_mul(&(beside.stiffness * motion)) - by_shift;
+            if (at.relief - assumed).amax() <= small {
+                break;
+            }
+        }
+    }
+
+    /// Differences of what the terms do by the forces of each leg and by the wrench.
+    fn tangent(
+        &self,
+        at: &Condition,
+        shift: Option<[Vector3; 6]>,
+        load: &Load,
+        out: &mut Vec<Action>,
+    ) -> Tangent {
+        let springs = Matrix6::from_diagonal(self.springs);
+        let shift = shift.unwrap_or_default();
+        let mut tangent = Tangent { loaded: springs, reference: springs, series: Matrix6::zeros(), shift };
+        if load.stretches() {
+            let yielding = self.only(at, Load::stretches, out);
+            tangent.loaded = yielding.by_forces(at, 1, out);
+            if at.sag != Vector6::zeros() {
+                tangent.reference = -yielding.by_forces(at, 0, out);
+            }
+        }
+        if load.twist() != Vector6::zeros() {
+            let bodies = self.only(at, |load| load.twist() != Vector6::zeros(), out);
+            let mut beside = at.clone();
+            for axis in 0..6 {
+                beside.states[1].wrench[axis] += 1.0;
+                tangent.series.set_column(axis, &(bodies.load(&beside, out).twist() - load.twist()));
+                beside.states[1].wrench[axis] = at.states[1].wrench[axis];
+            }
+        }
+        tangent
+    }
+
+    /// The structure with those of its terms alone that do something at a condition.
+    fn only(&self, at: &Condition, does: impl Fn(&Load) -> bool, out: &mut Vec<Action>) -> Self {
+        let own = self.active.iter().filter(|a| does(&load(self.machine, at, std::iter::once(**a), out)));
+        Self { active: own.copied().collect(), ..*self }
+    }
+
+    /// Elongations by the leg forces of one state (6x6).
+    fn by_forces(&self, at: &Condition, state: usize, out: &mut Vec<Action>) -> Matrix6 {
+        let stretch = self.load(at, out).stretch(at, self.springs);
+        let step = STEP * (1.0 + at.force.amax());
+        let mut beside = at.clone();
+        let mut columns = Matrix6::zeros();
+        for leg in 0..6 {
+            let mut forces = [at.reference_force, at.force];
+            forces[state][leg] += step;
+            beside.set_forces(forces, &self.machine.friction_limits);
+            let moved = self.load(&beside, out).stretch(&beside, self.springs);
+            columns.set_column(leg, &((moved - stretch) / step));
+        }
+        columns
+    }
+}
+
+/// A tangent compliance of a condition; without one, that of the springs.
+pub(crate) fn compliance(at: &Condition, springs: &Vector6, of: fn(&Tangent) -> Matrix6) -> Matrix6 {
+    at.tangent.as_deref().map_or_else(|| Matrix6::from_diagonal(springs), of)
+}
+
+/// `(I + J C J' K)^-1`: the share of a motion of the legs that a stiffness beside them leaves.
+pub(crate) fn against(j: &Matrix6, compliance: &Matrix6, stiffness: &Matrix6) -> Matrix6 {
+    let all = Matrix6::identity() + j * compliance * j.transpose() * stiffness;
+    all.try_inverse().unwrap_or_else(Matrix6::identity)
+}
+
+/// Sum of what active terms do at a condition.
+pub(crate) fn load<'a>(
+    machine: &Machine,
+    at: &Condition,
+    active: impl Iterator<Item = &'a Active>,
+    out: &mut Vec<Action>,
+) -> Load {
+    let mut load = Load::default();
+    for a in active {
+        actions(a.term.as_ref(), a.rich, a.shape, machine, at, out);
+        for (action, value) in out.iter().zip(&a.values) {
+            load.add(action, *value);
+        }
+    }
+    load
+}
