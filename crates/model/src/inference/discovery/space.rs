@@ -48,7 +48,7 @@ impl Spaces {
         let mut residual = target(lin, point);
         project(&basis, &mut residual);
         let yy = residual.norm_squared();
-        let equations = (lin.equations() - basis.ncols()) as f64;
+        let equations = lin.numbers() - basis.ncols() as f64;
         // Symmetric whitening: what is whitened once more stands beside a column that is not whitened at all.
         let rows = [Some(lin.whitened(basis)), lin.input_block()];
         let rows = beside(&rows.into_iter().flatten().collect::<Vec<_>>());
