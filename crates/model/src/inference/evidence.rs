@@ -205,6 +205,14 @@ impl Gram {
         (columns, DVector::from_vec(scale))
     }
 
+    /// Logarithm of the likelihood of springs alone, up to what all points of linearisation of a campaign share.
+    pub(crate) fn log_likelihood_without(&self) -> f64 {
+        if self.level.dof.is_infinite() {
+            return -0.5 * self.yy;
+        }
+        -0.5 * (self.equations + self.level.dof) * (self.level.sum + self.yy).max(f64::MIN_POSITIVE).ln()
+    }
+
     /// Logarithm of the likelihood gained by a drop of (inflated) chi-square, and lost by the inflation itself. The noise level is
     /// integrated out: with `S` and `nu` known of it, `n` equations and an inflation `v` of what the model leaves,
     ///
