@@ -12,7 +12,7 @@ use crate::inference::evidence::{Gram, PriorBlock};
 use crate::inference::pattern::Pattern;
 
 /// Prior share of the ideal form where there is a richer one.
-const IDEAL_SHARE: f64 = 0.8;
+pub(crate) const IDEAL_SHARE: f64 = 0.8;
 /// Width of the deviations of a richer form relative to the ideal sizes.
 const RICH_WIDTH: f64 = 0.5;
 

@@ -15,6 +15,7 @@ use crate::inference::candidates::{Candidate, CandidateKind, Collector, sizes};
 use crate::inference::discovery::LawTerm;
 use crate::inference::evidence::Gram;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};
+use crate::inference::rivals::Rivals;
 use crate::inference::scan::Scanner;
 use crate::inference::search::{Set, Sets, TermSearch};
 
@@ -28,6 +29,8 @@ const FIT_WIDTH: f64 = 3.0;
 const WEIGHT_OF_PATTERNS: f64 = 2.0;
 /// Chance of larger residuals below which patterns outside the catalogue are scanned for.
 const DOUBTFUL_CHANCE: f64 = 0.1;
+/// Chance of larger residuals below which the best set does not fit.
+const MISFIT_CHANCE: f64 = 1e-4;
 /// Term parameters up to which no scan is needed for imitation.
 const FEW_PARAMETERS: usize = 3;
 /// Conditions looked at by scans.
@@ -101,6 +104,19 @@ pub fn explain_with_laws(
         history.push(names);
         if settled || history.len() >= MOST_ROUNDS {
             let rounds = history.len();
+            let rivals = Rivals {
+                campaign,
+                gram: &gram,
+                candidates: &candidates,
+                natural: &natural,
+                best: &best,
+                all: does_not_fit(&best),
+            };
+            let (sets, better) = rivals.weighed(sets);
+            if let Some(better) = better {
+                lin = Linearization::at(campaign, &better.point)?;
+                best = better;
+            }
             return Ok(RankedSets {
                 candidates,
                 untestable,
@@ -165,6 +181,12 @@ fn is_doubtful(fit: &Fit) -> bool {
     let parameters: usize = fit.point.active.iter().map(|a| a.values.len()).sum();
     let Ok(law) = ChiSquared::new(fit.lack_of_fit_dof.max(1.0)) else { return true };
     parameters > FEW_PARAMETERS || law.cdf(fit.lack_of_fit) > 1.0 - DOUBTFUL_CHANCE
+}
+
+/// True when the residuals exceed a noise that is known: the best set is not good enough.
+fn does_not_fit(fit: &Fit) -> bool {
+    let Ok(law) = ChiSquared::new(fit.lack_of_fit_dof.max(1.0)) else { return false };
+    law.sf(fit.lack_of_fit) < MISFIT_CHANCE
 }
 
 /// Leave out terms of which no physically sensible size would show.

@@ -234,6 +234,14 @@ impl Gram {
         (columns, DVector::from_vec(scale))
     }
 
+    /// Logarithm of the likelihood of springs alone, up to what all points of linearisation of a campaign share.
+    pub(crate) fn log_likelihood_without(&self) -> f64 {
+        if self.level.dof.is_infinite() {
+            return -0.5 * self.yy;
+        }
+        -0.5 * (self.equations + self.level.dof) * (self.level.sum + self.yy).max(f64::MIN_POSITIVE).ln()
+    }
+
     fn gain(&self, drop: f64, inflation: f64) -> f64 {
         self.likelihood().gain(drop, inflation)
     }

@@ -12,6 +12,7 @@ pub mod misread;
 pub mod pattern;
 pub(crate) mod period;
 pub mod power;
+pub(crate) mod rivals;
 pub(crate) mod scan;
 pub mod search;
 pub mod selection;

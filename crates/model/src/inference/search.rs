@@ -39,6 +39,13 @@ pub struct Set {
     bonus: f64,
 }
 
+impl Set {
+    /// The same set with other weights, without and with a discrepancy.
+    pub(crate) fn weighing(&self, log_weight: f64, log_weight_discrepant: f64) -> Self {
+        Self { log_weight, log_weight_discrepant, ..self.clone() }
+    }
+}
+
 /// All sets looked at, best first.
 #[derive(Debug, Clone)]
 pub struct Sets {
@@ -49,6 +56,24 @@ pub struct Sets {
 }
 
 impl Sets {
+    /// Best first.
+    fn of(mut sets: Vec<Set>) -> Self {
+        sort(&mut sets);
+        let weights: Vec<f64> = sets.iter().flat_map(|s| [s.log_weight, s.log_weight_discrepant]).collect();
+        Self { log_total: log_sum(weights.iter().copied()), sets }
+    }
+
+    /// The same with some of them weighed anew.
+    pub(crate) fn with(self, anew: impl Iterator<Item = Set>) -> Self {
+        let mut sets = self.sets;
+        for set in anew {
+            if let Some(known) = sets.iter_mut().find(|s| s.members == set.members) {
+                *known = set;
+            }
+        }
+        Self::of(sets)
+    }
+
     /// Probability of a set without discrepancy.
     pub fn probability(&self, set: &Set) -> f64 {
         (set.log_weight - self.log_total).exp()
@@ -197,8 +222,7 @@ impl<'a> TermSearch<'a> {
                 set.log_weight_discrepant = self.discrepant(set);
             }
         }
-        let weights: Vec<f64> = sets.iter().flat_map(|s| [s.log_weight, s.log_weight_discrepant]).collect();
-        Sets { log_total: log_sum(weights.iter().copied()), sets }
+        Sets::of(sets)
     }
 }
 

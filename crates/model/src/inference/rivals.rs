@@ -1,0 +1,96 @@
+//! Rival sets at their own optimum.
+//!
+//! The search weighs all sets where the incumbent's fit ends. A rival whose effects are far from linear there, or that the springs of the
+//! incumbent do not suit, looks worse than it is. So the leading sets are fitted, linearised where their own fit ends, and weighed there
+//! by the same average over forms, shapes and widths; the likelihoods of two points of linearisation differ by what the springs alone
+//! would leave at either:
+//!
+//! ```text
+//! ln Z(set) = ln Z(set | own point) + ln L0(own point) - ln L0(point of the search)
+//! ```
+
+use rayon::prelude::*;
+
+use crate::effects::term::Natural;
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::{Fit, fit};
+use crate::estimation::linearization::Linearization;
+use crate::inference::candidates::{Candidate, CandidateKind, Collector};
+use crate::inference::diagnosis::wanted;
+use crate::inference::evidence::Gram;
+use crate::inference::search::{Set, Sets, TermSearch};
+
+/// Sets looked at.
+const MOST_RIVALS: usize = 20;
+/// Sets this many nats below the best are left where they are, unless the best one does not fit.
+const HOPELESS: f64 = 7.0;
+
+/// A search whose leading sets are weighed anew.
+pub(crate) struct Rivals<'a> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) gram: &'a Gram,
+    pub(crate) candidates: &'a [Candidate],
+    pub(crate) natural: &'a Natural,
+    /// Fit of the first set, which the search was linearised at.
+    pub(crate) best: &'a Fit,
+    /// True when that fit leaves more than the noise: then any set may be the better one.
+    pub(crate) all: bool,
+}
+
+impl Rivals<'_> {
+    /// The sets in the order of their weights at their own optimum, and the fit of the first one when it was not first before.
+    pub(crate) fn weighed(&self, sets: Sets) -> (Sets, Option<Fit>) {
+        let Some(first) = sets.sets.first().cloned() else { return (sets, None) };
+        // The best set and something more is judged well where the best set is.
+        let differs = |s: &Set| !first.members.iter().all(|m| s.members.contains(m));
+        let close =
+            |s: &&Set| self.all || (s.log_weight > first.log_weight - HOPELESS && differs(s));
+        let rivals: Vec<&Set> = sets.sets.iter().take(MOST_RIVALS).filter(close).skip(1).collect();
+        let own: Vec<(Set, Fit)> =
+            rivals.into_par_iter().filter_map(|s| self.at_own_optimum(s).ok()?).collect();
+        let better = own.iter().max_by(|a, b| a.0.log_weight.total_cmp(&b.0.log_weight));
+        let better = better.filter(|(set, _)| set.log_weight > first.log_weight).map(|(_, fit)| fit.clone());
+        (sets.with(own.into_iter().map(|(set, _)| set)), better)
+    }
+
+    /// One set; none when it is not better there than where the search was linearised.
+    fn at_own_optimum(&self, set: &Set) -> Result<Option<(Set, Fit)>, ModelError> {
+        let terms = wanted(set, self.gram, self.candidates, self.natural);
+        let own = fit(self.campaign, &terms, Some(&self.best.point))?;
+        let lin = Linearization::at(self.campaign, &own.point)?;
+        let mut collector = Collector::new(&lin, *self.natural);
+        for &m in &set.members {
+            self.add(&mut collector, &self.candidates[m]);
+        }
+        let (gram, candidates) = collector.finish(self.campaign, &own.point);
+        let search = TermSearch::new(&gram, &candidates, self.campaign.noise.allows_verdict());
+        let found = search.among(self.candidates).run(set.members.len());
+        let moved = gram.log_likelihood_without() - self.gram.log_likelihood_without();
+        let whole = found.sets.into_iter().find(|s| s.members.len() == set.members.len());
+        Ok(whole.map(|s| (set.weighing(s.log_weight + moved, s.log_weight_discrepant + moved), own)))
+    }
+
+    /// A candidate in the forms and shapes in which it competed.
+    fn add(&self, collector: &mut Collector<'_>, candidate: &Candidate) {
+        let blocks = || candidate.blocks.iter().map(|&b| &self.gram.blocks[b]);
+        match &candidate.kind {
+            CandidateKind::Term(term) => {
+                let shapes: Vec<f64> = blocks().filter(|b| !b.rich).map(|b| b.shape).collect();
+                let rich = blocks().find(|b| b.rich).map(|b| b.shape);
+                collector.add_term(term, &shapes, self.trials(candidate, shapes.len()), rich);
+            }
+            CandidateKind::Pattern(pattern) => collector.add_pattern(*pattern, candidate.log_weight),
+        }
+    }
+
+    /// Shapes a term was tried in: its share of the prior tells those of a scan that were left out.
+    fn trials(&self, candidate: &Candidate, shapes: usize) -> usize {
+        let rich = candidate.blocks.iter().any(|&b| self.gram.blocks[b].rich);
+        let ideal = candidate.blocks.iter().map(|&b| &self.gram.blocks[b]).find(|b| !b.rich);
+        ideal.map_or(shapes, |b| {
+            let share = if rich { crate::inference::candidates::IDEAL_SHARE } else { 1.0 };
+            (share / b.log_share.exp()).round() as usize
+        })
+    }
+}
