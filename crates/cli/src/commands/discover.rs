@@ -37,7 +37,8 @@ pub(crate) struct Arguments {
     /// Write discovery.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the best law to FILE: a term file (term/1) for `--term`; nothing is written where no law is found
+    /// Write the best law to FILE, a term file (term/1) for `--term`, or to standard output (-) instead of the page; nothing is written where no
+    /// law is found
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -57,7 +58,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     };
     let study = discover(&hexapod, &data, holdout.as_ref(), &terms, &options)
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
-    let to_stdout = arguments.json.as_deref() == Some(Path::new("-")) || arguments.page.to_stdout();
+    let is_stdout = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
+    let to_stdout = is_stdout(&arguments.json) || is_stdout(&arguments.output) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
         let run =
             origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;

@@ -46,7 +46,7 @@ fn the_page_for_a_browser_shows_the_law_through_the_residuals() {
     let path = folder.path().join("page.html");
     text(discover(CASE, &["--html", path.to_str().unwrap()]));
     let page = std::fs::read_to_string(path).unwrap();
-    for piece in ["LAW FOUND", "within one period", "Periodogram"] {
+    for piece in ["LAW FOUND", "folded at that period", "Periodogram"] {
         assert!(page.contains(piece), "{piece}");
     }
 }
