@@ -88,8 +88,8 @@ pub fn explain_with_laws(
     let mut history: Vec<Vec<String>> = Vec::new();
     loop {
         let (testable, mut untestable) = split(terms, campaign, &lin);
-        let rivals = Rivals { terms: &testable, laws };
-        let (gram, candidates) = collect(campaign, &best.point, &lin, rivals, natural, effort);
+        let competitors = Competitors { terms: &testable, laws };
+        let (gram, candidates) = collect(campaign, &best.point, &lin, competitors, natural, effort);
         let (candidates, faint) = noticeable(candidates, &gram);
         untestable.extend(faint);
         let sets = TermSearch::new(&gram, &candidates, campaign.noise.allows_verdict()).run(MOST_EFFECTS);
@@ -159,8 +159,9 @@ pub fn visible(
     let lin = Linearization::at(campaign, &springs.point)?;
     let (testable, mut untestable) = split(terms, campaign, &lin);
     let effort = Effort { rich: false, scan: false };
-    let rivals = Rivals { terms: &testable, laws: &[] };
-    let (gram, candidates) = collect(campaign, &springs.point, &lin, rivals, springs.natural(&lin), effort);
+    let competitors = Competitors { terms: &testable, laws: &[] };
+    let (gram, candidates) =
+        collect(campaign, &springs.point, &lin, competitors, springs.natural(&lin), effort);
     let (candidates, faint) = noticeable(candidates, &gram);
     untestable.extend(faint);
     Ok((gram, candidates, untestable))
@@ -226,7 +227,7 @@ fn split(
 
 /// What competes.
 #[derive(Clone, Copy)]
-struct Rivals<'a> {
+struct Competitors<'a> {
     terms: &'a [Arc<dyn Term>],
     laws: &'a [LawTerm],
 }
@@ -235,21 +236,21 @@ fn collect(
     campaign: &Campaign,
     point: &ModelPoint,
     lin: &Linearization,
-    rivals: Rivals<'_>,
+    competitors: Competitors<'_>,
     natural: Natural,
     effort: Effort,
 ) -> (Gram, Vec<Candidate>) {
     let mut collector = Collector::new(lin, natural);
     // Scans only choose what to weigh; the weighing itself uses every condition.
     let scanned = lin.thinned(SCANNED_CONDITIONS);
-    for term in rivals.terms {
+    for term in competitors.terms {
         add_term(&mut collector, term, &scanned, point, rich_shape(term.as_ref(), point, effort));
     }
-    for law in rivals.laws {
+    for law in competitors.laws {
         add_term(&mut collector, &law.term, &scanned, point, None);
         collector.weigh_last(law.log_prior);
     }
-    if !rivals.laws.is_empty() {
+    if !competitors.laws.is_empty() {
         return collector.finish(campaign, point);
     }
     for (pattern, log_weight) in patterns(campaign, &scanned, point, effort.scan) {

@@ -44,8 +44,7 @@ impl Rivals<'_> {
         let Some(first) = sets.sets.first().cloned() else { return (sets, None) };
         // The best set and something more is judged well where the best set is.
         let differs = |s: &Set| !first.members.iter().all(|m| s.members.contains(m));
-        let close =
-            |s: &&Set| self.all || (s.log_weight > first.log_weight - HOPELESS && differs(s));
+        let close = |s: &&Set| self.all || (s.log_weight > first.log_weight - HOPELESS && differs(s));
         let rivals: Vec<&Set> = sets.sets.iter().take(MOST_RIVALS).filter(close).skip(1).collect();
         let own: Vec<(Set, Fit)> =
             rivals.into_par_iter().filter_map(|s| self.at_own_optimum(s).ok()?).collect();
@@ -79,6 +78,7 @@ impl Rivals<'_> {
                 let shapes: Vec<f64> = blocks().filter(|b| !b.rich).map(|b| b.shape).collect();
                 let rich = blocks().find(|b| b.rich).map(|b| b.shape);
                 collector.add_term(term, &shapes, self.trials(candidate, shapes.len()), rich);
+                collector.weigh_last(candidate.log_weight);
             }
             CandidateKind::Pattern(pattern) => collector.add_pattern(*pattern, candidate.log_weight),
         }
