@@ -134,7 +134,7 @@ fn observer_matrix(axes: &Matrix3, lever: &Vector3, rates: &Matrix3) -> Matrix6 
 }
 
 /// A condition whose legs stand at a pose and carry there what statics says, not yet read.
-fn standing(machine: &Machine, o: &Observation, pose: Pose, legs: Legs) -> Condition {
+fn standing(machine: &Machine, o: &Observation, pose: Pose, legs: &Legs) -> Condition {
     let none = Vector6::zeros();
     let commanded_lengths = machine.commanded_lengths(&o.pose);
     let states = [&o.reference, &o.wrench].map(|wrench| LoadState {
@@ -145,7 +145,7 @@ fn standing(machine: &Machine, o: &Observation, pose: Pose, legs: Legs) -> Condi
     });
     let mut at = Condition {
         pose,
-        legs,
+        legs: *legs,
         commanded_lengths,
         extension: commanded_lengths - machine.home_lengths,
         wrench: o.wrench,
@@ -174,7 +174,7 @@ fn standing(machine: &Machine, o: &Observation, pose: Pose, legs: Legs) -> Condi
 fn measured(machine: &Machine, o: &Observation) -> Result<Condition, ModelError> {
     let pose = machine.platform_pose(&Pose::from_array(o.measured));
     let o = Observation { reference: Wrench::default(), ..*o };
-    Ok(standing(machine, &o, pose, machine.legs(&pose)?))
+    Ok(standing(machine, &o, pose, &machine.legs(&pose)?))
 }
 
 /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
@@ -187,7 +187,7 @@ fn deflected(
     measurand: Measurand,
     out: &mut Vec<Action>,
 ) -> Result<(Condition, Option<[Vector3; 6]>), ModelError> {
-    let mut at = standing(structure.machine, o, o.pose, structure.machine.legs(&o.pose)?);
+    let mut at = standing(structure.machine, o, o.pose, &structure.machine.legs(&o.pose)?);
     let sag = structure.sag(&at, out);
     let before = sag.displacement.unwrap_or_default();
     let displaced =
@@ -199,7 +199,7 @@ fn deflected(
         motion.fixed_rows_mut::<3>(3).copy_from(&rotation);
     }
     let [halfway, loaded] = [0.5, 1.0].map(|share| moved(&reference, &motion, share));
-    structure.place(&mut at, halfway, [reference, loaded], displaced)?;
+    structure.place(&mut at, halfway, [reference, loaded], displaced.as_ref())?;
     at.sag = sag.of_legs;
     Ok((at, sag.shift))
 }
@@ -229,13 +229,13 @@ impl Structure<'_> {
         at: &mut Condition,
         halfway: Pose,
         poses: [Pose; 2],
-        displaced: Option<[JointDisplacement; 2]>,
+        displaced: Option<&[JointDisplacement; 2]>,
     ) -> Result<(), ModelError> {
         let machine = self.machine;
         let joints = |pose: &Pose, displaced: Option<JointDisplacement>| {
             displaced.map_or([machine.base_joints, machine.platform_joints], |d| d.joints(machine, pose))
         };
-        let mean = displaced.map(|[a, b]| JointDisplacement::default().and(&a, 0.5).and(&b, 0.5));
+        let mean = displaced.map(|[a, b]| JointDisplacement::default().and(a, 0.5).and(b, 0.5));
         let [base, platform] = joints(&halfway, mean);
         (at.pose, at.legs) = (halfway, Legs::at(&base, &platform, &halfway)?);
         let mut forces = [Vector6::zeros(); 2];

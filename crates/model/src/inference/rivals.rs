@@ -44,8 +44,7 @@ impl Rivals<'_> {
         let Some(first) = sets.sets.first().cloned() else { return (sets, None) };
         // The best set and something more is judged well where the best set is.
         let differs = |s: &Set| !first.members.iter().all(|m| s.members.contains(m));
-        let close =
-            |s: &&Set| self.all || (s.log_weight > first.log_weight - HOPELESS && differs(s));
+        let close = |s: &&Set| self.all || (s.log_weight > first.log_weight - HOPELESS && differs(s));
         let rivals: Vec<&Set> = sets.sets.iter().take(MOST_RIVALS).filter(close).skip(1).collect();
         let own: Vec<(Set, Fit)> =
             rivals.into_par_iter().filter_map(|s| self.at_own_optimum(s).ok()?).collect();
@@ -78,19 +77,9 @@ impl Rivals<'_> {
             CandidateKind::Term(term) => {
                 let shapes: Vec<f64> = blocks().filter(|b| !b.rich).map(|b| b.shape).collect();
                 let rich = blocks().find(|b| b.rich).map(|b| b.shape);
-                collector.add_term(term, &shapes, self.trials(candidate, shapes.len()), rich);
+                collector.add_term(term, &shapes, candidate.trials, rich);
             }
             CandidateKind::Pattern(pattern) => collector.add_pattern(*pattern, candidate.log_weight),
         }
-    }
-
-    /// Shapes a term was tried in: its share of the prior tells those of a scan that were left out.
-    fn trials(&self, candidate: &Candidate, shapes: usize) -> usize {
-        let rich = candidate.blocks.iter().any(|&b| self.gram.blocks[b].rich);
-        let ideal = candidate.blocks.iter().map(|&b| &self.gram.blocks[b]).find(|b| !b.rich);
-        ideal.map_or(shapes, |b| {
-            let share = if rich { crate::inference::candidates::IDEAL_SHARE } else { 1.0 };
-            (share / b.log_share.exp()).round() as usize
-        })
     }
 }
