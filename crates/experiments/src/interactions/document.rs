@@ -97,8 +97,11 @@ fn summary(study: &Interactions, before: &BTreeMap<String, Before>) -> Table {
     ]);
     for (count, words) in [(1, "one"), (2, "two"), (3, "three")] {
         for size in [1.0, 10.0] {
-            let own: Vec<&InteractionRecord> =
-                study.records.iter().filter(|r| r.effects.len() == count && r.size == size).collect();
+            let own: Vec<&InteractionRecord> = study
+                .records
+                .iter()
+                .filter(|r| r.effects.len() == count && r.size.total_cmp(&size).is_eq())
+                .collect();
             let was: Vec<Before> = own.iter().filter_map(|r| before.get(&key(r)).copied()).collect();
             let worst =
                 |errors: &mut dyn Iterator<Item = f64>| errors.reduce(f64::max).map_or_else(dash, percent);

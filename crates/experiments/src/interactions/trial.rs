@@ -126,7 +126,7 @@ fn scene(set: &[&'static str], size: f64, seed: u64) -> Result<RecoveryCampaign,
         effects: set.to_vec(),
         distance: None,
         noise: InstrumentNoise::default(),
-        seed: u64::from(derived_seed(seed, Purpose::InteractionCase, [name]) as u32),
+        seed: derived_seed(seed, Purpose::InteractionCase, [name]) & u64::from(u32::MAX),
     };
     let mut case = spec.build()?;
     for mechanism in &mut case.campaign.world.mechanisms {

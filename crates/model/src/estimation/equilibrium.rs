@@ -167,7 +167,7 @@ fn observer_matrix(axes: &Matrix3, lever: &Vector3, rates: &Matrix3) -> Matrix6 
 }
 
 /// A condition whose legs stand at a pose and carry there what statics says, not yet read.
-fn standing(structure: &Structure<'_>, o: &Observation, pose: Pose, legs: Legs) -> Condition {
+fn standing(structure: &Structure<'_>, o: &Observation, pose: Pose, legs: &Legs) -> Condition {
     let machine = structure.machine;
     let none = Vector6::zeros();
     let commanded_lengths = machine.commanded_lengths(&o.pose);
@@ -179,7 +179,7 @@ fn standing(structure: &Structure<'_>, o: &Observation, pose: Pose, legs: Legs) 
     });
     let mut at = Condition {
         pose,
-        legs,
+        legs: *legs,
         commanded_lengths,
         extension: commanded_lengths - machine.home_lengths,
         wrench: o.wrench,
@@ -212,7 +212,7 @@ fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Condition, Mod
     let machine = structure.machine;
     let pose = machine.platform_pose(&Pose::from_array(o.measured));
     let o = Observation { reference: Wrench::default(), ..*o };
-    Ok(standing(structure, &o, pose, machine.legs(&pose)?))
+    Ok(standing(structure, &o, pose, &machine.legs(&pose)?))
 }
 
 /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
@@ -226,7 +226,7 @@ fn deflected(
     measured: Option<(&[f64; 6], Measurand)>,
     out: &mut Vec<Action>,
 ) -> Result<(Condition, Option<[Vector3; 6]>), ModelError> {
-    let mut at = standing(structure, o, o.pose, structure.machine.legs(&o.pose)?);
+    let mut at = standing(structure, o, o.pose, &structure.machine.legs(&o.pose)?);
     let sag = structure.sag(&at, out);
     let before = sag.displacement.unwrap_or_default();
     let displaced =
@@ -244,7 +244,7 @@ fn deflected(
         }
     };
     let [halfway, loaded] = [0.5, 1.0].map(|share| moved(&reference, &motion, share));
-    structure.place(&mut at, halfway, [reference, loaded], displaced)?;
+    structure.place(&mut at, halfway, [reference, loaded], displaced.as_ref())?;
     at.sag = sag.of_legs;
     Ok((at, sag.shift))
 }
@@ -274,13 +274,13 @@ impl Structure<'_> {
         at: &mut Condition,
         halfway: Pose,
         poses: [Pose; 2],
-        displaced: Option<[JointDisplacement; 2]>,
+        displaced: Option<&[JointDisplacement; 2]>,
     ) -> Result<(), ModelError> {
         let machine = self.machine;
         let joints = |pose: &Pose, displaced: Option<JointDisplacement>| {
             displaced.map_or([machine.base_joints, machine.platform_joints], |d| d.joints(machine, pose))
         };
-        let mean = displaced.map(|[a, b]| JointDisplacement::default().and(&a, 0.5).and(&b, 0.5));
+        let mean = displaced.map(|[a, b]| JointDisplacement::default().and(a, 0.5).and(b, 0.5));
         let [base, platform] = joints(&halfway, mean);
         (at.pose, at.legs) = (halfway, Legs::at(&base, &platform, &halfway)?);
         let mut forces = [Vector6::zeros(); 2];

@@ -12,7 +12,7 @@ use crate::inference::evidence::{Gram, PriorBlock};
 use crate::inference::pattern::Pattern;
 
 /// Prior share of the ideal form where there is a richer one.
-pub(crate) const IDEAL_SHARE: f64 = 0.8;
+const IDEAL_SHARE: f64 = 0.8;
 /// Width of the deviations of a richer form relative to the ideal sizes.
 const RICH_WIDTH: f64 = 0.5;
 
@@ -28,6 +28,8 @@ pub struct Candidate {
     pub blocks: Vec<usize>,
     /// Logarithm of its prior weight relative to a term of the catalogue.
     pub log_weight: f64,
+    /// Shapes it was tried in, those that a scan left out included.
+    pub trials: usize,
 }
 
 /// Term or pattern.
@@ -113,6 +115,7 @@ impl<'a> Collector<'a> {
             kind: CandidateKind::Term(Arc::clone(term)),
             blocks,
             log_weight: 0.0,
+            trials,
         });
     }
 
@@ -138,7 +141,8 @@ impl<'a> Collector<'a> {
         }
         let block = PriorBlock::new(&pattern.sizes(&self.natural), pattern.positive(), 1.0, false, 1.0);
         let blocks = vec![self.push(Source::Pattern { pattern, range }, block)];
-        self.candidates.push(Candidate { kind: CandidateKind::Pattern(pattern), blocks, log_weight });
+        let kind = CandidateKind::Pattern(pattern);
+        self.candidates.push(Candidate { kind, blocks, log_weight, trials: 1 });
     }
 
     fn push(&mut self, source: Source, mut block: PriorBlock) -> usize {

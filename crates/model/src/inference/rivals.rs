@@ -77,20 +77,10 @@ impl Rivals<'_> {
             CandidateKind::Term(term) => {
                 let shapes: Vec<f64> = blocks().filter(|b| !b.rich).map(|b| b.shape).collect();
                 let rich = blocks().find(|b| b.rich).map(|b| b.shape);
-                collector.add_term(term, &shapes, self.trials(candidate, shapes.len()), rich);
+                collector.add_term(term, &shapes, candidate.trials, rich);
                 collector.weigh_last(candidate.log_weight);
             }
             CandidateKind::Pattern(pattern) => collector.add_pattern(*pattern, candidate.log_weight),
         }
-    }
-
-    /// Shapes a term was tried in: its share of the prior tells those of a scan that were left out.
-    fn trials(&self, candidate: &Candidate, shapes: usize) -> usize {
-        let rich = candidate.blocks.iter().any(|&b| self.gram.blocks[b].rich);
-        let ideal = candidate.blocks.iter().map(|&b| &self.gram.blocks[b]).find(|b| !b.rich);
-        ideal.map_or(shapes, |b| {
-            let share = if rich { crate::inference::candidates::IDEAL_SHARE } else { 1.0 };
-            (share / b.log_share.exp()).round() as usize
-        })
     }
 }
