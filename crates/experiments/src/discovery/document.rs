@@ -81,8 +81,8 @@ fn introduction(study: &DiscoveryTrials) -> Section {
     Section::lead().paragraph(written_by("hexbench validate discover --markdown FILE")).paragraph(format!(
         "{} campaigns with an effect outside the catalogue, {} with one of the catalogue and {} on clean machines went through \
          `hexbench discover` with their held-out poses (seed {}, distances {} to {}; {} gave no answer). Machines, plans and effects are \
-         those of the calibration, made by the simulated world, which knows nothing of the grammar: five of its nine effects outside the \
-         catalogue are products of building blocks, four are not.",
+         those of the calibration, made by the simulated world, which knows nothing of the grammar: five of its seven effects outside the \
+         catalogue that are drawn are products of building blocks, two are not.",
         p.outside,
         p.listed,
         p.clean,
