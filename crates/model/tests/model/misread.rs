@@ -212,6 +212,11 @@ fn every_change_is_written_as_it_is_read() {
         "row-order=loads-from-below",
         "row-order=load-of-the-next",
         "row-order=readings-reversed",
+        "sensor-sign=g1",
+        "sensor-factor=g1*25.4",
+        "sensor-place=g1:1,-2,0.5",
+        "axes=g1:turned:0,90,0",
+        "wrench-sign=reference",
     ];
     for text in all {
         let change: Change = text.parse().unwrap();

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use hexbench_core::Vector6;
 use hexbench_model::effects::chain::Action;
 use hexbench_model::effects::term::Term;
 use hexbench_model::effects::user_term::{UserTermError, parse};
@@ -143,6 +144,17 @@ fn hostile_term_files_are_refused_in_words() {
         (formula("size*df/0"), "no finite value"),
         (formula("size*df*1e308*1e308"), "no finite value"),
         (formula("size*1e999"), "not a number"),
+        (formula("size*sin(2*pi*q/8)*df"), "the argument of sin is a length"),
+        (formula("size*max(q - 200, 0)*df"), "200 stands beside a length without a unit"),
+        (formula("size*df*(q + f)"), "m and N cannot be added"),
+        (BRACKET.replace("parameters =", "legs = [1, 7]\nparameters ="), "different leg numbers from 1 to 6"),
+        (
+            BRACKET.replace(
+                "elongation = \"",
+                "wrench = [\"0\", \"\", \"\", \"\", \"\", \"\"]\nelongation = \"",
+            ),
+            "cannot stand together",
+        ),
         (formula("size^2*df"), "not linear in `size`"),
         (formula("abs(size)*df"), "not linear in `size`"),
         (formula("size*df + 1e-6"), "not linear in `size`"),
@@ -153,7 +165,7 @@ fn hostile_term_files_are_refused_in_words() {
         (swap("scale = 50", "scale = -1"), "positive number"),
         (swap("scale = 50", "scale = nan"), "positive number"),
         (swap("nm/N", "furlong"), "per_si"),
-        (swap("name = \"size\"", "name = \"df\""), "already has a meaning"),
+        (swap("name = \"size\"", "name = \"df\""), "is a variable of formulas: f - f0, N"),
         (swap("title", "titel"), "unknown field"),
         (swap("term/1", "term/2"), "term/1"),
         (swap("elongation =", "wrench ="), "invalid"),
@@ -167,4 +179,104 @@ fn hostile_term_files_are_refused_in_words() {
         assert!(error.to_string().contains(part), "{error}");
     }
     assert!(matches!(parse(&formula("size*df/0")), Err(UserTermError::NoValue { .. })));
+}
+
+fn actions_of(text: &str) -> Vec<(hexbench_model::estimation::campaign::Condition, Vec<Action>)> {
+    let (hexapod, data, _) = cases::case("contact");
+    let campaign = prepare(&hexapod, &data).unwrap();
+    let point = hexbench_model::estimation::fit::fit_baseline(&campaign).unwrap().point;
+    let lin = hexbench_model::estimation::linearization::Linearization::at(&campaign, &point).unwrap();
+    let term = parse(text).unwrap();
+    let of = |c: &hexbench_model::estimation::campaign::Condition| {
+        let mut out = Vec::new();
+        term.actions(&lin.machine, c, 1.0, &mut out);
+        (c.clone(), out)
+    };
+    lin.conditions.iter().map(of).collect()
+}
+
+#[test]
+fn laws_of_one_file_add_up_each_in_its_legs() {
+    let text = r#"
+        format = "term/1"
+        id = "two-laws"
+        title = "Legs 1 and 4 yield, and leg 2 under its neighbor"
+        [[laws]]
+        elongation = "size*df/k_i*(4 N/um)"
+        legs = [1, 4]
+        [[laws]]
+        elongation = "size*df_next/(1 + elapsed/(2 min)) + own*c_i*f_3"
+        legs = [2]
+        [[parameters]]
+        name = "size"
+        unit = "nm/N"
+        scale = 20
+        [[parameters]]
+        name = "own"
+        unit = "1"
+        scale = 0.1
+    "#
+    .replace("*(4 N/um)", "*4e6");
+    for (at, actions) in actions_of(&text) {
+        let df = at.force_change();
+        let leg_2 = df[2] / (1.0 + at.elapsed / 120.0);
+        let soft = |leg: usize| df[leg] * at.springs[leg] * 4e6;
+        let first = Vector6::new(soft(0), leg_2, 0.0, soft(3), 0.0, 0.0);
+        let second = Vector6::new(0.0, at.springs[1] * at.force[2], 0.0, 0.0, 0.0, 0.0);
+        for (action, expected) in actions.iter().zip([first, second]) {
+            let Action::Elongation(e) = action else { panic!("{action:?}") };
+            assert!((e - expected).amax() <= 1e-12 * expected.amax(), "{e} {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_size_of_its_own_in_every_leg_is_six_parameters() {
+    let text = BRACKET.replace("positive = true", "per_leg = true");
+    let names: Vec<&str> = parse(&text).unwrap().info().parameters.iter().map(|p| p.name).collect();
+    assert_eq!(names, ["size-leg-1", "size-leg-2", "size-leg-3", "size-leg-4", "size-leg-5", "size-leg-6"]);
+    for (at, actions) in actions_of(&text) {
+        let Action::Elongation(e) = actions[4] else { panic!("{actions:?}") };
+        let n = at.legs.directions[4];
+        let expected = (n.x.powi(2) + n.y.powi(2)) * at.force_change()[4];
+        assert!(
+            (e[4] - expected).abs() < 1e-12 * expected.abs() && e.iter().filter(|x| **x != 0.0).count() == 1
+        );
+    }
+}
+
+#[test]
+fn base_and_platform_move_as_bodies() {
+    let text = |key: &str| {
+        format!(
+            "format = \"term/1\"\nid = \"moves\"\ntitle = \"A body turns about z\"\n{key} = [\"\", \"\", \"\", \"\", \"\", \
+             \"size*(fz - ref_fz)\"]\nparameters = [{{ name = \"size\", unit = \"urad/N\", scale = 1 }}]"
+        )
+    };
+    let is_twist = |actions: &[Action], expected: Vector6| {
+        let (Action::Base(x) | Action::Plate(x)) = actions[0] else { panic!("{actions:?}") };
+        assert!((x - expected).amax() <= 1e-12 * expected.amax(), "{x} {expected}");
+    };
+    for (at, actions) in actions_of(&text("base_motion")) {
+        let turn = at.wrench.force.z - at.reference.force.z;
+        let t = at.pose.translation;
+        is_twist(&actions, Vector6::new(-turn * t.y, turn * t.x, 0.0, 0.0, 0.0, turn));
+    }
+    for (at, actions) in actions_of(&text("platform_motion")) {
+        let axis = at.pose.rotation().column(2) * (at.wrench.force.z - at.reference.force.z);
+        is_twist(&actions, Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z));
+    }
+}
+
+#[test]
+fn a_time_constant_may_be_called_tau() {
+    let text = BRACKET.replace("size*(nx^2 + ny^2)*df", "size*df*(1 - exp(-elapsed/tau))")
+        + "shape = { name = \"tau\", unit = \"min\", bounds = [0.1, 60], grid = [1, 2, 5] }";
+    let term = parse(&text).unwrap();
+    let [low, high] = term.info().shape.unwrap().bounds;
+    assert!((low - 6.0).abs() < 1e-9 && (high - 3600.0).abs() < 1e-9, "{low} s, {high} s");
+    let plain = BRACKET.replace("size*(nx^2 + ny^2)*df", "size*df*sin(2*pi*q/period)")
+        + "shape = { name = \"period\", unit = \"1\", bounds = [4, 16], grid = [8] }";
+    let error = parse(&plain).err().unwrap().to_string();
+    assert!(error.contains("the argument of sin is a length"), "{error}");
 }
