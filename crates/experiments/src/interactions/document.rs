@@ -54,7 +54,7 @@ fn introduction(study: &Interactions) -> Section {
         ))
         .paragraph(format!(
             "A leg stiffness may be off by {:.1} %, a parameter of an effect by {:.1} %, a number that hardly shows by what the second \
-             order of the deflection does to it (`std |d|` as in `recovery/noiseless.rs`). Errors of a parameter are relative to the largest \
+             order of the deflection does to it (`std |d|`, `interactions/second_order.rs`). Errors of a parameter are relative to the largest \
              of its kind in the same effect. Before: the same sets by a model in which joint stiffness relieved the legs through their springs alone, \
              friction stood before every other law of a leg, and bodies in series saw the load as it was stated.",
             100.0 * LARGEST_STIFFNESS_ERROR,

@@ -6,6 +6,7 @@
 
 pub mod document;
 pub mod protocol;
+mod second_order;
 pub mod trial;
 
 pub use document::page;

@@ -14,8 +14,9 @@ use hexbench_truth::campaign::{CaseKind, CaseSpec, PlanKind, PlanRow};
 use hexbench_truth::metrology::InstrumentNoise;
 use serde::{Deserialize, Serialize};
 
+use super::second_order::linearisation_error;
 use crate::TrialError;
-use crate::recovery::noiseless::{Bounded, NO_NOISE, linearisation_error};
+use crate::recovery::noiseless::{Bounded, NO_NOISE};
 use crate::recovery::pulls::{Known, Pull, PullGroup, known, pulls};
 use crate::recovery::scene::RecoveryCampaign;
 

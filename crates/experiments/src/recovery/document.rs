@@ -39,8 +39,8 @@ fn introduction() -> Section {
              estimator, not the search. The diagnosis is told nothing; its effects have distance 22.",
         )
         .paragraph(
-            "Bounds: an error without noise must stay below `std |d|`, with `d` the linearization error of the readings, of second \
-             order in load / (k leg length) for springs and effects alike (`recovery/noiseless.rs` derives \
+            "Bounds: an error without noise must stay below `std |d|`, with `d` the linearization error of the readings (second \
+             order in load / (k leg length) for springs, first order for what an effect adds; `recovery/noiseless.rs` derives \
              it). Absolute poses are closed exactly by world and model alike, so that only rounding remains there; deflections \
              must *not* agree to rounding. A coverage must lie within binomial bounds that a right estimator breaks with a chance \
              of 0.001, for each row of a table divided by the number of rows; intervals of one campaign count as one trial.",

@@ -10,26 +10,28 @@
 //!
 //! What remains in `d`: let `nu` be the relative change of the leg Jacobian between the commanded pose and the loaded (or the
 //! reference) pose, `nu = |H J (L - L_cmd) H^-1|` for motions and likewise for forces (the larger of the two, both in the
-//! measure of the readings), of order load / (k leg length). The model takes forces where they act, on joints where they have moved
-//! to (one step of refinement leaves `nu^2` of them), takes every effect at the forces that the equilibrium of all of them leaves, and
-//! linearises the motion halfway between the two states (which leaves `nu^2 / 24` and less of it): springs and effects are right to
-//! *second* order. A base or plate that yields moves its own lever, which the model does not follow: `m` of its motion, the share
-//! of the lever that this motion is. With `s` the length of the springs' response to load and reference, `e` that of the effects and
-//! `b` that of yielding bodies among them,
+//! measure of the readings), of order load / (k leg length). The model takes forces where they act (one
+//! step of refinement leaves `nu^2` of them) and linearises the motion halfway between the two states (which leaves `nu^2 / 24`
+//! and less of it): springs are right to *second* order. It knows where the reference state is only by the springs, and takes
+//! effects where the machine was commanded: what an effect adds is right to *first* order, and so is the response of the
+//! springs to it. With `s` the length of the springs' response to load and reference and `e` that of the effect,
 //!
 //! ```text
-//! |d_i| <= nu_i^2 (s_i + e_i) + m_i b_i
+//! |d_i| <= nu_i^2 s_i + (nu_i + u_i / travel + t_i) e_i
 //! ```
+//!
+//! `u / travel`, deflection over leg travel, is there for effects that follow the leg length; `t` is the part in which the
+//! forms of world and model differ: the world's drift of Euler angles and the model's turn about fixed axes, `|E(angles) - I|`.
 //!
 //! Absolute poses have no linearisation to be wrong: at the measured pose the closure `q(pose) - q_commanded = e` is exact, in
 //! the world as in the model. What remains is rounding of lengths, and that is their bound; it proves nothing on independence.
 
 use hexbench_core::{Metrology, Pose, Vector6};
-use hexbench_model::effects::term::Chapter;
 use hexbench_model::estimation::campaign::{self, Condition};
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::linearization::Linearization;
-use nalgebra::{DVector, Matrix6, Rotation3};
+use hexbench_model::machine::kinematics::euler_rate_matrix;
+use nalgebra::{Matrix3, Matrix6, Rotation3};
 use serde::{Deserialize, Serialize};
 
 use super::geometry::combinations;
@@ -107,63 +109,52 @@ fn combined([miss, std]: &[f64; 2], error: f64) -> Bounded {
 }
 
 /// `|d|` of a campaign of deflections.
-pub(crate) fn linearisation_error(
-    lin: &Linearization,
-    fit: &Fit,
-    groups: &[campaign::ConditionReadings],
-) -> f64 {
+fn linearisation_error(lin: &Linearization, fit: &Fit, groups: &[campaign::ConditionReadings]) -> f64 {
     let readers = lin.elongation_readers();
     let effects = effect_lengths(lin, fit);
+    let travel = travel(lin);
     let of = |i: usize| {
         let at = &lin.conditions[i];
         let response = |force: &Vector6| (readers[i] * fit.point.compliances.component_mul(force)).norm();
         let both = response(&at.force) + response(&at.reference_force);
         let change = response(&at.force_change()).max(f64::MIN_POSITIVE);
         let by_force = readers[i] * Matrix6::from_diagonal(&fit.point.compliances);
-        let nu = jacobian_change(lin, at, &groups[i].mean.pose, &by_force);
+        let (nu, moved) = jacobian_change(lin, at, &groups[i].mean.pose, &by_force);
+        let loose = nu + moved / travel + form(fit, at);
         // An effect acts in both states; its column is the difference of the two.
-        let twice = (both / change).max(1.0);
-        let Added { all, bodies, lever_share } = effects[i];
-        nu * nu * (both + all * twice) + lever_share * bodies * twice
+        nu * nu * both + loose * effects[i] * (both / change).max(1.0)
     };
     (0..lin.conditions.len()).map(|i| of(i).powi(2)).sum::<f64>().sqrt()
 }
 
-/// What effects add at a condition.
-#[derive(Debug, Clone, Copy, Default)]
-struct Added {
-    /// Whitened length, parameter by parameter.
-    all: f64,
-    /// The same of a base or plate that yields.
-    bodies: f64,
-    /// Motion of those over the radius of the platform.
-    lever_share: f64,
-}
-
-fn effect_lengths(lin: &Linearization, fit: &Fit) -> Vec<Added> {
-    let mut lengths = vec![Added::default(); lin.conditions.len()];
+/// Whitened length of what the effects add at every condition, parameter by parameter.
+fn effect_lengths(lin: &Linearization, fit: &Fit) -> Vec<f64> {
+    let mut all = vec![0.0; lin.conditions.len()];
     for a in &fit.point.active {
         let block = lin.term_block(a.term.as_ref(), a.rich, a.shape);
-        let together = &block * DVector::from_column_slice(&a.values);
-        for (i, added) in lengths.iter_mut().enumerate() {
+        for (i, length) in all.iter_mut().enumerate() {
             let column = |k: usize| block.view((6 * i, k), (6, 1)).norm() * a.values[k].abs();
-            let length = (0..a.values.len()).map(column).sum::<f64>();
-            added.all += length;
-            if a.term.info().chapter == Chapter::Structure {
-                let motion = Vector6::from_fn(|k, _| together[6 * i + k] / lin.conditions[i].weight[k]);
-                let shift = motion.fixed_rows::<3>(0).norm() / lin.machine.nominal.platform_radius();
-                added.bodies += length;
-                added.lever_share += shift + motion.fixed_rows::<3>(3).norm();
-            }
+            *length += (0..a.values.len()).map(column).sum::<f64>();
         }
     }
-    lengths
+    all
 }
 
-/// Relative change of the leg Jacobian on the way from the commanded pose.
+/// Root mean square extension of the legs, m.
+fn travel(lin: &Linearization) -> f64 {
+    let sum: f64 = lin.conditions.iter().map(|c| c.extension.norm_squared()).sum();
+    (sum / (6 * lin.conditions.len()) as f64).sqrt()
+}
+
+/// Relative change of the leg Jacobian on the way from the commanded pose, and the largest leg elongation on it, m.
 /// `by_force`: whitened reading per leg force.
-fn jacobian_change(lin: &Linearization, at: &Condition, commanded: &Pose, by_force: &Matrix6<f64>) -> f64 {
-    let Ok(start) = lin.machine.legs(commanded) else { return f64::INFINITY };
+fn jacobian_change(
+    lin: &Linearization,
+    at: &Condition,
+    commanded: &Pose,
+    by_force: &Matrix6<f64>,
+) -> (f64, f64) {
+    let Ok(start) = lin.machine.legs(commanded) else { return (f64::INFINITY, f64::INFINITY) };
     let reader = Matrix6::from_diagonal(&at.weight) * at.observer;
     let size = |metric: &Matrix6<f64>, change: &Matrix6<f64>| {
         let back = metric.try_inverse().unwrap_or_else(Matrix6::zeros);
@@ -175,14 +166,20 @@ fn jacobian_change(lin: &Linearization, at: &Condition, commanded: &Pose, by_for
         let change = end.leg_jacobian - start.leg_jacobian;
         let of_motion = size(&reader, &(start.platform_jacobian * change));
         let of_forces = size(by_force, &(start.platform_jacobian.transpose() * change.transpose()));
-        of_motion.max(of_forces)
+        (of_motion.max(of_forces), (end.lengths - start.lengths).amax())
     });
-    change.fold(0.0, f64::max)
+    change.fold((0.0, 0.0), |(a, b), (x, y)| (a.max(x), b.max(y)))
 }
 
-fn displaced(pose: &Pose, twist: &Vector6) -> Pose {
+pub(crate) fn displaced(pose: &Pose, twist: &Vector6) -> Pose {
     let turn = Rotation3::new(twist.fixed_rows::<3>(3).into_owned());
     Pose::from_rotation(pose.translation + twist.fixed_rows::<3>(0), &(turn.matrix() * pose.rotation()))
+}
+
+/// How far the forms of world and model differ at a condition.
+fn form(fit: &Fit, at: &Condition) -> f64 {
+    let drifts = fit.point.active.iter().any(|a| a.id() == "metrology-drift");
+    if drifts { (euler_rate_matrix(&at.pose.angles) - Matrix3::identity()).norm() } else { 0.0 }
 }
 
 /// `|d|` of absolute poses: lengths rounded, seen as readings.
