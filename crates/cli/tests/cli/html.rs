@@ -91,7 +91,8 @@ fn an_effect_that_is_a_curve_of_its_variable_is_drawn_as_one() {
     assert!(html.contains("joint-friction in each leg over change of leg force"));
     assert!(html.contains("the effect explains"));
     assert!(
-        page("absolute-pitch").contains("actuator-pitch in each leg over leg length within one period of 3.0")
+        page("absolute-pitch")
+            .contains("actuator-pitch in each leg over leg length within one period of 3.0")
     );
 }
 

@@ -26,6 +26,10 @@ pub struct Detectable {
     pub size_at_90_percent_power: Option<f64>,
 }
 
+/// Signature of an effect of natural size, over the smallest that shows, below which it is rounding: no machine has an effect a million
+/// times its natural size.
+const SMALLEST_SIGNATURE: f64 = 1e-6;
+
 /// Detectable sizes of every parameter of every term that can be tested, beside springs and the terms in `beside`.
 pub fn detectable(gram: &Gram, candidates: &[Candidate], beside: &[Variant]) -> Vec<Detectable> {
     let root = noncentrality(1.0, FALSE_ALARM, POWER).sqrt();
@@ -36,13 +40,16 @@ pub fn detectable(gram: &Gram, candidates: &[Candidate], beside: &[Variant]) -> 
         let others: Vec<Variant> =
             beside.iter().copied().filter(|v| !candidate.blocks.contains(&v.block)).collect();
         let lengths = gram.signature_lengths(&others, block);
-        for (p, length) in term.info().parameters.iter().zip(lengths) {
+        for (k, (p, length)) in term.info().parameters.iter().zip(lengths).enumerate() {
+            let natural = gram.blocks[block].transform[(k, k)].abs();
+            // A signature of rounding errors is none.
+            let shows = length * natural > SMALLEST_SIGNATURE * root;
             let size = root / length * p.per_si;
             all.push(Detectable {
                 term: term.info().id.to_owned(),
                 parameter: p.name.to_owned(),
                 unit: p.unit.to_owned(),
-                size_at_90_percent_power: (size.is_finite() && length > 0.0).then_some(size),
+                size_at_90_percent_power: (size.is_finite() && shows).then_some(size),
             });
         }
     }
