@@ -57,7 +57,7 @@ impl FilledRow {
 
     /// Whether loaded and reference wrench are the same.
     pub(crate) fn lacks_load(&self) -> bool {
-        six(&self.row, WRENCH) == six(&self.row, REFERENCE)
+        Wrench::from_array(six(&self.row, WRENCH)) == Wrench::from_array(six(&self.row, REFERENCE))
     }
 
     /// Adds the observations of the row, block by block.

@@ -60,13 +60,11 @@ impl SensorProtocol {
         let (group, campaign) = (number / self.trials, number % self.trials);
         let kind = if campaign.is_multiple_of(2) { CaseKind::Clean } else { CaseKind::Single };
         let index = campaign / 2;
-        match SensorSet::ALL.get(group) {
-            Some(&set) => Job { set, fault: None, kind, index },
-            None => {
-                let fault = SensorFault::ALL.get(group - SensorSet::ALL.len()).copied();
-                Job { set: FAULTY[index % FAULTY.len()], fault, kind, index }
-            }
-        }
+        let Some(&set) = SensorSet::ALL.get(group) else {
+            let fault = SensorFault::ALL.get(group - SensorSet::ALL.len()).copied();
+            return Job { set: FAULTY[index % FAULTY.len()], fault, kind, index };
+        };
+        Job { set, fault: None, kind, index }
     }
 }
 

@@ -196,7 +196,7 @@ impl Change {
             Self::Reversed(Signed::Moments | Signed::Load(_)) => FindingKind::MomentSign,
             Self::StatesExchanged => FindingKind::StatesExchanged,
             Self::Scaled(..) => FindingKind::Unit,
-            Self::Renamed(..) | Self::Turned(..) => FindingKind::Axes,
+            Self::Renamed(..) | Self::Turned(..) | Self::SensorTurned(..) => FindingKind::Axes,
             Self::LegOrder(_) => FindingKind::LegOrder,
             Self::JointsExchanged => FindingKind::JointsExchanged,
             Self::Origin(..) => FindingKind::Origin,
@@ -210,7 +210,6 @@ impl Change {
             Self::SensorReversed(_) => FindingKind::SensorSign,
             Self::SensorScaled(..) => FindingKind::SensorFactor,
             Self::SensorMoved(..) => FindingKind::SensorPlace,
-            Self::SensorTurned(..) => FindingKind::Axes,
         }
     }
 
@@ -458,14 +457,8 @@ impl Change {
                 row.pose = Pose::from_rotation(row.pose.translation, &order.rotation(&row.pose.angles));
             }
             Self::Preload(load) => row.reference = load,
-            Self::LoadIsChange => {
-                row.wrench.force += row.reference.force;
-                row.wrench.moment += row.reference.moment;
-            }
-            Self::LoadHoldsReference => {
-                row.wrench.force -= row.reference.force;
-                row.wrench.moment -= row.reference.moment;
-            }
+            Self::LoadIsChange => add_reference(row, 1.0),
+            Self::LoadHoldsReference => add_reference(row, -1.0),
             Self::LegOrder(_)
             | Self::JointsExchanged
             | Self::Joint(..)
@@ -508,6 +501,12 @@ fn scale_sensor(hexapod: &Hexapod, data: &mut Dataset, name: &str, factor: f64) 
             }
         }
     }
+}
+
+/// The load of the reference state so many times on top of that of the loaded one.
+fn add_reference(row: &mut hexbench_core::Observation, times: f64) {
+    row.wrench.force += times * row.reference.force;
+    row.wrench.moment += times * row.reference.moment;
 }
 
 fn reverse(signed: Signed, row: &mut hexbench_core::Observation) {
