@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::MisreadRecord;
 
 /// Words of `findings[].kind` that speak of a file as a whole. In a sound campaign each is a false alarm.
-pub const WHOLE_FILE: [&str; 21] = [
+pub const WHOLE_FILE: [&str; 19] = [
     "deflection-sign",
     "wrench-sign",
     "states-exchanged",
@@ -27,8 +27,6 @@ pub const WHOLE_FILE: [&str; 21] = [
     "row-order",
     "copies",
     "holdout",
-    "sensor-sign",
-    "sensor-factor",
 ];
 
 /// What became of a misstatement.
