@@ -5,10 +5,10 @@ import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+import { browserPath, launch } from "./chromium.mjs";
 
 const ROOT = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const CASE = join(ROOT, "data/cases/mujoco-foundation");
-const BROWSERS = [process.env.HEXBENCH_CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 /** Where `npm ci` puts what the page of the workbench needs, the driver of browsers among it. */
 const PACKAGES = process.env.HEXBENCH_NODE_PACKAGES ?? join(ROOT, "crates/workbench/ui");
 const PATIENCE_MS = 60_000;
@@ -19,10 +19,6 @@ export function missing() {
   if (!binary || !existsSync(binary)) return "HEXBENCH_BINARY names no program.";
   if (!browserPath()) return "no Chromium was found; HEXBENCH_CHROMIUM may name one.";
   return driver() ? "" : `playwright-core is not installed in ${PACKAGES}: npm ci there.`;
-}
-
-function browserPath() {
-  return BROWSERS.find((path) => path && existsSync(path));
 }
 
 function driver() {
@@ -55,9 +51,7 @@ export function makePages() {
 
 /** A browser that is kept off the network. */
 export function startBrowser() {
-  const quiet = ["--no-first-run", "--disable-quic", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-  const args = ["--no-sandbox", "--disable-gpu", "--proxy-server=127.0.0.1:9", ...quiet];
-  return driver().chromium.launch({ executablePath: browserPath(), args });
+  return launch(driver().chromium, "--disable-gpu", "--proxy-server=127.0.0.1:9");
 }
 
 /** Opens a file in a profile of its own and notes what must not happen: complaints, and any request but for the file itself. */

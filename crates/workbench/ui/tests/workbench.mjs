@@ -4,22 +4,17 @@ import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { chromium } from "playwright-core";
+import { browserPath, launch } from "../../../../tests/browser/chromium.mjs";
 
 const STARTS_WITHIN_MS = 20_000;
 /** Longest wait for anything on the page: a diagnosis of a program that is not optimised, on a busy machine. */
 export const PATIENCE_MS = 120_000;
-
-const BROWSERS = [process.env.HEXBENCH_CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 
 /** Why the tests cannot run here; empty when they can. */
 export function missing() {
   const binary = process.env.HEXBENCH_BINARY;
   if (!binary || !existsSync(binary)) return "HEXBENCH_BINARY names no program.";
   return browserPath() === undefined ? "no Chromium was found; HEXBENCH_CHROMIUM may name one." : "";
-}
-
-function browserPath() {
-  return BROWSERS.find((path) => path && existsSync(path));
 }
 
 /** Starts `hexbench workbench` on a free port; gives its address and a way to end it. */
@@ -53,8 +48,7 @@ export async function startWorkbench(...files) {
 /** A browser; `webgl` in software, or none at all. */
 export function startBrowser(webgl = true) {
   const graphics = webgl ? ["--enable-unsafe-swiftshader", "--use-angle=swiftshader"] : ["--disable-gpu", "--disable-3d-apis"];
-  const quiet = ["--no-first-run", "--disable-quic", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-  return chromium.launch({ executablePath: browserPath(), args: ["--no-sandbox", ...quiet, ...graphics] });
+  return launch(chromium, ...graphics);
 }
 
 /** A page in its own profile that notes what must not happen. `refusals`: statuses the test provokes. */
