@@ -259,6 +259,7 @@ impl Failure {
                  effect."
                     .into(),
             ),
+            Self::Design(cause) if of_sensors(cause).is_some() => of_sensors(cause),
             Self::Power(PowerError::Design(DesignError::Model(cause))) => {
                 Some(cause.next_step("the plan"))
             }
@@ -381,4 +382,24 @@ fn exit_of(cause: &ModelError) -> Exit {
         | ModelError::NoReading { .. } => Exit::BadInput,
         _ => Exit::NotDetermined,
     }
+}
+
+/// What to do about sensors that cannot be chosen.
+fn of_sensors(cause: &DesignError) -> Option<String> {
+    match cause {
+        DesignError::SensorsNeverDetermine { .. } => Some(
+            "Add candidates that look at other points or in other directions, or give poses and loads that differ more.".into(),
+        ),
+        DesignError::TooFewSensors { enough: Some(n), .. } => Some(format!("Give --choose {n} or more.")),
+        DesignError::TooFewSensors { enough: None, .. } => {
+            Some("Allow a larger --budget, or candidates that cost less.".into())
+        }
+        DesignError::CannotShow { term, .. } => Some(shown_by(term)),
+        DesignError::NoCandidateShows { term } => Some(shown_by(term)),
+        _ => None,
+    }
+}
+
+fn shown_by(term: &str) -> String {
+    format!("`hexbench terms {term}` says what shows it: poses, loads or columns of the plan.")
 }

@@ -47,7 +47,12 @@ pub(crate) fn conditions_header(rows: &Dataset) -> Vec<&'static str> {
     let pose = ["pose", "repeat", "a_mm", "b_mm", "c_mm", "alpha_deg", "beta_deg", "gamma_deg"];
     let wrench = ["fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm"];
     let reference = ["ref_fx_N", "ref_fy_N", "ref_fz_N", "ref_mx_Nm", "ref_my_Nm", "ref_mz_Nm"];
-    let optional = [(c.approach, "approach"), (c.delta_t, "delta_T_K"), (c.elapsed, "elapsed_s")];
+    let optional = [
+        (c.approach, "approach"),
+        (c.delta_t, "delta_T_K"),
+        (c.elapsed, "elapsed_s"),
+        (c.reference_age, "ref_age_s"),
+    ];
     let reference = reference.into_iter().filter(|_| c.reference);
     let optional = optional.into_iter().filter_map(|(there, name)| there.then_some(name));
     pose.into_iter().chain(wrench).chain(reference).chain(optional).collect()
@@ -57,7 +62,12 @@ pub(crate) fn conditions_header(rows: &Dataset) -> Vec<&'static str> {
 pub(crate) fn condition(rows: &Dataset, o: &Observation) -> Vec<String> {
     let c = rows.columns;
     let plain = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>();
-    let optional = [(c.approach, o.approach.sign()), (c.delta_t, o.delta_t), (c.elapsed, o.elapsed)];
+    let optional = [
+        (c.approach, o.approach.sign()),
+        (c.delta_t, o.delta_t),
+        (c.elapsed, o.elapsed),
+        (c.reference_age, o.reference_age.unwrap_or_default()),
+    ];
     let reference = if c.reference { plain(&o.reference.to_array()) } else { Vec::new() };
     [o.pose_id.to_string(), o.repeat.to_string()]
         .into_iter()

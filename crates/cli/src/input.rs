@@ -32,6 +32,17 @@ pub(crate) fn plan(path: &Path) -> Result<Dataset, Failure> {
     Ok(told(path, read_plan(path)?))
 }
 
+/// The same as the sensors of a machine will read it: measurements by what was read, a plan by every sensor.
+pub(crate) fn plan_of(hexapod: &Hexapod, path: &Path) -> Result<Dataset, Failure> {
+    if hexapod.sensors.is_empty() {
+        return plan(path);
+    }
+    match read_campaign(hexapod, path) {
+        Ok(measured) => Ok(told(path, measured)),
+        Err(_) => Ok(plan(path)?.to_be_read_by(&hexapod.sensors)),
+    }
+}
+
 /// Says on standard error how files are read otherwise than they say, and what they seem to mean instead.
 pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &ReadAs) {
     let all = read_as.names();

@@ -8,6 +8,7 @@ mod csv;
 mod input;
 mod output;
 mod page;
+mod question;
 mod read_as;
 mod states;
 

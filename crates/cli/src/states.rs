@@ -23,7 +23,8 @@ impl States {
 
     /// The table as CSV: conditions, part, model, resting pose, leg forces (tension positive).
     pub(crate) fn csv(&self, source: &str) -> String {
-        let columns = Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false };
+        let columns =
+            Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
         let dataset = Dataset {
             blocks: hexbench_core::Dataset::pose_blocks(),
             source: source.to_owned(),

@@ -1,6 +1,6 @@
 //! Measurements: what was commanded, what was applied, what was read.
 
-use crate::{Approach, Channel, LineRange, Pose, UNREAD, Wrench};
+use crate::{Approach, Channel, LineRange, Pose, Sensor, UNREAD, Wrench};
 
 /// What the six measured numbers of an observation are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -44,6 +44,8 @@ pub struct Observation {
     pub delta_t: f64,
     /// Time from the reference reading to the loaded reading, s.
     pub elapsed: f64,
+    /// Time the reference load had rested on the machine when the reference was read, s; none when the file does not say.
+    pub reference_age: Option<f64>,
     /// What the six numbers are: one of the [`Dataset::blocks`].
     pub block: usize,
     /// Measured values: translation (m), rotation (rad), meaning as in [`Measurand`]; of other blocks, what their channels read.
@@ -75,6 +77,8 @@ pub struct Columns {
     pub delta_t: bool,
     /// `elapsed_*`.
     pub elapsed: bool,
+    /// `ref_age_*`.
+    pub reference_age: bool,
     /// All six `sigma_*` columns.
     pub sigma: bool,
 }
@@ -101,6 +105,11 @@ impl Dataset {
         self.blocks.get(observation.block).copied().unwrap_or(Channel::POSE)
     }
 
+    /// The rows of the file: observations that share a line.
+    pub fn rows(&self) -> impl Iterator<Item = &[Observation]> {
+        self.observations.chunk_by(|one, next| one.line == next.line && one.block != next.block)
+    }
+
     /// How many numbers of a sensor were read.
     pub fn numbers_of(&self, sensor: usize) -> usize {
         let is_it =
@@ -120,6 +129,43 @@ impl Dataset {
     /// True when something else was read than a full pose in every row.
     pub fn has_other_readings(&self) -> bool {
         self.blocks != [Channel::POSE] || self.observations.iter().any(|o| o.numbers() < 6)
+    }
+
+    /// Deflections of full poses with all that is known of their conditions; nothing is stated of their noise.
+    pub fn of_deflections(source: &str, observations: Vec<Observation>) -> Self {
+        Self {
+            blocks: Self::pose_blocks(),
+            source: source.to_owned(),
+            measurand: Measurand::DeflectionEuler,
+            columns: Columns {
+                reference: true,
+                approach: true,
+                delta_t: true,
+                elapsed: true,
+                ..Columns::default()
+            },
+            observations,
+        }
+    }
+
+    /// The same rows as they are to be read by sensors alone, each number as well as its sensor states; nothing is measured yet.
+    #[must_use]
+    pub fn to_be_read_by(&self, sensors: &[Sensor]) -> Self {
+        let blocks = Channel::in_blocks(&Channel::all([], sensors));
+        let sigma =
+            |channels: &[Channel; 6]| channels.map(|c| c.stated_sigma(sensors, None).unwrap_or(UNREAD));
+        let read = |row: &Observation| {
+            let row = Observation { measured: [0.0; 6], ..*row };
+            let of_block = |(block, channels)| Observation { block, sigma: Some(sigma(channels)), ..row };
+            blocks.iter().enumerate().map(of_block).collect::<Vec<_>>()
+        };
+        Self {
+            measurand: Measurand::DeflectionRotationVector,
+            columns: Columns { sigma: true, ..self.columns },
+            observations: self.observations.iter().flat_map(read).collect(),
+            source: self.source.clone(),
+            blocks,
+        }
     }
 
     /// True in absolute mode.

@@ -72,6 +72,28 @@ impl SensorKind {
         }
     }
 
+    /// The point of the platform that it looks at, mobile frame, m; none where it looks at none.
+    pub fn point(&self) -> Option<&Vector3> {
+        match self {
+            Self::Distance { point, .. } | Self::Point { point, .. } => Some(point),
+            Self::Inclination { .. } | Self::LegLength { .. } => None,
+        }
+    }
+
+    /// The direction in which, or the axis about which it reads, fixed axes; none where it has none.
+    pub fn direction(&self) -> Option<&Vector3> {
+        match self {
+            Self::Distance { direction, .. } => Some(direction),
+            Self::Inclination { axis, .. } => Some(axis),
+            Self::Point { .. } | Self::LegLength { .. } => None,
+        }
+    }
+
+    /// The leg beside which it stands, from zero.
+    pub fn leg(&self) -> Option<usize> {
+        if let Self::LegLength { leg, .. } = self { Some(*leg) } else { None }
+    }
+
     /// Numbers in one reading.
     pub fn numbers(&self) -> usize {
         if matches!(self, Self::Point { .. }) { 3 } else { 1 }
@@ -141,6 +163,21 @@ impl Channel {
     /// The six numbers of a full pose.
     pub const POSE: [Self; 6] =
         [Self::Pose(0), Self::Pose(1), Self::Pose(2), Self::Pose(3), Self::Pose(4), Self::Pose(5)];
+
+    /// The channels of some pose numbers and of all sensors, in the order of their columns.
+    pub fn all(pose: impl IntoIterator<Item = usize>, sensors: &[Sensor]) -> Vec<Self> {
+        let numbers = |(sensor, s): (usize, &Sensor)| {
+            (0..s.kind.numbers()).map(move |number| Self::Sensor { sensor, number })
+        };
+        let of_sensors = sensors.iter().enumerate().flat_map(numbers);
+        pose.into_iter().map(Self::Pose).chain(of_sensors).collect()
+    }
+
+    /// Channels six at a time, as observations hold them.
+    pub fn in_blocks(channels: &[Self]) -> Vec<[Self; 6]> {
+        let block = |part: &[Self]| std::array::from_fn(|k| part.get(k).copied().unwrap_or_default());
+        channels.chunks(6).map(block).collect()
+    }
 
     /// True when it reads an angle.
     pub fn is_angle(self, sensors: &[Sensor]) -> bool {

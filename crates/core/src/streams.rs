@@ -75,6 +75,8 @@ pub enum Purpose {
     PowerTest = 402,
     /// Power of a plan: noise behind what a signature is confused with.
     PowerConfusion = 403,
+    /// Choice of sensors: a random set to start from.
+    SensorStart = 404,
 
     /// Recovery: what a campaign is.
     RecoveryCampaign = 500,

@@ -138,6 +138,15 @@ impl Criterion {
         }
     }
 
+    /// The criterion for information matrices that end with so many inputs known to a tolerance only; `mean` is the `B` of I (p x p).
+    pub fn over(self, mean: impl FnOnce() -> DMatrix<f64>, inputs: usize) -> Objective {
+        let criterion = match self.with(|()| Ok::<_, std::convert::Infallible>(mean())) {
+            Ok(criterion) => criterion,
+            Err(never) => match never {},
+        };
+        Objective { criterion, inputs }
+    }
+
     /// The criterion for a machine, a space and a regressor. `B` of I is the mean information of poses spread evenly over the
     /// space, so that its value is the inverse mean of the summed variance of the predictions there.
     ///

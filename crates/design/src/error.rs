@@ -29,6 +29,38 @@ pub enum DesignError {
         /// Parameters that are not seen, or only together with others.
         names: Vec<String>,
     },
+    /// Not even all sensors to choose from determine everything.
+    #[error("all {candidates} sensors to choose from together do not determine {}", .names.join(", "))]
+    SensorsNeverDetermine {
+        /// Candidates.
+        candidates: usize,
+        /// Parameters that are not seen, or only together with others.
+        names: Vec<String>,
+    },
+    /// Too few sensors are to be chosen.
+    #[error("no {number} of the sensors to choose from determine all {parameters} parameters")]
+    TooFewSensors {
+        /// Sensors wanted.
+        number: usize,
+        /// Parameters wanted.
+        parameters: usize,
+        /// As many as are enough, where any number is.
+        enough: Option<usize>,
+    },
+    /// A plan cannot test an effect at all.
+    #[error("these poses and loads cannot show {term}: {why}")]
+    CannotShow {
+        /// Id of the term.
+        term: &'static str,
+        /// What is missing.
+        why: String,
+    },
+    /// Springs explain all of an effect, whatever is read.
+    #[error("no sensor to choose from shows {term} beside springs, with these poses and loads")]
+    NoCandidateShows {
+        /// Id of the term.
+        term: String,
+    },
     /// A quantity of the problem makes no sense.
     #[error("{0}")]
     Bad(String),

@@ -11,6 +11,7 @@
 //!   best they can be.
 //! - [`discriminate`]: plans that tell rival effects apart.
 //! - [`refine`]: the poses of such a plan moved to where they tell most.
+//! - [`sensors`]: which sensors to place, and where, out of candidates.
 //! - [`power`]: which effects a plan would see, at what size, and what they would be taken for.
 
 pub mod budget;
@@ -24,6 +25,7 @@ pub mod nominal;
 pub mod power;
 pub mod refine;
 pub mod regressor;
+pub mod sensors;
 pub mod space;
 pub mod space_file;
 

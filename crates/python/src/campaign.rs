@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use hexbench_app::Failure;
 use hexbench_core::files::{
-    Cells, FileError, GroupPurpose, MemoryColumn, TableReading, campaign_to_csv, content_hash,
-    measurements_to_columns, read_campaign, read_campaign_from, read_columns,
+    Cells, FileError, GroupPurpose, MemoryColumn, TableReading, campaign_to_columns, campaign_to_csv,
+    content_hash, read_campaign, read_campaign_from, read_columns,
 };
 use hexbench_core::{Dataset, Hexapod};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
@@ -87,7 +87,7 @@ impl PyCampaign {
 
     /// Every column of measurements.csv.
     fn columns<'py>(&self, py: Python<'py>) -> Vec<(String, Bound<'py, PyArray1<f64>>)> {
-        let columns = measurements_to_columns(&self.0.data);
+        let columns = campaign_to_columns(&self.0.machine.hexapod, &self.0.data);
         columns.into_iter().map(|(name, values)| (name, values.into_pyarray(py))).collect()
     }
 
@@ -99,7 +99,7 @@ impl PyCampaign {
     /// Number of readings.
     #[getter]
     fn readings(&self) -> usize {
-        self.0.data.observations.len()
+        self.0.data.rows().count()
     }
 
     /// True for absolute poses.

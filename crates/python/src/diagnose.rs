@@ -6,6 +6,7 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use hexbench_app::{Failure, input};
+use hexbench_core::Dataset;
 use hexbench_model::results::compare::{ComparedModel, compare as compared_with};
 use hexbench_model::results::diagnose::{DiagnoseOptions, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::{DiscoveryStudy, discover as search_law};
@@ -31,6 +32,14 @@ struct About {
 impl About {
     fn of(campaign: &PyCampaign, holdout: Option<&PyCampaign>) -> Self {
         Self { measured: Arc::clone(&campaign.0), holdout: holdout.map(|h| Arc::clone(&h.0)) }
+    }
+
+    fn held(&self) -> Option<&Dataset> {
+        self.holdout.as_ref().map(|h| &h.data)
+    }
+
+    fn subject<'a>(&'a self, study: &'a DiagnosisStudy) -> ReportSubject<'a> {
+        ReportSubject::of(&self.measured.machine.hexapod, &self.measured.data, self.held(), study)
     }
 
     fn failure(&self, cause: hexbench_model::error::ModelError) -> Failure {
@@ -78,19 +87,18 @@ impl PyDiagnosis {
 
     /// The page of the command.
     fn text(&self, verbose: bool) -> String {
-        terminal(&words::diagnosis(&subject_of(&self.0)), Terminal { verbose, ..Terminal::default() })
+        let (about, study) = self.0.as_ref();
+        terminal(&words::diagnosis(&about.subject(study)), Terminal { verbose, ..Terminal::default() })
     }
 
     /// The page for a browser.
     fn html(&self, py: Python<'_>) -> PyResult<String> {
         let both = Arc::clone(&self.0);
-        beside(py, move || page_text(&charts::diagnosis(&subject_of(&both), &both.0.provenance("diagnose"))?))
+        beside(py, move || {
+            let (about, study) = both.as_ref();
+            page_text(&charts::diagnosis(&about.subject(study), &about.provenance("diagnose"))?)
+        })
     }
-}
-
-fn subject_of((about, study): &(About, DiagnosisStudy)) -> ReportSubject<'_> {
-    let holdout = about.holdout.as_ref().map(|h| &h.data);
-    ReportSubject::of(&about.measured.machine.hexapod, &about.measured.data, holdout, study)
 }
 
 /// Name the physical effect the model lacks.
@@ -107,14 +115,9 @@ pub(crate) fn diagnose(
     let about = About::of(campaign, holdout);
     beside(py, move || {
         let all = input::catalogue_with(&input::user_terms(&terms)?);
-        let held = about.holdout.as_ref().map(|h| &h.data);
-        let options = DiagnoseOptions {
-            exclude: parsed("exclude", &exclude)?,
-            keep_all,
-            read_as: parsed("read_as", &read_as)?,
-        };
-        let study =
-            diagnose_with(&about.measured.machine.hexapod, &about.measured.data, held, &all, &options);
+        let options = options(&exclude, keep_all, &read_as)?;
+        let measured = &about.measured;
+        let study = diagnose_with(&measured.machine.hexapod, &measured.data, about.held(), &all, &options);
         let study = study.map_err(|cause| about.failure(cause))?;
         Ok(PyDiagnosis(Arc::new((about, study))))
     })
@@ -134,9 +137,7 @@ impl PyDiscovery {
     /// The page of the command.
     fn text(&self, verbose: bool) -> String {
         let (about, study) = self.0.as_ref();
-        let held = about.holdout.as_ref().map(|h| &h.data);
-        let subject =
-            ReportSubject::of(&about.measured.machine.hexapod, &about.measured.data, held, &study.diagnosis);
+        let subject = about.subject(&study.diagnosis);
         let page = words::discovery(subject.hexapod, subject.data, subject.holdout, study);
         terminal(&page, Terminal { verbose, ..Terminal::default() })
     }
@@ -161,15 +162,20 @@ pub(crate) fn discover(
     let about = About::of(campaign, holdout);
     beside(py, move || {
         let all = input::catalogue_with(&input::user_terms(&terms)?);
-        let held = about.holdout.as_ref().map(|h| &h.data);
-        let options = DiagnoseOptions {
-            exclude: parsed("exclude", &exclude)?,
-            keep_all: false,
-            read_as: parsed("read_as", &read_as)?,
-        };
-        let study = search_law(&about.measured.machine.hexapod, &about.measured.data, held, &all, &options);
+        let options = options(&exclude, false, &read_as)?;
+        let measured = &about.measured;
+        let study = search_law(&measured.machine.hexapod, &measured.data, about.held(), &all, &options);
         let study = study.map_err(|cause| about.failure(cause))?;
         Ok(PyDiscovery(Arc::new((about, study))))
+    })
+}
+
+/// How readings are treated, as the arguments say.
+fn options(exclude: &[String], keep_all: bool, read_as: &[String]) -> Result<DiagnoseOptions, Failure> {
+    Ok(DiagnoseOptions {
+        exclude: parsed("exclude", exclude)?,
+        keep_all,
+        read_as: parsed("read_as", read_as)?,
     })
 }
 
@@ -204,7 +210,7 @@ impl PyComparison {
         beside(py, move || {
             let (about, compared) = both.as_ref();
             let Measured { machine, data, .. } = about.measured.as_ref();
-            let held = about.holdout.as_ref().map(|h| &h.data);
+            let held = about.held();
             page_text(&charts::comparison(
                 &machine.hexapod,
                 data,
@@ -227,7 +233,7 @@ pub(crate) fn compare(
     let about = About::of(campaign, holdout);
     let model = model.map(|m| Arc::clone(&m.model));
     beside(py, move || {
-        let held = about.holdout.as_ref().map(|h| &h.data);
+        let held = about.held();
         let compared =
             compared_with(&about.measured.machine.hexapod, &about.measured.data, model.as_deref(), held);
         let compared = compared.map_err(|cause| about.failure(cause))?;

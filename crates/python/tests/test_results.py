@@ -14,7 +14,7 @@ import hexbench
 KEYS = {
     "format", "verdict", "added", "model", "small", "richer", "candidates", "present", "credible_set", "steps", "nested", "holdout", "noise",
     "parameters", "not_determined", "untestable", "detectable", "next", "separation", "absorbed", "suspects", "outside",
-    "warnings", "findings", "excluded", "keep_all", "read_as", "alternative", "run",
+    "remainder", "warnings", "findings", "excluded", "keep_all", "read_as", "alternative", "run",
 }  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 //! The force of a leg at a given elongation: the leg law read the other way round.
 //!
 //! ```text
-//! e - offset = C(length + e) s(f) + c_t max(f, 0) + sum kappa sgn(f) |f|^p + (gap / 2) sgn(f)
+//! e - offset = C(length + e) s(f) + c_t max(f, 0) + sum kappa sgn(f) |f|^p + (gap / 2) sgn(f) + sum (gap / 2) tanh(f / width)
 //! ```
 //!
 //! A dynamics engine knows where the bodies are and asks for forces. At a given elongation the compliance `C` is a number,
@@ -68,6 +68,11 @@ fn stretch(law: &LegLaw, compliance: f64, force: f64, before: LegMemory) -> (f64
     for &(kappa, p) in &law.powers {
         e += kappa * force.signum() * force.abs().powf(p);
         slope += kappa * p * force.abs().powf(p - 1.0);
+    }
+    for &(gap, width) in &law.soft_gaps {
+        let cosh = (force / width).cosh();
+        e += 0.5 * gap * (force / width).tanh();
+        slope += 0.5 * gap / (width * cosh * cosh);
     }
     (e, slope)
 }

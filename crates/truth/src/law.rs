@@ -1,7 +1,7 @@
 //! The law of one leg: which elongation goes with which force, and what it remembers.
 //!
 //! ```text
-//! e(f) = offset + C(q + e) s + c_t max(f, 0) + sum kappa sgn(f) |f|^p + (gap / 2) sgn(f)
+//! e(f) = offset + C(q + e) s + c_t max(f, 0) + sum kappa sgn(f) |f|^p + (gap / 2) sgn(f) + sum (gap / 2) tanh(f / width)
 //! C(q) = c + sum of what grows with, or varies along, the length
 //! s    = the share of f that the spring C carries; a dry slider beside it takes the rest, at most f_c
 //! ```
@@ -34,6 +34,8 @@ pub struct LegLaw {
     pub powers: Vec<(f64, f64)>,
     /// Whole width of the play, m.
     pub gap: f64,
+    /// Plays whose contact closes gradually: `(gap, width)`, m and N.
+    pub soft_gaps: Vec<(f64, f64)>,
     /// Elongation without force, m.
     pub offset: f64,
 }
@@ -120,6 +122,7 @@ impl LegLaw {
             tension_compliance: 0.0,
             powers: Vec::new(),
             gap: 0.0,
+            soft_gaps: Vec::new(),
             offset: 0.0,
         }
     }
@@ -198,6 +201,11 @@ impl LegLaw {
             let magnitude = f.abs();
             others += kappa * f.signum() * magnitude.powf(p);
             others_slope += kappa * p * magnitude.powf(p - 1.0);
+        }
+        for &(gap, width) in &self.soft_gaps {
+            let closed = (f / width).tanh();
+            others += 0.5 * gap * closed;
+            others_slope += 0.5 * gap / width * (1.0 - closed * closed);
         }
         let plain = others + self.compliance * spring;
         if self.along_length.is_empty() {

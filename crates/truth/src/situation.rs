@@ -17,13 +17,15 @@ pub struct Situation {
     pub delta_t: f64,
     /// Time from the reference reading to the loaded reading, s.
     pub elapsed: f64,
+    /// Time for which the reference wrench had rested on the machine at the reference reading, s; none when the plan leaves it open.
+    pub reference_age: Option<f64>,
 }
 
 impl Situation {
     /// A pose under a load, without reference load, temperature change or waiting.
     pub fn new(pose: Pose, wrench: Wrench) -> Self {
         let (reference, approach) = (Wrench::default(), Approach::default());
-        Self { pose, wrench, reference, approach, delta_t: 0.0, elapsed: 0.0 }
+        Self { pose, wrench, reference, approach, delta_t: 0.0, elapsed: 0.0, reference_age: None }
     }
 
     /// The wrench by which an overloaded approach exceeds the load.
@@ -67,6 +69,11 @@ impl Instant<'_> {
     /// Seconds since the reference reading.
     pub fn elapsed(&self) -> f64 {
         if self.phase == Phase::Loaded { self.situation.elapsed } else { 0.0 }
+    }
+
+    /// Seconds for which the reference load had rested at the reference reading; none where nobody says.
+    pub fn reference_age(&self) -> Option<f64> {
+        self.situation.reference_age
     }
 
     /// Temperature above the reference reading, K.

@@ -3,6 +3,7 @@
 mod page;
 mod plan;
 mod search;
+mod sensors;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -26,6 +27,7 @@ use crate::Failure;
 pub use page::page;
 use search::Bench;
 pub use search::StartedSearch;
+pub use sensors::{ChosenSensors, SensorWish, choose_sensors};
 
 /// Combinations of inputs that a search for a plan weighs: the errors that matter most. Its time grows with the square of parameters
 /// and combinations. The uncertainties of what it finds weigh all of them.

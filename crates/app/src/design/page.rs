@@ -9,7 +9,7 @@ use hexbench_model::machine::observability::Observability;
 use hexbench_report::{Block, Page, PageColumn, Section, Table, number};
 use nalgebra::DMatrix;
 
-use super::{Designed, Visit};
+use super::{Designed, Quantity, Visit};
 
 /// Correlations told at most, and the smallest worth telling.
 const MOST_TOLD: usize = 4;
@@ -196,29 +196,32 @@ fn floored(share: f64) -> f64 {
 /// Standard uncertainties that the plan promises.
 fn uncertainty(plan: &Designed) -> Option<Section> {
     let covariance = plan.known().clone().cholesky()?.inverse();
+    let shares: Vec<f64> = covariance.diagonal().iter().map(|v| v.sqrt()).collect();
+    Some(determined(&plan.parameters, &shares))
+}
+
+/// Standard uncertainties as shares of the sizes of parameters.
+pub(super) fn determined(parameters: &[Quantity], shares: &[f64]) -> Section {
     let columns = [
         PageColumn::words(""),
         PageColumn::number("uncertainty"),
         PageColumn::words("unit"),
         PageColumn::number("share"),
+        PageColumn::number("of"),
     ];
-    let rows = plan.parameters.iter().enumerate().map(|(k, quantity)| {
-        let relative = covariance[(k, k)].sqrt();
+    let rows = parameters.iter().zip(shares).map(|(quantity, share)| {
         [
             quantity.name.clone(),
-            number::significant(relative * quantity.size, 2),
+            number::significant(share * quantity.size, 2),
             quantity.unit.to_owned(),
-            format!("{} %", number::significant(100.0 * relative, 2)),
+            format!("{} %", number::significant(100.0 * share, 2)),
             number::significant(quantity.size, 3),
         ]
     });
-    let table = Table::new(columns.into_iter().chain([PageColumn::number("of")])).rows(rows);
-    Some(
-        Section::new("What it will determine")
-            .remark("standard uncertainty, k = 1")
-            .table(table)
-            .paragraph("Shares of a nominal stiffness, or of the usual size of an effect."),
-    )
+    Section::new("What it will determine")
+        .remark("standard uncertainty, k = 1")
+        .table(Table::new(columns).rows(rows))
+        .paragraph("Shares of a nominal stiffness, or of the usual size of an effect.")
 }
 
 /// The pairs of parameters that the plan separates worst.

@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_core::files::{parse_hexapod, read_measurements_from, text_hash};
+use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::results::diagnose::DiagnoseOptions;
+use hexbench_model::results::discover::{Discovery, discover};
 use hexbench_model::terms::catalogue;
 use hexbench_report::charts::{self, ReportError};
 use hexbench_report::render::{html, is_own};
 use hexbench_report::words::{self, Provenance, ReportSubject};
-use hexbench_workbench::bench::cases::{BundledCase, FOUNDATION};
+use hexbench_workbench::bench::cases::{BundledCase, FOUNDATION, UNLISTED};
 
 use crate::commands::diagnose::study;
 use crate::failure::Failure;
@@ -36,14 +38,27 @@ pub(crate) struct Arguments {
 
 /// Tell the story.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let hexapod = parse_hexapod(CASE.hexapod, "hexapod.toml")?;
-    let data = read_measurements_from(CASE.data.as_bytes(), "measurements.csv")?.dataset;
-    let holdout = read_measurements_from(CASE.holdout.as_bytes(), "holdout.csv")?.dataset;
+    let (hexapod, data, holdout) = read(&CASE)?;
     let study = study(&hexapod, &data, Some(&holdout), &catalogue(), &DiagnoseOptions::default())?;
     let subject = ReportSubject::of(&hexapod, &data, Some(&holdout), &study);
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
-    screen.show(&words::demo(&subject).map_err(failed)?)?;
+    let story = words::demo(&subject, &elsewhere()?).map_err(failed)?;
+    screen.show(&story)?;
     if arguments.no_report { Ok(()) } else { page(&subject, arguments.output.as_deref(), screen) }
+}
+
+/// Hexapod, measurements and holdout.
+fn read(case: &BundledCase) -> Result<(Hexapod, Dataset, Dataset), Failure> {
+    let table = |text: &str, name| Ok::<_, Failure>(read_measurements_from(text.as_bytes(), name)?.dataset);
+    let [hexapod, data, holdout] = FILES.map(|(name, _)| name);
+    Ok((parse_hexapod(case.hexapod, hexapod)?, table(case.data, data)?, table(case.holdout, holdout)?))
+}
+
+/// What is found on the machine whose effect no catalogue has.
+fn elsewhere() -> Result<Discovery, Failure> {
+    let (hexapod, data, holdout) = read(&UNLISTED)?;
+    let found = discover(&hexapod, &data, Some(&holdout), &catalogue(), &DiagnoseOptions::default());
+    found.map(|study| study.discovery).map_err(|cause| Failure::Model { cause, data: data.source.clone() })
 }
 
 /// The page. One that nobody asked for by name gives way to whatever is in its place, and its absence is no failure.

@@ -1,23 +1,26 @@
 //! `hexbench design HEXAPOD SPACE`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use hexbench_app::design::{self, Wish, design};
+use hexbench_app::design::{self, Designed, SensorWish, Wish, choose_sensors, design};
+use hexbench_core::Hexapod;
+use hexbench_core::files::hexapod_to_toml;
 use hexbench_design::Criterion;
+use hexbench_report::Page;
 
 use crate::csv;
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{Progress, Screen};
+use crate::output::{PageFiles, Progress, Screen, write_json};
 
 /// Choose the poses that determine stiffnesses (and effects) best
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,
-    /// Where poses may lie and which loads there are: space.toml
+    /// Where poses may lie and which loads there are: space.toml; with --sensors also a plan: plan.csv or measurements.csv
     space: PathBuf,
     /// Number of poses, each read under every load and condition (default: 3)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=60))]
@@ -46,9 +49,27 @@ pub(crate) struct Arguments {
     /// Seed of the starts
     #[arg(long, value_name = "S", default_value = "1")]
     seed: u32,
-    /// Write the plan to FILE: the columns of measurements.csv without the measured ones
+    /// Write the plan to FILE: the columns of measurements.csv without the measured ones; with --sensors the machine with the chosen
+    /// ones: hexapod.toml
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Choose sensors, too: those that read these poses best, out of the candidates of FILE (sensor-candidates/1)
+    #[arg(long, value_name = "FILE")]
+    sensors: Option<PathBuf>,
+    /// How many sensors; with --budget at most so many
+    #[arg(long, value_name = "N", requires = "sensors", value_parser = clap::value_parser!(u16).range(1..=500))]
+    choose: Option<u16>,
+    /// What the sensors may cost together, in the unit of `cost` in FILE
+    #[arg(long, value_name = "COST", requires = "sensors", allow_negative_numbers = true)]
+    budget: Option<f64>,
+    /// Choose the sensors that see this effect best beside springs, instead of by a criterion
+    #[arg(long, value_name = "TERM", requires = "sensors", conflicts_with_all = ["criterion", "terms"])]
+    see: Option<String>,
+    /// Write the chosen sensors as JSON to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE", requires = "sensors")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    page: PageFiles,
 }
 
 /// The criteria by their names as options, each explained in the help.
@@ -61,13 +82,71 @@ fn criterion() -> impl TypedValueParser<Value = Criterion> {
 /// Search, tell, save.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
-    let found = design(&hexapod, &arguments.space, &wish(arguments), &|starts| {
-        let progress = Progress::of(starts, "starts");
-        Box::new(move || progress.advance(1))
-    })?;
-    screen.show(&design::page(&found))?;
+    if let Some(candidates) = &arguments.sensors {
+        return sensors(arguments, &hexapod, candidates, screen);
+    }
+    let found = planned(arguments, &hexapod)?;
+    tell(arguments, design::page(&found), screen)?;
     let written = |path: &PathBuf| screen.write_to(path, &csv::conditions(&found.readings_to_take()));
     arguments.output.as_ref().map_or(Ok(()), written)
+}
+
+fn planned(arguments: &Arguments, hexapod: &Hexapod) -> Result<Designed, Failure> {
+    design(hexapod, &arguments.space, &wish(arguments), &steps("starts"))
+}
+
+/// Progress of so many steps.
+fn steps(unit: &'static str) -> impl Fn(u64) -> Box<dyn Fn() + Sync> {
+    move |count| {
+        let progress = Progress::of(count, unit);
+        Box::new(move || progress.advance(1))
+    }
+}
+
+/// Sensors for the poses of a plan, or for those that are designed first.
+fn sensors(
+    arguments: &Arguments,
+    hexapod: &Hexapod,
+    candidates: &Path,
+    screen: &Screen,
+) -> Result<(), Failure> {
+    let is_space = arguments.space.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    let designed = is_space.then(|| planned(arguments, hexapod)).transpose()?;
+    let plan = match &designed {
+        Some(found) => found.readings_to_take(),
+        None => input::plan(&arguments.space)?,
+    };
+    let chosen = choose_sensors(hexapod, &plan, candidates, &sensor_wish(arguments), &steps("searches"))?;
+    if let Some(path) = &arguments.json {
+        write_json(screen, path, &chosen.file())?;
+    }
+    let poses = designed.iter().flat_map(|found| design::page(found).sections.into_iter().take(1));
+    let page = chosen.page();
+    tell(arguments, Page { sections: poses.chain(page.sections).collect(), ..page }, screen)?;
+    let written = |path: &PathBuf| screen.write_to(path, &hexapod_to_toml(&chosen.hexapod));
+    arguments.output.as_ref().map_or(Ok(()), written)
+}
+
+/// The page on the terminal, unless standard output has something else, and in the files that are wanted.
+fn tell(arguments: &Arguments, page: Page, screen: &Screen) -> Result<(), Failure> {
+    let page = Page { title: "Plan of an experiment".to_owned(), ..page };
+    let files = [&arguments.json, &arguments.output];
+    let elsewhere =
+        files.into_iter().flatten().any(|path| path == Path::new("-")) || arguments.page.to_stdout();
+    arguments.page.write(screen, || Ok(page.clone()))?;
+    if elsewhere { Ok(()) } else { screen.show(&Page { title: String::new(), ..page }) }
+}
+
+fn sensor_wish(arguments: &Arguments) -> SensorWish {
+    SensorWish {
+        choose: arguments.choose,
+        budget: arguments.budget,
+        see: arguments.see.clone(),
+        criterion: arguments.criterion,
+        terms: arguments.terms.clone(),
+        starts: arguments.starts,
+        seed: arguments.seed,
+    }
 }
 
 fn wish(arguments: &Arguments) -> Wish {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use hexbench_core::{Dataset, Hexapod, LineRange};
+use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
 use hexbench_model::inference::verdict::Verdict;
@@ -14,27 +14,15 @@ use hexbench_report::words::ReportSubject;
 use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
-use crate::input;
-use crate::output::{PageFiles, Screen, origin, provenance, write_json};
+use crate::output::{PageFiles, Screen, write_json};
+use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 
 /// Name the physical effect the model lacks, and show the held-out error fall
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The machine: hexapod.toml
-    hexapod: PathBuf,
-    /// Deflections or absolute poses: measurements.csv
-    data: PathBuf,
-    /// Readings kept out of every fit; without it poses are left out in turn
-    #[arg(long, value_name = "FILE")]
-    holdout: Option<PathBuf>,
-    /// A term file of your own (term/1) that competes with the catalogue; may be given several times
-    #[arg(long = "term", value_name = "FILE")]
-    terms: Vec<PathBuf>,
-    /// Leave the reading in this line of DATA out before anything else: a line as the page names it, or a range (12-15); may be
-    /// given several times
-    #[arg(long, value_name = "LINE", value_delimiter = ',')]
-    exclude: Vec<LineRange>,
+    #[command(flatten)]
+    question: Question,
     /// Keep every reading in the fit: readings that seem wrong are still told, but not left out
     #[arg(long)]
     keep_all: bool,
@@ -76,30 +64,21 @@ impl Expected {
 
 /// Diagnose and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let hexapod = input::hexapod(&arguments.hexapod)?;
-    let data = input::measurements(&hexapod, &arguments.data)?;
-    let holdout = arguments.holdout.as_deref().map(|path| input::measurements(&hexapod, path)).transpose()?;
-    let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
+    let asked = arguments.question.read()?;
+    let Asked { hexapod, data, holdout, terms } = &asked;
     let options = DiagnoseOptions {
-        exclude: arguments.exclude.clone(),
+        exclude: arguments.question.exclude.clone(),
         keep_all: arguments.keep_all,
         read_as: arguments.read_as.changes.clone(),
     };
-    let study = study(&hexapod, &data, holdout.as_ref(), &terms, &options)?;
+    let study = study(hexapod, data, holdout.as_ref(), terms, &options)?;
     let to_stdout = arguments.json.as_deref() == Some(Path::new("-")) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
-        let run =
-            origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
+        let run = arguments.question.origin(&asked)?;
         write_json(screen, path, &WithOrigin { result: &study.diagnosis, run })?;
     }
-    let subject = ReportSubject::of(&hexapod, &data, holdout.as_ref(), &study);
-    arguments.page.write(screen, || {
-        let read = [&arguments.hexapod, &arguments.data]
-            .into_iter()
-            .chain(&arguments.holdout)
-            .chain(&arguments.terms);
-        Ok(charts::diagnosis(&subject, &provenance(read)?)?)
-    })?;
+    let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &study);
+    arguments.page.write(screen, || Ok(charts::diagnosis(&subject, &arguments.question.provenance()?)?))?;
     if !to_stdout {
         screen.show(&words::diagnosis(&subject))?;
     }

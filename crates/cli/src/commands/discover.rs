@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_core::LineRange;
 use hexbench_model::results::diagnose::DiagnoseOptions;
 use hexbench_model::results::discover::{DiscoveryStudy, discover};
 use hexbench_model::results::runs::WithOrigin;
@@ -12,26 +11,15 @@ use hexbench_report::{charts, words};
 
 use super::diagnose;
 use crate::failure::Failure;
-use crate::input;
-use crate::output::{PageFiles, Screen, origin, provenance, report, write_json};
+use crate::output::{PageFiles, Screen, report, write_json};
+use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 
 /// Search the law that no catalogue has, for what springs and catalogue leave
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The machine: hexapod.toml
-    hexapod: PathBuf,
-    /// Deflections or absolute poses: measurements.csv
-    data: PathBuf,
-    /// Readings kept out of every fit; without it poses are left out in turn
-    #[arg(long, value_name = "FILE")]
-    holdout: Option<PathBuf>,
-    /// A term file of your own (term/1) that competes with the catalogue; may be given several times
-    #[arg(long = "term", value_name = "FILE")]
-    terms: Vec<PathBuf>,
-    /// Leave the reading in this line of DATA out before anything else: a line, or a range (12-15); may be given several times
-    #[arg(long, value_name = "LINE", value_delimiter = ',')]
-    exclude: Vec<LineRange>,
+    #[command(flatten)]
+    question: Question,
     #[command(flatten)]
     read_as: ReadAs,
     /// Write discovery.json to FILE, or to standard output (-) instead of the page
@@ -47,38 +35,31 @@ pub(crate) struct Arguments {
 
 /// Search and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let hexapod = input::hexapod(&arguments.hexapod)?;
-    let data = input::measurements(&hexapod, &arguments.data)?;
-    let holdout = arguments.holdout.as_deref().map(|path| input::measurements(&hexapod, path)).transpose()?;
-    let terms = input::catalogue_with(&input::user_terms(&arguments.terms)?);
+    let asked = arguments.question.read()?;
+    let Asked { hexapod, data, holdout, terms } = &asked;
     let options = DiagnoseOptions {
-        exclude: arguments.exclude.clone(),
+        exclude: arguments.question.exclude.clone(),
         keep_all: false,
         read_as: arguments.read_as.changes.clone(),
     };
-    let study = discover(&hexapod, &data, holdout.as_ref(), &terms, &options)
+    let study = discover(hexapod, data, holdout.as_ref(), terms, &options)
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
     let is_stdout = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
     let to_stdout = is_stdout(&arguments.json) || is_stdout(&arguments.output) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
-        let run =
-            origin((&hexapod, &arguments.hexapod), (&data, &arguments.data), arguments.holdout.as_deref())?;
+        let run = arguments.question.origin(&asked)?;
         write_json(screen, path, &WithOrigin { result: &study.discovery, run })?;
     }
     write_law(arguments.output.as_deref(), &study, screen)?;
     arguments.page.write(screen, || {
         let law = study.law().ok().flatten();
         let competing: Vec<_> = terms.iter().cloned().chain(law).collect();
-        let with_law = diagnose::study(&hexapod, &data, holdout.as_ref(), &competing, &options)?;
-        let subject = ReportSubject::of(&hexapod, &data, holdout.as_ref(), &with_law);
-        let read = [&arguments.hexapod, &arguments.data]
-            .into_iter()
-            .chain(&arguments.holdout)
-            .chain(&arguments.terms);
-        Ok(charts::discovery(&subject, &study, &provenance(read)?)?)
+        let with_law = diagnose::study(hexapod, data, holdout.as_ref(), &competing, &options)?;
+        let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &with_law);
+        Ok(charts::discovery(&subject, &study, &arguments.question.provenance()?)?)
     })?;
     if !to_stdout {
-        let subject = ReportSubject::of(&hexapod, &data, holdout.as_ref(), &study.diagnosis);
+        let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &study.diagnosis);
         screen.show(&words::discovery(subject.hexapod, subject.data, subject.holdout, &study))?;
     }
     Ok(())

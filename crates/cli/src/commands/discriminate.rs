@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation};
+use hexbench_core::{Dataset, Hexapod, Observation};
 use hexbench_design::Space;
 use hexbench_design::discriminate::{Contest, Distance, SeparatingPlan, candidate_readings};
 use hexbench_design::nominal;
@@ -244,12 +244,5 @@ fn table(found: &Discriminated) -> String {
     let repeated = (1..).zip(&found.readings).flat_map(|(pose_id, r)| {
         (1..).take(r.repeats).map(move |repeat| Observation { pose_id, repeat, ..r.observation })
     });
-    let rows = Dataset {
-        blocks: hexbench_core::Dataset::pose_blocks(),
-        source: String::new(),
-        measurand: Measurand::DeflectionEuler,
-        columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },
-        observations: repeated.collect(),
-    };
-    csv::conditions(&rows)
+    csv::conditions(&Dataset::of_deflections("", repeated.collect()))
 }

@@ -115,7 +115,8 @@ fn known(ids: &[String], terms: &[Arc<dyn Term>]) -> Result<(), Failure> {
 /// The plan with its machine and noise.
 fn plan(arguments: &Arguments) -> Result<PowerPlan, Failure> {
     let mut hexapod = input::hexapod(&arguments.hexapod)?;
-    let mut rows = input::plan(&arguments.plan)?;
+    refuse_for_sensors(arguments, &hexapod)?;
+    let mut rows = input::plan_of(&hexapod, &arguments.plan)?;
     if arguments.absolute {
         rows.measurand = Measurand::AbsolutePose;
         refuse_references(arguments, rows.columns.reference)?;
@@ -141,6 +142,23 @@ fn plan(arguments: &Arguments) -> Result<PowerPlan, Failure> {
         message: format!("{} repeats too few readings to estimate their noise", arguments.plan.display()),
         next: "Repeat at least three readings, or leave --noise-from-repeats out.".into(),
     })
+}
+
+/// What is only known of full poses.
+fn refuse_for_sensors(arguments: &Arguments, hexapod: &Hexapod) -> Result<(), Failure> {
+    let options = [
+        ("--simulate", arguments.simulate.is_some()),
+        ("--absolute", arguments.absolute),
+        ("--sigma", arguments.sigma.is_some()),
+        ("--noise-from-repeats", arguments.noise_from_repeats),
+    ];
+    match options.into_iter().find(|o| o.1 && !hexapod.sensors.is_empty()) {
+        None => Ok(()),
+        Some((option, _)) => Err(Failure::Usage {
+            message: format!("{option} is for full poses, and {} has sensors", arguments.hexapod.display()),
+            next: format!("Leave {option} out, or remove the [[sensor]] tables."),
+        }),
+    }
 }
 
 fn refuse_references(arguments: &Arguments, has_references: bool) -> Result<(), Failure> {

@@ -60,6 +60,11 @@ fn noise(told: &Told<'_>) -> String {
     });
     match &told.scene.instrument {
         Instrument::Numbers(_) => stated,
+        Instrument::Sensors(_) => {
+            let sensors = told.scene.hexapod.sensors.iter().map(|s| s.name.as_str()).collect::<Vec<_>>();
+            let own = format!("of {} as hexapod.toml states", sensors.join(", "));
+            if stated.is_empty() { own } else { format!("{own}; {stated} of pose numbers") }
+        }
         Instrument::Balls(cmm) => {
             let um = significant(cmm.platform.sigma * 1e6, 3);
             format!("{um} um per ball coordinate, that is {stated}")

@@ -136,3 +136,87 @@ fn loads_that_show_nothing_are_not_determined() {
     .unwrap();
     hexbench().arg("design").arg(root().join("scenes/paper/hexapod.toml")).arg(&space).assert().code(4);
 }
+
+/// Sensors for the readings of a case.
+fn sensors(more: &[&str]) -> std::process::Output {
+    let mut command = hexbench();
+    let case = ["data/cases/mujoco-clean/hexapod.toml", "data/cases/mujoco-clean/measurements.csv"];
+    command.current_dir(root()).arg("design").args(case).args(["--sensors", "data/designs/gauges.toml"]);
+    command.args(more).output().unwrap()
+}
+
+#[test]
+fn sensors_are_chosen_and_the_machine_is_written_with_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let [machine, json, html] = ["hexapod.toml", "choice.json", "page.html"].map(|n| folder.path().join(n));
+    let files =
+        ["-o", machine.to_str().unwrap(), "--json", json.to_str().unwrap(), "--html", html.to_str().unwrap()];
+    let page = text(sensors(&[&["--choose", "4"][..], &files].concat()));
+    assert!(page.lines().all(|l| l.chars().count() <= 80), "{page}");
+    insta::assert_snapshot!("design_sensors", page);
+    let chosen = hexbench_core::files::read_hexapod(&machine).unwrap().sensors;
+    let file: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
+    assert_eq!(file["format"], "sensor-choice/1");
+    let names: Vec<&str> =
+        file["sensors"].as_array().unwrap().iter().filter_map(|s| s["name"].as_str()).collect();
+    assert_eq!(names, chosen.iter().map(|s| s.name.as_str()).collect::<Vec<_>>());
+    assert_eq!(names.len(), 4);
+    let numbers: Vec<u64> =
+        file["numbers"].as_array().unwrap().iter().filter_map(|n| n["number"].as_u64()).collect();
+    assert_eq!(numbers, [3, 4, 5, 6]);
+    let html = std::fs::read_to_string(html).unwrap();
+    assert!(names.iter().all(|name| html.contains(name)), "{html}");
+}
+
+#[test]
+fn sensors_are_chosen_within_their_budget_for_an_effect() {
+    let page =
+        text(sensors(&["--budget", "5", "--choose", "5", "--see", "base-compliance", "--starts", "4"]));
+    assert!(page.contains("base-compliance of usual size stands"), "{page}");
+    let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("They cost 5 of 5."), "{page}");
+}
+
+#[test]
+fn sensors_are_chosen_for_poses_that_are_designed_first() {
+    let chosen = |more: &[&str]| {
+        let mut command = hexbench();
+        command.current_dir(root()).args([
+            "design",
+            "scenes/paper/hexapod.toml",
+            "data/designs/paper-space.toml",
+        ]);
+        let options = ["--sensors", "data/designs/gauges.toml", "--starts", "4"];
+        command.args(options).args(more).output().unwrap()
+    };
+    let page = text(chosen(&["--choose", "6"]));
+    assert!(page.contains("Plan  mm and deg") && page.contains("6 of 38 sensors"), "{page}");
+    // A single load hides most effects behind the springs.
+    assert!(page.contains("Never seen by these sensors"), "{page}");
+    // Two poses under one load are two readings of a gauge.
+    let refused = chosen(&["--choose", "6", "--budget", "1"]);
+    let told = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(4), "{told}");
+    assert!(told.contains("no 6 of the sensors") && told.contains("Allow a larger --budget"), "{told}");
+}
+
+/// Arguments after the files; exit code; what is said.
+const REFUSED_SENSORS: [(&[&str], i32, &str); 6] = [
+    (&[], 2, "Give --choose N, --budget COST, or both"),
+    (&["--choose", "40"], 2, "has 38 sensors to choose from"),
+    (&["--budget", "0.5"], 2, "the cheapest sensor costs 1"),
+    (&["--choose", "4", "--see", "actuator-pitch"], 4, "hexbench terms actuator-pitch"),
+    (&["--choose", "4", "--see", "nothing"], 2, "there is no term `nothing`"),
+    (&["--choose", "4", "--see", "creep", "--criterion", "a"], 2, "cannot be used with"),
+];
+
+#[test]
+fn sensors_that_cannot_be_chosen_are_told_with_what_to_write() {
+    for (more, code, says) in REFUSED_SENSORS {
+        let output = sensors(more);
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{more:?}: {told}");
+        let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(told.contains(says), "{more:?}: {told}");
+    }
+}

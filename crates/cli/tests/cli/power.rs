@@ -197,3 +197,32 @@ fn the_study_of_both_plans_writes_its_document_and_charts() {
         assert!(folder.path().join("docs").join(chart).is_file(), "{chart}");
     }
 }
+
+/// The six gauges of a scene, and half of them.
+#[test]
+fn sensors_of_the_machine_read_the_plan() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("data");
+    crate::scenes::simulate(&root().join("scenes/granite"), &data, &[]);
+    let machine = std::fs::read_to_string(data.join("hexapod.toml")).unwrap();
+    // Its last table is that of the sensor t3.
+    let fewer = &machine[..machine.rfind("[[sensor]]").unwrap()];
+    std::fs::write(data.join("fewer.toml"), fewer).unwrap();
+    let run = |machine: &str, more: &[&str]| {
+        let mut command = hexbench();
+        command.current_dir(&data).args(["power", machine, "measurements.csv", "--json", "-"]).args(more);
+        command.output().unwrap()
+    };
+    let seen = |machine: &str| -> f64 {
+        let found: serde_json::Value = serde_json::from_str(&text(run(machine, &[]))).unwrap();
+        let effects = found["effects"].as_array().unwrap();
+        let creep = effects.iter().find(|e| e["term"] == "creep").unwrap();
+        creep["seen_at"]["middle"].as_f64().unwrap()
+    };
+    let [six, five] = [seen("hexapod.toml"), seen("fewer.toml")];
+    assert!(six < five, "{six} with six gauges, {five} with five");
+    let refused = run("hexapod.toml", &["--simulate", "10"]);
+    let told = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{told}");
+    assert!(told.contains("--simulate is for full poses"), "{told}");
+}

@@ -71,6 +71,12 @@ fn every_hidden_effect_is_found_by_name_and_nothing_else_is() {
     });
 }
 
+/// The truth is found by six distances alone.
+#[test]
+fn what_is_hidden_on_the_granite_table_is_found_by_its_gauges() {
+    found_in(&root().join("scenes/granite"));
+}
+
 #[test]
 fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();

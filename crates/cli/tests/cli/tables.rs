@@ -102,3 +102,45 @@ fn a_table_of_another_kind_is_refused_before_anything_is_computed() {
     assert_eq!(output.status.code(), Some(2), "{told}");
     assert!(told.contains(".parquet or .csv"), "{told}");
 }
+
+/// Readings of gauges and of two pose numbers, some of them missing.
+#[test]
+fn readings_of_sensors_have_their_names_and_units() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("data");
+    crate::scenes::simulate(&root().join("scenes/granite"), &data, &[]);
+    let measurements = data.join("measurements.csv");
+    let text_of_file = std::fs::read_to_string(&measurements).unwrap();
+    let mut lines: Vec<String> = text_of_file.lines().map(str::to_owned).collect();
+    // The last gauge missed the first row.
+    let cut = lines[1].rfind(',').unwrap();
+    lines[1].truncate(cut + 1);
+    std::fs::write(&measurements, lines.join("\n") + "\n").unwrap();
+    let mut command = hexbench();
+    command.current_dir(&data).args([
+        "compare",
+        "hexapod.toml",
+        "measurements.csv",
+        "--table",
+        "readings.csv",
+    ]);
+    text(command.output().unwrap());
+    let table = Table::read(&data.join("readings.csv"));
+    assert_eq!(table.words("line").len(), lines.len() - 1);
+    for name in ["z1", "z2", "z3", "t1", "t2", "t3"] {
+        let [measured, predicted, residual, sigma] =
+            ["", "predicted_", "residual_", "sigma_"].map(|p| table.words(&format!("{p}{name}_um")).to_vec());
+        let whitened = table.words(&format!("whitened_{name}"));
+        for row in usize::from(name == "t3")..measured.len() {
+            let [m, p, r, s, w] = [&measured, &predicted, &residual, &sigma, &whitened.to_vec()]
+                .map(|column| column[row].parse::<f64>().unwrap());
+            assert!((m - p - r).abs() < 1e-9 && (r / s - w).abs() < 1e-6 * w.abs().max(1.0), "{name} {row}");
+            assert!((s - 0.2).abs() < 1e-9, "{s}");
+        }
+        assert!(name != "t3" || [measured, predicted, residual].iter().all(|column| column[0].is_empty()));
+    }
+    // Nobody read a pose, and six distances are no elongations of legs.
+    assert!(table.0.keys().all(|name| !name.contains("dalpha")), "{:?}", table.0.keys());
+    assert!(table.words("leg_1_residual_um").iter().all(String::is_empty));
+    assert!(table.words("leg_1_force_N").iter().all(|cell| !cell.is_empty()));
+}

@@ -14,7 +14,7 @@ pub(crate) enum Group {
     Wrench,
     /// Wrench in the reference state.
     Reference,
-    /// `approach`, `delta_T`, `elapsed`.
+    /// `approach`, `delta_T`, `elapsed`, `ref_age`.
     Covariate,
     /// Translation, loaded minus reference.
     Deflection,
@@ -64,7 +64,8 @@ pub(crate) const DELTA_T: usize = 31;
 pub(crate) const ELAPSED: usize = 32;
 pub(crate) const POSE_ID: usize = 33;
 pub(crate) const REPEAT: usize = 34;
-pub(crate) const PLACES: usize = 35;
+pub(crate) const REFERENCE_AGE: usize = 35;
+pub(crate) const PLACES: usize = 36;
 
 const fn column(name: &'static str, kind: Dimension, group: Group, first: usize) -> Column {
     Column { name, kind, group, places: Places { first, count: 1 } }
@@ -99,6 +100,7 @@ pub(crate) static COLUMNS: &[Column] = &[
     column("approach", Dimension::Number, Group::Covariate, APPROACH),
     column("delta_T", Dimension::TemperatureDifference, Group::Covariate, DELTA_T),
     column("elapsed", Dimension::Time, Group::Covariate, ELAPSED),
+    column("ref_age", Dimension::Time, Group::Covariate, REFERENCE_AGE),
     column("da", Dimension::Length, Group::Deflection, MEASURED),
     column("db", Dimension::Length, Group::Deflection, MEASURED + 1),
     column("dc", Dimension::Length, Group::Deflection, MEASURED + 2),

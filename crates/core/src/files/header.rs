@@ -5,9 +5,7 @@ use super::columns::{COLUMNS, Column, Group, MEASURED};
 use super::error::Fault;
 use super::line::Line;
 use super::row::no_sigma;
-use super::sensor_columns::{
-    SensorSource, blocks, refuse_missing_sensors, refuse_unknown_sensor, sensor_column,
-};
+use super::sensor_columns::{SensorSource, refuse_missing_sensors, refuse_unknown_sensor, sensor_column};
 use super::units::Unit;
 use super::warning::Notice;
 use super::{FileProblem, Warning};
@@ -109,10 +107,7 @@ pub(crate) fn read_header(
     let names = (0..line.len()).map(|cell| line.text(cell).to_owned()).collect();
     refuse_duplicates(&sources, line)?;
     if purpose == GroupPurpose::Measurements {
-        refuse_missing_sensors(&of_sensors, sensors, line).map_err(|(cell, problem)| {
-            let place = cell.map_or(line.whole_place(), |cell| line.place(cell).with_name(line.text(cell)));
-            Fault::new(place, problem)
-        })?;
+        refuse_missing_sensors(&of_sensors, sensors, line)?;
     }
     let mut plan =
         plan(sources, names, purpose, machine).map_err(|problem| Fault::new(line.whole_place(), problem))?;
@@ -210,9 +205,9 @@ fn plan(
         }
         GroupPurpose::Conditions | GroupPurpose::Plan => (Measurand::DeflectionEuler, &[][..]),
     };
-    let poses: Vec<usize> = (0..6).filter(|&k| present.reads_pose(measurand, k)).collect();
+    let poses = (0..6).filter(|&k| present.reads_pose(measurand, k));
     let blocks = match purpose {
-        GroupPurpose::Measurements => blocks(&poses, sensors),
+        GroupPurpose::Measurements => Channel::in_blocks(&Channel::all(poses, sensors)),
         GroupPurpose::Conditions | GroupPurpose::Plan => vec![Channel::POSE],
     };
     let groups = [Group::Pose, Group::Wrench].into_iter().chain(measured.iter().copied());
@@ -221,7 +216,7 @@ fn plan(
         return Err(FileProblem::MissingColumns { names: missing });
     }
     let columns = optional_columns(&present)?;
-    if columns.reference && measurand == Measurand::AbsolutePose {
+    if (columns.reference || columns.reference_age) && measurand == Measurand::AbsolutePose {
         return Err(FileProblem::ReferenceOfAbsolutePose);
     }
     let has_pose = present.fills(Group::Number, super::columns::POSE_ID);
@@ -239,13 +234,14 @@ fn plan(
 }
 
 fn optional_columns(present: &Present<'_>) -> Result<Columns, FileProblem> {
-    use super::columns::{APPROACH, DELTA_T, ELAPSED};
+    use super::columns::{APPROACH, DELTA_T, ELAPSED, REFERENCE_AGE};
     Ok(Columns {
         reference: present.complete_or_absent(Group::Reference, "ref_")?,
         sigma: present.complete_or_absent(Group::Sigma, "sigma_")?,
         approach: present.fills(Group::Covariate, APPROACH),
         delta_t: present.fills(Group::Covariate, DELTA_T),
         elapsed: present.fills(Group::Covariate, ELAPSED),
+        reference_age: present.fills(Group::Covariate, REFERENCE_AGE),
     })
 }
 

@@ -5,7 +5,7 @@
 //! | `measurements.csv` | [`read_campaign`], without sensors [`read_measurements`] | [`write_campaign`], of full poses [`write_measurements`] |
 //! | poses and loads to predict | [`read_conditions`] | - |
 //! | poses and loads to be measured | [`read_plan`] | - |
-//! | any of these, in memory | [`read_columns`] | [`measurements_to_columns`] |
+//! | any of these, in memory | [`read_columns`] | [`campaign_to_columns`] |
 //! | `balls.csv`, `balls.toml` | [`read_balls`], [`read_ball_places`] | - |
 //! | `hexapod.toml` | [`read_hexapod`] | [`hexapod_to_toml`], [`write_hexapod`] |
 //! | any other TOML | [`read_toml`] | - |
@@ -35,6 +35,7 @@ mod read_columns;
 mod read_conditions;
 mod read_hexapod;
 mod read_measurements;
+mod read_sensor;
 mod row;
 mod sensor_columns;
 mod stated_unit;
@@ -60,12 +61,13 @@ pub use read_columns::{Cells, MemoryColumn, read_columns};
 pub use read_conditions::{read_conditions, read_plan};
 pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_measurements::{read_campaign, read_campaign_from, read_measurements, read_measurements_from};
+pub use read_sensor::{SENSOR_WITH_COST, point, sensor_name, sensor_of, sensors, unit_vector};
 pub use table::TableReading;
 pub use toml_file::{Format, read_toml, read_toml_text};
 pub use toml_value::{Item, KeyUnit, TomlSection};
 pub use units::{Dimension, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};
-pub use write_campaign::{campaign_to_csv, write_campaign};
+pub use write_campaign::{campaign_to_columns, campaign_to_csv, write_campaign};
 pub use write_hexapod::{hexapod_to_toml, write_hexapod};
 pub use write_measurements::{
     MeasurementsWriter, conditions_to_columns, measurements_to_columns, measurements_to_csv,

@@ -1,10 +1,11 @@
 //! Reading `hexapod.toml`.
 
 use super::error::Fault;
+use super::read_sensor::{point, sensors};
 use super::toml_file::{Format, parse_toml, read_toml};
 use super::toml_value::{Item, KeyUnit, TomlSection};
 use super::{Dimension, FileError, FileProblem};
-use crate::{Hexapod, Metrology, Sensor, SensorKind, Tolerances, Vector3};
+use crate::{Hexapod, Metrology, Tolerances, Vector3};
 use std::path::Path;
 
 /// The format this program reads and writes.
@@ -53,16 +54,6 @@ const TOLERANCES: &[KeyUnit] = &[
     KeyUnit::plain("noise"),
     KeyUnit::with_unit("sensor_point", Dimension::Length, "mm"),
     KeyUnit::with_unit("sensor_direction", Dimension::Angle, "deg"),
-];
-const SENSOR: &[KeyUnit] = &[
-    KeyUnit::plain("name"),
-    KeyUnit::plain("kind"),
-    KeyUnit::with_unit("point", Dimension::Length, "mm"),
-    KeyUnit::plain("direction"),
-    KeyUnit::plain("axis"),
-    KeyUnit::plain("leg"),
-    KeyUnit { name: "sigma", kind: Dimension::Length, unit: "um" },
-    KeyUnit { name: "sigma", kind: Dimension::Angle, unit: "urad" },
 ];
 const PAYLOAD: &[KeyUnit] = &[KeyUnit::with_unit("center_of_gravity", Dimension::Length, "mm")];
 
@@ -140,10 +131,6 @@ fn joints(item: &Item<'_>, side: &'static str) -> Result<[Vector3; 6], Fault> {
     Ok(joints)
 }
 
-fn point(item: &Item<'_>) -> Result<Vector3, Fault> {
-    item.numbers::<3>("three coordinates [x, y, z]").map(Vector3::from)
-}
-
 /// Joints may meet only as in a machine with three double joints; anything else is a copied line.
 fn check_meeting(joints: &[Vector3; 6], rows: &[Item<'_>; 6], side: &'static str) -> Result<(), Fault> {
     let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| [i, j]));
@@ -192,93 +179,6 @@ fn tolerances(stated: &TomlSection<'_>) -> Result<Tolerances, Fault> {
         sensor_point: value("sensor_point", usual.sensor_point)?,
         sensor_direction: value("sensor_direction", usual.sensor_direction)?,
     })
-}
-
-fn sensors(item: &Item<'_>) -> Result<Vec<Sensor>, Fault> {
-    let mut all: Vec<Sensor> = Vec::new();
-    for table in item.list()? {
-        let section = table.section("[[sensor]]", SENSOR)?;
-        let sensor = sensor(&section)?;
-        if all.iter().any(|other| other.name == sensor.name) {
-            let rule = format!("two sensors are called \"{}\"", sensor.name);
-            return Err(section.require("name")?.breaks(rule, "Give each a name of its own."));
-        }
-        all.push(sensor);
-    }
-    Ok(all)
-}
-
-fn sensor(section: &TomlSection<'_>) -> Result<Sensor, Fault> {
-    let name = section.require("name")?;
-    let text = name.string()?;
-    let mut letters = text.chars();
-    let is_name = letters.next().is_some_and(|c| c.is_ascii_lowercase())
-        && letters.all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
-    if !is_name {
-        let rule =
-            "the name of a sensor begins with a small letter and goes on with small letters, digits and _";
-        return Err(name.breaks(rule, "Write for example g1 or level_x."));
-    }
-    Ok(Sensor::new(text, sensor_kind(section)?))
-}
-
-fn sensor_kind(section: &TomlSection<'_>) -> Result<SensorKind, Fault> {
-    const SIGMA: &str = "a standard deviation";
-    let kind = section.require("kind")?;
-    let one = || section.require("sigma")?.positive(SIGMA);
-    let point_of = || section.require("point").and_then(point);
-    let read = match kind.string()? {
-        "distance" => SensorKind::Distance {
-            point: point_of()?,
-            direction: direction(section, "direction")?,
-            sigma: one()?,
-        },
-        "point" => {
-            let sigma = section.require("sigma")?;
-            let mut each = [0.0; 3];
-            if sigma.is_list() {
-                for (value, item) in
-                    each.iter_mut().zip(sigma.exactly::<3>("one standard deviation or three")?)
-                {
-                    *value = item.positive(SIGMA)?;
-                }
-            } else {
-                each = [sigma.positive(SIGMA)?; 3];
-            }
-            SensorKind::Point { point: point_of()?, sigma: each }
-        }
-        "inclination" => SensorKind::Inclination { axis: direction(section, "axis")?, sigma: one()? },
-        "leg-length" => {
-            let item = section.require("leg")?;
-            let leg = (1..=6_usize).find(|leg| item.whole(1).is_ok_and(|number| number == *leg as u64));
-            let leg =
-                leg.ok_or_else(|| item.breaks("a leg is numbered 1 to 6", "Write for example leg = 3."))?;
-            SensorKind::LegLength { leg: leg - 1, sigma: one()? }
-        }
-        other => {
-            let rule = format!("\"{other}\" is no kind of sensor");
-            return Err(kind.breaks(rule, "Write distance, point, inclination or leg-length."));
-        }
-    };
-    let sigma = section.require("sigma")?;
-    if read.is_angle() != sigma.key().ends_with("rad") && !sigma.key().ends_with("deg") {
-        let usual = if read.is_angle() { "sigma_urad" } else { "sigma_um" };
-        return Err(sigma
-            .breaks(format!("a sensor of kind {} states {usual}", read.word()), format!("Write {usual}.")));
-    }
-    Ok(read)
-}
-
-/// A direction of any length, as a unit vector.
-fn direction(section: &TomlSection<'_>, key: &str) -> Result<Vector3, Fault> {
-    let item = section.require(key)?;
-    let vector = Vector3::from(item.numbers::<3>("three numbers [x, y, z]")?);
-    let length = vector.norm();
-    if length > 0.0 && length.is_finite() {
-        Ok(vector / length)
-    } else {
-        Err(item.breaks("a direction must not be zero", "Write for example [0, 0, 1]."))
-    }
 }
 
 /// One stiffness for all legs, or six.

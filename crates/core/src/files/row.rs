@@ -2,7 +2,8 @@
 
 use super::FileProblem;
 use super::columns::{
-    APPROACH, DELTA_T, ELAPSED, Group, MEASURED, POSE, POSE_ID, REFERENCE, REPEAT, Row, SIGMA, WRENCH,
+    APPROACH, DELTA_T, ELAPSED, Group, MEASURED, POSE, POSE_ID, REFERENCE, REFERENCE_AGE, REPEAT, Row, SIGMA,
+    WRENCH,
 };
 use super::header::{Plan, Source};
 use super::sensor_columns::SensorSource;
@@ -149,12 +150,20 @@ fn check(source: &Source, si: f64) -> Result<(), FileProblem> {
         Group::Covariate if source.column.places.first == APPROACH && Approach::of_sign(si).is_none() => {
             Err(FileProblem::Approach)
         }
+        Group::Covariate if source.column.places.first == REFERENCE_AGE && si < 0.0 => Err(negative_age()),
         Group::Sigma if si <= 0.0 => Err(FileProblem::Sigma),
         Group::Sigma | Group::Number | Group::Covariate => Ok(()),
         _ if source.column.kind == Dimension::Angle && si.abs() > LARGEST_ANGLE => {
             Err(FileProblem::AngleTooLarge { turns: si.abs() / TAU })
         }
         _ => Ok(()),
+    }
+}
+
+fn negative_age() -> FileProblem {
+    FileProblem::Rule {
+        rule: "a load cannot have rested for less than no time".to_owned(),
+        next: "Write for how long the reference load had been on the machine when the reference was read, zero if it had just been put on; leave the column out when nobody knows.".to_owned(),
     }
 }
 
@@ -170,6 +179,7 @@ fn observation(row: &Row, plan: &Plan, line: u64, running: i64) -> Observation {
         approach: Approach::of_sign(row[APPROACH]).unwrap_or_default(),
         delta_t: row[DELTA_T],
         elapsed: row[ELAPSED],
+        reference_age: plan.columns.reference_age.then(|| row[REFERENCE_AGE]),
         block: 0,
         measured: six(row, MEASURED),
         sigma: plan.columns.sigma.then(|| six(row, SIGMA)),

@@ -1,6 +1,7 @@
 //! Columns that the sensors of a machine fill.
 
 use super::column_name::without_brackets;
+use super::error::Fault;
 use super::line::Line;
 use super::stated_unit::stated_unit;
 use super::units::{Unit, unit_named};
@@ -73,57 +74,40 @@ pub(crate) fn refuse_unknown_sensor(text: &str) -> Result<(), FileProblem> {
     Err(FileProblem::Rule { rule, next: next.to_owned() })
 }
 
-/// Every number of every sensor has one column.
+/// Every number of every sensor has one column, and no column of standard deviations comes twice.
 pub(crate) fn refuse_missing_sensors(
     cells: &[Option<SensorSource>],
     sensors: &[Sensor],
     line: &Line<'_>,
-) -> Result<(), (Option<usize>, FileProblem)> {
-    let values = |channel: Channel, is_sigma: bool| {
-        let is_it = move |s: &SensorSource| s.channel == channel && s.is_sigma == is_sigma;
-        (0..cells.len()).filter(move |&cell| cells[cell].as_ref().is_some_and(is_it))
-    };
-    for (index, sensor) in sensors.iter().enumerate() {
-        for number in 0..sensor.kind.numbers() {
-            let channel = Channel::Sensor { sensor: index, number };
-            for is_sigma in [false, true] {
-                let mut all = values(channel, is_sigma);
-                let first = all.next();
-                if let (Some(first), Some(later)) = (first, all.next()) {
-                    let problem = FileProblem::DuplicateColumn {
-                        quantity: sensor.column(number),
-                        first: first + 1,
-                        first_name: line.text(first).into(),
-                    };
-                    return Err((Some(later), problem));
-                }
-                if !is_sigma && first.is_none() {
-                    let rule = format!("sensor \"{}\" of the hexapod file has no column", sensor.name);
-                    let names = usual_names(sensor).join(", ");
-                    let next = format!(
-                        "Add {names}, with empty cells where nothing was read, or remove the sensor."
-                    );
-                    return Err((None, FileProblem::Rule { rule, next }));
-                }
-            }
+) -> Result<(), Fault> {
+    for (later, source) in cells.iter().enumerate() {
+        let Some(source) = source else { continue };
+        let is_same = |s: &SensorSource| (s.channel, s.is_sigma) == (source.channel, source.is_sigma);
+        if let Some(first) = cells[..later].iter().position(|other| other.as_ref().is_some_and(is_same)) {
+            let problem = FileProblem::DuplicateColumn {
+                quantity: source.quantity(sensors),
+                first: first + 1,
+                first_name: line.text(first).into(),
+            };
+            return Err(Fault::new(line.place(later).with_name(line.text(later)), problem));
         }
     }
-    Ok(())
+    let has_column = |channel: &Channel| cells.iter().flatten().any(|s| !s.is_sigma && s.channel == *channel);
+    let absent = Channel::all([], sensors).into_iter().find(|channel| !has_column(channel));
+    let Some(Channel::Sensor { sensor, .. }) = absent else { return Ok(()) };
+    let sensor = &sensors[sensor];
+    let rule = format!("sensor \"{}\" of the hexapod file has no column", sensor.name);
+    let names = usual_names(sensor).join(", ");
+    let next = format!("Add {names}, with empty cells where nothing was read, or remove the sensor.");
+    Err(Fault::new(line.whole_place(), FileProblem::Rule { rule, next }))
 }
 
-/// Channels in blocks of six: a full pose by itself, the rest as it comes.
-pub(crate) fn blocks(pose: &[usize], sensors: &[Sensor]) -> Vec<[Channel; 6]> {
-    let of_sensors = sensors
-        .iter()
-        .enumerate()
-        .flat_map(|(sensor, s)| (0..s.kind.numbers()).map(move |number| Channel::Sensor { sensor, number }));
-    let poses = pose.iter().map(|&k| Channel::Pose(k));
-    let block =
-        |channels: &[Channel]| std::array::from_fn(|k| channels.get(k).copied().unwrap_or(Channel::Nothing));
-    if pose.len() == 6 {
-        let rest: Vec<Channel> = of_sensors.collect();
-        return std::iter::once(Channel::POSE).chain(rest.chunks(6).map(block)).collect();
+impl SensorSource {
+    /// What its column is called, without unit.
+    fn quantity(&self, sensors: &[Sensor]) -> String {
+        match self.channel {
+            Channel::Sensor { sensor, number } => sensors[sensor].column(number),
+            Channel::Pose(_) | Channel::Nothing => String::new(),
+        }
     }
-    let all: Vec<Channel> = poses.chain(of_sensors).collect();
-    all.chunks(6).map(block).collect()
 }

@@ -4,7 +4,9 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::sensor_columns::usual_names;
-use super::write_measurements::{MeasurementsWriter, measurements_to_csv, write_number};
+use super::write_measurements::{
+    MeasurementsWriter, conditions_to_columns, measurements_to_columns, measurements_to_csv, write_number,
+};
 use super::{FileError, atomic_write};
 use crate::{Channel, Columns, Dataset, Hexapod, Observation, UNREAD};
 
@@ -30,7 +32,7 @@ pub fn campaign_to_csv(out: &mut dyn Write, hexapod: &Hexapod, dataset: &Dataset
     let channels = channels(dataset, hexapod);
     let names = channels.iter().map(|c| c.name(hexapod, dataset));
     writeln!(out, "{}", conditions.names().chain(names).collect::<Vec<_>>().join(","))?;
-    for row in rows(dataset) {
+    for row in dataset.rows() {
         conditions.cells(out, &row[0])?;
         for channel in &channels {
             out.write_all(b",")?;
@@ -43,9 +45,18 @@ pub fn campaign_to_csv(out: &mut dyn Write, hexapod: &Hexapod, dataset: &Dataset
     Ok(())
 }
 
-/// Observations of one line of a file.
-fn rows(dataset: &Dataset) -> impl Iterator<Item = &[Observation]> {
-    dataset.observations.chunk_by(|one, next| one.line == next.line && one.block != next.block)
+/// The same as columns in memory: name with unit, and one number per row; NaN where nothing was read.
+pub fn campaign_to_columns(hexapod: &Hexapod, dataset: &Dataset) -> Vec<(String, Vec<f64>)> {
+    if !dataset.has_other_readings() {
+        return measurements_to_columns(dataset);
+    }
+    let rows: Vec<&[Observation]> = dataset.rows().collect();
+    let first = Dataset { observations: rows.iter().map(|row| row[0]).collect(), ..dataset.clone() };
+    let read = |column: &Written| {
+        let cells = rows.iter().map(|row| column.value(dataset, row).map_or(f64::NAN, |value| 1e6 * value));
+        (column.name(hexapod, dataset), cells.collect())
+    };
+    conditions_to_columns(&first).into_iter().chain(channels(dataset, hexapod).iter().map(read)).collect()
 }
 
 /// A column of readings, or of standard deviations.
@@ -107,5 +118,40 @@ impl Written {
         // Standard deviations of pose numbers stand in every row, also of those that were not read.
         let is_pose_sigma = self.is_sigma && matches!(self.channel, Channel::Pose(_));
         read.or(is_pose_sigma.then_some(1e-6))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::read_campaign_from;
+    use crate::{Sensor, SensorKind, Vector3};
+
+    #[test]
+    fn columns_in_memory_are_those_of_the_file_with_nan_where_nothing_was_read() {
+        let ring = |z: f64| std::array::from_fn(|k| Vector3::new((k as f64).cos(), (k as f64).sin(), z));
+        let gauge = SensorKind::LegLength { leg: 0, sigma: 1e-6 };
+        let ball = SensorKind::Point { point: Vector3::zeros(), sigma: [1e-6; 3] };
+        let level = SensorKind::Inclination { axis: Vector3::x(), sigma: 1e-6 };
+        let kinds = [("g1", gauge), ("ball", ball), ("level", level)];
+        let sensors = kinds.map(|(name, kind)| Sensor::new(name, kind)).into();
+        let hexapod = Hexapod { sensors, ..Hexapod::of_joints("ring", ring(-1.0), ring(0.0)) };
+        let text = "pose,repeat,a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,\
+                    g1_um,ball_x_um,ball_y_um,ball_z_um,level_urad\n\
+                    1,1,0,0,0,0,0,0,0,0,-100,0,0,0,1.5,2,3,4,5\n\
+                    2,1,1,0,0,0,0,0,0,0,-200,0,0,0,,2,3,4,-6.5\n";
+        let dataset = read_campaign_from(&hexapod, text.as_bytes(), "m.csv").unwrap().dataset;
+        let columns = campaign_to_columns(&hexapod, &dataset);
+        let names: Vec<&str> = columns.iter().map(|c| c.0.as_str()).collect();
+        assert_eq!(names.join(","), text.lines().next().unwrap());
+        assert_eq!(dataset.rows().count(), 2);
+        for (column, (name, values)) in columns.iter().enumerate() {
+            for (row, value) in values.iter().enumerate() {
+                let cell = text.lines().nth(row + 1).unwrap().split(',').nth(column).unwrap();
+                let expected: f64 = cell.parse().unwrap_or(f64::NAN);
+                let same = (value - expected).abs() < 1e-9 || (value.is_nan() && expected.is_nan());
+                assert!(same, "{name} row {row}: {value}, not {cell}");
+            }
+        }
     }
 }

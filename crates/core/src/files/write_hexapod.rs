@@ -32,14 +32,15 @@ pub fn hexapod_to_toml(hexapod: &Hexapod) -> String {
         text.push_str("\n[payload]\n");
         add(&mut text, "center_of_gravity_mm", &point(&centre));
     }
-    add_tolerances(&mut text, &hexapod.tolerances);
+    add_tolerances(&mut text, &hexapod.tolerances, hexapod.sensors.is_empty());
     hexapod.sensors.iter().for_each(|sensor| add_sensor(&mut text, sensor));
     text
 }
 
-/// Usual tolerances go without saying.
-fn add_tolerances(text: &mut String, tolerances: &Tolerances) {
-    if *tolerances == Tolerances::default() {
+/// Usual tolerances go without saying, and so do those of sensors where there are none.
+fn add_tolerances(text: &mut String, tolerances: &Tolerances, without_sensors: bool) {
+    let usual = Tolerances::default();
+    if *tolerances == usual {
         return;
     }
     text.push_str("\n[tolerances]\n");
@@ -49,6 +50,10 @@ fn add_tolerances(text: &mut String, tolerances: &Tolerances) {
     add(text, "load_point_mm", &millimetres(tolerances.load_point));
     add(text, "frame_deg", &in_unit(tolerances.frame, "deg", Dimension::Angle));
     add(text, "noise", &format!("{:?}", tolerances.noise));
+    let [mine, usual] = [tolerances, &usual].map(|t| (t.sensor_point, t.sensor_direction));
+    if without_sensors && mine == usual {
+        return;
+    }
     add(text, "sensor_point_mm", &millimetres(tolerances.sensor_point));
     add(text, "sensor_direction_deg", &in_unit(tolerances.sensor_direction, "deg", Dimension::Angle));
 }
@@ -134,4 +139,28 @@ fn millimetres(metres: f64) -> String {
 /// `{:?}` keeps a point or exponent in every float, as TOML wants it.
 fn in_unit(si: f64, unit: &str, kind: Dimension) -> String {
     format!("{:?}", unit_named(unit, kind).unwrap_or(&PLAIN).from_si(si))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn machine() -> Hexapod {
+        let ring = |z: f64| std::array::from_fn(|k| Vector3::new((k as f64).cos(), (k as f64).sin(), z));
+        Hexapod::of_joints("ring", ring(-1.0), ring(0.0))
+    }
+
+    #[test]
+    fn tolerances_of_sensors_are_written_where_there_are_sensors_or_where_they_are_stated() {
+        let tolerances = Tolerances { joints: 1e-4, ..Tolerances::default() };
+        let without = Hexapod { tolerances, ..machine() };
+        let text = hexapod_to_toml(&without);
+        assert!(text.contains("joints_mm = 0.1") && !text.contains("sensor_"), "{text}");
+        let kind = SensorKind::LegLength { leg: 0, sigma: 1e-6 };
+        let with = Hexapod { sensors: vec![Sensor::new("s", kind)], ..without.clone() };
+        assert!(hexapod_to_toml(&with).contains("sensor_point_mm = 0.5"));
+        let stated = Tolerances { sensor_point: 1e-3, ..tolerances };
+        let text = hexapod_to_toml(&Hexapod { tolerances: stated, ..without });
+        assert!(text.contains("sensor_point_mm = 1.0"), "{text}");
+    }
 }

@@ -1,8 +1,8 @@
 //! Writing a table of measurements in the units of the format.
 
 use super::columns::{
-    APPROACH, COLUMNS, Column, DELTA_T, ELAPSED, Group, MEASURED, PLACES, POSE, POSE_ID, REFERENCE, REPEAT,
-    Row, SIGMA, WRENCH,
+    APPROACH, COLUMNS, Column, DELTA_T, ELAPSED, Group, MEASURED, PLACES, POSE, POSE_ID, REFERENCE,
+    REFERENCE_AGE, REPEAT, Row, SIGMA, WRENCH,
 };
 use super::header::measured_groups;
 use super::units::{PLAIN, Unit, unit_named};
@@ -139,6 +139,7 @@ fn is_written(column: &Column, measurand: Measurand, has: Columns) -> bool {
         Group::Covariate => match column.places.first {
             APPROACH => has.approach,
             DELTA_T => has.delta_t,
+            REFERENCE_AGE => has.reference_age,
             _ => has.elapsed,
         },
         measured => measured_groups(measurand).contains(&measured),
@@ -157,6 +158,8 @@ fn row_of(observation: &Observation) -> Row {
     row[APPROACH] = observation.approach.sign();
     row[DELTA_T] = observation.delta_t;
     row[ELAPSED] = observation.elapsed;
+    // As of sigma below.
+    row[REFERENCE_AGE] = observation.reference_age.unwrap_or(f64::NAN);
     // Whole numbers below 2^53: the readers take no others.
     row[POSE_ID] = observation.pose_id as f64;
     row[REPEAT] = observation.repeat as f64;

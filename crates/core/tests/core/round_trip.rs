@@ -18,7 +18,7 @@ fn near(one: f64, other: f64) -> bool {
 }
 
 fn numbers(row: &Observation) -> Vec<f64> {
-    let mut numbers = vec![row.approach.sign(), row.delta_t, row.elapsed];
+    let mut numbers = vec![row.approach.sign(), row.delta_t, row.elapsed, row.reference_age.unwrap_or(-1.0)];
     for six in [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array(), row.measured] {
         numbers.extend(six);
     }
@@ -42,11 +42,12 @@ fn measurand() -> impl Strategy<Value = Measurand> {
 }
 
 fn columns() -> impl Strategy<Value = Columns> {
-    any::<[bool; 5]>().prop_map(|[reference, approach, delta_t, elapsed, sigma]| Columns {
+    any::<[bool; 6]>().prop_map(|[reference, approach, delta_t, elapsed, reference_age, sigma]| Columns {
         reference,
         approach,
         delta_t,
         elapsed,
+        reference_age,
         sigma,
     })
 }
@@ -55,14 +56,15 @@ prop_compose! {
     fn observation()(
         pose_id in any::<i32>(), repeat in 0..100_i64,
         pose in uniform6(-6.0..6.0_f64), wrench in uniform6(-1e6..1e6_f64), reference in uniform6(-1e6..1e6_f64),
-        up in any::<bool>(), delta_t in -50.0..50.0_f64, elapsed in 0.0..1e6_f64,
+        up in any::<bool>(), delta_t in -50.0..50.0_f64, elapsed in 0.0..1e6_f64, age in 0.0..1e9_f64,
         measured in uniform6(-1e-3..1e-3_f64), sigma in uniform6(1e-12..1e-3_f64),
     ) -> Observation {
         Observation {
         block: 0,
             pose_id: pose_id.into(), repeat, line: 0,
             pose: Pose::from_array(pose), wrench: Wrench::from_array(wrench), reference: Wrench::from_array(reference),
-            approach: if up { Approach::Direct } else { Approach::Overloaded }, delta_t, elapsed, measured, sigma: Some(sigma),
+            approach: if up { Approach::Direct } else { Approach::Overloaded }, delta_t, elapsed,
+            reference_age: Some(age), measured, sigma: Some(sigma),
         }
     }
 }
@@ -74,6 +76,7 @@ fn as_stated(row: &Observation, columns: Columns) -> Observation {
         approach: if columns.approach { row.approach } else { Approach::Direct },
         delta_t: if columns.delta_t { row.delta_t } else { 0.0 },
         elapsed: if columns.elapsed { row.elapsed } else { 0.0 },
+        reference_age: row.reference_age.filter(|_| columns.reference_age),
         sigma: row.sigma.filter(|_| columns.sigma),
         ..*row
     }
@@ -83,7 +86,9 @@ prop_compose! {
     fn dataset()(
         measurand in measurand(), columns in columns(), rows in prop::collection::vec(observation(), 1..6),
     ) -> Dataset {
-        let columns = Columns { reference: columns.reference && measurand != Measurand::AbsolutePose, ..columns };
+        let deflections = measurand != Measurand::AbsolutePose;
+        let (reference, reference_age) = (columns.reference && deflections, columns.reference_age && deflections);
+        let columns = Columns { reference, reference_age, ..columns };
         let observations = rows.iter().map(|row| as_stated(row, columns)).collect();
         Dataset { blocks: hexbench_core::Dataset::pose_blocks(), source: "measurements.csv".into(), measurand, columns, observations }
     }
@@ -217,6 +222,7 @@ fn a_dataset_that_could_not_be_read_again_is_not_written() {
         approach: Approach::Direct,
         delta_t: 0.0,
         elapsed: 0.0,
+        reference_age: None,
         measured: [0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0],
         sigma: None,
     };

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, StatedTolerances, Vector6};
+use hexbench_core::{Dataset, Hexapod, Observation, StatedTolerances, Vector6};
 use hexbench_model::effects::term::Term;
 use hexbench_model::effects::untestable::{Reason, why_untestable};
 use hexbench_model::error::ModelError;
@@ -183,16 +183,8 @@ impl<'a> Contest<'a> {
         &self,
         readings: &[Observation],
     ) -> Result<(Campaign, ModelPoint, Linearization), DesignError> {
-        let dataset = Dataset {
-            blocks: Dataset::pose_blocks(),
-            source: String::new(),
-            measurand: Measurand::DeflectionEuler,
-            columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },
-            observations: readings
-                .iter()
-                .map(|o| Observation { sigma: None, measured: [0.0; 6], ..*o })
-                .collect(),
-        };
+        let unread = |o: &Observation| Observation { sigma: None, measured: [0.0; 6], ..*o };
+        let dataset = Dataset::of_deflections("", readings.iter().map(unread).collect());
         let campaign = Campaign::with_noise(self.hexapod, &dataset, self.noise)?;
         let point = ModelPoint { compliances: self.springs, ..ModelPoint::start(&campaign) };
         let lin = Linearization::at(&campaign, &point)?;

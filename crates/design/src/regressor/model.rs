@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Observation, Pose, Vector6};
+use hexbench_core::{Dataset, Hexapod, Observation, Pose, Vector6};
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::natural;
@@ -102,13 +102,7 @@ impl<'a> ModelRegressor<'a> {
     ) -> Result<(Campaign, ModelPoint, Linearization), DesignError> {
         // Numbered one by one, so that no two are averaged.
         let numbered = (1..).zip(readings).map(|(id, o)| Observation { pose_id: id, repeat: 1, ..o });
-        let dataset = Dataset {
-            blocks: Dataset::pose_blocks(),
-            source: String::new(),
-            measurand: Measurand::DeflectionEuler,
-            columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },
-            observations: numbered.collect(),
-        };
+        let dataset = Dataset::of_deflections("", numbered.collect());
         let campaign = Campaign::with_noise(self.hexapod, &dataset, self.noise)?;
         let point = ModelPoint { compliances: self.springs, ..ModelPoint::start(&campaign) };
         let lin = Linearization::at(&campaign, &point)?;
@@ -155,6 +149,7 @@ pub fn reading(pose: Pose, setting: &Setting) -> Observation {
         approach: setting.approach,
         delta_t: setting.delta_t,
         elapsed: setting.elapsed,
+        reference_age: None,
         measured: [0.0; 6],
         sigma: None,
     }

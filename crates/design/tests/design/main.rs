@@ -3,4 +3,5 @@
 
 mod plans;
 mod power;
+mod sensors;
 mod space_file;

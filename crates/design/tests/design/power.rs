@@ -62,12 +62,14 @@ fn plan(loads: &[[f64; 6]], repeats: i64) -> Dataset {
                 approach: Approach::Direct,
                 delta_t: 0.0,
                 elapsed: wait,
+                reference_age: None,
                 measured: [0.0; 6],
                 sigma: None,
             }));
         }
     }
-    let columns = Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false };
+    let columns =
+        Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
     Dataset {
         blocks: hexbench_core::Dataset::pose_blocks(),
         source: "plan".into(),

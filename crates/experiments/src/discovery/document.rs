@@ -6,7 +6,7 @@ use hexbench_report::{Block, Page, Section, Table};
 
 use super::protocol::{DISTANCES, DiscoveryProtocol};
 use super::{DiscoveryRecord, LawFate, sheets};
-use crate::harness::{self, Gathered};
+use crate::harness::Gathered;
 use crate::shares::told;
 
 /// All trials of a protocol.
@@ -23,9 +23,8 @@ pub struct DiscoveryTrials {
 impl DiscoveryTrials {
     /// What the trials of a protocol gave.
     pub fn of(protocol: DiscoveryProtocol, gathered: Gathered<DiscoveryRecord>) -> Self {
-        let name = |n| harness::Protocol::name(&protocol, n);
-        let failures = gathered.failures().map(|(n, why)| (name(n), why.clone())).collect();
-        Self { records: gathered.answers.into_iter().flatten().collect(), failures, protocol }
+        let (records, failures) = gathered.split(&protocol);
+        Self { protocol, records, failures }
     }
 }
 

@@ -82,6 +82,7 @@ impl ConfusedPair {
             approaches: Approach::ALL.to_vec(),
             delta_t: Spread::Normal(0.1),
             elapsed: Spread::Even(self.waits_s),
+            reference_age: None,
             anew: false,
         }
     }

@@ -146,6 +146,7 @@ fn observation(r: &NextReport) -> Observation {
         approach: r.approach,
         delta_t: r.delta_t_k,
         elapsed: r.elapsed_s,
+        reference_age: None,
         measured: [0.0; 6],
         sigma: None,
     }

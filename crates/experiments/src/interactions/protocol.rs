@@ -126,8 +126,8 @@ pub struct Interactions {
 impl Interactions {
     /// What the trials of a protocol gave.
     pub fn of(protocol: InteractionsProtocol, gathered: Gathered<InteractionRecord>) -> Self {
-        let failures = gathered.failures().map(|(n, why)| (protocol.name(n), why.clone())).collect();
-        Self { records: gathered.answers.into_iter().flatten().collect(), failures, protocol }
+        let (records, failures) = gathered.split(&protocol);
+        Self { protocol, records, failures }
     }
 
     /// Answers with a number beyond its bound.

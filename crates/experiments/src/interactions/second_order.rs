@@ -3,14 +3,14 @@
 //! `nu`, `s` and `e` as in `recovery/noiseless.rs`; `b` is the part of effects by a base or plate that yields, which moves its own lever by the
 //! share `m`.
 
-use hexbench_core::{Pose, Vector6};
+use hexbench_core::Vector6;
 use hexbench_model::effects::term::Chapter;
-use hexbench_model::estimation::campaign::{self, Condition};
+use hexbench_model::estimation::campaign;
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::linearization::Linearization;
 use nalgebra::{DVector, Matrix6};
 
-use crate::recovery::noiseless::displaced;
+use crate::recovery::noiseless::jacobian_change;
 
 /// `|d|` of a campaign of deflections.
 pub(crate) fn linearisation_error(
@@ -26,7 +26,7 @@ pub(crate) fn linearisation_error(
         let both = response(&at.force) + response(&at.reference_force);
         let change = response(&at.force_change()).max(f64::MIN_POSITIVE);
         let by_force = readers[i] * Matrix6::from_diagonal(&fit.point.compliances);
-        let nu = jacobian_change(lin, at, &groups[i].mean.pose, &by_force);
+        let (nu, _) = jacobian_change(lin, at, &groups[i].mean.pose, &by_force);
         // An effect acts in both states; its column is the difference of the two.
         let twice = (both / change).max(1.0);
         let Added { all, bodies, lever_share } = effects[i];
@@ -64,24 +64,4 @@ fn effect_lengths(lin: &Linearization, fit: &Fit) -> Vec<Added> {
         }
     }
     lengths
-}
-
-/// Relative change of the leg Jacobian on the way from the commanded pose.
-/// `by_force`: whitened reading per leg force.
-fn jacobian_change(lin: &Linearization, at: &Condition, commanded: &Pose, by_force: &Matrix6<f64>) -> f64 {
-    let Ok(start) = lin.machine.legs(commanded) else { return f64::INFINITY };
-    let reader = Matrix6::from_diagonal(&at.weight) * at.observer;
-    let size = |metric: &Matrix6<f64>, change: &Matrix6<f64>| {
-        let back = metric.try_inverse().unwrap_or_else(Matrix6::zeros);
-        (metric * change * back).singular_values().max()
-    };
-    let motion = at.observer.try_inverse().unwrap_or_else(Matrix6::zeros) * at.reading;
-    let ends = [-0.5, 0.5].map(|share| lin.machine.legs(&displaced(&at.pose, &(share * motion))));
-    let change = ends.iter().flatten().map(|end| {
-        let change = end.leg_jacobian - start.leg_jacobian;
-        let of_motion = size(&reader, &(start.platform_jacobian * change));
-        let of_forces = size(by_force, &(start.platform_jacobian.transpose() * change.transpose()));
-        of_motion.max(of_forces)
-    });
-    change.fold(0.0, f64::max)
 }

@@ -44,6 +44,9 @@ fn unless_empty(title: &str, words: &str, table: Table) -> Option<Section> {
 pub fn headlines(records: &[MisreadRecord]) -> Vec<String> {
     let all = MisreadGroup::of_all(records);
     let share = |fate| told(all.share(fate));
+    let shown = all.shown_by_the_data();
+    let each_shown: Vec<MisreadGroup<'_>> =
+        MisreadGroup::of_each_misstatement(records).iter().map(MisreadGroup::shown_by_the_data).collect();
     vec![
         format!("A misstatement matters in {}; elsewhere no data can show it.", told(all.matters())),
         format!(
@@ -58,12 +61,30 @@ pub fn headlines(records: &[MisreadRecord]) -> Vec<String> {
             share(MisreadFate::Refused),
             share(MisreadFate::Silent),
         ),
-        format!("The answer is wrong and looks right to the springs in {}.", told(all.looks_right())),
+        format!(
+            "The answer is wrong and looks right in {}: as written, the file is that of another sound machine, and no data can show it. \
+             These are {}.",
+            told(all.looks_right()),
+            listed(MisreadGroup::of_each_misstatement(records).iter().map(|g| (g, g.looks_right())))
+        ),
+        format!(
+            "Where the data can show it, a right cause is named first in {}, and {} stay silent ({}).",
+            told(shown.share(MisreadFate::Named)),
+            told(shown.share(MisreadFate::Silent)),
+            listed(each_shown.iter().map(|g| (g, g.share(MisreadFate::Silent)))),
+        ),
         format!("Files of sound campaigns are blamed in {}.", told(blamed(records, |_| true))),
         extremes(records, "Least often named first", MisreadFate::Named, false),
         extremes(records, "Most often called by a wrong cause", MisreadFate::WrongCause, true),
         extremes(records, "Most often silent", MisreadFate::Silent, true),
     ]
+}
+
+/// `loads-kgf-as-n 7, pose-angles-yxz 6`: groups that have any.
+fn listed<'a>(groups: impl Iterator<Item = (&'a MisreadGroup<'a>, Proportion)>) -> String {
+    let any = groups.filter(|(_, share)| share.hits > 0);
+    let words: Vec<String> = any.map(|(group, share)| format!("{} {}", group.name, share.hits)).collect();
+    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
 }
 
 /// The five misstatements in which a fate is most or least frequent.

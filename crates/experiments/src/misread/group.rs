@@ -56,7 +56,14 @@ impl<'a> MisreadGroup<'a> {
         Proportion::count(self.mattering(), |r| r.looks_right())
     }
 
-    /// Of these, campaigns with a fate.
+    /// The campaigns whose readings show that something is wrong.
+    #[must_use]
+    pub fn shown_by_the_data(&self) -> Self {
+        let shown = self.records.iter().copied().filter(|r| r.matters() && !r.looks_right());
+        Self { name: self.name.clone(), records: shown.collect() }
+    }
+
+    /// Of those in which it matters, campaigns with a fate.
     pub fn share(&self, fate: MisreadFate) -> Proportion {
         Proportion::count(self.mattering(), |r| r.fate() == Some(fate))
     }

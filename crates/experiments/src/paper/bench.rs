@@ -112,7 +112,14 @@ pub fn unread(situation: Situation) -> Observation {
 
 fn dataset(source: &str, covariates: Covariates, observations: Vec<Observation>) -> Dataset {
     let known = covariates == Covariates::All;
-    let columns = Columns { reference: true, approach: known, delta_t: known, elapsed: known, sigma: true };
+    let columns = Columns {
+        reference: true,
+        approach: known,
+        delta_t: known,
+        elapsed: known,
+        sigma: true,
+        ..Columns::default()
+    };
     Dataset {
         blocks: hexbench_core::Dataset::pose_blocks(),
         source: source.to_owned(),

@@ -18,6 +18,9 @@ use super::usual::{Usual, usual};
 use crate::harness::{Field, Gathered, Protocol, TrialResult};
 use crate::journal::Identity;
 
+/// The format of the figures.
+const FORMAT: &str = "power/1";
+
 /// A plan as computed, and the campaigns that check it.
 pub struct Campaigns<'a> {
     bench: Bench<'a>,
@@ -58,6 +61,20 @@ pub struct PowerRecord {
     pub seen: Vec<bool>,
     /// Answer of the diagnosis, where it was asked.
     pub said: Option<AnswerAndFate>,
+}
+
+/// The power of a plan as computed; nothing is simulated.
+///
+/// # Errors
+/// [`PowerError`].
+pub fn computed(
+    plan: &PowerPlan,
+    terms: &[Arc<dyn Term>],
+    settings: PowerSettings,
+) -> Result<Power, PowerError> {
+    let Campaigns { study, simulation, checks, .. } =
+        Campaigns::new(plan, terms, settings, Simulation::default(), &[])?;
+    Ok(Power { format: FORMAT, study, simulation, checks })
 }
 
 impl<'a> Campaigns<'a> {
@@ -143,7 +160,7 @@ impl<'a> Campaigns<'a> {
             self.tell(part, answers)?;
         }
         let Self { study, simulation, checks, .. } = self;
-        Ok(Power { format: "power/1", study, simulation, checks })
+        Ok(Power { format: FORMAT, study, simulation, checks })
     }
 
     fn tell(&mut self, part: &Part, answers: &[TrialResult<PowerRecord>]) -> Result<(), PowerError> {

@@ -38,7 +38,7 @@ pub(super) fn faint(plan: &PowerPlan) -> Result<Vec<Faint>, PowerError> {
     let softer = PowerPlan { stiffness: plan.stiffness.map(|k| 0.95 * k), ..plan.clone() };
     let mut waiting = plan.clone();
     waiting.rows.observations.iter_mut().for_each(|o| o.elapsed = WAIT_S);
-    let creep = || -> Box<dyn Mechanism> { Box::new(Creep { share: 0.05, time: WAIT_S }) };
+    let creep = || -> Box<dyn Mechanism> { Box::new(Creep::new(0.05, WAIT_S)) };
     let heavier = || -> Box<dyn Mechanism> { Box::new(LoadMassError { mass: 0.5 }) };
     Ok(vec![
         one(SOFTER_LEGS, plan, &Bench::new(&softer, 0).ideal(Vec::new())?)?,

@@ -16,7 +16,7 @@ mod study;
 mod tables;
 mod usual;
 
-pub use campaigns::{Campaigns, PowerRecord};
+pub use campaigns::{Campaigns, PowerRecord, computed};
 pub use charts::pictures;
 pub use document::{Studied, document, plan_of};
 pub use faint::Faint;

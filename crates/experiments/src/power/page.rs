@@ -81,6 +81,16 @@ impl PlanReport<'_> {
         all
     }
 
+    /// What "seen" means, and of what noise.
+    pub fn assumptions(&self) -> String {
+        let settings = &self.power.study.settings;
+        format!(
+            "\"Seen\" means: in {} of such campaigns, with a false alarm in {}; `hexbench power` says more.",
+            chance(settings.power),
+            chance(settings.alarm),
+        )
+    }
+
     fn springs(&self) -> Section {
         Section::new("What springs make of it")
             .paragraph(
@@ -104,24 +114,38 @@ impl PlanReport<'_> {
 
     /// What is read, how well, of what machine.
     pub(super) fn subject(&self) -> String {
-        let rows = &self.plan.rows.observations;
-        let poses = rows.iter().map(|o| o.pose_id).collect::<BTreeSet<_>>().len();
-        let noise = &self.plan.noise;
+        let rows: BTreeSet<(i64, i64, u64)> =
+            self.plan.rows.observations.iter().map(|o| (o.pose_id, o.repeat, o.line)).collect();
+        let several = self.plan.rows.blocks.len() > 1;
+        let readings = if several { rows.len() } else { self.plan.rows.observations.len() };
+        let poses = rows.iter().map(|o| o.0).collect::<BTreeSet<_>>().len();
         let stiffness = self.plan.stiffness.iter().sum::<f64>() / 6.0 * 1e-6;
         let settings = &self.power.study.settings;
         format!(
-            "{} readings of {} at {} for {}; one reading is good to {} um and {} urad ({}); legs of {} N/um. \"Seen\" \
-             means: in {} of such campaigns, with a false alarm in {}.",
-            rows.len(),
+            "{readings} readings of {} at {} for {}; {}; legs of {} N/um. \"Seen\" means: in {} of such campaigns, with a \
+             false alarm in {}.",
             self.plan.rows.measurand.readings(),
             counted(poses, "pose"),
             self.plan.hexapod.name,
-            significant(noise.translation * 1e6, 2),
-            significant(noise.rotation * 1e6, 2),
-            source(noise.source),
+            self.noise(),
             significant(stiffness, 2),
             chance(settings.power),
             chance(settings.alarm),
+        )
+    }
+
+    /// How well is read.
+    fn noise(&self) -> String {
+        let noise = &self.plan.noise;
+        if noise.source == NoiseSource::Sensors {
+            let names: Vec<&str> = self.plan.hexapod.sensors.iter().map(|s| s.name.as_str()).collect();
+            return format!("each number is as good as is stated, of the sensors {}", names.join(", "));
+        }
+        format!(
+            "one reading is good to {} um and {} urad ({})",
+            significant(noise.translation * 1e6, 2),
+            significant(noise.rotation * 1e6, 2),
+            source(noise.source),
         )
     }
 
@@ -238,7 +262,7 @@ impl PlanReport<'_> {
     }
 
     /// Effects that are never seen, by the reason.
-    pub(super) fn blind(&self) -> Option<Section> {
+    pub fn blind(&self) -> Option<Section> {
         let mut reasons: BTreeMap<String, Vec<&str>> = BTreeMap::new();
         for (_, e) in self.told() {
             if let Some(why) = why_never(e) {

@@ -64,7 +64,7 @@ pub const CORRESPONDENCES: &[Correspondence] = &[
         }),
     },
     same("leg-asymmetry", "asymmetry", "tension-compliance = c_t"),
-    same("leg-backlash", "backlash", "gap = gap"),
+    same("leg-backlash", "backlash", "gap = gap, of a contact that closes at once"),
     Correspondence {
         differs: "the world's slider is an elastic bristle twenty times as stiff as the leg, the model's is rigid",
         ..same("joint-friction", "friction", "force = f_c")
@@ -82,7 +82,7 @@ pub const CORRESPONDENCES: &[Correspondence] = &[
     Correspondence {
         effect: "creep",
         world: "creep",
-        rule: "fraction = chi, time-constant = tau",
+        rule: "fraction = chi, time-constant = tau, of a preload that has settled",
         differs: "",
         convert: Conversion::Special(|v| Equivalent {
             values: vec![Some(number(&v[0]))],

@@ -148,7 +148,7 @@ fn travel(lin: &Linearization) -> f64 {
 
 /// Relative change of the leg Jacobian on the way from the commanded pose, and the largest leg elongation on it, m.
 /// `by_force`: whitened reading per leg force.
-fn jacobian_change(
+pub(crate) fn jacobian_change(
     lin: &Linearization,
     at: &Condition,
     commanded: &Pose,
@@ -171,7 +171,7 @@ fn jacobian_change(
     change.fold((0.0, 0.0), |(a, b), (x, y)| (a.max(x), b.max(y)))
 }
 
-pub(crate) fn displaced(pose: &Pose, twist: &Vector6) -> Pose {
+fn displaced(pose: &Pose, twist: &Vector6) -> Pose {
     let turn = Rotation3::new(twist.fixed_rows::<3>(3).into_owned());
     Pose::from_rotation(pose.translation + twist.fixed_rows::<3>(0), &(turn.matrix() * pose.rotation()))
 }

@@ -23,9 +23,8 @@ pub struct Robustness {
 impl Robustness {
     /// What the trials of a protocol gave.
     pub fn of(protocol: RobustnessProtocol, gathered: Gathered<RobustnessRecord>) -> Self {
-        let name = |n| harness::Protocol::name(&protocol, n);
-        let failures = gathered.failures().map(|(n, why)| (name(n), why.clone())).collect();
-        Self { records: gathered.answers.into_iter().flatten().collect(), failures, protocol }
+        let (records, failures) = gathered.split(&protocol);
+        Self { protocol, records, failures }
     }
 }
 

@@ -66,8 +66,7 @@ pub fn headlines(study: &SensorStudy) -> Vec<String> {
 }
 
 fn covered(records: &[&RobustnessRecord]) -> Proportion {
-    let all = records.iter().map(|r| r.stiffness_coverage());
-    all.fold(Proportion { hits: 0, of: 0 }, |a, b| Proportion { hits: a.hits + b.hits, of: a.of + b.of })
+    records.iter().map(|r| r.stiffness_coverage()).sum()
 }
 
 /// One line for each way of reading and each fault.

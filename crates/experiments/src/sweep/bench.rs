@@ -1,6 +1,6 @@
 //! One drawn machine with its plan, its hidden effect and what an ideal instrument reads of it.
 
-use hexbench_core::{Columns, Dataset, Hexapod, Measurand, Vector6};
+use hexbench_core::{Dataset, Hexapod, Measurand, Vector6};
 use hexbench_truth::campaign::{PlanRow, SimulatedCampaign, Yardstick, machines};
 use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{Mechanism, TruthError, World, mechanisms};
@@ -46,13 +46,8 @@ impl Ideal {
         let read = |(line, (row, ideal)): (u64, (&PlanRow, &Vector6))| {
             row.read(line, (ideal + error()).into(), None)
         };
-        Dataset {
-            blocks: hexbench_core::Dataset::pose_blocks(),
-            source: source.to_owned(),
-            measurand: Measurand::DeflectionEuler,
-            columns: Columns { reference: true, approach: true, delta_t: true, elapsed: true, sigma: false },
-            observations: (2..).zip(self.rows.iter().zip(&self.readings)).map(read).collect(),
-        }
+        let rows = (2..).zip(self.rows.iter().zip(&self.readings)).map(read);
+        Dataset::of_deflections(source, rows.collect())
     }
 }
 

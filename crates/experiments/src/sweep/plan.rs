@@ -146,6 +146,7 @@ fn of_space(space: &Space, poses: Vec<Pose>, repeats: u64) -> Scheme {
         approaches: Approach::ALL.to_vec(),
         delta_t: Spread::Normal(0.3),
         elapsed: Spread::Even([5.0, 300.0]),
+        reference_age: None,
         anew: false,
     }
 }

@@ -1,5 +1,7 @@
 //! What a term is: a named physical effect with parameters, and where each of them acts.
 
+use std::sync::Arc;
+
 use crate::effects::chain::Action;
 use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
@@ -61,10 +63,31 @@ pub trait Term: Send + Sync {
         false
     }
 
+    /// True when the second parameter is a part of the first: both are positive, and it is not the larger one.
+    fn second_is_part_of_first(&self) -> bool {
+        false
+    }
+
+    /// The word for this version of the effect, kebab-case; none for the usual one.
+    fn version(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Other versions of the effect, which compete under its id, with their prior shares of it: another law, one more parameter.
+    /// They say nothing about conditions for which they have no shapes.
+    fn versions(&self) -> Vec<(f64, Arc<dyn Term>)> {
+        Vec::new()
+    }
+
     /// Grid of shape values worth trying for these conditions; empty when the term has no shape.
     fn shape_grid(&self, _conditions: &[Condition]) -> Vec<f64> {
         Vec::new()
     }
+}
+
+/// The version of a term with this word.
+pub fn version_named(term: &Arc<dyn Term>, word: &str) -> Option<Arc<dyn Term>> {
+    term.versions().into_iter().map(|(_, version)| version).find(|v| v.version() == Some(word))
 }
 
 /// Name, physics, parameters and needs of a term.

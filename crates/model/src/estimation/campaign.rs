@@ -80,6 +80,8 @@ pub struct Condition {
     pub delta_t: f64,
     /// Time since the reference reading, s.
     pub elapsed: f64,
+    /// Time the reference load had rested when the reference was read, s; none when the file does not say.
+    pub reference_age: Option<f64>,
     /// Measured values minus what an unloaded perfect machine would show, in measured coordinates.
     pub reading: Vector6,
     /// Measured coordinates from the platform's geometric twist at the mobile origin (6x6).
@@ -196,6 +198,13 @@ impl Condition {
     pub fn pull_change(&self, leg: usize) -> Vector3 {
         let [reference, loaded] = &self.states;
         loaded.directions[leg] * self.force[leg] - reference.directions[leg] * self.reference_force[leg]
+    }
+
+    /// Elongations of the legs, m, per standard deviation of the six numbers of a full pose.
+    pub(crate) fn legs_of_reading(&self, group: &ConditionReadings) -> Matrix6 {
+        // Only at beta = +-90 deg, where the reading says nothing of two rotations.
+        let to_legs = self.observer.try_inverse().map_or_else(Matrix6::zeros, |h| self.legs.leg_jacobian * h);
+        to_legs * Matrix6::from_diagonal(&Vector6::from_column_slice(&group.sigma))
     }
 
     /// Change of the forces in the leg springs between reference and load, N.
@@ -473,7 +482,7 @@ fn known_frames(dataset: &Dataset, machine: &Machine) -> Frames {
 
 fn group(data: &Dataset, noise: &Noise, axes: &ReadingAxes) -> Vec<ConditionReadings> {
     let rows = &data.observations;
-    let mut index: HashMap<[u64; 22], usize> = HashMap::new();
+    let mut index: HashMap<[u64; 24], usize> = HashMap::new();
     let mut groups: Vec<ConditionReadings> = Vec::new();
     // Neighbors that resemble each other are no repeats of each other.
     let drifts = matches!(noise.structure, Structure::Drift { .. });
@@ -556,9 +565,11 @@ fn whitened_square(row: &Observation, mean: &[f64; 6], noise: &Noise, axes: &Rea
     (0..6).map(|k| (off[k] / sigma[k]).powi(2)).sum()
 }
 
-fn key(row: &Observation) -> [u64; 22] {
-    let mut key = [0; 22];
+fn key(row: &Observation) -> [u64; 24] {
+    let mut key = [0; 24];
     key[21] = row.block as u64;
+    key[22] = u64::from(row.reference_age.is_some());
+    key[23] = (row.reference_age.unwrap_or(0.0) + 0.0).to_bits();
     let parts = [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array()];
     let rest = [row.approach.sign(), row.delta_t, row.elapsed];
     for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain(&rest)) {

@@ -17,7 +17,7 @@ use hexbench_core::{
     Approach, Channel, Matrix3, Matrix6, Measurand, Observation, Pose, SensorKind, Vector3, Vector6, Wrench,
 };
 
-use crate::effects::chain::{Action, JointDisplacement, Load};
+use crate::effects::chain::{Action, BesideLegs, JointDisplacement, Load};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition, ConditionReadings, LoadPath, LoadState, moved};
 use crate::estimation::frames::ReadingAxes;
@@ -195,6 +195,7 @@ fn standing(structure: &Structure<'_>, o: &Observation, pose: Pose, legs: &Legs)
         approach: o.approach,
         delta_t: o.delta_t,
         elapsed: o.elapsed,
+        reference_age: o.reference_age,
         reading: none,
         observer: Matrix6::identity(),
         weight: Vector6::repeat(1.0),
@@ -355,29 +356,32 @@ impl Structure<'_> {
         if with_tangent || beside.is_some() {
             at.tangent = Some(Box::new(self.tangent(at, shift, &load, out)));
         }
-        if beside.is_none() {
-            return load;
-        }
-        self.relieve(at, out);
+        let Some(beside) = beside else { return load };
+        self.relieve(at, &beside, out);
         self.load(at, out)
     }
 
     /// Takes off the legs what stands beside them, on every load of the way that leaves a trace.
-    fn relieve(&self, at: &mut Condition, out: &mut Vec<Action>) {
+    fn relieve(&self, at: &mut Condition, beside: &BesideLegs, out: &mut Vec<Action>) {
         let slides = at.approach == Approach::Overloaded && self.machine.friction_limits.amax() > 0.0;
         let extreme = slides.then(|| {
             let mut exceeded =
                 Condition { approach: Approach::Direct, delta_t: 0.0, elapsed: 0.0, ..at.clone() };
             exceeded.set_forces([at.reference_force, at.path.extreme], &self.machine.friction_limits);
-            self.relieve_load(&mut exceeded, None, out);
+            self.relieve_load(&mut exceeded, beside, None, out);
             exceeded.force
         });
-        self.relieve_load(at, extreme, out);
+        self.relieve_load(at, beside, extreme, out);
     }
 
     /// The same for the load alone, reached over known `extreme` leg forces.
-    fn relieve_load(&self, at: &mut Condition, extreme: Option<Vector6>, out: &mut Vec<Action>) {
-        let Some(beside) = self.load(at, out).beside(at) else { return };
+    fn relieve_load(
+        &self,
+        at: &mut Condition,
+        beside: &BesideLegs,
+        extreme: Option<Vector6>,
+        out: &mut Vec<Action>,
+    ) {
         let (j, limits) = (at.legs.platform_jacobian, &self.machine.friction_limits);
         let compliance = compliance(at, self.springs, |t| t.loaded);
         let by_stretch = against(&j, &compliance, &beside.stiffness) * j;

@@ -1,12 +1,17 @@
 //! Estimates with names, units and uncertainty, as people and files read them.
 
 use hexbench_core::Vector6;
+use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use crate::application::model_file::Model;
+use crate::effects::term::Rich;
 use crate::estimation::fit::Fit;
 use crate::estimation::linearization::ModelPoint;
 use crate::estimation::parameters::{ParameterPlace, Parameters};
+
+/// A sum is determined where it is this much better known than one of its parts.
+const BETTER_KNOWN: f64 = 0.5;
 
 /// One number of a fitted model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -62,6 +67,13 @@ impl LegCompliances {
         }
     }
 
+    /// The same where so large a share of every compliance is open beside.
+    #[must_use]
+    pub fn open_by(self, share: &Vector6) -> Self {
+        let open = self.compliance.component_mul(share);
+        Self { variance: self.variance + open.component_mul(&open), ..self }
+    }
+
     /// Compliance, its standard uncertainty, and whether it has a stiffness: one that may be zero has none.
     fn known(&self, leg: usize) -> (f64, f64, bool) {
         let (c, std) = (self.compliance[leg], self.variance[leg].sqrt());
@@ -76,38 +88,94 @@ pub fn estimates(fit: &Fit) -> Estimates {
 
 /// The same with springs from elsewhere.
 pub fn estimates_with(springs: &LegCompliances, fit: &Fit) -> Estimates {
-    all_estimates(springs, &fit.parameters, &fit.point, |k| (fit.std(k), fit.is_determined(k)))
+    let determined: Vec<bool> = (0..fit.parameters.len()).map(|k| fit.is_determined(k)).collect();
+    let numbers = Numbers {
+        parameters: &fit.parameters,
+        point: &fit.point,
+        covariance: &fit.covariance,
+        determined: &determined,
+    };
+    numbers.estimates(springs)
 }
 
 /// The same of a model that was kept.
 pub fn estimates_of(model: &Model) -> Estimates {
-    let is_determined = |k: usize| model.determined.get(k).copied().unwrap_or(true);
+    let determined: Vec<bool> =
+        (0..model.parameters.len()).map(|k| model.determined.get(k).copied().unwrap_or(true)).collect();
     let springs = LegCompliances {
         compliance: model.point.compliances,
         variance: Vector6::from_fn(|leg, _| model.std(leg).powi(2)),
-        determined: std::array::from_fn(is_determined),
+        determined: std::array::from_fn(|leg| determined[leg]),
     };
-    all_estimates(&springs, &model.parameters, &model.point, |k| (model.std(k), is_determined(k)))
+    let (parameters, point, covariance) = (&model.parameters, &model.point, &model.covariance);
+    Numbers { parameters, point, covariance, determined: &determined }.estimates(&springs)
 }
 
-/// `known`: standard uncertainty of a column, and whether the data determine it.
-fn all_estimates(
-    springs: &LegCompliances,
-    parameters: &Parameters,
-    point: &ModelPoint,
-    known: impl Fn(usize) -> (f64, bool),
-) -> Estimates {
-    let mut all = Estimates::default();
-    for (k, parameter) in parameters.iter().enumerate() {
-        let Some(name) = parameter.quantity() else { continue };
-        let (value, std, determined) = if let ParameterPlace::Spring(leg) = parameter.place {
-            springs.known(leg)
-        } else {
-            let (std, determined) = known(k);
-            (parameter.value(point), std, determined)
-        };
-        let shown = parameter.shown(value, std);
-        all.push(name, parameter.unit, shown.value, shown.std, determined);
+/// The numbers of a model with their covariance.
+struct Numbers<'a> {
+    parameters: &'a Parameters,
+    point: &'a ModelPoint,
+    covariance: &'a DMatrix<f64>,
+    determined: &'a [bool],
+}
+
+impl Numbers<'_> {
+    fn estimates(&self, springs: &LegCompliances) -> Estimates {
+        let mut all = Estimates::default();
+        for (k, parameter) in self.parameters.iter().enumerate() {
+            let Some(name) = parameter.quantity() else { continue };
+            let known = match parameter.place {
+                ParameterPlace::Spring(leg) => springs.known(leg),
+                ParameterPlace::Value { term, index } => match leg_form(self.point, term, index) {
+                    LegForm::Common => continue,
+                    LegForm::OfLeg => self.total(self.parameters.of_term(term).start, k),
+                    LegForm::None => self.own(k),
+                },
+                ParameterPlace::Shape { .. } | ParameterPlace::Frames(_) => self.own(k),
+            };
+            let (value, std, determined) = known;
+            let shown = parameter.shown(value, std);
+            all.push(name, parameter.unit, shown.value, shown.std, determined);
+        }
+        all
     }
-    all
+
+    fn std(&self, column: usize) -> f64 {
+        self.covariance[(column, column)].max(0.0).sqrt()
+    }
+
+    fn own(&self, column: usize) -> (f64, f64, bool) {
+        (self.parameters[column].value(self.point), self.std(column), self.determined[column])
+    }
+
+    /// A common size and the deviation of one leg from it: only their sum is a property of the leg, and known where the data
+    /// determine it although each of the two may be open.
+    fn total(&self, common: usize, deviation: usize) -> (f64, f64, bool) {
+        let value = self.parameters[common].value(self.point) + self.parameters[deviation].value(self.point);
+        let variance = self.covariance[(common, common)]
+            + self.covariance[(deviation, deviation)]
+            + 2.0 * self.covariance[(common, deviation)];
+        let std = variance.max(0.0).sqrt();
+        let both = self.determined[common] && self.determined[deviation];
+        (value, std, both || std < BETTER_KNOWN * self.std(common).max(self.std(deviation)))
+    }
+}
+
+/// Part of a richer form leg by leg that a value of a term is.
+enum LegForm {
+    /// The size that all legs share.
+    Common,
+    /// The deviation of one leg from it.
+    OfLeg,
+    /// None: the term has its ideal form, or another richer one.
+    None,
+}
+
+fn leg_form(point: &ModelPoint, term: usize, index: usize) -> LegForm {
+    let active = &point.active[term];
+    match (active.rich && active.term.info().rich == Rich::PerLeg, index) {
+        (false, _) => LegForm::None,
+        (true, 0) => LegForm::Common,
+        (true, _) => LegForm::OfLeg,
+    }
 }

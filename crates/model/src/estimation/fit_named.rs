@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use hexbench_core::files::nearest;
+use nalgebra::{DMatrix, DVector};
 
-use crate::effects::term::{Natural, Rich, Term};
+use crate::effects::term::{Natural, Rich, Term, version_named};
 use crate::effects::untestable::why_untestable;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
@@ -38,22 +39,28 @@ pub fn term_named(id: &str, terms: &[Arc<dyn Term>]) -> Result<Arc<dyn Term>, Mo
 /// Behind the id of a term: its richer form is wanted.
 pub const RICHER: &str = ":richer";
 
-/// A term somebody asks for, in its ideal or its richer form.
+/// A term somebody asks for, in its ideal or its richer form, or in a version that the readings do not choose.
 #[derive(Clone)]
 pub struct Added {
-    /// The effect.
+    /// The effect; one of its versions where that was asked for by its word.
     pub term: Arc<dyn Term>,
     /// True for the richer form.
     pub richer: bool,
 }
 
 impl Added {
-    /// What `id`, or `id:richer`, asks for.
+    /// What `id`, `id:richer` or `id:version` asks for.
     ///
     /// # Errors
     /// [`ModelError::UnknownTerm`] with the nearest id; [`ModelError::Selection`] for a term without a richer form.
     pub fn named(text: &str, terms: &[Arc<dyn Term>]) -> Result<Self, ModelError> {
         let (id, richer) = text.strip_suffix(RICHER).map_or((text, false), |id| (id, true));
+        if let Some(term) = id
+            .split_once(':')
+            .and_then(|(id, word)| version_named(terms.iter().find(|t| t.info().id == id)?, word))
+        {
+            return Ok(Self { term, richer });
+        }
         let term = term_named(id, terms)?;
         if richer && term.info().rich == Rich::None {
             return Err(ModelError::Selection(format!("`{id}` has no richer form")));
@@ -63,7 +70,8 @@ impl Added {
 
     /// As it is asked for.
     pub fn name(&self) -> String {
-        format!("{}{}", self.term.info().id, if self.richer { RICHER } else { "" })
+        let version = self.term.version().map(|word| format!(":{word}")).unwrap_or_default();
+        format!("{}{version}{}", self.term.info().id, if self.richer { RICHER } else { "" })
     }
 }
 
@@ -97,8 +105,12 @@ pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
         }
-        let prior = prior(term.as_ref(), *richer, &natural);
-        let next = TermSpec { term: Arc::clone(term), rich: *richer, shape: 1.0, prior };
+        let spec = |version: &Arc<dyn Term>| {
+            let prior = prior(version.as_ref(), *richer, &natural);
+            TermSpec { term: Arc::clone(version), rich: *richer, shape: 1.0, prior }
+        };
+        let is_open = !richer && term.version().is_none();
+        let next = spec(&if is_open { best_version(term, spec, &fitted, &lin) } else { Arc::clone(term) });
         let place = wanted.len();
         (wanted, fitted) = best_start(campaign, &wanted, (place, &next), &fitted, &lin)?;
     }
@@ -176,25 +188,73 @@ fn best_start(
     best.ok_or_else(|| failure.unwrap_or(ModelError::NotFinite { what: "the shapes of the term" }))
 }
 
+/// The version of a term whose best shape explains most of the present residual, less what its parameters more than those of the usual
+/// version explain of noise alone (Schwarz).
+fn best_version(
+    term: &Arc<dyn Term>,
+    spec: impl Fn(&Arc<dyn Term>) -> TermSpec,
+    fitted: &Fit,
+    lin: &Linearization,
+) -> Arc<dyn Term> {
+    let others = term.versions();
+    if others.is_empty() {
+        return Arc::clone(term);
+    }
+    let numbers = |t: &dyn Term| (t.info().parameters.len() + usize::from(t.info().shape.is_some())) as f64;
+    let unexplained = Unexplained::by(fitted, lin);
+    let worth = |version: &Arc<dyn Term>| {
+        let gains = unexplained.gains(&spec(version), &version.shape_grid(&lin.conditions));
+        let more = numbers(version.as_ref()) - numbers(term.as_ref());
+        gains.into_iter().fold(f64::NEG_INFINITY, f64::max) - more * lin.numbers().ln()
+    };
+    let all = std::iter::once(Arc::clone(term)).chain(others.into_iter().map(|(_, version)| version));
+    let weighed = all.map(|version| (worth(&version), version));
+    // Of equals the usual version, which comes first.
+    let best = weighed.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    best.map_or_else(|| Arc::clone(term), |(_, version)| version)
+}
+
 /// Shapes whose columns explain most of the present residual beside everything fitted so far.
 fn promising_shapes(next: &TermSpec, fitted: &Fit, lin: &Linearization) -> Vec<f64> {
     let grid = next.term.shape_grid(&lin.conditions);
     if grid.is_empty() {
         return vec![1.0];
     }
-    let basis = orthonormal(&columns(lin, &fitted.point));
-    let mut residual = lin.residuals();
-    project(&basis, &mut residual);
-    let explained = |shape: f64| {
-        let mut block = lin.term_block(next.term.as_ref(), next.rich, shape);
-        let overlap = basis.tr_mul(&block);
-        block.gemm(-1.0, &basis, &overlap, 1.0);
-        orthonormal(&block).tr_mul(&residual).norm_squared()
-    };
-    let gains: Vec<f64> = grid.iter().map(|&s| explained(s)).collect();
+    let gains = Unexplained::by(fitted, lin).gains(next, &grid);
     let mut peaks = peaks(&gains);
     peaks.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
     peaks.into_iter().take(STARTS).map(|k| grid[k]).collect()
+}
+
+/// What a fit leaves, and the columns it has taken it out with.
+struct Unexplained<'a> {
+    lin: &'a Linearization,
+    basis: DMatrix<f64>,
+    residual: DVector<f64>,
+}
+
+impl<'a> Unexplained<'a> {
+    fn by(fitted: &Fit, lin: &'a Linearization) -> Self {
+        let basis = orthonormal(&columns(lin, &fitted.point));
+        let mut residual = lin.residuals();
+        project(&basis, &mut residual);
+        Self { lin, basis, residual }
+    }
+
+    /// Drop of chi-square by a term in each of its shapes; without shapes, in its only one.
+    fn gains(&self, next: &TermSpec, grid: &[f64]) -> Vec<f64> {
+        let explained = |shape: f64| {
+            let mut block = self.lin.term_block(next.term.as_ref(), next.rich, shape);
+            let overlap = self.basis.tr_mul(&block);
+            block.gemm(-1.0, &self.basis, &overlap, 1.0);
+            orthonormal(&block).tr_mul(&self.residual).norm_squared()
+        };
+        if next.term.info().shape.is_none() {
+            vec![explained(1.0)]
+        } else {
+            grid.iter().map(|&s| explained(s)).collect()
+        }
+    }
 }
 
 /// Places of the values that no neighbour exceeds: two starts on the same slope would climb the same peak.

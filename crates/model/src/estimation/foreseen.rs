@@ -96,8 +96,8 @@ pub fn held_campaign(campaign: &Campaign, holdout: &Dataset, fit: &Fit) -> Resul
 /// with the residuals `d` and columns `J` freed of what the readings have in common (noise, inputs within their tolerances).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Misfit {
-    chi2: f64,
-    numbers: f64,
+    pub(crate) chi2: f64,
+    pub(crate) numbers: f64,
 }
 
 impl Misfit {

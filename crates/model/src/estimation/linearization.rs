@@ -279,6 +279,11 @@ impl Linearization {
         columns
     }
 
+    /// `T` with which whitening twice is `I - T T'`; none where errors of readings are correlated.
+    pub(crate) fn whitened_out(&self) -> Option<DMatrix<f64>> {
+        self.whitening.taken_out(self.equations())
+    }
+
     /// Columns of a term.
     pub fn term_block(&self, term: &dyn Term, rich: bool, shape: f64) -> DMatrix<f64> {
         let mut block = DMatrix::zeros(self.equations(), parameter_count(term, rich));
@@ -310,7 +315,7 @@ impl Linearization {
 }
 
 /// Blocks of columns side by side.
-pub(crate) fn beside(blocks: &[DMatrix<f64>]) -> DMatrix<f64> {
+pub fn beside(blocks: &[DMatrix<f64>]) -> DMatrix<f64> {
     let rows = blocks.first().map_or(0, DMatrix::nrows);
     let mut all = DMatrix::zeros(rows, blocks.iter().map(DMatrix::ncols).sum());
     let mut at = 0;

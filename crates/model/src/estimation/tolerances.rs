@@ -248,12 +248,7 @@ fn of_sensors(campaign: &Campaign, lin: &Linearization, tolerances: &Tolerances)
 /// Columns of the place and of the direction of a sensor among those of all inputs; none where it has none, or where full poses are
 /// read.
 pub(crate) fn columns_of_sensor(sensors: &[Sensor], index: usize) -> [Option<Range<usize>>; 2] {
-    let has = |sensor: &Sensor| match sensor.kind {
-        SensorKind::Distance { .. } => [true, true],
-        SensorKind::Point { .. } => [true, false],
-        SensorKind::Inclination { .. } => [false, true],
-        SensorKind::LegLength { .. } => [false, false],
-    };
+    let has = |sensor: &Sensor| [sensor.kind.point().is_some(), sensor.kind.direction().is_some()];
     let before: usize = sensors[..index].iter().flat_map(has).filter(|has| *has).count();
     let first = InputKind::COLUMNS + 3 * before;
     let [place, direction] = has(&sensors[index]);

@@ -81,6 +81,12 @@ impl Whitening {
         Some(columns)
     }
 
+    /// `T` where the transform is symmetric, `W W = I - T T'`; none where errors of readings are correlated.
+    pub fn taken_out(&self, rows: usize) -> Option<DMatrix<f64>> {
+        let of_inputs = self.inputs.as_ref().map_or_else(|| DMatrix::zeros(rows, 0), |all| all.taken_out());
+        matches!(self.noise, Common::Nothing).then_some(of_inputs)
+    }
+
     /// Transforms columns with six rows per condition.
     pub fn apply(&self, columns: &mut DMatrix<f64>) {
         self.noise.apply(columns);
@@ -130,6 +136,11 @@ impl Inexact {
             taken[i] = 1.0 - (1.0 + square).sqrt().recip();
         }
         Some(Self { columns, basis, taken })
+    }
+
+    /// `Q (2 D - D D)^1/2`.
+    fn taken_out(&self) -> DMatrix<f64> {
+        &self.basis * DMatrix::from_diagonal(&self.taken.map(|d| (d * (2.0 - d)).max(0.0).sqrt()))
     }
 
     fn apply(&self, columns: &mut DMatrix<f64>) {

@@ -26,10 +26,10 @@ pub struct Candidate {
     pub kind: CandidateKind,
     /// Its blocks in the Gram matrix.
     pub blocks: Vec<usize>,
+    /// The version of a term that each of them holds; none of a pattern.
+    versions: Vec<Arc<dyn Term>>,
     /// Logarithm of its prior weight relative to a term of the catalogue.
     pub log_weight: f64,
-    /// Shapes it was tried in, those that a scan left out included.
-    pub trials: usize,
 }
 
 /// Term or pattern.
@@ -49,6 +49,50 @@ impl Candidate {
             CandidateKind::Pattern(_) => None,
         }
     }
+
+    /// The version of the term in one of its blocks, when it is one.
+    pub fn version(&self, block: usize) -> Option<&Arc<dyn Term>> {
+        self.blocks.iter().zip(&self.versions).find(|(b, _)| **b == block).map(|(_, version)| version)
+    }
+
+    /// The forms in which it competes, when it is a term; `blocks`: those of the Gram matrix.
+    pub fn forms<'a>(&'a self, blocks: &'a [PriorBlock]) -> impl Iterator<Item = CompetingForm> + 'a {
+        self.blocks.iter().zip(&self.versions).map(|(&b, version)| CompetingForm {
+            version: Arc::clone(version),
+            rich: blocks[b].rich,
+            shape: blocks[b].shape,
+            share: blocks[b].log_share.exp(),
+        })
+    }
+}
+
+/// A form of a term that competes: which version of it, ideal or richer, of which shape.
+#[derive(Clone)]
+pub struct CompetingForm {
+    /// The term itself or another version of it.
+    pub version: Arc<dyn Term>,
+    /// Richer form.
+    pub rich: bool,
+    /// Value of the shape.
+    pub shape: f64,
+    /// Prior share within the effect.
+    pub share: f64,
+}
+
+/// The forms of a version in the given shapes out of `trials`, which share `share` of the prior; also its richer form at a shape.
+pub fn forms_of(
+    version: &Arc<dyn Term>,
+    shapes: &[f64],
+    trials: usize,
+    rich: Option<f64>,
+    share: f64,
+) -> Vec<CompetingForm> {
+    let rich = rich.filter(|_| version.info().rich != Rich::None);
+    let ideal_share = if rich.is_some() { IDEAL_SHARE } else { 1.0 };
+    let form = |rich, shape, share| CompetingForm { version: Arc::clone(version), rich, shape, share };
+    let each = share * ideal_share / trials.max(1) as f64;
+    let ideal = shapes.iter().map(|&s| form(false, s, each));
+    ideal.chain(rich.map(|s| form(true, s, share * (1.0 - IDEAL_SHARE)))).collect()
 }
 
 /// Natural sizes of the parameters of a term in one of its forms, SI.
@@ -104,26 +148,29 @@ impl<'a> Collector<'a> {
         Self { lin, natural, sources: Vec::new(), width: 0, blocks: Vec::new(), candidates: Vec::new() }
     }
 
-    /// Add a term with the given shapes out of `trials`; also its richer form at the shape `rich`.
+    /// Add a term with the given shapes out of `trials`; also its richer form at the shape `rich`. No other versions of it.
     pub fn add_term(&mut self, term: &Arc<dyn Term>, shapes: &[f64], trials: usize, rich: Option<f64>) {
-        let rich = rich.filter(|_| term.info().rich != Rich::None);
-        let ideal_share = if rich.is_some() { IDEAL_SHARE } else { 1.0 };
-        let ideal = shapes.iter().map(|&s| (false, s, ideal_share / trials.max(1) as f64));
-        let forms = ideal.chain(rich.map(|s| (true, s, 1.0 - IDEAL_SHARE)));
-        let blocks = forms.map(|(form, shape, share)| self.push_term(term, form, shape, share)).collect();
-        self.candidates.push(Candidate {
-            kind: CandidateKind::Term(Arc::clone(term)),
-            blocks,
-            log_weight: 0.0,
-            trials,
-        });
+        self.add_forms(term, forms_of(term, shapes, trials, rich, 1.0));
     }
 
-    fn push_term(&mut self, term: &Arc<dyn Term>, rich: bool, shape: f64, share: f64) -> usize {
-        let mut positive: Vec<bool> = term.info().parameters.iter().map(|p| p.positive).collect();
-        positive.resize(parameter_count(term.as_ref(), rich), false);
-        let block = PriorBlock::new(&sizes(term.as_ref(), rich, &self.natural), positive, shape, rich, share);
-        self.push(Source::Term { term: Arc::clone(term), rich, shape }, block)
+    /// Add a term in these forms.
+    pub fn add_forms(&mut self, term: &Arc<dyn Term>, forms: Vec<CompetingForm>) {
+        let blocks = forms.iter().map(|form| self.push_form(form)).collect();
+        let versions = forms.into_iter().map(|form| form.version).collect();
+        let kind = CandidateKind::Term(Arc::clone(term));
+        self.candidates.push(Candidate { kind, blocks, versions, log_weight: 0.0 });
+    }
+
+    fn push_form(&mut self, form: &CompetingForm) -> usize {
+        let CompetingForm { version, rich, shape, share } = form;
+        let mut positive: Vec<bool> = version.info().parameters.iter().map(|p| p.positive).collect();
+        positive.resize(parameter_count(version.as_ref(), *rich), false);
+        let sizes = sizes(version.as_ref(), *rich, &self.natural);
+        let mut block = PriorBlock::new(&sizes, positive, *shape, *rich, *share);
+        if version.second_is_part_of_first() {
+            block = block.with_part();
+        }
+        self.push(Source::Term { term: Arc::clone(version), rich: *rich, shape: *shape }, block)
     }
 
     /// Prior weight of the candidate added last, relative to a term of the catalogue.
@@ -142,7 +189,7 @@ impl<'a> Collector<'a> {
         let block = PriorBlock::new(&pattern.sizes(&self.natural), pattern.positive(), 1.0, false, 1.0);
         let blocks = vec![self.push(Source::Pattern { pattern, range }, block)];
         let kind = CandidateKind::Pattern(pattern);
-        self.candidates.push(Candidate { kind, blocks, log_weight, trials: 1 });
+        self.candidates.push(Candidate { kind, blocks, versions: Vec::new(), log_weight });
     }
 
     fn push(&mut self, source: Source, mut block: PriorBlock) -> usize {
@@ -192,8 +239,22 @@ impl<'a> Collector<'a> {
             place.gemm(1.0, &source.columns(lin), &block.transform, 0.0);
         }
         all.set_column(common + self.width, &target(lin, point));
-        all.transpose() * &all
+        squared(&all)
     }
+}
+
+/// `A' A`: strips of its upper triangle, mirrored.
+fn squared(a: &DMatrix<f64>) -> DMatrix<f64> {
+    const STRIP: usize = 32;
+    let (transposed, n) = (a.transpose(), a.ncols());
+    let mut product = DMatrix::zeros(n, n);
+    for first in (0..n).step_by(STRIP) {
+        let (width, rest) = (STRIP.min(n - first), n - first);
+        let mut place = product.view_mut((first, first), (width, rest));
+        place.gemm(1.0, &transposed.rows(first, width), &a.columns(first, rest), 0.0);
+    }
+    product.fill_lower_triangle_with_upper_triangle();
+    product
 }
 
 /// `T` with `T' G T = I` on the determined subspace of a Gram matrix whose columns have any units.

@@ -11,7 +11,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use crate::estimation::linearization::{Linearization, ModelPoint};
-use crate::inference::candidates::{Candidate, CandidateKind, Collector, sizes};
+use crate::inference::candidates::{Candidate, CandidateKind, Collector, forms_of, sizes};
 use crate::inference::discovery::LawTerm;
 use crate::inference::evidence::Gram;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};
@@ -259,7 +259,7 @@ fn collect(
     collector.finish(campaign, point)
 }
 
-/// Adds a term in its shapes, of which a long grid leaves the best one; none where no shape is sensible.
+/// Adds a term in all its versions and their shapes, of which a long grid leaves the best one; not at all where none is sensible.
 fn add_term(
     collector: &mut Collector<'_>,
     term: &Arc<dyn Term>,
@@ -267,17 +267,35 @@ fn add_term(
     point: &ModelPoint,
     rich: Option<f64>,
 ) {
-    let grid = term.shape_grid(&scanned.conditions);
-    let shapes = if term.info().shape.is_none() {
-        vec![1.0]
-    } else if grid.len() > LONG_GRID {
-        vec![Scanner::new(scanned, point, Some(term.info().id)).best_shape(term.as_ref(), &grid)]
-    } else if grid.is_empty() {
-        return;
+    let others = term.versions();
+    let own = 1.0 - others.iter().map(|(share, _)| share).sum::<f64>();
+    let all = std::iter::once((own, Arc::clone(term))).chain(others);
+    let tried: Vec<_> = all
+        .filter_map(|(share, version)| Some((share, shapes(&version, scanned, point)?, version)))
+        .collect();
+    let whole: f64 = tried.iter().map(|(share, ..)| share).sum();
+    let forms = tried.iter().enumerate().flat_map(|(k, (share, (shapes, trials), version))| {
+        forms_of(version, shapes, *trials, rich.filter(|_| k == 0), share / whole)
+    });
+    let forms: Vec<_> = forms.collect();
+    if !forms.is_empty() {
+        collector.add_forms(term, forms);
+    }
+}
+
+/// Shapes in which a version of a term competes, and out of how many; none where no shape is sensible.
+fn shapes(version: &Arc<dyn Term>, scanned: &Linearization, point: &ModelPoint) -> Option<(Vec<f64>, usize)> {
+    if version.info().shape.is_none() {
+        return Some((vec![1.0], 1));
+    }
+    let grid = version.shape_grid(&scanned.conditions);
+    let trials = grid.len();
+    let shapes = if trials > LONG_GRID {
+        vec![Scanner::new(scanned, point, Some(version.info().id)).best_shape(version.as_ref(), &grid)]
     } else {
-        grid.clone()
+        grid
     };
-    collector.add_term(term, &shapes, grid.len(), rich);
+    (trials > 0).then_some((shapes, trials))
 }
 
 /// Terms of the best set of part of a campaign, searched anew among the members of the best sets of the whole of it; `lin`: of the
@@ -314,7 +332,8 @@ impl RankedSets {
 /// Shape at which the richer form of a term competes: that of a term in the model; and bodies that yield in any way always
 /// compete while something is left unexplained, since their ideal form may not even enter the model.
 fn rich_shape(term: &dyn Term, point: &ModelPoint, effort: Effort) -> Option<f64> {
-    let active = point.active.iter().find(|a| a.id() == term.info().id).map(|a| a.shape);
+    // Another version has a shape of its own.
+    let active = point.active.iter().find(|a| std::ptr::eq(a.term.info(), term.info())).map(|a| a.shape);
     let any_body = effort.scan && term.info().rich == Rich::Full;
     active.or(any_body.then_some(1.0)).filter(|_| effort.rich)
 }
@@ -347,7 +366,7 @@ fn patterns(
 pub fn wanted(set: &Set, gram: &Gram, candidates: &[Candidate], natural: &Natural) -> Vec<TermSpec> {
     let mut all = Vec::new();
     for (&m, v) in set.members.iter().zip(&set.variants) {
-        let CandidateKind::Term(term) = &candidates[m].kind else { continue };
+        let Some(term) = candidates[m].version(v.block) else { continue };
         let block = &gram.blocks[v.block];
         let width = FIT_WIDTH * block.widths[v.width];
         let prior = sizes(term.as_ref(), block.rich, natural).iter().map(|s| s * width).collect();

@@ -41,8 +41,12 @@ pub fn widths(signature: f64) -> Vec<f64> {
 pub struct PriorBlock {
     /// First column.
     pub first: usize,
-    /// `T`: natural sizes times the square root of the prior correlation.
+    /// `T`: natural sizes times the square root of the prior correlation; with a part of the first, `B` times that.
     pub transform: DMatrix<f64>,
+    /// `B^-1 T`, lower triangular: what cannot be negative, in units of the prior.
+    base: DMatrix<f64>,
+    /// True when `B` adds the second value to the first, of which it is a part.
+    has_part: bool,
     /// Which parameters cannot be negative.
     pub positive: Vec<bool>,
     /// Shape value.
@@ -75,6 +79,8 @@ impl PriorBlock {
         let log_share = share.ln();
         Self {
             first: 0,
+            base: transform.clone(),
+            has_part: false,
             transform,
             positive,
             shape,
@@ -84,6 +90,16 @@ impl PriorBlock {
             noticeable: false,
             log_signs,
         }
+    }
+
+    /// The same when the second value is a part of the first: it and the rest are alike before the data, and not negative.
+    #[must_use]
+    pub fn with_part(mut self) -> Self {
+        let second = self.base.row(1).into_owned();
+        let mut first = self.transform.row_mut(0);
+        first += second;
+        self.has_part = true;
+        self
     }
 
     /// Number of columns.
@@ -99,7 +115,28 @@ impl PriorBlock {
 
     /// `u` from parameter values, SI.
     fn in_prior_units(&self, values: &DVector<f64>) -> DVector<f64> {
-        self.transform.solve_lower_triangular(values).unwrap_or_else(|| values.clone())
+        let mut free = values.clone();
+        if self.has_part {
+            free[0] -= values[1];
+        }
+        self.base.solve_lower_triangular(&free).unwrap_or(free)
+    }
+
+    /// Logarithm of the probability that no value is negative which cannot be, and none a larger part than there is, over the same
+    /// before the data.
+    fn log_odds_of_signs(&self, values: &DVector<f64>, spread: &DMatrix<f64>) -> f64 {
+        if !self.has_part {
+            return log_orthant(values, spread, &self.positive) - self.log_signs;
+        }
+        let (mut free, mut spread) = (values.clone(), spread.clone());
+        free[0] -= values[1];
+        for _ in 0..2 {
+            let second = spread.row(1).into_owned();
+            let mut first = spread.row_mut(0);
+            first -= second;
+            spread = spread.transpose();
+        }
+        log_orthant(&free, &spread, &self.positive) - self.log_signs
     }
 }
 
@@ -199,7 +236,7 @@ impl Gram {
             let (d, t) = (block.width(), &block.transform * block.widths[v.width]);
             let theta = &t * mean.rows(at, d);
             let spread = &t * covariance.view((at, at), (d, d)) * t.transpose();
-            signs += log_orthant(&theta, &spread, &block.positive) - block.log_signs;
+            signs += block.log_odds_of_signs(&theta, &spread);
             values.rows_mut(at, d).copy_from(&theta);
             variance.rows_mut(at, d).copy_from(&spread.diagonal());
             at += d;
@@ -329,7 +366,7 @@ impl Rest {
         let eigen = e.symmetric_eigen();
         let along = eigen.eigenvectors.tr_mul(&b);
         let rows: Vec<usize> = (0..block.width()).filter(|&k| block.positive[k]).collect();
-        let signed = block.transform.select_rows(&rows) * &eigen.eigenvectors;
+        let signed = block.base.select_rows(&rows) * &eigen.eigenvectors;
         let score = |g: f64| several(&signed, &eigen.eigenvalues, &along, g, block);
         let scored = block.widths.iter().map(|&g| score(g)).enumerate();
         scored.map(|(w, (d, rest))| (variant(w), gram.gain(self.drop + d, 1.0) + rest + offset)).collect()

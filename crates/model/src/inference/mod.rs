@@ -4,6 +4,7 @@ pub mod absorption;
 pub mod candidates;
 pub mod diagnosis;
 pub mod discovery;
+pub mod discrepancy;
 pub mod evidence;
 pub mod examination;
 pub mod explanation;

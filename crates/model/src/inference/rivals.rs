@@ -72,12 +72,9 @@ impl Rivals<'_> {
 
     /// A candidate in the forms and shapes in which it competed.
     fn add(&self, collector: &mut Collector<'_>, candidate: &Candidate) {
-        let blocks = || candidate.blocks.iter().map(|&b| &self.gram.blocks[b]);
         match &candidate.kind {
             CandidateKind::Term(term) => {
-                let shapes: Vec<f64> = blocks().filter(|b| !b.rich).map(|b| b.shape).collect();
-                let rich = blocks().find(|b| b.rich).map(|b| b.shape);
-                collector.add_term(term, &shapes, candidate.trials, rich);
+                collector.add_forms(term, candidate.forms(&self.gram.blocks).collect());
                 collector.weigh_last(candidate.log_weight);
             }
             CandidateKind::Pattern(pattern) => collector.add_pattern(*pattern, candidate.log_weight),

@@ -13,7 +13,7 @@ static INFO: TermInfo = TermInfo {
     id: "bracket-compliance",
     title: "Joint mounts yield sideways",
     chapter: Chapter::Joints,
-    physics: "The mounts of the base joints are softer along the base plane than along its normal.",
+    physics: "The mounts of the base joints are softer along the base plane than along its normal. The lateral compliance is the excess of the one over the other: what a mount yields in all directions alike is part of the leg stiffness.",
     equation: "a = c_lat [f n_x, f n_y, 0] less the same at f0, e = n . a",
     source: "Kalas et al. 2018, list of suspects: incomplete stiffness model",
     shows: "the inclination of the legs varies",

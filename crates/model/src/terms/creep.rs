@@ -1,37 +1,127 @@
 //! `creep`: the legs creep under load.
+//!
+//! The load is put on right after the reference reading; the reference load has rested since its age before. A file that states the age
+//! (`ref_age_s`) says how much of the preload is still to come. Without it the preload counts as settled, and a version with one more
+//! parameter competes in which it may still creep: for the exponential law `g(age + t) - g(age) = exp(-age/tau) g(t)`, linear in the part.
+//! The logarithmic law has no end; a part stands for it likewise, exactly where the preload is fresh or settled.
+
+use std::sync::Arc;
 
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
 use crate::estimation::campaign::Condition;
 use crate::machine::geometry::Machine;
 
-pub(super) struct Creep;
+/// Prior share of the logarithmic law.
+const LOGARITHMIC: f64 = 0.1;
+/// Prior share of a preload that has not settled, of either law.
+const UNSETTLED: f64 = 0.2;
 
-static INFO: TermInfo = TermInfo {
+const FRACTION: ParameterInfo = ParameterInfo::new("fraction", "%", 100.0, Scale::Fixed(1.0), true);
+const OF_PRELOAD: ParameterInfo = ParameterInfo::new("preload-fraction", "%", 100.0, Scale::Fixed(1.0), true);
+const PER_E_FOLD: ParameterInfo =
+    ParameterInfo::new("fraction-per-e-fold", "%", 100.0, Scale::Fixed(1.0), true);
+const OF_PRELOAD_PER_E_FOLD: ParameterInfo =
+    ParameterInfo::new("preload-fraction-per-e-fold", "%", 100.0, Scale::Fixed(1.0), true);
+
+const INFO: TermInfo = TermInfo {
     id: "creep",
     title: "The legs creep under load",
     chapter: Chapter::Legs,
-    physics: "The compliance of every leg grows while the load rests on it.",
-    equation: "e = chi c_i (f - f0) (1 - exp(-elapsed / tau))",
+    physics: "The compliance of every leg grows while the load rests on it, and while the preload does: how long that has rested is ref_age_s.",
+    equation: "e = chi c_i [(f - f0) g(elapsed) + f0 (g(age + elapsed) - g(age))], g(t) = 1 - exp(-t / tau)",
     source: "Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976, ch. 5",
     shows: "elapsed_s varies",
     how_to_isolate: "read the same load at once and again after several minutes",
-    parameters: &[ParameterInfo::new("fraction", "%", 100.0, Scale::Fixed(1.0), true)],
+    parameters: &[FRACTION],
     shape: Some(Shape { name: "time-constant", unit: "s", per_si: 1.0, bounds: [1e-2, 1e7] }),
     needs: &[Need::Elapsed],
     rich: Rich::PerLeg,
 };
 
+const UNSETTLED_INFO: TermInfo = TermInfo {
+    title: "The legs creep under load, and still under the preload",
+    equation: "e = c_i [chi (f - f0) + chi' f0] g(elapsed), g(t) = 1 - exp(-t / tau), 0 <= chi' <= chi",
+    parameters: &[FRACTION, OF_PRELOAD],
+    rich: Rich::None,
+    ..INFO
+};
+
+const LOGARITHMIC_INFO: TermInfo = TermInfo {
+    title: "The legs creep under load without end",
+    equation: "e = chi c_i [(f - f0) g(elapsed) + f0 (g(age + elapsed) - g(age))], g(t) = ln(1 + t / tau)",
+    parameters: &[PER_E_FOLD],
+    shape: Some(Shape { name: "logarithmic-time", unit: "s", per_si: 1.0, bounds: [1e-2, 1e7] }),
+    rich: Rich::None,
+    ..INFO
+};
+
+const LOGARITHMIC_UNSETTLED_INFO: TermInfo = TermInfo {
+    title: "The legs creep without end under load, and still under the preload",
+    equation: "e = c_i [chi (f - f0) + chi' f0] g(elapsed), g(t) = ln(1 + t / tau), 0 <= chi' <= chi",
+    parameters: &[PER_E_FOLD, OF_PRELOAD_PER_E_FOLD],
+    ..LOGARITHMIC_INFO
+};
+
+static VERSIONS: [TermInfo; 4] = [INFO, UNSETTLED_INFO, LOGARITHMIC_INFO, LOGARITHMIC_UNSETTLED_INFO];
+
+/// Creep by one law, the preload settled or of a known age, or with a part of its own.
+#[derive(Clone, Copy)]
+pub(super) struct Creep {
+    info: &'static TermInfo,
+    law: Law,
+    is_unsettled: bool,
+}
+
+/// The usual version.
+pub(super) const CREEP: Creep = Creep { info: &VERSIONS[0], law: Law::Exponential, is_unsettled: false };
+
+/// How creep goes with time.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Law {
+    Exponential,
+    Logarithmic,
+}
+
+impl Law {
+    /// `g(t)`.
+    fn growth(self, t: f64, tau: f64) -> f64 {
+        match self {
+            Self::Exponential => 1.0 - (-t / tau).exp(),
+            Self::Logarithmic => (1.0 + t / tau).ln(),
+        }
+    }
+
+    /// `g(age + t) - g(age)`.
+    fn growth_after(self, age: f64, t: f64, tau: f64) -> f64 {
+        match self {
+            Self::Exponential => (-age / tau).exp() * self.growth(t, tau),
+            Self::Logarithmic => self.growth(t, tau + age),
+        }
+    }
+}
+
 impl Term for Creep {
     fn info(&self) -> &TermInfo {
-        &INFO
+        self.info
     }
 
     fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
-        out.push(Action::Force(at.spring_change() * (1.0 - (-at.elapsed / shape).exp())));
+        let growth = self.law.growth(at.elapsed, shape);
+        let (change, preload) = (at.spring_change() * growth, at.spring_forces[0]);
+        if self.is_unsettled {
+            out.extend([Action::Force(change), Action::Force(preload * growth)]);
+            return;
+        }
+        let later = at.reference_age.map(|age| preload * self.law.growth_after(age, at.elapsed, shape));
+        out.push(Action::Force(later.map_or(change, |later| change + later)));
     }
 
     fn shape_grid(&self, conditions: &[Condition]) -> Vec<f64> {
+        let is_open = |c: &Condition| c.reference_age.is_none() && c.reference_force.amax() > 0.0;
+        if self.is_unsettled && !conditions.iter().any(is_open) {
+            return Vec::new();
+        }
         // From a third of the shortest to three times the longest wait.
         let waits = conditions.iter().map(|c| c.elapsed).filter(|&t| t > 0.0);
         let (short, long) = waits.fold((f64::INFINITY, 0.0_f64), |(a, b), t| (a.min(t), b.max(t)));
@@ -39,6 +129,30 @@ impl Term for Creep {
             return Vec::new();
         }
         let (first, last) = ((short / 3.0).max(long / 300.0), 3.0 * long);
-        (0..8).map(|k| first * (last / first).powf(f64::from(k) / 7.0)).collect()
+        let steps = if self.law == Law::Exponential { 7 } else { 3 };
+        (0..=steps).map(|k| first * (last / first).powf(f64::from(k) / f64::from(steps))).collect()
+    }
+
+    fn second_is_part_of_first(&self) -> bool {
+        self.is_unsettled
+    }
+
+    fn version(&self) -> Option<&'static str> {
+        match (self.law, self.is_unsettled) {
+            (Law::Exponential, false) => None,
+            (Law::Exponential, true) => Some("unsettled"),
+            (Law::Logarithmic, false) => Some("logarithmic"),
+            (Law::Logarithmic, true) => Some("logarithmic-unsettled"),
+        }
+    }
+
+    fn versions(&self) -> Vec<(f64, Arc<dyn Term>)> {
+        let version =
+            |info, law, is_unsettled| -> Arc<dyn Term> { Arc::new(Self { info, law, is_unsettled }) };
+        vec![
+            (UNSETTLED * (1.0 - LOGARITHMIC), version(&VERSIONS[1], Law::Exponential, true)),
+            ((1.0 - UNSETTLED) * LOGARITHMIC, version(&VERSIONS[2], Law::Logarithmic, false)),
+            (UNSETTLED * LOGARITHMIC, version(&VERSIONS[3], Law::Logarithmic, true)),
+        ]
     }
 }

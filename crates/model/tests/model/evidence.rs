@@ -169,6 +169,33 @@ fn evidence_of_two_parameters_is_the_integral_of_likelihood_and_correlated_prior
     }
 }
 
+/// A part and the rest of a whole, neither of them negative, are alike before the data: the same integral over another pair of numbers.
+#[test]
+fn evidence_of_a_part_of_the_first_is_that_of_the_part_and_the_rest() {
+    const ALGEBRA: f64 = 1e-9;
+    let (g, b) = (Matrix2::new(9.0, 4.0, 4.0, 16.0), Vector2::new(6.0, 9.0));
+    // whole = rest + part: columns of (rest, part) are those of (whole, part) times this.
+    let sum = Matrix2::new(1.0, 1.0, 0.0, 1.0);
+    let raw = |g: &Matrix2<f64>, b: &Vector2<f64>, block| {
+        let (g, b) =
+            (DMatrix::from_iterator(2, 2, g.iter().copied()), DVector::from_iterator(2, b.iter().copied()));
+        gram(&g, &b, block, 0.7, 100.0)
+    };
+    let block = || PriorBlock::new(&[1.0, 1.0], vec![true; 2], 1.0, false, 1.0);
+    for b in [b, -b, Vector2::new(1.0, 30.0)] {
+        let own = raw(&g, &b, block().with_part());
+        let other = raw(&(sum.transpose() * g * sum), &(sum.transpose() * b), block());
+        let (found, expected) = (own.posterior(&ONLY, 1.0).unwrap(), other.posterior(&ONLY, 1.0).unwrap());
+        assert!((found.log_evidence - expected.log_evidence).abs() < ALGEBRA, "b {b}");
+        assert!((found.mean[0] - expected.mean[0] - expected.mean[1]).abs() < ALGEBRA, "b {b}");
+        let score = |gram: &Gram| gram.profile(&[], &[0])[0].1;
+        assert!((score(&own) - score(&other)).abs() < ALGEBRA, "b {b}");
+        // A part larger than the whole costs as much as a negative rest.
+        let lengths = [own.signature_lengths(&[], 0), other.signature_lengths(&[], 0)];
+        assert!((lengths[0][0] - lengths[1][0]).abs() < ALGEBRA, "{lengths:?}");
+    }
+}
+
 #[test]
 fn a_parameter_alone_scores_in_a_profile_as_in_a_posterior() {
     let mut random = Random::new(1);

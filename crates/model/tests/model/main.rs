@@ -7,6 +7,7 @@ mod cases;
 mod chain;
 mod common;
 mod compare;
+mod diagnosed_remainder;
 mod discover;
 mod evidence;
 mod examination;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use hexbench_core::{Hexapod, Measurand, Pose, Vector6, Wrench};
 use hexbench_model::effects::chain::Action;
-use hexbench_model::effects::term::{Chapter, Need, Rich, Term};
+use hexbench_model::effects::term::{Chapter, Need, Rich, Term, version_named};
 use hexbench_model::estimation::campaign::{Campaign, Condition};
 use hexbench_model::estimation::linearization::{
     Active, Linearization, ModelPoint, actions, parameter_count,
@@ -15,7 +15,7 @@ use hexbench_model::machine::geometry::Machine;
 use hexbench_model::terms::catalogue;
 
 use crate::common::plan::{dataset, reading};
-use crate::common::terms::{NATURAL, conditions_on, drawn_with_pairs, rows, some_shape};
+use crate::common::terms::{NATURAL, by_id, conditions_on, drawn_with_pairs, rows, some_shape};
 use crate::common::{PAPER_STIFFNESS, measured_machine, paper_machine};
 
 fn conditions(count: usize, seed: u64) -> Vec<Condition> {
@@ -127,6 +127,66 @@ fn every_parameter_has_one_action_in_both_forms() {
         }
         let richer = parameter_count(term.as_ref(), true) > parameter_count(term.as_ref(), false);
         assert_eq!(richer, term.info().rich != Rich::None, "{}", term.info().id);
+    }
+}
+
+#[test]
+fn versions_share_the_id_and_differ_in_word_and_numbers() {
+    let all = conditions(3, 1);
+    for term in catalogue() {
+        let versions = term.versions();
+        let shares: f64 = versions.iter().map(|(share, _)| share).sum();
+        assert!(shares < 1.0 && versions.iter().all(|(share, _)| *share > 0.0), "{}", term.info().id);
+        assert_eq!(term.version(), None);
+        let mut words = BTreeSet::new();
+        for (_, version) in &versions {
+            let (info, word) = (version.info(), version.version().unwrap());
+            assert!(is_kebab(word) && words.insert(word), "{}:{word}", info.id);
+            assert!(word != "ideal" && word != "rich" && word != "richer", "{}:{word}", info.id);
+            assert_eq!((info.id, info.needs), (term.info().id, term.info().needs));
+            assert_ne!(info.equation, term.info().equation, "{word}");
+            assert!(info.parameters.iter().chain(term.info().parameters).all(|p| is_kebab(p.name)));
+            let shape = some_shape(version.as_ref(), &all);
+            let count = actions_of(version.as_ref(), false, shape, &all[0]).len();
+            assert_eq!(count, info.parameters.len(), "{word}");
+            assert_eq!(version_named(&term, word).unwrap().info().title, info.title);
+        }
+    }
+}
+
+#[test]
+fn creep_of_a_stated_age_has_no_part_of_its_own_and_lies_between_fresh_and_settled() {
+    let term = by_id("creep");
+    let columns = |age: Option<f64>| {
+        let mut plan = rows(6, 5);
+        for o in &mut plan {
+            o.reference_age = age;
+        }
+        let all = conditions_on(&paper_machine(), &dataset(Measurand::DeflectionRotationVector, plan));
+        let open = version_named(&term, "unsettled").unwrap().shape_grid(&all);
+        assert_eq!(open.is_empty(), age.is_some());
+        let of = |at: &Condition| elements(&actions_of(term.as_ref(), false, 100.0, at)[0]);
+        all.iter().map(of).collect::<Vec<_>>()
+    };
+    let [unknown, settled, middle, fresh] = [None, Some(1e9), Some(70.0), Some(0.0)].map(columns);
+    let share = (-0.7_f64).exp();
+    for k in 0..6 {
+        for leg in 0..6 {
+            assert!((unknown[k][leg] - settled[k][leg]).abs() < 1e-9);
+            let between = settled[k][leg] + share * (fresh[k][leg] - settled[k][leg]);
+            assert!((middle[k][leg] - between).abs() < 1e-9, "{} {between}", middle[k][leg]);
+        }
+    }
+}
+
+#[test]
+fn a_contact_without_width_is_the_ideal_one() {
+    let (term, all) = (by_id("leg-backlash"), conditions(5, 3));
+    let soft = version_named(&term, "soft").unwrap();
+    for at in &all {
+        let [ideal, narrow] = [(&term, 1.0), (&soft, 1e-6)]
+            .map(|(t, width)| elements(&actions_of(t.as_ref(), false, width, at)[0]));
+        assert_eq!(ideal, narrow);
     }
 }
 

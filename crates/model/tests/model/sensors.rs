@@ -47,13 +47,7 @@ fn scales(sigma: f64) -> Vec<Sensor> {
 
 /// The readings of all sensors, with noise, in blocks of six.
 fn read(world: &World, hexapod: &Hexapod, plan: &[Observation], seed: Option<u64>) -> Dataset {
-    let channels: Vec<Channel> = (hexapod.sensors.iter().enumerate())
-        .flat_map(|(sensor, s)| (0..s.kind.numbers()).map(move |number| Channel::Sensor { sensor, number }))
-        .collect();
-    let blocks: Vec<[Channel; 6]> = channels
-        .chunks(6)
-        .map(|part| std::array::from_fn(|k| part.get(k).copied().unwrap_or_default()))
-        .collect();
+    let channels = Channel::all([], &hexapod.sensors);
     let mut random = Random::new(seed.unwrap_or(1));
     let mut data = dataset(Measurand::DeflectionRotationVector, Vec::new());
     for (line, o) in (2..).zip(plan) {
@@ -92,7 +86,7 @@ fn read(world: &World, hexapod: &Hexapod, plan: &[Observation], seed: Option<u64
             data.observations.push(Observation { line, block, measured, sigma: Some(sigma), ..*o });
         }
     }
-    data.blocks = blocks;
+    data.blocks = Channel::in_blocks(&channels);
     data.columns.sigma = true;
     data
 }

@@ -60,6 +60,7 @@ class Campaign:
         approach: ArrayLike | None = None,
         delta_T_K: ArrayLike | None = None,
         elapsed_s: ArrayLike | None = None,
+        ref_age_s: ArrayLike | None = None,
         sigma: ArrayLike | None = None,
         pose: ArrayLike | None = None,
         repeat: ArrayLike | None = None,
@@ -85,6 +86,8 @@ class Campaign:
             +1: loaded from below; -1: the load was first exceeded.
         delta_T_K, elapsed_s : array (n,), optional
             Temperature against, and time since, the reference reading.
+        ref_age_s : array (n,), optional
+            How long the reference load had rested when the reference was read; left out where nobody knows.
         sigma : array (n, 6), optional
             Standard deviation of each measured value, um and urad.
         pose, repeat : array (n,), optional
@@ -109,7 +112,14 @@ class Campaign:
         for names, values, what in ((REFERENCE, reference, "reference"), (SIGMA, sigma, "sigma")):
             if values is not None:
                 table |= spread(names, rows(values, 6, what, count))
-        single = {"approach": approach, "delta_T_K": delta_T_K, "elapsed_s": elapsed_s, "pose": pose, "repeat": repeat}
+        single = {
+            "approach": approach,
+            "delta_T_K": delta_T_K,
+            "elapsed_s": elapsed_s,
+            "ref_age_s": ref_age_s,
+            "pose": pose,
+            "repeat": repeat,
+        }
         table |= {key: one_per_row(value, key, count) for key, value in single.items() if value is not None}
         return _of_table(hexapod, table, name)
 

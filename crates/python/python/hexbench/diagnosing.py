@@ -104,6 +104,8 @@ class Diagnosis:
     suspects: list[dict[str, Any]]
     #: The unexplained pattern, or None.
     outside: dict[str, Any] | None
+    #: What the fitted model leaves of the legs beyond the noise (``times_noise``, ``legs``, ``follows``), or None.
+    remainder: dict[str, Any] | None
     #: Things to know before trusting the numbers.
     warnings: list[str]
     #: Faults of the data: ``kind``, ``probability``, ``rows`` (lines, as of ``suspects``), ``size``, ``text``, ``next``.

@@ -14,16 +14,16 @@ from hexbench.errors import UsageError
 from hexbench.machine import Hexapod
 from hexbench.model import Model, fit
 
-_COVARIATES = ("approach", "delta_T_K", "elapsed_s")
+_COVARIATES = ("approach", "delta_T_K", "elapsed_s", "ref_age_s")
 
 
 class HexapodModel:
     """Leg springs and named effects as an estimator with ``fit``, ``predict`` and ``score``, as scikit-learn knows them.
 
     ``X`` is an array (n, 12), poses (mm, deg) then wrenches (N, N m), or (n, 18) with reference wrenches behind; or a table
-    whose columns are named as in ``measurements.csv``, with ``approach``, ``delta_T_K`` and ``elapsed_s`` where there are
-    such. ``y`` is an array (n, 6): deflections, loaded minus reference, in um and urad. Poses in the fixed frame, loads at
-    the mobile origin in fixed axes.
+    whose columns are named as in ``measurements.csv``, with ``approach``, ``delta_T_K``, ``elapsed_s`` and ``ref_age_s`` where
+    there are such. ``y`` is an array (n, 6): deflections, loaded minus reference, in um and urad. Poses in the fixed frame,
+    loads at the mobile origin in fixed axes.
 
     Parameters
     ----------

@@ -140,6 +140,7 @@ class Model:
         approach: ArrayLike | None = ...,
         delta_T_K: ArrayLike | None = ...,
         elapsed_s: ArrayLike | None = ...,
+        ref_age_s: ArrayLike | None = ...,
         covariance: Literal[False] = ...,
     ) -> Floats: ...
 
@@ -153,6 +154,7 @@ class Model:
         approach: ArrayLike | None = ...,
         delta_T_K: ArrayLike | None = ...,
         elapsed_s: ArrayLike | None = ...,
+        ref_age_s: ArrayLike | None = ...,
         covariance: Literal[True],
     ) -> tuple[Floats, Floats]: ...
 
@@ -165,6 +167,7 @@ class Model:
         approach: ArrayLike | None = None,
         delta_T_K: ArrayLike | None = None,
         elapsed_s: ArrayLike | None = None,
+        ref_age_s: ArrayLike | None = None,
         covariance: bool = False,
     ) -> Floats | tuple[Floats, Floats]:
         """Predict readings that nobody has taken.
@@ -179,6 +182,8 @@ class Model:
             Loads in the reference state; none unless given.
         approach, delta_T_K, elapsed_s : array (n,) or number, optional
             Direction of approach (+1, -1), temperature (K) and time (s) against the reference reading.
+        ref_age_s : array (n,) or number, optional
+            How long the reference load had rested at the reference reading, s.
         covariance : bool
             Return the covariance of the prediction too: that of the model, without the noise of a future reading.
 
@@ -199,7 +204,7 @@ class Model:
         table = {**spread(POSE, first), **spread(WRENCH, rows(wrenches, 6, "wrenches", count))}
         if reference is not None:
             table |= spread(REFERENCE, rows(reference, 6, "reference", count))
-        single = {"approach": approach, "delta_T_K": delta_T_K, "elapsed_s": elapsed_s}
+        single = {"approach": approach, "delta_T_K": delta_T_K, "elapsed_s": elapsed_s, "ref_age_s": ref_age_s}
         table |= {key: one_per_row(value, key, count) for key, value in single.items() if value is not None}
         if count == 0:
             values, spreads = np.empty((0, 6)), np.empty((0, 6, 6))

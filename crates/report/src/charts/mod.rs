@@ -58,7 +58,7 @@ pub fn diagnosis(subject: &ReportSubject<'_>, provenance: &Provenance) -> Result
     }
     if !subject.study.campaign.reads_poses {
         return Ok(words::diagnosis(subject)
-            .with_after("ladder", [scatter::section(&data)?])
+            .with_after("ladder", [without_legs(scatter::section(&data)?)])
             .with_after("stiffness", correlation::section(subject)?)
             .with(provenance.section(subject.study.diagnosis.noise.source)));
     }
@@ -92,6 +92,9 @@ pub fn discovery(
         return Ok(words.with(provenance));
     }
     let data = Data::of_study(subject)?;
+    if !subject.study.campaign.reads_poses {
+        return Ok(words.with_after("ladder", [without_legs(scatter::section(&data)?)]).with(provenance));
+    }
     let sections = [
         Some(predicted::section(&data)?),
         explained::section(&data)?,
@@ -117,7 +120,7 @@ pub fn comparison(
     let about = subject::entries(readings, holdout, &compared.campaign.noise);
     if !compared.campaign.reads_poses {
         return Ok(words::comparison(&hexapod.name, about, c)
-            .with_after("adequacy", [scatter::section(&data)?])
+            .with_after("adequacy", [without_legs(scatter::section(&data)?)])
             .with(provenance.section(c.noise_source)));
     }
     let seen: [Option<Section>; 3] =
@@ -128,4 +131,9 @@ pub fn comparison(
         .with_after("adequacy", seen.into_iter().flatten())
         .with_after("follows", residuals.into_iter().flatten())
         .with(provenance.section(c.noise_source)))
+}
+
+/// What is not charted of readings that are no full poses.
+fn without_legs(section: Section) -> Section {
+    section.paragraph("Charts of single legs are left out: they need the six numbers of a pose in every row.")
 }

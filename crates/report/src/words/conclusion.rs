@@ -161,7 +161,10 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     let text = d.outside.as_ref().map_or("no simple pattern describes it", |o| o.text.as_str());
     let mut all = vec!["Something is missing that none of the effects in the catalogue explains.".to_owned()];
     if !d.model.is_empty() {
-        all.push(format!("It is there beside {}.", joined(&d.model)));
+        all.push(format!(
+            "Beside it the fitted model holds {}, which may only take up a part of what is missing: nothing of that is claimed.",
+            joined(&d.model)
+        ));
     }
     all.push(format!("What the measurements show: {text}."));
     all

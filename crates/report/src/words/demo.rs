@@ -2,6 +2,7 @@
 
 use hexbench_core::Observation;
 use hexbench_model::error::ModelError;
+use hexbench_model::results::discover::Discovery;
 
 use super::conclusion::{error_statement, lacks};
 use super::subject::{ReportSubject, describe};
@@ -9,11 +10,11 @@ use super::{confidence, ladder, leg_space, size, stiffness};
 use crate::number::multiple;
 use crate::page::{Block, Definition, Page, Section};
 
-/// From measurements to the named effect.
+/// From measurements to the named effect; `elsewhere`: what was found on a machine whose effect no catalogue has.
 ///
 /// # Errors
 /// As the linearization of the model.
-pub fn demo(subject: &ReportSubject<'_>) -> Result<Page, ModelError> {
+pub fn demo(subject: &ReportSubject<'_>, elsewhere: &Discovery) -> Result<Page, ModelError> {
     let d = &subject.study.diagnosis;
     Ok(Page::default()
         .with(measurements(subject))
@@ -25,6 +26,7 @@ pub fn demo(subject: &ReportSubject<'_>) -> Result<Page, ModelError> {
         .with(size::section(d))
         .with(stiffness::section(subject.hexapod, d))
         .with(Section::new("Verdict").paragraph(format!("{} {}", lacks(&d.added), error_statement(&d.steps))))
+        .with(law(elsewhere))
         .with(next(d.added.first().map_or("", String::as_str))))
 }
 
@@ -82,10 +84,25 @@ fn diagnosis(subject: &ReportSubject<'_>) -> Section {
     ))
 }
 
+fn law(elsewhere: &Discovery) -> Option<Section> {
+    let law = elsewhere.laws.first()?;
+    let held = law.held_out?;
+    Some(Section::new("A law that no catalogue has").paragraph(format!(
+        "On another machine no effect of the catalogue explains the readings, and the verdict is OUTSIDE. `hexbench discover` weighs {} laws \
+         and writes the one that convinces as a term like any other: {}. With it the error on held-out poses falls from {} to {} times the \
+         noise.",
+        elsewhere.searched,
+        law.text,
+        multiple(held.before),
+        multiple(held.after)
+    )))
+}
+
 fn next(named: &str) -> Section {
     Section::new("Try next").with(Block::code(format!(
         "hexbench workbench\n\
          hexbench diagnose hexapod.toml measurements.csv --holdout holdout.csv\n\
+         hexbench discover hexapod.toml measurements.csv -o term.toml\n\
          hexbench terms {named}"
     )))
 }

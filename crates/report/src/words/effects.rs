@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_model::effects::term::{Term, TermInfo};
+use hexbench_model::effects::term::Term;
 
 use super::effect::{needs, rich};
 use super::written_by;
@@ -19,7 +19,7 @@ pub fn list(terms: &[Arc<dyn Term>]) -> Page {
 /// The page `docs/reference/effects.md`.
 pub fn catalogue(terms: &[Arc<dyn Term>]) -> Page {
     let page = Page::new(format!("The {} effects of the catalogue", terms.len())).with(introduction());
-    terms.iter().fold(page, |page, term| page.with(section(term.info())))
+    terms.iter().fold(page, |page, term| page.with(section(term.as_ref())))
 }
 
 fn introduction() -> Section {
@@ -33,7 +33,20 @@ fn introduction() -> Section {
         )
 }
 
-fn section(info: &TermInfo) -> Section {
+/// The other versions of a term: word, equation, numbers.
+fn versions(term: &dyn Term) -> Vec<String> {
+    let line = |version: &dyn Term| {
+        let info = version.info();
+        let names = info.parameters.iter().map(|p| p.name).chain(info.shape.map(|s| s.name));
+        let names: Vec<&str> = names.collect();
+        let word = version.version().unwrap_or_default();
+        format!("As `{}:{word}`: {}. `{}`; {}.", info.id, info.title, info.equation, names.join(", "))
+    };
+    term.versions().iter().map(|(_, version)| line(version.as_ref())).collect()
+}
+
+fn section(term: &dyn Term) -> Section {
+    let info = term.info();
     let sign = |positive: bool| if positive { "positive" } else { "any sign" };
     let parameters = info.parameters.iter().map(|p| [p.name, p.unit, sign(p.positive)]);
     let shape = info.shape.iter().map(|s| [s.name, s.unit, "shape, profiled"]);
@@ -42,11 +55,11 @@ fn section(info: &TermInfo) -> Section {
         .paragraph(format!("{}. {}", info.title, info.physics))
         .with(Block::code(info.equation))
         .table(table.rows(parameters.chain(shape)))
-        .list([
+        .list(versions(term).into_iter().chain([
             format!("Visible when {}.", info.shows),
             format!("To see it alone: {}.", info.how_to_isolate),
             format!("The file must have: {}.", needs(info)),
             format!("Richer form: {}.", rich(info.rich)),
             format!("Source: {}.", info.source),
-        ])
+        ]))
 }

@@ -18,20 +18,19 @@ pub fn section(d: &Diagnosis) -> Section {
 pub fn of_steps(steps: &[StepReport], d: &Diagnosis) -> Section {
     let title = if steps.len() > 1 { "The error falls" } else { "The error" };
     let largest = steps.iter().map(|s| s.error().times_noise()).fold(1.0, f64::max);
-    let columns = [
-        PageColumn::words("model"),
-        PageColumn::number("um"),
-        PageColumn::number("urad"),
-        PageColumn::number("x noise"),
-    ]
-    .into_iter()
-    .chain([PageColumn::bars()])
-    .chain(COORDINATES.map(|title| PageColumn::number(title).detail()));
+    let read = Read::by(d);
+    let units = read.of_units(["um", "urad"]).into_iter().map(PageColumn::number);
+    let coordinates =
+        read.of_coordinates(COORDINATES).into_iter().map(|title| PageColumn::number(title).detail());
+    let columns = std::iter::once(PageColumn::words("model"))
+        .chain(units)
+        .chain([PageColumn::number("x noise"), PageColumn::bars()])
+        .chain(coordinates);
     let mut table = Table::new(columns);
     for step in steps {
-        table.row(row(step, largest));
+        table.row(row(step, largest, &read));
     }
-    table.row(noise(d, largest));
+    table.row(noise(d, largest, &read));
     Section::new(title).id("ladder").remark(how_held_out(d)).table(table)
 }
 
@@ -64,22 +63,49 @@ pub fn name(step: &StepReport) -> String {
     step.terms.last().map_or_else(|| "springs alone".to_owned(), |term| format!("+ {term}"))
 }
 
-fn row(step: &StepReport, largest: f64) -> Vec<Cell> {
+/// What was read: the six numbers of poses, or lengths and angles by sensors.
+struct Read {
+    units: [bool; 2],
+    poses: bool,
+}
+
+impl Read {
+    fn by(d: &Diagnosis) -> Self {
+        let poses = d.sensors.is_empty();
+        Self { units: ["um", "urad"].map(|unit| poses || d.sensors.iter().any(|s| s.unit == unit)), poses }
+    }
+
+    /// Those of two values, of lengths and of angles, that are of something read.
+    fn of_units<T>(&self, both: [T; 2]) -> Vec<T> {
+        both.into_iter().zip(self.units).filter_map(|(x, is_read)| is_read.then_some(x)).collect()
+    }
+
+    /// Six values, none where sensors read something else.
+    fn of_coordinates<T>(&self, six: [T; 6]) -> Vec<T> {
+        if self.poses { six.into() } else { Vec::new() }
+    }
+}
+
+fn row(step: &StepReport, largest: f64, read: &Read) -> Vec<Cell> {
     let error = step.error();
     let times = error.times_noise();
     let mood = if step.is_at_the_noise() { Mood::Good } else { Mood::Bad };
-    let digits = |x: f64| Cell::from(significant(x, 3));
-    let head = [name(step).into(), digits(error.rms.translation_um), digits(error.rms.rotation_urad)];
     let bar = Cell::colored_bar(at_least_one(times / largest), mood);
-    head.into_iter().chain([multiple(times).into(), bar]).chain(error.per_coordinate.map(digits)).collect()
+    let both = [error.rms.translation_um, error.rms.rotation_urad];
+    cells(name(step), both, [multiple(times).into(), bar], error.per_coordinate, read)
 }
 
-fn noise(d: &Diagnosis, largest: f64) -> Vec<Cell> {
+fn noise(d: &Diagnosis, largest: f64, read: &Read) -> Vec<Cell> {
     let (t, r) = (d.noise.translation_um, d.noise.rotation_urad);
-    let digits = |x: f64| Cell::from(significant(x, 3));
-    let head = [Cell::from("noise of one reading"), digits(t), digits(r), "1.00".into()];
     let bar = Cell::bar(at_least_one(1.0 / largest));
-    head.into_iter().chain([bar]).chain([t, t, t, r, r, r].map(digits)).collect()
+    cells("noise of one reading".to_owned(), [t, r], ["1.00".into(), bar], [t, t, t, r, r, r], read)
+}
+
+fn cells(name: String, both: [f64; 2], times: [Cell; 2], six: [f64; 6], read: &Read) -> Vec<Cell> {
+    let digits = |x: f64| Cell::from(significant(x, 3));
+    let units = read.of_units(both).into_iter().map(digits);
+    let coordinates = read.of_coordinates(six).into_iter().map(digits);
+    std::iter::once(name.into()).chain(units).chain(times).chain(coordinates).collect()
 }
 
 /// However small an error, its bar is seen.

@@ -20,6 +20,7 @@ pub mod notes;
 mod pattern;
 pub mod provenance;
 mod readings;
+mod remainder;
 pub mod runs;
 mod size;
 mod spread;
@@ -68,6 +69,7 @@ pub fn diagnosis(subject: &ReportSubject<'_>) -> Page {
         .with(sensors(d))
         .with(size::section(d))
         .with(stiffness::section(subject.hexapod, d))
+        .with(remainder::section(d))
         .with(next::section(d))
         .with(pattern::section(d))
         .with(limits::untestable(d))

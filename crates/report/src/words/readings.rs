@@ -1,7 +1,7 @@
 //! Every reading beside what a model says of it: a table for other programs.
 
 use hexbench_core::files::MeasurementsWriter;
-use hexbench_core::{Columns, Dataset, Hexapod, Observation};
+use hexbench_core::{Channel, Columns, Dataset, Hexapod, Observation};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::{Campaign, row_sigma};
 use hexbench_model::results::compare::{ComparedModel, JudgedModel, coordinate_names};
@@ -75,6 +75,23 @@ impl<'a> At<'a> {
         self.part.judged.rows[self.row].value[k]
     }
 
+    /// Standard deviation, m and rad.
+    fn sigma(self, k: usize) -> f64 {
+        row_sigma(self.reading(), &self.part.campaign.noise)[k]
+    }
+
+    /// Which of its six numbers a channel is; none where it was not read.
+    fn place_of(self, channel: Channel) -> Option<usize> {
+        let place = self.part.data.channels(self.reading()).iter().position(|c| *c == channel)?;
+        self.reading().is_read(place).then_some(place)
+    }
+
+    /// True for numbers of one row of a file.
+    fn shares_line(&self, next: &Self) -> bool {
+        let (one, other) = (self.reading(), next.reading());
+        std::ptr::eq(self.part, next.part) && one.line == other.line && one.block != other.block
+    }
+
     /// The reading the model expects.
     fn predicted(self) -> Observation {
         let mut expected = *self.reading();
@@ -85,8 +102,10 @@ impl<'a> At<'a> {
 }
 
 fn columns(parts: &[Part<'_>]) -> Vec<DataColumn> {
-    let rows: Vec<At<'_>> =
+    let readings: Vec<At<'_>> =
         parts.iter().flat_map(|part| (0..part.judged.rows.len()).map(move |row| At { part, row })).collect();
+    let lines: Vec<&[At<'_>]> = readings.chunk_by(At::shares_line).collect();
+    let rows: Vec<At<'_>> = lines.iter().map(|line| line[0]).collect();
     let mut all = vec![
         words(
             "part",
@@ -99,34 +118,66 @@ fn columns(parts: &[Part<'_>]) -> Vec<DataColumn> {
             rows.iter().map(|at| i64::try_from(at.reading().line).unwrap_or(0)),
         ),
     ];
-    all.extend(stated(parts, &rows));
-    all.extend(judged(parts, &rows));
+    if parts.iter().all(|part| part.campaign.reads_poses) {
+        all.extend(stated(parts, &rows));
+        all.extend(judged(parts, &rows));
+    } else {
+        all.extend(of_channels(parts, &rows, &lines));
+    }
     all.extend(legs(&rows));
     all
 }
 
+/// A value of one of the six numbers of a reading.
+type Value = fn(At<'_>, usize) -> f64;
+
+/// The same of readings that are no full poses: each under the name of its sensor or of its pose number, empty where nothing was read.
+fn of_channels(parts: &[Part<'_>], rows: &[At<'_>], lines: &[&[At<'_>]]) -> Vec<DataColumn> {
+    let file = MeasurementsWriter::conditions(optional(parts));
+    let names: Vec<String> = file.names().collect();
+    let stated = (0..names.len()).map(|k| stated_column(&file, &names[k], k, "as stated in the file", rows));
+    let mut channels: Vec<Channel> = Vec::new();
+    for &channel in parts.iter().flat_map(|part| part.data.blocks.iter().flatten()) {
+        if channel != Channel::Nothing && !channels.contains(&channel) {
+            channels.push(channel);
+        }
+    }
+    let sensors = &parts[0].campaign.hexapod.sensors;
+    let measurand = parts[0].data.measurand;
+    let kinds: [(&str, &str, Value); 5] = [
+        ("", "as measured", |at, k| at.reading().measured[k] * 1e6),
+        ("predicted_", "as the model predicts", |at, k| (at.reading().measured[k] - at.residual(k)) * 1e6),
+        ("residual_", "measured minus predicted", |at, k| at.residual(k) * 1e6),
+        ("sigma_", "standard deviation of the reading", |at, k| at.sigma(k) * 1e6),
+        ("whitened_", "residual over its standard deviation", |at, k| {
+            at.part.judged.rows[at.row].whitened[k]
+        }),
+    ];
+    let read = |(prefix, meaning, value): (&str, &str, Value)| {
+        let column = |&channel: &Channel| {
+            let cell = |line: &&[At<'_>]| line.iter().find_map(|at| Some(value(*at, at.place_of(channel)?)));
+            let name = format!("{prefix}{}", channel.name(sensors, measurand));
+            let unit = if channel.is_angle(sensors) { "urad" } else { "um" };
+            let cells = lines.iter().map(|line| cell(line).unwrap_or(f64::NAN));
+            if prefix == "whitened_" {
+                numbers(&name, "", meaning, cells)
+            } else {
+                numbers(&format!("{name}_{unit}"), unit, meaning, cells)
+            }
+        };
+        channels.iter().map(column).collect::<Vec<_>>()
+    };
+    stated.chain(kinds.into_iter().flat_map(read)).collect()
+}
+
 /// What the files say, in their own columns, and the predicted values in the same.
 fn stated(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<DataColumn> {
-    let has = |of: fn(Columns) -> bool| parts.iter().any(|part| of(part.data.columns));
-    let columns = Columns {
-        reference: has(|c| c.reference),
-        approach: has(|c| c.approach),
-        delta_t: has(|c| c.delta_t),
-        elapsed: has(|c| c.elapsed),
-        sigma: false,
-    };
-    let file = MeasurementsWriter::new(parts[0].data.measurand, columns);
+    let file = MeasurementsWriter::new(parts[0].data.measurand, optional(parts));
     let names: Vec<String> = file.names().collect();
     let measured = names.len() - COORDINATES..names.len();
     let column = |k: usize| {
-        let cells = rows.iter().map(|at| file.value(k, at.reading()));
         let meaning = if measured.contains(&k) { "as measured" } else { "as stated in the file" };
-        match names[k].as_str() {
-            // Numbers of poses and repeats are whole.
-            #[allow(clippy::cast_possible_truncation)]
-            "pose" | "repeat" => whole(&names[k], meaning, cells.map(|x| x as i64)),
-            name => numbers(name, file.unit(k), meaning, cells),
-        }
+        stated_column(&file, &names[k], k, meaning, rows)
     };
     let predicted = |k: usize| {
         let name = format!("predicted_{}", names[k].trim_start_matches("measured_"));
@@ -140,6 +191,36 @@ fn stated(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<DataColumn> {
     (0..names.len()).map(column).chain(measured.clone().map(predicted)).collect()
 }
 
+/// Optional columns that any of the files has, but for standard deviations.
+fn optional(parts: &[Part<'_>]) -> Columns {
+    let has = |of: fn(Columns) -> bool| parts.iter().any(|part| of(part.data.columns));
+    Columns {
+        reference: has(|c| c.reference),
+        approach: has(|c| c.approach),
+        delta_t: has(|c| c.delta_t),
+        elapsed: has(|c| c.elapsed),
+        reference_age: has(|c| c.reference_age),
+        sigma: false,
+    }
+}
+
+/// A column of the files as they have it.
+fn stated_column(
+    file: &MeasurementsWriter,
+    name: &str,
+    k: usize,
+    meaning: &str,
+    rows: &[At<'_>],
+) -> DataColumn {
+    let cells = rows.iter().map(|at| file.value(k, at.reading()));
+    match name {
+        // Numbers of poses and repeats are whole.
+        #[allow(clippy::cast_possible_truncation)]
+        "pose" | "repeat" => whole(name, meaning, cells.map(|x| x as i64)),
+        name => numbers(name, file.unit(k), meaning, cells),
+    }
+}
+
 /// Residuals, in um and urad, their standard deviations by noise, and both divided.
 fn judged(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<DataColumn> {
     let names = coordinate_names(parts[0].data.measurand);
@@ -150,7 +231,7 @@ fn judged(parts: &[Part<'_>], rows: &[At<'_>]) -> Vec<DataColumn> {
     };
     let sigma = |k: usize| {
         let name = format!("sigma_{}_{}", names[k], unit(k));
-        let noise = rows.iter().map(move |at| row_sigma(at.reading(), &at.part.campaign.noise)[k] * 1e6);
+        let noise = rows.iter().map(move |at| at.sigma(k) * 1e6);
         numbers(&name, unit(k), "standard deviation of the reading", noise)
     };
     let whitened = |k: usize| {
@@ -178,8 +259,17 @@ fn legs(rows: &[At<'_>]) -> Vec<DataColumn> {
         numbers(&format!("leg_{}_length_mm", leg + 1), "mm", "length of the leg at the pose", lengths)
     };
     let left = |leg: usize| {
-        let left = rows.iter().map(move |r| r.part.judged.space.elongation[at(r)][leg] * 1e6);
-        let meaning = "elongation of the leg that would explain what is left of the averaged readings of this condition";
+        let left = rows.iter().map(move |r| {
+            // Fewer than the six numbers of a pose determine no elongations.
+            let lin = &r.part.judged.lin.conditions[at(r)];
+            if lin.reads_pose && lin.numbers == 6 {
+                r.part.judged.space.elongation[at(r)][leg] * 1e6
+            } else {
+                f64::NAN
+            }
+        });
+        let meaning = "elongation of the leg that would explain what is left of the averaged readings of this condition; none where \
+                       they are not the six numbers of a pose";
         numbers(&format!("leg_{}_residual_um", leg + 1), "um", meaning, left)
     };
     (0..6).map(force).chain((0..6).map(length)).chain((0..6).map(left)).collect()

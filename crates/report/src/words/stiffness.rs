@@ -22,11 +22,14 @@ pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis) -> Section {
     let table = numbers(d).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
     let absorbed =
         "Rows in %: change of k when that effect is left out of the model: the springs absorb what they can.";
-    let biased = "Biased by what is missing: the uncertainties do not cover an effect without a name.";
+    let biased = "Biased by what is missing: the uncertainties contain what remains of each leg, not more.";
+    let series = "k is the stiffness along the leg of all that carries its force in series: spring, screw, joints, and mounts as far as they \
+                  yield along it.";
     Section::new("Leg stiffness")
         .id("stiffness")
         .remark(of)
         .table(table)
+        .paragraph(series)
         .with((!d.absorbed.is_empty()).then(|| Block::paragraph(absorbed)))
         .with((d.verdict == Verdict::Outside).then(|| Block::paragraph(biased)))
 }

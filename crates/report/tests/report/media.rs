@@ -165,7 +165,7 @@ fn warnings_and_promises_reach_the_page_that_is_mailed_around() {
     let promised = [
         (
             "not-in-catalogue",
-            "Biased by what is missing: the uncertainties do not cover an effect without a name.",
+            "Biased by what is missing: the uncertainties contain what remains of each leg, not more.",
         ),
         ("paper-protocol", "is expected to exclude the wrong one at 20:1"),
     ];

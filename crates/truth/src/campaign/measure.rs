@@ -84,6 +84,7 @@ pub(super) fn read(
             approach: deflections,
             delta_t: true,
             elapsed: true,
+            reference_age: deflections && rows.iter().all(|row| row.situation.reference_age.is_some()),
             sigma: false,
         },
         observations: observations.collect(),

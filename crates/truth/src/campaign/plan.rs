@@ -26,7 +26,7 @@ pub struct PlanRow {
 impl PlanRow {
     /// What was read in this row; `line` of its file, `measured` in m and rad.
     pub fn read(&self, line: u64, measured: [f64; 6], sigma: Option<[f64; 6]>) -> Observation {
-        let Situation { pose, wrench, reference, approach, delta_t, elapsed } = self.situation;
+        let Situation { pose, wrench, reference, approach, delta_t, elapsed, reference_age } = self.situation;
         Observation {
             block: 0,
             pose_id: self.pose_id,
@@ -38,6 +38,7 @@ impl PlanRow {
             approach,
             delta_t,
             elapsed,
+            reference_age,
             measured,
             sigma,
         }
@@ -47,8 +48,9 @@ impl PlanRow {
 impl From<&Observation> for PlanRow {
     /// The row behind a reading.
     fn from(o: &Observation) -> Self {
-        let Observation { pose_id, repeat, pose, wrench, reference, approach, delta_t, elapsed, .. } = *o;
-        Self { pose_id, repeat, situation: Situation { pose, wrench, reference, approach, delta_t, elapsed } }
+        let Observation { pose, wrench, reference, approach, delta_t, elapsed, reference_age, .. } = *o;
+        let situation = Situation { pose, wrench, reference, approach, delta_t, elapsed, reference_age };
+        Self { pose_id: o.pose_id, repeat: o.repeat, situation }
     }
 }
 
@@ -151,6 +153,7 @@ impl PlanKind {
             approaches: Approach::ALL.to_vec(),
             delta_t: Spread::Normal(0.3),
             elapsed: Spread::Even([5.0, 300.0]),
+            reference_age: None,
             anew: false,
         };
         let holdout = Scheme { poses: usual_poses(hexapod, poses / 3), repeats: 1, ..training.clone() };
@@ -202,6 +205,7 @@ fn absolute(hexapod: &Hexapod) -> Schemes {
         approaches: vec![Approach::Direct],
         delta_t: Spread::Fixed(0.0),
         elapsed: Spread::Fixed(0.0),
+        reference_age: None,
         anew: false,
     };
     let holdout = Scheme { poses: usual_poses(hexapod, 15), repeats: 1, ..training.clone() };
@@ -224,6 +228,7 @@ fn paper() -> Schemes {
         approaches: vec![Approach::Direct],
         delta_t: Spread::Normal(0.1),
         elapsed: Spread::Even([20.0, 60.0]),
+        reference_age: None,
         anew: true,
     };
     let holdout = Scheme { poses: Poses::Listed(paper_validation()), repeats: 1, ..training.clone() };

@@ -85,6 +85,8 @@ pub struct Scheme {
     pub delta_t: Spread,
     /// Waiting time, s.
     pub elapsed: Spread,
+    /// Time the reference load had rested at the reference reading, s; none: left open, and not in the file.
+    pub reference_age: Option<Spread>,
     /// True when every repeat has surroundings of its own.
     pub anew: bool,
 }
@@ -119,6 +121,7 @@ impl Scheme {
             approach,
             delta_t: self.delta_t.draw(rng),
             elapsed: self.elapsed.draw(rng),
+            reference_age: self.reference_age.map(|age| age.draw(rng)),
             ..Situation::new(pose, wrench)
         }
     }

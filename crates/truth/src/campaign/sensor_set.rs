@@ -183,7 +183,7 @@ impl SimulatedCase {
                 ));
             }
             part.observations = observations;
-            part.blocks = read.blocks();
+            part.blocks = Channel::in_blocks(&read.channels());
             part.columns.sigma = part.has_other_readings();
         }
         if fault == Some(SensorFault::Place) {
@@ -208,16 +208,7 @@ struct Reading<'a> {
 
 impl Reading<'_> {
     fn channels(&self) -> Vec<Channel> {
-        let sensors = self.hexapod.sensors.iter().enumerate();
-        let numbers = sensors.flat_map(|(sensor, s)| {
-            (0..s.kind.numbers()).map(move |number| Channel::Sensor { sensor, number })
-        });
-        (0..self.set.pose_numbers()).map(Channel::Pose).chain(numbers).collect()
-    }
-
-    fn blocks(&self) -> Vec<[Channel; 6]> {
-        let block = |all: &[Channel]| std::array::from_fn(|k| all.get(k).copied().unwrap_or_default());
-        self.channels().chunks(6).map(block).collect()
+        Channel::all(0..self.set.pose_numbers(), &self.hexapod.sensors)
     }
 
     fn row(&self, row: &Observation, pose: &[f64; 6], sensors: &[f64], rng: &mut Pcg64) -> Vec<Observation> {

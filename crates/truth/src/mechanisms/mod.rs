@@ -132,6 +132,8 @@ pub fn build(id: &str, parameters: Value) -> Result<Box<dyn Mechanism>, TruthErr
     (effect(id)?.parse)(parameters).map_err(|why| TruthError::BadParameters { id: id.to_owned(), why })
 }
 
+pub use creep::CreepLaw;
+
 fn parsed<M: Mechanism + DeserializeOwned + 'static>(value: Value) -> Result<Box<dyn Mechanism>, String> {
     serde_json::from_value::<M>(value).map(|m| Box::new(m) as Box<dyn Mechanism>).map_err(|e| e.to_string())
 }

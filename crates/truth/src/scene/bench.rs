@@ -2,14 +2,15 @@
 
 use std::ops::Range;
 
-use hexbench_core::{Columns, Dataset, Measurand, Observation, Pose, Vector6};
+use hexbench_core::{Channel, Columns, Dataset, Measurand, Observation, Pose, UNREAD, Vector6};
+use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use super::{Instrument, PartName, Scene, ScenePurpose};
+use super::{Instrument, PartName, PoseNumbersRead, Scene, ScenePurpose};
 use crate::{
     TruthError, World,
     campaign::{PlanRow, rounded},
-    metrology::{Cmm, CmmRecord, InstrumentFrames, Surroundings},
+    metrology::{Cmm, CmmRecord, InstrumentFrames, Surroundings, read_sensors},
     world::difference,
 };
 
@@ -25,10 +26,19 @@ pub struct VirtualBench<'a> {
 /// One row as measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// The reading.
+    /// The reading, or the first six numbers of it.
     pub observation: Observation,
+    /// Further numbers of the same row, six at a time: only sensors give more.
+    pub further: Vec<Observation>,
     /// What the measuring machine wrote down, reference state first; empty for an instrument that reads numbers.
     pub records: Vec<CmmRecord>,
+}
+
+impl Measured {
+    /// All numbers of the row, six at a time.
+    pub fn observations(&self) -> impl Iterator<Item = Observation> {
+        std::iter::once(self.observation).chain(self.further.iter().copied())
+    }
 }
 
 /// A row whose state of rest does not exist.
@@ -72,7 +82,8 @@ impl<'a> VirtualBench<'a> {
             approach: deflections,
             delta_t: true,
             elapsed: true,
-            sigma: matches!(self.scene.instrument, Instrument::Balls(_)),
+            reference_age: deflections && self.scene.plan.states_reference_age(),
+            sigma: !matches!(self.scene.instrument, Instrument::Numbers(_)),
         }
     }
 
@@ -108,12 +119,25 @@ impl<'a> VirtualBench<'a> {
     pub fn dataset(&self, name: PartName) -> Result<Dataset, RowError> {
         let rows = self.measure(name, 0..self.scene.part(name).len())?;
         Ok(Dataset {
-            blocks: Dataset::pose_blocks(),
+            observations: rows.iter().flat_map(Measured::observations).collect(),
             source: name.file().to_owned(),
+            ..self.empty()
+        })
+    }
+
+    /// A table of what is read, without rows.
+    pub(super) fn empty(&self) -> Dataset {
+        let blocks = match &self.scene.instrument {
+            Instrument::Sensors(read) => Channel::in_blocks(&read.channels(&self.scene.hexapod)),
+            Instrument::Numbers(_) | Instrument::Balls(_) => Dataset::pose_blocks(),
+        };
+        Dataset {
+            blocks,
+            source: String::new(),
             measurand: self.scene.measurand(),
             columns: self.columns(),
-            observations: rows.into_iter().map(|row| row.observation).collect(),
-        })
+            observations: Vec::new(),
+        }
     }
 
     fn ideal(&self, row: &PlanRow) -> Result<Ideal, TruthError> {
@@ -125,7 +149,11 @@ impl<'a> VirtualBench<'a> {
     }
 
     fn read(&self, row: &PlanRow, index: u64, ideal: Ideal, rng: &mut Pcg64) -> Result<Measured, TruthError> {
+        if let Instrument::Sensors(read) = &self.scene.instrument {
+            return Ok(self.sensed(read, row, index, &ideal, rng));
+        }
         let (measured, sigma, records) = match &self.scene.instrument {
+            Instrument::Sensors(_) => (Vector6::zeros(), None, Vec::new()),
             Instrument::Numbers(noise) => {
                 let error = if self.noise_free { Vector6::zeros() } else { noise.draw(rng) };
                 (self.numbers(ideal) + error, None, Vec::new())
@@ -137,7 +165,42 @@ impl<'a> VirtualBench<'a> {
         };
         let sigma = sigma.map(|six: [f64; 6]| six.map(|s: f64| rounded(s * 1e6) / 1e6));
         let observation = row.read(index + 2, self.written(measured), sigma);
-        Ok(Measured { observation, records })
+        Ok(Measured { observation, further: Vec::new(), records })
+    }
+
+    /// What sensors read, beside some of the six numbers.
+    fn sensed(
+        &self,
+        read: &PoseNumbersRead,
+        row: &PlanRow,
+        index: u64,
+        ideal: &Ideal,
+        rng: &mut Pcg64,
+    ) -> Measured {
+        let hexapod = &self.scene.hexapod;
+        let (pose, sensors) = (self.numbers(*ideal), read_sensors(hexapod, ideal));
+        let mut of_sensors = sensors.into_iter();
+        let mut number = |channel: Channel| {
+            let exact = match channel {
+                Channel::Pose(k) => pose[k],
+                _ => of_sensors.next().unwrap_or_default(),
+            };
+            let sigma = read.sigma(channel, hexapod);
+            let error: f64 = StandardNormal.sample(rng);
+            let value = if self.noise_free { exact } else { exact + sigma * error };
+            (rounded(value * 1e6) / 1e6, sigma)
+        };
+        let all: Vec<(f64, f64)> = read.channels(hexapod).into_iter().map(&mut number).collect();
+        let observation = |(block, numbers): (usize, &[(f64, f64)])| {
+            let (mut measured, mut sigma) = ([0.0; 6], [UNREAD; 6]);
+            for (k, &(value, own)) in numbers.iter().enumerate() {
+                (measured[k], sigma[k]) = (value, own);
+            }
+            Observation { block, ..row.read(index + 2, measured, Some(sigma)) }
+        };
+        let mut observations: Vec<Observation> = all.chunks(6).enumerate().map(observation).collect();
+        let observation = observations.remove(0);
+        Measured { observation, further: observations, records: Vec::new() }
     }
 
     fn numbers(&self, [before, after]: Ideal) -> Vector6 {

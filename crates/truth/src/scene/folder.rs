@@ -8,10 +8,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use hexbench_core::files::{FileError, MeasurementsWriter, atomic_write, write_hexapod};
+use hexbench_core::Dataset;
+use hexbench_core::files::{FileError, atomic_write, campaign_to_csv, write_hexapod};
 use rayon::prelude::*;
 
-use super::{Measured, PartName, RowError, VirtualBench, balls_file, sealed_truth};
+use super::{Instrument, Measured, PartName, RowError, VirtualBench, balls_file, sealed_truth};
 
 /// Rows computed at a time by one thread.
 const CHUNK: u64 = 1024;
@@ -106,7 +107,7 @@ impl VirtualBench<'_> {
             }
         };
         let result = whole(at, shown, part.file(), |out| {
-            if part == PartName::Holdout || !self.columns().sigma {
+            if !balls_are_kept(self, part) {
                 return kept(rows(out, None));
             }
             atomic_write(&at.join("balls.csv"), |balls| kept(rows(out, Some(balls))))
@@ -121,8 +122,7 @@ impl VirtualBench<'_> {
         mut balls: Option<&mut dyn Write>,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<(), Stop> {
-        let writer = MeasurementsWriter::new(self.scene().measurand(), self.columns());
-        writer.header(out)?;
+        out.write_all(&table_of(self, &[])?)?;
         if let Some(balls) = balls.as_deref_mut() {
             balls_file::header(balls)?;
         }
@@ -135,7 +135,7 @@ impl VirtualBench<'_> {
                     let end = rows.min(start + CHUNK);
                     let measured = self.measure(part, start..end)?;
                     progress(end - start);
-                    Ok(text_of(&writer, &measured, start, balls_are_kept(self, part))?)
+                    Ok(text_of(self, &measured, start, balls_are_kept(self, part))?)
                 })
                 .collect();
             for text in texts {
@@ -151,23 +151,30 @@ impl VirtualBench<'_> {
 }
 
 fn balls_are_kept(bench: &VirtualBench<'_>, part: PartName) -> bool {
-    part == PartName::Training && bench.columns().sigma
+    part == PartName::Training && matches!(bench.scene().instrument, Instrument::Balls(_))
+}
+
+/// Some rows as a table, its header included.
+fn table_of(bench: &VirtualBench<'_>, measured: &[Measured]) -> io::Result<Vec<u8>> {
+    let observations = measured.iter().flat_map(Measured::observations).collect();
+    let mut text = Vec::new();
+    campaign_to_csv(&mut text, &bench.scene().hexapod, &Dataset { observations, ..bench.empty() })?;
+    Ok(text)
 }
 
 fn text_of(
-    writer: &MeasurementsWriter,
+    bench: &VirtualBench<'_>,
     measured: &[Measured],
     start: u64,
     with_balls: bool,
 ) -> io::Result<[Vec<u8>; 2]> {
-    let (mut table, mut balls) = (Vec::new(), Vec::new());
-    for (index, row) in (start..).zip(measured) {
-        writer.rows(&mut table, std::slice::from_ref(&row.observation))?;
-        if with_balls {
-            balls_file::rows(&mut balls, index, row)?;
-        }
+    let table = table_of(bench, measured)?;
+    let header = table.iter().position(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+    let mut balls = Vec::new();
+    for (index, row) in (start..).zip(measured).filter(|_| with_balls) {
+        balls_file::rows(&mut balls, index, row)?;
     }
-    Ok([table, balls])
+    Ok([table[header..].to_vec(), balls])
 }
 
 /// What ends a table early.

@@ -1,7 +1,7 @@
 //! What a scene is measured with.
 
 use hexbench_core::{
-    Measurand, Metrology, Pose, Vector3,
+    Channel, Hexapod, Measurand, Metrology, Pose, UNREAD, Vector3,
     files::{Dimension, Fault, Item, KeyUnit, TomlSection},
 };
 
@@ -17,6 +17,29 @@ pub enum Instrument {
     Numbers(InstrumentNoise),
     /// Balls touched by a coordinate measuring machine.
     Balls(Box<Cmm>),
+    /// The sensors of the machine, beside some of the six numbers or none.
+    Sensors(PoseNumbersRead),
+}
+
+/// Which of the six numbers of a deflection are read beside sensors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoseNumbersRead {
+    /// Indices: translations, then rotations.
+    pub numbers: Vec<usize>,
+    /// Their noise; none where none is read.
+    pub noise: Option<InstrumentNoise>,
+}
+
+impl PoseNumbersRead {
+    /// What is read in every row.
+    pub(super) fn channels(&self, hexapod: &Hexapod) -> Vec<Channel> {
+        Channel::all(self.numbers.iter().copied(), &hexapod.sensors)
+    }
+
+    /// Standard deviation of what a channel reads, m or rad; all errors are independent.
+    pub(super) fn sigma(&self, channel: Channel, hexapod: &Hexapod) -> f64 {
+        channel.stated_sigma(&hexapod.sensors, self.noise.map(|noise| noise.metrology())).unwrap_or(UNREAD)
+    }
 }
 
 const KEYS: &[KeyUnit] = &[
@@ -33,7 +56,9 @@ const KEYS: &[KeyUnit] = &[
     KeyUnit::plain("drift_urad_per_h"),
     KeyUnit::plain("scale_ppm_per_K"),
     KeyUnit::with_unit("blunder", Dimension::Length, "um"),
+    KeyUnit::plain("read"),
 ];
+const OF_SENSORS: &[&str] = &["kind", "read", "sigma_translation", "sigma_rotation"];
 const OF_NUMBERS: &[&str] =
     &["kind", "sigma_translation", "sigma_rotation", "blunder_share", "blunder_sigmas"];
 const OF_BALLS: &[&str] = &[
@@ -52,19 +77,20 @@ const SIGMA: &str = "a standard deviation";
 const SECONDS_PER_HOUR: f64 = 3600.0;
 
 impl Instrument {
-    /// What the hexapod's file states about it: one reading of a deflection or of an absolute pose.
+    /// What the hexapod's file states about it: one reading of a deflection or of an absolute pose; none where only sensors are read.
     ///
     /// # Errors
     /// [`TruthError::Balls`] for balls that do not determine a pose.
-    pub fn metrology(&self, measurand: Measurand) -> Result<Metrology, TruthError> {
+    pub fn metrology(&self, measurand: Measurand) -> Result<Option<Metrology>, TruthError> {
         let cmm = match self {
-            Self::Numbers(noise) => return Ok(noise.metrology()),
+            Self::Numbers(noise) => return Ok(Some(noise.metrology())),
+            Self::Sensors(read) => return Ok(read.noise.map(|noise| noise.metrology())),
             Self::Balls(cmm) => cmm,
         };
         let readings = if measurand == Measurand::AbsolutePose { 1.0 } else { 2.0 };
         let variance = cmm.covariance_at(&Pose::default())?.diagonal() * readings;
         let typical = |first: usize| (variance.fixed_rows::<3>(first).sum() / 3.0).sqrt();
-        Ok(Metrology { sigma_translation: typical(0), sigma_rotation: typical(3) })
+        Ok(Some(Metrology { sigma_translation: typical(0), sigma_rotation: typical(3) }))
     }
 
     /// Reads `[instrument]`.
@@ -80,7 +106,14 @@ impl Instrument {
                 refuse_others(&table, OF_BALLS, "balls")?;
                 cmm(&table).map(|cmm| Self::Balls(Box::new(cmm)))
             }
-            _ => Err(kind.breaks("an instrument reads \"numbers\" or \"balls\"", "Write one of the two.")),
+            "sensors" => {
+                refuse_others(&table, OF_SENSORS, "sensors")?;
+                sensors(&table).map(Self::Sensors)
+            }
+            _ => Err(kind.breaks(
+                "an instrument reads \"numbers\", \"balls\" or \"sensors\"",
+                "Write one of the three.",
+            )),
         }
     }
 }
@@ -105,6 +138,35 @@ fn share(table: &TomlSection<'_>) -> Result<f64, Fault> {
         share if (0.0..=1.0).contains(&share) => Ok(share),
         _ => Err(item.breaks("a share lies between 0 and 1", "Write for example 0.01 for one in a hundred.")),
     }
+}
+
+/// Names of the six numbers in `read`.
+const NUMBERS: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
+
+fn sensors(table: &TomlSection<'_>) -> Result<PoseNumbersRead, Fault> {
+    let Some(item) = table.get("read") else {
+        return Ok(PoseNumbersRead { numbers: Vec::new(), noise: None });
+    };
+    let mut numbers = Vec::new();
+    for member in item.list()? {
+        let name = member.string()?;
+        let next = || format!("Write some of {}, each once.", NUMBERS.join(", "));
+        match NUMBERS.iter().position(|n| *n == name) {
+            Some(k) if !numbers.contains(&k) => numbers.push(k),
+            _ => {
+                return Err(
+                    member.breaks(format!("\"{name}\" is no number of a deflection, or the second"), next())
+                );
+            }
+        }
+    }
+    numbers.sort_unstable();
+    let noise = InstrumentNoise {
+        sigma_translation: table.require("sigma_translation")?.positive(SIGMA)?,
+        sigma_rotation: table.require("sigma_rotation")?.positive(SIGMA)?,
+        ..InstrumentNoise::default()
+    };
+    Ok(PoseNumbersRead { numbers, noise: Some(noise) })
 }
 
 fn numbers(table: &TomlSection<'_>) -> Result<InstrumentNoise, Fault> {

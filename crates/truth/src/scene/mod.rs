@@ -24,7 +24,7 @@ mod streams;
 
 pub use bench::{Measured, RowError, VirtualBench};
 pub use folder::{Existing, SimulationError};
-pub use instrument::Instrument;
+pub use instrument::{Instrument, PoseNumbersRead};
 pub use part::{PartName, PlanPart};
 pub use plan::{PlanError, ScenePlan};
 pub use streams::{ScenePurpose, Streams};
@@ -105,7 +105,7 @@ impl Scene {
         match (self.measurand(), &self.instrument) {
             (Measurand::AbsolutePose, _) => drawn,
             (_, Instrument::Balls(_)) => InstrumentFrames { target: Pose::default(), ..drawn },
-            (_, Instrument::Numbers(_)) => InstrumentFrames::default(),
+            (_, Instrument::Numbers(_) | Instrument::Sensors(_)) => InstrumentFrames::default(),
         }
     }
 }

@@ -49,6 +49,16 @@ impl ScenePlan {
         }
     }
 
+    /// True when every row says for how long the reference load had rested.
+    pub fn states_reference_age(&self) -> bool {
+        match self {
+            Self::Schemes(schemes) => schemes.training.reference_age.is_some(),
+            Self::Rows { training, holdout, .. } => {
+                training.iter().chain(holdout).all(|row| row.situation.reference_age.is_some())
+            }
+        }
+    }
+
     /// A part with the streams of a seed.
     pub fn part(&self, name: PartName, streams: Streams) -> PlanPart<'_> {
         let source = match (self, name) {

@@ -32,6 +32,7 @@ const KEYS: &[KeyUnit] = &[
     KeyUnit::plain("approach"),
     KeyUnit::with_unit("delta_T", Dimension::TemperatureDifference, "K"),
     KeyUnit::with_unit("elapsed", Dimension::Time, "s"),
+    KeyUnit::with_unit("ref_age", Dimension::Time, "s"),
 ];
 /// Keys that make sense beside a table of conditions.
 const BESIDE_CONDITIONS: [&str; 4] = ["mode", "conditions", "holdout_conditions", "repeats"];
@@ -51,6 +52,7 @@ pub(super) struct PlanTable {
     approaches: Option<Vec<Approach>>,
     delta_t: Option<Spread>,
     elapsed: Option<Spread>,
+    reference_age: Option<Spread>,
 }
 
 impl PlanTable {
@@ -71,6 +73,7 @@ impl PlanTable {
             approaches: t.get("approach").map(approaches).transpose()?,
             delta_t: t.get("delta_T").map(spread).transpose()?,
             elapsed: t.get("elapsed").map(spread).transpose()?,
+            reference_age: t.get("ref_age").map(age).transpose()?,
         };
         table.refuse_halves(item, &t)?;
         Ok(table)
@@ -156,6 +159,7 @@ impl PlanTable {
             approaches: self.approaches.clone().unwrap_or(base.approaches),
             delta_t: self.delta_t.unwrap_or(base.delta_t),
             elapsed: self.elapsed.unwrap_or(base.elapsed),
+            reference_age: self.reference_age.or(base.reference_age),
             anew: base.anew,
         };
         Schemes {
@@ -185,6 +189,7 @@ fn plain() -> Schemes {
         approaches: vec![Approach::Direct],
         delta_t: Spread::Fixed(0.0),
         elapsed: Spread::Fixed(0.0),
+        reference_age: None,
         anew: false,
     };
     Schemes { training: part.clone(), holdout: part }
@@ -261,6 +266,15 @@ fn approaches(item: &Item<'_>) -> Result<Vec<Approach>, Fault> {
     let one =
         |way: &Item<'_>| Approach::of_sign(way.number()?).ok_or_else(|| way.fault(FileProblem::Approach));
     item.list()?.iter().map(one).collect()
+}
+
+/// A spread of times that are not negative.
+fn age(item: &Item<'_>) -> Result<Spread, Fault> {
+    let ages = spread(item)?;
+    if matches!(ages, Spread::Fixed(least) | Spread::Even([least, _]) if least < 0.0) {
+        return Err(item.breaks("a load cannot have rested for less than no time", "Write zero or more."));
+    }
+    Ok(ages)
 }
 
 /// One number, or two limits.

@@ -3,8 +3,11 @@
 use std::path::Path;
 
 use hexbench_core::{
-    Hexapod,
-    files::{Fault, FileError, Format, Item, KeyUnit, TomlSection, read_hexapod, read_toml},
+    Hexapod, Measurand, Sensor,
+    files::{
+        Fault, FileError, FilePlace, FileProblem, Format, Item, KeyUnit, TomlSection, read_hexapod,
+        read_toml, sensors,
+    },
 };
 
 use super::{Instrument, Scene, Streams, plan_table::PlanTable, sealed::read_truth};
@@ -24,6 +27,7 @@ const SCENE: Format = Format {
         "truth",
         "plan",
         "instrument",
+        "sensor",
     ]),
 };
 
@@ -37,6 +41,7 @@ struct Description {
     truth: String,
     plan: PlanTable,
     instrument: Instrument,
+    sensors: Vec<Sensor>,
 }
 
 impl Scene {
@@ -55,14 +60,23 @@ impl Scene {
     pub fn read_with_seed(folder: &Path, seed: Option<u64>) -> Result<Self, FileError> {
         let file = folder.join(SCENE_FILE);
         let d = read_toml(&file, SCENE, description)?;
-        let hexapod = read_hexapod(&folder.join(&d.hexapod))?;
+        let mut hexapod = read_hexapod(&folder.join(&d.hexapod))?;
+        hexapod.sensors.extend(d.sensors);
         let sealed = read_truth(&folder.join(&d.truth))?;
         let seed = seed.unwrap_or(d.seed);
         let mut files = vec![SCENE_FILE.to_owned(), d.hexapod, d.truth];
         files.extend(d.plan.files().map(str::to_owned));
         let plan = d.plan.complete(folder, &file, &hexapod, Streams::new(seed))?;
+        if plan.measurand() == Measurand::AbsolutePose && matches!(d.instrument, Instrument::Sensors(_)) {
+            let problem = FileProblem::Rule {
+                rule: "sensors read deflections, and this plan measures absolute poses".into(),
+                next: "Choose another plan, or an instrument of the kind \"numbers\" or \"balls\".".into(),
+            };
+            return Err(Fault::new(FilePlace::file(), problem).in_file(&file));
+        }
         // Balls that determine no pose are refused while reading: only other instruments state nothing here.
-        let hexapod = Hexapod { metrology: d.instrument.metrology(plan.measurand()).ok(), ..hexapod };
+        let hexapod =
+            Hexapod { metrology: d.instrument.metrology(plan.measurand()).ok().flatten(), ..hexapod };
         Ok(Self {
             name: name_of(folder),
             files,
@@ -90,8 +104,25 @@ fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
         hexapod: file("hexapod", "hexapod.toml")?,
         truth: file("truth", "sealed/truth.toml")?,
         plan: PlanTable::read(top)?,
-        instrument: Instrument::read(top)?,
+        sensors: top.get("sensor").map_or(Ok(Vec::new()), sensors)?,
+        instrument: instrument(top)?,
     })
+}
+
+/// The instrument; sensors belong to one of their kind, which has at least one, and read deflections.
+fn instrument(top: &TomlSection<'_>) -> Result<Instrument, Fault> {
+    let instrument = Instrument::read(top)?;
+    let reads_sensors = matches!(&instrument, Instrument::Sensors(_));
+    match (top.get("sensor"), top.get("instrument")) {
+        (Some(sensors), _) if !reads_sensors => Err(sensors.breaks(
+            "the instrument reads no sensors",
+            "Write kind = \"sensors\" in [instrument], or remove the [[sensor]] tables.",
+        )),
+        (None, Some(table)) if reads_sensors => {
+            Err(table.breaks("there is no sensor to read", "Add [[sensor]] tables, as in hexapod.toml."))
+        }
+        _ => Ok(instrument),
+    }
 }
 
 fn name_of(folder: &Path) -> String {

@@ -67,6 +67,9 @@ fn json(item: &Item<'_>) -> Result<Value, Fault> {
     if item.is_list() {
         return Ok(Value::Array(item.list()?.iter().map(json).collect::<Result<_, _>>()?));
     }
+    if item.is_string() {
+        return item.string().map(Value::from);
+    }
     if item.is_integer() {
         return Ok(item.whole(0).map(Value::from).unwrap_or(Value::from(item.number()?)));
     }

@@ -28,7 +28,7 @@ pub(super) fn of(bench: &VirtualBench<'_>) -> Value {
         "plan": if bench.columns().reference { "deflections" } else { "absolute" },
         "seed": scene.seed,
         "leg_stiffness_N_per_um": scene.leg_stiffness.map(|k| k * 1e-6),
-        "noise": [noise.sigma_translation * 1e6, noise.sigma_rotation * 1e6],
+        "noise": scene.hexapod.metrology.map(|_| [noise.sigma_translation * 1e6, noise.sigma_rotation * 1e6]),
         "repeats": scene.part(PartName::Training).iter().take(64).map(|row| row.repeat).max(),
         "metrology_frame": bench.frames().metrology.to_array(),
         "target_frame": bench.frames().target.to_array(),
@@ -53,6 +53,7 @@ fn kind(effects: &[&str]) -> &'static str {
 fn stated(bench: &VirtualBench<'_>) -> InstrumentNoise {
     match (&bench.scene().instrument, bench.scene().hexapod.metrology) {
         (Instrument::Numbers(noise), _) => *noise,
+        (Instrument::Sensors(read), _) => read.noise.unwrap_or_default(),
         (Instrument::Balls(_), Some(m)) => InstrumentNoise {
             sigma_translation: m.sigma_translation,
             sigma_rotation: m.sigma_rotation,
@@ -77,7 +78,8 @@ fn sizes(bench: &VirtualBench<'_>, noise: InstrumentNoise) -> Result<Map<String,
         let yardstick = Yardstick::new(&bare, &rows, scene.measurand())?;
         let (translation, rotation) = rms(&yardstick.signature(all())?);
         sizes.insert(key.to_owned(), json!([translation * 1e6, rotation * 1e6]));
-        if part.name() == PartName::Training {
+        // In units of a noise that only the six numbers have.
+        if part.name() == PartName::Training && !matches!(scene.instrument, Instrument::Sensors(_)) {
             sizes.insert("distance".to_owned(), json!(yardstick.distance(all())?));
         }
     }

@@ -78,6 +78,7 @@ fn row(cell: &HashMap<&str, f64>) -> Row {
             approach: cell.get("approach").and_then(|sign| Approach::of_sign(*sign)).unwrap_or_default(),
             delta_t: cell.get("delta_T_K").copied().unwrap_or(0.0),
             elapsed: cell.get("elapsed_s").copied().unwrap_or(0.0),
+            reference_age: cell.get("ref_age_s").copied(),
         },
         measured: Vector6::from_column_slice(&measured),
     }

@@ -6,8 +6,8 @@ use hexbench_truth::{
     LegMemory, Mechanism, Situation, TruthError, World,
     campaign::machines,
     mechanisms::{
-        BaseCompliance, JointFriction, JointRotationStiffness, LegBacklash, LegLengthCompliance,
-        LegNonlinearity, PlatformCompliance, REGISTRY, Shows, TargetOffset,
+        BaseCompliance, Creep, CreepLaw, JointFriction, JointRotationStiffness, LegBacklash,
+        LegLengthCompliance, LegNonlinearity, PlatformCompliance, REGISTRY, Shows, TargetOffset,
     },
 };
 
@@ -94,7 +94,7 @@ fn work_of_the_load_is_the_energy_of_the_legs() {
     const STEPS: u32 = 2000;
     let world = ring()
         .with(Box::new(LegNonlinearity { kappa: 1e-7, power: 2.0 / 3.0 }))
-        .with(Box::new(LegBacklash { gap: 2e-6 }));
+        .with(Box::new(LegBacklash { gap: 2e-6, width: 0.0 }));
     let (mut work, mut energy) = (0.0, 0.0);
     let state = |step: u32| {
         let load = scaled(&wrench(), f64::from(step) / f64::from(STEPS));
@@ -386,7 +386,7 @@ fn newton_takes_few_steps() {
 fn the_unloaded_machine_rests_in_the_middle_of_its_play() {
     const GAP_M: f64 = 4e-6;
     const ROUNDING_M: f64 = 1e-15;
-    let loose = ring().with(Box::new(LegBacklash { gap: GAP_M }));
+    let loose = ring().with(Box::new(LegBacklash { gap: GAP_M, width: 0.0 }));
     let unloaded = loose.reading(&Situation::new(pose(), Wrench::default())).unwrap();
     let off = (unloaded.pose.to_vector() - pose().to_vector()).amax();
     assert!(off < ROUNDING_M, "{off} m or rad from the command");
@@ -408,4 +408,45 @@ fn twist(deflection: &Vector6) -> Vector6 {
     let axes = Matrix3::new(cg * cb, -sg, 0.0, sg * cb, cg, 0.0, -sb, 0.0, 1.0);
     let turn = axes * deflection.fixed_rows::<3>(3);
     Vector6::new(deflection.x, deflection.y, deflection.z, turn.x, turn.y, turn.z)
+}
+
+/// Superposition: what a preload of an age yields after the reference reading is what it yields from its own beginning on, less what it
+/// had yielded by then.
+#[test]
+fn creep_of_a_preload_goes_on_where_it_was() {
+    const TAU_S: f64 = 120.0;
+    let creep = |age, law| Creep { age, law, ..Creep::new(0.05, TAU_S) };
+    let held = |elapsed| Situation { wrench: situation().reference, elapsed, ..situation() };
+    for law in [CreepLaw::Exponential, CreepLaw::Logarithmic] {
+        let moved = |age: f64, elapsed: f64| {
+            ring().with(Box::new(creep(Some(age), law))).deflection(&held(elapsed)).unwrap()
+        };
+        let (whole, first, then) = (moved(0.0, 250.0), moved(0.0, 100.0), moved(100.0, 150.0));
+        let size = whole.amax();
+        assert!(
+            (whole - first - then).amax() < 1e-4 * size,
+            "{law:?}: {}",
+            (whole - first - then).amax() / size
+        );
+        assert!(size > 1e-8 && then.amax() < whole.amax(), "{law:?}");
+    }
+    // Settled, as ever: nothing happens under the reference load.
+    let settled = ring().with(Box::new(Creep::new(0.05, TAU_S))).deflection(&held(250.0)).unwrap();
+    assert!(settled.amax() < 1e-15, "{}", settled.amax());
+    // A plan that states the age has the last word.
+    let stated = Situation { reference_age: Some(1e9), ..held(250.0) };
+    let fresh = ring().with(Box::new(creep(Some(0.0), CreepLaw::Exponential)));
+    assert!(fresh.deflection(&stated).unwrap().amax() < 1e-15);
+}
+
+/// A contact of no width is the ideal one, a wide one moves the platform less.
+#[test]
+fn a_soft_contact_closes_over_its_width() {
+    let moved = |width: f64| {
+        let play = Box::new(LegBacklash { gap: 4e-6, width });
+        (ring().with(play).deflection(&situation()).unwrap() - ring().deflection(&situation()).unwrap())
+            .amax()
+    };
+    assert!((moved(1e-6) - moved(0.0)).abs() < 1e-12);
+    assert!(moved(300.0) < 0.9 * moved(0.0), "{} {}", moved(300.0), moved(0.0));
 }

@@ -84,6 +84,19 @@ fn poses_and_loads_can_be_listed() {
 }
 
 #[test]
+fn the_age_of_the_reference_load_is_in_the_file_when_the_plan_states_it() {
+    let columns = |scene: &Scene| VirtualBench::new(scene, true).dataset(PartName::Training).unwrap();
+    let open = columns(&scene("make = \"rich\"\nposes = 2\n"));
+    assert!(!open.columns.reference_age && open.observations.iter().all(|o| o.reference_age.is_none()));
+    let stated = columns(&scene("make = \"rich\"\nposes = 2\nref_age_s = [60, 600]\n"));
+    let ages = || stated.observations.iter().map(|o| o.reference_age.unwrap());
+    assert!(stated.columns.reference_age && ages().all(|age| (60.0..600.0).contains(&age)));
+    assert!(ages().any(|age| age.total_cmp(&ages().next().unwrap()).is_ne()));
+    let negative = complaint("make = \"rich\"\nref_age_s = -1\n", TRUTH);
+    assert!(negative.to_string().contains("less than no time"), "{negative}");
+}
+
+#[test]
 fn conditions_can_be_a_table() {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), "conditions = \"todo.csv\"\nrepeats = 2\n", TRUTH);
@@ -280,10 +293,88 @@ fn a_frame_that_drifts_shows_unless_balls_on_the_base_carry_it() {
     assert!((deflection(&format!("{BASE}{drift}")) - deflection(BASE)).abs() < 1e-9);
 }
 
+const GAUGES: &str = "[[sensor]]\nname = \"g1\"\nkind = \"distance\"\npoint_mm = [120, 0, 40]\ndirection = [0, 0, 1]\nsigma_um = 0.3\n\
+                      [[sensor]]\nname = \"ball\"\nkind = \"point\"\npoint_mm = [0, 110, 40]\nsigma_um = 0.6\n\
+                      [[sensor]]\nname = \"level\"\nkind = \"inclination\"\naxis = [1, 0, 0]\nsigma_urad = 1.5\n\
+                      [[sensor]]\nname = \"scale\"\nkind = \"leg-length\"\nleg = 3\nsigma_um = 0.2\n";
+
+/// A scene read by a gauge, a ball, a level, a scale and two numbers of the pose.
+fn with_sensors(plan: &str) -> Result<Scene, FileError> {
+    let read =
+        "kind = \"sensors\"\nread = [\"dc\", \"da\"]\nsigma_translation_um = 0.5\nsigma_rotation_urad = 3\n";
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), plan, TRUTH);
+    let whole = std::fs::read_to_string(folder.path().join("scene.toml")).unwrap();
+    let before = &whole[..whole.find("[instrument]").unwrap()];
+    let text = format!("{before}[instrument]\n{read}[plan]\n{plan}\n{GAUGES}");
+    std::fs::write(folder.path().join("scene.toml"), text).unwrap();
+    Scene::read(folder.path())
+}
+
+#[test]
+fn sensors_read_what_the_states_say_with_the_stated_noise() {
+    let mut scene = with_sensors("make = \"rich\"\nposes = 3\n").unwrap();
+    scene.plan = scene.plan.with_repeats(20).unwrap();
+    let dataset = |noise_free| VirtualBench::new(&scene, noise_free).dataset(PartName::Training).unwrap();
+    let (noisy, exact) = (dataset(false), dataset(true));
+    let names = noisy.blocks.iter().flatten().map(|c| c.name(&scene.hexapod.sensors, noisy.measurand));
+    let names: Vec<String> = names.filter(|name| !name.is_empty()).collect();
+    assert_eq!(names, ["da", "dc", "g1", "ball_x", "ball_y", "ball_z", "level", "scale"]);
+    let rows = scene.part(PartName::Training).len();
+    assert_eq!(noisy.observations.len() as u64, 2 * rows);
+    let first = scene.part(PartName::Training).row(0).unwrap();
+    let states = scene.world().before_and_after(&first.situation).unwrap();
+    let moved = states[1].translation - states[0].translation;
+    let expected = hexbench_truth::metrology::read_sensors(&scene.hexapod, &states);
+    let read = exact.rows().next().unwrap();
+    let read: Vec<f64> = read.iter().flat_map(|o| o.measured).collect();
+    let expected: Vec<f64> = [moved.x, moved.z].into_iter().chain(expected).collect();
+    // The files carry a picometre and a picoradian.
+    assert!(read.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12), "{read:?} {expected:?}");
+    let mut squares = 0.0;
+    let count = 8.0 * rows as f64;
+    for (a, b) in noisy.observations.iter().zip(&exact.observations) {
+        squares +=
+            (0..6).map(|k| ((a.measured[k] - b.measured[k]) / a.sigma.unwrap()[k]).powi(2)).sum::<f64>()
+                / count;
+    }
+    let bound = 4.5 * (2.0 / count).sqrt();
+    assert!((squares - 1.0).abs() < bound, "{squares}, not 1 within {bound}");
+}
+
+#[test]
+fn a_scene_with_sensors_writes_files_that_read_back() {
+    let scene = with_sensors("make = \"rich\"\nposes = 3\nholdout_poses = 2\n").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let bench = VirtualBench::new(&scene, false);
+    bench.write(folder.path(), hexbench_truth::scene::Existing::Replaced, &|_| ()).unwrap();
+    let machine = hexbench_core::files::read_hexapod(&folder.path().join("hexapod.toml")).unwrap();
+    assert_eq!(machine.sensors, scene.hexapod.sensors);
+    for part in [PartName::Training, PartName::Holdout] {
+        let read = hexbench_core::files::read_campaign(&machine, &folder.path().join(part.file())).unwrap();
+        assert!(read.warnings.is_empty(), "{:?}", read.warnings);
+        let kept = bench.dataset(part).unwrap();
+        assert_eq!(
+            (read.dataset.blocks, read.dataset.observations.len()),
+            (kept.blocks, kept.observations.len())
+        );
+        for (a, b) in read.dataset.observations.iter().zip(&kept.observations) {
+            assert!((0..6).all(|k| (a.measured[k] - b.measured[k]).abs() < 1e-15), "{a:?} {b:?}");
+        }
+    }
+    let refused = with_sensors("make = \"absolute\"\nposes = 3\n").unwrap_err().to_string();
+    assert!(refused.contains("sensors read deflections"), "{refused}");
+}
+
 #[test]
 fn what_is_wrong_with_an_instrument_is_told() {
     let table = [
-        ("kind = \"laser\"", "\"numbers\" or \"balls\""),
+        ("kind = \"laser\"", "\"numbers\", \"balls\" or \"sensors\""),
+        ("kind = \"sensors\"", "there is no sensor to read"),
+        (
+            "kind = \"numbers\"\nsigma_translation_um = 1\nsigma_rotation_urad = 1\nread = [\"da\"]",
+            "has no such key",
+        ),
         ("kind = \"numbers\"\nsigma_translation_um = 1", "the key \"sigma_rotation_urad\" is missing"),
         ("kind = \"numbers\"\nsigma_ball_um = 1", "has no such key"),
         (

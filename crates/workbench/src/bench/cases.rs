@@ -39,6 +39,10 @@ pub const FOUNDATION: BundledCase = case!(
     "14 poses, six loads, two readings each; made by MuJoCo"
 );
 
+/// The case of which no catalogue knows the effect.
+pub const UNLISTED: BundledCase =
+    case!("not-in-catalogue", "Something unheard of", "18 poses, six loads, two readings each");
+
 /// All bundled cases.
 pub const CASES: [BundledCase; 8] = [
     FOUNDATION,
@@ -50,7 +54,7 @@ pub const CASES: [BundledCase; 8] = [
     case!("friction", "Loaded and unloaded", "18 poses, six loads, each reached from both sides"),
     case!("contact", "Hard to the touch", "18 poses, six loads, two readings each"),
     case!("two-effects", "Two things at once", "18 poses, six loads, two readings each"),
-    case!("not-in-catalogue", "Something unheard of", "18 poses, six loads, two readings each"),
+    UNLISTED,
     case!(
         "paper-protocol",
         "Three poses, one load",

@@ -374,6 +374,22 @@ export type Alternative = {
   chi2_reduced: number;
 };
 
+/** A variable that residual elongations follow. */
+export type Association = {
+  /** Leg from 1; absent for all legs together. */
+  leg: number | null;
+  /** The variable. */
+  variable: string;
+  /** `length` when the elongation itself follows it, `compliance` when elongation per force change does. */
+  of: string;
+  /** Spearman's rank correlation. */
+  rank_correlation: number;
+  /** F of the linear and quadratic columns. */
+  f: number;
+  /** Chance by noise, corrected for the number of questions asked. */
+  p: number;
+};
+
 /** Part of a section. */
 export type Block = {
   "kind": "verdict";
@@ -517,6 +533,8 @@ export type Diagnosis = {
   suspects: Array<SuspiciousReading>;
   /** The unexplained pattern. */
   outside: OutsideReport | null;
+  /** What the fitted model leaves of the legs beyond the noise; absent where noise explains it, and where full poses were not read. */
+  remainder: RemainderReport | null;
   /** Things to know before trusting the numbers. */
   warnings: Array<string>;
   /** Faults of the data, in the order in which they were found. */
@@ -596,6 +614,16 @@ export type HeldOutGain = {
   chance: number | null;
   /** Chance of a gain as small as this one if the effect is there as fitted. */
   chance_if_real: number;
+};
+
+/** What remains of one leg, root mean square. */
+export type LegRemainder = {
+  /** Leg from 1. */
+  leg: number;
+  /** Elongation that nothing in the model explains, um. */
+  elongation_um: number;
+  /** The same relative to the elongation of the leg's spring, percent; as large a part of the stiffness is open. */
+  percent_of_spring: number;
 };
 
 /** Color of a word, a bar or a line. */
@@ -684,6 +712,16 @@ export type PageColumn = {
   words: boolean;
   /** Left out where there is little room. */
   detail: boolean;
+};
+
+/** What remains. */
+export type RemainderReport = {
+  /** Error on held-out poses (else on the readings fitted) without what the noise gives, over the noise. */
+  times_noise: number;
+  /** Legs in which something remains, the largest share first. */
+  legs: Array<LegRemainder>;
+  /** What it follows, the surest first. */
+  follows: Array<Association>;
 };
 
 /** A titled part of a page. */

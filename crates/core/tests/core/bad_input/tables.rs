@@ -96,6 +96,10 @@ bad_input! { "measurements.csv";
     a_fractional_repeat_is_refused: "repeat that is not whole", deflections().set("repeat", "1.5").text()
         => (3, 2), "whole number";
     another_approach_is_refused: "approach of 0", deflections().set("approach", "0").text() => (3, 15), "1 or -1";
+    a_negative_age_is_refused: "reference load of negative age",
+        deflections().with("ref_age_s", "-1").text() => (2, 22), "less than no time";
+    an_age_beside_absolute_poses_is_refused: "age of a reference load beside absolute poses",
+        poses().with("ref_age_s", "60").text() => (1, 0), "no reference state";
     a_sigma_of_zero_is_refused: "standard deviation of zero",
         deflections().with("sigma_translation_um", "0").with("sigma_rotation_urad", "1").text()
         => (2, 22), "greater than zero";

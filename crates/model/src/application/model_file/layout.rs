@@ -79,7 +79,7 @@ pub(super) struct HexapodTable {
 }
 
 /// A sensor, SI.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SensorTable {
     pub(super) name: String,
@@ -135,7 +135,7 @@ pub(super) struct LegTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct TermTable {
     pub(super) id: String,
-    /// `ideal` or `rich`.
+    /// `ideal`, `rich`, or the word of another version of the term.
     pub(super) form: String,
     /// The term's own file when it is a user's.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -11,7 +11,7 @@ use super::layout::{
 };
 use super::write::mode_word;
 use super::{DataOrigin, Estimator, Model, ModelFileError};
-use crate::effects::term::Term;
+use crate::effects::term::{Term, version_named};
 use crate::estimation::linearization::{Active, ModelPoint};
 use crate::estimation::noise::{Noise, NoiseSource, Structure};
 use crate::estimation::parameters::{Parameter, ParameterPlace, Parameters, parameter_names};
@@ -225,12 +225,13 @@ fn agree(key: &str, shown: f64, from_si: f64) -> Result<(), ModelFileError> {
 
 fn term(table: &TermTable) -> Result<Active, ModelFileError> {
     let term = named_term(table)?;
-    let rich = match table.form.as_str() {
-        "ideal" => false,
-        "rich" => true,
-        other => {
-            return Err(rule(format!("term {}", table.id), format!("form `{other}` must be ideal or rich")));
-        }
+    let (term, rich) = match table.form.as_str() {
+        "ideal" => (term, false),
+        "rich" => (term, true),
+        other => match version_named(&term, other) {
+            Some(version) => (version, false),
+            None => return Err(no_such_form(table, term.as_ref())),
+        },
     };
     let shape = shape(table, term.as_ref())?;
     let mut active = Active::new(term, rich, shape);
@@ -242,6 +243,14 @@ fn term(table: &TermTable) -> Result<Active, ModelFileError> {
         active.values[k] = parameter(&key, p, unit, *per_si)?;
     }
     Ok(active)
+}
+
+fn no_such_form(table: &TermTable, term: &dyn Term) -> ModelFileError {
+    let versions = term.versions().into_iter().filter_map(|(_, version)| version.version());
+    let known: Vec<&str> = ["ideal", "rich"].into_iter().chain(versions).collect();
+    let (last, others) = known.split_last().map_or(("", &[][..]), |(last, others)| (*last, others));
+    let why = format!("form `{}` must be {} or {last}", table.form, others.join(", "));
+    rule(format!("term {}", table.id), why)
 }
 
 fn named_term(table: &TermTable) -> Result<Arc<dyn Term>, ModelFileError> {

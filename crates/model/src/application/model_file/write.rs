@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use hexbench_core::{Hexapod, Measurand, Sensor, SensorKind, Tolerances};
+use hexbench_core::{Hexapod, Measurand, Sensor, Tolerances};
 
 use super::Model;
 use super::layout::{
@@ -89,19 +89,14 @@ fn hexapod(h: &Hexapod) -> HexapodTable {
 }
 
 fn sensor(sensor: &Sensor) -> SensorTable {
-    let bare = SensorTable {
+    let kind = &sensor.kind;
+    SensorTable {
         name: sensor.name.clone(),
-        kind: sensor.kind.word().to_owned(),
-        sigma: (0..sensor.kind.numbers()).map(|k| sensor.kind.sigma(k)).collect(),
-        ..SensorTable::default()
-    };
-    match sensor.kind {
-        SensorKind::Distance { point, direction, .. } => {
-            SensorTable { point_m: Some(point.into()), direction: Some(direction.into()), ..bare }
-        }
-        SensorKind::Point { point, .. } => SensorTable { point_m: Some(point.into()), ..bare },
-        SensorKind::Inclination { axis, .. } => SensorTable { direction: Some(axis.into()), ..bare },
-        SensorKind::LegLength { leg, .. } => SensorTable { leg: Some(leg + 1), ..bare },
+        kind: kind.word().to_owned(),
+        point_m: kind.point().map(|point| (*point).into()),
+        direction: kind.direction().map(|direction| (*direction).into()),
+        leg: kind.leg().map(|leg| leg + 1),
+        sigma: (0..kind.numbers()).map(|k| kind.sigma(k)).collect(),
     }
 }
 
@@ -131,7 +126,7 @@ fn term(model: &Model, number: usize) -> TermTable {
     };
     TermTable {
         id: a.id().to_owned(),
-        form: if a.rich { "rich" } else { "ideal" }.to_owned(),
+        form: if a.rich { "rich" } else { a.term.version().unwrap_or("ideal") }.to_owned(),
         shape: shape(model, a, model.parameters.shape_of_term(number)),
         definition: a.term.definition().map(str::to_owned),
         parameters: parameter_names(a).into_iter().enumerate().map(parameter).collect(),

@@ -206,6 +206,7 @@ mod tests {
             approach: Approach::Direct,
             delta_t: 0.0,
             elapsed: 0.0,
+            reference_age: None,
             measured: [0.0; 6],
             sigma: None,
         };

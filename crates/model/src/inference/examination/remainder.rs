@@ -10,7 +10,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, row_sigma};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
 use crate::estimation::tolerances::input_columns;
-use crate::inference::candidates::{CandidateKind, orthonormal, project, target};
+use crate::inference::candidates::{orthonormal, project, target};
 use crate::inference::diagnosis::RankedSets;
 
 /// Shapes of an effect that take part.
@@ -111,15 +111,10 @@ pub(super) fn explained(lin: &Linearization, point: &ModelPoint) -> Vec<DMatrix<
 fn everything(outcome: &RankedSets, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
     let mut columns = explained(lin, point);
     for candidate in &outcome.candidates {
-        let CandidateKind::Term(term) = &candidate.kind else { continue };
-        let forms: Vec<(bool, f64)> = candidate
-            .blocks
-            .iter()
-            .map(|&b| (outcome.gram.blocks[b].rich, outcome.gram.blocks[b].shape))
-            .collect();
+        let forms: Vec<_> = candidate.forms(&outcome.gram.blocks).collect();
         let stride = forms.len().div_ceil(SHAPES).max(1);
         let chosen = forms.iter().step_by(stride);
-        columns.extend(chosen.map(|&(rich, shape)| lin.term_block(term.as_ref(), rich, shape)));
+        columns.extend(chosen.map(|f| lin.term_block(f.version.as_ref(), f.rich, f.shape)));
     }
     let basis = orthonormal(&beside(&columns));
     let most = LARGEST_SHARE * lin.numbers();

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use hexbench_core::{Dataset, Hexapod, Sensor, SensorKind, Vector3};
+use hexbench_core::{Dataset, Hexapod, Sensor, Vector3};
 use nalgebra::Rotation3;
 use rayon::prelude::*;
 
@@ -57,12 +57,10 @@ fn of_sensor(sensor: &Sensor) -> Vec<Change> {
     let factors: &[f64] = if sensor.kind.is_angle() { &OF_ANGLES } else { &OF_LENGTHS };
     let mut all = vec![Change::SensorReversed(name)];
     all.extend(factors.iter().flat_map(|f| [*f, f.recip()]).map(|f| Change::SensorScaled(name, f)));
-    if let SensorKind::Distance { direction: along, .. } | SensorKind::Inclination { axis: along, .. } =
-        sensor.kind
-    {
+    if let Some(along) = sensor.kind.direction() {
         let axes = (0..3).map(|k| Vector3::ith(k, 1.0));
         let turns =
-            axes.filter_map(|axis| Rotation3::rotation_between(&along, &axis)).map(|turn| turn.scaled_axis());
+            axes.filter_map(|axis| Rotation3::rotation_between(along, &axis)).map(|turn| turn.scaled_axis());
         all.extend(turns.filter(|turn| turn.norm() > 0.1).map(|turn| Change::SensorTurned(name, turn)));
     }
     all

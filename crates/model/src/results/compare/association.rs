@@ -85,6 +85,7 @@ impl Follows {
 
 /// A variable that residual elongations follow.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Association {
     /// Leg from 1; absent for all legs together.
     pub leg: Option<usize>,

@@ -3,8 +3,8 @@
 //! `e = L H^-1 r` with `r` the residual of the averaged readings, `H` the observer (measured coordinates from twist) and
 //! `L` the geometric leg Jacobian; the covariance of `e` follows from that of the reading.
 
+use hexbench_core::Vector6;
 use hexbench_core::{Channel, statistics::root_mean_square};
-use hexbench_core::{Matrix6, Vector6};
 use serde::Serialize;
 
 use super::JudgedModel;
@@ -41,9 +41,7 @@ pub fn leg_space(campaign: &Campaign, lin: &Linearization) -> LegSpace {
             space.sigma.push(Vector6::repeat(f64::INFINITY));
             continue;
         }
-        // Only at beta = +-90 deg, where the reading says nothing of two rotations.
-        let to_legs = c.observer.try_inverse().map_or_else(Matrix6::zeros, |h| c.legs.leg_jacobian * h);
-        let whitened = to_legs * Matrix6::from_diagonal(&Vector6::from_column_slice(&group.sigma));
+        let whitened = c.legs_of_reading(group);
         space.elongation.push(whitened * lin.residual(i));
         space.sigma.push(Vector6::from_fn(|leg, _| whitened.row(leg).norm().max(f64::MIN_POSITIVE)));
     }

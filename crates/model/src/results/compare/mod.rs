@@ -12,6 +12,7 @@ pub mod design;
 pub mod legs;
 pub mod periodogram;
 pub mod rows;
+mod waves;
 
 use hexbench_core::{Dataset, Hexapod, Measurand};
 use nalgebra::{DMatrix, DVector};
@@ -172,13 +173,23 @@ impl<'a> JudgedModel<'a> {
         point: &'a ModelPoint,
         fitted: bool,
     ) -> Result<Self, ModelError> {
-        let lin = Linearization::at(campaign, point)?;
+        Ok(Self::linearized(campaign, data, point, Linearization::at(campaign, point)?, fitted))
+    }
+
+    /// The same where the campaign has been linearised at the point already.
+    pub(crate) fn linearized(
+        campaign: &'a Campaign,
+        data: &'a Dataset,
+        point: &'a ModelPoint,
+        lin: Linearization,
+        fitted: bool,
+    ) -> Self {
         let rows = residuals(campaign, &data.observations, &lin);
         let columns = if fitted { columns(&lin, point) } else { DMatrix::zeros(lin.equations(), 0) };
         let basis = if fitted { orthonormal(&columns) } else { columns };
         let (rank, white) = (basis.ncols() as f64, lin.residuals());
         let space = leg_space(campaign, &lin);
-        Ok(Self { campaign, data, point, lin, rows, rank, basis, white, space })
+        Self { campaign, data, point, lin, rows, rank, basis, white, space }
     }
 }
 

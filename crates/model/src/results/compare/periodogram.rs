@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use super::JudgedModel;
 use super::association::{COMPLIANCE, Look, added_columns};
+use super::waves::{Poses, WaveTest, Waves};
 use crate::inference::period::period_grid;
 
 /// Grid steps per independent frequency.
@@ -61,7 +62,7 @@ pub struct Spectra {
 }
 
 impl Spectrum {
-    fn new(look: &Look<'_>, scanned: &[Scanned]) -> Self {
+    fn new(look: &Look<'_>, scanned: &[WaveTest]) -> Self {
         let points = scanned.iter().map(|s| [s.period * 1e3, s.f]).collect();
         Self { leg: look.leg.map(|l| l + 1), of: look.of(), points }
     }
@@ -70,7 +71,8 @@ impl Spectrum {
     pub fn again(&self, judged: &JudgedModel<'_>) -> Option<Self> {
         let periods = usable_periods(judged)?;
         let look = Look { judged, leg: self.leg.map(|l| l - 1), compliance: self.of == COMPLIANCE };
-        Some(Self::new(&look, &scan(&look, &periods))).filter(|s| !s.points.is_empty())
+        Some(Self::new(&look, &scan(&look, Waves::of(judged).as_ref(), &periods)))
+            .filter(|s| !s.points.is_empty())
     }
 }
 
@@ -78,14 +80,15 @@ impl Spectra {
     /// All of them; `None` with too few poses.
     pub fn of(judged: &JudgedModel<'_>) -> Option<Self> {
         let periods = usable_periods(judged)?;
-        let scanned: Vec<(Look<'_>, Vec<Scanned>)> = looks(judged)
+        let waves = Waves::of(judged);
+        let scanned: Vec<(Look<'_>, Vec<WaveTest>)> = looks(judged)
             .map(|look| {
-                let scanned = scan(&look, &periods);
+                let scanned = scan(&look, waves.as_ref(), &periods);
                 (look, scanned)
             })
             .collect();
         let looked: Vec<Peak> =
-            scanned.iter().filter_map(|(look, scanned)| peak(look, scanned, &periods)).collect();
+            scanned.iter().filter_map(|(look, s)| peak(look, waves.as_ref(), s, &periods)).collect();
         let count = looked.len().max(1) as f64;
         let single = -f64::exp_m1(f64::ln_1p(-REPORTED / count) / independent(&periods));
         let dof = judged.white.len() as f64 - 3.0 - judged.rank;
@@ -101,7 +104,7 @@ fn exceeded_with(probability: f64, dof: f64) -> f64 {
 }
 
 fn usable_periods(judged: &JudgedModel<'_>) -> Option<Vec<f64>> {
-    let enough = distinct_poses(judged) >= FEWEST_POSES;
+    let enough = Poses::of(judged).lengths.len() >= FEWEST_POSES;
     enough.then(|| period_grid(&judged.lin.conditions)).filter(|periods| !periods.is_empty())
 }
 
@@ -121,32 +124,20 @@ fn significant(looked: Vec<Peak>) -> Option<Peak> {
     (false_alarm < REPORTED).then_some(Peak { false_alarm, ..best })
 }
 
-fn distinct_poses(judged: &JudgedModel<'_>) -> usize {
-    let bits = |c: &crate::estimation::campaign::Condition| c.commanded_lengths.map(f64::to_bits);
-    let mut poses: Vec<[u64; 6]> = judged.lin.conditions.iter().map(|c| bits(c).into()).collect();
-    poses.sort_unstable();
-    poses.dedup();
-    poses.len()
-}
-
-/// What one period explains.
-#[derive(Clone, Copy)]
-struct Scanned {
-    period: f64,
-    f: f64,
-    /// Chance of such an F at this period alone.
-    single: f64,
-}
-
 /// The periods at which a wave has a test, in their order.
-fn scan(look: &Look<'_>, periods: &[f64]) -> Vec<Scanned> {
+fn scan(look: &Look<'_>, waves: Option<&Waves>, periods: &[f64]) -> Vec<WaveTest> {
+    waves.map_or_else(|| column_by_column(look, periods), |waves| waves.tests(look, periods))
+}
+
+/// The same where errors of readings are correlated.
+fn column_by_column(look: &Look<'_>, periods: &[f64]) -> Vec<WaveTest> {
     let base = [look.column(|_, _| 1.0)];
     let judged = look.judged;
     let at = |&period: &f64| {
         let wave = |f: fn(f64) -> f64| look.column(|c, l| f(TAU * c.commanded_lengths[l] / period));
         let waves = [wave(f64::sin), wave(f64::cos)];
-        let (f, single) = added_columns(judged.white.as_slice(), &base, &waves, judged.rank)?;
-        Some(Scanned { period, f, single })
+        let (f, chance) = added_columns(judged.white.as_slice(), &base, &waves, judged.rank)?;
+        Some(WaveTest { period, f, chance })
     };
     periods.par_iter().filter_map(at).collect()
 }
@@ -157,13 +148,13 @@ fn independent(periods: &[f64]) -> f64 {
 }
 
 /// The highest point, refined between its neighbours.
-fn peak(look: &Look<'_>, scanned: &[Scanned], periods: &[f64]) -> Option<Peak> {
-    let by_f = |a: &&Scanned, b: &&Scanned| a.f.total_cmp(&b.f);
+fn peak(look: &Look<'_>, waves: Option<&Waves>, scanned: &[WaveTest], periods: &[f64]) -> Option<Peak> {
+    let by_f = |a: &&WaveTest, b: &&WaveTest| a.f.total_cmp(&b.f);
     let coarse = scanned.iter().max_by(by_f)?.period;
-    let near = scan(look, &around(coarse, periods));
-    let Scanned { period, f, single } = *near.iter().max_by(by_f)?;
+    let near = scan(look, waves, &around(coarse, periods));
+    let WaveTest { period, f, chance } = *near.iter().max_by(by_f)?;
     // 1 - (1 - p)^M without losing small p.
-    let false_alarm = -f64::exp_m1(independent(periods) * f64::ln_1p(-single));
+    let false_alarm = -f64::exp_m1(independent(periods) * f64::ln_1p(-chance));
     let leg = look.leg.map(|l| l + 1);
     Some(Peak { leg, of: look.of(), period_mm: period * 1e3, f, false_alarm })
 }
@@ -183,8 +174,36 @@ fn around(period: f64, periods: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
+
     use super::*;
+    use crate::estimation::fit::fit_baseline;
+    use crate::results::diagnose::prepare;
+    use hexbench_core::files::{read_hexapod, read_measurements};
     use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+
+    #[test]
+    fn waves_summed_over_poses_have_the_tests_of_their_columns() {
+        let file = |name: &str| {
+            let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/cases/not-in-catalogue");
+            std::path::Path::new(folder).join(name)
+        };
+        let hexapod = read_hexapod(&file("hexapod.toml")).unwrap();
+        let data = read_measurements(&file("measurements.csv")).unwrap().dataset;
+        let campaign = prepare(&hexapod, &data).unwrap();
+        let fit = fit_baseline(&campaign).unwrap();
+        let judged = JudgedModel::of(&campaign, &data, &fit.point, true).unwrap();
+        let waves = Waves::of(&judged).unwrap();
+        let periods: Vec<f64> = (1..40).map(|k| 0.04 / f64::from(k)).collect();
+        for look in looks(&judged) {
+            let (fast, plain) = (waves.tests(&look, &periods), column_by_column(&look, &periods));
+            assert!(plain.len() == fast.len() && plain.len() > 30);
+            for (a, b) in fast.iter().zip(&plain) {
+                let same = (a.f / b.f - 1.0).abs() < 1e-7 && (a.chance / b.chance - 1.0).abs() < 1e-6;
+                assert!(same, "{:?} {}: {a:?} {b:?}", look.leg, look.compliance);
+            }
+        }
+    }
 
     #[test]
     fn the_level_of_chance_is_that_of_the_law_of_f() {

@@ -6,7 +6,9 @@ use super::report::StepReport;
 use crate::error::ModelError;
 use crate::estimation::estimate::{Estimates, estimates, estimates_with};
 use crate::estimation::fit::{Fit, TermSpec};
+use crate::estimation::linearization::Linearization;
 use crate::inference::diagnosis::{RankedSets, wanted};
+use crate::inference::discrepancy::LegDiscrepancy;
 use crate::inference::examination::{Finding, is_misread};
 use crate::inference::search::Set;
 use crate::inference::verdict::{Judgement, Verdict, judge};
@@ -18,11 +20,15 @@ pub(super) struct Answer {
     pub(super) order: Vec<TermSpec>,
     /// Fits of the steps.
     pub(super) fits: Vec<Fit>,
+    /// The campaign at the last of them.
+    pub(super) lin: Linearization,
     pub(super) steps: Vec<StepReport>,
     /// Effects named.
     pub(super) added: Vec<String>,
     /// Sure effects that are not worth naming.
     pub(super) small: Vec<String>,
+    /// What the last fit leaves of the legs.
+    pub(super) left: LegDiscrepancy,
     pub(super) numbers: Estimates,
 }
 
@@ -47,8 +53,12 @@ impl Answer {
                 (true, false) => Verdict::Measurement,
             };
         }
-        let numbers = estimates_with(&averaged_springs(outcome, last), last);
-        Ok(Self { added: named(&judgement, &order), small, judgement, order, fits, steps, numbers })
+        let lin = Linearization::at(context.campaign, &last.point)?;
+        let left = LegDiscrepancy::of(context.campaign, &lin, last.lack_of_fit_dof);
+        let springs = averaged_springs(outcome, last).open_by(&left.share);
+        let numbers = estimates_with(&springs, last);
+        let added = named(&judgement, &order);
+        Ok(Self { judgement, order, fits, lin, steps, added, small, left, numbers })
     }
 
     /// A file that does not mean what it says: nothing follows for the machine, and no number is given.
@@ -57,8 +67,17 @@ impl Answer {
         let known = estimates(&context.outcome.baseline);
         let names = known.determined.into_iter().map(|e| e.name).chain(known.not_determined);
         let numbers = Estimates { determined: Vec::new(), not_determined: names.collect() };
-        let judgement = Judgement::of_the_data();
-        Ok(Self { judgement, order: Vec::new(), fits, steps, added: Vec::new(), small: Vec::new(), numbers })
+        Ok(Self {
+            judgement: Judgement::of_the_data(),
+            order: Vec::new(),
+            lin: Linearization::at(context.campaign, &context.outcome.baseline.point)?,
+            fits,
+            steps,
+            added: Vec::new(),
+            small: Vec::new(),
+            left: LegDiscrepancy::default(),
+            numbers,
+        })
     }
 }
 

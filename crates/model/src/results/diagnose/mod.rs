@@ -11,6 +11,7 @@ mod nested;
 mod next;
 mod notes;
 mod options;
+mod remainder;
 mod report;
 
 use std::sync::Arc;
@@ -29,6 +30,7 @@ use self::misread::{FirstLook, first_look};
 pub use self::nested::NestedReport;
 use self::notes::{outside, suspects, warnings};
 pub use self::options::DiagnoseOptions;
+pub use self::remainder::{LegRemainder, RemainderReport};
 pub use self::report::{
     AbsorbedReport, CandidateReport, Diagnosis, NextReport, NoiseReport, OutsideReport, SeparationReport,
     StepReport, SuspiciousReading,
@@ -37,7 +39,6 @@ use crate::effects::term::Term;
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, same_frames};
 use crate::estimation::fit::Fit;
-use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::residuals;
 use crate::inference::candidates::Candidate;
 use crate::inference::diagnosis::RankedSets;
@@ -120,9 +121,8 @@ pub fn diagnose_with(
     }
     let holdout = context.holdout;
     let (alternative, unknown) = alternative::of(hexapod, holdout, other);
-    let Answer { judgement, order, fits, steps, added, small, numbers } = answer;
+    let Answer { judgement, order, fits, lin, steps, added, small, left, numbers } = answer;
     let last = fits.last().unwrap_or(&outcome.baseline);
-    let lin = Linearization::at(&campaign, &last.point)?;
     let rows = residuals(&campaign, &data.observations, &lin);
     let sensors = if campaign.reads_poses {
         Vec::new()
@@ -133,6 +133,7 @@ pub fn diagnose_with(
     let richer = order.iter().filter(|w| w.rich).map(|w| w.term.info().id.to_owned()).collect();
     let best = outcome.sets.sets.first();
     let next = context.next(&judgement);
+    let remainder = RemainderReport::of(&left, (last, lin), steps.last(), &campaign, &data);
     let diagnosis = Diagnosis {
         format: "diagnosis/1",
         verdict: judgement.verdict,
@@ -169,6 +170,7 @@ pub fn diagnose_with(
         sensors,
         suspects: suspects(&rows, &data),
         outside: outside(&judgement, &outcome),
+        remainder,
         warnings: warnings(&campaign, &data, last, &judgement).into_iter().chain(unknown).collect(),
         findings,
         excluded,

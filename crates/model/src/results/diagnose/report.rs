@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::alternative::Alternative;
 use super::nested::NestedReport;
+use super::remainder::RemainderReport;
 use crate::effects::untestable::Untestable;
 use crate::estimation::estimate::Estimate;
 use crate::estimation::noise::NoiseSource;
@@ -73,6 +74,8 @@ pub struct Diagnosis {
     pub suspects: Vec<SuspiciousReading>,
     /// The unexplained pattern.
     pub outside: Option<OutsideReport>,
+    /// What the fitted model leaves of the legs beyond the noise; absent where noise explains it, and where full poses were not read.
+    pub remainder: Option<RemainderReport>,
     /// Things to know before trusting the numbers.
     pub warnings: Vec<String>,
     /// Faults of the data, in the order in which they were found.

@@ -17,6 +17,7 @@ pub(crate) fn reading(pose: Pose, wrench: Wrench, reference: Wrench) -> Observat
         approach: Approach::Direct,
         delta_t: 0.0,
         elapsed: 0.0,
+        reference_age: None,
         measured: [0.0; 6],
         sigma: None,
     }

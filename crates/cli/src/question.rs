@@ -1,0 +1,63 @@
+//! What `diagnose` and `discover` ask about: a machine, its readings, what competes.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::Args;
+use hexbench_core::{Dataset, Hexapod, LineRange};
+use hexbench_model::effects::term::Term;
+use hexbench_model::results::runs::Origin;
+use hexbench_report::words::Provenance;
+
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{origin, provenance};
+
+/// Files, and the lines of them that count.
+#[derive(Debug, Args)]
+pub(crate) struct Question {
+    /// The machine: hexapod.toml
+    hexapod: PathBuf,
+    /// Deflections or absolute poses: measurements.csv
+    data: PathBuf,
+    /// Readings kept out of every fit; without it poses are left out in turn
+    #[arg(long, value_name = "FILE")]
+    holdout: Option<PathBuf>,
+    /// A term file of your own (term/1) that competes with the catalogue; may be given several times
+    #[arg(long = "term", value_name = "FILE")]
+    terms: Vec<PathBuf>,
+    /// Leave the reading in this line of DATA out before anything else: a line as the page names it, or a range (12-15); may be
+    /// given several times
+    #[arg(long, value_name = "LINE", value_delimiter = ',')]
+    pub(crate) exclude: Vec<LineRange>,
+}
+
+/// What the files hold.
+pub(crate) struct Asked {
+    pub(crate) hexapod: Hexapod,
+    pub(crate) data: Dataset,
+    pub(crate) holdout: Option<Dataset>,
+    /// The catalogue, and terms of one's own behind it.
+    pub(crate) terms: Vec<Arc<dyn Term>>,
+}
+
+impl Question {
+    /// Reads the files.
+    pub(crate) fn read(&self) -> Result<Asked, Failure> {
+        let hexapod = input::hexapod(&self.hexapod)?;
+        let data = input::measurements(&hexapod, &self.data)?;
+        let holdout = self.holdout.as_deref().map(|path| input::measurements(&hexapod, path)).transpose()?;
+        let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
+        Ok(Asked { hexapod, data, holdout, terms })
+    }
+
+    /// Which machine and files a result is about.
+    pub(crate) fn origin(&self, asked: &Asked) -> Result<Origin, Failure> {
+        origin((&asked.hexapod, &self.hexapod), (&asked.data, &self.data), self.holdout.as_deref())
+    }
+
+    /// What a page says of the files behind it.
+    pub(crate) fn provenance(&self) -> Result<Provenance, Failure> {
+        provenance([&self.hexapod, &self.data].into_iter().chain(&self.holdout).chain(&self.terms))
+    }
+}

@@ -1,0 +1,142 @@
+//! What a fitted model leaves of the legs beyond the noise: how far each leg is from the springs and effects it is taken for.
+//!
+//! Whitened residuals become elongations of the legs, `e = W r` with the variance `v` of each by noise and tolerances. Of a leg,
+//!
+//! ```text
+//! a^2 = (S - expected S) / sum (c phi)^2 / v,   S = sum e^2 / v
+//! ```
+//!
+//! with the compliance `c` of its spring and the change `phi` of its force: the square of what is left relative to what the spring gives,
+//! weighed alike. `S` is that of all readings, or of their means over ranges of a variable, which show a systematic part far below
+//! the noise of one reading. A law that leaves the share `a` behind moves the compliance itself by about as much, so `a c` is part of its
+//! standard uncertainty.
+
+use hexbench_core::Vector6;
+
+use crate::estimation::campaign::Campaign;
+use crate::estimation::foreseen::Misfit;
+use crate::estimation::linearization::Linearization;
+use crate::estimation::noise::NoiseLevel;
+use crate::inference::pattern::PatternVariable;
+
+/// Chance by noise, over all questions asked, below which something is left.
+const LEFT_CHANCE: f64 = 1e-3;
+/// Ranges of a variable.
+const RANGES: usize = 8;
+/// What the means over ranges are asked about.
+const VARIABLES: [PatternVariable; 4] = [
+    PatternVariable::LegLength,
+    PatternVariable::LegForce,
+    PatternVariable::Elapsed,
+    PatternVariable::DeltaT,
+];
+
+/// What is left of every leg, root mean square; zero where noise explains it.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct LegDiscrepancy {
+    /// Elongation, m.
+    pub elongation: Vector6,
+    /// The same relative to the elongation of the leg's spring.
+    pub share: Vector6,
+}
+
+impl LegDiscrepancy {
+    /// True where anything is left.
+    pub fn is_any(&self) -> bool {
+        self.share.amax() > 0.0
+    }
+
+    /// That of a model at its fit to a campaign, which left so many degrees of freedom; nothing where full poses were not read or the
+    /// noise is known from the residuals only.
+    pub fn of(campaign: &Campaign, lin: &Linearization, dof: f64) -> Self {
+        if !campaign.reads_poses || !campaign.noise.allows_verdict() || campaign.is_absolute() {
+            return Self::default();
+        }
+        let level = campaign.noise_level();
+        let kept = dof / lin.numbers();
+        let legs = points(campaign, lin);
+        let squares: [(f64, f64); 6] = std::array::from_fn(|leg| {
+            let points = &legs[leg];
+            let excess = excess(points, kept, level);
+            let weight: f64 = points.iter().map(|p| p.weight).sum();
+            let spring: f64 = points.iter().map(|p| p.weight * p.spring * p.spring).sum();
+            if spring > 0.0 { (excess / weight, excess / spring) } else { (0.0, 0.0) }
+        });
+        Self {
+            elongation: Vector6::from_fn(|leg, _| squares[leg].0.sqrt()),
+            share: Vector6::from_fn(|leg, _| squares[leg].1.sqrt()),
+        }
+    }
+}
+
+/// One reading of one leg.
+struct Point {
+    /// What is left of its elongation, m.
+    left: f64,
+    /// 1 / variance of it by noise and tolerances, 1/m^2.
+    weight: f64,
+    /// Elongation of its spring, m.
+    spring: f64,
+    /// The variables.
+    values: [f64; VARIABLES.len()],
+}
+
+fn points(campaign: &Campaign, lin: &Linearization) -> [Vec<Point>; 6] {
+    let white = lin.residuals();
+    let mut legs: [Vec<Point>; 6] = std::array::from_fn(|_| Vec::with_capacity(lin.conditions.len()));
+    for (i, (at, group)) in lin.conditions.iter().zip(&campaign.groups).enumerate() {
+        let to_legs = at.legs_of_reading(group);
+        let left = to_legs * white.fixed_rows::<6>(6 * i);
+        for (leg, points) in legs.iter_mut().enumerate() {
+            points.push(Point {
+                left: left[leg],
+                weight: to_legs.row(leg).norm_squared().max(f64::MIN_POSITIVE).recip(),
+                spring: at.springs[leg] * at.spring_change()[leg],
+                values: VARIABLES.map(|v| v.value(at, leg)),
+            });
+        }
+    }
+    legs
+}
+
+/// The largest part of `S` that noise does not explain, of all readings or of their means over ranges; zero when it explains all.
+fn excess(points: &[Point], kept: f64, level: NoiseLevel) -> f64 {
+    let square = points.iter().map(|p| p.left * p.left * p.weight).sum();
+    let all = Misfit { chi2: square, numbers: kept * points.len() as f64 };
+    let of_ranges = (0..VARIABLES.len()).flat_map(|v| {
+        let ranges = ranges(points, v);
+        [false, true].map(|compliance| of_means(&ranges, compliance))
+    });
+    let sums: Vec<Misfit> = std::iter::once(all).chain(of_ranges).collect();
+    let asked = 6.0 * sums.len() as f64;
+    let beyond = |sum: &&Misfit| sum.chance(level).is_ok_and(|chance| chance * asked < LEFT_CHANCE);
+    sums.iter().filter(beyond).map(|sum| sum.chi2 - sum.numbers).fold(0.0, f64::max)
+}
+
+/// Points in the order of a variable, cut into ranges; equal values stay together.
+fn ranges(points: &[Point], variable: usize) -> Vec<Vec<&Point>> {
+    let mut sorted: Vec<&Point> = points.iter().collect();
+    sorted.sort_by(|a, b| a.values[variable].total_cmp(&b.values[variable]));
+    let length = sorted.len().div_ceil(RANGES).max(1);
+    let mut ranges: Vec<Vec<&Point>> = Vec::with_capacity(RANGES);
+    for point in sorted {
+        let is_same =
+            |last: &Vec<&Point>| last.last().is_some_and(|p| p.values[variable] >= point.values[variable]);
+        match ranges.last_mut().filter(|last| last.len() < length || is_same(last)) {
+            Some(last) => last.push(point),
+            None => ranges.push(vec![point]),
+        }
+    }
+    ranges
+}
+
+/// `S` of the mean elongation of every range, or of the mean compliance.
+fn of_means(ranges: &[Vec<&Point>], compliance: bool) -> Misfit {
+    let carrier = |p: &Point| if compliance { p.spring } else { 1.0 };
+    let square = |range: &Vec<&Point>| {
+        let along: f64 = range.iter().map(|p| p.weight * carrier(p) * p.left).sum();
+        let length: f64 = range.iter().map(|p| p.weight * carrier(p).powi(2)).sum();
+        if length > 0.0 { along * along / length } else { 0.0 }
+    };
+    Misfit { chi2: ranges.iter().map(square).sum(), numbers: ranges.len() as f64 }
+}

@@ -1,0 +1,47 @@
+//! What remains when the fitted model has explained what it can.
+
+use hexbench_model::results::compare::association::Association;
+use hexbench_model::results::diagnose::{Diagnosis, LegRemainder};
+use hexbench_model::results::words::joined;
+
+use super::comparison::who;
+use crate::number::{multiple, significant};
+use crate::page::{Block, PageColumn, Section, Table};
+
+/// How large it is, in which legs, and what it follows.
+pub(super) fn section(d: &Diagnosis) -> Option<Section> {
+    let remainder = d.remainder.as_ref()?;
+    let lead = format!(
+        "Beyond the noise the fitted model leaves {} times the noise on held-out poses. Where a leg is listed, its stiffness is open by as \
+         large a share of the spring: its uncertainty above contains it.",
+        multiple(remainder.times_noise)
+    );
+    let columns = [PageColumn::words("leg"), PageColumn::number("um"), PageColumn::number("% of its spring")];
+    let row = |leg: &LegRemainder| {
+        [leg.leg.to_string(), significant(leg.elongation_um, 2), significant(leg.percent_of_spring, 2)]
+    };
+    let table = Table::new(columns).rows(remainder.legs.iter().map(row));
+    Some(
+        Section::new("What remains")
+            .remark("elongation of the legs that nothing in the model explains, root mean square")
+            .paragraph(lead)
+            .table(table)
+            .with((!has_a_pattern(d)).then(|| Block::paragraph(followed(&remainder.follows)))),
+    )
+}
+
+/// True when the verdict has told what it follows.
+fn has_a_pattern(d: &Diagnosis) -> bool {
+    d.outside.as_ref().is_some_and(|outside| outside.pattern.is_some())
+}
+
+/// `It follows leg_length (compliance of all legs) and elapsed_s (length of leg 3).`
+fn followed(follows: &[Association]) -> String {
+    let one = |a: &Association| format!("{} ({} of {})", a.variable, a.of, who(a.leg));
+    let names: Vec<String> = follows.iter().map(one).collect();
+    if names.is_empty() {
+        "It follows no single variable beyond chance.".to_owned()
+    } else {
+        format!("It follows {}.", joined(&names))
+    }
+}
