@@ -56,7 +56,7 @@ pub fn model(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator
         readings: task.data.observations.len(),
         read_as: Vec::new(),
     };
-    Model::new(task.campaign, &judged.fit, estimator, origin)
+    Model::new(task.campaign, &judged.fit, estimator, origin).open_by(&judged.left.share)
 }
 
 fn judged(task: &JudgedTask<'_>, added: &[Added], estimator: Estimator) -> Result<FitWithErrors, ModelError> {

@@ -1,6 +1,6 @@
 //! Writes simulated campaigns with a hidden truth beside them.
 //!
-//! `make_cases --out DIR --seed N --count M --kinds single,pair,outside,clean,seed-protocol,absolute,rich-form
+//! `make_cases --out DIR --seed N --count M --kinds single,pair,outside,clean,seed-protocol,absolute,rich-form,triple
 //! [--distance D | --distance LOW:HIGH]`: M cases of each kind; the same seed gives the same bytes on any number of threads.
 
 use std::{path::PathBuf, process::ExitCode};

@@ -10,7 +10,7 @@ use super::sheets;
 use super::trust::{CREDIBLE, MOST_FALSE_NAMES};
 use super::{
     Calibration, CalibrationRecord, Curve, DISTANCES, WELL_VISIBLE, credible_coverage, false_names,
-    false_names_among_named, false_outside, is_well_visible, stiffness_coverage,
+    false_names_among_named, false_outside, is_well_visible, prediction_coverage, stiffness_coverage,
 };
 use crate::calibration::Fate;
 use crate::shares::told;
@@ -35,6 +35,7 @@ pub fn page(study: &Calibration, charts: &str) -> Page {
         .with(power(records, chart("How large an effect must be", "power.svg", POWER.to_owned())))
         .with(outside(records, chart("Noticing what the catalogue lacks", "outside.svg", OUTSIDE.to_owned())))
         .with(section("Credible sets", COVERAGE, sheets::coverage(records)).detail())
+        .with(section("Intervals of the final model", INTERVALS, sheets::intervals(records)).detail())
         .with(section("Numbers of the final model", NUMBERS, sheets::numbers(records)).detail())
         .with(section("Where it goes wrong", MISTAKES, sheets::mistakes_table(records)))
         .with(
@@ -75,6 +76,10 @@ pub fn headlines(records: &[CalibrationRecord]) -> Vec<String> {
             told(right(CaseKind::Pair))
         ),
         format!(
+            "Three effects, each at {WELL_VISIBLE} or more, were all named in {}.",
+            told(right(CaseKind::Triple))
+        ),
+        format!(
             "Something outside the catalogue at {WELL_VISIBLE} or more was noticed as such in {}.",
             told(right(CaseKind::Outside))
         ),
@@ -90,7 +95,13 @@ pub fn headlines(records: &[CalibrationRecord]) -> Vec<String> {
         ),
         format!(
             "Where the answer is right, {} leg stiffnesses lie within 1.96 of their stated standard deviations.",
-            told(stiffness_coverage(right_answers()))
+            told(stiffness_coverage(right_answers().filter(|r| !r.is_outside())))
+        ),
+        format!(
+            "Where something outside the catalogue was rightly noticed, {} do, and {} held-out numbers lie within 1.96 standard \
+             deviations of prediction and noise.",
+            told(stiffness_coverage(right_answers().filter(|r| r.is_outside()))),
+            told(prediction_coverage(right_answers().filter(|r| r.is_outside())))
         ),
     ]
 }
@@ -119,7 +130,7 @@ fn introduction(study: &Calibration) -> Section {
                  scaled to a distance drawn log-uniformly from {low} to {high}; a campaign in which no sensible size reaches it is \
                  drawn again with another machine and plan. Effects of absolute campaigns have their usual size."
             ),
-            "Kinds: single (one effect of the catalogue), pair (two), outside (one the catalogue lacks), clean (none), \
+            "Kinds: single (one effect of the catalogue), pair (two), triple (three), outside (one the catalogue lacks), clean (none), \
              seed-protocol (one, under the plan of the paper), absolute (joint geometry, alone or with one more), rich-form (a \
              base or plate that yields as a full 6x6 compliance; the right answer is its name)."
                 .to_owned(),
@@ -142,6 +153,9 @@ are counted.";
 
 const NUMBERS: &str = "Held-out chi-square is per number, 1 is noise. Stiffnesses are compared with the true ones in \
 their own stated standard deviations; answers \"outside\" come with a model that is known to lack something.";
+
+const INTERVALS: &str = "Stiffnesses are compared with the true ones, predictions of the final model with held-out readings. \
+What the model leaves of the legs beyond the noise is part of both uncertainties.";
 
 const MISTAKES: &str = "Answers that state something false, in groups, the largest first; with the highest probability \
 that was stated for such an answer. Any trial can be written out as files with `--case`.";

@@ -38,6 +38,7 @@ pub fn mistakes(records: &[CalibrationRecord]) -> Vec<MistakeGroup<'_>> {
 fn key(r: &CalibrationRecord) -> (String, String) {
     match r.kind {
         CaseKind::Pair => ("two effects".to_owned(), r.fate.word().to_owned()),
+        CaseKind::Triple => ("three effects".to_owned(), r.fate.word().to_owned()),
         CaseKind::SeedProtocol => (format!("{} (paper plan)", r.hidden_words()), r.answer()),
         CaseKind::RichForm => (format!("{} (richer form)", r.hidden_words()), r.answer()),
         _ => (r.hidden_words(), r.answer()),

@@ -33,5 +33,5 @@ pub use study::{Calibration, case};
 pub use trials_csv::trials_csv;
 pub use trust::{
     CREDIBLE, HeldOutQuantiles, MOST_FALSE_NAMES, credible_coverage, false_names, false_names_among_named,
-    false_outside, stiffness_coverage,
+    false_outside, prediction_coverage, stiffness_coverage,
 };

@@ -27,7 +27,7 @@ pub struct CalibrationProtocol {
 }
 
 /// Counts of the committed study. Single effects are many because each of the sixteen gets a curve of its own.
-const STANDARD: [TrialPortion; 7] = [
+const STANDARD: [TrialPortion; 8] = [
     TrialPortion { kind: CaseKind::Single, trials: 2400 },
     TrialPortion { kind: CaseKind::Pair, trials: 800 },
     TrialPortion { kind: CaseKind::Outside, trials: 900 },
@@ -35,6 +35,7 @@ const STANDARD: [TrialPortion; 7] = [
     TrialPortion { kind: CaseKind::SeedProtocol, trials: 400 },
     TrialPortion { kind: CaseKind::Absolute, trials: 200 },
     TrialPortion { kind: CaseKind::RichForm, trials: 300 },
+    TrialPortion { kind: CaseKind::Triple, trials: 400 },
 ];
 
 impl Default for CalibrationProtocol {

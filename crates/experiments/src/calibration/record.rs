@@ -2,7 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use hexbench_core::statistics::Proportion;
+use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
+use hexbench_model::application::predict::predict;
+use hexbench_model::error::ModelError;
+use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::estimation::parameters::stiffness_name;
+use hexbench_model::inference::discrepancy::LegDiscrepancy;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::DiagnosisStudy;
@@ -11,6 +17,7 @@ use hexbench_truth::mechanisms::is_outside;
 use serde::{Deserialize, Serialize};
 
 use super::Fate;
+use super::trust::COVERED;
 use crate::harness::words::{self, Word};
 use crate::trial::{Trial, TrialError, told};
 
@@ -61,15 +68,19 @@ pub struct CalibrationRecord {
     pub holdout: [Option<f64>; 2],
     /// Errors of the leg stiffnesses of the final model, in standard deviations.
     pub stiffness_z: [Option<f64>; 6],
+    /// Held-out numbers within 1.96 of the standard deviation of prediction and noise; none of absolute poses.
+    pub predicted: Proportion,
 }
 
 impl CalibrationRecord {
     /// Diagnoses a case and compares the answer with the truth.
     pub(crate) fn of(case: &SimulatedCase) -> Result<Self, TrialError> {
-        Ok(Self::of_trial(case, &Trial::run(case)?))
+        let trial = Trial::run(case)?;
+        let predicted = predicted(&trial.study, case)?;
+        Ok(Self { predicted, ..Self::of_trial(case, &trial) })
     }
 
-    /// Compares the answer to a case with its truth.
+    /// Compares the answer to a case with its truth; nothing is predicted.
     pub fn of_trial(case: &SimulatedCase, trial: &Trial) -> Self {
         let Trial { hidden, study } = trial;
         let d = &study.diagnosis;
@@ -99,6 +110,7 @@ impl CalibrationRecord {
             credible: d.credible_set.clone(),
             holdout: [chi2(d.steps.first()), chi2(d.steps.last())],
             stiffness_z: stiffness_z(study, case),
+            predicted: Proportion::default(),
             hidden: hidden.clone(),
         }
     }
@@ -185,4 +197,22 @@ fn stiffness_z(study: &DiagnosisStudy, case: &SimulatedCase) -> [Option<f64>; 6]
         let true_stiffness = N_PER_UM / case.campaign.world.leg_compliance[leg];
         (estimate.std > 0.0).then(|| (estimate.value - true_stiffness) / estimate.std)
     })
+}
+
+/// The final model, as wide as what it leaves of the legs, at the held-out poses.
+fn predicted(study: &DiagnosisStudy, case: &SimulatedCase) -> Result<Proportion, ModelError> {
+    if study.campaign.is_absolute() {
+        return Ok(Proportion::default());
+    }
+    let last = study.fits.last().unwrap_or(&study.outcome.baseline);
+    let lin = Linearization::at(&study.campaign, &last.point)?;
+    let left = LegDiscrepancy::of(&study.campaign, &lin, last.lack_of_fit_dof);
+    let model = Model::new(&study.campaign, last, Estimator::Gls, DataOrigin::default()).open_by(&left.share);
+    let held = &case.holdout.observations;
+    let predictions = predict(&model, held).map_err(|error| error.cause)?;
+    let noise = study.campaign.noise.sigma();
+    let z = predictions.iter().zip(held).flat_map(|(p, o)| {
+        std::array::from_fn::<f64, 6, _>(|k| (o.measured[k] - p.value[k]) / p.sigma[k].hypot(noise[k]))
+    });
+    Ok(Proportion::count(z, |z| z.abs() <= COVERED))
 }

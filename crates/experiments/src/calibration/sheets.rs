@@ -1,9 +1,10 @@
 //! The tables of the study.
 
 use hexbench_core::statistics::Proportion;
+use hexbench_model::inference::verdict::Verdict;
 use hexbench_truth::campaign::CaseKind;
 
-use super::trust::{HeldOutQuantiles, credible_coverage, stiffness_coverage};
+use super::trust::{HeldOutQuantiles, credible_coverage, prediction_coverage, stiffness_coverage};
 use super::{
     CalibrationRecord, Claims, ConfusionMatrix, Curve, Fate, Mix, bins, is_well_visible, mistakes, scores,
 };
@@ -13,6 +14,11 @@ use hexbench_report::number::hundredths;
 
 /// Most groups of wrong answers that get a line.
 const MOST_GROUPS: usize = 20;
+/// Effects of the joints, which relieve the legs of everything that stands beside them.
+const JOINT_EFFECTS: [(&str, &str); 2] = [
+    ("joint-rotation-stiffness beside others", "joint-rotation-stiffness"),
+    ("bracket-compliance beside others", "bracket-compliance"),
+];
 /// Trials named for each group.
 const EXAMPLES: usize = 3;
 
@@ -174,11 +180,43 @@ pub fn numbers(records: &[CalibrationRecord]) -> Table {
     for fate in Fate::ALL {
         let of = || records.iter().filter(move |r| r.fate == fate);
         let Some(held) = HeldOutQuantiles::of(of()) else { continue };
-        let stiffness = stiffness_coverage(of());
+        let stiffness = stiffness_coverage(of().filter(|r| r.verdict != Verdict::Outside));
         let chi2 = [held.springs_median, held.median, held.high].map(|x| format!("{x:.2}"));
         let row = [fate.word().to_owned(), held.trials.to_string()].into_iter().chain(chi2);
         table.row(row.chain([stiffness.of.to_string(), hundredths(stiffness.rate()), bounds(stiffness)]));
     }
+    table
+}
+
+/// Whether the intervals of the final model hold what they claim, by what was hidden and rightly said.
+pub fn intervals(records: &[CalibrationRecord]) -> Table {
+    let mut table = Table::named([
+        "right answer",
+        "trials",
+        "stiffnesses",
+        "within 1.96 std %",
+        "95 % bounds",
+        "held-out numbers",
+        "within 1.96 std %",
+    ]);
+    let right = || records.iter().filter(|r| r.fate == Fate::Right);
+    let mut line = |title: &str, of: Vec<&CalibrationRecord>| {
+        let stiffness = stiffness_coverage(of.iter().copied());
+        let predicted = prediction_coverage(of.iter().copied());
+        let cells = [stiffness.of.to_string(), hundredths(stiffness.rate()), bounds(stiffness)];
+        let cells = cells.into_iter().chain([predicted.of.to_string(), hundredths(predicted.rate())]);
+        table.row([title.to_owned(), of.len().to_string()].into_iter().chain(cells));
+    };
+    for (title, effects) in
+        [("nothing hidden", 0), ("one effect", 1), ("two effects", 2), ("three effects", 3)]
+    {
+        line(title, right().filter(|r| !r.is_outside() && r.hidden.len() == effects).collect());
+    }
+    for (title, id) in JOINT_EFFECTS {
+        let several = right().filter(|r| r.hidden.len() > 1);
+        line(title, several.filter(|r| r.contains(id)).collect());
+    }
+    line("something outside", right().filter(|r| r.is_outside()).collect());
     table
 }
 
@@ -204,7 +242,7 @@ pub fn mistakes_table(records: &[CalibrationRecord]) -> Table {
 
 fn example(r: &CalibrationRecord) -> String {
     let distance = r.distance.unwrap_or(r.total_distance);
-    let pair = if r.kind == CaseKind::Pair {
+    let pair = if matches!(r.kind, CaseKind::Pair | CaseKind::Triple) {
         format!(" {} -> {}", r.hidden_words(), r.answer())
     } else {
         String::new()

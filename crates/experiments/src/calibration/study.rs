@@ -42,7 +42,7 @@ impl harness::Protocol for CalibrationProtocol {
         let portions = self.portions.iter().map(|p| format!("{} {}", p.kind.name(), p.trials));
         let portions = portions.collect::<Vec<_>>().join(", ");
         let settings = [("portions", portions), ("seed", self.seed.to_string())];
-        Identity::new("calibration", "calibration-trials/2", settings)
+        Identity::new("calibration", "calibration-trials/3", settings)
     }
 
     fn trials(&self) -> u64 {

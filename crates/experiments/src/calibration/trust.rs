@@ -10,7 +10,7 @@ pub const MOST_FALSE_NAMES: f64 = 0.01;
 /// Probability a credible set claims to hold.
 pub const CREDIBLE: f64 = 0.95;
 /// Standard deviations that hold 95 % of a normal law.
-const COVERED: f64 = 1.96;
+pub(super) const COVERED: f64 = 1.96;
 
 /// Trials in which an effect is named that is not there.
 pub fn false_names<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Proportion {
@@ -33,12 +33,15 @@ pub fn credible_coverage<'a>(records: impl IntoIterator<Item = &'a CalibrationRe
     Proportion::count(records, |r| r.is_covered())
 }
 
-/// Leg stiffnesses within 1.96 of their stated standard deviations; answers "outside" come with a model that is known to
-/// lack something and do not count.
+/// Leg stiffnesses within 1.96 of their stated standard deviations.
 pub fn stiffness_coverage<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Proportion {
-    let meant = records.into_iter().filter(|r| r.verdict != Verdict::Outside);
-    let all = meant.flat_map(|r| r.stiffness_z.iter().flatten());
+    let all = records.into_iter().flat_map(|r| r.stiffness_z.iter().flatten());
     Proportion::count(all, |z| z.abs() <= COVERED)
+}
+
+/// Held-out numbers within 1.96 of the standard deviation of prediction and noise together.
+pub fn prediction_coverage<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Proportion {
+    records.into_iter().map(|r| r.predicted).sum()
 }
 
 /// Quantiles of the reduced chi-square on held-out poses.

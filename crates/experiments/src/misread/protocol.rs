@@ -103,6 +103,16 @@ pub(crate) enum Job {
 
 /// Kinds of campaigns that are written wrongly.
 const MISREAD: [CaseKind; 2] = [CaseKind::Clean, CaseKind::Single];
+/// Kinds of sound campaigns, in turn.
+const SOUND_KINDS: [CaseKind; 7] = [
+    CaseKind::Single,
+    CaseKind::Pair,
+    CaseKind::Outside,
+    CaseKind::Clean,
+    CaseKind::SeedProtocol,
+    CaseKind::Absolute,
+    CaseKind::RichForm,
+];
 
 impl Job {
     /// Families in turn, clean and with an effect by turns; after two rounds every family has had both.
@@ -114,9 +124,9 @@ impl Job {
 
     /// Kinds in turn, and behind each round one in a scene where there are scenes.
     fn sound(number: usize, scenes: &[MisreadScene]) -> Self {
-        let round = CaseKind::ALL.len() + usize::from(!scenes.is_empty());
+        let round = SOUND_KINDS.len() + usize::from(!scenes.is_empty());
         let index = number / round;
-        if let Some(&kind) = CaseKind::ALL.get(number % round) {
+        if let Some(&kind) = SOUND_KINDS.get(number % round) {
             return Self::Sound { kind, size: SIZES[index % SIZES.len()], index };
         }
         let size = SIZES[index / scenes.len() % SIZES.len()];
@@ -148,7 +158,7 @@ impl Job {
         let (of, size) = SIZES.into_iter().find_map(|s| Some((before(rest, &format!("{s}x"))?, s)))?;
         match how {
             "sound" => {
-                let kind = CaseKind::ALL.into_iter().find(|k| k.name() == of)?;
+                let kind = SOUND_KINDS.into_iter().find(|k| k.name() == of)?;
                 Some(Self::Sound { kind, size, index })
             }
             "scene" => {

@@ -7,8 +7,10 @@ use hexbench_model::estimation::fit_named::{Added, fit_wanted};
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{Diagnosis, diagnose, prepare};
 use hexbench_model::terms::catalogue;
-use hexbench_truth::campaign::{PlanKind, Schemes, SimulatedCampaign, Spread, Yardstick, machines, measure};
-use hexbench_truth::mechanisms::{Creep, CreepLaw, LegBacklash};
+use hexbench_truth::campaign::{
+    PlanKind, Poses, Schemes, SimulatedCampaign, Spread, Yardstick, machines, measure,
+};
+use hexbench_truth::mechanisms::{Creep, CreepLaw, LegBacklash, LegDrift, LoadMassError};
 use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{Mechanism, World};
 
@@ -227,6 +229,39 @@ fn other(id: &str, seeds: u64) -> Said {
         said.of(id, &history(Some(drawn), 22.0, seed, heavy), [""; 2], [0.0; 2]);
     }
     said
+}
+
+#[test]
+fn a_mass_that_nobody_counted_is_no_creep_of_the_preload() {
+    for (distance, seed) in [(15.0, 0), (30.0, 1), (60.0, 2)] {
+        let history = history(Some(Box::new(LoadMassError { mass: 0.5 })), distance, seed, heavy);
+        let d = history.diagnosis();
+        let pattern = d.outside.as_ref().and_then(|outside| outside.pattern);
+        assert_eq!(
+            pattern,
+            Some("unstated-load"),
+            "distance {distance}, seed {seed}: {:?} {:?}",
+            d.verdict,
+            d.added
+        );
+    }
+}
+
+/// A campaign of many readings sees laws far below the noise; no model is the worse for them.
+#[test]
+fn a_law_of_less_than_a_tenth_of_the_noise_is_told_and_the_springs_are_adequate() {
+    const POSES: u64 = 224;
+    let many = |schemes: &mut Schemes| {
+        let Poses::Drawn { count, .. } = &mut schemes.training.poses else {
+            panic!("the rich plan draws poses")
+        };
+        *count = POSES;
+    };
+    let drift = Box::new(LegDrift { leg: 2, rate: 1e-9 });
+    let history = history(Some(drift), 11.5, 0, many);
+    let d = history.diagnosis();
+    assert_eq!(d.verdict, Verdict::Adequate, "{:?}", d.candidates.first());
+    assert_eq!(d.outside.as_ref().and_then(|outside| outside.pattern), Some("linear"));
 }
 
 /// Largest relative error of a number without noise: deflections are 5e-4 of the leg length, and fraction and time constant share it.

@@ -66,6 +66,11 @@ impl ErrorSummary {
         self.chi2_reduced.sqrt()
     }
 
+    /// What the noise does not give of the error, as a multiple of the noise.
+    pub fn beyond_noise(&self) -> f64 {
+        (self.chi2_reduced - 1.0).max(0.0).sqrt()
+    }
+
     /// True when the error is what the noise gives, a little model uncertainty included.
     pub fn is_at_the_noise(&self) -> bool {
         let spread = CHANCE * (2.0 / self.count.max(1) as f64).sqrt();

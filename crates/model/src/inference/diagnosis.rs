@@ -27,6 +27,8 @@ const LONG_GRID: usize = 24;
 const FIT_WIDTH: f64 = 3.0;
 /// Prior weight of all patterns together, relative to one term of the catalogue.
 const WEIGHT_OF_PATTERNS: f64 = 2.0;
+/// Axes of loads that no column states: of a mass, of any force.
+const UNSTATED_LOADS: [&[usize]; 2] = [&[2], &[0, 1, 2]];
 /// Chance of larger residuals below which patterns outside the catalogue are scanned for.
 const DOUBTFUL_CHANCE: f64 = 0.1;
 /// Chance of larger residuals below which the best set does not fit.
@@ -321,6 +323,25 @@ pub(crate) fn chosen_anew(part: &Campaign, lin: &Linearization, whole: &RankedSe
 }
 
 impl RankedSets {
+    /// The best set, and the same without patterns that no effect has, where both were weighed.
+    fn with_and_without_patterns(&self) -> Option<(&Set, &Set)> {
+        let best = self.sets.sets.first()?;
+        let is_effect = |m: &&usize| matches!(self.candidates[**m].kind, CandidateKind::Term(_));
+        let effects: Vec<usize> = best.members.iter().filter(is_effect).copied().collect();
+        Some((best, self.sets.sets.iter().find(|set| set.members == effects)?))
+    }
+
+    /// What patterns that no effect has add to the best effects, in twice the logarithm of the evidence.
+    pub(crate) fn gain_of_patterns(&self) -> f64 {
+        self.with_and_without_patterns()
+            .map_or(0.0, |(best, effects)| 2.0 * (best.log_weight - effects.log_weight))
+    }
+
+    /// Drop of chi-square by them.
+    pub(crate) fn drop_by_patterns(&self) -> f64 {
+        self.with_and_without_patterns().map_or(0.0, |(best, effects)| best.drop - effects.drop)
+    }
+
     /// Candidates that are in one of so many best sets, in their order.
     fn best_members(&self, sets: usize) -> impl Iterator<Item = &Candidate> {
         let best: BTreeSet<usize> =
@@ -345,7 +366,8 @@ fn patterns(
     point: &ModelPoint,
     scan: bool,
 ) -> Vec<(Pattern, f64)> {
-    let mut all = Vec::new();
+    let unstated = UNSTATED_LOADS.map(|axes| (Pattern::Load(axes), (0.1 * WEIGHT_OF_PATTERNS / 2.0).ln()));
+    let mut all = unstated.to_vec();
     if campaign.columns.elapsed {
         let drift = |leg| {
             let (variable, course) = (PatternVariable::Elapsed, Course::Linear);

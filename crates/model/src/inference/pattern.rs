@@ -1,4 +1,5 @@
-//! Patterns outside the catalogue: what the residual elongation of one leg, or of all, follows; and a stiffness beside the legs.
+//! Patterns outside the catalogue: what the residual elongation of one leg, or of all, follows; a stiffness beside the legs; a load that
+//! no column states.
 
 use std::f64::consts::TAU;
 
@@ -81,10 +82,15 @@ pub enum Pattern {
     /// Something beside the legs holds the platform with a stiffness constant in fixed axes: a cable, a hose, bellows. A full
     /// symmetric 6x6 matrix at the mobile origin.
     Beside,
+    /// A constant force along these fixed axes, which the file does not state, acts on the loaded platform: a hook or tray that comes with
+    /// every load, the zero of a load cell.
+    Load(&'static [usize]),
 }
 
 /// Stiffness of what holds the platform beside the legs relative to one leg: its natural size.
 const BESIDE: f64 = 0.05;
+/// Force of a load that is not stated relative to the change of the leg forces: its natural size.
+const UNSTATED: f64 = 0.05;
 
 impl Pattern {
     /// Number of columns.
@@ -92,6 +98,7 @@ impl Pattern {
         match self {
             Self::Leg(p) => p.width(),
             Self::Beside => 21,
+            Self::Load(axes) => axes.len(),
         }
     }
 
@@ -107,6 +114,7 @@ impl Pattern {
                     Action::Stiffness(unit)
                 }));
             }
+            Self::Load(axes) => out.extend(axes.iter().map(|&k| Action::Wrench(Vector6::ith(k, 1.0)))),
         }
     }
 
@@ -118,6 +126,7 @@ impl Pattern {
                 let arm = |k: usize| if k < 3 { 1.0 } else { natural.radius };
                 entries().map(|(i, j)| BESIDE / natural.compliance * arm(i) * arm(j)).collect()
             }
+            Self::Load(axes) => vec![UNSTATED * natural.force; axes.len()],
         }
     }
 
@@ -126,6 +135,7 @@ impl Pattern {
         match self {
             Self::Leg(p) => vec![false; p.width()],
             Self::Beside => entries().map(|(i, j)| i == j).collect(),
+            Self::Load(axes) => vec![false; axes.len()],
         }
     }
 
@@ -133,7 +143,16 @@ impl Pattern {
     pub fn spread(&self, conditions: &[Condition]) -> f64 {
         match self {
             Self::Leg(p) => spread(p.variable, conditions),
-            Self::Beside => 1.0,
+            Self::Beside | Self::Load(_) => 1.0,
+        }
+    }
+
+    /// One word for files.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Leg(p) => p.course.word(),
+            Self::Beside => "stiffness-beside-the-legs",
+            Self::Load(_) => "unstated-load",
         }
     }
 
@@ -143,6 +162,9 @@ impl Pattern {
             Self::Leg(p) => p.text(),
             Self::Beside => {
                 "something beside the legs holds the platform with a stiffness of its own".to_owned()
+            }
+            Self::Load(_) => {
+                "a constant load that the file does not state acts on the loaded platform".to_owned()
             }
         }
     }

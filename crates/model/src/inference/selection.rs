@@ -4,12 +4,14 @@ use hexbench_core::{Dataset, Hexapod};
 
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
+use crate::estimation::estimate::{Estimates, LegCompliances, estimates_with};
 use crate::estimation::fit::{Fit, TermSpec};
 use crate::estimation::fit_named::{Added, fit_wanted};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::residuals::{
     ErrorSummary, Residual, leave_poses_out, prediction_errors, residuals, summarise,
 };
+use crate::inference::discrepancy::LegDiscrepancy;
 
 /// Which readings no fit has seen; in files, its words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -63,6 +65,15 @@ pub struct FitWithErrors {
     pub fitted: ErrorSummary,
     /// Size of the errors on readings held out; absent where none can be.
     pub held_out: Option<ErrorSummary>,
+    /// What the fit leaves of the legs beyond the noise.
+    pub left: LegDiscrepancy,
+}
+
+impl FitWithErrors {
+    /// Its numbers; what it leaves of a leg is part of the uncertainty of the leg's stiffness.
+    pub fn estimates(&self) -> Estimates {
+        estimates_with(&LegCompliances::of(&self.fit).open_by(&self.left.share), &self.fit)
+    }
 }
 
 impl JudgedTask<'_> {
@@ -84,7 +95,8 @@ impl JudgedTask<'_> {
         let residuals = residuals(self.campaign, &self.data.observations, &linearization);
         let fitted = summarise(&residuals, Some(fit.dof));
         let held_out = self.held_out_errors(&fit, wanted)?;
-        Ok(FitWithErrors { fit, linearization, residuals, fitted, held_out })
+        let left = LegDiscrepancy::of(self.campaign, &linearization, fit.lack_of_fit_dof);
+        Ok(FitWithErrors { fit, linearization, residuals, fitted, held_out, left })
     }
 
     /// Where held-out errors come from.

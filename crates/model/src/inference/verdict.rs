@@ -66,6 +66,8 @@ pub struct Judgement {
     pub outside: f64,
     /// True when the best explanation failed on held-out data.
     pub refuted: bool,
+    /// True when something outside the catalogue is there, and too small to matter.
+    pub outside_is_small: bool,
 }
 
 /// Judge the sets.
@@ -100,7 +102,16 @@ pub fn judge(sets: &Sets, candidates: &[Candidate]) -> Judgement {
     } else {
         Verdict::Named
     };
-    Judgement { verdict, first, present, credible: credible(sets, candidates), sure, outside, refuted: false }
+    Judgement {
+        verdict,
+        first,
+        present,
+        credible: credible(sets, candidates),
+        sure,
+        outside,
+        refuted: false,
+        outside_is_small: false,
+    }
 }
 
 impl Judgement {
@@ -115,6 +126,7 @@ impl Judgement {
             sure: Vec::new(),
             outside: 0.0,
             refuted: false,
+            outside_is_small: false,
         }
     }
 
@@ -124,10 +136,25 @@ impl Judgement {
         self.verdict == Verdict::Ambiguous && !self.sure.is_empty() && !doubtful && self.outside <= DOUBT
     }
 
-    /// Held-out readings show nothing outside the catalogue. Effects that were found beside it may have taken its place: they are open.
+    /// What is outside the catalogue is too small to matter: the answer is what it would be without.
+    pub(crate) fn pass_over_outside(&mut self) {
+        self.outside_is_small = true;
+        let doubtful = is_doubtful(&self.present, &self.sure);
+        self.verdict = match (doubtful, self.sure.is_empty()) {
+            (true, _) => Verdict::Ambiguous,
+            (false, true) => Verdict::Adequate,
+            (false, false) => Verdict::Named,
+        };
+    }
+
+    /// Held-out readings show nothing outside the catalogue. Effects that were found beside it may have taken its place: they are open; so
+    /// is what the readings fitted are sure of.
     pub(crate) fn withdraw_outside(&mut self) {
-        let something = self.present.values().any(|p| *p >= DOUBT);
+        let something = self.present.values().any(|p| *p >= DOUBT) || self.outside >= NAMED;
         self.verdict = if something { Verdict::Ambiguous } else { Verdict::Adequate };
+        if something && !self.credible.contains(&Explanation::Nothing) {
+            self.credible.push(Explanation::Nothing);
+        }
     }
 }
 

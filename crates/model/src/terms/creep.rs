@@ -122,13 +122,15 @@ impl Term for Creep {
         if self.is_unsettled && !conditions.iter().any(is_open) {
             return Vec::new();
         }
-        // From a third of the shortest to three times the longest wait.
+        // From a third of the shortest to three times the longest wait. What goes faster has settled when the reference is read, which
+        // waits as long as the others; beside the springs such a part would be a constant load.
         let waits = conditions.iter().map(|c| c.elapsed).filter(|&t| t > 0.0);
         let (short, long) = waits.fold((f64::INFINITY, 0.0_f64), |(a, b), t| (a.min(t), b.max(t)));
         if long <= 0.0 {
             return Vec::new();
         }
-        let (first, last) = ((short / 3.0).max(long / 300.0), 3.0 * long);
+        let fastest = if self.is_unsettled { short } else { short / 3.0 };
+        let (first, last) = (fastest.max(long / 300.0), 3.0 * long);
         let steps = if self.law == Law::Exponential { 7 } else { 3 };
         (0..=steps).map(|k| first * (last / first).powf(f64::from(k) / f64::from(steps))).collect()
     }

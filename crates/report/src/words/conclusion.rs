@@ -1,9 +1,9 @@
 //! The verdict in a sentence or two.
 
 use hexbench_model::inference::explanation::Explanation;
-use hexbench_model::inference::gain::GainOutcome;
+use hexbench_model::inference::gain::{GainOutcome, WORTH_NAMING};
 use hexbench_model::inference::verdict::{NAMED, Verdict};
-use hexbench_model::results::diagnose::{Diagnosis, StepReport};
+use hexbench_model::results::diagnose::{Diagnosis, OutsideReport, StepReport};
 use hexbench_model::results::words::{joined, joined_with};
 use hexbench_model::terms::catalogue;
 
@@ -28,12 +28,24 @@ pub fn section(d: &Diagnosis) -> Section {
 pub fn sentences(d: &Diagnosis) -> Vec<String> {
     let mut all = verdict(d);
     all.extend(d.steps.iter().filter_map(|step| held_out_remark(d, step)));
+    all.extend(d.outside.as_ref().filter(|_| d.verdict != Verdict::Outside).map(small_outside));
     all
+}
+
+fn small_outside(outside: &OutsideReport) -> String {
+    format!(
+        "Something outside the catalogue is sure, but worth less than {} % of the error: {}.",
+        hundredths(WORTH_NAMING),
+        outside.text
+    )
 }
 
 /// The verdict itself.
 fn verdict(d: &Diagnosis) -> Vec<String> {
     match d.verdict {
+        Verdict::Adequate if d.outside.is_some() => {
+            vec!["The springs alone are good enough: what is missing is too small to matter.".to_owned()]
+        }
         Verdict::Adequate if !d.small.is_empty() => {
             vec!["The springs alone are good enough: no effect is worth naming.".to_owned()]
         }

@@ -1,13 +1,15 @@
 //! The page of a fit: quality, values with uncertainty, correlations, errors.
 
 use hexbench_model::application::model_file::Estimator;
-use hexbench_model::estimation::estimate::{Estimate, estimates};
+use hexbench_model::estimation::estimate::{Estimate, Estimates};
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::fit_named::look_alikes;
 use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::{FitWithErrors, HeldOut, JudgedTask};
+use hexbench_model::results::diagnose::LegRemainder;
 use hexbench_model::results::words::joined;
 
+use super::remainder::of_legs;
 use crate::number::{significant, with_uncertainty};
 use crate::page::{Block, Page, PageColumn, Section, Table};
 
@@ -20,7 +22,8 @@ const BRIEF: usize = 10;
 pub fn page(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) -> Page {
     Page::default()
         .with(quality(task, &judged.fit, estimator))
-        .with(values(&judged.fit))
+        .with(values(&judged.estimates()))
+        .with(remainder(judged))
         .with(correlations(&judged.fit))
         .with(errors(task, judged))
 }
@@ -53,8 +56,7 @@ fn quality(task: &JudgedTask<'_>, fit: &Fit, estimator: Estimator) -> Section {
         .with((!fit.is_settled()).then(|| Block::paragraph(provisional)))
 }
 
-fn values(fit: &Fit) -> Section {
-    let all = estimates(fit);
+fn values(all: &Estimates) -> Section {
     let row = |e: &Estimate| {
         let [value, std] = with_uncertainty(e.value, e.std);
         let share = 100.0 * (e.std / e.value).abs();
@@ -74,6 +76,11 @@ fn values(fit: &Fit) -> Section {
         .remark("+- standard uncertainty (k = 1)")
         .table(Table::new(columns).rows(all.determined.iter().map(row)))
         .with(open.map(Block::paragraph))
+}
+
+fn remainder(judged: &FitWithErrors) -> Option<Section> {
+    let error = judged.held_out.unwrap_or(judged.fitted);
+    judged.left.is_any().then(|| of_legs(error.beyond_noise(), &LegRemainder::all(&judged.left)))
 }
 
 fn correlations(fit: &Fit) -> Option<Section> {

@@ -32,6 +32,11 @@ fn hint(outside: &OutsideReport) -> String {
         (Some("delta_T_K"), _) => format!("Something in {who} follows the temperature."),
         (Some("leg_force"), _) => format!("Something in {who} depends on its force: contact, preload, play."),
         (Some(variable), _) => format!("Something in {who} follows {variable}."),
+        (None, _) if outside.pattern == Some("unstated-load") => {
+            "Look for what comes with every load and is not in the list of loads: a shackle, a hook, a tray, a cable; and for the zero of \
+             the load cell."
+                .to_owned()
+        }
         (None, _) if outside.pattern.is_some() => {
             "Something takes a part of the load past the legs: look for a cable, a hose, bellows or a cover that touches the \
              platform."

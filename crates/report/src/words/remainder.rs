@@ -11,23 +11,25 @@ use crate::page::{Block, PageColumn, Section, Table};
 /// How large it is, in which legs, and what it follows.
 pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     let remainder = d.remainder.as_ref()?;
+    let follows = (!has_a_pattern(d)).then(|| Block::paragraph(followed(&remainder.follows)));
+    Some(of_legs(remainder.times_noise, &remainder.legs).with(follows))
+}
+
+/// The same without what it follows; `times_noise` is the error on held-out poses without the noise's own.
+pub(super) fn of_legs(times_noise: f64, legs: &[LegRemainder]) -> Section {
     let lead = format!(
         "Beyond the noise the fitted model leaves {} times the noise on held-out poses. Where a leg is listed, its stiffness is open by as \
          large a share of the spring: its uncertainty above contains it.",
-        multiple(remainder.times_noise)
+        multiple(times_noise)
     );
     let columns = [PageColumn::words("leg"), PageColumn::number("um"), PageColumn::number("% of its spring")];
     let row = |leg: &LegRemainder| {
         [leg.leg.to_string(), significant(leg.elongation_um, 2), significant(leg.percent_of_spring, 2)]
     };
-    let table = Table::new(columns).rows(remainder.legs.iter().map(row));
-    Some(
-        Section::new("What remains")
-            .remark("elongation of the legs that nothing in the model explains, root mean square")
-            .paragraph(lead)
-            .table(table)
-            .with((!has_a_pattern(d)).then(|| Block::paragraph(followed(&remainder.follows)))),
-    )
+    Section::new("What remains")
+        .remark("elongation of the legs that nothing in the model explains, root mean square")
+        .paragraph(lead)
+        .table(Table::new(columns).rows(legs.iter().map(row)))
 }
 
 /// True when the verdict has told what it follows.

@@ -32,11 +32,13 @@ pub enum CaseKind {
     Absolute,
     /// A base or plate that yields as a full 6x6 compliance: in the catalogue, of a form richer than its own.
     RichForm,
+    /// Three effects of the catalogue.
+    Triple,
 }
 
 impl CaseKind {
     /// All kinds.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Single,
         Self::Pair,
         Self::Outside,
@@ -44,6 +46,7 @@ impl CaseKind {
         Self::SeedProtocol,
         Self::Absolute,
         Self::RichForm,
+        Self::Triple,
     ];
 
     /// Name in the truth file.
@@ -56,6 +59,7 @@ impl CaseKind {
             Self::SeedProtocol => "seed-protocol",
             Self::Absolute => "absolute",
             Self::RichForm => "rich-form",
+            Self::Triple => "triple",
         }
     }
 
@@ -280,6 +284,12 @@ fn draw_effects(kind: CaseKind, index: usize, rng: &mut Pcg64) -> Vec<&'static s
             let first = rng.random_range(0..deflection.len());
             let second = (first + rng.random_range(1..deflection.len())) % deflection.len();
             vec![deflection[first.min(second)], deflection[first.max(second)]]
+        }
+        CaseKind::Triple => {
+            let chosen = rand::seq::index::sample(rng, deflection.len(), 3);
+            let mut places = chosen.into_vec();
+            places.sort_unstable();
+            places.into_iter().map(|k| deflection[k]).collect()
         }
         CaseKind::Outside => {
             let outside: Vec<_> =

@@ -49,15 +49,16 @@ impl LoadedCampaign {
         let terms = files::terms_with(&selection.own, &self.limits)?;
         let data = &self.contents.data;
         let chosen = view::selected(&selection.terms, &terms, &data.source)?;
-        let fit = view::judged(&self.task(), &chosen)?.fit;
-        refuse_undetermined(&fit).map_err(|cause| Refusal::model(&cause, &data.source))?;
+        let judged = view::judged(&self.task(), &chosen)?;
+        refuse_undetermined(&judged.fit).map_err(|cause| Refusal::model(&cause, &data.source))?;
         let origin = DataOrigin {
             file: data.source.clone(),
             sha256: text_hash(&self.files.data),
             readings: data.observations.len(),
             read_as: Vec::new(),
         };
-        Ok(Model::new(&self.campaign, &fit, Estimator::Gls, origin).to_toml()?)
+        let model = Model::new(&self.campaign, &judged.fit, Estimator::Gls, origin);
+        Ok(model.open_by(&judged.left.share).to_toml()?)
     }
 
     fn report(&self, own: &[String]) -> Result<String, Refusal> {

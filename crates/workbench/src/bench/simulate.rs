@@ -127,7 +127,8 @@ fn kind(plan: PlanKind, effects: &[&'static str]) -> CaseKind {
         (_, []) => CaseKind::Clean,
         (_, all) if all.iter().any(|id| is_outside(id)) => CaseKind::Outside,
         (_, [_]) => CaseKind::Single,
-        _ => CaseKind::Pair,
+        (_, [_, _]) => CaseKind::Pair,
+        _ => CaseKind::Triple,
     }
 }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use hexbench_core::Hexapod;
 use hexbench_model::effects::term::Term;
-use hexbench_model::estimation::estimate::{Estimate, Estimates, estimates};
+use hexbench_model::estimation::estimate::{Estimate, Estimates};
 use hexbench_model::estimation::fit_named::{Added, look_alikes};
 use hexbench_model::estimation::parameters::{leg_of_stiffness, stiffness_name};
 use hexbench_model::estimation::scatter::ResidualScatter;
@@ -44,7 +44,7 @@ pub(super) fn view(
     let lin = &judged.linearization;
     let legs = leg_space(task.campaign, lin);
     let error = judged.held_out.unwrap_or(judged.fitted);
-    let numbers = estimates(&judged.fit);
+    let numbers = judged.estimates();
     let predictions: Vec<_> = shown.iter().map(|&i| lin.predicted(i)).collect();
     let scatter = ResidualScatter::of(&judged.residuals);
     View {

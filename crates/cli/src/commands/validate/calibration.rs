@@ -101,6 +101,7 @@ fn tables(study: &Calibration) -> impl Iterator<Item = (&'static str, String)> {
         ("reliability.csv", sheets::reliability(records, 0.0)),
         ("power.csv", sheets::power(&curves)),
         ("coverage.csv", sheets::coverage(records)),
+        ("intervals.csv", sheets::intervals(records)),
         ("numbers.csv", sheets::numbers(records)),
         ("mistakes.csv", sheets::mistakes_table(records)),
     ];

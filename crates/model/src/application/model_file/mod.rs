@@ -8,7 +8,7 @@ mod layout;
 mod read;
 mod write;
 
-use hexbench_core::{Hexapod, Measurand};
+use hexbench_core::{Hexapod, Measurand, Vector6};
 use nalgebra::DMatrix;
 use thiserror::Error;
 
@@ -141,6 +141,16 @@ impl Model {
             settled: fit.is_settled(),
             program: concat!("hexbench ", env!("CARGO_PKG_VERSION")).to_owned(),
         }
+    }
+
+    /// The same where so large a share of every spring is open beside, because its legs move otherwise than the model says: predictions
+    /// and compensations are as uncertain as that makes them.
+    #[must_use]
+    pub fn open_by(mut self, share: &Vector6) -> Self {
+        for (leg, compliance) in self.point.compliances.iter().enumerate() {
+            self.covariance[(leg, leg)] += (compliance * share[leg]).powi(2);
+        }
+        self
     }
 
     /// Standard error of a column, SI.

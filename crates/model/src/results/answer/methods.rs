@@ -40,7 +40,7 @@ pub(crate) fn hexbench(case: &CaseFiles) -> Result<Answer, AnswerError> {
 /// much of the readings to come: `sigma sqrt(chi2 - 1)`.
 fn missed(diagnosis: &Diagnosis, noise: &[f64; 6]) -> [f64; 6] {
     let left_out = diagnosis.steps.last().and_then(|step| step.holdout);
-    let excess = left_out.map_or(0.0, |error| (error.chi2_reduced - 1.0).max(0.0).sqrt());
+    let excess = left_out.map_or(0.0, |error| error.beyond_noise());
     noise.map(|sigma| sigma * excess)
 }
 

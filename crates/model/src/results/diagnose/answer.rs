@@ -10,6 +10,7 @@ use crate::estimation::linearization::Linearization;
 use crate::inference::diagnosis::{RankedSets, wanted};
 use crate::inference::discrepancy::LegDiscrepancy;
 use crate::inference::examination::{Finding, is_misread};
+use crate::inference::gain::WORTH_NAMING;
 use crate::inference::search::Set;
 use crate::inference::verdict::{Judgement, Verdict, judge};
 
@@ -45,6 +46,9 @@ impl Answer {
         demote_what_does_not_survive(&mut judgement, &steps);
         let last = fits.last().unwrap_or(&outcome.baseline);
         context.face_holdout(&mut judgement, last);
+        if judgement.verdict == Verdict::Outside && context.share_outside(last) < WORTH_NAMING {
+            judgement.pass_over_outside();
+        }
         let small = withdraw_what_is_small(&mut judgement, &steps);
         if judgement.verdict == Verdict::Adequate {
             judgement.verdict = match (context.can_judge(last), findings.is_empty()) {

@@ -142,6 +142,14 @@ impl Context<'_> {
         last.lack_of_fit_dof > 0.0 && level.dof > 0.0 && self.outcome.candidates.iter().any(would_show)
     }
 
+    /// Share of the error of all readings, noise included, that what is outside the catalogue makes up: what its pattern explains, or what
+    /// the last fit leaves beyond the noise.
+    pub(super) fn share_outside(&self, last: &Fit) -> f64 {
+        let left = (last.lack_of_fit - last.lack_of_fit_dof).max(self.outcome.drop_by_patterns());
+        let dof = last.dof.max(1.0);
+        1.0 - (1.0 - (left / dof).clamp(0.0, 1.0)).sqrt()
+    }
+
     /// True when the held-out readings are as the fit expects them, and the pattern found makes them no better predicted.
     fn shows_nothing(&self, holdout: &Dataset, last: &Fit) -> bool {
         let chance = held_out_chance(self.campaign, holdout, last);

@@ -41,6 +41,8 @@ const NEGATIVE_SIGMAS: f64 = 3.0;
 struct Explained {
     /// Twice the negative log-likelihood, to a constant of the file.
     cost: f64,
+    /// What patterns without a name would take off it.
+    patterns: f64,
     /// The same of springs alone.
     springs_cost: f64,
     /// Error over the noise.
@@ -138,7 +140,7 @@ impl Weighing<'_> {
 
     /// True when effects explain the file as written to the noise, and no other reading does better with springs alone.
     fn needs_no_other_reading(&self, written: &Explained) -> bool {
-        let better = |way: &Way| springs_do_better(way, written);
+        let better = |way: &Way| springs_may_do_better(way, written);
         written.negative == 0 && written.is_noise && !self.readings.ways.iter().any(better)
     }
 
@@ -151,13 +153,16 @@ impl Weighing<'_> {
     }
 
     fn is_better(&self, way: &Way, other: &Explained, written: &Explained) -> bool {
-        let gained = written.negative > 0 || written.cost - other.cost > GAIN;
+        // A size soaks up a little of anything, so it has to be better than what has no name as well.
+        let written_cost = written.cost - if way.has_size() { written.patterns } else { 0.0 };
+        let gained = written.negative > 0 || written_cost - other.cost > GAIN;
         let springs = self.readings.level.unwrap_or(f64::INFINITY);
         let is_all = other.is_noise || other.level < SOUND_LEVEL;
         if way.has_size() {
-            // A size soaks up a little of anything: it has to explain everything, and most of it without effects.
+            // It has to explain everything, and most of it without effects.
             let beside_effects = gained && is_all && !written.is_noise && way.level < BETTER_SHARE * springs;
-            return beside_effects || springs_do_better(way, written);
+            let springs_alone = way.level < SOUND_LEVEL && other.springs_cost < written_cost - SIZE_GAIN;
+            return beside_effects || springs_alone;
         }
         let far = |now: f64, before: f64| now < FAR_BETTER_SHARE * before;
         let is_far_better = far(other.level, written.level) && far(way.level, springs);
@@ -199,6 +204,7 @@ impl Explained {
         let variance = best.lack_of_fit / dof;
         Self {
             cost: lack(campaign, best) + beside,
+            patterns: outcome.gain_of_patterns(),
             springs_cost: lack(campaign, &outcome.baseline) + beside,
             level: variance.sqrt(),
             is_noise: variance < 1.0 + NOISE_SIGMAS * (2.0 / dof).sqrt(),
@@ -215,9 +221,9 @@ fn lack(campaign: &Campaign, fit: &Fit) -> f64 {
     numbers * (level.ln() + variance / level) + fit.parameters.iter().count() as f64 * numbers.ln()
 }
 
-/// True when springs alone explain another reading of the file better than effects explain the file as written; with a size, to the
-/// noise.
-fn springs_do_better(way: &Way, written: &Explained) -> bool {
+/// True when springs alone may explain another reading of the file better than effects explain the file as written; with a size, to the
+/// noise. What springs gain is known with exact inputs so far, which is more than they gain beside tolerances.
+fn springs_may_do_better(way: &Way, written: &Explained) -> bool {
     let springs = written.springs_cost - way.gain;
     if way.has_size() {
         way.level < SOUND_LEVEL && springs < written.cost - SIZE_GAIN

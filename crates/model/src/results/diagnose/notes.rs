@@ -31,7 +31,7 @@ pub(super) fn suspects(rows: &[Residual], data: &Dataset) -> Vec<SuspiciousReadi
 }
 
 pub(super) fn outside(judgement: &Judgement, outcome: &RankedSets) -> Option<OutsideReport> {
-    if judgement.verdict != Verdict::Outside {
+    if judgement.verdict != Verdict::Outside && !judgement.outside_is_small {
         return None;
     }
     let best = outcome.sets.sets.first()?;
@@ -43,24 +43,21 @@ pub(super) fn outside(judgement: &Judgement, outcome: &RankedSets) -> Option<Out
     Some(simplest.map_or_else(unknown_pattern, known_pattern))
 }
 
-fn known_pattern(pattern: &Pattern) -> OutsideReport {
-    let text = pattern.text();
-    match pattern {
+fn known_pattern(of_pattern: &Pattern) -> OutsideReport {
+    let (pattern, text) = (Some(of_pattern.word()), of_pattern.text());
+    match of_pattern {
         Pattern::Leg(LegPattern { leg, variable, course, .. }) => OutsideReport {
             leg: leg.map(|l| l + 1),
             variable: Some(variable.name()),
-            pattern: Some(course.word()),
+            pattern,
             period: if let Course::Periodic(period) = course { Some(period * 1e3) } else { None },
             text,
         },
-        Pattern::Beside => {
-            OutsideReport { leg: None, variable: None, pattern: Some(BESIDE_THE_LEGS), period: None, text }
+        Pattern::Beside | Pattern::Load(_) => {
+            OutsideReport { leg: None, variable: None, pattern, period: None, text }
         }
     }
 }
-
-/// Word for a stiffness beside the legs.
-const BESIDE_THE_LEGS: &str = "stiffness-beside-the-legs";
 
 pub(super) fn unknown_pattern() -> OutsideReport {
     let text = "the residuals are larger than the noise, and follow neither a term of the catalogue nor a simple pattern";

@@ -50,16 +50,23 @@ impl RemainderReport {
         if !left.is_any() {
             return None;
         }
-        let leg = |leg: usize| LegRemainder {
+        let mut follows = associations(&JudgedModel::linearized(campaign, data, &last.point, lin, true));
+        follows.truncate(TOLD);
+        let times_noise = step.map_or(0.0, |s| s.error().beyond_noise());
+        Some(Self { times_noise, legs: LegRemainder::all(left), follows })
+    }
+}
+
+impl LegRemainder {
+    /// Those of the legs in which something remains, the largest share first.
+    pub fn all(left: &LegDiscrepancy) -> Vec<Self> {
+        let leg = |leg: usize| Self {
             leg: leg + 1,
             elongation_um: left.elongation[leg] * 1e6,
             percent_of_spring: left.share[leg] * 100.0,
         };
-        let mut legs: Vec<LegRemainder> = (0..6).filter(|&k| left.share[k] > 0.0).map(leg).collect();
+        let mut legs: Vec<Self> = (0..6).filter(|&k| left.share[k] > 0.0).map(leg).collect();
         legs.sort_by(|a, b| b.percent_of_spring.total_cmp(&a.percent_of_spring));
-        let mut follows = associations(&JudgedModel::linearized(campaign, data, &last.point, lin, true));
-        follows.truncate(TOLD);
-        let times_noise = step.map_or(0.0, |s| (s.error().chi2_reduced - 1.0).max(0.0).sqrt());
-        Some(Self { times_noise, legs, follows })
+        legs
     }
 }
