@@ -52,6 +52,7 @@ pub(crate) fn conditions_header(rows: &Dataset) -> Vec<&'static str> {
         (c.delta_t, "delta_T_K"),
         (c.elapsed, "elapsed_s"),
         (c.reference_age, "ref_age_s"),
+        (c.reference_record, "ref_record"),
     ];
     let reference = reference.into_iter().filter(|_| c.reference);
     let optional = optional.into_iter().filter_map(|(there, name)| there.then_some(name));
@@ -67,6 +68,7 @@ pub(crate) fn condition(rows: &Dataset, o: &Observation) -> Vec<String> {
         (c.delta_t, o.delta_t),
         (c.elapsed, o.elapsed),
         (c.reference_age, o.reference_age.unwrap_or_default()),
+        (c.reference_record, o.reference_record.unwrap_or_default() as f64),
     ];
     let reference = if c.reference { plain(&o.reference.to_array()) } else { Vec::new() };
     [o.pose_id.to_string(), o.repeat.to_string()]

@@ -46,6 +46,8 @@ pub struct Observation {
     pub elapsed: f64,
     /// Time the reference load had rested on the machine when the reference was read, s; none when the file does not say.
     pub reference_age: Option<f64>,
+    /// Number of the reference reading that this one was taken against, as the file gives it; none when the file does not say.
+    pub reference_record: Option<i64>,
     /// What the six numbers are: one of the [`Dataset::blocks`].
     pub block: usize,
     /// Measured values: translation (m), rotation (rad), meaning as in [`Measurand`]; of other blocks, what their channels read.
@@ -79,6 +81,8 @@ pub struct Columns {
     pub elapsed: bool,
     /// `ref_age_*`.
     pub reference_age: bool,
+    /// `ref_record`.
+    pub reference_record: bool,
     /// All six `sigma_*` columns.
     pub sigma: bool,
 }

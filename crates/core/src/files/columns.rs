@@ -14,7 +14,7 @@ pub(crate) enum Group {
     Wrench,
     /// Wrench in the reference state.
     Reference,
-    /// `approach`, `delta_T`, `elapsed`, `ref_age`.
+    /// `approach`, `delta_T`, `elapsed`, `ref_age`, `ref_record`.
     Covariate,
     /// Translation, loaded minus reference.
     Deflection,
@@ -65,7 +65,8 @@ pub(crate) const ELAPSED: usize = 32;
 pub(crate) const POSE_ID: usize = 33;
 pub(crate) const REPEAT: usize = 34;
 pub(crate) const REFERENCE_AGE: usize = 35;
-pub(crate) const PLACES: usize = 36;
+pub(crate) const REFERENCE_RECORD: usize = 36;
+pub(crate) const PLACES: usize = 37;
 
 const fn column(name: &'static str, kind: Dimension, group: Group, first: usize) -> Column {
     Column { name, kind, group, places: Places { first, count: 1 } }
@@ -101,6 +102,7 @@ pub(crate) static COLUMNS: &[Column] = &[
     column("delta_T", Dimension::TemperatureDifference, Group::Covariate, DELTA_T),
     column("elapsed", Dimension::Time, Group::Covariate, ELAPSED),
     column("ref_age", Dimension::Time, Group::Covariate, REFERENCE_AGE),
+    column("ref_record", Dimension::Number, Group::Covariate, REFERENCE_RECORD),
     column("da", Dimension::Length, Group::Deflection, MEASURED),
     column("db", Dimension::Length, Group::Deflection, MEASURED + 1),
     column("dc", Dimension::Length, Group::Deflection, MEASURED + 2),
@@ -136,6 +138,11 @@ pub(crate) static COLUMNS: &[Column] = &[
 ];
 
 impl Column {
+    /// True for a column that numbers things.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.group == Group::Number || self.places.first == REFERENCE_RECORD
+    }
+
     /// The unit files are written in: those of the format's definition.
     pub(crate) fn usual_unit(&self) -> &'static str {
         let absolute = matches!(self.group, Group::Pose | Group::Absolute);

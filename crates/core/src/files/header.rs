@@ -216,7 +216,8 @@ fn plan(
         return Err(FileProblem::MissingColumns { names: missing });
     }
     let columns = optional_columns(&present)?;
-    if (columns.reference || columns.reference_age) && measurand == Measurand::AbsolutePose {
+    let of_reference = columns.reference || columns.reference_age || columns.reference_record;
+    if of_reference && measurand == Measurand::AbsolutePose {
         return Err(FileProblem::ReferenceOfAbsolutePose);
     }
     let has_pose = present.fills(Group::Number, super::columns::POSE_ID);
@@ -234,7 +235,7 @@ fn plan(
 }
 
 fn optional_columns(present: &Present<'_>) -> Result<Columns, FileProblem> {
-    use super::columns::{APPROACH, DELTA_T, ELAPSED, REFERENCE_AGE};
+    use super::columns::{APPROACH, DELTA_T, ELAPSED, REFERENCE_AGE, REFERENCE_RECORD};
     Ok(Columns {
         reference: present.complete_or_absent(Group::Reference, "ref_")?,
         sigma: present.complete_or_absent(Group::Sigma, "sigma_")?,
@@ -242,6 +243,7 @@ fn optional_columns(present: &Present<'_>) -> Result<Columns, FileProblem> {
         delta_t: present.fills(Group::Covariate, DELTA_T),
         elapsed: present.fills(Group::Covariate, ELAPSED),
         reference_age: present.fills(Group::Covariate, REFERENCE_AGE),
+        reference_record: present.fills(Group::Covariate, REFERENCE_RECORD),
     })
 }
 

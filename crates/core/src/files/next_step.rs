@@ -67,7 +67,9 @@ impl FileProblem {
             Self::DecimalComma => {
                 "Write a decimal point, or export with semicolons between the columns and commas in the numbers."
             }
-            Self::NotWhole => "Number the poses and repeats 1, 2, 3, ...; put names into a column note_pose.",
+            Self::NotWhole => {
+                "Number poses, repeats and references 1, 2, 3, ...; put names into a column note_pose."
+            }
             Self::Approach => {
                 "Write 1 where the load was approached from below and -1 where it was exceeded first."
             }

@@ -2,8 +2,8 @@
 
 use super::FileProblem;
 use super::columns::{
-    APPROACH, DELTA_T, ELAPSED, Group, MEASURED, POSE, POSE_ID, REFERENCE, REFERENCE_AGE, REPEAT, Row, SIGMA,
-    WRENCH,
+    APPROACH, DELTA_T, ELAPSED, Group, MEASURED, POSE, POSE_ID, REFERENCE, REFERENCE_AGE, REFERENCE_RECORD,
+    REPEAT, Row, SIGMA, WRENCH,
 };
 use super::header::{Plan, Source};
 use super::sensor_columns::SensorSource;
@@ -146,7 +146,9 @@ fn check(source: &Source, si: f64) -> Result<(), FileProblem> {
     use super::Dimension;
     match source.column.group {
         _ if !si.is_finite() => Err(FileProblem::TooLarge),
-        Group::Number if si.fract() != 0.0 || si.abs() > LARGEST_WHOLE => Err(FileProblem::NotWhole),
+        _ if source.column.is_whole() && (si.fract() != 0.0 || si.abs() > LARGEST_WHOLE) => {
+            Err(FileProblem::NotWhole)
+        }
         Group::Covariate if source.column.places.first == APPROACH && Approach::of_sign(si).is_none() => {
             Err(FileProblem::Approach)
         }
@@ -180,6 +182,7 @@ fn observation(row: &Row, plan: &Plan, line: u64, running: i64) -> Observation {
         delta_t: row[DELTA_T],
         elapsed: row[ELAPSED],
         reference_age: plan.columns.reference_age.then(|| row[REFERENCE_AGE]),
+        reference_record: plan.columns.reference_record.then(|| whole(row[REFERENCE_RECORD])),
         block: 0,
         measured: six(row, MEASURED),
         sigma: plan.columns.sigma.then(|| six(row, SIGMA)),

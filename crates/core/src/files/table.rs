@@ -2,7 +2,6 @@
 
 use std::hash::Hash;
 
-use super::columns::Group;
 use super::duplicates::{Fingerprints, drop_copies};
 use super::error::Fault;
 use super::header::{GroupPurpose, Plan, Source, read_header};
@@ -127,7 +126,7 @@ fn state_sigmas(dataset: &mut Dataset, stated: &[[Option<f64>; 6]]) -> Result<()
 impl Source {
     /// Text in the column of a whole number is called that.
     pub(crate) fn sharpened(&self, problem: FileProblem) -> FileProblem {
-        let is_name = matches!(problem, FileProblem::NotANumber) && self.column.group == Group::Number;
+        let is_name = matches!(problem, FileProblem::NotANumber) && self.column.is_whole();
         if is_name { FileProblem::NotWhole } else { problem }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::columns::{
     APPROACH, COLUMNS, Column, DELTA_T, ELAPSED, Group, MEASURED, PLACES, POSE, POSE_ID, REFERENCE,
-    REFERENCE_AGE, REPEAT, Row, SIGMA, WRENCH,
+    REFERENCE_AGE, REFERENCE_RECORD, REPEAT, Row, SIGMA, WRENCH,
 };
 use super::header::measured_groups;
 use super::units::{PLAIN, Unit, unit_named};
@@ -140,6 +140,7 @@ fn is_written(column: &Column, measurand: Measurand, has: Columns) -> bool {
             APPROACH => has.approach,
             DELTA_T => has.delta_t,
             REFERENCE_AGE => has.reference_age,
+            REFERENCE_RECORD => has.reference_record,
             _ => has.elapsed,
         },
         measured => measured_groups(measurand).contains(&measured),
@@ -161,6 +162,7 @@ fn row_of(observation: &Observation) -> Row {
     // As of sigma below.
     row[REFERENCE_AGE] = observation.reference_age.unwrap_or(f64::NAN);
     // Whole numbers below 2^53: the readers take no others.
+    row[REFERENCE_RECORD] = observation.reference_record.map_or(f64::NAN, |record| record as f64);
     row[POSE_ID] = observation.pose_id as f64;
     row[REPEAT] = observation.repeat as f64;
     row

@@ -30,7 +30,10 @@ fn assert_near(one: &Dataset, other: &Dataset) {
     assert_eq!((one.measurand, one.columns), (other.measurand, other.columns));
     assert_eq!(one.observations.len(), other.observations.len());
     for (one, other) in one.observations.iter().zip(&other.observations) {
-        assert_eq!((one.pose_id, one.repeat), (other.pose_id, other.repeat));
+        assert_eq!(
+            (one.pose_id, one.repeat, one.reference_record),
+            (other.pose_id, other.repeat, other.reference_record)
+        );
         let pairs = numbers(one).into_iter().zip(numbers(other));
         pairs.for_each(|(one, other)| assert!(near(one, other), "{one:e} {other:e}"));
     }
@@ -42,14 +45,17 @@ fn measurand() -> impl Strategy<Value = Measurand> {
 }
 
 fn columns() -> impl Strategy<Value = Columns> {
-    any::<[bool; 6]>().prop_map(|[reference, approach, delta_t, elapsed, reference_age, sigma]| Columns {
-        reference,
-        approach,
-        delta_t,
-        elapsed,
-        reference_age,
-        sigma,
-    })
+    any::<[bool; 7]>().prop_map(
+        |[reference, approach, delta_t, elapsed, reference_age, reference_record, sigma]| Columns {
+            reference,
+            approach,
+            delta_t,
+            elapsed,
+            reference_age,
+            reference_record,
+            sigma,
+        },
+    )
 }
 
 prop_compose! {
@@ -57,6 +63,7 @@ prop_compose! {
         pose_id in any::<i32>(), repeat in 0..100_i64,
         pose in uniform6(-6.0..6.0_f64), wrench in uniform6(-1e6..1e6_f64), reference in uniform6(-1e6..1e6_f64),
         up in any::<bool>(), delta_t in -50.0..50.0_f64, elapsed in 0.0..1e6_f64, age in 0.0..1e9_f64,
+        record in -5..5_i64,
         measured in uniform6(-1e-3..1e-3_f64), sigma in uniform6(1e-12..1e-3_f64),
     ) -> Observation {
         Observation {
@@ -64,7 +71,7 @@ prop_compose! {
             pose_id: pose_id.into(), repeat, line: 0,
             pose: Pose::from_array(pose), wrench: Wrench::from_array(wrench), reference: Wrench::from_array(reference),
             approach: if up { Approach::Direct } else { Approach::Overloaded }, delta_t, elapsed,
-            reference_age: Some(age), measured, sigma: Some(sigma),
+            reference_age: Some(age), reference_record: Some(record), measured, sigma: Some(sigma),
         }
     }
 }
@@ -77,6 +84,7 @@ fn as_stated(row: &Observation, columns: Columns) -> Observation {
         delta_t: if columns.delta_t { row.delta_t } else { 0.0 },
         elapsed: if columns.elapsed { row.elapsed } else { 0.0 },
         reference_age: row.reference_age.filter(|_| columns.reference_age),
+        reference_record: row.reference_record.filter(|_| columns.reference_record),
         sigma: row.sigma.filter(|_| columns.sigma),
         ..*row
     }
@@ -88,7 +96,8 @@ prop_compose! {
     ) -> Dataset {
         let deflections = measurand != Measurand::AbsolutePose;
         let (reference, reference_age) = (columns.reference && deflections, columns.reference_age && deflections);
-        let columns = Columns { reference, reference_age, ..columns };
+        let reference_record = columns.reference_record && deflections;
+        let columns = Columns { reference, reference_age, reference_record, ..columns };
         let observations = rows.iter().map(|row| as_stated(row, columns)).collect();
         Dataset { blocks: hexbench_core::Dataset::pose_blocks(), source: "measurements.csv".into(), measurand, columns, observations }
     }
@@ -223,6 +232,7 @@ fn a_dataset_that_could_not_be_read_again_is_not_written() {
         delta_t: 0.0,
         elapsed: 0.0,
         reference_age: None,
+        reference_record: None,
         measured: [0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0],
         sigma: None,
     };

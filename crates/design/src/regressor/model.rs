@@ -150,6 +150,7 @@ pub fn reading(pose: Pose, setting: &Setting) -> Observation {
         delta_t: setting.delta_t,
         elapsed: setting.elapsed,
         reference_age: None,
+        reference_record: None,
         measured: [0.0; 6],
         sigma: None,
     }

@@ -63,6 +63,7 @@ fn plan(loads: &[[f64; 6]], repeats: i64) -> Dataset {
                 delta_t: 0.0,
                 elapsed: wait,
                 reference_age: None,
+                reference_record: None,
                 measured: [0.0; 6],
                 sigma: None,
             }));

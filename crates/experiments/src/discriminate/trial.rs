@@ -147,6 +147,7 @@ fn observation(r: &NextReport) -> Observation {
         delta_t: r.delta_t_k,
         elapsed: r.elapsed_s,
         reference_age: None,
+        reference_record: None,
         measured: [0.0; 6],
         sigma: None,
     }

@@ -12,6 +12,7 @@ mod misread;
 mod paper;
 mod power;
 mod recovery;
+mod reference_records;
 mod regress;
 mod robustness;
 mod sweep;

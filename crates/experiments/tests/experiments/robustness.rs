@@ -57,6 +57,7 @@ fn every_word_for_a_fault_is_a_kind_of_finding() {
         K::NoiseLevel,
         K::HeavyTails,
         K::SharedReference,
+        K::ReferenceRecord,
         K::SetupError,
         K::Drift,
         K::Tolerance,

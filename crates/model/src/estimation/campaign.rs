@@ -482,26 +482,50 @@ fn known_frames(dataset: &Dataset, machine: &Machine) -> Frames {
 
 fn group(data: &Dataset, noise: &Noise, axes: &ReadingAxes) -> Vec<ConditionReadings> {
     let rows = &data.observations;
-    let mut index: HashMap<[u64; 24], usize> = HashMap::new();
+    let mut index: HashMap<([u64; 24], Option<i64>), usize> = HashMap::new();
     let mut groups: Vec<ConditionReadings> = Vec::new();
     // Neighbors that resemble each other are no repeats of each other.
     let drifts = matches!(noise.structure, Structure::Drift { .. });
+    let is_named = noise.structure.has_named_records();
     for (i, row) in rows.iter().enumerate() {
         let next = groups.len();
-        let slot = if drifts { next } else { *index.entry(key(row)).or_insert(next) };
+        let slot = if drifts {
+            next
+        } else {
+            *index.entry((key(row), row.reference_record.filter(|_| is_named))).or_insert(next)
+        };
         if slot == next {
             groups.push(ConditionReadings::of(row, data.channels(row)));
         }
         groups[slot].rows.push(u32::try_from(i).unwrap_or(u32::MAX));
     }
-    let mut records: HashMap<([u64; 6], usize), usize> = HashMap::new();
+    let mut records: HashMap<(Record, usize), usize> = HashMap::new();
     for g in &mut groups {
         average(g, rows, noise, axes);
-        let record = (pose_key(g), g.mean.block);
+        let record = (Record::of(g, is_named), g.mean.block);
         let next = records.len();
         g.record = *records.entry(record).or_insert(next);
     }
     groups
+}
+
+/// What readings with a reference in common have in common.
+#[derive(PartialEq, Eq, Hash)]
+enum Record {
+    Pose([u64; 6]),
+    Named(i64),
+    /// A file that names none says nothing of what its readings share.
+    Own(u32),
+}
+
+impl Record {
+    fn of(group: &ConditionReadings, is_named: bool) -> Self {
+        match group.mean.reference_record {
+            _ if !is_named => Self::Pose(pose_key(group)),
+            Some(number) => Self::Named(number),
+            None => Self::Own(group.rows[0]),
+        }
+    }
 }
 
 fn average(group: &mut ConditionReadings, rows: &[Observation], noise: &Noise, axes: &ReadingAxes) {
@@ -530,6 +554,11 @@ fn average(group: &mut ConditionReadings, rows: &[Observation], noise: &Noise, a
 /// Splits the variance of a mean of independent readings into what is its own and what is shared.
 fn share_out(group: &mut ConditionReadings, noise: &Noise) {
     let own = noise.structure.own_share();
+    let each_has_its_own = match noise.structure {
+        Structure::Reference { record: SharedReference::Named, .. } => group.mean.reference_record.is_none(),
+        Structure::Reference { record, .. } => record == SharedReference::Repeat,
+        _ => false,
+    };
     for k in 0..6 {
         // As if every reading had the same level, which those of a record have to have.
         let readings = f64::from(group.reads[k].max(1));
@@ -538,18 +567,16 @@ fn share_out(group: &mut ConditionReadings, noise: &Noise) {
             Structure::Independent | Structure::Axes { .. } => continue,
             Structure::Drift { share, .. } => (own.sqrt(), share.sqrt()),
             Structure::Setup { share } => ((own / readings + share).sqrt(), 0.0),
-            Structure::Reference { share, record: SharedReference::Pose } => {
+            Structure::Reference { share, .. } if !each_has_its_own => {
                 ((own / readings).sqrt(), share.sqrt())
             }
-            Structure::Reference { share, record: SharedReference::Repeat } => {
-                ((own / readings).sqrt(), (share / readings).sqrt())
-            }
+            Structure::Reference { share, .. } => ((own / readings).sqrt(), (share / readings).sqrt()),
         };
         group.sigma[k] = one * mean;
         group.shared[k] = one * shared;
     }
     // Repeats of one reference each scatter by all of their noise.
-    if !matches!(noise.structure, Structure::Reference { record: SharedReference::Repeat, .. }) {
+    if !each_has_its_own {
         group.pure_error /= own;
     }
 }

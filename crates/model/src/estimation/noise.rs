@@ -112,9 +112,16 @@ pub enum SharedReference {
     Pose,
     /// The readings of one repeat at a pose.
     Repeat,
+    /// Those to which the file gives one number in `ref_record`.
+    Named,
 }
 
 impl Structure {
+    /// True when readings share what the file says they share.
+    pub fn has_named_records(self) -> bool {
+        matches!(self, Self::Reference { record: SharedReference::Named, .. })
+    }
+
     /// Share of the variance of one reading that is its own.
     pub fn own_share(self) -> f64 {
         match self {

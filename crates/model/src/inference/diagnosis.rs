@@ -11,6 +11,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::inference::alone::best_alone;
 use crate::inference::candidates::{Candidate, CandidateKind, Collector, forms_of, sizes};
 use crate::inference::discovery::LawTerm;
 use crate::inference::evidence::Gram;
@@ -31,6 +32,8 @@ const WEIGHT_OF_PATTERNS: f64 = 2.0;
 const UNSTATED_LOADS: [&[usize]; 2] = [&[2], &[0, 1, 2]];
 /// Chance of larger residuals below which patterns outside the catalogue are scanned for.
 const DOUBTFUL_CHANCE: f64 = 0.1;
+/// Error over the noise that springs alone leave, beyond which they may be far from the machine.
+const FAR: f64 = 10.0;
 /// Chance of larger residuals below which the best set does not fit.
 const MISFIT_CHANCE: f64 = 1e-4;
 /// Term parameters up to which no scan is needed for imitation.
@@ -88,6 +91,7 @@ pub fn explain_with_laws(
     let natural = baseline.natural(&lin);
     let mut effort = Effort { rich: false, scan: false };
     let mut history: Vec<Vec<String>> = Vec::new();
+    let mut is_restarted = false;
     loop {
         let (testable, mut untestable) = split(terms, campaign, &lin);
         let competitors = Competitors { terms: &testable, laws };
@@ -104,7 +108,17 @@ pub fn explain_with_laws(
         let scan = effort.scan || !campaign.noise.allows_verdict() || is_doubtful(&best);
         let settled = history.last() == Some(&names) && scan == effort.scan;
         history.push(names);
-        if settled || history.len() >= MOST_ROUNDS {
+        let is_over = settled || history.len() >= MOST_ROUNDS;
+        if is_over && !is_restarted {
+            is_restarted = true;
+            if let Some(alone) = better_start(campaign, &testable, &natural, [&baseline, &best]) {
+                lin = Linearization::at(campaign, &alone.point)?;
+                best = alone;
+                history.clear();
+                continue;
+            }
+        }
+        if is_over {
             let rounds = history.len();
             let rivals = Rivals {
                 campaign,
@@ -176,6 +190,19 @@ struct Effort {
     rich: bool,
     /// Waves, courses and steps outside the catalogue.
     scan: bool,
+}
+
+/// Where to search again, when springs alone led far from the machine: the one effect that explains more than what was found from there.
+fn better_start(
+    campaign: &Campaign,
+    terms: &[Arc<dyn Term>],
+    natural: &Natural,
+    [baseline, best]: [&Fit; 2],
+) -> Option<Fit> {
+    let level = baseline.lack_of_fit / baseline.lack_of_fit_dof.max(1.0);
+    let may_be_astray = campaign.noise.allows_verdict() && level > FAR.powi(2) && does_not_fit(best);
+    let alone = may_be_astray.then(|| best_alone(campaign, terms, natural)).flatten()?;
+    (alone.lack_of_fit < best.lack_of_fit).then_some(alone)
 }
 
 /// True when something may be left unexplained: the residuals exceed the noise, or many parameters may imitate a

@@ -1,6 +1,7 @@
 //! Judgements: evidence of terms and patterns, the examination of the readings, the verdict.
 
 pub mod absorption;
+pub(crate) mod alone;
 pub mod candidates;
 pub mod diagnosis;
 pub mod discovery;

@@ -9,7 +9,7 @@ use crate::inference::search::{Set, Sets};
 /// Probability an effect must have to be named.
 pub const NAMED: f64 = 0.95;
 /// Probability of any further effect above which a named set is not the whole answer.
-const DOUBT: f64 = 0.5;
+pub const DOUBT: f64 = 0.5;
 /// Probability of something outside the catalogue beside sure effects, above which they are not the whole answer; before any readings
 /// it is 3 %.
 const SUSPICION: f64 = 0.1;

@@ -240,3 +240,33 @@ fn words_of_findings_are_those_of_the_files() {
     assert_eq!(Target::Readings.word(), "readings");
     assert_eq!(AngleOrder::Zyx.word(), "moving-x-y-z");
 }
+
+#[test]
+fn a_weight_that_nobody_wrote_down_is_missing_beside_a_preload_that_somebody_did() {
+    let (hexapod, mut data, _) = cases::case("mujoco-clean");
+    assert!(data.columns.reference);
+    each(&mut data, |o| o.wrench.force.z += 90.0);
+    let d = told(&hexapod, &data);
+    assert_eq!(d.verdict, Verdict::Measurement, "{:?}", d.findings);
+    let kinds: Vec<_> = d.findings.iter().map(|f| f.kind).collect();
+    assert_eq!(kinds, [FindingKind::ReferenceMissing], "{:?}", d.findings);
+    let Change::Preload(load) = read_as(&d) else { panic!("{:?}", d.findings) };
+    assert!((load.force.z - 90.0).abs() < 3.0, "{load:?}");
+}
+
+#[test]
+fn a_load_far_beside_the_origin_is_an_effect_in_few_readings_too() {
+    let (hexapod, mut data, _) = cases::case("mujoco-clean");
+    let offset = Vector3::new(0.13, 0.09, 0.0);
+    each(&mut data, |o| {
+        let arm = o.pose.rotation() * offset;
+        for w in [&mut o.wrench, &mut o.reference] {
+            w.moment -= arm.cross(&w.force);
+        }
+    });
+    let poses: Vec<Pose> = data.observations.iter().map(|o| o.pose).collect();
+    data.observations.retain(|o| o.pose == poses[0] || o.pose == poses[poses.len() - 1]);
+    let d = told(&hexapod, &data);
+    assert!(d.findings.is_empty(), "{:?}", d.findings);
+    assert_eq!(d.added, ["load-offset"], "{:?}", d.candidates.first().map(|c| c.term.clone()));
+}

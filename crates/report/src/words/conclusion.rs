@@ -2,7 +2,7 @@
 
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::gain::{GainOutcome, WORTH_NAMING};
-use hexbench_model::inference::verdict::{NAMED, Verdict};
+use hexbench_model::inference::verdict::{DOUBT, NAMED, Verdict};
 use hexbench_model::results::diagnose::{Diagnosis, OutsideReport, StepReport};
 use hexbench_model::results::words::{joined, joined_with};
 use hexbench_model::terms::catalogue;
@@ -27,6 +27,9 @@ pub fn section(d: &Diagnosis) -> Section {
 /// The verdict in a sentence or two.
 pub fn sentences(d: &Diagnosis) -> Vec<String> {
     let mut all = verdict(d);
+    all.extend(withdrawn(d));
+    all.extend(left_by_springs(d));
+    all.extend(shares(d));
     all.extend(d.steps.iter().filter_map(|step| held_out_remark(d, step)));
     all.extend(d.outside.as_ref().filter(|_| d.verdict != Verdict::Outside).map(small_outside));
     all
@@ -78,6 +81,39 @@ fn verdict(d: &Diagnosis) -> Vec<String> {
                 .to_owned(),
         ],
     }
+}
+
+/// Readings fitted that ask for something outside the catalogue, of which held-out poses show nothing.
+fn withdrawn(d: &Diagnosis) -> Option<String> {
+    let is_asked_for = d.candidates.iter().any(|c| c.term == Explanation::Outside && c.probability > DOUBT);
+    let text = "The readings fitted leave more than the noise, by nothing that the catalogue explains; held-out poses show nothing of it, \
+                and nothing is claimed.";
+    let is_open = matches!(d.verdict, Verdict::Adequate | Verdict::Ambiguous) && d.outside.is_none();
+    (is_asked_for && is_open).then(|| text.to_owned())
+}
+
+/// How far from the noise springs that are good enough are, with the chance of an error like theirs.
+fn left_by_springs(d: &Diagnosis) -> Option<String> {
+    let step = d.steps.first().filter(|_| d.verdict == Verdict::Adequate && d.small.is_empty())?;
+    let left = multiple(step.holdout?.times_noise());
+    Some(format!("Their error on held-out poses is {left} times the noise{}.", beside_the_noise(step)))
+}
+
+/// What each of several effects is worth.
+fn shares(d: &Diagnosis) -> Option<String> {
+    let worth = |id: &String| {
+        let step = d.steps.iter().find(|s| s.terms.last() == Some(id))?;
+        Some(format!("{id} {} %", hundredths(step.worth?.share.max(0.0))))
+    };
+    let all: Vec<String> = d.added.iter().filter_map(worth).collect();
+    let is_told = all.len() > 1 && d.verdict == Verdict::Named;
+    let text = || {
+        format!(
+            "Each takes its share off what those before it leave of the error on held-out poses: {}.",
+            all.join(", ")
+        )
+    };
+    is_told.then(text)
 }
 
 /// What held-out poses say of the effect of a step, where that is less than the readings fitted say.

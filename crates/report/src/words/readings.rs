@@ -200,6 +200,7 @@ fn optional(parts: &[Part<'_>]) -> Columns {
         delta_t: has(|c| c.delta_t),
         elapsed: has(|c| c.elapsed),
         reference_age: has(|c| c.reference_age),
+        reference_record: has(|c| c.reference_record),
         sigma: false,
     }
 }

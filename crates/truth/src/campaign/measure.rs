@@ -85,6 +85,7 @@ pub(super) fn read(
             delta_t: true,
             elapsed: true,
             reference_age: deflections && rows.iter().all(|row| row.situation.reference_age.is_some()),
+            reference_record: false,
             sigma: false,
         },
         observations: observations.collect(),

@@ -39,6 +39,7 @@ impl PlanRow {
             delta_t,
             elapsed,
             reference_age,
+            reference_record: None,
             measured,
             sigma,
         }

@@ -80,6 +80,7 @@ faults! {
     uneven_axis,
     drift,
     shared_reference,
+    reference_records,
     setup_error,
     rounding,
     outlier,

@@ -83,6 +83,7 @@ impl<'a> VirtualBench<'a> {
             delta_t: true,
             elapsed: true,
             reference_age: deflections && self.scene.plan.states_reference_age(),
+            reference_record: false,
             sigma: !matches!(self.scene.instrument, Instrument::Numbers(_)),
         }
     }

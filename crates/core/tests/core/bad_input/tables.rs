@@ -100,6 +100,10 @@ bad_input! { "measurements.csv";
         deflections().with("ref_age_s", "-1").text() => (2, 22), "less than no time";
     an_age_beside_absolute_poses_is_refused: "age of a reference load beside absolute poses",
         poses().with("ref_age_s", "60").text() => (1, 0), "no reference state";
+    a_record_that_is_no_number_is_refused: "reference record with a name",
+        deflections().with("ref_record", "morning").text() => (2, 22), "whole number";
+    a_record_beside_absolute_poses_is_refused: "reference record beside absolute poses",
+        poses().with("ref_record", "1").text() => (1, 0), "no reference state";
     a_sigma_of_zero_is_refused: "standard deviation of zero",
         deflections().with("sigma_translation_um", "0").with("sigma_rotation_urad", "1").text()
         => (2, 22), "greater than zero";

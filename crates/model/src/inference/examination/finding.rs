@@ -19,6 +19,8 @@ pub enum FindingKind {
     HeavyTails,
     /// Readings are differences from one reference reading.
     SharedReference,
+    /// Readings share the errors of their references, as the file says.
+    ReferenceRecord,
     /// Repeats of a condition share an error of the set-up.
     SetupError,
     /// Errors of neighboring rows resemble each other.
@@ -82,6 +84,8 @@ enum Concern {
     Conditions,
     /// Conditions, of which the readings are left out.
     WrongConditions,
+    /// What the file says itself of the noise of all readings.
+    AsStated,
     /// The noise of all readings.
     Noise,
     /// The noise of conditions as a whole.
@@ -102,6 +106,7 @@ impl FindingKind {
             Self::NoiseLevel => ("noise-level", "Noise level", Concern::Noise),
             Self::HeavyTails => ("heavy-tails", "Heavy tails", Concern::Noise),
             Self::SharedReference => ("shared-reference", "Shared reference", Concern::Noise),
+            Self::ReferenceRecord => ("reference-record", "Reference records", Concern::AsStated),
             Self::SetupError => ("setup-error", "Set-up error", Concern::NoiseOfConditions),
             Self::Drift => ("drift", "Drift", Concern::Noise),
             Self::Resolution => ("resolution", "Resolution", Concern::Noise),
@@ -140,7 +145,12 @@ impl FindingKind {
 
     /// True for statements about the noise.
     pub fn is_of_noise(self) -> bool {
-        matches!(self.entry().2, Concern::Noise | Concern::NoiseOfConditions)
+        matches!(self.entry().2, Concern::Noise | Concern::NoiseOfConditions | Concern::AsStated)
+    }
+
+    /// True for what is told of the data and is no fault of them.
+    pub fn is_as_stated(self) -> bool {
+        self.entry().2 == Concern::AsStated
     }
 
     /// True when the file as a whole does not say what its author meant: nothing follows for the machine until it does.

@@ -351,12 +351,25 @@ fn finding(best: &Statement, gain: f64) -> Finding {
             "set the load and the pose up anew for every repeat",
         ),
         Kind::Common(Structure::Reference { share, record }) => {
-            let (who, next) = match record {
-                SharedReference::Pose => ("all readings at a pose", "read the reference again for every reading"),
-                SharedReference::Repeat => ("the loads of one repeat at a pose", "read the reference again for every load"),
+            let (kind, who, next) = match record {
+                SharedReference::Pose => (
+                    FindingKind::SharedReference,
+                    "all readings at a pose",
+                    "read the reference again for every reading",
+                ),
+                SharedReference::Repeat => (
+                    FindingKind::SharedReference,
+                    "the loads of one repeat at a pose",
+                    "read the reference again for every load",
+                ),
+                SharedReference::Named => (
+                    FindingKind::ReferenceRecord,
+                    "readings with one number in ref_record",
+                    "nothing, they are weighed so; references read more often make the results surer",
+                ),
             };
             (
-                FindingKind::SharedReference,
+                kind,
                 format!("{} of the variance", percent(share)),
                 format!("{who} share an error, as differences from one reference reading do"),
                 next,

@@ -11,6 +11,7 @@ use hexbench_core::Vector6;
 use nalgebra::Matrix6;
 use statrs::function::gamma::ln_gamma;
 
+use super::BELIEVED;
 use super::remainder::Remainder;
 use crate::estimation::noise::{AxesCovariance, SharedReference, Structure};
 use crate::estimation::whitening::Filter;
@@ -62,16 +63,17 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
     if repeats {
         all.push(judge.blocks(&judge.groups, setup));
     }
-    all.push(
-        judge.blocks(&judge.poses, |share| Structure::Reference { share, record: SharedReference::Pose }),
-    );
-    if repeats {
-        all.push(
-            judge.blocks(&judge.records, |share| Structure::Reference {
-                share,
-                record: SharedReference::Repeat,
-            }),
-        );
+    let reference = |record| move |share| Structure::Reference { share, record };
+    if let Some(named) = &judge.named {
+        let mut statement = judge.blocks(named, reference(SharedReference::Named));
+        // The file says so itself: the readings need only agree.
+        statement.evidence += BELIEVED;
+        all.push(statement);
+    } else {
+        all.push(judge.blocks(&judge.poses, reference(SharedReference::Pose)));
+        if repeats {
+            all.push(judge.blocks(&judge.records, reference(SharedReference::Repeat)));
+        }
     }
     if rest.campaign.reads_poses {
         all.push(judge.drift());
@@ -96,6 +98,8 @@ struct Judge {
     groups: Vec<Vec<usize>>,
     poses: Vec<Vec<usize>>,
     records: Vec<Vec<usize>>,
+    /// Rows of each reference reading, where the file numbers them.
+    named: Option<Vec<Vec<usize>>>,
     /// Averaged readings of each group over their noise, freed likewise.
     means: Vec<Vector6>,
     /// Squares of the repeats about their means.
@@ -122,10 +126,14 @@ impl Judge {
         // Of readings of one block: those of another look at other things.
         let record = |i: usize| rest.campaign.groups[rest.group_of[i]].record;
         let repeat = |i: usize| rest.data.observations[i].repeat;
+        let reference =
+            |i: usize| (rest.data.observations[i].reference_record, rest.data.observations[i].block);
+        let is_named = rest.data.columns.reference_record;
         Self {
             groups: gathered(rows.len(), |i| rest.group_of[i]),
             poses: gathered(rows.len(), record),
             records: gathered(rows.len(), |i| (record(i), repeat(i))),
+            named: is_named.then(|| gathered(rows.len(), reference)),
             within: (all - between).max(0.0),
             is_stated: rest.campaign.noise.is_stated(),
             has_repeats: rows.len() > means.len(),

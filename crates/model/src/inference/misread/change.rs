@@ -41,7 +41,7 @@ pub enum Change {
     PoseAngles(AngleOrder),
     /// Rotations of the deflections are a rotation vector, or differences of Euler angles, whichever the file does not say.
     OtherRotations,
-    /// A constant load in the reference state that the file does not have.
+    /// A constant load in the reference state that the file does not have; with the other sign, one in the loaded state.
     Preload(Wrench),
     /// The loaded columns hold the change of load already.
     LoadIsChange,
@@ -271,7 +271,7 @@ impl Change {
         match self {
             Self::Turned(..) | Self::Origin(..) | Self::SensorMoved(..) => 3,
             Self::SensorTurned(..) => 2,
-            Self::Preload(_) => 6,
+            Self::Preload(load) => load.to_array().iter().filter(|x| **x != 0.0).count(),
             Self::Joint(..) => 1,
             _ => 0,
         }
@@ -456,7 +456,12 @@ impl Change {
             Self::PoseAngles(order) => {
                 row.pose = Pose::from_rotation(row.pose.translation, &order.rotation(&row.pose.angles));
             }
-            Self::Preload(load) => row.reference = load,
+            Self::Preload(load) => {
+                row.reference = Wrench {
+                    force: row.reference.force + load.force,
+                    moment: row.reference.moment + load.moment,
+                };
+            }
             Self::LoadIsChange => add_reference(row, 1.0),
             Self::LoadHoldsReference => add_reference(row, -1.0),
             Self::LegOrder(_)

@@ -30,8 +30,10 @@ use self::text::meaning;
 pub use self::text::{AgainstWritten, AsWritten, finding};
 pub use self::turn::{AngleOrder, SignedAxes};
 
-/// Springs that leave less than this many times the noise explain a file well enough: no mistake in it can matter much.
+/// Springs that leave more than this many times the noise may be those of a misread file.
 const SOUND_LEVEL: f64 = 1.1;
+/// So may those whose chi-square is this many of its standard deviations above what the noise leaves: many readings show little.
+const SOUND_SIGMAS: f64 = 2.0;
 /// Repeats of a sound file scatter within this factor of the stated noise.
 const SOUND_SCATTER: f64 = 6.0;
 /// Twice the log-likelihood another reading of a file has to gain.
@@ -166,6 +168,7 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
     }
     ways.retain(|way| search.is_worth_a_look(way));
     drop_any_unit(&mut ways);
+    drop_fuller_loads(&mut ways);
     if ways.is_empty() {
         return None;
     }
@@ -176,7 +179,9 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
 
 fn is_sound(springs: &Springs, sample: &Sample) -> bool {
     let scatter = springs.scatter.max(springs.scatter.recip());
+    let excess = (springs.level.powi(2) - 1.0) / (2.0 / sample.freedom()).sqrt();
     springs.level < SOUND_LEVEL
+        && excess < SOUND_SIGMAS
         && springs.negative == 0
         && (!sample.noise_is_stated || scatter < SOUND_SCATTER)
 }
@@ -192,6 +197,19 @@ fn drop_any_unit(ways: &mut Vec<Way>) {
         let Some((group, factor, cost)) = unit(way) else { return true };
         let is_other = |f: f64| (f / factor).ln().abs() > std::f64::consts::LN_2;
         !units.iter().any(|(g, f, c)| *g == group && is_other(*f) && (c - cost).abs() < 2.0 * ALIKE)
+    });
+}
+
+/// A load that a weight alone explains has no other components.
+fn drop_fuller_loads(ways: &mut Vec<Way>) {
+    let load = |way: &Way| match way.changes[..] {
+        [Change::Preload(_)] => Some((way.changes[0].sizes(), way.cost)),
+        _ => None,
+    };
+    let loads: Vec<(usize, f64)> = ways.iter().filter_map(load).collect();
+    ways.retain(|way| {
+        let Some((sizes, cost)) = load(way) else { return true };
+        !loads.iter().any(|(fewer, c)| *fewer < sizes && *c < cost + ALIKE)
     });
 }
 

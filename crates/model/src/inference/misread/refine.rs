@@ -42,6 +42,7 @@ enum Sized {
     Turn(Target),
     Height(ReferencePoint),
     Preload,
+    Weight,
     Joint(JointCoordinate),
 }
 
@@ -57,6 +58,10 @@ impl Sized {
                 let unit = |k: usize| if k < 3 { force } else { force * radius };
                 Change::Preload(Wrench::from_array(std::array::from_fn(|k| v[k] * unit(k))))
             }
+            Self::Weight => {
+                let force = Vector3::new(0.0, 0.0, v[0] * typical_force(sample));
+                Change::Preload(Wrench { force, moment: Vector3::zeros() })
+            }
             Self::Joint(coordinate) => Change::Joint(coordinate, v[0] * radius),
         }
     }
@@ -66,7 +71,7 @@ impl Sized {
         match self {
             Self::Turn(_) => vec![0.0; 3],
             Self::Preload => vec![0.0; 6],
-            Self::Joint(_) => vec![0.0],
+            Self::Joint(_) | Self::Weight => vec![0.0],
             Self::Height(_) => {
                 let hexapod = &sample.hexapod;
                 let platform = hexapod.platform_joints.iter().map(|b| b.z).sum::<f64>() / 6.0;
@@ -93,7 +98,7 @@ impl Sized {
         let range = match self {
             Self::Turn(_) => LEAST_TURN..LARGEST_TURN,
             Self::Height(_) => LEAST_OFFSET..MOST_RADII,
-            Self::Preload => LEAST_PRELOAD..100.0,
+            Self::Preload | Self::Weight => LEAST_PRELOAD..100.0,
             Self::Joint(_) => LEAST_JOINT..MOST_RADII,
         };
         range.contains(&values.norm())
@@ -109,10 +114,9 @@ pub(super) fn refined(sample: &Sample) -> Vec<Change> {
         Sized::Turn(Target::Joints),
         Sized::Height(ReferencePoint::Poses),
         Sized::Height(ReferencePoint::PlatformJoints),
+        Sized::Preload,
+        Sized::Weight,
     ];
-    if sample.data.observations.iter().all(|o| o.reference == Wrench::default()) {
-        all.push(Sized::Preload);
-    }
     all.extend(promising_joints(&coarse));
     let at_best = |mistake: &Sized| {
         let first = minimized(&coarse, *mistake, mistake.start(&coarse))?;

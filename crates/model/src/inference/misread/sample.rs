@@ -236,7 +236,7 @@ impl Sample {
     }
 
     /// Degrees of freedom that the springs leave them.
-    fn freedom(&self) -> f64 {
+    pub(super) fn freedom(&self) -> f64 {
         (self.numbers() - 6.0).max(1.0)
     }
 }

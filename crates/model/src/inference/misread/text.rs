@@ -130,7 +130,7 @@ pub(super) fn meaning(change: &Change) -> String {
         Change::OtherRotations => "the rotations seem to be a rotation vector where the file says differences of angles, or the other way round".to_owned(),
         Change::Preload(load) => {
             let [fx, fy, fz, mx, my, mz] = load.to_array();
-            format!("the reference state seems to carry a load that the file does not have, about ({fx:.3}, {fy:.3}, {fz:.3}) N and ({mx:.3}, {my:.3}, {mz:.3}) N m")
+            format!("a load seems to be missing in the file: about ({fx:.3}, {fy:.3}, {fz:.3}) N and ({mx:.3}, {my:.3}, {mz:.3}) N m in the reference state, or its opposite in the loaded state")
         }
         Change::SensorReversed(name) => format!("sensor {name} seems to read with the other sign"),
         Change::SensorScaled(name, factor) => format!(

@@ -51,11 +51,12 @@ impl Answer {
         }
         let small = withdraw_what_is_small(&mut judgement, &steps);
         if judgement.verdict == Verdict::Adequate {
-            judgement.verdict = match (context.can_judge(last), findings.is_empty()) {
-                (false, _) => Verdict::Undecided,
-                (true, true) => Verdict::Adequate,
-                (true, false) => Verdict::Measurement,
-            };
+            judgement.verdict =
+                match (context.can_judge(last), findings.iter().all(|f| f.kind.is_as_stated())) {
+                    (false, _) => Verdict::Undecided,
+                    (true, true) => Verdict::Adequate,
+                    (true, false) => Verdict::Measurement,
+                };
         }
         let lin = Linearization::at(context.campaign, &last.point)?;
         let left = LegDiscrepancy::of(context.campaign, &lin, last.lack_of_fit_dof);

@@ -26,10 +26,12 @@ const SIZE_GAIN: f64 = 25.0;
 const BETTER_SHARE: f64 = 0.7;
 /// The same for one without a size that leaves more than the noise: what no effect explains may be smaller in many other readings.
 const FAR_BETTER_SHARE: f64 = 0.3;
+/// Twice the logarithm of how many effects there are to choose from.
+const EFFECT: f64 = 6.0;
 /// Error over the noise that springs alone leave of a sound file at most.
 const SOUND_LEVEL: f64 = 1.15;
 /// Error over the noise of springs alone beyond which a mistake without a size, that explains all of it, needs no rivals.
-const EVIDENT_LEVEL: f64 = 2.0;
+const EVIDENT_LEVEL: f64 = 10.0;
 /// With so many legs of negative stiffness a file has some sign wrong, whatever else is at work.
 const NEGATIVE_LEGS: usize = 4;
 /// Standard deviations of chi-square by which an error may exceed the noise and still be taken for it.
@@ -49,6 +51,8 @@ struct Explained {
     level: f64,
     /// True when the error is what the noise alone leaves as often as not, or nearly.
     is_noise: bool,
+    /// Effects it takes.
+    effects: usize,
     /// Legs that would have a negative stiffness.
     negative: usize,
 }
@@ -128,7 +132,7 @@ impl Weighing<'_> {
         let all: Vec<Option<Explained>> = candidates.par_iter().map(|way| self.explained(way)).collect();
         let all = candidates.iter().zip(all).filter_map(|(way, explained)| Some((*way, explained?)));
         let machines = all.filter(|(_, explained)| explained.negative == 0);
-        let (way, other) = machines.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))?;
+        let (way, other) = machines.min_by(|a, b| a.1.with_choice().total_cmp(&b.1.with_choice()))?;
         let as_written = match &written {
             None => AsWritten::Nothing,
             Some(w) if !self.is_better(way, &other, w) => return None,
@@ -197,6 +201,12 @@ impl Weighing<'_> {
 }
 
 impl Explained {
+    /// The cost with what it takes to choose the effects: a mistake that explains everything by itself comes before others that
+    /// need effects of the machine as well.
+    fn with_choice(&self) -> f64 {
+        self.cost + EFFECT * self.effects as f64
+    }
+
     fn of(campaign: &Campaign, outcome: &RankedSets, way: Option<&Way>) -> Self {
         let best = &outcome.best;
         let beside = way.map_or(0.0, |way| way.beside_springs);
@@ -208,6 +218,7 @@ impl Explained {
             springs_cost: lack(campaign, &outcome.baseline) + beside,
             level: variance.sqrt(),
             is_noise: variance < 1.0 + NOISE_SIGMAS * (2.0 / dof).sqrt(),
+            effects: best.point.active.len(),
             negative: negative_legs(best),
         }
     }

@@ -160,7 +160,7 @@ impl Attempts<'_> {
     /// wrong loads, wrong poses or noise that readings share.
     fn as_stated(&self, data: &Dataset, options: &DiagnoseOptions) -> Result<Option<Attempt>, ModelError> {
         let diagnosis = &self.diagnosis.diagnosis;
-        if diagnosis.findings.is_empty() || diagnosis.is_misread() {
+        if diagnosis.findings.iter().all(|f| f.kind.is_as_stated()) || diagnosis.is_misread() {
             return Ok(None);
         }
         let meant = self.diagnosis.as_meant.as_ref().map_or(data, |meant| &*meant.data);

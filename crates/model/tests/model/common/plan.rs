@@ -18,6 +18,7 @@ pub(crate) fn reading(pose: Pose, wrench: Wrench, reference: Wrench) -> Observat
         delta_t: 0.0,
         elapsed: 0.0,
         reference_age: None,
+        reference_record: None,
         measured: [0.0; 6],
         sigma: None,
     }
