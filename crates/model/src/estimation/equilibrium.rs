@@ -56,7 +56,7 @@ pub enum Tangents {
 }
 
 /// What lies between platform and ground.
-struct Structure<'a> {
+pub(crate) struct Structure<'a> {
     machine: &'a Machine,
     springs: &'a Vector6,
     /// Terms that act at a condition; those that calibrate the machine are part of it.
@@ -77,20 +77,18 @@ impl Campaign {
         active: &[Active],
         tangents: Tangents,
     ) -> Result<Vec<Condition>, ModelError> {
-        let (calibrating, active): (Vec<&Active>, Vec<&Active>) =
-            active.iter().partition(|a| a.term.calibrates());
-        // What calibrates the machine, its loads and joints, moves the forces of all legs.
-        let with_tangent = tangents == Tangents::ForAll || !calibrating.is_empty();
-        let structure = Structure { machine, springs, active, with_tangent };
-        try_map(&self.groups, |g| self.condition(&structure, g))
+        let structure = Structure::of(machine, springs, active, tangents);
+        try_map(&self.groups, |g| self.condition(&structure, g, &g.mean))
     }
 
-    fn condition(
+    /// Condition of readings taken under the inputs of `o`.
+    pub(crate) fn condition(
         &self,
         structure: &Structure<'_>,
         group: &ConditionReadings,
+        o: &Observation,
     ) -> Result<Condition, ModelError> {
-        let (o, machine) = (&group.mean, structure.machine);
+        let machine = structure.machine;
         let mut out = Vec::new();
         let (mut at, shift) = if self.is_absolute() {
             (measured(structure, o)?, None)
@@ -260,6 +258,22 @@ struct Sag {
     shift: Option<[Vector3; 6]>,
     /// Displacement of the joints by all that moves them.
     displacement: Option<JointDisplacement>,
+}
+
+impl<'a> Structure<'a> {
+    /// Of a machine whose legs have these compliances (m/N), under active terms.
+    pub(crate) fn of(
+        machine: &'a Machine,
+        springs: &'a Vector6,
+        active: &'a [Active],
+        tangents: Tangents,
+    ) -> Self {
+        let (calibrating, active): (Vec<&Active>, Vec<&Active>) =
+            active.iter().partition(|a| a.term.calibrates());
+        // What calibrates the machine, its loads and joints, moves the forces of all legs.
+        let with_tangent = tangents == Tangents::ForAll || !calibrating.is_empty();
+        Self { machine, springs, active, with_tangent }
+    }
 }
 
 impl Structure<'_> {

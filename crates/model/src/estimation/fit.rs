@@ -166,12 +166,15 @@ fn fit_from(
         // Relative to the misfit: a wrong model need not be settled to the last digit.
         let small = SETTLED_CHI2 * (objective / state.numbers()).max(1.0);
         let most = objective + 0.5 * small;
-        let (next, next_state, next_objective) =
-            search(campaign, &point, &solution.x, &parameters, most, &mut effort)?;
-        let change = (objective - next_objective).abs();
-        point = next;
-        state = next_state;
-        objective = next_objective;
+        // Where no step leads on, what was linearised last stays.
+        let change = match search(campaign, &point, &solution.x, &parameters, most, &mut effort)? {
+            None => 0.0,
+            Some((next, next_state, next_objective)) => {
+                let before = objective;
+                (point, state, objective) = (next, next_state, next_objective);
+                (before - objective).abs()
+            }
+        };
         let settled = change < small;
         if settled || effort.iterations == MOST_ITERATIONS {
             let solution = step(&state, &point, &parameters)?;
@@ -191,14 +194,15 @@ pub fn refit(
     start: &Start,
     kept: &[usize],
 ) -> Result<Fit, ModelError> {
-    let state = start.state.choose(kept.iter().copied());
-    fit_from(&campaign.part(kept), wanted, start.point.clone(), state)
+    let part = campaign.part(kept);
+    let state = start.state.choose_of(&part, kept);
+    fit_from(&part, wanted, start.point.clone(), state)
 }
 
 /// Where fits to parts of a campaign start.
 pub struct Start {
-    point: ModelPoint,
-    state: Linearization,
+    pub(crate) point: ModelPoint,
+    pub(crate) state: Linearization,
 }
 
 impl Start {
@@ -238,7 +242,7 @@ fn step(state: &Linearization, point: &ModelPoint, parameters: &Parameters) -> R
     triangle.solve()
 }
 
-fn push_priors(
+pub(crate) fn push_priors(
     triangle: &mut Triangle,
     point: &ModelPoint,
     parameters: &Parameters,
@@ -358,7 +362,7 @@ fn search(
     parameters: &Parameters,
     most: f64,
     effort: &mut Effort,
-) -> Result<(ModelPoint, Linearization, f64), ModelError> {
+) -> Result<Option<(ModelPoint, Linearization, f64)>, ModelError> {
     let mut factor = 1.0;
     loop {
         let next = parameters.moved(point, x.as_slice(), factor);
@@ -369,18 +373,33 @@ fn search(
             Ok(state) => {
                 let value = state.residuals().norm_squared() + parameters.penalty(&next);
                 if value <= most {
-                    return Ok((next, state, value));
+                    return Ok(Some((next, state, value)));
                 }
                 if small {
-                    let state = Linearization::to_fit(campaign, point)?;
-                    let value = state.residuals().norm_squared() + parameters.penalty(point);
-                    return Ok((point.clone(), state, value));
+                    return Ok(None);
                 }
             }
             Err(e) if small => return Err(e),
             Err(_) => {}
         }
         factor *= 0.4;
+    }
+}
+
+/// The fit whose linear solution is at hand, without its sums over single readings.
+pub(crate) fn settled_at(point: ModelPoint, parameters: Parameters, solution: Solution) -> Fit {
+    Fit {
+        point,
+        covariance: solution.covariance.clone(),
+        chi2: solution.rss,
+        dof: 0.0,
+        lack_of_fit: solution.rss,
+        lack_of_fit_dof: 0.0,
+        parameters,
+        solution,
+        iterations: 1,
+        tried: 0,
+        termination: Termination::Settled,
     }
 }
 

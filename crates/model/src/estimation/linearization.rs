@@ -3,17 +3,17 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use hexbench_core::{Matrix6, Vector3, Vector6};
+use hexbench_core::{Matrix6, Observation, Vector3, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use crate::effects::chain::{Action, Link};
 use crate::effects::term::{Rich, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition};
-use crate::estimation::equilibrium::{Tangents, load};
-use crate::estimation::parallel::map;
+use crate::estimation::equilibrium::{Structure, Tangents, load};
+use crate::estimation::parallel::{map, try_map};
 use crate::estimation::parameters::common_count;
-use crate::estimation::whitening::Whitening;
+use crate::estimation::whitening::{Inexact, Whitening};
 use crate::machine::geometry::{Machine, exponential};
 
 /// Conditions whose columns are made together.
@@ -158,6 +158,36 @@ impl Linearization {
         (0..n.div_ceil(PART)).map(|k| k * PART..((k + 1) * PART).min(n)).collect()
     }
 
+    /// Ranges of conditions as in [`Self::parts`] where inputs are taken as exact.
+    pub(crate) fn parts_of_noise(&self) -> Vec<std::ops::Range<usize>> {
+        let n = self.conditions.len();
+        if !self.whitening.noise_is_independent() {
+            return std::iter::once(0..n).collect();
+        }
+        (0..n.div_ceil(PART)).map(|k| k * PART..((k + 1) * PART).min(n)).collect()
+    }
+
+    /// Some of the conditions, inputs taken as exact.
+    pub(crate) fn part_of_noise(&self, range: &std::ops::Range<usize>) -> Self {
+        Self {
+            machine: self.machine.clone(),
+            conditions: self.conditions[range.clone()].to_vec(),
+            whitening: self.whitening.of_noise_alone().choose(range.clone()),
+            links: self.links[range.clone()].to_vec(),
+            absolute: self.absolute,
+        }
+    }
+
+    /// Inputs that are known to a tolerance only.
+    pub(crate) fn inexact(&self) -> Option<&Inexact> {
+        self.whitening.inexact()
+    }
+
+    /// True when errors of the readings are independent, but for inputs that are known to a tolerance only.
+    pub(crate) fn noise_is_independent(&self) -> bool {
+        self.whitening.noise_is_independent()
+    }
+
     /// Some of the conditions; all of them are not copied.
     pub fn part(&self, range: &std::ops::Range<usize>) -> Cow<'_, Self> {
         if range.len() == self.conditions.len() {
@@ -180,6 +210,18 @@ impl Linearization {
             conditions: which.clone().map(|i| self.conditions[i].clone()).collect(),
             whitening: self.whitening.choose(which.clone()),
             links: which.map(|i| self.links[i]).collect(),
+            absolute: self.absolute,
+        }
+    }
+
+    /// Those of a part of the campaign, of which these are the groups.
+    #[must_use]
+    pub(crate) fn choose_of(&self, part: &Campaign, groups: &[usize]) -> Self {
+        Self {
+            machine: self.machine.clone(),
+            conditions: groups.iter().map(|&i| self.conditions[i].clone()).collect(),
+            whitening: Whitening::of(part),
+            links: groups.iter().map(|&i| self.links[i]).collect(),
             absolute: self.absolute,
         }
     }
@@ -337,6 +379,29 @@ fn write_actions(
     for (k, action) in actions.iter().enumerate() {
         block.fixed_view_mut::<6, 1>(6 * i, first + k).copy_from(&link.by_action(c, action));
     }
+}
+
+/// Residuals of a campaign whose readings were taken under other inputs (by number of the condition), each over the standard deviation of what is its own; six per
+/// condition. Nothing is kept of the conditions.
+///
+/// # Errors
+/// As [`Linearization::at`].
+pub(crate) fn own_residuals(
+    campaign: &Campaign,
+    point: &ModelPoint,
+    inputs: impl Fn(usize, &Observation) -> Observation + Sync,
+) -> Result<DVector<f64>, ModelError> {
+    let machine = point.calibrated_machine();
+    // What other terms would do is not asked for.
+    let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
+    let residual = |&i: &usize| {
+        let group = &campaign.groups[i];
+        let at = campaign.condition(&structure, group, &inputs(i, &group.mean))?;
+        Ok(at.reading.component_mul(&at.weight) - link(&machine, &at, point).prediction())
+    };
+    let groups: Vec<usize> = (0..campaign.groups.len()).collect();
+    let all: Vec<Vector6> = try_map(&groups, residual)?;
+    Ok(DVector::from_iterator(6 * all.len(), all.iter().flat_map(|r| r.iter().copied())))
 }
 
 fn link(machine: &Machine, at: &Condition, point: &ModelPoint) -> Link {

@@ -15,6 +15,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::estimation::parallel::products;
+
 /// A combination of inputs whose errors move the readings by a smaller squared number of standard deviations does not show: leaving
 /// it out changes no standard deviation by more than half of this.
 const SHOWS: f64 = 1e-4;
@@ -36,8 +38,25 @@ impl ShownInputs {
 
     /// The same, but only so many: those that move the readings most.
     pub fn most(columns: &DMatrix<f64>, count: usize) -> Self {
-        let eigen = columns.tr_mul(columns).symmetric_eigen();
-        let mut kept: Vec<usize> = (0..columns.ncols()).filter(|&k| eigen.eigenvalues[k] > SHOWS).collect();
+        Self::most_of_products(products(columns, columns), count)
+    }
+
+    /// By the products `Z' Z` of the columns.
+    pub fn of_products(products: DMatrix<f64>) -> Self {
+        let count = products.ncols();
+        Self::most_of_products(products, count)
+    }
+
+    /// `K` with which `K K' = U (1 + s)^-1 U'`: what readings leave of the variance of the inputs that show.
+    pub fn known(&self) -> DMatrix<f64> {
+        let left = self.squares.iter().map(|s| (1.0 + s).sqrt().recip());
+        &self.combinations * DMatrix::from_diagonal(&DVector::from_iterator(self.squares.len(), left))
+    }
+
+    fn most_of_products(products: DMatrix<f64>, count: usize) -> Self {
+        let eigen = products.symmetric_eigen();
+        let mut kept: Vec<usize> =
+            (0..eigen.eigenvalues.len()).filter(|&k| eigen.eigenvalues[k] > SHOWS).collect();
         if kept.len() > count {
             kept.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
             kept.truncate(count);

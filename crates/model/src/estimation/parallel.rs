@@ -23,6 +23,22 @@ pub(crate) fn try_map<T: Sync, R: Send, E: Send>(
     map(items, f).into_iter().collect()
 }
 
+/// Rows multiplied at a time: few enough for a strip of them to stay in the cache.
+const STRIP_ROWS: usize = 1536;
+
+/// `A' B` of tall matrices, strip by strip on all cores; the same bytes on any number of them.
+pub(crate) fn products(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    let strips: Vec<usize> = (0..a.nrows()).step_by(STRIP_ROWS).collect();
+    let strip = |&first: &usize| {
+        let rows = STRIP_ROWS.min(a.nrows() - first);
+        let mut product = DMatrix::zeros(a.ncols(), b.ncols());
+        // The product of a transposed copy has kernels of its own, that of a transposed view goes number by number.
+        product.gemm(1.0, &a.rows(first, rows).transpose(), &b.rows(first, rows), 0.0);
+        product
+    };
+    sum_in_order(&strips, strip).unwrap_or_else(|| DMatrix::zeros(a.ncols(), b.ncols()))
+}
+
 /// Sum of a matrix per item, added in order whatever thread made it; `None` for no items.
 pub(crate) fn sum_in_order<T: Sync>(
     items: &[T],

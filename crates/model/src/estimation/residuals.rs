@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, ConditionReadings, pose_key, row_sigma};
-use crate::estimation::fit::{Fit, Start, TermSpec, columns, refit};
+use crate::estimation::fit::{Fit, TermSpec, columns};
+use crate::estimation::folds::FoldFits;
 use crate::estimation::foreseen::{Foreseen, Misfit};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
 use crate::estimation::lsq::solve;
@@ -200,9 +201,9 @@ pub fn leave_poses_out(
     wanted: &[TermSpec],
     start: &ModelPoint,
 ) -> Result<LeftOut, ModelError> {
-    let start = Start::at(campaign, wanted, start)?;
+    let fits = FoldFits::at(campaign, wanted, start)?;
     let parts = each_part_left_out(campaign, MOST_FOLDS, |kept, held| {
-        let fitted = refit(campaign, wanted, &start, kept)?;
+        let fitted = fits.without(kept, held)?;
         errors_on(&campaign.part(held), rows, &fitted)
     })?;
     let (residuals, foreseen): (Vec<_>, Vec<_>) = parts.into_iter().unzip();

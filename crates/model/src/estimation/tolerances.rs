@@ -7,14 +7,17 @@
 
 use std::ops::Range;
 
-use hexbench_core::{Channel, Sensor, SensorKind, Tolerances, Vector3, Vector6, Wrench};
+use hexbench_core::{Channel, Observation, Sensor, SensorKind, Tolerances, Vector3, Vector6, Wrench};
 use nalgebra::{DMatrix, DVector, Rotation3};
 use rayon::prelude::*;
 
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition, moved};
 use crate::estimation::fit::fit;
-use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::estimation::input_slopes::by_springs;
+use crate::estimation::linearization::{Linearization, ModelPoint, beside, own_residuals};
+use crate::estimation::parallel::try_map;
+use crate::machine::kinematics::Legs;
 
 /// Step of a joint for its derivatives, m.
 const JOINT_STEP: f64 = 1e-6;
@@ -105,21 +108,48 @@ pub fn input_columns(
     }
     let bare = campaign.clone().unwhitened();
     let start = Linearization::at(&bare, point)?;
-    let here = start.residuals();
-    let inputs: Vec<(InputKind, usize)> =
-        InputKind::ALL.iter().flat_map(|&kind| (0..kind.count()).map(move |k| (kind, k))).collect();
-    let column = |&(kind, k): &(InputKind, usize)| -> Result<DVector<f64>, ModelError> {
-        if kind == InputKind::Frame {
-            return Ok(turned_readings(&bare, &start, k) * tolerances.frame);
+    let mut columns = match by_springs(&bare, point, &start) {
+        Some(mut slopes) => {
+            for kind in InputKind::ALL.into_iter().filter(|kind| *kind != InputKind::Frame) {
+                slopes.columns_range_mut(kind.columns()).scale_mut(kind.standard_deviation(tolerances));
+            }
+            slopes
         }
-        let there = residuals_with(&bare, point, kind, k)?;
+        None => by_differences(&bare, point, &start, tolerances)?,
+    };
+    columns = columns.resize_horizontally(InputKind::COLUMNS, 0.0);
+    for (k, column) in InputKind::Frame.columns().enumerate() {
+        columns.set_column(column, &(turned_readings(&bare, &start, k) * tolerances.frame));
+    }
+    if bare.reads_poses {
+        return Ok(columns);
+    }
+    let sensors: Vec<DVector<f64>> = of_sensors(&bare, &start, tolerances);
+    Ok(beside(&std::iter::once(columns).chain(sensors.iter().map(column_matrix)).collect::<Vec<_>>()))
+}
+
+fn column_matrix(column: &DVector<f64>) -> DMatrix<f64> {
+    DMatrix::from_column_slice(column.len(), 1, column.as_slice())
+}
+
+/// Columns of all inputs but the axes of the readings, whatever is at work.
+fn by_differences(
+    campaign: &Campaign,
+    point: &ModelPoint,
+    start: &Linearization,
+    tolerances: &Tolerances,
+) -> Result<DMatrix<f64>, ModelError> {
+    let here = start.residuals();
+    let drawn = try_map(&campaign.groups, |group| point.machine.legs(&group.mean.pose))?;
+    let inputs = InputKind::ALL.iter().filter(|kind| **kind != InputKind::Frame);
+    let inputs: Vec<(InputKind, usize)> =
+        inputs.flat_map(|&kind| (0..kind.count()).map(move |k| (kind, k))).collect();
+    let column = |&(kind, k): &(InputKind, usize)| -> Result<DVector<f64>, ModelError> {
+        let there = residuals_with(campaign, point, &drawn, (kind, k))?;
         // A residual falls as the prediction rises.
         Ok((&here - there) * (kind.standard_deviation(tolerances) / kind.step()))
     };
-    let mut columns: Vec<DVector<f64>> = inputs.par_iter().map(column).collect::<Result<_, _>>()?;
-    if !bare.reads_poses {
-        columns.extend(of_sensors(&bare, &start, tolerances));
-    }
+    let columns: Vec<DVector<f64>> = inputs.par_iter().map(column).collect::<Result<_, _>>()?;
     Ok(DMatrix::from_columns(&columns))
 }
 
@@ -148,17 +178,16 @@ pub fn within_tolerances_at(campaign: Campaign, point: &ModelPoint) -> Campaign 
 fn residuals_with(
     campaign: &Campaign,
     point: &ModelPoint,
-    kind: InputKind,
-    k: usize,
+    drawn: &[Legs],
+    (kind, k): (InputKind, usize),
 ) -> Result<DVector<f64>, ModelError> {
-    let mut point = point.clone();
-    let mut campaign = campaign.clone();
     if kind == InputKind::Joints {
-        move_joint(&mut campaign, &mut point, k)?;
+        return with_joint_moved(campaign, point, drawn, k);
     }
-    for group in &mut campaign.groups {
-        let pose = group.mean.pose;
-        for wrench in [&mut group.mean.wrench, &mut group.mean.reference] {
+    own_residuals(campaign, point, |_, o| {
+        let mut o = *o;
+        let pose = o.pose;
+        for wrench in [&mut o.wrench, &mut o.reference] {
             match kind {
                 InputKind::LoadGain => scale(wrench, k),
                 InputKind::LoadDirection => {
@@ -172,8 +201,8 @@ fn residuals_with(
                 InputKind::Joints | InputKind::Frame => {}
             }
         }
-    }
-    Ok(Linearization::at(&campaign, &point)?.residuals())
+        o
+    })
 }
 
 fn axis(k: usize) -> Vector3 {
@@ -185,18 +214,23 @@ fn scale(wrench: &mut Wrench, k: usize) {
     part[k % 3] *= 1.0 + SMALL_STEP;
 }
 
-/// One joint coordinate elsewhere; the machine stands where the commanded lengths put it.
-fn move_joint(campaign: &mut Campaign, point: &mut ModelPoint, k: usize) -> Result<(), ModelError> {
-    let nominal = point.machine.clone();
-    let joints = if k < 18 { &mut point.machine.base_joints } else { &mut point.machine.platform_joints };
-    joints[k % 18 / 3][k % 3] += JOINT_STEP;
-    for group in &mut campaign.groups {
-        let pose = group.mean.pose;
-        let (drawn, real) = (nominal.legs(&pose)?, point.machine.legs(&pose)?);
-        let twist = drawn.platform_jacobian * (drawn.lengths - real.lengths);
-        group.mean.pose = moved(&pose, &twist, 1.0);
-    }
-    Ok(())
+/// Residuals with one joint coordinate elsewhere; the machine stands where the commanded lengths put it. `drawn`: legs at the commanded
+/// poses.
+fn with_joint_moved(
+    campaign: &Campaign,
+    point: &ModelPoint,
+    drawn: &[Legs],
+    k: usize,
+) -> Result<DVector<f64>, ModelError> {
+    let (mut real, leg) = (point.clone(), k % 18 / 3);
+    let joints = if k < 18 { &mut real.machine.base_joints } else { &mut real.machine.platform_joints };
+    joints[leg][k % 3] += JOINT_STEP;
+    let [base, platform] = [real.machine.base_joints[leg], real.machine.platform_joints[leg]];
+    own_residuals(campaign, &real, |i, o| {
+        let length = (o.pose.translation + o.pose.rotation() * platform - base).norm();
+        let twist = drawn[i].platform_jacobian.column(leg) * (drawn[i].lengths[leg] - length);
+        Observation { pose: moved(&o.pose, &twist, 1.0), ..*o }
+    })
 }
 
 /// What the readings would gain if their axes were turned by one radian, to first order.
@@ -310,4 +344,94 @@ fn sensor_column(
         }
     }
     column
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
+
+    use hexbench_core::{Approach, Columns, Dataset, Measurand, Pose};
+
+    use super::*;
+    use crate::estimation::frames::ReadingAxes;
+    use crate::machine::geometry::Machine;
+    use crate::test_machine::machine;
+
+    /// Deflection over the size of the machine, and the steps of the differences.
+    const SECOND_ORDER: f64 = 2e-3;
+
+    /// Readings of a machine of springs at three poses under loads of every kind.
+    fn campaign(measurand: Measurand) -> Campaign {
+        let hexapod = machine();
+        let springs = Vector6::repeat(1e-7);
+        let rows = (0..9).map(|i| {
+            let x = f64::from(i);
+            let pose = [
+                0.01 * (x / 3.0).floor(),
+                -0.005,
+                0.004 * (x / 3.0).floor(),
+                0.05,
+                -0.04 * (x / 3.0).floor(),
+                0.06,
+            ];
+            let pose_of = Pose::from_array(pose);
+            let wrench = Wrench {
+                force: Vector3::new(100.0 - 30.0 * x, 20.0 * x, -200.0),
+                moment: Vector3::new(5.0, -4.0 + x, 3.0),
+            };
+            let reference = Wrench { force: Vector3::new(0.0, 0.0, -50.0), moment: Vector3::zeros() };
+            let mut o = Observation {
+                pose_id: 1,
+                repeat: 1,
+                line: 2,
+                pose: pose_of,
+                wrench,
+                reference,
+                approach: Approach::Direct,
+                delta_t: 0.0,
+                elapsed: 0.0,
+                reference_age: None,
+                block: 0,
+                measured: [0.0; 6],
+                sigma: None,
+            };
+            let legs = Machine::nominal(&hexapod).legs(&o.pose).unwrap();
+            let change = o.wrench.to_vector() - o.reference.to_vector();
+            let mut read = legs.platform_jacobian * springs.component_mul(&legs.forces(&change));
+            if measurand == Measurand::DeflectionEuler {
+                let turned = ReadingAxes::default().rates(&pose) * read.fixed_rows::<3>(3);
+                read.fixed_rows_mut::<3>(3).copy_from(&turned);
+            }
+            o.measured = read.into();
+            o
+        });
+        let observations = rows.collect();
+        let (source, columns) = (String::new(), Columns::default());
+        let dataset = Dataset { source, measurand, columns, blocks: vec![Channel::POSE], observations };
+        Campaign::new(&hexapod, &dataset).unwrap()
+    }
+
+    #[test]
+    fn slopes_of_springs_agree_with_differences() {
+        for measurand in [Measurand::DeflectionRotationVector, Measurand::DeflectionEuler] {
+            let campaign = campaign(measurand).unwhitened();
+            let mut point = ModelPoint::start(&campaign);
+            point.compliances = Vector6::new(1.0, 1.2, 0.9, 1.1, 0.8, 1.3) * 1e-7;
+            let lin = Linearization::at(&campaign, &point).unwrap();
+            let tolerances = Tolerances {
+                joints: 1.0,
+                load_gain: 1.0,
+                load_direction: 1.0,
+                load_point: 1.0,
+                ..Tolerances::default()
+            };
+            let closed = by_springs(&campaign, &point, &lin).unwrap();
+            let differences = by_differences(&campaign, &point, &lin, &tolerances).unwrap();
+            for k in 0..closed.ncols() {
+                let (a, b) = (closed.column(k), differences.column(k));
+                let off = (a - b).norm() / b.norm();
+                assert!(off < SECOND_ORDER, "{measurand:?} column {k}: {off:.2e}");
+            }
+        }
+    }
 }

@@ -20,6 +20,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::estimation::campaign::{Campaign, ConditionReadings};
 use crate::estimation::noise::{Noise, Structure};
 use crate::estimation::nuisance::ShownInputs;
+use crate::estimation::parallel::products;
 
 /// The transform of a list of conditions.
 #[derive(Debug, Clone)]
@@ -69,6 +70,22 @@ impl Whitening {
         Self { inputs: self.inputs.as_ref().and_then(chosen).map(Arc::new), noise }
     }
 
+    /// The same with inputs taken as exact.
+    #[must_use]
+    pub(crate) fn of_noise_alone(&self) -> Self {
+        Self { noise: self.noise.clone(), inputs: None }
+    }
+
+    /// True when errors of the readings are independent, but for inputs that are known to a tolerance only.
+    pub(crate) fn noise_is_independent(&self) -> bool {
+        matches!(self.noise, Common::Nothing)
+    }
+
+    /// Inputs that are known to a tolerance only.
+    pub(crate) fn inexact(&self) -> Option<&Inexact> {
+        self.inputs.as_deref()
+    }
+
     /// True when conditions may be treated one by one.
     pub fn is_identity(&self) -> bool {
         matches!(self.noise, Common::Nothing) && self.inputs.is_none()
@@ -104,16 +121,23 @@ impl Whitening {
     }
 }
 
-/// Inputs known to a tolerance only: `V = I + Z Z'`, and `V^-1/2 = I - Q D Q'` with `Q` an orthonormal basis of the part of `Z` that
-/// shows.
+/// Inputs known to a tolerance only: `V = I + Z Z'`, and
+///
+/// ```text
+/// V^-1/2 = I - Z U diag(d / s) U' Z',   V^-1 = I - Z U diag(1 / (1 + s)) U' Z',   d = 1 - 1 / sqrt(1 + s)
+/// ```
+///
+/// with the combinations `U` of inputs that show, and the squared number `s` of standard deviations by which each moves the readings.
 #[derive(Debug, Clone)]
 pub struct Inexact {
     /// Reading over the standard deviation of its own noise, per standard deviation of each input.
     pub(crate) columns: DMatrix<f64>,
-    /// `Q`, where errors that readings share are whitened out.
-    basis: DMatrix<f64>,
-    /// Diagonal of `D`.
-    taken: DVector<f64>,
+    /// `Z`, where errors that readings share are whitened out; none where there are none, and `Z` is `columns`.
+    whitened: Option<DMatrix<f64>>,
+    /// `U diag(d / s) U'`.
+    taken: DMatrix<f64>,
+    /// `U diag(1 / (1 + s))^1/2`.
+    known: DMatrix<f64>,
 }
 
 impl Inexact {
@@ -123,37 +147,45 @@ impl Inexact {
     }
 
     fn whitened(noise: &Common, columns: DMatrix<f64>) -> Option<Self> {
-        let mut z = columns.clone();
-        noise.apply(&mut z);
-        let shown = ShownInputs::of(&z);
+        let whitened = (!matches!(noise, Common::Nothing)).then(|| {
+            let mut z = columns.clone();
+            noise.apply(&mut z);
+            z
+        });
+        let shown = ShownInputs::of(whitened.as_ref().unwrap_or(&columns));
         if shown.squares.is_empty() {
             return None;
         }
-        let mut basis = &z * shown.combinations;
-        let mut taken = DVector::zeros(shown.squares.len());
-        for (i, square) in shown.squares.iter().enumerate() {
-            basis.column_mut(i).scale_mut(square.sqrt().recip());
-            taken[i] = 1.0 - (1.0 + square).sqrt().recip();
-        }
-        Some(Self { columns, basis, taken })
+        let share = shown.squares.iter().map(|s| (1.0 - (1.0 + s).sqrt().recip()) / s);
+        let share = DVector::from_iterator(shown.squares.len(), share);
+        let u = &shown.combinations;
+        let (taken, known) = (u * DMatrix::from_diagonal(&share) * u.transpose(), shown.known());
+        Some(Self { columns, whitened, taken, known })
     }
 
-    /// `Q (2 D - D D)^1/2`.
+    /// `Z`.
+    pub(crate) fn z(&self) -> &DMatrix<f64> {
+        self.whitened.as_ref().unwrap_or(&self.columns)
+    }
+
+    /// `T` with which whitening twice is `I - T T'`.
     fn taken_out(&self) -> DMatrix<f64> {
-        &self.basis * DMatrix::from_diagonal(&self.taken.map(|d| (d * (2.0 - d)).max(0.0).sqrt()))
+        self.z() * &self.known
     }
 
-    fn apply(&self, columns: &mut DMatrix<f64>) {
-        let mut along = self.basis.tr_mul(columns);
-        for mut column in along.column_iter_mut() {
-            column.component_mul_assign(&self.taken);
-        }
-        columns.gemm(-1.0, &self.basis, &along, 1.0);
+    /// `K` with which `Z K K' Z'` is what whitening twice takes out.
+    pub(crate) fn known(&self) -> &DMatrix<f64> {
+        &self.known
+    }
+
+    pub(crate) fn apply(&self, columns: &mut DMatrix<f64>) {
+        let along = &self.taken * products(self.z(), columns);
+        columns.gemm(-1.0, self.z(), &along, 1.0);
     }
 
     fn apply_to(&self, x: &mut DVector<f64>) {
-        let along = self.basis.tr_mul(x).component_mul(&self.taken);
-        x.gemv(-1.0, &self.basis, &along, 1.0);
+        let along = &self.taken * self.z().tr_mul(x);
+        x.gemv(-1.0, self.z(), &along, 1.0);
     }
 }
 

@@ -1,5 +1,6 @@
 //! What competes: the terms this file can test, and patterns outside the catalogue; as one projected Gram matrix.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
@@ -202,9 +203,10 @@ impl<'a> Collector<'a> {
 
     /// Multiply everything, and project it off the common columns.
     pub fn finish(self, campaign: &Campaign, point: &ModelPoint) -> (Gram, Vec<Candidate>) {
-        let parts = self.lin.parts();
-        let sums = sum_in_order(&parts, |part| self.products(&self.lin.part(part), point));
+        let parts = self.lin.parts_of_noise();
+        let sums = sum_in_order(&parts, |part| self.products(part, point));
         let Some(sums) = sums else { unreachable!("a campaign has at least one condition") };
+        let sums = without_inputs(&sums, self.lin);
         let (common, width) = (self.lin.common_columns(), self.width);
         let root = inverse_root(&sums.view((0, 0), (common, common)).into_owned());
         // Overlap of everything with an orthonormal basis of the common columns.
@@ -229,18 +231,33 @@ impl<'a> Collector<'a> {
         (gram, self.candidates)
     }
 
-    /// `[C Z y]' [C Z y]` of a part of the conditions.
-    fn products(&self, lin: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
-        let common = lin.common_columns();
-        let mut all = DMatrix::zeros(lin.equations(), common + self.width + 1);
+    /// `[C Z y U]' [C Z y U]` of a part of the conditions; `U`: columns of the inputs known to a tolerance only, where there are any.
+    fn products(&self, part: &Range<usize>, point: &ModelPoint) -> DMatrix<f64> {
+        let (lin, inputs) = (self.lin.part_of_noise(part), self.lin.inexact().map(|inexact| inexact.z()));
+        let (common, used) = (lin.common_columns(), self.lin.common_columns() + self.width + 1);
+        let mut all = DMatrix::zeros(lin.equations(), used + inputs.map_or(0, DMatrix::ncols));
         all.columns_mut(0, common).copy_from(&lin.common_block());
         for (block, source) in self.blocks.iter().zip(&self.sources) {
             let mut place = all.columns_mut(common + block.first, block.width());
-            place.gemm(1.0, &source.columns(lin), &block.transform, 0.0);
+            place.gemm(1.0, &source.columns(&lin), &block.transform, 0.0);
         }
-        all.set_column(common + self.width, &target(lin, point));
+        all.set_column(common + self.width, &target(&lin, point));
+        if let Some(u) = inputs {
+            all.columns_mut(used, u.ncols()).copy_from(&u.rows(6 * part.start, 6 * part.len()));
+        }
         squared(&all)
     }
+}
+
+/// `A' W W A` from `[A U]' [A U]`, `W` whitening by the inputs known to a tolerance only.
+fn without_inputs(products: &DMatrix<f64>, lin: &Linearization) -> DMatrix<f64> {
+    let Some(inexact) = lin.inexact() else { return products.clone() };
+    let inputs = inexact.known().nrows();
+    let used = products.nrows() - inputs;
+    let taken = products.view((0, used), (used, inputs)) * inexact.known();
+    let mut rest = products.view((0, 0), (used, used)).into_owned();
+    rest.gemm(-1.0, &taken, &taken.transpose(), 1.0);
+    rest
 }
 
 /// `A' A`: strips of its upper triangle, mirrored.

@@ -6,13 +6,12 @@
 //! the other, so that a large fault does not hide a smaller one.
 
 use hexbench_core::statistics::median;
-use hexbench_core::{Pose, Vector6};
+use hexbench_core::{Observation, Pose, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use super::finding::{Finding, FindingKind, probability};
 use super::remainder::Remainder;
-use crate::estimation::campaign::Campaign;
-use crate::estimation::linearization::Linearization;
+use crate::estimation::linearization::own_residuals;
 
 /// Evidence beyond which a fault is believed, nats: odds of 3 000 to 1 after all that was tried.
 const BELIEVED: f64 = 8.0;
@@ -220,13 +219,12 @@ fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
 /// Whitened reading per unit of every component of the commanded poses, all poses at once.
 fn pose_slopes(rest: &Remainder<'_>) -> Option<Vec<DMatrix<f64>>> {
     let at = |k: usize, step: f64| {
-        let mut moved: Campaign = rest.campaign.clone();
-        for group in &mut moved.groups {
-            let mut pose = group.mean.pose.to_array();
+        let moved = |_, o: &Observation| {
+            let mut pose = o.pose.to_array();
             pose[k] += step;
-            group.mean.pose = Pose::from_array(pose);
-        }
-        Linearization::at(&moved, rest.point).ok().map(|lin| lin.residuals())
+            Observation { pose: Pose::from_array(pose), ..*o }
+        };
+        own_residuals(rest.campaign, rest.point, moved).ok()
     };
     let slope = |k: usize| {
         let (plus, minus) = (at(k, POSE_STEP[k])?, at(k, -POSE_STEP[k])?);

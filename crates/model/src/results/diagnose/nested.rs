@@ -8,7 +8,7 @@ use hexbench_core::Observation;
 use serde::Serialize;
 
 use crate::estimation::campaign::Campaign;
-use crate::estimation::fit::{Start, refit};
+use crate::estimation::folds::FoldFits;
 use crate::estimation::residuals::{ErrorSummary, Residual, each_part_left_out, errors_on, summarise};
 use crate::inference::diagnosis::{RankedSets, chosen_anew};
 
@@ -30,10 +30,9 @@ impl NestedReport {
     /// Of a campaign whose readings are `rows`; none where too few poses can be left out.
     pub(super) fn of(campaign: &Campaign, rows: &[Observation], outcome: &RankedSets) -> Option<Self> {
         let part = |kept: &[usize], held: &[usize]| {
-            let lin = outcome.lin.choose(kept.iter().copied());
-            let wanted = chosen_anew(&campaign.part(kept), &lin, outcome);
-            let start = Start::at(campaign, &wanted, &outcome.best.point)?;
-            let fitted = refit(campaign, &wanted, &start, kept)?;
+            let part = campaign.part(kept);
+            let wanted = chosen_anew(&part, &outcome.lin.choose_of(&part, kept), outcome);
+            let fitted = FoldFits::at(campaign, &wanted, &outcome.best.point)?.without(kept, held)?;
             let (errors, _) = errors_on(&campaign.part(held), rows, &fitted)?;
             let mut names: Vec<String> = wanted.iter().map(|w| w.term.info().id.to_owned()).collect();
             names.sort_unstable();

@@ -1,0 +1,130 @@
+//! Fits without some of the poses, by taking their normal equations off those of all.
+//!
+//! One pass over the readings, linearised where the fit to all of them ended, gives the products of everything; a part left out is
+//! multiplied by itself, so that each fit costs its own part and not the rest of the campaign. A fit that goes where the model is
+//! no longer as it was linearised, or whose parameters the readings do not determine, is made in full.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::error::ModelError;
+use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::{Fit, Start, TermSpec, columns, push_priors, refit, settled_at};
+use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::estimation::lsq::{Solution, Triangle};
+use crate::estimation::nuisance::ShownInputs;
+use crate::estimation::parallel::products;
+use crate::estimation::parameters::Parameters;
+
+/// Change of a column over its length up to which it is still the column that was linearised.
+const SAME_COLUMN: f64 = 1e-3;
+/// Root mean square departure of the readings left out from what was linearised, in standard deviations, up to which it holds.
+const NEAR: f64 = 1e-3;
+/// Smallest singular value over the largest for which normal equations have digits to spare.
+const WELL_DETERMINED: f64 = 1e-5;
+
+/// Fits to all of a campaign but a part.
+pub(crate) struct FoldFits<'a> {
+    campaign: &'a Campaign,
+    wanted: &'a [TermSpec],
+    start: Start,
+    parameters: Parameters,
+    /// `[A y U]`: columns of the parameters, residuals, columns of the inputs that are known to a tolerance only, each reading over the
+    /// standard deviation of its own noise; none where readings share errors.
+    equations: Option<DMatrix<f64>>,
+    total: DMatrix<f64>,
+}
+
+impl<'a> FoldFits<'a> {
+    /// From a point, with the wanted terms.
+    ///
+    /// # Errors
+    /// As [`Start::at`].
+    pub(crate) fn at(
+        campaign: &'a Campaign,
+        wanted: &'a [TermSpec],
+        point: &ModelPoint,
+    ) -> Result<Self, ModelError> {
+        let start = Start::at(campaign, wanted, point)?;
+        let parameters = Parameters::at(&start.point, campaign.is_absolute()).with_priors(wanted);
+        let equations = start
+            .state
+            .noise_is_independent()
+            .then(|| equations(&start.state, &start.point, parameters.len()));
+        let total = equations.as_ref().map_or_else(|| DMatrix::zeros(0, 0), |all| products(all, all));
+        Ok(Self { campaign, wanted, start, parameters, equations, total })
+    }
+
+    /// The fit without the groups `held`; `kept`: the others.
+    ///
+    /// # Errors
+    /// As [`refit`].
+    pub(crate) fn without(&self, kept: &[usize], held: &[usize]) -> Result<Fit, ModelError> {
+        match self.by_normal_equations(held) {
+            Some(fit) => Ok(fit),
+            None => refit(self.campaign, self.wanted, &self.start, kept),
+        }
+    }
+
+    fn by_normal_equations(&self, held: &[usize]) -> Option<Fit> {
+        let rows: Vec<usize> = held.iter().flat_map(|&g| 6 * g..6 * g + 6).collect();
+        let own = self.equations.as_ref()?.select_rows(&rows);
+        let solution = self.solved(&(&self.total - products(&own, &own)))?;
+        let (first, last) = (solution.singular_values[0], *solution.singular_values.iter().next_back()?);
+        if last < WELL_DETERMINED * first {
+            return None;
+        }
+        let point = self.parameters.moved(&self.start.point, solution.x.as_slice(), 1.0);
+        self.is_near(&point, held, &own, &solution.x)
+            .then(|| settled_at(point, self.parameters.clone(), solution))
+    }
+
+    /// The linear fit by the products of everything.
+    fn solved(&self, products: &DMatrix<f64>) -> Option<Solution> {
+        let p = self.parameters.len();
+        let inputs = products.nrows() - p - 1;
+        let mut rest = products.view((0, 0), (p + 1, p + 1)).into_owned();
+        if inputs > 0 {
+            let shown =
+                ShownInputs::of_products(products.view((p + 1, p + 1), (inputs, inputs)).into_owned());
+            let taken = products.view((0, p + 1), (p + 1, inputs)) * shown.known();
+            rest.gemm(-1.0, &taken, &taken.transpose(), 1.0);
+        }
+        let sizes = rest.diagonal().map(|x| x.max(f64::MIN_POSITIVE).sqrt());
+        let scaled = DMatrix::from_fn(p + 1, p + 1, |i, j| rest[(i, j)] / (sizes[i] * sizes[j]));
+        let eigen = scaled.symmetric_eigen();
+        let lengths = eigen.eigenvalues.map(|x| x.max(0.0).sqrt());
+        let root = DMatrix::from_diagonal(&lengths)
+            * eigen.eigenvectors.transpose()
+            * DMatrix::from_diagonal(&sizes);
+        let mut triangle = Triangle::new(p);
+        triangle.push(&root.columns(0, p).into_owned(), &root.column(p).into_owned()).ok()?;
+        push_priors(&mut triangle, &self.start.point, &self.parameters).ok()?;
+        triangle.solve().ok()
+    }
+
+    /// True when the readings left out are where the linear model has them, and would be linearised there as before.
+    fn is_near(&self, point: &ModelPoint, held: &[usize], own: &DMatrix<f64>, x: &DVector<f64>) -> bool {
+        let part = self.campaign.part(held).unwhitened();
+        let Ok(there) = Linearization::to_fit(&part, point) else { return false };
+        let (p, columns) = (self.parameters.len(), columns(&there, point));
+        let linear = own.column(p) - own.columns(0, p) * x;
+        let is_same =
+            |k: usize| (columns.column(k) - own.column(k)).norm() <= SAME_COLUMN * own.column(k).norm();
+        (there.residuals() - linear).norm_squared() <= NEAR * NEAR * own.nrows() as f64 && (0..p).all(is_same)
+    }
+}
+
+fn equations(state: &Linearization, point: &ModelPoint, parameters: usize) -> DMatrix<f64> {
+    let inputs = state.inexact().map(|inexact| inexact.z());
+    let mut all = DMatrix::zeros(state.equations(), parameters + 1 + inputs.map_or(0, DMatrix::ncols));
+    for range in state.parts_of_noise() {
+        let part = state.part_of_noise(&range);
+        let mut rows = all.rows_mut(6 * range.start, 6 * range.len());
+        rows.columns_mut(0, parameters).copy_from(&columns(&part, point));
+        rows.set_column(parameters, &part.residuals());
+    }
+    if let Some(u) = inputs {
+        all.columns_mut(parameters + 1, u.ncols()).copy_from(u);
+    }
+    all
+}

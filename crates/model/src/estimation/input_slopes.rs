@@ -1,0 +1,144 @@
+//! What small errors of joints and loads do to a reading where springs alone yield, in closed form.
+//!
+//! With the motion `m = A dW` of the platform, `A = J C J'`, a joint that is elsewhere turns its leg and lets the machine stand
+//! elsewhere, so that the commanded lengths stay:
+//!
+//! ```text
+//! dA = -J dL A - A dL' J'        dL: change of the leg Jacobian, row by row [dn; db x n + b x dn]
+//! dy = dH m + H dA dW            of the joint itself, and of the twist -J (n . e) by which the pose follows it
+//! ```
+//!
+//! Taken halfway between reference and load. Left out is what the turn of the legs by the deflection itself does to the slope: the
+//! deflection over the size of the machine, 1e-4 of a tolerance.
+
+use hexbench_core::{Measurand, Vector3, Vector6};
+use nalgebra::{DMatrix, SMatrix};
+
+use crate::estimation::campaign::{Campaign, Condition, moved};
+use crate::estimation::frames::ReadingAxes;
+use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::estimation::parallel::map;
+
+/// Coordinates of joints, components of loads, turns and shifts of loads.
+pub(crate) const COLUMNS: usize = 48;
+/// Turn of a pose for the derivative of what it reads, rad.
+const TURN_STEP: f64 = 1e-6;
+
+/// Reading over the standard deviation of its own noise by every coordinate of the joints (base, then platform; m), share of every
+/// component of the loads, turn of the loads about each axis (rad) and shift of their point along each mobile axis (m).
+type Slopes = SMatrix<f64, 6, COLUMNS>;
+
+/// Slopes at every condition, six rows each; none where more than springs is at work, or something else than full poses was read.
+pub(crate) fn by_springs(
+    campaign: &Campaign,
+    point: &ModelPoint,
+    lin: &Linearization,
+) -> Option<DMatrix<f64>> {
+    if !point.active.is_empty() || !campaign.reads_poses || campaign.is_absolute() {
+        return None;
+    }
+    let is_euler = campaign.measurand == Measurand::DeflectionEuler;
+    let all = map(&lin.conditions, |at| AtCondition::of(at, &point.compliances, is_euler).slopes());
+    let mut columns = DMatrix::zeros(6 * all.len(), COLUMNS);
+    for (i, one) in all.iter().enumerate() {
+        columns.fixed_view_mut::<6, COLUMNS>(6 * i, 0).copy_from(one);
+    }
+    Some(columns)
+}
+
+/// One condition of a machine of springs.
+struct AtCondition<'a> {
+    at: &'a Condition,
+    springs: &'a Vector6,
+    /// Motion of the platform between reference and load.
+    motion: Vector6,
+    /// Motion by a small twist of the commanded pose, what the coordinates of the reading turn by included.
+    by_pose: SMatrix<f64, 6, 6>,
+}
+
+impl<'a> AtCondition<'a> {
+    fn of(at: &'a Condition, springs: &'a Vector6, is_euler: bool) -> Self {
+        let motion = at.legs.platform_jacobian * springs.component_mul(&at.force_change());
+        let mut one = Self { at, springs, motion, by_pose: SMatrix::zeros() };
+        one.by_pose =
+            SMatrix::from_columns(&std::array::from_fn::<Vector6, 6, _>(|k| one.under_twist(k, is_euler)));
+        one
+    }
+
+    /// Motion by a change of the wrench.
+    fn yields(&self, wrench: &Vector6) -> Vector6 {
+        self.at.legs.platform_jacobian * self.springs.component_mul(&self.at.legs.forces(wrench))
+    }
+
+    /// Row of the leg Jacobian when the platform joint moves by `end` against the base joint, and its arm by `arm`.
+    fn row(&self, leg: usize, end: &Vector3, arm: &Vector3) -> Vector6 {
+        let (n, legs) = (self.at.legs.directions[leg], &self.at.legs);
+        let turn = (end - n * n.dot(end)) / legs.lengths[leg];
+        let moment = arm.cross(&n) + legs.arms[leg].cross(&turn);
+        Vector6::new(turn.x, turn.y, turn.z, moment.x, moment.y, moment.z)
+    }
+
+    /// `dA dW` by changes of rows of the leg Jacobian.
+    fn by_rows(&self, rows: impl Iterator<Item = (usize, Vector6)>) -> Vector6 {
+        let (force, mut stretch, mut wrench) = (self.at.force_change(), Vector6::zeros(), Vector6::zeros());
+        for (leg, row) in rows {
+            stretch[leg] += row.dot(&self.motion);
+            wrench += row * force[leg];
+        }
+        -(self.at.legs.platform_jacobian * stretch) - self.yields(&wrench)
+    }
+
+    /// Under a unit twist of the commanded pose.
+    fn under_twist(&self, k: usize, is_euler: bool) -> Vector6 {
+        let twist = Vector6::ith(k, 1.0);
+        let [v, w] = [0, 3].map(|first| Vector3::from(twist.fixed_rows::<3>(first)));
+        let row = |leg: usize| {
+            let arm = w.cross(&self.at.legs.arms[leg]);
+            (leg, self.row(leg, &(v + arm), &arm))
+        };
+        let mut change = self.by_rows((0..6).map(row));
+        if is_euler && k >= 3 {
+            let rates =
+                |share: f64| ReadingAxes::default().rates(&moved(&self.at.pose, &twist, share).to_array());
+            let spin: Vector3 = self.motion.fixed_rows::<3>(3).into();
+            let here = rates(0.0);
+            let turned = (rates(TURN_STEP) - here) * spin / TURN_STEP;
+            // As a rotation that reads so.
+            let read_back = here.try_inverse().map_or_else(Vector3::zeros, |inverse| inverse * turned);
+            let mut rotation = change.fixed_rows_mut::<3>(3);
+            rotation += read_back;
+        }
+        change
+    }
+
+    /// By a coordinate of a joint; the pose follows, so that the commanded length stays.
+    fn joint(&self, leg: usize, end: &Vector3, arm: &Vector3) -> Vector6 {
+        let legs = &self.at.legs;
+        let follows = legs.platform_jacobian.column(leg) * -legs.directions[leg].dot(end);
+        self.by_rows(std::iter::once((leg, self.row(leg, end, arm)))) + self.by_pose * follows
+    }
+
+    fn slopes(&self) -> Slopes {
+        let (at, axis) = (self.at, |k: usize| Vector3::ith(k, 1.0));
+        let rotation = at.pose.rotation();
+        let change = at.wrench.to_vector() - at.reference.to_vector();
+        let [force, moment] = [0, 3].map(|first| Vector3::from(change.fixed_rows::<3>(first)));
+        let both = |f: Vector3, m: Vector3| self.yields(&Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z));
+        let motion = |column: usize| match column {
+            0..18 => self.joint(column / 3, &-axis(column % 3), &Vector3::zeros()),
+            18..36 => {
+                let arm = rotation * axis(column % 3);
+                self.joint((column - 18) / 3, &arm, &arm)
+            }
+            36..42 => self.yields(&(Vector6::ith(column - 36, 1.0) * change[column - 36])),
+            42..45 => both(axis(column - 42).cross(&force), axis(column - 42).cross(&moment)),
+            _ => both(Vector3::zeros(), (rotation * axis(column - 45)).cross(&force)),
+        };
+        let mut slopes =
+            Slopes::from_columns(&std::array::from_fn::<Vector6, COLUMNS, _>(|k| at.observer * motion(k)));
+        for (mut row, weight) in slopes.row_iter_mut().zip(at.weight.iter()) {
+            row *= *weight;
+        }
+        slopes
+    }
+}
