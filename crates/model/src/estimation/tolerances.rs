@@ -391,6 +391,7 @@ mod tests {
                 delta_t: 0.0,
                 elapsed: 0.0,
                 reference_age: None,
+                reference_record: None,
                 block: 0,
                 measured: [0.0; 6],
                 sigma: None,
