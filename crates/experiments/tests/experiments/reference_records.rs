@@ -58,7 +58,9 @@ fn numbers_of_references_that_do_not_err_change_nothing() {
         let mut data = case.measurements.clone();
         data.columns.reference_record = true;
         for (run, rows) in (1..).zip(data.observations.chunks_mut(5)) {
-            rows.iter_mut().for_each(|row| row.reference_record = Some(run));
+            for row in rows {
+                row.reference_record = Some(run);
+            }
         }
         let (with, without) = (told(&case, &data), told(&case, &case.measurements));
         assert_eq!((with.verdict, with.findings.len()), (without.verdict, without.findings.len()), "{index}");

@@ -51,7 +51,9 @@ impl LaboratoryFault for ReferenceRecords {
         }
         data.columns.reference_record = true;
         for (run, rows) in (1..).zip(data.observations.chunks_mut(RUN)) {
-            rows.iter_mut().for_each(|row| row.reference_record = Some(run));
+            for row in rows {
+                row.reference_record = Some(run);
+            }
         }
     }
 }
