@@ -13,6 +13,8 @@ pub enum AsWritten {
     Negative,
     /// The best explanation leaves so many times the noise.
     Level(f64),
+    /// The same by effects that leave the stiffness of the legs open.
+    Open(f64),
 }
 
 /// How a reading of the file did against the file as it is written.
@@ -56,6 +58,13 @@ impl AgainstWritten {
                 format!("error {} instead of {} times the noise", times(self.other), times(level)),
                 format!(
                     "as the file is written, the best explanation leaves {} times the noise",
+                    times(level)
+                ),
+            ),
+            AsWritten::Open(level) => (
+                "stiffness open".to_owned(),
+                format!(
+                    "as the file is written, effects that leave {} times the noise leave the stiffness of the legs open",
                     times(level)
                 ),
             ),

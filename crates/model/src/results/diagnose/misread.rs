@@ -36,6 +36,10 @@ const EVIDENT_LEVEL: f64 = 10.0;
 const NEGATIVE_LEGS: usize = 4;
 /// Standard deviations of chi-square by which an error may exceed the noise and still be taken for it.
 const NOISE_SIGMAS: f64 = 2.0;
+/// An explanation that leaves the stiffness of so many legs open says nothing of the machine.
+const OPEN_LEGS: usize = 4;
+/// Standard deviation of a compliance over its size, beyond which it is open.
+const OPEN_SHARE: f64 = 0.5;
 /// A compliance this many standard deviations below zero is no spring.
 const NEGATIVE_SIGMAS: f64 = 3.0;
 
@@ -55,6 +59,8 @@ struct Explained {
     effects: usize,
     /// Legs that would have a negative stiffness.
     negative: usize,
+    /// Legs whose stiffness it leaves open.
+    open: usize,
 }
 
 /// A file before any effect is weighed.
@@ -137,15 +143,17 @@ impl Weighing<'_> {
             None => AsWritten::Nothing,
             Some(w) if !self.is_better(way, &other, w) => return None,
             Some(w) if w.negative > 0 => AsWritten::Negative,
+            Some(w) if w.open >= OPEN_LEGS => AsWritten::Open(w.level),
             Some(w) => AsWritten::Level(w.level),
         };
         Some(self.of(way, AgainstWritten { written: as_written, other: other.level }))
     }
 
-    /// True when effects explain the file as written to the noise, and no other reading does better with springs alone.
+    /// True when effects explain the file as written to the noise, springs included, and no other reading does better with springs alone.
     fn needs_no_other_reading(&self, written: &Explained) -> bool {
         let better = |way: &Way| springs_may_do_better(way, written);
-        written.negative == 0 && written.is_noise && !self.readings.ways.iter().any(better)
+        let is_known = written.negative == 0 && written.open < OPEN_LEGS;
+        is_known && written.is_noise && !self.readings.ways.iter().any(better)
     }
 
     /// What is reported of a way of reading and of those that explain the file alike.
@@ -159,7 +167,7 @@ impl Weighing<'_> {
     fn is_better(&self, way: &Way, other: &Explained, written: &Explained) -> bool {
         // A size soaks up a little of anything, so it has to be better than what has no name as well.
         let written_cost = written.cost - if way.has_size() { written.patterns } else { 0.0 };
-        let gained = written.negative > 0 || written_cost - other.cost > GAIN;
+        let gained = written.negative > 0 || written_cost - other.cost > gain(way, written);
         let springs = self.readings.level.unwrap_or(f64::INFINITY);
         let is_all = other.is_noise || other.level < SOUND_LEVEL;
         if way.has_size() {
@@ -220,6 +228,7 @@ impl Explained {
             is_noise: variance < 1.0 + NOISE_SIGMAS * (2.0 / dof).sqrt(),
             effects: best.point.active.len(),
             negative: negative_legs(best),
+            open: open_legs(best),
         }
     }
 }
@@ -239,8 +248,19 @@ fn springs_may_do_better(way: &Way, written: &Explained) -> bool {
     if way.has_size() {
         way.level < SOUND_LEVEL && springs < written.cost - SIZE_GAIN
     } else {
-        springs < written.cost - GAIN
+        springs < written.cost - gain(way, written)
     }
+}
+
+/// By how much another reading has to be better. Effects that explain everything and leave nothing known of the springs explain little
+/// beside springs that explain as much by themselves: then the charges for the mistake and for the effects decide.
+fn gain(way: &Way, written: &Explained) -> f64 {
+    let is_open = written.open >= OPEN_LEGS && !way.has_size() && way.level < SOUND_LEVEL;
+    if is_open { 0.0 } else { GAIN }
+}
+
+fn open_legs(fit: &Fit) -> usize {
+    (0..6).filter(|&leg| fit.std(leg) > OPEN_SHARE * fit.point.compliances[leg].abs()).count()
 }
 
 fn negative_legs(fit: &Fit) -> usize {
