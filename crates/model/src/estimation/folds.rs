@@ -14,6 +14,7 @@ use crate::estimation::lsq::{Solution, Triangle};
 use crate::estimation::nuisance::ShownInputs;
 use crate::estimation::parallel::products;
 use crate::estimation::parameters::Parameters;
+use crate::estimation::whitening::Inexact;
 
 /// Change of a column over its length up to which it is still the column that was linearised.
 const SAME_COLUMN: f64 = 1e-3;
@@ -115,7 +116,7 @@ impl<'a> FoldFits<'a> {
 }
 
 fn equations(state: &Linearization, point: &ModelPoint, parameters: usize) -> DMatrix<f64> {
-    let inputs = state.inexact().map(|inexact| inexact.z());
+    let inputs = state.inexact().map(Inexact::z);
     let mut all = DMatrix::zeros(state.equations(), parameters + 1 + inputs.map_or(0, DMatrix::ncols));
     for range in state.parts_of_noise() {
         let part = state.part_of_noise(&range);

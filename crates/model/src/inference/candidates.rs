@@ -9,6 +9,7 @@ use crate::effects::term::{Natural, Rich, Term};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::{Linearization, ModelPoint, parameter_count};
 use crate::estimation::parallel::sum_in_order;
+use crate::estimation::whitening::Inexact;
 use crate::inference::evidence::{Gram, PriorBlock};
 use crate::inference::pattern::Pattern;
 
@@ -233,7 +234,7 @@ impl<'a> Collector<'a> {
 
     /// `[C Z y U]' [C Z y U]` of a part of the conditions; `U`: columns of the inputs known to a tolerance only, where there are any.
     fn products(&self, part: &Range<usize>, point: &ModelPoint) -> DMatrix<f64> {
-        let (lin, inputs) = (self.lin.part_of_noise(part), self.lin.inexact().map(|inexact| inexact.z()));
+        let (lin, inputs) = (self.lin.part_of_noise(part), self.lin.inexact().map(Inexact::z));
         let (common, used) = (lin.common_columns(), self.lin.common_columns() + self.width + 1);
         let mut all = DMatrix::zeros(lin.equations(), used + inputs.map_or(0, DMatrix::ncols));
         all.columns_mut(0, common).copy_from(&lin.common_block());
