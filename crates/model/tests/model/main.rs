@@ -9,6 +9,7 @@ mod common;
 mod compare;
 mod diagnosed_remainder;
 mod discover;
+mod effort;
 mod evidence;
 mod examination;
 mod frames;

@@ -1,0 +1,46 @@
+//! What fits cost, counted instead of timed: a clumsier change fails here on any machine.
+
+use hexbench_core::Dataset;
+use hexbench_model::estimation::fit::{Fit, Termination};
+use hexbench_model::estimation::fit_named::fit_named;
+use hexbench_model::results::diagnose::prepare;
+use hexbench_model::terms::catalogue;
+
+use crate::cases::case;
+
+/// A reading in millimetres that was taken for micrometres.
+const WRONG_UNIT: f64 = 1e3;
+
+/// Fit of springs and a term to the readings of a case, changed.
+fn fitted(name: &str, term: &str, change: impl Fn(&mut Dataset)) -> Fit {
+    let (hexapod, mut data, _) = case(name);
+    change(&mut data);
+    let term = catalogue().into_iter().find(|t| t.info().id == term).unwrap();
+    fit_named(&prepare(&hexapod, &data).unwrap(), &[term]).unwrap()
+}
+
+#[test]
+fn fits_of_sound_files_take_few_linearizations() {
+    // Points at which the campaign was linearised, shortened steps included.
+    let counts = [
+        ("mujoco-foundation", "base-compliance"),
+        ("contact", "joint-rotation-stiffness"),
+        ("friction", "joint-friction"),
+    ]
+    .map(|(name, term)| {
+        let fit = fitted(name, term, |_| {});
+        assert_eq!(fit.termination, Termination::Settled, "{name}");
+        (fit.iterations, fit.tried)
+    });
+    assert_eq!(counts, [(2, 2), (3, 3), (3, 3)]);
+}
+
+#[test]
+fn a_wrong_unit_makes_a_fit_dearer_within_bounds() {
+    let fit = fitted("mujoco-foundation", "base-compliance", |data| {
+        for row in &mut data.observations {
+            row.measured[0] *= WRONG_UNIT;
+        }
+    });
+    assert_eq!((fit.iterations, fit.tried), (4, 10));
+}
