@@ -38,6 +38,8 @@ const FAR: f64 = 10.0;
 const MISFIT_CHANCE: f64 = 1e-4;
 /// Term parameters up to which no scan is needed for imitation.
 const FEW_PARAMETERS: usize = 3;
+/// Error over the noise of the best set beyond which no rival is near the truth either: the file is not what it says.
+const FAR_OFF: f64 = 30.0;
 /// Conditions looked at by scans.
 const SCANNED_CONDITIONS: usize = 400;
 /// Best sets of the whole search whose members are weighed again on a part of the campaign.
@@ -126,7 +128,7 @@ pub fn explain_with_laws(
                 candidates: &candidates,
                 natural: &natural,
                 best: &best,
-                all: does_not_fit(&best),
+                all: does_not_fit(&best) && !is_far_off(&best),
             };
             let (sets, better) = rivals.weighed(sets);
             if let Some(better) = better {
@@ -211,6 +213,10 @@ fn is_doubtful(fit: &Fit) -> bool {
     let parameters: usize = fit.point.active.iter().map(|a| a.values.len()).sum();
     let Ok(law) = ChiSquared::new(fit.lack_of_fit_dof.max(1.0)) else { return true };
     parameters > FEW_PARAMETERS || law.cdf(fit.lack_of_fit) > 1.0 - DOUBTFUL_CHANCE
+}
+
+fn is_far_off(best: &Fit) -> bool {
+    best.lack_of_fit > FAR_OFF.powi(2) * best.lack_of_fit_dof.max(1.0)
 }
 
 /// True when the residuals exceed a noise that is known: the best set is not good enough.
