@@ -38,7 +38,7 @@ const FAR: f64 = 10.0;
 const MISFIT_CHANCE: f64 = 1e-4;
 /// Term parameters up to which no scan is needed for imitation.
 const FEW_PARAMETERS: usize = 3;
-/// Error over the noise of the best set beyond which no rival is near the truth either: the file is not what it says.
+/// Error over the noise of deflections, of the best set, beyond which no rival is near the truth either: the file is not what it says.
 const FAR_OFF: f64 = 30.0;
 /// Conditions looked at by scans.
 const SCANNED_CONDITIONS: usize = 400;
@@ -128,7 +128,7 @@ pub fn explain_with_laws(
                 candidates: &candidates,
                 natural: &natural,
                 best: &best,
-                all: does_not_fit(&best) && !is_far_off(&best),
+                all: does_not_fit(&best) && (campaign.is_absolute() || !is_far_off(&best)),
             };
             let (sets, better) = rivals.weighed(sets);
             if let Some(better) = better {

@@ -686,7 +686,7 @@ export type OutsideReport = {
   leg: number | null;
   /** What it follows. */
   variable: string | null;
-  /** `linear`, `quadratic`, `step`, `periodic`. */
+  /** `linear`, `quadratic`, `step`, `periodic`; `stiffness-beside-the-legs`, `unstated-load`. */
   pattern: string | null;
   /** Period in mm. */
   period: number | null;

@@ -232,7 +232,7 @@ pub struct OutsideReport {
     pub leg: Option<usize>,
     /// What it follows.
     pub variable: Option<&'static str>,
-    /// `linear`, `quadratic`, `step`, `periodic`.
+    /// `linear`, `quadratic`, `step`, `periodic`; `stiffness-beside-the-legs`, `unstated-load`.
     pub pattern: Option<&'static str>,
     /// Period in mm.
     pub period: Option<f64>,
