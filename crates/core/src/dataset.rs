@@ -1,6 +1,11 @@
 //! Measurements: what was commanded, what was applied, what was read.
 
+use std::collections::BTreeMap;
+
 use crate::{Approach, Channel, LineRange, Pose, Sensor, UNREAD, Wrench};
+
+/// Poses that show what a machine does.
+const LEAST_POSES: usize = 18;
 
 /// What the six measured numbers of an observation are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -175,6 +180,26 @@ impl Dataset {
     /// True in absolute mode.
     pub fn is_absolute(&self) -> bool {
         self.measurand == Measurand::AbsolutePose
+    }
+
+    /// About so many readings, those at every so many-th pose; none where there are not twice as many, or too few poses to leave some out.
+    pub fn some_poses(&self, readings: usize) -> Option<Self> {
+        let every = self.observations.len().div_ceil(readings.max(1));
+        if every < 3 {
+            return None;
+        }
+        let mut known: BTreeMap<[u64; 6], usize> = BTreeMap::new();
+        let mut is_kept = |o: &&Observation| {
+            let next = known.len();
+            known.entry(o.pose.to_array().map(f64::to_bits)).or_insert(next).is_multiple_of(every)
+        };
+        let observations = self.observations.iter().filter(&mut is_kept).copied().collect();
+        (known.len() >= LEAST_POSES * every).then(|| Self {
+            observations,
+            source: self.source.clone(),
+            blocks: self.blocks.clone(),
+            ..*self
+        })
     }
 
     /// The readings of all other lines, and the lines that are left out, in the order of the file.

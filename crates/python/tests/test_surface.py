@@ -86,7 +86,7 @@ def test_errors_have_the_text_and_the_kind_of_the_command(command: Command, tmp_
         (3, hexbench.BadInput, lambda: hexbench.diagnose(campaign, holdout=absolute), ["diagnose", hexapod, data, "--holdout", absolute]),
         (3, hexbench.BadInput, lambda: hexbench.diagnose(campaign, exclude=[1]), ["diagnose", hexapod, data, "--exclude", "1"]),
         (3, hexbench.BadInput, lambda: hexbench.Model.load(tmp_path / "model.toml"), ["compare", hexapod, data, "--model", tmp_path / "model.toml"]),
-        (4, hexbench.NotDetermined, lambda: hexbench.fit(campaign, ["creep"]), ["fit", hexapod, data, "--add", "creep"]),
+        (4, hexbench.NotDetermined, lambda: hexbench.fit(campaign, ["leg-asymmetry"]), ["fit", hexapod, data, "--add", "leg-asymmetry"]),
         (5, hexbench.InputOutput, lambda: hexbench.load(hexapod, tmp_path / "none.csv"), ["diagnose", hexapod, tmp_path / "none.csv"]),
         (5, hexbench.InputOutput, lambda: hexbench.fit(campaign, terms=[tmp_path / "t.toml"]), ["fit", hexapod, data, "--term", tmp_path / "t.toml"]),
         (2, hexbench.UsageError, lambda: hexbench.fit(campaign, ["creep"], estimator="paper"), ["fit", hexapod, data, "--add", "creep", "--estimator", "paper"]),

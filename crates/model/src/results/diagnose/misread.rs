@@ -32,6 +32,10 @@ const EFFECT: f64 = 6.0;
 const SOUND_LEVEL: f64 = 1.15;
 /// Error over the noise of springs alone beyond which a mistake without a size, that explains all of it, needs no rivals.
 const EVIDENT_LEVEL: f64 = 10.0;
+/// Readings of the part of a large file that is looked at first.
+const READINGS_OF_PART: usize = 432;
+/// Error over the noise of springs alone beyond which that part is enough.
+const FAR_LEVEL: f64 = 3.0;
 /// With so many legs of negative stiffness a file has some sign wrong, whatever else is at work.
 const NEGATIVE_LEGS: usize = 4;
 /// Standard deviations of chi-square by which an error may exceed the noise and still be taken for it.
@@ -80,11 +84,11 @@ pub(super) fn first_look(
     data: &Dataset,
     terms: &[Arc<dyn Term>],
 ) -> Result<FirstLook, ModelError> {
-    let Some(readings) = other_readings(hexapod, data) else { return Ok(FirstLook::Sound(None)) };
-    let mut weighing = Weighing { hexapod, data, terms, readings: &readings, written: None };
-    let Some(findings) = weighing.findings() else {
-        return Ok(FirstLook::Sound(weighing.written.map(Box::new)));
+    let (findings, written) = match evident_in_part(hexapod, data, terms) {
+        Some(findings) => (Some(findings), None),
+        None => weighed(hexapod, data, terms),
     };
+    let Some(findings) = findings else { return Ok(FirstLook::Sound(written.map(Box::new))) };
     let as_written = prepare(hexapod, data).and_then(|campaign| {
         let outcome = springs_alone(&campaign)?;
         Ok((campaign, outcome))
@@ -100,8 +104,29 @@ pub(super) fn first_look(
 
 /// What a file seems to mean instead of what it says; none when it seems to mean what it says.
 pub fn misread_findings(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
-    let readings = other_readings(hexapod, data)?;
-    Weighing { hexapod, data, terms, readings: &readings, written: None }.findings()
+    evident_in_part(hexapod, data, terms).or_else(|| weighed(hexapod, data, terms).0)
+}
+
+/// The same, and the file as written explained by effects, once that was done.
+fn weighed(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    terms: &[Arc<dyn Term>],
+) -> (Option<Vec<Finding>>, Option<(Campaign, RankedSets)>) {
+    let Some(readings) = other_readings(hexapod, data) else { return (None, None) };
+    let mut weighing = Weighing { hexapod, data, terms, readings: &readings, written: None };
+    (weighing.findings(), weighing.written)
+}
+
+/// What some poses of a large file say, where springs alone leave several times the noise of them: to weigh every effect against every
+/// mistake, a few hundred readings are as good as all.
+fn evident_in_part(hexapod: &Hexapod, data: &Dataset, terms: &[Arc<dyn Term>]) -> Option<Vec<Finding>> {
+    let part = data.some_poses(READINGS_OF_PART)?;
+    let readings = other_readings(hexapod, &part)?;
+    let is_far = readings.is_negative || readings.level.is_none_or(|level| level > FAR_LEVEL);
+    is_far
+        .then(|| Weighing { hexapod, data: &part, terms, readings: &readings, written: None }.findings())
+        .flatten()
 }
 
 /// Other readings of a file against the file as written, each with the effects that explain it best.
