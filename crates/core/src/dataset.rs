@@ -182,7 +182,7 @@ impl Dataset {
         self.measurand == Measurand::AbsolutePose
     }
 
-    /// About so many readings, those at every so many-th pose; none where there are not twice as many, or too few poses to leave some out.
+    /// About so many readings: those at every so many-th pose; none where there are not twice as many, or too few poses to leave some out.
     pub fn some_poses(&self, readings: usize) -> Option<Self> {
         let every = self.observations.len().div_ceil(readings.max(1));
         if every < 3 {

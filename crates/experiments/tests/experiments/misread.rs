@@ -7,8 +7,12 @@ use hexbench_experiments::misread::{
     Misread, MisreadCampaign, MisreadFate, MisreadGroup, MisreadProtocol, MisreadScene, WHOLE_FILE, case,
     page, sheets,
 };
+use hexbench_experiments::trial::kinds;
+use hexbench_model::results::diagnose::diagnose;
+use hexbench_model::terms::catalogue;
 use hexbench_report::render::markdown;
 use hexbench_truth::misstatements::registry;
+use hexbench_truth::scene::{PartName, Scene, VirtualBench};
 
 /// Right words that speak of more than a file.
 const BESIDE_FILES: [&str; 2] = ["noise-level", "tolerance"];
@@ -91,5 +95,21 @@ fn trials_have_names_by_which_their_files_are_written() {
     for number in [0, 5, 1_000, harness::Protocol::trials(&protocol) - 1] {
         let name = harness::Protocol::name(&protocol, number);
         assert!(case(&name, &protocol).is_some(), "{name}");
+    }
+}
+
+/// With its sign reversed too, a law that grows with the force explains a file of the wrong sign, and leaves the springs open.
+#[test]
+fn a_sign_reversed_throughout_is_no_nonlinear_spring() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/hidden-3");
+    for seed in 0..3 {
+        let scene = Scene::read_with_seed(&folder, Some(seed)).unwrap();
+        let mut data = VirtualBench::new(&scene, false).dataset(PartName::Training).unwrap();
+        for row in &mut data.observations {
+            row.measured = row.measured.map(|x| -x);
+        }
+        let d = diagnose(&scene.hexapod, &data, None, &catalogue()).unwrap().diagnosis;
+        let kinds = kinds(&d);
+        assert!(kinds.iter().any(|kind| kind == "deflection-sign"), "seed {seed}: {:?} {kinds:?}", d.verdict);
     }
 }

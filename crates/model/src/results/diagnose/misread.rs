@@ -63,6 +63,8 @@ struct Explained {
     effects: usize,
     /// Legs that would have a negative stiffness.
     negative: usize,
+    /// True when all of them would by springs alone: the platform moves against its loads, and no effect makes a machine do so.
+    all_springs_negative: bool,
     /// Legs whose stiffness it leaves open.
     open: usize,
 }
@@ -177,7 +179,7 @@ impl Weighing<'_> {
     /// True when effects explain the file as written to the noise, springs included, and no other reading does better with springs alone.
     fn needs_no_other_reading(&self, written: &Explained) -> bool {
         let better = |way: &Way| springs_may_do_better(way, written);
-        let is_known = written.negative == 0 && written.open < OPEN_LEGS;
+        let is_known = written.negative == 0 && written.open < OPEN_LEGS && !written.all_springs_negative;
         is_known && written.is_noise && !self.readings.ways.iter().any(better)
     }
 
@@ -203,7 +205,8 @@ impl Weighing<'_> {
         }
         let far = |now: f64, before: f64| now < FAR_BETTER_SHARE * before;
         let is_far_better = far(other.level, written.level) && far(way.level, springs);
-        let is_reversed = written.negative >= NEGATIVE_LEGS && way.is_a_sign();
+        let is_reversed =
+            (written.negative >= NEGATIVE_LEGS || written.all_springs_negative) && way.is_a_sign();
         is_reversed || (gained && (is_all || is_far_better))
     }
 
@@ -253,6 +256,7 @@ impl Explained {
             is_noise: variance < 1.0 + NOISE_SIGMAS * (2.0 / dof).sqrt(),
             effects: best.point.active.len(),
             negative: negative_legs(best),
+            all_springs_negative: negative_legs(&outcome.baseline) == 6,
             open: open_legs(best),
         }
     }
