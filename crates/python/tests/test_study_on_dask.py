@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from conftest import SCENES
@@ -182,6 +183,24 @@ def test_without_workers_the_run_gives_up_and_keeps_what_is_done(
     done = study.run(cluster.client, study_file, tmp_path / "dask", progress=lambda n, _: told.append(n))
     assert told[0] >= 5
     assert bytes_of(done.folder) == here
+
+
+def test_records_that_are_lost_with_the_last_worker_do_not_hold_the_run(
+    cluster: Cluster, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(study, "HEARTBEAT", 0.2)
+    some_done = study._some_done
+
+    def done_and_lost(client: Any, futures: list[Any], patience: float) -> list[Any]:
+        ended = some_done(client, futures, patience)
+        for worker in cluster.workers:
+            worker.kill()
+        wait_until(lambda: not cluster.client.nthreads(), "the scheduler misses the workers")
+        return ended
+
+    monkeypatch.setattr(study, "_some_done", done_and_lost)
+    with pytest.raises(errors.InputOutput, match="no worker"):
+        study.run(cluster.client, study_file, tmp_path / "dask", patience=1)
 
 
 def test_an_error_of_a_worker_reaches_the_caller_with_its_text(

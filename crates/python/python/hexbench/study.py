@@ -193,7 +193,8 @@ def _records(
             tasks[client.submit(_compute, source, some, pure=False, retries=retries)] = some
         while tasks:
             for future in _some_done(client, list(tasks), patience):
-                yield from zip(tasks.pop(future), _result(future), strict=True)
+                if (records := _result(future)) is not None:
+                    yield from zip(tasks.pop(future), records, strict=True)
     finally:
         client.cancel(list(tasks))
 
@@ -206,7 +207,7 @@ def _some_done(client: Client, futures: list[Future], patience: float) -> list[F
     while True:
         try:
             return list(distributed.wait(futures, timeout=HEARTBEAT, return_when="FIRST_COMPLETED").done)
-        except TimeoutError:
+        except distributed.TimeoutError:
             if client.nthreads():
                 seen = time.monotonic()
             elif time.monotonic() - seen > patience:
@@ -216,12 +217,17 @@ def _some_done(client: Client, futures: list[Future], patience: float) -> list[F
             raise InputOutput(f"the cluster is gone: {cause}", "Run again: what is done is kept.") from cause
 
 
-def _result(future: Future) -> list[bytes]:
-    """Return the records of a task that has ended; what it raised is raised here."""
+def _result(future: Future) -> list[bytes] | None:
+    """Return the records of a task that has ended; what it raised is raised here.
+
+    None where they were lost with their worker: without any worker, nobody computes them again, and waiting would not end.
+    """
     import distributed
 
     try:
-        records: list[bytes] = future.result()
+        records: list[bytes] = future.result(timeout=HEARTBEAT)
+    except distributed.TimeoutError:
+        return None
     except distributed.KilledWorker as cause:
         message = f"a task ended with its worker again and again: {cause}"
         next_step = "See the logs of the workers; memory is the usual reason. What is done is kept: run again."
