@@ -92,6 +92,21 @@ pub struct Columns {
     pub sigma: bool,
 }
 
+impl Columns {
+    /// Those that both files have.
+    fn common(self, other: Self) -> Self {
+        Self {
+            reference: self.reference && other.reference,
+            approach: self.approach && other.approach,
+            delta_t: self.delta_t && other.delta_t,
+            elapsed: self.elapsed && other.elapsed,
+            reference_age: self.reference_age && other.reference_age,
+            reference_record: self.reference_record && other.reference_record,
+            sigma: self.sigma && other.sigma,
+        }
+    }
+}
+
 /// A measurement file as read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dataset {
@@ -198,6 +213,17 @@ impl Dataset {
             observations,
             source: self.source.clone(),
             blocks: self.blocks.clone(),
+            ..*self
+        })
+    }
+
+    /// The readings of both files, with the columns that both have; none where they read different things.
+    pub fn joined(&self, other: &Self) -> Option<Self> {
+        (self.measurand == other.measurand && self.blocks == other.blocks).then(|| Self {
+            columns: self.columns.common(other.columns),
+            blocks: self.blocks.clone(),
+            observations: self.observations.iter().chain(&other.observations).copied().collect(),
+            source: self.source.clone(),
             ..*self
         })
     }

@@ -7,7 +7,7 @@ use hexbench_report::{Block, Page, Section, Table};
 use hexbench_truth::campaign::CaseKind;
 
 use super::sheets;
-use super::trust::{CREDIBLE, MOST_FALSE_NAMES};
+use super::trust::{CREDIBLE, MOST_BEHIND, MOST_FALSE_NAMES, overlooked};
 use super::{
     Calibration, CalibrationRecord, Curve, DISTANCES, WELL_VISIBLE, credible_coverage, false_names,
     false_names_among_named, false_outside, is_well_visible, prediction_coverage, stiffness_coverage,
@@ -78,6 +78,11 @@ pub fn headlines(records: &[CalibrationRecord]) -> Vec<String> {
         format!(
             "Three effects, each at {WELL_VISIBLE} or more, were all named in {}.",
             told(right(CaseKind::Triple))
+        ),
+        format!(
+            "Where two or three effects were hidden and some were named, the hidden ones themselves fitted the readings better by more \
+             than {MOST_BEHIND} in chi-square in {}.",
+            told(overlooked(records))
         ),
         format!(
             "Something outside the catalogue at {WELL_VISIBLE} or more was noticed as such in {}.",

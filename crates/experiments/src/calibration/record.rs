@@ -6,12 +6,14 @@ use hexbench_core::statistics::Proportion;
 use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
 use hexbench_model::application::predict::predict;
 use hexbench_model::error::ModelError;
+use hexbench_model::estimation::fit_named::{Added, fit_wanted};
 use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::estimation::parameters::stiffness_name;
 use hexbench_model::inference::discrepancy::LegDiscrepancy;
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::DiagnosisStudy;
+use hexbench_model::terms::catalogue;
 use hexbench_truth::campaign::{CaseKind, PlanKind, SimulatedCase};
 use hexbench_truth::mechanisms::is_outside;
 use serde::{Deserialize, Serialize};
@@ -68,6 +70,8 @@ pub struct CalibrationRecord {
     pub holdout: [Option<f64>; 2],
     /// Errors of the leg stiffnesses of the final model, in standard deviations.
     pub stiffness_z: [Option<f64>; 6],
+    /// Chi-square of the answer over that of a fit of the hidden effects themselves, where two or more of the catalogue are hidden.
+    pub behind_truth: Option<f64>,
     /// Held-out numbers within 1.96 of the standard deviation of prediction and noise; none of absolute poses.
     pub predicted: Proportion,
 }
@@ -77,10 +81,11 @@ impl CalibrationRecord {
     pub(crate) fn of(case: &SimulatedCase) -> Result<Self, TrialError> {
         let trial = Trial::run(case)?;
         let predicted = predicted(&trial.study, case)?;
-        Ok(Self { predicted, ..Self::of_trial(case, &trial) })
+        let behind_truth = behind_truth(&trial)?;
+        Ok(Self { predicted, behind_truth, ..Self::of_trial(case, &trial) })
     }
 
-    /// Compares the answer to a case with its truth; nothing is predicted.
+    /// Compares the answer to a case with its truth; nothing is predicted or fitted.
     pub fn of_trial(case: &SimulatedCase, trial: &Trial) -> Self {
         let Trial { hidden, study } = trial;
         let d = &study.diagnosis;
@@ -110,6 +115,7 @@ impl CalibrationRecord {
             credible: d.credible_set.clone(),
             holdout: [chi2(d.steps.first()), chi2(d.steps.last())],
             stiffness_z: stiffness_z(study, case),
+            behind_truth: None,
             predicted: Proportion::default(),
             hidden: hidden.clone(),
         }
@@ -197,6 +203,23 @@ fn stiffness_z(study: &DiagnosisStudy, case: &SimulatedCase) -> [Option<f64>; 6]
         let true_stiffness = N_PER_UM / case.campaign.world.leg_compliance[leg];
         (estimate.std > 0.0).then(|| (estimate.value - true_stiffness) / estimate.std)
     })
+}
+
+/// How much better than the answer the hidden effects fit the readings that the answer judged.
+fn behind_truth(trial: &Trial) -> Result<Option<f64>, ModelError> {
+    let Trial { hidden, study } = trial;
+    if hidden.len() < 2 || hidden.iter().any(|id| is_outside(id)) {
+        return Ok(None);
+    }
+    let terms: Vec<_> = hidden.iter().map(|id| Added::named(id, &catalogue())).collect::<Result<_, _>>()?;
+    let truth = match fit_wanted(&study.campaign, &terms) {
+        Ok((_, truth)) => truth,
+        // A file that cannot test an effect says nothing about it.
+        Err(ModelError::Untestable { .. }) => return Ok(None),
+        Err(other) => return Err(other),
+    };
+    let answer = study.fits.last().unwrap_or(&study.outcome.baseline);
+    Ok(Some(answer.lack_of_fit - truth.lack_of_fit))
 }
 
 /// The final model, as wide as what it leaves of the legs, at the held-out poses.

@@ -7,7 +7,7 @@ use super::CalibrationRecord;
 
 const HEADER: &str = "trial,kind,hidden,family,plan,distance,total_distance,verdict,fate,added,model,best,\
 best_probability,truth_probability,outside_probability,none_probability,confidence,credible_set,present,\
-holdout_chi2_springs,holdout_chi2,z_leg_1,z_leg_2,z_leg_3,z_leg_4,z_leg_5,z_leg_6,seed";
+holdout_chi2_springs,holdout_chi2,z_leg_1,z_leg_2,z_leg_3,z_leg_4,z_leg_5,z_leg_6,behind_truth,seed";
 
 /// Probability of presence below which an effect is left out of its cell.
 const WORTH_WRITING: f64 = 1e-3;
@@ -40,6 +40,7 @@ fn cells(r: &CalibrationRecord) -> Vec<String> {
     ]);
     cells.extend([maybe(r.confidence), words(r), present(r)]);
     cells.extend(r.holdout.iter().chain(&r.stiffness_z).map(|&x| maybe(x)));
+    cells.push(maybe(r.behind_truth));
     cells.push(r.seed.to_string());
     cells
 }

@@ -44,6 +44,16 @@ pub fn prediction_coverage<'a>(records: impl IntoIterator<Item = &'a Calibration
     records.into_iter().map(|r| r.predicted).sum()
 }
 
+/// Chi-square by which the hidden effects may fit better than effects that were named without being a search that failed: five
+/// standard deviations.
+pub(super) const MOST_BEHIND: f64 = 25.0;
+
+/// Answers that name effects, or say "outside", although the two or more that are hidden fit the same readings far better.
+pub(super) fn overlooked<'a>(records: impl IntoIterator<Item = &'a CalibrationRecord>) -> Proportion {
+    let claims = records.into_iter().filter(|r| matches!(r.verdict, Verdict::Named | Verdict::Outside));
+    Proportion::count(claims.filter_map(|r| r.behind_truth), |behind| *behind > MOST_BEHIND)
+}
+
 /// Quantiles of the reduced chi-square on held-out poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeldOutQuantiles {

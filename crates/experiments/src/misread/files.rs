@@ -1,6 +1,6 @@
 //! The files of a campaign as a reader gets them.
 
-use hexbench_core::files::{hexapod_to_toml, measurements_to_csv, parse_hexapod, read_measurements_from};
+use hexbench_core::files::{campaign_to_csv, hexapod_to_toml, parse_hexapod, read_campaign_from};
 use hexbench_core::{Dataset, Hexapod};
 
 use super::MisreadCampaign;
@@ -17,11 +17,12 @@ impl ReadFiles {
     /// Writes the files of a campaign and reads them again; why they are refused.
     pub(super) fn of(campaign: &MisreadCampaign) -> Result<Self, String> {
         let (hexapod, [measurements, holdout]) = campaign.files();
-        let hexapod = parse_hexapod(&hexapod_to_toml(hexapod), "hexapod.toml");
+        let hexapod =
+            parse_hexapod(&hexapod_to_toml(hexapod), "hexapod.toml").map_err(|why| why.message())?;
         Ok(Self {
-            hexapod: hexapod.map_err(|why| why.message())?,
-            measurements: read_again(measurements)?,
-            holdout: read_again(holdout)?,
+            measurements: read_again(&hexapod, measurements)?,
+            holdout: read_again(&hexapod, holdout)?,
+            hexapod,
         })
     }
 
@@ -36,9 +37,9 @@ impl ReadFiles {
     }
 }
 
-fn read_again(data: &Dataset) -> Result<Dataset, String> {
+fn read_again(hexapod: &Hexapod, data: &Dataset) -> Result<Dataset, String> {
     let mut text = Vec::new();
-    measurements_to_csv(&mut text, data).map_err(|why| why.to_string())?;
-    let table = read_measurements_from(text.as_slice(), &data.source).map_err(|why| why.message())?;
+    campaign_to_csv(&mut text, hexapod, data).map_err(|why| why.to_string())?;
+    let table = read_campaign_from(hexapod, text.as_slice(), &data.source).map_err(|why| why.message())?;
     Ok(table.dataset)
 }

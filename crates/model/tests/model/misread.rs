@@ -184,6 +184,37 @@ fn a_held_out_file_of_another_sign_or_machine_does_not_belong_to_the_measurement
 }
 
 #[test]
+fn a_held_out_file_that_no_effect_explains_beside_the_measurements_does_not_belong_to_them() {
+    let (hexapod, data, _) = cases::case("mujoco-clean");
+    let (.., holdout) = cases::case("friction");
+    let d = diagnose(&hexapod, &data, Some(&holdout), &catalogue()).unwrap().diagnosis;
+    assert_eq!((d.verdict, d.findings[0].kind), (Verdict::Measurement, FindingKind::Holdout));
+    let found = check(&hexapod, Some(&data), Some(&holdout), &catalogue(), &[]).unwrap();
+    assert_eq!(found.findings[0].kind, FindingKind::Holdout);
+}
+
+/// Readings of the first pose under vertical forces, and all others.
+fn few_and_others(data: &Dataset) -> [Dataset; 2] {
+    let is_vertical = |w: &hexbench_core::Wrench| w.force.xy().norm() == 0.0 && w.moment.norm() == 0.0;
+    let is_of_few = |o: &Observation| o.pose == data.observations[0].pose && is_vertical(&o.wrench);
+    [true, false].map(|few| {
+        let observations = data.observations.iter().filter(|o| is_of_few(o) == few).copied().collect();
+        Dataset { observations, ..data.clone() }
+    })
+}
+
+#[test]
+fn six_readings_tell_no_covariance_of_coordinates() {
+    let (hexapod, data, _) = cases::case("mujoco-clean");
+    let [few, others] = few_and_others(&data);
+    assert_eq!(few.observations.len(), 6);
+    for held in [None, Some(&others)] {
+        let d = diagnose(&hexapod, &few, held, &catalogue()).unwrap().diagnosis;
+        assert!(d.findings.is_empty() && d.added.is_empty(), "{:?} {:?}", d.findings, d.added);
+    }
+}
+
+#[test]
 fn every_change_is_written_as_it_is_read() {
     let all = [
         "deflection-sign=reversed",

@@ -29,6 +29,9 @@ const TAILS: [f64; 5] = [3.0, 4.0, 5.0, 7.0, 10.0];
 /// Size of an unknown law in the legs, over the noise.
 const LAW_SIZES: [f64; 10] = [0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.5, 5.0, 10.0, 30.0];
 
+/// Readings, less what the fit took, that a covariance of six coordinates takes: with fewer it is singular, and explains anything.
+const LEAST_READINGS: f64 = 9.0;
+
 /// A statement about the noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Kind {
@@ -77,7 +80,9 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
     }
     if rest.campaign.reads_poses {
         all.push(judge.drift());
-        all.extend(judge.axes());
+        let repeated = judge.rows.len() - judge.means.len();
+        let readings = rest.freedom() / 6.0 + repeated as f64;
+        all.extend(judge.axes().filter(|_| readings >= LEAST_READINGS));
     }
     all.push(judge.tails());
     all.push(judge.law(rest));

@@ -18,7 +18,7 @@ use crate::inference::diagnosis::visible;
 use crate::inference::examination::Finding;
 use crate::inference::misread::{AsMeant, Change, copies, held_in, names};
 use crate::inference::power::{Detectable, detectable};
-use crate::results::diagnose::{held_out_finding, misread_findings, prepare};
+use crate::results::diagnose::{TwoFiles, misread_findings, prepare};
 
 /// What a check found.
 #[derive(Debug, Clone, Serialize)]
@@ -67,7 +67,8 @@ pub fn check(
     let measurements = ReadingsCheck::of(hexapod, data, &campaign, Some(&springs));
     if let Some(held) = holdout {
         let own = held_in(data, held);
-        let foreign = || held_out_finding(hexapod, &campaign, &springs, held).ok().flatten();
+        let files = TwoFiles { hexapod, data, holdout: held, terms };
+        let foreign = || files.finding_by_springs(&campaign, &springs).ok().flatten();
         findings.extend(own.or_else(|| if findings.is_empty() { foreign() } else { None }));
     }
     let held_out = |held: &Dataset| {

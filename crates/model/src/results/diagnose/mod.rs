@@ -21,8 +21,7 @@ use hexbench_core::{Dataset, Hexapod};
 pub use self::alternative::Alternative;
 use self::answer::Answer;
 pub(crate) use self::context::Context;
-use self::foreign::foreign;
-pub use self::foreign::held_out_finding;
+pub use self::foreign::TwoFiles;
 pub use self::judged::prepare;
 use self::judged::{BothWays, Judged};
 pub use self::misread::misread_findings;
@@ -112,9 +111,8 @@ pub fn diagnose_with(
     let mut context = Context { hexapod, data: &data, holdout, campaign: &campaign, outcome: &outcome };
     let mut answer = Answer::of(&context, &findings)?;
     let is_misread = is_misread(&findings);
-    if let Some(finding) =
-        holdout.filter(|_| !is_misread).and_then(|held| foreign(hexapod, held, &answer.steps))
-    {
+    let foreign = |held| TwoFiles { hexapod, data: &data, holdout: held, terms }.finding(&answer.steps);
+    if let Some(finding) = holdout.filter(|_| !is_misread).and_then(foreign) {
         findings.push(finding);
         context.holdout = None;
         answer = Answer::of(&context, &findings)?;
