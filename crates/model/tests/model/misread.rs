@@ -87,6 +87,34 @@ fn mistakes_are_found_with_their_cause_and_no_effect_is_claimed() {
     }
 }
 
+/// All of the above but rows in another order: where repeats are taken for readings of other loads, so is their scatter for noise.
+#[test]
+fn they_are_found_where_only_repeats_tell_the_noise() {
+    let (mut hexapod, data, _) = cases::case("mujoco-clean");
+    hexapod.metrology = None;
+    for (kind, mistake) in MISTAKES.into_iter().filter(|(kind, _)| *kind != FindingKind::RowOrder) {
+        let (mut hexapod, mut data) = (hexapod.clone(), data.clone());
+        mistake(&mut hexapod, &mut data);
+        let d = told(&hexapod, &data);
+        assert_eq!(d.verdict, Verdict::Measurement, "{kind:?}: {:?}", d.findings);
+        assert!(d.findings.iter().any(|f| f.kind == kind), "{kind:?}: {:?}", d.findings);
+    }
+}
+
+#[test]
+fn a_few_repeats_that_tell_the_noise_make_no_file_a_misread_one() {
+    let (mut hexapod, data, _) = cases::case("mujoco-clean");
+    hexapod.metrology = None;
+    for (conditions, first) in [(3, 0), (4, 9), (6, 20), (8, 31), (8, 44), (12, 60)] {
+        // Every seventh condition with its repeat.
+        let is_kept = |i: usize| i / 2 >= first && (i / 2 - first).is_multiple_of(7);
+        let rows = data.observations.iter().enumerate().filter(|(i, _)| is_kept(*i));
+        let observations = rows.map(|(_, o)| *o).take(2 * conditions).collect();
+        let found = told(&hexapod, &Dataset { observations, ..data.clone() });
+        assert!(found.findings.is_empty(), "{conditions} from {first}: {:?}", found.findings);
+    }
+}
+
 #[test]
 fn read_as_the_finding_says_the_file_gives_the_answer_of_the_sound_one() {
     let (hexapod, data, _) = cases::case("mujoco-foundation");

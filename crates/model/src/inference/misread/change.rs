@@ -256,7 +256,7 @@ impl Change {
     }
 
     /// True when it changes what the readings are beside their stated noise.
-    pub(super) fn is_of_the_scale(&self) -> bool {
+    pub(crate) fn is_of_the_scale(&self) -> bool {
         matches!(
             self,
             Self::Scaled(
@@ -264,6 +264,11 @@ impl Change {
                 _
             )
         )
+    }
+
+    /// True when it changes all readings alike, or what is stated of their noise.
+    pub(super) fn is_of_all_readings(&self) -> bool {
+        matches!(self, Self::Scaled(Group::Readings | Group::Noise, _))
     }
 
     /// Numbers of it that are fitted.

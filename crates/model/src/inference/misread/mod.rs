@@ -276,7 +276,7 @@ impl Search<'_> {
     /// The rows in another order make other averages.
     fn reordered(&self, hexapod: &Hexapod, data: &Dataset, change: Change) -> Option<Way> {
         let meant = AsMeant::of(hexapod, data, None, &[change]);
-        let sample = Sample::new(&meant.hexapod, &meant.data)?;
+        let sample = self.sample.reordered(&meant.hexapod, &meant.data)?;
         let springs = sample.springs(&[]).filter(|springs| springs.negative == 0)?;
         Some(self.of(&springs, vec![change]))
     }
@@ -301,6 +301,10 @@ impl Search<'_> {
 
 /// Springs of a file read with changes, where all of them are springs and the readings are no quieter than their noise.
 fn admissible(sample: &Sample, changes: &[Change]) -> Option<Springs> {
+    // Beside a noise that nobody has stated, readings of any size are springs of another stiffness.
+    if !sample.noise_is_stated && changes.iter().any(Change::is_of_all_readings) {
+        return None;
+    }
     let springs = sample.springs(changes).filter(|springs| springs.negative == 0)?;
     let of_the_scale = sample.noise_is_stated && changes.iter().any(Change::is_of_the_scale);
     let too_quiet = of_the_scale && sample.levels(changes)?.min() < QUIETEST;

@@ -18,6 +18,7 @@ use nalgebra::DVector;
 use super::AsMeant;
 use super::change::{Change, Group};
 use crate::estimation::campaign::Campaign;
+use crate::estimation::noise::Noise;
 use crate::machine::geometry::Machine;
 use crate::machine::kinematics::{Legs, euler_rate_matrix};
 
@@ -49,7 +50,9 @@ pub(super) struct Sample {
     repeats_dof: f64,
     /// Legs at each pose; none at singular ones.
     legs: Vec<Option<Legs>>,
-    /// True where the stated noise says something.
+    /// Noise of a reading.
+    noise: Noise,
+    /// True where somebody has stated it.
     pub(super) noise_is_stated: bool,
 }
 
@@ -97,7 +100,16 @@ struct Whitened {
 impl Sample {
     /// Averages a file; none when it has nothing to average.
     pub(super) fn new(hexapod: &Hexapod, data: &Dataset) -> Option<Self> {
-        let campaign = Campaign::new(hexapod, data).ok()?.independent();
+        Some(Self::of(hexapod, data, &Campaign::new(hexapod, data).ok()?.independent()))
+    }
+
+    /// The same with the noise of this sample: repeats that are none would excuse anything.
+    pub(super) fn reordered(&self, hexapod: &Hexapod, data: &Dataset) -> Option<Self> {
+        let campaign = Campaign::with_noise(hexapod, data, self.noise).ok()?.independent();
+        Some(Self::of(hexapod, data, &campaign))
+    }
+
+    fn of(hexapod: &Hexapod, data: &Dataset, campaign: &Campaign) -> Self {
         let chosen: Vec<_> =
             spread(campaign.groups.len(), MOST_CONDITIONS).map(|i| &campaign.groups[i]).collect();
         let (mut repeats, mut dof) = (Vector6::zeros(), 0.0);
@@ -114,9 +126,8 @@ impl Sample {
         let means = chosen.iter().map(|g| g.mean).collect();
         let thinned = Dataset { observations: means, ..like(data) };
         let sigma = chosen.iter().map(|g| Vector6::from_column_slice(&g.sigma)).collect();
-        let noise_is_stated = campaign.noise.is_stated();
         let legs = legs(hexapod, &thinned);
-        Some(Self {
+        Self {
             hexapod: hexapod.clone(),
             data: thinned,
             sigma,
@@ -124,8 +135,9 @@ impl Sample {
             repeats,
             repeats_dof: dof,
             legs,
-            noise_is_stated,
-        })
+            noise: campaign.noise,
+            noise_is_stated: campaign.noise.is_stated(),
+        }
     }
 
     /// The same with fewer conditions.
@@ -145,7 +157,7 @@ impl Sample {
     pub(super) fn springs(&self, changes: &[Change]) -> Option<Springs> {
         let mut normal = Normal::default();
         self.whitened(changes, LINEAR_SHARE, |row| normal.add(&row))?;
-        self.judged(&normal, &Factors::of(changes))
+        self.judged(&normal, &self.factors(changes))
     }
 
     /// Readings less what the springs explain of them, over the noise, of the file read with changes; six for each condition.
@@ -186,7 +198,7 @@ impl Sample {
         let AsMeant { hexapod, data, .. } = AsMeant::of(&self.hexapod, &self.data, None, changes);
         let kept = changes.iter().all(Change::keeps_legs);
         let legs = if kept { Cow::Borrowed(&self.legs) } else { Cow::Owned(legs(&hexapod, &data)) };
-        let factors = Factors::of(changes);
+        let factors = self.factors(changes);
         let motions = motions(&data);
         let floor = floors(&motions, share);
         for (((row, motion), legs), sigma) in
@@ -194,7 +206,7 @@ impl Sample {
         {
             let legs = legs.as_ref()?;
             let force = legs.forces(&(row.wrench.to_vector() - row.reference.to_vector()));
-            let weight = sigma.zip_map(&floor, |s, f| (s * factors.noise).hypot(f).recip());
+            let weight = Vector6::from_fn(|k, _| (sigma[k] * factors.noise(k)).hypot(floor[k]).recip());
             let mut columns = legs.platform_jacobian;
             for leg in 0..6 {
                 let column = columns.column(leg).component_mul(&weight) * force[leg];
@@ -206,6 +218,24 @@ impl Sample {
         Some(())
     }
 
+    fn factors(&self, changes: &[Change]) -> Factors {
+        let (mut all, mut noise) = (Factors { translation: 1.0, rotation: 1.0, noise: None }, 1.0);
+        for change in changes {
+            match change {
+                Change::Scaled(Group::Translations, factor) => all.translation *= factor,
+                Change::Scaled(Group::Rotations, factor) => all.rotation *= factor,
+                Change::Scaled(Group::Readings, factor) => {
+                    all.translation *= factor;
+                    all.rotation *= factor;
+                }
+                Change::Scaled(Group::Noise, factor) => noise *= factor,
+                _ => {}
+            }
+        }
+        all.noise = self.noise_is_stated.then_some(noise);
+        all
+    }
+
     fn judged(&self, normal: &Normal, factors: &Factors) -> Option<Springs> {
         let (numbers, freedom) = (self.numbers(), self.freedom());
         let (_, chi2, negative) = non_negative(normal, freedom)?;
@@ -214,7 +244,7 @@ impl Sample {
         let lack = self.stands_for * (spread - 2.0 * normal.density);
         let (mut repeats, mut scatter) = (0.0, 1.0);
         if self.repeats_dof > 0.0 {
-            let scale = Vector6::from_fn(|k, _| (factors.reading(k) / factors.noise).powi(2));
+            let scale = Vector6::from_fn(|k, _| (factors.reading(k) / factors.noise(k)).powi(2));
             let squares = self.repeats.component_mul(&scale) / self.repeats_dof;
             scatter = squares.mean().sqrt();
             if self.noise_is_stated {
@@ -225,7 +255,7 @@ impl Sample {
                 repeats = squares.iter().map(|v| cost(*v)).sum();
             }
         }
-        let density: f64 = (0..6).map(|k| (factors.reading(k) / factors.noise).ln()).sum();
+        let density: f64 = (0..6).map(|k| (factors.reading(k) / factors.noise(k)).ln()).sum();
         let cost = lack + repeats - 2.0 * self.repeats_dof * density;
         cost.is_finite().then_some(Springs { cost, lack, level: (chi2 / freedom).sqrt(), negative, scatter })
     }
@@ -247,33 +277,21 @@ fn spread(all: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..all.div_ceil(stride)).map(move |k| (k * stride + k * 7 % stride).min(all - 1))
 }
 
-/// What changes do to the unit of the readings.
+/// By what readings and noise are multiplied.
 struct Factors {
     translation: f64,
     rotation: f64,
-    noise: f64,
+    /// Of the noise; none where nobody has stated it, and it is as large as the readings make it.
+    noise: Option<f64>,
 }
 
 impl Factors {
-    fn of(changes: &[Change]) -> Self {
-        let mut all = Self { translation: 1.0, rotation: 1.0, noise: 1.0 };
-        for change in changes {
-            match change {
-                Change::Scaled(Group::Translations, factor) => all.translation *= factor,
-                Change::Scaled(Group::Rotations, factor) => all.rotation *= factor,
-                Change::Scaled(Group::Readings, factor) => {
-                    all.translation *= factor;
-                    all.rotation *= factor;
-                }
-                Change::Scaled(Group::Noise, factor) => all.noise *= factor,
-                _ => {}
-            }
-        }
-        all
-    }
-
     fn reading(&self, coordinate: usize) -> f64 {
         if coordinate < 3 { self.translation } else { self.rotation }
+    }
+
+    fn noise(&self, coordinate: usize) -> f64 {
+        self.noise.unwrap_or_else(|| self.reading(coordinate))
     }
 }
 

@@ -10,9 +10,12 @@ use crate::effects::term::Term;
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, ConditionReadings};
 use crate::estimation::fit::Fit;
+use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
 use crate::inference::examination::Finding;
-use crate::inference::misread::{AgainstWritten, AsMeant, AsWritten, Readings, Way, finding, other_readings};
+use crate::inference::misread::{
+    AgainstWritten, AsMeant, AsWritten, Change, Readings, Way, finding, other_readings,
+};
 
 /// Ways to read a file that are weighed against the effects.
 const WAYS_EXPLAINED: usize = 3;
@@ -230,7 +233,12 @@ impl Weighing<'_> {
     fn explain(&self, way: Option<&Way>) -> Option<(Campaign, RankedSets)> {
         let changes = way.map_or(&[][..], |way| &way.changes);
         let meant = AsMeant::of(self.hexapod, self.data, None, changes);
-        let campaign = prepare(&meant.hexapod, &meant.data).ok()?;
+        let known = self.written.as_ref().map(|(campaign, _)| campaign.noise);
+        let campaign = match known.filter(|noise| !noise.is_stated() && way.is_some_and(keeps_noise)) {
+            // A noise that the reading itself makes larger would excuse it.
+            Some(noise) => within_tolerances(Campaign::with_noise(&meant.hexapod, &meant.data, noise).ok()?),
+            None => prepare(&meant.hexapod, &meant.data).ok()?,
+        };
         let outcome = explain(&campaign, self.terms).ok()?;
         Some((campaign, outcome))
     }
@@ -260,6 +268,11 @@ impl Explained {
             open: open_legs(best),
         }
     }
+}
+
+/// True where readings so read have the noise that they have as written.
+fn keeps_noise(way: &Way) -> bool {
+    !way.changes.iter().any(Change::is_of_the_scale)
 }
 
 /// Twice the negative log-likelihood of averaged readings whose noise may be larger than stated, and what the parameters cost.
