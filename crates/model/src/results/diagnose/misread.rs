@@ -9,7 +9,7 @@ use super::judged::{Judged, prepare};
 use crate::effects::term::Term;
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, ConditionReadings};
-use crate::estimation::fit::Fit;
+use crate::estimation::fit::{Fit, fit_baseline};
 use crate::estimation::tolerances::within_tolerances;
 use crate::inference::diagnosis::{RankedSets, explain, springs_alone};
 use crate::inference::examination::Finding;
@@ -159,16 +159,15 @@ impl Weighing<'_> {
         if is_evident && best.level < SOUND_LEVEL && !has_size && !may_be_an_effect {
             return Some(self.of(best, AgainstWritten { written: springs, other: best.level }));
         }
+        if let Some(findings) = self.reversed() {
+            return Some(findings);
+        }
         self.written = self.explain(None);
         let written = self.written.as_ref().map(|(campaign, outcome)| Explained::of(campaign, outcome, None));
         if written.as_ref().is_some_and(|w| self.needs_no_other_reading(w)) {
             return None;
         }
-        let candidates = self.candidates();
-        let all: Vec<Option<Explained>> = candidates.par_iter().map(|way| self.explained(way)).collect();
-        let all = candidates.iter().zip(all).filter_map(|(way, explained)| Some((*way, explained?)));
-        let machines = all.filter(|(_, explained)| explained.negative == 0);
-        let (way, other) = machines.min_by(|a, b| a.1.with_choice().total_cmp(&b.1.with_choice()))?;
+        let (way, other) = self.best_machine()?;
         let as_written = match &written {
             None => AsWritten::Nothing,
             Some(w) if !self.is_better(way, &other, w) => return None,
@@ -177,6 +176,30 @@ impl Weighing<'_> {
             Some(w) => AsWritten::Level(w.level),
         };
         Some(self.of(way, AgainstWritten { written: as_written, other: other.level }))
+    }
+
+    /// What is said of a platform that moves against its loads: no effect makes a machine do so, and none has to be weighed.
+    fn reversed(&self) -> Option<Vec<Finding>> {
+        if !self.readings.is_negative {
+            return None;
+        }
+        let springs = prepare(self.hexapod, self.data).and_then(|campaign| fit_baseline(&campaign)).ok()?;
+        if negative_legs(&springs) < 6 {
+            return None;
+        }
+        let way = self.candidates().into_iter().find(|way| way.is_a_sign())?;
+        let other =
+            self.explained(way).filter(|o| o.negative == 0 && (o.is_noise || o.level < SOUND_LEVEL))?;
+        Some(self.of(way, AgainstWritten { written: AsWritten::Negative, other: other.level }))
+    }
+
+    /// The way of reading that explains the file best with effects beside springs, none of which is negative.
+    fn best_machine(&self) -> Option<(&Way, Explained)> {
+        let candidates = self.candidates();
+        let all: Vec<Option<Explained>> = candidates.par_iter().map(|way| self.explained(way)).collect();
+        let all = candidates.into_iter().zip(all).filter_map(|(way, explained)| Some((way, explained?)));
+        let machines = all.filter(|(_, explained)| explained.negative == 0);
+        machines.min_by(|a, b| a.1.with_choice().total_cmp(&b.1.with_choice()))
     }
 
     /// True when effects explain the file as written to the noise, springs included, and no other reading does better with springs alone.
