@@ -6,9 +6,9 @@ use super::error::Fault;
 use super::line::Line;
 use super::row::no_sigma;
 use super::sensor_columns::{SensorSource, refuse_missing_sensors, refuse_unknown_sensor, sensor_column};
-use super::units::Unit;
+use super::units::{Unit, unit_named};
 use super::warning::Notice;
-use super::{FileProblem, Warning};
+use super::{Dimension, FileProblem, Warning};
 use crate::{Channel, Columns, Hexapod, Measurand, Sensor};
 
 /// One column of a file that is read.
@@ -46,6 +46,34 @@ impl Plan {
         };
         self.may_lack_readings
             && (self.of_sensors[cell].is_some() || self.sources[cell].as_ref().is_some_and(is_pose))
+    }
+}
+
+impl Plan {
+    /// True for a line of units below the names of the columns, which state the same ones.
+    ///
+    /// # Errors
+    /// A unit that is not that of the name.
+    pub(crate) fn is_row_of_units(&self, line: &Line<'_>) -> Result<bool, Fault> {
+        let bare = |cell: usize| line.text(cell).trim_matches(['[', ']', '(', ')']);
+        let is_unit = |cell: usize| {
+            let text = bare(cell);
+            text.is_empty() || text == "-" || unit_named(text, Dimension::Number).is_some()
+        };
+        let filled = (0..line.len()).filter(|cell| !bare(*cell).is_empty()).count();
+        if filled == 0 || !(0..line.len()).all(is_unit) {
+            return Ok(false);
+        }
+        for (cell, source) in self.sources.iter().enumerate().take(line.len()) {
+            let Some(Source { unit, .. }) = source else { continue };
+            let stated = unit_named(bare(cell), unit.kind);
+            if stated.is_some_and(|stated| stated != *unit) {
+                let problem = FileProblem::OtherUnit { named: unit.name };
+                let place = line.place(cell).with_name(&self.names[cell]).with_value(line.text(cell));
+                return Err(Fault::new(place, problem));
+            }
+        }
+        Ok(true)
     }
 }
 

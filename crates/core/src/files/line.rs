@@ -28,6 +28,18 @@ impl<'a> Line<'a> {
         Ok(Self { raw, cells })
     }
 
+    /// The line without the empty cells at its end.
+    pub(crate) fn trimmed(self) -> Self {
+        let used = (0..self.len()).rev().find(|cell| !self.text(*cell).is_empty()).map_or(0, |last| last + 1);
+        Self { cells: &self.cells[..used], ..self }
+    }
+
+    /// The line without empty cells beyond so many.
+    pub(crate) fn without_empty_beyond(self, cells: usize) -> Self {
+        let used = self.trimmed().len().max(cells).min(self.len());
+        Self { cells: &self.cells[..used], ..self }
+    }
+
     /// Number of cells.
     pub(crate) fn len(&self) -> usize {
         self.cells.len()

@@ -36,7 +36,9 @@ impl FileProblem {
         Some(match self {
             Self::NoRows => "Add one line per reading below the header.",
             Self::NoHeader => "Add a first line with the column names, for example pose,repeat,a_mm,b_mm,...",
-            Self::NoSeparator => "Separate the columns with commas (semicolons and tabs are understood too).",
+            Self::NoSeparator => {
+                "Separate the columns with commas (semicolons and tabs are understood too); begin a title above the header with #."
+            }
             Self::NamelessColumn => "Name the column, or remove it; note_1 is a name that is always ignored.",
             Self::NothingMeasured => {
                 "Add da_um, db_um, dc_um, dalpha_urad, dbeta_urad, dgamma_urad, or measured_a_mm ... measured_gamma_deg."
@@ -61,6 +63,13 @@ impl FileProblem {
     fn step_for_cell(&self) -> Option<&'static str> {
         Some(match self {
             Self::EmptyCell => "Fill in the number, or remove the whole row if the reading failed.",
+            Self::Date => {
+                "Format the column as a number or as text before the values are entered, and enter them again."
+            }
+            Self::Thousands => "Format the numbers without thousands separators and export again.",
+            Self::OtherUnit { .. } => {
+                "Correct the name or the row of units, whichever is wrong; the row of units may be left out."
+            }
             Self::NotANumber => "Write a number such as -12.5 or 3e-6; units belong in the column name.",
             Self::NotFinite => "Write the true number, or leave the whole row or key out.",
             Self::TooLarge => "Correct the exponent.",

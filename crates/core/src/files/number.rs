@@ -24,7 +24,50 @@ fn with_comma(text: &str) -> Result<Parsed, FileProblem> {
     let single = text.matches(',').count() == 1 && !text.contains('.');
     match text.replace(',', ".").parse::<f64>() {
         Ok(value) if single && value.is_finite() => Ok(Parsed { value, comma: true }),
-        _ => Err(FileProblem::NotANumber),
+        _ => Err(no_number(text)),
+    }
+}
+
+/// What a cell is that is no number.
+fn no_number(text: &str) -> FileProblem {
+    if has_thousands(text) {
+        FileProblem::Thousands
+    } else if is_date(text) {
+        FileProblem::Date
+    } else {
+        FileProblem::NotANumber
+    }
+}
+
+/// Digits in groups of three, perhaps with decimals: `1,234.5`, `1 234`, `1'234`.
+fn has_thousands(text: &str) -> bool {
+    let whole = text.trim_start_matches(['+', '-', '\u{2212}']);
+    // Decimals stand behind another mark than the groups.
+    let whole = match whole.rsplit_once(['.', ',']) {
+        Some((before, decimals)) if decimals.len() != 3 || before.contains(['.', ',', ' ', '\'']) => before,
+        _ => whole,
+    };
+    let digits = |group: &str| !group.is_empty() && group.bytes().all(|byte| byte.is_ascii_digit());
+    let mut groups = whole.split(['.', ',', '\'', '\u{2019}', ' ', '\u{a0}', '\u{202f}']);
+    let starts = groups.next().is_some_and(|first| digits(first) && first.len() <= 3);
+    let mut others = groups.peekable();
+    starts && others.peek().is_some() && others.all(|group| digits(group) && group.len() == 3)
+}
+
+/// Day, month and perhaps year: `3.5.2026`, `2026-05-03`, `03-May`, `3. Mai`.
+fn is_date(text: &str) -> bool {
+    let parts: Vec<&str> = text.split(['.', '-', '/', ' ']).filter(|part| !part.is_empty()).collect();
+    let number =
+        |part: &str, digits: usize| part.len() <= digits && part.bytes().all(|byte| byte.is_ascii_digit());
+    let month = |part: &str| part.chars().count() >= 3 && part.chars().all(char::is_alphabetic);
+    match parts[..] {
+        [day, name] => (number(day, 2) && month(name)) || (month(day) && number(name, 2)),
+        [day, name, year] if month(name) => number(day, 2) && number(year, 4),
+        [one, two, three] => {
+            let year = |part: &str| part.len() == 4 && number(part, 4);
+            number(two, 2) && ((number(one, 2) && year(three)) || (year(one) && number(three, 2)))
+        }
+        _ => false,
     }
 }
 
@@ -73,7 +116,15 @@ mod tests {
         assert!(matches!(parse_number("-Infinity"), Err(FileProblem::NotFinite)));
         assert!(matches!(parse_number("1e400"), Err(FileProblem::TooLarge)));
         assert!(matches!(parse_number(""), Err(FileProblem::EmptyCell)));
-        assert!(matches!(parse_number("1,234.5"), Err(FileProblem::NotANumber)));
+        assert!(matches!(parse_number("1,234.5"), Err(FileProblem::Thousands)));
+        assert!(matches!(parse_number("-1 338.5"), Err(FileProblem::Thousands)));
+        assert!(matches!(parse_number("1'234"), Err(FileProblem::Thousands)));
+        for date in ["3.5.2026", "2026-05-03", "03-May", "3. Mai", "Mai 26"] {
+            assert!(matches!(parse_number(date), Err(FileProblem::Date)), "{date}");
+        }
+        for neither in ["12.5 mm", "1.2.3", "a.b", "1,2,3", "--5", "1 2"] {
+            assert!(matches!(parse_number(neither), Err(FileProblem::NotANumber)), "{neither}");
+        }
         assert!(matches!(parse_number("12 N"), Err(FileProblem::NotANumber)));
         assert_eq!(parse_number("-1,5e-3").unwrap(), Parsed { value: -1.5e-3, comma: true });
     }

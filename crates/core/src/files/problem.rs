@@ -25,7 +25,7 @@ pub enum FileProblem {
     #[error("the file is empty")]
     Empty,
     /// Two bytes per character.
-    #[error("the file is UTF-16; it must be UTF-8")]
+    #[error("the file is UTF-16 that cannot be read: damaged, too long, or without its mark")]
     Utf16,
     /// A byte that is not part of UTF-8 text.
     #[error("byte {byte} of the file is not UTF-8 text")]
@@ -110,6 +110,12 @@ pub enum FileProblem {
         /// The name it is near to, with the unit of the file.
         suggestion: String,
     },
+    /// A row of units contradicts the names of the columns.
+    #[error("the row of units contradicts the name of the column, which says {named:?}")]
+    OtherUnit {
+        /// The unit in the name.
+        named: &'static str,
+    },
     /// One quantity twice.
     #[error("{quantity} is given twice: already in column {first} ({first_name})")]
     DuplicateColumn {
@@ -170,6 +176,12 @@ pub enum FileProblem {
     /// Nothing in a number's cell.
     #[error("the cell is empty; every reading needs a number here")]
     EmptyCell,
+    /// A day, which a spreadsheet has made of a number.
+    #[error("this is a date; spreadsheets make dates of numbers such as 3.5")]
+    Date,
+    /// Digits in groups.
+    #[error("the number is written with thousands separators")]
+    Thousands,
     /// Text in a number's cell.
     #[error("this is not a number")]
     NotANumber,

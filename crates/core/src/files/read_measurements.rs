@@ -90,6 +90,9 @@ fn read_table(
             table.add(raw, &mut cells)?;
         }
     }
+    if let Some(encoding) = lines.encoding {
+        table.table.warnings.push(Warning::new(FilePlace::file(), Notice::Encoding(encoding)));
+    }
     table.finish(name)
 }
 
@@ -98,16 +101,32 @@ fn start<R: BufRead>(
     purpose: GroupPurpose,
     machine: Option<&Hexapod>,
 ) -> Result<Csv, Fault> {
+    let mut separator = None;
     while let Some(raw) = lines.next_line()? {
         if raw.text.trim().is_empty() || raw.text.starts_with('#') {
             continue;
         }
+        if separator.is_none() && raw.number == 1 {
+            separator = told_separator(raw.text);
+            if separator.is_some() {
+                continue;
+            }
+        }
         if raw.text.contains('\r') {
             return Err(Fault::new(FilePlace::file(), FileProblem::CarriageReturnLines));
         }
-        return Csv::new(raw, purpose, machine);
+        return Csv::new(raw, separator, purpose, machine);
     }
     Err(Fault::new(FilePlace::file(), FileProblem::Empty))
+}
+
+/// What a first line such as `sep=;` says, which spreadsheets write and read.
+fn told_separator(text: &str) -> Option<u8> {
+    let word = text.get(..4).filter(|word| word.eq_ignore_ascii_case("sep="))?;
+    match text[word.len()..].as_bytes() {
+        [separator @ (b',' | b';' | b'\t')] => Some(*separator),
+        _ => None,
+    }
 }
 
 /// Blank lines, comments, and the rows of empty cells that spreadsheets leave below a table.
@@ -126,23 +145,44 @@ struct Csv {
     table: Table,
     separator: u8,
     decimals: Decimals,
+    units: UnitRow,
+}
+
+/// A row of units between the names of the columns and the first reading.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum UnitRow {
+    MayFollow,
+    Passed,
 }
 
 impl Csv {
-    fn new(header: RawLine<'_>, purpose: GroupPurpose, machine: Option<&Hexapod>) -> Result<Self, Fault> {
-        let (separator, name) = separator_of(header.text);
+    /// `told`: the separator that the file states itself.
+    fn new(
+        header: RawLine<'_>,
+        told: Option<u8>,
+        purpose: GroupPurpose,
+        machine: Option<&Hexapod>,
+    ) -> Result<Self, Fault> {
+        let (separator, name) = told.map_or_else(|| separator_of(header.text), |separator| (separator, None));
         let mut borders = Vec::new();
-        let line = Line::cut(header, separator, &mut borders)?;
+        let line = Line::cut(header, separator, &mut borders)?.trimmed();
         refuse_numbers(&line)?;
         let mut table = Table::new(&line, purpose, machine)?;
         if let Some(name) = name {
             table.warnings.insert(0, Warning::new(whole_place(&header), Notice::Separator(name)));
         }
-        Ok(Self { table, separator, decimals: Decimals::default() })
+        Ok(Self { table, separator, decimals: Decimals::default(), units: UnitRow::MayFollow })
     }
 
     fn add(&mut self, raw: RawLine<'_>, cells: &mut Vec<Range<usize>>) -> Result<(), Fault> {
         let line = Line::cut(raw, self.separator, cells).map_err(|fault| self.cut_off(&raw, fault))?;
+        let line = line.without_empty_beyond(self.table.plan.sources.len());
+        if self.units == UnitRow::MayFollow {
+            self.units = UnitRow::Passed;
+            if self.table.plan.is_row_of_units(&line)? {
+                return Ok(());
+            }
+        }
         self.refuse_other_length(&line, raw.ended)?;
         let row = self.row(&line)?;
         self.table

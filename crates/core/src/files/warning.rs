@@ -21,6 +21,9 @@ pub enum Notice {
     /// Another separator than the comma.
     #[error("the columns are separated by {0}, not commas; read as such")]
     Separator(&'static str),
+    /// Another encoding than UTF-8.
+    #[error("the file is not UTF-8 but {0}; read as such")]
+    Encoding(&'static str),
     /// Decimal commas.
     #[error("numbers are written with a decimal comma; read as such in every cell")]
     DecimalComma,
@@ -55,6 +58,9 @@ impl Warning {
     /// What to do if the warning is unwelcome, one sentence.
     pub fn next_step(&self) -> &'static str {
         match self.notice {
+            Notice::Encoding(_) => {
+                "Nothing, if names and notes look right; in a spreadsheet, \"CSV UTF-8\" is the safe choice."
+            }
             Notice::Separator(_) | Notice::DecimalComma => {
                 "Nothing, if the numbers look right; export with commas and decimal points to be safe."
             }

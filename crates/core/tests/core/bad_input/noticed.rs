@@ -89,6 +89,41 @@ fn every_separator_and_decimal_sign_gives_the_same_numbers() {
     }
 }
 
+/// What spreadsheets make of a table: all of it is the same table.
+#[test]
+fn tables_as_spreadsheets_write_them_are_read() {
+    let plain = read(deflections().text().as_bytes()).dataset;
+    let semicolons = comma_decimals();
+    let marked = |bytes: Vec<u8>, mark: [u8; 2]| mark.into_iter().chain(bytes).collect::<Vec<u8>>();
+    let little = semicolons.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let big = semicolons.encode_utf16().flat_map(u16::to_be_bytes).collect();
+    let (names, rows) = semicolons.split_once('\n').unwrap();
+    let unit = |name: &str| name.rsplit_once('_').map_or(String::new(), |(_, unit)| format!("[{unit}]"));
+    let units = names.split(';').map(unit).collect::<Vec<_>>().join(";");
+    let trailing: String = semicolons.lines().map(|line| format!("{line};;\n")).collect();
+    // Windows-1252: one byte for the micro sign.
+    let micro = semicolons
+        .replace("da_um", "da_\u{b5}m")
+        .chars()
+        .map(|c| u8::try_from(u32::from(c)).unwrap())
+        .collect();
+    let files: [(&str, Vec<u8>); 7] = [
+        ("sep=; above the header", format!("sep=;\r\n{}", semicolons.replace('\n', "\r\n")).into_bytes()),
+        ("UTF-16, little end first", marked(little, [0xff, 0xfe])),
+        ("UTF-16, big end first", marked(big, [0xfe, 0xff])),
+        ("Windows-1252", micro),
+        ("units in the second row", format!("{names}\n{units}\n{rows}").into_bytes()),
+        ("empty columns and rows at the end", format!("{trailing};;;;\n").into_bytes()),
+        ("UTF-8 with mark", format!("\u{feff}{semicolons}").into_bytes()),
+    ];
+    for (what, bytes) in files {
+        let mut dataset = read(&bytes).dataset;
+        // A row above the readings moves their lines.
+        dataset.observations.iter_mut().zip(&plain.observations).for_each(|(o, plain)| o.line = plain.line);
+        assert_eq!(dataset, plain, "{what}");
+    }
+}
+
 #[test]
 fn columns_named_to_be_ignored_are_ignored_silently() {
     let table = deflections().with("note_probe", "\"ruby, 3 mm\"").with("x_fz_N", "").with("Comment", "é");

@@ -3,14 +3,19 @@
 use super::bad_input;
 use super::samples::{deflections, poses};
 
+/// Two bytes per character without the mark that says so.
 fn utf16() -> Vec<u8> {
-    let text = deflections().text();
-    [0xff, 0xfe].into_iter().chain(text.encode_utf16().flat_map(u16::to_le_bytes)).collect()
+    deflections().text().encode_utf16().flat_map(u16::to_le_bytes).collect()
 }
 
-fn latin1() -> Vec<u8> {
-    let text = deflections().rename("da_um", "da [µm]").text();
-    text.chars().map(|symbol| u8::try_from(u32::from(symbol)).unwrap_or(b'?')).collect()
+/// A row of units whose first deflection is said to be in another one.
+fn with_units(da: &str) -> String {
+    let text = deflections().text();
+    let (names, rows) = text.split_once('\n').unwrap_or_default();
+    let units = names
+        .split(',')
+        .map(|name| if name == "da_um" { da } else { name.rsplit_once('_').map_or("", |(_, unit)| unit) });
+    format!("{names}\n{}\n{rows}", units.collect::<Vec<_>>().join(","))
 }
 
 fn without_end(bytes: usize) -> String {
@@ -29,7 +34,8 @@ bad_input! { "measurements.csv";
     rows_without_a_header_are_refused: "no header line", "1,1,6.5\n1,2,6.5\n" => (1, 0), "must name the columns";
     a_single_column_is_refused: "no separator", "pose repeat a_mm b_mm\n1 1 2 3\n" => (1, 0), "no separator found";
     utf16_is_refused: "UTF-16 text", utf16() => (0, 0), "UTF-16";
-    latin1_is_refused: "Latin-1 text", latin1() => (1, 0), "is not UTF-8";
+    another_unit_below_the_name_is_refused: "row of units that contradicts the names", with_units("mm") => (2, 16), "says \"um\"";
+    a_date_is_refused: "date made of a number", deflections().set("fz_N", "3. Mai").text() => (3, 11), "this is a date";
     nul_bytes_are_refused: "NUL bytes", deflections().set("fx_N", "0\u{0}").text() => (3, 0), "is NUL";
     a_gigantic_line_is_refused: "a line of several megabytes", one_line_of(3 << 20) => (4, 0), "longer than 1048576 bytes";
     bare_carriage_returns_are_refused: "old Macintosh line ends", deflections().text().replace('\n', "\r")
@@ -78,7 +84,7 @@ bad_input! { "measurements.csv";
         => (3, 11), "(fz_N): \"heavy\": this is not a number";
     a_unit_in_a_cell_is_refused: "unit in the cell", deflections().set("fz_N", "-338.5 N").text() => (3, 11), "not a number";
     thousands_separators_are_refused: "thousands separator", deflections().set("fz_N", "\"-1,338.5\"").text()
-        => (3, 11), "not a number";
+        => (3, 11), "written with thousands separators";
     a_quoted_decimal_comma_is_refused: "decimal comma in a comma-separated table",
         deflections().set("fz_N", "\"-338,5\"").text() => (3, 11), "\"-338,5\": the number is written with a comma";
     a_decimal_comma_that_splits_a_cell_is_refused: "decimal comma that splits a cell",
