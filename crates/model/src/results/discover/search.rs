@@ -65,7 +65,8 @@ pub(super) fn search(
 impl Pool<'_> {
     fn scan(&mut self, point: &ModelPoint, most: usize) -> Result<(), ModelError> {
         let lin = Linearization::at(self.campaign, point)?;
-        self.tried += self.grammar.scan(self.campaign, &lin, point, most, &mut self.laws)?;
+        // The same laws beside another model are not other laws.
+        self.tried = self.tried.max(self.grammar.scan(self.campaign, &lin, point, most, &mut self.laws)?);
         Ok(())
     }
 }
