@@ -6,6 +6,7 @@
 //! word.
 
 mod judgement;
+mod part;
 mod report;
 mod search;
 
@@ -24,6 +25,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
 use crate::inference::diagnosis::{RankedSets, explain};
+use crate::inference::discovery::LawTerm;
 use crate::inference::selection::HeldOut;
 use crate::inference::verdict::Verdict;
 use crate::results::diagnose::{
@@ -83,37 +85,47 @@ pub fn discover(
     terms: &[Arc<dyn Term>],
     options: &DiagnoseOptions,
 ) -> Result<DiscoveryStudy, ModelError> {
-    let study = diagnose_with(hexapod, data, holdout, terms, options)?;
-    let attempt = Attempts { hexapod, holdout, terms, diagnosis: &study };
-    let as_stated = attempt.as_stated(data, options)?;
-    if let Some((outcome, judged, searched)) =
-        as_stated.filter(|(_, judged, _)| judged.convinces && judged.is_at_the_noise)
-    {
-        let warnings = vec![needless(&study)];
-        let template = Discovery { searched, warnings, ..without_law(&study.diagnosis) };
-        return Ok(finished(judged.report(template), judged, Some(outcome), study));
+    if let Some(found) = part::found_in_part(hexapod, data, holdout, terms, options) {
+        return Ok(found);
     }
-    match attempt.as_examined()? {
-        None => {
-            let fits = study.fits.clone();
-            let discovery = without_law(&study.diagnosis);
-            Ok(DiscoveryStudy { discovery, diagnosis: study, outcome: None, fits, term_file: None })
-        }
-        Some((outcome, judged, searched)) => {
-            let template = Discovery { searched, ..without_law(&study.diagnosis) };
-            let discovery = if judged.convinces { judged.report(template) } else { judged.ideas(template) };
-            Ok(finished(discovery, judged, Some(outcome), study))
-        }
-    }
+    let diagnosis = diagnose_with(hexapod, data, holdout, terms, options)?;
+    let attempts = Attempts { hexapod, holdout, terms, diagnosis: &diagnosis };
+    let way = attempts.made(data, options)?;
+    Ok(way.told(diagnosis))
 }
 
-fn finished(
-    discovery: Discovery,
-    judged: Judged,
-    outcome: Option<RankedSets>,
-    diagnosis: DiagnosisStudy,
-) -> DiscoveryStudy {
-    DiscoveryStudy { discovery, outcome, fits: judged.fits, term_file: judged.term_file, diagnosis }
+/// In which way the readings were looked at, and what it came to.
+enum Way {
+    /// As stated: a law that convinces.
+    AsStated(Attempt),
+    /// As the diagnosis left them.
+    AsExamined(Attempt),
+    /// Not at all: there is nothing to search for.
+    Needless,
+}
+
+impl Way {
+    fn told(self, diagnosis: DiagnosisStudy) -> DiscoveryStudy {
+        let without = without_law(&diagnosis.diagnosis);
+        match self {
+            Self::AsStated(attempt) => {
+                let warnings = vec![needless(&diagnosis)];
+                let template = Discovery { searched: attempt.tried, warnings, ..without };
+                let told = attempt.judged.report(template);
+                attempt.finished(told, diagnosis)
+            }
+            Self::AsExamined(attempt) => {
+                let template = Discovery { searched: attempt.tried, ..without };
+                let judged = &attempt.judged;
+                let told = if judged.convinces { judged.report(template) } else { judged.ideas(template) };
+                attempt.finished(told, diagnosis)
+            }
+            Self::Needless => {
+                let fits = diagnosis.fits.clone();
+                DiscoveryStudy { discovery: without, diagnosis, outcome: None, fits, term_file: None }
+            }
+        }
+    }
 }
 
 /// Where a law was found.
@@ -144,8 +156,20 @@ impl Source<'_> {
     }
 }
 
-/// One way to look at the readings.
-type Attempt = (RankedSets, Judged, usize);
+/// Laws weighed beside the catalogue, and what is said of them.
+struct Attempt {
+    outcome: RankedSets,
+    laws: Vec<LawTerm>,
+    judged: Judged,
+    tried: usize,
+}
+
+impl Attempt {
+    fn finished(self, discovery: Discovery, diagnosis: DiagnosisStudy) -> DiscoveryStudy {
+        let Judged { fits, term_file, .. } = self.judged;
+        DiscoveryStudy { discovery, outcome: Some(self.outcome), fits, term_file, diagnosis }
+    }
+}
 
 /// The readings, looked at in two ways.
 struct Attempts<'a> {
@@ -156,6 +180,14 @@ struct Attempts<'a> {
 }
 
 impl Attempts<'_> {
+    fn made(&self, data: &Dataset, options: &DiagnoseOptions) -> Result<Way, ModelError> {
+        let convinces = |a: &Attempt| a.judged.convinces && a.judged.is_at_the_noise;
+        if let Some(attempt) = self.as_stated(data, options)?.filter(convinces) {
+            return Ok(Way::AsStated(attempt));
+        }
+        Ok(self.as_examined()?.map_or(Way::Needless, Way::AsExamined))
+    }
+
     /// With every reading and the noise as stated, where the diagnosis found a fault of the data: a law that it does not know looks like
     /// wrong loads, wrong poses or noise that readings share.
     fn as_stated(&self, data: &Dataset, options: &DiagnoseOptions) -> Result<Option<Attempt>, ModelError> {
@@ -170,7 +202,7 @@ impl Attempts<'_> {
             return Ok(None);
         }
         let outcome = explain(&campaign, self.terms)?;
-        self.made(&data, &campaign, &outcome).map(Some)
+        self.searched(&data, &campaign, &outcome).map(Some)
     }
 
     /// As the diagnosis left them.
@@ -180,15 +212,29 @@ impl Attempts<'_> {
             return Ok(None);
         }
         let DiagnosisStudy { data, campaign, outcome, .. } = self.diagnosis;
-        self.made(data, campaign, outcome).map(Some)
+        self.searched(data, campaign, outcome).map(Some)
     }
 
-    fn made(&self, data: &Dataset, campaign: &Campaign, outcome: &RankedSets) -> Result<Attempt, ModelError> {
+    fn searched(
+        &self,
+        data: &Dataset,
+        campaign: &Campaign,
+        outcome: &RankedSets,
+    ) -> Result<Attempt, ModelError> {
         let Searched { outcome, laws, tried } = search(campaign, outcome, self.terms)?;
-        let context =
-            Context { hexapod: self.machine(), data, holdout: self.held_out(), campaign, outcome: &outcome };
-        let judged = Judged::of(&context, &laws, &Source { data })?;
-        Ok((outcome, judged, tried))
+        let judged = self.judged(data, campaign, &outcome, &laws)?;
+        Ok(Attempt { outcome, laws, judged, tried })
+    }
+
+    fn judged(
+        &self,
+        data: &Dataset,
+        campaign: &Campaign,
+        outcome: &RankedSets,
+        laws: &[LawTerm],
+    ) -> Result<Judged, ModelError> {
+        let context = Context { hexapod: self.machine(), data, holdout: self.held_out(), campaign, outcome };
+        Judged::of(&context, laws, &Source { data })
     }
 
     fn machine(&self) -> &Hexapod {
