@@ -58,10 +58,10 @@ pub fn headlines(records: &[DiscoveryRecord]) -> Vec<String> {
     vec![
         format!(
             "Where a law of the grammar is hidden, it or one that predicts alike is found in {}; a wrong one in {}, {} of them with the \
-             formula of the hidden effect and a constant that the readings leave open.",
+             formula of the hidden effect and an error above the noise all the same.",
             told(Proportion::count(of(DiscoveryRecord::is_sayable), good)),
             told(Proportion::count(of(DiscoveryRecord::is_sayable), |r| r.fate() == LawFate::Wrong)),
-            of(DiscoveryRecord::is_wrong_by_constant).count(),
+            of(DiscoveryRecord::is_right_above_noise).count(),
         ),
         format!(
             "Where what is hidden is no law of the grammar, one that predicts alike is found in {}, a wrong one in {}.",

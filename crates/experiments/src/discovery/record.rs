@@ -70,7 +70,7 @@ impl DiscoveryRecord {
     }
 
     /// True when the formula is that of the hidden effect and the error stays above the noise all the same.
-    pub(crate) fn is_wrong_by_constant(&self) -> bool {
+    pub(crate) fn is_right_above_noise(&self) -> bool {
         self.fate() == LawFate::Wrong && self.outside().is_some_and(|id| is_law_of(id, &self.formulas))
     }
 

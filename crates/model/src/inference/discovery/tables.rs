@@ -207,3 +207,18 @@ fn quantiles(values: impl Iterator<Item = f64>) -> Vec<f64> {
 
 /// The carrier of compliances is the first: laws rely on its place.
 const _: () = assert!(COMPLIANCE == 0);
+
+#[cfg(test)]
+mod tests {
+    use super::coarse;
+
+    #[test]
+    fn instants_looked_at_first_are_spread_over_all_and_never_more_than_there_are() {
+        assert_eq!(coarse(&[]), Vec::<f64>::new());
+        assert_eq!(coarse(&[5.0, 15.0]), [5.0, 15.0]);
+        let all: Vec<f64> = (0..160).map(f64::from).collect();
+        let few = coarse(&all);
+        assert_eq!(few.len(), super::INSTANTS);
+        assert!(few.windows(2).all(|w| (w[1] - w[0] - 10.0).abs() < f64::EPSILON), "{few:?}");
+    }
+}

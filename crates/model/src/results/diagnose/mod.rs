@@ -20,7 +20,7 @@ use hexbench_core::{Dataset, Hexapod};
 
 pub use self::alternative::Alternative;
 use self::answer::Answer;
-pub(crate) use self::context::Context;
+pub(crate) use self::context::{Context, MOST_RIVALS};
 use self::foreign::foreign;
 pub use self::foreign::held_out_finding;
 pub use self::judged::prepare;
@@ -28,6 +28,7 @@ use self::judged::{BothWays, Judged};
 pub use self::misread::misread_findings;
 use self::misread::{FirstLook, first_look};
 pub use self::nested::NestedReport;
+pub(crate) use self::next::Next;
 use self::notes::{outside, suspects, warnings};
 pub use self::options::DiagnoseOptions;
 pub use self::remainder::{LegRemainder, RemainderReport};

@@ -59,18 +59,22 @@ pub struct DiscoveryStudy {
     pub outcome: Option<RankedSets>,
     /// Fits of the steps.
     pub fits: Vec<Fit>,
-    /// The best law as a term file; none without any law.
-    pub term_file: Option<String>,
+    /// The laws as term files, best first, those that look like the first behind it; none where no law was found.
+    pub term_files: Vec<String>,
 }
 
 impl DiscoveryStudy {
+    /// The best law as a term file; none where no law was found, so that nobody takes an idea for a finding.
+    pub fn term_file(&self) -> Option<&str> {
+        self.term_files.first().map(String::as_str)
+    }
+
     /// The law as a term, where one was found.
     ///
     /// # Errors
     /// [`UserTermError`] for a file that is none, which is a mistake of this program.
     pub fn law(&self) -> Result<Option<Arc<dyn Term>>, UserTermError> {
-        let file = self.term_file.as_deref().filter(|_| self.discovery.found);
-        file.map(user_term::parse).transpose()
+        self.term_file().map(user_term::parse).transpose()
     }
 }
 
@@ -85,13 +89,35 @@ pub fn discover(
     terms: &[Arc<dyn Term>],
     options: &DiagnoseOptions,
 ) -> Result<DiscoveryStudy, ModelError> {
-    if let Some(found) = part::found_in_part(hexapod, data, holdout, terms, options) {
+    discover_watched(hexapod, data, holdout, terms, options, &|| ())
+}
+
+/// The same; `watch` is called after every step, [`most_steps`] times at most.
+///
+/// # Errors
+/// As [`discover`].
+pub fn discover_watched(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    holdout: Option<&Dataset>,
+    terms: &[Arc<dyn Term>],
+    options: &DiagnoseOptions,
+    watch: &dyn Fn(),
+) -> Result<DiscoveryStudy, ModelError> {
+    if let Some(found) = part::found_in_part(hexapod, data, holdout, terms, options, watch) {
         return Ok(found);
     }
     let diagnosis = diagnose_with(hexapod, data, holdout, terms, options)?;
-    let attempts = Attempts { hexapod, holdout, terms, diagnosis: &diagnosis };
+    watch();
+    let attempts = Attempts { hexapod, holdout, terms, diagnosis: &diagnosis, watch };
     let way = attempts.made(data, options)?;
     Ok(way.told(diagnosis))
+}
+
+/// Steps that a search takes at most: a diagnosis, and the search in each of two ways; for a large file the same in a part of it.
+pub fn most_steps(data: &Dataset) -> u64 {
+    let once = 1 + 2 * search::MOST_STEPS;
+    if part::of(data).is_some() { 2 * once } else { once }
 }
 
 /// In which way the readings were looked at, and what it came to.
@@ -122,7 +148,7 @@ impl Way {
             }
             Self::Needless => {
                 let fits = diagnosis.fits.clone();
-                DiscoveryStudy { discovery: without, diagnosis, outcome: None, fits, term_file: None }
+                DiscoveryStudy { discovery: without, diagnosis, outcome: None, fits, term_files: Vec::new() }
             }
         }
     }
@@ -166,8 +192,9 @@ struct Attempt {
 
 impl Attempt {
     fn finished(self, discovery: Discovery, diagnosis: DiagnosisStudy) -> DiscoveryStudy {
-        let Judged { fits, term_file, .. } = self.judged;
-        DiscoveryStudy { discovery, outcome: Some(self.outcome), fits, term_file, diagnosis }
+        let Judged { fits, mut term_files, .. } = self.judged;
+        term_files.truncate(if discovery.found { discovery.laws.len() } else { 0 });
+        DiscoveryStudy { discovery, outcome: Some(self.outcome), fits, term_files, diagnosis }
     }
 }
 
@@ -177,6 +204,7 @@ struct Attempts<'a> {
     holdout: Option<&'a Dataset>,
     terms: &'a [Arc<dyn Term>],
     diagnosis: &'a DiagnosisStudy,
+    watch: &'a dyn Fn(),
 }
 
 impl Attempts<'_> {
@@ -221,7 +249,7 @@ impl Attempts<'_> {
         campaign: &Campaign,
         outcome: &RankedSets,
     ) -> Result<Attempt, ModelError> {
-        let Searched { outcome, laws, tried } = search(campaign, outcome, self.terms)?;
+        let Searched { outcome, laws, tried } = search(campaign, outcome, self.terms, self.watch)?;
         let judged = self.judged(data, campaign, &outcome, &laws)?;
         Ok(Attempt { outcome, laws, judged, tried })
     }
@@ -272,6 +300,8 @@ fn without_law(diagnosis: &Diagnosis) -> Discovery {
         laws: Vec::new(),
         steps: diagnosis.steps.clone(),
         probability: 0.0,
+        next: Vec::new(),
+        separation: Vec::new(),
         searched: 0,
         warnings: diagnosis.warnings.clone(),
     }

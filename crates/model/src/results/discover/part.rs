@@ -13,6 +13,11 @@ use crate::results::diagnose::{DiagnoseOptions, diagnose_with, prepare};
 /// Readings of the part: as many as a campaign of common size has.
 const READINGS_OF_PART: usize = 216;
 
+/// The part of a large file.
+pub(super) fn of(data: &Dataset) -> Option<Dataset> {
+    data.some_poses(READINGS_OF_PART)
+}
+
 /// A law found in some poses of a large file that explains every reading of it; none where the file is small, where the part shows no law
 /// or leaves readings out, or where the readings that took no part in the search speak against it: then all of them are searched.
 pub(super) fn found_in_part(
@@ -21,13 +26,15 @@ pub(super) fn found_in_part(
     holdout: Option<&Dataset>,
     terms: &[Arc<dyn Term>],
     options: &DiagnoseOptions,
+    watch: &dyn Fn(),
 ) -> Option<DiscoveryStudy> {
     if !options.exclude.is_empty() {
         return None;
     }
-    let part = data.some_poses(READINGS_OF_PART)?;
+    let part = of(data)?;
     let diagnosis = diagnose_with(hexapod, &part, holdout, terms, options).ok()?;
-    let attempts = Attempts { hexapod, holdout, terms, diagnosis: &diagnosis };
+    watch();
+    let attempts = Attempts { hexapod, holdout, terms, diagnosis: &diagnosis, watch };
     let way = attempts.made(&part, options).ok()?;
     let has_faults = diagnosis.diagnosis.findings.iter().any(|f| !f.kind.is_as_stated());
     let way = match way {
