@@ -32,7 +32,7 @@ fn outside_the_catalogue_a_law_is_found_and_then_named() {
 #[test]
 fn the_file_of_a_law_is_a_term_that_the_diagnosis_names() {
     let (hexapod, data, holdout) = cases::case("not-in-catalogue");
-    let term = parse(&discovered("not-in-catalogue").term_file().unwrap()).unwrap();
+    let term = parse(discovered("not-in-catalogue").term_file().unwrap()).unwrap();
     let id = term.info().id.to_owned();
     let terms: Vec<_> = catalogue().into_iter().chain([term]).collect();
     let study = diagnose(&hexapod, &data, Some(&holdout), &terms).unwrap().diagnosis;

@@ -10,8 +10,8 @@ use crate::estimation::fit::fit;
 use crate::inference::diagnosis::{RankedSets, does_not_fit};
 use crate::results::diagnose::{DiagnoseOptions, diagnose_with, prepare};
 
-/// Readings of the part: as many as a campaign of common size has.
-const READINGS_OF_PART: usize = 216;
+/// Readings of the part: as many as the check of misread files looks at.
+const READINGS_OF_PART: usize = 432;
 
 /// The part of a large file.
 pub(super) fn of(data: &Dataset) -> Option<Dataset> {
