@@ -145,7 +145,7 @@ impl PyDiscovery {
     /// The best law as a term file, where one was found.
     fn term(&self) -> Option<String> {
         let study = &self.0.1;
-        study.term_file.clone().filter(|_| study.discovery.found)
+        study.term_file().map(str::to_owned)
     }
 }
 

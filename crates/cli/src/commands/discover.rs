@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_model::results::diagnose::DiagnoseOptions;
-use hexbench_model::results::discover::{DiscoveryStudy, discover};
+use hexbench_model::results::discover::{DiscoveryStudy, discover_watched, most_steps};
 use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::ReportSubject;
 use hexbench_report::{charts, words};
 
 use super::diagnose;
 use crate::failure::Failure;
-use crate::output::{PageFiles, Screen, report, write_json};
+use crate::output::{PageFiles, Progress, Screen, report, write_json};
 use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 
@@ -29,6 +29,10 @@ pub(crate) struct Arguments {
     /// law is found
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Write the law and those that these readings do not tell from it to DIR, a term file each (law-1.toml, law-2.toml, ...), for
+    /// `--term` of discriminate
+    #[arg(long, value_name = "DIR")]
+    all: Option<PathBuf>,
     #[command(flatten)]
     page: PageFiles,
 }
@@ -42,8 +46,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         keep_all: false,
         read_as: arguments.read_as.changes.clone(),
     };
-    let study = discover(hexapod, data, holdout.as_ref(), terms, &options)
+    let progress = Progress::of(most_steps(data), "steps at most");
+    let watch = || progress.advance(1);
+    let study = discover_watched(hexapod, data, holdout.as_ref(), terms, &options, &watch)
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
+    progress.done();
     let is_stdout = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
     let to_stdout = is_stdout(&arguments.json) || is_stdout(&arguments.output) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
@@ -51,6 +58,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         write_json(screen, path, &WithOrigin { result: &study.discovery, run })?;
     }
     write_law(arguments.output.as_deref(), &study, screen)?;
+    write_all(arguments.all.as_deref(), &study, screen)?;
     arguments.page.write(screen, || {
         let law = study.law().ok().flatten();
         let competing: Vec<_> = terms.iter().cloned().chain(law).collect();
@@ -68,10 +76,28 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 /// The law as a term file; an idea that does not convince is not written, so that nobody takes it for a finding.
 fn write_law(path: Option<&Path>, study: &DiscoveryStudy, screen: &Screen) -> Result<(), Failure> {
     let Some(path) = path else { return Ok(()) };
-    if let Some(text) = study.term_file.as_deref().filter(|_| study.discovery.found) {
+    if let Some(text) = study.term_file() {
         return screen.write_to(path, text);
     }
+    warn_without(path);
+    Ok(())
+}
+
+/// The same of all laws that look alike.
+fn write_all(folder: Option<&Path>, study: &DiscoveryStudy, screen: &Screen) -> Result<(), Failure> {
+    let Some(folder) = folder else { return Ok(()) };
+    if study.term_files.is_empty() {
+        warn_without(folder);
+    }
+    for (law, text) in study.discovery.laws.iter().zip(&study.term_files) {
+        let path = folder.join(format!("{}.toml", law.id));
+        Screen::make_folder_of(&path)?;
+        screen.write_to(&path, text)?;
+    }
+    Ok(())
+}
+
+fn warn_without(path: &Path) {
     let next = "Nothing, or see the ideas of the page: each can be written as a term file by hand.";
     report::warn(&format!("{} is not written: no law was found", path.display()), next);
-    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{diagnose, hexbench_in, text};
+use crate::support::{diagnose, hexbench, hexbench_in, root, text};
 
 const CASE: &str = "not-in-catalogue";
 
@@ -59,4 +59,98 @@ fn without_a_law_no_term_file_is_written_and_the_page_says_so() {
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(text(output).contains("Nothing is missing"), "{told}");
     assert!(told.contains("no law was found") && !term.exists(), "{told}");
+}
+
+/// Lines of the section of README.md about laws, each with the word after its `#`.
+fn second_story() -> Vec<(Vec<String>, Option<String>)> {
+    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
+    let section = readme.split("## The law that no catalogue has").nth(1).unwrap();
+    let block = section.split("```").nth(1).unwrap();
+    let line = |l: &str| {
+        let (command, word) = l.split_once('#').unwrap_or((l, ""));
+        let word = word.trim().split([':', '\n']).next().filter(|w| w.chars().any(char::is_uppercase));
+        (command.split_whitespace().map(str::to_owned).collect(), word.map(str::to_owned))
+    };
+    block.lines().skip(1).map(line).collect()
+}
+
+#[test]
+fn the_second_story_of_the_readme_works_as_pasted_and_is_that_of_the_demo() {
+    let lines = second_story();
+    assert_eq!(lines.len(), 5);
+    let demo = text(hexbench().args(["demo", "--no-report"]).output().unwrap());
+    let on_one_line = demo.split_whitespace().collect::<Vec<_>>().join(" ");
+    let folder = tempfile::tempdir().unwrap();
+    for file in ["hexapod.toml", "measurements.csv", "holdout.csv"] {
+        let case = root().join(&lines[0].0[1]).join(file);
+        std::fs::copy(case, folder.path().join(file)).unwrap();
+    }
+    for (command, word) in &lines {
+        assert!(on_one_line.contains(&command.join(" ")), "{demo}");
+        if command[0] == "hexbench" {
+            let page = text(hexbench().args(&command[1..]).current_dir(folder.path()).output().unwrap());
+            assert!(page.contains(word.as_deref().unwrap_or_default()), "{word:?}: {page}");
+        }
+    }
+    assert!(folder.path().join("model.toml").is_file());
+}
+
+/// Where readings may lie that tell laws of time apart.
+const SPACE: &str = r#"format = "space/1"
+[poses]
+a_mm = [-10, 10]
+b_mm = [-10, 10]
+c_mm = [-5, 5]
+alpha_deg = [-3, 3]
+beta_deg = [-3, 3]
+gamma_deg = [-3, 3]
+[loads]
+reference_N_Nm = [0, 0, -120, 0, 0, 0]
+wrenches_N_Nm = [[0, 0, -338, 0, 0, 0], [100, 0, -120, 0, 0, 0]]
+[conditions]
+elapsed_s = [5, 3000]
+"#;
+
+/// A scene in which one leg drifts, so little that a line, a logarithm and an approach to an end value look alike.
+fn drifting(folder: &std::path::Path) -> String {
+    let scene = folder.join("scene");
+    std::fs::create_dir_all(scene.join("sealed")).unwrap();
+    for file in ["scene.toml", "hexapod.toml"] {
+        std::fs::copy(root().join("scenes/hidden-3").join(file), scene.join(file)).unwrap();
+    }
+    let truth = "format = \"truth/1\"\nleg_stiffness_N_per_um = [4, 4.3, 3.8, 4.1, 3.9, 4.2]\n\n\
+                 [[effect]]\nid = \"out:leg-drift\"\nleg = 4\nrate = 4e-9\n";
+    std::fs::write(scene.join("sealed/truth.toml"), truth).unwrap();
+    scene.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn laws_that_look_alike_are_told_with_readings_that_separate_them_and_discriminate_takes_their_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    text(
+        hexbench()
+            .args(["simulate", &drifting(folder.path()), "-o", &at("case"), "--seed", "5"])
+            .output()
+            .unwrap(),
+    );
+    let [hexapod, data, holdout] =
+        ["hexapod.toml", "measurements.csv", "holdout.csv"].map(|name| at(&format!("case/{name}")));
+    let files =
+        ["discover", &hexapod, &data, "--holdout", &holdout, "--all", &at("laws"), "--json", &at("d.json")];
+    let page = text(hexbench().args(files).output().unwrap());
+    let told: Value = serde_json::from_str(&std::fs::read_to_string(at("d.json")).unwrap()).unwrap();
+    assert!(told["laws"].as_array().unwrap().len() > 1, "{page}");
+    assert!(!told["next"].as_array().unwrap().is_empty() && page.contains("What to measure next"), "{page}");
+    let [first, second] = [0, 1].map(|k| told["laws"][k]["term"].as_str().unwrap().to_owned());
+    let space = at("space.toml");
+    std::fs::write(&space, SPACE).unwrap();
+    let separated = hexbench()
+        .args(["discriminate", &hexapod, &space, "--readings", "2", "--json", "-"])
+        .args(["--term", &at("laws/law-1.toml"), "--term", &at("laws/law-2.toml")])
+        .args(["--between", &first, "--between", &second])
+        .output()
+        .unwrap();
+    let separated: Value = serde_json::from_str(&text(separated)).unwrap();
+    assert_eq!(separated["readings"].as_array().unwrap().len(), 2, "{separated}");
 }

@@ -1,11 +1,13 @@
 //! The study as a page.
 
+use std::collections::BTreeSet;
+
 use hexbench_core::statistics::Proportion;
 use hexbench_report::words::written_by;
 use hexbench_report::{Block, Page, Section, Table};
 
 use super::protocol::{DISTANCES, DiscoveryProtocol};
-use super::{DiscoveryRecord, LawFate, sheets};
+use super::{DiscoveryRecord, LawFate, fate, sheets};
 use crate::harness::Gathered;
 use crate::shares::told;
 
@@ -55,9 +57,11 @@ pub fn headlines(records: &[DiscoveryRecord]) -> Vec<String> {
     let good = |r: &&DiscoveryRecord| matches!(r.fate(), LawFate::Right | LawFate::Equivalent);
     vec![
         format!(
-            "Where a law of the grammar is hidden, it or one that predicts alike is found in {}; a wrong one in {}.",
+            "Where a law of the grammar is hidden, it or one that predicts alike is found in {}; a wrong one in {}, {} of them with the \
+             formula of the hidden effect and an error above the noise all the same.",
             told(Proportion::count(of(DiscoveryRecord::is_sayable), good)),
             told(Proportion::count(of(DiscoveryRecord::is_sayable), |r| r.fate() == LawFate::Wrong)),
+            of(DiscoveryRecord::is_right_above_noise).count(),
         ),
         format!(
             "Where what is hidden is no law of the grammar, one that predicts alike is found in {}, a wrong one in {}.",
@@ -77,11 +81,12 @@ pub fn headlines(records: &[DiscoveryRecord]) -> Vec<String> {
 
 fn introduction(study: &DiscoveryTrials) -> Section {
     let p = &study.protocol;
+    let hidden: BTreeSet<&str> = study.records.iter().filter_map(DiscoveryRecord::outside).collect();
     Section::lead().paragraph(written_by("hexbench validate discover --markdown FILE")).paragraph(format!(
         "{} campaigns with an effect outside the catalogue, {} with one of the catalogue and {} on clean machines went through \
          `hexbench discover` with their held-out poses (seed {}, distances {} to {}; {} gave no answer). Machines, plans and effects are \
-         those of the calibration, made by the simulated world, which knows nothing of the grammar: five of its seven effects outside the \
-         catalogue that are drawn are products of building blocks, two are not.",
+         those of the calibration, made by the simulated world, which knows nothing of the grammar: {} of its {} effects outside the \
+         catalogue that are drawn are products of building blocks.",
         p.outside,
         p.listed,
         p.clean,
@@ -89,6 +94,8 @@ fn introduction(study: &DiscoveryTrials) -> Section {
         DISTANCES[0],
         DISTANCES[1],
         study.failures.len(),
+        fate::sayable(),
+        hidden.len(),
     ))
 }
 

@@ -3,12 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 /// Pieces of formula of which the law of an effect must have one of each group; none for effects that no law of the grammar is.
-const LAWS: [(&str, &[&[&str]]); 5] = [
+const LAWS: [(&str, &[&[&str]]); 6] = [
     ("out:periodic-compliance", &[&["sin(2*pi*q/"], &["df"]]),
     ("out:leg-drift", &[&["elapsed"]]),
     ("out:leg-step", &[&["step(elapsed"]]),
     ("out:thermal-compliance", &[&["delta_T"], &["df", "f*"]]),
     ("out:cubic-compliance", &[&["a^3", "b^3"], &["df"]]),
+    ("out:load-mass-error", &[&["size in wrench along z"]]),
 ];
 
 /// A search for a law beside the truth.
@@ -44,6 +45,11 @@ impl LawFate {
             Self::Invented => "invented",
         }
     }
+}
+
+/// How many effects a law of the grammar describes.
+pub(super) fn sayable() -> usize {
+    LAWS.len()
 }
 
 /// True for an effect that a law of the grammar describes.

@@ -27,7 +27,7 @@ pub struct DiscoveryProtocol {
 
 impl Default for DiscoveryProtocol {
     fn default() -> Self {
-        Self { seed: SEED, outside: 90, listed: 60, clean: 600 }
+        Self { seed: SEED, outside: 182, listed: 60, clean: 800 }
     }
 }
 

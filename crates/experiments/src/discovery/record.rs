@@ -69,6 +69,11 @@ impl DiscoveryRecord {
         self.outside().is_some_and(is_sayable)
     }
 
+    /// True when the formula is that of the hidden effect and the error stays above the noise all the same.
+    pub(crate) fn is_right_above_noise(&self) -> bool {
+        self.fate() == LawFate::Wrong && self.outside().is_some_and(|id| is_law_of(id, &self.formulas))
+    }
+
     /// What it came to.
     pub fn fate(&self) -> LawFate {
         match (self.outside(), self.found) {

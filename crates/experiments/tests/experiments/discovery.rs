@@ -28,6 +28,11 @@ fn laws_are_found_where_they_are_hidden_and_nowhere_else() {
     let found = one.records.iter().filter(good).count();
     // Half of them: at distance 10 a law is seen and may yet look like an effect of the catalogue.
     assert!(2 * found >= sayable, "{found} of {sayable}");
+    // A jump is found at its instant, and a weight that comes with every load by its own law.
+    for id in ["out:leg-step", "out:load-mass-error"] {
+        let own: Vec<_> = one.records.iter().filter(|r| r.outside() == Some(id)).collect();
+        assert!(!own.is_empty() && own.iter().any(|r| r.fate() == LawFate::Right), "{own:?}");
+    }
     let text = markdown(&page(&one));
     assert!(text.contains("Written by `hexbench validate discover --markdown FILE`; do not edit."), "{text}");
 }

@@ -21,6 +21,8 @@ const MOST_ITERATIONS: usize = 40;
 const SETTLED_CHI2: f64 = 1e-4;
 /// Shapes tried on each side of the best one when a covariance is averaged over them.
 const SHAPE_STEPS: i32 = 4;
+/// Step of the logarithm of a shape for its derivative.
+const SHAPE_STEP: f64 = 1e-4;
 /// A parameter whose standard error exceeds this share of its prior width is not determined by the data.
 const DETERMINED_SHARE: f64 = 0.5;
 
@@ -292,7 +294,34 @@ fn averaged(
     for ((_, x, own), w) in seen.iter().zip(&weights) {
         covariance += (own + x * x.transpose()) * (w / total);
     }
+    // Anywhere in an interval alike: the variance of a uniform distribution.
+    covariance[(column, column)] += indifferent(state, a).powi(2) / 12.0;
     Ok(covariance)
+}
+
+/// Width, in the logarithm of a shape, of the interval in which it changes no reading: an instant between two readings; zero where
+/// every change shows.
+fn indifferent(state: &Linearization, a: &Active) -> f64 {
+    const HALVINGS: usize = 24;
+    let values = DVector::from_column_slice(&a.values);
+    let at = |log: f64| state.term_block(a.term.as_ref(), a.rich, a.shape * log.exp()) * &values;
+    let own = at(0.0);
+    let is_same = |log: f64| at(log) == own;
+    if !is_same(SHAPE_STEP) && !is_same(-SHAPE_STEP) {
+        return 0.0;
+    }
+    let reach = |end: f64| {
+        let (mut same, mut other) = (0.0, (end / a.shape).ln());
+        if is_same(other) {
+            return other.abs();
+        }
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(same, other);
+            if is_same(middle) { same = middle } else { other = middle }
+        }
+        same.abs()
+    };
+    a.term.shape_bounds(a.shape).into_iter().map(reach).sum()
 }
 
 /// Objective, increments (the logarithm of the shape among them) and covariance with one shape held at a value.
@@ -348,10 +377,9 @@ pub fn columns(state: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
 
 /// Derivative of the whitened reading by the logarithm of a shape, by central differences.
 fn shape_column(state: &Linearization, a: &Active) -> DVector<f64> {
-    const STEP: f64 = 1e-4;
     let values = DVector::from_column_slice(&a.values);
     let at = |s: f64| state.term_block(a.term.as_ref(), a.rich, s) * &values;
-    (at(a.shape * STEP.exp()) - at(a.shape * (-STEP).exp())) / (2.0 * STEP)
+    (at(a.shape * SHAPE_STEP.exp()) - at(a.shape * (-SHAPE_STEP).exp())) / (2.0 * SHAPE_STEP)
 }
 
 /// The full step, or the first of its shorter ones that leaves the objective at `most`; none at all when even the shortest does not.

@@ -220,7 +220,7 @@ fn is_far_off(best: &Fit) -> bool {
 }
 
 /// True when the residuals exceed a noise that is known: the best set is not good enough.
-fn does_not_fit(fit: &Fit) -> bool {
+pub(crate) fn does_not_fit(fit: &Fit) -> bool {
     let Ok(law) = ChiSquared::new(fit.lack_of_fit_dof.max(1.0)) else { return false };
     law.sf(fit.lack_of_fit) < MISFIT_CHANCE
 }

@@ -32,7 +32,7 @@ fn outside_the_catalogue_a_law_is_found_and_then_named() {
 #[test]
 fn the_file_of_a_law_is_a_term_that_the_diagnosis_names() {
     let (hexapod, data, holdout) = cases::case("not-in-catalogue");
-    let term = parse(&discovered("not-in-catalogue").term_file.unwrap()).unwrap();
+    let term = parse(discovered("not-in-catalogue").term_file().unwrap()).unwrap();
     let id = term.info().id.to_owned();
     let terms: Vec<_> = catalogue().into_iter().chain([term]).collect();
     let study = diagnose(&hexapod, &data, Some(&holdout), &terms).unwrap().diagnosis;
@@ -64,7 +64,7 @@ fn the_same_readings_give_the_same_bytes_on_any_number_of_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let study = discovered("not-in-catalogue");
-            serde_json::to_string(&study.discovery).unwrap() + &study.term_file.unwrap()
+            serde_json::to_string(&study.discovery).unwrap() + study.term_file().unwrap()
         })
     };
     assert_eq!(on(1), on(3));

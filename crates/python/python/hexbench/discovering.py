@@ -34,6 +34,10 @@ class Discovery:
     steps: list[dict[str, Any]]
     #: Probability that one of the laws weighed is at work.
     probability: float
+    #: Readings that separate the first law from those that look like it, as in ``diagnosis.json``.
+    next: list[dict[str, Any]]
+    #: What these readings promise for each pair.
+    separation: list[dict[str, Any]]
     #: Number of laws weighed.
     searched: int
     #: Things to know.

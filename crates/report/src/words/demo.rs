@@ -5,6 +5,7 @@ use hexbench_model::error::ModelError;
 use hexbench_model::results::discover::Discovery;
 
 use super::conclusion::{error_statement, lacks};
+use super::discovery::thousands;
 use super::subject::{ReportSubject, describe};
 use super::{confidence, ladder, leg_space, size, stiffness};
 use crate::number::multiple;
@@ -84,25 +85,38 @@ fn diagnosis(subject: &ReportSubject<'_>) -> Section {
     ))
 }
 
+/// From OUTSIDE to a model file; README.md has the same lines.
+const SECOND_STORY: &str = "\
+cd data/cases/not-in-catalogue
+hexbench diagnose hexapod.toml measurements.csv
+hexbench discover hexapod.toml measurements.csv -o law.toml
+hexbench diagnose hexapod.toml measurements.csv --term law.toml
+hexbench fit hexapod.toml measurements.csv --term law.toml -o model.toml";
+
 fn law(elsewhere: &Discovery) -> Option<Section> {
     let law = elsewhere.laws.first()?;
     let held = law.held_out?;
-    Some(Section::new("A law that no catalogue has").paragraph(format!(
+    let paragraph = format!(
         "On another machine no effect of the catalogue explains the readings, and the verdict is OUTSIDE. `hexbench discover` weighs {} laws \
          and writes the one that convinces as a term like any other: {}. With it the error on held-out poses falls from {} to {} times the \
-         noise.",
-        elsewhere.searched,
+         noise. In a copy of the repository:",
+        thousands(elsewhere.searched),
         law.text,
         multiple(held.before),
         multiple(held.after)
-    )))
+    );
+    Some(
+        Section::new("A law that no catalogue has")
+            .paragraph(paragraph)
+            .with(Block::code(SECOND_STORY.to_owned())),
+    )
 }
 
 fn next(named: &str) -> Section {
     Section::new("Try next").with(Block::code(format!(
         "hexbench workbench\n\
          hexbench diagnose hexapod.toml measurements.csv --holdout holdout.csv\n\
-         hexbench discover hexapod.toml measurements.csv -o term.toml\n\
+         hexbench discover hexapod.toml measurements.csv -o law.toml\n\
          hexbench terms {named}"
     )))
 }

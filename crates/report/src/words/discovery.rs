@@ -31,6 +31,7 @@ pub fn discovery(
         .with(laws(d))
         .with(ladder::of_steps(&d.steps, &study.diagnosis.diagnosis))
         .with(look_for(d))
+        .with(super::next::between_laws(d))
         .with(next(d))
         .with(notes::conventions())
 }
@@ -130,7 +131,8 @@ fn next(d: &Discovery) -> Option<Section> {
         DiscoveryReason::Law => format!(
             "Write the law with -o {TERM_FILE}; then `hexbench diagnose ... --term {TERM_FILE}` weighs it like any effect, and \
              `hexbench fit ... --term {TERM_FILE} -o model.toml` keeps it for predictions and corrected commands. A law that returns in a \
-             second campaign is the machine's; one that does not was this campaign's."
+             second campaign is the machine's; one that does not was this campaign's.{}",
+            alike(d)
         ),
         DiscoveryReason::NoLawConvinces => {
             "Vary one thing at a time: length, direction, load, temperature, time. What the laws could not say may lie in what these \
@@ -142,16 +144,29 @@ fn next(d: &Discovery) -> Option<Section> {
     Some(Section::new("Next").id("next").paragraph(text))
 }
 
+/// How laws that look alike are told apart.
+fn alike(d: &Discovery) -> String {
+    let [first, second, ..] = d.laws.as_slice() else { return String::new() };
+    let within =
+        if d.next.is_empty() { " No reading within the range measured tells them apart." } else { "" };
+    format!(
+        "{within} --all DIR writes the laws that look alike too, as {0}.toml, {1}.toml, ...; `hexbench discriminate hexapod.toml space.toml \
+         --term DIR/{0}.toml --term DIR/{1}.toml --between {2} --between {3}` chooses readings beyond that range that tell them apart.",
+        first.id, second.id, first.term, second.term
+    )
+}
+
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|c| c.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
-/// `1 742 000`: three digits, the size that matters.
-fn thousands(count: usize) -> String {
-    if count < 10_000 {
-        count.to_string()
-    } else {
-        format!("{} million", significant(count as f64 * 1e-6, 2))
+/// `850 000`, `1.7 million`: two digits, the size that matters.
+pub(super) fn thousands(count: usize) -> String {
+    let rounded: usize = significant(count as f64, 2).parse().unwrap_or(count);
+    match count {
+        0..10_000 => count.to_string(),
+        10_000..1_000_000 => format!("{} 000", rounded / 1000),
+        _ => format!("{} million", significant(count as f64 * 1e-6, 2)),
     }
 }

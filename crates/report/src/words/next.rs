@@ -4,6 +4,7 @@ use hexbench_core::{Approach, Observation};
 use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{Diagnosis, NextReport, SeparationReport};
+use hexbench_model::results::discover::Discovery;
 use hexbench_model::terms::catalogue;
 
 use super::conclusion::in_words;
@@ -20,19 +21,32 @@ pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     }
     let section = Section::new("What to measure next").id("next");
     let Some(first) = d.next.first() else { return Some(in_general(section, d)) };
-    let others = if d.next.iter().all(|r| r.separates == first.separates) { "" } else { ", and others" };
+    Some(proposed(section, first, &d.next, &d.separation))
+}
+
+/// Readings that tell a law from those that look like it.
+pub(super) fn between_laws(d: &Discovery) -> Option<Section> {
+    let first = d.next.first()?;
+    Some(proposed(Section::new("What to measure next").id("measure"), first, &d.next, &d.separation))
+}
+
+fn proposed(
+    section: Section,
+    first: &NextReport,
+    next: &[NextReport],
+    separation: &[SeparationReport],
+) -> Section {
+    let others = if next.iter().all(|r| r.separates == first.separates) { "" } else { ", and others" };
     let frames = "Wrench on the platform at the mobile origin, fixed axes; loaded minus reference. Each reading is chosen \
                   beside those above it.";
-    let readings = d.next.iter().enumerate();
-    Some(
-        section
-            .remark(format!("to tell {}{others}", rivals(&first.separates, "from")))
-            .with_all(readings.map(|(k, r)| Block::numbered(k + 1, proposal(k + 1, r, first))))
-            .with(Block::entries([
-                Definition::new("promise", promise(d)),
-                Definition::new("frames", frames),
-            ])),
-    )
+    let readings = next.iter().enumerate();
+    section
+        .remark(format!("to tell {}{others}", rivals(&first.separates, "from")))
+        .with_all(readings.map(|(k, r)| Block::numbered(k + 1, proposal(k + 1, r, first))))
+        .with(Block::entries([
+            Definition::new("promise", promise(next, separation)),
+            Definition::new("frames", frames),
+        ]))
 }
 
 fn proposal(number: usize, reading: &NextReport, first: &NextReport) -> Vec<Definition> {
@@ -125,8 +139,8 @@ fn gain(nats: f64, between: &str) -> String {
 }
 
 /// What all the readings together promise.
-fn promise(d: &Diagnosis) -> String {
-    let readings: usize = d.next.iter().map(|r| r.repeats).sum();
+fn promise(next: &[NextReport], separation: &[SeparationReport]) -> String {
+    let readings: usize = next.iter().map(|r| r.repeats).sum();
     let of = |s: &SeparationReport| {
         let pair = rivals(&s.between, "or");
         let chance = percent(s.right);
@@ -142,7 +156,7 @@ fn promise(d: &Diagnosis) -> String {
             ),
         }
     };
-    d.separation.iter().map(of).collect::<Vec<_>>().join(" ")
+    separation.iter().map(of).collect::<Vec<_>>().join(" ")
 }
 
 fn in_general(section: Section, d: &Diagnosis) -> Section {

@@ -30,6 +30,8 @@ pub(crate) enum Constant {
     Force,
     /// `tau`, a time constant, s.
     Time,
+    /// `instant`, a time at which something happens, s.
+    Instant,
     /// `p`, an exponent of a force.
     Exponent,
 }
@@ -41,6 +43,7 @@ impl Constant {
             Self::Period => "period",
             Self::Force => "F",
             Self::Time => "tau",
+            Self::Instant => "instant",
             Self::Exponent => "p",
         }
     }
@@ -50,7 +53,7 @@ impl Constant {
         match self {
             Self::Period => ("mm", 1e3),
             Self::Force => ("N", 1.0),
-            Self::Time => ("s", 1.0),
+            Self::Time | Self::Instant => ("s", 1.0),
             Self::Exponent => ("1", 1.0),
         }
     }
@@ -197,7 +200,7 @@ pub(crate) const COVARIATES: [Block; 13] = [
         Constant::Time,
         block("settling", "(1 - exp(-elapsed/tau))", NONE, Family::Time, "time towards an end value"),
     ),
-    inner(Constant::Time, block("jump", "step(elapsed - tau)", NONE, Family::Time, "time at once")),
+    inner(Constant::Instant, block("jump", "step(elapsed - instant)", NONE, Family::Time, "time at once")),
     block("overload", "(1 - approach)/2", NONE, Family::Approach, "a load exceeded before"),
 ];
 
@@ -248,9 +251,13 @@ pub(crate) const MODULATIONS: [Block; 37] = [
     block("preload", "f0", N, Family::Force, "the preload of the leg"),
 ];
 
-/// What moves base or platform, or loads it, beyond what the catalogue has: loads that act more than in proportion, or with temperature or
-/// time.
-pub(crate) const LOADS: [Block; 18] = [
+/// Index of what comes with every load, among the causes of motions and wrenches.
+pub(crate) const PRESENCE: usize = COVARIATES.len();
+
+/// What moves base or platform, or loads it, beyond what the catalogue has: what comes with every load, loads that act more than in
+/// proportion, or with temperature or time.
+pub(crate) const LOADS: [Block; 19] = [
+    block("presence", "1", NONE, Family::Wrench, "every load"),
     block(
         "fx-square",
         "(fx*abs(fx) - ref_fx*abs(ref_fx))",

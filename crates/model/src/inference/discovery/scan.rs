@@ -160,7 +160,10 @@ impl LawScan<'_> {
             let sums = self.sums(bench, &product, log.exp())?;
             Ok(self.evidence(sums, legs))
         };
-        let best = golden(ends.map(f64::ln), &mut at)?.exp();
+        let best = match self.tables.separate(&product, ends) {
+            Some(values) => best_of_all(&values, &mut at)?,
+            None => golden(ends.map(f64::ln), &mut at)?.exp(),
+        };
         let score = at(best.ln())? + found.log_prior - independent(grid.len()).ln();
         Ok(if score > found.score {
             ScoredLaw { law: Law { product, legs, constant: best }, score, ..*found }
@@ -228,6 +231,21 @@ fn best_constants(scored: impl Iterator<Item = ScoredLaw>) -> Vec<ScoredLaw> {
 pub(crate) fn sort(laws: &mut [ScoredLaw]) {
     let place = |s: &ScoredLaw| (s.law.product, s.law.legs);
     laws.sort_by(|a, b| b.score.total_cmp(&a.score).then_with(|| place(a).cmp(&place(b))));
+}
+
+/// The value at which `f` of its logarithm is largest.
+fn best_of_all(
+    values: &[f64],
+    f: &mut impl FnMut(f64) -> Result<f64, ModelError>,
+) -> Result<f64, ModelError> {
+    let mut best = (f64::NEG_INFINITY, 1.0);
+    for &value in values {
+        let score = f(value.ln())?;
+        if score > best.0 {
+            best = (score, value);
+        }
+    }
+    Ok(best.1)
 }
 
 fn golden(ends: [f64; 2], f: &mut impl FnMut(f64) -> Result<f64, ModelError>) -> Result<f64, ModelError> {

@@ -12,8 +12,12 @@ use super::law::{Head, Law, Product};
 use crate::effects::formula::Formula;
 use crate::effects::user_term::LegVariables;
 use crate::error::ModelError;
+use crate::estimation::campaign::Condition;
 use crate::estimation::linearization::Linearization;
 use crate::inference::period::period_grid;
+
+/// Instants looked at in the scan; the one found is refined among all that the readings tell apart.
+const INSTANTS: usize = 16;
 
 /// Values of a factor: six legs at every condition.
 pub(crate) type Values = Vec<[f64; 6]>;
@@ -23,6 +27,7 @@ pub(crate) struct Tables {
     variables: LegVariables,
     plain: BTreeMap<&'static str, Values>,
     constants: BTreeMap<Constant, Vec<f64>>,
+    instants: Vec<f64>,
     /// Of formulas with a constant: values for each of its grid.
     gridded: BTreeMap<&'static str, Vec<Values>>,
 }
@@ -32,9 +37,12 @@ impl Tables {
     /// [`ModelError::NotFinite`] for a block whose formula is none, which is a mistake of this program.
     pub(crate) fn new(lin: &Linearization) -> Result<Self, ModelError> {
         let variables = LegVariables::at(&lin.machine, &lin.conditions);
-        let constants = [Constant::Period, Constant::Force, Constant::Time, Constant::Exponent];
+        let constants =
+            [Constant::Period, Constant::Force, Constant::Time, Constant::Instant, Constant::Exponent];
         let constants = constants.into_iter().map(|c| (c, grid(c, lin))).collect();
-        let mut tables = Self { variables, plain: BTreeMap::new(), constants, gridded: BTreeMap::new() };
+        let (plain, gridded) = (BTreeMap::new(), BTreeMap::new());
+        let instants = instants(&lin.conditions);
+        let mut tables = Self { variables, plain, constants, instants, gridded };
         for block in CARRIERS.iter().chain(&COVARIATES).chain(&MODULATIONS).chain(&LOADS) {
             for text in std::iter::once(block.text).chain(block.twin) {
                 tables.evaluate(text, block.constant)?;
@@ -68,6 +76,12 @@ impl Tables {
     /// Values worth trying of the constant of a product; one that means nothing where it has none.
     pub(crate) fn grid(&self, product: &Product) -> &[f64] {
         product.constant().map_or(&[1.0], |c| &self.constants[&c])
+    }
+
+    /// All values of a constant between two that make a difference, where these are separate values.
+    pub(crate) fn separate(&self, product: &Product, [low, high]: [f64; 2]) -> Option<Vec<f64>> {
+        let is_separate = product.constant() == Some(Constant::Instant);
+        is_separate.then(|| self.instants.iter().copied().filter(|t| (low..=high).contains(t)).collect())
     }
 
     /// Columns of a product: one, or two for a wave.
@@ -160,8 +174,23 @@ fn grid(constant: Constant, lin: &Linearization) -> Vec<f64> {
             }
             (0..9).map(|k| longest / 30.0 * 90_f64.powf(f64::from(k) / 8.0)).collect()
         }
+        Constant::Instant => coarse(&instants(&lin.conditions)),
         Constant::Exponent => vec![0.3, 0.5, 0.7, 1.25, 1.5, 1.75, 2.5, 3.5, 4.5],
     }
+}
+
+/// Instants that the readings tell apart, s: in the middle between two times at which something was read.
+pub(crate) fn instants(conditions: &[Condition]) -> Vec<f64> {
+    let mut times: Vec<f64> = conditions.iter().map(|c| c.elapsed).filter(|t| *t >= 0.0).collect();
+    times.sort_unstable_by(f64::total_cmp);
+    times.dedup();
+    times.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect()
+}
+
+/// At most [`INSTANTS`] of them, evenly chosen.
+fn coarse(all: &[f64]) -> Vec<f64> {
+    let count = all.len().min(INSTANTS);
+    (0..count).map(|k| all[(2 * k + 1) * all.len() / (2 * count)]).collect()
 }
 
 /// Nine values between which tenths of all lie.
@@ -178,3 +207,18 @@ fn quantiles(values: impl Iterator<Item = f64>) -> Vec<f64> {
 
 /// The carrier of compliances is the first: laws rely on its place.
 const _: () = assert!(COMPLIANCE == 0);
+
+#[cfg(test)]
+mod tests {
+    use super::coarse;
+
+    #[test]
+    fn instants_looked_at_first_are_spread_over_all_and_never_more_than_there_are() {
+        assert_eq!(coarse(&[]), Vec::<f64>::new());
+        assert_eq!(coarse(&[5.0, 15.0]), [5.0, 15.0]);
+        let all: Vec<f64> = (0..160).map(f64::from).collect();
+        let few = coarse(&all);
+        assert_eq!(few.len(), super::INSTANTS);
+        assert!(few.windows(2).all(|w| (w[1] - w[0] - 10.0).abs() < f64::EPSILON), "{few:?}");
+    }
+}

@@ -1,8 +1,9 @@
 //! A law as a term file, as a formula and as a sentence.
 
-use super::block::{Block, CARRIERS, COMPLIANCE, Constant, Family};
+use super::block::{Block, CARRIERS, COMPLIANCE, Constant, Family, PRESENCE};
 use super::law::{Head, Law};
 use super::legs::LegChoice;
+use super::tables::instants;
 use crate::effects::user_term::PartKind;
 use crate::estimation::linearization::Linearization;
 use crate::inference::period::period_grid;
@@ -53,6 +54,9 @@ const LONGEST_ID: usize = 36;
 /// Values of a constant offered on each side of the one found, and how far they go.
 const SIDE_STEPS: i32 = 6;
 const SIDE_FACTOR: f64 = 2.0;
+/// Instants offered on each side of the one found; two that differ by less are one, s.
+const NEAR_INSTANTS: usize = 6;
+const SAME_INSTANT_S: f64 = 1e-6;
 /// A fit may carry a constant this many times as far as the values offered.
 const BEYOND: f64 = 2.0;
 
@@ -92,7 +96,7 @@ impl Law {
             let minus = if sign < 0 { "-" } else { "" };
             let terms: Vec<String> =
                 named.map(|(name, text)| format!("{minus}{name}*{in_turn}{}", fixed(text))).collect();
-            terms.join(" + ").replace("+ -", "- ")
+            terms.join(" + ").replace("+ -", "- ").trim_end_matches("*1").to_owned()
         };
         let kind = self.product.kind();
         if let Some(axis) = self.axis() {
@@ -165,6 +169,9 @@ impl Law {
                 if more.is_empty() { String::new() } else { format!(", more with {}", more.join(" and ")) };
             return format!("{subject} jumps after {:.0} s{and}", self.constant);
         }
+        if let Head::Body(_, PRESENCE) = self.product.head {
+            return format!("{subject} comes with every load");
+        }
         let verb = match rises {
             Some(true) => "grows",
             Some(false) => "falls",
@@ -179,7 +186,7 @@ impl Law {
             Some(Constant::Force) => format!(" (from about {:.0} N)", self.constant),
             Some(Constant::Time) => format!(" (time constant {:.0} s)", self.constant),
             Some(Constant::Exponent) => format!(" (exponent {:.2})", self.constant),
-            Some(Constant::Period) | None => String::new(),
+            Some(Constant::Period | Constant::Instant) | None => String::new(),
         }
     }
 
@@ -187,6 +194,13 @@ impl Law {
     pub(crate) fn look_at(&self) -> [&'static str; 3] {
         let families: Vec<Family> = self.product.blocks().map(|b| b.family).collect();
         let has = |family: Family| families.contains(&family);
+        if let Head::Body(_, PRESENCE) = self.product.head {
+            return [
+                "a shackle, tray, adapter or hook that comes with the load and is not in the list of loads",
+                "the zero of the load cell, read without the load and with it",
+                "a hose or cable that is taken up when the load is put on",
+            ];
+        }
         if self.axis().is_some() {
             return [
                 "foundation, frame and platform: what yields, warms or slips between the joints and the floor",
@@ -263,6 +277,16 @@ impl Law {
             grid.push(self.constant);
             grid.sort_unstable_by(f64::total_cmp);
             let limits = [self.constant / (BEYOND * SIDE_FACTOR), self.constant * BEYOND * SIDE_FACTOR];
+            return (grid, limits);
+        }
+        if self.product.constant() == Some(Constant::Instant) {
+            let all = instants(&lin.conditions);
+            let at = all.partition_point(|t| *t < self.constant);
+            let near = &all[at.saturating_sub(NEAR_INSTANTS)..(at + NEAR_INSTANTS).min(all.len())];
+            let mut grid: Vec<f64> = near.iter().copied().chain([self.constant]).collect();
+            grid.sort_unstable_by(f64::total_cmp);
+            grid.dedup_by(|a, b| (*a - *b).abs() < SAME_INSTANT_S);
+            let limits = [grid[0] / BEYOND, grid[grid.len() - 1] * BEYOND];
             return (grid, limits);
         }
         let step = |k: i32| self.constant * SIDE_FACTOR.powf(f64::from(k) / f64::from(SIDE_STEPS));

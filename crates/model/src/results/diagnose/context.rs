@@ -31,7 +31,7 @@ const SETS_FACED: usize = 40;
 /// Candidates whose absorbed bias is worth a fit of their own.
 const CANDIDATES_FITTED: usize = 4;
 /// Explanations that the proposed readings separate.
-const MOST_RIVALS: usize = 3;
+pub(crate) const MOST_RIVALS: usize = 3;
 /// Odds against the best explanation at which another still counts.
 const LEAST_ODDS: f64 = 0.1;
 /// Readings proposed at most.
@@ -197,11 +197,15 @@ impl Context<'_> {
         if judgement.verdict != Verdict::Ambiguous {
             return Next::default();
         }
-        let rivals = self.rivals();
-        let proposed = candidate_readings(self.campaign, &rivals).and_then(|candidate_readings| {
-            propose(self.campaign, &rivals, &candidate_readings, Effort::UpTo(PROPOSALS))
+        self.separating(&self.rivals())
+    }
+
+    /// Readings that separate explanations.
+    pub(crate) fn separating(&self, rivals: &[RivalExplanation]) -> Next {
+        let proposed = candidate_readings(self.campaign, rivals).and_then(|candidate_readings| {
+            propose(self.campaign, rivals, &candidate_readings, Effort::UpTo(PROPOSALS))
         });
-        proposed.map(|p| Next::of(&p, &rivals)).unwrap_or_default()
+        proposed.map(|p| Next::of(&p, rivals)).unwrap_or_default()
     }
 
     /// Fit of the terms of a set.

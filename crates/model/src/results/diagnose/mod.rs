@@ -20,13 +20,14 @@ use hexbench_core::{Dataset, Hexapod};
 
 pub use self::alternative::Alternative;
 use self::answer::Answer;
-pub(crate) use self::context::Context;
+pub(crate) use self::context::{Context, MOST_RIVALS};
 pub use self::foreign::TwoFiles;
 pub use self::judged::prepare;
 use self::judged::{BothWays, Judged};
 pub use self::misread::misread_findings;
 use self::misread::{FirstLook, first_look};
 pub use self::nested::NestedReport;
+pub(crate) use self::next::Next;
 use self::notes::{outside, suspects, warnings};
 pub use self::options::DiagnoseOptions;
 pub use self::remainder::{LegRemainder, RemainderReport};

@@ -9,13 +9,13 @@ const MOST_PAIRS: usize = 3;
 
 /// Proposals with what they promise.
 #[derive(Debug, Default)]
-pub(super) struct Next {
-    pub(super) readings: Vec<NextReport>,
-    pub(super) separation: Vec<SeparationReport>,
+pub(crate) struct Next {
+    pub(crate) readings: Vec<NextReport>,
+    pub(crate) separation: Vec<SeparationReport>,
 }
 
 impl Next {
-    pub(super) fn of(proposed: &ProposedReadings, rivals: &[RivalExplanation]) -> Self {
+    pub(crate) fn of(proposed: &ProposedReadings, rivals: &[RivalExplanation]) -> Self {
         let mut pairs: Vec<&PairForecast> = proposed.forecasts.iter().collect();
         let weight = |o: &PairForecast| o.between.map(|k| rivals[k].weight).iter().product::<f64>();
         pairs.sort_by(|a, b| weight(b).total_cmp(&weight(a)));

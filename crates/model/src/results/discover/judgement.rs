@@ -11,7 +11,8 @@ use crate::inference::diagnosis::{RankedSets, wanted};
 use crate::inference::discovery::{LawSum, LawTerm};
 use crate::inference::search::Set;
 use crate::inference::verdict::NAMED;
-use crate::results::diagnose::{Context, StepReport};
+use crate::results::diagnose::{Context, MOST_RIVALS, Next, StepReport};
+use crate::results::next::RivalExplanation;
 
 /// Laws told.
 const MOST_TOLD: usize = 5;
@@ -35,7 +36,10 @@ pub(super) struct Judged {
     steps: Vec<StepReport>,
     pub(super) fits: Vec<Fit>,
     probability: f64,
-    pub(super) term_file: Option<String>,
+    /// Term files of the laws, in their order.
+    pub(super) term_files: Vec<String>,
+    /// Readings that separate the first law from those that look like it.
+    next: Next,
 }
 
 /// Laws that stand in a set together, by their places in the list of laws.
@@ -66,8 +70,10 @@ impl Judged {
             steps: Vec::new(),
             fits: Vec::new(),
             probability: weights.of_laws,
-            term_file: None,
+            term_files: Vec::new(),
+            next: Next::default(),
         };
+        let mut rivals = Vec::new();
         for (rank, (members, probability, set)) in weights.proposals.iter().take(MOST_TOLD).enumerate() {
             let order = weights.order(set, context.outcome, laws);
             let (fits, steps) = context.steps(&order)?;
@@ -80,13 +86,21 @@ impl Judged {
                 judged.convinces = weights.of_laws >= NAMED && survives(&steps, beside, weights.of_laws);
                 judged.is_at_the_noise = steps.last().is_some_and(is_as_expected);
                 judged.beside = order[..beside].iter().map(|w| w.term.info().id.to_owned()).collect();
-                let file = sum.file(&context.outcome.lin, &source.comments(&report));
-                judged.term_file = Some(file);
+            }
+            if report.probability >= ALIKE && rivals.len() < MOST_RIVALS {
+                let (terms, weight) = (vec![report.id.clone()], report.probability);
+                rivals.push(RivalExplanation { terms, weight, fit: fitted.clone() });
+            }
+            judged.term_files.push(sum.file(&context.outcome.lin, &source.comments(&report)));
+            if rank == 0 {
                 (judged.steps, judged.fits) = (steps, fits);
             }
             judged.laws.push(report);
         }
         name_alike(&mut judged.laws);
+        if judged.convinces && rivals.len() > 1 {
+            judged.next = context.separating(&rivals);
+        }
         Ok(judged)
     }
 
@@ -106,6 +120,8 @@ impl Judged {
                 .collect(),
             steps: self.steps.clone(),
             probability: self.probability,
+            next: self.next.readings.clone(),
+            separation: self.next.separation.clone(),
             ..template
         }
     }

@@ -6,6 +6,7 @@
 //! word.
 
 mod judgement;
+mod part;
 mod report;
 mod search;
 
@@ -24,6 +25,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
 use crate::inference::diagnosis::{RankedSets, explain};
+use crate::inference::discovery::LawTerm;
 use crate::inference::selection::HeldOut;
 use crate::inference::verdict::Verdict;
 use crate::results::diagnose::{
@@ -57,18 +59,22 @@ pub struct DiscoveryStudy {
     pub outcome: Option<RankedSets>,
     /// Fits of the steps.
     pub fits: Vec<Fit>,
-    /// The best law as a term file; none without any law.
-    pub term_file: Option<String>,
+    /// The laws as term files, best first, those that look like the first behind it; none where no law was found.
+    pub term_files: Vec<String>,
 }
 
 impl DiscoveryStudy {
+    /// The best law as a term file; none where no law was found, so that nobody takes an idea for a finding.
+    pub fn term_file(&self) -> Option<&str> {
+        self.term_files.first().map(String::as_str)
+    }
+
     /// The law as a term, where one was found.
     ///
     /// # Errors
     /// [`UserTermError`] for a file that is none, which is a mistake of this program.
     pub fn law(&self) -> Result<Option<Arc<dyn Term>>, UserTermError> {
-        let file = self.term_file.as_deref().filter(|_| self.discovery.found);
-        file.map(user_term::parse).transpose()
+        self.term_file().map(user_term::parse).transpose()
     }
 }
 
@@ -83,37 +89,69 @@ pub fn discover(
     terms: &[Arc<dyn Term>],
     options: &DiagnoseOptions,
 ) -> Result<DiscoveryStudy, ModelError> {
-    let study = diagnose_with(hexapod, data, holdout, terms, options)?;
-    let attempt = Attempts { hexapod, holdout, terms, diagnosis: &study };
-    let as_stated = attempt.as_stated(data, options)?;
-    if let Some((outcome, judged, searched)) =
-        as_stated.filter(|(_, judged, _)| judged.convinces && judged.is_at_the_noise)
-    {
-        let warnings = vec![needless(&study)];
-        let template = Discovery { searched, warnings, ..without_law(&study.diagnosis) };
-        return Ok(finished(judged.report(template), judged, Some(outcome), study));
-    }
-    match attempt.as_examined()? {
-        None => {
-            let fits = study.fits.clone();
-            let discovery = without_law(&study.diagnosis);
-            Ok(DiscoveryStudy { discovery, diagnosis: study, outcome: None, fits, term_file: None })
-        }
-        Some((outcome, judged, searched)) => {
-            let template = Discovery { searched, ..without_law(&study.diagnosis) };
-            let discovery = if judged.convinces { judged.report(template) } else { judged.ideas(template) };
-            Ok(finished(discovery, judged, Some(outcome), study))
-        }
-    }
+    discover_watched(hexapod, data, holdout, terms, options, &|| ())
 }
 
-fn finished(
-    discovery: Discovery,
-    judged: Judged,
-    outcome: Option<RankedSets>,
-    diagnosis: DiagnosisStudy,
-) -> DiscoveryStudy {
-    DiscoveryStudy { discovery, outcome, fits: judged.fits, term_file: judged.term_file, diagnosis }
+/// The same; `watch` is called after every step, [`most_steps`] times at most.
+///
+/// # Errors
+/// As [`discover`].
+pub fn discover_watched(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    holdout: Option<&Dataset>,
+    terms: &[Arc<dyn Term>],
+    options: &DiagnoseOptions,
+    watch: &dyn Fn(),
+) -> Result<DiscoveryStudy, ModelError> {
+    if let Some(found) = part::found_in_part(hexapod, data, holdout, terms, options, watch) {
+        return Ok(found);
+    }
+    let diagnosis = diagnose_with(hexapod, data, holdout, terms, options)?;
+    watch();
+    let attempts = Attempts { hexapod, holdout, terms, diagnosis: &diagnosis, watch };
+    let way = attempts.made(data, options)?;
+    Ok(way.told(diagnosis))
+}
+
+/// Steps that a search takes at most: a diagnosis, and the search in each of two ways; for a large file the same in a part of it.
+pub fn most_steps(data: &Dataset) -> u64 {
+    let once = 1 + 2 * search::MOST_STEPS;
+    if part::of(data).is_some() { 2 * once } else { once }
+}
+
+/// In which way the readings were looked at, and what it came to.
+enum Way {
+    /// As stated: a law that convinces.
+    AsStated(Attempt),
+    /// As the diagnosis left them.
+    AsExamined(Attempt),
+    /// Not at all: there is nothing to search for.
+    Needless,
+}
+
+impl Way {
+    fn told(self, diagnosis: DiagnosisStudy) -> DiscoveryStudy {
+        let without = without_law(&diagnosis.diagnosis);
+        match self {
+            Self::AsStated(attempt) => {
+                let warnings = vec![needless(&diagnosis)];
+                let template = Discovery { searched: attempt.tried, warnings, ..without };
+                let told = attempt.judged.report(template);
+                attempt.finished(told, diagnosis)
+            }
+            Self::AsExamined(attempt) => {
+                let template = Discovery { searched: attempt.tried, ..without };
+                let judged = &attempt.judged;
+                let told = if judged.convinces { judged.report(template) } else { judged.ideas(template) };
+                attempt.finished(told, diagnosis)
+            }
+            Self::Needless => {
+                let fits = diagnosis.fits.clone();
+                DiscoveryStudy { discovery: without, diagnosis, outcome: None, fits, term_files: Vec::new() }
+            }
+        }
+    }
 }
 
 /// Where a law was found.
@@ -144,8 +182,21 @@ impl Source<'_> {
     }
 }
 
-/// One way to look at the readings.
-type Attempt = (RankedSets, Judged, usize);
+/// Laws weighed beside the catalogue, and what is said of them.
+struct Attempt {
+    outcome: RankedSets,
+    laws: Vec<LawTerm>,
+    judged: Judged,
+    tried: usize,
+}
+
+impl Attempt {
+    fn finished(self, discovery: Discovery, diagnosis: DiagnosisStudy) -> DiscoveryStudy {
+        let Judged { fits, mut term_files, .. } = self.judged;
+        term_files.truncate(if discovery.found { discovery.laws.len() } else { 0 });
+        DiscoveryStudy { discovery, outcome: Some(self.outcome), fits, term_files, diagnosis }
+    }
+}
 
 /// The readings, looked at in two ways.
 struct Attempts<'a> {
@@ -153,9 +204,18 @@ struct Attempts<'a> {
     holdout: Option<&'a Dataset>,
     terms: &'a [Arc<dyn Term>],
     diagnosis: &'a DiagnosisStudy,
+    watch: &'a dyn Fn(),
 }
 
 impl Attempts<'_> {
+    fn made(&self, data: &Dataset, options: &DiagnoseOptions) -> Result<Way, ModelError> {
+        let convinces = |a: &Attempt| a.judged.convinces && a.judged.is_at_the_noise;
+        if let Some(attempt) = self.as_stated(data, options)?.filter(convinces) {
+            return Ok(Way::AsStated(attempt));
+        }
+        Ok(self.as_examined()?.map_or(Way::Needless, Way::AsExamined))
+    }
+
     /// With every reading and the noise as stated, where the diagnosis found a fault of the data: a law that it does not know looks like
     /// wrong loads, wrong poses or noise that readings share.
     fn as_stated(&self, data: &Dataset, options: &DiagnoseOptions) -> Result<Option<Attempt>, ModelError> {
@@ -170,7 +230,7 @@ impl Attempts<'_> {
             return Ok(None);
         }
         let outcome = explain(&campaign, self.terms)?;
-        self.made(&data, &campaign, &outcome).map(Some)
+        self.searched(&data, &campaign, &outcome).map(Some)
     }
 
     /// As the diagnosis left them.
@@ -180,15 +240,29 @@ impl Attempts<'_> {
             return Ok(None);
         }
         let DiagnosisStudy { data, campaign, outcome, .. } = self.diagnosis;
-        self.made(data, campaign, outcome).map(Some)
+        self.searched(data, campaign, outcome).map(Some)
     }
 
-    fn made(&self, data: &Dataset, campaign: &Campaign, outcome: &RankedSets) -> Result<Attempt, ModelError> {
-        let Searched { outcome, laws, tried } = search(campaign, outcome, self.terms)?;
-        let context =
-            Context { hexapod: self.machine(), data, holdout: self.held_out(), campaign, outcome: &outcome };
-        let judged = Judged::of(&context, &laws, &Source { data })?;
-        Ok((outcome, judged, tried))
+    fn searched(
+        &self,
+        data: &Dataset,
+        campaign: &Campaign,
+        outcome: &RankedSets,
+    ) -> Result<Attempt, ModelError> {
+        let Searched { outcome, laws, tried } = search(campaign, outcome, self.terms, self.watch)?;
+        let judged = self.judged(data, campaign, &outcome, &laws)?;
+        Ok(Attempt { outcome, laws, judged, tried })
+    }
+
+    fn judged(
+        &self,
+        data: &Dataset,
+        campaign: &Campaign,
+        outcome: &RankedSets,
+        laws: &[LawTerm],
+    ) -> Result<Judged, ModelError> {
+        let context = Context { hexapod: self.machine(), data, holdout: self.held_out(), campaign, outcome };
+        Judged::of(&context, laws, &Source { data })
     }
 
     fn machine(&self) -> &Hexapod {
@@ -226,6 +300,8 @@ fn without_law(diagnosis: &Diagnosis) -> Discovery {
         laws: Vec::new(),
         steps: diagnosis.steps.clone(),
         probability: 0.0,
+        next: Vec::new(),
+        separation: Vec::new(),
         searched: 0,
         warnings: diagnosis.warnings.clone(),
     }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::DiscoveryReason;
 use crate::estimation::estimate::Estimate;
 use crate::inference::verdict::Verdict;
-use crate::results::diagnose::StepReport;
+use crate::results::diagnose::{NextReport, SeparationReport, StepReport};
 
 /// What a search for laws came to.
 #[derive(Debug, Clone, Serialize)]
@@ -28,6 +28,10 @@ pub struct Discovery {
     pub steps: Vec<StepReport>,
     /// Probability that one of the laws weighed is at work.
     pub probability: f64,
+    /// Readings that separate the first law from those that look like it, in the order in which they are worth taking.
+    pub next: Vec<NextReport>,
+    /// What they promise.
+    pub separation: Vec<SeparationReport>,
     /// Laws weighed.
     pub searched: usize,
     /// Things to know.

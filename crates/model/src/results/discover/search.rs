@@ -21,6 +21,8 @@ const SINGLE_EFFECTS: usize = 2;
 const WORTH_A_SCAN: f64 = 10.0;
 /// Rounds in which a further law is searched beside those found.
 const ROUNDS: usize = 2;
+/// Scans and weighings together, at most.
+pub(super) const MOST_STEPS: u64 = (1 + 1 + SINGLE_EFFECTS + 2 * ROUNDS - 1) as u64;
 
 /// What competes, and how it came out.
 pub(super) struct Searched {
@@ -35,6 +37,7 @@ struct Pool<'a> {
     grammar: LawSearch,
     laws: Vec<LawTerm>,
     tried: usize,
+    watch: &'a dyn Fn(),
 }
 
 /// Searches laws beside springs and catalogue; `outcome`: how the catalogue explains the campaign.
@@ -42,30 +45,39 @@ pub(super) fn search(
     campaign: &Campaign,
     outcome: &RankedSets,
     terms: &[Arc<dyn Term>],
+    watch: &dyn Fn(),
 ) -> Result<Searched, ModelError> {
     let lin = Linearization::at(campaign, &outcome.baseline.point)?;
     let grammar = LawSearch::new(campaign, &lin, outcome.natural)?;
-    let mut pool = Pool { campaign, grammar, laws: Vec::new(), tried: 0 };
+    let mut pool = Pool { campaign, grammar, laws: Vec::new(), tried: 0, watch };
     pool.scan(&outcome.baseline.point, BESIDE_SPRINGS)?;
     for point in explanations(campaign, outcome) {
         pool.scan(&point, BESIDE_OTHERS)?;
     }
-    let mut ranked = explain_with_laws(campaign, terms, &pool.laws)?;
+    let mut ranked = pool.weighed(terms)?;
     for _ in 1..ROUNDS {
         let before = pool.laws.len();
         pool.scan(&ranked.best.point, BESIDE_OTHERS)?;
         if pool.laws.len() == before {
             break;
         }
-        ranked = explain_with_laws(campaign, terms, &pool.laws)?;
+        ranked = pool.weighed(terms)?;
     }
     Ok(Searched { outcome: ranked, laws: pool.laws, tried: pool.tried })
 }
 
 impl Pool<'_> {
+    fn weighed(&self, terms: &[Arc<dyn Term>]) -> Result<RankedSets, ModelError> {
+        let ranked = explain_with_laws(self.campaign, terms, &self.laws)?;
+        (self.watch)();
+        Ok(ranked)
+    }
+
     fn scan(&mut self, point: &ModelPoint, most: usize) -> Result<(), ModelError> {
         let lin = Linearization::at(self.campaign, point)?;
-        self.tried += self.grammar.scan(self.campaign, &lin, point, most, &mut self.laws)?;
+        // The same laws beside another model are not other laws.
+        self.tried = self.tried.max(self.grammar.scan(self.campaign, &lin, point, most, &mut self.laws)?);
+        (self.watch)();
         Ok(())
     }
 }
