@@ -100,13 +100,12 @@ impl<R: BufRead> Lines<R> {
         refuse_binary(&self.buffer, self.number, start)?;
         let ended = self.buffer.ends_with(b"\n");
         let mark = if self.number == 1 && self.buffer.starts_with(BYTE_ORDER_MARK) { 3 } else { 0 };
-        let text = match std::str::from_utf8(&self.buffer[mark..]) {
-            Ok(text) => text,
-            Err(_) => {
-                self.encoding = Some(WINDOWS_1252.name());
-                self.decoded = WINDOWS_1252.decode_without_bom_handling(&self.buffer[mark..]).0.into_owned();
-                &self.decoded
-            }
+        let text = if let Ok(text) = std::str::from_utf8(&self.buffer[mark..]) {
+            text
+        } else {
+            self.encoding = Some(WINDOWS_1252.name());
+            self.decoded = WINDOWS_1252.decode_without_bom_handling(&self.buffer[mark..]).0.into_owned();
+            &self.decoded
         };
         let text = text.trim_end_matches(['\n', '\r']);
         Ok(Some(RawLine { text, number: self.number, start: start + mark, ended }))

@@ -123,7 +123,7 @@ fn start<R: BufRead>(
 /// What a first line such as `sep=;` says, which spreadsheets write and read.
 fn told_separator(text: &str) -> Option<u8> {
     let word = text.get(..4).filter(|word| word.eq_ignore_ascii_case("sep="))?;
-    match text[word.len()..].as_bytes() {
+    match &text.as_bytes()[word.len()..] {
         [separator @ (b',' | b';' | b'\t')] => Some(*separator),
         _ => None,
     }

@@ -82,7 +82,7 @@ impl CalibrationRecord {
         let trial = Trial::run(case)?;
         let predicted = predicted(&trial.study, case)?;
         let behind_truth = behind_truth(&trial)?;
-        Ok(Self { predicted, behind_truth, ..Self::of_trial(case, &trial) })
+        Ok(Self { behind_truth, predicted, ..Self::of_trial(case, &trial) })
     }
 
     /// Compares the answer to a case with its truth; nothing is predicted or fitted.

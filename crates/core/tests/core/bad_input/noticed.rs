@@ -100,7 +100,7 @@ fn tables_as_spreadsheets_write_them_are_read() {
     let (names, rows) = semicolons.split_once('\n').unwrap();
     let unit = |name: &str| name.rsplit_once('_').map_or(String::new(), |(_, unit)| format!("[{unit}]"));
     let units = names.split(';').map(unit).collect::<Vec<_>>().join(";");
-    let trailing: String = semicolons.lines().map(|line| format!("{line};;\n")).collect();
+    let trailing = semicolons.replace('\n', ";;\n");
     // Windows-1252: one byte for the micro sign.
     let micro = semicolons
         .replace("da_um", "da_\u{b5}m")
