@@ -34,6 +34,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Demo(commands::demo::Arguments),
+    Init(commands::init::Arguments),
     Simulate(commands::simulate::Arguments),
     Poses(commands::poses::Arguments),
     Check(commands::check::Arguments),

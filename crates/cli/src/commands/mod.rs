@@ -12,6 +12,7 @@ pub(crate) mod discover;
 pub(crate) mod discriminate;
 pub(crate) mod export;
 pub(crate) mod fit;
+pub(crate) mod init;
 pub(crate) mod poses;
 pub(crate) mod power;
 pub(crate) mod predict;
@@ -33,6 +34,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
     let screen = Screen::stdout(cli.colour, cli.verbose);
     match &cli.command {
         Command::Demo(arguments) => demo::run(arguments, &screen),
+        Command::Init(arguments) => init::run(arguments, &screen),
         Command::Simulate(arguments) => simulate::run(arguments, &screen),
         Command::Poses(arguments) => poses::run(arguments, &screen),
         Command::Check(arguments) => check::run(arguments, &screen),

@@ -14,6 +14,7 @@ mod export;
 mod far_frames;
 mod glossary;
 mod html;
+mod init;
 mod json;
 mod pages;
 mod poses;

@@ -35,7 +35,7 @@ const MEETING_PLACES: [&str; 5] =
 const DOOR: &str = "hexbench";
 
 /// All that the two sides may have in common: the nouns, and crates of the registry that know nothing of hexapods.
-const SHARED: [&str; 17] = [
+const SHARED: [&str; 18] = [
     "hexbench-core",
     "nalgebra",
     "rand",
@@ -44,6 +44,7 @@ const SHARED: [&str; 17] = [
     "rayon",
     "statrs",
     "thiserror",
+    "encoding_rs",
     "memchr",
     "serde",
     "serde_json",

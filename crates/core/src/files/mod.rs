@@ -34,6 +34,7 @@ mod read_balls;
 mod read_columns;
 mod read_conditions;
 mod read_hexapod;
+mod read_joints;
 mod read_measurements;
 mod read_sensor;
 mod row;
@@ -60,6 +61,7 @@ pub use read_balls::{read_ball_places, read_balls};
 pub use read_columns::{Cells, MemoryColumn, read_columns};
 pub use read_conditions::{read_conditions, read_plan};
 pub use read_hexapod::{parse_hexapod, read_hexapod};
+pub use read_joints::read_joints;
 pub use read_measurements::{read_campaign, read_campaign_from, read_measurements, read_measurements_from};
 pub use read_sensor::{SENSOR_WITH_COST, point, sensor_name, sensor_of, sensors, unit_vector};
 pub use table::TableReading;
@@ -68,7 +70,7 @@ pub use toml_value::{Item, KeyUnit, TomlSection};
 pub use units::{Dimension, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};
 pub use write_campaign::{campaign_to_columns, campaign_to_csv, write_campaign};
-pub use write_hexapod::{hexapod_to_toml, write_hexapod};
+pub use write_hexapod::{hexapod_to_commented_toml, hexapod_to_toml, write_hexapod};
 pub use write_measurements::{
     MeasurementsWriter, conditions_to_columns, measurements_to_columns, measurements_to_csv,
     write_measurements,

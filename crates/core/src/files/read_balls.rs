@@ -16,8 +16,21 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-const NAMES: [&str; 5] = ["record", "ball", "x", "y", "z"];
-const USUAL: [&str; 5] = ["record", "ball", "x_mm", "y_mm", "z_mm"];
+/// Columns of a table of named points: the group of a point, its name, its coordinates.
+#[derive(Clone, Copy)]
+pub(super) struct PointColumns {
+    names: [&'static str; 5],
+    usual: [&'static str; 5],
+}
+
+impl PointColumns {
+    pub(super) const BALLS: Self = Self::of("record", "ball");
+    pub(super) const JOINTS: Self = Self::of("side", "leg");
+
+    const fn of(group: &'static str, name: &'static str) -> Self {
+        Self { names: [group, name, "x", "y", "z"], usual: [group, name, "x_mm", "y_mm", "z_mm"] }
+    }
+}
 
 const BALLS: Format = Format {
     name: "balls/1",
@@ -35,7 +48,12 @@ const BALL: &[KeyUnit] = &[KeyUnit::plain("ball"), KeyUnit::with_unit("center", 
 /// # Errors
 /// The first thing that is wrong, with line, column, value and next step; a ball that is twice in a record, too.
 pub fn read_balls(path: &Path) -> Result<Vec<BallRecord>, FileError> {
-    let read = || table(BufReader::new(File::open(path)?));
+    read_points(path, PointColumns::BALLS)
+}
+
+/// Reads a table of named points, such as balls of records.
+pub(super) fn read_points(path: &Path, columns: PointColumns) -> Result<Vec<BallRecord>, FileError> {
+    let read = || table(BufReader::new(File::open(path)?), columns);
     read().map_err(|fault| fault.in_file(path))
 }
 
@@ -58,7 +76,7 @@ fn places(item: &Item<'_>) -> Result<Vec<BallPlace>, Fault> {
     let places = places.collect::<Result<Vec<_>, _>>()?;
     match (0..places.len()).find(|&k| places[..k].iter().any(|other| other.ball == places[k].ball)) {
         None => Ok(places),
-        Some(twice) => Err(balls[twice].fault(twice_in("this list", &places[twice].ball))),
+        Some(twice) => Err(balls[twice].fault(twice_in("ball", "this list", &places[twice].ball))),
     }
 }
 
@@ -68,22 +86,24 @@ fn place(section: &TomlSection<'_>) -> Result<BallPlace, Fault> {
     Ok(BallPlace { ball, centre: centre.into() })
 }
 
-fn twice_in(whole: &str, ball: &str) -> FileProblem {
+fn twice_in(name: &str, whole: &str, point: &str) -> FileProblem {
+    let others = if name == "ball" { "; give repeated touches records of their own" } else { "" };
     FileProblem::Rule {
-        rule: format!("ball {ball} is twice in {whole}"),
-        next: "Name each ball once; give repeated touches records of their own.".into(),
+        rule: format!("{name} {point} is twice in {whole}"),
+        next: format!("Name each {name} once{others}."),
     }
 }
 
 /// Which cell holds which column, and the units of the coordinates.
 struct Header {
+    columns: PointColumns,
     separator: u8,
     count: usize,
     cells: [usize; 5],
     units: [&'static Unit; 3],
 }
 
-fn table(input: impl BufRead) -> Result<Vec<BallRecord>, Fault> {
+fn table(input: impl BufRead, columns: PointColumns) -> Result<Vec<BallRecord>, Fault> {
     let (mut lines, mut header) = (Lines::new(input), None);
     let (mut records, mut numbers): (Vec<BallRecord>, HashMap<String, usize>) = Default::default();
     let mut cells = Vec::new();
@@ -92,7 +112,7 @@ fn table(input: impl BufRead) -> Result<Vec<BallRecord>, Fault> {
             continue;
         }
         let Some(header) = &header else {
-            header = Some(header_of(raw)?);
+            header = Some(header_of(raw, columns)?);
             continue;
         };
         let line = Line::cut(raw, header.separator, &mut cells)?;
@@ -112,38 +132,37 @@ fn table(input: impl BufRead) -> Result<Vec<BallRecord>, Fault> {
 
 fn add(record: &mut BallRecord, place: BallPlace, line: &Line<'_>, header: &Header) -> Result<(), Fault> {
     if record.centre(&place.ball).is_some() {
-        let problem = twice_in(&format!("record {}", record.id), &place.ball);
-        return Err(Fault::new(
-            line.place(header.cells[1]).with_name("ball").with_value(&place.ball),
-            problem,
-        ));
+        let [group, name, ..] = header.columns.names;
+        let problem = twice_in(name, &format!("{group} {}", record.id), &place.ball);
+        return Err(Fault::new(line.place(header.cells[1]).with_name(name).with_value(&place.ball), problem));
     }
     record.balls.push(place);
     Ok(())
 }
 
-fn header_of(raw: RawLine<'_>) -> Result<Header, Fault> {
+fn header_of(raw: RawLine<'_>, columns: PointColumns) -> Result<Header, Fault> {
     let count = |separator: u8| memchr::memchr_iter(separator, raw.text.as_bytes()).count();
     let separator = [b',', b';', b'\t'].into_iter().rev().max_by_key(|s| count(*s)).unwrap_or(b',');
     let mut cells = Vec::new();
     let line = Line::cut(raw, separator, &mut cells)?;
     let mut found = [None; 5];
     for cell in 0..line.len() {
-        let Some((column, unit)) = column(&line, cell)? else { continue };
+        let Some((column, unit)) = column(&line, cell, columns)? else { continue };
         if found[column].replace((cell, unit)).is_some() {
             let problem = FileProblem::Rule {
-                rule: format!("{} is given twice", NAMES[column]),
+                rule: format!("{} is given twice", columns.names[column]),
                 next: "Keep one of the two columns.".into(),
             };
             return Err(Fault::new(line.place(cell).with_name(line.text(cell)), problem));
         }
     }
     let missing: Vec<String> =
-        found.iter().zip(USUAL).filter(|(f, _)| f.is_none()).map(|(_, name)| name.into()).collect();
+        found.iter().zip(columns.usual).filter(|(f, _)| f.is_none()).map(|(_, name)| name.into()).collect();
     let [Some(record), Some(ball), Some(x), Some(y), Some(z)] = found else {
         return Err(Fault::new(line.whole_place(), FileProblem::MissingColumns { names: missing }));
     };
     Ok(Header {
+        columns,
         separator,
         count: line.len(),
         cells: [record, ball, x, y, z].map(|(cell, _)| cell),
@@ -152,7 +171,11 @@ fn header_of(raw: RawLine<'_>) -> Result<Header, Fault> {
 }
 
 /// Which column a header cell names, and its unit; none for a column that is not read.
-fn column(line: &Line<'_>, cell: usize) -> Result<Option<(usize, &'static Unit)>, Fault> {
+fn column(
+    line: &Line<'_>,
+    cell: usize,
+    columns: PointColumns,
+) -> Result<Option<(usize, &'static Unit)>, Fault> {
     let text = line.text(cell);
     let (base, bracketed) = without_brackets(text);
     let base = base.trim().replace([' ', '-'], "_").to_lowercase();
@@ -160,9 +183,9 @@ fn column(line: &Line<'_>, cell: usize) -> Result<Option<(usize, &'static Unit)>
         Some((name, unit)) if bracketed.is_none() => (name.to_owned(), Some(unit.to_owned())),
         _ => (base, bracketed.map(str::to_owned)),
     };
-    let Some(column) = NAMES.iter().position(|known| *known == name) else { return Ok(None) };
+    let Some(column) = columns.names.iter().position(|known| *known == name) else { return Ok(None) };
     let kind = if column < 2 { Dimension::Number } else { Dimension::Length };
-    stated_unit(NAMES[column], kind, USUAL[column].into(), unit.as_deref())
+    stated_unit(columns.names[column], kind, columns.usual[column].into(), unit.as_deref())
         .map(|unit| Some((column, unit)))
         .map_err(|problem| Fault::new(line.place(cell).with_name(text), problem))
 }
@@ -173,9 +196,10 @@ fn row(header: &Header, line: &Line<'_>) -> Result<(String, BallPlace), Fault> {
         return Err(Fault::new(line.whole_place(), problem));
     }
     let name = |column: usize| match line.text(header.cells[column]) {
-        "" => {
-            Err(Fault::new(line.place(header.cells[column]).with_name(NAMES[column]), FileProblem::EmptyCell))
-        }
+        "" => Err(Fault::new(
+            line.place(header.cells[column]).with_name(header.columns.names[column]),
+            FileProblem::EmptyCell,
+        )),
         text => Ok(text.to_owned()),
     };
     let mut centre = Vector3::zeros();
@@ -195,7 +219,7 @@ fn coordinate(header: &Header, line: &Line<'_>, axis: usize) -> Result<f64, Faul
         Ok(header.units[axis].to_si(number.value))
     });
     let value = parsed.and_then(|si| if si.is_finite() { Ok(si) } else { Err(FileProblem::TooLarge) });
-    let place = || line.place(cell).with_name(USUAL[axis + 2]).with_value(line.text(cell));
+    let place = || line.place(cell).with_name(header.columns.usual[axis + 2]).with_value(line.text(cell));
     value.map_err(|problem| Fault::new(place(), problem))
 }
 
@@ -204,7 +228,8 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Vec<BallRecord>, String> {
-        table(text.as_bytes()).map_err(|fault| fault.in_file("balls.csv".as_ref()).to_string())
+        table(text.as_bytes(), PointColumns::BALLS)
+            .map_err(|fault| fault.in_file("balls.csv".as_ref()).to_string())
     }
 
     #[test]

@@ -37,6 +37,54 @@ pub fn hexapod_to_toml(hexapod: &Hexapod) -> String {
     text
 }
 
+/// The same with a comment at every key, and what may be stated besides as comments.
+pub fn hexapod_to_commented_toml(hexapod: &Hexapod) -> String {
+    let mut text = hexapod_to_toml(hexapod);
+    for (key, comment) in COMMENTS {
+        if let Some(at) = text.find(key) {
+            text.insert_str(at, comment);
+        }
+    }
+    if hexapod.metrology.is_none() {
+        text.push_str(OPEN_METROLOGY);
+    }
+    text.insert_str(0, HEAD);
+    text + OPEN_SECTIONS
+}
+
+const HEAD: &str = "\
+# A hexapod. Two frames coincide at the zero pose: x, y, z of the fixed frame stand still with the base, those of the
+# mobile frame move with the platform. Poses and wrenches in measurements.csv are about their origin.
+";
+
+/// Keys, and what is said above each.
+const COMMENTS: [(&str, &str); 3] = [
+    ("base_joints_mm", "# Centers of the base joints of legs 1 to 6, fixed frame.\n"),
+    (
+        "platform_joints_mm",
+        "# Centers of the platform joints of the same legs, mobile frame; at the zero pose the same numbers hold in the fixed frame.\n",
+    ),
+    ("sigma_translation_um", "# Standard deviation of ONE reading of a deflection.\n"),
+];
+
+const OPEN_METROLOGY: &str = "
+# [metrology]                     # standard deviation of ONE reading of a deflection; repeats tell it otherwise
+# sigma_translation_um = 0.5
+# sigma_rotation_urad = 3
+";
+
+const OPEN_SECTIONS: &str = "
+# [legs]
+# nominal_stiffness_N_per_um = [5, 5, 5, 5, 5, 5]
+# min_length_mm = 150             # stroke: lengths between the joint centers
+# max_length_mm = 200
+
+# [tolerances]                    # one standard deviation each: what the numbers of this file and of the loads are worth
+# joints_mm = 0.05
+# load_gain = 0.002
+# load_point_mm = 0.5
+";
+
 /// Usual tolerances go without saying, and so do those of sensors where there are none.
 fn add_tolerances(text: &mut String, tolerances: &Tolerances, without_sensors: bool) {
     let usual = Tolerances::default();

@@ -74,13 +74,7 @@ struct Bodies<'a> {
 impl Bodies<'_> {
     /// Base ring, platform ring and legs.
     fn unloaded(&self) -> Vec<Edge> {
-        let [base, platform] = [0, 1].map(|end| self.joints.each_ref().map(|j| j[end]));
-        let legs = self.joints.iter().map(|[a, b]| edge(a, b));
-        ring(&base, &around(&base))
-            .into_iter()
-            .chain(ring(&platform, &around(&platform)))
-            .chain(legs)
-            .collect()
+        unloaded(&self.joints)
     }
 
     /// Platform ring moved by a twist.
@@ -89,6 +83,13 @@ impl Bodies<'_> {
             |leg: usize| self.joints[leg][1] + displacement(twist, &self.at.legs.arms[leg]) * self.factor;
         ring(&std::array::from_fn(moved), &around(&self.joints.each_ref().map(|j| j[1])))
     }
+}
+
+/// Base ring, platform ring and legs between these joints.
+pub(super) fn unloaded(joints: &[[Vector3; 2]; 6]) -> Vec<Edge> {
+    let [base, platform] = [0, 1].map(|end| joints.each_ref().map(|j| j[end]));
+    let rings = [base, platform].map(|joints| ring(&joints, &around(&joints)));
+    rings.into_iter().flatten().chain(joints.iter().map(|[a, b]| edge(a, b))).collect()
 }
 
 /// Legs in the order of the angle of their joints about their mean.
