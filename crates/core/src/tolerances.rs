@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::dataset::Measurand;
+
 /// What the numbers of a machine and its loads are worth: one standard deviation each, never zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
@@ -45,41 +47,52 @@ impl Default for Tolerances {
 /// Tolerances of the inputs of a model in the units of the hexapod file, as a plan assumes them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StatedTolerances {
-    /// Of every coordinate of a joint.
-    pub joints_mm: f64,
+    /// Of every coordinate of a joint; none for absolute poses, where joints are an effect of the catalogue.
+    pub joints_mm: Option<f64>,
     /// Of the scale of every component of the loads, relative.
     pub load_gain: f64,
     /// Of the direction of the loads about each axis.
     pub load_direction_deg: f64,
     /// Of the point at which the loads act.
     pub load_point_mm: f64,
-    /// Of the axes of the readings about each axis.
-    pub frame_deg: f64,
+    /// Of the axes of the readings about each axis; none for absolute poses, whose frames are estimated.
+    pub frame_deg: Option<f64>,
+}
+
+impl StatedTolerances {
+    /// Those that count for readings of a kind.
+    pub fn of(tolerances: &Tolerances, measurand: Measurand) -> Self {
+        match measurand {
+            Measurand::AbsolutePose => Self { joints_mm: None, frame_deg: None, ..Self::from(tolerances) },
+            _ => Self::from(tolerances),
+        }
+    }
 }
 
 impl From<&Tolerances> for StatedTolerances {
     fn from(t: &Tolerances) -> Self {
         Self {
-            joints_mm: plain(t.joints * 1e3),
+            joints_mm: Some(plain(t.joints * 1e3)),
             load_gain: t.load_gain,
             load_direction_deg: plain(t.load_direction.to_degrees()),
             load_point_mm: plain(t.load_point * 1e3),
-            frame_deg: plain(t.frame.to_degrees()),
+            frame_deg: Some(plain(t.frame.to_degrees())),
         }
     }
 }
 
 impl fmt::Display for StatedTolerances {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "joints {} mm, load gain {} %, load direction {} deg, load point {} mm, axes of the readings {} deg",
-            self.joints_mm,
-            plain(100.0 * self.load_gain),
-            self.load_direction_deg,
-            self.load_point_mm,
-            self.frame_deg
-        )
+        if let Some(joints) = self.joints_mm {
+            write!(f, "joints {joints} mm, ")?;
+        }
+        let gain = plain(100.0 * self.load_gain);
+        write!(f, "load gain {gain} %, load direction {} deg, ", self.load_direction_deg)?;
+        write!(f, "load point {} mm", self.load_point_mm)?;
+        match self.frame_deg {
+            Some(frame) => write!(f, ", axes of the readings {frame} deg"),
+            None => Ok(()),
+        }
     }
 }
 
@@ -97,5 +110,7 @@ mod tests {
         let told = StatedTolerances::from(&Tolerances::default()).to_string();
         let expected = "joints 0.05 mm, load gain 0.2 %, load direction 0.05 deg, load point 0.5 mm, axes of the readings 0.02 deg";
         assert_eq!(told, expected);
+        let of_loads = StatedTolerances::of(&Tolerances::default(), Measurand::AbsolutePose).to_string();
+        assert_eq!(of_loads, "load gain 0.2 %, load direction 0.05 deg, load point 0.5 mm");
     }
 }

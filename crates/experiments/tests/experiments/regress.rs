@@ -151,6 +151,40 @@ fn the_committed_baseline_is_one_of_the_full_suite() {
     assert!(baseline.history.iter().all(|u| !u.reason.trim().is_empty() && u.runs > 0));
 }
 
+/// What a patch needs to find: the lines of its hunks that it keeps or takes away, and the file they are in.
+fn expected_by(patch: &str) -> (&str, Vec<String>) {
+    let file = patch.lines().find_map(|line| line.strip_prefix("+++ b/")).unwrap();
+    let mut hunks = Vec::new();
+    for line in patch.lines().skip_while(|line| !line.starts_with("@@")) {
+        match line.split_at_checked(1) {
+            Some(("@", _)) => hunks.push(String::new()),
+            Some((" " | "-", text)) => *hunks.last_mut().unwrap() += &format!("{text}\n"),
+            None => *hunks.last_mut().unwrap() += "\n",
+            Some(_) => {}
+        }
+    }
+    (file, hunks)
+}
+
+/// `scripts/planted_faults.sh` takes hours on few cores; that its patches still fit is seen here.
+#[test]
+fn the_planted_faults_fit_the_sources() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut count = 0;
+    for entry in std::fs::read_dir(root.join("data/regress/faults")).unwrap() {
+        let path = entry.unwrap().path();
+        let patch = std::fs::read_to_string(&path).unwrap();
+        let (file, hunks) = expected_by(&patch);
+        let source = std::fs::read_to_string(root.join(file)).unwrap();
+        assert!(!hunks.is_empty(), "{}", path.display());
+        for hunk in hunks {
+            assert!(source.contains(&hunk), "{} does not find in {file}:\n{hunk}", path.display());
+        }
+        count += 1;
+    }
+    assert!(count >= 9, "{count} faults");
+}
+
 #[test]
 fn an_update_without_a_reason_is_refused_and_history_is_kept() {
     let suite = RegressSuite::quick();

@@ -1,12 +1,22 @@
 //! A small study of robustness: the control is as good as calibration says, and the same bytes come on any number of threads.
 
+use std::path::Path;
+
+use hexbench_core::Vector3;
+use hexbench_core::streams::{Purpose, stream};
 use hexbench_experiments::harness::{self, Silent};
 use hexbench_experiments::robustness::{
     Robustness, RobustnessProtocol, Violation, case, detections, page, sheets,
 };
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::fit::fit;
+use hexbench_model::estimation::tolerances::within_tolerances;
 use hexbench_model::inference::examination::FindingKind;
 use hexbench_report::render::markdown;
 use hexbench_truth::laboratory::{self, CAREFUL};
+use hexbench_truth::scene::{PartName, Scene, VirtualBench};
+use rand::RngExt;
+use rand_distr::StandardNormal;
 
 /// Words of the format for which there is no examination yet.
 const NOT_EXAMINED: [&str; 2] = ["resolution", "row-order"];
@@ -84,4 +94,42 @@ fn a_campaign_is_the_same_under_every_fault_but_for_the_fault() {
     for bad in ["none", "none/pair-0001", "magic/clean-0001", "none/clean-x", "none/clean-99999999"] {
         assert!(case(bad, 5).is_none(), "{bad}");
     }
+}
+
+/// What a load is said to be is off by a tolerance: so uncertain stiffness from absolute poses is.
+#[test]
+fn stiffness_from_absolute_poses_is_covered_when_loads_are_as_good_as_their_tolerances() {
+    const CAMPAIGNS: u64 = 24;
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/hidden-8");
+    let (mut pulls, mut exact) = (Vec::new(), Vec::new());
+    for seed in 0..CAMPAIGNS {
+        let mut scene = Scene::read_with_seed(&folder, Some(seed)).unwrap();
+        scene.mechanisms.clear();
+        let mut data = VirtualBench::new(&scene, false).dataset(PartName::Training).unwrap();
+        let mut rng = stream(seed, Purpose::CaseFault, []);
+        let tolerances = &scene.hexapod.tolerances;
+        let mut drawn = |size: f64| Vector3::from_fn(|_, _| size * rng.sample::<f64, _>(StandardNormal));
+        let (gain, turn, shift) =
+            (drawn(tolerances.load_gain), drawn(tolerances.load_direction), drawn(tolerances.load_point));
+        for row in &mut data.observations {
+            let force = row.wrench.force;
+            row.wrench.moment += shift.cross(&force);
+            row.wrench.force += turn.cross(&force) + gain.component_mul(&force);
+        }
+        let campaign = Campaign::new(&scene.hexapod, &data).unwrap();
+        let stiffness = scene.leg_stiffness;
+        let of = |campaign: &Campaign| {
+            let fit = fit(campaign, &[], None).unwrap();
+            let pull = |leg: usize| {
+                let compliance = fit.point.compliances[leg];
+                (compliance - 1.0 / stiffness[leg]) / fit.std(leg)
+            };
+            (0..6).map(pull).collect::<Vec<f64>>()
+        };
+        exact.extend(of(&campaign));
+        pulls.extend(of(&within_tolerances(campaign)));
+    }
+    let mean_square = |pulls: &[f64]| pulls.iter().map(|p| p * p).sum::<f64>() / pulls.len() as f64;
+    assert!(mean_square(&pulls) < 1.4, "{}", mean_square(&pulls));
+    assert!(mean_square(&exact) > 1.2 * mean_square(&pulls), "{} {}", mean_square(&exact), mean_square(&pulls));
 }

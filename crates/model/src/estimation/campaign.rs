@@ -389,9 +389,9 @@ impl Campaign {
         NoiseLevel { sum: worth + repeats, dof: worth + dof }
     }
 
-    /// The tolerances of the inputs; none where they count as exact, because no error of them shows or poses are absolute.
+    /// The tolerances of the inputs; none where they count as exact, because no error of them shows.
     pub fn assumed_tolerances(&self) -> Option<StatedTolerances> {
-        self.inexact.as_ref().map(|_| StatedTolerances::from(&self.hexapod.tolerances))
+        self.inexact.as_ref().map(|_| StatedTolerances::of(&self.hexapod.tolerances, self.measurand))
     }
 
     /// What the numbers of a reading with these standard deviations are.

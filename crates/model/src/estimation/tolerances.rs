@@ -6,18 +6,22 @@
 //! weighed or predicted.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use hexbench_core::{Channel, Observation, Sensor, SensorKind, Tolerances, Vector3, Vector6, Wrench};
 use nalgebra::{DMatrix, DVector, Rotation3};
 use rayon::prelude::*;
 
+use crate::effects::term::{Chapter, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition, moved};
-use crate::estimation::fit::fit;
+use crate::estimation::fit::{Fit, fit};
+use crate::estimation::fit_named::{Added, fit_wanted};
 use crate::estimation::input_slopes::by_springs;
 use crate::estimation::linearization::{Linearization, ModelPoint, beside, own_residuals};
 use crate::estimation::parallel::try_map;
 use crate::machine::kinematics::Legs;
+use crate::terms::catalogue;
 
 /// Step of a joint for its derivatives, m.
 const JOINT_STEP: f64 = 1e-6;
@@ -47,6 +51,8 @@ impl InputKind {
         [Self::Joints, Self::LoadGain, Self::LoadDirection, Self::LoadPoint, Self::Frame];
     /// Columns of all of them.
     pub const COLUMNS: usize = 51;
+    const LOADS: [Self; 3] = [Self::LoadGain, Self::LoadDirection, Self::LoadPoint];
+    const BUT_FRAME: [Self; 4] = [Self::Joints, Self::LoadGain, Self::LoadDirection, Self::LoadPoint];
 
     /// Number of inputs.
     pub fn count(self) -> usize {
@@ -93,7 +99,8 @@ impl InputKind {
 }
 
 /// Reading over the standard deviation of what is its own, per standard deviation of every input; six rows for each condition,
-/// [`InputKind::COLUMNS`] columns, and those of the sensors where there are any; nothing for absolute poses.
+/// [`InputKind::COLUMNS`] columns, and those of the sensors where there are any. Of absolute poses only the loads are inputs: there joints
+/// are an effect of the catalogue, and frames are estimated.
 ///
 /// # Errors
 /// As [`Linearization::at`].
@@ -102,12 +109,14 @@ pub fn input_columns(
     point: &ModelPoint,
     tolerances: &Tolerances,
 ) -> Result<DMatrix<f64>, ModelError> {
-    if campaign.is_absolute() {
-        // There joints are an effect of the catalogue, frames are estimated, and springs alone say little of what loads do.
-        return Ok(DMatrix::zeros(6 * campaign.groups.len(), InputKind::COLUMNS));
-    }
     let bare = campaign.clone().unwhitened();
     let start = Linearization::at(&bare, point)?;
+    if campaign.is_absolute() {
+        let loads = by_differences(&bare, point, &start, tolerances, &InputKind::LOADS)?;
+        let mut columns = DMatrix::zeros(loads.nrows(), InputKind::COLUMNS);
+        columns.columns_mut(InputKind::LoadGain.columns().start, loads.ncols()).copy_from(&loads);
+        return Ok(columns);
+    }
     let mut columns = match by_springs(&bare, point, &start) {
         Some(mut slopes) => {
             for kind in InputKind::ALL.into_iter().filter(|kind| *kind != InputKind::Frame) {
@@ -115,7 +124,7 @@ pub fn input_columns(
             }
             slopes
         }
-        None => by_differences(&bare, point, &start, tolerances)?,
+        None => by_differences(&bare, point, &start, tolerances, &InputKind::BUT_FRAME)?,
     };
     columns = columns.resize_horizontally(InputKind::COLUMNS, 0.0);
     for (k, column) in InputKind::Frame.columns().enumerate() {
@@ -132,18 +141,18 @@ fn column_matrix(column: &DVector<f64>) -> DMatrix<f64> {
     DMatrix::from_column_slice(column.len(), 1, column.as_slice())
 }
 
-/// Columns of all inputs but the axes of the readings, whatever is at work.
+/// Columns of some kinds of inputs, not the axes of the readings, whatever is at work.
 fn by_differences(
     campaign: &Campaign,
     point: &ModelPoint,
     start: &Linearization,
     tolerances: &Tolerances,
+    kinds: &[InputKind],
 ) -> Result<DMatrix<f64>, ModelError> {
     let here = start.residuals();
     let drawn = try_map(&campaign.groups, |group| point.machine.legs(&group.mean.pose))?;
-    let inputs = InputKind::ALL.iter().filter(|kind| **kind != InputKind::Frame);
     let inputs: Vec<(InputKind, usize)> =
-        inputs.flat_map(|&kind| (0..kind.count()).map(move |k| (kind, k))).collect();
+        kinds.iter().flat_map(|&kind| (0..kind.count()).map(move |k| (kind, k))).collect();
     let column = |&(kind, k): &(InputKind, usize)| -> Result<DVector<f64>, ModelError> {
         let there = residuals_with(campaign, point, &drawn, (kind, k))?;
         // A residual falls as the prediction rises.
@@ -156,12 +165,21 @@ fn by_differences(
 /// A campaign whose inputs are as good as the tolerances of its machine; as it is where springs cannot be fitted.
 #[must_use]
 pub fn within_tolerances(campaign: Campaign) -> Campaign {
-    if campaign.is_absolute() {
-        return campaign;
-    }
-    match fit(&campaign, &[], None) {
-        Ok(springs) => within_tolerances_at(campaign, &springs.point),
+    let fitted = if campaign.is_absolute() { with_joints(&campaign) } else { fit(&campaign, &[], None) };
+    match fitted {
+        Ok(fitted) => within_tolerances_at(campaign, &fitted.point),
         Err(_) => campaign,
+    }
+}
+
+/// Springs beside the places of the joints: in absolute poses the errors of joints are larger than deflections, and what springs alone
+/// would be there says nothing of what loads do.
+fn with_joints(campaign: &Campaign) -> Result<Fit, ModelError> {
+    let places = |term: &Arc<dyn Term>| term.info().chapter == Chapter::AbsolutePoses && term.calibrates();
+    let joints: Vec<Added> = catalogue().into_iter().filter(places).map(Added::from).collect();
+    match fit_wanted(campaign, &joints) {
+        Ok((_, fitted)) => Ok(fitted),
+        Err(_) => fit(campaign, &[], None),
     }
 }
 
@@ -427,7 +445,8 @@ mod tests {
                 ..Tolerances::default()
             };
             let closed = by_springs(&campaign, &point, &lin).unwrap();
-            let differences = by_differences(&campaign, &point, &lin, &tolerances).unwrap();
+            let differences =
+                by_differences(&campaign, &point, &lin, &tolerances, &InputKind::BUT_FRAME).unwrap();
             for k in 0..closed.ncols() {
                 let (a, b) = (closed.column(k), differences.column(k));
                 let off = (a - b).norm() / b.norm();

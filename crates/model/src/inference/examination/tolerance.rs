@@ -10,6 +10,7 @@ use hexbench_core::Tolerances;
 use nalgebra::{DMatrix, DVector};
 
 use super::remainder::{Remainder, explained};
+use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::beside;
 use crate::estimation::tolerances::{InputKind, columns_of_sensor};
 use crate::inference::candidates::{orthonormal, project, target};
@@ -48,11 +49,8 @@ pub(super) struct Tolerance {
     pub(super) errors: Vec<f64>,
 }
 
-/// What the readings tell of the inputs; none for absolute poses, where the joints are an effect of the catalogue.
+/// What the readings tell of the inputs.
 pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
-    if rest.campaign.is_absolute() {
-        return None;
-    }
     let basis = orthonormal(&beside(&explained(&rest.lin, rest.point)));
     let mut y = target(&rest.lin, rest.point);
     project(&basis, &mut y);
@@ -89,10 +87,16 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     Some(Tolerance { doubted, factor, size: unit * factor, evidence, errors })
 }
 
+/// Joints of a machine whose poses are absolute are an effect of the catalogue.
+fn doubted_kinds(campaign: &Campaign) -> impl Iterator<Item = InputKind> {
+    let joints_are_fitted = campaign.is_absolute();
+    DOUBTED.into_iter().filter(move |kind| !(joints_are_fitted && *kind == InputKind::Joints))
+}
+
 /// Inputs that are doubted, with their columns.
 fn doubted(rest: &Remainder<'_>) -> Vec<(Doubted, Range<usize>)> {
     let mut all: Vec<(Doubted, Range<usize>)> =
-        DOUBTED.iter().map(|&kind| (Doubted::Inputs(kind), kind.columns())).collect();
+        doubted_kinds(rest.campaign).map(|kind| (Doubted::Inputs(kind), kind.columns())).collect();
     if !rest.campaign.reads_poses {
         let sensors = &rest.campaign.hexapod.sensors;
         for index in 0..sensors.len() {
