@@ -66,6 +66,8 @@ pub enum Purpose {
     SpringTrials = 300,
     /// Simulated outcomes behind the chance to tell two explanations apart.
     SeparationOutcomes = 301,
+    /// Draws from the Gaussian behind the evidence of a set of effects.
+    GaussianCheck = 302,
 
     /// Exchange of readings: a random plan to start from.
     ExchangeStart = 400,

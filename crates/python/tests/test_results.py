@@ -12,7 +12,8 @@ from conftest import ROOT, SCENES, Command, case
 import hexbench
 
 KEYS = {
-    "format", "verdict", "added", "model", "small", "richer", "candidates", "present", "credible_set", "steps", "nested", "holdout", "noise",
+    "format", "verdict", "added", "model", "small", "richer", "candidates", "present",
+    "gaussian_checks", "credible_set", "steps", "nested", "holdout", "noise",
     "parameters", "not_determined", "untestable", "detectable", "next", "separation", "absorbed", "suspects", "outside",
     "remainder", "warnings", "findings", "excluded", "keep_all", "read_as", "alternative", "run",
 }  # fmt: skip

@@ -15,6 +15,9 @@ use super::suite::RegressSuite;
 /// Name and version of the file format.
 pub const FORMAT: &str = "regress-baseline/1";
 
+/// Values of a run from which its mean is compared with that of the same campaigns.
+const MANY: u64 = 60;
+
 /// What runs are compared with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -61,6 +64,26 @@ pub struct BaselineEntry {
     pub sample: CondensedValues,
     /// Fingerprint of the values of the first run.
     pub first: String,
+    /// The first run alone, where many campaigns are behind it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_run: Option<FirstRun>,
+}
+
+/// What a run with the same seed, which has the same campaigns, is compared with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FirstRun {
+    /// Values.
+    pub n: u64,
+    /// Their mean; of errors and counts that of their logarithms.
+    pub mean: f64,
+}
+
+impl FirstRun {
+    fn of(sample: &CondensedValues) -> Option<Self> {
+        let is_mean = matches!(sample, CondensedValues::Size { .. } | CondensedValues::Spread { .. });
+        (is_mean && sample.count() >= MANY).then(|| Self { n: sample.count(), mean: sample.moments().0 })
+    }
 }
 
 /// Why a baseline cannot be used.
@@ -172,7 +195,11 @@ pub fn made(
         return Err(BaselineError::NoReason);
     }
     let entry = |(limit, g): (&RegressLimit, &LimitSample)| {
-        (limit.id.clone(), BaselineEntry { sample: g.sample.clone(), first: g.fingerprint.clone() })
+        let first_run = FirstRun::of(&g.first);
+        (
+            limit.id.clone(),
+            BaselineEntry { sample: g.sample.clone(), first: g.fingerprint.clone(), first_run },
+        )
     };
     Ok(Baseline {
         format: FORMAT.to_owned(),

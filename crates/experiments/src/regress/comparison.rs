@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::baseline::{Baseline, Update};
-use super::figure::{figure, notice};
+use super::baseline::{Baseline, BaselineEntry, Update};
+use super::figure::{figure, notice, of_first};
 use super::gathered::{LimitSample, gather};
-use super::limit::{LimitGroup, RegressLimit};
+use super::limit::{LimitGroup, LimitTest, RegressLimit};
 use super::notice::noticed;
-use super::rule::{FALSE_ALARM, LimitVerdict, judge};
+use super::rule::{FALSE_ALARM, LimitVerdict, SAME_CAMPAIGNS, grown, judge};
 use super::sample::CondensedValues;
 use super::suite::RegressSuite;
 use super::trials::SuiteTrials;
@@ -98,7 +98,10 @@ pub fn of_samples(
     let find = |(limit, now): (&RegressLimit, &LimitSample)| {
         let before = &baseline.limits.get(&limit.id)?;
         let mut found = finding(limit, &now.sample, &before.sample, runs, level);
-        found.same_values = same_seed.then(|| now.fingerprint == before.first);
+        if same_seed {
+            found.same_values = Some(now.fingerprint == before.first);
+            found.compare_campaigns(limit.test, before);
+        }
         Some(found)
     };
     RunComparison {
@@ -141,6 +144,19 @@ fn finding(
 }
 
 impl LimitOutcome {
+    /// Beside the very campaigns of the baseline's first run, where what is drawn plays no part.
+    fn compare_campaigns(&mut self, test: LimitTest, before: &BaselineEntry) {
+        let Some(first) = before.first_run.as_ref().filter(|_| self.verdict == LimitVerdict::Same) else {
+            return;
+        };
+        let growth = grown(test, &self.sample, first);
+        if growth > SAME_CAMPAIGNS {
+            self.verdict = LimitVerdict::Worse;
+            self.chance = None;
+            self.before = format!("on the same campaigns {}", of_first(test, first));
+        }
+    }
+
     /// Why it failed, in figures.
     pub fn complaint(&self) -> String {
         let chance = self.chance.map(|p| format!("; by chance {}", probability(p))).unwrap_or_default();

@@ -2,6 +2,7 @@
 
 use hexbench_report::number::{hundredths, significant};
 
+use super::baseline::FirstRun;
 use super::limit::{LimitTest, LimitUnit};
 use super::sample::CondensedValues;
 
@@ -25,6 +26,13 @@ pub fn figure(test: LimitTest, sample: &CondensedValues) -> String {
         CondensedValues::Exact { ref values } if values.iter().any(Option::is_none) => "not found".to_owned(),
         CondensedValues::Exact { .. } => exact(sample.moments().0),
     }
+}
+
+/// The mean of the baseline's first run in one figure.
+pub fn of_first(test: LimitTest, first: &FirstRun) -> String {
+    let value =
+        if test == LimitTest::Spread { format!("{:.2}", first.mean) } else { mean(test, first.mean.exp()) };
+    format!("{value} (n = {})", first.n)
 }
 
 /// What a limit would notice, in the words of its figure; `reference` is the baseline.

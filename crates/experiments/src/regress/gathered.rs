@@ -16,6 +16,8 @@ pub struct LimitSample {
     pub sample: CondensedValues,
     /// The same for the same values, to the last bit.
     pub fingerprint: String,
+    /// The sample of the first run behind it.
+    pub first: CondensedValues,
 }
 
 /// Samples of every limit, in the order of the limits.
@@ -27,14 +29,15 @@ pub fn gather(limits: &[RegressLimit], trials: &SuiteTrials) -> Vec<LimitSample>
 pub fn pool(limits: &[RegressLimit], runs: &[SuiteTrials]) -> Vec<LimitSample> {
     let one = |limit: &RegressLimit| {
         let values: Vec<f64> = runs.iter().flat_map(|t| (limit.values)(t)).collect();
-        let first = runs.first().map(|t| fingerprint(&(limit.values)(t))).unwrap_or_default();
-        LimitSample { sample: CondensedValues::of(limit.test, &values), fingerprint: first }
+        let first = runs.first().map(|t| (limit.values)(t)).unwrap_or_default();
+        LimitSample { sample: CondensedValues::of(limit.test, &values), ..of(limit, &first) }
     };
     limits.iter().map(one).collect()
 }
 
 fn of(limit: &RegressLimit, values: &[f64]) -> LimitSample {
-    LimitSample { sample: CondensedValues::of(limit.test, values), fingerprint: fingerprint(values) }
+    let sample = CondensedValues::of(limit.test, values);
+    LimitSample { first: sample.clone(), sample, fingerprint: fingerprint(values) }
 }
 
 fn fingerprint(values: &[f64]) -> String {

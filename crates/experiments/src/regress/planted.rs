@@ -65,5 +65,5 @@ pub fn read(
 fn sample_of(limit: &RegressLimit, run: &RunComparison) -> LimitSample {
     let found = run.findings.iter().find(|f| f.id == limit.id).map(|f| f.sample.clone());
     let sample = found.unwrap_or_else(|| CondensedValues::of(limit.test, &[]));
-    LimitSample { sample, fingerprint: String::new() }
+    LimitSample { first: sample.clone(), sample, fingerprint: String::new() }
 }

@@ -17,11 +17,15 @@
 //! - Without noise: no chance. The same machines are fitted in every run, and what is left is the linearisation of the model on
 //!   them: [`RATIO`]. Where it is rounding, its derived bound must hold.
 //!
+//! - On the same campaigns (the seed of the baseline): a mean over many of them that is worse by more than [`SAME_CAMPAIGNS`], whatever
+//!   chance would allow among other campaigns; an unchanged program gives the same values.
+//!
 //! A run with `L` limits in which chance takes part fails wrongly with a probability of at most [`FALSE_ALARM`], of which each
 //! limit has the share `1 / L` (Bonferroni).
 
 use statrs::distribution::{ContinuousCDF, DiscreteCDF, FisherSnedecor, Hypergeometric, StudentsT};
 
+use super::baseline::FirstRun;
 use super::limit::LimitTest;
 use super::sample::CondensedValues;
 
@@ -30,6 +34,21 @@ pub const FALSE_ALARM: f64 = 1e-3;
 /// Errors without noise may grow by this factor: solvers stop within a hundredth of a percent of the same point, so that half as
 /// much again is no rounding.
 pub const RATIO: f64 = 1.5;
+
+/// A mean over the same campaigns may be worse by this factor: another rounding moves it by a hundredth at most.
+pub const SAME_CAMPAIGNS: f64 = 1.15;
+
+/// By which factor a mean over the same campaigns is worse; a variance is the worse the farther it is from one.
+pub(super) fn grown(test: LimitTest, now: &CondensedValues, first: &FirstRun) -> f64 {
+    let mean = now.moments().0;
+    if now.count() == 0 || !mean.is_finite() {
+        return f64::INFINITY;
+    }
+    match test {
+        LimitTest::Spread => (mean.ln().abs() - first.mean.ln().abs()).exp(),
+        _ => (mean - first.mean).exp(),
+    }
+}
 
 /// How a limit compares.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -6,9 +6,9 @@ use std::sync::OnceLock;
 use hexbench_core::statistics::Proportion;
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_experiments::harness::{self, Silent};
-use hexbench_experiments::regress::baseline::{Baseline, Update, made};
+use hexbench_experiments::regress::baseline::{Baseline, FirstRun, Update, made};
 use hexbench_experiments::regress::comparison::{RunComparison, compare};
-use hexbench_experiments::regress::gathered::pool;
+use hexbench_experiments::regress::gathered::{gather, pool};
 use hexbench_experiments::regress::junit::junit;
 use hexbench_experiments::regress::limit::{LimitTest, LimitUnit};
 use hexbench_experiments::regress::limits::limits;
@@ -97,6 +97,24 @@ fn what_is_planted_in_the_values_fails_its_own_limits() {
         let found = failed(&trials);
         assert!(found.iter().any(|f| f == id), "{id} is not among {found:?}");
     }
+}
+
+#[test]
+fn errors_that_grow_by_a_fifth_on_the_same_campaigns_are_seen_though_chance_could_do_that_on_others() {
+    let suite = RegressSuite::quick();
+    let limits = limits(&suite);
+    let trials = &baseline().1;
+    let at = limits.iter().position(|limit| limit.id == "stiffness-error").unwrap();
+    let now = gather(&limits, trials).swap_remove(at).sample;
+    let verdict = |growth: f64, seed: u64| {
+        let mut committed = baseline().0.clone();
+        let first_run = FirstRun { n: now.count(), mean: now.moments().0 - growth.ln() };
+        committed.limits.get_mut("stiffness-error").unwrap().first_run = Some(first_run);
+        compare(&suite, &limits, (trials, seed), &committed, "0").findings.swap_remove(at).verdict
+    };
+    assert_eq!(verdict(1.1, 1), LimitVerdict::Same);
+    assert_eq!(verdict(1.2, 1), LimitVerdict::Worse);
+    assert_eq!(verdict(1.2, 2), LimitVerdict::Same, "another seed draws other campaigns");
 }
 
 #[test]

@@ -131,5 +131,10 @@ fn stiffness_from_absolute_poses_is_covered_when_loads_are_as_good_as_their_tole
     }
     let mean_square = |pulls: &[f64]| pulls.iter().map(|p| p * p).sum::<f64>() / pulls.len() as f64;
     assert!(mean_square(&pulls) < 1.4, "{}", mean_square(&pulls));
-    assert!(mean_square(&exact) > 1.2 * mean_square(&pulls), "{} {}", mean_square(&exact), mean_square(&pulls));
+    assert!(
+        mean_square(&exact) > 1.2 * mean_square(&pulls),
+        "{} {}",
+        mean_square(&exact),
+        mean_square(&pulls)
+    );
 }

@@ -10,6 +10,7 @@ pub mod evidence;
 pub mod examination;
 pub mod explanation;
 pub mod gain;
+pub mod importance;
 pub mod misread;
 pub mod pattern;
 pub(crate) mod period;

@@ -76,6 +76,9 @@ class Diagnosis:
     candidates: list[dict[str, Any]]
     #: Probability that an effect is at work at all.
     present: dict[str, float]
+    #: How good the Gaussian behind these probabilities is, for the leading sets of effects: ``terms``, ``draws``, ``pareto_k``
+    #: (None where all weights are alike), ``log_evidence_change``; empty with more than 300 conditions and for absolute poses.
+    gaussian_checks: list[dict[str, Any]]
     #: Smallest set of effects that holds 95 % of the probability.
     credible_set: list[str]
     #: Errors, fitted and held out, of every step of the model, springs alone first; ``gain`` and ``worth`` of the effect added.

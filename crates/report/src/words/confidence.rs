@@ -1,12 +1,13 @@
 //! How sure: probabilities, and what looks alike.
 
 use hexbench_model::inference::explanation::Explanation;
+use hexbench_model::inference::importance::GaussianCheck;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{CandidateReport, Diagnosis};
 use hexbench_model::results::words::joined;
 
 use super::conclusion::in_words;
-use crate::number::percent;
+use crate::number::{self, percent};
 use crate::page::{Block, Cell, PageColumn, Section, Table};
 
 /// Least probability that gets a row.
@@ -35,7 +36,21 @@ pub fn section(d: &Diagnosis) -> Section {
         .table(table)
         .with((shown < all.len()).then(|| Block::paragraph("Anything else, each: below 1 %.")))
         .with(beside.then(|| Block::paragraph(BESIDE_OUTSIDE)))
+        .with_all(d.gaussian_checks.iter().filter(|c| c.is_off()).map(|c| Block::paragraph(roughness(c))))
         .with_all(look_alikes(d).into_iter().map(Block::paragraph))
+}
+
+/// What is said where the evidence of a set rests on a Gaussian that is none.
+fn roughness(check: &GaussianCheck) -> String {
+    let factor = number::significant(check.log_evidence_change.abs().exp(), 2);
+    let direction = if check.log_evidence_change < 0.0 { "smaller" } else { "larger" };
+    let heavy = if check.is_heavy() { "; few draws decide that, so it is rough too" } else { "" };
+    format!(
+        "The probability of {} is rough: what the readings leave open is far from Gaussian, and by {} draws its evidence is {factor} times \
+         {direction}{heavy}.",
+        joined(&check.terms),
+        check.draws,
+    )
 }
 
 /// Effects, something outside, and nothing at all, the most probable first.

@@ -503,6 +503,8 @@ export type Diagnosis = {
   present: {
     [key in string]: number
   };
+  /** How good the Gaussian behind these probabilities is, for the leading sets of effects; empty with more than 300 conditions and for absolute poses. */
+  gaussian_checks: Array<GaussianCheck>;
   /** Smallest set of effects that holds 95 % of the probability. */
   credible_set: Array<string>;
   /** Error per step of the model, springs alone first. */
@@ -582,6 +584,18 @@ export type FindingKind = "blunder" | "pose" | "load" | "noise-level" | "heavy-t
 
 /** Whether held-out readings show an effect. */
 export type GainOutcome = "shown" | "open" | "refuted";
+
+/** What the draws say of one set. */
+export type GaussianCheck = {
+  /** Effects of the set. */
+  terms: Array<string>;
+  /** Draws that were weighed. */
+  draws: number;
+  /** Shape of the tail of their weights (Pareto k); absent where all weights are alike. */
+  pareto_k: number | null;
+  /** What the logarithm of the evidence lacks, by their mean. */
+  log_evidence_change: number;
+};
 
 /**
  * What held-out readings say of an effect that was added to a model.

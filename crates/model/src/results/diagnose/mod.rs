@@ -44,6 +44,7 @@ use crate::inference::candidates::Candidate;
 use crate::inference::diagnosis::RankedSets;
 use crate::inference::examination::is_misread;
 use crate::inference::explanation::Explanation;
+use crate::inference::importance::gaussian_checks;
 use crate::inference::misread::{AsMeant, held_in, names};
 use crate::inference::power::detectable;
 use crate::inference::selection::{HeldOut, same_kind};
@@ -142,6 +143,7 @@ pub fn diagnose_with(
         richer,
         candidates: candidates(&judgement, &outcome),
         present: judgement.present.clone(),
+        gaussian_checks: if is_misread { Vec::new() } else { gaussian_checks(&campaign, &outcome) },
         credible_set: judgement.credible.clone(),
         steps,
         nested: if holdout.is_none() && !is_misread {

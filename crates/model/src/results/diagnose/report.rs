@@ -16,6 +16,7 @@ use crate::estimation::residuals::ErrorSummary;
 use crate::inference::examination::{Finding, is_misread};
 use crate::inference::explanation::Explanation;
 use crate::inference::gain::{HeldOutGain, UNLIKELY, Worth};
+use crate::inference::importance::GaussianCheck;
 use crate::inference::power::Detectable;
 use crate::inference::selection::HeldOut;
 use crate::inference::verdict::Verdict;
@@ -41,6 +42,8 @@ pub struct Diagnosis {
     pub candidates: Vec<CandidateReport>,
     /// Probability that an effect is present at all, alone or beside others.
     pub present: BTreeMap<String, f64>,
+    /// How good the Gaussian behind these probabilities is, for the leading sets of effects; empty with more than 300 conditions and for absolute poses.
+    pub gaussian_checks: Vec<GaussianCheck>,
     /// Smallest set of effects that holds 95 % of the probability.
     #[cfg_attr(feature = "typescript", ts(as = "Vec<String>"))]
     pub credible_set: Vec<Explanation>,
