@@ -46,6 +46,8 @@ pub struct Added {
     pub term: Arc<dyn Term>,
     /// True for the richer form.
     pub richer: bool,
+    /// True when no other version competes.
+    usual: bool,
 }
 
 impl Added {
@@ -59,13 +61,23 @@ impl Added {
             .split_once(':')
             .and_then(|(id, word)| version_named(terms.iter().find(|t| t.info().id == id)?, word))
         {
-            return Ok(Self { term, richer });
+            return Ok(Self { term, richer, usual: false });
         }
         let term = term_named(id, terms)?;
         if richer && term.info().rich == Rich::None {
             return Err(ModelError::Selection(format!("`{id}` has no richer form")));
         }
-        Ok(Self { term, richer })
+        Ok(Self { term, richer, usual: false })
+    }
+
+    /// True when the readings choose among its versions.
+    fn is_open(&self) -> bool {
+        !self.usual && !self.richer && self.term.version().is_none() && !self.term.versions().is_empty()
+    }
+
+    /// The same in its usual version.
+    fn usual(&self) -> Self {
+        Self { usual: true, ..self.clone() }
     }
 
     /// As it is asked for.
@@ -77,7 +89,7 @@ impl Added {
 
 impl From<Arc<dyn Term>> for Added {
     fn from(term: Arc<dyn Term>) -> Self {
-        Self { term, richer: false }
+        Self { term, richer: false, usual: false }
     }
 }
 
@@ -97,10 +109,33 @@ pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, Mo
 /// As [`fit_named`].
 pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>, Fit), ModelError> {
     refuse_twice(added)?;
+    let chosen = one_by_one(campaign, added)?;
+    let usual: Vec<Added> = added.iter().map(Added::usual).collect();
+    if added.len() < 2 || usual.iter().zip(added).all(|(usual, one)| usual.is_open() == one.is_open()) {
+        return Ok(chosen);
+    }
+    // A version chosen while an effect was still missing may have stood for that effect, and lead to another optimum.
+    let Ok(usual) = one_by_one(campaign, &usual) else { return Ok(chosen) };
+    Ok(if cost(campaign, &usual) < cost(campaign, &chosen) { usual } else { chosen })
+}
+
+/// What a fit leaves and what its values and shapes cost (Schwarz).
+fn cost(campaign: &Campaign, (wanted, fitted): &(Vec<TermSpec>, Fit)) -> f64 {
+    let all: f64 = wanted.iter().map(|w| numbers(w.term.as_ref())).sum();
+    fitted.chi2 + all * (campaign.numbers as f64).ln()
+}
+
+/// Values and shape of a version of a term.
+fn numbers(term: &dyn Term) -> f64 {
+    (term.info().parameters.len() + usize::from(term.info().shape.is_some())) as f64
+}
+
+/// Terms added one after the other, each in the version that the readings ask for at that point.
+fn one_by_one(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>, Fit), ModelError> {
     let mut fitted = fit_baseline(campaign)?;
     let natural = fitted.natural(&Linearization::at(campaign, &fitted.point)?);
     let mut wanted: Vec<TermSpec> = Vec::new();
-    for Added { term, richer } in added {
+    for one @ Added { term, richer, .. } in added {
         let lin = Linearization::at(campaign, &fitted.point)?;
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
@@ -109,8 +144,8 @@ pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>
             let prior = prior(version.as_ref(), *richer, &natural);
             TermSpec { term: Arc::clone(version), rich: *richer, shape: 1.0, prior }
         };
-        let is_open = !richer && term.version().is_none();
-        let next = spec(&if is_open { best_version(term, spec, &fitted, &lin) } else { Arc::clone(term) });
+        let next =
+            spec(&if one.is_open() { best_version(term, spec, &fitted, &lin) } else { Arc::clone(term) });
         let place = wanted.len();
         (wanted, fitted) = best_start(campaign, &wanted, (place, &next), &fitted, &lin)?;
     }
@@ -200,7 +235,6 @@ fn best_version(
     if others.is_empty() {
         return Arc::clone(term);
     }
-    let numbers = |t: &dyn Term| (t.info().parameters.len() + usize::from(t.info().shape.is_some())) as f64;
     let unexplained = Unexplained::by(fitted, lin);
     let worth = |version: &Arc<dyn Term>| {
         let gains = unexplained.gains(&spec(version), &version.shape_grid(&lin.conditions));
