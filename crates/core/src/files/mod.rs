@@ -7,6 +7,7 @@
 //! | poses and loads to be measured | [`read_plan`] | - |
 //! | any of these, in memory | [`read_columns`] | [`campaign_to_columns`] |
 //! | `balls.csv`, `balls.toml` | [`read_balls`], [`read_ball_places`] | - |
+//! | `loads.csv` | [`read_loads`] | - |
 //! | `hexapod.toml` | [`read_hexapod`] | [`hexapod_to_toml`], [`write_hexapod`] |
 //! | any other TOML | [`read_toml`] | - |
 //! | any other | [`content_hash`] | [`atomic_write`] |
@@ -25,6 +26,7 @@ mod error;
 mod header;
 mod line;
 mod lines;
+mod load_columns;
 mod nearest;
 mod next_step;
 mod number;
@@ -35,6 +37,7 @@ mod read_columns;
 mod read_conditions;
 mod read_hexapod;
 mod read_joints;
+mod read_loads;
 mod read_measurements;
 mod read_sensor;
 mod row;
@@ -62,6 +65,7 @@ pub use read_columns::{Cells, MemoryColumn, read_columns};
 pub use read_conditions::{read_conditions, read_plan};
 pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_joints::read_joints;
+pub use read_loads::read_loads;
 pub use read_measurements::{read_campaign, read_campaign_from, read_measurements, read_measurements_from};
 pub use read_sensor::{SENSOR_WITH_COST, point, sensor_name, sensor_of, sensors, unit_vector};
 pub use table::TableReading;

@@ -4,12 +4,13 @@ use super::error::Fault;
 use super::header::{GroupPurpose, refuse_numbers};
 use super::line::{Line, whole_place};
 use super::lines::{Lines, RawLine};
+use super::load_columns::load_row;
 use super::number::{Decimals, parse_number};
 use super::row::FilledRow;
 use super::table::{Table, TableReading};
 use super::warning::Notice;
 use super::{FileError, FilePlace, FileProblem, Warning};
-use crate::Hexapod;
+use crate::{Hexapod, LoadRow};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::ops::Range;
@@ -65,7 +66,12 @@ pub(crate) fn read_named(
     purpose: GroupPurpose,
     machine: Option<&Hexapod>,
 ) -> Result<TableReading, Fault> {
-    read_table(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?), name, purpose, machine)
+    read_table(opened(path)?, name, purpose, machine)
+}
+
+/// A file to be read line by line.
+pub(crate) fn opened(path: &Path) -> Result<impl BufRead, Fault> {
+    Ok(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?))
 }
 
 /// The same from memory or a stream; `name` stands for the file in messages.
@@ -82,6 +88,15 @@ fn read_table(
     purpose: GroupPurpose,
     machine: Option<&Hexapod>,
 ) -> Result<TableReading, Fault> {
+    rows_of(input, purpose, machine)?.finish(name)
+}
+
+/// All rows of a table, before it is finished.
+pub(crate) fn rows_of(
+    input: impl BufRead,
+    purpose: GroupPurpose,
+    machine: Option<&Hexapod>,
+) -> Result<Csv, Fault> {
     let mut lines = Lines::new(input);
     let mut table = start(&mut lines, purpose, machine)?;
     let mut cells = Vec::new();
@@ -93,7 +108,7 @@ fn read_table(
     if let Some(encoding) = lines.encoding {
         table.table.warnings.push(Warning::new(FilePlace::file(), Notice::Encoding(encoding)));
     }
-    table.finish(name)
+    Ok(table)
 }
 
 fn start<R: BufRead>(
@@ -141,8 +156,10 @@ fn is_skipped(text: &str, separator: u8) -> bool {
 }
 
 /// A table while it is read from text.
-struct Csv {
-    table: Table,
+pub(crate) struct Csv {
+    pub(crate) table: Table,
+    /// Of a table of loads: records and masses of each row.
+    pub(crate) loads: Vec<LoadRow>,
     separator: u8,
     decimals: Decimals,
     units: UnitRow,
@@ -171,7 +188,13 @@ impl Csv {
         if let Some(name) = name {
             table.warnings.insert(0, Warning::new(whole_place(&header), Notice::Separator(name)));
         }
-        Ok(Self { table, separator, decimals: Decimals::default(), units: UnitRow::MayFollow })
+        Ok(Self {
+            table,
+            loads: Vec::new(),
+            separator,
+            decimals: Decimals::default(),
+            units: UnitRow::MayFollow,
+        })
     }
 
     fn add(&mut self, raw: RawLine<'_>, cells: &mut Vec<Range<usize>>) -> Result<(), Fault> {
@@ -188,9 +211,24 @@ impl Csv {
         self.table
             .push(&row, line.number(), raw.text)
             .map_err(|problem| Fault::new(line.whole_place(), problem))?;
+        if self.table.plan.of_loads.iter().any(Option::is_some) {
+            self.add_load(&line)?;
+        }
         if !raw.ended {
             self.table.warnings.push(Warning::new(whole_place(&raw), Notice::NoFinalNewline));
         }
+        Ok(())
+    }
+
+    /// What only a table of loads says.
+    fn add_load(&mut self, line: &Line<'_>) -> Result<(), Fault> {
+        let plan = &self.table.plan;
+        let number = |text: &str| number_of(text, self.separator, &mut self.decimals, line.number());
+        let row = load_row(&plan.of_loads, line, number).map_err(|(cell, problem)| {
+            let place = line.place(cell).with_name(&plan.names[cell]).with_value(line.text(cell));
+            Fault::new(place, problem)
+        })?;
+        self.loads.push(row);
         Ok(())
     }
 
@@ -238,7 +276,7 @@ impl Csv {
         Ok(row)
     }
 
-    fn finish(mut self, name: &str) -> Result<TableReading, Fault> {
+    pub(crate) fn finish(mut self, name: &str) -> Result<TableReading, Fault> {
         self.table.decimal_comma = self.decimals.has_comma();
         self.table.finish(name)
     }
