@@ -12,6 +12,7 @@ mod moved;
 mod order;
 mod placing;
 mod points;
+mod shape;
 
 use hexbench_core::{
     BallPlace, BallPlaces, BallRecord, Dataset, LoadRow, LoadTable, Matrix6, Measurand, Observation, Pose,
@@ -22,6 +23,7 @@ use super::{Places, Registered, RegisteredPose, RegistrationError, register_all}
 pub use moved::MovedBall;
 pub use placing::InstrumentAxes;
 use placing::{Fixed, Placing};
+use shape::by_commands;
 
 /// Acceleration of free fall as agreed upon, m/s^2.
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -153,9 +155,17 @@ pub fn campaign_of_balls(
     let is_used = |k: &usize| used.contains(k);
     let in_use: Vec<BallRecord> = (0..records.len()).filter(is_used).map(|k| records[k].clone()).collect();
     let sigma = how.sigma.or_else(|| how.places.and_then(|places| places.sigma));
-    let found = register_all(&in_use, &known, sigma)?;
+    let mut found = register_all(&in_use, &known, sigma)?;
+    if let (None, None, Some(left)) = (how.places, sigma, found.estimated_sigma) {
+        // The records have told the shape of the balls too: one of them is used up.
+        let share = 1.0 - 1.0 / in_use.len() as f64;
+        found = register_all(&in_use, &known, Some(left / share.sqrt()))?;
+    }
     let placing = Placing::new(records, &known, &commands(&pairs))?;
-    placing.refuse_other_orders()?;
+    // The frame of the target is open where absolute poses are read: there the balls may stand anywhere on the platform.
+    if pairs.iter().any(|pair| pair.reference.is_some()) {
+        placing.refuse_other_orders()?;
+    }
     let fixed = placing.fixed(how.align);
     let of_record = |k: usize| &found.poses[(0..k).filter(is_used).count()];
     let rows: Vec<Reading> = pairs.iter().map(|p| reading(p, &of_record, &fixed, how.gravity)).collect();
@@ -196,26 +206,6 @@ fn pairs<'a>(records: &[BallRecord], loads: &'a LoadTable) -> Result<Vec<Pair<'a
 /// Records that stood at a commanded pose under the smaller load, and that pose.
 fn commands(pairs: &[Pair<'_>]) -> Vec<(usize, Pose)> {
     pairs.iter().flat_map(|p| p.reference.into_iter().chain([p.loaded]).map(|k| (k, p.row.pose))).collect()
-}
-
-/// Places of the balls as the commanded poses of the reference records have them.
-fn by_commands(records: &[BallRecord], pairs: &[Pair<'_>]) -> Result<Places, BallCampaignError> {
-    use hexbench_core::statistics::median;
-    let references: Vec<(&BallRecord, &Pose)> =
-        pairs.iter().filter_map(|p| Some((&records[p.reference?], &p.row.pose))).collect();
-    let Some((first, _)) = references.first() else { return Err(BallCampaignError::NoPlaces) };
-    let place = |ball: &BallPlace| {
-        let seen: Vec<Vector3> = references
-            .iter()
-            .filter_map(|(record, pose)| {
-                Some(pose.rotation().transpose() * (record.centre(&ball.ball)? - pose.translation))
-            })
-            .collect();
-        let centre = Vector3::from_fn(|k, _| median(seen.iter().map(|p| p[k])).unwrap_or_default());
-        BallPlace { ball: ball.ball.clone(), centre }
-    };
-    let platform = first.balls.iter().map(place).collect();
-    Ok(Places { platform, base: Vec::new(), origin: Vector3::zeros(), measured: false })
 }
 
 /// The six numbers of a row, and its wrenches.

@@ -2,13 +2,11 @@
 
 use hexbench_core::{BallPlace, BallRecord, Vector3};
 
-use super::super::{Places, distances};
+use super::super::{DistanceResidual, Places, distances};
 use super::Pair;
 
 /// A change of a distance by so many standard deviations.
 const MOVED_SIGMAS: f64 = 5.0;
-/// A second ball whose distances changed by this share of those of the first may as well be the one that moved.
-const AS_MUCH: f64 = 0.7;
 
 /// A ball that moved.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,36 +33,29 @@ pub(super) fn between(
         let touched = |record: &BallRecord| -> Vec<Vector3> {
             balls.iter().filter_map(|place| record.centre(&place.ball)).collect()
         };
-        let (sums, change) = changes(&touched(before), &touched(after));
+        let changes = distances(&touched(before), &touched(after));
         // The difference of two distances has four times the variance of a coordinate.
-        if sigma <= 0.0 || change.abs() < MOVED_SIGMAS * 2.0 * sigma {
+        let limit = MOVED_SIGMAS * 2.0 * sigma;
+        let largest = changes.iter().map(|change| change.residual.abs()).fold(0.0, f64::max);
+        if sigma <= 0.0 || largest < limit {
             return None;
         }
         Some(MovedBall {
             line: pair.load.line,
             records: [before.id.clone(), after.id.clone()],
-            balls: suspects(&sums, balls),
-            change,
+            balls: suspects(&changes, balls, limit),
+            change: largest,
         })
     })
 }
 
-/// Sum of squared changes of the distances of every ball, and the largest change.
-fn changes(before: &[Vector3], after: &[Vector3]) -> (Vec<f64>, f64) {
-    let mut sums = vec![0.0; before.len()];
-    let mut largest: f64 = 0.0;
-    for change in distances(before, after) {
-        sums[change.first] += change.residual.powi(2);
-        sums[change.second] += change.residual.powi(2);
-        if change.residual.abs() > largest.abs() {
-            largest = change.residual;
-        }
-    }
-    (sums, largest)
-}
-
-fn suspects(sums: &[f64], balls: &[BallPlace]) -> Vec<String> {
-    let most = sums.iter().copied().fold(0.0, f64::max);
-    let moved = sums.iter().zip(balls).filter(|(sum, _)| **sum > AS_MUCH * most);
-    moved.map(|(_, place)| place.ball.clone()).collect()
+/// Balls whose own distances alone have changed; all that a change touches where several moved.
+fn suspects(changes: &[DistanceResidual], balls: &[BallPlace], limit: f64) -> Vec<String> {
+    let changed: Vec<_> = changes.iter().filter(|change| change.residual.abs() > limit).collect();
+    let of = |change: &DistanceResidual, k: usize| change.first == k || change.second == k;
+    let named = |is_one: &dyn Fn(usize) -> bool| -> Vec<String> {
+        (0..balls.len()).filter(|k| is_one(*k)).map(|k| balls[k].ball.clone()).collect()
+    };
+    let alone = named(&|k| changed.iter().all(|change| of(change, k)));
+    if alone.is_empty() { named(&|k| changed.iter().any(|change| of(change, k))) } else { alone }
 }
