@@ -94,6 +94,16 @@ pub enum GroupPurpose {
 }
 
 impl GroupPurpose {
+    /// What a sheet of a workbook with such a table is called.
+    pub(crate) fn usual_sheet(self) -> &'static str {
+        match self {
+            Self::Measurements => "measurements",
+            Self::Conditions => "poses",
+            Self::Plan => "plan",
+            Self::Loads => "loads",
+        }
+    }
+
     fn passes_over(self, group: Group) -> bool {
         use Group::{Absolute, Deflection, Euler, RotationVector, Sigma};
         match group {

@@ -42,6 +42,8 @@ mod read_measurements;
 mod read_sensor;
 mod row;
 mod sensor_columns;
+mod source;
+mod spreadsheet;
 mod stated_unit;
 mod table;
 mod toml_file;

@@ -1,12 +1,21 @@
 //! Reading the loads of a campaign.
 
+use std::io::BufRead;
 use std::path::Path;
 
 use super::FileError;
+use super::Warning;
 use super::header::GroupPurpose;
 use super::load_columns::has_masses;
-use super::read_measurements::{opened, rows_of};
+use super::read_measurements::rows_of;
+use super::source::{Noticed, read_source};
 use crate::LoadTable;
+
+impl Noticed for LoadTable {
+    fn warnings(&mut self) -> Option<&mut Vec<Warning>> {
+        Some(&mut self.warnings)
+    }
+}
 
 /// Reads `loads.csv`: which record is loaded and which is its reference, the commanded pose, wrenches or masses, and covariates.
 ///
@@ -14,15 +23,15 @@ use crate::LoadTable;
 /// The first thing that is wrong, with line, column, value and next step.
 pub fn read_loads(path: &Path) -> Result<LoadTable, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    let read = || {
-        let mut table = rows_of(opened(path)?, GroupPurpose::Loads, None)?;
+    let read = |input: Box<dyn BufRead>| {
+        let mut table = rows_of(input, GroupPurpose::Loads, None)?;
         let rows = std::mem::take(&mut table.loads);
         let [_, of_reference] = has_masses(&table.table.plan.of_loads);
         let mut reading = table.finish(&name)?;
         reading.dataset.columns.reference |= of_reference;
         Ok(LoadTable { dataset: reading.dataset, rows, warnings: reading.warnings })
     };
-    read().map_err(|fault: super::Fault| fault.in_file(path))
+    read_source(path, GroupPurpose::Loads.usual_sheet(), read).map_err(|fault| fault.in_file(path))
 }
 
 #[cfg(test)]

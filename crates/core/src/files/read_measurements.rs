@@ -7,16 +7,14 @@ use super::lines::{Lines, RawLine};
 use super::load_columns::load_row;
 use super::number::{Decimals, parse_number};
 use super::row::FilledRow;
+use super::source::read_source;
 use super::table::{Table, TableReading};
 use super::warning::Notice;
 use super::{FileError, FilePlace, FileProblem, Warning};
 use crate::{Hexapod, LoadRow};
-use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::BufRead;
 use std::ops::Range;
 use std::path::Path;
-
-const BUFFER_BYTES: usize = 1 << 18;
 
 /// Reads `measurements.csv`, deflections or absolute poses; `docs/reference/file-formats.md` defines the columns.
 ///
@@ -66,12 +64,7 @@ pub(crate) fn read_named(
     purpose: GroupPurpose,
     machine: Option<&Hexapod>,
 ) -> Result<TableReading, Fault> {
-    read_table(opened(path)?, name, purpose, machine)
-}
-
-/// A file to be read line by line.
-pub(crate) fn opened(path: &Path) -> Result<impl BufRead, Fault> {
-    Ok(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?))
+    read_source(path, purpose.usual_sheet(), |input| read_table(input, name, purpose, machine))
 }
 
 /// The same from memory or a stream; `name` stands for the file in messages.

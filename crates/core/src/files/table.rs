@@ -7,6 +7,7 @@ use super::error::Fault;
 use super::header::{GroupPurpose, Plan, Source, read_header};
 use super::line::Line;
 use super::row::{FilledRow, no_sigma};
+use super::source::Noticed;
 use super::warning::Notice;
 use super::{FilePlace, FileProblem, Warning};
 use crate::{Dataset, Hexapod, Measurand, Observation};
@@ -18,6 +19,12 @@ pub struct TableReading {
     pub dataset: Dataset,
     /// What was accepted but should be looked at.
     pub warnings: Vec<Warning>,
+}
+
+impl Noticed for TableReading {
+    fn warnings(&mut self) -> Option<&mut Vec<Warning>> {
+        Some(&mut self.warnings)
+    }
 }
 
 /// A table while it is read.
