@@ -15,7 +15,7 @@ use hexbench_model::machine::registration::{
 use hexbench_report::number::significant;
 
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, TableNames};
 use crate::output::{Screen, report};
 use crate::page::campaigned;
 
@@ -35,6 +35,8 @@ pub(crate) struct Arguments {
     data: PathBuf,
     /// Loads and commanded poses: loads.csv, one row per loaded record
     loads: PathBuf,
+    #[command(flatten)]
+    names: TableNames,
     /// Where the balls should be (format balls/1)
     #[arg(long, value_name = "FILE")]
     balls: Option<PathBuf>,
@@ -65,7 +67,7 @@ const ASIDE: f64 = 1.7e-3;
 /// Register, pair and write.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let records = read_balls(&arguments.data)?;
-    let loads = read_loads(&arguments.loads)?;
+    let loads = read_loads(&arguments.loads, &arguments.names.read()?)?;
     warn_of_loads(&arguments.loads, &loads.warnings);
     let places = arguments.balls.as_deref().map(read_ball_places).transpose()?;
     let how = RecordsRead {
@@ -169,7 +171,8 @@ fn table(found: &BallCampaign) -> Result<String, Failure> {
             let scale = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
             format!("{:.6}", if scale > 0.0 { covariance[(i, j)] / scale } else { 0.0 })
         };
-        all += &format!("{line},{}\n", pairs().map(correlation).collect::<Vec<_>>().join(","));
+        let correlations: Vec<String> = pairs().map(correlation).collect();
+        all.extend([line, ",", &correlations.join(","), "\n"]);
     }
     Ok(all)
 }

@@ -315,3 +315,27 @@ fn what_does_not_fit_together_is_told_with_its_next_step() {
     bench.said(&[], 0);
     assert!(bench.said(&[], 2).contains("exists already"));
 }
+
+#[test]
+fn a_table_may_come_from_standard_input_and_under_other_names() {
+    let bench = Bench::of("paper-rich");
+    let of_file = ["diagnose", "hexapod.toml", "measurements.csv", "--json", "file.json"];
+    text(bench.run(&of_file));
+    let theirs = bench.read("measurements.csv").replacen("a_mm,b_mm,c_mm", "X,Y,Z", 1);
+    bench.write("theirs.csv", &theirs);
+    let refused = bench.run(&["diagnose", "hexapod.toml", "theirs.csv"]);
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert!(
+        said.contains("next: Rename them, in the file or by --columns: X is a_mm, Y is b_mm, Z is c_mm"),
+        "{said}"
+    );
+    let entry = |(name, is): (&str, &str)| format!("[[column]]\nname = \"{name}\"\nis = \"{is}\"\n");
+    let map: String = [("X", "a_mm"), ("Y", "b_mm"), ("Z", "c_mm")].map(entry).concat();
+    bench.write("map.toml", &format!("format = \"columns/1\"\n{map}"));
+    let mut piped = hexbench();
+    piped.current_dir(bench.path("")).args(["diagnose", "hexapod.toml", "-", "--columns", "map.toml"]);
+    text(piped.args(["--json", "piped.json"]).write_stdin(theirs).output().unwrap());
+    let [file, piped] = ["file.json", "piped.json"].map(|name| json(&bench.path(name)));
+    assert_eq!(file["parameters"], piped["parameters"]);
+    assert_eq!((&file["verdict"], &file["candidates"]), (&piped["verdict"], &piped["candidates"]));
+}

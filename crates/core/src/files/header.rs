@@ -1,10 +1,12 @@
 //! From the names of the columns to a plan for reading rows.
 
 use super::column_name::{Named, read_column_name};
+use super::column_names::ColumnNames;
 use super::columns::{COLUMNS, Column, Group, MEASURED};
 use super::error::Fault;
 use super::line::Line;
 use super::load_columns::{LoadSource, has_masses, has_reference, load_column, refuse_incomplete};
+use super::other_names::likely;
 use super::row::no_sigma;
 use super::sensor_columns::{SensorSource, refuse_missing_sensors, refuse_unknown_sensor, sensor_column};
 use super::units::{Unit, unit_named};
@@ -80,6 +82,21 @@ impl Plan {
     }
 }
 
+/// What a table is read for, and what is known of it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reads<'a> {
+    pub(crate) purpose: GroupPurpose,
+    pub(crate) machine: Option<&'a Hexapod>,
+    /// What its columns are called.
+    pub(crate) names: Option<&'a ColumnNames>,
+}
+
+impl<'a> Reads<'a> {
+    pub(crate) fn of(purpose: GroupPurpose, machine: Option<&'a Hexapod>) -> Self {
+        Self { purpose, machine, names: None }
+    }
+}
+
 /// What a table is read for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GroupPurpose {
@@ -117,16 +134,16 @@ impl GroupPurpose {
 /// Reads the header line.
 pub(crate) fn read_header(
     line: &Line<'_>,
-    purpose: GroupPurpose,
-    machine: Option<&Hexapod>,
+    reads: Reads<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<Plan, Fault> {
+    let Reads { purpose, machine, names: known } = reads;
     let sensors = machine.map_or(&[][..], |m| &m.sensors);
     let mut sources = Vec::with_capacity(line.len());
     let (mut of_sensors, mut of_loads) = (vec![None; line.len()], vec![None; line.len()]);
     for cell in 0..line.len() {
-        let text = line.text(cell);
-        let place = line.place(cell).with_name(text);
+        let place = line.place(cell).with_name(line.text(cell));
+        let text = known.map_or(line.text(cell), |names| names.here(line.text(cell)));
         if let Some(source) = sensor_column(text, sensors) {
             let source = source.map_err(|problem| Fault::new(place, problem))?;
             of_sensors[cell] = (purpose == GroupPurpose::Measurements).then_some(source);
@@ -274,7 +291,12 @@ fn plan(
     let groups = given.chain(measured.iter().copied());
     let missing: Vec<String> = groups.flat_map(|group| present.missing(group)).collect();
     if !missing.is_empty() {
-        return Err(FileProblem::MissingColumns { names: missing });
+        let likely = likely(names.iter().map(String::as_str), &missing);
+        return Err(if likely.is_empty() {
+            FileProblem::MissingColumns { names: missing }
+        } else {
+            FileProblem::OtherNames { names: missing, likely }
+        });
     }
     let columns = optional_columns(&present)?;
     let of_reference = columns.reference || columns.reference_age || columns.reference_record;

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::FileError;
 use super::Warning;
-use super::header::GroupPurpose;
+use super::column_names::ColumnNames;
+use super::header::{GroupPurpose, Reads};
 use super::load_columns::has_masses;
 use super::read_measurements::rows_of;
 use super::source::{Noticed, read_source};
@@ -17,14 +18,15 @@ impl Noticed for LoadTable {
     }
 }
 
-/// Reads `loads.csv`: which record is loaded and which is its reference, the commanded pose, wrenches or masses, and covariates.
+/// Reads `loads.csv`, whose columns may have other names: which record is loaded and which is its reference, the commanded pose, wrenches or masses, and covariates.
 ///
 /// # Errors
 /// The first thing that is wrong, with line, column, value and next step.
-pub fn read_loads(path: &Path) -> Result<LoadTable, FileError> {
+pub fn read_loads(path: &Path, names: &ColumnNames) -> Result<LoadTable, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    let reads = Reads { names: Some(names), ..Reads::of(GroupPurpose::Loads, None) };
     let read = |input: Box<dyn BufRead>| {
-        let mut table = rows_of(input, GroupPurpose::Loads, None)?;
+        let mut table = rows_of(input, reads)?;
         let rows = std::mem::take(&mut table.loads);
         let [_, of_reference] = has_masses(&table.table.plan.of_loads);
         let mut reading = table.finish(&name)?;
@@ -42,7 +44,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("loads.csv");
         std::fs::write(&path, text).unwrap();
-        read_loads(&path).map_err(|error| error.message())
+        read_loads(&path, &ColumnNames::default()).map_err(|error| error.message())
     }
 
     const POSE: &str = "a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg";

@@ -1,8 +1,9 @@
 //! Where the text of a table comes from: a file, standard input, a sheet of a workbook.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Cursor, Read, stdin};
+use std::io::{self, BufRead, BufReader, Cursor, Read, stdin};
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use super::Warning;
 use super::error::Fault;
@@ -10,6 +11,23 @@ use super::spreadsheet::{is_workbook, sheet};
 use super::warning::Notice;
 
 const BUFFER_BYTES: usize = 1 << 18;
+
+/// True for the name of standard input.
+pub(crate) fn is_standard_input(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// All of standard input. It can be read once only, and is asked for again: for its digest.
+pub(crate) fn standard_input() -> io::Result<&'static [u8]> {
+    static BYTES: Mutex<Option<&'static [u8]>> = Mutex::new(None);
+    let mut kept = BYTES.lock().unwrap_or_else(PoisonError::into_inner);
+    if kept.is_none() {
+        let mut bytes = Vec::new();
+        stdin().lock().read_to_end(&mut bytes)?;
+        *kept = Some(bytes.leak());
+    }
+    Ok(kept.unwrap_or_default())
+}
 
 /// What a reader of text has to say besides what it read.
 pub(crate) trait Noticed {
@@ -25,8 +43,8 @@ pub(crate) fn read_source<T: Noticed>(
     usual: &str,
     read: impl FnOnce(Box<dyn BufRead>) -> Result<T, Fault>,
 ) -> Result<T, Fault> {
-    let mut input: Box<dyn BufRead> = if path.as_os_str() == "-" {
-        Box::new(BufReader::with_capacity(BUFFER_BYTES, stdin()))
+    let mut input: Box<dyn BufRead> = if is_standard_input(path) {
+        Box::new(standard_input()?)
     } else {
         Box::new(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?))
     };
