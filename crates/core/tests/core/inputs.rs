@@ -1,6 +1,6 @@
 //! A table of inputs as people make them: read as the plain file is read, or refused with the right hint; never misread.
 
-use hexbench_core::files::read_measurements;
+use hexbench_core::files::{ColumnNames, read_balls, read_loads, read_measurements};
 
 use crate::workbooks::{Cell, cells, ods, xlsx};
 
@@ -206,4 +206,26 @@ fn files_as_people_make_them_are_read_or_refused_and_never_misread() {
             (Err(error), Read(_)) => panic!("{name} is refused: {error}"),
         }
     }
+}
+
+#[test]
+fn one_workbook_may_hold_balls_and_loads() {
+    let balls = "record,ball,x_mm,y_mm,z_mm\nR1,A,1,2,3\nL1,A,1,2,3.01";
+    let loads = "record,ref_record,a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg,mass_kg\nL1,R1,0,0,0,0,0,0,10";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("campaign.ods");
+    for book in [ods, xlsx] {
+        std::fs::write(&path, book(&[("Balls", cells(balls)), ("Loads", cells(loads))])).unwrap();
+        assert_eq!(read_balls(&path).unwrap().len(), 2);
+        let table = read_loads(&path, &ColumnNames::default()).unwrap();
+        assert_eq!(
+            (table.rows[0].record.as_str(), table.rows[0].hung.loaded.to_bits()),
+            ("L1", 10_f64.to_bits())
+        );
+        assert!(table.warnings.is_empty(), "{:?}", table.warnings);
+    }
+    let spoilt = balls.replace("3.01", "three");
+    std::fs::write(&path, xlsx(&[("Balls", cells(&spoilt)), ("Loads", cells(loads))])).unwrap();
+    let said = read_balls(&path).unwrap_err().message();
+    assert_eq!(said, "sheet \"Balls\", row 3, column 5 (z_mm): \"three\": this is not a number");
 }
