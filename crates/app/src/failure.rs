@@ -382,7 +382,7 @@ fn of_campaign(cause: &BallCampaignError) -> String {
         }
         BallCampaignError::Astray { .. } => {
             "Check the commanded pose of this record (mm, deg) and its record number; where the axes of the measuring machine are \
-             not those of the hexapod, give --balls, and --align."
+             not those of the hexapod, give --balls, and --align; where balls stand on the base, --balls says which."
         }
     }
     .into()

@@ -52,7 +52,7 @@ fn readings(found: &BallCampaign) -> String {
 
 fn balls(found: &BallCampaign) -> String {
     let platform = format!("{} on the platform", found.balls.len());
-    match (found.base_balls, found.placed_by_commands) {
+    match (found.base.len(), found.placed_by_commands) {
         (0, true) => format!("{platform}, placed by the commanded poses of the references"),
         (0, false) => platform,
         (base, _) => format!("{platform}, {base} on the base"),

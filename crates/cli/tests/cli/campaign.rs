@@ -193,6 +193,27 @@ fn the_diagnosis_of_the_round_trip_is_that_of_the_table() {
     same_diagnosis(&table, &trip, 1e-2);
 }
 
+#[test]
+fn balls_on_the_base_give_every_record_its_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    for file in ["hexapod.toml", "scene.toml", "sealed/truth.toml"] {
+        let into = folder.path().join(file);
+        fs::create_dir_all(into.parent().unwrap()).unwrap();
+        fs::copy(root().join("scenes/paper-rich").join(file), into).unwrap();
+    }
+    let scene = folder.path().join("scene.toml");
+    let base = "kind = \"balls\"\nbase_balls_mm = [[300, 300, -200], [-300, 300, -200], [0, -350, -100]]";
+    fs::write(&scene, fs::read_to_string(&scene).unwrap().replacen("kind = \"balls\"", base, 1)).unwrap();
+    let bench = Bench(tempfile::tempdir().unwrap());
+    simulate(folder.path(), &bench.path(""), &[]);
+    assert!(bench.said(&[], 3).contains("where balls stand on the base, --balls says which"));
+    text(bench.campaign(&["--balls", "balls.toml"]));
+    let [table, trip] = ["measurements.csv", "out/measurements.csv"].map(|name| bench.dataset(name));
+    assert!(difference(&table, &trip) < ROUNDING_UM_OR_URAD);
+    let [stated, found] = [table, trip].map(|data| data.observations[0].sigma.unwrap());
+    assert!(stated.iter().zip(found).all(|(a, b)| (a - b).abs() < 1e-5 * a), "{stated:?} {found:?}");
+}
+
 /// Without known places, and with the balls themselves as readings: other weights, the same answer within the noise.
 #[test]
 fn balls_that_nobody_has_measured_give_the_same_answer() {

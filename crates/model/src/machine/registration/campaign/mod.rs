@@ -54,8 +54,8 @@ pub struct BallCampaign {
     pub balls: Vec<BallPlace>,
     /// True when the commanded poses told where the balls are.
     pub placed_by_commands: bool,
-    /// Number of balls on the base.
-    pub base_balls: usize,
+    /// Balls of the base, fixed frame.
+    pub base: Vec<BallPlace>,
     /// Standard deviation of one coordinate that was used, m.
     pub sigma: f64,
     /// The same from the residuals; none when nothing is left over.
@@ -177,7 +177,7 @@ pub fn campaign_of_balls(
         covariances: rows.iter().map(|row| row.covariance).collect(),
         displacements,
         axes: placing.axes(),
-        base_balls: known.base.len(),
+        base: known.base,
         balls: known.platform,
         placed_by_commands: how.places.is_none(),
         sigma: found.sigma,

@@ -2,21 +2,28 @@
 
 use std::f64::consts::SQRT_2;
 
-use hexbench_core::{Channel, Columns, Dataset, Hexapod, Measurand, Observation, Sensor, SensorKind, UNREAD};
+use hexbench_core::{
+    BallPlace, Channel, Columns, Dataset, Hexapod, Matrix6, Measurand, Observation, Sensor, SensorKind,
+    UNREAD, Vector3,
+};
 
+use super::super::rigid;
 use super::BallCampaign;
 
 impl BallCampaign {
     /// The machine with a sensor of kind `point` for every ball, and the displacements as their readings.
     ///
-    /// Limits: with balls on the base, the noise of their frame is common to all balls of a record and not in the stated one.
+    /// With balls on the base, `[1, -p x]` carries the noise of their frame to the ball at p.
+    ///
+    /// Limits: that noise is common to all balls of a record; each ball is given its share, not what they have in common.
     pub fn as_points(&self, hexapod: &Hexapod) -> (Hexapod, Dataset) {
         let names = names(self.balls.iter().map(|place| place.ball.as_str()));
-        let sigma = [self.sigma * SQRT_2; 3];
-        let sensor = |(name, place): (String, &hexbench_core::BallPlace)| {
-            Sensor::new(name, SensorKind::Point { point: place.centre, sigma })
+        let sigmas: Vec<[f64; 3]> = self.balls.iter().map(|place| self.noise_of(place)).collect();
+        let sensor = |((name, place), sigma): ((String, &BallPlace), &[f64; 3])| {
+            Sensor::new(name, SensorKind::Point { point: place.centre, sigma: *sigma })
         };
-        let sensors: Vec<Sensor> = names.into_iter().zip(&self.balls).map(sensor).collect();
+        let sensors: Vec<Sensor> = names.into_iter().zip(&self.balls).zip(&sigmas).map(sensor).collect();
+        let sigmas = sigmas.concat();
         let channels = Channel::all([], &sensors);
         let blocks = Channel::in_blocks(&channels);
         let rows = self.dataset.observations.iter().zip(&self.displacements);
@@ -25,7 +32,7 @@ impl BallCampaign {
             let block = |(block, part): (usize, &[f64])| Observation {
                 block,
                 measured: std::array::from_fn(|k| part.get(k).copied().unwrap_or_default()),
-                sigma: Some(std::array::from_fn(|k| if k < part.len() { sigma[0] } else { UNREAD })),
+                sigma: Some(std::array::from_fn(|k| sigmas.get(6 * block + k).copied().unwrap_or(UNREAD))),
                 ..*row
             };
             numbers.chunks(6).enumerate().map(block).collect::<Vec<_>>()
@@ -38,6 +45,18 @@ impl BallCampaign {
             blocks,
         };
         (Hexapod { sensors, ..hexapod.clone() }, dataset)
+    }
+
+    /// Standard deviation of a displacement of a ball, m: two readings of it, and of the base twice.
+    fn noise_of(&self, place: &BallPlace) -> [f64; 3] {
+        let base: Vec<Vector3> = self.base.iter().map(|place| place.centre).collect();
+        let of_frame = rigid(&base, &base).map(|frame| {
+            let mut carry = Matrix6::identity();
+            carry.fixed_view_mut::<3, 3>(0, 3).copy_from(&-place.centre.cross_matrix());
+            carry * frame.cofactors * carry.transpose()
+        });
+        let own = |k: usize| 1.0 + of_frame.map_or(0.0, |frame| frame[(k, k)]);
+        std::array::from_fn(|k| self.sigma * SQRT_2 * own(k).sqrt())
     }
 }
 
