@@ -17,7 +17,7 @@ use hexbench_model::application::model_file::ModelFileError;
 use hexbench_model::application::predict::PredictError;
 use hexbench_model::effects::user_term::UserTermError;
 use hexbench_model::error::ModelError;
-use hexbench_model::machine::registration::RegistrationError;
+use hexbench_model::machine::registration::{BallCampaignError, RegistrationError};
 use hexbench_model::results::answer::AnswerError;
 use hexbench_model::results::runs::Incompatible;
 use hexbench_report::charts::ReportError;
@@ -137,6 +137,14 @@ pub enum Failure {
         /// The record, and why.
         cause: RegistrationError,
     },
+    /// Records and loads that make no campaign.
+    #[error("{}: {cause}", path.display())]
+    Campaign {
+        /// The file of the balls.
+        path: PathBuf,
+        /// What stands in the way.
+        cause: BallCampaignError,
+    },
     /// A scene that could not be simulated.
     #[error("{0}")]
     Simulation(SimulationError),
@@ -228,6 +236,7 @@ impl Failure {
             | Self::Row { .. }
             | Self::MemoryRow { .. }
             | Self::Balls { .. }
+            | Self::Campaign { .. }
             | Self::SceneState { .. }
             | Self::Baseline(_)
             | Self::World(_)
@@ -283,10 +292,8 @@ impl Failure {
             Self::SceneState { .. } => {
                 Some("Check the pose, the load and the hidden effects of the scene.".into())
             }
-            Self::Balls { cause: RegistrationError::MissingBall { .. }, .. } => {
-                Some("Touch every ball in every record, or take the ball out of the balls file.".into())
-            }
-            Self::Balls { .. } => Some("Use three balls or more that span a triangle.".into()),
+            Self::Balls { cause, .. } => Some(of_balls(cause)),
+            Self::Campaign { cause, .. } => Some(of_campaign(cause)),
             Self::World(_) => Some(
                 "Check the joints in the hexapod file, the pose (mm, deg), load, stiffness and masses."
                     .into(),
@@ -349,6 +356,36 @@ impl From<AnswerError> for Failure {
             AnswerError::Write { path, cause } => Self::Output { path, cause },
         }
     }
+}
+
+fn of_balls(cause: &RegistrationError) -> String {
+    match cause {
+        RegistrationError::MissingBall { .. } => {
+            "Touch every ball in every record, or take the ball out of the balls file."
+        }
+        RegistrationError::Undetermined { .. } => "Use three balls or more that span a triangle.",
+    }
+    .into()
+}
+
+fn of_campaign(cause: &BallCampaignError) -> String {
+    match cause {
+        BallCampaignError::Registration(cause) => return of_balls(cause),
+        BallCampaignError::NoRecord { .. } => {
+            "Write a name as it stands in the column record of the table of balls."
+        }
+        BallCampaignError::SameRecord { .. } => "Name the record of the reference state in ref_record.",
+        BallCampaignError::NoPlaces => "Give --balls balls.toml, or name the reference records in ref_record.",
+        BallCampaignError::Exchanged { .. } => "Correct the names of the balls in this record, and in others like it.",
+        BallCampaignError::Mirrored { .. } => {
+            "Export right-handed coordinates: one axis of the measuring machine has the other sign."
+        }
+        BallCampaignError::Astray { .. } => {
+            "Check the commanded pose of this record (mm, deg) and its record number; where the axes of the measuring machine are \
+             not those of the hexapod, give --balls, and --align; where balls stand on the base, --balls says which."
+        }
+    }
+    .into()
 }
 
 fn exit_of_challenge(cause: &ChallengeError) -> Exit {

@@ -37,6 +37,7 @@ pub(crate) enum Command {
     Init(commands::init::Arguments),
     Simulate(commands::simulate::Arguments),
     Poses(commands::poses::Arguments),
+    Campaign(commands::campaign::Arguments),
     Check(commands::check::Arguments),
     Compare(commands::compare::Arguments),
     Diagnose(commands::diagnose::Arguments),

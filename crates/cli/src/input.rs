@@ -1,9 +1,14 @@
 //! Reading input files, with their warnings told on standard error.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
 
 pub(crate) use hexbench_app::input::{catalogue_with, model, user_terms};
-use hexbench_core::files::{TableReading, read_campaign, read_conditions, read_hexapod, read_plan};
+use hexbench_core::files::{
+    ColumnNames, TableReading, read_campaign, read_campaign_named, read_column_names, read_conditions_named,
+    read_hexapod, read_plan,
+};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
@@ -12,19 +17,34 @@ use crate::failure::Failure;
 use crate::output::report;
 use crate::read_as::ReadAs;
 
+/// What columns of tables are called.
+#[derive(Debug, Default, Args)]
+pub(crate) struct TableNames {
+    /// Names of columns in the tables, where they are not those of hexbench (format columns/1)
+    #[arg(long, value_name = "FILE")]
+    columns: Option<PathBuf>,
+}
+
+impl TableNames {
+    /// Reads the map; none: the names of hexbench.
+    pub(crate) fn read(&self) -> Result<ColumnNames, Failure> {
+        Ok(self.columns.as_deref().map(read_column_names).transpose()?.unwrap_or_default())
+    }
+}
+
 /// The machine of a hexapod file.
 pub(crate) fn hexapod(path: &Path) -> Result<Hexapod, Failure> {
     Ok(read_hexapod(path)?)
 }
 
 /// The measurements of a file of a machine; what the reader noticed goes to standard error.
-pub(crate) fn measurements(hexapod: &Hexapod, path: &Path) -> Result<Dataset, Failure> {
-    Ok(told(path, read_campaign(hexapod, path)?))
+pub(crate) fn measurements(hexapod: &Hexapod, path: &Path, names: &TableNames) -> Result<Dataset, Failure> {
+    Ok(told(path, read_campaign_named(hexapod, path, &names.read()?)?))
 }
 
 /// Poses and loads that need no measurement.
-pub(crate) fn conditions(path: &Path) -> Result<Dataset, Failure> {
-    Ok(told(path, read_conditions(path)?))
+pub(crate) fn conditions(path: &Path, names: &TableNames) -> Result<Dataset, Failure> {
+    Ok(told(path, read_conditions_named(path, &names.read()?)?))
 }
 
 /// Poses and loads to be measured.

@@ -10,7 +10,7 @@ use hexbench_model::results::runs::Origin;
 use hexbench_report::words::Provenance;
 
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, TableNames};
 use crate::output::{origin, provenance};
 
 /// Files, and the lines of them that count.
@@ -23,6 +23,8 @@ pub(crate) struct Question {
     /// Readings kept out of every fit; without it poses are left out in turn
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
+    #[command(flatten)]
+    names: TableNames,
     /// A term file of your own (term/1) that competes with the catalogue; may be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
@@ -45,8 +47,12 @@ impl Question {
     /// Reads the files.
     pub(crate) fn read(&self) -> Result<Asked, Failure> {
         let hexapod = input::hexapod(&self.hexapod)?;
-        let data = input::measurements(&hexapod, &self.data)?;
-        let holdout = self.holdout.as_deref().map(|path| input::measurements(&hexapod, path)).transpose()?;
+        let data = input::measurements(&hexapod, &self.data, &self.names)?;
+        let holdout = self
+            .holdout
+            .as_deref()
+            .map(|path| input::measurements(&hexapod, path, &self.names))
+            .transpose()?;
         let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
         Ok(Asked { hexapod, data, holdout, terms })
     }

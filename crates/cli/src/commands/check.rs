@@ -9,7 +9,7 @@ use hexbench_model::terms::catalogue;
 use hexbench_report::words;
 
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, TableNames};
 use crate::output::{Screen, write_json};
 use crate::read_as::ReadAs;
 
@@ -23,6 +23,8 @@ pub(crate) struct Arguments {
     /// Readings that no fit is to see
     holdout: Option<PathBuf>,
     #[command(flatten)]
+    names: TableNames,
+    #[command(flatten)]
     read_as: ReadAs,
     /// Write all of it to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
@@ -32,8 +34,16 @@ pub(crate) struct Arguments {
 /// Check and report; exit code 1 when something has to be put right first.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
-    let data = arguments.data.as_deref().map(|path| input::measurements(&hexapod, path)).transpose()?;
-    let holdout = arguments.holdout.as_deref().map(|path| input::measurements(&hexapod, path)).transpose()?;
+    let data = arguments
+        .data
+        .as_deref()
+        .map(|path| input::measurements(&hexapod, path, &arguments.names))
+        .transpose()?;
+    let holdout = arguments
+        .holdout
+        .as_deref()
+        .map(|path| input::measurements(&hexapod, path, &arguments.names))
+        .transpose()?;
     let source = data.as_ref().map_or_else(|| arguments.hexapod.display().to_string(), |d| d.source.clone());
     let failed = |cause: ModelError| Failure::Model { cause, data: source };
     let found = check(&hexapod, data.as_ref(), holdout.as_ref(), &catalogue(), &arguments.read_as.changes)

@@ -10,7 +10,7 @@ use hexbench_report::words::{readings, subject};
 use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, TableNames};
 use crate::output::{PageFiles, Screen, TableFile, origin, provenance, write_json};
 use crate::read_as::ReadAs;
 
@@ -27,6 +27,8 @@ pub(crate) struct Arguments {
     /// Also compare with these readings, which no fit has seen
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
+    #[command(flatten)]
+    names: TableNames,
     #[command(flatten)]
     read_as: ReadAs,
     /// Write all numbers to FILE, or to standard output (-) instead of the page
@@ -52,8 +54,12 @@ impl Arguments {
 /// Compare and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
-    let data = input::measurements(&hexapod, &arguments.data)?;
-    let holdout = arguments.holdout.as_deref().map(|path| input::measurements(&hexapod, path)).transpose()?;
+    let data = input::measurements(&hexapod, &arguments.data, &arguments.names)?;
+    let holdout = arguments
+        .holdout
+        .as_deref()
+        .map(|path| input::measurements(&hexapod, path, &arguments.names))
+        .transpose()?;
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);

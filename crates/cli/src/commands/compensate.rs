@@ -8,7 +8,7 @@ use hexbench_model::application::compensate::compensate;
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, TableNames};
 use crate::output::Screen;
 
 /// Find the command that brings the loaded platform to the wanted pose
@@ -22,6 +22,8 @@ pub(crate) struct Arguments {
     model: PathBuf,
     /// Wanted poses and loads: the columns of measurements.csv without the measured ones
     poses: PathBuf,
+    #[command(flatten)]
+    names: TableNames,
     /// Write to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: PathBuf,
@@ -32,7 +34,7 @@ const AXES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 /// Correct every row.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let model = input::model(&arguments.model)?;
-    let rows = input::conditions(&arguments.poses)?;
+    let rows = input::conditions(&arguments.poses, &arguments.names)?;
     let corrections = compensate(&model, &rows.observations)
         .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) })?;
     let (pose, small) = ([Unit::Mm, Unit::Deg], [Unit::Um, Unit::Urad]);

@@ -17,7 +17,7 @@ use hexbench_model::results::next::{EXCLUDED_ODDS, Effort, PairForecast, Suspect
 
 use crate::csv;
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, TableNames};
 use crate::output::{Progress, Screen, write_json};
 use crate::page::discriminated::{Discriminated, Pair, Planned, Promise, discriminated};
 
@@ -160,7 +160,7 @@ fn next_readings(
     terms: &[Arc<dyn Term>],
     path: &Path,
 ) -> Result<Discriminated, Failure> {
-    let data = input::measurements(hexapod, path)?;
+    let data = input::measurements(hexapod, path, &TableNames::default())?;
     let source = path.display().to_string();
     let of_model = |cause| Failure::Model { cause, data: source.clone() };
     let campaign = prepare(hexapod, &data).map_err(of_model)?;
@@ -222,7 +222,7 @@ fn breakers(terms: &[Arc<dyn Term>]) -> Vec<(String, String)> {
 
 /// Distances by the plan of a file.
 fn distances(contest: &Contest<'_>, path: &Path) -> Result<Vec<Distance>, Failure> {
-    let rows = input::conditions(path)?.observations;
+    let rows = input::conditions(path, &TableNames::default())?.observations;
     let informations = contest.informations(&rows)?;
     let total = informations.iter().skip(1).fold(informations[0].clone(), |sum, m| sum + m);
     Ok(contest.distances(&total))

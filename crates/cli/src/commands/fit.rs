@@ -13,7 +13,7 @@ use hexbench_model::results::diagnose::prepare;
 use hexbench_report::words::fitted;
 
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, TableNames};
 use crate::output::Screen;
 use crate::read_as::ReadAs;
 
@@ -37,6 +37,8 @@ pub(crate) struct Arguments {
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
     #[command(flatten)]
+    names: TableNames,
+    #[command(flatten)]
     read_as: ReadAs,
     /// Write the model to FILE (model.toml)
     #[arg(short, long, value_name = "FILE")]
@@ -55,8 +57,12 @@ enum Method {
 /// Fit, tell, save.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
-    let data = input::measurements(&hexapod, &arguments.data)?;
-    let holdout = arguments.holdout.as_deref().map(|path| input::measurements(&hexapod, path)).transpose()?;
+    let data = input::measurements(&hexapod, &arguments.data, &arguments.names)?;
+    let holdout = arguments
+        .holdout
+        .as_deref()
+        .map(|path| input::measurements(&hexapod, path, &arguments.names))
+        .transpose()?;
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);

@@ -1,5 +1,6 @@
 //! One file per subcommand, each with its `Arguments` and `run`.
 
+pub(crate) mod campaign;
 pub(crate) mod challenge;
 pub(crate) mod check;
 pub(crate) mod compare;
@@ -37,6 +38,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Init(arguments) => init::run(arguments, &screen),
         Command::Simulate(arguments) => simulate::run(arguments, &screen),
         Command::Poses(arguments) => poses::run(arguments, &screen),
+        Command::Campaign(arguments) => campaign::run(arguments, &screen),
         Command::Check(arguments) => check::run(arguments, &screen),
         Command::Compare(arguments) => compare::run(arguments, &screen),
         Command::Fit(arguments) => fit::run(arguments, &screen),

@@ -9,7 +9,7 @@ use hexbench_model::application::predict::predict;
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, TableNames};
 use crate::output::Screen;
 
 /// Predict deflections (or absolute poses) with their uncertainty
@@ -19,6 +19,8 @@ pub(crate) struct Arguments {
     model: PathBuf,
     /// Poses and loads: the columns of measurements.csv without the measured ones
     poses: PathBuf,
+    #[command(flatten)]
+    names: TableNames,
     /// Write to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: PathBuf,
@@ -27,7 +29,7 @@ pub(crate) struct Arguments {
 /// Predict every row.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let model = input::model(&arguments.model)?;
-    let rows = input::conditions(&arguments.poses)?;
+    let rows = input::conditions(&arguments.poses, &arguments.names)?;
     let predictions = predict(&model, &rows.observations)
         .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) })?;
     let units = if model.is_absolute() { [Unit::Mm, Unit::Deg] } else { [Unit::Um, Unit::Urad] };

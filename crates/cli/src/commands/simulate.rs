@@ -15,7 +15,7 @@ use crate::page::simulated;
 pub(crate) struct Arguments {
     /// Folder of the scene, with scene.toml in it
     scene: PathBuf,
-    /// Folder for hexapod.toml, measurements.csv, holdout.csv, balls.csv and sealed/truth.json
+    /// Folder for hexapod.toml, measurements.csv, holdout.csv, balls.csv, loads.csv and sealed/truth.json
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Draw plan and noise by this seed instead of the scene's own

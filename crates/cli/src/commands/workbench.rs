@@ -8,7 +8,7 @@ use hexbench_workbench::server::{Server, ServerSettings};
 use hexbench_workbench::wire::FileText;
 
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, TableNames};
 use crate::output::Screen;
 
 /// A page in your browser: compare, tick effects on and off, diagnose, simulate, guess what is hidden
@@ -50,9 +50,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 fn given(arguments: &Arguments) -> Result<Option<Given>, Failure> {
     let (Some(hexapod), Some(data)) = (&arguments.hexapod, &arguments.data) else { return Ok(None) };
     let machine = input::hexapod(hexapod)?;
-    input::measurements(&machine, data)?;
+    input::measurements(&machine, data, &TableNames::default())?;
     let holdout = arguments.holdout.as_deref();
-    holdout.map(|path| input::measurements(&machine, path)).transpose()?;
+    holdout.map(|path| input::measurements(&machine, path, &TableNames::default())).transpose()?;
     let holdout = holdout.map(text).transpose()?;
     Ok(Some(Given { hexapod: text(hexapod)?, data: text(data)?, holdout }))
 }

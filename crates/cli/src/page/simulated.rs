@@ -78,7 +78,7 @@ fn files(scene: &Scene) -> String {
         names.push("holdout.csv");
     }
     if matches!(scene.instrument, Instrument::Balls(_)) {
-        names.extend(["balls.csv", "balls.toml"]);
+        names.extend(["balls.csv", "balls.toml", "loads.csv"]);
     }
     format!("{} and sealed/truth.json", names.join(", "))
 }

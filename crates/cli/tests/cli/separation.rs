@@ -35,7 +35,7 @@ const MEETING_PLACES: [&str; 5] =
 const DOOR: &str = "hexbench";
 
 /// All that the two sides may have in common: the nouns, and crates of the registry that know nothing of hexapods.
-const SHARED: [&str; 18] = [
+const SHARED: [&str; 20] = [
     "hexbench-core",
     "nalgebra",
     "rand",
@@ -44,8 +44,10 @@ const SHARED: [&str; 18] = [
     "rayon",
     "statrs",
     "thiserror",
+    "calamine",
     "encoding_rs",
     "memchr",
+    "zip",
     "serde",
     "serde_json",
     "sha2",

@@ -147,7 +147,7 @@ impl Column {
     pub(crate) fn usual_unit(&self) -> &'static str {
         let absolute = matches!(self.group, Group::Pose | Group::Absolute);
         match self.kind {
-            Dimension::Number | Dimension::Stiffness => "",
+            Dimension::Number | Dimension::Stiffness | Dimension::Mass => "",
             Dimension::Length if absolute => "mm",
             Dimension::Length => "um",
             Dimension::Angle if absolute => "deg",

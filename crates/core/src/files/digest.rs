@@ -1,6 +1,7 @@
 //! The fingerprint of a file, for provenance.
 
 use super::FileError;
+use super::source::{is_standard_input, standard_input};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::fs::File;
@@ -23,6 +24,9 @@ pub fn text_hash(text: &str) -> String {
 }
 
 fn hash_of(path: &Path) -> io::Result<String> {
+    if is_standard_input(path) {
+        return Ok(hexadecimal(&Sha256::digest(standard_input()?)));
+    }
     let mut file = File::open(path)?;
     let mut digest = Sha256::new();
     let mut chunk = vec![0; CHUNK_BYTES];

@@ -1,9 +1,12 @@
 //! From the names of the columns to a plan for reading rows.
 
 use super::column_name::{Named, read_column_name};
+use super::column_names::ColumnNames;
 use super::columns::{COLUMNS, Column, Group, MEASURED};
 use super::error::Fault;
 use super::line::Line;
+use super::load_columns::{LoadSource, has_masses, has_reference, load_column, refuse_incomplete};
+use super::other_names::likely;
 use super::row::no_sigma;
 use super::sensor_columns::{SensorSource, refuse_missing_sensors, refuse_unknown_sensor, sensor_column};
 use super::units::{Unit, unit_named};
@@ -32,6 +35,8 @@ pub(crate) struct Plan {
     pub(crate) may_lack_readings: bool,
     /// For every cell: the sensor it belongs to.
     pub(crate) of_sensors: Vec<Option<SensorSource>>,
+    /// For every cell of a table of loads: what only such tables have.
+    pub(crate) of_loads: Vec<Option<LoadSource>>,
     /// What the numbers of observations are.
     pub(crate) blocks: Vec<[Channel; 6]>,
     /// Standard deviations that the machine states, number by number; none where they have to be known and are not.
@@ -77,6 +82,21 @@ impl Plan {
     }
 }
 
+/// What a table is read for, and what is known of it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reads<'a> {
+    pub(crate) purpose: GroupPurpose,
+    pub(crate) machine: Option<&'a Hexapod>,
+    /// What its columns are called.
+    pub(crate) names: Option<&'a ColumnNames>,
+}
+
+impl<'a> Reads<'a> {
+    pub(crate) fn of(purpose: GroupPurpose, machine: Option<&'a Hexapod>) -> Self {
+        Self { purpose, machine, names: None }
+    }
+}
+
 /// What a table is read for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GroupPurpose {
@@ -86,14 +106,26 @@ pub enum GroupPurpose {
     Conditions,
     /// Conditions to be measured: as conditions to predict, and the standard deviations of what will be read.
     Plan,
+    /// Conditions of records of a measuring machine: as conditions to predict, with the names of the records, and masses.
+    Loads,
 }
 
 impl GroupPurpose {
+    /// What a sheet of a workbook with such a table is called.
+    pub(crate) fn usual_sheet(self) -> &'static str {
+        match self {
+            Self::Measurements => "measurements",
+            Self::Conditions => "poses",
+            Self::Plan => "plan",
+            Self::Loads => "loads",
+        }
+    }
+
     fn passes_over(self, group: Group) -> bool {
         use Group::{Absolute, Deflection, Euler, RotationVector, Sigma};
         match group {
             Absolute | Deflection | Euler | RotationVector => self != Self::Measurements,
-            Sigma => self == Self::Conditions,
+            Sigma => matches!(self, Self::Conditions | Self::Loads),
             _ => false,
         }
     }
@@ -102,19 +134,24 @@ impl GroupPurpose {
 /// Reads the header line.
 pub(crate) fn read_header(
     line: &Line<'_>,
-    purpose: GroupPurpose,
-    machine: Option<&Hexapod>,
+    reads: Reads<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<Plan, Fault> {
+    let Reads { purpose, machine, names: known } = reads;
     let sensors = machine.map_or(&[][..], |m| &m.sensors);
     let mut sources = Vec::with_capacity(line.len());
-    let mut of_sensors = vec![None; line.len()];
+    let (mut of_sensors, mut of_loads) = (vec![None; line.len()], vec![None; line.len()]);
     for cell in 0..line.len() {
-        let text = line.text(cell);
-        let place = line.place(cell).with_name(text);
+        let place = line.place(cell).with_name(line.text(cell));
+        let text = known.map_or(line.text(cell), |names| names.here(line.text(cell)));
         if let Some(source) = sensor_column(text, sensors) {
             let source = source.map_err(|problem| Fault::new(place, problem))?;
             of_sensors[cell] = (purpose == GroupPurpose::Measurements).then_some(source);
+            sources.push(None);
+            continue;
+        }
+        if let Some(own) = load_column(text).filter(|_| purpose == GroupPurpose::Loads) {
+            of_loads[cell] = Some(own.map_err(|problem| Fault::new(place, problem))?);
             sources.push(None);
             continue;
         }
@@ -137,8 +174,16 @@ pub(crate) fn read_header(
     if purpose == GroupPurpose::Measurements {
         refuse_missing_sensors(&of_sensors, sensors, line)?;
     }
-    let mut plan =
-        plan(sources, names, purpose, machine).map_err(|problem| Fault::new(line.whole_place(), problem))?;
+    let whole = |problem| Fault::new(line.whole_place(), problem);
+    if purpose == GroupPurpose::Loads {
+        refuse_incomplete(&of_loads).map_err(whole)?;
+    }
+    let needs_wrench = has_masses(&of_loads) == [false; 2];
+    let mut plan = plan(sources, names, purpose, machine, needs_wrench).map_err(whole)?;
+    if purpose == GroupPurpose::Loads && plan.columns.reference && !has_reference(&of_loads) {
+        return Err(whole(FileProblem::MissingColumns { names: vec!["ref_record".into()] }));
+    }
+    plan.of_loads = of_loads;
     plan.of_sensors = of_sensors;
     let metrology = machine.and_then(|m| m.metrology);
     plan.stated =
@@ -222,6 +267,7 @@ fn plan(
     names: Vec<String>,
     purpose: GroupPurpose,
     machine: Option<&Hexapod>,
+    needs_wrench: bool,
 ) -> Result<Plan, FileProblem> {
     let sensors = machine.map_or(&[][..], |m| &m.sensors);
     let present = Present(&sources);
@@ -231,17 +277,26 @@ fn plan(
             let all = machine.is_none() || measurand == Measurand::AbsolutePose;
             (measurand, if all { measured_groups(measurand) } else { &[] })
         }
-        GroupPurpose::Conditions | GroupPurpose::Plan => (Measurand::DeflectionEuler, &[][..]),
+        GroupPurpose::Conditions | GroupPurpose::Plan | GroupPurpose::Loads => {
+            (Measurand::DeflectionEuler, &[][..])
+        }
     };
     let poses = (0..6).filter(|&k| present.reads_pose(measurand, k));
     let blocks = match purpose {
         GroupPurpose::Measurements => Channel::in_blocks(&Channel::all(poses, sensors)),
-        GroupPurpose::Conditions | GroupPurpose::Plan => vec![Channel::POSE],
+        GroupPurpose::Conditions | GroupPurpose::Plan | GroupPurpose::Loads => vec![Channel::POSE],
     };
-    let groups = [Group::Pose, Group::Wrench].into_iter().chain(measured.iter().copied());
+    let has_wrench = needs_wrench || present.any(Group::Wrench);
+    let given = [Group::Pose].into_iter().chain(has_wrench.then_some(Group::Wrench));
+    let groups = given.chain(measured.iter().copied());
     let missing: Vec<String> = groups.flat_map(|group| present.missing(group)).collect();
     if !missing.is_empty() {
-        return Err(FileProblem::MissingColumns { names: missing });
+        let likely = likely(names.iter().map(String::as_str), &missing);
+        return Err(if likely.is_empty() {
+            FileProblem::MissingColumns { names: missing }
+        } else {
+            FileProblem::OtherNames { names: missing, likely }
+        });
     }
     let columns = optional_columns(&present)?;
     let of_reference = columns.reference || columns.reference_age || columns.reference_record;
@@ -257,6 +312,7 @@ fn plan(
         has_pose,
         may_lack_readings: machine.is_some(),
         of_sensors: Vec::new(),
+        of_loads: Vec::new(),
         blocks,
         stated: Vec::new(),
     })

@@ -7,6 +7,7 @@
 //! | poses and loads to be measured | [`read_plan`] | - |
 //! | any of these, in memory | [`read_columns`] | [`campaign_to_columns`] |
 //! | `balls.csv`, `balls.toml` | [`read_balls`], [`read_ball_places`] | - |
+//! | `loads.csv` | [`read_loads`] | - |
 //! | `hexapod.toml` | [`read_hexapod`] | [`hexapod_to_toml`], [`write_hexapod`] |
 //! | any other TOML | [`read_toml`] | - |
 //! | any other | [`content_hash`] | [`atomic_write`] |
@@ -17,6 +18,7 @@
 
 mod atomic;
 mod column_name;
+mod column_names;
 mod columns;
 mod csv_text;
 mod digest;
@@ -25,9 +27,11 @@ mod error;
 mod header;
 mod line;
 mod lines;
+mod load_columns;
 mod nearest;
 mod next_step;
 mod number;
+mod other_names;
 mod place;
 mod problem;
 mod read_balls;
@@ -35,10 +39,13 @@ mod read_columns;
 mod read_conditions;
 mod read_hexapod;
 mod read_joints;
+mod read_loads;
 mod read_measurements;
 mod read_sensor;
 mod row;
 mod sensor_columns;
+mod source;
+mod spreadsheet;
 mod stated_unit;
 mod table;
 mod toml_file;
@@ -50,6 +57,7 @@ mod write_hexapod;
 mod write_measurements;
 
 pub use atomic::atomic_write;
+pub use column_names::{ColumnNames, read_column_names};
 pub use csv_text::{CsvText, csv_cell};
 pub use digest::{content_hash, text_hash};
 pub use error::{Fault, FileError};
@@ -59,10 +67,13 @@ pub use place::FilePlace;
 pub use problem::FileProblem;
 pub use read_balls::{read_ball_places, read_balls};
 pub use read_columns::{Cells, MemoryColumn, read_columns};
-pub use read_conditions::{read_conditions, read_plan};
+pub use read_conditions::{read_conditions, read_conditions_named, read_plan};
 pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_joints::read_joints;
-pub use read_measurements::{read_campaign, read_campaign_from, read_measurements, read_measurements_from};
+pub use read_loads::read_loads;
+pub use read_measurements::{
+    read_campaign, read_campaign_from, read_campaign_named, read_measurements, read_measurements_from,
+};
 pub use read_sensor::{SENSOR_WITH_COST, point, sensor_name, sensor_of, sensors, unit_vector};
 pub use table::TableReading;
 pub use toml_file::{Format, read_toml, read_toml_text};

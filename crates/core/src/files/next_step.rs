@@ -121,6 +121,10 @@ impl FileProblem {
                 format!("Keep this column or {first_name}; begin the other name with x_ to have it ignored.")
             }
             Self::MissingColumns { names } => missing_columns(names),
+            Self::OtherNames { likely, .. } => format!(
+                "Rename them, in the file or by --columns: {}; angles are those of R = Rz(gamma) Ry(beta) Rx(alpha).",
+                likely.join(", ")
+            ),
             Self::IncompleteGroup { group, names } => {
                 format!("Add {}, or remove all {group} columns.", names.join(", "))
             }

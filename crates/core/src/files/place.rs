@@ -6,6 +6,8 @@ use std::ops::Range;
 /// Where in a file: as much as is known, all of it counted from 1 except the bytes and the rows of a table in memory.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct FilePlace {
+    /// Sheet of a workbook; lines are then its rows.
+    pub sheet: Option<String>,
     /// Line, the first is 1, header and comments included.
     pub line: Option<u64>,
     /// Row of a table in memory, the first is 0, as arrays count.
@@ -45,6 +47,12 @@ impl FilePlace {
         Self { line: None, column: None, span: None, ..self }
     }
 
+    /// The same place in a sheet of a workbook, whose bytes are not text.
+    #[must_use]
+    pub fn in_sheet(self, sheet: &str) -> Self {
+        Self { sheet: Some(shortened(sheet)), span: None, ..self }
+    }
+
     /// The same place with the offending text.
     #[must_use]
     pub fn with_value(self, value: &str) -> Self {
@@ -61,8 +69,13 @@ impl FilePlace {
 /// `line 3, column 9 (fz_N)`, `row 1 (fz_N)`; nothing for the whole file.
 impl fmt::Display for FilePlace {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(sheet) = &self.sheet {
+            let comma = if self.line.is_some() || self.name.is_some() { ", " } else { "" };
+            write!(out, "sheet \"{sheet}\"{comma}")?;
+        }
         if let Some(line) = self.line {
-            write!(out, "line {line}")?;
+            let word = if self.sheet.is_some() { "row" } else { "line" };
+            write!(out, "{word} {line}")?;
         }
         if let Some(row) = self.row {
             write!(out, "row {row}")?;

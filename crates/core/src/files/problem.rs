@@ -132,6 +132,14 @@ pub enum FileProblem {
         /// Their names, with the usual unit.
         names: Vec<String>,
     },
+    /// Required columns that are there under the names of another program.
+    #[error("required columns are missing: {}; they may be there under other names", names.join(", "))]
+    OtherNames {
+        /// Their names, with the usual unit.
+        names: Vec<String>,
+        /// `X_mm is a_mm`, one each.
+        likely: Vec<String>,
+    },
     /// No measured value at all.
     #[error("no measured values: neither deflections (da_um ... dgamma_urad) nor poses (measured_a_mm ...)")]
     NothingMeasured,

@@ -5,15 +5,15 @@ use super::error::Fault;
 use super::line::Line;
 use super::lines::{Lines, RawLine};
 use super::number::parse_number;
+use super::source::{Noticed, read_source};
 use super::stated_unit::stated_unit;
 use super::toml_file::{Format, read_toml};
 use super::toml_value::{Item, KeyUnit, TomlSection};
 use super::units::Unit;
-use super::{Dimension, FileError, FilePlace, FileProblem};
+use super::{Dimension, FileError, FilePlace, FileProblem, Warning};
 use crate::{BallPlace, BallPlaces, BallRecord, Vector3};
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::BufRead;
 use std::path::Path;
 
 /// Columns of a table of named points: the group of a point, its name, its coordinates.
@@ -21,14 +21,22 @@ use std::path::Path;
 pub(super) struct PointColumns {
     names: [&'static str; 5],
     usual: [&'static str; 5],
+    /// What a sheet of a workbook with them is called.
+    sheet: &'static str,
+}
+
+impl Noticed for Vec<BallRecord> {
+    fn warnings(&mut self) -> Option<&mut Vec<Warning>> {
+        None
+    }
 }
 
 impl PointColumns {
-    pub(super) const BALLS: Self = Self::of("record", "ball");
-    pub(super) const JOINTS: Self = Self::of("side", "leg");
+    pub(super) const BALLS: Self = Self::of("record", "ball", "balls");
+    pub(super) const JOINTS: Self = Self::of("side", "leg", "joints");
 
-    const fn of(group: &'static str, name: &'static str) -> Self {
-        Self { names: [group, name, "x", "y", "z"], usual: [group, name, "x_mm", "y_mm", "z_mm"] }
+    const fn of(group: &'static str, name: &'static str, sheet: &'static str) -> Self {
+        Self { names: [group, name, "x", "y", "z"], usual: [group, name, "x_mm", "y_mm", "z_mm"], sheet }
     }
 }
 
@@ -53,8 +61,7 @@ pub fn read_balls(path: &Path) -> Result<Vec<BallRecord>, FileError> {
 
 /// Reads a table of named points, such as balls of records.
 pub(super) fn read_points(path: &Path, columns: PointColumns) -> Result<Vec<BallRecord>, FileError> {
-    let read = || table(BufReader::new(File::open(path)?), columns);
-    read().map_err(|fault| fault.in_file(path))
+    read_source(path, columns.sheet, |input| table(input, columns)).map_err(|fault| fault.in_file(path))
 }
 
 /// Reads places of balls, format `balls/1`.

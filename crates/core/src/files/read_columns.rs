@@ -4,7 +4,7 @@ use std::hash::{Hash, Hasher};
 use std::path::Path;
 
 use super::error::Fault;
-use super::header::GroupPurpose;
+use super::header::{GroupPurpose, Reads};
 use super::line::Line;
 use super::lines::RawLine;
 use super::number::parse_number;
@@ -94,7 +94,7 @@ fn table(columns: &[MemoryColumn], purpose: GroupPurpose, machine: Option<&Hexap
     let header = names.join(&SEPARATOR.to_string());
     let raw = RawLine { text: &header, number: 1, start: 0, ended: true };
     let mut borders = Vec::new();
-    let mut table = Table::new(&Line::cut(raw, SEPARATOR as u8, &mut borders)?, purpose, machine)?;
+    let mut table = Table::new(&Line::cut(raw, SEPARATOR as u8, &mut borders)?, Reads::of(purpose, machine))?;
     // There are no lines to be named.
     table.warnings.iter_mut().for_each(|w| w.place = std::mem::take(&mut w.place).without_line());
     refuse_other_lengths(first, columns)?;

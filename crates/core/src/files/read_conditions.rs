@@ -1,7 +1,8 @@
 //! Reading poses and loads that have not been measured.
 
 use super::FileError;
-use super::header::GroupPurpose;
+use super::column_names::ColumnNames;
+use super::header::{GroupPurpose, Reads};
 use super::read_measurements::read_named;
 use super::table::TableReading;
 use std::path::Path;
@@ -14,8 +15,17 @@ use std::path::Path;
 /// # Errors
 /// The first thing that is wrong, with line, column, value and next step.
 pub fn read_conditions(path: &Path) -> Result<TableReading, FileError> {
+    read_conditions_named(path, &ColumnNames::default())
+}
+
+/// The same of a table whose columns have other names.
+///
+/// # Errors
+/// As [`read_conditions`].
+pub fn read_conditions_named(path: &Path, names: &ColumnNames) -> Result<TableReading, FileError> {
+    let reads = Reads { names: Some(names), ..Reads::of(GroupPurpose::Conditions, None) };
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, GroupPurpose::Conditions, None).map_err(|fault| fault.in_file(path))
+    read_named(path, &name, reads).map_err(|fault| fault.in_file(path))
 }
 
 /// Reads a plan: poses and loads that are to be measured.
@@ -26,7 +36,7 @@ pub fn read_conditions(path: &Path) -> Result<TableReading, FileError> {
 /// As [`read_conditions`].
 pub fn read_plan(path: &Path) -> Result<TableReading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, GroupPurpose::Plan, None).map_err(|fault| fault.in_file(path))
+    read_named(path, &name, Reads::of(GroupPurpose::Plan, None)).map_err(|fault| fault.in_file(path))
 }
 
 #[cfg(test)]

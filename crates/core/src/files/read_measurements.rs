@@ -1,21 +1,21 @@
 //! Reading a table of measurements in one pass.
 
+use super::column_names::ColumnNames;
 use super::error::Fault;
-use super::header::{GroupPurpose, refuse_numbers};
+use super::header::{GroupPurpose, Reads, refuse_numbers};
 use super::line::{Line, whole_place};
 use super::lines::{Lines, RawLine};
+use super::load_columns::load_row;
 use super::number::{Decimals, parse_number};
 use super::row::FilledRow;
+use super::source::read_source;
 use super::table::{Table, TableReading};
 use super::warning::Notice;
 use super::{FileError, FilePlace, FileProblem, Warning};
-use crate::Hexapod;
-use std::fs::File;
-use std::io::{BufRead, BufReader};
+use crate::{Hexapod, LoadRow};
+use std::io::BufRead;
 use std::ops::Range;
 use std::path::Path;
-
-const BUFFER_BYTES: usize = 1 << 18;
 
 /// Reads `measurements.csv`, deflections or absolute poses; `docs/reference/file-formats.md` defines the columns.
 ///
@@ -33,7 +33,7 @@ const BUFFER_BYTES: usize = 1 << 18;
 /// ```
 pub fn read_measurements(path: &Path) -> Result<TableReading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, GroupPurpose::Measurements, None).map_err(|fault| fault.in_file(path))
+    read_named(path, &name, Reads::of(GroupPurpose::Measurements, None)).map_err(|fault| fault.in_file(path))
 }
 
 /// The same of a machine whose sensors fill columns of their own; any of the six pose columns may be absent, and a cell of a
@@ -42,8 +42,21 @@ pub fn read_measurements(path: &Path) -> Result<TableReading, FileError> {
 /// # Errors
 /// As [`read_measurements`]; a column without its sensor, a sensor without its column, a row without any reading.
 pub fn read_campaign(hexapod: &Hexapod, path: &Path) -> Result<TableReading, FileError> {
+    read_campaign_named(hexapod, path, &ColumnNames::default())
+}
+
+/// The same of a table whose columns have other names.
+///
+/// # Errors
+/// As [`read_campaign`].
+pub fn read_campaign_named(
+    hexapod: &Hexapod,
+    path: &Path,
+    names: &ColumnNames,
+) -> Result<TableReading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, GroupPurpose::Measurements, Some(hexapod)).map_err(|fault| fault.in_file(path))
+    let reads = Reads { names: Some(names), ..Reads::of(GroupPurpose::Measurements, Some(hexapod)) };
+    read_named(path, &name, reads).map_err(|fault| fault.in_file(path))
 }
 
 /// The same from memory or a stream; `name` stands for the file in messages.
@@ -55,17 +68,12 @@ pub fn read_campaign_from(
     input: impl BufRead,
     name: &str,
 ) -> Result<TableReading, FileError> {
-    read_table(input, name, GroupPurpose::Measurements, Some(hexapod))
+    read_table(input, name, Reads::of(GroupPurpose::Measurements, Some(hexapod)))
         .map_err(|fault| fault.in_file(Path::new(name)))
 }
 
-pub(crate) fn read_named(
-    path: &Path,
-    name: &str,
-    purpose: GroupPurpose,
-    machine: Option<&Hexapod>,
-) -> Result<TableReading, Fault> {
-    read_table(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?), name, purpose, machine)
+pub(crate) fn read_named(path: &Path, name: &str, reads: Reads<'_>) -> Result<TableReading, Fault> {
+    read_source(path, reads.purpose.usual_sheet(), |input| read_table(input, name, reads))
 }
 
 /// The same from memory or a stream; `name` stands for the file in messages.
@@ -73,17 +81,18 @@ pub(crate) fn read_named(
 /// # Errors
 /// As [`read_measurements`].
 pub fn read_measurements_from(input: impl BufRead, name: &str) -> Result<TableReading, FileError> {
-    read_table(input, name, GroupPurpose::Measurements, None).map_err(|fault| fault.in_file(Path::new(name)))
+    read_table(input, name, Reads::of(GroupPurpose::Measurements, None))
+        .map_err(|fault| fault.in_file(Path::new(name)))
 }
 
-fn read_table(
-    input: impl BufRead,
-    name: &str,
-    purpose: GroupPurpose,
-    machine: Option<&Hexapod>,
-) -> Result<TableReading, Fault> {
+fn read_table(input: impl BufRead, name: &str, reads: Reads<'_>) -> Result<TableReading, Fault> {
+    rows_of(input, reads)?.finish(name)
+}
+
+/// All rows of a table, before it is finished.
+pub(crate) fn rows_of(input: impl BufRead, reads: Reads<'_>) -> Result<Csv, Fault> {
     let mut lines = Lines::new(input);
-    let mut table = start(&mut lines, purpose, machine)?;
+    let mut table = start(&mut lines, reads)?;
     let mut cells = Vec::new();
     while let Some(raw) = lines.next_line()? {
         if !is_skipped(raw.text, table.separator) {
@@ -93,14 +102,10 @@ fn read_table(
     if let Some(encoding) = lines.encoding {
         table.table.warnings.push(Warning::new(FilePlace::file(), Notice::Encoding(encoding)));
     }
-    table.finish(name)
+    Ok(table)
 }
 
-fn start<R: BufRead>(
-    lines: &mut Lines<R>,
-    purpose: GroupPurpose,
-    machine: Option<&Hexapod>,
-) -> Result<Csv, Fault> {
+fn start<R: BufRead>(lines: &mut Lines<R>, reads: Reads<'_>) -> Result<Csv, Fault> {
     let mut separator = None;
     while let Some(raw) = lines.next_line()? {
         if raw.text.trim().is_empty() || raw.text.starts_with('#') {
@@ -115,7 +120,7 @@ fn start<R: BufRead>(
         if raw.text.contains('\r') {
             return Err(Fault::new(FilePlace::file(), FileProblem::CarriageReturnLines));
         }
-        return Csv::new(raw, separator, purpose, machine);
+        return Csv::new(raw, separator, reads);
     }
     Err(Fault::new(FilePlace::file(), FileProblem::Empty))
 }
@@ -141,8 +146,10 @@ fn is_skipped(text: &str, separator: u8) -> bool {
 }
 
 /// A table while it is read from text.
-struct Csv {
-    table: Table,
+pub(crate) struct Csv {
+    pub(crate) table: Table,
+    /// Of a table of loads: records and masses of each row.
+    pub(crate) loads: Vec<LoadRow>,
     separator: u8,
     decimals: Decimals,
     units: UnitRow,
@@ -157,21 +164,22 @@ enum UnitRow {
 
 impl Csv {
     /// `told`: the separator that the file states itself.
-    fn new(
-        header: RawLine<'_>,
-        told: Option<u8>,
-        purpose: GroupPurpose,
-        machine: Option<&Hexapod>,
-    ) -> Result<Self, Fault> {
+    fn new(header: RawLine<'_>, told: Option<u8>, reads: Reads<'_>) -> Result<Self, Fault> {
         let (separator, name) = told.map_or_else(|| separator_of(header.text), |separator| (separator, None));
         let mut borders = Vec::new();
         let line = Line::cut(header, separator, &mut borders)?.trimmed();
         refuse_numbers(&line)?;
-        let mut table = Table::new(&line, purpose, machine)?;
+        let mut table = Table::new(&line, reads)?;
         if let Some(name) = name {
             table.warnings.insert(0, Warning::new(whole_place(&header), Notice::Separator(name)));
         }
-        Ok(Self { table, separator, decimals: Decimals::default(), units: UnitRow::MayFollow })
+        Ok(Self {
+            table,
+            loads: Vec::new(),
+            separator,
+            decimals: Decimals::default(),
+            units: UnitRow::MayFollow,
+        })
     }
 
     fn add(&mut self, raw: RawLine<'_>, cells: &mut Vec<Range<usize>>) -> Result<(), Fault> {
@@ -188,9 +196,24 @@ impl Csv {
         self.table
             .push(&row, line.number(), raw.text)
             .map_err(|problem| Fault::new(line.whole_place(), problem))?;
+        if self.table.plan.of_loads.iter().any(Option::is_some) {
+            self.add_load(&line)?;
+        }
         if !raw.ended {
             self.table.warnings.push(Warning::new(whole_place(&raw), Notice::NoFinalNewline));
         }
+        Ok(())
+    }
+
+    /// What only a table of loads says.
+    fn add_load(&mut self, line: &Line<'_>) -> Result<(), Fault> {
+        let plan = &self.table.plan;
+        let number = |text: &str| number_of(text, self.separator, &mut self.decimals, line.number());
+        let row = load_row(&plan.of_loads, line, number).map_err(|(cell, problem)| {
+            let place = line.place(cell).with_name(&plan.names[cell]).with_value(line.text(cell));
+            Fault::new(place, problem)
+        })?;
+        self.loads.push(row);
         Ok(())
     }
 
@@ -238,7 +261,7 @@ impl Csv {
         Ok(row)
     }
 
-    fn finish(mut self, name: &str) -> Result<TableReading, Fault> {
+    pub(crate) fn finish(mut self, name: &str) -> Result<TableReading, Fault> {
         self.table.decimal_comma = self.decimals.has_comma();
         self.table.finish(name)
     }

@@ -4,12 +4,13 @@ use std::hash::Hash;
 
 use super::duplicates::{Fingerprints, drop_copies};
 use super::error::Fault;
-use super::header::{GroupPurpose, Plan, Source, read_header};
+use super::header::{GroupPurpose, Plan, Reads, Source, read_header};
 use super::line::Line;
 use super::row::{FilledRow, no_sigma};
+use super::source::Noticed;
 use super::warning::Notice;
 use super::{FilePlace, FileProblem, Warning};
-use crate::{Dataset, Hexapod, Measurand, Observation};
+use crate::{Dataset, Measurand, Observation};
 
 /// A table as read, and what the reader noticed on the way.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +19,12 @@ pub struct TableReading {
     pub dataset: Dataset,
     /// What was accepted but should be looked at.
     pub warnings: Vec<Warning>,
+}
+
+impl Noticed for TableReading {
+    fn warnings(&mut self) -> Option<&mut Vec<Warning>> {
+        Some(&mut self.warnings)
+    }
 }
 
 /// A table while it is read.
@@ -35,15 +42,11 @@ pub(crate) struct Table {
 
 impl Table {
     /// A table of no rows yet.
-    pub(crate) fn new(
-        header: &Line<'_>,
-        purpose: GroupPurpose,
-        machine: Option<&Hexapod>,
-    ) -> Result<Self, Fault> {
+    pub(crate) fn new(header: &Line<'_>, reads: Reads<'_>) -> Result<Self, Fault> {
         let mut warnings = Vec::new();
-        let plan = read_header(header, purpose, machine, &mut warnings)?;
+        let plan = read_header(header, reads, &mut warnings)?;
         Ok(Self {
-            purpose,
+            purpose: reads.purpose,
             plan,
             warnings,
             decimal_comma: false,

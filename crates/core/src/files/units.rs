@@ -21,6 +21,8 @@ pub enum Dimension {
     Time,
     /// Stiffness of a leg, SI unit N/m.
     Stiffness,
+    /// Mass, SI unit kg.
+    Mass,
 }
 
 impl Dimension {
@@ -35,6 +37,7 @@ impl Dimension {
             Self::TemperatureDifference => "temperature difference",
             Self::Time => "time",
             Self::Stiffness => "stiffness",
+            Self::Mass => "mass",
         }
     }
 
@@ -96,6 +99,8 @@ pub const UNITS: &[Unit] = &[
     Unit::new("um", Dimension::Length, 1.0, 1e6),
     Unit::new("nm", Dimension::Length, 1.0, 1e9),
     Unit::new("in", Dimension::Length, 0.0254, 1.0),
+    Unit::new("mil", Dimension::Length, 25.4e-6, 1.0),
+    Unit::new("uin", Dimension::Length, 25.4e-9, 1.0),
     Unit::new("rad", Dimension::Angle, 1.0, 1.0),
     Unit::new("mrad", Dimension::Angle, 1.0, 1e3),
     Unit::new("urad", Dimension::Angle, 1.0, 1e6),
@@ -106,11 +111,16 @@ pub const UNITS: &[Unit] = &[
     Unit::new("mN", Dimension::Force, 1.0, 1e3),
     Unit::new("kN", Dimension::Force, 1e3, 1.0),
     Unit::new("MN", Dimension::Force, 1e6, 1.0),
+    Unit::new("kgf", Dimension::Force, 9.806_65, 1.0),
+    Unit::new("lbf", Dimension::Force, 4.448_221_615_260_5, 1.0),
     Unit::new("Nm", Dimension::Moment, 1.0, 1.0),
     Unit::new("mNm", Dimension::Moment, 1.0, 1e3),
     Unit::new("Nmm", Dimension::Moment, 1.0, 1e3),
     Unit::new("kNm", Dimension::Moment, 1e3, 1.0),
     Unit::new("MNm", Dimension::Moment, 1e6, 1.0),
+    Unit::new("kgfm", Dimension::Moment, 9.806_65, 1.0),
+    Unit::new("lbfin", Dimension::Moment, 4.448_221_615_260_5 * 0.0254, 1.0),
+    Unit::new("lbfft", Dimension::Moment, 4.448_221_615_260_5 * 0.3048, 1.0),
     Unit::new("K", Dimension::TemperatureDifference, 1.0, 1.0),
     Unit::new("degC", Dimension::TemperatureDifference, 1.0, 1.0),
     Unit::new("s", Dimension::Time, 1.0, 1.0),
@@ -121,6 +131,9 @@ pub const UNITS: &[Unit] = &[
     Unit::new("N_per_mm", Dimension::Stiffness, 1e3, 1.0),
     Unit::new("N_per_um", Dimension::Stiffness, 1e6, 1.0),
     Unit::new("kN_per_mm", Dimension::Stiffness, 1e6, 1.0),
+    Unit::new("kg", Dimension::Mass, 1.0, 1.0),
+    Unit::new("g", Dimension::Mass, 1.0, 1e3),
+    Unit::new("lb", Dimension::Mass, 0.453_592_37, 1.0),
 ];
 
 /// The unit written as `text`: its exact name first, else its name in any case when only one unit can be meant
@@ -151,7 +164,13 @@ fn plain_spelling(text: &str) -> String {
             other => plain.push(other),
         }
     }
-    plain
+    match plain.to_ascii_lowercase().as_str() {
+        "inch" | "inches" => "in".to_owned(),
+        "micron" | "microns" => "um".to_owned(),
+        // Products are written with an underscore where a name stands in a header: lbf_in.
+        _ if !plain.contains("_per_") => plain.replace('_', ""),
+        _ => plain,
+    }
 }
 
 #[cfg(test)]
@@ -201,6 +220,16 @@ mod tests {
             ("min", Dimension::Time, 60.0),
             ("h", Dimension::Time, 3600.0),
             ("N/um", Dimension::Stiffness, 1e6),
+            ("inch", Dimension::Length, 0.0254),
+            ("mil", Dimension::Length, 25.4e-6),
+            ("microns", Dimension::Length, 1e-6),
+            ("kgf", Dimension::Force, 9.806_65),
+            ("lbf", Dimension::Force, 4.448_221_615_260_5),
+            ("lbf in", Dimension::Moment, 0.112_984_829_027_616_7),
+            ("lbf_ft", Dimension::Moment, 1.355_817_948_331_400_4),
+            ("kgf m", Dimension::Moment, 9.806_65),
+            ("g", Dimension::Mass, 1e-3),
+            ("lb", Dimension::Mass, 0.453_592_37),
             ("N/µm", Dimension::Stiffness, 1e6),
             ("kN/mm", Dimension::Stiffness, 1e6),
         ];

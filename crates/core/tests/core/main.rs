@@ -3,6 +3,8 @@
 
 mod bad_input;
 mod documented_formats;
+mod inputs;
 mod round_trip;
 mod sensors;
 mod streams;
+mod workbooks;

@@ -80,7 +80,7 @@ def simulate(
     noise_free : bool
         Read what an instrument without errors would.
     folder : path, optional
-        Keep the files here: hexapod.toml, measurements.csv, holdout.csv, balls.csv, sealed/truth.json.
+        Keep the files here: hexapod.toml, measurements.csv, holdout.csv, balls.csv, loads.csv, sealed/truth.json.
     force : bool
         Replace files in a folder that is not empty.
 

@@ -12,7 +12,7 @@ use hexbench_core::Dataset;
 use hexbench_core::files::{FileError, atomic_write, campaign_to_csv, write_hexapod};
 use rayon::prelude::*;
 
-use super::{Instrument, Measured, PartName, RowError, VirtualBench, balls_file, sealed_truth};
+use super::{Instrument, Measured, PartName, RowError, VirtualBench, balls_file, loads_file, sealed_truth};
 
 /// Rows computed at a time by one thread.
 const CHUNK: u64 = 1024;
@@ -95,8 +95,9 @@ impl VirtualBench<'_> {
         [at, shown]: [&Path; 2],
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<(), SimulationError> {
-        let rows =
-            |out: &mut dyn Write, balls: Option<&mut dyn Write>| self.stream(part, out, balls, progress);
+        let rows = |out: &mut dyn Write, beside: Option<[&mut dyn Write; 2]>| {
+            self.stream(part, out, beside, progress)
+        };
         let mut failed = None;
         let mut kept = |result: Result<(), Stop>| match result {
             Ok(()) => Ok(()),
@@ -110,7 +111,9 @@ impl VirtualBench<'_> {
             if !balls_are_kept(self, part) {
                 return kept(rows(out, None));
             }
-            atomic_write(&at.join("balls.csv"), |balls| kept(rows(out, Some(balls))))
+            atomic_write(&at.join("balls.csv"), |balls| {
+                atomic_write(&at.join("loads.csv"), |loads| kept(rows(out, Some([balls, loads]))))
+            })
         });
         failed.map_or(result, |row| Err(row.into()))
     }
@@ -119,17 +122,18 @@ impl VirtualBench<'_> {
         &self,
         part: PartName,
         out: &mut dyn Write,
-        mut balls: Option<&mut dyn Write>,
+        mut beside: Option<[&mut dyn Write; 2]>,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<(), Stop> {
         out.write_all(&table_of(self, &[])?)?;
-        if let Some(balls) = balls.as_deref_mut() {
-            balls_file::header(balls)?;
+        if let Some([balls, loads]) = &mut beside {
+            balls_file::header(*balls)?;
+            loads_file::header(*loads, &self.empty())?;
         }
         let rows = self.scene().part(part).len();
         let starts: Vec<u64> = (0..rows.div_ceil(CHUNK)).map(|chunk| chunk * CHUNK).collect();
         for round in starts.chunks(CHUNKS_PER_THREAD * rayon::current_num_threads()) {
-            let texts: Vec<Result<[Vec<u8>; 2], Stop>> = round
+            let texts: Vec<Result<[Vec<u8>; 3], Stop>> = round
                 .par_iter()
                 .map(|&start| {
                     let end = rows.min(start + CHUNK);
@@ -139,10 +143,11 @@ impl VirtualBench<'_> {
                 })
                 .collect();
             for text in texts {
-                let [table, touched] = text?;
+                let [table, touched, applied] = text?;
                 out.write_all(&table)?;
-                if let Some(balls) = balls.as_deref_mut() {
+                if let Some([balls, loads]) = &mut beside {
                     balls.write_all(&touched)?;
+                    loads.write_all(&applied)?;
                 }
             }
         }
@@ -167,14 +172,15 @@ fn text_of(
     measured: &[Measured],
     start: u64,
     with_balls: bool,
-) -> io::Result<[Vec<u8>; 2]> {
+) -> io::Result<[Vec<u8>; 3]> {
     let table = table_of(bench, measured)?;
     let header = table.iter().position(|byte| *byte == b'\n').map_or(0, |end| end + 1);
-    let mut balls = Vec::new();
+    let (mut balls, mut loads) = (Vec::new(), Vec::new());
     for (index, row) in (start..).zip(measured).filter(|_| with_balls) {
         balls_file::rows(&mut balls, index, row)?;
+        loads_file::row(&mut loads, &bench.empty(), index, row)?;
     }
-    Ok([table[header..].to_vec(), balls])
+    Ok([table[header..].to_vec(), balls, loads])
 }
 
 /// What ends a table early.

@@ -13,6 +13,7 @@ mod balls_file;
 mod bench;
 mod folder;
 mod instrument;
+mod loads_file;
 mod part;
 mod picture;
 mod plan;

@@ -56,8 +56,8 @@ bad_input! { "measurements.csv";
     a_misspelt_optional_column_is_refused: "misspelt optional column", deflections().rename("approach", "aproach").text()
         => (1, 15), "probably \"approach\" is meant";
     a_column_without_unit_is_refused: "no unit", deflections().rename("fz_N", "fz").text() => (1, 11), "states no unit";
-    an_unknown_unit_is_refused: "unknown unit", deflections().rename("fz_N", "fz_lbf").text()
-        => (1, 11), "\"lbf\" is not a known unit";
+    an_unknown_unit_is_refused: "unknown unit", deflections().rename("fz_N", "fz_dyn").text()
+        => (1, 11), "\"dyn\" is not a known unit";
     an_ambiguous_unit_is_refused: "unit whose case matters", deflections().rename("fz_N", "fz_mn").text()
         => (1, 11), "\"mn\" is not a known unit";
     a_unit_of_another_kind_is_refused: "wrong kind of unit", deflections().rename("dalpha_urad", "dalpha_um").text()

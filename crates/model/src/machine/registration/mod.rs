@@ -7,10 +7,15 @@
 //!
 //! With balls on the base each record has a frame of its own, and the pose of the platform is given in it.
 
+mod campaign;
 mod distances;
 mod records;
 mod rigid;
 
+pub use campaign::{
+    BallCampaign, BallCampaignError, InstrumentAxes, MovedBall, RecordsRead, STANDARD_GRAVITY,
+    campaign_of_balls,
+};
 pub use distances::{DistanceResidual, distances};
 pub use records::{Places, Registered, RegisteredPose, RegistrationError, register_all};
 pub use rigid::{Rigid, rigid};

@@ -227,7 +227,7 @@ fn in_frame(platform: &Rigid, base: Option<&Rigid>) -> (Pose, Matrix6) {
 }
 
 /// From translation and rotation vector to translation and Euler angles.
-fn angle_map(pose: &Pose) -> Matrix6 {
+pub(super) fn angle_map(pose: &Pose) -> Matrix6 {
     let ((sb, cb), (sg, cg)) = (pose.angles.y.sin_cos(), pose.angles.z.sin_cos());
     let axes = Matrix3::new(cg * cb, -sg, 0.0, sg * cb, cg, 0.0, -sb, 0.0, 1.0);
     let mut map = Matrix6::identity();

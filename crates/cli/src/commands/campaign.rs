@@ -1,0 +1,199 @@
+//! `hexbench campaign BALLS.csv LOADS.csv -o DIR`.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hexbench_core::Hexapod;
+use hexbench_core::files::{
+    Warning, campaign_to_csv, hexapod_to_commented_toml, measurements_to_csv, read_ball_places, read_balls,
+    read_loads,
+};
+use hexbench_model::machine::registration::{
+    BallCampaign, MovedBall, RecordsRead, STANDARD_GRAVITY, campaign_of_balls,
+};
+use hexbench_report::number::significant;
+
+use crate::failure::Failure;
+use crate::input::{self, TableNames};
+use crate::output::{Screen, report};
+use crate::page::campaigned;
+
+/// Make measurements.csv out of ball centres, loads and commanded poses
+///
+/// Each row of the loads names the record of its loaded state and of its reference state. Masses become wrenches. Without --balls the
+/// commanded poses of the reference records say where the balls are on the platform.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench campaign balls.csv loads.csv --balls balls.toml -o campaign\n  \
+    hexbench campaign balls.csv loads.csv --gravity 9.8072 -o campaign\n  \
+    hexbench campaign balls.csv loads.csv --points hexapod.toml -o campaign\n\n\
+    loads.csv has the columns record, ref_record, a_mm ... gamma_deg, and fx_N ... mz_Nm with ref_fx_N ... ref_mz_Nm\n\
+    or mass_kg with ref_mass_kg, load_x_mm ..., pull_x ...")]
+pub(crate) struct Arguments {
+    /// Ball centres: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`
+    data: PathBuf,
+    /// Loads and commanded poses: loads.csv, one row per loaded record
+    loads: PathBuf,
+    #[command(flatten)]
+    names: TableNames,
+    /// Where the balls should be (format balls/1)
+    #[arg(long, value_name = "FILE")]
+    balls: Option<PathBuf>,
+    /// Standard deviation of one coordinate in um, instead of that of the balls file or of the residuals
+    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
+    sigma_um: Option<f64>,
+    /// Acceleration of free fall where the masses hang, m/s^2
+    #[arg(long, value_name = "M_PER_S2", default_value_t = STANDARD_GRAVITY, allow_negative_numbers = true)]
+    gravity: f64,
+    /// Turn the axes of the measuring machine into those of the hexapod, as its commanded poses have them
+    #[arg(long)]
+    align: bool,
+    /// Keep the balls themselves as readings, no pose in between, and write this machine with a sensor for each
+    #[arg(long, value_name = "HEXAPOD")]
+    points: Option<PathBuf>,
+    /// Folder for measurements.csv; a file that exists is never replaced
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+/// Names of the six numbers.
+const NAMES: [&str; 6] = ["da", "db", "dc", "dalpha", "dbeta", "dgamma"];
+/// Most warnings of a kind told one by one.
+const MOST_TOLD: usize = 5;
+/// Axes that stand farther apart are told, rad: five times what drawings are usually good for.
+const ASIDE: f64 = 1.7e-3;
+
+/// Register, pair and write.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let records = read_balls(&arguments.data)?;
+    let loads = read_loads(&arguments.loads, &arguments.names.read()?)?;
+    warn_of_loads(&arguments.loads, &loads.warnings);
+    let places = arguments.balls.as_deref().map(read_ball_places).transpose()?;
+    let how = RecordsRead {
+        places: places.as_ref(),
+        sigma: positive("--sigma-um", arguments.sigma_um)?.map(|um| um * 1e-6),
+        gravity: positive("--gravity", Some(arguments.gravity))?.unwrap_or(STANDARD_GRAVITY),
+        align: arguments.align,
+    };
+    let machine = arguments.points.as_deref().map(input::hexapod).transpose()?;
+    let found = campaign_of_balls(&records, &loads, &how)
+        .map_err(|cause| Failure::Campaign { path: arguments.data.clone(), cause })?;
+    warn(arguments, &found);
+    let files = match &machine {
+        Some(hexapod) => points(hexapod, &found)?,
+        None => vec![("measurements.csv", table(&found)?)],
+    };
+    for (name, _) in &files {
+        refuse_existing(&arguments.output.join(name))?;
+    }
+    for (name, text) in &files {
+        screen.write_into(&arguments.output, name, text)?;
+    }
+    let told = campaigned::Told { found: &found, how: &how, folder: &arguments.output, files: &files };
+    screen.show(&campaigned::page(&told))
+}
+
+fn positive(name: &str, given: Option<f64>) -> Result<Option<f64>, Failure> {
+    match given {
+        Some(value) if !(value.is_finite() && value > 0.0) => {
+            Err(usage(format!("{name} {value}: this number is positive"), "Leave it out, or correct it."))
+        }
+        given => Ok(given),
+    }
+}
+
+fn usage(message: String, next: &str) -> Failure {
+    Failure::Usage { message, next: next.to_owned() }
+}
+
+fn refuse_existing(path: &Path) -> Result<(), Failure> {
+    if path.exists() {
+        let message = format!("{} exists already", path.display());
+        return Err(usage(message, "Name another folder with -o, or remove this file."));
+    }
+    Ok(())
+}
+
+fn warn_of_loads(path: &Path, warnings: &[Warning]) {
+    for warning in warnings {
+        report::warn(&format!("{}: {warning}", path.display()), warning.next_step());
+    }
+}
+
+fn warn(arguments: &Arguments, found: &BallCampaign) {
+    let file = arguments.data.display();
+    for moved in found.moved.iter().take(MOST_TOLD) {
+        report::warn(
+            &format!("{file}: {}", moved_in_words(moved)),
+            "Look for a knocked or badly touched ball; leave the row out of the loads if so.",
+        );
+    }
+    if found.moved.len() > MOST_TOLD {
+        let more = found.moved.len() - MOST_TOLD;
+        report::warn(&format!("{file}: so it is in {more} rows more"), "The page lists them.");
+    }
+    let turned = found.axes.filter(|axes| axes.angle > ASIDE + 5.0 * axes.uncertainty);
+    if let Some(axes) = turned.filter(|_| !arguments.align && !found.dataset.is_absolute()) {
+        let degrees = significant(axes.angle.to_degrees(), 3);
+        report::warn(
+            &format!(
+                "{file}: the axes of the measuring machine are turned by {degrees} deg against those of the hexapod"
+            ),
+            "Give --align to turn them back by the commanded poses; deflections would else be in the wrong axes.",
+        );
+    }
+    if !found.unused.is_empty() {
+        let (count, first) = (found.unused.len(), &found.unused[0]);
+        report::warn(
+            &format!("{file}: {count} of the records are in no row of the loads, record {first} the first"),
+            "Nothing, if they are meant to be left out.",
+        );
+    }
+}
+
+pub(crate) fn moved_in_words(moved: &MovedBall) -> String {
+    let [reference, loaded] = &moved.records;
+    let um = significant(moved.change.abs() * 1e6, 3);
+    let which = moved.balls.join(" or ");
+    format!("ball {which} moved on the platform between records {reference} and {loaded}, by {um} um or more")
+}
+
+/// The readings, and the correlations of the six numbers of each row beside them.
+fn table(found: &BallCampaign) -> Result<String, Failure> {
+    let text = written(|out| measurements_to_csv(out, &found.dataset))?;
+    let pairs = || (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
+    let header: Vec<String> = pairs().map(|(i, j)| format!("x_corr_{}_{}", NAMES[i], NAMES[j])).collect();
+    let mut lines = text.lines();
+    let mut all = format!("{},{}\n", lines.next().unwrap_or_default(), header.join(","));
+    for (line, covariance) in lines.zip(&found.covariances) {
+        let correlation = |(i, j): (usize, usize)| {
+            let scale = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+            format!("{:.6}", if scale > 0.0 { covariance[(i, j)] / scale } else { 0.0 })
+        };
+        let correlations: Vec<String> = pairs().map(correlation).collect();
+        all.extend([line, ",", &correlations.join(","), "\n"]);
+    }
+    Ok(all)
+}
+
+/// The machine with its balls, and what they read.
+fn points(hexapod: &Hexapod, found: &BallCampaign) -> Result<Vec<(&'static str, String)>, Failure> {
+    if found.dataset.is_absolute() {
+        let message = "--points: absolute poses have no displacement of a ball".to_owned();
+        return Err(usage(message, "Leave --points away, or name reference records in ref_record."));
+    }
+    if found.sigma <= 0.0 {
+        let message = "--points: the noise of a coordinate is not known".to_owned();
+        return Err(usage(message, "Give --sigma-um, or sigma_um in the balls file."));
+    }
+    let (machine, dataset) = found.as_points(hexapod);
+    let table = written(|out| campaign_to_csv(out, &machine, &dataset))?;
+    Ok(vec![("hexapod.toml", hexapod_to_commented_toml(&machine)), ("measurements.csv", table)])
+}
+
+fn written(table: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<String, Failure> {
+    let mut text = Vec::new();
+    table(&mut text).map_err(|cause| Failure::Output { path: "measurements.csv".into(), cause })?;
+    Ok(String::from_utf8_lossy(&text).into_owned())
+}

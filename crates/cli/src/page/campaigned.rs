@@ -1,0 +1,100 @@
+//! Readings made of balls and loads, in words.
+
+use std::path::Path;
+
+use hexbench_model::machine::registration::{BallCampaign, RecordsRead};
+use hexbench_report::number::significant;
+use hexbench_report::{Block, Definition, Page, Section};
+
+use crate::commands::campaign::moved_in_words;
+
+/// What the page is about.
+pub(crate) struct Told<'a> {
+    /// The readings.
+    pub(crate) found: &'a BallCampaign,
+    /// How the records were read.
+    pub(crate) how: &'a RecordsRead<'a>,
+    /// Where the files are.
+    pub(crate) folder: &'a Path,
+    /// Their names and texts.
+    pub(crate) files: &'a [(&'static str, String)],
+}
+
+/// The page.
+pub(crate) fn page(told: &Told<'_>) -> Page {
+    let found = told.found;
+    let names: Vec<&str> = told.files.iter().map(|(name, _)| *name).collect();
+    let entries = [
+        ("readings", readings(found)),
+        ("balls", balls(found)),
+        ("axes", axes(told)),
+        ("noise", noise(told)),
+        ("weights", format!("g = {} m/s^2", told.how.gravity)),
+        ("moved", moved(found)),
+        ("written", format!("{} in {}", names.join(" and "), told.folder.display())),
+    ];
+    let entries = entries.map(|(label, text)| Definition::new(label, text));
+    let section = Section::new("Campaign from balls").with(Block::entries(entries));
+    let page = Page::default().with(section);
+    let next = Section::new("Next").with(Block::code(next(told)));
+    if found.moved.is_empty() {
+        return page.with(next);
+    }
+    let all = found.moved.iter().map(|ball| format!("line {}: {}", ball.line, moved_in_words(ball)));
+    let list = all.fold(Section::new("Balls that moved"), |section, text| section.paragraph(&text));
+    page.with(list).with(next)
+}
+
+fn readings(found: &BallCampaign) -> String {
+    let count = found.covariances.len();
+    format!("{count} {}", found.dataset.measurand.readings())
+}
+
+fn balls(found: &BallCampaign) -> String {
+    let platform = format!("{} on the platform", found.balls.len());
+    match (found.base.len(), found.placed_by_commands) {
+        (0, true) => format!("{platform}, placed by the commanded poses of the references"),
+        (0, false) => platform,
+        (base, _) => format!("{platform}, {base} on the base"),
+    }
+}
+
+fn axes(told: &Told<'_>) -> String {
+    let Some(axes) = told.found.axes else { return "those of the balls on the base".into() };
+    let apart = format!(
+        "{} deg and {} mm from those of the hexapod by its commanded poses",
+        significant(axes.angle.to_degrees(), 2),
+        significant(axes.shift * 1e3, 3)
+    );
+    let done = if told.how.align { "turned back" } else { "left as they are" };
+    format!("those of the measuring machine, {apart}; {done}")
+}
+
+fn noise(told: &Told<'_>) -> String {
+    let um = |sigma: f64| significant(sigma * 1e6, 3);
+    let used = told.found.sigma;
+    match told.found.estimated_sigma {
+        _ if used <= 0.0 => "unknown: nothing is stated and no residual is left over".into(),
+        Some(estimated) => {
+            format!("{} um per coordinate; the residuals say {} um", um(used), um(estimated))
+        }
+        None => format!("{} um per coordinate", um(used)),
+    }
+}
+
+fn moved(found: &BallCampaign) -> String {
+    match found.moved.len() {
+        0 => "no ball beyond the noise".into(),
+        1 => "a ball, in 1 row".into(),
+        rows => format!("a ball, in {rows} rows"),
+    }
+}
+
+fn next(told: &Told<'_>) -> String {
+    let folder = told.folder.display();
+    if told.files.len() > 1 {
+        format!("hexbench diagnose {folder}/hexapod.toml {folder}/measurements.csv")
+    } else {
+        format!("hexbench diagnose hexapod.toml {folder}/measurements.csv")
+    }
+}

@@ -1,0 +1,362 @@
+//! From ball centres and loads to measurements.csv: the round trip of every scene, and what is wrong with balls.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use hexbench_core::files::{read_campaign, read_hexapod};
+use hexbench_core::{Dataset, Pose, Vector3};
+use serde_json::Value;
+
+use crate::scenes::simulate;
+use crate::support::{hexbench, root, text};
+
+/// The simulated table has six decimals of um and urad, the balls 1e-7 mm: 1e-4 um over the radius of 0.12 m.
+const ROUNDING_UM_OR_URAD: f64 = 3e-3;
+
+struct Bench(tempfile::TempDir);
+
+impl Bench {
+    /// The files of a simulated scene.
+    fn of(scene: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        simulate(&root().join("scenes").join(scene), &folder.path().join("data"), &[]);
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join("data").join(name)
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    fn write(&self, name: &str, content: &str) {
+        fs::write(self.path(name), content).unwrap();
+    }
+
+    fn run(&self, arguments: &[&str]) -> std::process::Output {
+        hexbench().current_dir(self.path("")).args(arguments).output().unwrap()
+    }
+
+    fn campaign(&self, more: &[&str]) -> std::process::Output {
+        self.run(&[&["campaign", "balls.csv", "loads.csv", "-o", "out"], more].concat())
+    }
+
+    /// What standard error says of a campaign that ends so.
+    fn said(&self, more: &[&str], code: i32) -> String {
+        let output = self.campaign(more);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(code), "{said}");
+        said
+    }
+
+    fn dataset(&self, table: &str) -> Dataset {
+        let hexapod = read_hexapod(&self.path("hexapod.toml")).unwrap();
+        read_campaign(&hexapod, &self.path(table)).unwrap().dataset
+    }
+
+    /// Balls and loads of a scene whose instrument writes none: what would be touched if its readings were exact.
+    fn touch(&self, places: &[Vector3]) {
+        let data = self.dataset("measurements.csv");
+        let (mut balls, mut loads) = (String::from("record,ball,x_mm,y_mm,z_mm\n"), String::new());
+        let table = self.read("measurements.csv");
+        let mut lines = table.lines();
+        let records = if data.is_absolute() { "record" } else { "ref_record,record" };
+        let _ = writeln!(loads, "{records},{}", lines.next().unwrap());
+        for (row, (o, line)) in data.observations.iter().zip(lines).enumerate() {
+            let sum = std::array::from_fn(|k| o.pose.to_array()[k] + o.measured[k]);
+            if data.is_absolute() {
+                touched(&mut balls, &format!("L{row}"), &Pose::from_array(o.measured), places);
+                let _ = writeln!(loads, "L{row},{line}");
+                continue;
+            }
+            touched(&mut balls, &format!("R{row}"), &o.pose, places);
+            touched(&mut balls, &format!("L{row}"), &Pose::from_array(sum), places);
+            let _ = writeln!(loads, "R{row},L{row},{line}");
+        }
+        let mut known = String::from("format = \"balls/1\"\n");
+        for (ball, p) in (1..).zip(places) {
+            let [x, y, z] = [p.x, p.y, p.z].map(|metres| metres * 1e3);
+            let _ = writeln!(known, "[[platform]]\nball = \"P{ball}\"\ncenter_mm = [{x:?}, {y:?}, {z:?}]");
+        }
+        self.write("balls.csv", &balls);
+        self.write("loads.csv", &loads);
+        self.write("balls.toml", &known);
+    }
+
+    /// Balls of one record, changed.
+    fn change(&self, record: &str, change: impl Fn(&mut Vec<String>)) {
+        let line = |line: &str| {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if record == "*" && cells[0] != "record" || cells[0] == record {
+                change(&mut cells);
+            }
+            cells.join(",")
+        };
+        let changed: Vec<String> = self.read("balls.csv").lines().map(line).collect();
+        self.write("balls.csv", &(changed.join("\n") + "\n"));
+    }
+}
+
+fn touched(balls: &mut String, record: &str, pose: &Pose, places: &[Vector3]) {
+    for (ball, place) in (1..).zip(places) {
+        let p = (pose.translation + pose.rotation() * place) * 1e3;
+        let _ = writeln!(balls, "{record},P{ball},{:.9},{:.9},{:.9}", p.x, p.y, p.z);
+    }
+}
+
+fn number(cell: &str) -> f64 {
+    cell.parse().unwrap()
+}
+
+/// Largest difference of the measured numbers of two tables, um and urad (of absolute poses too).
+fn difference(one: &Dataset, other: &Dataset) -> f64 {
+    assert_eq!((one.observations.len(), one.measurand), (other.observations.len(), other.measurand));
+    let rows = one.observations.iter().zip(&other.observations);
+    let numbers = rows.flat_map(|(a, b)| (0..6).map(|k| (a.measured[k] - b.measured[k]).abs()));
+    numbers.fold(0.0, f64::max) * 1e6
+}
+
+fn same_conditions(one: &Dataset, other: &Dataset) {
+    for (a, b) in one.observations.iter().zip(&other.observations) {
+        let of = |o: &hexbench_core::Observation| {
+            (
+                o.pose_id,
+                o.repeat,
+                o.pose,
+                o.wrench,
+                o.reference,
+                o.approach,
+                o.delta_t.to_bits(),
+                o.elapsed.to_bits(),
+            )
+        };
+        assert_eq!(of(a), of(b));
+    }
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+#[test]
+fn balls_of_every_scene_give_the_readings_of_its_table() {
+    let names = fs::read_dir(root().join("scenes")).unwrap().map(|e| e.unwrap());
+    let mut names: Vec<String> =
+        names.filter(|e| e.path().is_dir()).map(|e| e.file_name().into_string().unwrap()).collect();
+    names.sort();
+    let mut by_poses = 0;
+    for name in names {
+        let bench = Bench::of(&name);
+        let expected = bench.dataset("measurements.csv");
+        if expected.has_other_readings() {
+            continue;
+        }
+        if !bench.path("balls.csv").exists() {
+            bench.touch(
+                &[[0.12, 0.0, 0.0], [-0.06, 0.1, 0.0], [-0.05, -0.1, 0.01], [0.0, 0.02, 0.1]]
+                    .map(Vector3::from),
+            );
+        }
+        text(bench.campaign(&["--balls", "balls.toml"]));
+        let found = bench.dataset("out/measurements.csv");
+        let apart = difference(&expected, &found);
+        println!("{name}: {apart:.2e} um or urad");
+        assert!(apart < ROUNDING_UM_OR_URAD, "{name}: {apart}");
+        same_conditions(&expected, &found);
+        by_poses += 1;
+    }
+    assert!(by_poses > 13, "{by_poses}");
+}
+
+/// The verdict, what was added, and the stiffnesses of two results.
+fn same_diagnosis(one: &Value, other: &Value, sigmas: f64) {
+    assert_eq!((&one["verdict"], &one["added"]), (&other["verdict"], &other["added"]));
+    let pairs = one["parameters"].as_array().unwrap().iter().zip(other["parameters"].as_array().unwrap());
+    for (a, b) in pairs {
+        assert_eq!(a["name"], b["name"]);
+        let [a, b, std] = [&a["value"], &b["value"], &a["std"]].map(|x| x.as_f64().unwrap());
+        assert!((a - b).abs() < sigmas * std, "{a} and {b}, +- {std}");
+    }
+}
+
+#[test]
+fn the_diagnosis_of_the_round_trip_is_that_of_the_table() {
+    let bench = Bench::of("paper-rich");
+    text(bench.campaign(&["--balls", "balls.toml"]));
+    text(bench.run(&["diagnose", "hexapod.toml", "measurements.csv", "--json", "table.json"]));
+    text(bench.run(&["diagnose", "hexapod.toml", "out/measurements.csv", "--json", "trip.json"]));
+    let [table, trip] = ["table.json", "trip.json"].map(|name| json(&bench.path(name)));
+    assert_eq!(table["added"][0], "base-compliance");
+    same_diagnosis(&table, &trip, 1e-2);
+}
+
+#[test]
+fn balls_on_the_base_give_every_record_its_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    for file in ["hexapod.toml", "scene.toml", "sealed/truth.toml"] {
+        let into = folder.path().join(file);
+        fs::create_dir_all(into.parent().unwrap()).unwrap();
+        fs::copy(root().join("scenes/paper-rich").join(file), into).unwrap();
+    }
+    let scene = folder.path().join("scene.toml");
+    let base = "kind = \"balls\"\nbase_balls_mm = [[300, 300, -200], [-300, 300, -200], [0, -350, -100]]";
+    fs::write(&scene, fs::read_to_string(&scene).unwrap().replacen("kind = \"balls\"", base, 1)).unwrap();
+    let bench = Bench(tempfile::tempdir().unwrap());
+    simulate(folder.path(), &bench.path(""), &[]);
+    assert!(bench.said(&[], 3).contains("where balls stand on the base, --balls says which"));
+    text(bench.campaign(&["--balls", "balls.toml"]));
+    let [table, trip] = ["measurements.csv", "out/measurements.csv"].map(|name| bench.dataset(name));
+    assert!(difference(&table, &trip) < ROUNDING_UM_OR_URAD);
+    let [stated, found] = [table, trip].map(|data| data.observations[0].sigma.unwrap());
+    assert!(stated.iter().zip(found).all(|(a, b)| (a - b).abs() < 1e-5 * a), "{stated:?} {found:?}");
+}
+
+/// Without known places, and with the balls themselves as readings: other weights, the same answer within the noise.
+#[test]
+fn balls_that_nobody_has_measured_give_the_same_answer() {
+    let bench = Bench::of("paper-rich");
+    text(bench.run(&["diagnose", "hexapod.toml", "measurements.csv", "--json", "table.json"]));
+    text(bench.campaign(&[]));
+    text(bench.run(&["diagnose", "hexapod.toml", "out/measurements.csv", "--json", "unmeasured.json"]));
+    let points = ["campaign", "balls.csv", "loads.csv", "--points", "hexapod.toml", "-o", "points"];
+    text(bench.run(&points));
+    text(bench.run(&["diagnose", "points/hexapod.toml", "points/measurements.csv", "--json", "points.json"]));
+    let table = json(&bench.path("table.json"));
+    for name in ["unmeasured.json", "points.json"] {
+        same_diagnosis(&table, &json(&bench.path(name)), 0.5);
+    }
+}
+
+#[test]
+fn masses_on_a_point_and_over_a_pulley_become_wrenches() {
+    let bench = Bench::of("paper");
+    let loads = bench.read("loads.csv");
+    let mut lines = loads.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = lines.next().unwrap();
+    let mut text_of = format!(
+        "{},mass_kg,ref_mass_kg,load_x_mm,load_y_mm,load_z_mm,pull_x,pull_y,pull_z\n",
+        head[..10].join(",")
+    );
+    for cells in lines {
+        let _ = writeln!(text_of, "{},34.5,12.2,10,0,50,0,3,-4", cells[..10].join(","));
+    }
+    bench.write("loads.csv", &text_of);
+    text(bench.campaign(&["--gravity", "10"]));
+    for o in bench.dataset("out/measurements.csv").observations {
+        let force = Vector3::new(0.0, 0.6, -0.8) * 345.0;
+        let moment = (o.pose.rotation() * Vector3::new(0.01, 0.0, 0.05)).cross(&force);
+        assert!((o.wrench.force - force).norm() < 1e-9 && (o.wrench.moment - moment).norm() < 1e-9);
+        assert!((o.reference.force - force * 12.2 / 34.5).norm() < 1e-9, "{o:?}");
+    }
+}
+
+#[test]
+fn axes_of_the_measuring_machine_are_told_and_turned_back() {
+    let bench = Bench::of("paper-rich");
+    let turn = Pose::from_array([0.3, -0.2, 0.1, 0.02, -0.03, 1.2]);
+    text(bench.campaign(&["--balls", "balls.toml"]));
+    let straight = bench.dataset("out/measurements.csv");
+    fs::remove_dir_all(bench.path("out")).unwrap();
+    bench.change("*", |cells| {
+        let p = Vector3::new(number(&cells[5]), number(&cells[6]), number(&cells[7]));
+        let seen = turn.translation * 1e3 + turn.rotation() * p;
+        (0..3).for_each(|k| cells[5 + k] = format!("{:.9}", seen[k]));
+    });
+    let said = bench.said(&["--balls", "balls.toml"], 0);
+    assert!(said.contains("are turned by 68") && said.contains("--align"), "{said}");
+    fs::remove_dir_all(bench.path("out")).unwrap();
+    let said = bench.said(&["--balls", "balls.toml", "--align"], 0);
+    assert!(!said.contains("warning"), "{said}");
+    // What the machine is off its commands leaves the axes uncertain by some 1e-4 rad, and readings by that share.
+    let apart = difference(&straight, &bench.dataset("out/measurements.csv"));
+    let largest =
+        straight.observations.iter().flat_map(|o| o.measured).fold(0.0, |m: f64, x| m.max(x.abs())) * 1e6;
+    println!("{apart} of {largest} um or urad");
+    assert!(apart < 1e-3 * largest, "{apart} of {largest}");
+}
+
+#[test]
+fn a_ball_that_moved_is_named_with_its_records() {
+    let bench = Bench::of("paper");
+    bench.change("8", |cells| {
+        if cells[4] == "P2" {
+            // Away from both others: of three balls, distances to one other alone do not tell which of the two moved.
+            cells[5] = format!("{:.7}", number(&cells[5]) - 0.05);
+            cells[6] = format!("{:.7}", number(&cells[6]) + 0.05);
+        }
+    });
+    let said = bench.said(&["--balls", "balls.toml"], 0);
+    assert!(said.contains("ball P2 moved on the platform between records 7 and 8"), "{said}");
+    assert_eq!(said.matches("warning:").count(), 1, "{said}");
+}
+
+#[test]
+fn exchanged_and_mirrored_balls_are_refused() {
+    let exchanged = Bench::of("paper-rich");
+    exchanged.change("8", |cells| {
+        let other = match cells[4].as_str() {
+            "P1" => "P2",
+            "P2" => "P1",
+            same => same,
+        };
+        cells[4] = other.to_owned();
+    });
+    for places in [&["--balls", "balls.toml"][..], &[]] {
+        let said = exchanged.said(places, 3);
+        assert!(said.contains("record 8") && said.contains("P1 for P2, P2 for P1"), "{said}");
+    }
+    let mirrored = Bench::of("paper-rich");
+    mirrored.change("*", |cells| cells[7] = format!("{:.7}", -number(&cells[7])));
+    let said = mirrored.said(&["--balls", "balls.toml"], 3);
+    assert!(said.contains("mirror image") && said.contains("next: Export right-handed"), "{said}");
+}
+
+#[test]
+fn what_does_not_fit_together_is_told_with_its_next_step() {
+    let bench = Bench::of("paper");
+    let (balls, loads) = (bench.read("balls.csv"), bench.read("loads.csv"));
+    let with_loads = |from: &str, to: &str, message: &str| {
+        bench.write("loads.csv", &loads.replacen(from, to, 1));
+        let said = bench.said(&["--balls", "balls.toml"], 3);
+        assert!(said.contains(message) && said.contains("next: "), "{said}");
+    };
+    with_loads("\n1,2,", "\n1,99,", "line 2 of the loads: there is no record 99");
+    with_loads("\n1,2,", "\n2,2,", "line 2 of the loads: record 2 is loaded and reference at once");
+    with_loads("record,", "rec,", "ref_record");
+    with_loads("fz_N", "fz", "the name states no unit");
+    with_loads(",2.616,", ",52.616,", "from where the commanded pose puts them");
+    bench.write("loads.csv", &loads);
+    bench.write("balls.csv", &balls.replacen("\n4,loaded,1,2,P2", "\n4,loaded,1,2,Q2", 1));
+    assert!(bench.said(&["--balls", "balls.toml"], 3).contains("record 4 lacks ball P2"));
+    bench.write("balls.csv", &balls);
+    assert!(bench.said(&["--gravity", "-9.81"], 2).contains("--gravity -9.81"));
+    bench.said(&[], 0);
+    assert!(bench.said(&[], 2).contains("exists already"));
+}
+
+#[test]
+fn a_table_may_come_from_standard_input_and_under_other_names() {
+    let bench = Bench::of("paper-rich");
+    let of_file = ["diagnose", "hexapod.toml", "measurements.csv", "--json", "file.json"];
+    text(bench.run(&of_file));
+    let theirs = bench.read("measurements.csv").replacen("a_mm,b_mm,c_mm", "X,Y,Z", 1);
+    bench.write("theirs.csv", &theirs);
+    let refused = bench.run(&["diagnose", "hexapod.toml", "theirs.csv"]);
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert!(
+        said.contains("next: Rename them, in the file or by --columns: X is a_mm, Y is b_mm, Z is c_mm"),
+        "{said}"
+    );
+    let entry = |(name, is): (&str, &str)| format!("[[column]]\nname = \"{name}\"\nis = \"{is}\"\n");
+    let map: String = [("X", "a_mm"), ("Y", "b_mm"), ("Z", "c_mm")].map(entry).concat();
+    bench.write("map.toml", &format!("format = \"columns/1\"\n{map}"));
+    let mut piped = hexbench();
+    piped.current_dir(bench.path("")).args(["diagnose", "hexapod.toml", "-", "--columns", "map.toml"]);
+    text(piped.args(["--json", "piped.json"]).write_stdin(theirs).output().unwrap());
+    let [file, piped] = ["file.json", "piped.json"].map(|name| json(&bench.path(name)));
+    assert_eq!(file["parameters"], piped["parameters"]);
+    assert_eq!((&file["verdict"], &file["candidates"]), (&piped["verdict"], &piped["candidates"]));
+}
