@@ -160,7 +160,7 @@ fn look(
     let rest = Remainder::new(&examined.data, &campaign, outcome)?;
     let (statements, stated) = statements(&rest);
     let fault = worst(&rest).filter(|f| f.rows.len() <= most);
-    let inputs = if fault.is_none() { inexact_inputs(&rest, outcome) } else { None };
+    let inputs = if fault.is_none() { inexact_inputs(&rest) } else { None };
     Ok((fault, Look { statements, stated, rows: rest.rows, inputs }))
 }
 

@@ -13,7 +13,6 @@ use super::remainder::{Remainder, explained};
 use crate::estimation::linearization::beside;
 use crate::estimation::tolerances::{InputKind, columns_of_sensor};
 use crate::inference::candidates::{orthonormal, project, target};
-use crate::inference::diagnosis::RankedSets;
 use crate::inference::evidence::log_sum;
 
 /// Multiples of the stated tolerance that are tried.
@@ -49,53 +48,12 @@ pub(super) struct Tolerance {
     pub(super) errors: Vec<f64>,
 }
 
-/// What the readings tell of the inputs, beside the effects found or in place of one of them; none for absolute poses, where the joints
-/// are an effect of the catalogue.
-pub(super) fn inexact_inputs(rest: &Remainder<'_>, outcome: &RankedSets) -> Option<Tolerance> {
+/// What the readings tell of the inputs; none for absolute poses, where the joints are an effect of the catalogue.
+pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     if rest.campaign.is_absolute() {
         return None;
     }
-    let beside_effects = told(rest, &explained(&rest.lin, rest.point), &doubted(rest));
-    let all = beside_effects.into_iter().chain(in_place_of_effects(rest, outcome));
-    all.max_by(|a, b| a.evidence.total_cmp(&b.evidence))
-}
-
-/// A sensor beside its place moves its readings as some effect may: the sensors in place of each effect found. What the effect is worth
-/// is what they have to be worth.
-fn in_place_of_effects<'a>(
-    rest: &'a Remainder<'_>,
-    outcome: &'a RankedSets,
-) -> impl Iterator<Item = Tolerance> + 'a {
-    let sensors: Vec<(Doubted, Range<usize>)> =
-        doubted(rest).into_iter().filter(|(doubted, _)| !matches!(doubted, Doubted::Inputs(_))).collect();
-    let effects = &rest.point.active;
-    let choice = (effects.len().max(1) as f64).ln();
-    effects.iter().enumerate().filter_map(move |(k, effect)| {
-        let worth = worth(outcome, effect.term.info().id)?;
-        let mut others = explained(&rest.lin, rest.point);
-        others.remove(1 + k);
-        let found = told(rest, &others, &sensors)?;
-        Some(Tolerance { evidence: found.evidence - worth - choice, ..found })
-    })
-}
-
-/// Evidence and prior for an effect of the best set over the same set without it, nats; none where that was not looked at.
-fn worth(outcome: &RankedSets, id: &str) -> Option<f64> {
-    let sets = &outcome.sets.sets;
-    let best = sets.first()?;
-    let is_other = |m: &usize| outcome.candidates[*m].id() != Some(id);
-    let others: Vec<usize> = best.members.iter().copied().filter(is_other).collect();
-    let without = sets.iter().find(|set| set.members == others)?;
-    (others.len() < best.members.len()).then_some(best.log_weight - without.log_weight)
-}
-
-/// What the readings tell most of among some inputs, beside what some columns explain.
-fn told(
-    rest: &Remainder<'_>,
-    explained: &[DMatrix<f64>],
-    all: &[(Doubted, Range<usize>)],
-) -> Option<Tolerance> {
-    let basis = orthonormal(&beside(explained));
+    let basis = orthonormal(&beside(&explained(&rest.lin, rest.point)));
     let mut y = target(&rest.lin, rest.point);
     project(&basis, &mut y);
     let overlap = basis.tr_mul(&rest.inputs);
@@ -106,6 +64,7 @@ fn told(
         scales.rows_range_mut(columns.clone()).fill(factor);
         scales
     };
+    let all = doubted(rest);
     let at = |(doubted, columns): &(Doubted, Range<usize>)| {
         // A sensor is set up to its tolerance; joints and loads are exact where they are not told of.
         let (usual, factors) =
