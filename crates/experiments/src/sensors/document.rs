@@ -22,6 +22,7 @@ pub fn page(study: &SensorStudy, alike: &AlikeStudy) -> Page {
         .with(Section::new("In short").list(headlines(study, alike)))
         .with(Section::new("Way by way").paragraph(WAYS).table(sheets::ways(study)))
         .with(Section::new("Sensors that are wrong").paragraph(faults()).table(sheets::faults(study)))
+        .with(missed(study))
         .with(Section::new("Equal information").paragraph(SAME).table(sheets::alike(alike)))
         .with(
             Section::new("Without an answer")
@@ -59,6 +60,23 @@ fn faults() -> String {
          hidden effect leave beside sensors that stand to their tolerance: six standard deviations. Named: the first finding calls it by its \
          name."
     )
+}
+
+/// What was said where the readings show a fault and nothing calls it by its name.
+fn missed(study: &SensorStudy) -> Option<Section> {
+    let line = |r: &SensorRecord| {
+        let information = r.information.unwrap_or(0.0).round();
+        let (hidden, answer) = (r.of.answer.hidden_words(), r.of.answer.answer());
+        format!(
+            "{}, {} on {} ({}): chi-square {information}; hidden {hidden}, said {answer}.",
+            r.of.fault,
+            r.set.word(),
+            r.of.answer.family,
+            r.of.answer.plan.name()
+        )
+    };
+    let all = study.records.iter().filter(|r| r.shows_fault() && !r.is_named());
+    Section::new("Shown and not named").list(all.map(line)).unless_empty()
 }
 
 const SAME: &str = "One campaign with upright platforms is read with three balls in the plane of the mobile origin, as the pose that they boil \
