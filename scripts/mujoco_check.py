@@ -73,7 +73,7 @@ def state_differences(
 ) -> list[float]:
     """Differences of one state: translation, rotation and sensors in units of the deflection, forces of the largest one."""
     machine = prepared(folder / row["model"], arguments)
-    load = np.array([float(row[f"{motor}_{'N' if motor[0] == 'f' else 'Nm'}"]) for motor in MOTORS])
+    load, reference = (wrench(row, before) for before in ("", "ref_"))
     if not np.array_equal(load, machine.keyframe_load()):
         raise NoRestError(f"{row['model']}: its keyframe holds another load than its row")
     if arguments.inject_nan:
@@ -89,22 +89,27 @@ def state_differences(
         float(np.linalg.norm(loaded.position - place) / size),
         float(radius * np.linalg.norm(loaded.turn_from(quaternion(angles))) / size),
         float(np.abs(loaded.forces - forces).max() / np.abs(forces).max()),
-        sensor_difference([unloaded, loaded], row, sensors, radius) / size,
+        sensor_difference([machine.rest(reference), loaded], row, sensors, radius) / size if sensors else 0.0,
     ]
 
 
+def wrench(row: dict[str, str], before: str) -> np.ndarray:
+    """Load of a row, N and N m; `before`: what the names of its columns begin with."""
+    return np.array([float(row[f"{before}{motor}_{'N' if motor[0] == 'f' else 'Nm'}"]) for motor in MOTORS])
+
+
 def sensor_difference(states: list[State], row: dict[str, str], sensors: list[dict], radius: float) -> float:
-    """Largest difference of what sensors read from the unloaded to the loaded state, m; of angles times the radius."""
-    unloaded, loaded = states
+    """Largest difference of what sensors read from the reference to the loaded state, m; of angles times the radius."""
+    before, loaded = states
     largest = 0.0
     for sensor in sensors:
         name = sensor["name"]
         if sensor["kind"] == "inclination":
             axis = np.array(sensor["axis"], dtype=float)
-            turn = loaded.turn_about_fixed_axes(unloaded) @ axis / np.linalg.norm(axis)
+            turn = loaded.turn_about_fixed_axes(before) @ axis / np.linalg.norm(axis)
             off = radius * abs(turn - float(row[f"{name}_urad"]) * 1e-6)
         else:
-            shift = loaded.points[f"sensor-{name}"] - unloaded.points[f"sensor-{name}"]
+            shift = loaded.points[f"sensor-{name}"] - before.points[f"sensor-{name}"]
             if sensor["kind"] == "point":
                 read = np.array([float(row[f"{name}_{k}_um"]) for k in "xyz"]) * 1e-6
                 off = np.linalg.norm(shift - read)

@@ -25,7 +25,7 @@ struct State {
 }
 
 impl States {
-    /// Adds a state; the pose is that of the platform itself, not what an instrument reads. `sensors`: from the unloaded machine on.
+    /// Adds a state; the pose is that of the platform itself, not what an instrument reads. `sensors`: loaded minus reference.
     pub(crate) fn push(
         &mut self,
         (part, row): (PartName, &PlanRow),

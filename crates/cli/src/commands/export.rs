@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
 use hexbench_core::files::hexapod_to_toml;
-use hexbench_core::{Pose, Wrench};
+use hexbench_core::{Hexapod, Pose};
 use hexbench_truth::campaign::PlanRow;
 use hexbench_truth::metrology::read_sensors;
 use hexbench_truth::scene::{PartName, Scene};
-use hexbench_truth::{Situation, TruthError, mjcf};
+use hexbench_truth::{TruthError, World, mjcf};
 
 use crate::failure::Failure;
 use crate::output::Screen;
@@ -86,12 +86,19 @@ fn states(arguments: &Arguments, scene: &Scene, count: usize, screen: &Screen) -
         let model = mjcf::export(&world, &row.situation).map_err(in_row)?;
         let rest = world.reading(&row.situation).map_err(in_row)?;
         screen.write_to(&folder.join(&name), &model)?;
-        let from_unloaded = Situation { reference: Wrench::default(), ..row.situation };
-        let moved = world.before_and_after(&from_unloaded).map_err(in_row)?;
-        table.push((*part, *row), &name, &rest.equilibrium, read_sensors(&scene.hexapod, &moved));
+        let read = read(&scene.hexapod, &world, row).map_err(in_row)?;
+        table.push((*part, *row), &name, &rest.equilibrium, read);
     }
     screen.write_to(&folder.join("hexapod.toml"), &hexapod_to_toml(&scene.hexapod))?;
     screen.write_to(&folder.join("states.csv"), &table.csv(&scene.hexapod, &scene.name))
+}
+
+/// What sensors read of a condition.
+fn read(hexapod: &Hexapod, world: &World, row: &PlanRow) -> Result<Vec<f64>, TruthError> {
+    if hexapod.sensors.is_empty() {
+        return Ok(Vec::new());
+    }
+    world.before_and_after(&row.situation).map(|states| read_sensors(hexapod, &states))
 }
 
 fn failed(arguments: &Arguments, place: String, cause: TruthError) -> Failure {

@@ -216,7 +216,7 @@ mod tests {
         assert!(!svg.contains("sensors: point"));
         assert_eq!(
             about(&machine.sensors[0]),
-            "distance of (300.0, 0.000, 40.00) mm along (0.000, 0.000, 1.000), 0.200 um per reading"
+            "distance of (300.0, 0, 40.00) mm along (0, 0, 1.000), 0.200 um per reading"
         );
     }
 }
