@@ -29,7 +29,7 @@ class NoRestError(RuntimeError):
 
 @dataclass(frozen=True)
 class State:
-    """A state of rest: mobile origin, its orientation (quaternion), leg forces (tension positive), points of sensors by name."""
+    """A state of rest: mobile origin, its orientation (quaternion), leg forces (tension positive), points of sensors."""
 
     position: np.ndarray
     orientation: np.ndarray

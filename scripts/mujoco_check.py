@@ -3,9 +3,9 @@
     hexbench export SCENE --mjcf --states 36 -o STATES/NAME      (once for each set)
     python scripts/mujoco_check.py STATES/*
 
-Each folder holds models, `states.csv` and `hexapod.toml`. Every model is brought to rest in MuJoCo under the load of its row; pose,
-leg forces and what sensors read must agree with the row within LIMIT of the deflection, and no warning may be raised. The table goes to standard
-output and to `mujoco-differences.csv` in the artefact folder. Exit code 1 when a set fails.
+Each folder holds models, `states.csv` and `hexapod.toml`. Every model is brought to rest in MuJoCo under the load of its row;
+pose, leg forces and what sensors read must agree with the row within LIMIT of the deflection, and no warning may be raised.
+The table goes to standard output and to `mujoco-differences.csv` in the artefact folder. Exit code 1 when a set fails.
 """
 
 from __future__ import annotations
@@ -68,9 +68,7 @@ def compare(folder: Path, arguments: argparse.Namespace) -> Result:
     return Result(folder.name, differences, motion, time.monotonic() - begin)
 
 
-def state_differences(
-    folder: Path, row: dict[str, str], sensors: list[dict], arguments: argparse.Namespace
-) -> list[float]:
+def state_differences(folder: Path, row: dict[str, str], sensors: list[dict], arguments: argparse.Namespace) -> list[float]:
     """Differences of one state: translation, rotation and sensors in units of the deflection, forces of the largest one."""
     machine = prepared(folder / row["model"], arguments)
     load, reference = (wrench(row, before) for before in ("", "ref_"))
