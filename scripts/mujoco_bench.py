@@ -29,17 +29,24 @@ class NoRestError(RuntimeError):
 
 @dataclass(frozen=True)
 class State:
-    """A state of rest: position of the mobile origin, its orientation (quaternion), leg forces (tension positive)."""
+    """A state of rest: mobile origin, its orientation (quaternion), leg forces (tension positive), points of sensors."""
 
     position: np.ndarray
     orientation: np.ndarray
     forces: np.ndarray
+    points: dict[str, np.ndarray]
 
     def turn_from(self, orientation: np.ndarray) -> np.ndarray:
         """Rotation vector from another orientation to this one, rad."""
         vector = np.zeros(3)
         mujoco.mju_subQuat(vector, self.orientation, orientation)
         return vector
+
+    def turn_about_fixed_axes(self, before: State) -> np.ndarray:
+        """Rotation vector from another state to this one in fixed axes, rad."""
+        matrix = np.zeros(9)
+        mujoco.mju_quat2Mat(matrix, before.orientation)
+        return matrix.reshape(3, 3) @ self.turn_from(before.orientation)
 
     def pose(self) -> np.ndarray:
         """[a, b, c, alpha, beta, gamma], extrinsic X-Y-Z angles."""
@@ -65,6 +72,8 @@ class Machine:
         self.model = model
         self.data = mujoco.MjData(model)
         names = [model.sensor(i).name for i in range(model.nsensor)]
+        sites = [model.site(i).name for i in range(model.nsite)]
+        self._points = [name for name in sites if name.startswith("sensor-")]
         self._forces = [[n for n in names if n.startswith(f"leg-{leg}-force-")] for leg in range(1, 7)]
 
     @classmethod
@@ -120,7 +129,8 @@ class Machine:
         self._check_warnings()
         sensor = lambda name: self.data.sensor(name).data  # noqa: E731
         forces = [-np.mean([sensor(name)[2] for name in names]) for names in self._forces]
-        return State(sensor("position").copy(), sensor("orientation").copy(), np.array(forces))
+        points = {name: self.data.site(name).xpos.copy() for name in self._points}
+        return State(sensor("position").copy(), sensor("orientation").copy(), np.array(forces), points)
 
     def _acceleration(self, place: np.ndarray) -> np.ndarray:
         self.data.qpos[:] = place

@@ -3,9 +3,9 @@
     hexbench export SCENE --mjcf --states 36 -o STATES/NAME      (once for each set)
     python scripts/mujoco_check.py STATES/*
 
-Each folder holds models and `states.csv`. Every model is brought to rest in MuJoCo under the load of its row; pose and
-leg forces must agree with the row within LIMIT of the deflection, and no warning may be raised. The table goes to standard
-output and to `mujoco-differences.csv` in the artefact folder. Exit code 1 when a set fails.
+Each folder holds models, `states.csv` and `hexapod.toml`. Every model is brought to rest in MuJoCo under the load of its row;
+pose, leg forces and what sensors read must agree with the row within LIMIT of the deflection, and no warning may be raised.
+The table goes to standard output and to `mujoco-differences.csv` in the artefact folder. Exit code 1 when a set fails.
 """
 
 from __future__ import annotations
@@ -15,13 +15,14 @@ import csv
 import os
 import sys
 import time
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
 import mujoco
 import numpy as np
 
-from mujoco_bench import MOTORS, Machine, NoRestError, quaternion
+from mujoco_bench import MOTORS, Machine, NoRestError, State, quaternion
 
 # Largest difference allowed, as a share of the deflection (poses) or of the largest leg force. The two programs treat large
 # rotations of a foundation differently (rotation vector against three hinges), by half its angle: some 1e-6.
@@ -31,7 +32,7 @@ LIMIT = 1e-5
 LIMIT_OF_MOTION = 3e-5
 SLOWEST = 1e-10
 MOST_TIME_STEPS = 40_000
-QUANTITIES = ("translation", "rotation", "force")
+QUANTITIES = ("translation", "rotation", "force", "sensors")
 
 
 @dataclass(frozen=True)
@@ -61,15 +62,16 @@ def compare(folder: Path, arguments: argparse.Namespace) -> Result:
         rows = list(csv.DictReader(file))
     if not rows:
         raise NoRestError("states.csv has no rows")
-    differences = np.array([state_differences(folder, row, arguments) for row in rows])
+    sensors = tomllib.loads((folder / "hexapod.toml").read_text(encoding="utf-8")).get("sensor", [])
+    differences = np.array([state_differences(folder, row, sensors, arguments) for row in rows])
     motion = motion_difference(folder / rows[0]["model"])
     return Result(folder.name, differences, motion, time.monotonic() - begin)
 
 
-def state_differences(folder: Path, row: dict[str, str], arguments: argparse.Namespace) -> list[float]:
-    """Differences of one state: translation and rotation in units of the deflection, forces of the largest one."""
+def state_differences(folder: Path, row: dict[str, str], sensors: list[dict], arguments: argparse.Namespace) -> list[float]:
+    """Differences of one state: translation, rotation and sensors in units of the deflection, forces of the largest one."""
     machine = prepared(folder / row["model"], arguments)
-    load = np.array([float(row[f"{motor}_{'N' if motor[0] == 'f' else 'Nm'}"]) for motor in MOTORS])
+    load, reference = (wrench(row, before) for before in ("", "ref_"))
     if not np.array_equal(load, machine.keyframe_load()):
         raise NoRestError(f"{row['model']}: its keyframe holds another load than its row")
     if arguments.inject_nan:
@@ -85,7 +87,35 @@ def state_differences(folder: Path, row: dict[str, str], arguments: argparse.Nam
         float(np.linalg.norm(loaded.position - place) / size),
         float(radius * np.linalg.norm(loaded.turn_from(quaternion(angles))) / size),
         float(np.abs(loaded.forces - forces).max() / np.abs(forces).max()),
+        sensor_difference([machine.rest(reference), loaded], row, sensors, radius) / size if sensors else 0.0,
     ]
+
+
+def wrench(row: dict[str, str], before: str) -> np.ndarray:
+    """Load of a row, N and N m; `before`: what the names of its columns begin with."""
+    return np.array([float(row[f"{before}{motor}_{'N' if motor[0] == 'f' else 'Nm'}"]) for motor in MOTORS])
+
+
+def sensor_difference(states: list[State], row: dict[str, str], sensors: list[dict], radius: float) -> float:
+    """Largest difference of what sensors read from the reference to the loaded state, m; of angles times the radius."""
+    before, loaded = states
+    largest = 0.0
+    for sensor in sensors:
+        name = sensor["name"]
+        if sensor["kind"] == "inclination":
+            axis = np.array(sensor["axis"], dtype=float)
+            turn = loaded.turn_about_fixed_axes(before) @ axis / np.linalg.norm(axis)
+            off = radius * abs(turn - float(row[f"{name}_urad"]) * 1e-6)
+        else:
+            shift = loaded.points[f"sensor-{name}"] - before.points[f"sensor-{name}"]
+            if sensor["kind"] == "point":
+                read = np.array([float(row[f"{name}_{k}_um"]) for k in "xyz"]) * 1e-6
+                off = np.linalg.norm(shift - read)
+            else:
+                direction = np.array(sensor["direction"], dtype=float)
+                off = abs(shift @ direction / np.linalg.norm(direction) - float(row[f"{name}_um"]) * 1e-6)
+        largest = max(largest, float(off))
+    return largest
 
 
 def prepared(path: Path, arguments: argparse.Namespace) -> Machine:

@@ -1,7 +1,7 @@
 //! A table of states of rest: what was done, and where the simulated world came to rest.
 
 use hexbench_core::files::CsvText;
-use hexbench_core::{Columns, Dataset, Measurand, Observation, Pose};
+use hexbench_core::{Channel, Columns, Dataset, Hexapod, Measurand, Observation, Pose};
 use hexbench_truth::campaign::PlanRow;
 use hexbench_truth::equilibrium::Equilibrium;
 use hexbench_truth::scene::PartName;
@@ -11,18 +11,40 @@ use crate::csv::{self, Unit};
 /// Rows of the table, each with its model file and its rest.
 #[derive(Debug, Default)]
 pub(crate) struct States {
-    rows: Vec<(Observation, PartName, String, Pose, [f64; 6])>,
+    rows: Vec<State>,
+}
+
+#[derive(Debug)]
+struct State {
+    condition: Observation,
+    part: PartName,
+    model: String,
+    pose: Pose,
+    forces: [f64; 6],
+    sensors: Vec<f64>,
 }
 
 impl States {
-    /// Adds a state; the pose is that of the platform itself, not what an instrument reads.
-    pub(crate) fn push(&mut self, row: &PlanRow, part: PartName, model: &str, rest: &Equilibrium) {
-        let pose = Pose::from_rotation(rest.platform.origin, &rest.platform.axes);
-        self.rows.push((row.read(0, [0.0; 6], None), part, model.to_owned(), pose, rest.forces));
+    /// Adds a state; the pose is that of the platform itself, not what an instrument reads. `sensors`: loaded minus reference.
+    pub(crate) fn push(
+        &mut self,
+        (part, row): (PartName, &PlanRow),
+        model: &str,
+        rest: &Equilibrium,
+        sensors: Vec<f64>,
+    ) {
+        self.rows.push(State {
+            condition: row.read(0, [0.0; 6], None),
+            part,
+            model: model.to_owned(),
+            pose: Pose::from_rotation(rest.platform.origin, &rest.platform.axes),
+            forces: rest.forces,
+            sensors,
+        });
     }
 
-    /// The table as CSV: conditions, part, model, resting pose, leg forces (tension positive).
-    pub(crate) fn csv(&self, source: &str) -> String {
+    /// The table as CSV: conditions, part, model, resting pose, leg forces (tension positive), sensors.
+    pub(crate) fn csv(&self, hexapod: &Hexapod, source: &str) -> String {
         let columns =
             Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
         let dataset = Dataset {
@@ -36,12 +58,18 @@ impl States {
         let conditions =
             csv::conditions_header(&dataset).into_iter().chain(["part", "model"]).map(str::to_owned);
         let forces = (1..=6).map(|leg| format!("force_{leg}_N"));
-        let mut text = CsvText::new(conditions.chain(pose).chain(forces));
-        for (observation, part, model, pose, forces) in &self.rows {
-            let what = [name(*part).to_owned(), model.clone()];
-            let pose = csv::values(&pose.to_array(), [Unit::Mm, Unit::Deg]);
-            let forces = forces.iter().map(ToString::to_string);
-            text.row(csv::condition(&dataset, observation).into_iter().chain(what).chain(pose).chain(forces));
+        let channels = Channel::all([], &hexapod.sensors);
+        let unit = |c: &Channel| if c.is_angle(&hexapod.sensors) { "urad" } else { "um" };
+        let read =
+            channels.iter().map(|c| format!("{}_{}", c.name(&hexapod.sensors, dataset.measurand), unit(c)));
+        let mut text = CsvText::new(conditions.chain(pose).chain(forces).chain(read));
+        for state in &self.rows {
+            let what = [name(state.part).to_owned(), state.model.clone()];
+            let pose = csv::values(&state.pose.to_array(), [Unit::Mm, Unit::Deg]);
+            let forces = state.forces.iter().map(ToString::to_string);
+            let read = state.sensors.iter().map(|x| (x * 1e6).to_string());
+            let condition = csv::condition(&dataset, &state.condition).into_iter();
+            text.row(condition.chain(what).chain(pose).chain(forces).chain(read));
         }
         text.into_text()
     }

@@ -56,6 +56,12 @@ pub enum Purpose {
     CaseMisstatement = 108,
     /// Case: noise and empty cells of its sensors.
     CaseSensors = 109,
+    /// Case: where its sensors really stand.
+    CaseSensorSetup = 110,
+    /// Case: noise of readings that tell the same.
+    CaseAlikeNoise = 111,
+    /// Case: empty cells of them.
+    CaseAlikeGaps = 112,
 
     /// Comparison of two worlds: machine, plan and situation.
     WorldsSituation = 200,

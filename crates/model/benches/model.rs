@@ -6,7 +6,9 @@ use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hexbench_core::files::{read_hexapod, read_measurements};
-use hexbench_core::{Dataset, Hexapod, Pose, Wrench};
+use hexbench_core::{
+    Channel, Dataset, Hexapod, Measurand, Metrology, Observation, Pose, Sensor, SensorKind, Vector3, Wrench,
+};
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::fit_baseline;
 use hexbench_model::estimation::spring_trials::SpringTrials;
@@ -75,11 +77,59 @@ fn diagnosis(c: &mut Criterion) {
     }
 }
 
+/// The same readings by six gauges in three pairs that tell as much of a motion: along z at `+-x`, along y at `+-z`, along x at `+-y`.
+fn by_gauges(hexapod: &Hexapod, data: &Dataset) -> (Hexapod, Dataset) {
+    assert_eq!(data.measurand, Measurand::DeflectionEuler);
+    let Metrology { sigma_translation, sigma_rotation } = hexapod.metrology.expect("stated noise");
+    let sigma = sigma_translation * std::f64::consts::SQRT_2;
+    let arm = sigma_translation / sigma_rotation;
+    let places = [(2, 0), (1, 2), (0, 1)].map(|(along, at)| [1.0, -1.0].map(|side| (along, at, side * arm)));
+    let gauge = |(k, (along, at, arm)): (usize, (usize, usize, f64))| {
+        let (point, direction) = (Vector3::ith(at, arm), Vector3::ith(along, 1.0));
+        Sensor::new(format!("g{}", k + 1), SensorKind::Distance { point, direction, sigma })
+    };
+    let sensors: Vec<Sensor> = places.into_iter().flatten().enumerate().map(gauge).collect();
+    let read = |o: &Observation| {
+        let numbers = o.pose.to_array();
+        let moved = Pose::from_array(std::array::from_fn(|k| numbers[k] + o.measured[k]));
+        let at = |pose: &Pose, p: &Vector3| pose.rotation() * p + pose.translation;
+        let number = |s: &Sensor| match (s.kind.point(), s.kind.direction()) {
+            (Some(p), Some(u)) => u.dot(&(at(&moved, p) - at(&o.pose, p))),
+            _ => f64::NAN,
+        };
+        let measured = std::array::from_fn(|k| number(&sensors[k]));
+        Observation { measured, sigma: Some([sigma; 6]), ..*o }
+    };
+    let observations = data.observations.iter().map(read).collect();
+    let mut gauges = Dataset { observations, ..data.clone() };
+    gauges.blocks = Channel::in_blocks(&Channel::all([], &sensors));
+    gauges.columns.sigma = true;
+    (Hexapod { sensors, ..hexapod.clone() }, gauges)
+}
+
+/// Six numbers of a pose beside six gauges that tell the same: fit and diagnosis in pairs.
+fn readings(c: &mut Criterion) {
+    let terms = catalogue();
+    let (hexapod, poses) = case("two-effects");
+    let ways = [("a pose", (hexapod.clone(), poses.clone())), ("six gauges", by_gauges(&hexapod, &poses))];
+    let mut group = c.benchmark_group(format!("{} rows", poses.observations.len()));
+    for (name, (hexapod, data)) in &ways {
+        let campaign = Campaign::new(hexapod, data).expect("a campaign");
+        group.bench_function(format!("fit of the springs to {name}"), |b| {
+            b.iter(|| fit_baseline(black_box(&campaign)));
+        });
+        group.bench_function(format!("diagnosis of {name}"), |b| {
+            b.iter(|| diagnose(hexapod, black_box(data), Some(data), &terms));
+        });
+    }
+    group.finish();
+}
+
 fn one_thread() -> Criterion {
     // The figures are per core.
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the only pool");
     Criterion::default().sample_size(20)
 }
 
-criterion_group! { name = benches; config = one_thread(); targets = deflection, fit, trials, diagnosis }
+criterion_group! { name = benches; config = one_thread(); targets = deflection, fit, trials, diagnosis, readings }
 criterion_main!(benches);

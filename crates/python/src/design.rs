@@ -3,16 +3,20 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use hexbench_app::design::{Wish, design as searched, page};
+use hexbench_app::design::{
+    ChosenSensors, SensorWish, Wish, choose_sensors as chosen, design as searched, page,
+};
 use hexbench_core::Dataset;
-use hexbench_core::files::conditions_to_columns;
+use hexbench_core::files::{conditions_to_columns, hexapod_to_toml, read_plan};
 use hexbench_design::Criterion;
+use hexbench_report::Page;
 use hexbench_report::render::plain;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 
 use crate::error::usage;
-use crate::machine::PyHexapod;
+use crate::json::loaded;
+use crate::machine::{Machine, Origin, PyHexapod};
 use crate::run::beside;
 
 /// A plan.
@@ -78,6 +82,67 @@ pub(crate) fn design(
             efficiency: found.efficiency,
             text: plain(&page(&found)),
         })
+    })
+}
+
+/// Sensors out of candidates.
+#[pyclass(frozen, name = "SensorChoice", module = "hexbench._native")]
+pub(crate) struct PySensorChoice {
+    found: ChosenSensors,
+    /// Name of the file of the machine.
+    machine: String,
+    /// The page of the command.
+    #[pyo3(get)]
+    text: String,
+}
+
+#[pymethods]
+impl PySensorChoice {
+    /// What `--json` writes.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        loaded(py, &self.found.file())
+    }
+
+    /// The machine with the chosen sensors beside those it had.
+    fn hexapod(&self) -> PyHexapod {
+        let hexapod = self.found.hexapod.clone();
+        let origin = Origin::in_memory(&self.machine, &hexapod_to_toml(&hexapod));
+        PyHexapod(Arc::new(Machine { hexapod, origin }))
+    }
+}
+
+/// What is wanted of sensors.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct WantedSensors {
+    choose: Option<u16>,
+    budget: Option<f64>,
+    see: Option<String>,
+    criterion: Option<String>,
+    terms: Vec<String>,
+    starts: Option<u16>,
+    seed: u32,
+}
+
+/// Choose sensors for the rows of a plan.
+#[pyfunction]
+pub(crate) fn choose_sensors(
+    py: Python<'_>,
+    hexapod: &PyHexapod,
+    plan: PathBuf,
+    candidates: PathBuf,
+    wanted: WantedSensors,
+) -> PyResult<PySensorChoice> {
+    let WantedSensors { choose, budget, see, criterion, terms, starts, seed } = wanted;
+    let criterion = criterion.map(|name| named(py, &name)).transpose()?;
+    let wish = SensorWish { choose, budget, see, criterion, terms, starts, seed };
+    let machine = Arc::clone(&hexapod.0);
+    beside(py, move || {
+        let plan = read_plan(&plan)?.dataset;
+        let found = chosen(&machine.hexapod, &plan, &candidates, &wish, &|_| Box::new(|| ()))?;
+        let page = found.page();
+        let page = Page { title: String::new(), ..page };
+        Ok(PySensorChoice { text: plain(&page), found, machine: machine.origin.name.clone() })
     })
 }
 

@@ -32,7 +32,7 @@ mod _native {
     #[pymodule_export]
     use crate::campaign::PyCampaign;
     #[pymodule_export]
-    use crate::design::{PyPlan, design};
+    use crate::design::{PyPlan, PySensorChoice, choose_sensors, design};
     #[pymodule_export]
     use crate::diagnose::{PyComparison, PyDiagnosis, PyDiscovery, compare, diagnose, discover};
     #[pymodule_export]

@@ -177,6 +177,23 @@ def test_a_plan_is_that_of_the_command(command: Command, tmp_path: Path) -> None
     assert plan.poses.shape == (expected["pose"].nunique(), 6) and len(plan) == len(expected)
 
 
+def test_sensors_are_those_of_the_command(command: Command, tmp_path: Path) -> None:
+    case, sensors = ROOT / "data" / "cases" / "mujoco-clean", ROOT / "data" / "designs" / "gauges.toml"
+    files = [case / "hexapod.toml", case / "measurements.csv"]
+    machine, choice = tmp_path / "machine.toml", tmp_path / "choice.json"
+    options = ["--sensors", sensors, "--choose", 4, "--starts", 4, "--seed", 2]
+    page = command("design", *files, *options, "-o", machine, "--color", "never").stdout
+    command("design", *files, *options, "--json", choice)
+    chosen = hexbench.choose_sensors(hexbench.Hexapod.read(files[0]), files[1], sensors, choose=4, starts=4, seed=2)
+    assert str(chosen) == page
+    assert chosen.to_dict() == json.loads(choice.read_text())
+    assert len(chosen.names) == 4
+    read = hexbench.Hexapod.read(machine)
+    assert np.allclose(chosen.hexapod.base_joints_mm, read.base_joints_mm)
+    with pytest.raises(hexbench.UsageError, match="how many sensors"):
+        hexbench.choose_sensors(read, files[1], sensors)
+
+
 def test_the_catalogue_is_that_of_the_command(command: Command) -> None:
     listed = command("terms").stdout
     told = hexbench.terms()

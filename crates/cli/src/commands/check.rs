@@ -6,6 +6,7 @@ use clap::Args;
 use hexbench_model::error::ModelError;
 use hexbench_model::results::check::check;
 use hexbench_model::terms::catalogue;
+use hexbench_report::charts::{drawing, sensors};
 use hexbench_report::words;
 
 use crate::failure::Failure;
@@ -29,6 +30,9 @@ pub(crate) struct Arguments {
     /// Write all of it to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write a picture of the machine with its sensors to FILE (SVG)
+    #[arg(long, value_name = "FILE")]
+    picture: Option<PathBuf>,
 }
 
 /// Check and report; exit code 1 when something has to be put right first.
@@ -51,8 +55,12 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(path) = &arguments.json {
         write_json(screen, path, &found)?;
     }
+    if let Some(path) = &arguments.picture {
+        Screen::make_folder_of(path)?;
+        screen.write_to(path, &drawing(&hexapod)?)?;
+    }
     if arguments.json.as_deref() != Some(Path::new("-")) {
-        screen.show(&words::check(&hexapod.name, &found))?;
+        screen.show(&words::check(&hexapod.name, &found).with_all(sensors(&hexapod)))?;
     }
     if found.ready {
         Ok(())

@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
-use hexbench_core::Pose;
+use hexbench_core::files::hexapod_to_toml;
+use hexbench_core::{Hexapod, Pose};
 use hexbench_truth::campaign::PlanRow;
+use hexbench_truth::metrology::read_sensors;
 use hexbench_truth::scene::{PartName, Scene};
-use hexbench_truth::{TruthError, mjcf};
+use hexbench_truth::{TruthError, World, mjcf};
 
 use crate::failure::Failure;
 use crate::output::Screen;
@@ -33,7 +35,7 @@ pub(crate) struct Arguments {
     /// Another commanded pose than the row's, mm and deg
     #[arg(long, value_name = "A,B,C,ALPHA,BETA,GAMMA", value_delimiter = ',', allow_negative_numbers = true)]
     pose: Option<Vec<f64>>,
-    /// Models of N conditions spread over the plan, and their states of rest in states.csv
+    /// Models of N conditions spread over the plan, their states of rest in states.csv, the machine in hexapod.toml
     #[arg(long, value_name = "N", conflicts_with_all = ["row", "pose"])]
     states: Option<usize>,
 }
@@ -84,9 +86,19 @@ fn states(arguments: &Arguments, scene: &Scene, count: usize, screen: &Screen) -
         let model = mjcf::export(&world, &row.situation).map_err(in_row)?;
         let rest = world.reading(&row.situation).map_err(in_row)?;
         screen.write_to(&folder.join(&name), &model)?;
-        table.push(row, *part, &name, &rest.equilibrium);
+        let read = read(&scene.hexapod, &world, row).map_err(in_row)?;
+        table.push((*part, *row), &name, &rest.equilibrium, read);
     }
-    screen.write_to(&folder.join("states.csv"), &table.csv(&scene.name))
+    screen.write_to(&folder.join("hexapod.toml"), &hexapod_to_toml(&scene.hexapod))?;
+    screen.write_to(&folder.join("states.csv"), &table.csv(&scene.hexapod, &scene.name))
+}
+
+/// What sensors read of a condition.
+fn read(hexapod: &Hexapod, world: &World, row: &PlanRow) -> Result<Vec<f64>, TruthError> {
+    if hexapod.sensors.is_empty() {
+        return Ok(Vec::new());
+    }
+    world.before_and_after(&row.situation).map(|states| read_sensors(hexapod, &states))
 }
 
 fn failed(arguments: &Arguments, place: String, cause: TruthError) -> Failure {

@@ -21,6 +21,33 @@ fn the_page_of_effects_is_what_the_code_says() {
     assert!(kept == fresh, "docs/reference/effects.md is stale: run the tests once with {BLESS}=1");
 }
 
+#[test]
+fn the_picture_of_the_bench_with_gauges_is_what_check_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    text(
+        hexbench()
+            .arg("simulate")
+            .arg(root().join("scenes/granite"))
+            .arg("-o")
+            .arg(at("bench"))
+            .output()
+            .unwrap(),
+    );
+    let machine = at("bench/hexapod.toml");
+    let page =
+        text(hexbench().arg("check").arg(&machine).arg("--picture").arg(at("g.svg")).output().unwrap());
+    assert!(page.contains("A z1") && page.contains("distance of (300.0, 0, 40.00) mm"), "{page}");
+    let fresh = fs::read_to_string(at("g.svg")).unwrap();
+    assert!(fresh.contains("sensors: distance"), "{fresh}");
+    let path = root().join("docs/guide/screenshots/gauges.svg");
+    if std::env::var_os(BLESS).is_some() {
+        fs::write(&path, &fresh).unwrap();
+    }
+    let kept = fs::read_to_string(&path).unwrap_or_default();
+    assert!(kept == fresh, "docs/guide/screenshots/gauges.svg is stale: run the tests once with {BLESS}=1");
+}
+
 /// Markdown files of a folder of the documentation.
 fn pages(folder: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(root().join(folder)).unwrap();

@@ -44,6 +44,15 @@ impl<R> Field<R> {
         let value = Box::new(move |record: &R| RecordValue::Text(value(record).into()));
         Self { name: name.to_owned(), unit: "", meaning, value }
     }
+
+    /// The same column of records that hold such ones.
+    pub fn of<S>(self, part: impl Fn(&S) -> &R + 'static) -> Field<S>
+    where
+        R: 'static,
+    {
+        let Self { name, unit, meaning, value } = self;
+        Field { name, unit, meaning, value: Box::new(move |record| value(part(record))) }
+    }
 }
 
 /// The table of the trials of an experiment: number, name, why there is no answer, then the fields of the records.

@@ -1,7 +1,8 @@
 //! Names that stand in the program itself, read back from a journal: machines, effects of the simulated world, faults of its
-//! laboratories.
+//! laboratories, what those read.
 
 use hexbench_truth::campaign::machines::FAMILIES;
+use hexbench_truth::campaign::{SensorFault, SensorSet};
 use hexbench_truth::laboratory;
 use hexbench_truth::mechanisms::REGISTRY;
 use serde::de::Error;
@@ -12,9 +13,13 @@ pub(crate) type Word = &'static str;
 
 fn known<E: Error>(name: &str) -> Result<Word, E> {
     let faults = laboratory::registry().map(|fault| fault.id);
-    let mut all = FAMILIES.iter().copied().chain(REGISTRY.iter().map(|effect| effect.id)).chain(faults);
-    all.find(|known| *known == name)
-        .ok_or_else(|| E::custom(format!("\"{name}\" is no machine, no effect and no fault")))
+    let sensors =
+        SensorSet::ALL.map(SensorSet::word).into_iter().chain(SensorFault::ALL.map(SensorFault::word));
+    let effects = REGISTRY.iter().map(|effect| effect.id);
+    let mut all = FAMILIES.iter().copied().chain(effects).chain(faults).chain(sensors);
+    all.find(|known| *known == name).ok_or_else(|| {
+        E::custom(format!("\"{name}\" is no machine, no effect, no fault and no way of reading"))
+    })
 }
 
 pub(crate) fn serialize<S: Serializer>(name: &str, to: S) -> Result<S::Ok, S::Error> {

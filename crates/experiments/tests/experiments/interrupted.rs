@@ -19,6 +19,7 @@ use hexbench_experiments::recovery::study::RecoverySettings;
 use hexbench_experiments::regress::suite::RegressSuite;
 use hexbench_experiments::regress::trials::SuiteRuns;
 use hexbench_experiments::robustness;
+use hexbench_experiments::sensors::{AlikeProtocol, SensorProtocol};
 use hexbench_experiments::sweep::{Runner, results};
 use hexbench_model::terms::catalogue;
 use hexbench_truth::Scene;
@@ -137,6 +138,14 @@ fn robustness_goes_on_where_it_was_stopped() {
         robustness::RobustnessProtocol { seed, trials: 4, ..Default::default() }
             .with_faults(&["drift-1", "joints-0.2mm"])
     };
+    survives(&protocol(3), &protocol(4));
+}
+
+#[test]
+fn a_study_of_sensors_goes_on_where_it_was_stopped() {
+    let protocol = |seed| SensorProtocol { seed, trials: 1 };
+    survives(&protocol(3), &protocol(4));
+    let protocol = |seed| AlikeProtocol { seed, campaigns: 2 };
     survives(&protocol(3), &protocol(4));
 }
 

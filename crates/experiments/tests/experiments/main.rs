@@ -15,4 +15,5 @@ mod recovery;
 mod reference_records;
 mod regress;
 mod robustness;
+mod sensors;
 mod sweep;

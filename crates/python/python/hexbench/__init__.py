@@ -13,7 +13,7 @@ minus reference, in um and urad. Names and units are those of the files.
 
 from hexbench._native import __version__
 from hexbench.campaign import Campaign, load
-from hexbench.designing import Plan, design
+from hexbench.designing import Plan, SensorChoice, choose_sensors, design
 from hexbench.diagnosing import Comparison, Diagnosis, compare, diagnose, terms
 from hexbench.discovering import Discovery, discover
 from hexbench.errors import BadInput, HexbenchError, HexbenchWarning, InputOutput, NotDetermined, UsageError
@@ -37,9 +37,11 @@ __all__ = [
     "NotDetermined",
     "Plan",
     "Scene",
+    "SensorChoice",
     "Simulation",
     "UsageError",
     "__version__",
+    "choose_sensors",
     "compare",
     "design",
     "diagnose",

@@ -121,6 +121,14 @@ class Plan:
     def text(self) -> str: ...
     def columns(self) -> list[tuple[str, NDArray[np.float64]]]: ...
 
+class SensorChoice:
+    """Sensors out of candidates."""
+
+    @property
+    def text(self) -> str: ...
+    def to_dict(self) -> dict[str, Any]: ...
+    def hexapod(self) -> Hexapod: ...
+
 class StudyRunner:
     """A study that computes records of its shards, for a folder elsewhere."""
 
@@ -163,6 +171,9 @@ def discover(
 
 def design(hexapod: Hexapod, space: str, wanted: Mapping[str, Any]) -> Plan:
     """Search a plan."""
+
+def choose_sensors(hexapod: Hexapod, plan: str, candidates: str, wanted: Mapping[str, Any]) -> SensorChoice:
+    """Choose sensors for the rows of a plan."""
 
 def simulate(folder: str | PathLike[str], output: str, wanted: Mapping[str, Any]) -> None:
     """Measure a scene and write the folder that the command writes."""

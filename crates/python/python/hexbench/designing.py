@@ -1,10 +1,10 @@
-"""Plans of experiments: which poses and loads determine the parameters best."""
+"""Plans of experiments: which poses and loads determine the parameters best, and which sensors."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from os import PathLike, fspath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -130,3 +130,90 @@ def design(
         "seed": whole(seed, "seed", 0, 2**32 - 1),
     }
     return Plan(_native.design(hexapod._made, fspath(space), wanted))
+
+
+class SensorChoice:
+    """Sensors out of candidates."""
+
+    def __init__(self, native: _native.SensorChoice) -> None:
+        """Hold what :func:`choose_sensors` has found."""
+        self._made = native
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the chosen sensors."""
+        return [sensor["name"] for sensor in self.to_dict()["sensors"]]
+
+    @property
+    def hexapod(self) -> Hexapod:
+        """The machine with the chosen sensors beside those it had."""
+        return Hexapod._of(self._made.hexapod())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what ``hexbench design --sensors --json`` writes, format ``sensor-choice/1``."""
+        return self._made.to_dict()
+
+    def __str__(self) -> str:
+        """Return the page of ``hexbench design --sensors``."""
+        return self._made.text
+
+    def __repr__(self) -> str:
+        """Return the names."""
+        return f"SensorChoice({', '.join(self.names)})"
+
+
+def choose_sensors(
+    hexapod: Hexapod,
+    plan: str | PathLike[str],
+    candidates: str | PathLike[str],
+    *,
+    choose: int | None = None,
+    budget: float | None = None,
+    see: str | None = None,
+    criterion: str | None = None,
+    add: Sequence[str] = (),
+    starts: int | None = None,
+    seed: int = 1,
+) -> SensorChoice:
+    """Choose the sensors that read the rows of a plan best: ``hexbench design --sensors``.
+
+    Parameters
+    ----------
+    hexapod : Hexapod
+        The machine; sensors that it has stay.
+    plan : path
+        Poses and loads: plan.csv or measurements.csv.
+    candidates : path
+        Sensors to choose from: ``sensor-candidates/1``.
+    choose : int, optional
+        Number of sensors (1 to 500); with a budget at most so many.
+    budget : float, optional
+        What they may cost together, in the unit of ``cost`` of the candidates.
+    see : str, optional
+        Choose the sensors that see this effect best beside springs, instead of by a criterion.
+    criterion : str, optional
+        o1 ... o5, d, a, e or i; d unless said.
+    add : sequence of str
+        Terms that the sensors have to determine too.
+    starts : int, optional
+        Searches from different starts where there are too many sets to try all; 32 unless said.
+    seed : int
+        Seed of the starts.
+
+    Raises
+    ------
+    BadInput, UsageError, NotDetermined
+        With the text of the command.
+    """
+    if see is not None and (criterion is not None or add):
+        raise UsageError("see excludes criterion and add", "Give one of them.")
+    wanted = {
+        "choose": whole(choose, "choose", 1, 500),
+        "budget": None if budget is None else float(budget),
+        "see": see,
+        "criterion": criterion,
+        "terms": [add] if isinstance(add, str) else list(add),
+        "starts": whole(starts, "starts", 1, 4096),
+        "seed": whole(seed, "seed", 0, 2**32 - 1),
+    }
+    return SensorChoice(_native.choose_sensors(hexapod._made, fspath(plan), fspath(candidates), wanted))

@@ -25,7 +25,7 @@ use crate::page::{Page, Section};
 use crate::plot::PlotError;
 use crate::words::{self, Provenance, ReportSubject, subject};
 
-pub use self::drawing::{drawing, view_from_above};
+pub use self::drawing::{drawing, sensors, view_from_above};
 pub use self::runs::runs;
 
 /// Why there is no page.

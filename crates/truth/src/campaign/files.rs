@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use hexbench_core::{
     Hexapod,
-    files::{atomic_write, write_hexapod, write_measurements},
+    files::{atomic_write, write_campaign, write_hexapod},
 };
 
 use super::SimulatedCase;
@@ -21,7 +21,8 @@ impl SimulatedCase {
         let path = |name: &str| folder.join(name);
         write_hexapod(&path("hexapod.toml"), &hexapod).map_err(|e| failed(folder, &e.message()))?;
         for (name, rows) in [("measurements.csv", &self.measurements), ("holdout.csv", &self.holdout)] {
-            write_measurements(&path(name), rows).map_err(|e| failed(&path(name), &e.message()))?;
+            write_campaign(&path(name), &self.hexapod, rows)
+                .map_err(|e| failed(&path(name), &e.message()))?;
         }
         let truth = path("truth.json");
         atomic_write(&truth, |out| writeln!(out, "{:#}", self.truth)).map_err(|e| failed(&truth, &e))

@@ -1,6 +1,7 @@
 //! Campaigns: a machine, a plan, effects of a chosen visibility, and the files of it.
 
 mod absolute;
+mod alike;
 mod case;
 mod fault;
 mod files;
@@ -10,15 +11,18 @@ mod measure;
 mod plan;
 mod redraw;
 mod scheme;
+mod sensor_readings;
 mod sensor_set;
 mod signature;
 
+pub use alike::AlikeReadings;
 pub use case::{CaseKind, CaseSpec, SimulatedCase};
 pub use input_errors::InputErrors;
 pub use measure::{SimulatedCampaign, measure};
 pub use plan::{MeasurementPlan, PlanKind, PlanRow, Schemes};
 pub(crate) use scheme::pose_of;
 pub use scheme::{Poses, Scheme, Spread, usual_half_range_mm_deg};
+pub use sensor_readings::SensorReadings;
 pub use sensor_set::{SensorFault, SensorSet};
 pub use signature::{Yardstick, rms};
 

@@ -1,6 +1,6 @@
 //! The whole model.
 
-use hexbench_core::Vector3;
+use hexbench_core::{Sensor, Vector3};
 
 use super::{
     element::Element,
@@ -33,6 +33,7 @@ pub fn export(world: &World, situation: &Situation) -> Result<String, TruthError
         pose: situation.pose.to_array(),
         parts: Parts::of(&setup)?,
         load: LoadPart::of(world, situation, &setup)?,
+        sensors: &world.hexapod.sensors,
     };
     model.root().document()
 }
@@ -42,6 +43,7 @@ struct Model<'a> {
     pose: [f64; 6],
     parts: Parts,
     load: LoadPart,
+    sensors: &'a [Sensor],
 }
 
 impl Model<'_> {
@@ -123,7 +125,7 @@ impl Model<'_> {
             .child(Element::new("freejoint").text("name", "held"))
             .child(looks.platform_disc(&centre))
             .children(self.parts.legs.iter().map(LegPart::platform_site));
-        let seen = self.load.mobile_sites().into_iter().chain(self.attachments());
+        let seen = self.load.mobile_sites().into_iter().chain(self.attachments()).chain(self.points());
         match &self.parts.plate {
             None => held.children(seen),
             Some(springs) => {
@@ -157,6 +159,14 @@ impl Model<'_> {
             .children(self.parts.legs.iter().flat_map(LegPart::sensors))
             .child(place("framepos", "position"))
             .child(place("framequat", "orientation"))
+    }
+
+    /// Points of the platform at which sensors look.
+    fn points(&self) -> impl Iterator<Item = Element> + '_ {
+        self.sensors.iter().filter_map(|sensor| {
+            let site = Element::new("site").text("name", format!("sensor-{}", sensor.name));
+            Some(site.numbers("pos", sensor.kind.point()?.as_slice()))
+        })
     }
 
     fn anchors(&self) -> Vec<Element> {

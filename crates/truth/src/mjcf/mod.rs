@@ -9,6 +9,7 @@
 //!   to the platform, with a free hinge for the twist;
 //! - a yielding foundation or plate is a body on three slides and three hinges with springs;
 //! - the load is set by six motors `fx` ... `mz` (N, N m) in fixed axes; the keyframe `loaded` holds the wrench;
+//! - points at which sensors look are sites `sensor-NAME` of the platform;
 //! - legs with weight are true masses under gravity; all other bodies have their weight taken away (`gravcomp`). Without
 //!   leg weight there is no gravity, and no state of rest depends on a mass.
 //!

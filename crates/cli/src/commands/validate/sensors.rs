@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_experiments::harness;
-use hexbench_experiments::sensors::{SEED, SensorProtocol, SensorStudy, TRIALS, page, table};
+use hexbench_experiments::sensors::{
+    ALIKE, AlikeProtocol, AlikeStudy, SEED, SensorProtocol, SensorStudy, TRIALS, alike, faults, page, ways,
+};
 use hexbench_report::Section;
 use hexbench_report::render::markdown;
 use hexbench_report::table::csv;
@@ -16,18 +18,24 @@ use crate::output::{Screen, TrialFiles};
 /// Say what becomes of campaigns read with gauges, balls, levels or scales instead of full poses, and of sensors that are wrong
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder for the table of trials and the summary table
+    /// Folder for the tables of trials and the summary tables
     #[arg(short = 'o', long, value_name = "DIR")]
     out: PathBuf,
     /// Campaigns of each way of reading and of each fault: on a clean machine and with one effect in turn
     #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     trials: u32,
+    /// Campaigns read in ways that tell the same: as a pose, three points and six distances, whole and with empty cells
+    #[arg(long, value_name = "N", default_value_t = ALIKE, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    alike: u32,
     /// Seed of everything that is drawn
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
+    /// Write the files of this one trial instead, such as `sensor-place/six-gauges-clean-0000`
+    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["alike", "markdown", "journal", "table"])]
+    case: Option<String>,
     #[command(flatten)]
     kept: TrialFiles,
 }
@@ -35,14 +43,42 @@ pub(crate) struct Arguments {
 /// Run the study, write its files, tell the main figures.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let protocol = SensorProtocol { seed: arguments.seed, trials: arguments.trials as usize };
-    let gathered = arguments.kept.run(&protocol)?;
-    let trials = harness::table(&protocol, &gathered);
-    let study = SensorStudy::of(protocol, gathered);
+    if let Some(trial) = &arguments.case {
+        return write_case(&protocol, trial, arguments, screen);
+    }
+    let same = AlikeProtocol { seed: arguments.seed, campaigns: u64::from(arguments.alike) };
+    let gathered = arguments.kept.of_one("ways").run(&protocol)?;
+    let gathered_same = arguments.kept.of_one("alike").run(&same)?;
     let out = |name: &str| arguments.out.join(name);
-    let mut files =
-        vec![written::csv_file(out("trials.csv"), &trials)?, (out("ways.csv"), csv::text(&table(&study)))];
-    files.extend(arguments.markdown.iter().map(|path| (path.clone(), markdown(&page(&study)))));
+    let mut files = vec![
+        written::csv_file(out("trials.csv"), &harness::table(&protocol, &gathered))?,
+        written::csv_file(out("alike-trials.csv"), &harness::table(&same, &gathered_same))?,
+    ];
+    let (study, same) = (SensorStudy::of(protocol, gathered), AlikeStudy::of(same, gathered_same));
+    files.extend([
+        (out("ways.csv"), csv::text(&ways(&study))),
+        (out("faults.csv"), csv::text(&faults(&study))),
+        (out("alike.csv"), csv::text(&alike(&same))),
+    ]);
+    let page = page(&study, &same);
+    files.extend(arguments.markdown.iter().map(|path| (path.clone(), markdown(&page))));
     let written = written::write_all(files, screen)?;
     let names = written.iter().map(|path| path.display().to_string());
-    screen.show(&page(&study).with(Section::new("Written").list(names)))
+    screen.show(&page.with(Section::new("Written").list(names)))
+}
+
+fn write_case(
+    protocol: &SensorProtocol,
+    trial: &str,
+    arguments: &Arguments,
+    screen: &Screen,
+) -> Result<(), Failure> {
+    let case = protocol.case(trial).ok_or_else(|| Failure::Usage {
+        message: format!("`{trial}` is no trial"),
+        next: "Give a group, a way of reading, a machine and a number, such as sensor-place/six-gauges-clean-0000 or \
+               scales/scales-single-0002; the table of trials lists them."
+            .to_owned(),
+    })?;
+    let case = case.map_err(Failure::Trial)?;
+    written::write_case(&case, &arguments.out.join(trial.replace('/', "-")), screen)
 }

@@ -1,0 +1,166 @@
+//! The frozen protocol of the first half: ways of reading, and sensors that are wrong.
+
+use hexbench_truth::campaign::{CaseKind, SensorFault, SensorReadings, SensorSet, SimulatedCase};
+
+use super::SensorRecord;
+use super::information::information;
+use crate::calibration::CalibrationRecord;
+use crate::harness::{self, Field, Gathered};
+use crate::journal::Identity;
+use crate::robustness::{RobustnessRecord, fields};
+use crate::trial::{Trial, TrialError, kinds};
+
+/// Seed of the committed figures.
+pub const SEED: u64 = 5_519;
+/// Campaigns of each way of reading, and of each fault.
+pub const TRIALS: u32 = 100;
+/// Distance of the hidden effect, as six pose numbers would show it.
+pub(super) const DISTANCE: f64 = 30.0;
+/// Ways of reading in which a sensor can be wrong.
+const FAULTY: [SensorSet; 4] =
+    [SensorSet::SixGauges, SensorSet::ThreeGauges, SensorSet::BallAndGauges, SensorSet::ThreeBalls];
+
+/// What is run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SensorProtocol {
+    /// Decides everything that is drawn.
+    pub seed: u64,
+    /// Campaigns of each way of reading, and of each fault: on a clean machine and with one effect in turn.
+    pub trials: usize,
+}
+
+impl Default for SensorProtocol {
+    fn default() -> Self {
+        Self { seed: SEED, trials: TRIALS as usize }
+    }
+}
+
+/// A campaign: how it is read, and what is wrong with a sensor.
+#[derive(Debug, Clone, Copy)]
+struct Job {
+    set: SensorSet,
+    fault: Option<SensorFault>,
+    kind: CaseKind,
+    index: usize,
+}
+
+impl SensorProtocol {
+    fn groups() -> usize {
+        SensorSet::ALL.len() + SensorFault::ALL.len()
+    }
+
+    fn job(&self, number: u64) -> Job {
+        let number = usize::try_from(number).unwrap_or(usize::MAX);
+        let (group, campaign) = (number / self.trials, number % self.trials);
+        let kind = if campaign.is_multiple_of(2) { CaseKind::Clean } else { CaseKind::Single };
+        let index = campaign / 2;
+        let Some(&set) = SensorSet::ALL.get(group) else {
+            let fault = SensorFault::ALL.get(group - SensorSet::ALL.len()).copied();
+            return Job { set: FAULTY[index % FAULTY.len()], fault, kind, index };
+        };
+        Job { set, fault: None, kind, index }
+    }
+
+    /// The campaign of one trial by its name, such as `six-gauges/six-gauges-clean-0003`, as its files are written; none of a name that
+    /// is no trial.
+    pub fn case(&self, name: &str) -> Option<Result<SimulatedCase, TrialError>> {
+        let mut jobs = (0..harness::Protocol::trials(self)).map(|number| self.job(number));
+        jobs.find(|job| job.name() == name).map(|job| job.case(self.seed))
+    }
+}
+
+impl Job {
+    /// What is read, or what is wrong with it.
+    fn group(&self) -> &'static str {
+        self.fault.map_or(self.set.word(), SensorFault::word)
+    }
+
+    fn name(&self) -> String {
+        format!("{}/{}-{}-{:04}", self.group(), self.set.word(), self.kind.name(), self.index)
+    }
+
+    fn readings(&self) -> SensorReadings {
+        SensorReadings { set: self.set, fault: self.fault, is_noisy: true }
+    }
+
+    /// The campaign in full poses.
+    fn drawn(&self, seed: u64) -> Result<SimulatedCase, TrialError> {
+        let distance = (self.kind == CaseKind::Single).then_some([DISTANCE; 2]);
+        Ok(SimulatedCase::draw(self.kind, self.index, seed, distance)?)
+    }
+
+    fn case(&self, seed: u64) -> Result<SimulatedCase, TrialError> {
+        let mut case = self.drawn(seed)?;
+        case.read_with(self.readings())?;
+        Ok(case)
+    }
+
+    fn run(&self, seed: u64) -> Result<SensorRecord, TrialError> {
+        let case = self.case(seed)?;
+        let trial = Trial::run(&case)?;
+        let of = RobustnessRecord {
+            fault: self.group(),
+            index: self.index as u64,
+            findings: kinds(&trial.study.diagnosis),
+            answer: CalibrationRecord::of_trial(&case, &trial),
+        };
+        let shown = || information(self.drawn(seed)?, self.readings());
+        Ok(SensorRecord { set: self.set, of, information: self.fault.map(|_| shown()).transpose()? })
+    }
+}
+
+impl harness::Protocol for SensorProtocol {
+    type Record = SensorRecord;
+    type Error = TrialError;
+
+    fn identity(&self) -> Identity {
+        let settings = [("trials", self.trials.to_string()), ("seed", self.seed.to_string())];
+        Identity::new("sensors", "sensor-trials/2", settings)
+    }
+
+    fn trials(&self) -> u64 {
+        (Self::groups() * self.trials) as u64
+    }
+
+    fn trial(&self, number: u64) -> Result<SensorRecord, TrialError> {
+        self.job(number).run(self.seed)
+    }
+
+    fn name(&self, number: u64) -> String {
+        self.job(number).name()
+    }
+
+    fn fields(&self) -> Vec<Field<SensorRecord>> {
+        let all = fields("read", "what is read, or what is wrong with the first sensor");
+        let information = Field::number(
+            ("information", "1"),
+            "chi-square that the fault adds to readings without noise",
+            |r: &SensorRecord| r.information,
+        );
+        all.into_iter().map(|field| field.of(|r: &SensorRecord| &r.of)).chain([information]).collect()
+    }
+}
+
+/// All trials of a protocol.
+#[derive(Debug)]
+pub struct SensorStudy {
+    /// What was run.
+    pub protocol: SensorProtocol,
+    /// Trials with an answer.
+    pub records: Vec<SensorRecord>,
+    /// Trials without one: name and reason.
+    pub failures: Vec<(String, String)>,
+}
+
+impl SensorStudy {
+    /// What the trials of a protocol gave.
+    pub fn of(protocol: SensorProtocol, gathered: Gathered<SensorRecord>) -> Self {
+        let (records, failures) = gathered.split(&protocol);
+        Self { protocol, records, failures }
+    }
+
+    /// The records of a way of reading, or of a fault.
+    pub fn of_group(&self, group: &str) -> Vec<&SensorRecord> {
+        self.records.iter().filter(|r| r.of.fault == group).collect()
+    }
+}

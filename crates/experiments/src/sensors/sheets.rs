@@ -1,0 +1,122 @@
+//! Summary tables.
+
+use hexbench_core::statistics::Proportion;
+use hexbench_report::Table;
+use hexbench_report::number::hundredths;
+use hexbench_truth::campaign::{AlikeReadings, SensorFault, SensorSet};
+
+use super::{AlikeAnswer, AlikeRecord, AlikeStudy, SensorRecord, SensorStudy};
+use crate::shares::{counted, percent};
+
+/// One line for each way of reading.
+pub fn ways(study: &SensorStudy) -> Table {
+    let mut table = Table::named([
+        "read",
+        "clean right",
+        "effect first",
+        "effect open",
+        "named falsely",
+        "told",
+        "stiffness in 95 %",
+    ]);
+    for set in SensorSet::ALL {
+        let records = study.of_group(set.word());
+        let [clean, with] =
+            [true, false].map(|clean| records.iter().filter(move |r| r.of.is_clean() == clean));
+        let is_right = |r: &&&SensorRecord| r.of.is_right();
+        let is_open =
+            |r: &&&SensorRecord| !r.of.is_right() && r.of.answer.hidden.iter().all(|id| contains(r, id));
+        table.row([
+            set.word().to_owned(),
+            counted(Proportion::count(clean, is_right)),
+            counted(Proportion::count(with.clone(), is_right)),
+            counted(Proportion::count(with, is_open)),
+            counted(Proportion::count(records.iter(), |r| r.of.names_falsely())),
+            counted(Proportion::count(records.iter(), |r| !r.of.findings.is_empty())),
+            percent(records.iter().map(|r| r.of.stiffness_coverage()).sum()),
+        ]);
+    }
+    table
+}
+
+/// One line for each fault of a sensor.
+pub fn faults(study: &SensorStudy) -> Table {
+    let mut table = Table::named([
+        "fault",
+        "shown by the readings",
+        "of these named",
+        "of the others named",
+        "effect named falsely",
+        "stiffness in 95 %",
+    ]);
+    for fault in SensorFault::ALL {
+        let records = study.of_group(fault.word());
+        let named = |shown: bool| {
+            counted(Proportion::count(records.iter().filter(|r| r.shows_fault() == shown), |r| r.is_named()))
+        };
+        table.row([
+            fault.word().to_owned(),
+            format!("{} of {}", records.iter().filter(|r| r.shows_fault()).count(), records.len()),
+            named(true),
+            named(false),
+            counted(Proportion::count(records.iter(), |r| r.of.names_falsely())),
+            percent(records.iter().map(|r| r.of.stiffness_coverage()).sum()),
+        ]);
+    }
+    table
+}
+
+/// True when an effect is among the explanations that hold 95 % of the probability.
+fn contains(record: &SensorRecord, id: &str) -> bool {
+    record.of.answer.credible.iter().any(|e| e.is_term(id))
+}
+
+/// One line for each way of reading that tells the same.
+pub fn alike(study: &AlikeStudy) -> Table {
+    let mut table = Table::named([
+        "read as",
+        "same answer as the pose",
+        "stiffness apart, std: median, worst",
+        "std apart, %: worst",
+        "effect or its absence right",
+        "stiffness in 95 %",
+        "with a fifth empty: right",
+        "stiffness in 95 %",
+        "intervals wider by",
+    ]);
+    for (k, way) in AlikeReadings::ALL.into_iter().enumerate() {
+        let all = &study.records;
+        let same = || all.iter().filter(|r| r.whole[0].says_the_same(&r.whole[k]));
+        let apart = sorted(same().map(|r| r.apart(k)));
+        let std_apart = same().map(|r| r.std_apart(k)).fold(0.0, f64::max);
+        let right = |answer: fn(&AlikeRecord) -> &[AlikeAnswer; 3]| {
+            counted(Proportion::count(all.iter(), |r| answer(r)[k].outcome == crate::trial::Outcome::Right))
+        };
+        let covered = |answer: fn(&AlikeRecord) -> &[AlikeAnswer; 3]| {
+            percent(all.iter().map(|r| r.coverage(&answer(r)[k])).sum())
+        };
+        let widened = sorted(all.iter().flat_map(|r| r.widened(k)));
+        table.row([
+            way.words().to_owned(),
+            counted(Proportion::count(all.iter(), |r| r.whole[0].says_the_same(&r.whole[k]))),
+            format!("{:.1e}, {:.1e}", middle(&apart), apart.last().copied().unwrap_or(0.0)),
+            format!("{:.1e}", 100.0 * std_apart),
+            right(|r| &r.whole),
+            covered(|r| &r.whole),
+            right(|r| &r.with_gaps),
+            covered(|r| &r.with_gaps),
+            format!("{} %", hundredths(middle(&widened) - 1.0)),
+        ]);
+    }
+    table
+}
+
+fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut all: Vec<f64> = values.collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+fn middle(sorted: &[f64]) -> f64 {
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,63 @@
+//! A small study of sensors: faults are named, clean machines are not accused, ways that tell the same give the same answer.
+
+use hexbench_experiments::harness::{self, Silent};
+use hexbench_experiments::sensors::{
+    AlikeProtocol, AlikeStudy, SEED, SensorProtocol, SensorStudy, alike, faults, page, ways,
+};
+use hexbench_report::render::markdown;
+use hexbench_truth::campaign::{SensorFault, SensorSet};
+
+/// Largest difference of a stiffness between ways that tell the same, in standard deviations; what is left are deflections of the second
+/// order and the noise that numbers to spare tell.
+const SAME_STD: f64 = 2e-2;
+
+fn study() -> (SensorStudy, AlikeStudy) {
+    let protocol = SensorProtocol { seed: SEED, trials: 2 };
+    let first = SensorStudy::of(protocol.clone(), harness::run(&protocol, None, &Silent).unwrap());
+    let protocol = AlikeProtocol { seed: SEED, campaigns: 3 };
+    let second = AlikeStudy::of(protocol.clone(), harness::run(&protocol, None, &Silent).unwrap());
+    (first, second)
+}
+
+#[test]
+fn wrong_sensors_are_named_and_the_same_information_gives_the_same_answer() {
+    let (study, same) = study();
+    assert!(
+        study.failures.is_empty() && same.failures.is_empty(),
+        "{:?} {:?}",
+        study.failures,
+        same.failures
+    );
+    for fault in [SensorFault::Sign, SensorFault::Factor] {
+        let records = study.of_group(fault.word());
+        assert_eq!(records.len(), 2);
+        assert!(records.iter().all(|r| r.shows_fault() && r.is_named()), "{}: {records:?}", fault.word());
+    }
+    let sound = || study.records.iter().filter(|r| r.has_sound_sensors());
+    assert_eq!(sound().count(), 2 * (SensorSet::ALL.len() - 3));
+    assert!(sound().filter(|r| r.of.is_clean()).all(|r| r.of.is_right() && !r.accuses_a_sensor()));
+    for record in &same.records {
+        for way in 1..3 {
+            assert!(record.whole[0].says_the_same(&record.whole[way]), "{record:?}");
+            assert!(record.apart(way) < SAME_STD, "{}: {:e}", way, record.apart(way));
+            // A fifth of the numbers less tells less, and not half.
+            assert!(record.widened(way).iter().all(|w| (1.0..1.6).contains(w)), "{:?}", record.widened(way));
+        }
+    }
+    let text = markdown(&page(&study, &same));
+    assert!(SensorFault::ALL.iter().all(|fault| text.contains(fault.word())), "{text}");
+    assert_eq!([ways(&study).text(8, 0), faults(&study).text(2, 0)], ["scales", "sensor-place"]);
+    assert_eq!(alike(&same).text(2, 0), "six distances");
+}
+
+#[test]
+fn a_trial_is_found_by_its_name() {
+    let protocol = SensorProtocol::default();
+    let case = protocol.case("sensor-place/six-gauges-clean-0000").unwrap().unwrap();
+    let sound = protocol.case("six-gauges/six-gauges-clean-0000").unwrap().unwrap();
+    let first =
+        |case: &hexbench_truth::campaign::SimulatedCase| *case.hexapod.sensors[0].kind.point().unwrap();
+    assert!(((first(&case) - first(&sound)).norm() - 0.01).abs() < 1e-12);
+    assert_eq!(case.measurements.observations, sound.measurements.observations);
+    assert!(protocol.case("sensor-place/scales-clean-0000").is_none());
+}
