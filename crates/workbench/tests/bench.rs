@@ -110,7 +110,7 @@ fn without_a_holdout_file_poses_are_left_out_in_turn() {
 #[test]
 fn a_fault_in_a_file_is_told_with_its_place() {
     let known = CASES[0];
-    let spoilt = known.data.replacen("fz_N", "fz_lbf", 1);
+    let spoilt = known.data.replacen("fz_N", "fz_dyn", 1);
     let text = |name: &str, text: &str| FileText { name: name.to_owned(), text: text.to_owned() };
     let request = |data: &str| Open::Files {
         hexapod: text("hexapod.toml", known.hexapod),

@@ -176,8 +176,8 @@ fn expected_by(patch: &str) -> (&str, Vec<String>) {
     for line in patch.lines().skip_while(|line| !line.starts_with("@@")) {
         match line.split_at_checked(1) {
             Some(("@", _)) => hunks.push(String::new()),
-            Some((" " | "-", text)) => *hunks.last_mut().unwrap() += &format!("{text}\n"),
-            None => *hunks.last_mut().unwrap() += "\n",
+            Some((" " | "-", text)) => hunks.last_mut().unwrap().extend([text, "\n"]),
+            None => hunks.last_mut().unwrap().push('\n'),
             Some(_) => {}
         }
     }
