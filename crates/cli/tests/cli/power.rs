@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
+use hexbench_model::terms::catalogue;
 use serde_json::Value;
 
 use crate::scenes::simulate;
@@ -76,7 +77,7 @@ fn figures_and_charts_are_written() {
     assert_eq!(figures["format"], "power/1");
     assert_eq!(
         figures["effects"].as_array().unwrap().len() + figures["untestable"].as_array().unwrap().len(),
-        21
+        catalogue().len()
     );
     assert!(fs::read_to_string(&page).unwrap().starts_with("# What this plan sees\n"));
     for name in ["taken-for.svg", "cosine.svg", "power.svg"] {

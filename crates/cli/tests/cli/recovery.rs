@@ -1,5 +1,6 @@
 //! `hexbench validate recovery`, one campaign of each subject.
 
+use hexbench_model::terms::catalogue;
 use serde_json::Value;
 
 use crate::support::{hexbench, text};
@@ -20,7 +21,8 @@ fn recovery_prints_pages_of_80_columns_and_writes_its_figures_and_its_document()
     assert!(page.contains("base-compliance") && page.contains("bounds hold"), "{page}");
     let figures: Value = serde_json::from_str(&std::fs::read_to_string(json).unwrap()).unwrap();
     assert_eq!(figures["format"], "recovery/1");
-    assert_eq!(figures["rows"].as_array().unwrap().len(), 24);
+    // Springs alone, of deflections and of absolute poses, and a whole machine beside every effect.
+    assert_eq!(figures["rows"].as_array().unwrap().len(), 3 + catalogue().len());
     let document = std::fs::read_to_string(markdown).unwrap();
     assert!(document.contains("| base-compliance ") && document.contains("`base`"), "{document}");
 }
