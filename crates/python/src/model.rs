@@ -9,7 +9,7 @@ use hexbench_model::application::model_file::{Estimator, Model};
 use hexbench_model::application::predict::predict_with_covariance;
 use hexbench_model::estimation::estimate::{Estimates, estimates_of};
 use hexbench_model::inference::selection::JudgedTask;
-use hexbench_model::results::diagnose::prepare;
+use hexbench_model::results::diagnose::prepare_to_fit;
 use hexbench_report::render::plain;
 use hexbench_report::words;
 use numpy::{PyArray2, PyArray3};
@@ -186,7 +186,7 @@ pub(crate) fn fit(
         let (hexapod, data) = (&measured.machine.hexapod, &measured.data);
         let added = added(&add, input::user_terms(&terms)?, estimator)?;
         let failed = |cause| Failure::Model { cause, data: data.source.clone() };
-        let campaign = prepare(hexapod, data).map_err(failed)?;
+        let campaign = prepare_to_fit(hexapod, data, &added).map_err(failed)?;
         let task =
             JudgedTask { hexapod, data, campaign: &campaign, holdout: holdout.as_ref().map(|h| &h.data) };
         let judged = fitted(&task, &added, estimator)?;

@@ -191,7 +191,7 @@ def test_sensors_are_those_of_the_command(command: Command, tmp_path: Path) -> N
     read = hexbench.Hexapod.read(machine)
     assert np.allclose(chosen.hexapod.base_joints_mm, read.base_joints_mm)
     with pytest.raises(hexbench.UsageError, match="how many sensors"):
-        hexbench.choose_sensors(read, files[1], sensors)
+        hexbench.choose_sensors(hexbench.Hexapod.read(files[0]), files[1], sensors)
 
 
 def test_the_catalogue_is_that_of_the_command(command: Command) -> None:

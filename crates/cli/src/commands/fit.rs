@@ -9,7 +9,7 @@ use hexbench_model::application::model_file::Estimator;
 use hexbench_model::error::ModelError;
 use hexbench_model::inference::misread::AsMeant;
 use hexbench_model::inference::selection::JudgedTask;
-use hexbench_model::results::diagnose::prepare;
+use hexbench_model::results::diagnose::prepare_to_fit;
 use hexbench_report::words::fitted;
 
 use crate::failure::Failure;
@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let estimator = if arguments.estimator == Method::Paper { Estimator::Paper } else { Estimator::Gls };
     let added = added(&arguments.add, input::user_terms(&arguments.terms)?, estimator)?;
     let failed = |cause: ModelError| Failure::Model { cause, data: data.source.clone() };
-    let campaign = prepare(hexapod, data).map_err(failed)?;
+    let campaign = prepare_to_fit(hexapod, data, &added).map_err(failed)?;
     let task = JudgedTask { hexapod, data, campaign: &campaign, holdout };
     let judged = fitted(&task, &added, estimator)?;
     screen.show(&fitted::page(&task, &judged, estimator))?;

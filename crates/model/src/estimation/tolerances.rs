@@ -175,12 +175,17 @@ pub fn within_tolerances(campaign: Campaign) -> Campaign {
 /// Springs beside the places of the joints: in absolute poses the errors of joints are larger than deflections, and what springs alone
 /// would be there says nothing of what loads do.
 fn with_joints(campaign: &Campaign) -> Result<Fit, ModelError> {
-    let places = |term: &Arc<dyn Term>| term.info().chapter == Chapter::AbsolutePoses && term.calibrates();
+    let places = |term: &Arc<dyn Term>| places_joints(term.as_ref());
     let joints: Vec<Added> = catalogue().into_iter().filter(places).map(Added::from).collect();
     match fit_wanted(campaign, &joints) {
         Ok((_, fitted)) => Ok(fitted),
         Err(_) => fit(campaign, &[], None),
     }
+}
+
+/// True for the effect that finds the places of the joints.
+pub(crate) fn places_joints(term: &dyn Term) -> bool {
+    term.info().chapter == Chapter::AbsolutePoses && term.calibrates()
 }
 
 /// The same for a machine that is known.

@@ -8,10 +8,11 @@ use crate::effects::term::Term;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::fit;
+use crate::estimation::fit_named::Added;
 use crate::estimation::linearization::Linearization;
 use crate::estimation::noise::{Noise, NoiseSource, Structure};
 use crate::estimation::residuals::{residuals, summarise};
-use crate::estimation::tolerances::within_tolerances;
+use crate::estimation::tolerances::{places_joints, within_tolerances};
 use crate::inference::diagnosis::{RankedSets, explain};
 use crate::inference::examination::{Examined, Finding, examine};
 use crate::inference::misread::copies;
@@ -133,6 +134,18 @@ fn all_kept(
     let (data, campaign) = examined.with_all_rows(hexapod, &as_stated.data, as_stated.campaign.noise)?;
     let outcome = explain(&campaign, terms)?;
     Ok(Judged { data, campaign, outcome, findings })
+}
+
+/// A campaign to which certain terms are fitted. Where they leave the joints of absolute poses where they are drawn, the errors of joints
+/// leave far more than loads can do; the tolerances of the loads would then be spent on those errors, and loads count as exact.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn prepare_to_fit(hexapod: &Hexapod, data: &Dataset, added: &[Added]) -> Result<Campaign, ModelError> {
+    let campaign = prepare(hexapod, data)?;
+    let joints_are_fitted = added.iter().any(|one| places_joints(one.term.as_ref()));
+    let is_exact = campaign.is_absolute() && !joints_are_fitted;
+    Ok(if is_exact { campaign.with_exact_inputs() } else { campaign })
 }
 
 /// Campaign with its noise level: stated, from repeats, or, failing both, from the residuals of the springs.
