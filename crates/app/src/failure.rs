@@ -208,6 +208,11 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// Options that cannot be meant so, and what to write instead.
+    pub fn usage(message: String, next: &str) -> Self {
+        Self::Usage { message, next: next.to_owned() }
+    }
+
     /// The exit code.
     pub fn exit(&self) -> Exit {
         match self {

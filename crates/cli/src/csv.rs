@@ -1,7 +1,7 @@
 //! Tables the command writes: the columns of a conditions file, then results.
 
 use hexbench_core::files::CsvText;
-use hexbench_core::{Dataset, Observation};
+use hexbench_core::{Dataset, Matrix6, Observation};
 
 /// Unit of a result column.
 #[derive(Debug, Clone, Copy)]
@@ -88,4 +88,22 @@ pub(crate) fn names(prefix: &str, names: &[&str; 6], units: [Unit; 2]) -> Vec<St
 /// Six results: three translations (m), three rotations (rad).
 pub(crate) fn values(si: &[f64; 6], units: [Unit; 2]) -> Vec<String> {
     si.iter().enumerate().map(|(k, value)| units[k / 3].text(*value)).collect()
+}
+
+/// Columns of the correlations of six numbers, `x_corr_FIRST_SECOND`.
+pub(crate) fn correlation_names(numbers: &[&str; 6]) -> Vec<String> {
+    pairs().map(|(i, j)| format!("x_corr_{}_{}", numbers[i], numbers[j])).collect()
+}
+
+/// The correlations of six numbers; zero where one of them has no variance.
+pub(crate) fn correlations(covariance: &Matrix6) -> Vec<String> {
+    let correlation = |(i, j): (usize, usize)| {
+        let scale = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+        format!("{:.6}", if scale > 0.0 { covariance[(i, j)] / scale } else { 0.0 })
+    };
+    pairs().map(correlation).collect()
+}
+
+fn pairs() -> impl Iterator<Item = (usize, usize)> {
+    (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)))
 }

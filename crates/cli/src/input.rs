@@ -42,6 +42,15 @@ pub(crate) fn measurements(hexapod: &Hexapod, path: &Path, names: &TableNames) -
     Ok(told(path, read_campaign_named(hexapod, path, &names.read()?)?))
 }
 
+/// The same of a file that need not be given.
+pub(crate) fn given_measurements(
+    hexapod: &Hexapod,
+    path: Option<&Path>,
+    names: &TableNames,
+) -> Result<Option<Dataset>, Failure> {
+    path.map(|path| measurements(hexapod, path, names)).transpose()
+}
+
 /// Poses and loads that need no measurement.
 pub(crate) fn conditions(path: &Path, names: &TableNames) -> Result<Dataset, Failure> {
     Ok(told(path, read_conditions_named(path, &names.read()?)?))

@@ -48,11 +48,7 @@ impl Question {
     pub(crate) fn read(&self) -> Result<Asked, Failure> {
         let hexapod = input::hexapod(&self.hexapod)?;
         let data = input::measurements(&hexapod, &self.data, &self.names)?;
-        let holdout = self
-            .holdout
-            .as_deref()
-            .map(|path| input::measurements(&hexapod, path, &self.names))
-            .transpose()?;
+        let holdout = input::given_measurements(&hexapod, self.holdout.as_deref(), &self.names)?;
         let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
         Ok(Asked { hexapod, data, holdout, terms })
     }

@@ -14,6 +14,7 @@ use hexbench_model::machine::registration::{
 };
 use hexbench_report::number::significant;
 
+use crate::csv;
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
 use crate::output::{Screen, report};
@@ -85,7 +86,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         None => vec![("measurements.csv", table(&found)?)],
     };
     for (name, _) in &files {
-        refuse_existing(&arguments.output.join(name))?;
+        Screen::refuse_existing(
+            &arguments.output.join(name),
+            "Name another folder with -o, or remove this file.",
+        )?;
     }
     for (name, text) in &files {
         screen.write_into(&arguments.output, name, text)?;
@@ -96,23 +100,12 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
 
 fn positive(name: &str, given: Option<f64>) -> Result<Option<f64>, Failure> {
     match given {
-        Some(value) if !(value.is_finite() && value > 0.0) => {
-            Err(usage(format!("{name} {value}: this number is positive"), "Leave it out, or correct it."))
-        }
+        Some(value) if !(value.is_finite() && value > 0.0) => Err(Failure::usage(
+            format!("{name} {value}: this number is positive"),
+            "Leave it out, or correct it.",
+        )),
         given => Ok(given),
     }
-}
-
-fn usage(message: String, next: &str) -> Failure {
-    Failure::Usage { message, next: next.to_owned() }
-}
-
-fn refuse_existing(path: &Path) -> Result<(), Failure> {
-    if path.exists() {
-        let message = format!("{} exists already", path.display());
-        return Err(usage(message, "Name another folder with -o, or remove this file."));
-    }
-    Ok(())
 }
 
 fn warn_of_loads(path: &Path, warnings: &[Warning]) {
@@ -162,17 +155,11 @@ pub(crate) fn moved_in_words(moved: &MovedBall) -> String {
 /// The readings, and the correlations of the six numbers of each row beside them.
 fn table(found: &BallCampaign) -> Result<String, Failure> {
     let text = written(|out| measurements_to_csv(out, &found.dataset))?;
-    let pairs = || (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
-    let header: Vec<String> = pairs().map(|(i, j)| format!("x_corr_{}_{}", NAMES[i], NAMES[j])).collect();
     let mut lines = text.lines();
-    let mut all = format!("{},{}\n", lines.next().unwrap_or_default(), header.join(","));
+    let header = csv::correlation_names(&NAMES).join(",");
+    let mut all = format!("{},{header}\n", lines.next().unwrap_or_default());
     for (line, covariance) in lines.zip(&found.covariances) {
-        let correlation = |(i, j): (usize, usize)| {
-            let scale = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-            format!("{:.6}", if scale > 0.0 { covariance[(i, j)] / scale } else { 0.0 })
-        };
-        let correlations: Vec<String> = pairs().map(correlation).collect();
-        all.extend([line, ",", &correlations.join(","), "\n"]);
+        all.extend([line, ",", &csv::correlations(covariance).join(","), "\n"]);
     }
     Ok(all)
 }
@@ -181,11 +168,11 @@ fn table(found: &BallCampaign) -> Result<String, Failure> {
 fn points(hexapod: &Hexapod, found: &BallCampaign) -> Result<Vec<(&'static str, String)>, Failure> {
     if found.dataset.is_absolute() {
         let message = "--points: absolute poses have no displacement of a ball".to_owned();
-        return Err(usage(message, "Leave --points away, or name reference records in ref_record."));
+        return Err(Failure::usage(message, "Leave --points away, or name reference records in ref_record."));
     }
     if found.sigma <= 0.0 {
         let message = "--points: the noise of a coordinate is not known".to_owned();
-        return Err(usage(message, "Give --sigma-um, or sigma_um in the balls file."));
+        return Err(Failure::usage(message, "Give --sigma-um, or sigma_um in the balls file."));
     }
     let (machine, dataset) = found.as_points(hexapod);
     let table = written(|out| campaign_to_csv(out, &machine, &dataset))?;

@@ -38,16 +38,8 @@ pub(crate) struct Arguments {
 /// Check and report; exit code 1 when something has to be put right first.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
-    let data = arguments
-        .data
-        .as_deref()
-        .map(|path| input::measurements(&hexapod, path, &arguments.names))
-        .transpose()?;
-    let holdout = arguments
-        .holdout
-        .as_deref()
-        .map(|path| input::measurements(&hexapod, path, &arguments.names))
-        .transpose()?;
+    let data = input::given_measurements(&hexapod, arguments.data.as_deref(), &arguments.names)?;
+    let holdout = input::given_measurements(&hexapod, arguments.holdout.as_deref(), &arguments.names)?;
     let source = data.as_ref().map_or_else(|| arguments.hexapod.display().to_string(), |d| d.source.clone());
     let failed = |cause: ModelError| Failure::Model { cause, data: source };
     let found = check(&hexapod, data.as_ref(), holdout.as_ref(), &catalogue(), &arguments.read_as.changes)

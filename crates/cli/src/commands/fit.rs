@@ -58,11 +58,7 @@ enum Method {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let data = input::measurements(&hexapod, &arguments.data, &arguments.names)?;
-    let holdout = arguments
-        .holdout
-        .as_deref()
-        .map(|path| input::measurements(&hexapod, path, &arguments.names))
-        .transpose()?;
+    let holdout = input::given_measurements(&hexapod, arguments.holdout.as_deref(), &arguments.names)?;
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);

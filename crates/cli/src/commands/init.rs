@@ -89,7 +89,7 @@ struct Rings {
 /// Write the file and show the machine.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     for path in std::iter::once(&arguments.output).chain(&arguments.picture) {
-        refuse_existing(path)?;
+        Screen::refuse_existing(path, "Name another file with -o or --picture, or remove this one.")?;
     }
     let hexapod = hexapod(arguments)?;
     let source = arguments.output.display().to_string();
@@ -122,20 +122,6 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     screen.show(&words::check(&hexapod.name, &found).with(view).with(next))
 }
 
-fn refuse_existing(path: &Path) -> Result<(), Failure> {
-    if path.as_os_str() != "-" && path.exists() {
-        return Err(usage(
-            format!("{} exists already", path.display()),
-            "Name another file with -o or --picture, or remove this one.",
-        ));
-    }
-    Ok(())
-}
-
-fn usage(message: String, next: &str) -> Failure {
-    Failure::Usage { message, next: next.to_owned() }
-}
-
 fn hexapod(arguments: &Arguments) -> Result<Hexapod, Failure> {
     let [base, platform] = match &arguments.joints {
         Some(path) => of_table(path, arguments)?,
@@ -159,7 +145,7 @@ fn of_table(path: &Path, arguments: &Arguments) -> Result<[[Vector3; 6]; 2], Fai
             }
         }
         None if (means[0] - means[1]).abs() < ONE_PLANE => {
-            return Err(usage(
+            return Err(Failure::usage(
                 format!(
                     "{}: base and platform joints lie in one plane: the legs have no height",
                     path.display()
@@ -230,7 +216,7 @@ fn ring(
     let radius = positive_mm(&name)(radius)?;
     if let Some(angles) = angles {
         let six: [f64; 6] = angles.try_into().map_err(|_| {
-            usage(
+            Failure::usage(
                 format!("--{side}-angles has {} numbers, it needs six", angles.len()),
                 "Give one angle for each leg, in order.",
             )
@@ -241,7 +227,7 @@ fn ring(
     let question = format!("Angle between the two {side} joints of a pair, degrees");
     let gap = given_or_asked(gap, &name, &question)?;
     if !(gap > 0.0 && gap < 120.0) {
-        return Err(usage(
+        return Err(Failure::usage(
             format!("{name} {gap}: the angle lies between 0 and 120 degrees"),
             "See the drawing from above.",
         ));
@@ -254,7 +240,7 @@ fn given_or_asked(given: Option<f64>, name: &str, question: &str) -> Result<f64,
         return Ok(value);
     }
     if !stdin().is_terminal() {
-        return Err(usage(
+        return Err(Failure::usage(
             format!("{name} is missing"),
             "Give it, or --joints with a table of joints; `hexbench init --help` shows examples.",
         ));
@@ -264,7 +250,7 @@ fn given_or_asked(given: Option<f64>, name: &str, question: &str) -> Result<f64,
         let mut line = String::new();
         let read = stdin().read_line(&mut line);
         if !matches!(read, Ok(bytes) if bytes > 0) {
-            return Err(usage(
+            return Err(Failure::usage(
                 format!("{name} is missing"),
                 "Answer the question, or give it on the command line.",
             ));
@@ -281,7 +267,10 @@ fn positive_mm(name: &str) -> impl Fn(f64) -> Result<f64, Failure> + '_ {
         if mm.is_finite() && mm > 0.0 {
             Ok(mm * 1e-3)
         } else {
-            Err(usage(format!("{name} {mm}: a length is positive"), "Give it in mm, as in the drawing."))
+            Err(Failure::usage(
+                format!("{name} {mm}: a length is positive"),
+                "Give it in mm, as in the drawing.",
+            ))
         }
     }
 }
@@ -292,7 +281,7 @@ fn noise(given: Option<&[f64]>) -> Result<Option<Metrology>, Failure> {
         Some(&[um, urad]) if um > 0.0 && urad > 0.0 && (um + urad).is_finite() => {
             Ok(Some(Metrology { sigma_translation: um * 1e-6, sigma_rotation: urad * 1e-6 }))
         }
-        Some(_) => Err(usage(
+        Some(_) => Err(Failure::usage(
             "--noise takes two positive numbers".to_owned(),
             "Write for example --noise 0.5,3 for 0.5 um and 3 urad.",
         )),

@@ -106,7 +106,7 @@ fn warn(path: &Path, found: &Registered) {
 fn table(found: &Registered) -> String {
     let poses = csv::names("measured_", &NAMES, [Unit::Mm, Unit::Deg]);
     let sigmas = csv::names("sigma_", &NAMES, [Unit::Um, Unit::Urad]);
-    let correlations = pairs().map(|(i, j)| format!("x_corr_{}_{}", NAMES[i], NAMES[j]));
+    let correlations = csv::correlation_names(&NAMES);
     let rest =
         ["x_rms_um", "x_worst_first", "x_worst_second", "x_worst_distance_um", "x_moved"].map(str::to_owned);
     let header = poses.into_iter().chain(sigmas).chain(correlations).chain(rest);
@@ -117,20 +117,12 @@ fn table(found: &Registered) -> String {
 
 fn row(pose: &RegisteredPose) -> Vec<String> {
     let sigma: [f64; 6] = std::array::from_fn(|k| pose.covariance[(k, k)].sqrt());
-    let correlation = |(i, j): (usize, usize)| {
-        let scale = sigma[i] * sigma[j];
-        format!("{:.6}", if scale > 0.0 { pose.covariance[(i, j)] / scale } else { 0.0 })
-    };
     let (first, second, distance) = pose.worst.clone().unwrap_or_default();
     let [rms, distance] = [pose.rms, distance].map(|x| format!("{:.6}", x * 1e6));
     std::iter::once(pose.id.clone())
         .chain(csv::values(&pose.pose.to_array(), [Unit::Mm, Unit::Deg]))
         .chain(csv::values(&sigma, [Unit::Um, Unit::Urad]))
-        .chain(pairs().map(correlation))
+        .chain(csv::correlations(&pose.covariance))
         .chain([rms, first, second, distance, u8::from(pose.moved).to_string()])
         .collect()
-}
-
-fn pairs() -> impl Iterator<Item = (usize, usize)> {
-    (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)))
 }

@@ -46,6 +46,14 @@ impl Screen {
         }
     }
 
+    /// Refuse a file that exists, with what to do instead; standard output is none.
+    pub(crate) fn refuse_existing(path: &Path, next: &str) -> Result<(), Failure> {
+        if path.as_os_str() != "-" && path.exists() {
+            return Err(Failure::usage(format!("{} exists already", path.display()), next));
+        }
+        Ok(())
+    }
+
     /// Make the folder of a file to be written.
     pub(crate) fn make_folder_of(path: &Path) -> Result<(), Failure> {
         let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) else { return Ok(()) };

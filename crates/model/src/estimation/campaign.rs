@@ -352,13 +352,6 @@ impl Campaign {
         self
     }
 
-    /// The same with inputs that count as exact.
-    #[must_use]
-    pub(crate) fn with_exact_inputs(mut self) -> Self {
-        self.inexact = None;
-        self
-    }
-
     /// The same with nothing in common between its readings, each weighed by what is its own.
     #[must_use]
     pub(crate) fn unwhitened(mut self) -> Self {

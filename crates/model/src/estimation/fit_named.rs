@@ -46,8 +46,6 @@ pub struct Added {
     pub term: Arc<dyn Term>,
     /// True for the richer form.
     pub richer: bool,
-    /// True when no other version competes.
-    usual: bool,
 }
 
 impl Added {
@@ -61,23 +59,18 @@ impl Added {
             .split_once(':')
             .and_then(|(id, word)| version_named(terms.iter().find(|t| t.info().id == id)?, word))
         {
-            return Ok(Self { term, richer, usual: false });
+            return Ok(Self { term, richer });
         }
         let term = term_named(id, terms)?;
         if richer && term.info().rich == Rich::None {
             return Err(ModelError::Selection(format!("`{id}` has no richer form")));
         }
-        Ok(Self { term, richer, usual: false })
+        Ok(Self { term, richer })
     }
 
     /// True when the readings choose among its versions.
     fn is_open(&self) -> bool {
-        !self.usual && !self.richer && self.term.version().is_none() && !self.term.versions().is_empty()
-    }
-
-    /// The same in its usual version.
-    fn usual(&self) -> Self {
-        Self { usual: true, ..self.clone() }
+        !self.richer && self.term.version().is_none() && !self.term.versions().is_empty()
     }
 
     /// As it is asked for.
@@ -89,7 +82,7 @@ impl Added {
 
 impl From<Arc<dyn Term>> for Added {
     fn from(term: Arc<dyn Term>) -> Self {
-        Self { term, richer: false, usual: false }
+        Self { term, richer: false }
     }
 }
 
@@ -109,13 +102,15 @@ pub fn fit_named(campaign: &Campaign, added: &[Arc<dyn Term>]) -> Result<Fit, Mo
 /// As [`fit_named`].
 pub fn fit_wanted(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>, Fit), ModelError> {
     refuse_twice(added)?;
-    let chosen = one_by_one(campaign, added)?;
-    let usual: Vec<Added> = added.iter().map(Added::usual).collect();
-    if added.len() < 2 || usual.iter().zip(added).all(|(usual, one)| usual.is_open() == one.is_open()) {
+    let baseline = fit_baseline(campaign)?;
+    let chosen = one_by_one(campaign, added, &baseline, Added::is_open)?;
+    let is_usual =
+        chosen.0.iter().zip(added).all(|(spec, one)| !one.is_open() || spec.term.version().is_none());
+    if added.len() < 2 || is_usual {
         return Ok(chosen);
     }
     // A version chosen while an effect was still missing may have stood for that effect, and lead to another optimum.
-    let Ok(usual) = one_by_one(campaign, &usual) else { return Ok(chosen) };
+    let Ok(usual) = one_by_one(campaign, added, &baseline, |_| false) else { return Ok(chosen) };
     Ok(if cost(campaign, &usual) < cost(campaign, &chosen) { usual } else { chosen })
 }
 
@@ -130,12 +125,17 @@ fn numbers(term: &dyn Term) -> f64 {
     (term.info().parameters.len() + usize::from(term.info().shape.is_some())) as f64
 }
 
-/// Terms added one after the other, each in the version that the readings ask for at that point.
-fn one_by_one(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>, Fit), ModelError> {
-    let mut fitted = fit_baseline(campaign)?;
+/// Terms added to the springs one after the other, those that are open in the version that the readings ask for at that point.
+fn one_by_one(
+    campaign: &Campaign,
+    added: &[Added],
+    springs: &Fit,
+    is_open: impl Fn(&Added) -> bool,
+) -> Result<(Vec<TermSpec>, Fit), ModelError> {
+    let mut fitted = springs.clone();
     let natural = fitted.natural(&Linearization::at(campaign, &fitted.point)?);
     let mut wanted: Vec<TermSpec> = Vec::new();
-    for one @ Added { term, richer, .. } in added {
+    for one @ Added { term, richer } in added {
         let lin = Linearization::at(campaign, &fitted.point)?;
         if let Some(why) = why_untestable(term.as_ref(), campaign, &lin) {
             return Err(ModelError::Untestable { id: term.info().id.to_owned(), why });
@@ -145,7 +145,7 @@ fn one_by_one(campaign: &Campaign, added: &[Added]) -> Result<(Vec<TermSpec>, Fi
             TermSpec { term: Arc::clone(version), rich: *richer, shape: 1.0, prior }
         };
         let next =
-            spec(&if one.is_open() { best_version(term, spec, &fitted, &lin) } else { Arc::clone(term) });
+            spec(&if is_open(one) { best_version(term, spec, &fitted, &lin) } else { Arc::clone(term) });
         let place = wanted.len();
         (wanted, fitted) = best_start(campaign, &wanted, (place, &next), &fitted, &lin)?;
     }
@@ -232,9 +232,6 @@ fn best_version(
     lin: &Linearization,
 ) -> Arc<dyn Term> {
     let others = term.versions();
-    if others.is_empty() {
-        return Arc::clone(term);
-    }
     let unexplained = Unexplained::by(fitted, lin);
     let worth = |version: &Arc<dyn Term>| {
         let gains = unexplained.gains(&spec(version), &version.shape_grid(&lin.conditions));

@@ -142,20 +142,26 @@ fn all_kept(
 /// # Errors
 /// As [`prepare`].
 pub fn prepare_to_fit(hexapod: &Hexapod, data: &Dataset, added: &[Added]) -> Result<Campaign, ModelError> {
-    let campaign = prepare(hexapod, data)?;
+    let campaign = with_noise_level(hexapod, data)?;
     let joints_are_fitted = added.iter().any(|one| places_joints(one.term.as_ref()));
     let is_exact = campaign.is_absolute() && !joints_are_fitted;
-    Ok(if is_exact { campaign.with_exact_inputs() } else { campaign })
+    Ok(if is_exact { campaign } else { within_tolerances(campaign) })
 }
 
-/// Campaign with its noise level: stated, from repeats, or, failing both, from the residuals of the springs.
+/// Campaign with inputs as good as their tolerances and with its noise level: stated, from repeats, or, failing both, from the residuals
+/// of the springs.
 ///
 /// # Errors
 /// As [`fit`].
 pub fn prepare(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError> {
+    with_noise_level(hexapod, data).map(within_tolerances)
+}
+
+/// The same with inputs that count as exact.
+fn with_noise_level(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError> {
     let campaign = Campaign::new(hexapod, data)?;
     if campaign.noise.source != NoiseSource::Residuals {
-        return Ok(within_tolerances(campaign));
+        return Ok(campaign);
     }
     let first = fit(&campaign, &[], None)?;
     let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &first.point)?);
@@ -168,5 +174,5 @@ pub fn prepare(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, ModelError
         dof: 0.0,
         structure: Structure::Independent,
     };
-    Ok(within_tolerances(Campaign::with_noise(hexapod, data, noise)?))
+    Campaign::with_noise(hexapod, data, noise)
 }
