@@ -68,6 +68,8 @@ class Load:
         """From the columns of a row."""
         units = ["N" if motor[0] == "f" else "Nm" for motor in MOTORS]
         wrench = lambda before: np.array([float(row[f"{before}{m}_{u}"]) for m, u in zip(MOTORS, units, strict=True)])  # noqa: E731
+        if "order" in row:
+            raise SystemExit("The column order is not followed here: every row begins at the unloaded machine.")
         return cls(wrench("ref_"), wrench(""), float(row["approach"]) < 0)
 
     def path(self) -> list[np.ndarray]:

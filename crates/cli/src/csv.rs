@@ -49,10 +49,12 @@ pub(crate) fn conditions_header(rows: &Dataset) -> Vec<&'static str> {
     let reference = ["ref_fx_N", "ref_fy_N", "ref_fz_N", "ref_mx_Nm", "ref_my_Nm", "ref_mz_Nm"];
     let optional = [
         (c.approach, "approach"),
+        (c.overload, "overload"),
         (c.delta_t, "delta_T_K"),
         (c.elapsed, "elapsed_s"),
         (c.reference_age, "ref_age_s"),
         (c.reference_record, "ref_record"),
+        (c.order, "order"),
     ];
     let reference = reference.into_iter().filter(|_| c.reference);
     let optional = optional.into_iter().filter_map(|(there, name)| there.then_some(name));
@@ -65,10 +67,12 @@ pub(crate) fn condition(rows: &Dataset, o: &Observation) -> Vec<String> {
     let plain = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>();
     let optional = [
         (c.approach, o.approach.sign()),
+        (c.overload, o.overload),
         (c.delta_t, o.delta_t),
         (c.elapsed, o.elapsed),
         (c.reference_age, o.reference_age.unwrap_or_default()),
         (c.reference_record, o.reference_record.unwrap_or_default() as f64),
+        (c.order, o.order.unwrap_or_default() as f64),
     ];
     let reference = if c.reference { plain(&o.reference.to_array()) } else { Vec::new() };
     [o.pose_id.to_string(), o.repeat.to_string()]

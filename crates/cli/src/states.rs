@@ -47,13 +47,7 @@ impl States {
     pub(crate) fn csv(&self, hexapod: &Hexapod, source: &str) -> String {
         let columns =
             Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
-        let dataset = Dataset {
-            blocks: hexbench_core::Dataset::pose_blocks(),
-            source: source.to_owned(),
-            measurand: Measurand::AbsolutePose,
-            columns,
-            observations: Vec::new(),
-        };
+        let dataset = Dataset::of_poses(source, Measurand::AbsolutePose, columns, Vec::new());
         let pose = csv::names("rest_", &["a", "b", "c", "alpha", "beta", "gamma"], [Unit::Mm, Unit::Deg]);
         let conditions =
             csv::conditions_header(&dataset).into_iter().chain(["part", "model"]).map(str::to_owned);

@@ -19,7 +19,7 @@ impl serde::Serialize for Approach {
 impl Approach {
     /// Both ways.
     pub const ALL: [Self; 2] = [Self::Direct, Self::Overloaded];
-    /// Factor by which an overloaded approach exceeds the change of load: `W0 + 1.4 (W - W0)`.
+    /// Factor by which an overloaded approach exceeds the change of load where nobody says: `W0 + 1.4 (W - W0)`.
     pub const OVERLOAD: f64 = 1.4;
 
     /// +1 or -1, as in the files.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Approach, Channel, LineRange, Pose, Sensor, UNREAD, Wrench};
+use crate::{Approach, Channel, LineRange, LoadSequences, Pose, Sensor, UNREAD, Wrench};
 
 /// Poses that show what a machine does.
 const LEAST_POSES: usize = 18;
@@ -45,6 +45,8 @@ pub struct Observation {
     pub reference: Wrench,
     /// How the load was reached.
     pub approach: Approach,
+    /// Factor by which an overloaded approach exceeded the change of load first.
+    pub overload: f64,
     /// Structure temperature at the loaded reading minus at the reference reading, K.
     pub delta_t: f64,
     /// Time from the reference reading to the loaded reading, s.
@@ -53,6 +55,8 @@ pub struct Observation {
     pub reference_age: Option<f64>,
     /// Number of the reference reading that this one was taken against, as the file gives it; none when the file does not say.
     pub reference_record: Option<i64>,
+    /// Place of the reading in the sequence in which loads were put on; none when the file does not say.
+    pub order: Option<i64>,
     /// What the six numbers are: one of the [`Dataset::blocks`].
     pub block: usize,
     /// Measured values: translation (m), rotation (rad), meaning as in [`Measurand`]; of other blocks, what their channels read.
@@ -80,6 +84,8 @@ pub struct Columns {
     pub reference: bool,
     /// `approach`.
     pub approach: bool,
+    /// `overload`.
+    pub overload: bool,
     /// `delta_T_*`.
     pub delta_t: bool,
     /// `elapsed_*`.
@@ -88,6 +94,8 @@ pub struct Columns {
     pub reference_age: bool,
     /// `ref_record`.
     pub reference_record: bool,
+    /// `order`.
+    pub order: bool,
     /// All six `sigma_*` columns.
     pub sigma: bool,
 }
@@ -98,10 +106,12 @@ impl Columns {
         Self {
             reference: self.reference && other.reference,
             approach: self.approach && other.approach,
+            overload: self.overload && other.overload,
             delta_t: self.delta_t && other.delta_t,
             elapsed: self.elapsed && other.elapsed,
             reference_age: self.reference_age && other.reference_age,
             reference_record: self.reference_record && other.reference_record,
+            order: self.order && other.order,
             sigma: self.sigma && other.sigma,
         }
     }
@@ -119,6 +129,8 @@ pub struct Dataset {
     /// What the six numbers of observations are; the first block alone, a full pose, unless something else was read. A row of a
     /// file with more than six numbers makes several observations, which share its line.
     pub blocks: Vec<[Channel; 6]>,
+    /// The loads before each reading, where the file states their sequence.
+    pub sequences: LoadSequences,
     /// The rows in file order.
     pub observations: Vec<Observation>,
 }
@@ -145,6 +157,17 @@ impl Dataset {
         self.observations.iter().map(of_row).sum()
     }
 
+    /// A table of full poses.
+    pub fn of_poses(
+        source: impl Into<String>,
+        measurand: Measurand,
+        columns: Columns,
+        observations: Vec<Observation>,
+    ) -> Self {
+        let (blocks, sequences) = (Self::pose_blocks(), LoadSequences::of(&observations));
+        Self { source: source.into(), measurand, columns, blocks, sequences, observations }
+    }
+
     /// The blocks of a file in which every row is a full pose.
     pub fn pose_blocks() -> Vec<[Channel; 6]> {
         vec![Channel::POSE]
@@ -157,19 +180,9 @@ impl Dataset {
 
     /// Deflections of full poses with all that is known of their conditions; nothing is stated of their noise.
     pub fn of_deflections(source: &str, observations: Vec<Observation>) -> Self {
-        Self {
-            blocks: Self::pose_blocks(),
-            source: source.to_owned(),
-            measurand: Measurand::DeflectionEuler,
-            columns: Columns {
-                reference: true,
-                approach: true,
-                delta_t: true,
-                elapsed: true,
-                ..Columns::default()
-            },
-            observations,
-        }
+        let columns =
+            Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
+        Self::of_poses(source, Measurand::DeflectionEuler, columns, observations)
     }
 
     /// The same rows as they are to be read by sensors alone, each number as well as its sensor states; nothing is measured yet.
@@ -187,6 +200,7 @@ impl Dataset {
             measurand: Measurand::DeflectionRotationVector,
             columns: Columns { sigma: true, ..self.columns },
             observations: self.observations.iter().flat_map(read).collect(),
+            sequences: self.sequences.clone(),
             source: self.source.clone(),
             blocks,
         }
@@ -213,16 +227,27 @@ impl Dataset {
             observations,
             source: self.source.clone(),
             blocks: self.blocks.clone(),
+            sequences: self.sequences.clone(),
             ..*self
         })
     }
 
     /// The readings of both files, with the columns that both have; none where they read different things.
     pub fn joined(&self, other: &Self) -> Option<Self> {
-        (self.measurand == other.measurand && self.blocks == other.blocks).then(|| Self {
+        if self.measurand != other.measurand || self.blocks != other.blocks {
+            return None;
+        }
+        // The sequence of the other file comes after this one's.
+        let orders = |data: &Self| data.observations.iter().filter_map(|o| o.order).collect::<Vec<_>>();
+        let last = orders(self).into_iter().max().unwrap_or_default();
+        let later = last - orders(other).into_iter().min().unwrap_or_default() + 1;
+        let further =
+            other.observations.iter().map(|o| Observation { order: o.order.map(|n| n + later), ..*o });
+        Some(Self {
             columns: self.columns.common(other.columns),
             blocks: self.blocks.clone(),
-            observations: self.observations.iter().chain(&other.observations).copied().collect(),
+            sequences: self.sequences.and(&other.sequences, later),
+            observations: self.observations.iter().copied().chain(further).collect(),
             source: self.source.clone(),
             ..*self
         })
@@ -245,6 +270,7 @@ impl Dataset {
             measurand: self.measurand,
             columns: self.columns,
             blocks: self.blocks.clone(),
+            sequences: self.sequences.clone(),
             observations,
         };
         Ok((rest, out.iter().map(|o| o.line).collect()))

@@ -35,6 +35,10 @@ pub enum Purpose {
     SceneTrainingNoise = 30,
     /// Scene: noise of a row to judge by.
     SceneHoldoutNoise = 31,
+    /// Scene: noise of a reference reading that rows to learn from share.
+    SceneTrainingReferenceNoise = 32,
+    /// Scene: noise of a reference reading that rows to judge by share.
+    SceneHoldoutReferenceNoise = 33,
 
     /// Case: its effects, the same in every attempt.
     CaseEffects = 100,

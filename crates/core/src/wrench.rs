@@ -22,6 +22,15 @@ impl Wrench {
         [self.force.x, self.force.y, self.force.z, self.moment.x, self.moment.y, self.moment.z]
     }
 
+    /// The wrench `factor` times as far from this one as `load` is.
+    #[must_use]
+    pub fn beyond(&self, load: &Self, factor: f64) -> Self {
+        Self {
+            force: self.force + (load.force - self.force) * factor,
+            moment: self.moment + (load.moment - self.moment) * factor,
+        }
+    }
+
     /// The wrench as one vector `[F; M]`.
     pub fn to_vector(self) -> Vector6 {
         Vector6::from_column_slice(&self.to_array())

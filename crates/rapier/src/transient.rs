@@ -96,7 +96,8 @@ pub fn nominal(
         phase: Phase::Loaded,
         nominal_lengths: lengths,
         home_lengths: lengths,
-        reference_forces: [0.0; 6],
+        past: &[],
+        put_on: 0.0,
     };
     Ok(World::new(hexapod.clone(), stiffness).setup(&moment, wrench))
 }

@@ -47,5 +47,5 @@ pub use law::{LegLaw, LegMemory};
 pub use mechanisms::Mechanism;
 pub use scene::Scene;
 pub use setup::Setup;
-pub use situation::{Instant, Phase, Situation};
+pub use situation::{Instant, PastForces, Phase, Situation};
 pub use world::World;

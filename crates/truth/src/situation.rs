@@ -13,6 +13,8 @@ pub struct Situation {
     pub reference: Wrench,
     /// How the load is reached.
     pub approach: Approach,
+    /// Factor by which an overloaded approach exceeds the change of load first.
+    pub overload: f64,
     /// Structure temperature at the loaded reading minus at the reference reading, K.
     pub delta_t: f64,
     /// Time from the reference reading to the loaded reading, s.
@@ -25,15 +27,21 @@ impl Situation {
     /// A pose under a load, without reference load, temperature change or waiting.
     pub fn new(pose: Pose, wrench: Wrench) -> Self {
         let (reference, approach) = (Wrench::default(), Approach::default());
-        Self { pose, wrench, reference, approach, delta_t: 0.0, elapsed: 0.0, reference_age: None }
+        Self {
+            pose,
+            wrench,
+            reference,
+            approach,
+            overload: Approach::OVERLOAD,
+            delta_t: 0.0,
+            elapsed: 0.0,
+            reference_age: None,
+        }
     }
 
     /// The wrench by which an overloaded approach exceeds the load.
-    pub fn overload(&self) -> Wrench {
-        Wrench {
-            force: self.reference.force + (self.wrench.force - self.reference.force) * Approach::OVERLOAD,
-            moment: self.reference.moment + (self.wrench.moment - self.reference.moment) * Approach::OVERLOAD,
-        }
+    pub fn exceeded(&self) -> Wrench {
+        self.reference.beyond(&self.wrench, self.overload)
     }
 }
 
@@ -42,7 +50,7 @@ impl Situation {
 pub enum Phase {
     /// Reference wrench, read.
     Reference,
-    /// Load exceeded, on the way to the load; not read.
+    /// A load on the way to the load, exceeded or an earlier one; not read.
     Overload,
     /// Load, read.
     Loaded,
@@ -61,19 +69,27 @@ pub struct Instant<'a> {
     pub nominal_lengths: [f64; 6],
     /// Nominal leg lengths at the zero pose, m.
     pub home_lengths: [f64; 6],
-    /// Forces of the leg springs in the reference state, N; zero until it was solved.
-    pub reference_forces: [f64; 6],
+    /// Loads that stood on the machine before, the reference load among them; empty until they were solved.
+    pub past: &'a [PastForces],
+    /// When the present load was put on, s from the reference reading.
+    pub put_on: f64,
+}
+
+/// What the leg springs carried under an earlier load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PastForces {
+    /// Forces of the leg springs, N.
+    pub forces: [f64; 6],
+    /// When the load was put on, s from the reference reading; none where nobody says.
+    pub put_on: Option<f64>,
+    /// True for the reference load of the reading.
+    pub is_reference: bool,
 }
 
 impl Instant<'_> {
     /// Seconds since the reference reading.
     pub fn elapsed(&self) -> f64 {
         if self.phase == Phase::Loaded { self.situation.elapsed } else { 0.0 }
-    }
-
-    /// Seconds for which the reference load had rested at the reference reading; none where nobody says.
-    pub fn reference_age(&self) -> Option<f64> {
-        self.situation.reference_age
     }
 
     /// Temperature above the reference reading, K.

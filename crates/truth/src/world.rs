@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Approach, Hexapod, Pose, Vector6, Wrench};
+use hexbench_core::{Approach, Hexapod, LoadSequence, PastLoad, Pose, Vector6, Wrench};
 
 use crate::{
-    Instant, LegMemory, Mechanism, Phase, Setup, Situation, Statics, TruthError,
+    Instant, LegMemory, Mechanism, PastForces, Phase, Setup, Situation, Statics, TruthError,
     equilibrium::{Equilibrium, Newton},
 };
 
@@ -67,7 +67,19 @@ impl World {
     /// # Errors
     /// As [`World::reading`].
     pub fn deflection(&self, situation: &Situation) -> Result<Vector6, TruthError> {
-        let [before, loaded] = self.before_and_after(situation)?;
+        self.deflection_after_loads(situation, &LoadSequence::default())
+    }
+
+    /// The same after the loads of a sequence.
+    ///
+    /// # Errors
+    /// As [`World::reading`].
+    pub fn deflection_after_loads(
+        &self,
+        situation: &Situation,
+        sequence: &LoadSequence,
+    ) -> Result<Vector6, TruthError> {
+        let [before, loaded] = self.before_and_after_loads(situation, sequence)?;
         Ok(difference(&loaded, &before))
     }
 
@@ -77,12 +89,33 @@ impl World {
     /// # Errors
     /// As [`World::reading`].
     pub fn before_and_after(&self, situation: &Situation) -> Result<[Pose; 2], TruthError> {
-        let mut moment = self.moment(situation)?;
-        let reference = self.state(&moment, situation.reference, &[LegMemory::default(); 6])?;
-        let before = self.read(&moment, &reference);
-        moment.reference_forces = reference.memory.map(|leg| leg.spring_force);
-        let loaded = self.load(&mut moment, reference.memory)?;
-        Ok([before, loaded.pose])
+        self.before_and_after_loads(situation, &LoadSequence::default())
+    }
+
+    /// The same after the loads of a sequence; times are not known where the sequence does not say.
+    ///
+    /// # Errors
+    /// As [`World::reading`].
+    pub fn before_and_after_loads(
+        &self,
+        situation: &Situation,
+        sequence: &LoadSequence,
+    ) -> Result<[Pose; 2], TruthError> {
+        let moment = self.moment(situation)?;
+        let (before, since): (Vec<&PastLoad>, Vec<&PastLoad>) =
+            sequence.past.iter().partition(|load| load.before_reference);
+        let mut way = Way { world: self, memory: [LegMemory::default(); 6], past: Vec::new() };
+        for load in before {
+            way.pass(&Instant { phase: Phase::Overload, ..moment }, load.wrench, load.put_on, false)?;
+        }
+        let age = situation.reference_age.map(|age| -age);
+        let reference = way.pass(&moment, situation.reference, age, true)?;
+        for load in since {
+            way.pass(&Instant { phase: Phase::Overload, ..moment }, load.wrench, load.put_on, false)?;
+        }
+        let at_load = Instant { past: &way.past, put_on: sequence.put_on, ..moment };
+        let loaded = self.load(at_load, way.memory)?;
+        Ok([self.read(&moment, &reference), loaded.pose])
     }
 
     /// Pose that an ideal instrument reads under the load, reached from the unloaded machine.
@@ -99,8 +132,7 @@ impl World {
     /// [`TruthError::Unreachable`], [`TruthError::Singular`], [`TruthError::GaveWay`], [`TruthError::NotConverged`],
     /// [`TruthError::NotFinite`]: never a number that is not a solution.
     pub fn reading(&self, situation: &Situation) -> Result<InstrumentReading, TruthError> {
-        let mut moment = self.moment(situation)?;
-        self.load(&mut moment, [LegMemory::default(); 6])
+        self.load(self.moment(situation)?, [LegMemory::default(); 6])
     }
 
     /// The structure under the load, as [`World::reading`] brings it to rest.
@@ -112,20 +144,16 @@ impl World {
         Ok(self.setup(&moment, situation.wrench))
     }
 
-    fn load<'a>(
-        &'a self,
-        moment: &mut Instant<'a>,
-        remembered: [LegMemory; 6],
-    ) -> Result<InstrumentReading, TruthError> {
+    fn load(&self, moment: Instant<'_>, remembered: [LegMemory; 6]) -> Result<InstrumentReading, TruthError> {
         let situation = moment.situation;
         let mut memory = remembered;
         if situation.approach == Approach::Overloaded {
-            moment.phase = Phase::Overload;
-            memory = self.state(moment, situation.overload(), &memory)?.memory;
+            let on_the_way = Instant { phase: Phase::Overload, ..moment };
+            memory = self.state(&on_the_way, situation.exceeded(), &memory)?.memory;
         }
-        moment.phase = Phase::Loaded;
-        let equilibrium = self.state(moment, situation.wrench, &memory)?;
-        Ok(InstrumentReading { pose: self.read(moment, &equilibrium), equilibrium })
+        let moment = Instant { phase: Phase::Loaded, ..moment };
+        let equilibrium = self.state(&moment, situation.wrench, &memory)?;
+        Ok(InstrumentReading { pose: self.read(&moment, &equilibrium), equilibrium })
     }
 
     fn moment<'a>(&'a self, situation: &'a Situation) -> Result<Instant<'a>, TruthError> {
@@ -136,7 +164,8 @@ impl World {
             phase: Phase::Reference,
             nominal_lengths,
             home_lengths: leg_lengths(&self.hexapod, &Pose::default()),
-            reference_forces: [0.0; 6],
+            past: &[],
+            put_on: 0.0,
         })
     }
 
@@ -185,6 +214,30 @@ impl World {
             mechanism.read(moment, &mut pose);
         }
         pose
+    }
+}
+
+/// Loads passed one after the other.
+struct Way<'a> {
+    world: &'a World,
+    memory: [LegMemory; 6],
+    past: Vec<PastForces>,
+}
+
+impl Way<'_> {
+    /// Puts a load on, and remembers it.
+    fn pass(
+        &mut self,
+        moment: &Instant<'_>,
+        wrench: Wrench,
+        put_on: Option<f64>,
+        is_reference: bool,
+    ) -> Result<Equilibrium, TruthError> {
+        let rest = self.world.state(moment, wrench, &self.memory)?;
+        self.memory = rest.memory;
+        let forces = rest.memory.map(|leg| leg.spring_force);
+        self.past.push(PastForces { forces, put_on, is_reference });
+        Ok(rest)
     }
 }
 

@@ -10,13 +10,8 @@ use super::Designed;
 impl Designed {
     /// The readings to be taken: poses in order, at each the settings in order, of each its repeats. Nothing is measured yet.
     pub fn readings_to_take(&self) -> Dataset {
-        Dataset {
-            blocks: hexbench_core::Dataset::pose_blocks(),
-            source: String::new(),
-            measurand: Measurand::DeflectionEuler,
-            columns: columns(&self.space.conditions),
-            observations: readings(&self.space, &self.visits),
-        }
+        let columns = columns(&self.space.conditions);
+        Dataset::of_poses("", Measurand::DeflectionEuler, columns, readings(&self.space, &self.visits))
     }
 }
 

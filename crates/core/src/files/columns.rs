@@ -14,7 +14,7 @@ pub(crate) enum Group {
     Wrench,
     /// Wrench in the reference state.
     Reference,
-    /// `approach`, `delta_T`, `elapsed`, `ref_age`, `ref_record`.
+    /// `approach`, `overload`, `delta_T`, `elapsed`, `ref_age`, `ref_record`, `order`.
     Covariate,
     /// Translation, loaded minus reference.
     Deflection,
@@ -66,7 +66,9 @@ pub(crate) const POSE_ID: usize = 33;
 pub(crate) const REPEAT: usize = 34;
 pub(crate) const REFERENCE_AGE: usize = 35;
 pub(crate) const REFERENCE_RECORD: usize = 36;
-pub(crate) const PLACES: usize = 37;
+pub(crate) const OVERLOAD: usize = 37;
+pub(crate) const ORDER: usize = 38;
+pub(crate) const PLACES: usize = 39;
 
 const fn column(name: &'static str, kind: Dimension, group: Group, first: usize) -> Column {
     Column { name, kind, group, places: Places { first, count: 1 } }
@@ -99,10 +101,12 @@ pub(crate) static COLUMNS: &[Column] = &[
     column("ref_my", Dimension::Moment, Group::Reference, REFERENCE + 4),
     column("ref_mz", Dimension::Moment, Group::Reference, REFERENCE + 5),
     column("approach", Dimension::Number, Group::Covariate, APPROACH),
+    column("overload", Dimension::Number, Group::Covariate, OVERLOAD),
     column("delta_T", Dimension::TemperatureDifference, Group::Covariate, DELTA_T),
     column("elapsed", Dimension::Time, Group::Covariate, ELAPSED),
     column("ref_age", Dimension::Time, Group::Covariate, REFERENCE_AGE),
     column("ref_record", Dimension::Number, Group::Covariate, REFERENCE_RECORD),
+    column("order", Dimension::Number, Group::Covariate, ORDER),
     column("da", Dimension::Length, Group::Deflection, MEASURED),
     column("db", Dimension::Length, Group::Deflection, MEASURED + 1),
     column("dc", Dimension::Length, Group::Deflection, MEASURED + 2),
@@ -140,7 +144,7 @@ pub(crate) static COLUMNS: &[Column] = &[
 impl Column {
     /// True for a column that numbers things.
     pub(crate) fn is_whole(&self) -> bool {
-        self.group == Group::Number || self.places.first == REFERENCE_RECORD
+        self.group == Group::Number || matches!(self.places.first, REFERENCE_RECORD | ORDER)
     }
 
     /// The unit files are written in: those of the format's definition.

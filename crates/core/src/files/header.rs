@@ -303,6 +303,9 @@ fn plan(
     if of_reference && measurand == Measurand::AbsolutePose {
         return Err(FileProblem::ReferenceOfAbsolutePose);
     }
+    if columns.order && measurand == Measurand::AbsolutePose {
+        return Err(order_of_absolute_poses());
+    }
     let has_pose = present.fills(Group::Number, super::columns::POSE_ID);
     Ok(Plan {
         sources,
@@ -318,16 +321,25 @@ fn plan(
     })
 }
 
+fn order_of_absolute_poses() -> FileProblem {
+    FileProblem::Rule {
+        rule: "the sequence of loads counts for deflections; absolute poses are taken as reached from the unloaded machine".to_owned(),
+        next: "Remove the column order, or begin its name with x_.".to_owned(),
+    }
+}
+
 fn optional_columns(present: &Present<'_>) -> Result<Columns, FileProblem> {
-    use super::columns::{APPROACH, DELTA_T, ELAPSED, REFERENCE_AGE, REFERENCE_RECORD};
+    use super::columns::{APPROACH, DELTA_T, ELAPSED, ORDER, OVERLOAD, REFERENCE_AGE, REFERENCE_RECORD};
     Ok(Columns {
         reference: present.complete_or_absent(Group::Reference, "ref_")?,
         sigma: present.complete_or_absent(Group::Sigma, "sigma_")?,
         approach: present.fills(Group::Covariate, APPROACH),
+        overload: present.fills(Group::Covariate, OVERLOAD),
         delta_t: present.fills(Group::Covariate, DELTA_T),
         elapsed: present.fills(Group::Covariate, ELAPSED),
         reference_age: present.fills(Group::Covariate, REFERENCE_AGE),
         reference_record: present.fills(Group::Covariate, REFERENCE_RECORD),
+        order: present.fills(Group::Covariate, ORDER),
     })
 }
 

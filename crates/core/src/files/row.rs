@@ -2,8 +2,8 @@
 
 use super::FileProblem;
 use super::columns::{
-    APPROACH, DELTA_T, ELAPSED, Group, MEASURED, POSE, POSE_ID, REFERENCE, REFERENCE_AGE, REFERENCE_RECORD,
-    REPEAT, Row, SIGMA, WRENCH,
+    APPROACH, DELTA_T, ELAPSED, Group, MEASURED, ORDER, OVERLOAD, POSE, POSE_ID, REFERENCE, REFERENCE_AGE,
+    REFERENCE_RECORD, REPEAT, Row, SIGMA, WRENCH,
 };
 use super::header::{Plan, Source};
 use super::sensor_columns::SensorSource;
@@ -130,6 +130,7 @@ pub(crate) fn no_sigma() -> FileProblem {
 fn defaults() -> Row {
     let mut row = [0.0; super::columns::PLACES];
     row[APPROACH] = Approach::default().sign();
+    row[OVERLOAD] = Approach::OVERLOAD;
     row[REPEAT] = 1.0;
     row
 }
@@ -152,6 +153,7 @@ fn check(source: &Source, si: f64) -> Result<(), FileProblem> {
         Group::Covariate if source.column.places.first == APPROACH && Approach::of_sign(si).is_none() => {
             Err(FileProblem::Approach)
         }
+        Group::Covariate if source.column.places.first == OVERLOAD && si < 1.0 => Err(no_overload()),
         Group::Covariate if source.column.places.first == REFERENCE_AGE && si < 0.0 => Err(negative_age()),
         Group::Sigma if si <= 0.0 => Err(FileProblem::Sigma),
         Group::Sigma | Group::Number | Group::Covariate => Ok(()),
@@ -169,6 +171,13 @@ fn negative_age() -> FileProblem {
     }
 }
 
+fn no_overload() -> FileProblem {
+    FileProblem::Rule {
+        rule: "a load that is exceeded first is exceeded by a factor of at least 1".to_owned(),
+        next: "Write the largest change of load on the way over that of the row, 1.4 for 40 % more; 1 where it was not exceeded.".to_owned(),
+    }
+}
+
 /// The observation of a filled row.
 fn observation(row: &Row, plan: &Plan, line: u64, running: i64) -> Observation {
     Observation {
@@ -179,10 +188,12 @@ fn observation(row: &Row, plan: &Plan, line: u64, running: i64) -> Observation {
         wrench: Wrench::from_array(six(row, WRENCH)),
         reference: Wrench::from_array(six(row, REFERENCE)),
         approach: Approach::of_sign(row[APPROACH]).unwrap_or_default(),
+        overload: row[OVERLOAD],
         delta_t: row[DELTA_T],
         elapsed: row[ELAPSED],
         reference_age: plan.columns.reference_age.then(|| row[REFERENCE_AGE]),
         reference_record: plan.columns.reference_record.then(|| whole(row[REFERENCE_RECORD])),
+        order: plan.columns.order.then(|| whole(row[ORDER])),
         block: 0,
         measured: six(row, MEASURED),
         sigma: plan.columns.sigma.then(|| six(row, SIGMA)),

@@ -10,7 +10,8 @@ use super::row::{FilledRow, no_sigma};
 use super::source::Noticed;
 use super::warning::Notice;
 use super::{FilePlace, FileProblem, Warning};
-use crate::{Dataset, Measurand, Observation};
+use crate::load_path::doubled_order;
+use crate::{Dataset, LoadSequences, Measurand, Observation};
 
 /// A table as read, and what the reader noticed on the way.
 #[derive(Debug, Clone, PartialEq)]
@@ -103,14 +104,32 @@ impl Table {
             let notice = Notice::NoLoadDifference { lines: self.no_load_difference };
             self.warnings.push(Warning::new(FilePlace::file(), notice));
         }
+        refuse_doubled_order(&self.observations)?;
         let Plan { measurand, columns, blocks, .. } = self.plan;
-        let mut dataset =
-            Dataset { source: name.to_owned(), measurand, columns, blocks, observations: self.observations };
+        let mut dataset = Dataset {
+            source: name.to_owned(),
+            measurand,
+            columns,
+            blocks,
+            sequences: LoadSequences::of(&self.observations),
+            observations: self.observations,
+        };
         if dataset.has_other_readings() {
             state_sigmas(&mut dataset, &self.plan.stated)?;
         }
         Ok(TableReading { dataset, warnings: self.warnings })
     }
+}
+
+/// Two readings cannot have one place in the sequence of loads.
+fn refuse_doubled_order(readings: &[Observation]) -> Result<(), Fault> {
+    let Some([first, second]) = doubled_order(readings) else { return Ok(()) };
+    let place = FilePlace { line: Some(second.line), ..FilePlace::file() }.with_name("order");
+    let problem = FileProblem::Rule {
+        rule: format!("line {} has the same place in the sequence of loads", first.line),
+        next: "Number the rows in the sequence in which the loads were put on; leave the column out where nobody knows.".to_owned(),
+    };
+    Err(Fault::new(place, problem))
 }
 
 /// Every number of a file with sensors or empty cells is weighed by its own standard deviation.

@@ -1,8 +1,8 @@
 //! Writing a table of measurements in the units of the format.
 
 use super::columns::{
-    APPROACH, COLUMNS, Column, DELTA_T, ELAPSED, Group, MEASURED, PLACES, POSE, POSE_ID, REFERENCE,
-    REFERENCE_AGE, REFERENCE_RECORD, REPEAT, Row, SIGMA, WRENCH,
+    APPROACH, COLUMNS, Column, DELTA_T, ELAPSED, Group, MEASURED, ORDER, OVERLOAD, PLACES, POSE, POSE_ID,
+    REFERENCE, REFERENCE_AGE, REFERENCE_RECORD, REPEAT, Row, SIGMA, WRENCH,
 };
 use super::header::measured_groups;
 use super::units::{PLAIN, Unit, unit_named};
@@ -138,6 +138,8 @@ fn is_written(column: &Column, measurand: Measurand, has: Columns) -> bool {
         Group::Sigma => has.sigma && column.is_usual_name(),
         Group::Covariate => match column.places.first {
             APPROACH => has.approach,
+            OVERLOAD => has.overload,
+            ORDER => has.order,
             DELTA_T => has.delta_t,
             REFERENCE_AGE => has.reference_age,
             REFERENCE_RECORD => has.reference_record,
@@ -157,12 +159,14 @@ fn row_of(observation: &Observation) -> Row {
     // A row without sigma in a table with them becomes NaN, which is refused below.
     six(SIGMA, observation.sigma.unwrap_or([f64::NAN; 6]));
     row[APPROACH] = observation.approach.sign();
+    row[OVERLOAD] = observation.overload;
     row[DELTA_T] = observation.delta_t;
     row[ELAPSED] = observation.elapsed;
     // As of sigma below.
     row[REFERENCE_AGE] = observation.reference_age.unwrap_or(f64::NAN);
     // Whole numbers below 2^53: the readers take no others.
     row[REFERENCE_RECORD] = observation.reference_record.map_or(f64::NAN, |record| record as f64);
+    row[ORDER] = observation.order.map_or(f64::NAN, |order| order as f64);
     row[POSE_ID] = observation.pose_id as f64;
     row[REPEAT] = observation.repeat as f64;
     row

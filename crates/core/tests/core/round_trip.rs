@@ -18,7 +18,8 @@ fn near(one: f64, other: f64) -> bool {
 }
 
 fn numbers(row: &Observation) -> Vec<f64> {
-    let mut numbers = vec![row.approach.sign(), row.delta_t, row.elapsed, row.reference_age.unwrap_or(-1.0)];
+    let mut numbers =
+        vec![row.approach.sign(), row.overload, row.delta_t, row.elapsed, row.reference_age.unwrap_or(-1.0)];
     for six in [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array(), row.measured] {
         numbers.extend(six);
     }
@@ -31,8 +32,8 @@ fn assert_near(one: &Dataset, other: &Dataset) {
     assert_eq!(one.observations.len(), other.observations.len());
     for (one, other) in one.observations.iter().zip(&other.observations) {
         assert_eq!(
-            (one.pose_id, one.repeat, one.reference_record),
-            (other.pose_id, other.repeat, other.reference_record)
+            (one.pose_id, one.repeat, one.reference_record, one.order),
+            (other.pose_id, other.repeat, other.reference_record, other.order)
         );
         let pairs = numbers(one).into_iter().zip(numbers(other));
         pairs.for_each(|(one, other)| assert!(near(one, other), "{one:e} {other:e}"));
@@ -45,15 +46,19 @@ fn measurand() -> impl Strategy<Value = Measurand> {
 }
 
 fn columns() -> impl Strategy<Value = Columns> {
-    any::<[bool; 7]>().prop_map(
-        |[reference, approach, delta_t, elapsed, reference_age, reference_record, sigma]| Columns {
-            reference,
-            approach,
-            delta_t,
-            elapsed,
-            reference_age,
-            reference_record,
-            sigma,
+    any::<[bool; 9]>().prop_map(
+        |[reference, approach, overload, delta_t, elapsed, reference_age, reference_record, order, sigma]| {
+            Columns {
+                reference,
+                approach,
+                overload,
+                delta_t,
+                elapsed,
+                reference_age,
+                reference_record,
+                order,
+                sigma,
+            }
         },
     )
 }
@@ -62,7 +67,7 @@ prop_compose! {
     fn observation()(
         pose_id in any::<i32>(), repeat in 0..100_i64,
         pose in uniform6(-6.0..6.0_f64), wrench in uniform6(-1e6..1e6_f64), reference in uniform6(-1e6..1e6_f64),
-        up in any::<bool>(), delta_t in -50.0..50.0_f64, elapsed in 0.0..1e6_f64, age in 0.0..1e9_f64,
+        up in any::<bool>(), overload in 1.0..3.0_f64, delta_t in -50.0..50.0_f64, elapsed in 0.0..1e6_f64, age in 0.0..1e9_f64,
         record in -5..5_i64,
         measured in uniform6(-1e-3..1e-3_f64), sigma in uniform6(1e-12..1e-3_f64),
     ) -> Observation {
@@ -70,8 +75,8 @@ prop_compose! {
         block: 0,
             pose_id: pose_id.into(), repeat, line: 0,
             pose: Pose::from_array(pose), wrench: Wrench::from_array(wrench), reference: Wrench::from_array(reference),
-            approach: if up { Approach::Direct } else { Approach::Overloaded }, delta_t, elapsed,
-            reference_age: Some(age), reference_record: Some(record), measured, sigma: Some(sigma),
+            approach: if up { Approach::Direct } else { Approach::Overloaded }, overload, delta_t, elapsed,
+            reference_age: Some(age), reference_record: Some(record), order: Some(0), measured, sigma: Some(sigma),
         }
     }
 }
@@ -81,10 +86,12 @@ fn as_stated(row: &Observation, columns: Columns) -> Observation {
     Observation {
         reference: if columns.reference { row.reference } else { Wrench::default() },
         approach: if columns.approach { row.approach } else { Approach::Direct },
+        overload: if columns.overload { row.overload } else { Approach::OVERLOAD },
         delta_t: if columns.delta_t { row.delta_t } else { 0.0 },
         elapsed: if columns.elapsed { row.elapsed } else { 0.0 },
         reference_age: row.reference_age.filter(|_| columns.reference_age),
         reference_record: row.reference_record.filter(|_| columns.reference_record),
+        order: row.order.filter(|_| columns.order),
         sigma: row.sigma.filter(|_| columns.sigma),
         ..*row
     }
@@ -96,10 +103,12 @@ prop_compose! {
     ) -> Dataset {
         let deflections = measurand != Measurand::AbsolutePose;
         let (reference, reference_age) = (columns.reference && deflections, columns.reference_age && deflections);
-        let reference_record = columns.reference_record && deflections;
-        let columns = Columns { reference, reference_age, reference_record, ..columns };
-        let observations = rows.iter().map(|row| as_stated(row, columns)).collect();
-        Dataset { blocks: hexbench_core::Dataset::pose_blocks(), source: "measurements.csv".into(), measurand, columns, observations }
+        let (reference_record, order) = (columns.reference_record && deflections, columns.order && deflections);
+        let columns = Columns { reference, reference_age, reference_record, order, ..columns };
+        let observations: Vec<Observation> = (1..).zip(&rows)
+            .map(|(place, row)| as_stated(&Observation { order: Some(place), ..*row }, columns))
+            .collect();
+        Dataset::of_poses("measurements.csv", measurand, columns, observations)
     }
 }
 
@@ -229,20 +238,16 @@ fn a_dataset_that_could_not_be_read_again_is_not_written() {
         wrench: Wrench::default(),
         reference: Wrench::default(),
         approach: Approach::Direct,
+        overload: Approach::OVERLOAD,
         delta_t: 0.0,
         elapsed: 0.0,
         reference_age: None,
         reference_record: None,
+        order: None,
         measured: [0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0],
         sigma: None,
     };
-    let dataset = Dataset {
-        blocks: hexbench_core::Dataset::pose_blocks(),
-        source: String::new(),
-        measurand: Measurand::DeflectionEuler,
-        columns: Columns::default(),
-        observations: vec![row],
-    };
+    let dataset = Dataset::of_poses("", Measurand::DeflectionEuler, Columns::default(), vec![row]);
     let error = write_measurements(&path, &dataset).unwrap_err();
     assert!(error.to_string().contains("pose 7, repeat 1 has no finite db"), "{error}");
     assert!(!path.exists());

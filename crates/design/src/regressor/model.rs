@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Dataset, Hexapod, Observation, Pose, Vector6};
+use hexbench_core::{Approach, Dataset, Hexapod, Observation, Pose, Vector6};
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::natural;
@@ -147,10 +147,12 @@ pub fn reading(pose: Pose, setting: &Setting) -> Observation {
         wrench: setting.loading.load,
         reference: setting.loading.reference,
         approach: setting.approach,
+        overload: Approach::OVERLOAD,
         delta_t: setting.delta_t,
         elapsed: setting.elapsed,
         reference_age: None,
         reference_record: None,
+        order: None,
         measured: [0.0; 6],
         sigma: None,
     }

@@ -60,10 +60,12 @@ fn plan(loads: &[[f64; 6]], repeats: i64) -> Dataset {
                 wrench: Wrench::from_array(*load),
                 reference: Wrench::from_array([0.0, 0.0, -120.0, 0.0, 0.0, 0.0]),
                 approach: Approach::Direct,
+                overload: Approach::OVERLOAD,
                 delta_t: 0.0,
                 elapsed: wait,
                 reference_age: None,
                 reference_record: None,
+                order: None,
                 measured: [0.0; 6],
                 sigma: None,
             }));
@@ -71,13 +73,7 @@ fn plan(loads: &[[f64; 6]], repeats: i64) -> Dataset {
     }
     let columns =
         Columns { reference: true, approach: true, delta_t: true, elapsed: true, ..Columns::default() };
-    Dataset {
-        blocks: hexbench_core::Dataset::pose_blocks(),
-        source: "plan".into(),
-        measurand: Measurand::DeflectionEuler,
-        columns,
-        observations,
-    }
+    Dataset::of_poses("plan", Measurand::DeflectionEuler, columns, observations)
 }
 
 const DOWN: [f64; 6] = [0.0, 0.0, -340.0, 0.0, 0.0, 0.0];

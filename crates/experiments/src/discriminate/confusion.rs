@@ -84,6 +84,7 @@ impl ConfusedPair {
             elapsed: Spread::Even(self.waits_s),
             reference_age: None,
             anew: false,
+            in_sequence: false,
         }
     }
 }

@@ -144,10 +144,12 @@ fn observation(r: &NextReport) -> Observation {
         wrench: Wrench::from_array(r.wrench),
         reference: Wrench::from_array(r.reference),
         approach: r.approach,
+        overload: hexbench_core::Approach::OVERLOAD,
         delta_t: r.delta_t_k,
         elapsed: r.elapsed_s,
         reference_age: None,
         reference_record: None,
+        order: None,
         measured: [0.0; 6],
         sigma: None,
     }

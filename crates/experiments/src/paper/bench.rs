@@ -107,7 +107,7 @@ pub fn sigma() -> [f64; 6] {
 
 /// A reading of nothing, for what depends on pose and load alone.
 pub fn unread(situation: Situation) -> Observation {
-    PlanRow { pose_id: 1, repeat: 1, situation }.read(2, [0.0; 6], Some(sigma()))
+    PlanRow::alone(1, 1, situation).read(2, [0.0; 6], Some(sigma()))
 }
 
 fn dataset(source: &str, covariates: Covariates, observations: Vec<Observation>) -> Dataset {
@@ -120,13 +120,7 @@ fn dataset(source: &str, covariates: Covariates, observations: Vec<Observation>)
         sigma: true,
         ..Columns::default()
     };
-    Dataset {
-        blocks: hexbench_core::Dataset::pose_blocks(),
-        source: source.to_owned(),
-        measurand: Measurand::DeflectionEuler,
-        columns,
-        observations,
-    }
+    Dataset::of_poses(source, Measurand::DeflectionEuler, columns, observations)
 }
 
 /// A pose without tilt: a, b, c in mm, gamma in deg.
@@ -144,9 +138,7 @@ pub fn loaded_pose(pose: Pose) -> Situation {
 pub fn rows(poses: &[Pose], repeats: i64) -> Vec<PlanRow> {
     let numbered = (1..).zip(poses);
     let repeated = numbered.flat_map(|(pose_id, pose)| (1..=repeats).map(move |r| (pose_id, r, *pose)));
-    repeated
-        .map(|(pose_id, repeat, pose)| PlanRow { pose_id, repeat, situation: loaded_pose(pose) })
-        .collect()
+    repeated.map(|(pose_id, repeat, pose)| PlanRow::alone(pose_id, repeat, loaded_pose(pose))).collect()
 }
 
 /// Table 1: three poses, three readings each.

@@ -61,7 +61,7 @@ pub(crate) fn figure_8(bench: &PaperMachine, world: &World) -> Result<Linearity,
         |load: f64| Situation::new(Pose::default(), Wrench::from_array([0.0, 0.0, -load, 0.0, 0.0, 0.0]));
     let rows: Vec<PlanRow> = (1..)
         .zip(FIGURE_8_LOADS_N)
-        .map(|(pose_id, load)| PlanRow { pose_id, repeat: 1, situation: situation(load) })
+        .map(|(pose_id, load)| PlanRow::alone(pose_id, 1, situation(load)))
         .collect();
     let points = |data: &hexbench_core::Dataset| -> Vec<[f64; 2]> {
         data.observations.iter().map(|o| [-o.wrench.force.z, -o.measured[2] * 1e6]).collect()

@@ -148,6 +148,7 @@ fn of_space(space: &Space, poses: Vec<Pose>, repeats: u64) -> Scheme {
         elapsed: Spread::Even([5.0, 300.0]),
         reference_age: None,
         anew: false,
+        in_sequence: false,
     }
 }
 

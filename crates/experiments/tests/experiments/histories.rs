@@ -1,7 +1,7 @@
 //! What a machine remembers: creep of a preload of any age by either law, and contacts that close gradually; simulated, then diagnosed.
 
 use hexbench_core::streams::{Purpose, stream};
-use hexbench_core::{Dataset, Hexapod};
+use hexbench_core::{Approach, Dataset, Hexapod, LoadSequences, Observation};
 use hexbench_experiments::trial::told;
 use hexbench_model::estimation::fit_named::{Added, fit_wanted};
 use hexbench_model::inference::verdict::Verdict;
@@ -10,7 +10,7 @@ use hexbench_model::terms::catalogue;
 use hexbench_truth::campaign::{
     PlanKind, Poses, Schemes, SimulatedCampaign, Spread, Yardstick, machines, measure,
 };
-use hexbench_truth::mechanisms::{Creep, CreepLaw, LegBacklash, LegDrift, LoadMassError};
+use hexbench_truth::mechanisms::{Creep, CreepLaw, JointFriction, LegBacklash, LegDrift, LoadMassError};
 use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
 use hexbench_truth::{Mechanism, World};
 
@@ -298,6 +298,78 @@ fn creep_of_any_preload_is_recovered_without_noise() {
         let part = active.values.get(1).map_or(fresh, |part| part / active.values[0]);
         assert!((part - fresh).abs() < LINEARISATION, "{}: {part} {fresh}", case.name);
     }
+}
+
+/// Loads put on one after the other at each pose, up and down again, none of them exceeded.
+fn in_sequence(schemes: &mut Schemes) {
+    heavy(schemes);
+    for scheme in [&mut schemes.training, &mut schemes.holdout] {
+        scheme.in_sequence = true;
+        scheme.approaches = vec![Approach::Direct];
+        scheme.elapsed = Spread::Even([5.0, 120.0]);
+        let loads = &scheme.loads;
+        scheme.loads = [1, 0, 1, 2, 3, 5, 2, 4].map(|load| loads[load]).to_vec();
+    }
+}
+
+/// The same readings by someone who forgot to write the sequence down.
+fn without_order(data: &Dataset) -> Dataset {
+    let forgotten = |o: &Observation| Observation { order: None, ..*o };
+    let mut data = Dataset {
+        sequences: LoadSequences::default(),
+        observations: data.observations.iter().map(forgotten).collect(),
+        ..data.clone()
+    };
+    data.columns.order = false;
+    data
+}
+
+fn friction() -> Box<dyn Mechanism> {
+    Box::new(JointFriction { slider_force: 3.0, stick_ratio: None })
+}
+
+/// Reduced chi-square of a fit to a thousandth of the usual noise, and the first number of the effect.
+fn recovered(history: &History, data: &Dataset, asked: &str) -> (f64, f64) {
+    let mut hexapod = history.hexapod.clone();
+    let noise = InstrumentNoise::default();
+    let [sigma_translation, sigma_rotation] =
+        [noise.sigma_translation, noise.sigma_rotation].map(|s| 1e-3 * s);
+    hexapod.metrology = Some(InstrumentNoise { sigma_translation, sigma_rotation, ..noise }.metrology());
+    let campaign = prepare(&hexapod, data).unwrap();
+    let (_, fit) = fit_wanted(&campaign, &[Added::named(asked, &catalogue()).unwrap()]).unwrap();
+    (fit.chi2 / fit.dof, fit.point.active[0].values[0])
+}
+
+#[test]
+fn loads_that_follow_each_other_leave_the_trace_of_their_sequence() {
+    let of = |effect, distance| history(Some(effect), distance, 3, in_sequence);
+    let creeping = of(creep(None, CreepLaw::Exponential), 40.0);
+    let share = creeping.hidden.as_ref().unwrap().parameters()["creep"][0].as_f64().unwrap();
+    let sliding = of(friction(), 40.0);
+    let force = sliding.hidden.as_ref().unwrap().parameters()["friction"].as_f64().unwrap();
+    for (history, asked, truth) in [(creeping, "creep", share), (sliding, "joint-friction", force)] {
+        let (left, value) = recovered(&history, &history.exact, asked);
+        assert!((value / truth - 1.0).abs() < LINEARISATION, "{asked}: {value} for {truth}");
+        let forgotten = without_order(&history.exact);
+        let (more, _) = recovered(&history, &forgotten, asked);
+        assert!(more > 100.0 * left, "{asked}: {left}, and {more} without the sequence");
+    }
+}
+
+#[test]
+fn effects_of_a_history_are_named_in_a_sequence_of_loads() {
+    for (id, effect) in [("creep", creep(None, CreepLaw::Exponential)), ("joint-friction", friction())] {
+        let history = history(Some(effect), 22.0, 1, in_sequence);
+        let d = history.diagnosis();
+        assert_eq!(
+            (d.verdict, told(&d)),
+            (Verdict::Named, vec![id.to_owned()]),
+            "{:?}",
+            d.candidates.first()
+        );
+    }
+    let d = history(None, 0.0, 1, in_sequence).diagnosis();
+    assert_eq!((d.verdict, told(&d).len()), (Verdict::Adequate, 0));
 }
 
 #[test]

@@ -131,8 +131,7 @@ fn dataset(model: &Model, rows: &[Observation], measurand: Measurand) -> Dataset
     };
     let observations =
         rows.iter().map(|o| Observation { measured: guess(o), sigma: None, block: 0, ..*o }).collect();
-    let (source, columns) = (String::new(), hexbench_core::Columns::default());
-    Dataset { source, measurand, columns, blocks: Dataset::pose_blocks(), observations }
+    Dataset::of_poses("", measurand, hexbench_core::Columns::default(), observations)
 }
 
 /// Frames in which a prediction is read.

@@ -85,7 +85,9 @@ fn unmet(need: Need, campaign: &Campaign, lin: &Linearization) -> Option<Reason>
     let columns = &campaign.columns;
     match need {
         Need::Absolute => (!campaign.is_absolute()).then_some(Reason::OnlyAbsolutePoses),
-        Need::Approach => (!columns.approach).then_some(Reason::NoColumn("approach")),
+        Need::Approach => {
+            (!columns.approach && !columns.order).then_some(Reason::NoColumn("approach (or order)"))
+        }
         Need::DeltaT => missing("delta_T_K", columns.delta_t, lin.conditions.iter().map(|c| c.delta_t)),
         Need::Elapsed => missing("elapsed_s", columns.elapsed, lin.conditions.iter().map(|c| c.elapsed)),
         Need::Brackets => lin.machine.bracket_pairs.is_empty().then_some(Reason::NoBrackets),

@@ -7,8 +7,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use hexbench_core::{
-    Approach, Channel, Columns, Dataset, Hexapod, Matrix6, Measurand, NumberKind, Observation, Pose,
-    StatedTolerances, UNREAD, Vector3, Vector6, Wrench,
+    Approach, Channel, Columns, Dataset, Hexapod, LoadSequence, Matrix6, Measurand, NumberKind, Observation,
+    PastLoad, Pose, StatedTolerances, UNREAD, Vector3, Vector6, Wrench,
 };
 use nalgebra::{DMatrix, Rotation3};
 
@@ -27,6 +27,8 @@ use crate::machine::kinematics::Legs;
 pub struct ConditionReadings {
     /// Inputs, as of the first reading; `measured` is the weighted mean.
     pub mean: Observation,
+    /// Loads that came before; none where the file states no sequence, or only the reference load came before.
+    pub sequence: Option<Arc<LoadSequence>>,
     /// What the six numbers are.
     pub channels: [Channel; 6],
     /// How many readings each number was read in.
@@ -66,8 +68,14 @@ pub struct Condition {
     pub reference_force: Vector6,
     /// Forces in the leg springs in the two states, N: the leg forces, less what friction holds.
     pub spring_forces: [Vector6; 2],
-    /// Leg forces along the way to the reading.
+    /// Leg forces along the way from the reference to the reading.
     pub path: LoadPath,
+    /// Loads that came before, those before the reference state first; empty where the file states no sequence.
+    pub past: Vec<PastState>,
+    /// When the load was put on, s from the reference reading.
+    pub put_on: f64,
+    /// Factor by which an overloaded approach exceeded the change of load first.
+    pub overload: f64,
     /// Motion of the legs' platform against their base in the reference state, geometric twist.
     pub sag: Vector6,
     /// Change of leg force between reference and load that stands beside the legs and that the forces here are without, N.
@@ -109,7 +117,18 @@ pub struct LoadState {
     pub lengths: Vector6,
 }
 
-/// Leg forces (N, tension positive) along the way from the unloaded machine to the reading.
+/// An earlier load of the sequence that ends in the reading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PastState {
+    /// The load.
+    pub load: PastLoad,
+    /// Forces in the legs minus those in the reference state, N.
+    pub change: Vector6,
+    /// Forces in the leg springs, N.
+    pub spring_forces: Vector6,
+}
+
+/// Leg forces (N, tension positive) along the way from the reference state to the reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadPath {
     /// In the reference state.
@@ -120,14 +139,25 @@ pub struct LoadPath {
     pub load: Vector6,
 }
 
-impl LoadPath {
-    /// Spring force of one leg in the reference state and under the load when a slider beside the spring holds up to
-    /// `limit` against the last motion.
-    pub fn spring_forces(&self, leg: usize, limit: f64) -> [f64; 2] {
-        let play = |previous: f64, f: f64| previous.max(f - limit).min(f + limit);
-        let rest = play(0.0, self.reference[leg]);
-        [rest, play(play(rest, self.extreme[leg]), self.load[leg])]
-    }
+/// Spring force of one leg in the reference state and under the load of a path when a slider beside the spring holds up to `limit`
+/// against the last motion; `passed` takes the one under each earlier load.
+fn along(
+    path: &LoadPath,
+    past: &[PastState],
+    leg: usize,
+    limit: f64,
+    mut passed: impl FnMut(f64),
+) -> [f64; 2] {
+    let play = |spring: f64, force: f64| spring.max(force - limit).min(force + limit);
+    let (before, since) = past.split_at(past.partition_point(|state| state.load.before_reference));
+    let mut pass = |spring: f64, state: &PastState| {
+        let spring = play(spring, path.reference[leg] + state.change[leg]);
+        passed(spring);
+        spring
+    };
+    let rest = play(before.iter().fold(0.0, &mut pass), path.reference[leg]);
+    let last = since.iter().fold(rest, &mut pass);
+    [rest, play(play(last, path.extreme[leg]), path.load[leg])]
 }
 
 /// A dataset prepared for one hexapod.
@@ -182,7 +212,7 @@ impl Condition {
     pub fn set_forces(&mut self, [reference, load]: [Vector6; 2], limits: &Vector6) {
         let extreme = match self.approach {
             Approach::Direct => load,
-            Approach::Overloaded => reference + Approach::OVERLOAD * (load - reference),
+            Approach::Overloaded => reference + self.overload * (load - reference),
         };
         self.set_path(LoadPath { reference, extreme, load }, limits);
     }
@@ -190,8 +220,19 @@ impl Condition {
     /// Sets the forces in the legs, and with them those in the springs, beside which friction holds up to `limits` (N).
     pub fn set_path(&mut self, path: LoadPath, limits: &Vector6) {
         (self.reference_force, self.force, self.path) = (path.reference, path.load, path);
-        let of_leg: [[f64; 2]; 6] = std::array::from_fn(|leg| path.spring_forces(leg, limits[leg].max(0.0)));
+        let mut of_leg = [[0.0; 2]; 6];
+        for (leg, ends) in of_leg.iter_mut().enumerate() {
+            let mut passed = Vec::with_capacity(self.past.len());
+            *ends = along(&path, &self.past, leg, limits[leg].max(0.0), |spring| passed.push(spring));
+            self.past.iter_mut().zip(passed).for_each(|(state, spring)| state.spring_forces[leg] = spring);
+        }
         self.spring_forces = [0, 1].map(|state| Vector6::from_fn(|leg, _| of_leg[leg][state]));
+    }
+
+    /// Spring force of one leg in the reference state and under the load when a slider beside the spring holds up to
+    /// `limit` against the last motion, on the whole way from the unloaded machine.
+    pub fn spring_forces_under(&self, leg: usize, limit: f64) -> [f64; 2] {
+        along(&self.path, &self.past, leg, limit, |_| ())
     }
 
     /// Change of the pull of a leg on its base joint between reference and load, fixed axes, N.
@@ -423,10 +464,11 @@ pub(crate) fn moved(pose: &Pose, twist: &Vector6, share: f64) -> Pose {
 }
 
 impl ConditionReadings {
-    fn of(first: &Observation, channels: [Channel; 6]) -> Self {
+    fn of(first: &Observation, channels: [Channel; 6], sequence: Option<Arc<LoadSequence>>) -> Self {
         let rows = Vec::with_capacity(1);
         Self {
             mean: *first,
+            sequence,
             channels,
             reads: [0; 6],
             sigma: [0.0; 6],
@@ -482,20 +524,22 @@ fn known_frames(dataset: &Dataset, machine: &Machine) -> Frames {
 
 fn group(data: &Dataset, noise: &Noise, axes: &ReadingAxes) -> Vec<ConditionReadings> {
     let rows = &data.observations;
-    let mut index: HashMap<([u64; 24], Option<i64>), usize> = HashMap::new();
+    let mut index: HashMap<(ConditionKey, Option<i64>), usize> = HashMap::new();
     let mut groups: Vec<ConditionReadings> = Vec::new();
     // Neighbors that resemble each other are no repeats of each other.
     let drifts = matches!(noise.structure, Structure::Drift { .. });
     let is_named = noise.structure.has_named_records();
     for (i, row) in rows.iter().enumerate() {
         let next = groups.len();
+        let sequence = data.sequences.to(row);
         let slot = if drifts {
             next
         } else {
-            *index.entry((key(row), row.reference_record.filter(|_| is_named))).or_insert(next)
+            let key = (key(row, sequence.map(Arc::as_ref)), row.reference_record.filter(|_| is_named));
+            *index.entry(key).or_insert(next)
         };
         if slot == next {
-            groups.push(ConditionReadings::of(row, data.channels(row)));
+            groups.push(ConditionReadings::of(row, data.channels(row), sequence.cloned()));
         }
         groups[slot].rows.push(u32::try_from(i).unwrap_or(u32::MAX));
     }
@@ -592,15 +636,19 @@ fn whitened_square(row: &Observation, mean: &[f64; 6], noise: &Noise, axes: &Rea
     (0..6).map(|k| (off[k] / sigma[k]).powi(2)).sum()
 }
 
-fn key(row: &Observation) -> [u64; 24] {
-    let mut key = [0; 24];
+/// Inputs of a reading, bit by bit, and what came before.
+type ConditionKey = ([u64; 25], Option<Vec<u64>>);
+
+fn key(row: &Observation, sequence: Option<&LoadSequence>) -> ConditionKey {
+    let mut key = [0; 25];
     key[21] = row.block as u64;
     key[22] = u64::from(row.reference_age.is_some());
     key[23] = (row.reference_age.unwrap_or(0.0) + 0.0).to_bits();
+    key[24] = row.overload.to_bits();
     let parts = [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array()];
     let rest = [row.approach.sign(), row.delta_t, row.elapsed];
     for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain(&rest)) {
         *k = (x + 0.0).to_bits();
     }
-    key
+    (key, sequence.map(LoadSequence::bits))
 }

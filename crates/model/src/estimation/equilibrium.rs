@@ -14,12 +14,15 @@
 //! term that is added takes part without a further word.
 
 use hexbench_core::{
-    Approach, Channel, Matrix3, Matrix6, Measurand, Observation, Pose, SensorKind, Vector3, Vector6, Wrench,
+    Approach, Channel, LoadSequence, Matrix3, Matrix6, Measurand, Observation, Pose, SensorKind, Vector3,
+    Vector6, Wrench,
 };
 
 use crate::effects::chain::{Action, BesideLegs, JointDisplacement, Load};
 use crate::error::ModelError;
-use crate::estimation::campaign::{Campaign, Condition, ConditionReadings, LoadPath, LoadState, moved};
+use crate::estimation::campaign::{
+    Campaign, Condition, ConditionReadings, LoadPath, LoadState, PastState, moved,
+};
 use crate::estimation::frames::ReadingAxes;
 use crate::estimation::linearization::{Active, actions};
 use crate::estimation::parallel::try_map;
@@ -90,11 +93,12 @@ impl Campaign {
     ) -> Result<Condition, ModelError> {
         let machine = structure.machine;
         let mut out = Vec::new();
+        let sequence = group.sequence.as_deref();
         let (mut at, shift) = if self.is_absolute() {
             (measured(structure, o)?, None)
         } else {
             let measured = self.reads_poses.then_some((&o.measured, self.measurand));
-            deflected(structure, o, measured, &mut out)?
+            deflected(structure, o, sequence, measured, &mut out)?
         };
         at.weight = Vector6::from_fn(|k, _| 1.0 / group.sigma[k]);
         (at.numbers, at.reads_pose) = (group.numbers(), group.channels == Channel::POSE);
@@ -165,7 +169,13 @@ fn observer_matrix(axes: &Matrix3, lever: &Vector3, rates: &Matrix3) -> Matrix6 
 }
 
 /// A condition whose legs stand at a pose and carry there what statics says, not yet read.
-fn standing(structure: &Structure<'_>, o: &Observation, pose: Pose, legs: &Legs) -> Condition {
+fn standing(
+    structure: &Structure<'_>,
+    o: &Observation,
+    sequence: Option<&LoadSequence>,
+    pose: Pose,
+    legs: &Legs,
+) -> Condition {
     let machine = structure.machine;
     let none = Vector6::zeros();
     let commanded_lengths = machine.commanded_lengths(&o.pose);
@@ -187,6 +197,9 @@ fn standing(structure: &Structure<'_>, o: &Observation, pose: Pose, legs: &Legs)
         reference_force: none,
         spring_forces: [none; 2],
         path: LoadPath { reference: none, extreme: none, load: none },
+        past: sequence.map_or_else(Vec::new, PastState::all),
+        put_on: sequence.map_or(0.0, |way| way.put_on),
+        overload: o.overload,
         sag: none,
         relief: none,
         tangent: None,
@@ -201,8 +214,34 @@ fn standing(structure: &Structure<'_>, o: &Observation, pose: Pose, legs: &Legs)
         reads_pose: true,
         springs: *structure.springs,
     };
-    at.set_forces(states.map(|s| legs.forces(&s.wrench)), &machine.friction_limits);
+    let forces = states.map(|s| legs.forces(&s.wrench));
+    at.set_past(machine, &forces[0]);
+    at.set_forces(forces, &machine.friction_limits);
     at
+}
+
+impl PastState {
+    /// The earlier loads of a sequence, before their forces are known.
+    fn all(sequence: &LoadSequence) -> Vec<Self> {
+        let none = Vector6::zeros();
+        sequence.past.iter().map(|&load| Self { load, change: none, spring_forces: none }).collect()
+    }
+}
+
+impl Condition {
+    /// Leg forces under the earlier loads, where the springs let the platform stand under each; `reference`: those in the reference state.
+    fn set_past(&mut self, machine: &Machine, reference: &Vector6) {
+        let origin = self.states[0];
+        for state in &mut self.past {
+            let wrench = machine.effective_wrench(&state.load.wrench, &origin.pose);
+            let change = self.legs.forces(&(wrench - origin.wrench));
+            let motion = self.legs.platform_jacobian * self.springs.component_mul(&change);
+            let pose = moved(&origin.pose, &motion, 1.0);
+            let wrench = machine.effective_wrench(&state.load.wrench, &pose);
+            let (base, platform) = (&machine.base_joints, &machine.platform_joints);
+            state.change = forces_near(&self.legs, base, platform, &pose, &wrench).0 - reference;
+        }
+    }
 }
 
 /// Absolute mode: the measured pose, brought back to the platform, is the loaded pose. A pose is measured against nothing: its
@@ -211,7 +250,7 @@ fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Condition, Mod
     let machine = structure.machine;
     let pose = machine.platform_pose(&Pose::from_array(o.measured));
     let o = Observation { reference: Wrench::default(), ..*o };
-    Ok(standing(structure, &o, pose, &machine.legs(&pose)?))
+    Ok(standing(structure, &o, None, pose, &machine.legs(&pose)?))
 }
 
 /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
@@ -222,10 +261,11 @@ fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Condition, Mod
 fn deflected(
     structure: &Structure<'_>,
     o: &Observation,
+    sequence: Option<&LoadSequence>,
     measured: Option<(&[f64; 6], Measurand)>,
     out: &mut Vec<Action>,
 ) -> Result<(Condition, Option<[Vector3; 6]>), ModelError> {
-    let mut at = standing(structure, o, o.pose, &structure.machine.legs(&o.pose)?);
+    let mut at = standing(structure, o, sequence, o.pose, &structure.machine.legs(&o.pose)?);
     let sag = structure.sag(&at, out);
     let before = sag.displacement.unwrap_or_default();
     let displaced =
@@ -308,6 +348,7 @@ impl Structure<'_> {
             state.directions = std::array::from_fn(|leg| spans[leg] / state.lengths[leg]);
             forces[k] = force;
         }
+        at.set_past(machine, &forces[0]);
         at.set_forces(forces, &machine.friction_limits);
         Ok(())
     }
@@ -324,6 +365,8 @@ impl Structure<'_> {
             wrench: commanded.reference,
             reference: Wrench::default(),
             approach: Approach::Direct,
+            past: Vec::new(),
+            put_on: 0.0,
             delta_t: 0.0,
             elapsed: 0.0,
             ..commanded.clone()
@@ -377,14 +420,24 @@ impl Structure<'_> {
 
     /// Takes off the legs what stands beside them, on every load of the way that leaves a trace.
     fn relieve(&self, at: &mut Condition, beside: &BesideLegs, out: &mut Vec<Action>) {
-        let slides = at.approach == Approach::Overloaded && self.machine.friction_limits.amax() > 0.0;
-        let extreme = slides.then(|| {
-            let mut exceeded =
-                Condition { approach: Approach::Direct, delta_t: 0.0, elapsed: 0.0, ..at.clone() };
-            exceeded.set_forces([at.reference_force, at.path.extreme], &self.machine.friction_limits);
+        let mut relieved = |forces: Vector6| {
+            let mut exceeded = Condition {
+                approach: Approach::Direct,
+                past: Vec::new(),
+                put_on: 0.0,
+                delta_t: 0.0,
+                elapsed: 0.0,
+                ..at.clone()
+            };
+            exceeded.set_forces([at.reference_force, forces], &self.machine.friction_limits);
             self.relieve_load(&mut exceeded, beside, None, out);
-            exceeded.force
-        });
+            exceeded
+        };
+        let slides = at.approach == Approach::Overloaded && self.machine.friction_limits.amax() > 0.0;
+        let extreme = slides.then(|| relieved(at.path.extreme).force);
+        let past = at.past.iter().map(|state| relieved(at.reference_force + state.change).force_change());
+        let changes: Vec<Vector6> = past.collect();
+        at.past.iter_mut().zip(changes).for_each(|(state, change)| state.change = change);
         self.relieve_load(at, beside, extreme, out);
     }
 

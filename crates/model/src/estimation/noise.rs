@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use hexbench_core::statistics::{Welford, root_mean_square};
-use hexbench_core::{Dataset, Hexapod, Matrix6, Observation};
+use hexbench_core::{Dataset, Hexapod, LoadSequence, Matrix6, Observation};
 
 use crate::estimation::campaign::frames_of;
 use crate::estimation::frames::ReadingAxes;
@@ -269,11 +269,11 @@ fn from_columns(rows: &[Observation]) -> Noise {
     }
 }
 
-/// Pooled scatter of readings that share pose, loads and approach; temperature and time are ignored.
+/// Pooled scatter of readings that share pose, loads and the way to them; temperature and time are ignored.
 pub fn scatter(rows: &[Observation], axes: &ReadingAxes) -> RepeatScatter {
-    let mut groups: HashMap<[u64; 19], [Welford; 6]> = HashMap::new();
-    for row in rows {
-        let group = groups.entry(key(row)).or_default();
+    let mut groups: HashMap<([u64; 20], Vec<u64>), [Welford; 6]> = HashMap::new();
+    for (row, sequence) in rows.iter().zip(LoadSequence::of_all(rows)) {
+        let group = groups.entry((key(row), sequence.map_or_else(Vec::new, loads_of))).or_default();
         group.iter_mut().zip(axes.continuous(&row.measured)).for_each(|(all, x)| all.add(x));
     }
     let mut sums = [0.0; 6];
@@ -290,10 +290,16 @@ pub fn scatter(rows: &[Observation], axes: &ReadingAxes) -> RepeatScatter {
     RepeatScatter { variance_translation: pooled(0..3), variance_rotation: pooled(3..6), dof: 3.0 * dof }
 }
 
-fn key(row: &Observation) -> [u64; 19] {
-    let mut key = [0; 19];
+/// The loads of a sequence, bit by bit.
+fn loads_of(sequence: LoadSequence) -> Vec<u64> {
+    let numbers = sequence.past.iter().flat_map(|load| load.wrench.to_array());
+    numbers.map(|x| (x + 0.0).to_bits()).collect()
+}
+
+fn key(row: &Observation) -> [u64; 20] {
+    let mut key = [0; 20];
     let parts = [row.pose.to_array(), row.wrench.to_array(), row.reference.to_array()];
-    for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain([&row.approach.sign()])) {
+    for (k, x) in key.iter_mut().zip(parts.iter().flatten().chain(&[row.approach.sign(), row.overload])) {
         *k = (x + 0.0).to_bits();
     }
     key

@@ -411,10 +411,12 @@ mod tests {
                 wrench,
                 reference,
                 approach: Approach::Direct,
+                overload: Approach::OVERLOAD,
                 delta_t: 0.0,
                 elapsed: 0.0,
                 reference_age: None,
                 reference_record: None,
+                order: None,
                 block: 0,
                 measured: [0.0; 6],
                 sigma: None,
@@ -430,8 +432,7 @@ mod tests {
             o
         });
         let observations = rows.collect();
-        let (source, columns) = (String::new(), Columns::default());
-        let dataset = Dataset { source, measurand, columns, blocks: vec![Channel::POSE], observations };
+        let dataset = Dataset::of_poses("", measurand, Columns::default(), observations);
         Campaign::new(&hexapod, &dataset).unwrap()
     }
 

@@ -1,11 +1,14 @@
 //! `creep`: the legs creep under load.
 //!
-//! The load is put on right after the reference reading; the reference load has rested since its age before. A file that states the age
+//! The load is put on right after the reference reading, or after the reading before it where the file states a sequence; every change
+//! of force creeps from its own time on. The reference load has rested since its age before. A file that states the age
 //! (`ref_age_s`) says how much of the preload is still to come. Without it the preload counts as settled, and a version with one more
 //! parameter competes in which it may still creep: for the exponential law `g(age + t) - g(age) = exp(-age/tau) g(t)`, linear in the part.
 //! The logarithmic law has no end; a part stands for it likewise, exactly where the preload is fresh or settled.
 
 use std::sync::Arc;
+
+use hexbench_core::Vector6;
 
 use crate::effects::chain::Action;
 use crate::effects::term::{Chapter, Need, ParameterInfo, Rich, Scale, Shape, Term, TermInfo};
@@ -92,12 +95,33 @@ impl Law {
         }
     }
 
-    /// `g(age + t) - g(age)`.
-    fn growth_after(self, age: f64, t: f64, tau: f64) -> f64 {
+    /// What a change of force yields between the reference reading and `t` after it: `g(t - put_on)`, less what it had yielded before.
+    fn growth_since_reference(self, put_on: f64, t: f64, tau: f64) -> f64 {
         match self {
-            Self::Exponential => (-age / tau).exp() * self.growth(t, tau),
-            Self::Logarithmic => self.growth(t, tau + age),
+            _ if put_on >= 0.0 => self.growth(t - put_on, tau),
+            Self::Exponential => (put_on / tau).exp() * self.growth(t, tau),
+            Self::Logarithmic => self.growth(t, tau - put_on),
         }
+    }
+}
+
+impl Creep {
+    /// Creep by the changes of force before the reference reading, and by those since, over the compliance.
+    fn yields(&self, at: &Condition, tau: f64) -> [Vector6; 2] {
+        let growth = |put_on: Option<f64>| {
+            put_on.map_or(0.0, |put_on| self.law.growth_since_reference(put_on, at.elapsed, tau))
+        };
+        let (before, since) = at.past.split_at(at.past.partition_point(|state| state.load.before_reference));
+        let (mut yields, mut carried) = ([Vector6::zeros(); 2], Vector6::zeros());
+        let mut change = |side: usize, forces: Vector6, put_on: Option<f64>| {
+            yields[side] += (forces - carried) * growth(put_on);
+            carried = forces;
+        };
+        before.iter().for_each(|state| change(0, state.spring_forces, state.load.put_on));
+        change(0, at.spring_forces[0], at.reference_age.map(|age| -age));
+        since.iter().for_each(|state| change(1, state.spring_forces, state.load.put_on));
+        change(1, at.spring_forces[1], Some(at.put_on));
+        yields
     }
 }
 
@@ -107,14 +131,13 @@ impl Term for Creep {
     }
 
     fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
-        let growth = self.law.growth(at.elapsed, shape);
-        let (change, preload) = (at.spring_change() * growth, at.spring_forces[0]);
+        let [before, since] = self.yields(at, shape);
         if self.is_unsettled {
-            out.extend([Action::Force(change), Action::Force(preload * growth)]);
+            let preload = at.spring_forces[0] * self.law.growth(at.elapsed, shape);
+            out.extend([Action::Force(since), Action::Force(preload)]);
             return;
         }
-        let later = at.reference_age.map(|age| preload * self.law.growth_after(age, at.elapsed, shape));
-        out.push(Action::Force(later.map_or(change, |later| change + later)));
+        out.push(Action::Force(before + since));
     }
 
     fn shape_grid(&self, conditions: &[Condition]) -> Vec<f64> {
@@ -124,7 +147,7 @@ impl Term for Creep {
         }
         // From a third of the shortest to three times the longest wait. What goes faster has settled when the reference is read, which
         // waits as long as the others; beside the springs such a part would be a constant load.
-        let waits = conditions.iter().map(|c| c.elapsed).filter(|&t| t > 0.0);
+        let waits = conditions.iter().flat_map(|c| [c.elapsed - c.put_on, c.elapsed]).filter(|&t| t > 0.0);
         let (short, long) = waits.fold((f64::INFINITY, 0.0_f64), |(a, b), t| (a.min(t), b.max(t)));
         if long <= 0.0 {
             return Vec::new();

@@ -31,7 +31,7 @@ impl Term for JointFriction {
 
     fn actions(&self, _: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
         let lag = |leg: usize| {
-            let [rest, loaded] = at.path.spring_forces(leg, shape);
+            let [rest, loaded] = at.spring_forces_under(leg, shape);
             (loaded - rest - (at.path.load[leg] - at.path.reference[leg])) / shape
         };
         out.push(Action::Force(Vector6::from_fn(|leg, _| lag(leg))));

@@ -61,6 +61,9 @@ class Campaign:
         delta_T_K: ArrayLike | None = None,
         elapsed_s: ArrayLike | None = None,
         ref_age_s: ArrayLike | None = None,
+        overload: ArrayLike | None = None,
+        ref_record: ArrayLike | None = None,
+        order: ArrayLike | None = None,
         sigma: ArrayLike | None = None,
         pose: ArrayLike | None = None,
         repeat: ArrayLike | None = None,
@@ -88,6 +91,12 @@ class Campaign:
             Temperature against, and time since, the reference reading.
         ref_age_s : array (n,), optional
             How long the reference load had rested when the reference was read; left out where nobody knows.
+        overload : array (n,), optional
+            With ``approach`` -1: factor by which the change of load was exceeded first; 1.4 unless given.
+        ref_record : array (n,), optional
+            Number of the reference reading that a row was taken against; rows with one number share its error.
+        order : array (n,), optional
+            Place in the sequence in which the loads were put on: readings at one pose that follow each other are one way of loads.
         sigma : array (n, 6), optional
             Standard deviation of each measured value, um and urad.
         pose, repeat : array (n,), optional
@@ -117,6 +126,9 @@ class Campaign:
             "delta_T_K": delta_T_K,
             "elapsed_s": elapsed_s,
             "ref_age_s": ref_age_s,
+            "overload": overload,
+            "ref_record": ref_record,
+            "order": order,
             "pose": pose,
             "repeat": repeat,
         }

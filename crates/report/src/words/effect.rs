@@ -46,7 +46,7 @@ pub fn needs(info: &TermInfo) -> String {
 fn need(need: Need) -> &'static str {
     match need {
         Need::Absolute => "absolute poses (measured_a_mm ...)",
-        Need::Approach => "approach",
+        Need::Approach => "approach or order",
         Need::DeltaT => "delta_T_K",
         Need::Elapsed => "elapsed_s",
         Need::Brackets => "legs that share a bracket ([legs] brackets)",

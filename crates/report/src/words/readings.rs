@@ -197,10 +197,12 @@ fn optional(parts: &[Part<'_>]) -> Columns {
     Columns {
         reference: has(|c| c.reference),
         approach: has(|c| c.approach),
+        overload: has(|c| c.overload),
         delta_t: has(|c| c.delta_t),
         elapsed: has(|c| c.elapsed),
         reference_age: has(|c| c.reference_age),
         reference_record: has(|c| c.reference_record),
+        order: has(|c| c.order),
         sigma: false,
     }
 }

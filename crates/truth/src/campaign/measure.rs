@@ -1,6 +1,9 @@
 //! Running a plan on a world.
 
-use hexbench_core::{Columns, Dataset, Measurand, Vector6};
+use std::collections::HashMap;
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use hexbench_core::{Columns, Dataset, LoadSequence, Measurand, Observation, Vector6};
 use rand_pcg::Pcg64;
 
 use super::PlanRow;
@@ -27,19 +30,29 @@ impl SimulatedCampaign {
     /// As [`World::reading`].
     pub fn ideal(&self, rows: &[PlanRow], measurand: Measurand) -> Result<Vec<Vector6>, TruthError> {
         let mut readings: Vec<Vector6> = Vec::with_capacity(rows.len());
+        let unread: Vec<Observation> = rows.iter().map(PlanRow::unread).collect();
+        let sequences = LoadSequence::of_all(&unread);
         for (i, row) in rows.iter().enumerate() {
-            let again = i > 0 && rows[i - 1].situation == row.situation;
-            let reading = if again { readings[i - 1] } else { self.one(row, measurand)? };
+            let again = i > 0 && row.order.is_none() && rows[i - 1].situation == row.situation;
+            let reading =
+                if again { readings[i - 1] } else { self.one(row, sequences[i].as_ref(), measurand)? };
             readings.push(reading);
         }
         Ok(readings)
     }
 
-    fn one(&self, row: &PlanRow, measurand: Measurand) -> Result<Vector6, TruthError> {
+    fn one(
+        &self,
+        row: &PlanRow,
+        sequence: Option<&LoadSequence>,
+        measurand: Measurand,
+    ) -> Result<Vector6, TruthError> {
         if measurand == Measurand::AbsolutePose {
-            self.world.pose(&row.situation).map(|pose| self.frames.seen(&pose).to_vector())
-        } else {
-            self.world.deflection(&row.situation)
+            return self.world.pose(&row.situation).map(|pose| self.frames.seen(&pose).to_vector());
+        }
+        match sequence {
+            None => self.world.deflection(&row.situation),
+            Some(sequence) => self.world.deflection_after_loads(&row.situation, sequence),
         }
     }
 }
@@ -55,8 +68,19 @@ pub fn measure(
     source: &str,
     rng: &mut Pcg64,
 ) -> Result<Dataset, TruthError> {
-    let errors: Vec<Vector6> = rows.iter().map(|_| campaign.noise.draw(rng)).collect();
+    let mut errors: Vec<Vector6> = rows.iter().map(|_| campaign.noise.draw(rng)).collect();
+    share_references(rows, &mut errors, campaign, rng);
     read(campaign, rows, measurand, source, &errors)
+}
+
+/// Of readings that share a reference, half of the variance is that of the reference.
+fn share_references(rows: &[PlanRow], errors: &mut [Vector6], campaign: &SimulatedCampaign, rng: &mut Pcg64) {
+    let mut references: HashMap<i64, Vector6> = HashMap::new();
+    for (row, error) in rows.iter().zip(errors) {
+        let Some(record) = row.reference_record else { continue };
+        let shared = references.entry(record).or_insert_with(|| campaign.noise.draw(rng));
+        *error = (*error + *shared) * FRAC_1_SQRT_2;
+    }
 }
 
 /// Reads the rows with given errors, m and rad.
@@ -75,19 +99,16 @@ pub(super) fn read(
         .enumerate()
         .map(|(i, ((row, r), error))| row.read(i as u64 + 2, (r + error).into(), None));
     let deflections = measurand != Measurand::AbsolutePose;
-    Ok(Dataset {
-        blocks: Dataset::pose_blocks(),
-        source: source.to_owned(),
-        measurand,
-        columns: Columns {
-            reference: deflections,
-            approach: deflections,
-            delta_t: true,
-            elapsed: true,
-            reference_age: deflections && rows.iter().all(|row| row.situation.reference_age.is_some()),
-            reference_record: false,
-            sigma: false,
-        },
-        observations: observations.collect(),
-    })
+    let columns = Columns {
+        reference: deflections,
+        approach: deflections,
+        overload: deflections && rows.iter().any(PlanRow::states_overload),
+        delta_t: true,
+        elapsed: true,
+        reference_age: deflections && rows.iter().all(|row| row.situation.reference_age.is_some()),
+        reference_record: deflections && rows.iter().all(|row| row.reference_record.is_some()),
+        order: deflections && rows.iter().all(|row| row.order.is_some()),
+        sigma: false,
+    };
+    Ok(Dataset::of_poses(source, measurand, columns, observations.collect()))
 }

@@ -21,12 +21,32 @@ pub struct PlanRow {
     pub repeat: i64,
     /// What is done.
     pub situation: Situation,
+    /// Number of the reference reading that it shares; none: one of its own.
+    pub reference_record: Option<i64>,
+    /// Place in the sequence in which loads are put on; none: each row begins at the unloaded machine.
+    pub order: Option<i64>,
 }
 
 impl PlanRow {
+    /// A row of no sequence, read against a reference of its own.
+    pub fn alone(pose_id: i64, repeat: i64, situation: Situation) -> Self {
+        Self { pose_id, repeat, situation, reference_record: None, order: None }
+    }
+
+    /// True when the load is exceeded by another factor than usual first.
+    pub fn states_overload(&self) -> bool {
+        self.situation.overload.total_cmp(&Approach::OVERLOAD).is_ne()
+    }
+
+    /// The row before anything is read.
+    pub fn unread(&self) -> Observation {
+        self.read(0, [0.0; 6], None)
+    }
+
     /// What was read in this row; `line` of its file, `measured` in m and rad.
     pub fn read(&self, line: u64, measured: [f64; 6], sigma: Option<[f64; 6]>) -> Observation {
-        let Situation { pose, wrench, reference, approach, delta_t, elapsed, reference_age } = self.situation;
+        let Situation { pose, wrench, reference, approach, overload, delta_t, elapsed, reference_age } =
+            self.situation;
         Observation {
             block: 0,
             pose_id: self.pose_id,
@@ -36,10 +56,12 @@ impl PlanRow {
             wrench,
             reference,
             approach,
+            overload,
             delta_t,
             elapsed,
             reference_age,
-            reference_record: None,
+            reference_record: self.reference_record,
+            order: self.order,
             measured,
             sigma,
         }
@@ -49,9 +71,11 @@ impl PlanRow {
 impl From<&Observation> for PlanRow {
     /// The row behind a reading.
     fn from(o: &Observation) -> Self {
-        let Observation { pose, wrench, reference, approach, delta_t, elapsed, reference_age, .. } = *o;
-        let situation = Situation { pose, wrench, reference, approach, delta_t, elapsed, reference_age };
-        Self { pose_id: o.pose_id, repeat: o.repeat, situation }
+        let Observation { pose, wrench, reference, approach, overload, .. } = *o;
+        let Observation { delta_t, elapsed, reference_age, reference_record, order, .. } = *o;
+        let situation =
+            Situation { pose, wrench, reference, approach, overload, delta_t, elapsed, reference_age };
+        Self { pose_id: o.pose_id, repeat: o.repeat, situation, reference_record, order }
     }
 }
 
@@ -156,6 +180,7 @@ impl PlanKind {
             elapsed: Spread::Even([5.0, 300.0]),
             reference_age: None,
             anew: false,
+            in_sequence: false,
         };
         let holdout = Scheme { poses: usual_poses(hexapod, poses / 3), repeats: 1, ..training.clone() };
         Schemes { training, holdout }
@@ -208,6 +233,7 @@ fn absolute(hexapod: &Hexapod) -> Schemes {
         elapsed: Spread::Fixed(0.0),
         reference_age: None,
         anew: false,
+        in_sequence: false,
     };
     let holdout = Scheme { poses: usual_poses(hexapod, 15), repeats: 1, ..training.clone() };
     Schemes { training, holdout }
@@ -231,6 +257,7 @@ fn paper() -> Schemes {
         elapsed: Spread::Even([20.0, 60.0]),
         reference_age: None,
         anew: true,
+        in_sequence: false,
     };
     let holdout = Scheme { poses: Poses::Listed(paper_validation()), repeats: 1, ..training.clone() };
     Schemes { training, holdout }

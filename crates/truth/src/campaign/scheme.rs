@@ -89,6 +89,9 @@ pub struct Scheme {
     pub reference_age: Option<Spread>,
     /// True when every repeat has surroundings of its own.
     pub anew: bool,
+    /// True when the loads at a pose are put on one after the other, in the order listed, under one reference reading for each repeat; the
+    /// waiting times add up.
+    pub in_sequence: bool,
 }
 
 impl Scheme {
@@ -131,11 +134,32 @@ impl Scheme {
         let mut rows = Vec::new();
         for (index, pose_id) in (0..self.poses.count()).zip(1..) {
             let pose = self.pose(index, rng);
-            for &wrench in &self.loads {
+            for (load, &wrench) in (0..).zip(&self.loads) {
+                let first = rows.len();
                 self.condition(pose_id, pose, wrench, rng, &mut rows);
+                for (repeat, row) in (0..).zip(&mut rows[first..]) {
+                    self.place(row, [index, repeat, load]);
+                }
+                if self.in_sequence && load > 0 {
+                    let count = rows.len() - first;
+                    for row in first..rows.len() {
+                        rows[row].situation.elapsed += rows[row - count].situation.elapsed;
+                    }
+                }
             }
         }
         rows
+    }
+
+    /// Says when a row comes, and against which reference it is read; `[pose, repeat, load]` from 0.
+    pub(crate) fn place(&self, row: &mut PlanRow, [pose, repeat, load]: [u64; 3]) {
+        if !self.in_sequence {
+            return;
+        }
+        let record = pose * self.repeats + repeat;
+        let from_one = |n: u64| i64::try_from(n).unwrap_or(i64::MAX - 1) + 1;
+        row.reference_record = Some(from_one(record));
+        row.order = Some(from_one(record * self.loads.len() as u64 + load));
     }
 
     fn condition(&self, pose_id: i64, pose: Pose, wrench: Wrench, rng: &mut Pcg64, rows: &mut Vec<PlanRow>) {
@@ -144,7 +168,7 @@ impl Scheme {
             if self.anew && repeat > 1 {
                 situation = self.situation(pose, wrench, rng);
             }
-            rows.push(PlanRow { pose_id, repeat, situation });
+            rows.push(PlanRow::alone(pose_id, repeat, situation));
         }
     }
 }

@@ -234,7 +234,8 @@ mod tests {
                 phase: Phase::Loaded,
                 nominal_lengths: lengths.map(|e| 0.2 + e),
                 home_lengths: [0.2; 6],
-                reference_forces: [-40.0; 6],
+                past: &[crate::PastForces { forces: [-40.0; 6], put_on: None, is_reference: true }],
+                put_on: 0.0,
             };
             let setup = world.setup(&moment, wrench);
             let layout = Layout::of(&setup);

@@ -1,8 +1,8 @@
 //! Leg compliance grows under load: `creep`.
 //!
 //! Every change of force on a leg spring makes it yield further from then on (Boltzmann superposition): `chi c df g(t)` when the
-//! change is `t` old. The reference force came first, and had rested for its age when the reference was read; what it has yielded
-//! until then is in the reference. The load came right after that reading.
+//! change is `t` old. The reference force had rested for its age when the reference was read, and loads of a sequence came before it or
+//! after; what all of them have yielded until the reference reading is in the reference. A load of unknown age has settled.
 
 use hexbench_core::Hexapod;
 use rand_pcg::Pcg64;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use super::{Mechanism, MechanismEntry, Shows, one_of, parsed_if};
-use crate::{Instant, Setup};
+use crate::{Instant, Phase, Setup};
 
 /// Its entry in the registry.
 pub(super) const EFFECT: MechanismEntry = MechanismEntry {
@@ -65,12 +65,13 @@ impl Creep {
         }
     }
 
-    /// What a force that was `age` seconds old grows by in the next `t`; a settled one does not grow.
-    fn grown_later(&self, age: Option<f64>, t: f64) -> f64 {
-        let Some(age) = age else { return 0.0 };
-        match self.law {
-            CreepLaw::Exponential => (-age / self.time).exp() * self.grown(t),
-            CreepLaw::Logarithmic => (t / (self.time + age)).ln_1p(),
+    /// What a change of force yields between the reference reading and `t` seconds after it, over its first yield; a settled one nothing.
+    fn grown_since_reference(&self, put_on: Option<f64>, t: f64) -> f64 {
+        match (put_on, self.law) {
+            (None, _) => 0.0,
+            (Some(put_on), _) if put_on >= 0.0 => self.grown(t - put_on),
+            (Some(put_on), CreepLaw::Exponential) => (put_on / self.time).exp() * self.grown(t),
+            (Some(put_on), CreepLaw::Logarithmic) => (t / (self.time - put_on)).ln_1p(),
         }
     }
 }
@@ -81,16 +82,22 @@ impl Mechanism for Creep {
     }
 
     fn act(&self, moment: &Instant<'_>, setup: &mut Setup) {
+        if moment.phase != Phase::Loaded {
+            return;
+        }
         let t = moment.elapsed();
-        let [change, reference] =
-            [self.grown(t), self.grown_later(moment.reference_age().or(self.age), t)].map(|g| self.share * g);
+        let present = self.share * self.grown_since_reference(Some(moment.put_on), t);
         for (i, law) in setup.laws.iter_mut().enumerate() {
-            let (c, before) = (law.compliance, moment.reference_forces[i]);
-            law.compliance += c * change;
-            law.offset -= c * change * before;
-            if reference != 0.0 {
-                law.offset += c * reference * before;
+            let c = law.compliance;
+            let mut before = 0.0;
+            for past in moment.past {
+                let age = self.age.filter(|_| past.is_reference).map(|age| -age);
+                let grown = self.share * self.grown_since_reference(past.put_on.or(age), t);
+                law.offset += c * grown * (past.forces[i] - before);
+                before = past.forces[i];
             }
+            law.compliance += c * present;
+            law.offset -= c * present * before;
         }
     }
 

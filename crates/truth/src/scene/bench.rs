@@ -2,15 +2,17 @@
 
 use std::ops::Range;
 
-use hexbench_core::{Channel, Columns, Dataset, Measurand, Observation, Pose, UNREAD, Vector6};
+use hexbench_core::{
+    Channel, Columns, Dataset, LoadSequence, LoadSequences, Measurand, Observation, Pose, UNREAD, Vector6,
+};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use super::{Instrument, PartName, PoseNumbersRead, Scene, ScenePurpose};
+use super::{Instrument, PartName, PlanPart, PoseNumbersRead, Scene, ScenePurpose};
 use crate::{
     TruthError, World,
     campaign::{PlanRow, rounded},
-    metrology::{Cmm, CmmRecord, InstrumentFrames, Surroundings, read_sensors},
+    metrology::{Cmm, CmmRecord, InstrumentFrames, InstrumentNoise, Surroundings, read_sensors},
     world::difference,
 };
 
@@ -80,10 +82,12 @@ impl<'a> VirtualBench<'a> {
         Columns {
             reference: deflections,
             approach: deflections,
+            overload: deflections && self.scene.plan.states_overload(),
             delta_t: true,
             elapsed: true,
             reference_age: deflections && self.scene.plan.states_reference_age(),
-            reference_record: false,
+            reference_record: deflections && self.scene.plan.states_reference_record(),
+            order: deflections && self.scene.plan.states_order(),
             sigma: !matches!(self.scene.instrument, Instrument::Numbers(_)),
         }
     }
@@ -103,12 +107,12 @@ impl<'a> VirtualBench<'a> {
         for (index, row) in range.filter_map(|index| part.row(index).map(|row| (index, row))) {
             let failed = |cause| RowError { part: name.word(), row: index + 1, pose_id: row.pose_id, cause };
             let ideal = match last {
-                Some((before, ideal)) if before.situation == row.situation => ideal,
-                _ => self.ideal(&row).map_err(failed)?,
+                Some((before, ideal)) if before.situation == row.situation && row.order.is_none() => ideal,
+                _ => self.ideal(&part, &row).map_err(failed)?,
             };
             last = Some((row, ideal));
             let mut rng = self.scene.streams().of(ScenePurpose::Noise(name), index);
-            measured.push(self.read(&row, index, ideal, &mut rng).map_err(failed)?);
+            measured.push(self.read(name, &row, index, ideal, &mut rng).map_err(failed)?);
         }
         Ok(measured)
     }
@@ -119,8 +123,10 @@ impl<'a> VirtualBench<'a> {
     /// [`RowError`].
     pub fn dataset(&self, name: PartName) -> Result<Dataset, RowError> {
         let rows = self.measure(name, 0..self.scene.part(name).len())?;
+        let observations: Vec<Observation> = rows.iter().flat_map(Measured::observations).collect();
         Ok(Dataset {
-            observations: rows.iter().flat_map(Measured::observations).collect(),
+            sequences: LoadSequences::of(&observations),
+            observations,
             source: name.file().to_owned(),
             ..self.empty()
         })
@@ -137,26 +143,45 @@ impl<'a> VirtualBench<'a> {
             source: String::new(),
             measurand: self.scene.measurand(),
             columns: self.columns(),
+            sequences: LoadSequences::default(),
             observations: Vec::new(),
         }
     }
 
-    fn ideal(&self, row: &PlanRow) -> Result<Ideal, TruthError> {
+    fn ideal(&self, part: &PlanPart<'_>, row: &PlanRow) -> Result<Ideal, TruthError> {
         if self.is_absolute() {
-            self.world.pose(&row.situation).map(|pose| [pose, pose])
-        } else {
-            self.world.before_and_after(&row.situation)
+            return self.world.pose(&row.situation).map(|pose| [pose, pose]);
         }
+        let earlier: Vec<Observation> = part.earlier(row).iter().map(PlanRow::unread).collect();
+        let sequence = LoadSequence::to(&earlier, &row.unread()).unwrap_or_default();
+        self.world.before_and_after_loads(&row.situation, &sequence)
     }
 
-    fn read(&self, row: &PlanRow, index: u64, ideal: Ideal, rng: &mut Pcg64) -> Result<Measured, TruthError> {
+    /// Error of a reading; half of its variance is that of the reference where others share it.
+    fn error(&self, noise: &InstrumentNoise, row: &PlanRow, part: PartName, rng: &mut Pcg64) -> Vector6 {
+        let own = noise.draw(rng);
+        let Some(record) = row.reference_record else { return own };
+        let of_record = u64::try_from(record).unwrap_or_default();
+        let mut rng = self.scene.streams().of(ScenePurpose::ReferenceNoise(part), of_record);
+        (own + noise.draw(&mut rng)) * std::f64::consts::FRAC_1_SQRT_2
+    }
+
+    fn read(
+        &self,
+        part: PartName,
+        row: &PlanRow,
+        index: u64,
+        ideal: Ideal,
+        rng: &mut Pcg64,
+    ) -> Result<Measured, TruthError> {
         if let Instrument::Sensors(read) = &self.scene.instrument {
             return Ok(self.sensed(read, row, index, &ideal, rng));
         }
         let (measured, sigma, records) = match &self.scene.instrument {
             Instrument::Sensors(_) => (Vector6::zeros(), None, Vec::new()),
             Instrument::Numbers(noise) => {
-                let error = if self.noise_free { Vector6::zeros() } else { noise.draw(rng) };
+                let error =
+                    if self.noise_free { Vector6::zeros() } else { self.error(noise, row, part, rng) };
                 (self.numbers(ideal) + error, None, Vec::new())
             }
             Instrument::Balls(cmm) => {

@@ -103,8 +103,33 @@ impl PlanPart<'_> {
         let mut rng = self.streams.of(surroundings, if scheme.anew { index } else { condition });
         let wrench =
             usize::try_from(load).ok().and_then(|i| scheme.loads.get(i)).copied().unwrap_or_default();
-        let situation = scheme.situation(pose, wrench, &mut rng);
+        let mut situation = scheme.situation(pose, wrench, &mut rng);
+        if scheme.in_sequence && load > 0 {
+            situation.elapsed += self.drawn(scheme, index - scheme.repeats).situation.elapsed;
+        }
         let from_one = |n: u64| i64::try_from(n).unwrap_or(i64::MAX - 1) + 1;
-        PlanRow { pose_id: from_one(pose_index), repeat: from_one(repeat), situation }
+        let mut row = PlanRow::alone(from_one(pose_index), from_one(repeat), situation);
+        scheme.place(&mut row, [pose_index, repeat, load]);
+        row
+    }
+
+    /// The rows that come before one at its pose, in the sequence of loads.
+    pub(super) fn earlier(&self, row: &PlanRow) -> Vec<PlanRow> {
+        let Some(order) = row.order else { return Vec::new() };
+        let before = |other: &PlanRow| other.order.is_some_and(|place| place < order);
+        let is_here = |other: &PlanRow| other.situation.pose == row.situation.pose;
+        let mut earlier: Vec<PlanRow> = match self.source {
+            Source::Scheme(scheme) => {
+                let rows = scheme.repeats * scheme.loads.len() as u64;
+                let first = u64::try_from(row.pose_id - 1).unwrap_or_default() * rows;
+                (first..first + rows).filter_map(|index| self.row(index)).filter(before).collect()
+            }
+            Source::Rows { rows, .. } => {
+                let moved = rows.iter().filter(|r| before(r) && !is_here(r)).filter_map(|r| r.order).max();
+                rows.iter().filter(|r| before(r) && r.order > moved).copied().collect()
+            }
+        };
+        earlier.sort_by_key(|row| row.order);
+        earlier
     }
 }

@@ -1,6 +1,7 @@
 //! The plan of a scene, and changes of its size.
 
 use hexbench_core::Measurand;
+use hexbench_core::files::{Fault, FilePlace, FileProblem};
 
 use super::{PartName, PlanPart, Streams, part::Source};
 use crate::campaign::{PlanRow, Poses, Scheme, Schemes};
@@ -59,6 +60,36 @@ impl ScenePlan {
         }
     }
 
+    /// True when every row says when it comes in the sequence of loads.
+    pub fn states_order(&self) -> bool {
+        match self {
+            Self::Schemes(schemes) => schemes.training.in_sequence,
+            Self::Rows { training, holdout, .. } => {
+                training.iter().chain(holdout).all(|row| row.order.is_some())
+            }
+        }
+    }
+
+    /// True when a row exceeds its load by another factor than usual first.
+    pub fn states_overload(&self) -> bool {
+        match self {
+            Self::Schemes(_) => false,
+            Self::Rows { training, holdout, .. } => {
+                training.iter().chain(holdout).any(PlanRow::states_overload)
+            }
+        }
+    }
+
+    /// True when every row names its reference reading.
+    pub fn states_reference_record(&self) -> bool {
+        match self {
+            Self::Schemes(schemes) => schemes.training.in_sequence,
+            Self::Rows { training, holdout, .. } => {
+                training.iter().chain(holdout).all(|row| row.reference_record.is_some())
+            }
+        }
+    }
+
     /// A part with the streams of a seed.
     pub fn part(&self, name: PartName, streams: Streams) -> PlanPart<'_> {
         let source = match (self, name) {
@@ -97,6 +128,20 @@ impl ScenePlan {
             Self::Rows { repeats, .. } => *repeats = wanted,
         }
         self.checked()
+    }
+
+    /// Refuses to read the rows of a listed sequence more than once.
+    pub(super) fn refuse_repeated_order(&self) -> Result<(), Fault> {
+        match self {
+            Self::Rows { training, repeats, .. }
+                if *repeats > 1 && training.iter().any(|row| row.order.is_some()) =>
+            {
+                let rule = "rows of a listed sequence of loads are read once".to_owned();
+                let next = "Remove repeats, or list the repeated rows with their own order.".to_owned();
+                Err(Fault::new(FilePlace::file().with_name("repeats"), FileProblem::Rule { rule, next }))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The plan if both parts have a possible number of rows; the held-out part may be empty.

@@ -33,6 +33,7 @@ const KEYS: &[KeyUnit] = &[
     KeyUnit::with_unit("delta_T", Dimension::TemperatureDifference, "K"),
     KeyUnit::with_unit("elapsed", Dimension::Time, "s"),
     KeyUnit::with_unit("ref_age", Dimension::Time, "s"),
+    KeyUnit::plain("order"),
 ];
 /// Keys that make sense beside a table of conditions.
 const BESIDE_CONDITIONS: [&str; 4] = ["mode", "conditions", "holdout_conditions", "repeats"];
@@ -53,6 +54,7 @@ pub(super) struct PlanTable {
     delta_t: Option<Spread>,
     elapsed: Option<Spread>,
     reference_age: Option<Spread>,
+    in_sequence: Option<bool>,
 }
 
 impl PlanTable {
@@ -74,6 +76,7 @@ impl PlanTable {
             delta_t: t.get("delta_T").map(spread).transpose()?,
             elapsed: t.get("elapsed").map(spread).transpose()?,
             reference_age: t.get("ref_age").map(age).transpose()?,
+            in_sequence: t.get("order").map(order).transpose()?,
         };
         table.refuse_halves(item, &t)?;
         Ok(table)
@@ -112,6 +115,7 @@ impl PlanTable {
             Some(files) => self.rows(folder, files)?,
             None => ScenePlan::Schemes(Box::new(self.schemes(hexapod, streams))),
         };
+        plan.refuse_repeated_order().map_err(|fault| fault.in_file(file))?;
         plan.checked().map_err(|wrong| {
             let problem =
                 FileProblem::Rule { rule: wrong.to_string(), next: "Change poses, loads or repeats.".into() };
@@ -161,6 +165,7 @@ impl PlanTable {
             elapsed: self.elapsed.unwrap_or(base.elapsed),
             reference_age: self.reference_age.or(base.reference_age),
             anew: base.anew,
+            in_sequence: self.in_sequence.unwrap_or(base.in_sequence) && measurand != Measurand::AbsolutePose,
         };
         Schemes {
             training: part(base.training, training_poses, repeats),
@@ -191,6 +196,7 @@ fn plain() -> Schemes {
         elapsed: Spread::Fixed(0.0),
         reference_age: None,
         anew: false,
+        in_sequence: false,
     };
     Schemes { training: part.clone(), holdout: part }
 }
@@ -219,6 +225,14 @@ fn mode(item: &Item<'_>) -> Result<bool, Fault> {
         "absolute" => Ok(true),
         "deflections" => Ok(false),
         _ => Err(item.breaks("the mode is \"deflections\" or \"absolute\"", "Write one of the two.")),
+    }
+}
+
+fn order(item: &Item<'_>) -> Result<bool, Fault> {
+    match item.string()? {
+        "sequence" => Ok(true),
+        "separate" => Ok(false),
+        _ => Err(item.breaks("the order of loads is \"separate\" or \"sequence\"", "Write one of the two.")),
     }
 }
 

@@ -74,6 +74,13 @@ impl Scene {
             };
             return Err(Fault::new(FilePlace::file(), problem).in_file(&file));
         }
+        if plan.states_order() && !matches!(d.instrument, Instrument::Numbers(_)) {
+            let problem = FileProblem::Rule {
+                rule: "loads of a sequence are read in numbers: their reference reading is shared".into(),
+                next: "Choose an instrument of the kind \"numbers\", or loads of their own reference.".into(),
+            };
+            return Err(Fault::new(FilePlace::file(), problem).in_file(&file));
+        }
         // Balls that determine no pose are refused while reading: only other instruments state nothing here.
         let hexapod =
             Hexapod { metrology: d.instrument.metrology(plan.measurand()).ok().flatten(), ..hexapod };

@@ -16,6 +16,8 @@ pub enum ScenePurpose {
     Surroundings(PartName),
     /// Noise of a row of a part.
     Noise(PartName),
+    /// Noise of a reference reading that rows of a part share.
+    ReferenceNoise(PartName),
     /// Frames of the instrument.
     InstrumentFrames,
 }
@@ -32,6 +34,8 @@ impl ScenePurpose {
             Self::Surroundings(PartName::Holdout) => P::SceneHoldoutSurroundings,
             Self::Noise(PartName::Training) => P::SceneTrainingNoise,
             Self::Noise(PartName::Holdout) => P::SceneHoldoutNoise,
+            Self::ReferenceNoise(PartName::Training) => P::SceneTrainingReferenceNoise,
+            Self::ReferenceNoise(PartName::Holdout) => P::SceneHoldoutReferenceNoise,
         }
     }
 }
@@ -98,6 +102,8 @@ mod tests {
             ScenePurpose::Surroundings(b),
             ScenePurpose::Noise(a),
             ScenePurpose::Noise(b),
+            ScenePurpose::ReferenceNoise(a),
+            ScenePurpose::ReferenceNoise(b),
         ];
         let streams: Vec<Pcg64> = all.iter().map(|p| Streams::new(1).of(*p, 0)).collect();
         for i in 0..streams.len() {

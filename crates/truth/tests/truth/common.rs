@@ -76,6 +76,7 @@ fn row(cell: &HashMap<&str, f64>) -> Row {
             wrench: Wrench::from_array(six("", wrench, [1.0; 6])),
             reference: Wrench::from_array(six("ref_", wrench, [1.0; 6])),
             approach: cell.get("approach").and_then(|sign| Approach::of_sign(*sign)).unwrap_or_default(),
+            overload: Approach::OVERLOAD,
             delta_t: cell.get("delta_T_K").copied().unwrap_or(0.0),
             elapsed: cell.get("elapsed_s").copied().unwrap_or(0.0),
             reference_age: cell.get("ref_age_s").copied(),
@@ -99,7 +100,7 @@ pub(crate) fn chi2_by_direction(world: &World, rows: &[Row]) -> [f64; 6] {
 /// The plan behind a measurement file.
 pub(crate) fn plan_rows(case: &str, file: &str) -> Vec<campaign::PlanRow> {
     let rows = rows(case, file).into_iter();
-    rows.map(|row| campaign::PlanRow { pose_id: 0, repeat: 0, situation: row.situation }).collect()
+    rows.map(|row| campaign::PlanRow::alone(0, 0, row.situation)).collect()
 }
 
 /// Six points of a truth file.

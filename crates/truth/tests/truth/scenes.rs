@@ -97,6 +97,34 @@ fn the_age_of_the_reference_load_is_in_the_file_when_the_plan_states_it() {
 }
 
 #[test]
+fn loads_of_a_sequence_follow_each_other_under_one_reference() {
+    let plan = "make = \"rich\"\nposes = 2\nrepeats = 2\norder = \"sequence\"\napproach = [1]\n";
+    let scene = scene(plan);
+    let noisy = VirtualBench::new(&scene, false).dataset(PartName::Training).unwrap();
+    let exact = VirtualBench::new(&scene, true).dataset(PartName::Training).unwrap();
+    assert!(noisy.columns.order && noisy.columns.reference_record);
+    let mut rows: Vec<_> = exact.observations.iter().zip(&noisy.observations).collect();
+    rows.sort_by_key(|(row, _)| row.order);
+    let orders: Vec<_> = rows.iter().filter_map(|(row, _)| row.order).collect();
+    assert_eq!(orders, (1..=24).collect::<Vec<_>>());
+    for of_reference in rows.chunks(6) {
+        assert!(of_reference.windows(2).all(|w| w[0].0.elapsed < w[1].0.elapsed));
+        assert!(
+            of_reference.iter().all(|(row, _)| row.reference_record == of_reference[0].0.reference_record)
+        );
+    }
+    // The last load came after all others of its pose, and the machine went back to its reference load in between.
+    let way = exact.sequences.to(rows[11].0).unwrap();
+    assert_eq!(way.past.len(), 6 + 1 + 5);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("measurements.csv");
+    hexbench_core::files::write_measurements(&file, &noisy).unwrap();
+    assert_eq!(hexbench_core::files::read_measurements(&file).unwrap().dataset.sequences, noisy.sequences);
+    let twice = complaint(&plan.replace("sequence", "twice"), TRUTH);
+    assert!(twice.to_string().contains("separate"), "{twice}");
+}
+
+#[test]
 fn conditions_can_be_a_table() {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), "conditions = \"todo.csv\"\nrepeats = 2\n", TRUTH);

@@ -102,6 +102,12 @@ bad_input! { "measurements.csv";
     a_fractional_repeat_is_refused: "repeat that is not whole", deflections().set("repeat", "1.5").text()
         => (3, 2), "whole number";
     another_approach_is_refused: "approach of 0", deflections().set("approach", "0").text() => (3, 15), "1 or -1";
+    an_overload_that_is_none_is_refused: "overload of half the load",
+        deflections().with("overload", "0.5").text() => (2, 22), "at least 1";
+    a_doubled_place_in_the_sequence_is_refused: "two rows with one place in the sequence of loads",
+        deflections().with("order", "4").text() => (3, 0), "line 2 has the same place";
+    an_order_of_absolute_poses_is_refused: "sequence of absolute poses",
+        poses().with("order", "1").text() => (1, 0), "counts for deflections";
     a_negative_age_is_refused: "reference load of negative age",
         deflections().with("ref_age_s", "-1").text() => (2, 22), "less than no time";
     an_age_beside_absolute_poses_is_refused: "age of a reference load beside absolute poses",

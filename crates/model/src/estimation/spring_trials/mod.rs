@@ -204,10 +204,12 @@ mod tests {
             wrench: Wrench::from_array([0.0, 0.0, -338.0, 0.0, 0.0, 0.0]),
             reference: Wrench::from_array([0.0, 0.0, -120.0, 0.0, 0.0, 0.0]),
             approach: Approach::Direct,
+            overload: Approach::OVERLOAD,
             delta_t: 0.0,
             elapsed: 0.0,
             reference_age: None,
             reference_record: None,
+            order: None,
             measured: [0.0; 6],
             sigma: None,
         };

@@ -298,7 +298,8 @@ impl Factors {
 /// The same file without readings.
 pub(super) fn like(data: &Dataset) -> Dataset {
     let (source, measurand, columns) = (data.source.clone(), data.measurand, data.columns);
-    Dataset { source, measurand, columns, blocks: data.blocks.clone(), observations: Vec::new() }
+    let (blocks, sequences) = (data.blocks.clone(), data.sequences.clone());
+    Dataset { source, measurand, columns, blocks, sequences, observations: Vec::new() }
 }
 
 fn legs(hexapod: &Hexapod, data: &Dataset) -> Vec<Option<Legs>> {

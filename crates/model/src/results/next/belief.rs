@@ -1,6 +1,6 @@
 //! What an explanation expects of readings not yet taken.
 
-use hexbench_core::{Dataset, Observation};
+use hexbench_core::{Dataset, LoadSequences, Observation};
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::ModelError;
@@ -72,6 +72,7 @@ pub(super) fn as_plan(campaign: &Campaign, readings: &[Observation]) -> Result<C
         measurand: campaign.measurand,
         columns: campaign.columns,
         blocks: campaign.blocks.clone(),
+        sequences: LoadSequences::default(),
         observations: once.collect(),
     };
     Campaign::in_frames(&campaign.hexapod, &dataset, campaign.noise, campaign.frames)

@@ -15,10 +15,12 @@ pub(crate) fn reading(pose: Pose, wrench: Wrench, reference: Wrench) -> Observat
         wrench,
         reference,
         approach: Approach::Direct,
+        overload: Approach::OVERLOAD,
         delta_t: 0.0,
         elapsed: 0.0,
         reference_age: None,
         reference_record: None,
+        order: None,
         measured: [0.0; 6],
         sigma: None,
     }
@@ -30,13 +32,7 @@ pub(crate) fn dataset(measurand: Measurand, mut observations: Vec<Observation>) 
         o.line = i as u64 + 2;
     }
     let columns = Columns { reference: true, ..Columns::default() };
-    Dataset {
-        blocks: hexbench_core::Dataset::pose_blocks(),
-        source: "test".into(),
-        measurand,
-        columns,
-        observations,
-    }
+    Dataset::of_poses("test", measurand, columns, observations)
 }
 
 /// A pose within +-`millimetres` and +-`degrees` of zero.

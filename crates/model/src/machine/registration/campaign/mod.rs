@@ -275,11 +275,5 @@ fn dataset(loads: &LoadTable, pairs: &[Pair<'_>], rows: &[Reading], found: &Regi
     columns.reference_record = shares;
     columns.reference &= !is_absolute;
     let measurand = if is_absolute { Measurand::AbsolutePose } else { Measurand::DeflectionEuler };
-    Dataset {
-        source: loads.dataset.source.clone(),
-        measurand,
-        columns,
-        blocks: Dataset::pose_blocks(),
-        observations: pairs.iter().zip(rows).map(row).collect(),
-    }
+    Dataset::of_poses(&loads.dataset.source, measurand, columns, pairs.iter().zip(rows).map(row).collect())
 }

@@ -42,6 +42,7 @@ impl BallCampaign {
             measurand: Measurand::DeflectionRotationVector,
             columns: Columns { sigma: true, ..self.dataset.columns },
             observations: observations.collect(),
+            sequences: self.dataset.sequences.clone(),
             blocks,
         };
         (Hexapod { sensors, ..hexapod.clone() }, dataset)
