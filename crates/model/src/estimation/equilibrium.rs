@@ -14,8 +14,8 @@
 //! term that is added takes part without a further word.
 
 use hexbench_core::{
-    Approach, Channel, LoadSequence, Matrix3, Matrix6, Measurand, Observation, Pose, SensorKind, Vector3,
-    Vector6, Wrench,
+    Approach, Channel, Hexapod, LoadSequence, Matrix3, Matrix6, Measurand, Observation, Pose, SensorKind,
+    Vector3, Vector6, Wrench,
 };
 
 use crate::effects::chain::{Action, BesideLegs, JointDisplacement, Load};
@@ -104,8 +104,8 @@ impl Campaign {
         (at.numbers, at.reads_pose) = (group.numbers(), group.channels == Channel::POSE);
         at.observer = self.observer(machine, &at.pose, &o.measured);
         if !at.reads_pose {
-            let rows = group.channels.map(|channel| self.seen_by(channel, &at, &at.observer));
-            at.observer = Matrix6::from_rows(&rows.map(|row| row.transpose()));
+            // Of the pose halfway between the states, so that what is left out is of third order in the deflection.
+            at.observer = looks(&self.hexapod, &group.channels, &at.pose, &at.legs, &at.observer);
         }
         at.reading = if self.is_absolute() {
             // Exact closure at the measured pose: no forward kinematics is needed.
@@ -117,39 +117,12 @@ impl Campaign {
         Ok(at)
     }
 
-    /// What one channel reads per unit of the geometric twist at the mobile origin; of the pose halfway between the states, so that what
-    /// is left out is of third order in the deflection.
-    fn seen_by(&self, channel: Channel, at: &Condition, pose_numbers: &Matrix6) -> Vector6 {
-        let along = |u: &Vector3, arm: &Vector3| {
-            let moment = arm.cross(u);
-            Vector6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
-        };
-        let arm = |point: &Vector3| at.pose.rotation() * point;
-        match channel {
-            Channel::Nothing => Vector6::zeros(),
-            Channel::Pose(k) => pose_numbers.row(k).transpose(),
-            Channel::Sensor { sensor, number } => match self.hexapod.sensors.get(sensor).map(|s| &s.kind) {
-                Some(SensorKind::Distance { point, direction, .. }) => along(direction, &arm(point)),
-                Some(SensorKind::Point { point, .. }) => along(&Vector3::ith(number, 1.0), &arm(point)),
-                Some(SensorKind::Inclination { axis, .. }) => {
-                    Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z)
-                }
-                Some(SensorKind::LegLength { leg, .. }) => {
-                    along(&at.legs.directions[*leg], &at.legs.arms[*leg])
-                }
-                None => Vector6::zeros(),
-            },
-        }
-    }
-
     /// Measured coordinates from the geometric twist: Euler differences for Euler readings, and the lever arm of
     /// the target in absolute mode.
     fn observer(&self, machine: &Machine, pose: &Pose, measured: &[f64; 6]) -> Matrix6 {
         match self.measurand {
-            Measurand::DeflectionRotationVector => return Matrix6::identity(),
-            Measurand::DeflectionEuler => {
-                let rates = ReadingAxes::default().rates(&pose.to_array());
-                return observer_matrix(&Matrix3::identity(), &Vector3::zeros(), &rates);
+            Measurand::DeflectionRotationVector | Measurand::DeflectionEuler => {
+                return pose_numbers(self.measurand, pose);
             }
             Measurand::AbsolutePose => {}
         }
@@ -157,6 +130,52 @@ impl Campaign {
         let axes = *machine.metrology_frame.rotation.to_rotation_matrix().matrix();
         observer_matrix(&axes, &lever, &self.axes.rates(measured))
     }
+}
+
+/// The six numbers of a deflection per unit of the geometric twist at the mobile origin.
+fn pose_numbers(measurand: Measurand, pose: &Pose) -> Matrix6 {
+    if measurand != Measurand::DeflectionEuler {
+        return Matrix6::identity();
+    }
+    observer_matrix(&Matrix3::identity(), &Vector3::zeros(), &ReadingAxes::default().rates(&pose.to_array()))
+}
+
+/// What the numbers of a deflection read per unit of the geometric twist at the mobile origin, a row each.
+pub(crate) fn observer_of(
+    hexapod: &Hexapod,
+    measurand: Measurand,
+    channels: &[Channel; 6],
+    pose: &Pose,
+    legs: &Legs,
+) -> Matrix6 {
+    looks(hexapod, channels, pose, legs, &pose_numbers(measurand, pose))
+}
+
+/// The same, given the rows of all pose numbers.
+fn looks(
+    hexapod: &Hexapod,
+    channels: &[Channel; 6],
+    pose: &Pose,
+    legs: &Legs,
+    pose_numbers: &Matrix6,
+) -> Matrix6 {
+    let rotation = pose.rotation();
+    let along = |u: &Vector3, arm: &Vector3| {
+        let moment = arm.cross(u);
+        Vector6::new(u.x, u.y, u.z, moment.x, moment.y, moment.z)
+    };
+    let row = |channel: Channel| match channel {
+        Channel::Nothing => Vector6::zeros(),
+        Channel::Pose(k) => pose_numbers.row(k).transpose(),
+        Channel::Sensor { sensor, number } => match hexapod.sensors.get(sensor).map(|s| &s.kind) {
+            Some(SensorKind::Distance { point, direction, .. }) => along(direction, &(rotation * point)),
+            Some(SensorKind::Point { point, .. }) => along(&Vector3::ith(number, 1.0), &(rotation * point)),
+            Some(SensorKind::Inclination { axis, .. }) => Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z),
+            Some(SensorKind::LegLength { leg, .. }) => along(&legs.directions[*leg], &legs.arms[*leg]),
+            None => Vector6::zeros(),
+        },
+    };
+    Matrix6::from_rows(&channels.map(|channel| row(channel).transpose()))
 }
 
 /// `diag(I, rates) diag(axes, axes) [I, -[lever]x; 0, I]`.

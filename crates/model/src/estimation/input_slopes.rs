@@ -8,13 +8,16 @@
 //! dy = dH m + H dA dW            of the joint itself, and of the twist -J (n . e) by which the pose follows it
 //! ```
 //!
+//! with the rows `H` by which the numbers look at a motion: angles turn with the pose, points move with it, a scale beside a leg turns with
+//! the leg.
+//!
 //! Taken halfway between reference and load. Left out is what the turn of the legs by the deflection itself does to the slope: the
 //! deflection over the size of the machine, 1e-4 of a tolerance.
 
-use hexbench_core::{Measurand, Vector3, Vector6};
+use hexbench_core::{Channel, Matrix6, Measurand, Sensor, SensorKind, Vector3, Vector6};
 use nalgebra::{DMatrix, SMatrix};
 
-use crate::estimation::campaign::{Campaign, Condition, moved};
+use crate::estimation::campaign::{Campaign, Condition, ConditionReadings, moved};
 use crate::estimation::frames::ReadingAxes;
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::parallel::map;
@@ -28,17 +31,17 @@ const TURN_STEP: f64 = 1e-6;
 /// component of the loads, turn of the loads about each axis (rad) and shift of their point along each mobile axis (m).
 type Slopes = SMatrix<f64, 6, COLUMNS>;
 
-/// Slopes at every condition, six rows each; none where more than springs is at work, or something else than full poses was read.
+/// Slopes at every condition, six rows each; none where more than springs is at work.
 pub(crate) fn by_springs(
     campaign: &Campaign,
     point: &ModelPoint,
     lin: &Linearization,
 ) -> Option<DMatrix<f64>> {
-    if !point.active.is_empty() || !campaign.reads_poses || campaign.is_absolute() {
+    if !point.active.is_empty() || campaign.is_absolute() {
         return None;
     }
-    let is_euler = campaign.measurand == Measurand::DeflectionEuler;
-    let all = map(&lin.conditions, |at| AtCondition::of(at, &point.compliances, is_euler).slopes());
+    let pairs: Vec<(&Condition, &ConditionReadings)> = lin.conditions.iter().zip(&campaign.groups).collect();
+    let all = map(&pairs, |(at, group)| AtCondition::of(campaign, group, at, &point.compliances).slopes());
     let mut columns = DMatrix::zeros(6 * all.len(), COLUMNS);
     for (i, one) in all.iter().enumerate() {
         columns.fixed_view_mut::<6, COLUMNS>(6 * i, 0).copy_from(one);
@@ -50,18 +53,27 @@ pub(crate) fn by_springs(
 struct AtCondition<'a> {
     at: &'a Condition,
     springs: &'a Vector6,
+    channels: &'a [Channel; 6],
+    sensors: &'a [Sensor],
+    is_euler: bool,
     /// Motion of the platform between reference and load.
     motion: Vector6,
-    /// Motion by a small twist of the commanded pose, what the coordinates of the reading turn by included.
-    by_pose: SMatrix<f64, 6, 6>,
+    /// Numbers by a small twist of the commanded pose.
+    by_pose: Matrix6,
 }
 
 impl<'a> AtCondition<'a> {
-    fn of(at: &'a Condition, springs: &'a Vector6, is_euler: bool) -> Self {
+    fn of(
+        campaign: &'a Campaign,
+        group: &'a ConditionReadings,
+        at: &'a Condition,
+        springs: &'a Vector6,
+    ) -> Self {
         let motion = at.legs.platform_jacobian * springs.component_mul(&at.force_change());
-        let mut one = Self { at, springs, motion, by_pose: SMatrix::zeros() };
-        one.by_pose =
-            SMatrix::from_columns(&std::array::from_fn::<Vector6, 6, _>(|k| one.under_twist(k, is_euler)));
+        let is_euler = campaign.measurand == Measurand::DeflectionEuler;
+        let (channels, sensors) = (&group.channels, campaign.hexapod.sensors.as_slice());
+        let mut one = Self { at, springs, channels, sensors, is_euler, motion, by_pose: Matrix6::zeros() };
+        one.by_pose = Matrix6::from_columns(&std::array::from_fn::<Vector6, 6, _>(|k| one.under_twist(k)));
         one
     }
 
@@ -89,33 +101,53 @@ impl<'a> AtCondition<'a> {
     }
 
     /// Under a unit twist of the commanded pose.
-    fn under_twist(&self, k: usize, is_euler: bool) -> Vector6 {
+    fn under_twist(&self, k: usize) -> Vector6 {
         let twist = Vector6::ith(k, 1.0);
         let [v, w] = [0, 3].map(|first| Vector3::from(twist.fixed_rows::<3>(first)));
         let row = |leg: usize| {
             let arm = w.cross(&self.at.legs.arms[leg]);
-            (leg, self.row(leg, &(v + arm), &arm))
+            self.row(leg, &(v + arm), &arm)
         };
-        let mut change = self.by_rows((0..6).map(row));
-        if is_euler && k >= 3 {
-            let rates =
-                |share: f64| ReadingAxes::default().rates(&moved(&self.at.pose, &twist, share).to_array());
-            let spin: Vector3 = self.motion.fixed_rows::<3>(3).into();
-            let here = rates(0.0);
-            let turned = (rates(TURN_STEP) - here) * spin / TURN_STEP;
-            // As a rotation that reads so.
-            let read_back = here.try_inverse().map_or_else(Vector3::zeros, |inverse| inverse * turned);
-            let mut rotation = change.fixed_rows_mut::<3>(3);
-            rotation += read_back;
-        }
-        change
+        self.at.observer * self.by_rows((0..6).map(|leg| (leg, row(leg)))) + self.looked_at_anew(&twist, row)
+    }
+
+    /// What the same motion reads otherwise under a twist of the pose that changes the rows of the leg Jacobian.
+    fn looked_at_anew(&self, twist: &Vector6, row: impl Fn(usize) -> Vector6) -> Vector6 {
+        let [spin, w] =
+            [&self.motion, twist].map(|motion| -> Vector3 { motion.fixed_rows::<3>(3).into_owned() });
+        let rates = |share: f64| ReadingAxes::default().rates(&moved(&self.at.pose, twist, share).to_array());
+        let turns = self.is_euler
+            && w != Vector3::zeros()
+            && self.channels.iter().any(|c| matches!(c, Channel::Pose(3..)));
+        let angles =
+            if turns { (rates(TURN_STEP) - rates(0.0)) * spin / TURN_STEP } else { Vector3::zeros() };
+        let shift = |point: &Vector3| spin.cross(&w.cross(&(self.at.pose.rotation() * point)));
+        Vector6::from_fn(|k, _| match self.channels[k] {
+            Channel::Pose(number @ 3..) => angles[number - 3],
+            Channel::Pose(_) | Channel::Nothing => 0.0,
+            Channel::Sensor { sensor, number } => match &self.sensors[sensor].kind {
+                SensorKind::Distance { point, direction, .. } => direction.dot(&shift(point)),
+                SensorKind::Point { point, .. } => shift(point)[number],
+                SensorKind::Inclination { .. } => 0.0,
+                SensorKind::LegLength { leg, .. } => row(*leg).dot(&self.motion),
+            },
+        })
     }
 
     /// By a coordinate of a joint; the pose follows, so that the commanded length stays.
     fn joint(&self, leg: usize, end: &Vector3, arm: &Vector3) -> Vector6 {
-        let legs = &self.at.legs;
+        let (legs, row) = (&self.at.legs, self.row(leg, end, arm));
         let follows = legs.platform_jacobian.column(leg) * -legs.directions[leg].dot(end);
-        self.by_rows(std::iter::once((leg, self.row(leg, end, arm)))) + self.by_pose * follows
+        let mut numbers =
+            self.at.observer * self.by_rows(std::iter::once((leg, row))) + self.by_pose * follows;
+        for (number, channel) in numbers.iter_mut().zip(self.channels) {
+            if let Channel::Sensor { sensor, .. } = *channel
+                && self.sensors[sensor].kind.leg() == Some(leg)
+            {
+                *number += row.dot(&self.motion);
+            }
+        }
+        numbers
     }
 
     fn slopes(&self) -> Slopes {
@@ -123,19 +155,19 @@ impl<'a> AtCondition<'a> {
         let rotation = at.pose.rotation();
         let change = at.wrench.to_vector() - at.reference.to_vector();
         let [force, moment] = [0, 3].map(|first| Vector3::from(change.fixed_rows::<3>(first)));
-        let both = |f: Vector3, m: Vector3| self.yields(&Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z));
-        let motion = |column: usize| match column {
+        let yields = |wrench: &Vector6| at.observer * self.yields(wrench);
+        let both = |f: Vector3, m: Vector3| yields(&Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z));
+        let numbers = |column: usize| match column {
             0..18 => self.joint(column / 3, &-axis(column % 3), &Vector3::zeros()),
             18..36 => {
                 let arm = rotation * axis(column % 3);
                 self.joint((column - 18) / 3, &arm, &arm)
             }
-            36..42 => self.yields(&(Vector6::ith(column - 36, 1.0) * change[column - 36])),
+            36..42 => yields(&(Vector6::ith(column - 36, 1.0) * change[column - 36])),
             42..45 => both(axis(column - 42).cross(&force), axis(column - 42).cross(&moment)),
             _ => both(Vector3::zeros(), (rotation * axis(column - 45)).cross(&force)),
         };
-        let mut slopes =
-            Slopes::from_columns(&std::array::from_fn::<Vector6, COLUMNS, _>(|k| at.observer * motion(k)));
+        let mut slopes = Slopes::from_columns(&std::array::from_fn::<Vector6, COLUMNS, _>(numbers));
         for (mut row, weight) in slopes.row_iter_mut().zip(at.weight.iter()) {
             row *= *weight;
         }

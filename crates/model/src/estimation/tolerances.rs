@@ -383,9 +383,9 @@ mod tests {
     /// Deflection over the size of the machine, and the steps of the differences.
     const SECOND_ORDER: f64 = 2e-3;
 
-    /// Readings of a machine of springs at three poses under loads of every kind.
-    fn campaign(measurand: Measurand) -> Campaign {
-        let hexapod = machine();
+    /// Readings of a machine of springs at three poses under loads of every kind, by sensors where there are any.
+    fn campaign(measurand: Measurand, sensors: Vec<Sensor>) -> Campaign {
+        let hexapod = Hexapod { sensors, ..machine() };
         let springs = Vector6::repeat(1e-7);
         let rows = (0..9).map(|i| {
             let x = f64::from(i);
@@ -432,14 +432,30 @@ mod tests {
             o
         });
         let observations = rows.collect();
-        let dataset = Dataset::of_poses("", measurand, Columns::default(), observations);
-        Campaign::new(&hexapod, &dataset).unwrap()
+        let poses = Dataset::of_poses("", measurand, Columns::default(), observations);
+        let read = if hexapod.sensors.is_empty() { poses } else { poses.to_be_read_by(&hexapod.sensors) };
+        Campaign::new(&hexapod, &read).unwrap()
+    }
+
+    /// One of every kind, six numbers in all.
+    fn sensors() -> Vec<Sensor> {
+        let (sigma, point) = (1e-6, Vector3::new(0.08, -0.05, 0.03));
+        let direction = Vector3::new(0.6, 0.0, -0.8);
+        let kinds = [
+            SensorKind::Distance { point, direction, sigma },
+            SensorKind::Point { point: -point, sigma: [sigma; 3] },
+            SensorKind::Inclination { axis: direction, sigma },
+            SensorKind::LegLength { leg: 2, sigma },
+        ];
+        kinds.into_iter().enumerate().map(|(k, kind)| Sensor::new(format!("s{k}"), kind)).collect()
     }
 
     #[test]
     fn slopes_of_springs_agree_with_differences() {
-        for measurand in [Measurand::DeflectionRotationVector, Measurand::DeflectionEuler] {
-            let campaign = campaign(measurand).unwhitened();
+        let [vector, euler] = [Measurand::DeflectionRotationVector, Measurand::DeflectionEuler];
+        for (measurand, sensors) in [(vector, Vec::new()), (euler, Vec::new()), (vector, sensors())] {
+            let kinds = if sensors.is_empty() { "poses" } else { "sensors" };
+            let campaign = campaign(measurand, sensors).unwhitened();
             let mut point = ModelPoint::start(&campaign);
             point.compliances = Vector6::new(1.0, 1.2, 0.9, 1.1, 0.8, 1.3) * 1e-7;
             let lin = Linearization::at(&campaign, &point).unwrap();
@@ -456,7 +472,7 @@ mod tests {
             for k in 0..closed.ncols() {
                 let (a, b) = (closed.column(k), differences.column(k));
                 let off = (a - b).norm() / b.norm();
-                assert!(off < SECOND_ORDER, "{measurand:?} column {k}: {off:.2e}");
+                assert!(off < SECOND_ORDER, "{measurand:?} {kinds} column {k}: {off:.2e}");
             }
         }
     }

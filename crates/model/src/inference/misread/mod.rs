@@ -12,7 +12,7 @@ mod name;
 mod refine;
 mod row_order;
 mod sample;
-mod sensor_search;
+mod sensors;
 mod text;
 mod turn;
 
@@ -151,9 +151,6 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
     if data.is_absolute() {
         return None;
     }
-    if data.has_other_readings() {
-        return sensor_search::other_readings(hexapod, data);
-    }
     let sample = Sample::new(hexapod, data)?;
     let written = sample.springs(&[]);
     if written.as_ref().is_some_and(|springs| is_sound(springs, &sample)) {
@@ -161,7 +158,7 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
     }
     let search = Search { sample: &sample, written: written.as_ref() };
     let mut ways = search.singles(hexapod, data);
-    if ways.first().is_none_or(|best| best.level > SOUND_LEVEL) {
+    if !data.has_other_readings() && ways.first().is_none_or(|best| best.level > SOUND_LEVEL) {
         let second = search.pairs(&ways);
         ways.extend(second);
         sort(&mut ways);
@@ -226,10 +223,14 @@ struct Search<'a> {
 impl Search<'_> {
     /// Every single mistake, best first.
     fn singles(&self, hexapod: &Hexapod, data: &Dataset) -> Vec<Way> {
-        let all = hypotheses::singles(hexapod, data).into_iter().map(|change| vec![change]).collect();
-        let mut ways = self.looked_at(all);
-        ways.extend(refine::refined(self.sample).into_iter().filter_map(|change| self.way(vec![change])));
-        ways.extend(hypotheses::row_orders().filter_map(|change| self.reordered(hexapod, data, change)));
+        let is_of_sensors = data.has_other_readings();
+        let all =
+            if is_of_sensors { sensors::singles(hexapod, data) } else { hypotheses::singles(hexapod, data) };
+        let mut ways = self.looked_at(all.into_iter().map(|change| vec![change]).collect());
+        if !is_of_sensors {
+            ways.extend(refine::refined(self.sample).into_iter().filter_map(|change| self.way(vec![change])));
+            ways.extend(hypotheses::row_orders().filter_map(|change| self.reordered(hexapod, data, change)));
+        }
         sort(&mut ways);
         ways
     }

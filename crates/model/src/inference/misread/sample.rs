@@ -7,25 +7,29 @@
 //! y = H P diag(P' (W - W0)) c,   P = L^-1
 //! ```
 //!
+//! with the rows `H` by which the numbers look at the motion of the platform; readings of full poses are motions themselves. A way of reading
+//! that changes what pose numbers mean is only for those.
+//!
 //! and a way of reading is weighed by twice the negative log-likelihood of the readings as the file holds them. Their noise may be
 //! larger than stated by what springs do not explain; repeats may scatter a few times more or less than stated, not a thousand times.
 
 use std::borrow::Cow;
 
-use hexbench_core::{Dataset, Hexapod, Matrix6, Measurand, Vector6};
+use hexbench_core::{Channel, Dataset, Hexapod, Matrix6, Measurand, Observation, UNREAD, Vector6};
 use nalgebra::DVector;
 
 use super::AsMeant;
 use super::change::{Change, Group};
-use crate::estimation::campaign::Campaign;
+use crate::estimation::campaign::{Campaign, ConditionReadings};
+use crate::estimation::equilibrium::observer_of;
 use crate::estimation::noise::Noise;
 use crate::machine::geometry::Machine;
 use crate::machine::kinematics::{Legs, euler_rate_matrix};
 
-/// Conditions looked at.
-const MOST_CONDITIONS: usize = 96;
-/// Conditions that tell what deserves a closer look.
-const FEW_CONDITIONS: usize = 24;
+/// Averaged numbers looked at.
+const MOST_NUMBERS: usize = 6 * 96;
+/// Numbers that tell what deserves a closer look.
+const FEW_NUMBERS: usize = 6 * 24;
 /// Error of the linear springs, relative to the readings: deflections are small, but not infinitely so.
 const LINEAR_SHARE: f64 = 2e-3;
 /// Repeats may scatter so many times more or less than stated.
@@ -40,11 +44,13 @@ pub(super) struct Sample {
     pub(super) hexapod: Hexapod,
     /// Averaged readings.
     pub(super) data: Dataset,
+    /// True when they are full poses.
+    reads_poses: bool,
     /// Standard deviations of the averages.
     sigma: Vec<Vector6>,
     /// Conditions of the file for each one here.
     stands_for: f64,
-    /// Squares of repeats about their average over the stated variance, per coordinate.
+    /// Squares of repeats about their average over the stated variance, per coordinate of a pose.
     repeats: Vector6,
     /// Their degrees of freedom, per coordinate.
     repeats_dof: f64,
@@ -110,10 +116,12 @@ impl Sample {
     }
 
     fn of(hexapod: &Hexapod, data: &Dataset, campaign: &Campaign) -> Self {
+        let means: usize = campaign.groups.iter().map(ConditionReadings::numbers).sum();
         let chosen: Vec<_> =
-            spread(campaign.groups.len(), MOST_CONDITIONS).map(|i| &campaign.groups[i]).collect();
+            spread(campaign.groups.len(), means, MOST_NUMBERS).map(|i| &campaign.groups[i]).collect();
+        let reads_poses = !data.has_other_readings();
         let (mut repeats, mut dof) = (Vector6::zeros(), 0.0);
-        for group in &campaign.groups {
+        for group in campaign.groups.iter().filter(|_| reads_poses) {
             let sigma = campaign.noise.sigma();
             for &i in &group.rows {
                 let row = &data.observations[i as usize];
@@ -130,6 +138,7 @@ impl Sample {
         Self {
             hexapod: hexapod.clone(),
             data: thinned,
+            reads_poses,
             sigma,
             stands_for: campaign.groups.len() as f64 / chosen.len() as f64,
             repeats,
@@ -142,7 +151,7 @@ impl Sample {
 
     /// The same with fewer conditions.
     pub(super) fn coarse(&self) -> Self {
-        let chosen: Vec<usize> = spread(self.sigma.len(), FEW_CONDITIONS).collect();
+        let chosen: Vec<usize> = spread(self.sigma.len(), self.numbers(), FEW_NUMBERS).collect();
         let observations = chosen.iter().map(|&i| self.data.observations[i]).collect();
         Self {
             data: Dataset { observations, ..like(&self.data) },
@@ -199,27 +208,34 @@ impl Sample {
         let kept = changes.iter().all(Change::keeps_legs);
         let legs = if kept { Cow::Borrowed(&self.legs) } else { Cow::Owned(legs(&hexapod, &data)) };
         let factors = self.factors(changes);
-        let motions = motions(&data);
-        let floor = floors(&motions, share);
-        for (((row, motion), legs), sigma) in
-            data.observations.iter().zip(&motions).zip(legs.iter()).zip(&self.sigma)
+        let reads = if self.reads_poses { motions(&data) } else { as_read(&data) };
+        let floor = Floor::of(&hexapod, &data, &reads, share);
+        for (((row, read), legs), sigma) in
+            data.observations.iter().zip(&reads).zip(legs.iter()).zip(&self.sigma)
         {
-            let legs = legs.as_ref()?;
+            let (legs, channels) = (legs.as_ref()?, data.channels(row));
             let force = legs.forces(&(row.wrench.to_vector() - row.reference.to_vector()));
-            let weight = Vector6::from_fn(|k, _| (sigma[k] * factors.noise(k)).hypot(floor[k]).recip());
+            let weight = Vector6::from_fn(|k, _| {
+                (sigma[k] * factors.noise(channels[k])).hypot(floor.under(channels[k], &hexapod)).recip()
+            });
             let mut columns = legs.platform_jacobian;
+            if !self.reads_poses {
+                columns = observer_of(&hexapod, data.measurand, &channels, &row.pose, legs) * columns;
+            }
             for leg in 0..6 {
                 let column = columns.column(leg).component_mul(&weight) * force[leg];
                 columns.set_column(leg, &column);
             }
-            let density = (0..6).map(|k| (weight[k] * sigma[k] * factors.reading(k)).ln()).sum();
-            take(Whitened { columns, read: motion.component_mul(&weight), density });
+            let density = |k: usize| (weight[k] * sigma[k] * factors.reading(channels[k])).ln();
+            let density = (0..6).filter(|&k| sigma[k] < UNREAD).map(density).sum();
+            take(Whitened { columns, read: read.component_mul(&weight), density });
         }
         Some(())
     }
 
     fn factors(&self, changes: &[Change]) -> Factors {
-        let (mut all, mut noise) = (Factors { translation: 1.0, rotation: 1.0, noise: None }, 1.0);
+        let mut all = Factors { translation: 1.0, rotation: 1.0, sensor: None, noise: None };
+        let mut noise = 1.0;
         for change in changes {
             match change {
                 Change::Scaled(Group::Translations, factor) => all.translation *= factor,
@@ -229,6 +245,10 @@ impl Sample {
                     all.rotation *= factor;
                 }
                 Change::Scaled(Group::Noise, factor) => noise *= factor,
+                Change::SensorScaled(name, factor) => {
+                    let index = self.hexapod.sensors.iter().position(|s| s.name == **name);
+                    all.sensor = index.map(|index| (index, *factor));
+                }
                 _ => {}
             }
         }
@@ -237,14 +257,15 @@ impl Sample {
     }
 
     fn judged(&self, normal: &Normal, factors: &Factors) -> Option<Springs> {
-        let (numbers, freedom) = (self.numbers(), self.freedom());
+        let (numbers, freedom) = (self.numbers() as f64, self.freedom());
         let (_, chi2, negative) = non_negative(normal, freedom)?;
         let variance = (chi2 / freedom).max(1.0);
         let spread = numbers * (variance.ln() + chi2 / freedom / variance);
         let lack = self.stands_for * (spread - 2.0 * normal.density);
+        let of_pose = |k: usize| factors.reading(Channel::Pose(k)) / factors.noise(Channel::Pose(k));
         let (mut repeats, mut scatter) = (0.0, 1.0);
         if self.repeats_dof > 0.0 {
-            let scale = Vector6::from_fn(|k, _| (factors.reading(k) / factors.noise(k)).powi(2));
+            let scale = Vector6::from_fn(|k, _| of_pose(k).powi(2));
             let squares = self.repeats.component_mul(&scale) / self.repeats_dof;
             scatter = squares.mean().sqrt();
             if self.noise_is_stated {
@@ -255,25 +276,26 @@ impl Sample {
                 repeats = squares.iter().map(|v| cost(*v)).sum();
             }
         }
-        let density: f64 = (0..6).map(|k| (factors.reading(k) / factors.noise(k)).ln()).sum();
+        let density: f64 = (0..6).map(|k| of_pose(k).ln()).sum();
         let cost = lack + repeats - 2.0 * self.repeats_dof * density;
         cost.is_finite().then_some(Springs { cost, lack, level: (chi2 / freedom).sqrt(), negative, scatter })
     }
 
     /// Numbers of the readings.
-    fn numbers(&self) -> f64 {
-        6.0 * self.data.observations.len() as f64
+    fn numbers(&self) -> usize {
+        self.sigma.iter().map(|s| s.iter().filter(|sigma| **sigma < UNREAD).count()).sum()
     }
 
     /// Degrees of freedom that the springs leave them.
     pub(super) fn freedom(&self) -> f64 {
-        (self.numbers() - 6.0).max(1.0)
+        (self.numbers() as f64 - 6.0).max(1.0)
     }
 }
 
-/// At most so many of so many, spread over all of them; no rhythm of the file is in step with theirs.
-fn spread(all: usize, most: usize) -> impl Iterator<Item = usize> {
-    let stride = all.div_ceil(most).max(1);
+/// Some of all conditions with so many numbers, spread over all of them, that have at most about so many; no rhythm of the file is in
+/// step with theirs.
+fn spread(all: usize, numbers: usize, most: usize) -> impl Iterator<Item = usize> {
+    let stride = numbers.div_ceil(most).max(1);
     (0..all.div_ceil(stride)).map(move |k| (k * stride + k * 7 % stride).min(all - 1))
 }
 
@@ -281,17 +303,26 @@ fn spread(all: usize, most: usize) -> impl Iterator<Item = usize> {
 struct Factors {
     translation: f64,
     rotation: f64,
+    /// Of one sensor.
+    sensor: Option<(usize, f64)>,
     /// Of the noise; none where nobody has stated it, and it is as large as the readings make it.
     noise: Option<f64>,
 }
 
 impl Factors {
-    fn reading(&self, coordinate: usize) -> f64 {
-        if coordinate < 3 { self.translation } else { self.rotation }
+    fn reading(&self, channel: Channel) -> f64 {
+        match channel {
+            Channel::Pose(k) if k < 3 => self.translation,
+            Channel::Pose(_) => self.rotation,
+            Channel::Sensor { sensor, .. } => {
+                self.sensor.filter(|(scaled, _)| *scaled == sensor).map_or(1.0, |(_, factor)| factor)
+            }
+            Channel::Nothing => 1.0,
+        }
     }
 
-    fn noise(&self, coordinate: usize) -> f64 {
-        self.noise.unwrap_or_else(|| self.reading(coordinate))
+    fn noise(&self, channel: Channel) -> f64 {
+        self.noise.unwrap_or_else(|| self.reading(channel))
     }
 }
 
@@ -305,7 +336,7 @@ pub(super) fn like(data: &Dataset) -> Dataset {
 fn legs(hexapod: &Hexapod, data: &Dataset) -> Vec<Option<Legs>> {
     let machine = Machine::nominal(hexapod);
     let mut last: Option<(hexbench_core::Pose, Option<Legs>)> = None;
-    let at = |row: &hexbench_core::Observation| {
+    let at = |row: &Observation| {
         if let Some((pose, legs)) = &last
             && *pose == row.pose
         {
@@ -321,7 +352,7 @@ fn legs(hexapod: &Hexapod, data: &Dataset) -> Vec<Option<Legs>> {
 /// Readings as geometric twists, m and rad.
 fn motions(data: &Dataset) -> Vec<Vector6> {
     let euler = data.measurand == Measurand::DeflectionEuler;
-    let motion = |row: &hexbench_core::Observation| {
+    let motion = |row: &Observation| {
         let mut motion = Vector6::from_column_slice(&row.measured);
         if euler {
             let turn = euler_rate_matrix(&row.pose.angles) * motion.fixed_rows::<3>(3);
@@ -332,15 +363,36 @@ fn motions(data: &Dataset) -> Vec<Vector6> {
     data.observations.iter().map(motion).collect()
 }
 
-/// What the linear springs may miss, per coordinate.
-fn floors(motions: &[Vector6], share: f64) -> Vector6 {
-    let n = (3 * motions.len()).max(1) as f64;
-    let rms = |first: usize| {
-        let sum: f64 = motions.iter().map(|m| m.fixed_rows::<3>(first).norm_squared()).sum();
-        (sum / n).sqrt() * share
-    };
-    let (shift, turn) = (rms(0), rms(3));
-    Vector6::from_fn(|k, _| if k < 3 { shift } else { turn })
+/// Readings as they stand, m and rad.
+fn as_read(data: &Dataset) -> Vec<Vector6> {
+    data.observations.iter().map(|row| Vector6::from_column_slice(&row.measured)).collect()
+}
+
+/// What the linear springs may miss of lengths and of angles, m and rad.
+struct Floor {
+    length: f64,
+    angle: f64,
+}
+
+impl Floor {
+    /// A share of the readings, root mean square.
+    fn of(hexapod: &Hexapod, data: &Dataset, reads: &[Vector6], share: f64) -> Self {
+        let mut sums = [[0.0; 2]; 2];
+        for (row, read) in data.observations.iter().zip(reads) {
+            let channels = data.channels(row);
+            for k in (0..6).filter(|&k| row.is_read(k)) {
+                let [sum, count] = &mut sums[usize::from(channels[k].is_angle(&hexapod.sensors))];
+                *sum += read[k].powi(2);
+                *count += 1.0;
+            }
+        }
+        let [length, angle] = sums.map(|[sum, count]: [f64; 2]| (sum / count.max(1.0)).sqrt() * share);
+        Self { length, angle }
+    }
+
+    fn under(&self, channel: Channel, hexapod: &Hexapod) -> f64 {
+        if channel.is_angle(&hexapod.sensors) { self.angle } else { self.length }
+    }
 }
 
 /// Least squares with compliances that are not negative: a leg that would have one is held at zero. Compliances, chi-square and
