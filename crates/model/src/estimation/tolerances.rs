@@ -373,7 +373,7 @@ fn sensor_column(
 mod tests {
     #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
-    use hexbench_core::{Approach, Columns, Dataset, Measurand, Pose};
+    use hexbench_core::{Approach, Columns, Dataset, Hexapod, Measurand, Pose};
 
     use super::*;
     use crate::estimation::frames::ReadingAxes;
