@@ -48,6 +48,30 @@ fn the_picture_of_the_bench_with_gauges_is_what_check_draws() {
     assert!(kept == fresh, "docs/guide/screenshots/gauges.svg is stale: run the tests once with {BLESS}=1");
 }
 
+/// Fields of the first public structure of a source file, as its parameters are named in scenes.
+fn parameters(source: &str) -> Vec<&str> {
+    let fields = source.lines().skip_while(|line| !line.starts_with("pub struct ")).skip(1);
+    let fields = fields.take_while(|line| *line != "}").filter_map(|line| line.trim().strip_prefix("pub "));
+    fields.filter_map(|field| field.split(':').next()).collect()
+}
+
+#[test]
+fn the_formats_list_every_parameter_of_every_effect_of_a_scene() {
+    let formats = fs::read_to_string(root().join("docs/reference/file-formats.md")).unwrap();
+    for entry in hexbench_truth::mechanisms::REGISTRY {
+        let file = entry.id.trim_start_matches("out:").replace('-', "_");
+        let source = root().join(format!("crates/truth/src/mechanisms/{file}.rs"));
+        let row = formats.lines().find(|line| line.starts_with(&format!("| `{}` |", entry.id)));
+        let row = row.unwrap_or_else(|| panic!("no row for {}", entry.id));
+        let source = fs::read_to_string(source).unwrap();
+        let names = parameters(&source);
+        assert!(!names.is_empty(), "{}", entry.id);
+        for name in names {
+            assert!(row.contains(&format!("`{name}`:")), "{} has no `{name}`: {row}", entry.id);
+        }
+    }
+}
+
 /// Markdown files of a folder of the documentation.
 fn pages(folder: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(root().join(folder)).unwrap();

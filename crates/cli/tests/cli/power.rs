@@ -100,7 +100,7 @@ fn a_designed_plan_and_a_term_of_ones_own_are_understood() {
         &["--sigma", "0.5,3", "--term", own.to_str().unwrap(), "--simulate", "2"],
     ));
     assert!(page.contains("own-softening") && page.contains("no such effect"), "{page}");
-    assert!(page.contains("No approach column: joint-friction."), "{page}");
+    assert!(page.contains("No approach (or order) column: joint-friction."), "{page}");
 }
 
 const OWN_TERM: &str = r#"

@@ -250,18 +250,19 @@ fn a_mass_that_nobody_counted_is_no_creep_of_the_preload() {
 /// A campaign of many readings sees laws far below the noise; no model is the worse for them.
 #[test]
 fn a_law_of_less_than_a_tenth_of_the_noise_is_told_and_the_springs_are_adequate() {
-    const POSES: u64 = 224;
-    let many = |schemes: &mut Schemes| {
-        let Poses::Drawn { count, .. } = &mut schemes.training.poses else {
-            panic!("the rich plan draws poses")
+    for (poses, repeats, distance) in [(224, 2, 11.5), (420, 4, 20.0)] {
+        let many = |schemes: &mut Schemes| {
+            let Poses::Drawn { count, .. } = &mut schemes.training.poses else {
+                panic!("the rich plan draws poses")
+            };
+            (*count, schemes.training.repeats) = (poses, repeats);
         };
-        *count = POSES;
-    };
-    let drift = Box::new(LegDrift { leg: 2, rate: 1e-9 });
-    let history = history(Some(drift), 11.5, 0, many);
-    let d = history.diagnosis();
-    assert_eq!(d.verdict, Verdict::Adequate, "{:?}", d.candidates.first());
-    assert_eq!(d.outside.as_ref().and_then(|outside| outside.pattern), Some("linear"));
+        let history = history(Some(Box::new(LegDrift { leg: 2, rate: 1e-9 })), distance, 0, many);
+        let d = history.diagnosis();
+        let what = format!("{} readings: {:?}", history.measurements.observations.len(), d.candidates.first());
+        assert_eq!(d.verdict, Verdict::Adequate, "{what}");
+        assert_eq!(d.outside.as_ref().and_then(|outside| outside.pattern), Some("linear"), "{what}");
+    }
 }
 
 /// Largest relative error of a number without noise: deflections are 5e-4 of the leg length, and fraction and time constant share it.

@@ -136,7 +136,7 @@ impl Structure {
 pub struct NoiseLevel {
     /// Sum of squares.
     pub sum: f64,
-    /// Degrees of freedom; infinite for a level that is exact, zero for one of which nothing is known.
+    /// Degrees of freedom: infinite for a level that is exact (as in the GUM, JCGM 100:2008, G.4.3), zero for one of which nothing is known.
     pub dof: f64,
 }
 
@@ -154,7 +154,7 @@ pub struct Noise {
     pub rotation: f64,
     /// Where it comes from.
     pub source: NoiseSource,
-    /// Degrees of freedom behind the level; infinite when stated, zero when taken from residuals.
+    /// Degrees of freedom behind the level: infinite when it is stated (as in the GUM, JCGM 100:2008, G.4.3), zero when taken from residuals.
     pub dof: f64,
     /// What errors have in common.
     pub structure: Structure,

@@ -4,7 +4,7 @@ use super::averaged::averaged_springs;
 use super::context::Context;
 use super::report::StepReport;
 use crate::error::ModelError;
-use crate::estimation::estimate::{Estimates, estimates, estimates_with};
+use crate::estimation::estimate::{Estimates, LegCompliances, estimates, estimates_with};
 use crate::estimation::fit::{Fit, TermSpec};
 use crate::estimation::linearization::Linearization;
 use crate::inference::diagnosis::{RankedSets, wanted};
@@ -41,14 +41,15 @@ impl Answer {
         let outcome = context.outcome;
         let mut judgement = judge(&outcome.sets, &outcome.candidates);
         let best = outcome.sets.sets.first();
-        let order = best.map(|s| addition_order(s, outcome)).unwrap_or_default();
-        let (fits, steps) = context.steps(&order)?;
+        let mut order = best.map(|s| addition_order(s, outcome)).unwrap_or_default();
+        let (mut fits, mut steps) = context.steps(&order)?;
         demote_what_does_not_survive(&mut judgement, &steps);
         let last = fits.last().unwrap_or(&outcome.baseline);
-        context.face_holdout(&mut judgement, last);
+        // Held-out readings are too few to show what is small: not to show there is no reason for doubt.
         if judgement.verdict == Verdict::Outside && context.share_outside(last) < WORTH_NAMING {
             judgement.pass_over_outside();
         }
+        context.face_holdout(&mut judgement, last);
         let small = withdraw_what_is_small(&mut judgement, &steps);
         if judgement.verdict == Verdict::Adequate {
             judgement.verdict =
@@ -58,10 +59,16 @@ impl Answer {
                     (true, false) => Verdict::Measurement,
                 };
         }
+        let kept = if judgement.verdict == Verdict::Outside { best_step(&steps) } else { order.len() };
+        let imitates = kept < order.len();
+        order.truncate(kept);
+        fits.truncate(kept + 1);
+        steps.truncate(kept + 1);
+        let last = fits.last().unwrap_or(&outcome.baseline);
         let lin = Linearization::at(context.campaign, &last.point)?;
         let left = LegDiscrepancy::of(context.campaign, &lin, last.lack_of_fit_dof);
-        let springs = averaged_springs(outcome, last).open_by(&left.share);
-        let numbers = estimates_with(&springs, last);
+        let springs = if imitates { LegCompliances::of(last) } else { averaged_springs(outcome, last) };
+        let numbers = estimates_with(&springs.open_by(&left.share), last);
         let added = named(&judgement, &order);
         Ok(Self { judgement, order, fits, lin, steps, added, small, left, numbers })
     }
@@ -105,6 +112,13 @@ fn addition_order(set: &Set, outcome: &RankedSets) -> Vec<TermSpec> {
     let mut order = all;
     order.sort_by(|a, b| alone(b.term.info().id).total_cmp(&alone(a.term.info().id)));
     order
+}
+
+/// The step that predicts held-out readings best. Beside something unknown, what is added after it only imitates that in the readings
+/// fitted.
+fn best_step(steps: &[StepReport]) -> usize {
+    let chi2 = |step: &StepReport| step.holdout.map_or(0.0, |errors| errors.chi2_reduced);
+    (0..steps.len()).min_by(|&a, &b| chi2(&steps[a]).total_cmp(&chi2(&steps[b]))).unwrap_or(0)
 }
 
 /// An effect that does not stay sure on held-out readings is not named.
