@@ -69,6 +69,11 @@ impl DiscoveryStudy {
         self.term_files.first().map(String::as_str)
     }
 
+    /// What competes in a diagnosis that shows the law at work: `terms` and the law, where one was found.
+    pub fn competing(&self, terms: &[Arc<dyn Term>]) -> Vec<Arc<dyn Term>> {
+        terms.iter().cloned().chain(self.law().ok().flatten()).collect()
+    }
+
     /// The law as a term, where one was found.
     ///
     /// # Errors
