@@ -57,9 +57,11 @@ pub fn headlines(records: &[DiscoveryRecord]) -> Vec<String> {
     let good = |r: &&DiscoveryRecord| matches!(r.fate(), LawFate::Right | LawFate::Equivalent);
     vec![
         format!(
-            "Where a law of the grammar is hidden, it or one that predicts alike is found in {}; a wrong one in {}.",
+            "Where a law of the grammar is hidden, it or one that predicts alike is found in {}; a wrong one in {}, {} of them with the \
+             formula of the hidden effect and a size too uncertain to foresee readings.",
             told(Proportion::count(of(DiscoveryRecord::is_sayable), good)),
             told(Proportion::count(of(DiscoveryRecord::is_sayable), |r| r.fate() == LawFate::Wrong)),
+            of(DiscoveryRecord::is_right_and_uncertain).count(),
         ),
         format!(
             "Where what is hidden is no law of the grammar, one that predicts alike is found in {}, a wrong one in {}.",

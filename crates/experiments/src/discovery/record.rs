@@ -88,6 +88,11 @@ impl DiscoveryRecord {
         self.left[1] <= MOST_LEFT
     }
 
+    /// True when the formula is that of the hidden effect, and the final model does not foresee held-out readings all the same.
+    pub(crate) fn is_right_and_uncertain(&self) -> bool {
+        self.fate() == LawFate::Wrong && self.outside().is_some_and(|id| is_law_of(id, &self.formulas))
+    }
+
     /// What it came to.
     pub fn fate(&self) -> LawFate {
         match (self.outside(), self.found) {
