@@ -1,5 +1,20 @@
 /** Requests to the server, and what can go wrong with them. */
-import type { Ask, Catalogue, Diagnosed, Discovered, Export, Exported, Guess, Open, Opened, Refused, Revealed, Selection, View, What } from "./wire";
+import type {
+  Ask,
+  Catalogue,
+  Diagnosed,
+  Discovered,
+  Export,
+  Exported,
+  Guess,
+  Open,
+  Opened,
+  Refused,
+  Revealed,
+  Selection,
+  View,
+  What,
+} from "./wire";
 
 /** The server's answer was no. */
 export class Refusal extends Error {
