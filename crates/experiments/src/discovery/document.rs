@@ -58,7 +58,7 @@ pub fn headlines(records: &[DiscoveryRecord]) -> Vec<String> {
     vec![
         format!(
             "Where a law of the grammar is hidden, it or one that predicts alike is found in {}; a wrong one in {}, {} of them with the \
-             formula of the hidden effect and a size too uncertain to foresee readings.",
+             formula of the hidden effect.",
             told(Proportion::count(of(DiscoveryRecord::is_sayable), good)),
             told(Proportion::count(of(DiscoveryRecord::is_sayable), |r| r.fate() == LawFate::Wrong)),
             of(DiscoveryRecord::is_right_and_uncertain).count(),
