@@ -100,6 +100,11 @@ impl Mechanism for MachineLaw {
         Box::new(Self { size: self.size * factor, ..*self })
     }
 
+    /// Sizes have different units, and one to begin with.
+    fn largest_factor(&self) -> f64 {
+        1e6
+    }
+
     fn parameters(&self) -> Map<String, Value> {
         Map::new()
     }
