@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use hexbench_app::{Failure, input};
 use hexbench_core::Dataset;
+use hexbench_model::effects::term::Term;
 use hexbench_model::results::compare::{ComparedModel, compare as compared_with};
 use hexbench_model::results::diagnose::{DiagnoseOptions, DiagnosisStudy, diagnose_with};
 use hexbench_model::results::discover::{DiscoveryStudy, discover as search_law};
@@ -123,29 +124,50 @@ pub(crate) fn diagnose(
     })
 }
 
+/// A search for laws, and what it was asked.
+struct Searched {
+    about: About,
+    terms: Vec<Arc<dyn Term>>,
+    options: DiagnoseOptions,
+    study: DiscoveryStudy,
+}
+
 /// A search for laws that no catalogue lists.
 #[pyclass(frozen, name = "Discovery", module = "hexbench._native")]
-pub(crate) struct PyDiscovery(Arc<(About, DiscoveryStudy)>);
+pub(crate) struct PyDiscovery(Arc<Searched>);
 
 #[pymethods]
 impl PyDiscovery {
     /// The text of discovery.json.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        self.0.0.json(py, &self.0.1.discovery)
+        self.0.about.json(py, &self.0.study.discovery)
     }
 
     /// The page of the command.
     fn text(&self, verbose: bool) -> String {
-        let (about, study) = self.0.as_ref();
+        let Searched { about, study, .. } = self.0.as_ref();
         let subject = about.subject(&study.diagnosis);
         let page = words::discovery(subject.hexapod, subject.data, subject.holdout, study);
         terminal(&page, Terminal { verbose, ..Terminal::default() })
     }
 
+    /// The page for a browser: the readings as the law explains them.
+    fn html(&self, py: Python<'_>) -> PyResult<String> {
+        let searched = Arc::clone(&self.0);
+        beside(py, move || {
+            let Searched { about, terms, options, study } = searched.as_ref();
+            let Measured { machine, data, .. } = about.measured.as_ref();
+            let competing = study.competing(terms);
+            let with_law = diagnose_with(&machine.hexapod, data, about.held(), &competing, options);
+            let with_law = with_law.map_err(|cause| about.failure(cause))?;
+            let provenance = about.provenance("discover");
+            page_text(&charts::discovery(&about.subject(&with_law), study, &provenance)?)
+        })
+    }
+
     /// The best law as a term file, where one was found.
     fn term(&self) -> Option<String> {
-        let study = &self.0.1;
-        study.term_file().map(str::to_owned)
+        self.0.study.term_file().map(str::to_owned)
     }
 }
 
@@ -161,12 +183,12 @@ pub(crate) fn discover(
 ) -> PyResult<PyDiscovery> {
     let about = About::of(campaign, holdout);
     beside(py, move || {
-        let all = input::catalogue_with(&input::user_terms(&terms)?);
+        let terms = input::catalogue_with(&input::user_terms(&terms)?);
         let options = options(&exclude, false, &read_as)?;
         let measured = &about.measured;
-        let study = search_law(&measured.machine.hexapod, &measured.data, about.held(), &all, &options);
+        let study = search_law(&measured.machine.hexapod, &measured.data, about.held(), &terms, &options);
         let study = study.map_err(|cause| about.failure(cause))?;
-        Ok(PyDiscovery(Arc::new((about, study))))
+        Ok(PyDiscovery(Arc::new(Searched { about, terms, options, study })))
     })
 }
 

@@ -1,6 +1,7 @@
 """Results are those of the command, to the byte or the last digit that it prints."""
 
 import json
+import re
 import tomllib
 from pathlib import Path
 
@@ -234,6 +235,11 @@ def test_a_discovery_is_that_of_the_command_byte_for_byte(tmp_path: Path, comman
     assert {key: getattr(found, key) for key in keys} == found.to_dict()
     assert str(found) == command("discover", hexapod, data, "--holdout", holdout, "--color", "never").stdout
     assert found.found and "period" in repr(found)
+    found.to_html(tmp_path / "python.html")
+    page = (tmp_path / "python.html").read_text(encoding="utf-8")
+    command("discover", hexapod, data, "--holdout", holdout, "--html", tmp_path / "command.html")
+    body = re.compile(r"<svg.*?</svg>", re.DOTALL)
+    assert body.findall(page) == body.findall((tmp_path / "command.html").read_text(encoding="utf-8")) != []
     found.save(tmp_path / "term.toml")
     diagnosis = hexbench.diagnose(campaign, holdout=holdout, terms=[tmp_path / "term.toml"])
     assert (diagnosis.verdict, diagnosis.added) == ("named", [found.laws[0]["term"]])

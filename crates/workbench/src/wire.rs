@@ -350,7 +350,7 @@ pub struct ReadingResiduals {
     pub quantiles: Vec<[f64; 2]>,
 }
 
-/// Body of `POST /api/benches/{id}/diagnosis`.
+/// Body of `POST /api/benches/{id}/diagnosis` and of `POST /api/benches/{id}/discovery`.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(deny_unknown_fields)]
@@ -372,6 +372,20 @@ pub struct Diagnosed {
     pub tick: Vec<String>,
     /// Everything, as `diagnose --json` writes it.
     pub diagnosis: Diagnosis,
+    /// Time taken on the server, ms.
+    pub milliseconds: f64,
+}
+
+/// Answer to `POST /api/benches/{id}/discovery`, whose body is that of a diagnosis.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Discovered {
+    /// Everything the search says, as every other medium says it.
+    pub page: Page,
+    /// The law as a term file (term/1); absent where none was found.
+    pub law: Option<String>,
+    /// Effects of the catalogue that stand beside it.
+    pub beside: Vec<String>,
     /// Time taken on the server, ms.
     pub milliseconds: f64,
 }

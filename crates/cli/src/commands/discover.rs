@@ -60,9 +60,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     write_law(arguments.output.as_deref(), &study, screen)?;
     write_all(arguments.all.as_deref(), &study, screen)?;
     arguments.page.write(screen, || {
-        let law = study.law().ok().flatten();
-        let competing: Vec<_> = terms.iter().cloned().chain(law).collect();
-        let with_law = diagnose::study(hexapod, data, holdout.as_ref(), &competing, &options)?;
+        let with_law = diagnose::study(hexapod, data, holdout.as_ref(), &study.competing(terms), &options)?;
         let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &with_law);
         Ok(charts::discovery(&subject, &study, &arguments.question.provenance()?)?)
     })?;

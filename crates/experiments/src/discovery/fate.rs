@@ -17,7 +17,7 @@ const LAWS: [(&str, &[&[&str]]); 6] = [
 pub enum LawFate {
     /// The law of the hidden effect.
     Right,
-    /// Another formula that predicts held-out poses to within the noise.
+    /// Another formula that foresees held-out readings.
     Equivalent,
     /// A law that does not.
     Wrong,

@@ -56,7 +56,7 @@ impl harness::Protocol for DiscoveryProtocol {
             ("listed", self.listed.to_string()),
             ("clean", self.clean.to_string()),
         ];
-        Identity::new("discover", "discover-trials/1", settings)
+        Identity::new("discover", "discover-trials/2", settings)
     }
 
     fn trials(&self) -> u64 {
@@ -92,6 +92,11 @@ impl harness::Protocol for DiscoveryProtocol {
                 |r: &DiscoveryRecord| r.held_out[0],
             ),
             Field::number(("after", "1"), "the same of the final model", |r: &DiscoveryRecord| r.held_out[1]),
+            Field::number(
+                ("left", "1"),
+                "what the final model leaves of held-out readings without noise, times the noise",
+                |r: &DiscoveryRecord| r.left[1],
+            ),
         ]
     }
 }

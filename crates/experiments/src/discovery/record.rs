@@ -1,9 +1,13 @@
 //! One trial in numbers.
 
+use hexbench_core::Dataset;
+use hexbench_model::estimation::fit::Fit;
+use hexbench_model::estimation::residuals::{prediction_errors, summarise};
 use hexbench_model::results::diagnose::{DiagnoseOptions, StepReport};
 use hexbench_model::results::discover::discover;
 use hexbench_model::terms::catalogue;
-use hexbench_truth::campaign::{CaseKind, SimulatedCase};
+use hexbench_truth::TruthError;
+use hexbench_truth::campaign::{CaseKind, PlanRow, SimulatedCase};
 use hexbench_truth::laboratory;
 use serde::{Deserialize, Serialize};
 
@@ -11,6 +15,10 @@ use super::fate::{LawFate, is_law_of, is_sayable};
 use super::protocol::DISTANCES;
 use crate::harness::words::{self, Word};
 use crate::trial::TrialError;
+
+/// What a law may leave of held-out readings without their noise, over the noise of a reading: it raises the error of readings by a
+/// twentieth, which nobody sees in them.
+pub(crate) const MOST_LEFT: f64 = 1.0 / 3.0;
 
 /// What was hidden, and what was found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -33,8 +41,8 @@ pub struct DiscoveryRecord {
     pub probability: f64,
     /// Held-out errors of springs and of the final model, times the noise.
     pub held_out: [f64; 2],
-    /// True when the last is what the noise gives.
-    pub at_the_noise: bool,
+    /// What springs and the final model leave of the held-out readings as they would be without noise: root mean square, times the noise.
+    pub left: [f64; 2],
 }
 
 impl DiscoveryRecord {
@@ -44,6 +52,12 @@ impl DiscoveryRecord {
         let case = SimulatedCase::draw_in(&laboratory::CAREFUL, kind, index, seed, distance)?;
         let options = DiagnoseOptions::default();
         let study = discover(&case.hexapod, &case.measurements, Some(&case.holdout), &catalogue(), &options)?;
+        let exact = without_noise(&case)?;
+        let noise = study.diagnosis.campaign.noise;
+        let left = |fit: Option<&Fit>| {
+            let errors = fit.map(|fit| prediction_errors(&case.hexapod, &exact, noise, &fit.point));
+            errors.and_then(Result::ok).map_or(f64::NAN, |errors| summarise(&errors, None).times_noise())
+        };
         let d = study.discovery;
         let error = |step: Option<&StepReport>| step.map_or(f64::NAN, |s| s.error().times_noise());
         Ok(Self {
@@ -55,7 +69,7 @@ impl DiscoveryRecord {
             beside: d.beside,
             probability: d.probability,
             held_out: [error(d.steps.first()), error(d.steps.last())],
-            at_the_noise: d.steps.last().is_some_and(StepReport::is_at_the_noise),
+            left: [study.fits.first(), study.fits.last()].map(left),
         })
     }
 
@@ -69,8 +83,13 @@ impl DiscoveryRecord {
         self.outside().is_some_and(is_sayable)
     }
 
-    /// True when the formula is that of the hidden effect and the error stays above the noise all the same.
-    pub(crate) fn is_right_above_noise(&self) -> bool {
+    /// True when the final model foresees held-out readings.
+    fn foresees(&self) -> bool {
+        self.left[1] <= MOST_LEFT
+    }
+
+    /// True when the formula is that of the hidden effect, and the final model does not foresee held-out readings all the same.
+    pub(crate) fn is_right_and_uncertain(&self) -> bool {
         self.fate() == LawFate::Wrong && self.outside().is_some_and(|id| is_law_of(id, &self.formulas))
     }
 
@@ -78,11 +97,20 @@ impl DiscoveryRecord {
     pub fn fate(&self) -> LawFate {
         match (self.outside(), self.found) {
             (None, true) => LawFate::Invented,
-            (Some(id), true) if is_law_of(id, &self.formulas) && self.at_the_noise => LawFate::Right,
-            (Some(_), true) if self.at_the_noise => LawFate::Equivalent,
+            (Some(id), true) if is_law_of(id, &self.formulas) && self.foresees() => LawFate::Right,
+            (Some(_), true) if self.foresees() => LawFate::Equivalent,
             (Some(_), true) => LawFate::Wrong,
             (_, false) if self.beside.is_empty() => LawFate::Nothing,
             (_, false) => LawFate::Catalogue,
         }
     }
+}
+
+/// The held-out readings of a case as an ideal instrument reads them.
+fn without_noise(case: &SimulatedCase) -> Result<Dataset, TruthError> {
+    let mut exact = case.holdout.clone();
+    let rows: Vec<PlanRow> = exact.observations.iter().map(PlanRow::from).collect();
+    let ideal = case.campaign.ideal(&rows, exact.measurand)?;
+    exact.observations.iter_mut().zip(ideal).for_each(|(o, reading)| o.measured = reading.into());
+    Ok(exact)
 }

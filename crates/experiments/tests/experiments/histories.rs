@@ -259,7 +259,8 @@ fn a_law_of_less_than_a_tenth_of_the_noise_is_told_and_the_springs_are_adequate(
         };
         let history = history(Some(Box::new(LegDrift { leg: 2, rate: 1e-9 })), distance, 0, many);
         let d = history.diagnosis();
-        let what = format!("{} readings: {:?}", history.measurements.observations.len(), d.candidates.first());
+        let what =
+            format!("{} readings: {:?}", history.measurements.observations.len(), d.candidates.first());
         assert_eq!(d.verdict, Verdict::Adequate, "{what}");
         assert_eq!(d.outside.as_ref().and_then(|outside| outside.pattern), Some("linear"), "{what}");
     }

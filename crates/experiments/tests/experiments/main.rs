@@ -8,6 +8,7 @@ mod discriminate;
 mod histories;
 mod interactions;
 mod interrupted;
+mod machine_laws;
 mod misread;
 mod paper;
 mod power;

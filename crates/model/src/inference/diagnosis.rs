@@ -282,8 +282,7 @@ fn collect(
         add_term(&mut collector, term, &scanned, point, rich_shape(term.as_ref(), point, effort));
     }
     for law in competitors.laws {
-        add_term(&mut collector, &law.term, &scanned, point, None);
-        collector.weigh_last(law.log_prior);
+        add_law(&mut collector, law, &scanned, point);
     }
     if !competitors.laws.is_empty() {
         return collector.finish(campaign, point);
@@ -292,6 +291,16 @@ fn collect(
         collector.add_pattern(pattern, log_weight);
     }
     collector.finish(campaign, point)
+}
+
+/// Adds a law: with the period that its scan found, or to which a fit has carried it since, else as any other term.
+fn add_law(collector: &mut Collector<'_>, law: &LawTerm, scanned: &Linearization, point: &ModelPoint) {
+    let trials = law.term.shape_grid(&scanned.conditions).len();
+    match law.period(point).filter(|_| trials > LONG_GRID) {
+        Some(period) => collector.add_term(&law.term, &[period], trials, None),
+        None => add_term(collector, &law.term, scanned, point, None),
+    }
+    collector.weigh_last(law.log_prior);
 }
 
 /// Adds a term in all its versions and their shapes, of which a long grid leaves the best one; not at all where none is sensible.

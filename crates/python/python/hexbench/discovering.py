@@ -79,6 +79,10 @@ class Discovery:
         """Return the page of ``hexbench discover``."""
         return self._made.text(verbose)
 
+    def to_html(self, path: str | PathLike[str]) -> None:
+        """Write the page of ``hexbench discover --html``: the readings as the law explains them; one file, needs no network."""
+        _native.write_text(fspath(path), self._made.html())
+
     def __str__(self) -> str:
         """Return the page of ``hexbench discover``."""
         return self.page()

@@ -1,17 +1,18 @@
-//! The diagnosis, and what is hidden.
+//! The diagnosis, the search for a law, and what is hidden.
 
 use std::collections::BTreeSet;
 use std::time::Instant;
 
 use hexbench_model::estimation::fit_named::RICHER;
 use hexbench_model::inference::explanation::Explanation;
-use hexbench_model::results::diagnose::{Diagnosis, DiagnosisStudy, diagnose};
+use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose};
+use hexbench_model::results::discover::discover;
 use hexbench_report::words::{self, ReportSubject};
 use hexbench_truth::mechanisms::is_outside;
 
 use super::refusal::{Refusal, RefusalKind};
 use super::{LoadedCampaign, files};
-use crate::wire::{Ask, Diagnosed, Guess, Revealed};
+use crate::wire::{Ask, Diagnosed, Discovered, Guess, Revealed};
 
 impl LoadedCampaign {
     /// Everything behind the diagnosis of these data.
@@ -42,6 +43,24 @@ impl LoadedCampaign {
             page,
             tick: d.model.iter().map(|id| asked_for(&d, id)).collect(),
             diagnosis: d,
+            milliseconds: since.elapsed().as_secs_f64() * 1e3,
+        })
+    }
+
+    /// Searches the law that no catalogue has.
+    ///
+    /// # Errors
+    /// [`Refusal`].
+    pub fn discover(&self, ask: &Ask) -> Result<Discovered, Refusal> {
+        let since = Instant::now();
+        let terms = files::terms_with(&ask.own, &self.limits)?;
+        let c = &self.contents;
+        let found = discover(&c.hexapod, &c.data, c.holdout.as_ref(), &terms, &DiagnoseOptions::default())
+            .map_err(|cause| Refusal::model(&cause, &c.data.source))?;
+        Ok(Discovered {
+            page: words::discovery(&c.hexapod, &c.data, c.holdout.as_ref(), &found),
+            law: found.term_file().map(str::to_owned),
+            beside: found.discovery.beside,
             milliseconds: since.elapsed().as_secs_f64() * 1e3,
         })
     }

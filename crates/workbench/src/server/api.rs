@@ -69,6 +69,10 @@ fn questions<D: Desk>() -> Router<Arc<Shared<D>>> {
             "/diagnosis",
             post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::diagnose).await),
         )
+        .route(
+            "/discovery",
+            post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::discover).await),
+        )
         .route("/export", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::export).await))
         .route("/reveal", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::reveal).await))
 }

@@ -23,6 +23,8 @@ pub trait Desk: Send + Sync + Sized + 'static {
     fn view(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The diagnosis.
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// The law that no catalogue has.
+    fn discover(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
     /// A file to take home.
     fn export(&self, export: &Export) -> Result<impl Serialize + use<Self>, Refusal>;
     /// What is hidden.
@@ -52,6 +54,10 @@ impl Desk for LoadedCampaign {
 
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<>, Refusal> {
         self.diagnose(ask)
+    }
+
+    fn discover(&self, ask: &Ask) -> Result<impl Serialize + use<>, Refusal> {
+        self.discover(ask)
     }
 
     fn export(&self, export: &Export) -> Result<impl Serialize + use<>, Refusal> {

@@ -11,7 +11,8 @@ use ts_rs::{Config, TS, TypeVisitor};
 
 use self::layout::laid_out;
 use super::{
-    Ask, Catalogue, Diagnosed, Export, Exported, Guess, Open, Opened, Refused, Revealed, Selection, View,
+    Ask, Catalogue, Diagnosed, Discovered, Export, Exported, Guess, Open, Opened, Refused, Revealed,
+    Selection, View,
 };
 
 const BANNER: &str = "\
@@ -81,6 +82,7 @@ fn page() -> String {
     all.root::<Opened>();
     all.root::<Ask>();
     all.root::<Diagnosed>();
+    all.root::<Discovered>();
     all.root::<Export>();
     all.root::<Exported>();
     all.root::<Guess>();

@@ -88,6 +88,10 @@ impl Desk for Obedient {
         Ok(json!({ "word": "adequate" }))
     }
 
+    fn discover(&self, _: &Ask) -> Result<impl Serialize + use<>, Refusal> {
+        Ok(json!({ "law": null }))
+    }
+
     fn export(&self, _: &Export) -> Result<impl Serialize + use<>, Refusal> {
         Ok("x".repeat(EXPORT_BYTES))
     }

@@ -1,5 +1,20 @@
 /** Requests to the server, and what can go wrong with them. */
-import type { Ask, Catalogue, Diagnosed, Export, Exported, Guess, Open, Opened, Refused, Revealed, Selection, View, What } from "./wire";
+import type {
+  Ask,
+  Catalogue,
+  Diagnosed,
+  Discovered,
+  Export,
+  Exported,
+  Guess,
+  Open,
+  Opened,
+  Refused,
+  Revealed,
+  Selection,
+  View,
+  What,
+} from "./wire";
 
 /** The server's answer was no. */
 export class Refusal extends Error {
@@ -38,6 +53,10 @@ export class Api {
 
   diagnose(bench: string, own: string[], signal?: AbortSignal): Promise<Diagnosed> {
     return this.ask("POST", `/api/benches/${bench}/diagnosis`, { own } satisfies Ask, signal);
+  }
+
+  discover(bench: string, own: string[], signal?: AbortSignal): Promise<Discovered> {
+    return this.ask("POST", `/api/benches/${bench}/discovery`, { own } satisfies Ask, signal);
   }
 
   export(bench: string, what: What, selection: Selection): Promise<Exported> {

@@ -8,6 +8,7 @@ const WORDS: Record<Busy, string> = {
   opening: "Loading and fitting the springs",
   fitting: "Fitting",
   diagnosing: "Weighing all explanations",
+  discovering: "Searching the law",
   exporting: "Writing the file",
   revealing: "Opening the envelope",
   trying: "Trying each term",

@@ -1,6 +1,6 @@
 /** All the page knows. */
 import type { History, Step } from "./history";
-import type { Catalogue, Diagnosed, GameLevel, Open, Opened, Revealed, Selection } from "./wire";
+import type { Catalogue, Diagnosed, Discovered, GameLevel, Open, Opened, Revealed, Selection } from "./wire";
 
 /** Something that went wrong, with what to do. */
 export interface Problem {
@@ -28,6 +28,8 @@ export interface Bench {
   wanted: Selection;
   /** Diagnosis and the formulas it weighed. */
   diagnosed: { answer: Diagnosed; own: string[] } | null;
+  /** What a search for a law found, and the formulas it weighed. */
+  discovered: { answer: Discovered; own: string[] } | null;
   revealed: { answer: Revealed; guess: string[] } | null;
   /** What each term would give if ticked as well, by id; belongs to one step. */
   trials: { step: Step; found: Record<string, Trial> } | null;
@@ -47,7 +49,7 @@ export interface Score {
   helped: boolean;
 }
 
-export type Busy = "opening" | "fitting" | "diagnosing" | "exporting" | "revealing" | "trying";
+export type Busy = "opening" | "fitting" | "diagnosing" | "discovering" | "exporting" | "revealing" | "trying";
 
 export interface State {
   catalogue: Catalogue | null;

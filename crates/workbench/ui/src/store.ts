@@ -80,7 +80,7 @@ export class Store {
   private show(opened: Opened, open: Open): void {
     const history = History.begin({ selection: SPRINGS, view: opened.view });
     this.set({
-      bench: { opened, open, history, wanted: SPRINGS, diagnosed: null, revealed: null, trials: null },
+      bench: { opened, open, history, wanted: SPRINGS, diagnosed: null, discovered: null, revealed: null, trials: null },
       tick: null,
       problem: null,
     });
@@ -220,6 +220,31 @@ export class Store {
         this.setBench({ diagnosed: { answer, own } });
       },
     );
+  }
+
+  /** Searches the law that no catalogue has. */
+  async discover(): Promise<void> {
+    const bench = this.state.bench;
+    if (bench === null) return;
+    const own = bench.wanted.own;
+    await this.during(
+      "discovering",
+      "page",
+      () => this.discover(),
+      async (signal) => {
+        const answer = await this.onBench((id, api) => api.discover(id, own, signal), signal);
+        this.setBench({ discovered: { answer, own } });
+      },
+    );
+  }
+
+  /** Adds a law that was found, and ticks it with the effects beside it and nothing else. */
+  addLaw(text: string, beside: string[]): void {
+    const bench = this.state.bench;
+    if (bench === null) return;
+    const id = idOf(text);
+    const own = [...bench.wanted.own.filter((other) => idOf(other) !== id), text];
+    void this.select({ terms: [...beside, id], own });
   }
 
   /** Asks for the held-out error of every term that could be ticked as well. */

@@ -332,7 +332,7 @@ export type UntestableTerm = {
   why: string;
 };
 
-/** Body of `POST /api/benches/{id}/diagnosis`. */
+/** Body of `POST /api/benches/{id}/diagnosis` and of `POST /api/benches/{id}/discovery`. */
 export type Ask = {
   /** Term files of one's own that compete. */
   own: Array<string>;
@@ -833,6 +833,18 @@ export type Worth = {
   share: number;
   /** As the fitted effect promises for these readings. */
   expected_share: number;
+};
+
+/** Answer to `POST /api/benches/{id}/discovery`, whose body is that of a diagnosis. */
+export type Discovered = {
+  /** Everything the search says, as every other medium says it. */
+  page: Page;
+  /** The law as a term file (term/1); absent where none was found. */
+  law: string | null;
+  /** Effects of the catalogue that stand beside it. */
+  beside: Array<string>;
+  /** Time taken on the server, ms. */
+  milliseconds: number;
 };
 
 /** Body of `POST /api/benches/{id}/export`. */

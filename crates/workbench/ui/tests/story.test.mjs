@@ -129,6 +129,23 @@ test("the diagnosis names the effect and ticks it", async () => {
   await close();
 });
 
+test("where something outside is told, a law is searched and added by one click, and the error falls", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, "not-in-catalogue");
+  const springs = await heldOut(page);
+  await at("tab-diagnosis").click();
+  await at("diagnose").click();
+  await at("verdict").waitFor();
+  assert.equal(await at("verdict").getAttribute("data-word"), "outside");
+  await at("discover").click();
+  await at("add-law").waitFor();
+  assert.match(await at("discovered").textContent(), /repeats every 8\.0\d mm of leg length/);
+  await at("add-law").click();
+  const error = await changedFrom(page, springs);
+  assert.ok(error < 1.1 && springs > 1.5, `${springs} -> ${error}`);
+  await close();
+});
+
 test("the workbench says word for word what the report says, of every bundled case", async () => {
   for (const name of readdirSync(CASES).filter((entry) => statSync(join(CASES, entry)).isDirectory())) {
     const { page, at, close } = await openPage(browser, workbench.url);

@@ -68,6 +68,12 @@ impl LawTerm {
         Ok(Self { law: found.law, term, log_prior: found.log_prior, score: found.score, scale })
     }
 
+    /// Period of a wave, m: that of the model where the law is in it, else as found.
+    pub(crate) fn period(&self, point: &ModelPoint) -> Option<f64> {
+        let active = point.active.iter().find(|a| a.id() == self.term.info().id);
+        self.law.product.is_wave().then(|| active.map_or(self.law.constant, |a| a.shape))
+    }
+
     /// True for the same law; waves of two periods are two laws, any other constant is found again by the fit.
     fn resembles(&self, found: &ScoredLaw) -> bool {
         let (a, b) = (&self.law, &found.law);

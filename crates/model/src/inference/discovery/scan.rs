@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::law::{Law, Product};
 use super::legs::{LegChoice, axes, choices};
-use super::space::{LegSums, Room, Spaces};
-use super::tables::{Tables, Values};
+use super::space::{LegSums, Spaces};
+use super::tables::{LawColumns, Tables};
 use crate::effects::user_term::PartKind;
 use crate::error::ModelError;
 use crate::inference::evidence::{WIDEST, log_sum, single, widths};
@@ -16,6 +16,8 @@ const GOLDEN_STEPS: usize = 18;
 const LEGS_KEPT: usize = 3;
 /// Choices of legs of one product whose evidence is computed: those that fit best.
 const LEGS_LOOKED_AT: usize = 6;
+/// Laws whose normal equations are computed together.
+const TOGETHER: usize = 64;
 /// What the evidence usually takes off the likelihood for a size that is fitted, nats.
 const COST_OF_A_SIZE: f64 = 2.5;
 
@@ -45,61 +47,59 @@ pub(crate) struct LawScan<'a> {
     pub(crate) products: &'a [(Product, f64)],
 }
 
-struct Bench {
-    room: Room,
-    columns: [Values; 2],
-}
+/// A product of the grammar, by its place, with a value of its constant.
+type Task = (usize, f64);
 
 impl LawScan<'_> {
     /// The best laws, at most so many, their constants refined.
     pub(crate) fn run(&self, most: usize) -> Result<Scanned, ModelError> {
         let (legs, axes) = (choices(), axes());
         let choices = |k: usize| if self.is_body(k) { &axes } else { &legs };
-        let tasks: Vec<(usize, f64)> = (0..self.products.len())
-            .flat_map(|k| self.tables.grid(&self.products[k].0).iter().map(move |&c| (k, c)))
-            .collect();
-        let best =
-            |bench: &mut Bench, &(k, constant): &(usize, f64)| self.best_of(bench, k, constant, choices(k));
-        let scored: Vec<Vec<ScoredLaw>> =
-            tasks.par_iter().map_init(|| self.bench(), best).collect::<Result<_, _>>()?;
+        let of_product = |k: usize| self.tables.grid(&self.products[k].0).iter().map(move |&c| (k, c));
+        let tasks: Vec<Task> = (0..self.products.len()).flat_map(of_product).collect();
+        // What acts on one thing stands together in the grammar.
+        let mut batches: Vec<&[Task]> = Vec::new();
+        for alike in tasks.chunk_by(|a, b| self.kind(a.0) == self.kind(b.0)) {
+            batches.extend(alike.chunks(TOGETHER));
+        }
+        let best = |batch: &&[Task]| self.best_of_each(batch, choices);
+        let scored: Vec<Vec<ScoredLaw>> = batches.par_iter().map(best).collect::<Result<_, _>>()?;
         let mut laws = best_constants(scored.into_iter().flatten());
         laws.truncate(most);
-        let refined: Result<Vec<ScoredLaw>, ModelError> =
-            laws.par_iter().map_init(|| self.bench(), |bench, law| self.refined(bench, law)).collect();
-        let mut laws = refined?;
+        let mut laws = laws.par_iter().map(|law| self.refined(law)).collect::<Result<Vec<_>, _>>()?;
         sort(&mut laws);
         Ok(Scanned { laws, tried: tasks.iter().map(|t| choices(t.0).len()).sum() })
     }
 
+    fn kind(&self, k: usize) -> PartKind {
+        self.products[k].0.kind()
+    }
+
     fn is_body(&self, k: usize) -> bool {
-        self.products[k].0.kind() != PartKind::Elongation
+        self.kind(k) != PartKind::Elongation
     }
 
-    fn bench(&self) -> Bench {
-        Bench { room: self.spaces.of(PartKind::Elongation).room(), columns: [Vec::new(), Vec::new()] }
-    }
-
-    fn sums<'b>(
+    /// The best laws of each of some products that act on one thing.
+    fn best_of_each<'b>(
         &self,
-        bench: &'b mut Bench,
-        product: &Product,
-        constant: f64,
-    ) -> Result<&'b LegSums, ModelError> {
-        let width = self.tables.columns(product, constant, &mut bench.columns)?;
-        let columns = [&bench.columns[0][..], &bench.columns[1][..]];
-        Ok(self.spaces.of(product.kind()).sums(&columns[..width], &mut bench.room))
-    }
-
-    fn best_of(
-        &self,
-        bench: &mut Bench,
-        k: usize,
-        constant: f64,
-        legs: &[(LegChoice, f64)],
+        batch: &[Task],
+        choices: impl Fn(usize) -> &'b Vec<(LegChoice, f64)>,
     ) -> Result<Vec<ScoredLaw>, ModelError> {
+        let Some(kind) = batch.first().map(|task| self.kind(task.0)) else { return Ok(Vec::new()) };
+        let columns = |&(k, constant): &Task| self.tables.columns(&self.products[k].0, constant);
+        let columns: Vec<LawColumns> = batch.iter().map(columns).collect::<Result<_, _>>()?;
+        let sums = self.spaces.of(kind).sums(&columns);
+        Ok(batch
+            .iter()
+            .zip(&sums)
+            .flat_map(|(&task, sums)| self.best_of(sums, task, choices(task.0)))
+            .collect())
+    }
+
+    /// The best choices of legs of a product.
+    fn best_of(&self, sums: &LegSums, (k, constant): Task, legs: &[(LegChoice, f64)]) -> Vec<ScoredLaw> {
         let (product, of_product) = self.products[k];
         let charge = independent(self.tables.grid(&product).len()).ln();
-        let sums = self.sums(bench, &product, constant)?;
         let mut best = [(f64::NEG_INFINITY, LegChoice::Each, 0.0); LEGS_LOOKED_AT];
         for &(legs, of_legs) in legs {
             let promise = promise(sums, legs) + of_legs;
@@ -115,7 +115,7 @@ impl LawScan<'_> {
         };
         let mut scored = best.map(of);
         sort(&mut scored);
-        Ok(scored[..LEGS_KEPT].to_vec())
+        scored[..LEGS_KEPT].to_vec()
     }
 
     /// Log-evidence of a choice of legs, averaged over the widths of the prior.
@@ -147,7 +147,7 @@ impl LawScan<'_> {
     }
 
     /// The best constant between the neighbors of that of the grid.
-    fn refined(&self, bench: &mut Bench, found: &ScoredLaw) -> Result<ScoredLaw, ModelError> {
+    fn refined(&self, found: &ScoredLaw) -> Result<ScoredLaw, ModelError> {
         let Law { product, legs, constant } = found.law;
         let grid = self.tables.grid(&product);
         let Some(at) =
@@ -157,8 +157,9 @@ impl LawScan<'_> {
         };
         let ends = [grid[at.saturating_sub(1)], grid[(at + 1).min(grid.len() - 1)]];
         let mut at = |log: f64| -> Result<f64, ModelError> {
-            let sums = self.sums(bench, &product, log.exp())?;
-            Ok(self.evidence(sums, legs))
+            let columns = self.tables.columns(&product, log.exp())?;
+            let sums = self.spaces.of(product.kind()).sums(&[columns]);
+            Ok(self.evidence(&sums[0], legs))
         };
         let best = match self.tables.separate(&product, ends) {
             Some(values) => best_of_all(&values, &mut at)?,

@@ -3,6 +3,7 @@
 use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 
+use super::tables::{LawColumns, Values};
 use crate::effects::term::Natural;
 use crate::effects::user_term::PartKind;
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
@@ -24,9 +25,8 @@ pub(crate) struct ElongationSpace {
     share: Vec<Vector6>,
     /// `R' R` of every condition.
     length: Vec<Matrix6>,
-    /// `U`: condition, leg, row.
-    taken: Vec<f64>,
-    rows: usize,
+    /// `U` of each leg: a row for each of its rows, a column per condition.
+    taken: [DMatrix<f64>; 6],
     /// Worth of a drop of chi-square.
     pub(crate) likelihood: Likelihood,
     /// Elongation natural to the machine under these loads, m.
@@ -91,79 +91,70 @@ impl ElongationSpace {
         elongation: f64,
     ) -> Self {
         let share = readers.iter().enumerate().map(|(i, r)| r.tr_mul(&residual.fixed_rows::<6>(6 * i)));
-        let mut taken = Vec::with_capacity(6 * readers.len() * rows.ncols());
+        let mut taken = [(); 6].map(|()| DMatrix::zeros(rows.ncols(), readers.len()));
         for (i, reader) in readers.iter().enumerate() {
-            let along = reader.tr_mul(&rows.fixed_rows::<6>(6 * i));
-            (0..6).for_each(|leg| taken.extend(along.row(leg).iter()));
+            let along = rows.fixed_rows::<6>(6 * i).tr_mul(reader);
+            for (of_leg, column) in taken.iter_mut().zip(along.column_iter()) {
+                of_leg.set_column(i, &column);
+            }
         }
         Self {
             share: share.collect(),
             length: readers.iter().map(|r| r.tr_mul(r)).collect(),
             taken,
-            rows: rows.ncols(),
             likelihood,
             elongation,
         }
     }
 
-    /// Room for [`Self::sums`] of so many columns per leg.
-    pub(crate) fn room(&self) -> Room {
-        Room { overlap: vec![0.0; 12 * self.rows], sums: LegSums::default() }
+    /// Normal equations of some laws, one or two columns per leg each, in units of the natural elongation. Many at once share one product
+    /// of matrices.
+    pub(crate) fn sums(&self, laws: &[LawColumns]) -> Vec<LegSums> {
+        let all: Vec<&Values> = laws.iter().flatten().collect();
+        let overlaps = std::array::from_fn(|leg| {
+            let of_leg = all.iter().flat_map(|column| column.iter().map(move |phi| phi[leg]));
+            &self.taken[leg] * DMatrix::from_iterator(self.share.len(), all.len(), of_leg)
+        });
+        let mut first = 0;
+        let one = |law: &LawColumns| {
+            first += law.len();
+            self.of_law(law, &overlaps, first - law.len())
+        };
+        laws.iter().map(one).collect()
     }
 
-    /// Normal equations of one or two columns per leg, in units of the natural elongation.
-    pub(crate) fn sums<'a>(&self, columns: &[&[[f64; 6]]], room: &'a mut Room) -> &'a LegSums {
-        let size = 6 * columns.len();
-        room.overlap[..size * self.rows].fill(0.0);
-        room.sums = LegSums { columns: columns.len(), ..LegSums::default() };
-        for (w, column) in columns.iter().enumerate() {
-            for (i, phi) in column.iter().enumerate() {
-                for leg in 0..6 {
-                    room.sums.b[6 * w + leg] += phi[leg] * self.share[i][leg];
-                    let from = (6 * i + leg) * self.rows;
-                    let taken = &self.taken[from..from + self.rows];
-                    let place = (6 * w + leg) * self.rows;
-                    for (sum, u) in room.overlap[place..place + self.rows].iter_mut().zip(taken) {
-                        *sum += phi[leg] * u;
-                    }
-                }
+    /// Those of one; `first`: place of its columns among those of the overlaps.
+    fn of_law(&self, law: &LawColumns, overlaps: &[DMatrix<f64>; 6], first: usize) -> LegSums {
+        let mut sums = LegSums { columns: law.len(), ..LegSums::default() };
+        for (w, column) in law.iter().enumerate() {
+            for (phi, share) in column.iter().zip(&self.share) {
+                (0..6).for_each(|leg| sums.b[6 * w + leg] += phi[leg] * share[leg]);
             }
-            for (v, other) in columns.iter().enumerate().take(w + 1) {
-                self.add_lengths(column, other, 6 * w, 6 * v, &mut room.sums);
+            for (v, other) in law.iter().enumerate().take(w + 1) {
+                self.add_lengths(column, other, 6 * w, 6 * v, &mut sums);
             }
         }
-        room.take_overlap(size, self.rows);
-        let square: f64 = columns.iter().flat_map(|c| c.iter()).flatten().map(|x| x * x).sum();
-        let count = (6 * self.share.len() * columns.len()).max(1) as f64;
-        room.sums.scale = if square > 0.0 { self.elongation / (square / count).sqrt() } else { 0.0 };
-        &room.sums
+        let overlap = |k: usize| overlaps[k % 6].column(first + k / 6);
+        for i in 0..6 * law.len() {
+            for j in 0..=i {
+                sums.g[i][j] -= overlap(i).dot(&overlap(j));
+                sums.g[j][i] = sums.g[i][j];
+            }
+        }
+        let square: f64 = law.iter().flatten().flatten().map(|x| x * x).sum();
+        let count = (6 * self.share.len() * law.len()).max(1) as f64;
+        sums.scale = if square > 0.0 { self.elongation / (square / count).sqrt() } else { 0.0 };
+        sums
     }
 
+    /// Products of two columns, of which only the lower triangle counts.
     fn add_lengths(&self, a: &[[f64; 6]], b: &[[f64; 6]], at: usize, beside: usize, sums: &mut LegSums) {
         for ((x, y), length) in a.iter().zip(b).zip(&self.length) {
             for i in 0..6 {
-                for j in 0..6 {
+                let last = if at == beside { i } else { 5 };
+                for j in 0..=last {
                     sums.g[at + i][beside + j] += x[i] * length[(i, j)] * y[j];
                 }
-            }
-        }
-    }
-}
-
-/// Memory of one thread.
-pub(crate) struct Room {
-    overlap: Vec<f64>,
-    sums: LegSums,
-}
-
-impl Room {
-    fn take_overlap(&mut self, size: usize, rows: usize) {
-        for i in 0..size {
-            for j in 0..=i {
-                let (a, b) =
-                    (&self.overlap[i * rows..(i + 1) * rows], &self.overlap[j * rows..(j + 1) * rows]);
-                self.sums.g[i][j] -= a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-                self.sums.g[j][i] = self.sums.g[i][j];
             }
         }
     }

@@ -22,6 +22,9 @@ const INSTANTS: usize = 16;
 /// Values of a factor: six legs at every condition.
 pub(crate) type Values = Vec<[f64; 6]>;
 
+/// Columns of a law: one, or two for a wave.
+pub(crate) type LawColumns = Vec<Values>;
+
 /// Blocks evaluated at the conditions of a linearised model.
 pub(crate) struct Tables {
     variables: LegVariables,
@@ -84,29 +87,22 @@ impl Tables {
         is_separate.then(|| self.instants.iter().copied().filter(|t| (low..=high).contains(t)).collect())
     }
 
-    /// Columns of a product: one, or two for a wave.
-    pub(crate) fn columns(
-        &self,
-        product: &Product,
-        constant: f64,
-        out: &mut [Values; 2],
-    ) -> Result<usize, ModelError> {
+    /// Columns of a product.
+    pub(crate) fn columns(&self, product: &Product, constant: f64) -> Result<LawColumns, ModelError> {
         let width = if product.is_wave() { 2 } else { 1 };
-        for (twin, column) in out.iter_mut().enumerate().take(width) {
-            column.clear();
-            column.resize(self.variables.conditions(), [1.0; 6]);
+        let mut columns = vec![vec![[1.0; 6]; self.variables.conditions()]; width];
+        for (twin, column) in columns.iter_mut().enumerate() {
             for block in product.blocks() {
                 self.multiply(block, twin == 1, constant, column)?;
             }
         }
-        Ok(width)
+        Ok(columns)
     }
 
     /// Size (SI) at which a law elongates the legs as much as their springs do, `elongation` metres.
     pub(crate) fn scale(&self, law: &Law, elongation: f64) -> Result<f64, ModelError> {
-        let mut columns = [Vec::new(), Vec::new()];
-        let width = self.columns(&law.product, law.constant, &mut columns)?;
-        let square = mean(columns[..width].iter().flatten().flatten().map(|x| x * x)).unwrap_or(0.0);
+        let columns = self.columns(&law.product, law.constant)?;
+        let square = mean(columns.iter().flatten().flatten().map(|x| x * x)).unwrap_or(0.0);
         Ok(if square > 0.0 { elongation / square.sqrt() } else { 1.0 })
     }
 

@@ -57,9 +57,18 @@ struct HeldOutErrors {
 impl Context<'_> {
     /// Fit and errors of every prefix of the additions.
     pub(crate) fn steps(&self, order: &[TermSpec]) -> Result<(Vec<Fit>, Vec<StepReport>), ModelError> {
+        self.steps_at(order, 0..=order.len())
+    }
+
+    /// The same of prefixes of so many additions each.
+    pub(crate) fn steps_at(
+        &self,
+        order: &[TermSpec],
+        counts: impl IntoIterator<Item = usize>,
+    ) -> Result<(Vec<Fit>, Vec<StepReport>), ModelError> {
         let (mut fits, mut steps) = (Vec::new(), Vec::new());
         let mut before: Option<HeldOutErrors> = None;
-        for n in 0..=order.len() {
+        for n in counts {
             let fitted = if n == 0 {
                 self.outcome.baseline.clone()
             } else {
@@ -184,6 +193,14 @@ impl Context<'_> {
         let left = leave_poses_out(self.campaign, &self.data.observations, terms, &fitted.point).ok()?;
         let chance = self.chance(left.misfit(fitted.lack_of_fit_dof));
         Some(HeldOutErrors { summary: summarise(&left.residuals, None), chance, foreseen: left.foreseen })
+    }
+
+    /// What a fit leaves of the readings fitted and, where a file of them is there, of those held out.
+    pub(crate) fn misfit(&self, fitted: &Fit) -> Result<Misfit, ModelError> {
+        let own = Misfit { chi2: fitted.lack_of_fit, numbers: fitted.lack_of_fit_dof };
+        let Some(holdout) = self.holdout else { return Ok(own) };
+        let held = Misfit::of(&held_campaign(self.campaign, holdout, fitted)?, fitted)?;
+        Ok(Misfit { chi2: own.chi2 + held.chi2, numbers: own.numbers + held.numbers })
     }
 
     /// Chance of a misfit, where the noise is known apart from what the model leaves.

@@ -167,6 +167,9 @@ impl Weighing<'_> {
         if written.as_ref().is_some_and(|w| self.needs_no_other_reading(w)) {
             return None;
         }
+        if written.as_ref().is_some_and(|w| !self.candidates().iter().any(|way| self.may_be_better(way, w))) {
+            return None;
+        }
         let (way, other) = self.best_machine()?;
         let as_written = match &written {
             None => AsWritten::Nothing,
@@ -217,6 +220,16 @@ impl Weighing<'_> {
         alike.iter().map(|way| finding(way, &alike, answered, share)).collect()
     }
 
+    /// True unless what springs leave of a reading with a size rules it out, whatever effects may do beside them.
+    fn may_be_better(&self, way: &Way, written: &Explained) -> bool {
+        !way.has_size() || way.level < SOUND_LEVEL || self.takes_most(way, written)
+    }
+
+    /// True for a reading that takes most of an error off which effects leave something.
+    fn takes_most(&self, way: &Way, written: &Explained) -> bool {
+        !written.is_noise && way.level < BETTER_SHARE * self.readings.level.unwrap_or(f64::INFINITY)
+    }
+
     fn is_better(&self, way: &Way, other: &Explained, written: &Explained) -> bool {
         // A size soaks up a little of anything, so it has to be better than what has no name as well.
         let written_cost = written.cost - if way.has_size() { written.patterns } else { 0.0 };
@@ -225,7 +238,7 @@ impl Weighing<'_> {
         let is_all = other.is_noise || other.level < SOUND_LEVEL;
         if way.has_size() {
             // It has to explain everything, and most of it without effects.
-            let beside_effects = gained && is_all && !written.is_noise && way.level < BETTER_SHARE * springs;
+            let beside_effects = gained && is_all && self.takes_most(way, written);
             let springs_alone = way.level < SOUND_LEVEL && other.springs_cost < written_cost - SIZE_GAIN;
             return beside_effects || springs_alone;
         }

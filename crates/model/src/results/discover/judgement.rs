@@ -17,13 +17,14 @@ use crate::results::next::RivalExplanation;
 /// Laws told.
 const MOST_TOLD: usize = 5;
 /// Ideas told where no law convinces.
-const IDEAS: usize = 3;
+pub(super) const IDEAS: usize = 3;
 /// Probability above which a law counts as one that these readings do not tell from the best.
 const ALIKE: f64 = 0.02;
-/// Share of the excess over the noise that a law has to take off the held-out error, at least, where some remains.
+/// Share of the excess over the noise that a single law has to take off the held-out error, at least, where some remains; a sum of laws
+/// that leaves something is a description, not what is at work.
 const MOST_OF_IT: f64 = 0.9;
-/// Chance of a held-out error as large as this below which something else is missing.
-const LEAST_CHANCE: f64 = 1e-3;
+/// Chance of an error as large as this below which something else is missing: so many right laws are passed over.
+const LEAST_CHANCE: f64 = 0.01;
 
 /// What is said of the laws.
 pub(super) struct Judged {
@@ -56,10 +57,12 @@ struct Weights<'a> {
 }
 
 impl Judged {
+    /// Judges the best proposal; where it convinces, tells those that look like it too, else `ideas` at most.
     pub(super) fn of(
         context: &Context<'_>,
         laws: &[LawTerm],
         source: &Source<'_>,
+        ideas: usize,
     ) -> Result<Self, ModelError> {
         let weights = Weights::of(context.outcome, laws);
         let mut judged = Self {
@@ -75,18 +78,29 @@ impl Judged {
         };
         let mut rivals = Vec::new();
         for (rank, (members, probability, set)) in weights.proposals.iter().take(MOST_TOLD).enumerate() {
+            let is_told = if judged.convinces { *probability >= ALIKE } else { rank < ideas.max(1) };
+            if !is_told {
+                break;
+            }
             let order = weights.order(set, context.outcome, laws);
-            let (fits, steps) = context.steps(&order)?;
-            let Some(fitted) = fits.last() else { continue };
             let beside = order.len() - members.len();
+            let (fits, steps) = if rank == 0 {
+                context.steps(&order)?
+            } else {
+                context.steps_at(&order, [beside, order.len()])?
+            };
+            let Some(fitted) = fits.last() else { continue };
             let mine: Vec<&LawTerm> = in_order(members, &order[beside..], laws);
             let sum = LawSum::fitted(mine, &fitted.point.active);
-            let report = report(rank + 1, &sum, *probability, fitted, &steps, beside);
             if rank == 0 {
-                judged.convinces = weights.of_laws >= NAMED && survives(&steps, beside, weights.of_laws);
-                judged.is_at_the_noise = steps.last().is_some_and(is_as_expected);
+                judged.is_at_the_noise = is_at_the_noise(context, fitted, steps.last());
+                let is_whole = judged.is_at_the_noise || (members.len() == 1 && takes_most(&steps));
+                judged.convinces =
+                    weights.of_laws >= NAMED && is_whole && agree(&steps[beside + 1..], weights.of_laws);
                 judged.beside = order[..beside].iter().map(|w| w.term.info().id.to_owned()).collect();
             }
+            let before = if rank == 0 { beside } else { 0 };
+            let report = report(rank + 1, &sum, *probability, fitted, &steps[before..], beside);
             if report.probability >= ALIKE && rivals.len() < MOST_RIVALS {
                 let (terms, weight) = (vec![report.id.clone()], report.probability);
                 rivals.push(RivalExplanation { terms, weight, fit: fitted.clone() });
@@ -111,13 +125,7 @@ impl Judged {
             reason: DiscoveryReason::Law,
             text: self.laws.first().map(|l| l.text.clone()).unwrap_or_default(),
             beside: self.beside.clone(),
-            laws: self
-                .laws
-                .iter()
-                .enumerate()
-                .filter(|(k, l)| *k == 0 || l.probability >= ALIKE)
-                .map(|l| l.1.clone())
-                .collect(),
+            laws: self.laws.clone(),
             steps: self.steps.clone(),
             probability: self.probability,
             next: self.next.readings.clone(),
@@ -129,7 +137,7 @@ impl Judged {
     /// What the laws come to where none convinces.
     pub(super) fn ideas(&self, template: Discovery) -> Discovery {
         let is_open = template.reason == DiscoveryReason::NoLawConvinces;
-        let laws = self.laws.iter().take(if is_open { IDEAS } else { 0 }).cloned().collect();
+        let laws = if is_open { self.laws.clone() } else { Vec::new() };
         Discovery { laws, probability: self.probability, ..template }
     }
 }
@@ -185,24 +193,31 @@ fn in_order<'a>(members: &Members, order: &[TermSpec], laws: &'a [LawTerm]) -> V
     sorted.into_iter().map(|k| &laws[k]).collect()
 }
 
-/// True when held-out poses agree with every law, and the laws take most of what was left.
-fn survives(steps: &[StepReport], beside: usize, probability: f64) -> bool {
-    let of_laws = &steps[(beside + 1).min(steps.len())..];
-    let agree = of_laws.iter().all(|step| {
+/// True when held-out poses agree with every law; `of_laws`: the steps that add one each.
+fn agree(of_laws: &[StepReport], probability: f64) -> bool {
+    of_laws.iter().all(|step| {
         step.gain.is_none_or(|gain| gain.leaves_sure(probability))
             && step.worth.is_none_or(|worth| !worth.is_small())
-    });
+    })
+}
+
+/// True when a model takes most of what is above the noise off the held-out error of the springs.
+fn takes_most(steps: &[StepReport]) -> bool {
     let (Some(first), Some(last)) = (steps.first(), steps.last()) else { return false };
     let excess = |step: &StepReport| (step.error().chi2_reduced - 1.0).max(0.0);
-    let taken = 1.0 - excess(last) / excess(first).max(f64::MIN_POSITIVE);
-    agree && (is_as_expected(last) || taken >= MOST_OF_IT)
+    1.0 - excess(last) / excess(first).max(f64::MIN_POSITIVE) >= MOST_OF_IT
 }
 
-/// True when a held-out error is one that the model, noise and tolerances allow.
-fn is_as_expected(step: &StepReport) -> bool {
-    step.chance.map_or_else(|| step.is_at_the_noise(), |chance| chance > LEAST_CHANCE)
+/// True when all that a model leaves, in the readings fitted and in those held out, is what noise and tolerances allow. Both are asked
+/// together: what is no law of the machine may follow the ones or the others, and hardly both.
+fn is_at_the_noise(context: &Context<'_>, fitted: &Fit, last: Option<&StepReport>) -> bool {
+    let level = context.campaign.noise_level();
+    let chance = || Some(context.misfit(fitted).ok()?.chance(level).ok()? > LEAST_CHANCE);
+    let known = context.campaign.noise.allows_verdict().then(chance).flatten();
+    known.unwrap_or_else(|| last.is_some_and(StepReport::is_at_the_noise))
 }
 
+/// `steps`: without the laws, and with them, at the ends.
 fn report(
     number: usize,
     sum: &LawSum<'_>,
@@ -212,7 +227,7 @@ fn report(
     beside: usize,
 ) -> LawReport {
     let error = |step: &StepReport| step.error().times_noise();
-    let ends = steps.get(beside).zip(steps.last());
+    let ends = steps.first().zip(steps.last());
     LawReport {
         id: format!("law-{number}"),
         term: sum.id(),

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use hexbench_core::{Dataset, Hexapod};
 use serde::Serialize;
 
-use self::judgement::Judged;
+use self::judgement::{IDEAS, Judged};
 pub use self::report::{AllLegs, Discovery, HeldOutFall, LawLegs, LawReport};
 use self::search::{Searched, search};
 use crate::effects::term::Term;
@@ -67,6 +67,11 @@ impl DiscoveryStudy {
     /// The best law as a term file; none where no law was found, so that nobody takes an idea for a finding.
     pub fn term_file(&self) -> Option<&str> {
         self.term_files.first().map(String::as_str)
+    }
+
+    /// What competes in a diagnosis that shows the law at work: `terms` and the law, where one was found.
+    pub fn competing(&self, terms: &[Arc<dyn Term>]) -> Vec<Arc<dyn Term>> {
+        terms.iter().cloned().chain(self.law().ok().flatten()).collect()
     }
 
     /// The law as a term, where one was found.
@@ -230,7 +235,8 @@ impl Attempts<'_> {
             return Ok(None);
         }
         let outcome = explain(&campaign, self.terms)?;
-        self.searched(&data, &campaign, &outcome).map(Some)
+        // Taken up only where it convinces.
+        self.searched(&data, &campaign, &outcome, 0).map(Some)
     }
 
     /// As the diagnosis left them.
@@ -239,8 +245,9 @@ impl Attempts<'_> {
         if matches!(verdict, Verdict::Adequate | Verdict::Measurement | Verdict::Undecided) {
             return Ok(None);
         }
-        let DiagnosisStudy { data, campaign, outcome, .. } = self.diagnosis;
-        self.searched(data, campaign, outcome).map(Some)
+        let DiagnosisStudy { data, campaign, outcome, diagnosis, .. } = self.diagnosis;
+        let ideas = if reason(diagnosis).0 == DiscoveryReason::NoLawConvinces { IDEAS } else { 0 };
+        self.searched(data, campaign, outcome, ideas).map(Some)
     }
 
     fn searched(
@@ -248,9 +255,10 @@ impl Attempts<'_> {
         data: &Dataset,
         campaign: &Campaign,
         outcome: &RankedSets,
+        ideas: usize,
     ) -> Result<Attempt, ModelError> {
         let Searched { outcome, laws, tried } = search(campaign, outcome, self.terms, self.watch)?;
-        let judged = self.judged(data, campaign, &outcome, &laws)?;
+        let judged = self.judged(data, campaign, &outcome, &laws, ideas)?;
         Ok(Attempt { outcome, laws, judged, tried })
     }
 
@@ -260,9 +268,10 @@ impl Attempts<'_> {
         campaign: &Campaign,
         outcome: &RankedSets,
         laws: &[LawTerm],
+        ideas: usize,
     ) -> Result<Judged, ModelError> {
         let context = Context { hexapod: self.machine(), data, holdout: self.held_out(), campaign, outcome };
-        Judged::of(&context, laws, &Source { data })
+        Judged::of(&context, laws, &Source { data }, ideas)
     }
 
     fn machine(&self) -> &Hexapod {

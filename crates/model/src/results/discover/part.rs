@@ -59,7 +59,7 @@ fn in_all(attempts: &Attempts<'_>, data: &Dataset, attempt: Attempt) -> Option<A
     let campaign = prepare(attempts.machine(), meant).ok()?;
     let baseline = fit(&campaign, &[], Some(&attempt.outcome.baseline.point)).ok()?;
     let outcome = RankedSets { baseline, ..attempt.outcome };
-    let judged = attempts.judged(meant, &campaign, &outcome, &attempt.laws).ok()?;
+    let judged = attempts.judged(meant, &campaign, &outcome, &attempt.laws, 0).ok()?;
     let explains = judged.convinces
         && judged.is_at_the_noise
         && judged.fits.last().is_some_and(|all| campaign.noise.allows_verdict() && !does_not_fit(all));

@@ -2,9 +2,11 @@
 import { digits } from "../format";
 import { Said } from "../page/said";
 import type { Diagnosed } from "../wire";
+import { Discovery } from "./discovery";
 import type { BenchProps } from "./screen";
 
-export function DiagnosisSheet({ store, bench, state }: BenchProps) {
+export function DiagnosisSheet(props: BenchProps) {
+  const { store, bench, state } = props;
   const { diagnosed } = bench;
   const running = state.busy.includes("diagnosing");
   return (
@@ -22,6 +24,7 @@ export function DiagnosisSheet({ store, bench, state }: BenchProps) {
       {diagnosed && diagnosed.own.join() !== bench.wanted.own.join() && (
         <p class="hint">Your formulas have changed since: diagnose again to weigh them.</p>
       )}
+      {diagnosed?.answer.word === "outside" && <Discovery {...props} />}
       {diagnosed && <Answer answer={diagnosed.answer} tick={(ids) => store.tickNamed(ids)} />}
     </>
   );
