@@ -273,7 +273,7 @@ fn from_columns(rows: &[Observation]) -> Noise {
 pub fn scatter(rows: &[Observation], axes: &ReadingAxes) -> RepeatScatter {
     let mut groups: HashMap<([u64; 20], Vec<u64>), [Welford; 6]> = HashMap::new();
     for (row, sequence) in rows.iter().zip(LoadSequence::of_all(rows)) {
-        let group = groups.entry((key(row), sequence.map_or_else(Vec::new, loads_of))).or_default();
+        let group = groups.entry((key(row), loads_of(sequence.as_ref()))).or_default();
         group.iter_mut().zip(axes.continuous(&row.measured)).for_each(|(all, x)| all.add(x));
     }
     let mut sums = [0.0; 6];
@@ -290,9 +290,10 @@ pub fn scatter(rows: &[Observation], axes: &ReadingAxes) -> RepeatScatter {
     RepeatScatter { variance_translation: pooled(0..3), variance_rotation: pooled(3..6), dof: 3.0 * dof }
 }
 
-/// The loads of a sequence, bit by bit.
-fn loads_of(sequence: LoadSequence) -> Vec<u64> {
-    let numbers = sequence.past.iter().flat_map(|load| load.wrench.to_array());
+/// The loads of a sequence, bit by bit; none of no sequence.
+fn loads_of(sequence: Option<&LoadSequence>) -> Vec<u64> {
+    let past = sequence.map_or(&[][..], |sequence| &sequence.past);
+    let numbers = past.iter().flat_map(|load| load.wrench.to_array());
     numbers.map(|x| (x + 0.0).to_bits()).collect()
 }
 

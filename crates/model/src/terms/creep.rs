@@ -117,9 +117,13 @@ impl Creep {
             yields[side] += (forces - carried) * growth(put_on);
             carried = forces;
         };
-        before.iter().for_each(|state| change(0, state.spring_forces, state.load.put_on));
+        for state in before {
+            change(0, state.spring_forces, state.load.put_on);
+        }
         change(0, at.spring_forces[0], at.reference_age.map(|age| -age));
-        since.iter().for_each(|state| change(1, state.spring_forces, state.load.put_on));
+        for state in since {
+            change(1, state.spring_forces, state.load.put_on);
+        }
         change(1, at.spring_forces[1], Some(at.put_on));
         yields
     }
