@@ -96,7 +96,8 @@ class Campaign:
         ref_record : array (n,), optional
             Number of the reference reading that a row was taken against; rows with one number share its error.
         order : array (n,), optional
-            Place in the sequence in which the loads were put on: readings at one pose that follow each other are one way of loads.
+            Place in the sequence in which the loads were put on: readings at one pose that follow each other
+            are one way of loads.
         sigma : array (n, 6), optional
             Standard deviation of each measured value, um and urad.
         pose, repeat : array (n,), optional
