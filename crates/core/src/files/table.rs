@@ -10,7 +10,7 @@ use super::row::{FilledRow, no_sigma};
 use super::source::Noticed;
 use super::warning::Notice;
 use super::{FilePlace, FileProblem, Warning};
-use crate::load_path::doubled_order;
+use crate::load_sequence::doubled_order;
 use crate::{Dataset, LoadSequences, Measurand, Observation};
 
 /// A table as read, and what the reader noticed on the way.
