@@ -51,6 +51,19 @@ fn the_page_for_a_browser_shows_the_law_through_the_residuals() {
     }
 }
 
+/// On a machine of nearly equal legs a law of all legs fits as well as the creep that is hidden.
+#[test]
+fn an_effect_of_the_catalogue_that_does_as_well_as_a_law_wins() {
+    let folder = tempfile::tempdir().unwrap();
+    let bench = folder.path().join("bench");
+    text(
+        hexbench().arg("simulate").arg(root().join("scenes/granite")).arg("-o").arg(&bench).output().unwrap(),
+    );
+    let files = ["discover", "hexapod.toml", "measurements.csv", "--holdout", "holdout.csv"];
+    let page = text(hexbench().current_dir(&bench).args(files).output().unwrap());
+    assert!(page.contains("NO LAW NEEDED") && page.contains("The catalogue explains it: creep."), "{page}");
+}
+
 #[test]
 fn without_a_law_no_term_file_is_written_and_the_page_says_so() {
     let folder = tempfile::tempdir().unwrap();

@@ -24,6 +24,7 @@ use crate::effects::user_term::{self, UserTermError};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::Fit;
+use crate::estimation::fit_named::{Added, fit_wanted};
 use crate::inference::diagnosis::{RankedSets, explain};
 use crate::inference::discovery::LawTerm;
 use crate::inference::selection::HeldOut;
@@ -247,7 +248,25 @@ impl Attempts<'_> {
         }
         let DiagnosisStudy { data, campaign, outcome, diagnosis, .. } = self.diagnosis;
         let ideas = if reason(diagnosis).0 == DiscoveryReason::NoLawConvinces { IDEAS } else { 0 };
-        self.searched(data, campaign, outcome, ideas).map(Some)
+        let attempt = self.searched(data, campaign, outcome, ideas)?;
+        Ok(Some(attempt).filter(|attempt| verdict != Verdict::Named || self.beats_the_effect(attempt)))
+    }
+
+    /// True when a law fits the readings better than the one effect that the diagnosis names, every parameter charged `ln n` (Schwarz
+    /// 1978), by more than the best of `N` laws would by chance, `2 ln N` in chi-square: an effect of the catalogue that does as well wins.
+    /// Several effects in the place of one law are no such effect.
+    fn beats_the_effect(&self, attempt: &Attempt) -> bool {
+        let DiagnosisStudy { campaign, diagnosis, fits, .. } = self.diagnosis;
+        if diagnosis.added.len() > 1 {
+            return true;
+        }
+        let numbers = campaign.numbers.max(1) as f64;
+        let cost = |fit: Option<&Fit>| fit.map_or(f64::INFINITY, |fit| fit.chi2 - fit.dof * numbers.ln());
+        let named = diagnosis.added.iter().map(|id| Added::named(id, self.terms));
+        // A richer form may have more parameters than these readings ask for.
+        let plain = named.collect::<Result<Vec<_>, _>>().and_then(|all| fit_wanted(campaign, &all)).ok();
+        let catalogue = cost(fits.last()).min(cost(plain.as_ref().map(|(_, fit)| fit)));
+        cost(attempt.judged.fits.last()) + 2.0 * (attempt.tried.max(1) as f64).ln() < catalogue
     }
 
     fn searched(
