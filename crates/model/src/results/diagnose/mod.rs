@@ -171,6 +171,7 @@ pub fn diagnose_with(
         sensors,
         suspects: suspects(&rows, &data),
         outside: outside(&judgement, &outcome),
+        law: None,
         remainder,
         warnings: warnings(&campaign, &data, last, &judgement).into_iter().chain(unknown).collect(),
         findings,

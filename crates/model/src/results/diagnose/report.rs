@@ -21,6 +21,7 @@ use crate::inference::power::Detectable;
 use crate::inference::selection::HeldOut;
 use crate::inference::verdict::Verdict;
 use crate::results::compare::coordinates::Coordinate;
+use crate::results::discover::LawReport;
 
 /// Result of `diagnose`.
 #[derive(Debug, Clone, Serialize)]
@@ -77,6 +78,10 @@ pub struct Diagnosis {
     pub suspects: Vec<SuspiciousReading>,
     /// The unexplained pattern.
     pub outside: Option<OutsideReport>,
+    /// The law behind it, where one was searched for and convinces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "typescript", ts(skip))]
+    pub law: Option<LawReport>,
     /// What the fitted model leaves of the legs beyond the noise; absent where noise explains it, and where full poses were not read.
     pub remainder: Option<RemainderReport>,
     /// Things to know before trusting the numbers.
