@@ -152,11 +152,7 @@ pub fn diagnose_with(
             None
         },
         holdout: if holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn },
-        noise: NoiseReport {
-            translation_um: campaign.noise.translation * 1e6,
-            rotation_urad: campaign.noise.rotation * 1e6,
-            source: campaign.noise.source,
-        },
+        noise: NoiseReport::of(&campaign.noise),
         parameters: numbers.determined,
         not_determined: numbers.not_determined,
         untestable: outcome.untestable.clone(),

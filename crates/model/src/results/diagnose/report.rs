@@ -10,7 +10,7 @@ use super::nested::NestedReport;
 use super::remainder::RemainderReport;
 use crate::effects::untestable::Untestable;
 use crate::estimation::estimate::Estimate;
-use crate::estimation::noise::NoiseSource;
+use crate::estimation::noise::{Noise, NoiseSource};
 use crate::estimation::parameters::stiffness_name;
 use crate::estimation::residuals::ErrorSummary;
 use crate::inference::examination::{Finding, is_misread};
@@ -167,6 +167,17 @@ pub struct NoiseReport {
     /// Where it comes from.
     #[cfg_attr(feature = "typescript", ts(as = "String"))]
     pub source: NoiseSource,
+}
+
+impl NoiseReport {
+    /// The same in um and urad.
+    pub fn of(noise: &Noise) -> Self {
+        Self {
+            translation_um: noise.translation * 1e6,
+            rotation_urad: noise.rotation * 1e6,
+            source: noise.source,
+        }
+    }
 }
 
 /// A proposed reading.
