@@ -35,16 +35,16 @@ pub struct TermEntry<'a> {
     /// What to vary to see it alone.
     pub breaker: &'a str,
     /// Parameters of the ideal form.
-    pub parameters: Vec<Quantity<'a>>,
+    pub parameters: Vec<TermNumber<'a>>,
     /// Shape parameter, where there is one.
-    pub shape: Option<Quantity<'a>>,
+    pub shape: Option<TermNumber<'a>>,
     /// What it cannot do without: `absolute`, `approach`, `delta-T`, `elapsed`, `brackets`, `loads`.
     pub needs: Vec<&'static str>,
 }
 
 /// A number of a term.
 #[derive(Debug, Clone, Serialize)]
-pub struct Quantity<'a> {
+pub struct TermNumber<'a> {
     /// Name below the id of the term.
     pub name: &'a str,
     /// Unit.
@@ -70,8 +70,8 @@ impl<'a> TermEntry<'a> {
             source: info.source,
             shows: info.shows,
             breaker: info.how_to_isolate,
-            parameters: info.parameters.iter().map(|p| Quantity { name: p.name, unit: p.unit }).collect(),
-            shape: info.shape.map(|shape| Quantity { name: shape.name, unit: shape.unit }),
+            parameters: info.parameters.iter().map(|p| TermNumber { name: p.name, unit: p.unit }).collect(),
+            shape: info.shape.map(|shape| TermNumber { name: shape.name, unit: shape.unit }),
             needs: info.needs.iter().map(|need| word(*need)).collect(),
         }
     }
