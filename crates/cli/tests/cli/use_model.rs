@@ -80,7 +80,9 @@ fn gauges_are_predicted_in_their_unit_beside_the_pose() {
         serde_json::from_slice(&std::fs::read(file("bench/sealed/truth.json")).unwrap()).unwrap();
     let mut fit = vec!["fit", &hexapod, &data, "-o", &model];
     let effects = truth["effects"].as_array().unwrap();
-    effects.iter().for_each(|id| fit.extend(["--add", id.as_str().unwrap()]));
+    for id in effects {
+        fit.extend(["--add", id.as_str().unwrap()]);
+    }
     assert_eq!(run(&fit).status.code(), Some(0));
     let predicted = text(&run(&["predict", &model, &holdout]).stdout);
     let read = std::fs::read_to_string(&holdout).unwrap();
