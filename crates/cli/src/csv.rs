@@ -94,6 +94,11 @@ pub(crate) fn values(si: &[f64; 6], units: [Unit; 2]) -> Vec<String> {
     si.iter().enumerate().map(|(k, value)| units[k / 3].text(*value)).collect()
 }
 
+/// Any results in um (m) or urad (rad).
+pub(crate) fn micro(si: impl IntoIterator<Item = f64>) -> impl Iterator<Item = String> {
+    si.into_iter().map(|value| Unit::Um.text(value))
+}
+
 /// Columns of the correlations of six numbers, `x_corr_FIRST_SECOND`.
 pub(crate) fn correlation_names(numbers: &[&str; 6]) -> Vec<String> {
     pairs().map(|(i, j)| format!("x_corr_{}_{}", numbers[i], numbers[j])).collect()

@@ -53,9 +53,7 @@ impl States {
             csv::conditions_header(&dataset).into_iter().chain(["part", "model"]).map(str::to_owned);
         let forces = (1..=6).map(|leg| format!("force_{leg}_N"));
         let channels = Channel::all([], &hexapod.sensors);
-        let unit = |c: &Channel| if c.is_angle(&hexapod.sensors) { "urad" } else { "um" };
-        let read =
-            channels.iter().map(|c| format!("{}_{}", c.name(&hexapod.sensors, dataset.measurand), unit(c)));
+        let read = channels.iter().map(|c| c.column(&hexapod.sensors, dataset.measurand));
         let mut text = CsvText::new(conditions.chain(pose).chain(forces).chain(read));
         for state in &self.rows {
             let what = [name(state.part).to_owned(), state.model.clone()];

@@ -204,6 +204,12 @@ impl Channel {
         }
     }
 
+    /// Name of its column with the unit of files, um or urad.
+    pub fn column(self, sensors: &[Sensor], measurand: Measurand) -> String {
+        let unit = if self.is_angle(sensors) { "urad" } else { "um" };
+        format!("{}_{unit}", self.name(sensors, measurand))
+    }
+
     /// Standard deviation that the machine states for it, m or rad.
     pub fn stated_sigma(self, sensors: &[Sensor], metrology: Option<Metrology>) -> Option<f64> {
         match self {

@@ -3,7 +3,7 @@
 pub use hexbench_core::files::{read_conditions, read_hexapod, read_measurements};
 pub use hexbench_core::{Dataset, Hexapod, Observation, Pose, Wrench};
 pub use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
-pub use hexbench_model::application::predict::{Prediction, predict};
+pub use hexbench_model::application::predict::{Prediction, SensorPrediction, predict, predict_sensors};
 pub use hexbench_model::effects::term::Term;
 pub use hexbench_model::estimation::campaign::Campaign;
 pub use hexbench_model::estimation::estimate::{Estimate, estimates};

@@ -6,12 +6,15 @@ use std::sync::Arc;
 use hexbench_app::fit::{added, fitted, model as kept};
 use hexbench_app::{Failure, input};
 use hexbench_model::application::model_file::{Estimator, Model};
-use hexbench_model::application::predict::predict_with_covariance;
+use hexbench_model::application::predict::{
+    PredictError, SensorPrediction, predict_sensors, predict_with_covariance,
+};
 use hexbench_model::estimation::estimate::{Estimates, estimates_of};
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare_to_fit;
 use hexbench_report::render::plain;
 use hexbench_report::words;
+use nalgebra::DMatrix;
 use numpy::{PyArray2, PyArray3};
 use pyo3::prelude::*;
 
@@ -68,12 +71,7 @@ impl PyModel {
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
         let data = conditions(py, names, &columns, "poses")?;
         let model = Arc::clone(&self.model);
-        let found = beside(py, move || {
-            predict_with_covariance(&model, &data.observations).map_err(|wrong| {
-                let row = wrong.line.saturating_sub(2);
-                Failure::MemoryRow { table: "poses".into(), row, cause: Box::new(wrong.cause) }
-            })
-        })?;
+        let found = beside(py, move || predict_with_covariance(&model, &data.observations).map_err(of_row))?;
         let absolute = self.model.is_absolute();
         let value = |x: [f64; 6]| -> [f64; 6] {
             std::array::from_fn(|k| match (absolute, k < 3) {
@@ -84,6 +82,31 @@ impl PyModel {
         };
         let values = rows(py, found.iter().map(|(reading, _)| value(reading.value)));
         Ok((values, matrices(py, found.len(), |n, i, j| found[n].1[(i, j)] * 1e12)))
+    }
+
+    /// Values and standard uncertainties (n, m) of what the sensors read under conditions given as columns, um and urad.
+    #[expect(clippy::type_complexity, reason = "two arrays")]
+    fn predict_sensors<'py>(
+        &self,
+        py: Python<'py>,
+        names: Vec<String>,
+        columns: Vec<Bound<'py, PyAny>>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let data = conditions(py, names, &columns, "poses")?;
+        let model = Arc::clone(&self.model);
+        let found = beside(py, move || predict_sensors(&model, &data.observations).map_err(of_row))?;
+        let shape = (found.len(), self.model.sensor_channels().len());
+        let array = |of: fn(&SensorPrediction) -> f64| {
+            matrix(py, &DMatrix::from_fn(shape.0, shape.1, |n, k| of(&found[n][k]) * 1e6))
+        };
+        Ok((array(|read| read.value), array(|read| read.sigma)))
+    }
+
+    /// Names of the columns that the sensors of the machine fill, with units.
+    #[getter]
+    fn sensor_columns(&self) -> Vec<String> {
+        let sensors = &self.model.hexapod.sensors;
+        self.model.sensor_channels().iter().map(|c| c.column(sensors, self.model.measurand)).collect()
     }
 
     /// Names of parameters without a number.
@@ -161,6 +184,12 @@ impl PyModel {
         let estimates = estimates_of(&model);
         Self { model: Arc::new(model), estimates, summary }
     }
+}
+
+/// The failure of a row in memory.
+fn of_row(wrong: PredictError) -> Failure {
+    let row = wrong.line.saturating_sub(2);
+    Failure::MemoryRow { table: "poses".into(), row, cause: Box::new(wrong.cause) }
 }
 
 /// Fit springs and the terms that are named.

@@ -126,6 +126,26 @@ def _same_predictions(model: hexbench.Model, rows: Path, command: Command, path:
     assert np.array_equal(model.predict(held.poses, held.wrenches, **more), values)
 
 
+def test_predicted_sensors_are_those_of_the_command(command: Command, tmp_path: Path) -> None:
+    bench, path = tmp_path / "bench", tmp_path / "model.toml"
+    command("simulate", ROOT / "scenes" / "granite", "-o", bench)
+    campaign = hexbench.load(bench / "hexapod.toml", bench / "measurements.csv")
+    model = hexbench.fit(campaign)
+    model.save(path)
+    command("predict", path, bench / "measurements.csv", "-o", tmp_path / "predicted.csv")
+    expected = pd.read_csv(tmp_path / "predicted.csv")
+    columns = campaign.to_columns()
+    more = {key: columns[key] for key in ("approach", "delta_T_K", "elapsed_s") if key in columns}
+    if "ref_fx_N" in columns:
+        more["reference"] = np.column_stack([columns[n] for n in columns if n.startswith(("ref_f", "ref_m"))])
+    values, stds = model.predict_sensors(campaign.poses, campaign.wrenches, **more)
+    assert model.sensor_columns == ["z1_um", "z2_um", "z3_um", "t1_um", "t2_um", "t3_um"]
+    assert np.all(np.abs(values - expected[model.sensor_columns].to_numpy()) <= 0.51e-6)
+    assert np.all(np.abs(stds - expected[[f"sigma_{n}" for n in model.sensor_columns]].to_numpy()) <= 0.51e-6)
+    nothing = np.empty((0, 6))
+    assert [part.shape for part in model.predict_sensors(nothing, nothing)] == [(0, 6), (0, 6)]
+
+
 def test_parameters_and_covariance_belong_together() -> None:
     hexapod, data, _ = case("mujoco-foundation")
     model = hexbench.fit(hexbench.load(hexapod, data), ["base-compliance"])

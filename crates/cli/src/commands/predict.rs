@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use clap::Args;
 use hexbench_core::Measurand;
 use hexbench_core::files::CsvText;
-use hexbench_model::application::predict::predict;
+use hexbench_model::application::predict::{PredictError, predict, predict_sensors};
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
 use crate::output::Screen;
 
-/// Predict deflections (or absolute poses) with their uncertainty
+/// Predict deflections (or absolute poses) and what the sensors of the machine read, with their uncertainty
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
@@ -30,17 +30,23 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let model = input::model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses, &arguments.names)?;
-    let predictions = predict(&model, &rows.observations)
-        .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) })?;
+    let failed = |cause: PredictError| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) };
+    let predictions = predict(&model, &rows.observations).map_err(failed)?;
+    let readings = predict_sensors(&model, &rows.observations).map_err(failed)?;
     let units = if model.is_absolute() { [Unit::Mm, Unit::Deg] } else { [Unit::Um, Unit::Urad] };
     let names = names(model.measurand);
     let small = [Unit::Um, Unit::Urad];
     let (values, sigmas) = (csv::names("", &names, units), csv::names("sigma_", &sigma_names(&names), small));
     let conditions = csv::conditions_header(&rows).into_iter().map(str::to_owned);
-    let mut text = CsvText::new(conditions.chain(values).chain(sigmas));
-    for (row, p) in rows.observations.iter().zip(&predictions) {
+    let channels = model.sensor_channels();
+    let sensors = channels.iter().map(|c| c.column(&model.hexapod.sensors, model.measurand));
+    let of_sensors = sensors.clone().chain(sensors.map(|name| format!("sigma_{name}")));
+    let mut text = CsvText::new(conditions.chain(values).chain(sigmas).chain(of_sensors));
+    for ((row, p), read) in rows.observations.iter().zip(&predictions).zip(&readings) {
         let (values, sigmas) = (csv::values(&p.value, units), csv::values(&p.sigma, small));
-        text.row(csv::condition(&rows, row).into_iter().chain(values).chain(sigmas));
+        let of_sensors =
+            csv::micro(read.iter().map(|r| r.value)).chain(csv::micro(read.iter().map(|r| r.sigma)));
+        text.row(csv::condition(&rows, row).into_iter().chain(values).chain(sigmas).chain(of_sensors));
     }
     screen.write_to(&arguments.output, &text.into_text())
 }

@@ -68,6 +68,42 @@ fn a_saved_model_predicts_its_holdout_and_finds_commands() {
 }
 
 #[test]
+fn gauges_are_predicted_in_their_unit_beside_the_pose() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let scene: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../scenes/granite"].iter().collect();
+    crate::scenes::simulate(&scene, &folder.path().join("bench"), &[]);
+    let [hexapod, data, holdout] =
+        ["hexapod.toml", "measurements.csv", "holdout.csv"].map(|name| file(&format!("bench/{name}")));
+    let model = file("model.toml");
+    let truth: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(file("bench/sealed/truth.json")).unwrap()).unwrap();
+    let mut fit = vec!["fit", &hexapod, &data, "-o", &model];
+    let effects = truth["effects"].as_array().unwrap();
+    for id in effects {
+        fit.extend(["--add", id.as_str().unwrap()]);
+    }
+    assert_eq!(run(&fit).status.code(), Some(0));
+    let predicted = text(&run(&["predict", &model, &holdout]).stdout);
+    let read = std::fs::read_to_string(&holdout).unwrap();
+    let column = |table: &str, name: &str| -> Vec<f64> {
+        let k = table.lines().next().unwrap().split(',').position(|n| n == name).expect(name);
+        table.lines().skip(1).map(|line| line.split(',').nth(k).unwrap().parse().unwrap()).collect()
+    };
+    assert_eq!(column(&predicted, "da_um").len(), column(&read, "z1_um").len());
+    let mut squares = Vec::new();
+    for name in ["z1_um", "z2_um", "z3_um", "t1_um", "t2_um", "t3_um"] {
+        let sigmas = column(&predicted, &format!("sigma_{name}"));
+        let both = column(&predicted, name).into_iter().zip(column(&read, name));
+        // The gauges scatter by 0.2 um.
+        squares.extend(both.zip(sigmas).map(|((p, x), s)| (x - p).powi(2) / (s.powi(2) + 0.04)));
+    }
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    let slack = 4.0 * (2.0 / squares.len() as f64).sqrt();
+    assert!((mean - 1.0).abs() < slack, "{mean} of {}", squares.len());
+}
+
+#[test]
 fn what_was_compensated_and_predicted_again_lands_on_the_wanted_pose() {
     let folder = tempfile::tempdir().unwrap();
     let model = saved_model(folder.path());

@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::sensor_columns::usual_names;
 use super::write_measurements::{
     MeasurementsWriter, conditions_to_columns, measurements_to_columns, measurements_to_csv, write_number,
 };
@@ -94,18 +93,15 @@ fn is_same(one: f64, other: f64) -> bool {
 
 impl Written {
     fn name(&self, hexapod: &Hexapod, dataset: &Dataset) -> String {
-        let unit = if self.channel.is_angle(&hexapod.sensors) { "urad" } else { "um" };
-        match (self.channel, self.is_sigma) {
-            (Channel::Sensor { sensor, number }, false) => {
-                usual_names(&hexapod.sensors[sensor])[number].clone()
+        let sensors = &hexapod.sensors;
+        let column = self.channel.column(sensors, dataset.measurand);
+        match self.channel {
+            Channel::Sensor { sensor, .. } if self.is_sigma => {
+                let unit = if self.channel.is_angle(sensors) { "urad" } else { "um" };
+                format!("{}_sigma_{unit}", sensors[sensor].name)
             }
-            (Channel::Sensor { sensor, .. }, true) => {
-                format!("{}_sigma_{unit}", hexapod.sensors[sensor].name)
-            }
-            (channel, is_sigma) => {
-                let name = channel.name(&hexapod.sensors, dataset.measurand);
-                format!("{}{name}_{unit}", if is_sigma { "sigma_" } else { "" })
-            }
+            _ if self.is_sigma => format!("sigma_{column}"),
+            _ => column,
         }
     }
 

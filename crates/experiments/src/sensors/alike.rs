@@ -56,9 +56,8 @@ pub struct AlikeRecord {
 }
 
 impl AlikeAnswer {
-    fn of(mut case: SimulatedCase, way: AlikeReadings, gaps: bool) -> Result<Self, TrialError> {
-        case.read_alike(way, gaps)?;
-        let trial = Trial::run(&case)?;
+    fn of(case: &SimulatedCase) -> Result<Self, TrialError> {
+        let trial = Trial::run(case)?;
         let d = &trial.study.diagnosis;
         let stiffness = |leg: usize| {
             let estimate = d.parameters.iter().find(|p| p.name == stiffness_name(leg))?;
@@ -85,15 +84,12 @@ impl AlikeAnswer {
 
 impl AlikeRecord {
     fn of(protocol: &AlikeProtocol, number: u64) -> Result<Self, TrialError> {
-        let (kind, index) = AlikeProtocol::job(number);
-        let distance = (kind == CaseKind::Single).then_some([DISTANCE; 2]);
-        let drawn = || SimulatedCase::draw(kind, index, protocol.seed, distance);
-        let answer = |way, gaps| AlikeAnswer::of(drawn()?, way, gaps);
+        let answer = |way, gaps| AlikeAnswer::of(&protocol.read(number, way, gaps)?);
         let all = |gaps| -> Result<[AlikeAnswer; 3], TrialError> {
             let [a, b, c] = AlikeReadings::ALL;
             Ok([answer(a, gaps)?, answer(b, gaps)?, answer(c, gaps)?])
         };
-        let case = drawn()?;
+        let case = protocol.drawn(number)?;
         Ok(Self {
             hidden: case.spec.hidden_effects(),
             true_stiffness: case.campaign.world.leg_compliance.map(|c| 1e-6 / c),
@@ -138,6 +134,34 @@ impl AlikeProtocol {
         let [kind, index] = if with_effect { [1, before] } else { [0, number - before] };
         let kind = if kind == 1 { CaseKind::Single } else { CaseKind::Clean };
         (kind, usize::try_from(index).unwrap_or(usize::MAX))
+    }
+
+    /// A campaign in full poses.
+    fn drawn(&self, number: u64) -> Result<SimulatedCase, TrialError> {
+        let (kind, index) = Self::job(number);
+        let distance = (kind == CaseKind::Single).then_some([DISTANCE; 2]);
+        Ok(SimulatedCase::draw(kind, index, self.seed, distance)?)
+    }
+
+    /// The same read in one of the ways, whole or with empty cells.
+    fn read(&self, number: u64, way: AlikeReadings, gaps: bool) -> Result<SimulatedCase, TrialError> {
+        let mut case = self.drawn(number)?;
+        case.read_alike(way, gaps)?;
+        Ok(case)
+    }
+
+    /// The campaign of one trial by its name, such as `alike/clean-0003`, as its files are written in every way in which it is read, each
+    /// with a name of its own, such as `six-distances-gaps`; none of a name that is no trial.
+    pub fn cases(&self, name: &str) -> Option<Result<Vec<(String, SimulatedCase)>, TrialError>> {
+        let number = (0..self.campaigns).find(|&number| harness::Protocol::name(self, number) == name)?;
+        let ways = [(false, ""), (true, "-gaps")]
+            .into_iter()
+            .flat_map(|gaps| AlikeReadings::ALL.map(|way| (way, gaps)));
+        let read = |(way, (gaps, end)): (AlikeReadings, (bool, &str))| {
+            let name = format!("{}{end}", way.words().replace(' ', "-"));
+            Ok((name, self.read(number, way, gaps)?))
+        };
+        Some(ways.map(read).collect())
     }
 }
 

@@ -61,3 +61,21 @@ fn a_trial_is_found_by_its_name() {
     assert_eq!(case.measurements.observations, sound.measurements.observations);
     assert!(protocol.case("sensor-place/scales-clean-0000").is_none());
 }
+
+#[test]
+fn every_trial_of_alike_readings_is_found_by_the_name_of_its_table() {
+    let protocol = AlikeProtocol { seed: SEED, campaigns: 5 };
+    for number in 0..harness::Protocol::trials(&protocol) {
+        let name = harness::Protocol::name(&protocol, number);
+        let cases = protocol.cases(&name).expect(&name).unwrap();
+        let ways: Vec<&str> = cases.iter().map(|(way, _)| way.as_str()).collect();
+        assert_eq!(ways[..3], ["a-pose", "three-points", "six-distances"], "{name}");
+        assert_eq!(ways[3..], ["a-pose-gaps", "three-points-gaps", "six-distances-gaps"], "{name}");
+        let empty = |k: usize| {
+            let all = &cases[k].1.measurements.observations;
+            all.iter().map(|o| 6 - o.numbers()).sum::<usize>()
+        };
+        assert!(empty(0) == 0 && empty(2) == 0 && empty(3) > 0 && empty(5) > 0, "{name}");
+    }
+    assert!(protocol.cases("alike/clean-0004").is_none(), "beyond the last campaign");
+}

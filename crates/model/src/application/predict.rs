@@ -5,8 +5,11 @@
 //! load / (stiffness * leg length) per round. In absolute mode the same iteration is a Newton search for the platform
 //! pose at which the legs of the calibrated machine have their commanded lengths plus elongations. It starts at the
 //! commanded pose and finds the solution near it; a hexapod has others, and none is claimed to be the only one.
+//!
+//! Sensors look at the same two states as in the fit of a campaign that they have read: where the structure lets the platform stand,
+//! whatever is read; nothing is iterated.
 
-use hexbench_core::{Dataset, Matrix6, Measurand, Observation, Vector6};
+use hexbench_core::{Columns, Dataset, Matrix6, Measurand, Observation, Vector6};
 use thiserror::Error;
 
 use crate::application::model_file::Model;
@@ -31,6 +34,15 @@ pub struct Prediction {
     /// Standard uncertainty (k = 1) from the covariance of the model, of absolute poses in turned frames along the axes of
     /// [`ReadingAxes`](crate::estimation::frames::ReadingAxes); the noise of a future reading is not in it.
     pub sigma: [f64; 6],
+}
+
+/// What a model predicts for one number of a sensor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensorPrediction {
+    /// Loaded minus reference, m or rad.
+    pub value: f64,
+    /// Standard uncertainty (k = 1) from the covariance of the model, m or rad; the noise of a future reading is not in it.
+    pub sigma: f64,
 }
 
 /// A row that cannot be predicted.
@@ -62,6 +74,30 @@ pub fn predict_with_covariance(
     predict_as(model, rows, model.measurand, Uncertain::Reading)
 }
 
+/// Predict what every sensor of the machine reads in every row: the numbers of [`Model::sensor_channels`], in their order.
+///
+/// # Errors
+/// As [`predict`].
+pub fn predict_sensors(
+    model: &Model,
+    rows: &[Observation],
+) -> Result<Vec<Vec<SensorPrediction>>, PredictError> {
+    let channels = model.sensor_channels();
+    if channels.is_empty() {
+        return Ok(vec![Vec::new(); rows.len()]);
+    }
+    let asked = |rows: &[Observation]| {
+        Dataset::of_poses("", model.measurand, Columns::default(), rows.to_vec())
+            .to_be_read_by(&model.hexapod.sensors)
+    };
+    let blocks = answered(model, rows, Uncertain::Reading, asked)?;
+    let numbers = |row: &[(Prediction, Matrix6)]| {
+        let all = row.iter().flat_map(|(block, _)| block.value.into_iter().zip(block.sigma));
+        all.take(channels.len()).map(|(value, sigma)| SensorPrediction { value, sigma }).collect()
+    };
+    Ok(blocks.chunks(channels.len().div_ceil(6)).map(numbers).collect())
+}
+
 /// Which uncertainty is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Uncertain {
@@ -79,29 +115,39 @@ pub(crate) fn predict_as(
     measurand: Measurand,
     uncertain: Uncertain,
 ) -> Result<Vec<(Prediction, Matrix6)>, PredictError> {
+    answered(model, rows, uncertain, |rows| poses(model, rows, measurand))
+}
+
+/// Predict what is asked of rows; a row makes as many predictions, six numbers each, as it makes observations.
+fn answered(
+    model: &Model,
+    rows: &[Observation],
+    uncertain: Uncertain,
+    asked: impl Fn(&[Observation]) -> Dataset,
+) -> Result<Vec<(Prediction, Matrix6)>, PredictError> {
     if rows.is_empty() {
         return Ok(Vec::new());
     }
-    settle(model, rows, measurand, uncertain).or_else(|_| {
+    settle(model, asked(rows), uncertain).or_else(|_| {
         // Something is wrong with some row: one by one, to name it.
         let one = |row: &Observation| {
-            let found = settle(model, std::slice::from_ref(row), measurand, uncertain);
-            found.map(|p| p[0]).map_err(|cause| PredictError { line: row.line, cause })
+            let found = settle(model, asked(std::slice::from_ref(row)), uncertain);
+            found.map_err(|cause| PredictError { line: row.line, cause })
         };
-        rows.iter().map(one).collect()
+        Ok(rows.iter().map(one).collect::<Result<Vec<_>, _>>()?.concat())
     })
 }
 
+/// Moves the readings of a dataset until they are what the model predicts.
 fn settle(
     model: &Model,
-    rows: &[Observation],
-    measurand: Measurand,
+    mut data: Dataset,
     uncertain: Uncertain,
 ) -> Result<Vec<(Prediction, Matrix6)>, ModelError> {
-    let mut data = dataset(model, rows, measurand);
     let mut last_step = f64::INFINITY;
     for _ in 0..MOST_ROUNDS {
-        let campaign = Campaign::in_frames(&model.hexapod, &data, unit_noise(), frames(model, measurand))?;
+        let campaign =
+            Campaign::in_frames(&model.hexapod, &data, unit_noise(), frames(model, data.measurand))?;
         let lin = Linearization::at(&campaign, &model.point)?;
         last_step = 0.0;
         for (i, group) in campaign.groups.iter().enumerate() {
@@ -122,8 +168,8 @@ fn settle(
     Err(ModelError::NotConverged { iterations: MOST_ROUNDS, last_step })
 }
 
-/// Rows with a first guess in the place of the measurement.
-fn dataset(model: &Model, rows: &[Observation], measurand: Measurand) -> Dataset {
+/// Rows of full poses with a first guess in the place of the measurement.
+fn poses(model: &Model, rows: &[Observation], measurand: Measurand) -> Dataset {
     let machine = model.point.calibrated_machine();
     let guess = |o: &Observation| match measurand {
         Measurand::AbsolutePose => machine.target_pose(&o.pose).to_array(),
@@ -131,7 +177,7 @@ fn dataset(model: &Model, rows: &[Observation], measurand: Measurand) -> Dataset
     };
     let observations =
         rows.iter().map(|o| Observation { measured: guess(o), sigma: None, block: 0, ..*o }).collect();
-    Dataset::of_poses("", measurand, hexbench_core::Columns::default(), observations)
+    Dataset::of_poses("", measurand, Columns::default(), observations)
 }
 
 /// Frames in which a prediction is read.

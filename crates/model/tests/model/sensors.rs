@@ -17,14 +17,14 @@ use crate::common::{PAPER_STIFFNESS, measured_machine, paper_machine};
 /// Noise so small that nothing but the error of the model is left.
 const NO_NOISE_M: f64 = 1e-12;
 /// Of a gauge.
-const GAUGE_M: f64 = 0.2e-6;
+pub(crate) const GAUGE_M: f64 = 0.2e-6;
 
-fn ring_point(degrees: f64) -> Vector3 {
+pub(crate) fn ring_point(degrees: f64) -> Vector3 {
     let (s, c) = degrees.to_radians().sin_cos();
     Vector3::new(0.15 * c, 0.15 * s, 0.04)
 }
 
-fn gauges(sigma: f64) -> Vec<Sensor> {
+pub(crate) fn gauges(sigma: f64) -> Vec<Sensor> {
     let one = |(k, degrees): (usize, f64)| {
         let (s, c) = degrees.to_radians().sin_cos();
         let direction = if k % 2 == 0 { Vector3::z() } else { Vector3::new(-s, c, 0.0) };
@@ -33,7 +33,7 @@ fn gauges(sigma: f64) -> Vec<Sensor> {
     [0.0, 60.0, 120.0, 180.0, 240.0, 300.0].into_iter().enumerate().map(one).collect()
 }
 
-fn balls(sigma: f64) -> Vec<Sensor> {
+pub(crate) fn balls(sigma: f64) -> Vec<Sensor> {
     let one = |k: u8| {
         let point = ring_point(20.0 + 120.0 * f64::from(k));
         Sensor::new(format!("ball{k}"), SensorKind::Point { point, sigma: [sigma; 3] })
@@ -41,12 +41,12 @@ fn balls(sigma: f64) -> Vec<Sensor> {
     (0..3).map(one).collect()
 }
 
-fn scales(sigma: f64) -> Vec<Sensor> {
+pub(crate) fn scales(sigma: f64) -> Vec<Sensor> {
     (0..6).map(|leg| Sensor::new(format!("scale{leg}"), SensorKind::LegLength { leg, sigma })).collect()
 }
 
 /// The readings of all sensors, with noise, in blocks of six.
-fn read(world: &World, hexapod: &Hexapod, plan: &[Observation], seed: Option<u64>) -> Dataset {
+pub(crate) fn read(world: &World, hexapod: &Hexapod, plan: &[Observation], seed: Option<u64>) -> Dataset {
     let channels = Channel::all([], &hexapod.sensors);
     let mut random = Random::new(seed.unwrap_or(1));
     let mut data = dataset(Measurand::DeflectionRotationVector, Vec::new());
@@ -91,7 +91,7 @@ fn read(world: &World, hexapod: &Hexapod, plan: &[Observation], seed: Option<u64
     data
 }
 
-fn with(sensors: Vec<Sensor>) -> Hexapod {
+pub(crate) fn with(sensors: Vec<Sensor>) -> Hexapod {
     Hexapod { sensors, ..paper_machine() }
 }
 

@@ -199,18 +199,54 @@ class Model:
         BadInput
             A shape, a number that is not finite, a singular pose: with the row, counted from 0.
         """
-        first = rows(poses, 6, "poses")
-        count = len(first)
-        table = {**spread(POSE, first), **spread(WRENCH, rows(wrenches, 6, "wrenches", count))}
-        if reference is not None:
-            table |= spread(REFERENCE, rows(reference, 6, "reference", count))
         single = {"approach": approach, "delta_T_K": delta_T_K, "elapsed_s": elapsed_s, "ref_age_s": ref_age_s}
-        table |= {key: one_per_row(value, key, count) for key, value in single.items() if value is not None}
+        count, table = _conditions(poses, wrenches, reference, single)
         if count == 0:
             values, spreads = np.empty((0, 6)), np.empty((0, 6, 6))
         else:
             values, spreads = self._made.predict(list(table), list(table.values()))
         return (values, spreads) if covariance else values
+
+    @property
+    def sensor_columns(self) -> list[str]:
+        """Columns that the sensors of the machine fill, with units: ``g1_um``, ``ball_x_um``, ``level_urad``."""
+        return self._made.sensor_columns
+
+    def predict_sensors(
+        self,
+        poses: ArrayLike,
+        wrenches: ArrayLike,
+        *,
+        reference: ArrayLike | None = None,
+        approach: ArrayLike | None = None,
+        delta_T_K: ArrayLike | None = None,
+        elapsed_s: ArrayLike | None = None,
+        ref_age_s: ArrayLike | None = None,
+    ) -> tuple[Floats, Floats]:
+        """Predict what the sensors of the machine would read.
+
+        Parameters
+        ----------
+        poses, wrenches, reference, approach, delta_T_K, elapsed_s, ref_age_s
+            As of :meth:`predict`.
+
+        Returns
+        -------
+        array (n, m)
+            Readings, loaded minus reference, in the order and units of :attr:`sensor_columns`; m = 0 without sensors.
+        array (n, m)
+            Their standard uncertainties (k = 1) from the model, without the noise of a future reading.
+
+        Raises
+        ------
+        BadInput
+            As :meth:`predict`.
+        """
+        single = {"approach": approach, "delta_T_K": delta_T_K, "elapsed_s": elapsed_s, "ref_age_s": ref_age_s}
+        count, table = _conditions(poses, wrenches, reference, single)
+        if count == 0:
+            return np.empty((0, len(self.sensor_columns))), np.empty((0, len(self.sensor_columns)))
+        return self._made.predict_sensors(list(table), list(table.values()))
 
     def __repr__(self) -> str:
         """Return machine, terms and chi-square."""
@@ -261,6 +297,19 @@ def fit(
 def predict(model: Model, poses: ArrayLike, wrenches: ArrayLike, **conditions: Any) -> Any:
     """Predict readings that nobody has taken: :meth:`Model.predict` as a function."""
     return model.predict(poses, wrenches, **conditions)
+
+
+def _conditions(
+    poses: ArrayLike, wrenches: ArrayLike, reference: ArrayLike | None, single: dict[str, ArrayLike | None]
+) -> tuple[int, dict[str, Any]]:
+    """Return the number of rows and the columns of what is to be predicted."""
+    first = rows(poses, 6, "poses")
+    count = len(first)
+    table = {**spread(POSE, first), **spread(WRENCH, rows(wrenches, 6, "wrenches", count))}
+    if reference is not None:
+        table |= spread(REFERENCE, rows(reference, 6, "reference", count))
+    table |= {key: one_per_row(value, key, count) for key, value in single.items() if value is not None}
+    return count, table
 
 
 def _restored(text: str, summary: str) -> Model:

@@ -1,6 +1,6 @@
 //! `hexbench validate sensors`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_experiments::harness;
@@ -33,8 +33,9 @@ pub(crate) struct Arguments {
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
-    /// Write the files of this one trial instead, such as `sensor-place/six-gauges-clean-0000`
-    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["alike", "markdown", "journal", "table"])]
+    /// Write the files of this one trial instead, such as `sensor-place/six-gauges-clean-0000`; of `alike/clean-0000` a folder for
+    /// every way in which it is read
+    #[arg(long, value_name = "TRIAL", conflicts_with_all = ["markdown", "journal", "table"])]
     case: Option<String>,
     #[command(flatten)]
     kept: TrialFiles,
@@ -43,10 +44,10 @@ pub(crate) struct Arguments {
 /// Run the study, write its files, tell the main figures.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let protocol = SensorProtocol { seed: arguments.seed, trials: arguments.trials as usize };
-    if let Some(trial) = &arguments.case {
-        return write_case(&protocol, trial, arguments, screen);
-    }
     let same = AlikeProtocol { seed: arguments.seed, campaigns: u64::from(arguments.alike) };
+    if let Some(trial) = &arguments.case {
+        return write_trial((&protocol, &same), trial, &arguments.out, screen);
+    }
     let gathered = arguments.kept.of_one("ways").run(&protocol)?;
     let gathered_same = arguments.kept.of_one("alike").run(&same)?;
     let out = |name: &str| arguments.out.join(name);
@@ -67,18 +68,24 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     screen.show(&page.with(Section::new("Written").list(names)))
 }
 
-fn write_case(
-    protocol: &SensorProtocol,
+fn write_trial(
+    (ways, alike): (&SensorProtocol, &AlikeProtocol),
     trial: &str,
-    arguments: &Arguments,
+    out: &Path,
     screen: &Screen,
 ) -> Result<(), Failure> {
-    let case = protocol.case(trial).ok_or_else(|| Failure::Usage {
+    let folder = out.join(trial.replace('/', "-"));
+    if let Some(case) = ways.case(trial) {
+        return written::write_case(&case.map_err(Failure::Trial)?, &folder, screen);
+    }
+    let cases = alike.cases(trial).ok_or_else(|| Failure::Usage {
         message: format!("`{trial}` is no trial"),
-        next: "Give a group, a way of reading, a machine and a number, such as sensor-place/six-gauges-clean-0000 or \
-               scales/scales-single-0002; the table of trials lists them."
+        next: "Give a group, a way of reading, a machine and a number, such as sensor-place/six-gauges-clean-0000, \
+               scales/scales-single-0002 or alike/clean-0000; the tables of trials list them."
             .to_owned(),
     })?;
-    let case = case.map_err(Failure::Trial)?;
-    written::write_case(&case, &arguments.out.join(trial.replace('/', "-")), screen)
+    for (way, case) in cases.map_err(Failure::Trial)? {
+        written::write_case(&case, &folder.join(way), screen)?;
+    }
+    Ok(())
 }

@@ -8,7 +8,7 @@ mod layout;
 mod read;
 mod write;
 
-use hexbench_core::{Hexapod, Measurand, Vector6};
+use hexbench_core::{Channel, Hexapod, Measurand, Vector6};
 use nalgebra::DMatrix;
 use thiserror::Error;
 
@@ -161,6 +161,12 @@ impl Model {
     /// True for a model of absolute poses.
     pub fn is_absolute(&self) -> bool {
         self.measurand == Measurand::AbsolutePose
+    }
+
+    /// The numbers that the sensors of the machine read, in the order of their columns; none in a model of absolute poses, for sensors
+    /// read deflections.
+    pub fn sensor_channels(&self) -> Vec<Channel> {
+        if self.is_absolute() { Vec::new() } else { Channel::all([], &self.hexapod.sensors) }
     }
 
     /// The text of `model.toml`.
