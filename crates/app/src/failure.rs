@@ -311,6 +311,15 @@ impl Failure {
             Self::Server { .. } => {
                 Some("Leave --port away: a free port is then chosen.".into())
             }
+            Self::Output { cause, .. } if cause.kind() == io::ErrorKind::NotFound => {
+                Some("Make the folder first, or name another.".into())
+            }
+            Self::Output { cause, .. } if cause.kind() == io::ErrorKind::IsADirectory => {
+                Some("Name a file in it.".into())
+            }
+            Self::Output { cause, .. } if cause.kind() == io::ErrorKind::FileTooLarge => {
+                Some("Raise the limit of the size of a file (`ulimit -f`).".into())
+            }
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())
             }

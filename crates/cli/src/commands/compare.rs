@@ -1,6 +1,6 @@
 //! `hexbench compare HEXAPOD DATA`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_model::inference::misread::AsMeant;
@@ -11,7 +11,7 @@ use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::{PageFiles, Screen, TableFile, origin, provenance, write_json};
+use crate::output::{OutFile, PageFiles, Screen, TableFile, origin, provenance, write_json};
 use crate::read_as::ReadAs;
 
 /// Compare a model with measurements: errors beside the noise, where they sit, what they follow
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     read_as: ReadAs,
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     /// Write every reading beside the model to FILE, for pandas, polars or xarray: .parquet or .csv
     #[arg(long, value_name = "FILE")]
     table: Option<TableFile>,
@@ -77,7 +77,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let provenance = provenance(arguments.files())?;
         Ok(charts::comparison(hexapod, data, holdout, &compared, &provenance)?)
     })?;
-    if arguments.json.as_deref() != Some(Path::new("-")) && !arguments.page.to_stdout() {
+    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) && !arguments.page.to_stdout() {
         let about = subject::entries(data, holdout, &compared.campaign.noise);
         screen.show(&words::comparison(&hexapod.name, about, result))?;
     }

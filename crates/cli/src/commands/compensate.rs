@@ -9,7 +9,7 @@ use hexbench_model::application::compensate::compensate;
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::Screen;
+use crate::output::{OutFile, Screen};
 
 /// Find the command that brings the loaded platform to the wanted pose
 ///
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     names: TableNames,
     /// Write to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: PathBuf,
+    output: OutFile,
 }
 
 const AXES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];

@@ -14,7 +14,7 @@ use hexbench_report::words::fitted;
 
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::Screen;
+use crate::output::{OutFile, Screen};
 use crate::read_as::ReadAs;
 
 /// Fit leg stiffnesses and the effects you name, and save the model
@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     read_as: ReadAs,
     /// Write the model to FILE (model.toml)
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    output: Option<OutFile>,
 }
 
 /// Estimators by name.
@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let Some(path) = &arguments.output else { return Ok(()) };
     let mut model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
     model.data.read_as = arguments.read_as.names();
-    let unsaved = |cause| Failure::ModelFile { path: path.clone(), cause: Box::new(cause) };
+    let unsaved = |cause| Failure::ModelFile { path: path.to_path_buf(), cause: Box::new(cause) };
     let text = model.to_toml().map_err(unsaved)?;
     screen.write_to(path, &text)
 }

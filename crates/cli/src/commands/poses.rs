@@ -10,7 +10,7 @@ use hexbench_report::number::significant;
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
-use crate::output::{Screen, report};
+use crate::output::{OutFile, Screen, report};
 use crate::page::located;
 
 /// Find poses, with their uncertainty, from balls that a measuring machine touched
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     sigma_um: Option<f64>,
     /// Write the table of poses to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: PathBuf,
+    output: OutFile,
 }
 
 /// Names of the six numbers.
@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         .map_err(|cause| Failure::Balls { path: arguments.data.clone(), cause })?;
     warn(&arguments.data, &found);
     screen.write_to(&arguments.output, &table(&found))?;
-    if arguments.output == Path::new("-") {
+    if arguments.output.is_stdout() {
         return Ok(());
     }
     let told = located::Told { found: &found, places: &places, stated: sigma, output: &arguments.output };

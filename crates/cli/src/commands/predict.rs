@@ -10,7 +10,7 @@ use hexbench_model::application::predict::predict;
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::Screen;
+use crate::output::{OutFile, Screen};
 
 /// Predict deflections (or absolute poses) with their uncertainty
 #[derive(Debug, Args)]
@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     names: TableNames,
     /// Write to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: PathBuf,
+    output: OutFile,
 }
 
 /// Predict every row.

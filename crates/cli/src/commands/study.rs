@@ -9,7 +9,7 @@ use hexbench_experiments::sweep::{StudyPart, Work, divide, page};
 use hexbench_report::{Block, Page, Section, Table};
 
 use crate::failure::Failure;
-use crate::output::{Progress, Screen, report};
+use crate::output::{OutFile, Progress, Screen, report};
 
 /// Sweep over choices of an experiment: how accuracy depends on noise, plan, poses, repeats, geometry, effect and size
 ///
@@ -49,7 +49,7 @@ struct Whole {
     out: PathBuf,
     /// Write the page to FILE too; its charts go to a folder beside it
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
 }
 
 #[derive(Debug, Args)]
@@ -85,7 +85,7 @@ struct MergeArguments {
     out: PathBuf,
     /// Write the page to FILE too; its charts go to a folder beside it
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
 }
 
 /// All of a study, or what belongs to sharing it.

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use hexbench_core::files::atomic_write;
+use hexbench_core::files::{Destination, atomic_write};
 use hexbench_report::Page;
 use hexbench_report::render::{Terminal, TextStyle, terminal};
 
@@ -46,9 +46,9 @@ impl Screen {
         }
     }
 
-    /// Refuse a file that exists, with what to do instead; standard output is none.
+    /// Refuse a file that exists, with what to do instead; standard output and devices are none.
     pub(crate) fn refuse_existing(path: &Path, next: &str) -> Result<(), Failure> {
-        if path.as_os_str() != "-" && path.exists() {
+        if matches!(Destination::of(path), Ok(Destination::File(place)) if place.exists()) {
             return Err(Failure::usage(format!("{} exists already", path.display()), next));
         }
         Ok(())

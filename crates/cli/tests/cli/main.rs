@@ -17,6 +17,7 @@ mod glossary;
 mod html;
 mod init;
 mod json;
+mod outputs;
 mod pages;
 mod poses;
 mod power;
