@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
 use hexbench_core::BallRecord;
-use hexbench_core::files::{CsvText, nearest, read_ball_places, read_balls};
+use hexbench_core::files::{CsvText, csv_words, nearest, read_ball_places, read_balls};
 use hexbench_model::machine::registration::{Places, Registered, RegisteredPose, register_all};
 use hexbench_report::number::significant;
 
@@ -118,8 +118,9 @@ fn table(found: &Registered) -> String {
 fn row(pose: &RegisteredPose) -> Vec<String> {
     let sigma: [f64; 6] = std::array::from_fn(|k| pose.covariance[(k, k)].sqrt());
     let (first, second, distance) = pose.worst.clone().unwrap_or_default();
+    let [first, second] = [first, second].map(|ball| csv_words(&ball).into_owned());
     let [rms, distance] = [pose.rms, distance].map(|x| format!("{:.6}", x * 1e6));
-    std::iter::once(pose.id.clone())
+    std::iter::once(csv_words(&pose.id).into_owned())
         .chain(csv::values(&pose.pose.to_array(), [Unit::Mm, Unit::Deg]))
         .chain(csv::values(&sigma, [Unit::Um, Unit::Urad]))
         .chain(csv::correlations(&pose.covariance))

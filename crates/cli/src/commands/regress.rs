@@ -144,7 +144,7 @@ fn update(
     baseline.write(&arguments.baseline)?;
     let first = trials.first().map(|t| compare(suite, limits, (t, arguments.seed), &baseline, VERSION));
     let told = first.map(|c| headline(&c)).unwrap_or_default();
-    screen.write(&format!(
+    screen.tell(&format!(
         "{}: {} runs of suite {}/{}, update {}.\nIts first run beside all of them: {told}\n",
         arguments.baseline.display(),
         baseline.runs,

@@ -131,9 +131,8 @@ fn part(arguments: &RunArguments, screen: &Screen) -> Result<(), Failure> {
     let work = Work::open(&arguments.study, &arguments.out)?;
     compute(&work, Some(arguments.shard))?;
     let (part, folder) = (arguments.shard, arguments.out.display());
-    screen.write(&format!(
-        "Part {part} is done, in {folder}. `hexbench study merge` puts the parts together.\n"
-    ))
+    screen
+        .tell(&format!("Part {part} is done, in {folder}. `hexbench study merge` puts the parts together.\n"))
 }
 
 /// Take over all parts and write the results.
@@ -159,7 +158,7 @@ fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Fai
     page::write(work.study(), &cells, work.folder(), markdown)?;
     screen.show(&page::summary(work.study(), &cells))?;
     let written: Vec<String> = work.written().iter().map(|path| format!("  {}\n", path.display())).collect();
-    screen.write(&format!("\nWritten:\n{}", written.concat()))
+    screen.tell(&format!("\nWritten:\n{}", written.concat()))
 }
 
 /// Compute what is missing of a part, or of the whole.

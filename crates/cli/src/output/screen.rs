@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use hexbench_core::files::{Destination, atomic_write};
+use hexbench_core::visible_lines;
 use hexbench_report::Page;
 use hexbench_report::render::{Terminal, TextStyle, terminal};
 
@@ -44,6 +45,11 @@ impl Screen {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Tell a few lines; names in them act on no terminal.
+    pub(crate) fn tell(&self, text: &str) -> Result<(), Failure> {
+        self.write(&visible_lines(text))
     }
 
     /// Refuse a file that exists, with what to do instead; standard output and devices are none.

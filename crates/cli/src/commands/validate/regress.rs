@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let failed: Vec<&Unchanged> = runs.iter().filter(|r| !r.worse.is_empty()).collect();
     let lines = failed.iter().map(|r| format!("seed {}: {}\n", r.seed, r.worse.join("; ")));
-    screen.write(&format!(
+    screen.tell(&format!(
         "{} of {} unchanged runs fail.\n{}",
         failed.len(),
         runs.len(),
