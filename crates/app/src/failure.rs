@@ -226,7 +226,6 @@ impl Failure {
             Self::Baseline(cause) if cause.is_input_output() => Exit::InputOutput,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
-            Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::Power(_)
             | Self::Study(_)
             | Self::Design(_)
@@ -236,6 +235,7 @@ impl Failure {
             | Self::Report(_) => Exit::NotDetermined,
             Self::File(_)
             | Self::ModelFile { .. }
+            | Self::UserTerm { .. }
             | Self::Result { .. }
             | Self::Runs(_)
             | Self::Row { .. }
@@ -246,11 +246,9 @@ impl Failure {
             | Self::Baseline(_)
             | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
-            Self::UserTerm { .. }
-            | Self::Output { .. }
-            | Self::Server { .. }
-            | Self::Unreadable { .. }
-            | Self::Simulation(_) => Exit::InputOutput,
+            Self::Output { .. } | Self::Server { .. } | Self::Unreadable { .. } | Self::Simulation(_) => {
+                Exit::InputOutput
+            }
         }
     }
 
@@ -280,6 +278,11 @@ impl Failure {
             Self::Power(_) => Some("Check the poses (mm, deg) and loads (N, N m) of the plan.".into()),
             Self::Design(_) => {
                 Some("Widen the ranges or limits in the space file, or ask for more poses.".into())
+            }
+            Self::ModelFile { cause, .. }
+                if matches!(**cause, ModelFileError::Changed | ModelFileError::Unsealed) =>
+            {
+                Some("Fit the model again, or add --trust where you know what was changed.".into())
             }
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
             Self::Result { .. } => {

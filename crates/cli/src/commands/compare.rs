@@ -10,7 +10,7 @@ use hexbench_report::words::{readings, subject};
 use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
-use crate::input::{self, TableNames};
+use crate::input::{self, TableNames, Trust};
 use crate::output::{OutFile, PageFiles, Screen, TableFile, origin, provenance, write_json};
 use crate::read_as::ReadAs;
 
@@ -24,6 +24,8 @@ pub(crate) struct Arguments {
     /// Compare this model as it is (model.toml); without it the leg springs are fitted to the data
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
+    #[command(flatten)]
+    trust: Trust,
     /// Also compare with these readings, which no fit has seen
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
@@ -59,7 +61,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);
-    let model = arguments.model.as_deref().map(input::model).transpose()?;
+    let model = arguments.model.as_deref().map(|path| arguments.trust.model(path)).transpose()?;
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
     let mut compared = compare(hexapod, data, model.as_ref(), holdout).map_err(failed)?;
     compared.comparison.read_as = arguments.read_as.names();

@@ -9,7 +9,7 @@ use hexbench_model::application::predict::predict;
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
-use crate::input::{self, TableNames};
+use crate::input::{self, TableNames, Trust};
 use crate::output::{OutFile, Screen};
 
 /// Predict deflections (or absolute poses) with their uncertainty
@@ -17,6 +17,8 @@ use crate::output::{OutFile, Screen};
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
     model: PathBuf,
+    #[command(flatten)]
+    trust: Trust,
     /// Poses and loads: the columns of measurements.csv without the measured ones
     poses: PathBuf,
     #[command(flatten)]
@@ -28,7 +30,7 @@ pub(crate) struct Arguments {
 
 /// Predict every row.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let model = input::model(&arguments.model)?;
+    let model = arguments.trust.model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses, &arguments.names)?;
     let predictions = predict(&model, &rows.observations)
         .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) })?;

@@ -14,6 +14,7 @@ mod exits;
 mod export;
 mod far_frames;
 mod glossary;
+mod hand_changed;
 mod hostile_text;
 mod html;
 mod init;

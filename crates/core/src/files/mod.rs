@@ -78,7 +78,7 @@ pub use read_measurements::{
 };
 pub use read_sensor::{SENSOR_WITH_COST, point, sensor_name, sensor_of, sensors, unit_vector};
 pub use table::TableReading;
-pub use toml_file::{Format, read_toml, read_toml_text};
+pub use toml_file::{Format, read_text, read_toml, read_toml_text};
 pub use toml_value::{Item, KeyUnit, TomlSection};
 pub use units::{Dimension, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};
