@@ -145,7 +145,7 @@ fn a_file_that_was_changed_is_refused_unless_it_is_trusted() {
     let unsealed = &text[..text.find("[seal]").unwrap()];
     for (changed, part) in [
         (moved, "changed after"),
-        (text.replacen(error, "standard_error = 1e308", 1), "changed after"),
+        (text.replacen(error, "standard_error_N_per_um = 1e308", 1), "changed after"),
         (text.replace("sha256 = \"", "sha256 = \"0"), "changed after"),
         (unsealed.to_owned(), "is missing"),
     ] {
