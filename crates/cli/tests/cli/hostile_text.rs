@@ -17,7 +17,8 @@ fn is_harmless(bytes: &[u8]) -> bool {
 fn hostile_machine(folder: &Path) -> String {
     let case = root().join("data/cases/mujoco-clean");
     let text = fs::read_to_string(case.join("hexapod.toml")).unwrap();
-    let escaped: String = HOSTILE.chars().map(|c| format!("\\U{:08X}", u32::from(c))).collect();
+    let letters: Vec<String> = HOSTILE.chars().map(|c| format!("\\U{:08X}", u32::from(c))).collect();
+    let escaped = letters.concat();
     let lines = text
         .lines()
         .map(|line| if line.starts_with("name") { format!("name = \"{escaped}\"") } else { line.to_owned() });
@@ -82,13 +83,11 @@ fn no_message_lets_a_name_or_a_cell_act_on_the_terminal() {
 fn a_name_that_a_spreadsheet_would_run_is_a_text_and_a_negative_number_a_number() {
     let folder = tempfile::tempdir().unwrap();
     let places = [("p", 0.0, 0.0, 0.0), ("q", 100.0, 0.0, 0.0), ("r", 0.0, 100.0, 0.0)];
-    let mut balls = String::from("record,ball,x_mm,y_mm,z_mm\n");
+    let mut balls = vec!["record,ball,x_mm,y_mm,z_mm".to_owned()];
     for (record, shift) in [("ref", 0.0), ("=1+1", -0.5)] {
-        for (ball, x, y, z) in places {
-            balls += &format!("{record},{ball},{},{y},{z}\n", x + shift);
-        }
+        balls.extend(places.map(|(ball, x, y, z)| format!("{record},{ball},{},{y},{z}", x + shift)));
     }
-    fs::write(folder.path().join("balls.csv"), balls).unwrap();
+    fs::write(folder.path().join("balls.csv"), balls.join("\n") + "\n").unwrap();
     let words = ["poses", "balls.csv", "--relative-to", "ref", "--sigma-um", "1"];
     let output = hexbench().current_dir(folder.path()).args(words).output().unwrap();
     let table = String::from_utf8_lossy(&output.stdout).into_owned();
