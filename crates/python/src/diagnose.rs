@@ -10,7 +10,7 @@ use hexbench_core::Dataset;
 use hexbench_model::effects::term::Term;
 use hexbench_model::results::compare::{ComparedModel, compare as compared_with};
 use hexbench_model::results::diagnose::{DiagnoseOptions, DiagnosisStudy, diagnose_with};
-use hexbench_model::results::discover::{DiscoveryStudy, discover as search_law};
+use hexbench_model::results::discover::{DiscoveryStudy, diagnose_with_proposal, discover as search_law};
 use hexbench_model::results::runs::{Origin, WithOrigin};
 use hexbench_report::Page;
 use hexbench_report::charts::{self, ReportError};
@@ -117,8 +117,8 @@ pub(crate) fn diagnose(
     beside(py, move || {
         let all = input::catalogue_with(&input::user_terms(&terms)?);
         let options = options(&exclude, keep_all, &read_as)?;
-        let measured = &about.measured;
-        let study = diagnose_with(&measured.machine.hexapod, &measured.data, about.held(), &all, &options);
+        let Measured { machine, data, .. } = about.measured.as_ref();
+        let study = diagnose_with_proposal(&machine.hexapod, data, about.held(), &all, &options);
         let study = study.map_err(|cause| about.failure(cause))?;
         Ok(PyDiagnosis(Arc::new((about, study))))
     })

@@ -8,6 +8,7 @@ use hexbench_model::effects::term::Term;
 use hexbench_model::error::ModelError;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{DiagnoseOptions, Diagnosis, DiagnosisStudy, diagnose_with};
+use hexbench_model::results::discover::diagnose_with_proposal;
 use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::ReportSubject;
 use hexbench_report::{charts, words};
@@ -70,7 +71,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         keep_all: arguments.keep_all,
         read_as: arguments.read_as.changes.clone(),
     };
-    let study = study(hexapod, data, holdout.as_ref(), terms, &options)?;
+    let study = diagnose_with_proposal(hexapod, data, holdout.as_ref(), terms, &options)
+        .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
     let to_stdout = arguments.json.as_ref().is_some_and(OutFile::is_stdout) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
         let run = arguments.question.origin(&asked)?;

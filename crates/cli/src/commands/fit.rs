@@ -10,11 +10,13 @@ use hexbench_model::error::ModelError;
 use hexbench_model::inference::misread::AsMeant;
 use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare_to_fit;
+use hexbench_model::results::fit::FitReport;
+use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::fitted;
 
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::{OutFile, Screen};
+use crate::output::{OutFile, Screen, origin, write_json};
 use crate::read_as::ReadAs;
 
 /// Fit leg stiffnesses and the effects you name, and save the model
@@ -43,6 +45,9 @@ pub(crate) struct Arguments {
     /// Write the model to FILE (model.toml)
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutFile>,
+    /// Write the result as fit.json to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE")]
+    json: Option<OutFile>,
 }
 
 /// Estimators by name.
@@ -68,7 +73,15 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let campaign = prepare_to_fit(hexapod, data, &added).map_err(failed)?;
     let task = JudgedTask { hexapod, data, campaign: &campaign, holdout };
     let judged = fitted(&task, &added, estimator)?;
-    screen.show(&fitted::page(&task, &judged, estimator))?;
+    if let Some(path) = &arguments.json {
+        let of_machine = (hexapod, arguments.hexapod.as_path());
+        let run = origin(of_machine, (data, &arguments.data), arguments.holdout.as_deref())?;
+        let result = FitReport::of(&task, &judged, estimator);
+        write_json(screen, path, &WithOrigin { result: &result, run })?;
+    }
+    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
+        screen.show(&fitted::page(&task, &judged, estimator))?;
+    }
     let Some(path) = &arguments.output else { return Ok(()) };
     let mut model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
     model.data.read_as = arguments.read_as.names();

@@ -1,17 +1,19 @@
 //! `hexbench terms [TERM]`: the catalogue, from the code.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
 use hexbench_core::files::nearest;
 use hexbench_model::effects::term::{Term, TermInfo};
 use hexbench_model::error::ModelError;
+use hexbench_model::results::terms::TermList;
 use hexbench_model::terms::catalogue;
 use hexbench_report::render::markdown;
 use hexbench_report::words::{effect, effects};
 
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{Screen, write_json};
 
 /// List the effects of the catalogue, or explain one
 #[derive(Debug, Args)]
@@ -21,11 +23,17 @@ pub(crate) struct Arguments {
     /// Print the whole catalogue as Markdown
     #[arg(long, conflicts_with = "term")]
     markdown: bool,
+    /// Write the whole catalogue as terms.json to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["term", "markdown"])]
+    json: Option<PathBuf>,
 }
 
 /// Print the list, one effect, or the Markdown page.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let terms = catalogue();
+    if let Some(path) = &arguments.json {
+        return write_json(screen, path, &TermList::of(&terms));
+    }
     match &arguments.term {
         Some(id) => screen.show(&effect::page(find(&terms, id)?)),
         None if arguments.markdown => screen.write(&markdown(&effects::catalogue(&terms))),

@@ -26,6 +26,18 @@ fn outside_then_a_law_then_named() {
 }
 
 #[test]
+fn a_diagnosis_outside_the_catalogue_proposes_the_law() {
+    let page = text(diagnose(CASE, &[]));
+    let said = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("A law that no catalogue has explains it"), "{page}");
+    assert!(said.contains("repeats every 8.00 mm") && said.contains("--term term.toml"), "{page}");
+    let read = |output| serde_json::from_str::<Value>(&text(output)).unwrap();
+    let (told, found) = (read(diagnose(CASE, &["--json", "-"])), read(discover(CASE, &["--json", "-"])));
+    assert_eq!(told["law"], found["laws"][0]);
+    assert!(read(diagnose("two-effects", &["--json", "-"])).get("law").is_none());
+}
+
+#[test]
 fn the_file_of_a_discovery_has_its_keys() {
     let told: Value = serde_json::from_str(&text(discover(CASE, &["--json", "-"]))).unwrap();
     assert_eq!(told["format"], "discovery/1");
@@ -62,6 +74,7 @@ fn an_effect_of_the_catalogue_that_does_as_well_as_a_law_wins() {
     let files = ["discover", "hexapod.toml", "measurements.csv", "--holdout", "holdout.csv"];
     let page = text(hexbench().current_dir(&bench).args(files).output().unwrap());
     assert!(page.contains("NO LAW NEEDED") && page.contains("The catalogue explains it: creep."), "{page}");
+    assert!(page.lines().any(|l| l.trim_start().starts_with("searched") && l.ends_with("laws")), "{page}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{cases, diagnose, text};
+use crate::support::{cases, diagnose, hexbench, hexbench_in, text};
 
 const TOP: [&str; 22] = [
     "format",
@@ -93,4 +93,32 @@ fn a_pattern_outside_the_catalogue_is_described() {
     assert_eq!(outside["pattern"], "periodic");
     let period_mm = outside["period"].as_f64().unwrap();
     assert!((period_mm - 8.0).abs() < 0.05, "{period_mm} mm");
+}
+
+#[test]
+fn a_fit_is_written_with_its_quality_and_every_number() {
+    let files = ["fit", "hexapod.toml", "measurements.csv", "--holdout", "holdout.csv"];
+    let more = ["--add", "base-compliance", "--json", "-"];
+    let output = hexbench_in("mujoco-foundation").args(files).args(more).output().unwrap();
+    let told: Value = serde_json::from_str(&text(output)).unwrap();
+    assert_eq!((&told["format"], &told["terms"][0]), (&"fit/1".into(), &"base-compliance".into()));
+    let quality = |key: &str| told["quality"][key].as_f64().unwrap();
+    assert!((quality("equations") - 6.0 * quality("readings")).abs() < 0.5, "{told}");
+    let taken = quality("equations") - quality("dof");
+    assert!((taken - quality("effective_parameters")).abs() < 1e-9, "{told}");
+    assert!(told["parameters"].as_array().unwrap().iter().all(|p| p["std"].as_f64() > Some(0.0)), "{told}");
+    assert_keys(&told, &["settled", "noise", "not_determined", "fitted", "held_out", "run"], "fit.json");
+}
+
+#[test]
+fn the_catalogue_is_written_with_every_term_once() {
+    let output = hexbench().args(["terms", "--json", "-"]).output().unwrap();
+    let told: Value = serde_json::from_str(&text(output)).unwrap();
+    assert_eq!(told["format"], "terms/1");
+    let terms = told["terms"].as_array().unwrap();
+    let mut ids: Vec<&str> = terms.iter().map(|term| term["id"].as_str().unwrap()).collect();
+    let all = ids.len();
+    ids.sort_unstable();
+    ids.dedup();
+    assert!(ids.len() == all && ids.contains(&"base-compliance"), "{ids:?}");
 }

@@ -29,7 +29,7 @@ impl PowerPlan {
     /// The same plan with the noise to be estimated from its repeats; `None` when they are too few for it.
     pub fn with_noise_from_repeats(mut self) -> Option<Self> {
         const ENOUGH: f64 = 9.0;
-        let repeats = scatter(&self.rows.observations, &ReadingAxes::default()).dof;
+        let repeats = scatter(&self.rows, &ReadingAxes::default()).dof;
         self.rows.columns.sigma = false;
         self.noise = Noise { source: NoiseSource::Repeats, dof: 2.0 * repeats, ..self.noise };
         (repeats >= ENOUGH).then_some(self)

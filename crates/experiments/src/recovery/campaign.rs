@@ -102,7 +102,7 @@ fn by_repeats(subject: &HiddenSubject, scene: &RecoveryCampaign) -> Result<Tally
 
 /// Levels of translations and of rotations against the truth.
 fn noise_by_repeats(scene: &RecoveryCampaign) -> Tally {
-    let found = scatter(&scene.case.measurements.observations, &ReadingAxes::default());
+    let found = scatter(&scene.case.measurements, &ReadingAxes::default());
     let Metrology { sigma_translation, sigma_rotation } = scene.noise().metrology();
     let chi2 = |variance: f64, sigma: f64| variance / (sigma * sigma) * found.dof;
     Tally::interval(within(chi2(found.variance_translation, sigma_translation), found.dof))

@@ -1,6 +1,7 @@
 //! How large the measurement noise is, and how well that is known.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use hexbench_core::statistics::{Welford, root_mean_square};
 use hexbench_core::{Dataset, Hexapod, LoadSequence, Matrix6, Observation};
@@ -221,7 +222,7 @@ pub fn stated_or_repeated(hexapod: &Hexapod, dataset: &Dataset) -> Option<Noise>
         return Some(Noise::stated(m.sigma_translation, m.sigma_rotation));
     }
     let axes = ReadingAxes::of(&frames_of(hexapod, dataset));
-    let scatter = scatter(&dataset.observations, &axes);
+    let scatter = scatter(dataset, &axes);
     let usable = scatter.dof >= ENOUGH_REPEATS
         && scatter.variance_translation > 0.0
         && scatter.variance_rotation > 0.0;
@@ -270,10 +271,11 @@ fn from_columns(rows: &[Observation]) -> Noise {
 }
 
 /// Pooled scatter of readings that share pose, loads and the way to them; temperature and time are ignored.
-pub fn scatter(rows: &[Observation], axes: &ReadingAxes) -> RepeatScatter {
+pub fn scatter(data: &Dataset, axes: &ReadingAxes) -> RepeatScatter {
     let mut groups: HashMap<([u64; 20], Vec<u64>), [Welford; 6]> = HashMap::new();
-    for (row, sequence) in rows.iter().zip(LoadSequence::of_all(rows)) {
-        let group = groups.entry((key(row), loads_of(sequence.as_ref()))).or_default();
+    for row in &data.observations {
+        let sequence = data.sequences.to(row).map(Arc::as_ref);
+        let group = groups.entry((key(row), loads_of(sequence))).or_default();
         group.iter_mut().zip(axes.continuous(&row.measured)).for_each(|(all, x)| all.add(x));
     }
     let mut sums = [0.0; 6];

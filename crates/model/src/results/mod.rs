@@ -5,6 +5,8 @@ pub mod check;
 pub mod compare;
 pub mod diagnose;
 pub mod discover;
+pub mod fit;
 pub mod next;
 pub mod runs;
+pub mod terms;
 pub mod words;

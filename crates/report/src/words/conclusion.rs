@@ -4,6 +4,7 @@ use hexbench_model::inference::explanation::Explanation;
 use hexbench_model::inference::gain::{GainOutcome, WORTH_NAMING};
 use hexbench_model::inference::verdict::{DOUBT, NAMED, Verdict};
 use hexbench_model::results::diagnose::{Diagnosis, OutsideReport, StepReport};
+use hexbench_model::results::discover::LawReport;
 use hexbench_model::results::words::{joined, joined_with};
 use hexbench_model::terms::catalogue;
 
@@ -206,7 +207,6 @@ pub fn in_words(explanation: &Explanation) -> &str {
 }
 
 fn outside(d: &Diagnosis) -> Vec<String> {
-    let text = d.outside.as_ref().map_or("no simple pattern describes it", |o| o.text.as_str());
     let mut all = vec!["Something is missing that none of the effects in the catalogue explains.".to_owned()];
     if !d.model.is_empty() {
         all.push(format!(
@@ -214,6 +214,22 @@ fn outside(d: &Diagnosis) -> Vec<String> {
             joined(&d.model)
         ));
     }
-    all.push(format!("What the measurements show: {text}."));
+    all.push(d.law.as_ref().map_or_else(|| pattern(d), law));
     all
+}
+
+fn pattern(d: &Diagnosis) -> String {
+    let text = d.outside.as_ref().map_or("no simple pattern describes it", |o| o.text.as_str());
+    format!("What the measurements show: {text}.")
+}
+
+/// The law in words, how sure it is, and what it does to the error.
+fn law(law: &LawReport) -> String {
+    let fall = law.held_out.map_or_else(String::new, |held| {
+        let [before, after] = [held.before, held.after].map(multiple);
+        format!(" With it the error on held-out poses falls from {before} to {after} times the noise.")
+    });
+    let (text, probability) = (&law.text, percent(law.probability));
+    let alike = if law.alike.is_empty() { "" } else { " Other laws look like it in these readings." };
+    format!("A law that no catalogue has explains it (probability {probability}): {text}.{fall}{alike}")
 }

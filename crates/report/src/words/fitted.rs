@@ -7,46 +7,44 @@ use hexbench_model::estimation::fit_named::look_alikes;
 use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::{FitWithErrors, HeldOut, JudgedTask};
 use hexbench_model::results::diagnose::LegRemainder;
+use hexbench_model::results::fit::{FitQuality, TOLD_CORRELATION};
 use hexbench_model::results::words::joined;
 
 use super::remainder::of_legs;
 use crate::number::{significant, with_uncertainty};
 use crate::page::{Block, Page, PageColumn, Section, Table};
 
-/// Correlations larger than this are reported.
-const REPORTED: f64 = 0.7;
 /// Most correlations where there is little room.
 const BRIEF: usize = 10;
 
 /// The fit.
 pub fn page(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) -> Page {
     Page::default()
-        .with(quality(task, &judged.fit, estimator))
+        .with(quality(task, judged, estimator))
         .with(values(&judged.estimates()))
         .with(remainder(judged))
         .with(correlations(&judged.fit))
         .with(errors(task, judged))
 }
 
-fn quality(task: &JudgedTask<'_>, fit: &Fit, estimator: Estimator) -> Section {
+fn quality(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) -> Section {
+    let fit = &judged.fit;
     let terms: Vec<String> = fit.point.active.iter().map(|a| a.id().to_owned()).collect();
     let with = if terms.is_empty() { String::new() } else { format!(" + {}", joined(&terms)) };
     let method = match estimator {
         Estimator::Gls => "generalised least squares",
         Estimator::Paper => "the paper's unweighted minimum-norm least squares",
     };
-    // Gaussian likelihood with known noise, up to a constant of the data.
-    let equations = (6 * task.campaign.readings) as f64;
-    let parameters = equations - fit.dof;
+    let quality = FitQuality::of(task, judged);
     let table = Table::named(["", ""]).rows([
-        ["readings", &task.campaign.readings.to_string()],
-        ["equations", &equations.to_string()],
-        ["parameters (effective)", &format!("{parameters:.1}")],
-        ["chi-square", &significant(fit.chi2, 6)],
-        ["degrees of freedom", &format!("{:.1}", fit.dof)],
-        ["reduced chi-square", &significant(fit.chi2_reduced(), 4)],
-        ["AIC", &significant(fit.chi2 + 2.0 * parameters, 6)],
-        ["BIC", &significant(fit.chi2 + parameters * equations.ln(), 6)],
+        ["readings", &quality.readings.to_string()],
+        ["equations", &quality.equations.to_string()],
+        ["parameters (effective)", &format!("{:.1}", quality.effective_parameters)],
+        ["chi-square", &significant(quality.chi2, 6)],
+        ["degrees of freedom", &format!("{:.1}", quality.dof)],
+        ["reduced chi-square", &significant(quality.chi2_reduced, 4)],
+        ["AIC", &significant(quality.aic, 6)],
+        ["BIC", &significant(quality.bic, 6)],
     ]);
     let provisional = "The fit did not settle; treat its numbers as provisional, and check units, axes and angles of the file.";
     Section::new(format!("Fit: leg springs{with}"))
@@ -84,7 +82,7 @@ fn remainder(judged: &FitWithErrors) -> Option<Section> {
 }
 
 fn correlations(fit: &Fit) -> Option<Section> {
-    let pairs = look_alikes(fit, REPORTED);
+    let pairs = look_alikes(fit, TOLD_CORRELATION);
     let row = |(a, b, r): &(String, String, f64)| [format!("{r:+.3}"), format!("{a}, {b}")];
     let table =
         Table::new([PageColumn::number(""), PageColumn::words("")]).rows(pairs.iter().map(row)).brief(BRIEF);

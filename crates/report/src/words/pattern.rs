@@ -4,13 +4,20 @@ use hexbench_model::results::diagnose::{Diagnosis, OutsideReport};
 
 use crate::page::Section;
 
-/// Where a pattern outside the catalogue points to.
+/// Where a pattern outside the catalogue points to, and the law behind it.
 pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     let outside = d.outside.as_ref()?;
-    let text = "`hexbench discover` with the same files searches the law behind it, writes it as a term (-o term.toml) that \
-                `hexbench diagnose --term term.toml` weighs like any other, and shows whether the held-out error falls.";
-    Some(Section::new("What to look for").id("look-for").paragraph(hint(outside)).paragraph(text))
+    let section = Section::new("What to look for").id("look-for");
+    Some(match &d.law {
+        Some(law) => section.list(law.look_at.map(str::to_owned)).paragraph(ADD_THE_LAW),
+        None => section.paragraph(hint(outside)).paragraph(SEARCH_A_LAW),
+    })
 }
+
+const ADD_THE_LAW: &str = "To add the law: `hexbench discover` with the same files and `-o term.toml`, then the same `hexbench diagnose` with \
+                           `--term term.toml`, which weighs the law like any effect of the catalogue.";
+const SEARCH_A_LAW: &str = "`hexbench discover` with the same files searches the law behind it, writes it as a term (-o term.toml) that \
+                            `hexbench diagnose --term term.toml` weighs like any other, and shows whether the held-out error falls.";
 
 fn hint(outside: &OutsideReport) -> String {
     let who = outside.leg.map_or("every leg".to_owned(), |leg| format!("leg {leg}"));

@@ -84,7 +84,7 @@ impl ReadingsCheck {
             .iter()
             .filter_map(|g| Some((&g.mean, machine.legs(&g.mean.pose).ok()?)))
             .collect();
-        let repeated = scatter(rows, &campaign.axes);
+        let repeated = scatter(data, &campaign.axes);
         let rms = |first: usize| {
             let sum: f64 = rows.iter().flat_map(|o| &o.measured[first..first + 3]).map(|x| x * x).sum();
             1e6 * (sum / (3 * rows.len()).max(1) as f64).sqrt()

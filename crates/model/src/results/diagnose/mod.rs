@@ -152,11 +152,7 @@ pub fn diagnose_with(
             None
         },
         holdout: if holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn },
-        noise: NoiseReport {
-            translation_um: campaign.noise.translation * 1e6,
-            rotation_urad: campaign.noise.rotation * 1e6,
-            source: campaign.noise.source,
-        },
+        noise: NoiseReport::of(&campaign.noise),
         parameters: numbers.determined,
         not_determined: numbers.not_determined,
         untestable: outcome.untestable.clone(),
@@ -171,6 +167,7 @@ pub fn diagnose_with(
         sensors,
         suspects: suspects(&rows, &data),
         outside: outside(&judgement, &outcome),
+        law: None,
         remainder,
         warnings: warnings(&campaign, &data, last, &judgement).into_iter().chain(unknown).collect(),
         findings,

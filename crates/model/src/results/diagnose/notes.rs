@@ -92,7 +92,7 @@ pub(super) fn contradiction(campaign: &Campaign, data: &Dataset) -> Option<Strin
     if campaign.noise.source != NoiseSource::Metrology {
         return None;
     }
-    let s = scatter(&data.observations, &campaign.axes);
+    let s = scatter(data, &campaign.axes);
     let chi2 = ChiSquared::new(s.dof).ok()?;
     let check = |variance: f64, stated: f64, what: &str, unit: &str| {
         let p = chi2.cdf(s.dof * variance / (stated * stated));

@@ -10,7 +10,7 @@ use super::nested::NestedReport;
 use super::remainder::RemainderReport;
 use crate::effects::untestable::Untestable;
 use crate::estimation::estimate::Estimate;
-use crate::estimation::noise::NoiseSource;
+use crate::estimation::noise::{Noise, NoiseSource};
 use crate::estimation::parameters::stiffness_name;
 use crate::estimation::residuals::ErrorSummary;
 use crate::inference::examination::{Finding, is_misread};
@@ -21,6 +21,7 @@ use crate::inference::power::Detectable;
 use crate::inference::selection::HeldOut;
 use crate::inference::verdict::Verdict;
 use crate::results::compare::coordinates::Coordinate;
+use crate::results::discover::LawReport;
 
 /// Result of `diagnose`.
 #[derive(Debug, Clone, Serialize)]
@@ -77,6 +78,10 @@ pub struct Diagnosis {
     pub suspects: Vec<SuspiciousReading>,
     /// The unexplained pattern.
     pub outside: Option<OutsideReport>,
+    /// The law behind it, where one was searched for and convinces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "typescript", ts(skip))]
+    pub law: Option<LawReport>,
     /// What the fitted model leaves of the legs beyond the noise; absent where noise explains it, and where full poses were not read.
     pub remainder: Option<RemainderReport>,
     /// Things to know before trusting the numbers.
@@ -162,6 +167,17 @@ pub struct NoiseReport {
     /// Where it comes from.
     #[cfg_attr(feature = "typescript", ts(as = "String"))]
     pub source: NoiseSource,
+}
+
+impl NoiseReport {
+    /// The same in um and urad.
+    pub fn of(noise: &Noise) -> Self {
+        Self {
+            translation_um: noise.translation * 1e6,
+            rotation_urad: noise.rotation * 1e6,
+            source: noise.source,
+        }
+    }
 }
 
 /// A proposed reading.

@@ -7,6 +7,7 @@
 
 mod judgement;
 mod part;
+mod proposal;
 mod report;
 mod search;
 
@@ -18,6 +19,7 @@ use serde::Serialize;
 
 pub use self::judgement::MOST_LAWS;
 use self::judgement::{IDEAS, Judged};
+pub use self::proposal::diagnose_with_proposal;
 pub use self::report::{AllLegs, Discovery, HeldOutFall, LawLegs, LawReport};
 use self::search::{Searched, search};
 use crate::effects::term::Term;
@@ -133,29 +135,37 @@ enum Way {
     AsStated(Attempt),
     /// As the diagnosis left them.
     AsExamined(Attempt),
+    /// As the diagnosis left them, and the one effect that it names does as well as the best of so many laws.
+    ForTheCatalogue(usize),
     /// Not at all: there is nothing to search for.
     Needless,
 }
 
 impl Way {
-    fn told(self, diagnosis: DiagnosisStudy) -> DiscoveryStudy {
-        let without = without_law(&diagnosis.diagnosis);
+    /// What is said of it.
+    fn said(&self, diagnosis: &Diagnosis) -> Discovery {
+        let without = without_law(diagnosis);
         match self {
             Self::AsStated(attempt) => {
-                let warnings = vec![needless(&diagnosis)];
-                let template = Discovery { searched: attempt.tried, warnings, ..without };
-                let told = attempt.judged.report(template);
-                attempt.finished(told, diagnosis)
+                let warnings = vec![needless(diagnosis)];
+                attempt.judged.report(Discovery { searched: attempt.tried, warnings, ..without })
             }
             Self::AsExamined(attempt) => {
-                let template = Discovery { searched: attempt.tried, ..without };
-                let judged = &attempt.judged;
-                let told = if judged.convinces { judged.report(template) } else { judged.ideas(template) };
-                attempt.finished(told, diagnosis)
+                let (judged, template) = (&attempt.judged, Discovery { searched: attempt.tried, ..without });
+                if judged.convinces { judged.report(template) } else { judged.ideas(template) }
             }
-            Self::Needless => {
+            Self::ForTheCatalogue(searched) => Discovery { searched: *searched, ..without },
+            Self::Needless => without,
+        }
+    }
+
+    fn told(self, diagnosis: DiagnosisStudy) -> DiscoveryStudy {
+        let said = self.said(&diagnosis.diagnosis);
+        match self {
+            Self::AsStated(attempt) | Self::AsExamined(attempt) => attempt.finished(said, diagnosis),
+            Self::ForTheCatalogue(_) | Self::Needless => {
                 let fits = diagnosis.fits.clone();
-                DiscoveryStudy { discovery: without, diagnosis, outcome: None, fits, term_files: Vec::new() }
+                DiscoveryStudy { discovery: said, diagnosis, outcome: None, fits, term_files: Vec::new() }
             }
         }
     }
@@ -220,7 +230,7 @@ impl Attempts<'_> {
         if let Some(attempt) = self.as_stated(data, options)?.filter(convinces) {
             return Ok(Way::AsStated(attempt));
         }
-        Ok(self.as_examined()?.map_or(Way::Needless, Way::AsExamined))
+        self.as_examined()
     }
 
     /// With every reading and the noise as stated, where the diagnosis found a fault of the data: a law that it does not know looks like
@@ -242,15 +252,19 @@ impl Attempts<'_> {
     }
 
     /// As the diagnosis left them.
-    fn as_examined(&self) -> Result<Option<Attempt>, ModelError> {
+    fn as_examined(&self) -> Result<Way, ModelError> {
         let verdict = self.diagnosis.diagnosis.verdict;
         if matches!(verdict, Verdict::Adequate | Verdict::Measurement | Verdict::Undecided) {
-            return Ok(None);
+            return Ok(Way::Needless);
         }
         let DiagnosisStudy { data, campaign, outcome, diagnosis, .. } = self.diagnosis;
         let ideas = if reason(diagnosis).0 == DiscoveryReason::NoLawConvinces { IDEAS } else { 0 };
         let attempt = self.searched(data, campaign, outcome, ideas)?;
-        Ok(Some(attempt).filter(|attempt| verdict != Verdict::Named || self.beats_the_effect(attempt)))
+        let may_replace = verdict == Verdict::Named && attempt.judged.convinces;
+        if may_replace && !self.beats_the_effect(&attempt) {
+            return Ok(Way::ForTheCatalogue(attempt.tried));
+        }
+        Ok(Way::AsExamined(attempt))
     }
 
     /// True when a law fits the readings better than the one effect that the diagnosis names, every parameter charged `ln n` (Schwarz
@@ -306,9 +320,8 @@ impl Attempts<'_> {
 }
 
 /// What the law makes of the faults that the diagnosis saw.
-fn needless(study: &DiagnosisStudy) -> String {
-    let kinds: BTreeSet<String> =
-        study.diagnosis.findings.iter().map(|f| f.kind.title().to_owned()).collect();
+fn needless(diagnosis: &Diagnosis) -> String {
+    let kinds: BTreeSet<String> = diagnosis.findings.iter().map(|f| f.kind.title().to_owned()).collect();
     let kinds: Vec<String> = kinds.into_iter().collect();
     format!(
         "without the law the readings look faulty ({}); with it all of them are explained as they stand",

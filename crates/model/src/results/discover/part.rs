@@ -42,7 +42,7 @@ pub(super) fn found_in_part(
         Way::AsExamined(attempt) if attempt.judged.convinces && !has_faults => {
             Way::AsExamined(in_all(&attempts, data, attempt)?)
         }
-        Way::AsExamined(_) | Way::Needless => return None,
+        Way::AsExamined(_) | Way::ForTheCatalogue(_) | Way::Needless => return None,
     };
     let mut study = way.told(diagnosis);
     study.discovery.warnings.push(format!(

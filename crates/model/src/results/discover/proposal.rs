@@ -1,0 +1,41 @@
+//! A diagnosis that ends outside the catalogue proposes the law behind it.
+
+use std::sync::Arc;
+
+use hexbench_core::{Dataset, Hexapod};
+
+use super::{Attempts, LawReport, part};
+use crate::effects::term::Term;
+use crate::error::ModelError;
+use crate::inference::verdict::Verdict;
+use crate::results::diagnose::{DiagnoseOptions, DiagnosisStudy, diagnose_with};
+
+/// A diagnosis; where it says "outside", with the law that explains what the catalogue leaves, if one convinces.
+///
+/// # Errors
+/// As [`diagnose_with`].
+pub fn diagnose_with_proposal(
+    hexapod: &Hexapod,
+    data: &Dataset,
+    holdout: Option<&Dataset>,
+    terms: &[Arc<dyn Term>],
+    options: &DiagnoseOptions,
+) -> Result<DiagnosisStudy, ModelError> {
+    let mut study = diagnose_with(hexapod, data, holdout, terms, options)?;
+    if study.diagnosis.verdict != Verdict::Outside {
+        return Ok(study);
+    }
+    let found = if part::of(data).is_some() {
+        // Where a part of a large file shows no law, a search in all of it is too long to come unasked.
+        part::found_in_part(hexapod, data, holdout, terms, options, &|| ()).map(|found| found.discovery)
+    } else {
+        let attempts = Attempts { hexapod, holdout, terms, diagnosis: &study, watch: &|| () };
+        Some(attempts.made(data, options)?.said(&study.diagnosis))
+    };
+    study.diagnosis.law = found.filter(|found| found.found).and_then(|found| best(found.laws));
+    Ok(study)
+}
+
+fn best(laws: Vec<LawReport>) -> Option<LawReport> {
+    laws.into_iter().next()
+}
