@@ -226,7 +226,6 @@ impl Failure {
             Self::Baseline(cause) if cause.is_input_output() => Exit::InputOutput,
             Self::Check(_) => Exit::CheckFailed,
             Self::Trial(TrialError::Truth(TruthError::File { .. })) => Exit::InputOutput,
-            Self::UserTerm { cause, .. } if !matches!(**cause, UserTermError::Read(_)) => Exit::BadInput,
             Self::Power(_)
             | Self::Study(_)
             | Self::Design(_)
@@ -236,6 +235,7 @@ impl Failure {
             | Self::Report(_) => Exit::NotDetermined,
             Self::File(_)
             | Self::ModelFile { .. }
+            | Self::UserTerm { .. }
             | Self::Result { .. }
             | Self::Runs(_)
             | Self::Row { .. }
@@ -246,11 +246,9 @@ impl Failure {
             | Self::Baseline(_)
             | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
-            Self::UserTerm { .. }
-            | Self::Output { .. }
-            | Self::Server { .. }
-            | Self::Unreadable { .. }
-            | Self::Simulation(_) => Exit::InputOutput,
+            Self::Output { .. } | Self::Server { .. } | Self::Unreadable { .. } | Self::Simulation(_) => {
+                Exit::InputOutput
+            }
         }
     }
 
@@ -281,6 +279,11 @@ impl Failure {
             Self::Design(_) => {
                 Some("Widen the ranges or limits in the space file, or ask for more poses.".into())
             }
+            Self::ModelFile { cause, .. }
+                if matches!(**cause, ModelFileError::Changed | ModelFileError::Unsealed) =>
+            {
+                Some("Fit the model again, or add --trust where you know what was changed.".into())
+            }
             Self::ModelFile { .. } => Some("`hexbench fit ... -o model.toml` writes such a file.".into()),
             Self::Result { .. } => {
                 Some("`hexbench diagnose ... --json FILE` and `compare ... --json FILE` write such files.".into())
@@ -310,6 +313,15 @@ impl Failure {
             Self::Reproduction(_) => Some("Give another seed.".into()),
             Self::Server { .. } => {
                 Some("Leave --port away: a free port is then chosen.".into())
+            }
+            Self::Output { cause, .. } if cause.kind() == io::ErrorKind::NotFound => {
+                Some("Make the folder first, or name another.".into())
+            }
+            Self::Output { cause, .. } if cause.kind() == io::ErrorKind::IsADirectory => {
+                Some("Name a file in it.".into())
+            }
+            Self::Output { cause, .. } if cause.kind() == io::ErrorKind::FileTooLarge => {
+                Some("Raise the limit of the size of a file (`ulimit -f`).".into())
             }
             Self::Output { .. } | Self::Simulation(_) => {
                 Some("Check the free space and that the folder may be written to.".into())

@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-pub(crate) use hexbench_app::input::{catalogue_with, model, user_terms};
+use hexbench_app::input::model;
+pub(crate) use hexbench_app::input::{catalogue_with, user_terms};
 use hexbench_core::files::{
     ColumnNames, TableReading, read_campaign, read_campaign_named, read_column_names, read_conditions_named,
     read_hexapod, read_plan,
 };
 use hexbench_core::{Dataset, Hexapod};
+use hexbench_model::application::model_file::Model;
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
 
@@ -29,6 +31,21 @@ impl TableNames {
     /// Reads the map; none: the names of hexbench.
     pub(crate) fn read(&self) -> Result<ColumnNames, Failure> {
         Ok(self.columns.as_deref().map(read_column_names).transpose()?.unwrap_or_default())
+    }
+}
+
+/// Whether a model file may be other than `fit` wrote it.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct Trust {
+    /// Use the model although its file was changed by hand since `fit` wrote it, or has no digest
+    #[arg(long)]
+    trust: bool,
+}
+
+impl Trust {
+    /// The model of a file.
+    pub(crate) fn model(self, path: &Path) -> Result<Model, Failure> {
+        model(path, self.trust)
     }
 }
 

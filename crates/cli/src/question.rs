@@ -1,6 +1,6 @@
 //! What `diagnose` and `discover` ask about: a machine, its readings, what competes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
@@ -11,7 +11,7 @@ use hexbench_report::words::Provenance;
 
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::{origin, provenance};
+use crate::output::{origin, provenance, refuse_overlaps_of};
 
 /// Files, and the lines of them that count.
 #[derive(Debug, Args)]
@@ -53,6 +53,17 @@ impl Question {
         Ok(Asked { hexapod, data, holdout, terms })
     }
 
+    /// Refuse outputs that would overwrite one of the files.
+    pub(crate) fn refuse_overlaps(&self, outputs: &[PathBuf]) -> Result<(), Failure> {
+        let files: Vec<PathBuf> = self.files().cloned().collect();
+        let outputs: Vec<&Path> = outputs.iter().map(PathBuf::as_path).collect();
+        refuse_overlaps_of(&files, &outputs)
+    }
+
+    fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.hexapod, &self.data].into_iter().chain(&self.holdout).chain(&self.terms)
+    }
+
     /// Which machine and files a result is about.
     pub(crate) fn origin(&self, asked: &Asked) -> Result<Origin, Failure> {
         origin((&asked.hexapod, &self.hexapod), (&asked.data, &self.data), self.holdout.as_deref())
@@ -60,6 +71,6 @@ impl Question {
 
     /// What a page says of the files behind it.
     pub(crate) fn provenance(&self) -> Result<Provenance, Failure> {
-        provenance([&self.hexapod, &self.data].into_iter().chain(&self.holdout).chain(&self.terms))
+        provenance(self.files())
     }
 }

@@ -21,6 +21,7 @@ pub mod sensor;
 pub mod statistics;
 pub mod streams;
 pub mod tolerances;
+pub mod visible;
 pub mod wrench;
 
 pub use approach::Approach;
@@ -34,6 +35,7 @@ pub use pose::Pose;
 pub use rings::JointCircle;
 pub use sensor::{Channel, NumberKind, Sensor, SensorKind, UNREAD};
 pub use tolerances::{StatedTolerances, Tolerances};
+pub use visible::{visible, visible_lines};
 pub use wrench::Wrench;
 
 /// A point or direction, metres or unit length.

@@ -37,7 +37,7 @@ impl PyModel {
     /// Read model.toml.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let model = py.detach(|| input::model(&path)).map_err(|failure| raised(py, &failure))?;
+        let model = py.detach(|| input::model(&path, false)).map_err(|failure| raised(py, &failure))?;
         Ok(Self::of(model, String::new()))
     }
 

@@ -142,7 +142,7 @@ impl LegLaw {
         let slope = 1.0 / (1.0 + self.slider_ratio);
         let held = before.spring_force + slope * (force - before.force);
         let (low, high) = (force - self.slider_force, force + self.slider_force);
-        if held > low && held < high { (held, slope) } else { (held.clamp(low, high), 1.0) }
+        if held > low && held < high { (held, slope) } else { (held.max(low).min(high), 1.0) }
     }
 
     /// Point with `f + k e = z` for the reference stiffness `k` (N/m) and what the leg remembers.

@@ -1,6 +1,6 @@
 //! `hexbench check HEXAPOD [DATA] [HOLDOUT]`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_model::error::ModelError;
@@ -11,7 +11,7 @@ use hexbench_report::words;
 
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::{Screen, write_json};
+use crate::output::{OutFile, Screen, write_json};
 use crate::read_as::ReadAs;
 
 /// Are machine and files what they should be? What is understood of them, what looks wrong, what they could show
@@ -29,10 +29,10 @@ pub(crate) struct Arguments {
     read_as: ReadAs,
     /// Write all of it to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     /// Write a picture of the machine with its sensors to FILE (SVG)
     #[arg(long, value_name = "FILE")]
-    picture: Option<PathBuf>,
+    picture: Option<OutFile>,
 }
 
 /// Check and report; exit code 1 when something has to be put right first.
@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Screen::make_folder_of(path)?;
         screen.write_to(path, &drawing(&hexapod)?)?;
     }
-    if arguments.json.as_deref() != Some(Path::new("-")) {
+    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
         screen.show(&words::check(&hexapod.name, &found).with_all(sensors(&hexapod)))?;
     }
     if found.ready {

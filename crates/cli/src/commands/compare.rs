@@ -1,6 +1,6 @@
 //! `hexbench compare HEXAPOD DATA`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_model::inference::misread::AsMeant;
@@ -10,8 +10,8 @@ use hexbench_report::words::{readings, subject};
 use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
-use crate::input::{self, TableNames};
-use crate::output::{PageFiles, Screen, TableFile, origin, provenance, write_json};
+use crate::input::{self, TableNames, Trust};
+use crate::output::{OutFile, PageFiles, Screen, TableFile, origin, provenance, write_json};
 use crate::read_as::ReadAs;
 
 /// Compare a model with measurements: errors beside the noise, where they sit, what they follow
@@ -24,6 +24,8 @@ pub(crate) struct Arguments {
     /// Compare this model as it is (model.toml); without it the leg springs are fitted to the data
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
+    #[command(flatten)]
+    trust: Trust,
     /// Also compare with these readings, which no fit has seen
     #[arg(long, value_name = "FILE")]
     holdout: Option<PathBuf>,
@@ -33,7 +35,7 @@ pub(crate) struct Arguments {
     read_as: ReadAs,
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     /// Write every reading beside the model to FILE, for pandas, polars or xarray: .parquet or .csv
     #[arg(long, value_name = "FILE")]
     table: Option<TableFile>,
@@ -59,7 +61,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
     input::warn_of_misread(hexapod, data, &arguments.read_as);
-    let model = arguments.model.as_deref().map(input::model).transpose()?;
+    let model = arguments.model.as_deref().map(|path| arguments.trust.model(path)).transpose()?;
     let failed = |cause| Failure::Model { cause, data: data.source.clone() };
     let mut compared = compare(hexapod, data, model.as_ref(), holdout).map_err(failed)?;
     compared.comparison.read_as = arguments.read_as.names();
@@ -77,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let provenance = provenance(arguments.files())?;
         Ok(charts::comparison(hexapod, data, holdout, &compared, &provenance)?)
     })?;
-    if arguments.json.as_deref() != Some(Path::new("-")) && !arguments.page.to_stdout() {
+    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) && !arguments.page.to_stdout() {
         let about = subject::entries(data, holdout, &compared.campaign.noise);
         screen.show(&words::comparison(&hexapod.name, about, result))?;
     }

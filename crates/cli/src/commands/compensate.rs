@@ -8,8 +8,8 @@ use hexbench_model::application::compensate::compensate;
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
-use crate::input::{self, TableNames};
-use crate::output::Screen;
+use crate::input::{self, TableNames, Trust};
+use crate::output::{OutFile, Screen};
 
 /// Find the command that brings the loaded platform to the wanted pose
 ///
@@ -20,20 +20,22 @@ use crate::output::Screen;
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
     model: PathBuf,
+    #[command(flatten)]
+    trust: Trust,
     /// Wanted poses and loads: the columns of measurements.csv without the measured ones
     poses: PathBuf,
     #[command(flatten)]
     names: TableNames,
     /// Write to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: PathBuf,
+    output: OutFile,
 }
 
 const AXES: [&str; 6] = ["a", "b", "c", "alpha", "beta", "gamma"];
 
 /// Correct every row.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let model = input::model(&arguments.model)?;
+    let model = arguments.trust.model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses, &arguments.names)?;
     let corrections = compensate(&model, &rows.observations)
         .map_err(|cause| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) })?;

@@ -1,7 +1,7 @@
 //! `hexbench demo`: the whole story on measurements that come with the program, with its page at the end.
 
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 use hexbench_core::files::{parse_hexapod, read_measurements_from, text_hash};
@@ -16,7 +16,7 @@ use hexbench_workbench::bench::cases::{BundledCase, FOUNDATION, UNLISTED};
 
 use crate::commands::diagnose::study;
 use crate::failure::Failure;
-use crate::output::{Screen, report};
+use crate::output::{OutFile, Screen, report};
 
 const CASE: BundledCase = FOUNDATION;
 const FILES: [(&str, &str); 3] =
@@ -30,7 +30,7 @@ const PAGE: &str = "report.html";
 pub(crate) struct Arguments {
     /// Write the page with charts to FILE instead of report.html
     #[arg(short, long, value_name = "FILE", conflicts_with = "no_report")]
-    output: Option<PathBuf>,
+    output: Option<OutFile>,
     /// Write no page
     #[arg(long)]
     no_report: bool,

@@ -13,7 +13,7 @@ use hexbench_report::Page;
 use crate::csv;
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{PageFiles, Progress, Screen, write_json};
+use crate::output::{OutFile, PageFiles, Progress, Screen, write_json};
 
 /// Choose the poses that determine stiffnesses (and effects) best
 #[derive(Debug, Args)]
@@ -52,7 +52,7 @@ pub(crate) struct Arguments {
     /// Write the plan to FILE: the columns of measurements.csv without the measured ones; with --sensors the machine with the chosen
     /// ones: hexapod.toml
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    output: Option<OutFile>,
     /// Choose sensors, too: those that read these poses best, out of the candidates of FILE (sensor-candidates/1)
     #[arg(long, value_name = "FILE")]
     sensors: Option<PathBuf>,
@@ -67,7 +67,7 @@ pub(crate) struct Arguments {
     see: Option<String>,
     /// Write the chosen sensors as JSON to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE", requires = "sensors")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     #[command(flatten)]
     page: PageFiles,
 }
@@ -87,7 +87,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let found = planned(arguments, &hexapod)?;
     tell(arguments, design::page(&found), screen)?;
-    let written = |path: &PathBuf| screen.write_to(path, &csv::conditions(&found.readings_to_take()));
+    let written = |path: &OutFile| screen.write_to(path, &csv::conditions(&found.readings_to_take()));
     arguments.output.as_ref().map_or(Ok(()), written)
 }
 
@@ -123,7 +123,7 @@ fn sensors(
     let poses = designed.iter().flat_map(|found| design::page(found).sections.into_iter().take(1));
     let page = chosen.page();
     tell(arguments, Page { sections: poses.chain(page.sections).collect(), ..page }, screen)?;
-    let written = |path: &PathBuf| screen.write_to(path, &hexapod_to_toml(&chosen.hexapod));
+    let written = |path: &OutFile| screen.write_to(path, &hexapod_to_toml(&chosen.hexapod));
     arguments.output.as_ref().map_or(Ok(()), written)
 }
 
@@ -131,8 +131,7 @@ fn sensors(
 fn tell(arguments: &Arguments, page: Page, screen: &Screen) -> Result<(), Failure> {
     let page = Page { title: "Plan of an experiment".to_owned(), ..page };
     let files = [&arguments.json, &arguments.output];
-    let elsewhere =
-        files.into_iter().flatten().any(|path| path == Path::new("-")) || arguments.page.to_stdout();
+    let elsewhere = files.into_iter().flatten().any(OutFile::is_stdout) || arguments.page.to_stdout();
     arguments.page.write(screen, || Ok(page.clone()))?;
     if elsewhere { Ok(()) } else { screen.show(&Page { title: String::new(), ..page }) }
 }

@@ -1,6 +1,5 @@
 //! `hexbench diagnose HEXAPOD DATA`.
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
@@ -15,7 +14,7 @@ use hexbench_report::words::ReportSubject;
 use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
-use crate::output::{PageFiles, Screen, write_json};
+use crate::output::{OutFile, PageFiles, Screen, write_json};
 use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 
@@ -31,7 +30,7 @@ pub(crate) struct Arguments {
     read_as: ReadAs,
     /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     #[command(flatten)]
     page: PageFiles,
     /// Exit with 1 unless this is the verdict
@@ -74,7 +73,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     };
     let study = diagnose_with_proposal(hexapod, data, holdout.as_ref(), terms, &options)
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
-    let to_stdout = arguments.json.as_deref() == Some(Path::new("-")) || arguments.page.to_stdout();
+    let to_stdout = arguments.json.as_ref().is_some_and(OutFile::is_stdout) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
         let run = arguments.question.origin(&asked)?;
         write_json(screen, path, &WithOrigin { result: &study.diagnosis, run })?;

@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_model::results::diagnose::DiagnoseOptions;
-use hexbench_model::results::discover::{DiscoveryStudy, discover_watched, most_steps};
+use hexbench_model::results::discover::{DiscoveryStudy, MOST_LAWS, discover_watched, most_steps};
 use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::ReportSubject;
 use hexbench_report::{charts, words};
 
 use super::diagnose;
 use crate::failure::Failure;
-use crate::output::{PageFiles, Progress, Screen, report, write_json};
+use crate::output::{OutFile, PageFiles, Progress, Screen, report, write_json};
 use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
 
@@ -24,11 +24,11 @@ pub(crate) struct Arguments {
     read_as: ReadAs,
     /// Write discovery.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     /// Write the best law to FILE, a term file (term/1) for `--term`, or to standard output (-) instead of the page; nothing is written where no
     /// law is found
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    output: Option<OutFile>,
     /// Write the law and those that these readings do not tell from it to DIR, a term file each (law-1.toml, law-2.toml, ...), for
     /// `--term` of discriminate
     #[arg(long, value_name = "DIR")]
@@ -37,8 +37,17 @@ pub(crate) struct Arguments {
     page: PageFiles,
 }
 
+impl Arguments {
+    /// The files that may be written to the folder of all laws.
+    fn laws(&self) -> Vec<PathBuf> {
+        let name = |number| format!("law-{number}.toml");
+        self.all.iter().flat_map(|folder| (1..=MOST_LAWS).map(|n| folder.join(name(n)))).collect()
+    }
+}
+
 /// Search and tell.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    arguments.question.refuse_overlaps(&arguments.laws())?;
     let asked = arguments.question.read()?;
     let Asked { hexapod, data, holdout, terms } = &asked;
     let options = DiagnoseOptions {
@@ -51,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let study = discover_watched(hexapod, data, holdout.as_ref(), terms, &options, &watch)
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
     progress.done();
-    let is_stdout = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
+    let is_stdout = |path: &Option<OutFile>| path.as_ref().is_some_and(OutFile::is_stdout);
     let to_stdout = is_stdout(&arguments.json) || is_stdout(&arguments.output) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
         let run = arguments.question.origin(&asked)?;

@@ -18,7 +18,7 @@ use hexbench_model::results::next::{EXCLUDED_ODDS, Effort, PairForecast, Suspect
 use crate::csv;
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::{Progress, Screen, write_json};
+use crate::output::{OutFile, Progress, Screen, write_json};
 use crate::page::discriminated::{Discriminated, Pair, Planned, Promise, discriminated};
 
 /// Readings of a new plan, and further ones beside data, unless asked otherwise.
@@ -55,10 +55,10 @@ pub(crate) struct Arguments {
     seed: u32,
     /// Write the readings to FILE: the columns of measurements.csv without the measured ones
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    output: Option<OutFile>,
     /// Write the result as JSON to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
 }
 
 fn visibility(text: &str) -> Result<f64, String> {
@@ -76,7 +76,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         None => new_plan(arguments, &hexapod, &space, &terms)?,
         Some(path) => next_readings(arguments, &hexapod, &space, &terms, path)?,
     };
-    let to_stdout = arguments.json.as_deref() == Some(Path::new("-"));
+    let to_stdout = arguments.json.as_ref().is_some_and(OutFile::is_stdout);
     if let Some(path) = &arguments.json {
         write_json(screen, path, &found.json())?;
     }

@@ -11,7 +11,7 @@ use hexbench_truth::scene::{PartName, Scene};
 use hexbench_truth::{TruthError, World, mjcf};
 
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{OutFile, Screen, refuse_overlaps_of};
 use crate::states::States;
 
 /// Write the machine of a scene for another program
@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
     mjcf: bool,
     /// Model file, or `-`; with --states the folder that gets models and states.csv
     #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: PathBuf,
+    output: OutFile,
     /// Row of the plan, from 1: its pose and its load
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     row: u64,
@@ -42,11 +42,19 @@ pub(crate) struct Arguments {
 
 /// Write one model, or many with their states of rest.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    refuse_overlaps_of(&files(&arguments.scene), &[&arguments.output])?;
     let scene = Scene::read(&arguments.scene)?;
     match arguments.states {
         Some(count) => states(arguments, &scene, count, screen),
         None => single(arguments, &scene, screen),
     }
+}
+
+/// The files that a scene may be read from.
+fn files(scene: &Path) -> Vec<PathBuf> {
+    let folders = [scene.to_owned(), scene.join("sealed")];
+    let entries = folders.iter().flat_map(std::fs::read_dir).flatten().flatten().map(|entry| entry.path());
+    entries.filter(|path| path.extension().is_some_and(|end| end == "toml" || end == "csv")).collect()
 }
 
 fn single(arguments: &Arguments, scene: &Scene, screen: &Screen) -> Result<(), Failure> {

@@ -1,6 +1,6 @@
 //! `hexbench fit HEXAPOD DATA --add TERM -o model.toml`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use hexbench_app::fit::{added, fitted, model};
@@ -16,7 +16,7 @@ use hexbench_report::words::fitted;
 
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
-use crate::output::{Screen, origin, write_json};
+use crate::output::{OutFile, Screen, origin, write_json};
 use crate::read_as::ReadAs;
 
 /// Fit leg stiffnesses and the effects you name, and save the model
@@ -44,10 +44,10 @@ pub(crate) struct Arguments {
     read_as: ReadAs,
     /// Write the model to FILE (model.toml)
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    output: Option<OutFile>,
     /// Write the result as fit.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
 }
 
 /// Estimators by name.
@@ -79,13 +79,13 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let result = FitReport::of(&task, &judged, estimator);
         write_json(screen, path, &WithOrigin { result: &result, run })?;
     }
-    if arguments.json.as_deref() != Some(Path::new("-")) {
+    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
         screen.show(&fitted::page(&task, &judged, estimator))?;
     }
     let Some(path) = &arguments.output else { return Ok(()) };
     let mut model = model(&task, &judged, estimator, content_hash(&arguments.data)?);
     model.data.read_as = arguments.read_as.names();
-    let unsaved = |cause| Failure::ModelFile { path: path.clone(), cause: Box::new(cause) };
+    let unsaved = |cause| Failure::ModelFile { path: path.to_path_buf(), cause: Box::new(cause) };
     let text = model.to_toml().map_err(unsaved)?;
     screen.write_to(path, &text)
 }

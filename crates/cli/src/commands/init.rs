@@ -11,7 +11,7 @@ use hexbench_report::charts::{drawing, view_from_above};
 use hexbench_report::{Block, Section, words};
 
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{OutFile, Screen};
 
 /// Joints nearer in height than this lie in one plane, m.
 const ONE_PLANE: f64 = 1e-6;
@@ -45,10 +45,10 @@ pub(crate) struct Arguments {
     name: String,
     /// File to be written; one that exists is never replaced
     #[arg(short, long, value_name = "FILE", default_value = "hexapod.toml")]
-    output: PathBuf,
+    output: OutFile,
     /// Write a picture of the machine to FILE too (SVG)
     #[arg(long, value_name = "FILE")]
-    picture: Option<PathBuf>,
+    picture: Option<OutFile>,
 }
 
 /// Two rings of joints, mm and degrees.
@@ -101,7 +101,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Screen::make_folder_of(path)?;
         screen.write_to(path, &drawing(&hexapod)?)?;
     }
-    if arguments.output.as_os_str() == "-" {
+    if arguments.output.is_stdout() {
         return Ok(());
     }
     let view = Section::new("From above")

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
 use hexbench_core::BallRecord;
-use hexbench_core::files::{CsvText, nearest, read_ball_places, read_balls};
+use hexbench_core::files::{CsvText, csv_words, nearest, read_ball_places, read_balls};
 use hexbench_model::machine::registration::{Places, Registered, RegisteredPose, register_all};
 use hexbench_report::number::significant;
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
-use crate::output::{Screen, report};
+use crate::output::{OutFile, Screen, report};
 use crate::page::located;
 
 /// Find poses, with their uncertainty, from balls that a measuring machine touched
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     sigma_um: Option<f64>,
     /// Write the table of poses to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: PathBuf,
+    output: OutFile,
 }
 
 /// Names of the six numbers.
@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         .map_err(|cause| Failure::Balls { path: arguments.data.clone(), cause })?;
     warn(&arguments.data, &found);
     screen.write_to(&arguments.output, &table(&found))?;
-    if arguments.output == Path::new("-") {
+    if arguments.output.is_stdout() {
         return Ok(());
     }
     let told = located::Told { found: &found, places: &places, stated: sigma, output: &arguments.output };
@@ -118,8 +118,9 @@ fn table(found: &Registered) -> String {
 fn row(pose: &RegisteredPose) -> Vec<String> {
     let sigma: [f64; 6] = std::array::from_fn(|k| pose.covariance[(k, k)].sqrt());
     let (first, second, distance) = pose.worst.clone().unwrap_or_default();
+    let [first, second] = [first, second].map(|ball| csv_words(&ball).into_owned());
     let [rms, distance] = [pose.rms, distance].map(|x| format!("{:.6}", x * 1e6));
-    std::iter::once(pose.id.clone())
+    std::iter::once(csv_words(&pose.id).into_owned())
         .chain(csv::values(&pose.pose.to_array(), [Unit::Mm, Unit::Deg]))
         .chain(csv::values(&sigma, [Unit::Um, Unit::Urad]))
         .chain(csv::correlations(&pose.covariance))

@@ -1,6 +1,6 @@
 //! `hexbench power HEXAPOD PLAN`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
@@ -14,7 +14,7 @@ use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{Screen, TrialFiles, write_json};
+use crate::output::{OutFile, Screen, TrialFiles, write_json};
 
 /// See which effects a plan would show, from which size on, and what it would take them for
 #[derive(Debug, Args)]
@@ -55,13 +55,13 @@ pub(crate) struct Arguments {
     noise_from_repeats: bool,
     /// Write all figures to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     /// Write the charts to a folder, or the heat map alone to a file whose name ends with .svg
     #[arg(long, value_name = "DIR")]
-    svg: Option<PathBuf>,
+    svg: Option<OutFile>,
     /// Write the page as Markdown to FILE
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     #[command(flatten)]
     kept: TrialFiles,
 }
@@ -101,10 +101,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let page =
         PlanReport { plan: &plan, power: &power, only: &arguments.effects, verbose: screen.is_verbose() };
     write(arguments, &page, screen)?;
-    match arguments.json.as_deref() {
-        Some(path) if path == Path::new("-") => Ok(()),
-        _ => screen.show(&page.document()),
+    if arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
+        return Ok(());
     }
+    screen.show(&page.document())
 }
 
 fn known(ids: &[String], terms: &[Arc<dyn Term>]) -> Result<(), Failure> {

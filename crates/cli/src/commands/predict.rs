@@ -9,26 +9,28 @@ use hexbench_model::application::predict::{PredictError, predict, predict_sensor
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
-use crate::input::{self, TableNames};
-use crate::output::Screen;
+use crate::input::{self, TableNames, Trust};
+use crate::output::{OutFile, Screen};
 
 /// Predict deflections (or absolute poses) and what the sensors of the machine read, with their uncertainty
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
     model: PathBuf,
+    #[command(flatten)]
+    trust: Trust,
     /// Poses and loads: the columns of measurements.csv without the measured ones
     poses: PathBuf,
     #[command(flatten)]
     names: TableNames,
     /// Write to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: PathBuf,
+    output: OutFile,
 }
 
 /// Predict every row.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let model = input::model(&arguments.model)?;
+    let model = arguments.trust.model(&arguments.model)?;
     let rows = input::conditions(&arguments.poses, &arguments.names)?;
     let failed = |cause: PredictError| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) };
     let predictions = predict(&model, &rows.observations).map_err(failed)?;

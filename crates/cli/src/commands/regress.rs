@@ -1,6 +1,6 @@
 //! `hexbench regress`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_experiments::regress::baseline::{Baseline, Update, made};
@@ -17,7 +17,7 @@ use hexbench_experiments::regress::trials::SuiteRuns;
 use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
-use crate::output::{Screen, TrialFiles, write_json};
+use crate::output::{OutFile, Screen, TrialFiles, write_json};
 
 /// The baseline of the full suite.
 pub(crate) const COMMITTED: &str = "data/regress/baseline.json";
@@ -41,13 +41,13 @@ pub(crate) struct Arguments {
     all: bool,
     /// Write the limits as `JUnit` XML to FILE, one test case each
     #[arg(long, value_name = "FILE")]
-    junit: Option<PathBuf>,
+    junit: Option<OutFile>,
     /// Write all figures to FILE, `-` for standard output
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     /// Write a short page of Markdown to FILE, `-` for standard output
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     /// Make this program's figures the baseline
     #[arg(long, requires = "reason", conflicts_with_all = ["junit", "json", "markdown", "all"])]
     update: bool,
@@ -97,10 +97,10 @@ fn check(
 
 fn write(arguments: &Arguments, comparison: &RunComparison, screen: &Screen) -> Result<(), Failure> {
     let page = summary::page(comparison, arguments.all);
-    let to_screen = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
+    let to_screen = |path: &Option<OutFile>| path.as_ref().is_some_and(OutFile::is_stdout);
     if let Some(path) = &arguments.junit {
         let cause = |e: hexbench_experiments::regress::junit::XmlError| Failure::Output {
-            path: path.clone(),
+            path: path.to_path_buf(),
             cause: std::io::Error::other(e),
         };
         screen.write_to(path, &junit(comparison).map_err(cause)?)?;
@@ -144,7 +144,7 @@ fn update(
     baseline.write(&arguments.baseline)?;
     let first = trials.first().map(|t| compare(suite, limits, (t, arguments.seed), &baseline, VERSION));
     let told = first.map(|c| headline(&c)).unwrap_or_default();
-    screen.write(&format!(
+    screen.tell(&format!(
         "{}: {} runs of suite {}/{}, update {}.\nIts first run beside all of them: {told}\n",
         arguments.baseline.display(),
         baseline.runs,

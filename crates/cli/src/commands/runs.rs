@@ -8,7 +8,7 @@ use hexbench_report::{charts, words};
 use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
-use crate::output::{PageFiles, Screen, provenance, write_json};
+use crate::output::{OutFile, PageFiles, Screen, provenance, write_json};
 
 /// Put two results beside each other: what changed from one run to the other, and whether that is beyond chance
 #[derive(Debug, Args)]
@@ -19,7 +19,7 @@ pub(crate) struct Arguments {
     b: PathBuf,
     /// Write all numbers to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     #[command(flatten)]
     page: PageFiles,
     /// Exit with 1 when anything changed: the answer, or a number beyond chance
@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         write_json(screen, path, &runs)?;
     }
     arguments.page.write(screen, || Ok(charts::runs(&runs, &provenance([&arguments.a, &arguments.b])?)?))?;
-    if arguments.json.as_deref() != Some(Path::new("-")) {
+    if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
         screen.show(&words::runs(&runs))?;
     }
     if arguments.check && runs.has_changed() {

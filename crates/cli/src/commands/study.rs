@@ -9,7 +9,7 @@ use hexbench_experiments::sweep::{StudyPart, Work, divide, page};
 use hexbench_report::{Block, Page, Section, Table};
 
 use crate::failure::Failure;
-use crate::output::{Progress, Screen, report};
+use crate::output::{OutFile, Progress, Screen, report};
 
 /// Sweep over choices of an experiment: how accuracy depends on noise, plan, poses, repeats, geometry, effect and size
 ///
@@ -49,7 +49,7 @@ struct Whole {
     out: PathBuf,
     /// Write the page to FILE too; its charts go to a folder beside it
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
 }
 
 #[derive(Debug, Args)]
@@ -85,7 +85,7 @@ struct MergeArguments {
     out: PathBuf,
     /// Write the page to FILE too; its charts go to a folder beside it
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
 }
 
 /// All of a study, or what belongs to sharing it.
@@ -131,9 +131,8 @@ fn part(arguments: &RunArguments, screen: &Screen) -> Result<(), Failure> {
     let work = Work::open(&arguments.study, &arguments.out)?;
     compute(&work, Some(arguments.shard))?;
     let (part, folder) = (arguments.shard, arguments.out.display());
-    screen.write(&format!(
-        "Part {part} is done, in {folder}. `hexbench study merge` puts the parts together.\n"
-    ))
+    screen
+        .tell(&format!("Part {part} is done, in {folder}. `hexbench study merge` puts the parts together.\n"))
 }
 
 /// Take over all parts and write the results.
@@ -159,7 +158,7 @@ fn tell(work: &Work, markdown: Option<&Path>, screen: &Screen) -> Result<(), Fai
     page::write(work.study(), &cells, work.folder(), markdown)?;
     screen.show(&page::summary(work.study(), &cells))?;
     let written: Vec<String> = work.written().iter().map(|path| format!("  {}\n", path.display())).collect();
-    screen.write(&format!("\nWritten:\n{}", written.concat()))
+    screen.tell(&format!("\nWritten:\n{}", written.concat()))
 }
 
 /// Compute what is missing of a part, or of the whole.

@@ -1,6 +1,5 @@
 //! `hexbench terms [TERM]`: the catalogue, from the code.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
@@ -13,7 +12,7 @@ use hexbench_report::render::markdown;
 use hexbench_report::words::{effect, effects};
 
 use crate::failure::Failure;
-use crate::output::{Screen, write_json};
+use crate::output::{OutFile, Screen, write_json};
 
 /// List the effects of the catalogue, or explain one
 #[derive(Debug, Args)]
@@ -25,7 +24,7 @@ pub(crate) struct Arguments {
     markdown: bool,
     /// Write the whole catalogue as terms.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE", conflicts_with_all = ["term", "markdown"])]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
 }
 
 /// Print the list, one effect, or the Markdown page.

@@ -12,7 +12,7 @@ use hexbench_report::{Block, Page, Section, Table, number};
 use crate::failure::Failure;
 use crate::input;
 
-use crate::output::Screen;
+use crate::output::{OutFile, Screen};
 
 /// See how the machine settles after a load step, and its natural frequencies
 #[derive(Debug, Args)]
@@ -39,7 +39,7 @@ pub(crate) struct Arguments {
     stiffness: Option<f64>,
     /// Write the trace to FILE (trace.csv)
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    output: Option<OutFile>,
 }
 
 /// Six numbers of an argument.

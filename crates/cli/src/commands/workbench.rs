@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let server =
         Server::bind(&ServerSettings { port, ..ServerSettings::default() }, given).map_err(failed)?;
     let stop = server.asked_to_stop().map_err(failed)?;
-    screen.write(&format!(
+    screen.tell(&format!(
         "The workbench is open at\n\n  {}\n\nOpen this address in a browser on this machine. Ctrl-C ends it.\n",
         server.url()
     ))?;

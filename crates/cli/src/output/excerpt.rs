@@ -5,6 +5,7 @@ use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
 
+use hexbench_core::visible;
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
 /// Characters shown before and after the offending text.
@@ -39,8 +40,9 @@ impl Excerpt {
         let (before, column) = line_tail(&String::from_utf8_lossy(bytes.get(..inside.start)?));
         let middle = line_head(&String::from_utf8_lossy(bytes.get(inside.clone())?), MOST_MARKED);
         let after = line_head(&String::from_utf8_lossy(&bytes[inside.end..]), CONTEXT);
+        let [before, middle, after] = [before, middle, after].map(|part| visible(&part).into_owned());
         let span = before.len()..before.len() + middle.len();
-        let name = path.display().to_string();
+        let name = visible(&path.display().to_string()).into_owned();
         Some(Self {
             name,
             text: format!("{before}{middle}{after}"),

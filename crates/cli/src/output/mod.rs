@@ -2,6 +2,7 @@
 
 mod colour;
 mod excerpt;
+mod out_file;
 mod pages;
 mod progress;
 pub(crate) mod report;
@@ -10,6 +11,7 @@ mod table;
 mod trials;
 
 pub(crate) use colour::Colour;
+pub(crate) use out_file::{OutFile, refuse_overlaps, refuse_overlaps_of};
 pub(crate) use pages::{PageFiles, origin, provenance, write_json};
 pub(crate) use progress::Progress;
 pub(crate) use screen::Screen;

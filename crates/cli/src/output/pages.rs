@@ -13,7 +13,7 @@ use hexbench_report::render::{PROGRAM, html, markdown};
 use hexbench_report::words::Provenance;
 use serde::Serialize;
 
-use super::{Screen, report};
+use super::{OutFile, Screen, report};
 use crate::failure::Failure;
 
 /// Where a page goes.
@@ -21,10 +21,10 @@ use crate::failure::Failure;
 pub(crate) struct PageFiles {
     /// Write the page with charts to FILE: one file for a browser, needs no network
     #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
+    html: Option<OutFile>,
     /// Write the page as Markdown to FILE, or to standard output (-)
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     /// Write every chart of the page into DIR, as SVG and as PNG
     #[arg(long, value_name = "DIR")]
     charts: Option<PathBuf>,
@@ -33,7 +33,7 @@ pub(crate) struct PageFiles {
 impl PageFiles {
     /// True when the page itself goes to standard output.
     pub(crate) fn to_stdout(&self) -> bool {
-        [&self.html, &self.markdown].into_iter().flatten().any(|path| path.as_os_str() == "-")
+        [&self.html, &self.markdown].into_iter().flatten().any(OutFile::is_stdout)
     }
 
     /// Make the page if anyone wants it, and write it.

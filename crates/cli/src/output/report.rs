@@ -3,6 +3,7 @@
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
 
+use hexbench_core::visible_lines;
 use hexbench_report::render::WIDTH;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 
@@ -20,12 +21,12 @@ pub(crate) fn print(failure: &Failure, colour: Colour) {
 
 /// Tell something that does not stop the command.
 pub(crate) fn warn(message: &str, next: &str) {
-    say(&format!("warning: {message}\n  next: {next}\n"));
+    say(&visible_lines(&format!("warning: {message}\n  next: {next}\n")));
 }
 
 /// Tell something that is as it should be.
 pub(crate) fn note(message: &str) {
-    say(&format!("{message}\n"));
+    say(&visible_lines(&format!("{message}\n")));
 }
 
 /// A closed standard error leaves nobody to tell.
@@ -35,7 +36,7 @@ fn say(text: &str) {
 
 fn plain(failure: &Failure) -> String {
     let next = failure.next_step().map(|step| format!("  next: {step}\n")).unwrap_or_default();
-    format!("error: {failure}\n{next}")
+    visible_lines(&format!("error: {failure}\n{next}")).into_owned()
 }
 
 fn graphical(failure: &Failure, colour: bool) -> String {
@@ -64,7 +65,7 @@ struct Pointed<'a> {
 
 impl fmt::Display for Pointed<'_> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.failure.fmt(out)
+        out.write_str(&visible_lines(&self.failure.to_string()))
     }
 }
 
@@ -72,7 +73,7 @@ impl std::error::Error for Pointed<'_> {}
 
 impl Diagnostic for Pointed<'_> {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(Box::new(self.failure.next_step()?))
+        Some(Box::new(visible_lines(&self.failure.next_step()?).into_owned()))
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {

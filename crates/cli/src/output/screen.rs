@@ -3,7 +3,8 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use hexbench_core::files::atomic_write;
+use hexbench_core::files::{Destination, atomic_write};
+use hexbench_core::visible_lines;
 use hexbench_report::Page;
 use hexbench_report::render::{Terminal, TextStyle, terminal};
 
@@ -46,9 +47,14 @@ impl Screen {
         }
     }
 
-    /// Refuse a file that exists, with what to do instead; standard output is none.
+    /// Tell a few lines; names in them act on no terminal.
+    pub(crate) fn tell(&self, text: &str) -> Result<(), Failure> {
+        self.write(&visible_lines(text))
+    }
+
+    /// Refuse a file that exists, with what to do instead; standard output and devices are none.
     pub(crate) fn refuse_existing(path: &Path, next: &str) -> Result<(), Failure> {
-        if path.as_os_str() != "-" && path.exists() {
+        if matches!(Destination::of(path), Ok(Destination::File(place)) if place.exists()) {
             return Err(Failure::usage(format!("{} exists already", path.display()), next));
         }
         Ok(())

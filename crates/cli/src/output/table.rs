@@ -28,6 +28,11 @@ impl FromStr for TableFile {
 }
 
 impl TableFile {
+    /// Where it goes.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Write a table made from these files; command, version and digests go into it where the format has a place.
     pub(crate) fn write<'a>(
         &self,

@@ -1,14 +1,26 @@
 //! Writing a file whole or not at all.
 
-use std::fs;
+use std::collections::BTreeSet;
+use std::fs::{self, TryLockError};
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
-/// Writes a file through `fill` so that readers see the old file or the complete new one, never a part.
+use tempfile::NamedTempFile;
+
+use super::Destination;
+use super::destination::folder_of;
+
+/// How names of temporary files begin and end.
+const PREFIX: &str = ".hexbench-";
+const SUFFIX: &str = ".part";
+
+/// Writes an output through `fill`: a file so that readers see the old one or the complete new one, never a part.
 ///
 /// The bytes go to a temporary file in the same folder, are flushed to the disk and renamed. Nothing is left behind
-/// when something fails. A link stays a link: what it points at is written. What is no file (`/dev/null`,
-/// `/dev/stdout`, a pipe) must not be renamed over; it receives the bytes once they are complete.
+/// when something fails, and what a killed program left in the folder is removed. A link stays a link: what it points at is
+/// written. What is no file ([`Destination`]) receives the bytes once they are complete; a reader of it that has gone away is
+/// no error.
 ///
 /// # Errors
 /// Whatever `fill`, the disk or the folder report; a full disk is reported and not lost in a dropped buffer.
@@ -27,22 +39,74 @@ pub fn atomic_write(
     path: &Path,
     fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> io::Result<()> {
-    if fs::metadata(path).is_ok_and(|old| !old.is_file() && !old.is_dir()) {
-        let mut bytes = Vec::new();
-        fill(&mut bytes)?;
-        return fs::OpenOptions::new().write(true).open(path)?.write_all(&bytes);
+    match Destination::of(path)? {
+        Destination::StandardOutput => stream(io::stdout(), fill),
+        Destination::Stream(place) => stream(fs::OpenOptions::new().append(true).open(place)?, fill),
+        Destination::File(place) => replace(&place, fill),
     }
-    let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut temporary = tempfile::Builder::new();
-    temporary.prefix(".hexbench-").suffix(".part");
-    give_ordinary_permissions(&mut temporary);
-    let mut buffer = BufWriter::new(temporary.tempfile_in(folder)?);
+}
+
+fn stream(
+    mut to: impl Write,
+    fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut bytes = Vec::new();
+    fill(&mut bytes)?;
+    match to.write_all(&bytes).and_then(|()| to.flush()) {
+        Err(cause) if cause.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        done => done,
+    }
+}
+
+fn replace(place: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) -> io::Result<()> {
+    let folder = folder_of(place);
+    sweep(folder);
+    let file = temporary_in(folder)?;
+    let mut buffer = BufWriter::new(file.as_file());
     fill(&mut buffer)?;
-    let file = buffer.into_inner().map_err(io::IntoInnerError::into_error)?;
-    file.as_file().sync_all()?;
-    keep_permissions_of(path, file.as_file())?;
-    file.persist(path).map(drop).map_err(|failed| failed.error)
+    buffer.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()?;
+    keep_permissions_of(place, file.as_file())?;
+    file.persist(place).map(drop).map_err(|failed| failed.error)
+}
+
+/// A temporary file, locked as long as it is written, by which others know that it is no remains.
+fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
+    loop {
+        let mut temporary = tempfile::Builder::new();
+        temporary.prefix(PREFIX).suffix(SUFFIX);
+        give_ordinary_permissions(&mut temporary);
+        let file = temporary.tempfile_in(folder)?;
+        let taken = matches!(file.as_file().try_lock(), Err(TryLockError::WouldBlock));
+        // Another program may have swept it away before it was locked.
+        if !taken && file.path().exists() {
+            return Ok(file);
+        }
+    }
+}
+
+/// Removes the temporary files that killed programs left in a folder, once for each folder that this program writes to.
+fn sweep(folder: &Path) {
+    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    if !SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned()) {
+        return;
+    }
+    // What cannot be listed or removed stays: it stands in nobody's way.
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let is_temporary = name.starts_with(PREFIX) && name.ends_with(SUFFIX);
+        if is_temporary && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            remove_if_abandoned(&entry.path());
+        }
+    }
+}
+
+fn remove_if_abandoned(path: &Path) {
+    if let Ok(file) = fs::OpenOptions::new().append(true).open(path)
+        && file.try_lock().is_ok()
+    {
+        let _ = fs::remove_file(path);
+    }
 }
 
 /// A temporary file is private by default; a result is an ordinary file (the umask still applies).
@@ -107,8 +171,21 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_folder_is_an_error() {
+    fn a_missing_folder_is_said_as_such() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(atomic_write(&folder.path().join("none/x"), |_| Ok(())).is_err());
+        let failed = atomic_write(&folder.path().join("none/x"), |_| Ok(())).unwrap_err().to_string();
+        assert!(failed.starts_with("there is no folder ") && failed.ends_with("none"), "{failed}");
+    }
+
+    #[test]
+    fn what_a_killed_program_left_is_removed_and_what_is_being_written_is_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().canonicalize().unwrap();
+        fs::write(place.join(".hexbench-dead.part"), "half").unwrap();
+        fs::write(place.join(".hexbench-notes.txt"), "mine").unwrap();
+        let alive = temporary_in(&place).unwrap();
+        atomic_write(&place.join("x"), |out| out.write_all(b"new")).unwrap();
+        assert!(!place.join(".hexbench-dead.part").exists());
+        assert!(place.join(".hexbench-notes.txt").exists() && alive.path().exists());
     }
 }

@@ -42,9 +42,27 @@ pub fn csv_cell(text: &str) -> Cow<'_, str> {
     }
 }
 
+/// A text of a stranger that a spreadsheet leaves a text: one that would be run as a formula gets an apostrophe in front, a number does not.
+///
+/// Source: OWASP, CSV injection: cells that begin with `=`, `+`, `-`, `@`, a tabulator or a carriage return.
+pub fn csv_words(text: &str) -> Cow<'_, str> {
+    let runs = text.starts_with(['=', '+', '-', '@', '\t', '\r']) && text.parse::<f64>().is_err();
+    if runs { Cow::Owned(format!("'{text}")) } else { Cow::Borrowed(text) }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::CsvText;
+    use super::{CsvText, csv_words};
+
+    #[test]
+    fn a_formula_stays_a_text_and_a_number_a_number() {
+        for formula in ["=1+1", "+cmd", "-cmd", "@sum(A1)", "\t=1"] {
+            assert_eq!(csv_words(formula), format!("'{formula}"));
+        }
+        for plain in ["", "-5.3", "+1e-3", "a=b", "leg 1"] {
+            assert_eq!(csv_words(plain), plain);
+        }
+    }
 
     #[test]
     fn cells_that_hold_a_comma_or_a_quote_are_quoted() {

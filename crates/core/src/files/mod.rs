@@ -21,6 +21,7 @@ mod column_name;
 mod column_names;
 mod columns;
 mod csv_text;
+mod destination;
 mod digest;
 mod duplicates;
 mod error;
@@ -58,7 +59,8 @@ mod write_measurements;
 
 pub use atomic::atomic_write;
 pub use column_names::{ColumnNames, read_column_names};
-pub use csv_text::{CsvText, csv_cell};
+pub use csv_text::{CsvText, csv_cell, csv_words};
+pub use destination::{Destination, Overlap, refuse_overlap};
 pub use digest::{content_hash, text_hash};
 pub use error::{Fault, FileError};
 pub use header::GroupPurpose;
@@ -76,7 +78,7 @@ pub use read_measurements::{
 };
 pub use read_sensor::{SENSOR_WITH_COST, point, sensor_name, sensor_of, sensors, unit_vector};
 pub use table::TableReading;
-pub use toml_file::{Format, read_toml, read_toml_text};
+pub use toml_file::{Format, read_text, read_toml, read_toml_text};
 pub use toml_value::{Item, KeyUnit, TomlSection};
 pub use units::{Dimension, UNITS, Unit, unit_named};
 pub use warning::{Notice, Warning};

@@ -9,10 +9,18 @@ pub(crate) struct Parsed {
     pub(crate) comma: bool,
 }
 
+/// Largest number of a file, in its unit as in SI: far beyond every machine, and powers and products of such numbers are still finite.
+const LARGEST: f64 = 1e30;
+
+/// A number that can be computed with.
+pub(crate) fn usable(value: f64) -> Result<f64, FileProblem> {
+    if value.abs() <= LARGEST { Ok(value) } else { Err(FileProblem::TooLarge) }
+}
+
 /// A finite number. A decimal comma is read as a point; the caller knows whether the file may have them.
 pub(crate) fn parse_number(text: &str) -> Result<Parsed, FileProblem> {
     match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(Parsed { value, comma: false }),
+        Ok(value) if value.is_finite() => Ok(Parsed { value: usable(value)?, comma: false }),
         Ok(_) if text.bytes().any(|byte| byte.is_ascii_digit()) => Err(FileProblem::TooLarge),
         Ok(_) => Err(FileProblem::NotFinite),
         Err(_) if text.is_empty() => Err(FileProblem::EmptyCell),
@@ -23,7 +31,7 @@ pub(crate) fn parse_number(text: &str) -> Result<Parsed, FileProblem> {
 fn with_comma(text: &str) -> Result<Parsed, FileProblem> {
     let single = text.matches(',').count() == 1 && !text.contains('.');
     match text.replace(',', ".").parse::<f64>() {
-        Ok(value) if single && value.is_finite() => Ok(Parsed { value, comma: true }),
+        Ok(value) if single && value.is_finite() => Ok(Parsed { value: usable(value)?, comma: true }),
         _ => Err(no_number(text)),
     }
 }
@@ -114,7 +122,11 @@ mod tests {
     fn what_is_no_number_has_its_own_reason() {
         assert!(matches!(parse_number("nan"), Err(FileProblem::NotFinite)));
         assert!(matches!(parse_number("-Infinity"), Err(FileProblem::NotFinite)));
-        assert!(matches!(parse_number("1e400"), Err(FileProblem::TooLarge)));
+        assert!(
+            ["1e400", "-1e308", "1,1e30"]
+                .iter()
+                .all(|n| matches!(parse_number(n), Err(FileProblem::TooLarge)))
+        );
         assert!(matches!(parse_number(""), Err(FileProblem::EmptyCell)));
         assert!(matches!(parse_number("1,234.5"), Err(FileProblem::Thousands)));
         assert!(matches!(parse_number("-1 338.5"), Err(FileProblem::Thousands)));

@@ -196,8 +196,8 @@ pub enum FileProblem {
     /// A number that is none.
     #[error("NaN and infinity are not values")]
     NotFinite,
-    /// A number beyond double precision.
-    #[error("the number is too large for double precision (beyond 1.8e308)")]
+    /// A number beyond every machine, with which nothing can be computed.
+    #[error("the number is too large: a number of a file is at most 1e30")]
     TooLarge,
     /// A comma in a number of a comma-separated table.
     #[error("the number is written with a comma; it needs a decimal point")]

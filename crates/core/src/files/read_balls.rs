@@ -4,7 +4,7 @@ use super::column_name::without_brackets;
 use super::error::Fault;
 use super::line::Line;
 use super::lines::{Lines, RawLine};
-use super::number::parse_number;
+use super::number::{parse_number, usable};
 use super::source::{Noticed, read_source};
 use super::stated_unit::stated_unit;
 use super::toml_file::{Format, read_toml};
@@ -225,7 +225,7 @@ fn coordinate(header: &Header, line: &Line<'_>, axis: usize) -> Result<f64, Faul
         }
         Ok(header.units[axis].to_si(number.value))
     });
-    let value = parsed.and_then(|si| if si.is_finite() { Ok(si) } else { Err(FileProblem::TooLarge) });
+    let value = parsed.and_then(usable);
     let place = || line.place(cell).with_name(header.columns.usual[axis + 2]).with_value(line.text(cell));
     value.map_err(|problem| Fault::new(place(), problem))
 }

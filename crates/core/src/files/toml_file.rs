@@ -46,6 +46,15 @@ pub fn read_toml_text<T>(
     parse_toml(text, format, make).map_err(|fault| fault.in_file(name))
 }
 
+/// The text of a small file, UTF-8.
+///
+/// # Errors
+/// No such file, a file of more than 1 MiB, a byte that is no text, with its line.
+pub fn read_text(path: &Path) -> Result<String, FileError> {
+    let text = read_file(path).and_then(|bytes| Ok(utf8_text(&bytes)?.to_owned()));
+    text.map_err(|fault| fault.in_file(path))
+}
+
 pub(crate) fn parse_toml<T>(
     text: &str,
     format: Format,

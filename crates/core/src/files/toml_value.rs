@@ -2,7 +2,7 @@
 
 use super::error::Fault;
 use super::nearest::nearest;
-use super::number::parse_number;
+use super::number::{parse_number, usable};
 use super::stated_unit::stated_unit;
 use super::units::{PLAIN, Unit};
 use super::{Dimension, FilePlace, FileProblem};
@@ -231,8 +231,7 @@ impl<'t> Item<'t> {
             _ => return Err(self.wrong_type("a number", self.value)),
         };
         let parsed = parse_number(&digits.replace('_', "")).map_err(|problem| self.fault(problem))?;
-        let si = self.unit.to_si(parsed.value);
-        if si.is_finite() { Ok(si) } else { Err(self.fault(FileProblem::TooLarge)) }
+        usable(self.unit.to_si(parsed.value)).map_err(|problem| self.fault(problem))
     }
 
     /// The key as the file spells it.

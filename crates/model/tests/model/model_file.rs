@@ -135,6 +135,44 @@ fn what_is_no_model_is_refused_with_key_and_rule() {
     }
 }
 
+#[test]
+fn a_file_that_was_changed_is_refused_unless_it_is_trusted() {
+    let original = models().remove(1);
+    let text = original.to_toml().unwrap();
+    let joint = original.hexapod.base_joints[0].x.to_string();
+    let moved = text.replacen(&joint, &format!("{joint}1"), 1);
+    let error = text.lines().find(|l| l.starts_with("standard_error")).unwrap();
+    let unsealed = &text[..text.find("[seal]").unwrap()];
+    for (changed, part) in [
+        (moved, "changed after"),
+        (text.replacen(error, "standard_error_N_per_um = 1e308", 1), "changed after"),
+        (text.replace("sha256 = \"", "sha256 = \"0"), "changed after"),
+        (unsealed.to_owned(), "is missing"),
+    ] {
+        assert_ne!(changed, text);
+        let error = Model::from_toml(&changed).unwrap_err().to_string();
+        assert!(error.contains(part), "{part}: {error}");
+        assert!(Model::from_changed_toml(&changed).is_ok());
+    }
+    let commented = text.replace("\n[noise]", "\n# noise of one reading\n\n[noise]");
+    assert!(commented != text && Model::from_toml(&commented).is_ok(), "a comment is no number");
+}
+
+#[test]
+fn a_spring_that_cannot_be_is_neither_read_nor_written() {
+    let original = models().remove(0);
+    let text = original.to_toml().unwrap();
+    let line = text.lines().find(|l| l.starts_with("compliance_si")).unwrap();
+    for value in ["0.0", "-0.0", "-1e-7"] {
+        let changed = text.replacen(line, &format!("compliance_si = {value}"), 1);
+        let error = Model::from_changed_toml(&changed).unwrap_err().to_string();
+        assert!(error.contains("leg 1") && error.contains("greater than zero"), "{error}");
+    }
+    let mut turned = original;
+    turned.point.compliances[2] = -1e-7;
+    assert!(turned.to_toml().unwrap_err().to_string().starts_with("leg 3"));
+}
+
 fn with_covariance(change: impl Fn(&mut Vec<Vec<f64>>)) -> String {
     let model = models().remove(0);
     let mut table: toml::Table = model.to_toml().unwrap().parse().unwrap();
@@ -159,7 +197,7 @@ fn a_matrix_that_is_no_covariance_is_refused() {
 
 proptest! {
     #[test]
-    fn any_finite_springs_come_back(springs in prop::array::uniform6(prop::num::f64::NORMAL)) {
+    fn any_springs_that_yield_come_back(springs in prop::array::uniform6(prop::num::f64::POSITIVE | prop::num::f64::NORMAL)) {
         let mut model = SPRINGS.clone();
         model.point.compliances = hexbench_core::Vector6::from_column_slice(&springs);
         let back = Model::from_toml(&model.to_toml().unwrap()).unwrap();

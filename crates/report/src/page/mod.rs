@@ -5,6 +5,7 @@
 
 mod block;
 mod table;
+mod visible;
 
 use serde::Serialize;
 

@@ -6,6 +6,7 @@ use super::layout::{WIDTH, length, padded, wrapped};
 
 /// The page as Markdown; charts by their files.
 pub fn markdown(page: &Page) -> String {
+    let page = &page.visible();
     let title = (!page.title.is_empty()).then(|| format!("# {}", page.title));
     let subject = (!page.subject.is_empty()).then(|| entries(&page.subject));
     let blocks: Vec<String> =

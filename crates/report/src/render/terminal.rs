@@ -17,6 +17,7 @@ pub struct Terminal {
 
 /// The page as text.
 pub fn terminal(page: &Page, with: Terminal) -> String {
+    let page = &page.visible();
     let mut out = Writer { text: String::new(), with };
     if !page.title.is_empty() {
         out.heading(&page.title, "");

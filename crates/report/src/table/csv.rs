@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use hexbench_core::files::{CsvText, csv_cell};
+use hexbench_core::files::{CsvText, csv_cell, csv_words};
 
 use super::{Frame, TableValues};
 use crate::page::{Cell, Table};
@@ -25,7 +25,7 @@ pub(super) fn write(frame: &Frame, out: &mut (dyn Write + Send)) -> io::Result<(
                 TableValues::Numbers(all) => number(out, all[row])?,
                 TableValues::Integers(all) => write!(out, "{}", all[row])?,
                 TableValues::Words(all) => out.write_all(all[row].as_bytes())?,
-                TableValues::Texts(all) => out.write_all(csv_cell(&all[row]).as_bytes())?,
+                TableValues::Texts(all) => out.write_all(csv_cell(&csv_words(&all[row])).as_bytes())?,
             }
         }
         out.write_all(b"\n")?;

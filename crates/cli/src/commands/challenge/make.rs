@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let manifest = make(&suite, &arguments.out, &progress)?;
     progress.done();
     let out = arguments.out.display();
-    screen.write(&format!(
+    screen.tell(&format!(
         "{} cases of {} version {}, seed {}.\n\
          To hand out: {out}/cases and {out}/README.md. Keep {out}/sealed and {out}/challenge.toml: with its seed anyone can\n\
          make the truth again.\n",

@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let progress = Progress::of(0, "cases");
     let summary = run_cases(&challenge, &entrant, &arguments.out, manner, &progress);
     progress.done();
-    screen.write(&told(&summary?, &entrant.name))
+    screen.tell(&told(&summary?, &entrant.name))
 }
 
 fn name(name: &str) -> Result<String, Failure> {

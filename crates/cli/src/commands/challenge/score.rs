@@ -8,7 +8,7 @@ use hexbench_experiments::challenge::Challenge;
 use hexbench_experiments::challenge::score::{ChallengeScores, page, score};
 
 use crate::failure::Failure;
-use crate::output::{Screen, write_json};
+use crate::output::{OutFile, Screen, write_json};
 
 /// Compare answers with the truth: errors, coverage, proper scores, programs side by side
 #[derive(Debug, Args)]
@@ -20,10 +20,10 @@ pub(crate) struct Arguments {
     answers: Vec<PathBuf>,
     /// Write every figure and every case to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     /// Write the page to FILE as Markdown
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     /// Exit with 1 when any case of any program has no answer
     #[arg(long)]
     check: bool,

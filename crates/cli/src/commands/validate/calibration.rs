@@ -15,7 +15,7 @@ use hexbench_truth::campaign::CaseKind;
 
 use super::written;
 use crate::failure::Failure;
-use crate::output::{Screen, TrialFiles};
+use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
 #[derive(Debug, Args)]
@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Write the study as a document too; its charts go to a folder beside it
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     /// Write the files of this one trial instead, such as `pair-0007`
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "markdown", "check", "journal", "table"])]
     case: Option<String>,
@@ -80,7 +80,7 @@ fn write(study: &Calibration, arguments: &Arguments, screen: &Screen) -> Result<
     if let Some(path) = &arguments.markdown {
         let folder = path.with_extension("");
         let beside = folder.file_name().unwrap_or(OsStr::new(".")).to_string_lossy().into_owned();
-        files.push((path.clone(), markdown(&page(study, &beside))));
+        files.push((path.to_path_buf(), markdown(&page(study, &beside))));
         files.extend(charts.into_iter().map(|c| (folder.join(c.file), c.svg)));
     }
     written::write_all(files, screen)

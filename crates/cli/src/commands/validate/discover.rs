@@ -10,7 +10,7 @@ use hexbench_report::render::markdown;
 
 use super::written;
 use crate::failure::Failure;
-use crate::output::{Screen, TrialFiles};
+use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say whether laws that no catalogue lists are found, and only where there are any
 #[derive(Debug, Args)]
@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     #[command(flatten)]
     kept: TrialFiles,
 }
@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let trials = harness::table(&protocol, &gathered);
     let study = DiscoveryTrials::of(protocol, gathered);
     let mut files = vec![written::csv_file(arguments.out.join("trials.csv"), &trials)?];
-    files.extend(arguments.markdown.iter().map(|path| (path.clone(), markdown(&page(&study)))));
+    files.extend(arguments.markdown.iter().map(|path| (path.to_path_buf(), markdown(&page(&study)))));
     let written = written::write_all(files, screen)?;
     let names = written.iter().map(|path| path.display().to_string());
     screen.show(&page(&study).with(Section::new("Written").list(names)))

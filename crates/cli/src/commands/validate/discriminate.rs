@@ -1,7 +1,5 @@
 //! `hexbench validate discriminate`.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use hexbench_experiments::discriminate::{
     CONFUSIONS, DiscriminateProtocol, Discrimination, PairTrials, SEED, page,
@@ -10,7 +8,7 @@ use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
 
-use crate::output::{Screen, TrialFiles};
+use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say whether the proposed readings tell effects apart: they are taken on simulated machines with a known truth
 #[derive(Debug, Args)]
@@ -23,7 +21,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     #[command(flatten)]
     kept: TrialFiles,
 }

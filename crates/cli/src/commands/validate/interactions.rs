@@ -1,13 +1,11 @@
 //! `hexbench validate interactions`.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use hexbench_experiments::interactions::{Interactions, InteractionsProtocol, SEED, TRIPLES, page};
 use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
-use crate::output::{Screen, TrialFiles};
+use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say whether the numbers are right when effects act together: all pairs, drawn triples, without noise
 #[derive(Debug, Args)]
@@ -20,7 +18,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     /// Exit with 1 when a number is beyond its bound
     #[arg(long)]
     check: bool,

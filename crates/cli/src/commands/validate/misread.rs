@@ -14,7 +14,7 @@ use hexbench_truth::misstatements;
 
 use super::{known, written};
 use crate::failure::Failure;
-use crate::output::{Screen, TrialFiles};
+use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say whether files that do not say what is meant are found: signs, units, axes, leg orders, frames, angles, rows
 #[derive(Debug, Args)]
@@ -39,7 +39,7 @@ pub(crate) struct Arguments {
     scenes: Vec<PathBuf>,
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     /// Write the files of this one trial instead, such as `fz-negated/ring_a-clean-0000`
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "sound", "misstatements", "markdown", "journal", "table"])]
     case: Option<String>,
@@ -92,7 +92,7 @@ fn files(study: &Misread, trials: &Frame, arguments: &Arguments) -> Result<Vec<(
         (out("false-alarms.csv"), csv::text(&sheets::false_alarms(records))),
         (out("refusals.csv"), csv::text(&sheets::refusals(records))),
     ];
-    files.extend(arguments.markdown.iter().map(|path| (path.clone(), markdown(&page(study)))));
+    files.extend(arguments.markdown.iter().map(|path| (path.to_path_buf(), markdown(&page(study)))));
     Ok(files)
 }
 

@@ -12,7 +12,7 @@ use hexbench_truth::Scene;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{Screen, TrialFiles};
+use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say which effects the plan of the paper and a richer one can see: computed, and counted in the simulated world
 #[derive(Debug, Args)]
@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Write the page as Markdown to FILE, its charts to a folder beside it
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     #[command(flatten)]
     kept: TrialFiles,
 }

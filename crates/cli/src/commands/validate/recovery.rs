@@ -1,7 +1,5 @@
 //! `hexbench validate recovery`.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use hexbench_experiments::recovery::document::page;
 use hexbench_experiments::recovery::protocol::Recovery;
@@ -9,7 +7,7 @@ use hexbench_experiments::recovery::study::{RecoverySettings, RecoveryStudy};
 use hexbench_report::render::markdown;
 
 use crate::failure::Failure;
-use crate::output::{Screen, TrialFiles, write_json};
+use crate::output::{OutFile, Screen, TrialFiles, write_json};
 
 /// Hide effects in simulated campaigns, and see that they are found with honest uncertainty
 #[derive(Debug, Args)]
@@ -25,10 +23,10 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Write all figures to FILE, `-` for standard output
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     /// Write the page docs/results/recovery.md to FILE
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     /// Exit with 1 when a bound is broken
     #[arg(long)]
     check: bool,

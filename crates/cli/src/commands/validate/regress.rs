@@ -16,7 +16,7 @@ use hexbench_report::render::markdown;
 
 use crate::commands::regress::COMMITTED;
 use crate::failure::Failure;
-use crate::output::{Screen, TrialFiles};
+use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Patches of the planted faults.
 const PATCHES: &str = "data/regress/faults";
@@ -41,7 +41,7 @@ pub(crate) struct Arguments {
     faults: Option<PathBuf>,
     /// Write the page docs/results/regress.md to FILE
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     #[command(flatten)]
     kept: TrialFiles,
 }
@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let failed: Vec<&Unchanged> = runs.iter().filter(|r| !r.worse.is_empty()).collect();
     let lines = failed.iter().map(|r| format!("seed {}: {}\n", r.seed, r.worse.join("; ")));
-    screen.write(&format!(
+    screen.tell(&format!(
         "{} of {} unchanged runs fail.\n{}",
         failed.len(),
         runs.len(),

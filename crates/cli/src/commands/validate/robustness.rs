@@ -12,7 +12,7 @@ use hexbench_truth::laboratory;
 
 use super::{known, written};
 use crate::failure::Failure;
-use crate::output::{Screen, TrialFiles};
+use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say what faults of the laboratory do to the answer: wrong numbers, misstated noise, joints and loads off the drawing
 #[derive(Debug, Args)]
@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     faults: Vec<&'static str>,
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     /// Write the files of this one trial instead, such as `outlier-20/clean-0003`
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["trials", "faults", "markdown", "journal", "table"])]
     case: Option<String>,
@@ -76,7 +76,7 @@ fn write(
         (out("verdicts.csv"), csv::text(&sheets::verdicts(records))),
         (out("mistakes.csv"), csv::text(&sheets::mistakes_table(records))),
     ];
-    files.extend(arguments.markdown.iter().map(|path| (path.clone(), markdown(&page(study)))));
+    files.extend(arguments.markdown.iter().map(|path| (path.to_path_buf(), markdown(&page(study)))));
     written::write_all(files, screen)
 }
 

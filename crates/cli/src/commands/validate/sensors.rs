@@ -13,7 +13,7 @@ use hexbench_report::table::csv;
 
 use super::written;
 use crate::failure::Failure;
-use crate::output::{Screen, TrialFiles};
+use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say what becomes of campaigns read with gauges, balls, levels or scales instead of full poses, and of sensors that are wrong
 #[derive(Debug, Args)]
@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     seed: u64,
     /// Write the study as a document too
     #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
+    markdown: Option<OutFile>,
     /// Write the files of this one trial instead, such as `sensor-place/six-gauges-clean-0000`; of `alike/clean-0000` a folder for
     /// every way in which it is read
     #[arg(long, value_name = "TRIAL", conflicts_with_all = ["markdown", "journal", "table"])]
@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         (out("alike.csv"), csv::text(&alike(&same))),
     ]);
     let page = page(&study, &same);
-    files.extend(arguments.markdown.iter().map(|path| (path.clone(), markdown(&page))));
+    files.extend(arguments.markdown.iter().map(|path| (path.to_path_buf(), markdown(&page))));
     let written = written::write_all(files, screen)?;
     let names = written.iter().map(|path| path.display().to_string());
     screen.show(&page.with(Section::new("Written").list(names)))

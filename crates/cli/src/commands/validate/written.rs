@@ -36,7 +36,7 @@ pub(super) fn write_case(case: &SimulatedCase, folder: &Path, screen: &Screen) -
 /// Says how to diagnose the campaign in a folder.
 pub(super) fn tell(folder: &Path, screen: &Screen) -> Result<(), Failure> {
     let path = folder.display();
-    screen.write(&format!(
+    screen.tell(&format!(
         "hexbench diagnose {path}/hexapod.toml {path}/measurements.csv --holdout {path}/holdout.csv\n"
     ))
 }

@@ -33,7 +33,7 @@ bad_input! { "hexapod.toml";
         => (8, 3), "expected three coordinates [x, y, z], found 2";
     a_nan_in_a_joint_is_refused: "NaN in a joint", hexapod(JOINT, "[-54.75, nan, -165]") => (8, 12), "NaN and infinity";
     an_infinity_in_a_joint_is_refused: "infinity in a joint", hexapod(JOINT, "[-54.75, 1e400, -165]")
-        => (8, 12), "too large for double precision";
+        => (8, 12), "too large: a number of a file is at most 1e30";
     text_in_a_joint_is_refused: "text in a joint", hexapod(JOINT, "[-54.75, \"150\", -165]")
         => (8, 12), "expected a number, found string";
     a_table_that_is_a_number_is_refused: "number instead of a table", hexapod("[base]\nmounting_plane_z_mm = -170\n", "")

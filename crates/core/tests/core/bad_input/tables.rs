@@ -78,7 +78,7 @@ bad_input! { "measurements.csv";
     nan_is_refused: "NaN", deflections().set("db_um", "NaN").text() => (3, 17), "NaN and infinity are not values";
     infinity_is_refused: "infinity", deflections().set("db_um", "-inf").text() => (3, 17), "NaN and infinity";
     an_overflowing_number_is_refused: "number beyond double precision", deflections().set("db_um", "1e400").text()
-        => (3, 17), "too large for double precision";
+        => (3, 17), "too large: a number of a file is at most 1e30";
     an_empty_cell_is_refused: "empty cell", deflections().set("fz_N", "").text() => (3, 11), "the cell is empty";
     text_in_a_number_is_refused: "text instead of a number", deflections().set("fz_N", "heavy").text()
         => (3, 11), "(fz_N): \"heavy\": this is not a number";

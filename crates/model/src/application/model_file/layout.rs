@@ -4,9 +4,12 @@
 use std::collections::BTreeMap;
 
 use hexbench_core::Tolerances;
+use hexbench_core::files::text_hash;
 use serde::{Deserialize, Serialize};
 
-#[derive(Debug, Serialize, Deserialize)]
+use super::ModelFileError;
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct File {
     pub(super) format: String,
@@ -26,6 +29,34 @@ pub(super) struct File {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) frames: Option<Frames>,
     pub(super) covariance: Covariance,
+    /// SHA-256 of all the rest, see [`File::digest`].
+    #[serde(default, skip_serializing_if = "Seal::is_absent")]
+    pub(super) seal: Seal,
+}
+
+impl File {
+    pub(super) fn of(text: &str) -> Result<Self, ModelFileError> {
+        toml::from_str(text).map_err(|e| ModelFileError::Toml(e.to_string()))
+    }
+
+    /// SHA-256 of the file as `fit` writes it, without the seal: comments, blanks and the order of keys do not matter, every number does.
+    pub(super) fn digest(&self) -> Result<String, toml::ser::Error> {
+        let unsealed = Self { seal: Seal::default(), ..self.clone() };
+        Ok(text_hash(&toml::to_string(&unsealed)?))
+    }
+}
+
+/// What shows that nobody changed the file by hand.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Seal {
+    pub(super) sha256: String,
+}
+
+impl Seal {
+    fn is_absent(&self) -> bool {
+        self.sha256.is_empty()
+    }
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -39,7 +70,7 @@ pub(super) struct Data {
     pub(super) read_as: Vec<String>,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NoiseTable {
     pub(super) translation_m: f64,
@@ -50,7 +81,7 @@ pub(super) struct NoiseTable {
     pub(super) degrees_of_freedom: Option<f64>,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct HexapodTable {
     pub(super) name: String,
@@ -79,7 +110,7 @@ pub(super) struct HexapodTable {
 }
 
 /// A sensor, SI.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SensorTable {
     pub(super) name: String,
@@ -97,7 +128,7 @@ pub(super) struct SensorTable {
 }
 
 /// Standard deviations of inputs, SI.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TolerancesTable {
     pub(super) joints_m: f64,
@@ -120,7 +151,7 @@ fn usual_sensor_direction() -> f64 {
     Tolerances::default().sensor_direction
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LegTable {
     #[serde(rename = "stiffness_N_per_um", default, skip_serializing_if = "Option::is_none")]
@@ -131,7 +162,7 @@ pub(super) struct LegTable {
     pub(super) compliance: f64,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TermTable {
     pub(super) id: String,
@@ -147,7 +178,7 @@ pub(super) struct TermTable {
     pub(super) parameters: BTreeMap<String, ParameterTable>,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ParameterTable {
     pub(super) value: f64,
@@ -157,14 +188,14 @@ pub(super) struct ParameterTable {
     pub(super) si: f64,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Frames {
     pub(super) metrology: Frame,
     pub(super) target: Frame,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Frame {
     pub(super) translation_m: [f64; 3],
@@ -172,7 +203,7 @@ pub(super) struct Frame {
     pub(super) quaternion: [f64; 4],
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Covariance {
     /// Names of rows and columns; a shape enters by its logarithm, everything in SI.

@@ -117,6 +117,12 @@ pub enum ModelFileError {
         /// What is wrong.
         error: UserTermError,
     },
+    /// A file that is not as `fit` wrote it.
+    #[error("the file was changed after `fit` wrote it: its numbers do not give the digest in [seal]")]
+    Changed,
+    /// A file without a digest.
+    #[error("the digest of its numbers is missing: [seal] with sha256, which `fit` writes")]
+    Unsealed,
     /// A number that cannot be written.
     #[error("the model holds a number that is not finite and cannot be saved: {0}")]
     NotFinite(String),
@@ -178,14 +184,34 @@ impl Model {
         if let Some((parameter, _)) = named.into_iter().find(|(_, c)| !c.iter().all(|x| x.is_finite())) {
             return Err(ModelFileError::NotFinite(format!("the covariance of {}", parameter.name)));
         }
-        toml::to_string(&write::file(self)).map_err(|e| ModelFileError::Toml(e.to_string()))
+        read::physical(self.point.compliances.as_slice())?;
+        let unwritten = |e: toml::ser::Error| ModelFileError::Toml(e.to_string());
+        let mut file = write::file(self);
+        file.seal.sha256 = file.digest().map_err(unwritten)?;
+        toml::to_string(&file).map_err(unwritten)
     }
 
     /// The model of a `model.toml`.
     ///
     /// # Errors
-    /// [`ModelFileError`] with the key and the rule it breaks.
+    /// [`ModelFileError`] with the key and the rule it breaks; [`ModelFileError::Changed`] and [`ModelFileError::Unsealed`] where nothing
+    /// else is wrong with a file that is not as it was written.
     pub fn from_toml(text: &str) -> Result<Self, ModelFileError> {
-        read::model(toml::from_str(text).map_err(|e| ModelFileError::Toml(e.to_string()))?)
+        let file = layout::File::of(text)?;
+        let (seal, digest) = (file.seal.sha256.clone(), file.digest());
+        let model = read::model(file)?;
+        match digest {
+            _ if seal.is_empty() => Err(ModelFileError::Unsealed),
+            Ok(digest) if digest == seal => Ok(model),
+            _ => Err(ModelFileError::Changed),
+        }
+    }
+
+    /// The same of a file that may have been changed by hand; every other rule holds.
+    ///
+    /// # Errors
+    /// [`ModelFileError`] with the key and the rule it breaks.
+    pub fn from_changed_toml(text: &str) -> Result<Self, ModelFileError> {
+        read::model(layout::File::of(text)?)
     }
 }

@@ -110,6 +110,9 @@ fn hexapod(t: &HexapodTable) -> Result<Hexapod, ModelFileError> {
     };
     let scalars = [t.sigma_translation_m, t.sigma_rotation_rad, t.mounting_plane_z_m];
     finite("hexapod", &scalars.into_iter().flatten().collect::<Vec<_>>())?;
+    if [t.sigma_translation_m, t.sigma_rotation_rad].into_iter().flatten().any(|sigma| sigma <= 0.0) {
+        return Err(rule("hexapod", "standard deviations must be greater than zero"));
+    }
     finite("hexapod", t.nominal_stiffness_n_per_m.as_ref().map_or(&[], |k| k.as_slice()))?;
     finite("hexapod", t.stroke_m.as_ref().map_or(&[], |s| s.as_slice()))?;
     finite("hexapod", t.payload_centre_m.as_ref().map_or(&[], |c| c.as_slice()))?;
@@ -206,11 +209,23 @@ fn springs(legs: &[LegTable]) -> Result<Vector6, ModelFileError> {
     for (i, leg) in legs.iter().enumerate() {
         let key = format!("leg {}", i + 1);
         finite(&key, &[leg.compliance])?;
-        if let Some(stiffness) = leg.stiffness {
+        if let Some(stiffness) = leg.stiffness.filter(|_| leg.compliance > 0.0) {
             agree(&key, stiffness, 1e-6 / leg.compliance)?;
         }
     }
-    Ok(Vector6::from_fn(|i, _| legs[i].compliance))
+    let compliances = Vector6::from_fn(|i, _| legs[i].compliance);
+    physical(compliances.as_slice())?;
+    Ok(compliances)
+}
+
+/// A spring yields in the direction of its force.
+pub(super) fn physical(compliances: &[f64]) -> Result<(), ModelFileError> {
+    match (1..).zip(compliances).find(|(_, c)| **c <= 0.0) {
+        Some((leg, c)) => {
+            Err(rule(format!("leg {leg}"), format!("the compliance {c} m/N must be greater than zero")))
+        }
+        None => Ok(()),
+    }
 }
 
 /// A number changed by hand without its SI partner would otherwise be ignored in silence.

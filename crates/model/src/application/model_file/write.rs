@@ -6,8 +6,8 @@ use hexbench_core::{Hexapod, Measurand, Sensor, Tolerances};
 
 use super::Model;
 use super::layout::{
-    Covariance, Data, File, Frame, Frames, HexapodTable, LegTable, NoiseTable, ParameterTable, SensorTable,
-    TermTable, TolerancesTable,
+    Covariance, Data, File, Frame, Frames, HexapodTable, LegTable, NoiseTable, ParameterTable, Seal,
+    SensorTable, TermTable, TolerancesTable,
 };
 use crate::estimation::linearization::Active;
 use crate::estimation::parameters::parameter_names;
@@ -42,6 +42,7 @@ pub(super) fn file(model: &Model) -> File {
             order: model.parameters.iter().map(|p| p.name.clone()).collect(),
             matrix: model.covariance.row_iter().map(|row| row.iter().copied().collect()).collect(),
         },
+        seal: Seal::default(),
     }
 }
 

@@ -27,7 +27,6 @@ mod linearity;
 mod part;
 mod variables;
 
-use std::path::Path;
 use std::sync::Arc;
 
 use hexbench_core::Vector6;
@@ -47,15 +46,9 @@ pub(crate) use part::PartKind;
 pub(crate) use variables::LegVariables;
 use variables::{OF_LEG, OF_READING};
 
-/// Largest file read, bytes.
-const LARGEST_FILE: u64 = 1 << 20;
-
 /// Why a text does not describe a term.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum UserTermError {
-    /// The file cannot be read.
-    #[error("cannot be read: {0}")]
-    Read(String),
     /// Not TOML, an unknown key, a missing key, a value of another type.
     #[error("{0}")]
     Toml(String),
@@ -163,20 +156,6 @@ pub fn parse(text: &str) -> Result<Arc<dyn Term>, UserTermError> {
     let info = info(&file, &expanded, shape.map(|s| s.0), &parts);
     let parameters = parameters.len();
     Ok(Arc::new(UserTerm { info, definition: text.to_owned(), parts, owners, parameters, grid }))
-}
-
-/// The term a file describes.
-///
-/// # Errors
-/// [`UserTermError`].
-pub fn read(path: &Path) -> Result<Arc<dyn Term>, UserTermError> {
-    let unreadable = |e: std::io::Error| UserTermError::Read(e.to_string());
-    if std::fs::metadata(path).map_err(unreadable)?.len() > LARGEST_FILE {
-        return Err(UserTermError::Read(
-            "a term file is a few lines; this one is larger than 1 MiB".to_owned(),
-        ));
-    }
-    parse(&std::fs::read_to_string(path).map_err(unreadable)?)
 }
 
 fn refuse_same_name(parameters: &[ParameterInfo], shape: Option<&Shape>) -> Result<(), UserTermError> {

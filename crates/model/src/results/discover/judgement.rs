@@ -14,8 +14,8 @@ use crate::inference::verdict::NAMED;
 use crate::results::diagnose::{Context, MOST_RIVALS, Next, StepReport};
 use crate::results::next::RivalExplanation;
 
-/// Laws told.
-const MOST_TOLD: usize = 5;
+/// Most laws that are told.
+pub const MOST_LAWS: usize = 5;
 /// Ideas told where no law convinces.
 pub(super) const IDEAS: usize = 3;
 /// Probability above which a law counts as one that these readings do not tell from the best.
@@ -77,7 +77,7 @@ impl Judged {
             next: Next::default(),
         };
         let mut rivals = Vec::new();
-        for (rank, (members, probability, set)) in weights.proposals.iter().take(MOST_TOLD).enumerate() {
+        for (rank, (members, probability, set)) in weights.proposals.iter().take(MOST_LAWS).enumerate() {
             let is_told = if judged.convinces { *probability >= ALIKE } else { rank < ideas.max(1) };
             if !is_told {
                 break;

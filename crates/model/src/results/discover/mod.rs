@@ -17,6 +17,7 @@ use std::sync::Arc;
 use hexbench_core::{Dataset, Hexapod};
 use serde::Serialize;
 
+pub use self::judgement::MOST_LAWS;
 use self::judgement::{IDEAS, Judged};
 pub use self::proposal::diagnose_with_proposal;
 pub use self::report::{AllLegs, Discovery, HeldOutFall, LawLegs, LawReport};
