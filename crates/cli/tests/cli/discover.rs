@@ -34,7 +34,7 @@ fn a_diagnosis_outside_the_catalogue_proposes_the_law() {
     let read = |output| serde_json::from_str::<Value>(&text(output)).unwrap();
     let (told, found) = (read(diagnose(CASE, &["--json", "-"])), read(discover(CASE, &["--json", "-"])));
     assert_eq!(told["law"], found["laws"][0]);
-    assert!(read(diagnose("two-effects", &["--json", "-"])).get("law").is_none());
+    assert!(read(diagnose("two-effects", &["--json", "-"]))["law"].is_null());
 }
 
 #[test]

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::support::{cases, diagnose, hexbench, hexbench_in, text};
 
-const TOP: [&str; 22] = [
+const TOP: [&str; 23] = [
     "format",
     "verdict",
     "added",
@@ -22,6 +22,7 @@ const TOP: [&str; 22] = [
     "absorbed",
     "suspects",
     "outside",
+    "law",
     "findings",
     "excluded",
     "keep_all",

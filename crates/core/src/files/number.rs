@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn numbers_are_read_to_the_last_bit() {
-        for value in [0.1, -1e-300, 5e-324, f64::MAX, -0.0, 123_456.789] {
+        for value in [0.1, -1e-300, 5e-324, LARGEST, -0.0, 123_456.789] {
             assert_eq!(parse_number(&value.to_string()).unwrap().value.to_bits(), f64::to_bits(value));
         }
     }

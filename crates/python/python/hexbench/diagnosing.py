@@ -109,7 +109,7 @@ class Diagnosis:
     outside: dict[str, Any] | None
     #: With the verdict ``outside``: the law that explains what the catalogue leaves, with the keys of ``laws`` of
     #: ``discovery.json``; None where none convinces.
-    law: dict[str, Any] | None = None
+    law: dict[str, Any] | None
     #: What the fitted model leaves of the legs beyond the noise (``times_noise``, ``legs``, ``follows``), or None.
     remainder: dict[str, Any] | None
     #: Things to know before trusting the numbers.

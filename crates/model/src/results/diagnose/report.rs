@@ -79,7 +79,6 @@ pub struct Diagnosis {
     /// The unexplained pattern.
     pub outside: Option<OutsideReport>,
     /// The law behind it, where one was searched for and convinces.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "typescript", ts(skip))]
     pub law: Option<LawReport>,
     /// What the fitted model leaves of the legs beyond the noise; absent where noise explains it, and where full poses were not read.
