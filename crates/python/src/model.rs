@@ -105,8 +105,7 @@ impl PyModel {
     /// Names of the columns that the sensors of the machine fill, with units.
     #[getter]
     fn sensor_columns(&self) -> Vec<String> {
-        let sensors = &self.model.hexapod.sensors;
-        self.model.sensor_channels().iter().map(|c| c.column(sensors, self.model.measurand)).collect()
+        self.model.sensor_columns()
     }
 
     /// Names of parameters without a number.

@@ -40,9 +40,9 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let small = [Unit::Um, Unit::Urad];
     let (values, sigmas) = (csv::names("", &names, units), csv::names("sigma_", &sigma_names(&names), small));
     let conditions = csv::conditions_header(&rows).into_iter().map(str::to_owned);
-    let channels = model.sensor_channels();
-    let sensors = channels.iter().map(|c| c.column(&model.hexapod.sensors, model.measurand));
-    let of_sensors = sensors.clone().chain(sensors.map(|name| format!("sigma_{name}")));
+    let sensors = model.sensor_columns();
+    let sigmas_of_sensors = sensors.iter().map(|name| format!("sigma_{name}"));
+    let of_sensors = sensors.iter().cloned().chain(sigmas_of_sensors);
     let mut text = CsvText::new(conditions.chain(values).chain(sigmas).chain(of_sensors));
     for ((row, p), read) in rows.observations.iter().zip(&predictions).zip(&readings) {
         let (values, sigmas) = (csv::values(&p.value, units), csv::values(&p.sigma, small));

@@ -175,6 +175,12 @@ impl Model {
         if self.is_absolute() { Vec::new() } else { Channel::all([], &self.hexapod.sensors) }
     }
 
+    /// Names of the columns of those numbers, with units.
+    pub fn sensor_columns(&self) -> Vec<String> {
+        let column = |channel: Channel| channel.column(&self.hexapod.sensors, self.measurand);
+        self.sensor_channels().into_iter().map(column).collect()
+    }
+
     /// The text of `model.toml`.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod};
 
-use super::{Attempts, LawReport, part};
+use super::{Attempts, part};
 use crate::effects::term::Term;
 use crate::error::ModelError;
 use crate::inference::verdict::Verdict;
@@ -32,10 +32,6 @@ pub fn diagnose_with_proposal(
         let attempts = Attempts { hexapod, holdout, terms, diagnosis: &study, watch: &|| () };
         Some(attempts.made(data, options)?.said(&study.diagnosis))
     };
-    study.diagnosis.law = found.filter(|found| found.found).and_then(|found| best(found.laws));
+    study.diagnosis.law = found.filter(|found| found.found).and_then(|found| found.laws.into_iter().next());
     Ok(study)
-}
-
-fn best(laws: Vec<LawReport>) -> Option<LawReport> {
-    laws.into_iter().next()
 }
