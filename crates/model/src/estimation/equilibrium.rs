@@ -564,6 +564,10 @@ pub(crate) fn load<'a>(
 ) -> Load {
     let mut load = Load::default();
     for a in active {
+        if let Some(action) = a.term.together(machine, at, &a.values) {
+            load.add(&action, 1.0);
+            continue;
+        }
         actions(a.term.as_ref(), a.rich, a.shape, machine, at, out);
         for (action, value) in out.iter().zip(&a.values) {
             load.add(action, *value);
