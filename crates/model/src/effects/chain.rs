@@ -131,6 +131,22 @@ impl Load {
             Action::Target(d) => *self.target.get_or_insert_with(Matrix6::zeros) += p * d,
         }
     }
+
+    /// Add an action that acts leg by leg, another size of it in every leg.
+    pub(crate) fn add_by_leg(&mut self, action: &Action, sizes: &Vector6) {
+        match action {
+            Action::Force(f) => self.force += f.component_mul(sizes),
+            Action::Elongation(e) => self.elongation += e.component_mul(sizes),
+            Action::Shift(a) => {
+                let shift = self.shift.get_or_insert([Vector3::zeros(); 6]);
+                for ((sum, a), p) in shift.iter_mut().zip(a).zip(sizes.iter()) {
+                    *sum += *p * a;
+                }
+            }
+            _ => {}
+        }
+    }
+
     /// Elongation of the legs between reference and load at the forces of a condition, m, displacements of their joints along them
     /// included; the springs have compliances `c`.
     pub(crate) fn stretch(&self, at: &Condition, springs: &Vector6) -> Vector6 {

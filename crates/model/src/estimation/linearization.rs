@@ -10,8 +10,8 @@ use crate::effects::chain::{Action, Link};
 use crate::effects::term::{Rich, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition};
-use crate::estimation::equilibrium::{Structure, Tangents, load};
-use crate::estimation::parallel::{map, try_map};
+use crate::estimation::equilibrium::{Structure, Tangents};
+use crate::estimation::parallel::try_map;
 use crate::estimation::parameters::common_count;
 use crate::estimation::whitening::{Inexact, Whitening};
 use crate::machine::geometry::{Machine, exponential};
@@ -142,8 +142,13 @@ impl Linearization {
 
     fn with(campaign: &Campaign, point: &ModelPoint, tangents: Tangents) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
-        let conditions = campaign.conditions(&machine, &point.compliances, &point.active, tangents)?;
-        let links = map(&conditions, |c| link(&machine, c, point));
+        let structure = Structure::of(&machine, &point.compliances, &point.active, tangents);
+        let linked = try_map(&campaign.groups, |group| {
+            let (at, load) = campaign.condition(&structure, group, &group.mean)?;
+            let link = Link::at(&at, &point.compliances, &load);
+            Ok::<_, ModelError>((at, link))
+        })?;
+        let (conditions, links) = linked.into_iter().unzip();
         let whitening = Whitening::of(campaign);
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
@@ -396,18 +401,13 @@ pub(crate) fn own_residuals(
     let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
     let residual = |&i: &usize| {
         let group = &campaign.groups[i];
-        let at = campaign.condition(&structure, group, &inputs(i, &group.mean))?;
-        Ok(at.reading.component_mul(&at.weight) - link(&machine, &at, point).prediction())
+        let (at, load) = campaign.condition(&structure, group, &inputs(i, &group.mean))?;
+        let link = Link::at(&at, &point.compliances, &load);
+        Ok(at.reading.component_mul(&at.weight) - link.prediction())
     };
     let groups: Vec<usize> = (0..campaign.groups.len()).collect();
     let all: Vec<Vector6> = try_map(&groups, residual)?;
     Ok(DVector::from_iterator(6 * all.len(), all.iter().flat_map(|r| r.iter().copied())))
-}
-
-fn link(machine: &Machine, at: &Condition, point: &ModelPoint) -> Link {
-    let active = point.active.iter().filter(|a| !a.term.calibrates());
-    let load = load(machine, at, active, &mut Vec::new());
-    Link::at(at, &point.compliances, &load)
 }
 
 /// Small motions of the metrology frame (fixed axes, fixed origin) and of the target frame (mobile axes).

@@ -54,8 +54,8 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     let basis = orthonormal(&beside(&explained(&rest.lin, rest.point)));
     let mut y = target(&rest.lin, rest.point);
     project(&basis, &mut y);
-    let overlap = basis.tr_mul(&rest.inputs);
-    let normal = rest.inputs.tr_mul(&rest.inputs) - overlap.tr_mul(&overlap);
+    let overlap = basis.tr_mul(rest.inputs);
+    let normal = rest.inputs.tr_mul(rest.inputs) - overlap.tr_mul(&overlap);
     let right: DVector<f64> = rest.inputs.tr_mul(&y);
     let scaled = |columns: &Range<usize>, factor: f64| {
         let mut scales = DVector::repeat(rest.inputs.ncols(), 1.0);
