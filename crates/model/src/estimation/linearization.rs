@@ -299,6 +299,11 @@ impl Linearization {
 
     /// Columns of springs and frames.
     pub fn common_block(&self) -> DMatrix<f64> {
+        self.whitened(self.own_common_block())
+    }
+
+    /// The same over the standard deviation of what is a reading's own.
+    pub(crate) fn own_common_block(&self) -> DMatrix<f64> {
         let mut block = DMatrix::zeros(self.equations(), self.common_columns());
         let mut actions = Vec::new();
         for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
@@ -310,7 +315,6 @@ impl Linearization {
                 write_actions(&mut block, i, 6, c, link, &actions);
             }
         }
-        self.whitening.apply(&mut block);
         block
     }
 
@@ -333,14 +337,31 @@ impl Linearization {
 
     /// Columns of a term.
     pub fn term_block(&self, term: &dyn Term, rich: bool, shape: f64) -> DMatrix<f64> {
+        self.whitened(self.own_term_block(term, rich, shape))
+    }
+
+    /// The same over the standard deviation of what is a reading's own.
+    pub(crate) fn own_term_block(&self, term: &dyn Term, rich: bool, shape: f64) -> DMatrix<f64> {
         let mut block = DMatrix::zeros(self.equations(), parameter_count(term, rich));
         let mut out = Vec::new();
         for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
             actions(term, rich, shape, &self.machine, c, &mut out);
             write_actions(&mut block, i, 0, c, link, &out);
         }
-        self.whitening.apply(&mut block);
         block
+    }
+
+    /// What an active term with another shape adds to the prediction, over the standard deviation of what is a reading's own.
+    pub(crate) fn own_share(&self, active: &Active, shape: f64) -> DVector<f64> {
+        let block = self.own_term_block(active.term.as_ref(), active.rich, shape);
+        block * DVector::from_column_slice(&active.values)
+    }
+
+    /// One column of reading over the standard deviation of what is its own, whitened as all others.
+    #[must_use]
+    pub(crate) fn whitened_column(&self, mut column: DVector<f64>) -> DVector<f64> {
+        self.whitening.apply_to(&mut column);
+        column
     }
 
     /// Columns of any actions, one per element of what `actions_of` pushes.

@@ -111,7 +111,7 @@ impl Pattern {
                     let mut unit = Matrix6::zeros();
                     unit[(i, j)] = 1.0;
                     unit[(j, i)] = 1.0;
-                    Action::Stiffness(unit)
+                    Action::Stiffness(Box::new(unit))
                 }));
             }
             Self::Load(axes) => out.extend(axes.iter().map(|&k| Action::Wrench(Vector6::ith(k, 1.0)))),

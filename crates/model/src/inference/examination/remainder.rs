@@ -8,9 +8,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::slopes::Slopes;
 use crate::error::ModelError;
+use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::{Campaign, row_sigma};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
-use crate::inference::candidates::{orthonormal, project, target};
+use crate::inference::candidates::target;
 use crate::inference::diagnosis::RankedSets;
 
 /// Shapes of an effect that take part.

@@ -10,10 +10,11 @@ use hexbench_core::Tolerances;
 use nalgebra::{DMatrix, DVector};
 
 use super::remainder::{Remainder, explained};
+use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::beside;
 use crate::estimation::tolerances::{InputKind, columns_of_sensor};
-use crate::inference::candidates::{orthonormal, project, target};
+use crate::inference::candidates::target;
 use crate::inference::evidence::log_sum;
 
 /// Multiples of the stated tolerance that are tried.
