@@ -90,13 +90,37 @@ fn inverse(l: &Matrix6) -> Option<Matrix6> {
     let scale = l.fixed_columns::<3>(0).norm() / moment;
     let mut scaled = *l;
     scaled.fixed_columns_mut::<3>(3).scale_mut(scale);
-    let mut inverse = scaled.try_inverse()?;
+    let mut inverse = inverse_of_six(&scaled)?;
     let condition = scaled.norm() * inverse.norm();
     if !condition.is_finite() || condition > SINGULAR_CONDITION {
         return None;
     }
     inverse.fixed_rows_mut::<3>(3).scale_mut(scale);
     Some(inverse)
+}
+
+/// Inverse by Gauss-Jordan elimination with partial pivoting, row by row in one array: no call and no copy within.
+fn inverse_of_six(matrix: &Matrix6) -> Option<Matrix6> {
+    let mut rows: [[f64; 12]; 6] = std::array::from_fn(|i| {
+        std::array::from_fn(|j| if j < 6 { matrix[(i, j)] } else { f64::from(i + 6 == j) })
+    });
+    for k in 0..6 {
+        let pivot = (k..6).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs()))?;
+        rows.swap(k, pivot);
+        let scale = rows[k][k].recip();
+        if !scale.is_finite() {
+            return None;
+        }
+        rows[k].iter_mut().for_each(|x| *x *= scale);
+        let own = rows[k];
+        for (i, row) in rows.iter_mut().enumerate() {
+            if i != k {
+                let share = row[k];
+                row.iter_mut().zip(&own).for_each(|(x, y)| *x -= share * y);
+            }
+        }
+    }
+    Some(Matrix6::from_fn(|i, j| rows[i][6 + j]))
 }
 
 /// `M` (3x3) with `omega = M [alpha', beta', gamma']`: fixed-axes angular velocity from Euler rates

@@ -239,17 +239,13 @@ impl Judge {
         let loading = (share / own).sqrt();
         let (mut half_log_det, mut square) = (3.0 * self.rows.len() as f64 * own.ln(), 0.0);
         let mut variances = LogOfProduct::default();
-        let mut filters: [Filter; 6] = std::array::from_fn(|_| Filter::default());
+        let mut filter = Filter::<6>::default();
         for (i, row) in self.rows.iter().enumerate() {
             let distance = if i == 0 { 0 } else { self.lines[i].abs_diff(self.lines[i - 1]) };
-            let mut of_row = 1.0;
-            for (filter, number) in filters.iter_mut().zip(row.iter()) {
-                let (innovation, variance) = filter.step(number / own.sqrt(), loading, distance, correlation);
-                square += innovation * innovation / variance;
-                // What is known of the drift is the same for all six.
-                of_row = variance;
-            }
-            variances.push(of_row);
+            let (innovations, variance) =
+                filter.step((row / own.sqrt()).into(), loading, distance, correlation);
+            square += innovations.iter().map(|x| x * x).sum::<f64>() / variance;
+            variances.push(variance);
         }
         half_log_det += 3.0 * variances.value();
         (half_log_det, square)
