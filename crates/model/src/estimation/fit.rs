@@ -39,6 +39,15 @@ pub struct TermSpec {
     pub prior: Vec<f64>,
 }
 
+impl PartialEq for TermSpec {
+    /// True for the same term, not only one that is alike.
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::addr_eq(Arc::as_ptr(&self.term), Arc::as_ptr(&other.term))
+            && (self.rich, self.shape) == (other.rich, other.shape)
+            && self.prior == other.prior
+    }
+}
+
 /// A fitted model.
 #[derive(Debug, Clone)]
 pub struct Fit {
