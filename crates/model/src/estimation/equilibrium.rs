@@ -583,3 +583,6 @@ pub(crate) fn load<'a>(
     }
     load
 }
+
+#[cfg(test)]
+mod tests;

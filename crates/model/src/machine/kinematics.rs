@@ -139,3 +139,20 @@ pub fn analytic_leg_jacobian(legs: &Legs, angles: &Vector3) -> Matrix6 {
     jacobian.fixed_columns_mut::<3>(3).copy_from(&moment);
     jacobian
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_times_its_inverse_is_the_identity_whatever_its_pivots() {
+        let entry = |i: usize, j: usize| ((3 * i + 7 * j * j) as f64).sin();
+        let mut matrix = Matrix6::from_fn(entry);
+        matrix[(0, 0)] = 0.0;
+        let off = (matrix * inverse_of_six(&matrix).unwrap() - Matrix6::identity()).amax();
+        assert!(off < 1e-12, "{off:.1e}");
+        let row = matrix.row(1).into_owned();
+        matrix.set_row(4, &row);
+        assert!(inverse_of_six(&matrix).is_none_or(|inverse| inverse.amax() > 1e12));
+    }
+}

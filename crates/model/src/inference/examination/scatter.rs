@@ -276,7 +276,9 @@ impl Judge {
             let constant =
                 ln_gamma(f64::midpoint(freedom, 1.0)) - ln_gamma(0.5 * freedom) - 0.5 * (0.5 * freedom).ln();
             let (mut all, share) = (LogOfProduct::default(), 1.0 / (level * level * freedom));
-            squares.iter().for_each(|square| all.push(1.0 + square * share));
+            for square in &squares {
+                all.push(1.0 + square * share);
+            }
             self.numbers() * (constant - level.ln()) - f64::midpoint(freedom, 1.0) * all.value()
         };
         let levels = (-12..=12).map(|k| (0.1 * f64::from(k)).exp());
@@ -374,4 +376,22 @@ fn gathered<K: Ord>(rows: usize, key: impl Fn(usize) -> K) -> Vec<Vec<usize>> {
         all.entry(key(i)).or_default().push(i);
     }
     all.into_values().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_logarithm_of_a_product_is_the_sum_of_the_logarithms_however_many_and_large() {
+        let mut all = LogOfProduct::default();
+        let factors =
+            (0..4_000).map(|i| 10.0_f64.powf(f64::from(i % 37) * if i < 2_000 { 3.0 } else { -3.0 }));
+        let mut sum = 0.0;
+        for factor in factors {
+            all.push(factor);
+            sum += factor.ln();
+        }
+        assert!((all.value() - sum).abs() < 1e-9 * 2_000.0 * 100.0, "{} for {sum}", all.value());
+    }
 }

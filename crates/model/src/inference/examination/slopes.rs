@@ -57,32 +57,25 @@ impl Slopes {
     ) -> Result<(DMatrix<f64>, Option<DMatrix<f64>>), ModelError> {
         let known: Vec<Option<usize>> = lines.iter().map(|lines| self.places.get(lines).copied()).collect();
         let new: Vec<usize> = (0..known.len()).filter(|&g| known[g].is_none()).collect();
-        if new.is_empty() {
-            return Ok((
-                gathered(&self.inputs, None, &known),
-                self.by_pose.map(|all| gathered(&all, None, &known)),
-            ));
-        }
         let part = campaign.part(&new);
-        let fresh = inputs(&part, point)?;
-        let of_poses = self.by_pose.zip(by_pose(&part, point));
-        Ok((
-            gathered(&self.inputs, Some(&fresh), &known),
-            of_poses.map(|(all, fresh)| gathered(&all, Some(&fresh), &known)),
-        ))
+        let (more, more_by_pose) = if new.is_empty() {
+            // Nothing to linearize.
+            (self.inputs.rows(0, 0).into_owned(), Some(DMatrix::zeros(0, POSE_STEP.len())))
+        } else {
+            (inputs(&part, point)?, by_pose(&part, point))
+        };
+        let by_pose = self.by_pose.zip(more_by_pose);
+        let by_pose = by_pose.map(|(all, more)| gathered(&all, &more, &known));
+        Ok((gathered(&self.inputs, &more, &known), by_pose))
     }
 }
 
 /// Six rows for each condition: the known ones from their place, the others in turn.
-fn gathered(known: &DMatrix<f64>, fresh: Option<&DMatrix<f64>>, places: &[Option<usize>]) -> DMatrix<f64> {
+fn gathered(known: &DMatrix<f64>, more: &DMatrix<f64>, places: &[Option<usize>]) -> DMatrix<f64> {
     let mut all = DMatrix::zeros(6 * places.len(), known.ncols());
     let mut next = 0;
     for (g, place) in places.iter().enumerate() {
-        let (from, first) = match (place, fresh) {
-            (Some(place), _) => (known, *place),
-            (None, Some(fresh)) => (fresh, next),
-            (None, None) => continue,
-        };
+        let (from, first) = place.map_or((more, next), |place| (known, place));
         next += usize::from(place.is_none());
         all.rows_mut(6 * g, 6).copy_from(&from.rows(6 * first, 6));
     }
@@ -109,4 +102,36 @@ fn by_pose(campaign: &Campaign, point: &ModelPoint) -> Option<DMatrix<f64>> {
     };
     let columns: Vec<DVector<f64>> = (0..POSE_STEP.len()).map(slope).collect::<Option<_>>()?;
     Some(DMatrix::from_columns(&columns))
+}
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::Measurand;
+
+    use super::*;
+    use crate::test_machine::readings;
+
+    #[test]
+    fn slopes_of_some_of_the_readings_are_those_of_a_file_of_them() {
+        let (hexapod, mut data) = readings(Measurand::DeflectionRotationVector, Vec::new());
+        // Every condition is read twice.
+        for mut again in data.observations.clone() {
+            again.line += 100;
+            again.measured[2] += 1e-6;
+            data.observations.push(again);
+        }
+        let campaign = |data: &Dataset| Campaign::new(&hexapod, data).unwrap();
+        let all = campaign(&data);
+        let mut point = ModelPoint::start(&all);
+        point.compliances.fill(1e-7);
+        let mut known = Slopes::of(&data, &all, &point, None).unwrap();
+        // One of two readings, both readings, and nothing.
+        for left_out in [vec![3], vec![6, 106], vec![]] {
+            data.observations.retain(|o| !left_out.contains(&o.line));
+            let rest = Campaign::with_noise(&hexapod, &data, all.noise).unwrap();
+            known = Slopes::of(&data, &rest, &point, Some(known)).unwrap();
+            let anew = Slopes::of(&data, &rest, &point, None).unwrap();
+            assert_eq!((&known.inputs, &known.by_pose), (&anew.inputs, &anew.by_pose), "{left_out:?}");
+        }
+    }
 }
