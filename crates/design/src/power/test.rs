@@ -3,7 +3,8 @@
 use hexbench_core::statistics::quantile;
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_model::effects::term::Term;
-use hexbench_model::inference::candidates::{orthonormal, sizes};
+use hexbench_model::estimation::basis::orthonormal;
+use hexbench_model::inference::candidates::sizes;
 use hexbench_model::inference::evidence::WIDEST;
 use hexbench_model::inference::power::ChiSquareDropLaw;
 use nalgebra::{DMatrix, DVector};

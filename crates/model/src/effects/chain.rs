@@ -24,7 +24,7 @@ use crate::machine::geometry::Machine;
 use crate::machine::kinematics::Legs;
 
 /// Where one unit of a parameter acts.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Action {
     /// `F`: extra force change in the leg springs alone, N per unit: they yield `c` times as much.
     Force(Vector6),
@@ -35,7 +35,7 @@ pub enum Action {
     /// Displacement of the base joints on what carries them, fixed axes, m per unit: the legs turn with it.
     Shift([Vector3; 6]),
     /// `K`: Cartesian stiffness beside the legs, at the mobile origin, fixed axes, per unit.
-    Stiffness(Matrix6),
+    Stiffness(Box<Matrix6>),
     /// Stiffness of all joints against turns of their leg, at the base end and at the platform end, N m/rad per unit.
     Bending([f64; 2]),
     /// Motion of the base with all legs on it: geometric twist at the mobile origin, per unit.
@@ -57,7 +57,7 @@ pub enum Action {
         force: Vector6,
     },
     /// `D`: twist of the target from the twist of the platform, per unit.
-    Target(Matrix6),
+    Target(Box<Matrix6>),
     /// `Y`: what the instrument adds to its reading, in measured coordinates, m and rad per unit.
     Reading(Vector6),
 }
@@ -127,10 +127,26 @@ impl Load {
             }
             Action::Reading(y) => self.reading += p * y,
             Action::Wrench(w) => *self.wrench.get_or_insert_with(Vector6::zeros) += p * w,
-            Action::Stiffness(k) => *self.stiffness.get_or_insert_with(Matrix6::zeros) += p * k,
-            Action::Target(d) => *self.target.get_or_insert_with(Matrix6::zeros) += p * d,
+            Action::Stiffness(k) => *self.stiffness.get_or_insert_with(Matrix6::zeros) += p * **k,
+            Action::Target(d) => *self.target.get_or_insert_with(Matrix6::zeros) += p * **d,
         }
     }
+
+    /// Add an action that acts leg by leg, another size of it in every leg.
+    pub(crate) fn add_by_leg(&mut self, action: &Action, sizes: &Vector6) {
+        match action {
+            Action::Force(f) => self.force += f.component_mul(sizes),
+            Action::Elongation(e) => self.elongation += e.component_mul(sizes),
+            Action::Shift(a) => {
+                let shift = self.shift.get_or_insert([Vector3::zeros(); 6]);
+                for ((sum, a), p) in shift.iter_mut().zip(a).zip(sizes.iter()) {
+                    *sum += *p * a;
+                }
+            }
+            _ => {}
+        }
+    }
+
     /// Elongation of the legs between reference and load at the forces of a condition, m, displacements of their joints along them
     /// included; the springs have compliances `c`.
     pub(crate) fn stretch(&self, at: &Condition, springs: &Vector6) -> Vector6 {
@@ -331,10 +347,10 @@ impl Link {
             Action::Base(x) | Action::Plate(x) => self.reader * x,
             Action::Joint { elongation, force } => self.reader * (by_stretch(elongation) + by_force(force)),
             Action::Frame { twist, force } => self.reader * (twist + by_force(force)),
-            Action::Target(d) => self.bare_reader * (d * self.motion),
+            Action::Target(d) => self.bare_reader * (**d * self.motion),
             Action::Reading(y) => y.component_mul(&condition.weight),
             Action::Stiffness(k) => {
-                let beside = BesideLegs { stiffness: *k, bending: [0.0; 2] };
+                let beside = BesideLegs { stiffness: **k, bending: [0.0; 2] };
                 self.reader * self.relieved(condition, &beside)
             }
             Action::Bending(k) => {

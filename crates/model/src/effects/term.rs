@@ -24,6 +24,12 @@ pub trait Term: Send + Sync {
         }
     }
 
+    /// What all parameters do together at these values (SI), ideal ones first, where that is one action; else none: the sum of
+    /// what each of them does.
+    fn together(&self, _machine: &Machine, _at: &Condition, _values: &[f64]) -> Option<Action> {
+        None
+    }
+
     /// Change the machine or its load by the parameter values (SI) when the term can do so exactly; such a term is part
     /// of the machine at the point of linearisation, and other terms see what it does.
     fn calibrate(&self, _values: &[f64], _machine: &mut Machine) {}

@@ -19,6 +19,7 @@ use hexbench_core::{
 };
 
 use crate::effects::chain::{Action, BesideLegs, JointDisplacement, Load};
+use crate::effects::term::Rich;
 use crate::error::ModelError;
 use crate::estimation::campaign::{
     Campaign, Condition, ConditionReadings, LoadPath, LoadState, PastState, moved,
@@ -81,16 +82,16 @@ impl Campaign {
         tangents: Tangents,
     ) -> Result<Vec<Condition>, ModelError> {
         let structure = Structure::of(machine, springs, active, tangents);
-        try_map(&self.groups, |g| self.condition(&structure, g, &g.mean))
+        try_map(&self.groups, |g| self.condition(&structure, g, &g.mean).map(|(at, _)| at))
     }
 
-    /// Condition of readings taken under the inputs of `o`.
+    /// Condition of readings taken under the inputs of `o`, and what the terms do together there.
     pub(crate) fn condition(
         &self,
         structure: &Structure<'_>,
         group: &ConditionReadings,
         o: &Observation,
-    ) -> Result<Condition, ModelError> {
+    ) -> Result<(Condition, Load), ModelError> {
         let machine = structure.machine;
         let mut out = Vec::new();
         let sequence = group.sequence.as_deref();
@@ -113,8 +114,10 @@ impl Campaign {
         } else {
             Vector6::from_column_slice(&o.measured)
         };
-        structure.settle(&mut at, shift, structure.with_tangent, &mut out);
-        Ok(at)
+        let load = structure.settle(&mut at, shift, structure.with_tangent, &mut out);
+        // A wrench of the terms has changed the forces since.
+        let load = if load.wrench().is_some() { structure.load(&at, &mut out) } else { load };
+        Ok((at, load))
     }
 
     /// Measured coordinates from the geometric twist: Euler differences for Euler readings, and the lever arm of
@@ -564,10 +567,22 @@ pub(crate) fn load<'a>(
 ) -> Load {
     let mut load = Load::default();
     for a in active {
-        actions(a.term.as_ref(), a.rich, a.shape, machine, at, out);
+        if let Some(action) = a.term.together(machine, at, &a.values) {
+            load.add(&action, 1.0);
+            continue;
+        }
+        // What differs from leg to leg in its size alone is one action with six sizes.
+        let by_leg = a.rich && a.term.info().rich == Rich::PerLeg;
+        actions(a.term.as_ref(), a.rich && !by_leg, a.shape, machine, at, out);
         for (action, value) in out.iter().zip(&a.values) {
             load.add(action, *value);
+        }
+        if let Some(common) = out.first().filter(|_| by_leg) {
+            load.add_by_leg(common, &Vector6::from_column_slice(&a.values[out.len()..]));
         }
     }
     load
 }
+
+#[cfg(test)]
+mod tests;

@@ -39,6 +39,15 @@ pub struct TermSpec {
     pub prior: Vec<f64>,
 }
 
+impl PartialEq for TermSpec {
+    /// True for the same term, not only one that is alike.
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::addr_eq(Arc::as_ptr(&self.term), Arc::as_ptr(&other.term))
+            && (self.rich, self.shape) == (other.rich, other.shape)
+            && self.prior == other.prior
+    }
+}
+
 /// A fitted model.
 #[derive(Debug, Clone)]
 pub struct Fit {
@@ -303,8 +312,7 @@ fn averaged(
 /// every change shows.
 fn indifferent(state: &Linearization, a: &Active) -> f64 {
     const HALVINGS: usize = 24;
-    let values = DVector::from_column_slice(&a.values);
-    let at = |log: f64| state.term_block(a.term.as_ref(), a.rich, a.shape * log.exp()) * &values;
+    let at = |log: f64| state.own_share(a, a.shape * log.exp());
     let own = at(0.0);
     let is_same = |log: f64| at(log) == own;
     if !is_same(SHAPE_STEP) && !is_same(-SHAPE_STEP) {
@@ -335,9 +343,8 @@ fn at_shape(
     let a = &fit.point.active[term];
     let mut moved = fit.point.clone();
     moved.active[term].shape = shape;
-    let values = DVector::from_column_slice(&a.values);
-    let block = |s: f64| state.term_block(a.term.as_ref(), a.rich, s) * &values;
-    let residual = state.residuals() + block(a.shape) - block(shape);
+    let moves = state.own_share(a, a.shape) - state.own_share(a, shape);
+    let residual = state.residuals() + state.whitened_column(moves);
     let mut columns = columns(state, &moved);
     columns.column_mut(held).fill(0.0);
     let mut triangle = Triangle::new(columns.ncols());
@@ -355,9 +362,9 @@ fn at_shape(
 
 /// Whitened columns of springs, frames, term parameters and shapes at a point.
 pub fn columns(state: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
-    let mut blocks = vec![state.common_block()];
+    let mut blocks = vec![state.own_common_block()];
     for a in &point.active {
-        let mut block = state.term_block(a.term.as_ref(), a.rich, a.shape);
+        let mut block = state.own_term_block(a.term.as_ref(), a.rich, a.shape);
         if a.term.info().shape.is_some() {
             let by_log_shape = shape_column(state, a);
             if a.term.shape_is_parameter() {
@@ -372,13 +379,12 @@ pub fn columns(state: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
         }
         blocks.push(block);
     }
-    beside(&blocks)
+    state.whitened(beside(&blocks))
 }
 
-/// Derivative of the whitened reading by the logarithm of a shape, by central differences.
+/// Derivative of the reading, over the standard deviation of what is its own, by the logarithm of a shape, by central differences.
 fn shape_column(state: &Linearization, a: &Active) -> DVector<f64> {
-    let values = DVector::from_column_slice(&a.values);
-    let at = |s: f64| state.term_block(a.term.as_ref(), a.rich, s) * &values;
+    let at = |s: f64| state.own_share(a, s);
     (at(a.shape * SHAPE_STEP.exp()) - at(a.shape * (-SHAPE_STEP).exp())) / (2.0 * SHAPE_STEP)
 }
 

@@ -8,12 +8,13 @@ use nalgebra::{DMatrix, DVector};
 use crate::effects::term::{Natural, Rich, Term, version_named};
 use crate::effects::untestable::why_untestable;
 use crate::error::ModelError;
+use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::estimate::estimates;
 use crate::estimation::fit::{Fit, TermSpec, columns, fit, fit_baseline};
 use crate::estimation::linearization::{Active, Linearization};
 use crate::estimation::parameters::{Parameter, ParameterPlace, leg_of_stiffness};
-use crate::inference::candidates::{orthonormal, project, sizes};
+use crate::inference::candidates::sizes;
 use crate::inference::evidence::WIDEST;
 use crate::results::words::{joined, unobservable};
 

@@ -10,8 +10,8 @@ use crate::effects::chain::{Action, Link};
 use crate::effects::term::{Rich, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, Condition};
-use crate::estimation::equilibrium::{Structure, Tangents, load};
-use crate::estimation::parallel::{map, try_map};
+use crate::estimation::equilibrium::{Structure, Tangents};
+use crate::estimation::parallel::try_map;
 use crate::estimation::parameters::common_count;
 use crate::estimation::whitening::{Inexact, Whitening};
 use crate::machine::geometry::{Machine, exponential};
@@ -142,8 +142,13 @@ impl Linearization {
 
     fn with(campaign: &Campaign, point: &ModelPoint, tangents: Tangents) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
-        let conditions = campaign.conditions(&machine, &point.compliances, &point.active, tangents)?;
-        let links = map(&conditions, |c| link(&machine, c, point));
+        let structure = Structure::of(&machine, &point.compliances, &point.active, tangents);
+        let linked = try_map(&campaign.groups, |group| {
+            let (at, load) = campaign.condition(&structure, group, &group.mean)?;
+            let link = Link::at(&at, &point.compliances, &load);
+            Ok::<_, ModelError>((at, link))
+        })?;
+        let (conditions, links) = linked.into_iter().unzip();
         let whitening = Whitening::of(campaign);
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
@@ -294,6 +299,11 @@ impl Linearization {
 
     /// Columns of springs and frames.
     pub fn common_block(&self) -> DMatrix<f64> {
+        self.whitened(self.own_common_block())
+    }
+
+    /// The same over the standard deviation of what is a reading's own.
+    pub(crate) fn own_common_block(&self) -> DMatrix<f64> {
         let mut block = DMatrix::zeros(self.equations(), self.common_columns());
         let mut actions = Vec::new();
         for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
@@ -305,7 +315,6 @@ impl Linearization {
                 write_actions(&mut block, i, 6, c, link, &actions);
             }
         }
-        self.whitening.apply(&mut block);
         block
     }
 
@@ -328,14 +337,31 @@ impl Linearization {
 
     /// Columns of a term.
     pub fn term_block(&self, term: &dyn Term, rich: bool, shape: f64) -> DMatrix<f64> {
+        self.whitened(self.own_term_block(term, rich, shape))
+    }
+
+    /// The same over the standard deviation of what is a reading's own.
+    pub(crate) fn own_term_block(&self, term: &dyn Term, rich: bool, shape: f64) -> DMatrix<f64> {
         let mut block = DMatrix::zeros(self.equations(), parameter_count(term, rich));
         let mut out = Vec::new();
         for (i, (c, link)) in self.conditions.iter().zip(&self.links).enumerate() {
             actions(term, rich, shape, &self.machine, c, &mut out);
             write_actions(&mut block, i, 0, c, link, &out);
         }
-        self.whitening.apply(&mut block);
         block
+    }
+
+    /// What an active term with another shape adds to the prediction, over the standard deviation of what is a reading's own.
+    pub(crate) fn own_share(&self, active: &Active, shape: f64) -> DVector<f64> {
+        let block = self.own_term_block(active.term.as_ref(), active.rich, shape);
+        block * DVector::from_column_slice(&active.values)
+    }
+
+    /// One column of reading over the standard deviation of what is its own, whitened as all others.
+    #[must_use]
+    pub(crate) fn whitened_column(&self, mut column: DVector<f64>) -> DVector<f64> {
+        self.whitening.apply_to(&mut column);
+        column
     }
 
     /// Columns of any actions, one per element of what `actions_of` pushes.
@@ -396,18 +422,13 @@ pub(crate) fn own_residuals(
     let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
     let residual = |&i: &usize| {
         let group = &campaign.groups[i];
-        let at = campaign.condition(&structure, group, &inputs(i, &group.mean))?;
-        Ok(at.reading.component_mul(&at.weight) - link(&machine, &at, point).prediction())
+        let (at, load) = campaign.condition(&structure, group, &inputs(i, &group.mean))?;
+        let link = Link::at(&at, &point.compliances, &load);
+        Ok(at.reading.component_mul(&at.weight) - link.prediction())
     };
     let groups: Vec<usize> = (0..campaign.groups.len()).collect();
     let all: Vec<Vector6> = try_map(&groups, residual)?;
     Ok(DVector::from_iterator(6 * all.len(), all.iter().flat_map(|r| r.iter().copied())))
-}
-
-fn link(machine: &Machine, at: &Condition, point: &ModelPoint) -> Link {
-    let active = point.active.iter().filter(|a| !a.term.calibrates());
-    let load = load(machine, at, active, &mut Vec::new());
-    Link::at(at, &point.compliances, &load)
 }
 
 /// Small motions of the metrology frame (fixed axes, fixed origin) and of the target frame (mobile axes).

@@ -11,6 +11,9 @@ use crate::error::ModelError;
 /// Singular values below this fraction of the largest, after scaling the columns, count as zero.
 pub const RANK_TOLERANCE: f64 = 1e-10;
 
+/// Rows folded in at a time: few enough for all their columns to stay in the cache.
+const STRIP_ROWS: usize = 1536;
+
 /// Upper triangle `R` and `Q'y` of all rows seen so far.
 #[derive(Debug, Clone)]
 pub struct Triangle {
@@ -33,13 +36,16 @@ impl Triangle {
         if !(a.iter().all(|x| x.is_finite()) && y.iter().all(|x| x.is_finite())) {
             return Err(ModelError::NotFinite { what: "the regressor" });
         }
-        let (old, new) = (self.r.nrows(), a.nrows());
-        let mut stack = DMatrix::zeros(old + new, self.columns + 1);
-        stack.rows_mut(0, old).copy_from(&self.r);
-        stack.view_mut((old, 0), (new, self.columns)).copy_from(a);
-        stack.view_mut((old, self.columns), (new, 1)).copy_from(y);
-        self.r = if stack.nrows() > stack.ncols() { stack.qr().unpack_r() } else { stack };
-        self.rows += new;
+        for first in (0..a.nrows()).step_by(STRIP_ROWS) {
+            let new = STRIP_ROWS.min(a.nrows() - first);
+            let old = self.r.nrows();
+            let mut stack = DMatrix::zeros(old + new, self.columns + 1);
+            stack.rows_mut(0, old).copy_from(&self.r);
+            stack.view_mut((old, 0), (new, self.columns)).copy_from(&a.rows(first, new));
+            stack.view_mut((old, self.columns), (new, 1)).copy_from(&y.rows(first, new));
+            self.r = if stack.nrows() > stack.ncols() { stack.qr().unpack_r() } else { stack };
+        }
+        self.rows += a.nrows();
         Ok(())
     }
 

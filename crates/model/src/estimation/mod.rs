@@ -1,5 +1,6 @@
 //! Numbers from readings: campaigns and their noise, parameters, least squares, residuals.
 
+pub mod basis;
 pub mod campaign;
 pub mod equilibrium;
 pub mod estimate;

@@ -373,69 +373,13 @@ fn sensor_column(
 mod tests {
     #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
-    use hexbench_core::{Approach, Columns, Dataset, Hexapod, Measurand, Pose};
+    use hexbench_core::Measurand;
 
     use super::*;
-    use crate::estimation::frames::ReadingAxes;
-    use crate::machine::geometry::Machine;
-    use crate::test_machine::machine;
+    use crate::test_machine::readings;
 
     /// Deflection over the size of the machine, and the steps of the differences.
     const SECOND_ORDER: f64 = 2e-3;
-
-    /// Readings of a machine of springs at three poses under loads of every kind, by sensors where there are any.
-    fn campaign(measurand: Measurand, sensors: Vec<Sensor>) -> Campaign {
-        let hexapod = Hexapod { sensors, ..machine() };
-        let springs = Vector6::repeat(1e-7);
-        let rows = (0..9).map(|i| {
-            let x = f64::from(i);
-            let pose = [
-                0.01 * (x / 3.0).floor(),
-                -0.005,
-                0.004 * (x / 3.0).floor(),
-                0.05,
-                -0.04 * (x / 3.0).floor(),
-                0.06,
-            ];
-            let pose_of = Pose::from_array(pose);
-            let wrench = Wrench {
-                force: Vector3::new(100.0 - 30.0 * x, 20.0 * x, -200.0),
-                moment: Vector3::new(5.0, -4.0 + x, 3.0),
-            };
-            let reference = Wrench { force: Vector3::new(0.0, 0.0, -50.0), moment: Vector3::zeros() };
-            let mut o = Observation {
-                pose_id: 1,
-                repeat: 1,
-                line: 2,
-                pose: pose_of,
-                wrench,
-                reference,
-                approach: Approach::Direct,
-                overload: Approach::OVERLOAD,
-                delta_t: 0.0,
-                elapsed: 0.0,
-                reference_age: None,
-                reference_record: None,
-                order: None,
-                block: 0,
-                measured: [0.0; 6],
-                sigma: None,
-            };
-            let legs = Machine::nominal(&hexapod).legs(&o.pose).unwrap();
-            let change = o.wrench.to_vector() - o.reference.to_vector();
-            let mut read = legs.platform_jacobian * springs.component_mul(&legs.forces(&change));
-            if measurand == Measurand::DeflectionEuler {
-                let turned = ReadingAxes::default().rates(&pose) * read.fixed_rows::<3>(3);
-                read.fixed_rows_mut::<3>(3).copy_from(&turned);
-            }
-            o.measured = read.into();
-            o
-        });
-        let observations = rows.collect();
-        let poses = Dataset::of_poses("", measurand, Columns::default(), observations);
-        let read = if hexapod.sensors.is_empty() { poses } else { poses.to_be_read_by(&hexapod.sensors) };
-        Campaign::new(&hexapod, &read).unwrap()
-    }
 
     /// One of every kind, six numbers in all.
     fn sensors() -> Vec<Sensor> {
@@ -455,7 +399,8 @@ mod tests {
         let [vector, euler] = [Measurand::DeflectionRotationVector, Measurand::DeflectionEuler];
         for (measurand, sensors) in [(vector, Vec::new()), (euler, Vec::new()), (vector, sensors())] {
             let kinds = if sensors.is_empty() { "poses" } else { "sensors" };
-            let campaign = campaign(measurand, sensors).unwhitened();
+            let (hexapod, data) = readings(measurand, sensors);
+            let campaign = Campaign::new(&hexapod, &data).unwrap().unwhitened();
             let mut point = ModelPoint::start(&campaign);
             point.compliances = Vector6::new(1.0, 1.2, 0.9, 1.1, 0.8, 1.3) * 1e-7;
             let lin = Linearization::at(&campaign, &point).unwrap();

@@ -277,40 +277,49 @@ fn shared(records: &[usize], shares: &[Vector6], x: &mut DVector<f64>) {
 
 fn drift(rows: &[usize], shares: &[Vector6], correlation: f64, x: &mut DVector<f64>) {
     for k in 0..6 {
-        let mut filter = Filter::default();
+        let mut filter = Filter::<1>::default();
         for i in 0..rows.len() {
             let distance = if i == 0 { 0 } else { rows[i].abs_diff(rows[i - 1]) };
-            let (innovation, variance) = filter.step(x[6 * i + k], shares[i][k], distance, correlation);
+            let ([innovation], variance) = filter.step([x[6 * i + k]], shares[i][k], distance, correlation);
             x[6 * i + k] = innovation / variance.sqrt();
         }
     }
 }
 
-/// Kalman filter of a process of first order with unit variance, seen with white noise of unit variance.
-pub struct Filter {
-    mean: f64,
+/// Kalman filter of processes of first order with unit variance, alike but for their values, each seen with white noise of unit variance.
+pub struct Filter<const PROCESSES: usize> {
+    means: [f64; PROCESSES],
     variance: f64,
 }
 
-impl Default for Filter {
+impl<const PROCESSES: usize> Default for Filter<PROCESSES> {
     fn default() -> Self {
-        Self { mean: 0.0, variance: 1.0 }
+        Self { means: [0.0; PROCESSES], variance: 1.0 }
     }
 }
 
-impl Filter {
-    /// What a reading brings that is new, and the variance of it; `share` of the process is in the reading, `distance` steps after
-    /// the one before.
-    pub fn step(&mut self, reading: f64, share: f64, distance: usize, correlation: f64) -> (f64, f64) {
+impl<const PROCESSES: usize> Filter<PROCESSES> {
+    /// What readings bring that is new, and the variance of each of them; `share` of the process is in the reading, `distance` steps
+    /// after the one before.
+    pub fn step(
+        &mut self,
+        readings: [f64; PROCESSES],
+        share: f64,
+        distance: usize,
+        correlation: f64,
+    ) -> ([f64; PROCESSES], f64) {
         let kept = correlation.powi(i32::try_from(distance).unwrap_or(i32::MAX));
-        let mean = kept * self.mean;
         let before = 1.0 + kept * kept * (self.variance - 1.0);
-        let innovation = reading - share * mean;
         let variance = 1.0 + share * share * before;
         let gain = before * share / variance;
-        self.mean = mean + gain * innovation;
+        let mut innovations = readings;
+        for (innovation, known) in innovations.iter_mut().zip(&mut self.means) {
+            let mean = kept * *known;
+            *innovation -= share * mean;
+            *known = mean + gain * *innovation;
+        }
         self.variance = before * (1.0 - gain * share);
-        (innovation, variance)
+        (innovations, variance)
     }
 }
 

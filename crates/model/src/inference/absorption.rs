@@ -5,9 +5,9 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
+use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::linearization::Linearization;
 use crate::estimation::lsq::solve;
-use crate::inference::candidates::{orthonormal, project};
 
 /// Rests below this share of the signature are rounding.
 const ROUNDING: f64 = 1e-8;

@@ -317,30 +317,9 @@ fn inverse_root(g: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// What springs, frames and the terms together must explain: the residual plus what active terms explain now.
 pub fn target(lin: &Linearization, point: &ModelPoint) -> DVector<f64> {
-    let mut y = lin.residuals();
+    let mut explained = DVector::zeros(lin.equations());
     for a in &point.active {
-        y += lin.term_block(a.term.as_ref(), a.rich, a.shape) * DVector::from_column_slice(&a.values);
+        explained += lin.own_share(a, a.shape);
     }
-    y
-}
-
-/// Orthonormal basis of the columns.
-pub fn orthonormal(columns: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut scaled = columns.clone();
-    for mut c in scaled.column_iter_mut() {
-        let norm = c.norm();
-        if norm > 0.0 {
-            c /= norm;
-        }
-    }
-    let qr = scaled.col_piv_qr();
-    let r = qr.r();
-    let rank = (0..r.nrows().min(r.ncols())).filter(|&k| r[(k, k)].abs() > 1e-9).count();
-    qr.q().columns(0, rank).into_owned()
-}
-
-/// Remove from `y` what lies in the span of an orthonormal basis.
-pub fn project(basis: &DMatrix<f64>, y: &mut DVector<f64>) {
-    let overlap = basis.tr_mul(y);
-    y.gemv(-1.0, basis, &overlap, 1.0);
+    lin.residuals() + lin.whitened_column(explained)
 }

@@ -122,21 +122,19 @@ impl PriorBlock {
         self.base.solve_lower_triangular(&free).unwrap_or(free)
     }
 
-    /// Logarithm of the probability that no value is negative which cannot be, and none a larger part than there is, over the same
-    /// before the data.
-    fn log_odds_of_signs(&self, values: &DVector<f64>, spread: &DMatrix<f64>) -> f64 {
-        if !self.has_part {
-            return log_orthant(values, spread, &self.positive) - self.log_signs;
+    /// Logarithm of the probability that none of the values is negative which cannot be, and none a larger part than there is, over the
+    /// same before the data; given those values and their covariance.
+    fn log_odds_of_signs(&self, mut values: DVector<f64>, mut spread: DMatrix<f64>) -> f64 {
+        if self.has_part {
+            values[0] -= values[1];
+            for _ in 0..2 {
+                let second = spread.row(1).into_owned();
+                let mut first = spread.row_mut(0);
+                first -= second;
+                spread = spread.transpose();
+            }
         }
-        let (mut free, mut spread) = (values.clone(), spread.clone());
-        free[0] -= values[1];
-        for _ in 0..2 {
-            let second = spread.row(1).into_owned();
-            let mut first = spread.row_mut(0);
-            first -= second;
-            spread = spread.transpose();
-        }
-        log_orthant(&free, &spread, &self.positive) - self.log_signs
+        log_orthant(&values, &spread, &vec![true; values.len()]) - self.log_signs
     }
 }
 
@@ -208,8 +206,6 @@ pub struct Posterior {
     pub drop: f64,
     /// Mean of the parameters, blocks in turn.
     pub mean: DVector<f64>,
-    /// Their variances.
-    pub variance: DVector<f64>,
 }
 
 impl Gram {
@@ -226,23 +222,28 @@ impl Gram {
         let b = DVector::from_fn(n, |i, _| scale[i] * self.b[columns[i]] / inflation);
         let factor = m.cholesky()?;
         let mean = factor.solve(&b);
-        let covariance = factor.inverse();
         let drop = b.dot(&mean);
         let log_det: f64 = 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
         let (mut signs, mut at) = (0.0, 0);
-        let (mut values, mut variance) = (DVector::zeros(n), DVector::zeros(n));
+        let mut values = DVector::zeros(n);
         for v in set {
             let block = &self.blocks[v.block];
             let (d, t) = (block.width(), &block.transform * block.widths[v.width]);
             let theta = &t * mean.rows(at, d);
-            let spread = &t * covariance.view((at, at), (d, d)) * t.transpose();
-            signs += block.log_odds_of_signs(&theta, &spread);
+            let signed: Vec<usize> = (0..d).filter(|&k| block.positive[k]).collect();
+            if !signed.is_empty() {
+                // Their covariance t M^-1 t' = |L^-1 t'|^2; nothing stands above the rows of the block.
+                let mut root = DMatrix::zeros(n - at, signed.len());
+                root.rows_mut(0, d).copy_from(&t.select_rows(&signed).transpose());
+                let corner = factor.l_dirty().view((at, at), (n - at, n - at));
+                corner.solve_lower_triangular_mut(&mut root);
+                signs += block.log_odds_of_signs(theta.select_rows(&signed), root.tr_mul(&root));
+            }
             values.rows_mut(at, d).copy_from(&theta);
-            variance.rows_mut(at, d).copy_from(&spread.diagonal());
             at += d;
         }
         let log_evidence = self.gain(drop, inflation) - 0.5 * log_det + signs;
-        Some(Posterior { log_evidence, drop: drop * inflation, mean: values, variance })
+        Some(Posterior { log_evidence, drop: drop * inflation, mean: values })
     }
 
     /// Springs beside a set of variants: change of the compliances (m/N) against springs alone, and their variances.

@@ -111,7 +111,7 @@ impl Pattern {
                     let mut unit = Matrix6::zeros();
                     unit[(i, j)] = 1.0;
                     unit[(j, i)] = 1.0;
-                    Action::Stiffness(unit)
+                    Action::Stiffness(Box::new(unit))
                 }));
             }
             Self::Load(axes) => out.extend(axes.iter().map(|&k| Action::Wrench(Vector6::ith(k, 1.0)))),
@@ -202,17 +202,32 @@ impl LegPattern {
 
     /// Leg elongations per unit of each parameter; the second is used by waves only.
     pub fn elongations(&self, at: &Condition, range: f64) -> [Vector6; 2] {
-        let mut e = [Vector6::zeros(); 2];
-        let force = at.force_change();
-        let shared = self.variable.is_common().then(|| self.course_values(self.variable.value(at, 0), range));
+        self.carried(at, self.courses(&self.values(at), range))
+    }
+
+    /// What it follows at a condition, for each leg.
+    pub(crate) fn values(&self, at: &Condition) -> Vector6 {
+        Vector6::from_fn(|leg, _| self.variable.value(at, leg))
+    }
+
+    /// How the elongations of the legs follow these values, one course for each parameter.
+    pub(crate) fn courses(&self, values: &Vector6, range: f64) -> [Vector6; 2] {
+        let mut courses = [Vector6::zeros(); 2];
+        let shared = self.variable.is_common().then(|| self.course_values(values[0], range));
         for leg in self.leg.map_or(0..6, |l| l..l + 1) {
-            let carrier = if self.compliance { force[leg] } else { 1.0 };
-            let own = || self.course_values(self.variable.value(at, leg), range);
-            let [first, second] = shared.unwrap_or_else(own);
-            e[0][leg] = carrier * first;
-            e[1][leg] = carrier * second;
+            let [first, second] = shared.unwrap_or_else(|| self.course_values(values[leg], range));
+            (courses[0][leg], courses[1][leg]) = (first, second);
         }
-        e
+        courses
+    }
+
+    /// Elongations by courses: a compliance carries the change of the force.
+    pub(crate) fn carried(&self, at: &Condition, courses: [Vector6; 2]) -> [Vector6; 2] {
+        if !self.compliance {
+            return courses;
+        }
+        let force = at.force_change();
+        courses.map(|course| course.component_mul(&force))
     }
 
     fn course_values(&self, v: f64, range: f64) -> [f64; 2] {

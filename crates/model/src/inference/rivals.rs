@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use crate::effects::term::Natural;
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::fit::{Fit, fit};
+use crate::estimation::fit::{Fit, TermSpec, fit};
 use crate::estimation::linearization::Linearization;
 use crate::inference::candidates::{Candidate, CandidateKind, Collector, with_fitted_shapes};
 use crate::inference::diagnosis::wanted;
@@ -49,9 +49,13 @@ impl Rivals<'_> {
         let differs = |s: &Set| !first.members.iter().all(|m| s.members.contains(m));
         let hopeless = |s: &Set| s.log_weight < first.log_weight - HOPELESS - self.gain_of_shapes(s);
         let close = |s: &&Set| self.all || (!hopeless(s) && differs(s));
-        let rivals: Vec<&Set> = sets.sets.iter().skip(1).filter(close).take(MOST_RIVALS).collect();
-        let own: Vec<(Set, Fit)> =
-            rivals.into_par_iter().filter_map(|s| self.at_own_optimum(s).ok()?).collect();
+        let rivals = sets.sets.iter().skip(1).filter(close).take(MOST_RIVALS);
+        let own: Vec<(Set, Fit)> = self
+            .by_terms(rivals)
+            .into_par_iter()
+            .filter_map(|(terms, alike)| self.at_own_optimum(&terms, &alike).ok())
+            .flatten()
+            .collect();
         let better = own.iter().max_by(|a, b| a.0.log_weight.total_cmp(&b.0.log_weight));
         let better = better.filter(|(set, _)| set.log_weight > first.log_weight).map(|(_, fit)| fit.clone());
         (sets.with(own.into_iter().map(|(set, _)| set)), better)
@@ -64,21 +68,39 @@ impl Rivals<'_> {
         0.5 * OF_A_SHAPE * (0.5 * widest.fold(0.0, f64::max)).powi(2) * set.drop
     }
 
-    /// One set; none when it is not better there than where the search was linearised.
-    fn at_own_optimum(&self, set: &Set) -> Result<Option<(Set, Fit)>, ModelError> {
-        let terms = wanted(set, self.gram, self.candidates, self.natural);
-        let own = fit(self.campaign, &terms, Some(&self.best.point))?;
+    /// Sets of the same terms have one optimum: patterns take no part in a fit.
+    fn by_terms<'a>(&self, sets: impl Iterator<Item = &'a Set>) -> Vec<(Vec<TermSpec>, Vec<&'a Set>)> {
+        let mut all: Vec<(Vec<TermSpec>, Vec<&Set>)> = Vec::new();
+        for set in sets {
+            let terms = wanted(set, self.gram, self.candidates, self.natural);
+            match all.iter_mut().find(|(known, _)| *known == terms) {
+                Some((_, alike)) => alike.push(set),
+                None => all.push((terms, vec![set])),
+            }
+        }
+        all
+    }
+
+    /// Sets of these terms, and the fit of them.
+    fn at_own_optimum(&self, terms: &[TermSpec], sets: &[&Set]) -> Result<Vec<(Set, Fit)>, ModelError> {
+        let own = fit(self.campaign, terms, Some(&self.best.point))?;
         let lin = Linearization::at(self.campaign, &own.point)?;
-        let mut collector = Collector::new(&lin, *self.natural);
+        let weighed = sets.iter().filter_map(|set| Some((self.weighed_at(set, &own, &lin)?, own.clone())));
+        Ok(weighed.collect())
+    }
+
+    /// One set where a fit of its terms ended; none where nothing as large was found there.
+    fn weighed_at(&self, set: &Set, own: &Fit, lin: &Linearization) -> Option<Set> {
+        let mut collector = Collector::new(lin, *self.natural);
         for &m in &set.members {
-            self.add(&mut collector, &self.candidates[m], &own);
+            self.add(&mut collector, &self.candidates[m], own);
         }
         let (gram, candidates) = collector.finish(self.campaign, &own.point);
         let search = TermSearch::new(&gram, &candidates, self.campaign.noise.allows_verdict());
         let found = search.among(self.candidates).run(set.members.len());
         let moved = gram.log_likelihood_without() - self.gram.log_likelihood_without();
         let whole = found.sets.into_iter().find(|s| s.members.len() == set.members.len());
-        Ok(whole.map(|s| (set.weighing(s.log_weight + moved, s.log_weight_discrepant + moved), own)))
+        whole.map(|s| set.weighing(s.log_weight + moved, s.log_weight_discrepant + moved))
     }
 
     /// A candidate in the forms and shapes in which it competed, and in the shape that a fit gave it.

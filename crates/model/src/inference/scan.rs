@@ -5,9 +5,10 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::effects::term::Term;
+use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
-use crate::inference::candidates::{orthonormal, project, target};
+use crate::inference::candidates::target;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable, spread};
 use crate::inference::period::period_grid;
 
@@ -100,8 +101,14 @@ impl<'a> Scanner<'a> {
         let pattern = LegPattern { leg: None, variable, course, compliance };
         let n = self.lin.conditions.len();
         let mut e = vec![DMatrix::zeros(n, 6); pattern.width()];
+        let (mut before, mut courses) = (None, [Vector6::zeros(); 2]);
         for (i, c) in self.lin.conditions.iter().enumerate() {
-            for (wave, values) in e.iter_mut().zip(pattern.elongations(c, range)) {
+            // Loads at one pose follow one another.
+            let values = pattern.values(c);
+            if before != Some(values) {
+                (before, courses) = (Some(values), pattern.courses(&values, range));
+            }
+            for (wave, values) in e.iter_mut().zip(pattern.carried(c, courses)) {
                 wave.row_mut(i).tr_copy_from(&values);
             }
         }

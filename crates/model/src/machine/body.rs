@@ -38,7 +38,7 @@ impl YieldingBody {
 
     /// Motions by the fifteen off-diagonal compliances `C_ij = C_ji`, `i < j`, row by row.
     pub(crate) fn cross_actions(&self) -> impl Iterator<Item = Action> {
-        (0..6).flat_map(move |i| (i + 1..6).map(move |j| (i, j))).map(|(i, j)| {
+        pairs().map(|(i, j)| {
             let mut twist = Vector6::zeros();
             twist[i] = self.wrench[j];
             twist[j] = self.wrench[i];
@@ -46,9 +46,25 @@ impl YieldingBody {
         })
     }
 
+    /// Motion by six diagonal compliances, and by the fifteen others where there are so many values, all at once.
+    pub(crate) fn together(&self, compliances: &[f64]) -> Action {
+        let (direct, cross) = compliances.split_at(6);
+        let mut twist = Vector6::from_fn(|k, _| direct[k] * self.wrench[k]);
+        for ((i, j), compliance) in pairs().zip(cross) {
+            twist[i] += compliance * self.wrench[j];
+            twist[j] += compliance * self.wrench[i];
+        }
+        self.motion(&twist)
+    }
+
     fn motion(&self, twist: &Vector6) -> Action {
         let rotation = self.axes * twist.fixed_rows::<3>(3);
         let shift = self.axes * twist.fixed_rows::<3>(0) + rotation.cross(&self.lever);
         (self.act)(Vector6::new(shift.x, shift.y, shift.z, rotation.x, rotation.y, rotation.z))
     }
+}
+
+/// Places of the off-diagonal compliances, row by row.
+fn pairs() -> impl Iterator<Item = (usize, usize)> {
+    (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)))
 }

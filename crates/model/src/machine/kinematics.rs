@@ -90,13 +90,37 @@ fn inverse(l: &Matrix6) -> Option<Matrix6> {
     let scale = l.fixed_columns::<3>(0).norm() / moment;
     let mut scaled = *l;
     scaled.fixed_columns_mut::<3>(3).scale_mut(scale);
-    let mut inverse = scaled.try_inverse()?;
+    let mut inverse = inverse_of_six(&scaled)?;
     let condition = scaled.norm() * inverse.norm();
     if !condition.is_finite() || condition > SINGULAR_CONDITION {
         return None;
     }
     inverse.fixed_rows_mut::<3>(3).scale_mut(scale);
     Some(inverse)
+}
+
+/// Inverse by Gauss-Jordan elimination with partial pivoting, row by row in one array: no call and no copy within.
+fn inverse_of_six(matrix: &Matrix6) -> Option<Matrix6> {
+    let mut rows: [[f64; 12]; 6] = std::array::from_fn(|i| {
+        std::array::from_fn(|j| if j < 6 { matrix[(i, j)] } else { f64::from(i + 6 == j) })
+    });
+    for k in 0..6 {
+        let pivot = (k..6).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs()))?;
+        rows.swap(k, pivot);
+        let scale = rows[k][k].recip();
+        if !scale.is_finite() {
+            return None;
+        }
+        rows[k].iter_mut().for_each(|x| *x *= scale);
+        let own = rows[k];
+        for (i, row) in rows.iter_mut().enumerate() {
+            if i != k {
+                let share = row[k];
+                row.iter_mut().zip(&own).for_each(|(x, y)| *x -= share * y);
+            }
+        }
+    }
+    Some(Matrix6::from_fn(|i, j| rows[i][6 + j]))
 }
 
 /// `M` (3x3) with `omega = M [alpha', beta', gamma']`: fixed-axes angular velocity from Euler rates
@@ -114,4 +138,21 @@ pub fn analytic_leg_jacobian(legs: &Legs, angles: &Vector3) -> Matrix6 {
     let moment = jacobian.fixed_columns::<3>(3) * euler_rate_matrix(angles);
     jacobian.fixed_columns_mut::<3>(3).copy_from(&moment);
     jacobian
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_times_its_inverse_is_the_identity_whatever_its_pivots() {
+        let entry = |i: usize, j: usize| ((3 * i + 7 * j * j) as f64).sin();
+        let mut matrix = Matrix6::from_fn(entry);
+        matrix[(0, 0)] = 0.0;
+        let off = (matrix * inverse_of_six(&matrix).unwrap() - Matrix6::identity()).amax();
+        assert!(off < 1e-12, "{off:.1e}");
+        let row = matrix.row(1).into_owned();
+        matrix.set_row(4, &row);
+        assert!(inverse_of_six(&matrix).is_none_or(|inverse| inverse.amax() > 1e12));
+    }
 }

@@ -45,6 +45,10 @@ impl Term for BaseCompliance {
     fn rich_actions(&self, machine: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         out.extend(body(machine, at).cross_actions());
     }
+
+    fn together(&self, machine: &Machine, at: &Condition, values: &[f64]) -> Option<Action> {
+        Some(body(machine, at).together(values))
+    }
 }
 
 fn body(machine: &Machine, at: &Condition) -> YieldingBody {

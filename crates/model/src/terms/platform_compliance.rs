@@ -45,6 +45,10 @@ impl Term for PlatformCompliance {
     fn rich_actions(&self, _: &Machine, at: &Condition, _: f64, out: &mut Vec<Action>) {
         out.extend(body(at).cross_actions());
     }
+
+    fn together(&self, _: &Machine, at: &Condition, values: &[f64]) -> Option<Action> {
+        Some(body(at).together(values))
+    }
 }
 
 fn body(at: &Condition) -> YieldingBody {

@@ -46,7 +46,7 @@ impl Term for TargetOffset {
             let lever: Vector3 = at.pose.rotation().column(k).into_owned();
             let mut shift = Matrix6::zeros();
             shift.fixed_view_mut::<3, 3>(0, 3).copy_from(&-lever.cross_matrix());
-            out.push(Action::Target(shift));
+            out.push(Action::Target(Box::new(shift)));
         }
     }
 }

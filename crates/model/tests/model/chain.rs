@@ -68,16 +68,16 @@ fn one_of_each(random: &mut Random) -> Vec<Action> {
     vec![
         Action::Force(vector(random, 0.3 * FORCE)),
         Action::Elongation(vector(random, 0.3 * FORCE * COMPLIANCE)),
-        Action::Stiffness(stiffness(random)),
+        Action::Stiffness(Box::new(stiffness(random))),
         Action::Base(twist(random, 0.3 * FORCE * COMPLIANCE)),
         Action::Plate(twist(random, 0.3 * FORCE * COMPLIANCE)),
-        Action::Target(target),
+        Action::Target(Box::new(target)),
         Action::Reading(twist(random, 0.3 * FORCE * COMPLIANCE)),
         Action::Shift(std::array::from_fn(|_| {
             Vector3::from_fn(|_, _| random.within(0.3 * FORCE * COMPLIANCE))
         })),
         // A second one of the kinds that multiply others.
-        Action::Stiffness(stiffness(random)),
+        Action::Stiffness(Box::new(stiffness(random))),
         Action::Bending([0.05 / COMPLIANCE * RADIUS * RADIUS; 2]),
     ]
 }
@@ -199,7 +199,7 @@ fn a_stiffness_beside_the_legs_adds_to_theirs() {
         let case = Case::new(seed, Measurand::DeflectionRotationVector);
         let beside = stiffness(&mut random);
         let mut load = Load::default();
-        load.add(&Action::Stiffness(beside), 1.0);
+        load.add(&Action::Stiffness(Box::new(beside)), 1.0);
         let link = Link::at(&case.condition, &case.springs, &load);
         let l = case.condition.legs.leg_jacobian;
         let legs = l.transpose() * Matrix6::from_diagonal(&case.springs.map(f64::recip)) * l;

@@ -144,10 +144,12 @@ impl Part {
     ) -> Vector6 {
         if self.kind == PartKind::Elongation {
             let Some(Some(formula)) = self.formulas.first() else { return Vector6::zeros() };
+            self.fill(machine, at, 0, values);
+            values.extend_from_slice(own);
             return Vector6::from_fn(|leg, _| {
                 if self.legs[leg] {
-                    self.fill(machine, at, leg, values);
-                    values.extend_from_slice(own);
+                    // Only these differ from leg to leg.
+                    values[..OF_LEG.len()].copy_from_slice(&variables::of_leg(machine, at, leg));
                     formula.value(values)
                 } else {
                     0.0
@@ -164,7 +166,7 @@ impl Part {
     fn fill(&self, machine: &Machine, at: &Condition, leg: usize, values: &mut Vec<f64>) {
         values.clear();
         if self.kind == PartKind::Elongation {
-            variables::push_of_leg(machine, at, leg, values);
+            values.extend(variables::of_leg(machine, at, leg));
         }
         variables::push_of_reading(at, values);
     }

@@ -70,16 +70,17 @@ pub(super) fn push_of_reading(at: &Condition, values: &mut Vec<f64>) {
     values.extend(at.force_change().iter());
 }
 
-/// Appends the values of [`OF_LEG`] for one leg (from zero) at a condition, SI; legs count from 1 in formulas.
-pub(super) fn push_of_leg(machine: &Machine, at: &Condition, leg: usize, values: &mut Vec<f64>) {
+/// Values of [`OF_LEG`] for one leg (from zero) at a condition, SI; legs count from 1 in formulas.
+pub(super) fn of_leg(machine: &Machine, at: &Condition, leg: usize) -> [f64; OF_LEG.len()] {
     let (f, f0, n) = (at.force[leg], at.reference_force[leg], at.legs.directions[leg]);
     let (q, q_home) = (at.commanded_lengths[leg], machine.home_lengths[leg]);
-    values.extend([f, f0, f - f0, q, q_home, n.x, n.y, n.z, (leg + 1) as f64]);
     let df = at.force_change();
-    values.extend([df[(leg + 1) % 6], df[(leg + 5) % 6], df[(leg + 3) % 6], df.sum() - df[leg]]);
+    let [next, previous, opposite] = [1, 5, 3].map(|on| df[(leg + on) % 6]);
     // Before anything is fitted a spring has no compliance, and its stiffness no value.
     let c = at.springs[leg];
-    values.extend([c, if c > 0.0 { c.recip() } else { 0.0 }]);
+    let k = if c > 0.0 { c.recip() } else { 0.0 };
+    let number = (leg + 1) as f64;
+    [f, f0, f - f0, q, q_home, n.x, n.y, n.z, number, next, previous, opposite, df.sum() - df[leg], c, k]
 }
 
 /// Values of all variables of a leg, for all legs at many conditions.
@@ -92,7 +93,7 @@ impl LegVariables {
     pub(crate) fn at(machine: &Machine, conditions: &[Condition]) -> Self {
         let of = |c: &Condition, leg: usize| {
             let mut values = Vec::with_capacity(OF_LEG.len() + OF_READING.len() + 1);
-            push_of_leg(machine, c, leg, &mut values);
+            values.extend(of_leg(machine, c, leg));
             push_of_reading(c, &mut values);
             values
         };

@@ -6,9 +6,10 @@ use nalgebra::{DMatrix, DVector};
 use super::tables::{LawColumns, Values};
 use crate::effects::term::Natural;
 use crate::effects::user_term::PartKind;
+use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
 use crate::estimation::noise::NoiseLevel;
-use crate::inference::candidates::{orthonormal, project, target};
+use crate::inference::candidates::target;
 use crate::inference::evidence::Likelihood;
 
 /// A column per leg and condition as values `phi`, six per condition, gives the whitened and projected reading

@@ -5,13 +5,12 @@
 //! `(B'r)' (B'MB)^-1 (B'r)`. The hypothesis of the largest evidence is accepted and its readings are left out, one after
 //! the other, so that a large fault does not hide a smaller one.
 
+use hexbench_core::Vector6;
 use hexbench_core::statistics::median;
-use hexbench_core::{Observation, Pose, Vector6};
 use nalgebra::{DMatrix, DVector};
 
 use super::finding::{Finding, FindingKind, probability};
 use super::remainder::Remainder;
-use crate::estimation::linearization::own_residuals;
 
 /// Evidence beyond which a fault is believed, nats: odds of 3 000 to 1 after all that was tried.
 const BELIEVED: f64 = 8.0;
@@ -21,8 +20,6 @@ const PRIOR_SIZE: f64 = 30.0;
 const PRIOR_ODDS: f64 = 0.05;
 /// Median of the square of a Gaussian.
 const MEDIAN_SQUARE: f64 = 0.454_936;
-/// Steps of a commanded pose for its derivatives, m and rad.
-const POSE_STEP: [f64; 6] = [1e-5, 1e-5, 1e-5, 1e-4, 1e-4, 1e-4];
 /// Names of the components of a wrench, with the unit.
 const WRENCH: [(&str, &str); 6] =
     [("fx", "N"), ("fy", "N"), ("fz", "N"), ("mx", "N m"), ("my", "N m"), ("mz", "N m")];
@@ -173,7 +170,7 @@ fn loads(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
 
 /// One component of one commanded pose.
 fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
-    let slopes = pose_slopes(rest)?;
+    let slopes = rest.by_pose?;
     let mut of_pose: Vec<Vec<usize>> = Vec::new();
     for (g, group) in rest.campaign.groups.iter().enumerate() {
         if of_pose.len() <= group.record {
@@ -183,9 +180,9 @@ fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
     }
     let mut best: Option<(f64, usize, usize, f64)> = None;
     for (p, groups) in of_pose.iter().enumerate() {
-        for (k, slope) in slopes.iter().enumerate() {
+        for k in 0..POSE.len() {
             let columns: Vec<DMatrix<f64>> =
-                groups.iter().map(|&g| slope.rows(6 * g, 6).into_owned()).collect();
+                groups.iter().map(|&g| slopes.view((6 * g, k), (6, 1)).into_owned()).collect();
             let Some((gain, shift)) = shift_of(rest, groups, &columns) else { continue };
             if best.is_none_or(|b| gain > b.0) {
                 best = Some((gain, p, k, shift[0]));
@@ -214,25 +211,6 @@ fn poses(rest: &Remainder<'_>, scale: &Scale) -> Option<Fault> {
         text,
         "compare the pose written there with the one commanded",
     ))
-}
-
-/// Whitened reading per unit of every component of the commanded poses, all poses at once.
-fn pose_slopes(rest: &Remainder<'_>) -> Option<Vec<DMatrix<f64>>> {
-    let at = |k: usize, step: f64| {
-        let moved = |_, o: &Observation| {
-            let mut pose = o.pose.to_array();
-            pose[k] += step;
-            Observation { pose: Pose::from_array(pose), ..*o }
-        };
-        own_residuals(rest.campaign, rest.point, moved).ok()
-    };
-    let slope = |k: usize| {
-        let (plus, minus) = (at(k, POSE_STEP[k])?, at(k, -POSE_STEP[k])?);
-        // A residual falls as the prediction rises.
-        let slope = (minus - plus) / (2.0 * POSE_STEP[k]);
-        Some(DMatrix::from_column_slice(slope.len(), 1, slope.as_slice()))
-    };
-    (0..6).map(slope).collect()
 }
 
 /// Fall of chi-square when some groups get a shift along these columns, and the shift.

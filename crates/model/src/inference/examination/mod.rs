@@ -10,6 +10,7 @@ mod kept;
 mod remainder;
 mod resolution;
 mod scatter;
+mod slopes;
 mod tolerance;
 
 use hexbench_core::{Dataset, Hexapod, Matrix6, Sensor, Tolerances, Vector6};
@@ -20,6 +21,7 @@ pub use self::finding::{Finding, FindingKind, is_misread};
 use self::remainder::Remainder;
 use self::resolution::Resolution;
 use self::scatter::{Kind, Statement, statements};
+use self::slopes::Slopes;
 use self::tolerance::{Doubted, Tolerance, inexact_inputs};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
@@ -149,15 +151,18 @@ struct Look {
     inputs: Option<Tolerance>,
 }
 
-/// The worst fault of readings, of at most so many rows, and the statements about their noise.
+/// The worst fault of readings, of at most so many rows, and the statements about their noise. `slopes`: of more of the readings, where
+/// they were looked at before.
 fn look(
     hexapod: &Hexapod,
     examined: &Examined,
     outcome: &RankedSets,
     most: usize,
+    slopes: &mut Option<Slopes>,
 ) -> Result<(Option<Fault>, Look), ModelError> {
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
-    let rest = Remainder::new(&examined.data, &campaign, outcome)?;
+    let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
+    let rest = Remainder::new(&examined.data, &campaign, outcome, slopes.insert(known))?;
     let (statements, stated) = statements(&rest);
     let fault = worst(&rest).filter(|f| f.rows.len() <= most);
     let inputs = if fault.is_none() { inexact_inputs(&rest) } else { None };
@@ -181,9 +186,9 @@ fn without_faults(
 ) -> Result<Cleaned, ModelError> {
     let mut most = examined.data.observations.len() / MOST_LEFT_OUT;
     let mut gain = 0.0;
-    let (mut first, mut before) = (None, None);
+    let (mut first, mut before, mut slopes) = (None, None, None);
     loop {
-        let (fault, last) = look(hexapod, &examined, outcome, most)?;
+        let (fault, last) = look(hexapod, &examined, outcome, most, &mut slopes)?;
         gain += before.map_or(0.0, |stated: f64| last.stated - stated);
         let Some(fault) = fault else {
             gain += last.statements.first().map_or(0.0, |best| best.evidence - last.stated).max(0.0);

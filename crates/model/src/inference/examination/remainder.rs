@@ -6,11 +6,12 @@
 use hexbench_core::{Dataset, Vector6};
 use nalgebra::{DMatrix, DVector};
 
+use super::slopes::Slopes;
 use crate::error::ModelError;
+use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::{Campaign, row_sigma};
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
-use crate::estimation::tolerances::input_columns;
-use crate::inference::candidates::{orthonormal, project, target};
+use crate::inference::candidates::target;
 use crate::inference::diagnosis::RankedSets;
 
 /// Shapes of an effect that take part.
@@ -31,7 +32,9 @@ pub(super) struct Remainder<'a> {
     /// Orthonormal basis of what the catalogue could explain, per averaged number.
     pub(super) basis: DMatrix<f64>,
     /// What a standard deviation of every input of the campaign does to the averaged numbers.
-    pub(super) inputs: DMatrix<f64>,
+    pub(super) inputs: &'a DMatrix<f64>,
+    /// What they gain with every component of the commanded poses; none where a pose beside one is singular.
+    pub(super) by_pose: Option<&'a DMatrix<f64>>,
     /// Degrees of freedom that errors of the inputs within their tolerances take.
     taken: f64,
     /// Averaged numbers without it, and without what the inputs' tolerances explain, over their standard deviations.
@@ -51,14 +54,15 @@ impl<'a> Remainder<'a> {
         data: &'a Dataset,
         campaign: &'a Campaign,
         outcome: &'a RankedSets,
+        slopes: &'a Slopes,
     ) -> Result<Self, ModelError> {
         let point = &outcome.best.point;
         let lin = Linearization::at(campaign, point)?;
         let basis = everything(outcome, &lin, point);
         let mut means = target(&lin, point);
         project(&basis, &mut means);
-        let inputs = input_columns(campaign, point, &campaign.hexapod.tolerances)?;
-        let taken = take_out(&basis, &inputs, &mut means);
+        let (inputs, by_pose) = (&slopes.inputs, slopes.by_pose.as_ref());
+        let taken = take_out(&basis, inputs, &mut means);
         let mut rows = vec![Vector6::zeros(); data.observations.len()];
         let mut group_of = vec![0; rows.len()];
         for (g, group) in campaign.groups.iter().enumerate() {
@@ -71,7 +75,7 @@ impl<'a> Remainder<'a> {
                 group_of[i as usize] = g;
             }
         }
-        Ok(Self { data, campaign, lin, point, basis, inputs, taken, means, rows, group_of })
+        Ok(Self { data, campaign, lin, point, basis, inputs, by_pose, taken, means, rows, group_of })
     }
 
     /// Share of one averaged number that the catalogue could explain.

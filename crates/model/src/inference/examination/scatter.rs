@@ -238,15 +238,16 @@ impl Judge {
         let own = 1.0 - share;
         let loading = (share / own).sqrt();
         let (mut half_log_det, mut square) = (3.0 * self.rows.len() as f64 * own.ln(), 0.0);
-        for k in 0..6 {
-            let mut filter = Filter::default();
-            for (i, row) in self.rows.iter().enumerate() {
-                let distance = if i == 0 { 0 } else { self.lines[i].abs_diff(self.lines[i - 1]) };
-                let (innovation, variance) = filter.step(row[k] / own.sqrt(), loading, distance, correlation);
-                half_log_det += 0.5 * variance.ln();
-                square += innovation * innovation / variance;
-            }
+        let mut variances = LogOfProduct::default();
+        let mut filter = Filter::<6>::default();
+        for (i, row) in self.rows.iter().enumerate() {
+            let distance = if i == 0 { 0 } else { self.lines[i].abs_diff(self.lines[i - 1]) };
+            let (innovations, variance) =
+                filter.step((row / own.sqrt()).into(), loading, distance, correlation);
+            square += innovations.iter().map(|x| x * x).sum::<f64>() / variance;
+            variances.push(variance);
         }
+        half_log_det += 3.0 * variances.value();
         (half_log_det, square)
     }
 
@@ -269,14 +270,16 @@ impl Judge {
     /// Student's t; its level is that of the Gaussian in the middle of it.
     fn tails(&self) -> Statement {
         let of_row = |i: usize| (0..6).filter(move |&k| self.read[i][k]).map(move |k| self.rows[i][k]);
-        let read: Vec<f64> = (0..self.rows.len()).flat_map(of_row).collect();
+        let squares: Vec<f64> = (0..self.rows.len()).flat_map(of_row).map(|x| x * x).collect();
         let at = |freedom: f64, level: f64| {
             // Over the constant of a Gaussian, which the other statements leave out.
             let constant =
                 ln_gamma(f64::midpoint(freedom, 1.0)) - ln_gamma(0.5 * freedom) - 0.5 * (0.5 * freedom).ln();
-            let one = |x: &f64| -f64::midpoint(freedom, 1.0) * (1.0 + (x / level).powi(2) / freedom).ln();
-            let sum: f64 = read.iter().map(one).sum();
-            sum + self.numbers() * (constant - level.ln())
+            let (mut all, share) = (LogOfProduct::default(), 1.0 / (level * level * freedom));
+            for square in &squares {
+                all.push(1.0 + square * share);
+            }
+            self.numbers() * (constant - level.ln()) - f64::midpoint(freedom, 1.0) * all.value()
         };
         let levels = (-12..=12).map(|k| (0.1 * f64::from(k)).exp());
         let all = TAILS.iter().flat_map(|&freedom| levels.clone().map(move |level| (freedom, level)));
@@ -321,17 +324,48 @@ impl Judge {
 
     fn law_at(&self, shapes: &[Matrix6<f64>], leg: Option<usize>, size: f64) -> f64 {
         let of = |(mean, shape): (&Vector6, &Matrix6<f64>)| {
-            let acting = leg.map_or(*shape, |l| {
-                let mut one = Matrix6::zeros();
-                one.set_column(0, &shape.column(l));
-                one
-            });
-            let covariance = Matrix6::identity() + size * size * acting * acting.transpose();
+            if let Some(leg) = leg {
+                // |I + s^2 a a'| = 1 + s^2 a'a, and the inverse takes off what lies along a.
+                let (acting, variance) = (shape.column(leg), size * size);
+                let more = variance * acting.norm_squared();
+                let along = variance * acting.dot(mean).powi(2);
+                return -0.5 * (more.ln_1p() + mean.norm_squared() - along / (1.0 + more));
+            }
+            let covariance = Matrix6::identity() + size * size * shape * shape.transpose();
             let Some(factor) = covariance.cholesky() else { return f64::NEG_INFINITY };
             let half_log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
             -half_log_det - 0.5 * mean.dot(&factor.solve(mean))
         };
         self.means.iter().zip(shapes).map(of).sum::<f64>() - 0.5 * self.within
+    }
+}
+
+/// Logarithm of a product of positive numbers, of which few are taken.
+struct LogOfProduct {
+    product: f64,
+    log: f64,
+}
+
+impl Default for LogOfProduct {
+    fn default() -> Self {
+        Self { product: 1.0, log: 0.0 }
+    }
+}
+
+impl LogOfProduct {
+    /// Far from where numbers end, whatever the next factor is.
+    const RANGE: std::ops::Range<f64> = 1e-100..1e100;
+
+    fn push(&mut self, factor: f64) {
+        self.product *= factor;
+        if !Self::RANGE.contains(&self.product) {
+            self.log += self.product.ln();
+            self.product = 1.0;
+        }
+    }
+
+    fn value(&self) -> f64 {
+        self.log + self.product.ln()
     }
 }
 
@@ -342,4 +376,22 @@ fn gathered<K: Ord>(rows: usize, key: impl Fn(usize) -> K) -> Vec<Vec<usize>> {
         all.entry(key(i)).or_default().push(i);
     }
     all.into_values().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_logarithm_of_a_product_is_the_sum_of_the_logarithms_however_many_and_large() {
+        let mut all = LogOfProduct::default();
+        let factors =
+            (0..4_000).map(|i| 10.0_f64.powf(f64::from(i % 37) * if i < 2_000 { 3.0 } else { -3.0 }));
+        let mut sum = 0.0;
+        for factor in factors {
+            all.push(factor);
+            sum += factor.ln();
+        }
+        assert!((all.value() - sum).abs() < 1e-9 * 2_000.0 * 100.0, "{} for {sum}", all.value());
+    }
 }

@@ -10,10 +10,11 @@ use hexbench_core::Tolerances;
 use nalgebra::{DMatrix, DVector};
 
 use super::remainder::{Remainder, explained};
+use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::beside;
 use crate::estimation::tolerances::{InputKind, columns_of_sensor};
-use crate::inference::candidates::{orthonormal, project, target};
+use crate::inference::candidates::target;
 use crate::inference::evidence::log_sum;
 
 /// Multiples of the stated tolerance that are tried.
@@ -54,8 +55,8 @@ pub(super) fn inexact_inputs(rest: &Remainder<'_>) -> Option<Tolerance> {
     let basis = orthonormal(&beside(&explained(&rest.lin, rest.point)));
     let mut y = target(&rest.lin, rest.point);
     project(&basis, &mut y);
-    let overlap = basis.tr_mul(&rest.inputs);
-    let normal = rest.inputs.tr_mul(&rest.inputs) - overlap.tr_mul(&overlap);
+    let overlap = basis.tr_mul(rest.inputs);
+    let normal = rest.inputs.tr_mul(rest.inputs) - overlap.tr_mul(&overlap);
     let right: DVector<f64> = rest.inputs.tr_mul(&y);
     let scaled = |columns: &Range<usize>, factor: f64| {
         let mut scales = DVector::repeat(rest.inputs.ncols(), 1.0);

@@ -16,8 +16,8 @@ use hexbench_core::Vector6;
 
 use super::JudgedModel;
 use crate::effects::chain::Action;
+use crate::estimation::basis::project;
 use crate::estimation::campaign::Condition;
-use crate::inference::candidates::project;
 
 /// Associations kept.
 const KEPT: usize = 12;

@@ -20,13 +20,13 @@ use serde::Serialize;
 
 use crate::application::model_file::Model;
 use crate::error::ModelError;
+use crate::estimation::basis::orthonormal;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, columns, fit_baseline};
 use crate::estimation::frames::Frames;
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::noise::NoiseSource;
 use crate::estimation::residuals::{ErrorSummary, Residual, prediction_errors, residuals, summarise};
-use crate::inference::candidates::orthonormal;
 use crate::inference::selection::same_kind;
 use crate::results::diagnose::prepare;
 

@@ -23,7 +23,7 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::JudgedModel;
 use super::association::Look;
-use crate::inference::candidates::project;
+use crate::estimation::basis::project;
 
 /// Frequencies to a product of matrices.
 const AT_ONCE: usize = 32;

@@ -1,6 +1,7 @@
 //! Fits and errors beyond the search: steps, held-out data, rivals, what the springs absorb.
 
 use hexbench_core::{Dataset, Hexapod};
+use rayon::prelude::*;
 
 use super::next::Next;
 use super::report::{AbsorbedReport, StepReport};
@@ -127,15 +128,22 @@ impl Context<'_> {
         }
         judgement.verdict = Verdict::Ambiguous;
         judgement.refuted = true;
-        let start = &self.outcome.baseline.point;
-        for set in self.outcome.sets.sets.iter().take(SETS_FACED) {
-            let terms = wanted(set, &self.outcome.gram, &self.outcome.candidates, &self.outcome.natural);
-            if fit(self.campaign, &terms, Some(start)).is_ok_and(|f| survives(&f, SURVIVAL_CHANCE)) {
-                for id in terms.iter().map(|w| w.term.info().id) {
-                    if !judgement.credible.iter().any(|c| c.is_term(id)) {
-                        judgement.credible.push(Explanation::Term(id.to_owned()));
-                    }
-                }
+        let (outcome, start) = (self.outcome, &self.outcome.baseline.point);
+        // Sets that differ in their patterns alone are one model.
+        let mut faced: Vec<Vec<TermSpec>> = Vec::new();
+        for set in outcome.sets.sets.iter().take(SETS_FACED) {
+            let terms = wanted(set, &outcome.gram, &outcome.candidates, &outcome.natural);
+            if !faced.contains(&terms) {
+                faced.push(terms);
+            }
+        }
+        let survivors = faced.par_iter().filter(|terms| {
+            fit(self.campaign, terms, Some(start)).is_ok_and(|f| survives(&f, SURVIVAL_CHANCE))
+        });
+        let survivors: Vec<&Vec<TermSpec>> = survivors.collect();
+        for id in survivors.into_iter().flatten().map(|w| w.term.info().id) {
+            if !judgement.credible.iter().any(|c| c.is_term(id)) {
+                judgement.credible.push(Explanation::Term(id.to_owned()));
             }
         }
     }
