@@ -14,8 +14,9 @@
 //! larger than stated by what springs do not explain; repeats may scatter a few times more or less than stated, not a thousand times.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
-use hexbench_core::{Channel, Dataset, Hexapod, Matrix6, Measurand, Observation, UNREAD, Vector6};
+use hexbench_core::{Channel, Dataset, Hexapod, Matrix6, Measurand, Observation, Sensor, UNREAD, Vector6};
 use nalgebra::DVector;
 
 use super::AsMeant;
@@ -45,7 +46,7 @@ pub(super) struct Sample {
     /// Averaged readings.
     pub(super) data: Dataset,
     /// True when they are full poses.
-    reads_poses: bool,
+    pub(super) reads_poses: bool,
     /// Standard deviations of the averages.
     sigma: Vec<Vector6>,
     /// Conditions of the file for each one here.
@@ -165,19 +166,18 @@ impl Sample {
     /// The springs of the file read with changes, one after the other; none where the machine is singular.
     pub(super) fn springs(&self, changes: &[Change]) -> Option<Springs> {
         let mut normal = Normal::default();
-        self.whitened(changes, LINEAR_SHARE, |row| normal.add(&row))?;
+        self.whitened(changes, Over::Model, |row| normal.add(&row))?;
         self.judged(&normal, &self.factors(changes))
     }
 
     /// Readings less what the springs explain of them, over the noise, of the file read with changes; six for each condition.
     pub(super) fn residuals(&self, changes: &[Change]) -> Option<DVector<f64>> {
-        self.residuals_over(changes, LINEAR_SHARE)
+        self.residuals_over(changes, Over::Model)
     }
 
-    /// The same over the noise and a share of the readings.
-    fn residuals_over(&self, changes: &[Change], share: f64) -> Option<DVector<f64>> {
+    fn residuals_over(&self, changes: &[Change], over: Over) -> Option<DVector<f64>> {
         let mut rows = Vec::with_capacity(self.data.observations.len());
-        self.whitened(changes, share, |row| rows.push(row))?;
+        self.whitened(changes, over, |row| rows.push(row))?;
         let mut normal = Normal::default();
         for row in &rows {
             normal.add(row);
@@ -190,26 +190,28 @@ impl Sample {
         Some(DVector::from_iterator(6 * rows.len(), all))
     }
 
-    /// Root mean square of the residuals over the stated noise, per coordinate.
-    pub(super) fn levels(&self, changes: &[Change]) -> Option<Vector6> {
-        let all = self.residuals_over(changes, 0.0)?;
-        let conditions = self.data.observations.len();
-        let freedom = self.freedom() / 6.0;
-        Some(Vector6::from_fn(|k, _| {
-            let sum: f64 = (0..conditions).map(|c| all[6 * c + k].powi(2)).sum();
-            (sum / freedom).sqrt()
-        }))
+    /// Root mean square of the residuals over the stated noise, of the quietest of all columns.
+    pub(super) fn quietest(&self, changes: &[Change]) -> Option<f64> {
+        let all = self.residuals_over(changes, Over::Noise)?;
+        let mut columns: BTreeMap<(usize, usize), (f64, f64)> = BTreeMap::new();
+        for (c, (row, sigma)) in self.data.observations.iter().zip(&self.sigma).enumerate() {
+            for k in (0..6).filter(|&k| sigma[k] < UNREAD) {
+                let (sum, count) = columns.entry((row.block, k)).or_default();
+                (*sum, *count) = (*sum + all[6 * c + k].powi(2), *count + 1.0);
+            }
+        }
+        let free = self.freedom() / self.numbers() as f64;
+        columns.into_values().map(|(sum, count)| (sum / (count * free)).sqrt()).min_by(f64::total_cmp)
     }
 
-    /// Columns of the springs and readings of every condition of the file read with changes, over the noise and a share of the
-    /// readings; none at a singular pose.
-    fn whitened(&self, changes: &[Change], share: f64, mut take: impl FnMut(Whitened)) -> Option<()> {
+    /// Columns of the springs and readings of every condition of the file read with changes; none at a singular pose.
+    fn whitened(&self, changes: &[Change], over: Over, mut take: impl FnMut(Whitened)) -> Option<()> {
         let AsMeant { hexapod, data, .. } = AsMeant::of(&self.hexapod, &self.data, None, changes);
         let kept = changes.iter().all(Change::keeps_legs);
         let legs = if kept { Cow::Borrowed(&self.legs) } else { Cow::Owned(legs(&hexapod, &data)) };
         let factors = self.factors(changes);
         let reads = if self.reads_poses { motions(&data) } else { as_read(&data) };
-        let floor = Floor::of(&hexapod, &data, &reads, share);
+        let floor = Floor::of(&hexapod, &data, &reads, over);
         for (((row, read), legs), sigma) in
             data.observations.iter().zip(&reads).zip(legs.iter()).zip(&self.sigma)
         {
@@ -233,27 +235,11 @@ impl Sample {
         Some(())
     }
 
-    fn factors(&self, changes: &[Change]) -> Factors {
-        let mut all = Factors { translation: 1.0, rotation: 1.0, sensor: None, noise: None };
-        let mut noise = 1.0;
-        for change in changes {
-            match change {
-                Change::Scaled(Group::Translations, factor) => all.translation *= factor,
-                Change::Scaled(Group::Rotations, factor) => all.rotation *= factor,
-                Change::Scaled(Group::Readings, factor) => {
-                    all.translation *= factor;
-                    all.rotation *= factor;
-                }
-                Change::Scaled(Group::Noise, factor) => noise *= factor,
-                Change::SensorScaled(name, factor) => {
-                    let index = self.hexapod.sensors.iter().position(|s| s.name == **name);
-                    all.sensor = index.map(|index| (index, *factor));
-                }
-                _ => {}
-            }
-        }
-        all.noise = self.noise_is_stated.then_some(noise);
-        all
+    fn factors<'a>(&'a self, changes: &'a [Change]) -> Factors<'a> {
+        let of =
+            |change: &Change| if let Change::Scaled(Group::Noise, factor) = change { *factor } else { 1.0 };
+        let noise = self.noise_is_stated.then(|| changes.iter().map(of).product());
+        Factors { changes, sensors: &self.hexapod.sensors, noise }
     }
 
     fn judged(&self, normal: &Normal, factors: &Factors) -> Option<Springs> {
@@ -300,25 +286,16 @@ fn spread(all: usize, numbers: usize, most: usize) -> impl Iterator<Item = usize
 }
 
 /// By what readings and noise are multiplied.
-struct Factors {
-    translation: f64,
-    rotation: f64,
-    /// Of one sensor.
-    sensor: Option<(usize, f64)>,
+struct Factors<'a> {
+    changes: &'a [Change],
+    sensors: &'a [Sensor],
     /// Of the noise; none where nobody has stated it, and it is as large as the readings make it.
     noise: Option<f64>,
 }
 
-impl Factors {
+impl Factors<'_> {
     fn reading(&self, channel: Channel) -> f64 {
-        match channel {
-            Channel::Pose(k) if k < 3 => self.translation,
-            Channel::Pose(_) => self.rotation,
-            Channel::Sensor { sensor, .. } => {
-                self.sensor.filter(|(scaled, _)| *scaled == sensor).map_or(1.0, |(_, factor)| factor)
-            }
-            Channel::Nothing => 1.0,
-        }
+        self.changes.iter().map(|change| change.factor(channel, self.sensors).abs()).product()
     }
 
     fn noise(&self, channel: Channel) -> f64 {
@@ -368,6 +345,15 @@ fn as_read(data: &Dataset) -> Vec<Vector6> {
     data.observations.iter().map(|row| Vector6::from_column_slice(&row.measured)).collect()
 }
 
+/// What residuals are weighed by.
+#[derive(Clone, Copy, PartialEq)]
+enum Over {
+    /// The noise alone.
+    Noise,
+    /// The noise, and what springs of the first order and sensors that stand to their tolerance miss.
+    Model,
+}
+
 /// What the linear springs may miss of lengths and of angles, m and rad.
 struct Floor {
     length: f64,
@@ -375,8 +361,11 @@ struct Floor {
 }
 
 impl Floor {
-    /// A share of the readings, root mean square.
-    fn of(hexapod: &Hexapod, data: &Dataset, reads: &[Vector6], share: f64) -> Self {
+    /// The readings, root mean square, of which the model misses a share.
+    fn of(hexapod: &Hexapod, data: &Dataset, reads: &[Vector6], over: Over) -> Self {
+        if over == Over::Noise {
+            return Self { length: 0.0, angle: 0.0 };
+        }
         let mut sums = [[0.0; 2]; 2];
         for (row, read) in data.observations.iter().zip(reads) {
             let channels = data.channels(row);
@@ -386,13 +375,23 @@ impl Floor {
                 *count += 1.0;
             }
         }
-        let [length, angle] = sums.map(|[sum, count]: [f64; 2]| (sum / count.max(1.0)).sqrt() * share);
+        let [length, angle] = sums.map(|[sum, count]: [f64; 2]| (sum / count.max(1.0)).sqrt());
         Self { length, angle }
     }
 
     fn under(&self, channel: Channel, hexapod: &Hexapod) -> f64 {
-        if channel.is_angle(&hexapod.sensors) { self.angle } else { self.length }
+        let size = if channel.is_angle(&hexapod.sensors) { self.angle } else { self.length };
+        size * LINEAR_SHARE.hypot(off_by_tolerance(channel, hexapod))
     }
+}
+
+/// Share of a motion of the size of the platform that a sensor misses which stands and looks to its tolerance.
+fn off_by_tolerance(channel: Channel, hexapod: &Hexapod) -> f64 {
+    let Channel::Sensor { sensor, .. } = channel else { return 0.0 };
+    let Some(kind) = hexapod.sensors.get(sensor).map(|s| &s.kind) else { return 0.0 };
+    let place = kind.point().map_or(0.0, |_| hexapod.tolerances.sensor_point / hexapod.platform_radius());
+    let direction = kind.direction().map_or(0.0, |_| hexapod.tolerances.sensor_direction);
+    place.hypot(direction)
 }
 
 /// Least squares with compliances that are not negative: a leg that would have one is held at zero. Compliances, chi-square and
