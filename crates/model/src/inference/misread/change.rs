@@ -64,7 +64,7 @@ pub enum Change {
 /// Sensors that share a sign or a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sensors {
-    /// The one of this name.
+    /// The one of this name, or one number of it by the name of its column.
     One(&'static str),
     /// All of a kind, by its word in files.
     All(&'static str),
@@ -302,7 +302,7 @@ impl Change {
     }
 
     /// True when it changes all readings alike, or what is stated of their noise.
-    pub(super) fn is_of_all_readings(&self) -> bool {
+    pub(crate) fn is_of_all_readings(&self) -> bool {
         matches!(self, Self::Scaled(Group::Readings | Group::Noise, _))
     }
 

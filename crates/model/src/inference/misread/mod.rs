@@ -176,12 +176,11 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
 }
 
 fn is_sound(springs: &Springs, sample: &Sample) -> bool {
-    let scatter = springs.scatter.max(springs.scatter.recip());
     let excess = (springs.level.powi(2) - 1.0) / (2.0 / sample.freedom()).sqrt();
     springs.level < SOUND_LEVEL
         && excess < SOUND_SIGMAS
         && springs.negative == 0
-        && (!sample.noise_is_stated || scatter < SOUND_SCATTER)
+        && (!sample.noise_is_stated || springs.scatter < SOUND_SCATTER)
 }
 
 /// Numbers that any small factor explains alike are in no other unit: they are only taken out of the account.

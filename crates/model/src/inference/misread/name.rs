@@ -264,7 +264,7 @@ pub const KINDS: [(&str, &str); 20] = [
         "loads-from-below, loads-from-above, loads-reversed, load-of-the-next, load-of-the-last, poses-from-below, poses-from-above, \
          readings-from-below, readings-from-above or readings-reversed",
     ),
-    ("sensor-sign", "the name of a sensor, or all:KIND as in all:distance"),
+    ("sensor-sign", "a sensor or one number of it, as in ball_x, or all:KIND as in all:distance"),
     ("sensor-factor", "SENSOR*FACTOR as in g1*25.4, or all:KIND*FACTOR"),
     (
         "sensor-place",

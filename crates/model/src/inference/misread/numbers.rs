@@ -7,9 +7,9 @@ use super::change::{Change, Group, Sensors, Signed, Target};
 impl Sensors {
     /// True for the number of a sensor that is one of these.
     fn has(self, channel: Channel, sensors: &[Sensor]) -> bool {
-        let Channel::Sensor { sensor, .. } = channel else { return false };
+        let Channel::Sensor { sensor, number } = channel else { return false };
         sensors.get(sensor).is_some_and(|s| match self {
-            Self::One(name) => s.name == name,
+            Self::One(name) => s.name == name || s.column(number) == name,
             Self::All(kind) => s.kind.word() == kind,
         })
     }

@@ -21,7 +21,7 @@ use nalgebra::DVector;
 
 use super::AsMeant;
 use super::change::{Change, Group};
-use crate::estimation::campaign::{Campaign, ConditionReadings};
+use crate::estimation::campaign::{Campaign, ConditionReadings, row_sigma};
 use crate::estimation::equilibrium::observer_of;
 use crate::estimation::noise::Noise;
 use crate::machine::geometry::Machine;
@@ -35,6 +35,8 @@ const FEW_NUMBERS: usize = 6 * 24;
 const LINEAR_SHARE: f64 = 2e-3;
 /// Repeats may scatter so many times more or less than stated.
 const NOISE_OFF: f64 = 3.0;
+/// Repeats of a sensor that tell how much it scatters, as degrees of freedom.
+const SOME_REPEATS: f64 = 12.0;
 /// A compliance this many standard deviations below zero is no spring.
 const NEGATIVE_SIGMAS: f64 = 3.0;
 
@@ -51,16 +53,24 @@ pub(super) struct Sample {
     sigma: Vec<Vector6>,
     /// Conditions of the file for each one here.
     stands_for: f64,
-    /// Squares of repeats about their average over the stated variance, per coordinate of a pose.
-    repeats: Vector6,
-    /// Their degrees of freedom, per coordinate.
-    repeats_dof: f64,
+    /// Repeats about their average, for each number that the file has.
+    repeats: Vec<Repeats>,
     /// Legs at each pose; none at singular ones.
     legs: Vec<Option<Legs>>,
     /// Noise of a reading.
     noise: Noise,
     /// True where somebody has stated it.
     pub(super) noise_is_stated: bool,
+}
+
+/// Repeats of a number about their average.
+#[derive(Debug, Clone, Copy)]
+struct Repeats {
+    channel: Channel,
+    /// Their squares over the stated variance.
+    squares: f64,
+    /// Their degrees of freedom.
+    dof: f64,
 }
 
 /// Springs fitted to a file read in one way.
@@ -120,30 +130,18 @@ impl Sample {
         let means: usize = campaign.groups.iter().map(ConditionReadings::numbers).sum();
         let chosen: Vec<_> =
             spread(campaign.groups.len(), means, MOST_NUMBERS).map(|i| &campaign.groups[i]).collect();
-        let reads_poses = !data.has_other_readings();
-        let (mut repeats, mut dof) = (Vector6::zeros(), 0.0);
-        for group in campaign.groups.iter().filter(|_| reads_poses) {
-            let sigma = campaign.noise.sigma();
-            for &i in &group.rows {
-                let row = &data.observations[i as usize];
-                let sigma = row.sigma.unwrap_or(sigma);
-                let off = campaign.axes.difference(&group.mean.measured, &row.measured);
-                repeats += Vector6::from_fn(|k, _| (off[k] / sigma[k]).powi(2));
-            }
-            dof += (group.rows.len() - 1) as f64;
-        }
-        let means = chosen.iter().map(|g| g.mean).collect();
-        let thinned = Dataset { observations: means, ..like(data) };
-        let sigma = chosen.iter().map(|g| Vector6::from_column_slice(&g.sigma)).collect();
+        let sigma: Vec<Vector6> = chosen.iter().map(|g| sigma_of(g)).collect();
+        let means =
+            chosen.iter().zip(&sigma).map(|(g, s)| Observation { sigma: Some((*s).into()), ..g.mean });
+        let thinned = Dataset { observations: means.collect(), ..like(data) };
         let legs = legs(hexapod, &thinned);
         Self {
             hexapod: hexapod.clone(),
             data: thinned,
-            reads_poses,
+            reads_poses: !data.has_other_readings(),
             sigma,
             stands_for: campaign.groups.len() as f64 / chosen.len() as f64,
-            repeats,
-            repeats_dof: dof,
+            repeats: repeats(data, campaign),
             legs,
             noise: campaign.noise,
             noise_is_stated: campaign.noise.is_stated(),
@@ -248,23 +246,32 @@ impl Sample {
         let variance = (chi2 / freedom).max(1.0);
         let spread = numbers * (variance.ln() + chi2 / freedom / variance);
         let lack = self.stands_for * (spread - 2.0 * normal.density);
-        let of_pose = |k: usize| factors.reading(Channel::Pose(k)) / factors.noise(Channel::Pose(k));
-        let (mut repeats, mut scatter) = (0.0, 1.0);
-        if self.repeats_dof > 0.0 {
-            let scale = Vector6::from_fn(|k, _| of_pose(k).powi(2));
-            let squares = self.repeats.component_mul(&scale) / self.repeats_dof;
-            scatter = squares.mean().sqrt();
-            if self.noise_is_stated {
-                let cost = |v: f64| {
-                    let level = v.clamp(NOISE_OFF.powi(-2), NOISE_OFF.powi(2));
-                    self.repeats_dof * (level.ln() + v / level)
-                };
-                repeats = squares.iter().map(|v| cost(*v)).sum();
-            }
-        }
-        let density: f64 = (0..6).map(|k| of_pose(k).ln()).sum();
-        let cost = lack + repeats - 2.0 * self.repeats_dof * density;
+        let (repeats, scatter) = self.of_repeats(factors);
+        let cost = lack + repeats;
         cost.is_finite().then_some(Springs { cost, lack, level: (chi2 / freedom).sqrt(), negative, scatter })
+    }
+
+    /// Twice the negative log-likelihood of the repeats, and by what factor those of the worst instrument scatter more or less than
+    /// stated.
+    fn of_repeats(&self, factors: &Factors) -> (f64, f64) {
+        let mut cost = 0.0;
+        let mut of_instrument: BTreeMap<Option<usize>, [f64; 2]> = BTreeMap::new();
+        for &Repeats { channel, squares, dof } in &self.repeats {
+            let times = factors.reading(channel) / factors.noise(channel);
+            let variance = squares * times.powi(2) / dof;
+            if self.noise_is_stated {
+                let level = variance.clamp(NOISE_OFF.powi(-2), NOISE_OFF.powi(2));
+                cost += dof * (level.ln() + variance / level);
+            }
+            cost -= 2.0 * dof * times.ln();
+            let instrument = if let Channel::Sensor { sensor, .. } = channel { Some(sensor) } else { None };
+            let [sum, all] = of_instrument.entry(instrument).or_default();
+            (*sum, *all) = (*sum + dof * variance, *all + dof);
+        }
+        let of_some =
+            of_instrument.into_iter().filter(|(sensor, [_, dof])| sensor.is_none() || *dof >= SOME_REPEATS);
+        let scatter = of_some.map(|(_, [sum, dof])| (sum / dof).sqrt());
+        (cost, scatter.map(|s| s.max(s.recip())).fold(1.0, f64::max))
     }
 
     /// Numbers of the readings.
@@ -276,6 +283,32 @@ impl Sample {
     pub(super) fn freedom(&self) -> f64 {
         (self.numbers() as f64 - 6.0).max(1.0)
     }
+}
+
+/// Standard deviations of the averaged numbers of a condition; [`UNREAD`] of one that no repeat has.
+fn sigma_of(group: &ConditionReadings) -> Vector6 {
+    Vector6::from_fn(|k, _| if group.reads[k] > 0 { group.sigma[k] } else { UNREAD })
+}
+
+/// How repeats scatter about their averages, number by number.
+fn repeats(data: &Dataset, campaign: &Campaign) -> Vec<Repeats> {
+    let mut all: Vec<Repeats> = Vec::new();
+    for group in &campaign.groups {
+        for k in (0..6).filter(|&k| group.reads[k] > 1) {
+            let channel = group.channels[k];
+            let square = |&i: &u32| {
+                let row = &data.observations[i as usize];
+                let off = campaign.axes.difference(&group.mean.measured, &row.measured)[k];
+                if row.is_read(k) { (off / row_sigma(row, &campaign.noise)[k]).powi(2) } else { 0.0 }
+            };
+            let (squares, dof) = (group.rows.iter().map(square).sum::<f64>(), f64::from(group.reads[k] - 1));
+            match all.iter_mut().find(|known| known.channel == channel) {
+                Some(known) => (known.squares, known.dof) = (known.squares + squares, known.dof + dof),
+                None => all.push(Repeats { channel, squares, dof }),
+            }
+        }
+    }
+    all
 }
 
 /// Some of all conditions with so many numbers, spread over all of them, that have at most about so many; no rhythm of the file is in

@@ -36,7 +36,10 @@ fn of_sensors(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
     let mut all: Vec<Change> = read.iter().flat_map(|sensor| of_sensor(sensor)).collect();
     let kinds = ["distance", "point", "inclination", "leg-length"];
     let of_kind = |kind: &str| read.iter().filter(|s| s.kind.word() == kind).count();
-    for kind in kinds.into_iter().filter(|kind| of_kind(kind) > 1) {
+    // All numbers of the file with another sign or in another unit are those of the readings.
+    let is_part =
+        |kind: &str| of_kind(kind) < read.len() || channels(data).any(|c| matches!(c, Channel::Pose(_)));
+    for kind in kinds.into_iter().filter(|kind| of_kind(kind) > 1 && is_part(kind)) {
         let is_angle = kind == "inclination";
         all.extend(sign_and_factors(Sensors::All(kind), is_angle));
     }
@@ -67,6 +70,11 @@ fn channels(data: &Dataset) -> impl Iterator<Item = Channel> {
 fn of_sensor(sensor: &Sensor) -> Vec<Change> {
     let name = intern::text(&sensor.name);
     let mut all = sign_and_factors(Sensors::One(name), sensor.kind.is_angle());
+    if sensor.kind.numbers() > 1 {
+        let columns =
+            (0..sensor.kind.numbers()).map(|number| Sensors::One(intern::text(&sensor.column(number))));
+        all.extend(columns.flat_map(|column| sign_and_factors(column, false)));
+    }
     if let Some(along) = sensor.kind.direction() {
         let axes = (0..3).map(|k| Vector3::ith(k, 1.0));
         let turns =
