@@ -14,7 +14,7 @@ use statrs::function::gamma::ln_gamma;
 use super::BELIEVED;
 use super::remainder::Remainder;
 use crate::estimation::noise::{AxesCovariance, SharedReference, Structure};
-use crate::estimation::whitening::Filter;
+use crate::estimation::whitening::Filters;
 
 /// How well an instrument's noise is known, relative.
 const TOLERANCE: f64 = 0.1;
@@ -78,8 +78,8 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
             all.push(judge.blocks(&judge.records, reference(SharedReference::Repeat)));
         }
     }
-    if rest.campaign.reads_poses {
-        all.push(judge.drift());
+    all.push(judge.drift());
+    if judge.has_six_numbers() {
         let repeated = judge.rows.len() - judge.means.len();
         let readings = rest.freedom() / 6.0 + repeated as f64;
         all.extend(judge.axes().filter(|_| readings >= LEAST_READINGS));
@@ -97,8 +97,8 @@ struct Judge {
     /// Which of their numbers were read, and how many in all.
     read: Vec<[bool; 6]>,
     numbers: f64,
-    /// Line of each in the file.
-    lines: Vec<usize>,
+    /// Line of each in the file, and which of the blocks of numbers it has.
+    lines: Vec<[usize; 2]>,
     /// Rows of each group, pose, and repeat at a pose.
     groups: Vec<Vec<usize>>,
     poses: Vec<Vec<usize>>,
@@ -142,7 +142,12 @@ impl Judge {
             within: (all - between).max(0.0),
             is_stated: rest.campaign.noise.is_stated(),
             has_repeats: rows.len() > means.len(),
-            lines: rest.data.observations.iter().map(|o| usize::try_from(o.line).unwrap_or(0)).collect(),
+            lines: rest
+                .data
+                .observations
+                .iter()
+                .map(|o| [usize::try_from(o.line).unwrap_or(0), o.block])
+                .collect(),
             read: rest.data.observations.iter().map(|o| std::array::from_fn(|k| o.is_read(k))).collect(),
             numbers: rest.campaign.numbers as f64,
             rows,
@@ -152,6 +157,11 @@ impl Judge {
 
     fn numbers(&self) -> f64 {
         self.numbers
+    }
+
+    /// True when every row has the same six numbers: a covariance of them has no place for one that was not read, or for more.
+    fn has_six_numbers(&self) -> bool {
+        self.lines.iter().all(|[_, block]| *block == 0) && self.read.iter().flatten().all(|read| *read)
     }
 
     /// What a level costs that is not the stated one.
@@ -237,12 +247,13 @@ impl Judge {
     fn innovations(&self, share: f64, correlation: f64) -> (f64, f64) {
         let own = 1.0 - share;
         let loading = (share / own).sqrt();
-        let (mut half_log_det, mut square) = (3.0 * self.rows.len() as f64 * own.ln(), 0.0);
+        let (mut half_log_det, mut square) = (0.5 * self.numbers() * own.ln(), 0.0);
         for k in 0..6 {
-            let mut filter = Filter::default();
-            for (i, row) in self.rows.iter().enumerate() {
-                let distance = if i == 0 { 0 } else { self.lines[i].abs_diff(self.lines[i - 1]) };
-                let (innovation, variance) = filter.step(row[k] / own.sqrt(), loading, distance, correlation);
+            let mut filters = Filters::default();
+            let read = self.rows.iter().zip(&self.lines).zip(&self.read).filter(|(_, read)| read[k]);
+            for ((row, &[line, block]), _) in read {
+                let number = (row[k] / own.sqrt(), loading);
+                let (innovation, variance) = filters.step(block, line, number, correlation);
                 half_log_det += 0.5 * variance.ln();
                 square += innovation * innovation / variance;
             }
