@@ -77,6 +77,41 @@ fn an_effect_of_the_catalogue_that_does_as_well_as_a_law_wins() {
     assert!(page.lines().any(|l| l.trim_start().starts_with("searched") && l.ends_with("laws")), "{page}");
 }
 
+/// The law that `discover` would write for a machine of equal legs that creep.
+const SETTLING: &str = r#"
+format = "term/1"
+id = "compliance-settling"
+title = "The compliance of all legs grows with time towards an end value"
+prior = 0.0005
+elongation = "size*df*(1 - exp(-elapsed/tau))"
+[[parameters]]
+name = "size"
+unit = "nm/N"
+scale = 320
+[shape]
+name = "tau"
+unit = "s"
+bounds = [15, 250]
+grid = [30, 35, 40, 45, 50, 55, 60, 65, 70, 80, 90, 100, 120]
+"#;
+
+/// The grid of time constants on which creep competes is coarser than that of the law: both are judged by those they are fitted with.
+#[test]
+fn an_effect_is_judged_by_the_shape_it_is_fitted_with() {
+    let folder = tempfile::tempdir().unwrap();
+    let bench = folder.path().join("bench");
+    text(
+        hexbench().arg("simulate").arg(root().join("scenes/granite")).arg("-o").arg(&bench).output().unwrap(),
+    );
+    std::fs::write(bench.join("law.toml"), SETTLING).unwrap();
+    let files = ["diagnose", "hexapod.toml", "measurements.csv", "--term", "law.toml", "--json", "-"];
+    let told: Value =
+        serde_json::from_str(&text(hexbench().current_dir(&bench).args(files).output().unwrap())).unwrap();
+    let candidates = told["candidates"].as_array().unwrap();
+    let creep = candidates.iter().find(|c| c["term"] == "creep").unwrap();
+    assert!(creep["probability"].as_f64().unwrap() > 0.01, "{candidates:?}");
+}
+
 #[test]
 fn without_a_law_no_term_file_is_written_and_the_page_says_so() {
     let folder = tempfile::tempdir().unwrap();

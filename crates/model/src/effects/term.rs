@@ -48,6 +48,11 @@ pub trait Term: Send + Sync {
         None
     }
 
+    /// Logarithm of its prior odds against an effect of the catalogue.
+    fn log_prior(&self) -> f64 {
+        0.0
+    }
+
     /// The text that defines the term when it is not part of the catalogue.
     fn definition(&self) -> Option<&str> {
         None

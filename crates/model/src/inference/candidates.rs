@@ -1,5 +1,6 @@
 //! What competes: the terms this file can test, and patterns outside the catalogue; as one projected Gram matrix.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -7,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::effects::term::{Natural, Rich, Term};
 use crate::estimation::campaign::Campaign;
+use crate::estimation::fit::Fit;
 use crate::estimation::linearization::{Linearization, ModelPoint, parameter_count};
 use crate::estimation::parallel::sum_in_order;
 use crate::estimation::whitening::Inexact;
@@ -57,6 +59,16 @@ impl Candidate {
         self.blocks.iter().zip(&self.versions).find(|(b, _)| **b == block).map(|(_, version)| version)
     }
 
+    /// How far the next shape of the version in one of its blocks is from that of the block, in logarithm; zero where there is none.
+    pub fn step_of_shape(&self, block: usize, blocks: &[PriorBlock]) -> f64 {
+        let Some(version) = self.version(block) else { return 0.0 };
+        let alike =
+            self.blocks.iter().zip(&self.versions).filter(|(_, v)| std::ptr::eq(v.info(), version.info()));
+        let steps = alike.map(|(&b, _)| (blocks[b].shape / blocks[block].shape).ln().abs());
+        let next = steps.filter(|&step| step > 0.0).fold(f64::INFINITY, f64::min);
+        if next.is_finite() { next } else { 0.0 }
+    }
+
     /// The forms in which it competes, when it is a term; `blocks`: those of the Gram matrix.
     pub fn forms<'a>(&'a self, blocks: &'a [PriorBlock]) -> impl Iterator<Item = CompetingForm> + 'a {
         self.blocks.iter().zip(&self.versions).map(|(&b, version)| CompetingForm {
@@ -79,6 +91,28 @@ pub struct CompetingForm {
     pub shape: f64,
     /// Prior share within the effect.
     pub share: f64,
+}
+
+/// Forms with the shapes of a fit in the places of their neighbors: between the values of a grid the evidence may be far below its peak.
+/// A peak narrower than its part of the grid counts with the share that it fills (Laplace).
+pub fn with_fitted_shapes(mut forms: Vec<CompetingForm>, fit: &Fit) -> Vec<CompetingForm> {
+    for (k, active) in fit.point.active.iter().enumerate() {
+        let Some(column) = fit.parameters.shape_of_term(k) else { continue };
+        let is_own = |f: &CompetingForm| !f.rich && std::ptr::eq(f.version.info(), active.term.info());
+        let mut own: Vec<&mut CompetingForm> = forms.iter_mut().filter(|f| is_own(f)).collect();
+        let distance = |form: &CompetingForm| (form.shape / active.shape).ln().abs();
+        let Some(nearest) = (0..own.len()).min_by(|&a, &b| distance(own[a]).total_cmp(&distance(own[b])))
+        else {
+            continue;
+        };
+        let ends = [nearest.saturating_sub(1), (nearest + 1).min(own.len() - 1)];
+        let part = (own[ends[1]].shape / own[ends[0]].shape).ln().abs() / (ends[1] - ends[0]).max(1) as f64;
+        if part > 0.0 {
+            own[nearest].share *= (TAU.sqrt() * fit.std(column) / part).min(1.0);
+        }
+        own[nearest].shape = active.shape;
+    }
+    forms
 }
 
 /// The forms of a version in the given shapes out of `trials`, which share `share` of the prior; also its richer form at a shape.
@@ -160,7 +194,7 @@ impl<'a> Collector<'a> {
         let blocks = forms.iter().map(|form| self.push_form(form)).collect();
         let versions = forms.into_iter().map(|form| form.version).collect();
         let kind = CandidateKind::Term(Arc::clone(term));
-        self.candidates.push(Candidate { kind, blocks, versions, log_weight: 0.0 });
+        self.candidates.push(Candidate { kind, blocks, versions, log_weight: term.log_prior() });
     }
 
     fn push_form(&mut self, form: &CompetingForm) -> usize {
@@ -173,13 +207,6 @@ impl<'a> Collector<'a> {
             block = block.with_part();
         }
         self.push(Source::Term { term: Arc::clone(version), rich: *rich, shape: *shape }, block)
-    }
-
-    /// Prior weight of the candidate added last, relative to a term of the catalogue.
-    pub fn weigh_last(&mut self, log_weight: f64) {
-        if let Some(last) = self.candidates.last_mut() {
-            last.log_weight = log_weight;
-        }
     }
 
     /// Add a pattern with its prior weight relative to a term.

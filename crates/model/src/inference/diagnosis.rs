@@ -12,7 +12,9 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, fit, fit_baseline};
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::inference::alone::best_alone;
-use crate::inference::candidates::{Candidate, CandidateKind, Collector, forms_of, sizes};
+use crate::inference::candidates::{
+    Candidate, CandidateKind, Collector, forms_of, sizes, with_fitted_shapes,
+};
 use crate::inference::discovery::LawTerm;
 use crate::inference::evidence::Gram;
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable};
@@ -97,7 +99,7 @@ pub fn explain_with_laws(
     loop {
         let (testable, mut untestable) = split(terms, campaign, &lin);
         let competitors = Competitors { terms: &testable, laws };
-        let (gram, candidates) = collect(campaign, &best.point, &lin, competitors, natural, effort);
+        let (gram, candidates) = collect(campaign, &best, &lin, competitors, natural, effort);
         let (candidates, faint) = noticeable(candidates, &gram);
         untestable.extend(faint);
         let sets = TermSearch::new(&gram, &candidates, campaign.noise.allows_verdict()).run(MOST_EFFECTS);
@@ -178,8 +180,7 @@ pub fn visible(
     let (testable, mut untestable) = split(terms, campaign, &lin);
     let effort = Effort { rich: false, scan: false };
     let competitors = Competitors { terms: &testable, laws: &[] };
-    let (gram, candidates) =
-        collect(campaign, &springs.point, &lin, competitors, springs.natural(&lin), effort);
+    let (gram, candidates) = collect(campaign, springs, &lin, competitors, springs.natural(&lin), effort);
     let (candidates, faint) = noticeable(candidates, &gram);
     untestable.extend(faint);
     Ok((gram, candidates, untestable))
@@ -269,20 +270,20 @@ struct Competitors<'a> {
 
 fn collect(
     campaign: &Campaign,
-    point: &ModelPoint,
+    fit: &Fit,
     lin: &Linearization,
     competitors: Competitors<'_>,
     natural: Natural,
     effort: Effort,
 ) -> (Gram, Vec<Candidate>) {
-    let mut collector = Collector::new(lin, natural);
+    let (point, mut collector) = (&fit.point, Collector::new(lin, natural));
     // Scans only choose what to weigh; the weighing itself uses every condition.
     let scanned = lin.thinned(SCANNED_CONDITIONS);
     for term in competitors.terms {
-        add_term(&mut collector, term, &scanned, point, rich_shape(term.as_ref(), point, effort));
+        add_term(&mut collector, term, &scanned, fit, rich_shape(term.as_ref(), point, effort));
     }
     for law in competitors.laws {
-        add_law(&mut collector, law, &scanned, point);
+        add_law(&mut collector, law, &scanned, fit);
     }
     if !competitors.laws.is_empty() {
         return collector.finish(campaign, point);
@@ -294,13 +295,12 @@ fn collect(
 }
 
 /// Adds a law: with the period that its scan found, or to which a fit has carried it since, else as any other term.
-fn add_law(collector: &mut Collector<'_>, law: &LawTerm, scanned: &Linearization, point: &ModelPoint) {
+fn add_law(collector: &mut Collector<'_>, law: &LawTerm, scanned: &Linearization, fit: &Fit) {
     let trials = law.term.shape_grid(&scanned.conditions).len();
-    match law.period(point).filter(|_| trials > LONG_GRID) {
+    match law.period(&fit.point).filter(|_| trials > LONG_GRID) {
         Some(period) => collector.add_term(&law.term, &[period], trials, None),
-        None => add_term(collector, &law.term, scanned, point, None),
+        None => add_term(collector, &law.term, scanned, fit, None),
     }
-    collector.weigh_last(law.log_prior);
 }
 
 /// Adds a term in all its versions and their shapes, of which a long grid leaves the best one; not at all where none is sensible.
@@ -308,14 +308,14 @@ fn add_term(
     collector: &mut Collector<'_>,
     term: &Arc<dyn Term>,
     scanned: &Linearization,
-    point: &ModelPoint,
+    fit: &Fit,
     rich: Option<f64>,
 ) {
     let others = term.versions();
     let own = 1.0 - others.iter().map(|(share, _)| share).sum::<f64>();
     let all = std::iter::once((own, Arc::clone(term))).chain(others);
     let tried: Vec<_> = all
-        .filter_map(|(share, version)| Some((share, shapes(&version, scanned, point)?, version)))
+        .filter_map(|(share, version)| Some((share, shapes(&version, scanned, &fit.point)?, version)))
         .collect();
     let whole: f64 = tried.iter().map(|(share, ..)| share).sum();
     let forms = tried.iter().enumerate().flat_map(|(k, (share, (shapes, trials), version))| {
@@ -323,7 +323,7 @@ fn add_term(
     });
     let forms: Vec<_> = forms.collect();
     if !forms.is_empty() {
-        collector.add_forms(term, forms);
+        collector.add_forms(term, with_fitted_shapes(forms, fit));
     }
 }
 
@@ -353,7 +353,7 @@ pub(crate) fn chosen_anew(part: &Campaign, lin: &Linearization, whole: &RankedSe
             CandidateKind::Term(term) => {
                 let blocks = candidate.blocks.iter().map(|&b| &whole.gram.blocks[b]);
                 let rich = blocks.clone().find(|b| b.rich).map(|b| b.shape);
-                add_term(&mut collector, term, &scanned, point, rich);
+                add_term(&mut collector, term, &scanned, &whole.best, rich);
             }
             CandidateKind::Pattern(pattern) => collector.add_pattern(*pattern, candidate.log_weight),
         }

@@ -16,7 +16,7 @@ use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, fit};
 use crate::estimation::linearization::Linearization;
-use crate::inference::candidates::{Candidate, CandidateKind, Collector};
+use crate::inference::candidates::{Candidate, CandidateKind, Collector, with_fitted_shapes};
 use crate::inference::diagnosis::wanted;
 use crate::inference::evidence::Gram;
 use crate::inference::search::{Set, Sets, TermSearch};
@@ -25,6 +25,9 @@ use crate::inference::search::{Set, Sets, TermSearch};
 const MOST_RIVALS: usize = 20;
 /// Sets this many nats below the best are left where they are, unless the best one does not fit.
 const HOPELESS: f64 = 7.0;
+/// Share of its drop of chi-square that a set may gain when the logarithm of a shape changes by one, and as its square: what lies
+/// between the values of a grid.
+const OF_A_SHAPE: f64 = 0.05;
 
 /// A search whose leading sets are weighed anew.
 pub(crate) struct Rivals<'a> {
@@ -44,13 +47,22 @@ impl Rivals<'_> {
         let Some(first) = sets.sets.first().cloned() else { return (sets, None) };
         // The best set and something more is judged well where the best set is.
         let differs = |s: &Set| !first.members.iter().all(|m| s.members.contains(m));
-        let close = |s: &&Set| self.all || (s.log_weight > first.log_weight - HOPELESS && differs(s));
-        let rivals: Vec<&Set> = sets.sets.iter().take(MOST_RIVALS).filter(close).skip(1).collect();
+        let close = |s: &&Set| {
+            self.all || (s.log_weight > first.log_weight - HOPELESS - self.gain_of_shapes(s) && differs(s))
+        };
+        let rivals: Vec<&Set> = sets.sets.iter().skip(1).filter(close).take(MOST_RIVALS).collect();
         let own: Vec<(Set, Fit)> =
             rivals.into_par_iter().filter_map(|s| self.at_own_optimum(s).ok()?).collect();
         let better = own.iter().max_by(|a, b| a.0.log_weight.total_cmp(&b.0.log_weight));
         let better = better.filter(|(set, _)| set.log_weight > first.log_weight).map(|(_, fit)| fit.clone());
         (sets.with(own.into_iter().map(|(set, _)| set)), better)
+    }
+
+    /// Log-evidence that a set may gain when its shapes are fitted.
+    fn gain_of_shapes(&self, set: &Set) -> f64 {
+        let members = set.members.iter().zip(&set.variants);
+        let widest = members.map(|(&m, v)| self.candidates[m].step_of_shape(v.block, &self.gram.blocks));
+        0.5 * OF_A_SHAPE * (0.5 * widest.fold(0.0, f64::max)).powi(2) * set.drop
     }
 
     /// One set; none when it is not better there than where the search was linearised.
@@ -60,7 +72,7 @@ impl Rivals<'_> {
         let lin = Linearization::at(self.campaign, &own.point)?;
         let mut collector = Collector::new(&lin, *self.natural);
         for &m in &set.members {
-            self.add(&mut collector, &self.candidates[m]);
+            self.add(&mut collector, &self.candidates[m], &own);
         }
         let (gram, candidates) = collector.finish(self.campaign, &own.point);
         let search = TermSearch::new(&gram, &candidates, self.campaign.noise.allows_verdict());
@@ -70,12 +82,12 @@ impl Rivals<'_> {
         Ok(whole.map(|s| (set.weighing(s.log_weight + moved, s.log_weight_discrepant + moved), own)))
     }
 
-    /// A candidate in the forms and shapes in which it competed.
-    fn add(&self, collector: &mut Collector<'_>, candidate: &Candidate) {
+    /// A candidate in the forms and shapes in which it competed, and in the shape that a fit gave it.
+    fn add(&self, collector: &mut Collector<'_>, candidate: &Candidate, own: &Fit) {
         match &candidate.kind {
             CandidateKind::Term(term) => {
-                collector.add_forms(term, candidate.forms(&self.gram.blocks).collect());
-                collector.weigh_last(candidate.log_weight);
+                let forms = candidate.forms(&self.gram.blocks).collect();
+                collector.add_forms(term, with_fitted_shapes(forms, own));
             }
             CandidateKind::Pattern(pattern) => collector.add_pattern(*pattern, candidate.log_weight),
         }

@@ -51,6 +51,7 @@ pub(super) struct File {
     pub(super) title: String,
     #[serde(default)]
     pub(super) physics: String,
+    prior: Option<f64>,
     elongation: Option<String>,
     wrench: Option<[String; 6]>,
     base_motion: Option<[String; 6]>,
@@ -137,6 +138,16 @@ impl File {
             all.push(p.resolve()?);
         }
         Ok(all)
+    }
+
+    /// Logarithm of the prior odds against an effect of the catalogue.
+    pub(super) fn log_prior(&self) -> Result<f64, UserTermError> {
+        let prior = self.prior.unwrap_or(1.0);
+        if !(prior > 0.0 && prior <= 1.0) {
+            let why = "how probable the effect is before any reading, beside one of the catalogue: above 0, at most 1";
+            return Err(UserTermError::rule("prior", why.to_owned()));
+        }
+        Ok(prior.ln())
     }
 
     /// Laws: those of the file itself, then those of `[[laws]]`.

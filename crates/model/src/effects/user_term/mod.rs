@@ -19,7 +19,8 @@
 //! elongation to some legs. Several laws in one file stand in `[[laws]]`, each with one of these keys; the term is their sum.
 //! A parameter with `per_leg = true` has a size of its own in every leg. Everything in formulas is SI; [`variables()`] lists
 //! what they may mention. A formula must be linear in its parameters; what is not goes into `[shape]` (one number, profiled):
-//! name, unit, bounds, grid.
+//! name, unit, bounds, grid. `prior` (0 to 1; 1 when absent) is how probable the effect is before any reading, beside one of the
+//! catalogue: a law that was chosen out of many states it, so that it has to do better than an effect that nobody searched for.
 
 mod file;
 mod help;
@@ -115,6 +116,7 @@ struct UserTerm {
     /// Parameters of the file.
     parameters: usize,
     grid: Vec<f64>,
+    log_prior: f64,
 }
 
 /// The term a TOML text describes.
@@ -155,7 +157,8 @@ pub fn parse(text: &str) -> Result<Arc<dyn Term>, UserTermError> {
     refuse_legs_of_others(&parts, &parameters, &owners)?;
     let info = info(&file, &expanded, shape.map(|s| s.0), &parts);
     let parameters = parameters.len();
-    Ok(Arc::new(UserTerm { info, definition: text.to_owned(), parts, owners, parameters, grid }))
+    let log_prior = file.log_prior()?;
+    Ok(Arc::new(UserTerm { info, definition: text.to_owned(), parts, owners, parameters, grid, log_prior }))
 }
 
 fn refuse_same_name(parameters: &[ParameterInfo], shape: Option<&Shape>) -> Result<(), UserTermError> {
@@ -282,6 +285,10 @@ impl Term for UserTerm {
             }
         }
         None
+    }
+
+    fn log_prior(&self) -> f64 {
+        self.log_prior
     }
 
     fn definition(&self) -> Option<&str> {

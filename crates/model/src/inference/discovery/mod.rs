@@ -44,8 +44,6 @@ pub struct LawTerm {
     law: Law,
     /// The term its file describes.
     pub term: Arc<dyn Term>,
-    /// Logarithm of the prior probability of the law, given that there is one.
-    pub log_prior: f64,
     /// Log-evidence plus log-prior when it was found.
     pub score: f64,
     scale: f64,
@@ -57,6 +55,7 @@ impl LawTerm {
         let id = if rank == 0 { found.law.id() } else { format!("{}-{}", found.law.id(), rank + 1) };
         let law = &found.law;
         let mut text = format!("format = \"term/1\"\nid = \"{id}\"\ntitle = \"{}\"\n", law.sentence(None));
+        text += &prior_text(found.log_prior);
         for line in law.lines("", true) {
             text += "[[laws]]\n";
             text += &line.toml();
@@ -65,7 +64,7 @@ impl LawTerm {
         text += &law.shape_text(lin);
         let term =
             user_term::parse(&text).map_err(|e| ModelError::Selection(format!("a law is no term: {e}")))?;
-        Ok(Self { law: found.law, term, log_prior: found.log_prior, score: found.score, scale })
+        Ok(Self { law: found.law, term, score: found.score, scale })
     }
 
     /// Period of a wave, m: that of the model where the law is in it, else as found.
@@ -80,6 +79,11 @@ impl LawTerm {
         let differ = a.product.is_wave() && (a.constant / b.constant).ln().abs() > SAME_PERIOD;
         a.product == b.product && a.legs == b.legs && !differ
     }
+}
+
+/// The prior of a law, given that there is one, as a key of a term file.
+fn prior_text(log_prior: f64) -> String {
+    format!("prior = {:e}\n", log_prior.exp())
 }
 
 /// The grammar and its values at the conditions of a campaign.

@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::LawTerm;
 use super::law::Law;
 use super::text::LawLine;
+use super::{LawTerm, prior_text};
 use crate::effects::user_term::PartKind;
 use crate::estimation::linearization::{Active, Linearization};
 
@@ -96,6 +96,7 @@ impl<'a> LawSum<'a> {
             "format = \"term/1\"\nid = \"{}\"\ntitle = \"{sentence}\"\nphysics = \"{sentence}.\"\n",
             self.id()
         );
+        text += &prior_text(self.laws.iter().map(|(law, _)| law.term.log_prior()).sum());
         let one = self.lines().count() == 1;
         for line in self.lines() {
             text += if one { "" } else { "\n[[laws]]\n" };
