@@ -394,7 +394,7 @@ mod tests {
     #[test]
     fn blocks_of_numbers_drift_by_themselves_and_an_empty_cell_tells_nothing() {
         // Lines 0 and 1 have numbers of two blocks; the first number of the last condition was not read.
-        let rows = vec![[0, 0], [0, 1], [1, 0], [1, 1]];
+        let rows: Vec<[usize; 2]> = vec![[0, 0], [0, 1], [1, 0], [1, 1]];
         let mut shares = vec![Vector6::repeat(0.8); 4];
         shares[2][0] = 0.0;
         let covariance = DMatrix::from_fn(24, 24, |a, b| {

@@ -274,7 +274,7 @@ fn every_change_is_written_as_it_is_read() {
         "sensor-sign=g1",
         "sensor-sign=all:distance",
         "sensor-factor=all:point*1000",
-        "sensor-place=g1:g2",
+        "sensors-exchanged=g1,g2",
         "axes=points:y,-x,z",
         "sensor-factor=g1*25.4",
         "sensor-place=g1:1,-2,0.5",

@@ -222,7 +222,8 @@ impl Change {
             Self::Rows(_) => FindingKind::RowOrder,
             Self::SensorReversed(_) => FindingKind::SensorSign,
             Self::SensorScaled(..) => FindingKind::SensorFactor,
-            Self::SensorMoved(..) | Self::SensorsExchanged(..) => FindingKind::SensorPlace,
+            Self::SensorMoved(..) => FindingKind::SensorPlace,
+            Self::SensorsExchanged(..) => FindingKind::SensorsExchanged,
         }
     }
 

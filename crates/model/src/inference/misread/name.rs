@@ -160,7 +160,7 @@ impl fmt::Display for Change {
             Self::SensorScaled(which, factor) => write!(f, "{which}*{}", short(*factor)),
             Self::SensorMoved(name, by) => write!(f, "{name}:{}", triple(&(by * 1e3))),
             Self::SensorTurned(name, by) => write!(f, "{name}:turned:{}", triple(&by.map(f64::to_degrees))),
-            Self::SensorsExchanged(one, other) => write!(f, "{one}:{other}"),
+            Self::SensorsExchanged(one, other) => write!(f, "{one},{other}"),
         }
     }
 }
@@ -224,7 +224,7 @@ pub enum ChangeError {
 }
 
 /// Kinds by which a file may be read, with what they take.
-pub const KINDS: [(&str, &str); 20] = [
+pub const KINDS: [(&str, &str); 21] = [
     ("deflection-sign", "reversed, translations, da, db or dc"),
     ("rotation-sign", "reversed, dalpha, dbeta or dgamma"),
     ("wrench-sign", "reversed, forces, reference, fx, fy or fz"),
@@ -266,10 +266,8 @@ pub const KINDS: [(&str, &str); 20] = [
     ),
     ("sensor-sign", "a sensor or one number of it, as in ball_x, or all:KIND as in all:distance"),
     ("sensor-factor", "SENSOR*FACTOR as in g1*25.4, or all:KIND*FACTOR"),
-    (
-        "sensor-place",
-        "SENSOR:X,Y,Z in mm, by which its point is elsewhere, or SENSOR:SENSOR, whose numbers are exchanged",
-    ),
+    ("sensor-place", "SENSOR:X,Y,Z in mm, by which its point is elsewhere"),
+    ("sensors-exchanged", "the two sensors, as in g1,g2"),
 ];
 
 impl FromStr for Change {
@@ -338,12 +336,11 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
         }
         "sensor-place" => {
             let (name, by) = given.split_once(':')?;
-            let name = intern::text(name);
-            Some(match numbers(by) {
-                Some(by) => Change::SensorMoved(name, Vector3::from(by) * 1e-3),
-                None if is_name(by) => Change::SensorsExchanged(name, intern::text(by)),
-                None => return None,
-            })
+            Some(Change::SensorMoved(intern::text(name), Vector3::from(numbers(by)?) * 1e-3))
+        }
+        "sensors-exchanged" => {
+            let (one, other) = given.split_once(',')?;
+            Some(Change::SensorsExchanged(intern::text(one), intern::text(other)))
         }
         "row-order" => RowOrder::ALL.into_iter().find(|o| o.word() == given).map(Change::Rows),
         _ => {
@@ -351,11 +348,6 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
             Some(Change::Reversed(known.2))
         }
     }
-}
-
-/// True for what may be the name of a sensor.
-fn is_name(text: &str) -> bool {
-    text.starts_with(|c: char| c.is_ascii_lowercase())
 }
 
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
