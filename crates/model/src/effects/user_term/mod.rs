@@ -111,6 +111,8 @@ struct UserTerm {
     info: TermInfo,
     definition: String,
     parts: Vec<Part>,
+    /// Parts in which each parameter of the file stands.
+    acting: Vec<Vec<usize>>,
     /// Of every parameter of the term.
     owners: Vec<Owner>,
     /// Parameters of the file.
@@ -157,8 +159,19 @@ pub fn parse(text: &str) -> Result<Arc<dyn Term>, UserTermError> {
     refuse_legs_of_others(&parts, &parameters, &owners)?;
     let info = info(&file, &expanded, shape.map(|s| s.0), &parts);
     let parameters = parameters.len();
+    let acting = |k: usize| (0..parts.len()).filter(|&part| parts[part].uses_own(k)).collect();
+    let acting = (0..parameters).map(acting).collect();
     let log_prior = file.log_prior()?;
-    Ok(Arc::new(UserTerm { info, definition: text.to_owned(), parts, owners, parameters, grid, log_prior }))
+    Ok(Arc::new(UserTerm {
+        info,
+        definition: text.to_owned(),
+        parts,
+        acting,
+        owners,
+        parameters,
+        grid,
+        log_prior,
+    }))
 }
 
 fn refuse_same_name(parameters: &[ParameterInfo], shape: Option<&Shape>) -> Result<(), UserTermError> {
@@ -245,7 +258,7 @@ impl UserTerm {
 
     /// Parts in which a parameter of the file stands.
     fn parts_of(&self, k: usize) -> impl Iterator<Item = &Part> {
-        self.parts.iter().filter(move |part| part.uses_own(k))
+        self.acting[k].iter().map(|&part| &self.parts[part])
     }
 }
 
@@ -256,18 +269,17 @@ impl Term for UserTerm {
 
     fn actions(&self, machine: &Machine, at: &Condition, shape: f64, out: &mut Vec<Action>) {
         let mut memory = self.memory();
-        for owner in &self.owners {
-            let own = self.unit(owner.parameter, shape);
+        for legs in self.owners.chunk_by(|a, b| a.parameter == b.parameter) {
+            let parameter = legs[0].parameter;
+            let own = self.unit(parameter, shape);
             let mut sum = Vector6::zeros();
             let mut kind = PartKind::Elongation;
-            for part in self.parts_of(owner.parameter) {
+            for part in self.parts_of(parameter) {
                 sum += part.vector(machine, at, &own, &mut memory);
                 kind = part.kind;
             }
-            if let Some(leg) = owner.leg {
-                (0..6).filter(|&other| other != leg).for_each(|other| sum[other] = 0.0);
-            }
-            out.push(kind.action(at, &sum));
+            let of_leg = |leg| Vector6::from_fn(|k, _| if k == leg { sum[k] } else { 0.0 });
+            out.extend(legs.iter().map(|owner| kind.action(at, &owner.leg.map_or(sum, of_leg))));
         }
     }
 
