@@ -7,8 +7,9 @@ use serde_json::Value;
 use crate::json::diagnosis;
 use crate::support::{cases, root};
 
-/// Cases that must be right; one plan cannot tell and may be honest.
-const LEAST_RIGHT: usize = 7;
+/// Cases that may be ambiguous: in the one, play whose contact is soft fits as well as the bent spring that is hidden, by 0.5 in
+/// chi-square; in the other, the plan cannot tell.
+const CANNOT_TELL: [&str; 2] = ["contact", "paper-protocol"];
 /// Reduced chi-square on held-out poses that counts as noise, for 180 numbers at three standard deviations.
 const AT_THE_NOISE: f64 = 1.35;
 /// Standard uncertainties allowed between a fitted and a true value.
@@ -54,12 +55,12 @@ fn truth(case: &str) -> Value {
 }
 
 #[test]
-fn no_case_is_wrong_and_nearly_all_are_right() {
+fn no_case_is_wrong_and_all_that_can_tell_are_right() {
     let score = |case: &String| judge(&truth(case), &diagnosis(case));
     let scores: Vec<(String, Score)> = cases().iter().map(|c| (c.clone(), score(c))).collect();
-    let count = |s: Score| scores.iter().filter(|(_, x)| *x == s).count();
-    assert_eq!(count(Score::Wrong), 0, "{scores:?}");
-    assert!(count(Score::Right) >= LEAST_RIGHT, "{scores:?}");
+    let may_be =
+        |case: &str, s: Score| s == Score::Right || s == Score::Honest && CANNOT_TELL.contains(&case);
+    assert!(scores.iter().all(|(case, s)| may_be(case, *s)), "{scores:?}");
 }
 
 #[test]

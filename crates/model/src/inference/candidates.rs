@@ -94,23 +94,23 @@ pub struct CompetingForm {
 }
 
 /// Forms with the shapes of a fit in the places of their neighbors: between the values of a grid the evidence may be far below its peak.
-/// A peak narrower than its part of the grid counts with the share that it fills (Laplace).
+/// A peak narrower than its part of the grid counts with the share that it fills (Laplace). Beyond the ends of a grid there is nothing
+/// to take the place of: a fit that goes there has no peak.
 pub fn with_fitted_shapes(mut forms: Vec<CompetingForm>, fit: &Fit) -> Vec<CompetingForm> {
     for (k, active) in fit.point.active.iter().enumerate() {
         let Some(column) = fit.parameters.shape_of_term(k) else { continue };
         let is_own = |f: &CompetingForm| !f.rich && std::ptr::eq(f.version.info(), active.term.info());
         let mut own: Vec<&mut CompetingForm> = forms.iter_mut().filter(|f| is_own(f)).collect();
-        let distance = |form: &CompetingForm| (form.shape / active.shape).ln().abs();
-        let Some(nearest) = (0..own.len()).min_by(|&a, &b| distance(own[a]).total_cmp(&distance(own[b])))
-        else {
+        own.sort_by(|a, b| a.shape.total_cmp(&b.shape));
+        let above = own.partition_point(|form| form.shape < active.shape);
+        if above == 0 || above == own.len() {
             continue;
-        };
-        let ends = [nearest.saturating_sub(1), (nearest + 1).min(own.len() - 1)];
-        let part = (own[ends[1]].shape / own[ends[0]].shape).ln().abs() / (ends[1] - ends[0]).max(1) as f64;
-        if part > 0.0 {
-            own[nearest].share *= (TAU.sqrt() * fit.std(column) / part).min(1.0);
         }
-        own[nearest].shape = active.shape;
+        let step = (own[above].shape / own[above - 1].shape).ln();
+        let is_nearer_below = (active.shape / own[above - 1].shape).ln() < 0.5 * step;
+        let nearest = &mut own[if is_nearer_below { above - 1 } else { above }];
+        nearest.share *= (TAU.sqrt() * fit.std(column) / step).min(1.0);
+        nearest.shape = active.shape;
     }
     forms
 }

@@ -47,9 +47,8 @@ impl Rivals<'_> {
         let Some(first) = sets.sets.first().cloned() else { return (sets, None) };
         // The best set and something more is judged well where the best set is.
         let differs = |s: &Set| !first.members.iter().all(|m| s.members.contains(m));
-        let close = |s: &&Set| {
-            self.all || (s.log_weight > first.log_weight - HOPELESS - self.gain_of_shapes(s) && differs(s))
-        };
+        let hopeless = |s: &Set| s.log_weight < first.log_weight - HOPELESS - self.gain_of_shapes(s);
+        let close = |s: &&Set| self.all || (!hopeless(s) && differs(s));
         let rivals = sets.sets.iter().skip(1).filter(close).take(MOST_RIVALS);
         let own: Vec<(Set, Fit)> = self
             .by_terms(rivals)

@@ -261,11 +261,8 @@ impl Term for UserTerm {
             let mut sum = Vector6::zeros();
             let mut kind = PartKind::Elongation;
             for part in self.parts_of(owner.parameter) {
-                sum += part.vector(machine, at, &own, &mut memory);
+                sum += part.vector(machine, at, &own, owner.leg, &mut memory);
                 kind = part.kind;
-            }
-            if let Some(leg) = owner.leg {
-                (0..6).filter(|&other| other != leg).for_each(|other| sum[other] = 0.0);
             }
             out.push(kind.action(at, &sum));
         }
@@ -277,7 +274,7 @@ impl Term for UserTerm {
         for (k, shape) in (0..self.parameters).flat_map(|k| shapes.iter().map(move |s| (k, *s))) {
             let own = self.unit(k, shape);
             for part in self.parts_of(k) {
-                let vector = part.vector(machine, at, &own, &mut memory);
+                let vector = part.vector(machine, at, &own, None, &mut memory);
                 if let Some(bad) = (0..6).find(|&i| !vector[i].is_finite()) {
                     let (formula, story) = (self.info.equation, part.story(machine, at, bad));
                     return Some(format!("`{formula}` gives {} at {story}", vector[bad]));

@@ -134,12 +134,13 @@ impl Part {
         self.formulas().any(|f| f.uses(first + k))
     }
 
-    /// Its six numbers for these values of what the file adds; `values`: memory to use.
+    /// Its six numbers for these values of what the file adds, or those of one leg alone; `values`: memory to use.
     pub(super) fn vector(
         &self,
         machine: &Machine,
         at: &Condition,
         own: &[f64],
+        of_leg: Option<usize>,
         values: &mut Vec<f64>,
     ) -> Vector6 {
         if self.kind == PartKind::Elongation {
@@ -147,7 +148,7 @@ impl Part {
             self.fill(machine, at, 0, values);
             values.extend_from_slice(own);
             return Vector6::from_fn(|leg, _| {
-                if self.legs[leg] {
+                if self.legs[leg] && of_leg.is_none_or(|alone| alone == leg) {
                     // Only these differ from leg to leg.
                     values[..OF_LEG.len()].copy_from_slice(&variables::of_leg(machine, at, leg));
                     formula.value(values)
