@@ -16,13 +16,13 @@ pub(crate) fn rows<const N: usize>(
     array.into_pyarray(py)
 }
 
-/// An array of shape (n, 6, 6).
+/// An array of shape (n, m, m).
 pub(crate) fn matrices(
     py: Python<'_>,
-    count: usize,
+    [count, size]: [usize; 2],
     element: impl Fn(usize, usize, usize) -> f64,
 ) -> Bound<'_, PyArray3<f64>> {
-    Array3::from_shape_fn((count, 6, 6), |(n, i, j)| element(n, i, j)).into_pyarray(py)
+    Array3::from_shape_fn((count, size, size), |(n, i, j)| element(n, i, j)).into_pyarray(py)
 }
 
 /// A square array.

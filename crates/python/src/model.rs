@@ -7,7 +7,7 @@ use hexbench_app::fit::{added, fitted, model as kept};
 use hexbench_app::{Failure, input};
 use hexbench_model::application::model_file::{Estimator, Model};
 use hexbench_model::application::predict::{
-    PredictError, SensorPrediction, predict_sensors, predict_with_covariance,
+    PredictError, predict_sensors_with_covariance, predict_with_covariance,
 };
 use hexbench_model::estimation::estimate::{Estimates, estimates_of};
 use hexbench_model::inference::selection::JudgedTask;
@@ -81,25 +81,24 @@ impl PyModel {
             })
         };
         let values = rows(py, found.iter().map(|(reading, _)| value(reading.value)));
-        Ok((values, matrices(py, found.len(), |n, i, j| found[n].1[(i, j)] * 1e12)))
+        Ok((values, matrices(py, [found.len(), 6], |n, i, j| found[n].1[(i, j)] * 1e12)))
     }
 
-    /// Values and standard uncertainties (n, m) of what the sensors read under conditions given as columns, um and urad.
+    /// Values (n, m) and covariances (n, m, m) of what the sensors read under conditions given as columns, um and urad.
     #[expect(clippy::type_complexity, reason = "two arrays")]
     fn predict_sensors<'py>(
         &self,
         py: Python<'py>,
         names: Vec<String>,
         columns: Vec<Bound<'py, PyAny>>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
         let data = conditions(py, names, &columns, "poses")?;
         let model = Arc::clone(&self.model);
-        let found = beside(py, move || predict_sensors(&model, &data.observations).map_err(of_row))?;
-        let shape = (found.len(), self.model.sensor_channels().len());
-        let array = |of: fn(&SensorPrediction) -> f64| {
-            matrix(py, &DMatrix::from_fn(shape.0, shape.1, |n, k| of(&found[n][k]) * 1e6))
-        };
-        Ok((array(|read| read.value), array(|read| read.sigma)))
+        let found =
+            beside(py, move || predict_sensors_with_covariance(&model, &data.observations).map_err(of_row))?;
+        let shape = [found.len(), self.model.sensor_channels().len()];
+        let values = DMatrix::from_fn(shape[0], shape[1], |n, k| found[n].0[k].value * 1e6);
+        Ok((matrix(py, &values), matrices(py, shape, |n, i, j| found[n].1[(i, j)] * 1e12)))
     }
 
     /// Names of the columns that the sensors of the machine fill, with units.

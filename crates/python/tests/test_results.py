@@ -142,8 +142,13 @@ def test_predicted_sensors_are_those_of_the_command(command: Command, tmp_path: 
     assert model.sensor_columns == ["z1_um", "z2_um", "z3_um", "t1_um", "t2_um", "t3_um"]
     assert np.all(np.abs(values - expected[model.sensor_columns].to_numpy()) <= 0.51e-6)
     assert np.all(np.abs(stds - expected[[f"sigma_{n}" for n in model.sensor_columns]].to_numpy()) <= 0.51e-6)
+    again, _, covariance = model.predict_sensors(campaign.poses, campaign.wrenches, **more, covariance=True)
+    assert np.array_equal(again, values) and covariance.shape == (len(values), 6, 6)
+    assert np.array_equal(np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)), stds)
+    assert np.allclose(covariance, covariance.transpose(0, 2, 1))
     nothing = np.empty((0, 6))
-    assert [part.shape for part in model.predict_sensors(nothing, nothing)] == [(0, 6), (0, 6)]
+    parts = model.predict_sensors(nothing, nothing, covariance=True)
+    assert [part.shape for part in parts] == [(0, 6), (0, 6), (0, 6, 6)]
 
 
 def test_parameters_and_covariance_belong_together() -> None:

@@ -10,6 +10,7 @@
 //! whatever is read; nothing is iterated.
 
 use hexbench_core::{Columns, Dataset, Matrix6, Measurand, Observation, Vector6};
+use nalgebra::DMatrix;
 use thiserror::Error;
 
 use crate::application::model_file::Model;
@@ -82,20 +83,35 @@ pub fn predict_sensors(
     model: &Model,
     rows: &[Observation],
 ) -> Result<Vec<Vec<SensorPrediction>>, PredictError> {
-    let channels = model.sensor_channels();
-    if channels.is_empty() {
-        return Ok(vec![Vec::new(); rows.len()]);
+    Ok(predict_sensors_with_covariance(model, rows)?.into_iter().map(|(readings, _)| readings).collect())
+}
+
+/// The same with the covariance of all numbers of each row (m, rad), whose diagonal is the square of `sigma`.
+///
+/// # Errors
+/// As [`predict`].
+pub fn predict_sensors_with_covariance(
+    model: &Model,
+    rows: &[Observation],
+) -> Result<Vec<(Vec<SensorPrediction>, DMatrix<f64>)>, PredictError> {
+    let channels = model.sensor_channels().len();
+    if channels == 0 {
+        return Ok(vec![(Vec::new(), DMatrix::zeros(0, 0)); rows.len()]);
     }
     let asked = |rows: &[Observation]| {
         Dataset::of_poses("", model.measurand, Columns::default(), rows.to_vec())
             .to_be_read_by(&model.hexapod.sensors)
     };
-    let blocks = answered(model, rows, Uncertain::Reading, asked)?;
-    let numbers = |row: &[(Prediction, Matrix6)]| {
-        let all = row.iter().flat_map(|(block, _)| block.value.into_iter().zip(block.sigma));
-        all.take(channels.len()).map(|(value, sigma)| SensorPrediction { value, sigma }).collect()
+    let answers = answered(model, rows, Uncertain::Reading, asked)?;
+    let covariance = kept_covariance(model, Uncertain::Reading);
+    let of_row = |blocks: &[Answer]| {
+        let reader = DMatrix::from_fn(channels, covariance.ncols(), |n, p| blocks[n / 6].reader[(n % 6, p)]);
+        let spread = &reader * &covariance * reader.transpose();
+        let values = blocks.iter().flat_map(|block| block.value).take(channels);
+        let number = |(k, value)| SensorPrediction { value, sigma: deviation(&spread, k) };
+        (values.enumerate().map(number).collect(), spread)
     };
-    Ok(blocks.chunks(channels.len().div_ceil(6)).map(numbers).collect())
+    Ok(answers.chunks(channels.div_ceil(6)).map(of_row).collect())
 }
 
 /// Which uncertainty is asked for.
@@ -115,7 +131,25 @@ pub(crate) fn predict_as(
     measurand: Measurand,
     uncertain: Uncertain,
 ) -> Result<Vec<(Prediction, Matrix6)>, PredictError> {
-    answered(model, rows, uncertain, |rows| poses(model, rows, measurand))
+    let answers = answered(model, rows, uncertain, |rows| poses(model, rows, measurand))?;
+    let covariance = kept_covariance(model, uncertain);
+    let with_covariance = |Answer { value, reader }: &Answer| {
+        let spread = reader * &covariance * reader.transpose();
+        let sigma = std::array::from_fn(|k| deviation(&spread, k));
+        (Prediction { value: *value, sigma }, Matrix6::from_fn(|i, j| spread[(i, j)]))
+    };
+    Ok(answers.iter().map(with_covariance).collect())
+}
+
+/// Six predicted numbers, and what a unit of each parameter whose uncertainty counts does to them.
+#[derive(Debug, Clone)]
+struct Answer {
+    value: [f64; 6],
+    reader: DMatrix<f64>,
+}
+
+fn deviation(spread: &DMatrix<f64>, k: usize) -> f64 {
+    spread[(k, k)].max(0.0).sqrt()
 }
 
 /// Predict what is asked of rows; a row makes as many predictions, six numbers each, as it makes observations.
@@ -124,7 +158,7 @@ fn answered(
     rows: &[Observation],
     uncertain: Uncertain,
     asked: impl Fn(&[Observation]) -> Dataset,
-) -> Result<Vec<(Prediction, Matrix6)>, PredictError> {
+) -> Result<Vec<Answer>, PredictError> {
     if rows.is_empty() {
         return Ok(Vec::new());
     }
@@ -139,11 +173,7 @@ fn answered(
 }
 
 /// Moves the readings of a dataset until they are what the model predicts.
-fn settle(
-    model: &Model,
-    mut data: Dataset,
-    uncertain: Uncertain,
-) -> Result<Vec<(Prediction, Matrix6)>, ModelError> {
+fn settle(model: &Model, mut data: Dataset, uncertain: Uncertain) -> Result<Vec<Answer>, ModelError> {
     let mut last_step = f64::INFINITY;
     for _ in 0..MOST_ROUNDS {
         let campaign =
@@ -162,7 +192,7 @@ fn settle(
             }
         }
         if last_step < SETTLED {
-            return Ok(predictions(model, &campaign, &lin, &data, uncertain));
+            return Ok(answers(model, &campaign, &lin, &data, uncertain));
         }
     }
     Err(ModelError::NotConverged { iterations: MOST_ROUNDS, last_step })
@@ -194,30 +224,31 @@ fn unweighted(whitened: &Vector6, weight: &Vector6) -> Vector6 {
     whitened.component_div(weight)
 }
 
-fn predictions(
+fn answers(
     model: &Model,
     campaign: &Campaign,
     lin: &Linearization,
     data: &Dataset,
     uncertain: Uncertain,
-) -> Vec<(Prediction, Matrix6)> {
-    let jacobian = columns(lin, &model.point);
-    let kept = kept_columns(model, uncertain);
-    let covariance = model.covariance.select_columns(&kept).select_rows(&kept);
-    let nothing = Prediction { value: [0.0; 6], sigma: [0.0; 6] };
-    let mut all = vec![(nothing, Matrix6::zeros()); data.observations.len()];
+) -> Vec<Answer> {
+    let jacobian = columns(lin, &model.point).select_columns(&kept_columns(model, uncertain));
+    let nothing = Answer { value: [0.0; 6], reader: DMatrix::zeros(0, 0) };
+    let mut all = vec![nothing; data.observations.len()];
     for (i, group) in campaign.groups.iter().enumerate() {
-        let j = jacobian.rows(6 * i, 6).select_columns(&kept);
-        let spread = &j * &covariance * j.transpose();
         let weight = lin.conditions[i].weight;
-        let sigma = std::array::from_fn(|k| spread[(k, k)].max(0.0).sqrt() / weight[k]);
-        let covariance = Matrix6::from_fn(|r, c| spread[(r, c)] / (weight[r] * weight[c]));
+        let reader = DMatrix::from_fn(6, jacobian.ncols(), |k, p| jacobian[(6 * i + k, p)] / weight[k]);
         for &row in &group.rows {
             let value = data.observations[row as usize].measured;
-            all[row as usize] = (Prediction { value, sigma }, covariance);
+            all[row as usize] = Answer { value, reader: reader.clone() };
         }
     }
     all
+}
+
+/// Covariance of the parameters whose uncertainty counts.
+fn kept_covariance(model: &Model, uncertain: Uncertain) -> DMatrix<f64> {
+    let kept = kept_columns(model, uncertain);
+    model.covariance.select_columns(&kept).select_rows(&kept)
 }
 
 fn kept_columns(model: &Model, uncertain: Uncertain) -> Vec<usize> {

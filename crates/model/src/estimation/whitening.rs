@@ -43,8 +43,8 @@ enum Common {
     },
     /// Errors of neighboring rows resemble each other.
     Drift {
-        /// Line of every condition in the file, ascending.
-        rows: Vec<usize>,
+        /// Line of every condition in the file, ascending, and which of the blocks of numbers it has.
+        rows: Vec<[usize; 2]>,
         /// `u` of every condition.
         shares: Vec<Vector6>,
         /// Correlation of neighboring lines.
@@ -203,7 +203,10 @@ impl Common {
                 shares: groups.iter().map(share).collect(),
             },
             Structure::Drift { correlation, .. } => Self::Drift {
-                rows: groups.iter().map(|g| usize::try_from(g.mean.line).unwrap_or(0)).collect(),
+                rows: groups
+                    .iter()
+                    .map(|g| [usize::try_from(g.mean.line).unwrap_or(0), g.mean.block])
+                    .collect(),
                 shares: groups.iter().map(share).collect(),
                 correlation,
             },
@@ -255,8 +258,9 @@ impl Common {
     }
 }
 
+/// What a number that was not read shares with others is nothing: it says nothing of the error that they have in common.
 fn share(group: &ConditionReadings) -> Vector6 {
-    Vector6::from_fn(|k, _| group.shared[k] / group.sigma[k])
+    Vector6::from_fn(|k, _| if group.reads[k] > 0 { group.shared[k] / group.sigma[k] } else { 0.0 })
 }
 
 fn shared(records: &[usize], shares: &[Vector6], x: &mut DVector<f64>) {
@@ -275,19 +279,41 @@ fn shared(records: &[usize], shares: &[Vector6], x: &mut DVector<f64>) {
     }
 }
 
-fn drift(rows: &[usize], shares: &[Vector6], correlation: f64, x: &mut DVector<f64>) {
+fn drift(rows: &[[usize; 2]], shares: &[Vector6], correlation: f64, x: &mut DVector<f64>) {
     for k in 0..6 {
-        let mut filter = Filter::<1>::default();
-        for i in 0..rows.len() {
-            let distance = if i == 0 { 0 } else { rows[i].abs_diff(rows[i - 1]) };
-            let ([innovation], variance) = filter.step([x[6 * i + k]], shares[i][k], distance, correlation);
+        let mut filters = Filters::<1>::default();
+        for (i, &row) in rows.iter().enumerate() {
+            let ([innovation], variance) = filters.step(row, [x[6 * i + k]], shares[i][k], correlation);
             x[6 * i + k] = innovation / variance.sqrt();
         }
     }
 }
 
+/// A filter for each block of numbers: those of another block look at other things, and drift by themselves.
+#[derive(Default)]
+pub struct Filters<const PROCESSES: usize>(Vec<(Filter<PROCESSES>, Option<usize>)>);
+
+impl<const PROCESSES: usize> Filters<PROCESSES> {
+    /// What numbers bring that is new, and the variance of each of them; they stand in a line of the file, in a block, and each has that
+    /// share of its process in it.
+    pub fn step(
+        &mut self,
+        [line, block]: [usize; 2],
+        numbers: [f64; PROCESSES],
+        share: f64,
+        correlation: f64,
+    ) -> ([f64; PROCESSES], f64) {
+        while self.0.len() <= block {
+            self.0.push((Filter::default(), None));
+        }
+        let (filter, last) = &mut self.0[block];
+        let distance = last.replace(line).map_or(0, |last| line.abs_diff(last));
+        filter.step(numbers, share, distance, correlation)
+    }
+}
+
 /// Kalman filter of processes of first order with unit variance, alike but for their values, each seen with white noise of unit variance.
-pub struct Filter<const PROCESSES: usize> {
+struct Filter<const PROCESSES: usize> {
     means: [f64; PROCESSES],
     variance: f64,
 }
@@ -301,7 +327,7 @@ impl<const PROCESSES: usize> Default for Filter<PROCESSES> {
 impl<const PROCESSES: usize> Filter<PROCESSES> {
     /// What readings bring that is new, and the variance of each of them; `share` of the process is in the reading, `distance` steps
     /// after the one before.
-    pub fn step(
+    fn step(
         &mut self,
         readings: [f64; PROCESSES],
         share: f64,
@@ -367,16 +393,34 @@ mod tests {
 
     #[test]
     fn neighbors_of_a_drift_become_independent_also_across_a_gap() {
-        let rows: Vec<usize> = vec![0, 1, 4];
+        let lines: Vec<usize> = vec![0, 1, 4];
         let shares = vec![Vector6::repeat(0.8), Vector6::repeat(1.3), Vector6::repeat(0.5)];
         let covariance = DMatrix::from_fn(18, 18, |a, b| {
             let (i, j, same) = (a / 6, b / 6, a % 6 == b % 6);
-            let distance = i32::try_from(rows[i].abs_diff(rows[j])).unwrap_or(0);
+            let distance = i32::try_from(lines[i].abs_diff(lines[j])).unwrap_or(0);
             let drift = shares[i][0] * shares[j][0] * 0.7_f64.powi(distance);
             f64::from(u8::from(a == b)) + if same { drift } else { 0.0 }
         });
+        let rows = lines.iter().map(|&line| [line, 0]).collect();
         let w = matrix(&Common::Drift { rows, shares, correlation: 0.7 }, 3);
         assert!((&w * covariance * w.transpose() - DMatrix::identity(18, 18)).amax() < ROUNDING);
+    }
+
+    #[test]
+    fn blocks_of_numbers_drift_by_themselves_and_an_empty_cell_tells_nothing() {
+        // Lines 0 and 1 have numbers of two blocks; the first number of the last condition was not read.
+        let rows: Vec<[usize; 2]> = vec![[0, 0], [0, 1], [1, 0], [1, 1]];
+        let mut shares = vec![Vector6::repeat(0.8); 4];
+        shares[2][0] = 0.0;
+        let covariance = DMatrix::from_fn(24, 24, |a, b| {
+            let (i, j, k) = (a / 6, b / 6, a % 6);
+            let same = k == b % 6 && rows[i][1] == rows[j][1];
+            let distance = i32::try_from(rows[i][0].abs_diff(rows[j][0])).unwrap();
+            let drift = shares[i][k] * shares[j][k] * 0.7_f64.powi(distance);
+            f64::from(u8::from(a == b)) + if same { drift } else { 0.0 }
+        });
+        let w = matrix(&Common::Drift { rows, shares, correlation: 0.7 }, 4);
+        assert!((&w * covariance * w.transpose() - DMatrix::identity(24, 24)).amax() < ROUNDING);
     }
 
     #[test]

@@ -108,9 +108,9 @@ pub fn with_fitted_shapes(mut forms: Vec<CompetingForm>, fit: &Fit) -> Vec<Compe
         }
         let step = (own[above].shape / own[above - 1].shape).ln();
         let is_nearer_below = (active.shape / own[above - 1].shape).ln() < 0.5 * step;
-        let nearest = &mut own[if is_nearer_below { above - 1 } else { above }];
-        nearest.share *= (TAU.sqrt() * fit.std(column) / step).min(1.0);
-        nearest.shape = active.shape;
+        let nearest = if is_nearer_below { above - 1 } else { above };
+        own[nearest].share *= (TAU.sqrt() * fit.std(column) / step).min(1.0);
+        own[nearest].shape = active.shape;
     }
     forms
 }

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod, Observation, Sensor, SensorKind, Vector3};
 use hexbench_model::application::model_file::{DataOrigin, Estimator, Model};
-use hexbench_model::application::predict::{PredictError, SensorPrediction, predict_sensors};
+use hexbench_model::application::predict::{
+    PredictError, SensorPrediction, predict_sensors, predict_sensors_with_covariance,
+};
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{TermSpec, fit};
@@ -109,6 +111,30 @@ fn a_predicted_reading_leaves_no_residual_whatever_is_in_the_model() {
     assert_eq!(residuals.len(), 6 * 2 * plan.len());
     assert!(residuals.amax() < 1e-6, "{:e} standard deviations of a reading", residuals.amax());
     assert!(predicted.iter().flatten().any(|p| p.value.abs() > 1e-4), "loads that bend the machine");
+}
+
+#[test]
+fn sensors_in_the_mean_of_which_one_looks_err_together() {
+    // Half way between two gauges that look the same way, a third one reads their mean.
+    let mut hexapod = every_kind();
+    let gauge = |name: &str, x: f64| {
+        let (point, direction) = (Vector3::new(x, 0.02, 0.03), Vector3::z());
+        Sensor::new(name, SensorKind::Distance { point, direction, sigma: GAUGE_M })
+    };
+    hexapod.sensors.extend([gauge("left", -0.1), gauge("right", 0.1), gauge("middle", 0.0)]);
+    let fitted = model(&hexapod, &read(&world(), &hexapod, &rich_plan(40, 1.0, 5), Some(3)), &[]);
+    let plan = with_lines(rich_plan(5, 1.0, 8));
+    let several = predict_sensors(&fitted, &plan).unwrap();
+    for ((numbers, covariance), alone) in
+        predict_sensors_with_covariance(&fitted, &plan).unwrap().iter().zip(&several)
+    {
+        let n = numbers.len();
+        assert_eq!((numbers, covariance.nrows()), (alone, n));
+        let at = |i: usize, j: usize| covariance[(n - 3 + i, n - 3 + j)];
+        let mean = 0.25 * (at(0, 0) + 2.0 * at(0, 1) + at(1, 1));
+        assert!((mean / at(2, 2) - 1.0).abs() < 1e-6, "{mean:e} {:e}", at(2, 2));
+        assert!((at(0, 0).sqrt() / numbers[n - 3].sigma - 1.0).abs() < 1e-12);
+    }
 }
 
 #[test]

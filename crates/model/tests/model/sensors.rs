@@ -5,6 +5,7 @@ use hexbench_core::{
 };
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
+use hexbench_model::inference::misread::{names, other_readings};
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::diagnose;
 use hexbench_model::terms::catalogue;
@@ -243,4 +244,140 @@ fn a_gauge_beside_its_place_is_told_with_its_size_and_the_machine_is_judged_all_
             k.std
         );
     }
+}
+
+/// Three translations, two gauges and a ball: eight numbers, which make two blocks.
+type Row = [f64; 8];
+
+/// A mistake of the measured numbers, row by row, and the kinds that call it by its name.
+type Mistake = (fn(&mut Row), &'static [&'static str]);
+
+const MISTAKES: [Mistake; 11] = [
+    (|row| row[1] = -row[1], &["deflection-sign"]),
+    (|row| row[..3].iter_mut().for_each(|x| *x = -*x), &["deflection-sign", "axes"]),
+    (|row| row[2] *= 1e-3, &["unit"]),
+    (|row| row[0] *= 1e3, &["unit"]),
+    (|row| row[..3].iter_mut().for_each(|x| *x /= 25.4), &["unit"]),
+    (|row| row.swap(0, 1), &["axes"]),
+    (|row| row[4] = -row[4], &["sensor-sign"]),
+    (|row| row[3..5].iter_mut().for_each(|x| *x /= 25.4), &["sensor-factor"]),
+    (|row| row.swap(3, 4), &["sensors-exchanged"]),
+    (|row| row[7] = -row[7], &["sensor-sign", "axes"]),
+    (|row| (row[5], row[6]) = (row[6], -row[5]), &["axes"]),
+];
+
+/// The two gauges and the ball.
+fn gauges_and_a_ball() -> Hexapod {
+    with(gauges(GAUGE_M).into_iter().take(2).chain(balls(GAUGE_M).into_iter().take(1)).collect())
+}
+
+/// They, and the translations: what a point at the mobile origin reads.
+fn beside_translations(world: &World, plan: &[Observation]) -> (Hexapod, Dataset) {
+    let hexapod = gauges_and_a_ball();
+    let origin = SensorKind::Point { point: Vector3::zeros(), sigma: [GAUGE_M; 3] };
+    let mut more = hexapod.clone();
+    more.sensors.insert(0, Sensor::new("origin", origin));
+    let mut data = read(world, &more, plan, Some(4));
+    for channel in data.blocks.iter_mut().flatten() {
+        *channel = match *channel {
+            Channel::Sensor { sensor: 0, number } => Channel::Pose(number),
+            Channel::Sensor { sensor, number } => Channel::Sensor { sensor: sensor - 1, number },
+            other => other,
+        };
+    }
+    (hexapod, data)
+}
+
+fn table(data: &Dataset) -> Vec<Row> {
+    let rows = data.observations.chunks(2);
+    rows.map(|row| std::array::from_fn(|k| row[k / 6].measured[k % 6])).collect()
+}
+
+fn written(data: &Dataset, table: &[Row]) -> Dataset {
+    let mut data = data.clone();
+    for (row, numbers) in data.observations.chunks_mut(2).zip(table) {
+        (0..8).for_each(|k| row[k / 6].measured[k % 6] = numbers[k]);
+    }
+    data
+}
+
+#[test]
+fn mistakes_in_files_of_some_pose_numbers_and_sensors_are_found_with_their_cause() {
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let (hexapod, sound) = beside_translations(&world, &rich_plan(40, 1.0, 11));
+    let told = |data: &Dataset, kinds: &[&str]| {
+        let answer = diagnose(&hexapod, data, None, &catalogue()).unwrap().diagnosis;
+        assert_eq!(answer.verdict, Verdict::Measurement, "{kinds:?}: {:?}", answer.findings);
+        let first = &answer.findings[0];
+        assert!(answer.added.is_empty() && kinds.contains(&first.kind.word()), "{kinds:?}: {}", first.text);
+        assert!(first.next.contains("--read-as"), "{}", first.next);
+    };
+    let answer = diagnose(&hexapod, &sound, None, &catalogue()).unwrap().diagnosis;
+    assert_eq!((answer.verdict, answer.findings.len()), (Verdict::Adequate, 0), "{:?}", answer.findings);
+    for (spoil, kinds) in MISTAKES {
+        let mut rows = table(&sound);
+        rows.iter_mut().for_each(spoil);
+        told(&written(&sound, &rows), kinds);
+    }
+    let mut rows = table(&sound);
+    rows.rotate_left(1);
+    told(&written(&sound, &rows), &["row-order"]);
+    let mut loads = sound.clone();
+    loads.observations.iter_mut().for_each(|o| o.wrench.force.z *= -1.0);
+    loads.observations.iter_mut().for_each(|o| o.reference.force.z *= -1.0);
+    told(&loads, &["wrench-sign"]);
+}
+
+#[test]
+fn two_mistakes_of_different_sensors_are_found_together() {
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let (hexapod, sound) = beside_translations(&world, &rich_plan(40, 1.0, 11));
+    let mut rows = table(&sound);
+    rows.iter_mut().for_each(|row| (row[3], row[4]) = (-row[3], row[4] / 25.4));
+    let answer = diagnose(&hexapod, &written(&sound, &rows), None, &catalogue()).unwrap().diagnosis;
+    assert_eq!(answer.verdict, Verdict::Measurement, "{:?}", answer.findings);
+    let text = &answer.findings[0].text;
+    assert!(text.contains("sensor g0 seems to read with the other sign"), "{text}");
+    assert!(text.contains("sensor g1 seem 25.4 times"), "{text}");
+}
+
+#[test]
+fn a_number_that_no_repeat_has_is_not_counted_where_repeats_are_averaged() {
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let plan: Vec<Observation> = rich_plan(40, 1.0, 11).into_iter().flat_map(|o| [o, o]).collect();
+    let mut hexapod = with(gauges(GAUGE_M).into_iter().take(3).collect());
+    (hexapod.tolerances.sensor_point, hexapod.tolerances.sensor_direction) = (1e-9, 1e-9);
+    let mut data = read(&world, &hexapod, &plan, Some(4));
+    data.observations.iter_mut().for_each(|o| o.measured[1] *= 1e3);
+    let readings = other_readings(&hexapod, &data).unwrap();
+    let best = &readings.ways[0];
+    assert_eq!(names(&best.changes), ["sensor-factor=g1*0.001"]);
+    // Three numbers a condition make 120 - 6 degrees of freedom: within four standard deviations of one, 4 / sqrt(2 * 114).
+    assert!((best.level - 1.0).abs() < 0.27, "{}", best.level);
+}
+
+#[test]
+fn a_drift_of_a_gauge_is_found_with_empty_cells_and_more_than_six_numbers() {
+    let hexapod = with(gauges(GAUGE_M).into_iter().chain(balls(GAUGE_M).into_iter().take(1)).collect());
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let mut data = read(&world, &hexapod, &rich_plan(60, 1.0, 11), Some(4));
+    let mut random = Random::new(9);
+    let (mut drift, correlation) = ([[0.0; 6]; 2], 0.95_f64);
+    for o in &mut data.observations {
+        for k in 0..6 {
+            let at = &mut drift[o.block][k];
+            *at = correlation * *at + (1.0 - correlation.powi(2)).sqrt() * random.normal() * 1.5 * GAUGE_M;
+            if !o.is_read(k) {
+                continue;
+            }
+            o.measured[k] += *at;
+            if random.unit() < 0.1 {
+                (o.measured[k], o.sigma.as_mut().unwrap()[k]) = (0.0, UNREAD);
+            }
+        }
+    }
+    let answer = diagnose(&hexapod, &data, None, &catalogue()).unwrap().diagnosis;
+    let kinds: Vec<&str> = answer.findings.iter().map(|f| f.kind.word()).collect();
+    assert_eq!(kinds, ["drift"], "{:?}", answer.findings);
+    assert!(answer.added.is_empty(), "{:?}", answer.added);
 }

@@ -212,6 +212,34 @@ class Model:
         """Columns that the sensors of the machine fill, with units: ``g1_um``, ``ball_x_um``, ``level_urad``."""
         return self._made.sensor_columns
 
+    @overload
+    def predict_sensors(
+        self,
+        poses: ArrayLike,
+        wrenches: ArrayLike,
+        *,
+        reference: ArrayLike | None = ...,
+        approach: ArrayLike | None = ...,
+        delta_T_K: ArrayLike | None = ...,
+        elapsed_s: ArrayLike | None = ...,
+        ref_age_s: ArrayLike | None = ...,
+        covariance: Literal[False] = ...,
+    ) -> tuple[Floats, Floats]: ...
+
+    @overload
+    def predict_sensors(
+        self,
+        poses: ArrayLike,
+        wrenches: ArrayLike,
+        *,
+        reference: ArrayLike | None = ...,
+        approach: ArrayLike | None = ...,
+        delta_T_K: ArrayLike | None = ...,
+        elapsed_s: ArrayLike | None = ...,
+        ref_age_s: ArrayLike | None = ...,
+        covariance: Literal[True],
+    ) -> tuple[Floats, Floats, Floats]: ...
+
     def predict_sensors(
         self,
         poses: ArrayLike,
@@ -222,13 +250,16 @@ class Model:
         delta_T_K: ArrayLike | None = None,
         elapsed_s: ArrayLike | None = None,
         ref_age_s: ArrayLike | None = None,
-    ) -> tuple[Floats, Floats]:
+        covariance: bool = False,
+    ) -> tuple[Floats, Floats] | tuple[Floats, Floats, Floats]:
         """Predict what the sensors of the machine would read.
 
         Parameters
         ----------
         poses, wrenches, reference, approach, delta_T_K, elapsed_s, ref_age_s
             As of :meth:`predict`.
+        covariance : bool
+            Return the covariance of all readings of a row too.
 
         Returns
         -------
@@ -236,6 +267,8 @@ class Model:
             Readings, loaded minus reference, in the order and units of :attr:`sensor_columns`; m = 0 without sensors.
         array (n, m)
             Their standard uncertainties (k = 1) from the model, without the noise of a future reading.
+        array (n, m, m)
+            With ``covariance=True``: covariance of each row in um and urad; sensors of one model err together.
 
         Raises
         ------
@@ -245,8 +278,12 @@ class Model:
         single = {"approach": approach, "delta_T_K": delta_T_K, "elapsed_s": elapsed_s, "ref_age_s": ref_age_s}
         count, table = _conditions(poses, wrenches, reference, single)
         if count == 0:
-            return np.empty((0, len(self.sensor_columns))), np.empty((0, len(self.sensor_columns)))
-        return self._made.predict_sensors(list(table), list(table.values()))
+            many = len(self.sensor_columns)
+            values, spreads = np.empty((0, many)), np.empty((0, many, many))
+        else:
+            values, spreads = self._made.predict_sensors(list(table), list(table.values()))
+        stds = np.sqrt(np.diagonal(spreads, axis1=1, axis2=2).clip(0.0))
+        return (values, stds, spreads) if covariance else (values, stds)
 
     def __repr__(self) -> str:
         """Return machine, terms and chi-square."""

@@ -73,6 +73,8 @@ pub enum FindingKind {
     SensorFactor,
     /// A sensor that stands elsewhere or looks in another direction.
     SensorPlace,
+    /// Sensors whose numbers stand in each other's columns.
+    SensorsExchanged,
 }
 
 /// What a fault of the data concerns.
@@ -133,6 +135,7 @@ impl FindingKind {
             Self::SensorSign => ("sensor-sign", "Sign of a sensor", Concern::File),
             Self::SensorFactor => ("sensor-factor", "Factor of a sensor", Concern::File),
             Self::SensorPlace => ("sensor-place", "Place of a sensor", Concern::Conditions),
+            Self::SensorsExchanged => ("sensors-exchanged", "Sensors exchanged", Concern::File),
             Self::Copies => ("copies", "Copied rows", Concern::Readings),
             Self::Holdout => ("holdout", "Held-out file", Concern::Holdout),
         }

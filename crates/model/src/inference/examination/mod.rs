@@ -147,6 +147,8 @@ struct Look {
     stated: f64,
     /// What is left of every row.
     rows: Vec<Vector6>,
+    /// Names of the numbers of the first.
+    names: [String; 6],
     /// What they tell of the inputs, once no fault is left.
     inputs: Option<Tolerance>,
 }
@@ -166,7 +168,13 @@ fn look(
     let (statements, stated) = statements(&rest);
     let fault = worst(&rest).filter(|f| f.rows.len() <= most);
     let inputs = if fault.is_none() { inexact_inputs(&rest) } else { None };
-    Ok((fault, Look { statements, stated, rows: rest.rows, inputs }))
+    let names =
+        std::array::from_fn(
+            |k| {
+                if campaign.reads_poses { AXES[k].to_owned() } else { campaign.name_of(0, k) }
+            },
+        );
+    Ok((fault, Look { statements, stated, rows: rest.rows, names, inputs }))
 }
 
 /// Readings without single faults.
@@ -223,7 +231,7 @@ fn settled(mut examined: Examined, whole: &Examined, look: &Look, best: &Stateme
     if gain < BELIEVED || (is_level && from_data) {
         return examined;
     }
-    examined.findings.push(finding(best, gain));
+    examined.findings.push(finding(best, gain, &look.names));
     apply(&mut examined, &look.rows, best);
     examined
 }
@@ -332,7 +340,7 @@ fn apply(examined: &mut Examined, remainder: &[Vector6], best: &Statement) {
     }
 }
 
-fn finding(best: &Statement, gain: f64) -> Finding {
+fn finding(best: &Statement, gain: f64, names: &[String; 6]) -> Finding {
     let level = format!("{:.2} times the stated noise", best.level);
     let percent = |share: f64| format!("{:.0} %", 100.0 * share);
     let (kind, size, text, next) = match best.kind {
@@ -401,7 +409,7 @@ fn finding(best: &Statement, gain: f64) -> Finding {
                 format!(
                     "the six numbers of a reading are not equally good, or err together: {} scatters by {:.2} times the stated noise, \
                      {} by {:.2}; errors of {} and {} have a correlation of {correlation:.2}",
-                    AXES[least], sigma[least], AXES[most], sigma[most], AXES[j], AXES[i]
+                    names[least], sigma[least], names[most], sigma[most], names[j], names[i]
                 ),
                 "state the noise of every coordinate in sigma columns where they differ",
             )

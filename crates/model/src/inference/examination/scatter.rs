@@ -14,7 +14,7 @@ use statrs::function::gamma::ln_gamma;
 use super::BELIEVED;
 use super::remainder::Remainder;
 use crate::estimation::noise::{AxesCovariance, SharedReference, Structure};
-use crate::estimation::whitening::Filter;
+use crate::estimation::whitening::Filters;
 
 /// How well an instrument's noise is known, relative.
 const TOLERANCE: f64 = 0.1;
@@ -78,8 +78,8 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
             all.push(judge.blocks(&judge.records, reference(SharedReference::Repeat)));
         }
     }
-    if rest.campaign.reads_poses {
-        all.push(judge.drift());
+    all.push(judge.drift());
+    if judge.has_six_numbers() {
         let repeated = judge.rows.len() - judge.means.len();
         let readings = rest.freedom() / 6.0 + repeated as f64;
         all.extend(judge.axes().filter(|_| readings >= LEAST_READINGS));
@@ -97,8 +97,8 @@ struct Judge {
     /// Which of their numbers were read, and how many in all.
     read: Vec<[bool; 6]>,
     numbers: f64,
-    /// Line of each in the file.
-    lines: Vec<usize>,
+    /// Line of each in the file, and which of the blocks of numbers it has.
+    lines: Vec<[usize; 2]>,
     /// Rows of each group, pose, and repeat at a pose.
     groups: Vec<Vec<usize>>,
     poses: Vec<Vec<usize>>,
@@ -142,7 +142,12 @@ impl Judge {
             within: (all - between).max(0.0),
             is_stated: rest.campaign.noise.is_stated(),
             has_repeats: rows.len() > means.len(),
-            lines: rest.data.observations.iter().map(|o| usize::try_from(o.line).unwrap_or(0)).collect(),
+            lines: rest
+                .data
+                .observations
+                .iter()
+                .map(|o| [usize::try_from(o.line).unwrap_or(0), o.block])
+                .collect(),
             read: rest.data.observations.iter().map(|o| std::array::from_fn(|k| o.is_read(k))).collect(),
             numbers: rest.campaign.numbers as f64,
             rows,
@@ -152,6 +157,11 @@ impl Judge {
 
     fn numbers(&self) -> f64 {
         self.numbers
+    }
+
+    /// True when every row has the same six numbers: a covariance of them has no place for one that was not read, or for more.
+    fn has_six_numbers(&self) -> bool {
+        self.lines.iter().all(|[_, block]| *block == 0) && self.read.iter().flatten().all(|read| *read)
     }
 
     /// What a level costs that is not the stated one.
@@ -235,20 +245,29 @@ impl Judge {
 
     /// Half the logarithm of the determinant and the quadratic form of a drift with unit level.
     fn innovations(&self, share: f64, correlation: f64) -> (f64, f64) {
+        if self.read.iter().all(|row| row.iter().all(|&read| read)) {
+            return self.innovations_of([0, 1, 2, 3, 4, 5], share, correlation);
+        }
+        let each = (0..6).map(|k| self.innovations_of([k], share, correlation));
+        each.fold((0.0, 0.0), |sum, own| (sum.0 + own.0, sum.1 + own.1))
+    }
+
+    /// The same of coordinates that are read in the same rows.
+    fn innovations_of<const N: usize>(&self, of: [usize; N], share: f64, correlation: f64) -> (f64, f64) {
         let own = 1.0 - share;
         let loading = (share / own).sqrt();
-        let (mut half_log_det, mut square) = (3.0 * self.rows.len() as f64 * own.ln(), 0.0);
+        let (mut count, mut square) = (0_usize, 0.0);
         let mut variances = LogOfProduct::default();
-        let mut filter = Filter::<6>::default();
-        for (i, row) in self.rows.iter().enumerate() {
-            let distance = if i == 0 { 0 } else { self.lines[i].abs_diff(self.lines[i - 1]) };
+        let mut filters = Filters::<N>::default();
+        let read = self.rows.iter().zip(&self.lines).zip(&self.read).filter(|(_, read)| read[of[0]]);
+        for ((row, &line), _) in read {
             let (innovations, variance) =
-                filter.step((row / own.sqrt()).into(), loading, distance, correlation);
+                filters.step(line, of.map(|k| row[k] / own.sqrt()), loading, correlation);
             square += innovations.iter().map(|x| x * x).sum::<f64>() / variance;
             variances.push(variance);
+            count += 1;
         }
-        half_log_det += 3.0 * variances.value();
-        (half_log_det, square)
+        (0.5 * N as f64 * (count as f64 * own.ln() + variances.value()), square)
     }
 
     /// The coordinates of a reading have a covariance of their own; where nothing repeats, a law of the machine could look like it.

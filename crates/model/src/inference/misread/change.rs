@@ -1,6 +1,6 @@
 //! One thing that a file may mean otherwise than it says, and the file read that way.
 
-use hexbench_core::{Channel, Dataset, Hexapod, Measurand, Pose, SensorKind, Vector3, Wrench};
+use hexbench_core::{Dataset, Hexapod, Measurand, Pose, SensorKind, UNREAD, Vector3, Wrench};
 use nalgebra::Rotation3;
 
 use super::row_order::RowOrder;
@@ -49,14 +49,25 @@ pub enum Change {
     LoadHoldsReference,
     /// Rows belong together in another order.
     Rows(RowOrder),
-    /// A sensor reads with the other sign.
-    SensorReversed(&'static str),
-    /// Its numbers times a factor.
-    SensorScaled(&'static str, f64),
-    /// It looks at a point that is elsewhere by so much, mobile frame.
+    /// Sensors read with the other sign.
+    SensorReversed(Sensors),
+    /// Their numbers times a factor.
+    SensorScaled(Sensors, f64),
+    /// A sensor looks at a point that is elsewhere by so much, mobile frame.
     SensorMoved(&'static str, Vector3),
     /// It looks in a direction, or about an axis, that is turned by a rotation vector.
     SensorTurned(&'static str, Vector3),
+    /// The numbers of two sensors stand in each other's columns.
+    SensorsExchanged(&'static str, &'static str),
+}
+
+/// Sensors that share a sign or a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sensors {
+    /// The one of this name, or one number of it by the name of its column.
+    One(&'static str),
+    /// All of a kind, by its word in files.
+    All(&'static str),
 }
 
 /// Numbers that may have the other sign.
@@ -122,6 +133,8 @@ pub enum Target {
     Readings,
     /// The columns of the deflections as they stand, whatever their axes were.
     ReadingColumns,
+    /// The three numbers of every sensor that reads a point.
+    Points,
     /// Loads of both states: forces and moments as vectors.
     Wrench,
     /// The columns of the loads as they stand, whatever their axes were.
@@ -210,6 +223,24 @@ impl Change {
             Self::SensorReversed(_) => FindingKind::SensorSign,
             Self::SensorScaled(..) => FindingKind::SensorFactor,
             Self::SensorMoved(..) => FindingKind::SensorPlace,
+            Self::SensorsExchanged(..) => FindingKind::SensorsExchanged,
+        }
+    }
+
+    /// True for mistakes of one kind, which are not made side by side: two sensors may be wrong, one of them in one way.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        match (self.sensors(), other.sensors()) {
+            (Some(one), Some(other)) => one == other,
+            _ => self.kind() == other.kind(),
+        }
+    }
+
+    /// The sensors that it alone concerns.
+    fn sensors(&self) -> Option<Sensors> {
+        match *self {
+            Self::SensorReversed(which) | Self::SensorScaled(which, _) => Some(which),
+            Self::SensorMoved(name, _) | Self::SensorTurned(name, _) => Some(Sensors::One(name)),
+            _ => None,
         }
     }
 
@@ -228,7 +259,8 @@ impl Change {
             | Self::SensorReversed(_)
             | Self::SensorScaled(..)
             | Self::SensorMoved(..)
-            | Self::SensorTurned(..) => true,
+            | Self::SensorTurned(..)
+            | Self::SensorsExchanged(..) => true,
             Self::Scaled(group, _) => !matches!(
                 group,
                 Group::PosePositions
@@ -240,7 +272,11 @@ impl Change {
             Self::Renamed(target, _) | Self::Turned(target, _) => {
                 matches!(
                     target,
-                    Target::Readings | Target::ReadingColumns | Target::Wrench | Target::WrenchColumns
+                    Target::Readings
+                        | Target::ReadingColumns
+                        | Target::Points
+                        | Target::Wrench
+                        | Target::WrenchColumns
                 )
             }
             Self::Origin(origin, _) => {
@@ -262,12 +298,12 @@ impl Change {
             Self::Scaled(
                 Group::Translations | Group::Rotations | Group::Readings | Group::Reading(_) | Group::Noise,
                 _
-            )
+            ) | Self::SensorScaled(..)
         )
     }
 
     /// True when it changes all readings alike, or what is stated of their noise.
-    pub(super) fn is_of_all_readings(&self) -> bool {
+    pub(crate) fn is_of_all_readings(&self) -> bool {
         matches!(self, Self::Scaled(Group::Readings | Group::Noise, _))
     }
 
@@ -289,10 +325,9 @@ impl Change {
             order.apply(data);
             return;
         }
-        match *self {
-            Self::SensorReversed(name) => return scale_sensor(hexapod, data, name, -1.0),
-            Self::SensorScaled(name, factor) => return scale_sensor(hexapod, data, name, factor),
-            _ => {}
+        self.multiply(data, &hexapod.sensors);
+        if self.rename_columns(data, &hexapod.sensors) {
+            return;
         }
         if self.needs_rotation_vectors() {
             to_rotation_vectors(data);
@@ -373,6 +408,14 @@ impl Change {
                     *along = Rotation3::new(by) * *along;
                 }
             }
+            Self::SensorsExchanged(one, other) => {
+                let at = |name: &str| hexapod.sensors.iter().position(|s| s.name == name);
+                if let (Some(one), Some(other)) = (at(one), at(other)) {
+                    let kind = hexapod.sensors[one].kind;
+                    hexapod.sensors[one].kind = hexapod.sensors[other].kind;
+                    hexapod.sensors[other].kind = kind;
+                }
+            }
             _ => {}
         }
     }
@@ -399,7 +442,7 @@ impl Change {
                 }
                 Target::Poses => row.pose = axes.pose(&row.pose),
                 Target::PoseAngleColumns => row.pose.angles = axes.renamed(&row.pose.angles),
-                Target::Joints | Target::BaseJoints | Target::PlatformJoints => {}
+                Target::Points | Target::Joints | Target::BaseJoints | Target::PlatformJoints => {}
             },
             Self::Turned(target, by) => {
                 let by = Rotation3::new(by);
@@ -416,6 +459,7 @@ impl Change {
                         row.pose = Pose::from_rotation(by * row.pose.translation, &r);
                     }
                     Target::PoseAngleColumns
+                    | Target::Points
                     | Target::Joints
                     | Target::BaseJoints
                     | Target::PlatformJoints => {}
@@ -477,7 +521,8 @@ impl Change {
             | Self::SensorReversed(_)
             | Self::SensorScaled(..)
             | Self::SensorMoved(..)
-            | Self::SensorTurned(..) => {}
+            | Self::SensorTurned(..)
+            | Self::SensorsExchanged(..) => {}
         }
     }
 }
@@ -499,30 +544,14 @@ fn kind_of<'a>(hexapod: &'a mut Hexapod, name: &str) -> Option<&'a mut SensorKin
     hexapod.sensors.iter_mut().find(|s| s.name == name).map(|s| &mut s.kind)
 }
 
-/// The numbers of one sensor times a factor.
-fn scale_sensor(hexapod: &Hexapod, data: &mut Dataset, name: &str, factor: f64) {
-    let Some(index) = hexapod.sensors.iter().position(|s| s.name == name) else { return };
-    let blocks = data.blocks.clone();
-    for row in &mut data.observations {
-        let channels = blocks.get(row.block).copied().unwrap_or(Channel::POSE);
-        for (value, channel) in row.measured.iter_mut().zip(channels) {
-            if matches!(channel, Channel::Sensor { sensor, .. } if sensor == index) {
-                *value *= factor;
-            }
-        }
-    }
-}
-
 /// The load of the reference state so many times on top of that of the loaded one.
 fn add_reference(row: &mut hexbench_core::Observation, times: f64) {
     row.wrench.force += times * row.reference.force;
     row.wrench.moment += times * row.reference.moment;
 }
 
+/// Loads with the other sign; measured numbers are multiplied by what they read.
 fn reverse(signed: Signed, row: &mut hexbench_core::Observation) {
-    let readings = |row: &mut hexbench_core::Observation, range: std::ops::Range<usize>| {
-        row.measured[range].iter_mut().for_each(|x| *x = -*x);
-    };
     let loads = |row: &mut hexbench_core::Observation, range: std::ops::Range<usize>| {
         for_both(row, |w| {
             let mut all = w.to_array();
@@ -531,25 +560,17 @@ fn reverse(signed: Signed, row: &mut hexbench_core::Observation) {
         });
     };
     match signed {
-        Signed::Readings => readings(row, 0..6),
-        Signed::Translations => readings(row, 0..3),
-        Signed::Rotations => readings(row, 3..6),
-        Signed::Reading(k) => readings(row, usize::from(k)..usize::from(k) + 1),
         Signed::Wrench => loads(row, 0..6),
         Signed::Forces => loads(row, 0..3),
         Signed::Moments => loads(row, 3..6),
         Signed::Load(k) => loads(row, usize::from(k)..usize::from(k) + 1),
         Signed::Reference => row.reference = Wrench::from_array(row.reference.to_array().map(|x| -x)),
+        Signed::Readings | Signed::Translations | Signed::Rotations | Signed::Reading(_) => {}
     }
 }
 
+/// Loads, poses and noise times a factor.
 fn scale(group: Group, factor: f64, row: &mut hexbench_core::Observation) {
-    if matches!(group, Group::Translations | Group::Readings) {
-        row.measured[..3].iter_mut().for_each(|x| *x *= factor);
-    }
-    if matches!(group, Group::Rotations | Group::Readings) {
-        row.measured[3..].iter_mut().for_each(|x| *x *= factor);
-    }
     if matches!(group, Group::Forces | Group::Loads) {
         for_both(row, |w| w.force *= factor);
     }
@@ -559,13 +580,15 @@ fn scale(group: Group, factor: f64, row: &mut hexbench_core::Observation) {
     match group {
         Group::PosePositions => row.pose.translation *= factor,
         Group::PoseAngles => row.pose.angles *= factor,
-        Group::Reading(k) => row.measured[usize::from(k)] *= factor,
         Group::Load(k) => for_both(row, |w| {
             let mut all = w.to_array();
             all[usize::from(k)] *= factor;
             *w = Wrench::from_array(all);
         }),
-        Group::Noise => row.sigma = row.sigma.map(|s| s.map(|x| x * factor)),
+        Group::Noise => {
+            let scaled = |x: f64| if x < UNREAD { x * factor } else { x };
+            row.sigma = row.sigma.map(|s| s.map(scaled));
+        }
         _ => {}
     }
 }

@@ -9,6 +9,7 @@ mod change;
 mod copies;
 mod hypotheses;
 mod name;
+mod numbers;
 mod refine;
 mod row_order;
 mod sample;
@@ -21,7 +22,7 @@ use std::borrow::Cow;
 use hexbench_core::{Dataset, Hexapod};
 use rayon::prelude::*;
 
-pub use self::change::{Change, Group, JointCoordinate, ReferencePoint, Signed, Target};
+pub use self::change::{Change, Group, JointCoordinate, ReferencePoint, Sensors, Signed, Target};
 pub use self::copies::{copies, held_in};
 pub use self::name::{ChangeError, KINDS, names};
 pub use self::row_order::RowOrder;
@@ -158,8 +159,8 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
     }
     let search = Search { sample: &sample, written: written.as_ref() };
     let mut ways = search.singles(hexapod, data);
-    if !data.has_other_readings() && ways.first().is_none_or(|best| best.level > SOUND_LEVEL) {
-        let second = search.pairs(&ways);
+    if ways.first().is_none_or(|best| best.level > SOUND_LEVEL) {
+        let second = search.pairs(hexapod, data, &ways);
         ways.extend(second);
         sort(&mut ways);
     }
@@ -175,12 +176,11 @@ pub fn other_readings(hexapod: &Hexapod, data: &Dataset) -> Option<Readings> {
 }
 
 fn is_sound(springs: &Springs, sample: &Sample) -> bool {
-    let scatter = springs.scatter.max(springs.scatter.recip());
     let excess = (springs.level.powi(2) - 1.0) / (2.0 / sample.freedom()).sqrt();
     springs.level < SOUND_LEVEL
         && excess < SOUND_SIGMAS
         && springs.negative == 0
-        && (!sample.noise_is_stated || scatter < SOUND_SCATTER)
+        && (!sample.noise_is_stated || springs.scatter < SOUND_SCATTER)
 }
 
 /// Numbers that any small factor explains alike are in no other unit: they are only taken out of the account.
@@ -227,26 +227,28 @@ impl Search<'_> {
         let all =
             if is_of_sensors { sensors::singles(hexapod, data) } else { hypotheses::singles(hexapod, data) };
         let mut ways = self.looked_at(all.into_iter().map(|change| vec![change]).collect());
-        if !is_of_sensors {
-            ways.extend(refine::refined(self.sample).into_iter().filter_map(|change| self.way(vec![change])));
-            ways.extend(hypotheses::row_orders().filter_map(|change| self.reordered(hexapod, data, change)));
-        }
+        ways.extend(refine::refined(self.sample).into_iter().filter_map(|change| self.way(vec![change])));
+        ways.extend(hypotheses::row_orders().filter_map(|change| self.reordered(hexapod, data, change)));
         sort(&mut ways);
         ways
     }
 
     /// A second mistake beside each of the best single ones.
-    fn pairs(&self, singles: &[Way]) -> Vec<Way> {
+    fn pairs(&self, hexapod: &Hexapod, data: &Dataset, singles: &[Way]) -> Vec<Way> {
         let mut first: Vec<&Way> = Vec::new();
         for way in singles.iter().filter(|w| !matches!(w.changes[..], [Change::Rows(_)])) {
-            let known = first.iter().any(|f| f.changes[0].kind() == way.changes[0].kind());
+            let known = first.iter().any(|f| f.changes[0].is_like(&way.changes[0]));
             if !known && first.len() < FIRST_OF_TWO {
                 first.push(way);
             }
         }
-        let second = hypotheses::cheap(&self.sample.data);
+        let second = if data.has_other_readings() {
+            sensors::cheap(hexapod, data)
+        } else {
+            hypotheses::cheap(&self.sample.data)
+        };
         let pairs = first.iter().flat_map(|f| {
-            let others = second.iter().filter(|s| s.kind() != f.changes[0].kind());
+            let others = second.iter().filter(|s| !s.is_like(&f.changes[0]));
             others.map(move |&s| vec![f.changes[0], s])
         });
         let pairs = pairs.collect();
@@ -308,7 +310,7 @@ fn admissible(sample: &Sample, changes: &[Change]) -> Option<Springs> {
     }
     let springs = sample.springs(changes).filter(|springs| springs.negative == 0)?;
     let of_the_scale = sample.noise_is_stated && changes.iter().any(Change::is_of_the_scale);
-    let too_quiet = of_the_scale && sample.levels(changes)?.min() < QUIETEST;
+    let too_quiet = of_the_scale && sample.quietest(changes)? < QUIETEST;
     (!too_quiet).then_some(springs)
 }
 

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use hexbench_core::{Vector3, Wrench};
 
-use super::change::{Change, Group, JointCoordinate, ReferencePoint, Signed, Target};
+use super::change::{Change, Group, JointCoordinate, ReferencePoint, Sensors, Signed, Target};
 use super::row_order::RowOrder;
 use super::turn::{AngleOrder, SignedAxes};
 use crate::effects::intern;
@@ -59,9 +59,10 @@ const GROUPS: [(&str, Group); 24] = [
     ("mz", Group::Load(5)),
 ];
 
-const TARGETS: [(&str, Target); 9] = [
+const TARGETS: [(&str, Target); 10] = [
     ("readings", Target::Readings),
     ("reading-columns", Target::ReadingColumns),
+    ("points", Target::Points),
     ("wrench", Target::Wrench),
     ("wrench-columns", Target::WrenchColumns),
     ("poses", Target::Poses),
@@ -155,10 +156,33 @@ impl fmt::Display for Change {
             Self::LoadIsChange => f.write_str("change"),
             Self::LoadHoldsReference => f.write_str("twice"),
             Self::Rows(order) => f.write_str(order.word()),
-            Self::SensorReversed(name) => f.write_str(name),
-            Self::SensorScaled(name, factor) => write!(f, "{name}*{}", short(*factor)),
+            Self::SensorReversed(which) => write!(f, "{which}"),
+            Self::SensorScaled(which, factor) => write!(f, "{which}*{}", short(*factor)),
             Self::SensorMoved(name, by) => write!(f, "{name}:{}", triple(&(by * 1e3))),
             Self::SensorTurned(name, by) => write!(f, "{name}:turned:{}", triple(&by.map(f64::to_degrees))),
+            Self::SensorsExchanged(one, other) => write!(f, "{one},{other}"),
+        }
+    }
+}
+
+/// What stands before the kind of sensor where all of them are meant.
+const ALL: &str = "all:";
+
+impl fmt::Display for Sensors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::One(name) => f.write_str(name),
+            Self::All(kind) => write!(f, "{ALL}{kind}"),
+        }
+    }
+}
+
+impl Sensors {
+    fn parsed(text: &str) -> Option<Self> {
+        let word = |text: &str| (!text.is_empty()).then(|| intern::text(text));
+        match text.strip_prefix(ALL) {
+            Some(kind) => word(kind).map(Self::All),
+            None => word(text).map(Self::One),
         }
     }
 }
@@ -200,7 +224,7 @@ pub enum ChangeError {
 }
 
 /// Kinds by which a file may be read, with what they take.
-pub const KINDS: [(&str, &str); 20] = [
+pub const KINDS: [(&str, &str); 21] = [
     ("deflection-sign", "reversed, translations, da, db or dc"),
     ("rotation-sign", "reversed, dalpha, dbeta or dgamma"),
     ("wrench-sign", "reversed, forces, reference, fx, fy or fz"),
@@ -213,7 +237,7 @@ pub const KINDS: [(&str, &str); 20] = [
     ),
     (
         "axes",
-        "WHAT:AXES as in readings:y,-x,z, or WHAT:turned:RX,RY,RZ in degrees; what: readings, reading-columns, wrench, \
+        "WHAT:AXES as in readings:y,-x,z, or WHAT:turned:RX,RY,RZ in degrees; what: readings, reading-columns, points, wrench, \
          wrench-columns, poses, pose-angle-columns, joints, base-joints, platform-joints, or with turned a sensor",
     ),
     ("leg-order", "the six platform joints in their order, as in 2,3,4,5,6,1"),
@@ -240,9 +264,10 @@ pub const KINDS: [(&str, &str); 20] = [
         "loads-from-below, loads-from-above, loads-reversed, load-of-the-next, load-of-the-last, poses-from-below, poses-from-above, \
          readings-from-below, readings-from-above or readings-reversed",
     ),
-    ("sensor-sign", "the name of a sensor"),
-    ("sensor-factor", "SENSOR*FACTOR as in g1*25.4"),
+    ("sensor-sign", "a sensor or one number of it, as in ball_x, or all:KIND as in all:distance"),
+    ("sensor-factor", "SENSOR*FACTOR as in g1*25.4, or all:KIND*FACTOR"),
     ("sensor-place", "SENSOR:X,Y,Z in mm, by which its point is elsewhere"),
+    ("sensors-exchanged", "the two sensors, as in g1,g2"),
 ];
 
 impl FromStr for Change {
@@ -302,15 +327,20 @@ fn parsed(kind: &str, given: &str) -> Option<Change> {
         "reference-missing" if given == "change" => Some(Change::LoadIsChange),
         "reference-missing" if given == "twice" => Some(Change::LoadHoldsReference),
         "reference-missing" => numbers(given).map(|w| Change::Preload(Wrench::from_array(w))),
-        "sensor-sign" => (!given.is_empty()).then(|| Change::SensorReversed(intern::text(given))),
+        "sensor-sign" => Sensors::parsed(given).map(Change::SensorReversed),
         "sensor-factor" => {
-            let (name, factor) = given.split_once('*')?;
+            let (which, factor) = given.split_once('*')?;
             let factor: f64 = factor.parse().ok()?;
-            (factor.is_finite() && factor > 0.0).then(|| Change::SensorScaled(intern::text(name), factor))
+            (factor.is_finite() && factor > 0.0)
+                .then_some(Change::SensorScaled(Sensors::parsed(which)?, factor))
         }
         "sensor-place" => {
             let (name, by) = given.split_once(':')?;
             Some(Change::SensorMoved(intern::text(name), Vector3::from(numbers(by)?) * 1e-3))
+        }
+        "sensors-exchanged" => {
+            let (one, other) = given.split_once(',')?;
+            Some(Change::SensorsExchanged(intern::text(one), intern::text(other)))
         }
         "row-order" => RowOrder::ALL.into_iter().find(|o| o.word() == given).map(Change::Rows),
         _ => {

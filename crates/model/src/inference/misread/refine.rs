@@ -109,7 +109,6 @@ impl Sized {
 pub(super) fn refined(sample: &Sample) -> Vec<Change> {
     let coarse = sample.coarse();
     let mut all = vec![
-        Sized::Turn(Target::Readings),
         Sized::Turn(Target::Wrench),
         Sized::Turn(Target::Joints),
         Sized::Height(ReferencePoint::Poses),
@@ -117,6 +116,10 @@ pub(super) fn refined(sample: &Sample) -> Vec<Change> {
         Sized::Preload,
         Sized::Weight,
     ];
+    if sample.reads_poses {
+        // Turned axes mix numbers, and take all of them.
+        all.push(Sized::Turn(Target::Readings));
+    }
     all.extend(promising_joints(&coarse));
     let at_best = |mistake: &Sized| {
         let first = minimized(&coarse, *mistake, mistake.start(&coarse))?;

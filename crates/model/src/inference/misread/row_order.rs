@@ -81,34 +81,61 @@ impl RowOrder {
     /// Puts together what belongs together. The sequence is taken as closed: the last row goes on with the first, as it does where
     /// a column was rolled; where it was cut, one row is off.
     pub(super) fn apply(self, data: &mut Dataset) {
-        let rows = &mut data.observations;
+        let mut rows: Vec<Row> = data.rows().map(Row::of).collect();
         match self {
-            Self::LoadsBelow => shift_loads(rows, Neighbor::Below),
-            Self::LoadsAbove => shift_loads(rows, Neighbor::Above),
+            Self::LoadsBelow => shift_loads(&mut rows, Neighbor::Below),
+            Self::LoadsAbove => shift_loads(&mut rows, Neighbor::Above),
             Self::LoadsReversed => {
-                for block in rows.chunk_by_mut(|a, b| a.pose == b.pose) {
-                    let loads: Vec<_> = block.iter().rev().map(loads).collect();
+                for block in rows.chunk_by_mut(|a, b| a.at.pose == b.at.pose) {
+                    let loads: Vec<_> = block.iter().rev().map(Row::loads).collect();
                     for (row, loads) in block.iter_mut().zip(loads) {
-                        set_loads(row, loads);
+                        row.set_loads(loads);
                     }
                 }
             }
-            Self::LoadOfNext => shift_loads_at_poses(rows, Neighbor::Below),
-            Self::LoadOfLast => shift_loads_at_poses(rows, Neighbor::Above),
-            Self::ReadingsBelow => shift_readings(rows, Neighbor::Below),
-            Self::ReadingsAbove => shift_readings(rows, Neighbor::Above),
-            Self::ReadingsReversed => {
-                let all: Vec<_> = rows.iter().rev().map(|row| row.measured).collect();
-                rows.iter_mut().zip(all).for_each(|(row, measured)| row.measured = measured);
-            }
-            Self::PosesBelow => shift_poses(rows, Neighbor::Below),
-            Self::PosesAbove => shift_poses(rows, Neighbor::Above),
+            Self::LoadOfNext => shift_loads_at_poses(&mut rows, Neighbor::Below),
+            Self::LoadOfLast => shift_loads_at_poses(&mut rows, Neighbor::Above),
+            Self::ReadingsBelow => set_readings(&mut rows, |all| Neighbor::Below.rolled(all)),
+            Self::ReadingsAbove => set_readings(&mut rows, |all| Neighbor::Above.rolled(all)),
+            Self::ReadingsReversed => set_readings(&mut rows, |all| all.reverse()),
+            Self::PosesBelow => shift_poses(&mut rows, Neighbor::Below),
+            Self::PosesAbove => shift_poses(&mut rows, Neighbor::Above),
         }
+        data.observations = rows.iter().flat_map(Row::observations).collect();
     }
 }
 
-fn loads(row: &Observation) -> (Wrench, Wrench) {
-    (row.wrench, row.reference)
+/// A row of the file: its inputs, and what was read.
+struct Row {
+    at: Observation,
+    readings: Vec<Reading>,
+}
+
+/// Up to six numbers: what they are, their values and their standard deviations.
+type Reading = (usize, [f64; 6], Option<[f64; 6]>);
+
+impl Row {
+    fn of(observations: &[Observation]) -> Self {
+        let readings = observations.iter().map(|o| (o.block, o.measured, o.sigma)).collect();
+        Self { at: observations[0], readings }
+    }
+
+    fn observations(&self) -> impl Iterator<Item = Observation> {
+        self.readings.iter().map(|&(block, measured, sigma)| Observation {
+            block,
+            measured,
+            sigma,
+            ..self.at
+        })
+    }
+
+    fn loads(&self) -> (Wrench, Wrench) {
+        (self.at.wrench, self.at.reference)
+    }
+
+    fn set_loads(&mut self, (wrench, reference): (Wrench, Wrench)) {
+        (self.at.wrench, self.at.reference) = (wrench, reference);
+    }
 }
 
 /// Where a row takes from what is its own.
@@ -120,55 +147,46 @@ enum Neighbor {
 
 impl Neighbor {
     /// Every entry is that of its neighbor; the sequence is closed.
-    fn rolled<T>(self, mut all: Vec<T>) -> Vec<T> {
+    fn rolled<T>(self, all: &mut [T]) {
         if !all.is_empty() {
             match self {
                 Self::Below => all.rotate_left(1),
                 Self::Above => all.rotate_right(1),
             }
         }
-        all
     }
 }
 
-fn set_loads(row: &mut Observation, (wrench, reference): (Wrench, Wrench)) {
-    (row.wrench, row.reference) = (wrench, reference);
+fn shift_loads(rows: &mut [Row], from: Neighbor) {
+    let mut all: Vec<_> = rows.iter().map(Row::loads).collect();
+    from.rolled(&mut all);
+    rows.iter_mut().zip(all).for_each(|(row, loads)| row.set_loads(loads));
 }
 
-fn shift_loads(rows: &mut [Observation], from: Neighbor) {
-    let all = from.rolled(rows.iter().map(loads).collect());
-    for (row, loads) in rows.iter_mut().zip(all) {
-        set_loads(row, loads);
-    }
-}
-
-fn shift_readings(rows: &mut [Observation], from: Neighbor) {
-    let all = from.rolled(rows.iter().map(|row| row.measured).collect());
-    for (row, measured) in rows.iter_mut().zip(all) {
-        row.measured = measured;
-    }
+fn set_readings(rows: &mut [Row], reorder: impl FnOnce(&mut [Vec<Reading>])) {
+    let mut all: Vec<_> = rows.iter_mut().map(|row| std::mem::take(&mut row.readings)).collect();
+    reorder(&mut all);
+    rows.iter_mut().zip(all).for_each(|(row, readings)| row.readings = readings);
 }
 
 /// At every pose each run of rows with one load takes the load of a neighboring run.
-fn shift_loads_at_poses(rows: &mut [Observation], from: Neighbor) {
-    let same = |a: &Observation, b: &Observation| loads(a) == loads(b);
-    for block in rows.chunk_by_mut(|a, b| a.pose == b.pose) {
-        let all = from.rolled(block.chunk_by(same).map(|run| loads(&run[0])).collect());
+fn shift_loads_at_poses(rows: &mut [Row], from: Neighbor) {
+    let same = |a: &Row, b: &Row| a.loads() == b.loads();
+    for block in rows.chunk_by_mut(|a, b| a.at.pose == b.at.pose) {
+        let mut all: Vec<_> = block.chunk_by(same).map(|run| run[0].loads()).collect();
+        from.rolled(&mut all);
         for (run, loads) in block.chunk_by_mut(same).zip(all) {
-            for row in run {
-                set_loads(row, loads);
-            }
+            run.iter_mut().for_each(|row| row.set_loads(loads));
         }
     }
 }
 
 /// Every block of rows with one pose takes the pose of a neighboring block.
-fn shift_poses(rows: &mut [Observation], from: Neighbor) {
-    let same = |a: &Observation, b: &Observation| a.pose == b.pose;
-    let all = from.rolled(rows.chunk_by(same).map(|block| block[0].pose).collect());
+fn shift_poses(rows: &mut [Row], from: Neighbor) {
+    let same = |a: &Row, b: &Row| a.at.pose == b.at.pose;
+    let mut all: Vec<_> = rows.chunk_by(same).map(|block| block[0].at.pose).collect();
+    from.rolled(&mut all);
     for (block, pose) in rows.chunk_by_mut(same).zip(all) {
-        for row in block {
-            row.pose = pose;
-        }
+        block.iter_mut().for_each(|row| row.at.pose = pose);
     }
 }

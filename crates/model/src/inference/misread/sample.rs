@@ -14,13 +14,14 @@
 //! larger than stated by what springs do not explain; repeats may scatter a few times more or less than stated, not a thousand times.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
-use hexbench_core::{Channel, Dataset, Hexapod, Matrix6, Measurand, Observation, UNREAD, Vector6};
+use hexbench_core::{Channel, Dataset, Hexapod, Matrix6, Measurand, Observation, Sensor, UNREAD, Vector6};
 use nalgebra::DVector;
 
 use super::AsMeant;
 use super::change::{Change, Group};
-use crate::estimation::campaign::{Campaign, ConditionReadings};
+use crate::estimation::campaign::{Campaign, ConditionReadings, row_sigma};
 use crate::estimation::equilibrium::observer_of;
 use crate::estimation::noise::Noise;
 use crate::machine::geometry::Machine;
@@ -34,6 +35,8 @@ const FEW_NUMBERS: usize = 6 * 24;
 const LINEAR_SHARE: f64 = 2e-3;
 /// Repeats may scatter so many times more or less than stated.
 const NOISE_OFF: f64 = 3.0;
+/// Repeats of a sensor that tell how much it scatters, as degrees of freedom.
+const SOME_REPEATS: f64 = 12.0;
 /// A compliance this many standard deviations below zero is no spring.
 const NEGATIVE_SIGMAS: f64 = 3.0;
 
@@ -45,21 +48,29 @@ pub(super) struct Sample {
     /// Averaged readings.
     pub(super) data: Dataset,
     /// True when they are full poses.
-    reads_poses: bool,
+    pub(super) reads_poses: bool,
     /// Standard deviations of the averages.
     sigma: Vec<Vector6>,
     /// Conditions of the file for each one here.
     stands_for: f64,
-    /// Squares of repeats about their average over the stated variance, per coordinate of a pose.
-    repeats: Vector6,
-    /// Their degrees of freedom, per coordinate.
-    repeats_dof: f64,
+    /// Repeats about their average, for each number that the file has.
+    repeats: Vec<Repeats>,
     /// Legs at each pose; none at singular ones.
     legs: Vec<Option<Legs>>,
     /// Noise of a reading.
     noise: Noise,
     /// True where somebody has stated it.
     pub(super) noise_is_stated: bool,
+}
+
+/// Repeats of a number about their average.
+#[derive(Debug, Clone, Copy)]
+struct Repeats {
+    channel: Channel,
+    /// Their squares over the stated variance.
+    squares: f64,
+    /// Their degrees of freedom.
+    dof: f64,
 }
 
 /// Springs fitted to a file read in one way.
@@ -119,30 +130,18 @@ impl Sample {
         let means: usize = campaign.groups.iter().map(ConditionReadings::numbers).sum();
         let chosen: Vec<_> =
             spread(campaign.groups.len(), means, MOST_NUMBERS).map(|i| &campaign.groups[i]).collect();
-        let reads_poses = !data.has_other_readings();
-        let (mut repeats, mut dof) = (Vector6::zeros(), 0.0);
-        for group in campaign.groups.iter().filter(|_| reads_poses) {
-            let sigma = campaign.noise.sigma();
-            for &i in &group.rows {
-                let row = &data.observations[i as usize];
-                let sigma = row.sigma.unwrap_or(sigma);
-                let off = campaign.axes.difference(&group.mean.measured, &row.measured);
-                repeats += Vector6::from_fn(|k, _| (off[k] / sigma[k]).powi(2));
-            }
-            dof += (group.rows.len() - 1) as f64;
-        }
-        let means = chosen.iter().map(|g| g.mean).collect();
-        let thinned = Dataset { observations: means, ..like(data) };
-        let sigma = chosen.iter().map(|g| Vector6::from_column_slice(&g.sigma)).collect();
+        let sigma: Vec<Vector6> = chosen.iter().map(|g| sigma_of(g)).collect();
+        let means =
+            chosen.iter().zip(&sigma).map(|(g, s)| Observation { sigma: Some((*s).into()), ..g.mean });
+        let thinned = Dataset { observations: means.collect(), ..like(data) };
         let legs = legs(hexapod, &thinned);
         Self {
             hexapod: hexapod.clone(),
             data: thinned,
-            reads_poses,
+            reads_poses: !data.has_other_readings(),
             sigma,
             stands_for: campaign.groups.len() as f64 / chosen.len() as f64,
-            repeats,
-            repeats_dof: dof,
+            repeats: repeats(data, campaign),
             legs,
             noise: campaign.noise,
             noise_is_stated: campaign.noise.is_stated(),
@@ -165,19 +164,18 @@ impl Sample {
     /// The springs of the file read with changes, one after the other; none where the machine is singular.
     pub(super) fn springs(&self, changes: &[Change]) -> Option<Springs> {
         let mut normal = Normal::default();
-        self.whitened(changes, LINEAR_SHARE, |row| normal.add(&row))?;
+        self.whitened(changes, Over::Model, |row| normal.add(&row))?;
         self.judged(&normal, &self.factors(changes))
     }
 
     /// Readings less what the springs explain of them, over the noise, of the file read with changes; six for each condition.
     pub(super) fn residuals(&self, changes: &[Change]) -> Option<DVector<f64>> {
-        self.residuals_over(changes, LINEAR_SHARE)
+        self.residuals_over(changes, Over::Model)
     }
 
-    /// The same over the noise and a share of the readings.
-    fn residuals_over(&self, changes: &[Change], share: f64) -> Option<DVector<f64>> {
+    fn residuals_over(&self, changes: &[Change], over: Over) -> Option<DVector<f64>> {
         let mut rows = Vec::with_capacity(self.data.observations.len());
-        self.whitened(changes, share, |row| rows.push(row))?;
+        self.whitened(changes, over, |row| rows.push(row))?;
         let mut normal = Normal::default();
         for row in &rows {
             normal.add(row);
@@ -190,26 +188,28 @@ impl Sample {
         Some(DVector::from_iterator(6 * rows.len(), all))
     }
 
-    /// Root mean square of the residuals over the stated noise, per coordinate.
-    pub(super) fn levels(&self, changes: &[Change]) -> Option<Vector6> {
-        let all = self.residuals_over(changes, 0.0)?;
-        let conditions = self.data.observations.len();
-        let freedom = self.freedom() / 6.0;
-        Some(Vector6::from_fn(|k, _| {
-            let sum: f64 = (0..conditions).map(|c| all[6 * c + k].powi(2)).sum();
-            (sum / freedom).sqrt()
-        }))
+    /// Root mean square of the residuals over the stated noise, of the quietest of all columns.
+    pub(super) fn quietest(&self, changes: &[Change]) -> Option<f64> {
+        let all = self.residuals_over(changes, Over::Noise)?;
+        let mut columns: BTreeMap<(usize, usize), (f64, f64)> = BTreeMap::new();
+        for (c, (row, sigma)) in self.data.observations.iter().zip(&self.sigma).enumerate() {
+            for k in (0..6).filter(|&k| sigma[k] < UNREAD) {
+                let (sum, count) = columns.entry((row.block, k)).or_default();
+                (*sum, *count) = (*sum + all[6 * c + k].powi(2), *count + 1.0);
+            }
+        }
+        let free = self.freedom() / self.numbers() as f64;
+        columns.into_values().map(|(sum, count)| (sum / (count * free)).sqrt()).min_by(f64::total_cmp)
     }
 
-    /// Columns of the springs and readings of every condition of the file read with changes, over the noise and a share of the
-    /// readings; none at a singular pose.
-    fn whitened(&self, changes: &[Change], share: f64, mut take: impl FnMut(Whitened)) -> Option<()> {
+    /// Columns of the springs and readings of every condition of the file read with changes; none at a singular pose.
+    fn whitened(&self, changes: &[Change], over: Over, mut take: impl FnMut(Whitened)) -> Option<()> {
         let AsMeant { hexapod, data, .. } = AsMeant::of(&self.hexapod, &self.data, None, changes);
         let kept = changes.iter().all(Change::keeps_legs);
         let legs = if kept { Cow::Borrowed(&self.legs) } else { Cow::Owned(legs(&hexapod, &data)) };
         let factors = self.factors(changes);
         let reads = if self.reads_poses { motions(&data) } else { as_read(&data) };
-        let floor = Floor::of(&hexapod, &data, &reads, share);
+        let floor = Floor::of(&hexapod, &data, &reads, over);
         for (((row, read), legs), sigma) in
             data.observations.iter().zip(&reads).zip(legs.iter()).zip(&self.sigma)
         {
@@ -233,27 +233,11 @@ impl Sample {
         Some(())
     }
 
-    fn factors(&self, changes: &[Change]) -> Factors {
-        let mut all = Factors { translation: 1.0, rotation: 1.0, sensor: None, noise: None };
-        let mut noise = 1.0;
-        for change in changes {
-            match change {
-                Change::Scaled(Group::Translations, factor) => all.translation *= factor,
-                Change::Scaled(Group::Rotations, factor) => all.rotation *= factor,
-                Change::Scaled(Group::Readings, factor) => {
-                    all.translation *= factor;
-                    all.rotation *= factor;
-                }
-                Change::Scaled(Group::Noise, factor) => noise *= factor,
-                Change::SensorScaled(name, factor) => {
-                    let index = self.hexapod.sensors.iter().position(|s| s.name == **name);
-                    all.sensor = index.map(|index| (index, *factor));
-                }
-                _ => {}
-            }
-        }
-        all.noise = self.noise_is_stated.then_some(noise);
-        all
+    fn factors<'a>(&'a self, changes: &'a [Change]) -> Factors<'a> {
+        let of =
+            |change: &Change| if let Change::Scaled(Group::Noise, factor) = change { *factor } else { 1.0 };
+        let noise = self.noise_is_stated.then(|| changes.iter().map(of).product());
+        Factors { changes, sensors: &self.hexapod.sensors, noise }
     }
 
     fn judged(&self, normal: &Normal, factors: &Factors) -> Option<Springs> {
@@ -262,23 +246,32 @@ impl Sample {
         let variance = (chi2 / freedom).max(1.0);
         let spread = numbers * (variance.ln() + chi2 / freedom / variance);
         let lack = self.stands_for * (spread - 2.0 * normal.density);
-        let of_pose = |k: usize| factors.reading(Channel::Pose(k)) / factors.noise(Channel::Pose(k));
-        let (mut repeats, mut scatter) = (0.0, 1.0);
-        if self.repeats_dof > 0.0 {
-            let scale = Vector6::from_fn(|k, _| of_pose(k).powi(2));
-            let squares = self.repeats.component_mul(&scale) / self.repeats_dof;
-            scatter = squares.mean().sqrt();
-            if self.noise_is_stated {
-                let cost = |v: f64| {
-                    let level = v.clamp(NOISE_OFF.powi(-2), NOISE_OFF.powi(2));
-                    self.repeats_dof * (level.ln() + v / level)
-                };
-                repeats = squares.iter().map(|v| cost(*v)).sum();
-            }
-        }
-        let density: f64 = (0..6).map(|k| of_pose(k).ln()).sum();
-        let cost = lack + repeats - 2.0 * self.repeats_dof * density;
+        let (repeats, scatter) = self.of_repeats(factors);
+        let cost = lack + repeats;
         cost.is_finite().then_some(Springs { cost, lack, level: (chi2 / freedom).sqrt(), negative, scatter })
+    }
+
+    /// Twice the negative log-likelihood of the repeats, and by what factor those of the worst instrument scatter more or less than
+    /// stated.
+    fn of_repeats(&self, factors: &Factors) -> (f64, f64) {
+        let mut cost = 0.0;
+        let mut of_instrument: BTreeMap<Option<usize>, [f64; 2]> = BTreeMap::new();
+        for &Repeats { channel, squares, dof } in &self.repeats {
+            let times = factors.reading(channel) / factors.noise(channel);
+            let variance = squares * times.powi(2) / dof;
+            if self.noise_is_stated {
+                let level = variance.clamp(NOISE_OFF.powi(-2), NOISE_OFF.powi(2));
+                cost += dof * (level.ln() + variance / level);
+            }
+            cost -= 2.0 * dof * times.ln();
+            let instrument = if let Channel::Sensor { sensor, .. } = channel { Some(sensor) } else { None };
+            let [sum, all] = of_instrument.entry(instrument).or_default();
+            (*sum, *all) = (*sum + dof * variance, *all + dof);
+        }
+        let of_some =
+            of_instrument.into_iter().filter(|(sensor, [_, dof])| sensor.is_none() || *dof >= SOME_REPEATS);
+        let scatter = of_some.map(|(_, [sum, dof])| (sum / dof).sqrt());
+        (cost, scatter.map(|s| s.max(s.recip())).fold(1.0, f64::max))
     }
 
     /// Numbers of the readings.
@@ -292,6 +285,32 @@ impl Sample {
     }
 }
 
+/// Standard deviations of the averaged numbers of a condition; [`UNREAD`] of one that no repeat has.
+fn sigma_of(group: &ConditionReadings) -> Vector6 {
+    Vector6::from_fn(|k, _| if group.reads[k] > 0 { group.sigma[k] } else { UNREAD })
+}
+
+/// How repeats scatter about their averages, number by number.
+fn repeats(data: &Dataset, campaign: &Campaign) -> Vec<Repeats> {
+    let mut all: Vec<Repeats> = Vec::new();
+    for group in &campaign.groups {
+        for k in (0..6).filter(|&k| group.reads[k] > 1) {
+            let channel = group.channels[k];
+            let square = |&i: &u32| {
+                let row = &data.observations[i as usize];
+                let off = campaign.axes.difference(&group.mean.measured, &row.measured)[k];
+                if row.is_read(k) { (off / row_sigma(row, &campaign.noise)[k]).powi(2) } else { 0.0 }
+            };
+            let (squares, dof) = (group.rows.iter().map(square).sum::<f64>(), f64::from(group.reads[k] - 1));
+            match all.iter_mut().find(|known| known.channel == channel) {
+                Some(known) => (known.squares, known.dof) = (known.squares + squares, known.dof + dof),
+                None => all.push(Repeats { channel, squares, dof }),
+            }
+        }
+    }
+    all
+}
+
 /// Some of all conditions with so many numbers, spread over all of them, that have at most about so many; no rhythm of the file is in
 /// step with theirs.
 fn spread(all: usize, numbers: usize, most: usize) -> impl Iterator<Item = usize> {
@@ -300,25 +319,16 @@ fn spread(all: usize, numbers: usize, most: usize) -> impl Iterator<Item = usize
 }
 
 /// By what readings and noise are multiplied.
-struct Factors {
-    translation: f64,
-    rotation: f64,
-    /// Of one sensor.
-    sensor: Option<(usize, f64)>,
+struct Factors<'a> {
+    changes: &'a [Change],
+    sensors: &'a [Sensor],
     /// Of the noise; none where nobody has stated it, and it is as large as the readings make it.
     noise: Option<f64>,
 }
 
-impl Factors {
+impl Factors<'_> {
     fn reading(&self, channel: Channel) -> f64 {
-        match channel {
-            Channel::Pose(k) if k < 3 => self.translation,
-            Channel::Pose(_) => self.rotation,
-            Channel::Sensor { sensor, .. } => {
-                self.sensor.filter(|(scaled, _)| *scaled == sensor).map_or(1.0, |(_, factor)| factor)
-            }
-            Channel::Nothing => 1.0,
-        }
+        self.changes.iter().map(|change| change.factor(channel, self.sensors).abs()).product()
     }
 
     fn noise(&self, channel: Channel) -> f64 {
@@ -368,6 +378,15 @@ fn as_read(data: &Dataset) -> Vec<Vector6> {
     data.observations.iter().map(|row| Vector6::from_column_slice(&row.measured)).collect()
 }
 
+/// What residuals are weighed by.
+#[derive(Clone, Copy, PartialEq)]
+enum Over {
+    /// The noise alone.
+    Noise,
+    /// The noise, and what springs of the first order and sensors that stand to their tolerance miss.
+    Model,
+}
+
 /// What the linear springs may miss of lengths and of angles, m and rad.
 struct Floor {
     length: f64,
@@ -375,8 +394,11 @@ struct Floor {
 }
 
 impl Floor {
-    /// A share of the readings, root mean square.
-    fn of(hexapod: &Hexapod, data: &Dataset, reads: &[Vector6], share: f64) -> Self {
+    /// The readings, root mean square, of which the model misses a share.
+    fn of(hexapod: &Hexapod, data: &Dataset, reads: &[Vector6], over: Over) -> Self {
+        if over == Over::Noise {
+            return Self { length: 0.0, angle: 0.0 };
+        }
         let mut sums = [[0.0; 2]; 2];
         for (row, read) in data.observations.iter().zip(reads) {
             let channels = data.channels(row);
@@ -386,13 +408,23 @@ impl Floor {
                 *count += 1.0;
             }
         }
-        let [length, angle] = sums.map(|[sum, count]: [f64; 2]| (sum / count.max(1.0)).sqrt() * share);
+        let [length, angle] = sums.map(|[sum, count]: [f64; 2]| (sum / count.max(1.0)).sqrt());
         Self { length, angle }
     }
 
     fn under(&self, channel: Channel, hexapod: &Hexapod) -> f64 {
-        if channel.is_angle(&hexapod.sensors) { self.angle } else { self.length }
+        let size = if channel.is_angle(&hexapod.sensors) { self.angle } else { self.length };
+        size * LINEAR_SHARE.hypot(off_by_tolerance(channel, hexapod))
     }
+}
+
+/// Share of a motion of the size of the platform that a sensor misses which stands and looks to its tolerance.
+fn off_by_tolerance(channel: Channel, hexapod: &Hexapod) -> f64 {
+    let Channel::Sensor { sensor, .. } = channel else { return 0.0 };
+    let Some(kind) = hexapod.sensors.get(sensor).map(|s| &s.kind) else { return 0.0 };
+    let place = kind.point().map_or(0.0, |_| hexapod.tolerances.sensor_point / hexapod.platform_radius());
+    let direction = kind.direction().map_or(0.0, |_| hexapod.tolerances.sensor_direction);
+    place.hypot(direction)
 }
 
 /// Least squares with compliances that are not negative: a leg that would have one is held at zero. Compliances, chi-square and

@@ -1,14 +1,15 @@
-//! What files of machines with sensors may mean otherwise: signs, factors and axes of a sensor, loads, joints.
+//! What files may mean otherwise that have sensors, or some of the six pose numbers only.
 //!
 //! A sensor a little beside its place is no mistake of the file: the examination finds it, beside effects.
 
 use std::f64::consts::PI;
 
-use hexbench_core::{Dataset, Hexapod, Sensor, Vector3};
+use hexbench_core::{Channel, Dataset, Hexapod, Measurand, Sensor, Vector3};
 use nalgebra::Rotation3;
 
-use super::change::{Change, Group, ReferencePoint, Signed, Target};
+use super::change::{Change, Group, ReferencePoint, Sensors, Signed, Target};
 use super::hypotheses;
+use super::turn::SignedAxes;
 use crate::effects::intern;
 
 /// Ratios in which the numbers of a gauge may be written: inches, powers of ten, a lever of two.
@@ -18,17 +19,62 @@ const OF_ANGLES: [f64; 4] = [PI / 0.648, 1e3, PI * 1e6 / 180.0, 2.0];
 
 /// Everything that is tried.
 pub(super) fn singles(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
-    let of_sensors = hexapod.sensors.iter().flat_map(of_sensor);
     let others = hypotheses::singles(hexapod, data).into_iter();
-    of_sensors.chain(others.filter(concerns_no_pose_number).filter(is_likely_order)).collect()
+    let others = others.filter(|change| is_of_these_readings(change, data) && is_likely_order(change));
+    of_sensors(hexapod, data).into_iter().chain(others).collect()
+}
+
+/// What is tried beside another mistake.
+pub(super) fn cheap(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
+    let others = hypotheses::cheap(data).into_iter().filter(|change| is_of_these_readings(change, data));
+    of_sensors(hexapod, data).into_iter().chain(others).collect()
+}
+
+/// What may be wrong with sensors: one by one, all of a kind, two that are exchanged, the axes of points.
+fn of_sensors(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
+    let read: Vec<&Sensor> = read_sensors(hexapod, data);
+    let mut all: Vec<Change> = read.iter().flat_map(|sensor| of_sensor(sensor)).collect();
+    let kinds = ["distance", "point", "inclination", "leg-length"];
+    let of_kind = |kind: &str| read.iter().filter(|s| s.kind.word() == kind).count();
+    // All numbers of the file with another sign or in another unit are those of the readings.
+    let is_part =
+        |kind: &str| of_kind(kind) < read.len() || channels(data).any(|c| matches!(c, Channel::Pose(_)));
+    for kind in kinds.into_iter().filter(|kind| of_kind(kind) > 1 && is_part(kind)) {
+        let is_angle = kind == "inclination";
+        all.extend(sign_and_factors(Sensors::All(kind), is_angle));
+    }
+    for (k, one) in read.iter().enumerate() {
+        let like = read[k + 1..].iter().filter(|other| other.kind.word() == one.kind.word());
+        all.extend(
+            like.map(|other| Change::SensorsExchanged(intern::text(&one.name), intern::text(&other.name))),
+        );
+    }
+    if of_kind("point") > 0 {
+        all.extend(SignedAxes::all().into_iter().map(|axes| Change::Renamed(Target::Points, axes)));
+    }
+    all
+}
+
+/// Sensors that some column is of.
+fn read_sensors<'a>(hexapod: &'a Hexapod, data: &Dataset) -> Vec<&'a Sensor> {
+    let is_read =
+        |index: usize| channels(data).any(|c| matches!(c, Channel::Sensor { sensor, .. } if sensor == index));
+    hexapod.sensors.iter().enumerate().filter(|(index, _)| is_read(*index)).map(|(_, s)| s).collect()
+}
+
+fn channels(data: &Dataset) -> impl Iterator<Item = Channel> {
+    data.blocks.iter().flatten().copied()
 }
 
 /// What may be wrong with one sensor.
 fn of_sensor(sensor: &Sensor) -> Vec<Change> {
     let name = intern::text(&sensor.name);
-    let factors: &[f64] = if sensor.kind.is_angle() { &OF_ANGLES } else { &OF_LENGTHS };
-    let mut all = vec![Change::SensorReversed(name)];
-    all.extend(factors.iter().flat_map(|f| [*f, f.recip()]).map(|f| Change::SensorScaled(name, f)));
+    let mut all = sign_and_factors(Sensors::One(name), sensor.kind.is_angle());
+    if sensor.kind.numbers() > 1 {
+        let columns =
+            (0..sensor.kind.numbers()).map(|number| Sensors::One(intern::text(&sensor.column(number))));
+        all.extend(columns.flat_map(|column| sign_and_factors(column, false)));
+    }
     if let Some(along) = sensor.kind.direction() {
         let axes = (0..3).map(|k| Vector3::ith(k, 1.0));
         let turns =
@@ -38,24 +84,41 @@ fn of_sensor(sensor: &Sensor) -> Vec<Change> {
     all
 }
 
-/// True for what speaks of loads, poses and joints, not of six measured numbers.
-fn concerns_no_pose_number(change: &Change) -> bool {
+fn sign_and_factors(which: Sensors, is_angle: bool) -> Vec<Change> {
+    let factors: &[f64] = if is_angle { &OF_ANGLES } else { &OF_LENGTHS };
+    let scaled = factors.iter().flat_map(|f| [*f, f.recip()]).map(|f| Change::SensorScaled(which, f));
+    std::iter::once(Change::SensorReversed(which)).chain(scaled).collect()
+}
+
+/// True for what speaks of loads, poses and joints, or of pose numbers that the file has columns of.
+fn is_of_these_readings(change: &Change, data: &Dataset) -> bool {
+    let has =
+        |is_it: &dyn Fn(usize) -> bool| channels(data).any(|c| matches!(c, Channel::Pose(k) if is_it(k)));
+    let rotations = has(&|k| k >= 3);
     match change {
-        Change::Reversed(signed) => {
-            matches!(
-                signed,
-                Signed::Wrench | Signed::Forces | Signed::Moments | Signed::Load(_) | Signed::Reference
-            )
+        Change::Reversed(signed) => match signed {
+            Signed::Translations => has(&|k| k < 3),
+            Signed::Rotations => rotations,
+            Signed::Reading(one) => has(&|k| k == usize::from(*one)),
+            _ => true,
+        },
+        Change::Scaled(group, _) => match group {
+            Group::Translations => has(&|k| k < 3),
+            Group::Rotations => rotations,
+            Group::Reading(one) => has(&|k| k == usize::from(*one)),
+            _ => true,
+        },
+        Change::Renamed(Target::Readings, axes) => has(&|_| true) && (rotations || axes.handedness() > 0.0),
+        // Without rotations they are the same as vectors in other axes, but for the hand.
+        Change::Renamed(Target::ReadingColumns, axes) => {
+            has(&|_| true) && (rotations || axes.handedness() < 0.0)
         }
-        Change::Scaled(group, _) => !matches!(
-            group,
-            Group::Translations | Group::Rotations | Group::Readings | Group::Reading(_) | Group::Noise
-        ),
-        Change::Renamed(target, _) | Change::Turned(target, _) => {
-            !matches!(target, Target::Readings | Target::ReadingColumns)
-        }
-        Change::Origin(origin, _) => !matches!(origin, ReferencePoint::ReadingsMobile),
-        Change::DeflectionMobile | Change::OtherRotations | Change::Angles(_) | Change::Rows(_) => false,
+        Change::OtherRotations => rotations,
+        // What turns the numbers of a reading into each other takes all of them.
+        Change::Turned(Target::Readings | Target::ReadingColumns, _)
+        | Change::Origin(ReferencePoint::ReadingsMobile, _)
+        | Change::DeflectionMobile => false,
+        Change::Angles(_) => !(rotations && data.measurand == Measurand::DeflectionEuler),
         _ => true,
     }
 }

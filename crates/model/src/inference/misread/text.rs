@@ -1,7 +1,7 @@
 //! A misread file in words.
 
 use super::Way;
-use super::change::{Change, Group, ReferencePoint, Signed, Target};
+use super::change::{Change, Group, ReferencePoint, Sensors, Signed, Target};
 use crate::inference::examination::{Finding, LOADS, READINGS};
 
 /// What explains the file as it is written.
@@ -141,9 +141,13 @@ pub(super) fn meaning(change: &Change) -> String {
             let [fx, fy, fz, mx, my, mz] = load.to_array();
             format!("a load seems to be missing in the file: about ({fx:.3}, {fy:.3}, {fz:.3}) N and ({mx:.3}, {my:.3}, {mz:.3}) N m in the reference state, or its opposite in the loaded state")
         }
-        Change::SensorReversed(name) => format!("sensor {name} seems to read with the other sign"),
-        Change::SensorScaled(name, factor) => format!(
-            "the numbers of sensor {name} seem {} the unit the file states",
+        Change::SensorReversed(Sensors::One(name)) => format!("sensor {name} seems to read with the other sign"),
+        Change::SensorReversed(Sensors::All(kind)) => {
+            format!("all sensors of kind {kind} seem to read with the other sign")
+        }
+        Change::SensorScaled(which, factor) => format!(
+            "the numbers of {} seem {} the unit the file states",
+            named(*which),
             if *factor > 1.0 { format!("{} times", number(*factor)) } else { format!("1/{} of", number(factor.recip())) },
         ),
         Change::SensorMoved(name, by) => {
@@ -156,9 +160,19 @@ pub(super) fn meaning(change: &Change) -> String {
         Change::SensorTurned(name, by) => {
             format!("the direction of sensor {name} seems turned by {:.1} degrees", by.norm().to_degrees())
         }
+        Change::SensorsExchanged(one, other) => {
+            format!("the numbers of sensors {one} and {other} seem to stand in each other's columns")
+        }
         Change::LoadIsChange => "the load columns seem to hold the change of load, loaded minus reference, already".to_owned(),
         Change::LoadHoldsReference => "the load columns seem to hold the load of the reference state twice".to_owned(),
         Change::Rows(order) => format!("rows seem to have slipped: {}", order.text()),
+    }
+}
+
+fn named(which: Sensors) -> String {
+    match which {
+        Sensors::One(name) => format!("sensor {name}"),
+        Sensors::All(kind) => format!("all sensors of kind {kind}"),
     }
 }
 
@@ -203,6 +217,7 @@ fn written_in(target: Target) -> &'static str {
     match target {
         Target::Readings => "the deflections",
         Target::ReadingColumns => "the columns of the deflections",
+        Target::Points => "the sensors that read points",
         Target::Wrench => "the loads",
         Target::WrenchColumns => "the columns of the loads",
         Target::Poses => "the poses",
@@ -243,6 +258,9 @@ fn advice(change: &Change) -> &'static str {
         Change::Reversed(_) | Change::StatesExchanged => {
             "press on the platform by hand: a pull along an axis moves it along that axis; look at the signs of that line, and \
              correct the file"
+        }
+        Change::SensorReversed(_) | Change::SensorScaled(..) | Change::SensorsExchanged(..) => {
+            "move each sensor by hand and see which column changes, which way and by how much; correct the columns, or the hexapod file"
         }
         Change::Scaled(..) => {
             "check the units of these columns against the instrument, and correct the names of the columns or the values"

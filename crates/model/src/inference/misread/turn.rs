@@ -35,6 +35,13 @@ impl SignedAxes {
         Vector3::from_fn(|k, _| f64::from(self.0[k].signum()) * v[usize::from(self.0[k].unsigned_abs()) - 1])
     }
 
+    /// The axis meant by an axis of the file, both from zero, and its sign.
+    pub(super) fn meant_by(self, axis: usize) -> (usize, f64) {
+        let is_it = |k: &usize| usize::from(self.0[*k].unsigned_abs()) == axis + 1;
+        let meant = (0..3).find(is_it).unwrap_or(axis);
+        (meant, f64::from(self.0[meant].signum()))
+    }
+
     /// The same of a pose: its rotation is that of the body, seen in other axes.
     pub fn pose(self, pose: &Pose) -> Pose {
         let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|e| self.renamed(&e));

@@ -249,11 +249,13 @@ impl Weighing<'_> {
         is_reversed || (gained && (is_all || is_far_better))
     }
 
-    /// The best way of reading, and the best ones that do not explain the file alike.
+    /// The best way of reading, and the best ones that do not explain the file alike; readings of another size and noise of another
+    /// size do so only as long as deflections are small.
     fn candidates(&self) -> Vec<&Way> {
         let mut chosen: Vec<&Way> = Vec::new();
         for way in &self.readings.ways {
-            let is_known = |c: &&Way| self.readings.like(c).iter().any(|w| w.changes == way.changes);
+            let is_like = |c: &&Way| self.readings.like(c).iter().any(|w| w.changes == way.changes);
+            let is_known = |c: &&Way| is_like(c) && !way.changes.iter().all(Change::is_of_all_readings);
             if chosen.len() < WAYS_EXPLAINED && !chosen.iter().any(is_known) {
                 chosen.push(way);
             }

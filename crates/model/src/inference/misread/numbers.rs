@@ -1,0 +1,100 @@
+//! What a change does to measured numbers, each by what it reads: a file may have some of the six pose numbers, and sensors beside them.
+
+use hexbench_core::{Channel, Dataset, Sensor};
+
+use super::change::{Change, Group, Sensors, Signed, Target};
+
+impl Sensors {
+    /// True for the number of a sensor that is one of these.
+    fn has(self, channel: Channel, sensors: &[Sensor]) -> bool {
+        let Channel::Sensor { sensor, number } = channel else { return false };
+        sensors.get(sensor).is_some_and(|s| match self {
+            Self::One(name) => s.name == name || s.column(number) == name,
+            Self::All(kind) => s.kind.word() == kind,
+        })
+    }
+}
+
+impl Change {
+    /// By what it multiplies the number that a channel reads; 1 for a change of anything else.
+    pub(super) fn factor(&self, channel: Channel, sensors: &[Sensor]) -> f64 {
+        let (concerns, factor) = match *self {
+            Self::Reversed(signed) => (is_reversed(signed, channel), -1.0),
+            Self::Scaled(group, factor) => (is_scaled(group, channel), factor),
+            Self::SensorReversed(which) => (which.has(channel, sensors), -1.0),
+            Self::SensorScaled(which, factor) => (which.has(channel, sensors), factor),
+            _ => return 1.0,
+        };
+        if concerns { factor } else { 1.0 }
+    }
+
+    /// Multiplies the measured numbers that it concerns.
+    pub(super) fn multiply(&self, data: &mut Dataset, sensors: &[Sensor]) {
+        if !matches!(
+            self,
+            Self::Reversed(_) | Self::Scaled(..) | Self::SensorReversed(_) | Self::SensorScaled(..)
+        ) {
+            return;
+        }
+        let factors: Vec<[f64; 6]> =
+            data.blocks.iter().map(|block| block.map(|channel| self.factor(channel, sensors))).collect();
+        for row in &mut data.observations {
+            let Some(factors) = factors.get(row.block) else { continue };
+            row.measured.iter_mut().zip(factors).for_each(|(x, factor)| *x *= factor);
+        }
+    }
+
+    /// Names the columns otherwise in which axes of deflections or of points are meant otherwise: each number is that of another axis,
+    /// with its sign. True for a change that is no more than that: deflections in other axes are, where not every row has all six.
+    pub(super) fn rename_columns(&self, data: &mut Dataset, sensors: &[Sensor]) -> bool {
+        let Self::Renamed(target, axes) = *self else { return false };
+        let of_poses = matches!(target, Target::Readings | Target::ReadingColumns);
+        if target != Target::Points && !(of_poses && data.has_other_readings()) {
+            return false;
+        }
+        let hand = if target == Target::Readings { axes.handedness() } else { 1.0 };
+        let renamed = |channel: Channel| match channel {
+            Channel::Pose(k) if of_poses => {
+                let (axis, sign) = axes.meant_by(k % 3);
+                let hand = if k < 3 { 1.0 } else { hand };
+                (Channel::Pose(k / 3 * 3 + axis), sign * hand)
+            }
+            Channel::Sensor { sensor, number } if !of_poses && is_point(sensor, sensors) => {
+                let (axis, sign) = axes.meant_by(number);
+                (Channel::Sensor { sensor, number: axis }, sign)
+            }
+            other => (other, 1.0),
+        };
+        let blocks: Vec<[(Channel, f64); 6]> = data.blocks.iter().map(|block| block.map(renamed)).collect();
+        for row in &mut data.observations {
+            let Some(block) = blocks.get(row.block) else { continue };
+            row.measured.iter_mut().zip(block).for_each(|(x, (_, sign))| *x *= sign);
+        }
+        data.blocks = blocks.into_iter().map(|block| block.map(|(channel, _)| channel)).collect();
+        true
+    }
+}
+
+fn is_point(sensor: usize, sensors: &[Sensor]) -> bool {
+    sensors.get(sensor).is_some_and(|s| s.kind.numbers() == 3)
+}
+
+fn is_reversed(signed: Signed, channel: Channel) -> bool {
+    match (signed, channel) {
+        (Signed::Readings, _) => true,
+        (Signed::Translations, Channel::Pose(k)) => k < 3,
+        (Signed::Rotations, Channel::Pose(k)) => k >= 3,
+        (Signed::Reading(one), Channel::Pose(k)) => usize::from(one) == k,
+        _ => false,
+    }
+}
+
+fn is_scaled(group: Group, channel: Channel) -> bool {
+    match (group, channel) {
+        (Group::Readings, _) => true,
+        (Group::Translations, Channel::Pose(k)) => k < 3,
+        (Group::Rotations, Channel::Pose(k)) => k >= 3,
+        (Group::Reading(one), Channel::Pose(k)) => usize::from(one) == k,
+        _ => false,
+    }
+}
