@@ -19,6 +19,8 @@ const VARIABLES: [PatternVariable; 4] = [
     PatternVariable::LegLength,
     PatternVariable::LegForce,
 ];
+/// Relative difference of the drops of patterns up to which they are alike.
+const ALIKE: f64 = 1e-9;
 /// Steps of the search for the top of a peak.
 const GOLDEN_STEPS: usize = 20;
 
@@ -84,8 +86,10 @@ impl<'a> Scanner<'a> {
         let drops: Vec<[f64; 7]> = kinds.par_iter().map(|k| self.drops(k)).collect();
         let tried = kinds.len() * legs.len();
         let all = (0..kinds.len()).flat_map(|k| legs.clone().map(move |l| (k, l)));
-        let unknown = all.filter(|&(k, l)| l > 0 || !in_catalogue(&kinds[k]));
-        let (k, l) = unknown.max_by(|a, b| drops[a.0][a.1].total_cmp(&drops[b.0][b.1]))?;
+        let mut unknown = all.filter(|&(k, l)| l > 0 || !in_catalogue(&kinds[k]));
+        let largest = unknown.clone().map(|(k, l)| drops[k][l]).fold(0.0, f64::max);
+        // Where few readings tell them apart some are alike, and rounding must not choose.
+        let (k, l) = unknown.find(|&(k, l)| drops[k][l] >= (1.0 - ALIKE) * largest)?;
         let kind = self.refined(kinds[k], l);
         let leg = l.checked_sub(1);
         let pattern = LegPattern { leg, variable: kind.0, course: kind.1, compliance: kind.2 };
