@@ -9,8 +9,8 @@ use hexbench_experiments::ExperimentError;
 use hexbench_experiments::calibration;
 use hexbench_experiments::discovery::DiscoveryProtocol;
 use hexbench_experiments::discriminate::{self, CONFUSIONS};
-use hexbench_experiments::harness::{self, Gathered, Progress, Protocol, Sharded, Silent, compute};
-use hexbench_experiments::journal::Journal;
+use hexbench_experiments::harness::{self, Field, Gathered, Progress, Protocol, Sharded, Silent, compute};
+use hexbench_experiments::journal::{Identity, Journal};
 use hexbench_experiments::misread::MisreadProtocol;
 use hexbench_experiments::paper::Again;
 use hexbench_experiments::power::{Campaigns, Simulation, plan_of};
@@ -79,8 +79,53 @@ fn shards(folder: &Path) -> Vec<PathBuf> {
     shards
 }
 
-/// Stops `protocol` in the middle, damages a shard, goes on on another number of threads; `other` is the same with other settings.
+/// Four trials of a protocol, from all over it, each a shard.
+struct Few<'a, P>(&'a P);
+
+impl<P: Protocol> Few<'_, P> {
+    const TRIALS: u64 = 4;
+
+    fn of_all(&self, number: u64) -> u64 {
+        number * self.0.trials() / self.trials()
+    }
+}
+
+impl<P: Protocol> Protocol for Few<'_, P> {
+    type Record = P::Record;
+    type Error = P::Error;
+
+    fn identity(&self) -> Identity {
+        self.0.identity()
+    }
+
+    fn trials(&self) -> u64 {
+        Self::TRIALS.min(self.0.trials())
+    }
+
+    fn trial(&self, number: u64) -> Result<Self::Record, Self::Error> {
+        self.0.trial(self.of_all(number))
+    }
+
+    fn name(&self, number: u64) -> String {
+        self.0.name(self.of_all(number))
+    }
+
+    fn fields(&self) -> Vec<Field<Self::Record>> {
+        self.0.fields()
+    }
+
+    fn trials_of_a_shard(&self) -> u64 {
+        1
+    }
+}
+
+/// Stops some trials of `protocol` in the middle, damages a shard, goes on on another number of threads; `other` is the same with other
+/// settings.
 fn survives<P: Protocol>(protocol: &P, other: &P) {
+    survives_whole(&Few(protocol), &Few(other));
+}
+
+fn survives_whole<P: Protocol>(protocol: &P, other: &P) {
     let folder = tempfile::tempdir().unwrap();
     let unbroken = on_threads(1, || harness::run(protocol, None, &Silent)).unwrap();
     assert!(unbroken.records().count() > 0, "nothing has an answer");
