@@ -334,7 +334,9 @@ fn two_mistakes_of_different_sensors_are_found_together() {
     let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
     let (hexapod, sound) = beside_translations(&world, &rich_plan(40, 1.0, 11));
     let mut rows = table(&sound);
-    rows.iter_mut().for_each(|row| (row[3], row[4]) = (-row[3], row[4] / 25.4));
+    for row in &mut rows {
+        (row[3], row[4]) = (-row[3], row[4] / 25.4);
+    }
     let answer = diagnose(&hexapod, &written(&sound, &rows), None, &catalogue()).unwrap().diagnosis;
     assert_eq!(answer.verdict, Verdict::Measurement, "{:?}", answer.findings);
     let text = &answer.findings[0].text;
