@@ -46,6 +46,9 @@ pub struct SensorPrediction {
     pub sigma: f64,
 }
 
+/// What the sensors read in a row, and the covariance of these numbers (m, rad).
+pub type WithCovariance = (Vec<SensorPrediction>, DMatrix<f64>);
+
 /// A row that cannot be predicted.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("line {line}: {cause}")]
@@ -93,7 +96,7 @@ pub fn predict_sensors(
 pub fn predict_sensors_with_covariance(
     model: &Model,
     rows: &[Observation],
-) -> Result<Vec<(Vec<SensorPrediction>, DMatrix<f64>)>, PredictError> {
+) -> Result<Vec<WithCovariance>, PredictError> {
     let channels = model.sensor_channels().len();
     if channels == 0 {
         return Ok(vec![(Vec::new(), DMatrix::zeros(0, 0)); rows.len()]);

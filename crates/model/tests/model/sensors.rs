@@ -7,6 +7,7 @@ use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
 use hexbench_model::inference::misread::{names, other_readings};
 use hexbench_model::inference::verdict::Verdict;
+use hexbench_model::results::check::check;
 use hexbench_model::results::diagnose::diagnose;
 use hexbench_model::terms::catalogue;
 
@@ -333,7 +334,9 @@ fn two_mistakes_of_different_sensors_are_found_together() {
     let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
     let (hexapod, sound) = beside_translations(&world, &rich_plan(40, 1.0, 11));
     let mut rows = table(&sound);
-    rows.iter_mut().for_each(|row| (row[3], row[4]) = (-row[3], row[4] / 25.4));
+    for row in &mut rows {
+        (row[3], row[4]) = (-row[3], row[4] / 25.4);
+    }
     let answer = diagnose(&hexapod, &written(&sound, &rows), None, &catalogue()).unwrap().diagnosis;
     assert_eq!(answer.verdict, Verdict::Measurement, "{:?}", answer.findings);
     let text = &answer.findings[0].text;
@@ -380,4 +383,20 @@ fn a_drift_of_a_gauge_is_found_with_empty_cells_and_more_than_six_numbers() {
     let kinds: Vec<&str> = answer.findings.iter().map(|f| f.kind.word()).collect();
     assert_eq!(kinds, ["drift"], "{:?}", answer.findings);
     assert!(answer.added.is_empty(), "{:?}", answer.added);
+}
+
+#[test]
+fn a_check_of_gauges_and_a_ball_speaks_of_lengths_alone_and_finds_nothing_odd() {
+    let plan: Vec<Observation> = rich_plan(40, 1.0, 11).into_iter().flat_map(|o| [o, o]).collect();
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let (hexapod, mut data) = beside_translations(&world, &plan);
+    let of = |data: &Dataset| check(&hexapod, Some(data), None, &catalogue(), &[]).unwrap();
+    let sound = of(&data);
+    assert!(sound.ready && sound.remarks.is_empty(), "{:?}", sound.remarks);
+    let read = sound.measurements.unwrap();
+    assert!(read.translation_rms_um.is_some() && read.rotation_rms_urad.is_none() && read.repeats.is_none());
+    // 320 numbers in pairs: within four standard deviations, 4 / sqrt(2 * 320).
+    assert!((read.repeats_over_noise.unwrap() - 1.0).abs() < 0.16);
+    data.observations.iter_mut().for_each(|o| o.sigma = o.sigma.map(|s| s.map(|x| 2.0 * x)));
+    assert!(of(&data).remarks[0].contains("repeats scatter by 0."), "{:?}", of(&data).remarks);
 }

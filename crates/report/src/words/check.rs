@@ -83,6 +83,16 @@ fn about(m: &ReadingsCheck) -> String {
     format!("{}: {} {} at {} poses, {} conditions", m.file, m.rows, m.measurand, m.poses, m.conditions)
 }
 
+/// A length in um and an angle in urad, each where such numbers are read.
+fn of_what_is_read(m: &ReadingsCheck, [shift, turn]: [f64; 2]) -> String {
+    let (shift, turn) = (significant(shift, 3), significant(turn, 3));
+    match (m.translation_rms_um, m.rotation_rms_urad) {
+        (Some(_), None) => format!("{shift} um"),
+        (None, Some(_)) => format!("{turn} urad"),
+        _ => format!("{shift} um and {turn} urad"),
+    }
+}
+
 fn measurements(title: &str, m: &ReadingsCheck) -> Section {
     let digits = |x: f64| significant(x, 3);
     let mut all = vec![
@@ -106,24 +116,17 @@ fn measurements(title: &str, m: &ReadingsCheck) -> Section {
             ),
         ),
     ];
-    if let (Some(shift), Some(turn)) = (m.translation_rms_um, m.rotation_rms_urad) {
-        all.push(Definition::new(
-            "deflections",
-            format!("{} um and {} urad, root mean square", digits(shift), digits(turn)),
-        ));
+    if m.translation_rms_um.or(m.rotation_rms_urad).is_some() {
+        let rms = [m.translation_rms_um, m.rotation_rms_urad].map(Option::unwrap_or_default);
+        all.push(Definition::new("deflections", format!("{}, root mean square", of_what_is_read(m, rms))));
     }
-    let repeats = m.repeats.map_or("nothing is repeated".to_owned(), |[shift, turn]| {
-        format!("repeats scatter by {} um and {} urad", digits(shift), digits(turn))
-    });
-    all.push(Definition::new(
-        "noise",
-        format!(
-            "{} um and {} urad per reading, {}; {repeats}",
-            digits(m.noise[0]),
-            digits(m.noise[1]),
-            subject::origin(m.noise_source)
-        ),
-    ));
+    let repeats = match (m.repeats, m.repeats_over_noise) {
+        (Some(scatter), _) => format!("repeats scatter by {}", of_what_is_read(m, scatter)),
+        (None, Some(times)) => format!("repeats scatter by {} times that", digits(times)),
+        (None, None) => "nothing is repeated".to_owned(),
+    };
+    let (noise, origin) = (of_what_is_read(m, m.noise), subject::origin(m.noise_source));
+    all.push(Definition::new("noise", format!("{noise} per reading, {origin}; {repeats}")));
     if let Some(k) = m.stiffness_n_per_um {
         let list = |k: [f64; 6]| k.map(digits).join("  ");
         let nominal = m.nominal_n_per_um.map_or(String::new(), |n| format!("; nominal {}", list(n)));

@@ -513,16 +513,7 @@ impl Change {
             }
             Self::LoadIsChange => add_reference(row, 1.0),
             Self::LoadHoldsReference => add_reference(row, -1.0),
-            Self::LegOrder(_)
-            | Self::JointsExchanged
-            | Self::Joint(..)
-            | Self::OtherRotations
-            | Self::Rows(_)
-            | Self::SensorReversed(_)
-            | Self::SensorScaled(..)
-            | Self::SensorMoved(..)
-            | Self::SensorTurned(..)
-            | Self::SensorsExchanged(..) => {}
+            _ => {}
         }
     }
 }

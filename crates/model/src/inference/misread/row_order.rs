@@ -97,7 +97,7 @@ impl RowOrder {
             Self::LoadOfLast => shift_loads_at_poses(&mut rows, Neighbor::Above),
             Self::ReadingsBelow => set_readings(&mut rows, |all| Neighbor::Below.rolled(all)),
             Self::ReadingsAbove => set_readings(&mut rows, |all| Neighbor::Above.rolled(all)),
-            Self::ReadingsReversed => set_readings(&mut rows, |all| all.reverse()),
+            Self::ReadingsReversed => set_readings(&mut rows, <[_]>::reverse),
             Self::PosesBelow => shift_poses(&mut rows, Neighbor::Below),
             Self::PosesAbove => shift_poses(&mut rows, Neighbor::Above),
         }
@@ -176,7 +176,9 @@ fn shift_loads_at_poses(rows: &mut [Row], from: Neighbor) {
         let mut all: Vec<_> = block.chunk_by(same).map(|run| run[0].loads()).collect();
         from.rolled(&mut all);
         for (run, loads) in block.chunk_by_mut(same).zip(all) {
-            run.iter_mut().for_each(|row| row.set_loads(loads));
+            for row in run {
+                row.set_loads(loads);
+            }
         }
     }
 }
@@ -187,6 +189,8 @@ fn shift_poses(rows: &mut [Row], from: Neighbor) {
     let mut all: Vec<_> = rows.chunk_by(same).map(|block| block[0].at.pose).collect();
     from.rolled(&mut all);
     for (block, pose) in rows.chunk_by_mut(same).zip(all) {
-        block.iter_mut().for_each(|row| row.at.pose = pose);
+        for row in block {
+            row.at.pose = pose;
+        }
     }
 }

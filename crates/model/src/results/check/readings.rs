@@ -1,6 +1,6 @@
 //! A file of readings as it is understood.
 
-use hexbench_core::{Dataset, Hexapod};
+use hexbench_core::{Dataset, Hexapod, Observation};
 use serde::Serialize;
 
 use super::machine::MachineCheck;
@@ -53,16 +53,18 @@ pub struct ReadingsCheck {
     pub largest_moment_nm: f64,
     /// Forces in the legs, tension positive, N.
     pub leg_forces_n: Extent,
-    /// Root mean square of the translations read, um; of deflections only.
+    /// Root mean square of the lengths read, um; of deflections only, and none where none is read.
     pub translation_rms_um: Option<f64>,
-    /// Root mean square of the rotations read, urad; of deflections only.
+    /// Root mean square of the angles read, urad; likewise.
     pub rotation_rms_urad: Option<f64>,
     /// Noise used: of one translation, um, and of one rotation, urad.
     pub noise: [f64; 2],
     /// Where it comes from.
     pub noise_source: NoiseSource,
-    /// Scatter of repeats, um and urad, where there are any.
+    /// Scatter of repeats of full poses, um and urad, where there are any.
     pub repeats: Option<[f64; 2]>,
+    /// Scatter of repeats over the noise of each number, where something else than full poses is read.
+    pub repeats_over_noise: Option<f64>,
     /// Error of the springs alone over the noise.
     pub springs_level: Option<f64>,
     /// Stiffness of each leg by springs alone, N/um.
@@ -85,13 +87,21 @@ impl ReadingsCheck {
             .filter_map(|g| Some((&g.mean, machine.legs(&g.mean.pose).ok()?)))
             .collect();
         let repeated = scatter(data, &campaign.axes);
-        let rms = |first: usize| {
-            let sum: f64 = rows.iter().flat_map(|o| &o.measured[first..first + 3]).map(|x| x * x).sum();
-            1e6 * (sum / (3 * rows.len()).max(1) as f64).sqrt()
+        let rms = |angles: bool| {
+            let of_row = |o: &Observation| {
+                let (o, channels) = (*o, data.channels(o));
+                let is_it =
+                    move |k: &usize| channels[*k].is_angle(&hexapod.sensors) == angles && o.is_read(*k);
+                (0..6).filter(is_it).map(move |k| o.measured[k])
+            };
+            let (sum, count) =
+                rows.iter().flat_map(of_row).fold((0.0, 0.0), |(sum, n), x| (sum + x * x, n + 1.0));
+            (count > 0.0).then(|| 1e6 * (sum / count).sqrt())
         };
+        let of_numbers = (!campaign.reads_poses && campaign.pure_error_dof > 0.0)
+            .then(|| (campaign.pure_error / campaign.pure_error_dof).sqrt());
         let deflections = !data.is_absolute();
-        let largest =
-            |of: &dyn Fn(&hexbench_core::Observation) -> f64| rows.iter().map(of).fold(0.0, f64::max);
+        let largest = |of: &dyn Fn(&Observation) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         Self {
             file: data.source.clone(),
             measurand: data.measurand.readings(),
@@ -108,12 +118,13 @@ impl ReadingsCheck {
                 legs.iter()
                     .flat_map(|(o, l)| l.forces(&o.wrench.to_vector()).iter().copied().collect::<Vec<_>>()),
             ),
-            translation_rms_um: deflections.then(|| rms(0)),
-            rotation_rms_urad: deflections.then(|| rms(3)),
+            translation_rms_um: rms(false).filter(|_| deflections),
+            rotation_rms_urad: rms(true).filter(|_| deflections),
             noise: [campaign.noise.translation * 1e6, campaign.noise.rotation * 1e6],
             noise_source: campaign.noise.source,
-            repeats: (repeated.dof > 0.0)
+            repeats: (campaign.reads_poses && repeated.dof > 0.0)
                 .then(|| [repeated.variance_translation, repeated.variance_rotation].map(|v| 1e6 * v.sqrt())),
+            repeats_over_noise: of_numbers,
             springs_level: springs
                 .filter(|_| campaign.noise.allows_verdict())
                 .map(|fit| fit.chi2_reduced().sqrt()),
@@ -141,6 +152,9 @@ impl ReadingsCheck {
                     self.noise[0], self.noise[1]
                 ));
             }
+        }
+        if let Some(times) = self.repeats_over_noise.filter(|x| x.max(x.recip()) > SCATTER_OFF) {
+            all.push(format!("repeats scatter by {times:.3} times the noise that is stated"));
         }
         if let (Some(found), Some(nominal)) = (self.stiffness_n_per_um, self.nominal_n_per_um) {
             let ratio = (0..6).map(|leg| (found[leg] / nominal[leg]).abs().ln()).sum::<f64>() / 6.0;
