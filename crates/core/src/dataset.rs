@@ -66,6 +66,28 @@ pub struct Observation {
 }
 
 impl Observation {
+    /// Nothing read yet at a pose under loads, on the direct way, at once and at one temperature: pose 1, repeat 1, of no line.
+    pub fn unread(pose: Pose, wrench: Wrench, reference: Wrench) -> Self {
+        Self {
+            pose_id: 1,
+            repeat: 1,
+            line: 0,
+            pose,
+            wrench,
+            reference,
+            approach: Approach::Direct,
+            overload: Approach::OVERLOAD,
+            delta_t: 0.0,
+            elapsed: 0.0,
+            reference_age: None,
+            reference_record: None,
+            order: None,
+            block: 0,
+            measured: [0.0; 6],
+            sigma: None,
+        }
+    }
+
     /// True for a number that was read.
     pub fn is_read(&self, number: usize) -> bool {
         self.sigma.is_none_or(|sigma| sigma[number] < UNREAD)

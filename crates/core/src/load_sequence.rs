@@ -156,23 +156,14 @@ mod tests {
     use crate::Pose;
 
     fn reading(order: i64, record: Option<i64>, newtons: f64, elapsed: f64) -> Observation {
+        let along_z = |force| Wrench::from_array([0.0, 0.0, force, 0.0, 0.0, 0.0]);
         Observation {
-            pose_id: 1,
-            repeat: 1,
             line: order.unsigned_abs(),
-            pose: Pose::default(),
-            wrench: Wrench::from_array([0.0, 0.0, newtons, 0.0, 0.0, 0.0]),
-            reference: Wrench::from_array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
-            approach: Approach::Direct,
-            overload: Approach::OVERLOAD,
-            delta_t: 0.0,
             elapsed,
             reference_age: Some(7.0),
             reference_record: record,
             order: Some(order),
-            block: 0,
-            measured: [0.0; 6],
-            sigma: None,
+            ..Observation::unread(Pose::default(), along_z(newtons), along_z(1.0))
         }
     }
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of a test may fail it")]
 
 use hexbench_core::{
-    Approach, Columns, Dataset, Hexapod, Measurand, Observation, Pose, Sensor, Vector3, Vector6, Wrench,
+    Columns, Dataset, Hexapod, Measurand, Observation, Pose, Sensor, Vector3, Vector6, Wrench,
 };
 
 use crate::estimation::frames::ReadingAxes;
@@ -42,24 +42,7 @@ pub(crate) fn readings(measurand: Measurand, sensors: Vec<Sensor>) -> (Hexapod, 
             moment: Vector3::new(5.0, -4.0 + x, 3.0),
         };
         let reference = Wrench { force: Vector3::new(0.0, 0.0, -50.0), moment: Vector3::zeros() };
-        let mut o = Observation {
-            pose_id: 1,
-            repeat: 1,
-            line: u64::from(2 + i),
-            pose: pose_of,
-            wrench,
-            reference,
-            approach: Approach::Direct,
-            overload: Approach::OVERLOAD,
-            delta_t: 0.0,
-            elapsed: 0.0,
-            reference_age: None,
-            reference_record: None,
-            order: None,
-            block: 0,
-            measured: [0.0; 6],
-            sigma: None,
-        };
+        let mut o = Observation { line: u64::from(2 + i), ..Observation::unread(pose_of, wrench, reference) };
         let legs = Machine::nominal(&hexapod).legs(&o.pose).unwrap();
         let change = o.wrench.to_vector() - o.reference.to_vector();
         let mut read = legs.platform_jacobian * springs.component_mul(&legs.forces(&change));

@@ -230,22 +230,9 @@ fn a_dataset_that_could_not_be_read_again_is_not_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("measurements.csv");
     let row = Observation {
-        block: 0,
         pose_id: 7,
-        repeat: 1,
-        line: 0,
-        pose: Pose::default(),
-        wrench: Wrench::default(),
-        reference: Wrench::default(),
-        approach: Approach::Direct,
-        overload: Approach::OVERLOAD,
-        delta_t: 0.0,
-        elapsed: 0.0,
-        reference_age: None,
-        reference_record: None,
-        order: None,
         measured: [0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0],
-        sigma: None,
+        ..Observation::unread(Pose::default(), Wrench::default(), Wrench::default())
     };
     let dataset = Dataset::of_poses("", Measurand::DeflectionEuler, Columns::default(), vec![row]);
     let error = write_measurements(&path, &dataset).unwrap_err();

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Approach, Dataset, Hexapod, Observation, Pose, Vector6};
+use hexbench_core::{Dataset, Hexapod, Observation, Pose, Vector6};
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::natural;
@@ -139,22 +139,10 @@ impl<'a> ModelRegressor<'a> {
 /// A reading to be taken.
 pub fn reading(pose: Pose, setting: &Setting) -> Observation {
     Observation {
-        block: 0,
-        pose_id: 1,
-        repeat: 1,
-        line: 0,
-        pose,
-        wrench: setting.loading.load,
-        reference: setting.loading.reference,
         approach: setting.approach,
-        overload: Approach::OVERLOAD,
         delta_t: setting.delta_t,
         elapsed: setting.elapsed,
-        reference_age: None,
-        reference_record: None,
-        order: None,
-        measured: [0.0; 6],
-        sigma: None,
+        ..Observation::unread(pose, setting.loading.load, setting.loading.reference)
     }
 }
 

@@ -135,22 +135,12 @@ fn listed(d: &Diagnosis) -> Vec<Observation> {
 
 fn observation(r: &NextReport) -> Observation {
     let si = |k: usize| if k < 3 { r.pose[k] * 1e-3 } else { r.pose[k].to_radians() };
+    let pose = Pose::from_array(std::array::from_fn(si));
+    let [wrench, reference] = [r.wrench, r.reference].map(Wrench::from_array);
     Observation {
-        block: 0,
-        pose_id: 1,
-        repeat: 1,
-        line: 0,
-        pose: Pose::from_array(std::array::from_fn(si)),
-        wrench: Wrench::from_array(r.wrench),
-        reference: Wrench::from_array(r.reference),
         approach: r.approach,
-        overload: hexbench_core::Approach::OVERLOAD,
         delta_t: r.delta_t_k,
         elapsed: r.elapsed_s,
-        reference_age: None,
-        reference_record: None,
-        order: None,
-        measured: [0.0; 6],
-        sigma: None,
+        ..Observation::unread(pose, wrench, reference)
     }
 }

@@ -183,7 +183,7 @@ fn normal(rng: &mut Pcg64) -> f64x4 {
 
 #[cfg(test)]
 mod tests {
-    use hexbench_core::{Approach, Pose, Wrench};
+    use hexbench_core::{Pose, Wrench};
     use nalgebra::DMatrix;
 
     use super::*;
@@ -195,23 +195,10 @@ mod tests {
 
     fn readings() -> Vec<Observation> {
         let poses = [[2.6, 0.8, -0.7, 15.8], [10.0, -3.4, -0.8, -11.0], [-7.8, -3.2, 1.8, -11.3]];
-        let of = |[a, b, c, gamma]: [f64; 4]| Observation {
-            block: 0,
-            pose_id: 1,
-            repeat: 1,
-            line: 0,
-            pose: Pose::from_array([a * 1e-3, b * 1e-3, c * 1e-3, 0.0, 0.0, gamma * 0.017]),
-            wrench: Wrench::from_array([0.0, 0.0, -338.0, 0.0, 0.0, 0.0]),
-            reference: Wrench::from_array([0.0, 0.0, -120.0, 0.0, 0.0, 0.0]),
-            approach: Approach::Direct,
-            overload: Approach::OVERLOAD,
-            delta_t: 0.0,
-            elapsed: 0.0,
-            reference_age: None,
-            reference_record: None,
-            order: None,
-            measured: [0.0; 6],
-            sigma: None,
+        let down = |newtons: f64| Wrench::from_array([0.0, 0.0, -newtons, 0.0, 0.0, 0.0]);
+        let of = |[a, b, c, gamma]: [f64; 4]| {
+            let pose = Pose::from_array([a * 1e-3, b * 1e-3, c * 1e-3, 0.0, 0.0, gamma * 0.017]);
+            Observation::unread(pose, down(338.0), down(120.0))
         };
         poses.into_iter().flat_map(|p| [of(p); 3]).collect()
     }

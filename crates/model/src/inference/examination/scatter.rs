@@ -161,7 +161,12 @@ impl Judge {
 
     /// True when every row has the same six numbers: a covariance of them has no place for one that was not read, or for more.
     fn has_six_numbers(&self) -> bool {
-        self.lines.iter().all(|[_, block]| *block == 0) && self.read.iter().flatten().all(|read| *read)
+        self.lines.iter().all(|[_, block]| *block == 0) && self.reads_all()
+    }
+
+    /// True when no number is missing of those that a row of a block has.
+    fn reads_all(&self) -> bool {
+        self.read.iter().flatten().all(|read| *read)
     }
 
     /// What a level costs that is not the stated one.
@@ -245,7 +250,7 @@ impl Judge {
 
     /// Half the logarithm of the determinant and the quadratic form of a drift with unit level.
     fn innovations(&self, share: f64, correlation: f64) -> (f64, f64) {
-        if self.read.iter().all(|row| row.iter().all(|&read| read)) {
+        if self.reads_all() {
             return self.innovations_of([0, 1, 2, 3, 4, 5], share, correlation);
         }
         let each = (0..6).map(|k| self.innovations_of([k], share, correlation));

@@ -1,5 +1,7 @@
 //! What a change does to measured numbers, each by what it reads: a file may have some of the six pose numbers, and sensors beside them.
 
+use std::ops::Range;
+
 use hexbench_core::{Channel, Dataset, Sensor};
 
 use super::change::{Change, Group, Sensors, Signed, Target};
@@ -18,14 +20,29 @@ impl Sensors {
 impl Change {
     /// By what it multiplies the number that a channel reads; 1 for a change of anything else.
     pub(super) fn factor(&self, channel: Channel, sensors: &[Sensor]) -> f64 {
+        let is_one_of = || self.pose_numbers().is_some_and(|numbers| reads_one_of(channel, &numbers));
         let (concerns, factor) = match *self {
-            Self::Reversed(signed) => (is_reversed(signed, channel), -1.0),
-            Self::Scaled(group, factor) => (is_scaled(group, channel), factor),
+            Self::Reversed(Signed::Readings) => (true, -1.0),
+            Self::Scaled(Group::Readings, factor) => (true, factor),
+            Self::Reversed(_) => (is_one_of(), -1.0),
+            Self::Scaled(_, factor) => (is_one_of(), factor),
             Self::SensorReversed(which) => (which.has(channel, sensors), -1.0),
             Self::SensorScaled(which, factor) => (which.has(channel, sensors), factor),
             _ => return 1.0,
         };
         if concerns { factor } else { 1.0 }
+    }
+
+    /// Which of the six pose numbers another sign or unit is about; none for loads, for whatever is read, and for other changes.
+    pub(super) fn pose_numbers(&self) -> Option<Range<usize>> {
+        match *self {
+            Self::Reversed(Signed::Translations) | Self::Scaled(Group::Translations, _) => Some(0..3),
+            Self::Reversed(Signed::Rotations) | Self::Scaled(Group::Rotations, _) => Some(3..6),
+            Self::Reversed(Signed::Reading(one)) | Self::Scaled(Group::Reading(one), _) => {
+                Some(usize::from(one)..usize::from(one) + 1)
+            }
+            _ => None,
+        }
     }
 
     /// Multiplies the measured numbers that it concerns.
@@ -79,22 +96,7 @@ fn is_point(sensor: usize, sensors: &[Sensor]) -> bool {
     sensors.get(sensor).is_some_and(|s| s.kind.numbers() == 3)
 }
 
-fn is_reversed(signed: Signed, channel: Channel) -> bool {
-    match (signed, channel) {
-        (Signed::Readings, _) => true,
-        (Signed::Translations, Channel::Pose(k)) => k < 3,
-        (Signed::Rotations, Channel::Pose(k)) => k >= 3,
-        (Signed::Reading(one), Channel::Pose(k)) => usize::from(one) == k,
-        _ => false,
-    }
-}
-
-fn is_scaled(group: Group, channel: Channel) -> bool {
-    match (group, channel) {
-        (Group::Readings, _) => true,
-        (Group::Translations, Channel::Pose(k)) => k < 3,
-        (Group::Rotations, Channel::Pose(k)) => k >= 3,
-        (Group::Reading(one), Channel::Pose(k)) => usize::from(one) == k,
-        _ => false,
-    }
+/// True for a channel that reads one of these pose numbers.
+pub(super) fn reads_one_of(channel: Channel, numbers: &Range<usize>) -> bool {
+    matches!(channel, Channel::Pose(k) if numbers.contains(&k))
 }

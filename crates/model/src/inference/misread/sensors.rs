@@ -3,12 +3,14 @@
 //! A sensor a little beside its place is no mistake of the file: the examination finds it, beside effects.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use hexbench_core::{Channel, Dataset, Hexapod, Measurand, Sensor, Vector3};
 use nalgebra::Rotation3;
 
-use super::change::{Change, Group, ReferencePoint, Sensors, Signed, Target};
+use super::change::{Change, ReferencePoint, Sensors, Target};
 use super::hypotheses;
+use super::numbers::reads_one_of;
 use super::turn::SignedAxes;
 use crate::effects::intern;
 
@@ -92,27 +94,13 @@ fn sign_and_factors(which: Sensors, is_angle: bool) -> Vec<Change> {
 
 /// True for what speaks of loads, poses and joints, or of pose numbers that the file has columns of.
 fn is_of_these_readings(change: &Change, data: &Dataset) -> bool {
-    let has =
-        |is_it: &dyn Fn(usize) -> bool| channels(data).any(|c| matches!(c, Channel::Pose(k) if is_it(k)));
-    let rotations = has(&|k| k >= 3);
+    let has = |numbers: Range<usize>| channels(data).any(|c| reads_one_of(c, &numbers));
+    let rotations = has(3..6);
     match change {
-        Change::Reversed(signed) => match signed {
-            Signed::Translations => has(&|k| k < 3),
-            Signed::Rotations => rotations,
-            Signed::Reading(one) => has(&|k| k == usize::from(*one)),
-            _ => true,
-        },
-        Change::Scaled(group, _) => match group {
-            Group::Translations => has(&|k| k < 3),
-            Group::Rotations => rotations,
-            Group::Reading(one) => has(&|k| k == usize::from(*one)),
-            _ => true,
-        },
-        Change::Renamed(Target::Readings, axes) => has(&|_| true) && (rotations || axes.handedness() > 0.0),
+        Change::Reversed(_) | Change::Scaled(..) => change.pose_numbers().is_none_or(has),
+        Change::Renamed(Target::Readings, axes) => has(0..6) && (rotations || axes.handedness() > 0.0),
         // Without rotations they are the same as vectors in other axes, but for the hand.
-        Change::Renamed(Target::ReadingColumns, axes) => {
-            has(&|_| true) && (rotations || axes.handedness() < 0.0)
-        }
+        Change::Renamed(Target::ReadingColumns, axes) => has(0..6) && (rotations || axes.handedness() < 0.0),
         Change::OtherRotations => rotations,
         // What turns the numbers of a reading into each other takes all of them.
         Change::Turned(Target::Readings | Target::ReadingColumns, _)

@@ -1,29 +1,12 @@
 //! Plans: which poses and loads are measured.
 
-use hexbench_core::{Approach, Columns, Dataset, Measurand, Observation, Pose, Wrench};
+use hexbench_core::{Columns, Dataset, Measurand, Observation, Pose, Wrench};
 
 use super::random::Random;
 
 /// A reading of a pose under a load, nothing measured yet.
 pub(crate) fn reading(pose: Pose, wrench: Wrench, reference: Wrench) -> Observation {
-    Observation {
-        block: 0,
-        pose_id: 0,
-        repeat: 1,
-        line: 2,
-        pose,
-        wrench,
-        reference,
-        approach: Approach::Direct,
-        overload: Approach::OVERLOAD,
-        delta_t: 0.0,
-        elapsed: 0.0,
-        reference_age: None,
-        reference_record: None,
-        order: None,
-        measured: [0.0; 6],
-        sigma: None,
-    }
+    Observation { pose_id: 0, line: 2, ..Observation::unread(pose, wrench, reference) }
 }
 
 /// A file of readings.
