@@ -222,7 +222,7 @@ impl PyComparison {
     fn text(&self) -> String {
         let (About { measured, holdout }, compared) = self.0.as_ref();
         let held = holdout.as_ref().map(|h| &h.data);
-        let about = subject::entries(&measured.data, held, &compared.campaign.noise);
+        let about = subject::entries(&measured.data, held, &compared.campaign);
         plain(&words::comparison(&measured.machine.hexapod.name, about, &compared.comparison))
     }
 

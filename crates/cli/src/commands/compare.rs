@@ -80,7 +80,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Ok(charts::comparison(hexapod, data, holdout, &compared, &provenance)?)
     })?;
     if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) && !arguments.page.to_stdout() {
-        let about = subject::entries(data, holdout, &compared.campaign.noise);
+        let about = subject::entries(data, holdout, &compared.campaign);
         screen.show(&words::comparison(&hexapod.name, about, result))?;
     }
     let reached = result.holdout.unwrap_or(result.error).chi2_reduced;

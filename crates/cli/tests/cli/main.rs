@@ -13,6 +13,7 @@ mod documents;
 mod exits;
 mod export;
 mod far_frames;
+mod gauges;
 mod glossary;
 mod hand_changed;
 mod hostile_text;

@@ -241,7 +241,7 @@ impl Condition {
         loaded.directions[leg] * self.force[leg] - reference.directions[leg] * self.reference_force[leg]
     }
 
-    /// Elongations of the legs, m, per standard deviation of the six numbers of a full pose.
+    /// Elongations of the legs, m, per standard deviation of six numbers that determine them.
     pub(crate) fn legs_of_reading(&self, group: &ConditionReadings) -> Matrix6 {
         // Only at beta = +-90 deg, where the reading says nothing of two rotations.
         let to_legs = self.observer.try_inverse().map_or_else(Matrix6::zeros, |h| self.legs.leg_jacobian * h);
@@ -433,6 +433,15 @@ impl Campaign {
     /// The tolerances of the inputs; none where they count as exact, because no error of them shows.
     pub fn assumed_tolerances(&self) -> Option<StatedTolerances> {
         self.inexact.as_ref().map(|_| StatedTolerances::of(&self.hexapod.tolerances, self.measurand))
+    }
+
+    /// Noise of one length, m, and of one angle, rad; none of what this campaign does not read.
+    pub fn noise_read(&self) -> [Option<f64>; 2] {
+        let read = |angles: bool| {
+            let is_it = |c: &Channel| *c != Channel::Nothing && c.is_angle(&self.hexapod.sensors) == angles;
+            self.blocks.iter().flatten().any(is_it)
+        };
+        [read(false).then_some(self.noise.translation), read(true).then_some(self.noise.rotation)]
     }
 
     /// What the numbers of a reading with these standard deviations are.

@@ -270,8 +270,12 @@ fn from_columns(rows: &[Observation]) -> Noise {
     }
 }
 
-/// Pooled scatter of readings that share pose, loads and the way to them; temperature and time are ignored.
+/// Pooled scatter of full poses read under the same pose, loads and way to them; temperature and time are ignored. Of other readings
+/// nothing is pooled: each number of theirs states its own noise.
 pub fn scatter(data: &Dataset, axes: &ReadingAxes) -> RepeatScatter {
+    if data.has_other_readings() {
+        return RepeatScatter::default();
+    }
     let mut groups: HashMap<([u64; 20], Vec<u64>), [Welford; 6]> = HashMap::new();
     for row in &data.observations {
         let sequence = data.sequences.to(row).map(Arc::as_ref);

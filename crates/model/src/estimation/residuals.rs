@@ -83,10 +83,17 @@ impl ErrorSummary {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct Rms {
-    /// Over the three translations, um.
-    pub translation_um: f64,
-    /// Over the three rotations, urad.
-    pub rotation_urad: f64,
+    /// Over translations, and lengths that sensors read, um; none where none was read.
+    pub translation_um: Option<f64>,
+    /// Over rotations, and angles that sensors read, urad; none where none was read.
+    pub rotation_urad: Option<f64>,
+}
+
+impl Rms {
+    /// Of lengths, um, and of angles, urad.
+    pub fn both(&self) -> [Option<f64>; 2] {
+        [self.translation_um, self.rotation_urad]
+    }
 }
 
 /// Residuals of every reading behind a linearisation, in file order.
@@ -121,7 +128,7 @@ pub fn summarise(residuals: &[Residual], dof: Option<f64>) -> ErrorSummary {
     let root = |kind: NumberKind| {
         let of_row =
             |r: &Residual| (0..6).filter(|&k| r.kinds[k] == kind).map(|k| r.value[k]).collect::<Vec<_>>();
-        root_mean_square(residuals.iter().flat_map(of_row)).unwrap_or(0.0) * 1e6
+        root_mean_square(residuals.iter().flat_map(of_row)).map(|rms| rms * 1e6)
     };
     ErrorSummary {
         chi2_reduced: chi2 / dof.unwrap_or(count as f64).max(1.0),
@@ -257,7 +264,7 @@ mod tests {
 
     #[test]
     fn few_held_out_numbers_allow_more_scatter() {
-        let rms = Rms { translation_um: 1.0, rotation_urad: 1.0 };
+        let rms = Rms { translation_um: Some(1.0), rotation_urad: Some(1.0) };
         let at = |chi2_reduced, count| {
             ErrorSummary { chi2_reduced, rms, per_coordinate: [1.0; 6], count }.is_at_the_noise()
         };

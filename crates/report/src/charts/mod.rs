@@ -119,7 +119,7 @@ pub fn comparison(
 ) -> Result<Page, ReportError> {
     let c = &compared.comparison;
     let data = Data::of_comparison(hexapod, readings, holdout, compared)?;
-    let about = subject::entries(readings, holdout, &compared.campaign.noise);
+    let about = subject::entries(readings, holdout, &compared.campaign);
     if !compared.campaign.reads_poses {
         return Ok(words::comparison(&hexapod.name, about, c)
             .with_after("adequacy", [without_legs(scatter::section(&data)?)])

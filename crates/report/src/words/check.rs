@@ -3,6 +3,7 @@
 use hexbench_model::effects::untestable::Untestable;
 use hexbench_model::results::check::{Check, MachineCheck, ReadingsCheck};
 
+use super::units::both;
 use super::{findings, limits, notes, subject};
 use crate::number::significant;
 use crate::page::{Block, Definition, Mood, Page, Section};
@@ -83,16 +84,6 @@ fn about(m: &ReadingsCheck) -> String {
     format!("{}: {} {} at {} poses, {} conditions", m.file, m.rows, m.measurand, m.poses, m.conditions)
 }
 
-/// A length in um and an angle in urad, each where such numbers are read.
-fn of_what_is_read(m: &ReadingsCheck, [shift, turn]: [f64; 2]) -> String {
-    let (shift, turn) = (significant(shift, 3), significant(turn, 3));
-    match (m.translation_rms_um, m.rotation_rms_urad) {
-        (Some(_), None) => format!("{shift} um"),
-        (None, Some(_)) => format!("{turn} urad"),
-        _ => format!("{shift} um and {turn} urad"),
-    }
-}
-
 fn measurements(title: &str, m: &ReadingsCheck) -> Section {
     let digits = |x: f64| significant(x, 3);
     let mut all = vec![
@@ -117,15 +108,15 @@ fn measurements(title: &str, m: &ReadingsCheck) -> Section {
         ),
     ];
     if m.translation_rms_um.or(m.rotation_rms_urad).is_some() {
-        let rms = [m.translation_rms_um, m.rotation_rms_urad].map(Option::unwrap_or_default);
-        all.push(Definition::new("deflections", format!("{}, root mean square", of_what_is_read(m, rms))));
+        let rms = both([m.translation_rms_um, m.rotation_rms_urad], 3);
+        all.push(Definition::new("deflections", format!("{rms}, root mean square")));
     }
     let repeats = match (m.repeats, m.repeats_over_noise) {
-        (Some(scatter), _) => format!("repeats scatter by {}", of_what_is_read(m, scatter)),
+        (Some(scatter), _) => format!("repeats scatter by {}", both(scatter.map(Some), 3)),
         (None, Some(times)) => format!("repeats scatter by {} times that", digits(times)),
         (None, None) => "nothing is repeated".to_owned(),
     };
-    let (noise, origin) = (of_what_is_read(m, m.noise), subject::origin(m.noise_source));
+    let (noise, origin) = (both(m.noise, 3), subject::origin(m.noise_source));
     all.push(Definition::new("noise", format!("{noise} per reading, {origin}; {repeats}")));
     if let Some(k) = m.stiffness_n_per_um {
         let list = |k: [f64; 6]| k.map(digits).join("  ");

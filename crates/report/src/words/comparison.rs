@@ -12,6 +12,7 @@ use hexbench_model::results::compare::rows::Outlier;
 use hexbench_model::results::words::joined;
 
 use super::notes;
+use super::units::UnitsRead;
 use crate::number::{multiple, rounded, significant};
 use crate::page::{Block, Cell, Definition, Mood, Page, PageColumn, Section, Table};
 
@@ -21,6 +22,11 @@ const BRIEF: usize = 6;
 /// Why errors of a fit that ran out of iterations are no verdict, and what to look at.
 const NOT_CONVERGED: &str = "The fit ran out of iterations: what it leaves says nothing of the machine. Check units, axes, signs and the \
                              angle convention of the file, then single readings far from the rest.";
+
+/// Where residuals cannot be told as elongations of the legs.
+const NOT_IN_LEGS: &str = "Elongations of the legs are not determined by these readings: that takes six numbers in every row which see \
+                           every motion of the platform. What they follow is not asked for that reason; `hexbench diagnose` needs no \
+                           elongations.";
 
 /// The comparison; `subject` says what of.
 pub fn comparison(machine: &str, subject: Vec<Definition>, c: &Comparison) -> Page {
@@ -67,20 +73,16 @@ fn errors(c: &Comparison) -> Section {
     let known: Vec<(&str, &ErrorSummary)> =
         all.into_iter().filter_map(|(name, e)| Some((name, e?))).collect();
     let largest = known.iter().map(|(_, e)| e.times_noise()).fold(1.0, f64::max);
-    let columns = [
-        PageColumn::words(""),
-        PageColumn::number("translation um"),
-        PageColumn::number("rotation urad"),
-        PageColumn::number("reduced chi2"),
-        PageColumn::number("x noise"),
-        PageColumn::bars(),
-    ];
+    let of_poses = c.noise_source != NoiseSource::Sensors;
+    let units = UnitsRead::of(known.iter().map(|(_, e)| e.rms.both()));
+    let titles = units.of_both(if of_poses { ["translation um", "rotation urad"] } else { ["um", "urad"] });
+    let columns = std::iter::once(PageColumn::words(""))
+        .chain(titles.chain(["reduced chi2", "x noise"]).map(PageColumn::number))
+        .chain([PageColumn::bars()]);
     let mut table = Table::new(columns);
     for (name, e) in known {
-        let sizes =
-            [e.rms.translation_um, e.rms.rotation_urad, e.chi2_reduced].map(|x| significant(x, 3).into());
+        let sizes = units.values(e.rms.both()).chain([significant(e.chi2_reduced, 3)]).map(Cell::from);
         let times = [multiple(e.times_noise()).into(), Cell::bar(e.times_noise() / largest)];
-        let of_poses = c.noise_source != NoiseSource::Sensors;
         let count = if of_poses { (e.count / 6).to_string() } else { format!("{} numbers", e.count) };
         let name = Cell::from(format!("{name} ({count})"));
         table.row(std::iter::once(name).chain(sizes).chain(times));
@@ -171,23 +173,23 @@ fn outliers(c: &Comparison) -> Section {
     section.table(table.brief(BRIEF))
 }
 
-fn legs(c: &Comparison) -> Option<Section> {
+fn legs(c: &Comparison) -> Section {
+    let section = Section::new("Legs");
     if c.legs.is_empty() {
-        return None;
+        return section.paragraph(NOT_IN_LEGS);
     }
     let row = |name: &str, cell: fn(&LegResidual) -> String| {
         std::iter::once(name.to_owned()).chain(c.legs.iter().map(cell)).collect::<Vec<_>>()
     };
     let table = Table::named(row("leg", |l| l.leg.to_string()))
         .rows([row("rms", |l| significant(l.rms_um, 3)), row("noise alone", |l| significant(l.noise_um, 3))]);
-    Some(
-        Section::new("Legs")
-            .remark("elongation each leg would need to explain the residuals, um")
-            .table(table),
-    )
+    section.remark("elongation each leg would need to explain the residuals, um").table(table)
 }
 
-fn follows(c: &Comparison) -> Section {
+fn follows(c: &Comparison) -> Option<Section> {
+    if c.legs.is_empty() {
+        return None;
+    }
     let row = |a: &Association| {
         [
             format!("{} of {}", a.of, who(a.leg)),
@@ -209,11 +211,10 @@ fn follows(c: &Comparison) -> Section {
         let (period, chance) = (significant(p.period_mm, 3), chance(p.false_alarm));
         format!("The {} of {} repeats with leg length every {period} mm (chance {chance}).", p.of, who(p.leg))
     });
-    Section::new("What the residuals follow")
+    let section = Section::new("What the residuals follow")
         .id("follows")
-        .remark("chance corrected for the number of questions")
-        .with(found)
-        .paragraph(period)
+        .remark("chance corrected for the number of questions");
+    Some(section.with(found).paragraph(period))
 }
 
 /// `leg 3`, or all.

@@ -20,7 +20,7 @@ pub fn discovery(
     study: &DiscoveryStudy,
 ) -> Page {
     let d = &study.discovery;
-    let entries = subject::entries(data, holdout, &study.diagnosis.campaign.noise);
+    let entries = subject::entries(data, holdout, &study.diagnosis.campaign);
     let searched =
         (d.searched > 0).then(|| Definition::new("searched", format!("{} laws", thousands(d.searched))));
     let page = Page {

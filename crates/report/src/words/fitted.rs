@@ -4,13 +4,15 @@ use hexbench_model::application::model_file::Estimator;
 use hexbench_model::estimation::estimate::{Estimate, Estimates};
 use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::fit_named::look_alikes;
+use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::estimation::residuals::ErrorSummary;
 use hexbench_model::inference::selection::{FitWithErrors, HeldOut, JudgedTask};
-use hexbench_model::results::diagnose::LegRemainder;
+use hexbench_model::results::diagnose::{LegRemainder, NoiseReport};
 use hexbench_model::results::fit::{FitQuality, TOLD_CORRELATION};
 use hexbench_model::results::words::joined;
 
 use super::remainder::of_legs;
+use super::units::UnitsRead;
 use crate::number::{significant, with_uncertainty};
 use crate::page::{Block, Page, PageColumn, Section, Table};
 
@@ -91,19 +93,21 @@ fn correlations(fit: &Fit) -> Option<Section> {
 }
 
 fn errors(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
-    let row = |name: &str, e: &ErrorSummary| {
-        let sizes = [e.rms.translation_um, e.rms.rotation_urad, e.chi2_reduced].map(|x| significant(x, 3));
-        std::iter::once(name.to_owned()).chain(sizes).collect::<Vec<_>>()
+    let noise = NoiseReport::of(&task.campaign);
+    let units = UnitsRead::of([noise.both(), judged.fitted.rms.both()]);
+    let cells = |name: &str, both: [Option<f64>; 2], chi2: String| {
+        std::iter::once(name.to_owned()).chain(units.values(both)).chain([chi2]).collect::<Vec<_>>()
     };
+    let row = |name: &str, e: &ErrorSummary| cells(name, e.rms.both(), significant(e.chi2_reduced, 3));
     let held_out = match task.held_out() {
         HeldOut::File => "held-out readings",
         HeldOut::PosesInTurn => "poses left out in turn",
     };
-    let noise = task.campaign.noise;
-    let [t, r] = [noise.translation, noise.rotation].map(|sigma| significant(sigma * 1e6, 3));
-    let table = Table::named(["", "translation um", "rotation urad", "chi2 per number"])
+    let of_poses = noise.source != NoiseSource::Sensors;
+    let titles = units.of_both(if of_poses { ["translation um", "rotation urad"] } else { ["um", "urad"] });
+    let table = Table::named(std::iter::once("").chain(titles).chain(["chi2 per number"]))
         .rows([row("fitted readings", &judged.fitted)])
         .rows(judged.held_out.iter().map(|e| row(held_out, e)))
-        .rows([[format!("noise ({})", noise.source.word()), t, r, "1".to_owned()]]);
+        .rows([cells(&format!("noise ({})", noise.source.word()), noise.both(), "1".to_owned())]);
     Section::new("Errors").remark("root mean square").table(table)
 }

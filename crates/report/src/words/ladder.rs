@@ -6,6 +6,8 @@ use hexbench_model::results::diagnose::{Diagnosis, NestedReport, StepReport};
 use crate::number::{multiple, significant};
 use crate::page::{Block, Cell, Mood, PageColumn, Section, Table};
 
+use super::units::UnitsRead;
+
 /// Names of the measured numbers, translations first.
 const COORDINATES: [&str; 6] = ["a um", "b um", "c um", "alpha urad", "beta urad", "gamma urad"];
 
@@ -18,19 +20,18 @@ pub fn section(d: &Diagnosis) -> Section {
 pub fn of_steps(steps: &[StepReport], d: &Diagnosis) -> Section {
     let title = if steps.len() > 1 { "The error falls" } else { "The error" };
     let largest = steps.iter().map(|s| s.error().times_noise()).fold(1.0, f64::max);
-    let read = Read::by(d);
-    let units = read.of_units(["um", "urad"]).into_iter().map(PageColumn::number);
-    let coordinates =
-        read.of_coordinates(COORDINATES).into_iter().map(|title| PageColumn::number(title).detail());
+    let read = UnitsRead::of([d.noise.both()]);
+    let units = read.of_both(["um", "urad"]).map(PageColumn::number);
+    let coordinates = of_coordinates(d, COORDINATES).map(|title| PageColumn::number(title).detail());
     let columns = std::iter::once(PageColumn::words("model"))
         .chain(units)
         .chain([PageColumn::number("x noise"), PageColumn::bars()])
         .chain(coordinates);
     let mut table = Table::new(columns);
     for step in steps {
-        table.row(row(step, largest, &read));
+        table.row(row(d, step, largest, read));
     }
-    table.row(noise(d, largest, &read));
+    table.row(noise(d, largest, read));
     Section::new(title).id("ladder").remark(how_held_out(d)).table(table)
 }
 
@@ -63,49 +64,35 @@ pub fn name(step: &StepReport) -> String {
     step.terms.last().map_or_else(|| "springs alone".to_owned(), |term| format!("+ {term}"))
 }
 
-/// What was read: the six numbers of poses, or lengths and angles by sensors.
-struct Read {
-    units: [bool; 2],
-    poses: bool,
+/// Six values, none where sensors read something else.
+fn of_coordinates<T>(d: &Diagnosis, six: [T; 6]) -> impl Iterator<Item = T> {
+    six.into_iter().filter(|_| d.sensors.is_empty())
 }
 
-impl Read {
-    fn by(d: &Diagnosis) -> Self {
-        let poses = d.sensors.is_empty();
-        Self { units: ["um", "urad"].map(|unit| poses || d.sensors.iter().any(|s| s.unit == unit)), poses }
-    }
-
-    /// Those of two values, of lengths and of angles, that are of something read.
-    fn of_units<T>(&self, both: [T; 2]) -> Vec<T> {
-        both.into_iter().zip(self.units).filter_map(|(x, is_read)| is_read.then_some(x)).collect()
-    }
-
-    /// Six values, none where sensors read something else.
-    fn of_coordinates<T>(&self, six: [T; 6]) -> Vec<T> {
-        if self.poses { six.into() } else { Vec::new() }
-    }
-}
-
-fn row(step: &StepReport, largest: f64, read: &Read) -> Vec<Cell> {
+fn row(d: &Diagnosis, step: &StepReport, largest: f64, read: UnitsRead) -> Vec<Cell> {
     let error = step.error();
     let times = error.times_noise();
     let mood = if step.is_at_the_noise() { Mood::Good } else { Mood::Bad };
     let bar = Cell::colored_bar(at_least_one(times / largest), mood);
-    let both = [error.rms.translation_um, error.rms.rotation_urad];
-    cells(name(step), both, [multiple(times).into(), bar], error.per_coordinate, read)
+    let six = of_coordinates(d, error.per_coordinate.map(Some));
+    cells(name(step), read.values(error.rms.both()), [multiple(times).into(), bar], six)
 }
 
-fn noise(d: &Diagnosis, largest: f64, read: &Read) -> Vec<Cell> {
-    let (t, r) = (d.noise.translation_um, d.noise.rotation_urad);
+fn noise(d: &Diagnosis, largest: f64, read: UnitsRead) -> Vec<Cell> {
+    let [t, r] = d.noise.both();
     let bar = Cell::bar(at_least_one(1.0 / largest));
-    cells("noise of one reading".to_owned(), [t, r], ["1.00".into(), bar], [t, t, t, r, r, r], read)
+    let six = of_coordinates(d, [t, t, t, r, r, r]);
+    cells("noise of one reading".to_owned(), read.values([t, r]), ["1.00".into(), bar], six)
 }
 
-fn cells(name: String, both: [f64; 2], times: [Cell; 2], six: [f64; 6], read: &Read) -> Vec<Cell> {
-    let digits = |x: f64| Cell::from(significant(x, 3));
-    let units = read.of_units(both).into_iter().map(digits);
-    let coordinates = read.of_coordinates(six).into_iter().map(digits);
-    std::iter::once(name.into()).chain(units).chain(times).chain(coordinates).collect()
+fn cells(
+    name: String,
+    both: impl Iterator<Item = String>,
+    times: [Cell; 2],
+    six: impl Iterator<Item = Option<f64>>,
+) -> Vec<Cell> {
+    let six = six.flatten().map(|x| significant(x, 3)).map(Cell::from);
+    std::iter::once(name.into()).chain(both.map(Cell::from)).chain(times).chain(six).collect()
 }
 
 /// However small an error, its bar is seen.

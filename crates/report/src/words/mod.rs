@@ -26,6 +26,7 @@ mod size;
 mod spread;
 mod stiffness;
 pub mod subject;
+mod units;
 
 pub use check::check;
 pub use comparison::comparison;

@@ -263,16 +263,11 @@ fn legs(rows: &[At<'_>]) -> Vec<DataColumn> {
     };
     let left = |leg: usize| {
         let left = rows.iter().map(move |r| {
-            // Fewer than the six numbers of a pose determine no elongations.
-            let lin = &r.part.judged.lin.conditions[at(r)];
-            if lin.reads_pose && lin.numbers == 6 {
-                r.part.judged.space.elongation[at(r)][leg] * 1e6
-            } else {
-                f64::NAN
-            }
+            let space = &r.part.judged.space;
+            if space.is_determined(at(r)) { space.elongation[at(r)][leg] * 1e6 } else { f64::NAN }
         });
         let meaning = "elongation of the leg that would explain what is left of the averaged readings of this condition; none where \
-                       they are not the six numbers of a pose";
+                       they do not determine it";
         numbers(&format!("leg_{}_residual_um", leg + 1), "um", meaning, left)
     };
     (0..6).map(force).chain((0..6).map(length)).chain((0..6).map(left)).collect()

@@ -8,6 +8,7 @@ use crate::page::{Block, Cell, Mood, Page, PageColumn, Section, Table};
 
 use super::comparison::chance;
 use super::conclusion::in_words;
+use super::units::UnitsRead;
 
 /// Least probability that gets a row.
 const WORTH_A_ROW: f64 = 0.03;
@@ -71,9 +72,9 @@ fn answer(run: &Run) -> String {
 }
 
 /// Name, errors of every step of both, A first: times the noise, um, urad.
-fn rungs(runs: &ComparedRuns) -> Vec<[String; 4]> {
+fn rungs(runs: &ComparedRuns) -> Vec<(String, String, [Option<f64>; 2])> {
     let of = |name: &'static str, run: &Run| {
-        let mut all: Vec<[String; 4]> = Vec::new();
+        let mut all = Vec::new();
         for step in &run.steps {
             let with = if step.terms.is_empty() {
                 "springs alone".to_owned()
@@ -81,11 +82,10 @@ fn rungs(runs: &ComparedRuns) -> Vec<[String; 4]> {
                 format!("+ {}", step.terms.join(" + "))
             };
             let e = step.error();
-            let (t, r) = (significant(e.rms.translation_um, 3), significant(e.rms.rotation_urad, 3));
-            all.push([format!("{name}  {with}"), multiple(e.times_noise()), t, r]);
+            all.push((format!("{name}  {with}"), multiple(e.times_noise()), e.rms.both()));
         }
-        let (t, r) = (significant(run.noise_translation_um, 3), significant(run.noise_rotation_urad, 3));
-        all.push([format!("{name}  noise ({})", run.noise_source.word()), multiple(1.0), t, r]);
+        let noise = [run.noise_translation_um, run.noise_rotation_urad];
+        all.push((format!("{name}  noise ({})", run.noise_source.word()), multiple(1.0), noise));
         all
     };
     of("A", &runs.a).into_iter().chain(of("B", &runs.b)).collect()
@@ -112,10 +112,17 @@ fn error_sentence(runs: &ComparedRuns) -> String {
 }
 
 fn errors(runs: &ComparedRuns) -> Section {
+    let rungs = rungs(runs);
+    let units = UnitsRead::of(rungs.iter().map(|rung| rung.2));
+    let columns = ["model", "x noise"].into_iter().chain(units.of_both(["um", "urad"]));
+    let mut table = Table::named(columns);
+    for (name, times, both) in rungs {
+        table.row([name, times].into_iter().chain(units.values(both)));
+    }
     Section::new("The error")
         .id("ladder")
         .remark("root mean square; held-out readings where there are some")
-        .table(Table::named(["model", "x noise", "um", "urad"]).rows(rungs(runs)))
+        .table(table)
 }
 
 /// Value with its uncertainty, or a dash.

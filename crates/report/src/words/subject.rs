@@ -3,12 +3,14 @@
 use std::collections::BTreeSet;
 
 use hexbench_core::{Dataset, Hexapod};
-use hexbench_model::estimation::noise::{Noise, NoiseSource};
+use hexbench_model::estimation::campaign::Campaign;
+use hexbench_model::estimation::noise::NoiseSource;
 use hexbench_model::inference::selection::HeldOut;
 use hexbench_model::results::diagnose::DiagnosisStudy;
 
-use crate::number::significant;
 use crate::page::Definition;
+
+use super::units::both;
 
 /// A machine, its measurements, and what was found.
 pub struct ReportSubject<'a> {
@@ -45,7 +47,7 @@ impl<'a> ReportSubject<'a> {
 
     /// Files and noise.
     pub fn entries(&self) -> Vec<Definition> {
-        let mut all = entries(self.data, self.holdout, &self.study.campaign.noise);
+        let mut all = entries(self.data, self.holdout, &self.study.campaign);
         let found = self.study.diagnosis.findings.iter().filter(|f| f.kind.is_of_noise());
         all.extend(found.map(|f| Definition::new("found", format!("{}: {}", f.kind.title(), f.size))));
         all
@@ -53,9 +55,9 @@ impl<'a> ReportSubject<'a> {
 }
 
 /// Files and noise.
-pub fn entries(data: &Dataset, holdout: Option<&Dataset>, level: &Noise) -> Vec<Definition> {
+pub fn entries(data: &Dataset, holdout: Option<&Dataset>, campaign: &Campaign) -> Vec<Definition> {
     let holdout = holdout.map(|h| Definition::new("held out", describe(h)));
-    let noise = Definition::new("noise", noise(level));
+    let noise = Definition::new("noise", noise(campaign));
     std::iter::once(Definition::new("data", describe(data))).chain(holdout).chain([noise]).collect()
 }
 
@@ -72,9 +74,9 @@ pub fn poses(data: &Dataset) -> usize {
 }
 
 /// Size and origin of the noise of one reading.
-pub fn noise(noise: &Noise) -> String {
-    let (t, r) = (significant(noise.translation * 1e6, 2), significant(noise.rotation * 1e6, 2));
-    format!("{t} um and {r} urad per reading, {}", origin(noise.source))
+pub fn noise(campaign: &Campaign) -> String {
+    let levels = campaign.noise_read().map(|sigma| sigma.map(|s| s * 1e6));
+    format!("{} per reading, {}", both(levels, 2), origin(campaign.noise.source))
 }
 
 /// Where a noise level comes from.

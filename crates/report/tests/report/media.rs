@@ -53,7 +53,7 @@ fn comparisons() -> Pages {
     let page = |case: &Case| {
         let held = Some(&case.holdout);
         let compared = compare(&case.hexapod, &case.data, None, held).unwrap();
-        let about = subject::entries(&case.data, held, &compared.campaign.noise);
+        let about = subject::entries(&case.data, held, &compared.campaign);
         let words = comparison(&case.hexapod.name, about, &compared.comparison);
         let charts = charts::comparison(&case.hexapod, &case.data, held, &compared, &provenance()).unwrap();
         (case.name.clone(), words, charts)

@@ -130,7 +130,7 @@ impl LoadedCampaign {
     fn about(&self) -> Vec<String> {
         let c = &self.contents;
         let held = c.holdout.as_ref().map(|h| format!("held out {}", describe(h)));
-        let level = format!("noise {}", noise(&self.campaign.noise));
+        let level = format!("noise {}", noise(&self.campaign));
         std::iter::once(describe(&c.data))
             .chain(held)
             .chain([level])

@@ -57,8 +57,8 @@ pub struct ReadingsCheck {
     pub translation_rms_um: Option<f64>,
     /// Root mean square of the angles read, urad; likewise.
     pub rotation_rms_urad: Option<f64>,
-    /// Noise used: of one translation, um, and of one rotation, urad.
-    pub noise: [f64; 2],
+    /// Noise used: of one length, um, and of one angle, urad, each where such numbers are read.
+    pub noise: [Option<f64>; 2],
     /// Where it comes from.
     pub noise_source: NoiseSource,
     /// Scatter of repeats of full poses, um and urad, where there are any.
@@ -120,9 +120,9 @@ impl ReadingsCheck {
             ),
             translation_rms_um: rms(false).filter(|_| deflections),
             rotation_rms_urad: rms(true).filter(|_| deflections),
-            noise: [campaign.noise.translation * 1e6, campaign.noise.rotation * 1e6],
+            noise: campaign.noise_read().map(|sigma| sigma.map(|s| 1e6 * s)),
             noise_source: campaign.noise.source,
-            repeats: (campaign.reads_poses && repeated.dof > 0.0)
+            repeats: (repeated.dof > 0.0)
                 .then(|| [repeated.variance_translation, repeated.variance_rotation].map(|v| 1e6 * v.sqrt())),
             repeats_over_noise: of_numbers,
             springs_level: springs
@@ -144,12 +144,14 @@ impl ReadingsCheck {
                 q.least, q.most
             ));
         }
-        if let Some([shift, turn]) = self.repeats.filter(|_| self.noise_source != NoiseSource::Repeats) {
+        let stated = self.noise_source != NoiseSource::Repeats;
+        if let (Some([shift, turn]), [Some(length), Some(angle)]) =
+            (self.repeats.filter(|_| stated), self.noise)
+        {
             let off = |seen: f64, stated: f64| (seen / stated).max(stated / seen) > SCATTER_OFF;
-            if off(shift, self.noise[0]) || off(turn, self.noise[1]) {
+            if off(shift, length) || off(turn, angle) {
                 all.push(format!(
-                    "repeats scatter by {shift:.3} um and {turn:.3} urad, but {:.3} um and {:.3} urad are stated",
-                    self.noise[0], self.noise[1]
+                    "repeats scatter by {shift:.3} um and {turn:.3} urad, but {length:.3} um and {angle:.3} urad are stated"
                 ));
             }
         }

@@ -69,7 +69,7 @@ pub struct Comparison {
     pub worst_poses: Vec<WorstPose>,
     /// Readings far from the rest; none is dropped.
     pub outliers: Vec<Outlier>,
-    /// Residual elongation of each leg.
+    /// Residual elongation of each leg; empty where the readings do not determine it under every condition.
     pub legs: Vec<LegResidual>,
     /// What the residual elongations follow, most significant first.
     pub associations: Vec<Association>,
@@ -195,8 +195,7 @@ impl<'a> JudgedModel<'a> {
 
 fn report(judged: &JudgedModel<'_>, holdout: Option<ErrorSummary>, settled: bool) -> Comparison {
     let dof = judged.campaign.numbers as f64 - judged.rank;
-    // Other readings than full poses do not determine the elongation of every leg.
-    let seen = judged.campaign.reads_poses;
+    let seen = judged.space.is_complete();
     Comparison {
         format: "comparison/1",
         terms: judged.point.active.iter().map(|a| a.id().to_owned()).collect(),

@@ -167,9 +167,10 @@ fn with_noise_level(hexapod: &Hexapod, data: &Dataset) -> Result<Campaign, Model
     let rows = residuals(&campaign, &data.observations, &Linearization::at(&campaign, &first.point)?);
     let rms = summarise(&rows, None).rms;
     let inflate = (campaign.numbers as f64 / first.dof.max(1.0)).sqrt();
+    let level = |rms: Option<f64>| (rms.unwrap_or_default() * 1e-6 * inflate).max(1e-12);
     let noise = Noise {
-        translation: (rms.translation_um * 1e-6 * inflate).max(1e-12),
-        rotation: (rms.rotation_urad * 1e-6 * inflate).max(1e-12),
+        translation: level(rms.translation_um),
+        rotation: level(rms.rotation_urad),
         source: NoiseSource::Residuals,
         dof: 0.0,
         structure: Structure::Independent,

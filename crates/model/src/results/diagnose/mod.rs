@@ -152,7 +152,7 @@ pub fn diagnose_with(
             None
         },
         holdout: if holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn },
-        noise: NoiseReport::of(&campaign.noise),
+        noise: NoiseReport::of(&campaign),
         parameters: numbers.determined,
         not_determined: numbers.not_determined,
         untestable: outcome.untestable.clone(),

@@ -9,8 +9,9 @@ use super::alternative::Alternative;
 use super::nested::NestedReport;
 use super::remainder::RemainderReport;
 use crate::effects::untestable::Untestable;
+use crate::estimation::campaign::Campaign;
 use crate::estimation::estimate::Estimate;
-use crate::estimation::noise::{Noise, NoiseSource};
+use crate::estimation::noise::NoiseSource;
 use crate::estimation::parameters::stiffness_name;
 use crate::estimation::residuals::ErrorSummary;
 use crate::inference::examination::{Finding, is_misread};
@@ -159,23 +160,25 @@ impl StepReport {
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "typescript", derive(ts_rs::TS))]
 pub struct NoiseReport {
-    /// Of a translation, um.
-    pub translation_um: f64,
-    /// Of a rotation, urad.
-    pub rotation_urad: f64,
+    /// Of a length, um; none where none is read.
+    pub translation_um: Option<f64>,
+    /// Of an angle, urad; none where none is read.
+    pub rotation_urad: Option<f64>,
     /// Where it comes from.
     #[cfg_attr(feature = "typescript", ts(as = "String"))]
     pub source: NoiseSource,
 }
 
 impl NoiseReport {
-    /// The same in um and urad.
-    pub fn of(noise: &Noise) -> Self {
-        Self {
-            translation_um: noise.translation * 1e6,
-            rotation_urad: noise.rotation * 1e6,
-            source: noise.source,
-        }
+    /// That of what a campaign reads, in um and urad.
+    pub fn of(campaign: &Campaign) -> Self {
+        let [translation_um, rotation_urad] = campaign.noise_read().map(|sigma| sigma.map(|s| s * 1e6));
+        Self { translation_um, rotation_urad, source: campaign.noise.source }
+    }
+
+    /// Of lengths, um, and of angles, urad.
+    pub fn both(&self) -> [Option<f64>; 2] {
+        [self.translation_um, self.rotation_urad]
     }
 }
 

@@ -129,19 +129,26 @@ impl ComparedRuns {
 pub fn between(a: Run, b: Run) -> Result<ComparedRuns, Incompatible> {
     refuse(&a, &b)?;
     let limit = limit(common(&a, &b));
-    let noise =
-        [(a.noise_translation_um, b.noise_translation_um), (a.noise_rotation_urad, b.noise_rotation_urad)];
     Ok(ComparedRuns {
         format: "runs/1",
         probabilities: probabilities(&a, &b),
         error: error(&a, &b),
-        noise_changed: noise.iter().any(|(a, b)| (a - b).abs() > OTHER_NOISE * a.abs()),
+        noise_changed: is_other(a.noise_translation_um, b.noise_translation_um)
+            || is_other(a.noise_rotation_urad, b.noise_rotation_urad),
         parameters: parameters(&a, &b, limit),
         sigmas_beyond_chance: limit,
         warnings: warnings(&a, &b),
         a,
         b,
     })
+}
+
+/// True for two levels of the noise that are not the same; none: nothing of the kind is read.
+fn is_other(a: Option<f64>, b: Option<f64>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => (a - b).abs() > OTHER_NOISE * a.abs(),
+        (a, b) => a.is_some() != b.is_some(),
+    }
 }
 
 fn refuse(a: &Run, b: &Run) -> Result<(), Incompatible> {
@@ -294,7 +301,7 @@ mod tests {
     }
 
     fn run(stiffness: f64, chi2: f64) -> Run {
-        let rms = Rms { translation_um: 0.5, rotation_urad: 3.0 };
+        let rms = Rms { translation_um: Some(0.5), rotation_urad: Some(3.0) };
         let fitted = ErrorSummary { chi2_reduced: chi2, rms, per_coordinate: [1.0; 6], count: 600 };
         let unit = "N/um".to_owned();
         Run {
@@ -304,8 +311,8 @@ mod tests {
             added: Vec::new(),
             probabilities: [(Explanation::Nothing, 1.0)].into(),
             steps: vec![super::super::RunStep { terms: Vec::new(), fitted, holdout: None }],
-            noise_translation_um: 0.5,
-            noise_rotation_urad: 3.0,
+            noise_translation_um: Some(0.5),
+            noise_rotation_urad: Some(3.0),
             noise_source: NoiseSource::Metrology,
             parameters: vec![Estimate { name: "leg-1.stiffness".into(), value: stiffness, std: 0.03, unit }],
             origin: Some(origin()),

@@ -103,8 +103,8 @@ struct SavedStep {
 
 #[derive(Debug, Clone, Deserialize)]
 struct SavedNoise {
-    translation_um: f64,
-    rotation_urad: f64,
+    translation_um: Option<f64>,
+    rotation_urad: Option<f64>,
     source: NoiseSource,
 }
 
@@ -123,6 +123,7 @@ pub struct SavedComparison {
 
 #[derive(Debug, Clone, Deserialize)]
 struct SavedCoordinate {
+    unit: String,
     noise: f64,
 }
 
@@ -159,10 +160,10 @@ pub struct Run {
     pub probabilities: BTreeMap<Explanation, f64>,
     /// Errors, the springs alone first.
     pub steps: Vec<RunStep>,
-    /// Noise of one translation, um.
-    pub noise_translation_um: f64,
-    /// Noise of one rotation, urad.
-    pub noise_rotation_urad: f64,
+    /// Noise of one length, um; none where none is read.
+    pub noise_translation_um: Option<f64>,
+    /// Noise of one angle, urad; none where none is read.
+    pub noise_rotation_urad: Option<f64>,
     /// Where the noise comes from.
     pub noise_source: NoiseSource,
     /// Numbers of the final model.
@@ -205,15 +206,15 @@ impl Run {
 
     /// Of a comparison.
     pub fn of_comparison(file: &str, c: SavedComparison) -> Self {
-        let noise = |k: usize| c.coordinates.get(k).map_or(f64::NAN, |x| x.noise);
+        let noise = |unit: &str| c.coordinates.iter().find(|x| x.unit == unit).map(|x| x.noise);
         Self {
             file: file.to_owned(),
             format: FORMATS[1].to_owned(),
             verdict: None,
             added: c.terms.clone(),
             probabilities: BTreeMap::new(),
-            noise_translation_um: noise(0),
-            noise_rotation_urad: noise(3),
+            noise_translation_um: noise("um"),
+            noise_rotation_urad: noise("urad"),
             steps: vec![RunStep { terms: c.terms, fitted: c.error, holdout: c.holdout }],
             noise_source: c.noise_source,
             parameters: Vec::new(),
