@@ -33,7 +33,7 @@ pub use load_sequence::{LoadSequence, LoadSequences, PastLoad};
 pub use loads::{HungMasses, LoadRow, LoadTable};
 pub use pose::Pose;
 pub use rings::JointCircle;
-pub use sensor::{Channel, NumberKind, Sensor, SensorKind, UNREAD};
+pub use sensor::{Channel, NumberKind, PoseFunction, Sensor, SensorKind, UNREAD};
 pub use tolerances::{StatedTolerances, Tolerances};
 pub use visible::{visible, visible_lines};
 pub use wrench::Wrench;

@@ -8,9 +8,13 @@
 //! point              R_l p + t_l - R_r p - t_r       three numbers, fixed axes
 //! inclination   a . rotation vector                  a: axis, fixed axes
 //! leg-length    |q_i| loaded - |q_i| reference       q_i: from base joint to platform joint
+//! function      f(R_l, t_l) - f(R_r, t_r)            f: of the pose, as its owner wrote it
 //! ```
 
-use crate::{Measurand, Metrology, Vector3};
+use std::fmt;
+use std::sync::Arc;
+
+use crate::{Measurand, Metrology, Pose, Vector3};
 
 /// Standard deviation of a number that was not read (m or rad): it weighs nothing beside any that was.
 pub const UNREAD: f64 = 1e15;
@@ -27,7 +31,7 @@ pub struct Sensor {
 }
 
 /// What a sensor reads, and the standard deviation of one reading.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum SensorKind {
     /// Displacement of a point along a direction: dial gauge, interferometer, capacitive probe.
     Distance {
@@ -59,6 +63,44 @@ pub enum SensorKind {
         /// m.
         sigma: f64,
     },
+    /// Change of a function of the pose that its owner wrote. No file holds it.
+    Function {
+        /// m or rad.
+        of: PoseFunction,
+        /// True for an angle.
+        is_angle: bool,
+        /// m or rad.
+        sigma: f64,
+    },
+}
+
+/// A number, m or rad, that a pose of the platform gives.
+#[derive(Clone)]
+pub struct PoseFunction(Arc<dyn Fn(&Pose) -> f64 + Send + Sync>);
+
+impl PoseFunction {
+    /// This function, which must be smooth over deflections.
+    pub fn new(of: impl Fn(&Pose) -> f64 + Send + Sync + 'static) -> Self {
+        Self(Arc::new(of))
+    }
+
+    /// Its value.
+    pub fn at(&self, pose: &Pose) -> f64 {
+        (self.0)(pose)
+    }
+}
+
+impl fmt::Debug for PoseFunction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("PoseFunction")
+    }
+}
+
+/// The same function: what two of them compute is not compared.
+impl PartialEq for PoseFunction {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }
 
 impl SensorKind {
@@ -69,6 +111,7 @@ impl SensorKind {
             Self::Point { .. } => "point",
             Self::Inclination { .. } => "inclination",
             Self::LegLength { .. } => "leg-length",
+            Self::Function { .. } => "function",
         }
     }
 
@@ -76,7 +119,7 @@ impl SensorKind {
     pub fn point(&self) -> Option<&Vector3> {
         match self {
             Self::Distance { point, .. } | Self::Point { point, .. } => Some(point),
-            Self::Inclination { .. } | Self::LegLength { .. } => None,
+            Self::Inclination { .. } | Self::LegLength { .. } | Self::Function { .. } => None,
         }
     }
 
@@ -85,7 +128,7 @@ impl SensorKind {
         match self {
             Self::Distance { direction, .. } => Some(direction),
             Self::Inclination { axis, .. } => Some(axis),
-            Self::Point { .. } | Self::LegLength { .. } => None,
+            Self::Point { .. } | Self::LegLength { .. } | Self::Function { .. } => None,
         }
     }
 
@@ -101,7 +144,7 @@ impl SensorKind {
 
     /// True when it reads angles.
     pub fn is_angle(&self) -> bool {
-        matches!(self, Self::Inclination { .. })
+        matches!(self, Self::Inclination { .. } | Self::Function { is_angle: true, .. })
     }
 
     /// Standard deviation of one of its numbers, m or rad.
@@ -110,7 +153,8 @@ impl SensorKind {
             Self::Point { sigma, .. } => sigma[number],
             Self::Distance { sigma, .. }
             | Self::Inclination { sigma, .. }
-            | Self::LegLength { sigma, .. } => *sigma,
+            | Self::LegLength { sigma, .. }
+            | Self::Function { sigma, .. } => *sigma,
         }
     }
 }

@@ -16,6 +16,7 @@ mod error;
 mod json;
 mod machine;
 mod model;
+mod own_sensor;
 mod run;
 mod scene;
 mod study;

@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::rows;
 use crate::error::raised;
+use crate::own_sensor::{refuse_in_file, share_functions, with_sensor};
 
 /// A machine, and the file it comes from.
 #[derive(Debug)]
@@ -111,8 +112,32 @@ impl PyHexapod {
     }
 
     /// The text of hexapod.toml.
-    fn to_toml(&self) -> String {
+    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+        refuse_in_file(py, &self.0.hexapod)?;
+        Ok(self.described())
+    }
+
+    /// All that is stated, a sensor of one's own by its name.
+    fn described(&self) -> String {
         hexapod_to_toml(&self.0.hexapod)
+    }
+
+    /// True for a machine of which the same is stated.
+    fn is_like(&self, other: &Self) -> bool {
+        self.described() == other.described() && share_functions(&self.0.hexapod, &other.0.hexapod)
+    }
+
+    /// The machine with one more sensor, a function of the transform of the platform, (4, 4), mm.
+    fn with_sensor(
+        &self,
+        py: Python<'_>,
+        name: &str,
+        function: Py<PyAny>,
+        sigma: f64,
+        is_angle: bool,
+    ) -> PyResult<Self> {
+        let hexapod = with_sensor(py, &self.0.hexapod, name, function, sigma, is_angle)?;
+        Ok(Self::of(hexapod, &self.0.origin.name))
     }
 }
 

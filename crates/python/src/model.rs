@@ -22,6 +22,7 @@ use crate::arrays::{matrices, matrix, rows};
 use crate::campaign::{PyCampaign, conditions};
 use crate::error::{raised, usage};
 use crate::machine::PyHexapod;
+use crate::own_sensor::refuse_in_file;
 use crate::run::beside;
 
 /// A fitted model.
@@ -50,6 +51,7 @@ impl PyModel {
 
     /// The text of model.toml.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+        refuse_in_file(py, &self.model.hexapod)?;
         self.model
             .to_toml()
             .map_err(|cause| raised(py, &Failure::ModelFile { path: "model".into(), cause: Box::new(cause) }))

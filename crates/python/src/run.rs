@@ -1,4 +1,4 @@
-//! Computing beside Python: its threads go on, Ctrl-C is heard, a panic is an exception.
+//! Computing beside Python: its threads go on, Ctrl-C is heard, a panic is an exception, an exception of a function called is itself.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -54,7 +54,12 @@ pub(crate) fn beside<T: Send + 'static>(
         });
         match heard {
             Ok(Ok(result)) => return result.map_err(|failure| raised(py, &failure)),
-            Ok(Err(panic)) => return Err(internal(py, &said(panic.as_ref()))),
+            Ok(Err(panic)) => {
+                let exception = panic.downcast::<PyErr>();
+                return Err(
+                    exception.map_or_else(|panic| internal(py, &said(panic.as_ref())), |raised| *raised)
+                );
+            }
             Err(mpsc::RecvTimeoutError::Timeout) => py.check_signals()?,
             Err(mpsc::RecvTimeoutError::Disconnected) => return Err(internal(py, "no result")),
         }

@@ -1,7 +1,6 @@
 //! Campaigns of gauges alone, through the commands: what they do not read is not told.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use crate::scenes::simulate;
 use crate::support::{hexbench, root, text};
@@ -13,14 +12,8 @@ fn granite(folder: &Path) -> PathBuf {
     data
 }
 
-fn hexbench_at(data: &Path, arguments: &[&str]) -> Command {
-    let mut command = hexbench();
-    command.current_dir(data).args(arguments);
-    command
-}
-
 fn page(data: &Path, arguments: &[&str]) -> String {
-    text(hexbench_at(data, arguments).output().unwrap())
+    text(hexbench().current_dir(data).args(arguments).output().unwrap())
 }
 
 /// The lines of a page from a title to the next empty line.

@@ -105,6 +105,10 @@ fn sensor_kind(section: &TomlSection<'_>) -> Result<SensorKind, Fault> {
                 leg.ok_or_else(|| item.breaks("a leg is numbered 1 to 6", "Write for example leg = 3."))?;
             SensorKind::LegLength { leg: leg - 1, sigma: one()? }
         }
+        "function" => {
+            let rule = "no file holds the function of a sensor of one's own";
+            return Err(kind.breaks(rule, "Add it in Python, by Hexapod.with_sensor."));
+        }
         other => {
             let rule = format!("\"{other}\" is no kind of sensor");
             return Err(kind.breaks(rule, "Write distance, point, inclination or leg-length."));

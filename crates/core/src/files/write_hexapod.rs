@@ -130,6 +130,11 @@ fn add_sensor(text: &mut String, sensor: &Sensor) {
             add(text, "leg", &format!("{}", leg + 1));
             add(text, "sigma_um", &um(*sigma));
         }
+        // Reading it back says that no file holds the function.
+        SensorKind::Function { is_angle: true, sigma, .. } => {
+            add(text, "sigma_urad", &in_unit(*sigma, "urad", Dimension::Angle));
+        }
+        SensorKind::Function { sigma, .. } => add(text, "sigma_um", &um(*sigma)),
     }
 }
 

@@ -14,8 +14,8 @@
 //! term that is added takes part without a further word.
 
 use hexbench_core::{
-    Approach, Channel, Hexapod, LoadSequence, Matrix3, Matrix6, Measurand, Observation, Pose, SensorKind,
-    Vector3, Vector6, Wrench,
+    Approach, Channel, Hexapod, LoadSequence, Matrix3, Matrix6, Measurand, Observation, Pose, PoseFunction,
+    SensorKind, Vector3, Vector6, Wrench,
 };
 
 use crate::effects::chain::{Action, BesideLegs, JointDisplacement, Load};
@@ -36,6 +36,8 @@ const MOST_STEPS: usize = 12;
 const SETTLED: f64 = 1e-14;
 /// Step of the differences relative to the leg forces: laws bend over newtons, and rounding stays below 1e-9 of a compliance.
 const STEP: f64 = 1e-6;
+/// Step of the differences of a function of the pose, m and rad: what they leave out and what rounding adds are 1e-9 of lengths of a metre.
+const POSE_STEP: f64 = 3e-5;
 
 /// How the structure yields about the forces it carries.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -175,10 +177,17 @@ fn looks(
             Some(SensorKind::Point { point, .. }) => along(&Vector3::ith(number, 1.0), &(rotation * point)),
             Some(SensorKind::Inclination { axis, .. }) => Vector6::new(0.0, 0.0, 0.0, axis.x, axis.y, axis.z),
             Some(SensorKind::LegLength { leg, .. }) => along(&legs.directions[*leg], &legs.arms[*leg]),
+            Some(SensorKind::Function { of, .. }) => pose_rates(of, pose),
             None => Vector6::zeros(),
         },
     };
     Matrix6::from_rows(&channels.map(|channel| row(channel).transpose()))
+}
+
+/// What a function of the pose changes per unit of the geometric twist at the mobile origin, fixed axes: central differences.
+pub(crate) fn pose_rates(of: &PoseFunction, pose: &Pose) -> Vector6 {
+    let ahead = |k: usize, step: f64| of.at(&moved(pose, &Vector6::ith(k, 1.0), step));
+    Vector6::from_fn(|k, _| (ahead(k, POSE_STEP) - ahead(k, -POSE_STEP)) / (2.0 * POSE_STEP))
 }
 
 /// `diag(I, rates) diag(axes, axes) [I, -[lever]x; 0, I]`.

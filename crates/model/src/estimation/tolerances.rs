@@ -344,7 +344,7 @@ pub(crate) fn sensor_columns(
         SensorKind::Inclination { axis, .. } => {
             [None, block(&|_, motion, _, turn| spin(motion).dot(&turn.cross(axis)))]
         }
-        SensorKind::LegLength { .. } => [None, None],
+        SensorKind::LegLength { .. } | SensorKind::Function { .. } => [None, None],
     }
 }
 

@@ -1,7 +1,8 @@
 //! Campaigns read with gauges, points, levels and scales, made by an independent world of finite deflections.
 
 use hexbench_core::{
-    Channel, Dataset, Hexapod, Measurand, Observation, Sensor, SensorKind, UNREAD, Vector3, Vector6,
+    Channel, Dataset, Hexapod, Measurand, Observation, Pose, PoseFunction, Sensor, SensorKind, UNREAD,
+    Vector3, Vector6,
 };
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::{Fit, fit_baseline};
@@ -61,19 +62,20 @@ pub(crate) fn read(world: &World, hexapod: &Hexapod, plan: &[Observation], seed:
                 let shift = |p: &Vector3| {
                     (after * nalgebra::Point3::from(*p)) - (before * nalgebra::Point3::from(*p))
                 };
-                match s.kind {
-                    SensorKind::Distance { point, direction, .. } => vec![direction.dot(&shift(&point))],
-                    SensorKind::Point { point, .. } => shift(&point).iter().copied().collect(),
+                match &s.kind {
+                    SensorKind::Distance { point, direction, .. } => vec![direction.dot(&shift(point))],
+                    SensorKind::Point { point, .. } => shift(point).iter().copied().collect(),
                     SensorKind::Inclination { axis, .. } => {
                         vec![axis.dot(&(after.rotation * before.rotation.inverse()).scaled_axis())]
                     }
                     SensorKind::LegLength { leg, .. } => {
-                        let end = nalgebra::Point3::from(hexapod.platform_joints[leg]);
+                        let end = nalgebra::Point3::from(hexapod.platform_joints[*leg]);
                         let length = |place: &nalgebra::Isometry3<f64>| {
-                            ((place * end).coords - hexapod.base_joints[leg]).norm()
+                            ((place * end).coords - hexapod.base_joints[*leg]).norm()
                         };
                         vec![length(&after) - length(&before)]
                     }
+                    SensorKind::Function { .. } => unreachable!("this world knows no pose"),
                 }
             })
             .collect();
@@ -399,4 +401,39 @@ fn a_check_of_gauges_and_a_ball_speaks_of_lengths_alone_and_finds_nothing_odd() 
     assert!((read.repeats_over_noise.unwrap() - 1.0).abs() < 0.16);
     data.observations.iter_mut().for_each(|o| o.sigma = o.sigma.map(|s| s.map(|x| 2.0 * x)));
     assert!(of(&data).remarks[0].contains("repeats scatter by 0."), "{:?}", of(&data).remarks);
+}
+
+/// A function of the pose for a gauge or a scale, as somebody else would write it.
+fn as_function(hexapod: &Hexapod, sensor: &Sensor) -> Sensor {
+    let at = |pose: &Pose, point: Vector3| pose.rotation() * point + pose.translation;
+    let of = match sensor.kind {
+        SensorKind::Distance { point, direction, .. } => {
+            PoseFunction::new(move |pose| direction.dot(&at(pose, point)))
+        }
+        SensorKind::LegLength { leg, .. } => {
+            let (foot, head) = (hexapod.base_joints[leg], hexapod.platform_joints[leg]);
+            PoseFunction::new(move |pose| (at(pose, head) - foot).norm())
+        }
+        _ => unreachable!("a gauge or a scale"),
+    };
+    let kind = SensorKind::Function { of, is_angle: false, sigma: sensor.kind.sigma(0) };
+    Sensor::new(sensor.name.clone(), kind)
+}
+
+#[test]
+fn functions_of_the_pose_read_as_the_gauges_and_scales_that_they_copy() {
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let plan = rich_plan(25, 1.0, 4);
+    for sensors in [gauges(NO_NOISE_M), scales(NO_NOISE_M)] {
+        let built_in = with(sensors);
+        let copies = built_in.sensors.iter().map(|s| as_function(&built_in, s)).collect();
+        let data = read(&world, &built_in, &plan, None);
+        let [expected, copied] = [&built_in, &with(copies)].map(|hexapod| springs(hexapod, &data));
+        // Differences of lengths of a metre over steps of 3e-5 m: 1e-9.
+        let apart = (copied.point.compliances - expected.point.compliances)
+            .component_div(&expected.point.compliances)
+            .amax();
+        assert!(apart < 1e-8, "{apart:e}");
+        assert!(worst_error(&copied) < 1.01 * worst_error(&expected) + 1e-8);
+    }
 }

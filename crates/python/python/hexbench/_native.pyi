@@ -1,6 +1,6 @@
 """Native half of hexbench: plain numbers, arrays and texts in the units of the files. Use the classes of ``hexbench``."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any
 
@@ -29,6 +29,11 @@ class Hexapod:
     @property
     def sigma_rotation_urad(self) -> float | None: ...
     def to_toml(self) -> str: ...
+    def described(self) -> str: ...
+    def is_like(self, other: Hexapod) -> bool: ...
+    def with_sensor(
+        self, name: str, function: Callable[[NDArray[np.float64]], float], sigma: float, is_angle: bool
+    ) -> Hexapod: ...
 
 class Campaign:
     """A machine with its measurements."""

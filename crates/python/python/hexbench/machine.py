@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike, fspath
 from typing import Any
 
@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from hexbench import _native
 from hexbench._tables import Floats, rows
+from hexbench.errors import UsageError
 
 
 class Hexapod:
@@ -124,8 +125,61 @@ class Hexapod:
         """Standard deviation of one reading of a rotation, urad; None when it is not stated."""
         return self._made.sigma_rotation_urad
 
+    def with_sensor(
+        self,
+        name: str,
+        function: Callable[[Floats], float],
+        *,
+        sigma_um: float | None = None,
+        sigma_urad: float | None = None,
+    ) -> Hexapod:
+        """Return the machine with a sensor of your own: it reads the change of a function between reference and load.
+
+        Its column is ``NAME_um`` or ``NAME_urad``. A campaign loaded with the returned machine is compared, diagnosed, fitted and
+        predicted as one with the sensors of ``hexapod.toml``; derivatives are taken by differences halfway between the two states, so
+        what is left out is of third order in the deflection, as in every other kind. The place of such a sensor counts as exact.
+        No file holds the function: the machine and models fitted with it are neither saved nor pickled.
+
+        Parameters
+        ----------
+        name : str
+            Small letters, digits and ``_``.
+        function : callable
+            Takes the transform of the platform, an array (4, 4) that takes a point of the mobile frame, mm, to the fixed frame, and
+            returns a smooth number, um or urad. It may be called from other threads.
+        sigma_um, sigma_urad : float
+            Standard deviation of one reading; one of the two says what the function returns.
+
+        Raises
+        ------
+        BadInput
+            A name that is taken or none, a standard deviation that is not greater than zero.
+        UsageError
+            Both standard deviations or neither; a function that returns no finite number.
+
+        Examples
+        --------
+        A dial gauge along z at a point of the platform::
+
+            point = np.array([120.0, 0.0, 25.0, 1.0])
+            bench = hexapod.with_sensor("z1", lambda transform: 1e3 * (transform @ point)[2], sigma_um=0.3)
+        """
+        if sigma_um is not None and sigma_urad is None:
+            return Hexapod._of(self._made.with_sensor(name, function, float(sigma_um), False))
+        if sigma_urad is not None and sigma_um is None:
+            return Hexapod._of(self._made.with_sensor(name, function, float(sigma_urad), True))
+        raise UsageError(
+            "a sensor states one standard deviation, of a length or of an angle", "Give sigma_um or sigma_urad."
+        )
+
     def to_toml(self) -> str:
-        """Return the text of ``hexapod.toml``; reading it gives the same machine."""
+        """Return the text of ``hexapod.toml``; reading it gives the same machine.
+
+        Raises
+        ------
+        UsageError
+            A sensor is a Python function.
+        """
         return self._made.to_toml()
 
     def save(self, path: str | PathLike[str]) -> None:
@@ -142,11 +196,11 @@ class Hexapod:
 
     def __eq__(self, other: object) -> bool:
         """Compare all that is stated."""
-        return isinstance(other, Hexapod) and self.to_toml() == other.to_toml()
+        return isinstance(other, Hexapod) and self._made.is_like(other._made)
 
     def __hash__(self) -> int:
         """Hash what is compared."""
-        return hash(self.to_toml())
+        return hash(self._made.described())
 
 
 def _restored(text: str, origin: tuple[str, str]) -> Hexapod:

@@ -53,6 +53,7 @@ fn off_bodies(hexapod: &Hexapod, [before, after]: &[Isometry3<f64>; 2]) -> Vec<f
             let head = Point3::from(hexapod.platform_joints[*leg]);
             vec![nalgebra::distance(&(after * head), &foot) - nalgebra::distance(&(before * head), &foot)]
         }
+        SensorKind::Function { .. } => unreachable!("no file holds one"),
     };
     hexapod.sensors.iter().flat_map(one).collect()
 }

@@ -58,15 +58,15 @@ pub fn drawing(hexapod: &Hexapod) -> Result<String, PlotError> {
 fn edges(hexapod: &Hexapod, sensor: &Sensor) -> Vec<Edge> {
     let radius = hexapod.platform_radius();
     let edge = |from: Vector3, to: Vector3| [from.into(), to.into()];
-    match sensor.kind {
+    match &sensor.kind {
         SensorKind::Distance { point, direction, .. } => {
             let across =
                 direction.cross(&Vector3::ith(direction.iamin(), 1.0)).normalize() * (0.5 * POINT * radius);
             let tip = point + direction * (POINT * radius);
             vec![
-                edge(point, point + direction * (GAUGE * radius)),
-                edge(point, tip + across),
-                edge(point, tip - across),
+                edge(*point, point + direction * (GAUGE * radius)),
+                edge(*point, tip + across),
+                edge(*point, tip - across),
             ]
         }
         SensorKind::Point { point, .. } => (0..3)
@@ -78,11 +78,12 @@ fn edges(hexapod: &Hexapod, sensor: &Sensor) -> Vec<Edge> {
             vec![edge(-arm, arm)]
         }
         SensorKind::LegLength { leg, .. } => {
-            let [base, platform] = [hexapod.base_joints[leg], hexapod.platform_joints[leg]];
+            let [base, platform] = [hexapod.base_joints[*leg], hexapod.platform_joints[*leg]];
             let out = Vector3::new(base.x + platform.x, base.y + platform.y, 0.0);
             let beside = out / out.norm().max(f64::MIN_POSITIVE) * (BESIDE * radius);
             vec![edge(base + beside, platform + beside)]
         }
+        SensorKind::Function { .. } => Vec::new(),
     }
 }
 
@@ -125,6 +126,10 @@ fn about(sensor: &Sensor) -> String {
         }
         SensorKind::LegLength { leg, sigma } => {
             format!("{word} of leg {}, {} um per reading", leg + 1, micro(*sigma))
+        }
+        SensorKind::Function { is_angle, sigma, .. } => {
+            let unit = if *is_angle { "urad" } else { "um" };
+            format!("{word} of the pose, {} {unit} per reading", micro(*sigma))
         }
     }
 }

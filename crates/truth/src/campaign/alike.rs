@@ -166,9 +166,9 @@ fn errors(way: AlikeReadings, hexapod: &Hexapod, radius: f64, rng: &mut Pcg64) -
             shifts.chain(turn.iter().zip(&lever).map(|(x, lever)| (*x, BALL / lever.sqrt()))).collect()
         }
         AlikeReadings::Distances => {
-            let error = |sensor: &Sensor| match sensor.kind {
+            let error = |sensor: &Sensor| match &sensor.kind {
                 SensorKind::Distance { point, direction, sigma } => {
-                    (direction.dot(&(shift + turn.cross(&point))), sigma)
+                    (direction.dot(&(shift + turn.cross(point))), *sigma)
                 }
                 _ => (0.0, UNREAD),
             };

@@ -79,7 +79,7 @@ fn set_up(hexapod: &Hexapod, rng: &mut Pcg64) -> Hexapod {
             }
             SensorKind::Point { point, .. } => *point += off,
             SensorKind::Inclination { axis, .. } => *axis = turn * *axis,
-            SensorKind::LegLength { .. } => {}
+            SensorKind::LegLength { .. } | SensorKind::Function { .. } => {}
         }
     }
     real

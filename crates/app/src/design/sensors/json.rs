@@ -1,6 +1,6 @@
 //! `sensor-choice/1`: chosen sensors for other programs.
 
-use hexbench_core::{Sensor, SensorKind, Vector3};
+use hexbench_core::{Sensor, Vector3};
 use hexbench_design::power::{EffectPower, Visibility};
 use hexbench_design::sensors::Found;
 use hexbench_model::effects::untestable::Untestable;
@@ -116,7 +116,7 @@ impl ChosenSensors {
 fn chosen(sensor: &Sensor, cost: f64) -> Chosen<'_> {
     let kind = &sensor.kind;
     let three = |v: &Vector3| [v.x, v.y, v.z];
-    let turns = matches!(kind, SensorKind::Inclination { .. });
+    let turns = kind.is_angle();
     let sigma = |number: usize| 1e6 * kind.sigma(number);
     Chosen {
         name: &sensor.name,

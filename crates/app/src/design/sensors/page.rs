@@ -173,6 +173,7 @@ fn sensor(candidate: &CandidateSensor) -> [String; 7] {
         SensorKind::Inclination { axis, .. } => format!("about {}", list(axis, UNIT_DIGITS)),
         SensorKind::LegLength { leg, .. } => format!("leg {}", leg + 1),
         SensorKind::Point { .. } => "all axes".to_owned(),
+        SensorKind::Function { .. } => "function".to_owned(),
     };
     [
         candidate.sensor.name.clone(),

@@ -411,9 +411,8 @@ impl Change {
             Self::SensorsExchanged(one, other) => {
                 let at = |name: &str| hexapod.sensors.iter().position(|s| s.name == name);
                 if let (Some(one), Some(other)) = (at(one), at(other)) {
-                    let kind = hexapod.sensors[one].kind;
-                    hexapod.sensors[one].kind = hexapod.sensors[other].kind;
-                    hexapod.sensors[other].kind = kind;
+                    let kind = hexapod.sensors[one].kind.clone();
+                    hexapod.sensors[one].kind = std::mem::replace(&mut hexapod.sensors[other].kind, kind);
                 }
             }
             _ => {}
