@@ -68,9 +68,9 @@ pub(crate) fn given_measurements(
     path.map(|path| measurements(hexapod, path, names)).transpose()
 }
 
-/// Poses and loads that need no measurement.
-pub(crate) fn conditions(path: &Path, names: &TableNames) -> Result<Dataset, Failure> {
-    Ok(told(path, read_conditions_named(path, &names.read()?)?))
+/// Poses and loads that need no measurement; what was measured of them is passed over, by the sensors of `machine` too.
+pub(crate) fn conditions(path: &Path, names: &TableNames, machine: &Hexapod) -> Result<Dataset, Failure> {
+    Ok(told(path, read_conditions_named(path, &names.read()?, Some(machine))?))
 }
 
 /// Poses and loads to be measured.

@@ -102,6 +102,8 @@ pub struct Designed {
     pub efficiency: Option<f64>,
     /// Starts; those that ended at a plan; those that agree with the best.
     pub starts: [usize; 3],
+    /// That the machine has sensors which play no part, where it has.
+    pub left_aside: Option<String>,
     /// True when rows are in units of the stated noise.
     pub weighted: bool,
     /// Seed of the starts.

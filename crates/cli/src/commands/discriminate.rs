@@ -14,6 +14,7 @@ use hexbench_model::estimation::fit_named::term_named;
 use hexbench_model::estimation::noise::Noise;
 use hexbench_model::results::diagnose::prepare;
 use hexbench_model::results::next::{EXCLUDED_ODDS, Effort, PairForecast, Suspects, propose, suspects};
+use hexbench_report::words::notes::left_aside;
 
 use crate::csv;
 use crate::failure::Failure;
@@ -120,7 +121,7 @@ fn new_plan(
         SeparatingPlan::search(&contest, space, hexapod, &candidate_readings, count, &|| progress.advance(1));
     progress.done();
     let plan = plan?;
-    let before = arguments.against.as_ref().map(|path| distances(&contest, path)).transpose()?;
+    let before = arguments.against.as_ref().map(|path| distances(&contest, path, hexapod)).transpose()?;
     let names: Vec<String> = terms.iter().map(|t| t.info().id.to_owned()).collect();
     let promise = |distances: &[Distance], [a, b]: [usize; 2]| {
         let of = |pair: [usize; 2]| distances.iter().find(|d| d.of == pair).copied();
@@ -149,6 +150,7 @@ fn new_plan(
         breakers: breakers(terms),
         candidates: candidate_readings.len(),
         tolerances: contest.tolerances(),
+        left_aside: left_aside(&hexapod.sensors),
         seed: arguments.seed,
     })
 }
@@ -199,6 +201,7 @@ fn next_readings(
         breakers: breakers(terms),
         candidates: candidate_readings.len(),
         tolerances: campaign.assumed_tolerances(),
+        left_aside: None,
         seed: arguments.seed,
     })
 }
@@ -221,8 +224,8 @@ fn breakers(terms: &[Arc<dyn Term>]) -> Vec<(String, String)> {
 }
 
 /// Distances by the plan of a file.
-fn distances(contest: &Contest<'_>, path: &Path) -> Result<Vec<Distance>, Failure> {
-    let rows = input::conditions(path, &TableNames::default())?.observations;
+fn distances(contest: &Contest<'_>, path: &Path, hexapod: &Hexapod) -> Result<Vec<Distance>, Failure> {
+    let rows = input::conditions(path, &TableNames::default(), hexapod)?.observations;
     let informations = contest.informations(&rows)?;
     let total = informations.iter().skip(1).fold(informations[0].clone(), |sum, m| sum + m);
     Ok(contest.distances(&total))

@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
 /// Predict every row.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let model = arguments.trust.model(&arguments.model)?;
-    let rows = input::conditions(&arguments.poses, &arguments.names)?;
+    let rows = input::conditions(&arguments.poses, &arguments.names, &model.hexapod)?;
     let failed = |cause: PredictError| Failure::Row { path: arguments.poses.clone(), cause: Box::new(cause) };
     let predictions = predict(&model, &rows.observations).map_err(failed)?;
     let readings = predict_sensors(&model, &rows.observations).map_err(failed)?;

@@ -33,6 +33,8 @@ pub(crate) struct Discriminated {
     pub(crate) candidates: usize,
     /// How well inputs are assumed to be known; none where they count as exact.
     pub(crate) tolerances: Option<StatedTolerances>,
+    /// That the machine has sensors which play no part, where it has.
+    pub(crate) left_aside: Option<String>,
     /// Seed of the poses tried.
     pub(crate) seed: u32,
 }
@@ -217,10 +219,11 @@ fn assumptions(found: &Discriminated) -> Section {
     let tolerances =
         found.tolerances.map(|assumed| format!(" Tolerances: {assumed}; what they allow separates nothing."));
     let chosen = format!(
-        "Chosen from {} readings (seed {}).{}",
+        "Chosen from {} readings (seed {}).{}{}",
         found.candidates,
         found.seed,
-        tolerances.unwrap_or_default()
+        tolerances.unwrap_or_default(),
+        found.left_aside.as_ref().map_or(String::new(), |sensors| format!(" {sensors}"))
     );
     if found.sizes.is_empty() {
         return Section::new("How it was chosen").paragraph(chosen);

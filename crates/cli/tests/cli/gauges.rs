@@ -81,3 +81,31 @@ fn legs_are_told_where_six_gauges_determine_them_and_else_said_to_be_undetermine
     assert!(said.contains("not determined by these readings"), "{five}");
     assert!(!five.contains("They follow no variable"), "{five}");
 }
+
+#[test]
+fn a_plan_of_poses_says_that_the_gauges_took_no_part() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = granite(folder.path());
+    let machine = data.join("hexapod.toml");
+    let metrology = "[metrology]\nsigma_translation_um = 0.5\nsigma_rotation_urad = 3\n\n[[sensor]]";
+    let text = std::fs::read_to_string(&machine).unwrap();
+    std::fs::write(&machine, text.replacen("[[sensor]]", metrology, 1)).unwrap();
+    let space = root().join("data/designs/effects-space.toml").display().to_string();
+    let design = ["design", "hexapod.toml", &space, "--poses", "3", "--starts", "1"];
+    let between = ["--between", "base-compliance", "--between", "platform-compliance"];
+    let discriminate = [&["discriminate", "hexapod.toml", space.as_str()][..], &between].concat();
+    for command in [&design[..], &discriminate] {
+        let words = page(&data, command).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains("counts as a full pose here; z1, z2, z3, t1, t2 and t3 of the"), "{words}");
+    }
+}
+
+#[test]
+fn measured_columns_of_gauges_are_passed_over_in_silence_where_poses_are_predicted() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = granite(folder.path());
+    page(&data, &["fit", "hexapod.toml", "measurements.csv", "-o", "model.toml"]);
+    let told =
+        hexbench().current_dir(&data).args(["predict", "model.toml", "measurements.csv"]).output().unwrap();
+    assert!(told.status.success() && told.stderr.is_empty(), "{}", String::from_utf8_lossy(&told.stderr));
+}

@@ -160,7 +160,7 @@ pub(crate) fn read_header(
             Ok(Named::Known(column, unit)) => sources.push(Some(Source { column, unit })),
             Ok(Named::Private) => sources.push(None),
             Ok(Named::Unknown) => {
-                if machine.is_some() {
+                if machine.is_some() && purpose == GroupPurpose::Measurements {
                     refuse_unknown_sensor(text).map_err(|problem| Fault::new(place.clone(), problem))?;
                 }
                 warnings.push(Warning::new(place, Notice::IgnoredColumn));

@@ -5,6 +5,7 @@ use super::column_names::ColumnNames;
 use super::header::{GroupPurpose, Reads};
 use super::read_measurements::read_named;
 use super::table::TableReading;
+use crate::Hexapod;
 use std::path::Path;
 
 /// Reads a table of poses and wrenches to predict: the columns of `measurements.csv` without the measured ones.
@@ -15,15 +16,19 @@ use std::path::Path;
 /// # Errors
 /// The first thing that is wrong, with line, column, value and next step.
 pub fn read_conditions(path: &Path) -> Result<TableReading, FileError> {
-    read_conditions_named(path, &ColumnNames::default())
+    read_conditions_named(path, &ColumnNames::default(), None)
 }
 
-/// The same of a table whose columns have other names.
+/// The same of a table whose columns have other names, and of which the columns that sensors of a machine fill are passed over too.
 ///
 /// # Errors
 /// As [`read_conditions`].
-pub fn read_conditions_named(path: &Path, names: &ColumnNames) -> Result<TableReading, FileError> {
-    let reads = Reads { names: Some(names), ..Reads::of(GroupPurpose::Conditions, None) };
+pub fn read_conditions_named(
+    path: &Path,
+    names: &ColumnNames,
+    machine: Option<&Hexapod>,
+) -> Result<TableReading, FileError> {
+    let reads = Reads { names: Some(names), ..Reads::of(GroupPurpose::Conditions, machine) };
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     read_named(path, &name, reads).map_err(|fault| fault.in_file(path))
 }

@@ -437,3 +437,45 @@ fn functions_of_the_pose_read_as_the_gauges_and_scales_that_they_copy() {
         assert!(worst_error(&copied) < 1.01 * worst_error(&expected) + 1e-8);
     }
 }
+
+#[test]
+fn a_point_with_another_sign_or_two_coordinates_exchanged_is_named_with_where_it_is() {
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let meant = with(gauges(GAUGE_M).into_iter().take(4).chain(balls(GAUGE_M).into_iter().take(1)).collect());
+    let data = read(&world, &meant, &rich_plan(25, 1.0, 4), Some(4));
+    let mirrored = |p: &mut Vector3| p.x = -p.x;
+    let exchanged = |p: &mut Vector3| p.swap_rows(0, 1);
+    for sensor in [1, 4] {
+        for slip in [&mirrored as &dyn Fn(&mut Vector3), &exchanged] {
+            let mut written = meant.clone();
+            let (SensorKind::Distance { point, .. } | SensorKind::Point { point, .. }) =
+                &mut written.sensors[sensor].kind
+            else {
+                unreachable!("both look at points")
+            };
+            slip(point);
+            let off = (meant.sensors[sensor].kind.point().unwrap() - *point) * 1e3;
+            let readings = other_readings(&written, &data).unwrap();
+            let best = &readings.ways[0];
+            let name = &meant.sensors[sensor].name;
+            let expected = format!("sensor-place={name}:");
+            let found = names(&best.changes);
+            assert!(found.len() == 1 && found[0].starts_with(&expected), "{found:?} for {name} off by {off}");
+            assert!(best.level < 1.1, "{}", best.level);
+        }
+    }
+}
+
+#[test]
+fn a_gauge_and_a_load_with_the_other_sign_are_named_together() {
+    let world = World::on_springs(&paper_machine(), PAPER_STIFFNESS);
+    let hexapod = with(gauges(GAUGE_M));
+    let mut data = read(&world, &hexapod, &rich_plan(25, 1.0, 4), Some(4));
+    for o in &mut data.observations {
+        o.measured[1] = -o.measured[1];
+        (o.wrench.force.z, o.reference.force.z) = (-o.wrench.force.z, -o.reference.force.z);
+    }
+    let readings = other_readings(&hexapod, &data).unwrap();
+    let found: Vec<_> = readings.ways.iter().map(|way| (names(&way.changes), way.level)).collect();
+    assert!(found[0].1 < 1.1 && found[0].0.len() == 2, "{found:?}");
+}

@@ -1,6 +1,8 @@
 //! Suspect readings and warnings.
 
+use hexbench_core::Sensor;
 use hexbench_model::results::diagnose::Diagnosis;
+use hexbench_model::results::words::joined;
 
 use crate::number::significant;
 use crate::page::Section;
@@ -24,6 +26,18 @@ const CONVENTIONS: &str = "Fixed axes of the base unless a term says mobile; wre
 /// Frames and signs, the same on every page.
 pub(super) fn conventions() -> Section {
     Section::new("Conventions").paragraph(CONVENTIONS)
+}
+
+/// That a plan weighs no sensors, where a machine has some.
+pub fn left_aside(sensors: &[Sensor]) -> Option<String> {
+    let names: Vec<String> = sensors.iter().map(|sensor| sensor.name.clone()).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "Every reading counts as a full pose here; {} of the hexapod file took no part. `hexbench power` says what a plan shows \
+             through the sensors, `hexbench design --sensors` which of them to use.",
+            joined(&names)
+        )
+    })
 }
 
 /// Readings far from every prediction, in a sentence.

@@ -1,6 +1,7 @@
 //! What files may mean otherwise that have sensors, or some of the six pose numbers only.
 //!
-//! A sensor a little beside its place is no mistake of the file: the examination finds it, beside effects.
+//! A sensor a little beside its place is no mistake of the file: the examination finds it, beside effects. One whose coordinates were
+//! slipped in writing is far from it.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -18,6 +19,9 @@ use crate::effects::intern;
 const OF_LENGTHS: [f64; 5] = [25.4, 10.0, 1e3, 100.0, 2.0];
 /// The same of a level: seconds of arc, thousandths, degrees, millimetres on a metre.
 const OF_ANGLES: [f64; 4] = [PI / 0.648, 1e3, PI * 1e6 / 180.0, 2.0];
+
+/// A sensor nearer to its place than this is a little beside it, m.
+const ELSEWHERE: f64 = 0.01;
 
 /// Everything that is tried.
 pub(super) fn singles(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
@@ -77,6 +81,10 @@ fn of_sensor(sensor: &Sensor) -> Vec<Change> {
             (0..sensor.kind.numbers()).map(|number| Sensors::One(intern::text(&sensor.column(number))));
         all.extend(columns.flat_map(|column| sign_and_factors(column, false)));
     }
+    if let Some(point) = sensor.kind.point() {
+        let off = meant_points(point).map(|meant| meant - point);
+        all.extend(off.filter(|off| off.norm() > ELSEWHERE).map(|off| Change::SensorMoved(name, off)));
+    }
     if let Some(along) = sensor.kind.direction() {
         let axes = (0..3).map(|k| Vector3::ith(k, 1.0));
         let turns =
@@ -84,6 +92,21 @@ fn of_sensor(sensor: &Sensor) -> Vec<Change> {
         all.extend(turns.filter(|turn| turn.norm() > 0.1).map(|turn| Change::SensorTurned(name, turn)));
     }
     all
+}
+
+/// The point that its author may have meant: with another sign of a coordinate, or two coordinates exchanged.
+fn meant_points(point: &Vector3) -> impl Iterator<Item = Vector3> {
+    let signs = (0..3).map(|k| {
+        let mut meant = *point;
+        meant[k] = -meant[k];
+        meant
+    });
+    let orders = [(0, 1), (1, 2), (0, 2)].map(|(i, j)| {
+        let mut meant = *point;
+        meant.swap_rows(i, j);
+        meant
+    });
+    signs.chain(orders)
 }
 
 fn sign_and_factors(which: Sensors, is_angle: bool) -> Vec<Change> {
