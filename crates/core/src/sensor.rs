@@ -74,19 +74,25 @@ pub enum SensorKind {
     },
 }
 
-/// A number, m or rad, that a pose of the platform gives.
+/// A number, m or rad, that a pose of the platform gives; asked for many poses at once.
 #[derive(Clone)]
-pub struct PoseFunction(Arc<dyn Fn(&Pose) -> f64 + Send + Sync>);
+pub struct PoseFunction(Arc<dyn Fn(&[Pose]) -> Vec<f64> + Send + Sync>);
 
 impl PoseFunction {
     /// This function, which must be smooth over deflections.
     pub fn new(of: impl Fn(&Pose) -> f64 + Send + Sync + 'static) -> Self {
+        Self::of_many(move |poses| poses.iter().map(&of).collect())
+    }
+
+    /// The same, where many values at once cost little more than one: one for each pose.
+    pub fn of_many(of: impl Fn(&[Pose]) -> Vec<f64> + Send + Sync + 'static) -> Self {
         Self(Arc::new(of))
     }
 
-    /// Its value.
-    pub fn at(&self, pose: &Pose) -> f64 {
-        (self.0)(pose)
+    /// Its values at `N` poses; not a number where it gives fewer.
+    pub fn at<const N: usize>(&self, poses: &[Pose; N]) -> [f64; N] {
+        let values = (self.0)(poses);
+        std::array::from_fn(|k| values.get(k).copied().unwrap_or(f64::NAN))
     }
 }
 

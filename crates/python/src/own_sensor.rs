@@ -23,11 +23,13 @@ pub(crate) fn with_sensor(
     let sigma = sigma * 1e-6;
     refuse(py, hexapod, name, sigma)?;
     value(py, &function, &Pose::default())?;
-    let called = move |pose: &Pose| {
+    let called = move |poses: &[Pose]| {
+        let all: PyResult<Vec<f64>> =
+            Python::attach(|py| poses.iter().map(|pose| value(py, &function, pose)).collect());
         // An exception goes through the computation to the caller, as a panic does.
-        Python::attach(|py| value(py, &function, pose)).unwrap_or_else(|wrong| resume_unwind(Box::new(wrong)))
+        all.unwrap_or_else(|wrong| resume_unwind(Box::new(wrong)))
     };
-    let kind = SensorKind::Function { of: PoseFunction::new(called), is_angle, sigma };
+    let kind = SensorKind::Function { of: PoseFunction::of_many(called), is_angle, sigma };
     let mut hexapod = hexapod.clone();
     hexapod.sensors.push(Sensor::new(name, kind));
     Ok(hexapod)

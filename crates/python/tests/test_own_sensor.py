@@ -90,7 +90,7 @@ def test_a_sensor_that_makes_no_sense_is_refused(bench: Path) -> None:
         machine.with_sensor("Z 1", lambda _: 0.0, sigma_um=0.2)
     with pytest.raises(hexbench.BadInput, match="standard deviation"):
         machine.with_sensor("z9", lambda _: 0.0, sigma_um=-0.2)
-    with pytest.raises(hexbench.UsageError, match="gave nan"):
+    with pytest.raises(hexbench.UsageError, match="gave NaN"):
         machine.with_sensor("z9", lambda _: float("nan"), sigma_um=0.2)
     for more in ({}, {"sigma_um": 1.0, "sigma_urad": 1.0}):
         with pytest.raises(hexbench.UsageError, match="one standard deviation"):

@@ -38,6 +38,8 @@ const SETTLED: f64 = 1e-14;
 const STEP: f64 = 1e-6;
 /// Step of the differences of a function of the pose, m and rad: what they leave out and what rounding adds are 1e-9 of lengths of a metre.
 const POSE_STEP: f64 = 3e-5;
+/// The same of its second differences: 1e-8 of them.
+const CURVATURE_STEP: f64 = 1e-4;
 
 /// How the structure yields about the forces it carries.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -185,9 +187,23 @@ fn looks(
 }
 
 /// What a function of the pose changes per unit of the geometric twist at the mobile origin, fixed axes: central differences.
-pub(crate) fn pose_rates(of: &PoseFunction, pose: &Pose) -> Vector6 {
-    let ahead = |k: usize, step: f64| of.at(&moved(pose, &Vector6::ith(k, 1.0), step));
-    Vector6::from_fn(|k, _| (ahead(k, POSE_STEP) - ahead(k, -POSE_STEP)) / (2.0 * POSE_STEP))
+fn pose_rates(of: &PoseFunction, pose: &Pose) -> Vector6 {
+    let beside =
+        |n: usize| moved(pose, &Vector6::ith(n / 2, 1.0), if n % 2 == 0 { POSE_STEP } else { -POSE_STEP });
+    let values = of.at::<12>(&std::array::from_fn(beside));
+    Vector6::from_fn(|k, _| (values[2 * k] - values[2 * k + 1]) / (2.0 * POSE_STEP))
+}
+
+/// By how much a function of the pose reads a motion otherwise when the pose has moved by a twist before, to first order in both.
+pub(crate) fn pose_curvature(of: &PoseFunction, pose: &Pose, twist: &Vector6, motion: &Vector6) -> f64 {
+    let sizes = [twist, motion].map(Vector6::norm);
+    if sizes.contains(&0.0) {
+        return 0.0;
+    }
+    let sign = |n: usize, bit: usize| if (n >> bit) & 1 == 0 { CURVATURE_STEP } else { -CURVATURE_STEP };
+    let beside = |n: usize| moved(&moved(pose, twist, sign(n, 0) / sizes[0]), motion, sign(n, 1) / sizes[1]);
+    let [both, after, before, none] = of.at::<4>(&std::array::from_fn(beside));
+    (both - after - before + none) / (4.0 * CURVATURE_STEP.powi(2)) * sizes[0] * sizes[1]
 }
 
 /// `diag(I, rates) diag(axes, axes) [I, -[lever]x; 0, I]`.

@@ -18,7 +18,7 @@ use hexbench_core::{Channel, Matrix6, Measurand, Sensor, SensorKind, Vector3, Ve
 use nalgebra::{DMatrix, SMatrix};
 
 use crate::estimation::campaign::{Campaign, Condition, ConditionReadings, moved};
-use crate::estimation::equilibrium::pose_rates;
+use crate::estimation::equilibrium::pose_curvature;
 use crate::estimation::frames::ReadingAxes;
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::parallel::map;
@@ -131,10 +131,7 @@ impl<'a> AtCondition<'a> {
                 SensorKind::Point { point, .. } => shift(point)[number],
                 SensorKind::Inclination { .. } => 0.0,
                 SensorKind::LegLength { leg, .. } => row(*leg).dot(&self.motion),
-                SensorKind::Function { of, .. } => {
-                    let rates = |share: f64| pose_rates(of, &moved(&self.at.pose, twist, share));
-                    (rates(TURN_STEP) - rates(0.0)).dot(&self.motion) / TURN_STEP
-                }
+                SensorKind::Function { of, .. } => pose_curvature(of, &self.at.pose, twist, &self.motion),
             },
         })
     }

@@ -18,7 +18,10 @@ pub fn read_sensors(hexapod: &Hexapod, [reference, loaded]: &[Pose; 2]) -> Vec<f
         SensorKind::Point { point, .. } => moved(point).iter().copied().collect(),
         SensorKind::Inclination { axis, .. } => vec![axis.dot(&turned())],
         SensorKind::LegLength { leg, .. } => vec![length(loaded, *leg) - length(reference, *leg)],
-        SensorKind::Function { of, .. } => vec![of.at(loaded) - of.at(reference)],
+        SensorKind::Function { of, .. } => {
+            let [before, after] = of.at(&[*reference, *loaded]);
+            vec![after - before]
+        }
     };
     hexapod.sensors.iter().flat_map(|sensor| numbers(&sensor.kind)).collect()
 }
