@@ -76,7 +76,10 @@ pub enum SensorKind {
 
 /// A number, m or rad, that a pose of the platform gives; asked for many poses at once.
 #[derive(Clone)]
-pub struct PoseFunction(Arc<dyn Fn(&[Pose]) -> Vec<f64> + Send + Sync>);
+pub struct PoseFunction(Arc<OfPoses>);
+
+/// Values at many poses.
+type OfPoses = dyn Fn(&[Pose]) -> Vec<f64> + Send + Sync;
 
 impl PoseFunction {
     /// This function, which must be smooth over deflections.

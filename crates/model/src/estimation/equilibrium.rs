@@ -188,8 +188,8 @@ fn looks(
 
 /// What a function of the pose changes per unit of the geometric twist at the mobile origin, fixed axes: central differences.
 fn pose_rates(of: &PoseFunction, pose: &Pose) -> Vector6 {
-    let beside =
-        |n: usize| moved(pose, &Vector6::ith(n / 2, 1.0), if n % 2 == 0 { POSE_STEP } else { -POSE_STEP });
+    let steps = [POSE_STEP, -POSE_STEP];
+    let beside = |n: usize| moved(pose, &Vector6::ith(n / 2, 1.0), steps[n % 2]);
     let values = of.at::<12>(&std::array::from_fn(beside));
     Vector6::from_fn(|k, _| (values[2 * k] - values[2 * k + 1]) / (2.0 * POSE_STEP))
 }
@@ -200,8 +200,11 @@ pub(crate) fn pose_curvature(of: &PoseFunction, pose: &Pose, twist: &Vector6, mo
     if sizes.contains(&0.0) {
         return 0.0;
     }
-    let sign = |n: usize, bit: usize| if (n >> bit) & 1 == 0 { CURVATURE_STEP } else { -CURVATURE_STEP };
-    let beside = |n: usize| moved(&moved(pose, twist, sign(n, 0) / sizes[0]), motion, sign(n, 1) / sizes[1]);
+    let steps = [CURVATURE_STEP, -CURVATURE_STEP];
+    let beside = |n: usize| {
+        let turned = moved(pose, twist, steps[n % 2] / sizes[0]);
+        moved(&turned, motion, steps[n / 2] / sizes[1])
+    };
     let [both, after, before, none] = of.at::<4>(&std::array::from_fn(beside));
     (both - after - before + none) / (4.0 * CURVATURE_STEP.powi(2)) * sizes[0] * sizes[1]
 }

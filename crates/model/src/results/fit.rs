@@ -103,7 +103,7 @@ impl FitReport {
             estimator: estimator.word(),
             settled: judged.fit.is_settled(),
             quality: FitQuality::of(task, judged),
-            noise: NoiseReport::of(&task.campaign),
+            noise: NoiseReport::of(task.campaign),
             parameters: numbers.determined,
             not_determined: numbers.not_determined,
             correlations: look_alikes(&judged.fit, TOLD_CORRELATION).into_iter().map(told).collect(),

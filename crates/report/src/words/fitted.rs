@@ -93,7 +93,7 @@ fn correlations(fit: &Fit) -> Option<Section> {
 }
 
 fn errors(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
-    let noise = NoiseReport::of(&task.campaign);
+    let noise = NoiseReport::of(task.campaign);
     let units = UnitsRead::of([noise.both(), judged.fitted.rms.both()]);
     let cells = |name: &str, both: [Option<f64>; 2], chi2: String| {
         std::iter::once(name.to_owned()).chain(units.values(both)).chain([chi2]).collect::<Vec<_>>()
