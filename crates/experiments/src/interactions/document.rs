@@ -103,8 +103,9 @@ fn summary(study: &Interactions, before: &BTreeMap<String, Before>) -> Table {
                 .filter(|r| r.effects.len() == count && r.size.total_cmp(&size).is_eq())
                 .collect();
             let was: Vec<Before> = own.iter().filter_map(|r| before.get(&key(r)).copied()).collect();
-            let worst =
-                |errors: &mut dyn Iterator<Item = f64>| errors.reduce(f64::max).map_or_else(dash, percent);
+            let worst = |errors: &mut dyn Iterator<Item = f64>| {
+                errors.reduce(f64::max).map_or_else(dash, error_in_percent)
+            };
             table.row([
                 words.to_owned(),
                 format!("x{size}"),
@@ -135,8 +136,8 @@ fn beyond(study: &Interactions) -> Table {
     ])
     .words_in(8);
     for r in study.broken() {
-        let numbers =
-            [r.stiffness.error, r.stiffness.bound, r.parameter.error, r.parameter.bound].map(error_in_percent);
+        let numbers = [r.stiffness.error, r.stiffness.bound, r.parameter.error, r.parameter.bound]
+            .map(error_in_percent);
         let start = [r.effects.join(" + "), format!("x{}", r.size)];
         let rest = [r.open.to_string(), r.resting.to_string(), r.name.clone()];
         table.row(start.into_iter().chain(numbers).chain(rest));
