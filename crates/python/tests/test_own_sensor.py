@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from conftest import ROOT, Command
 
@@ -12,7 +13,8 @@ import hexbench
 from hexbench._tables import Floats
 
 SENSOR = re.compile(
-    r'name = "(?P<name>\w+)"\nkind = "distance"\npoint_mm = (?P<point>\[.*\])\ndirection = (?P<direction>\[.*\])\nsigma_um = (?P<sigma>.*)\n'
+    r'name = "(?P<name>\w+)"\nkind = "distance"\npoint_mm = (?P<point>\[.*\])\n'
+    r"direction = (?P<direction>\[.*\])\nsigma_um = (?P<sigma>.*)\n"
 )
 
 
@@ -48,9 +50,9 @@ def copied(bench: Path) -> hexbench.Hexapod:
 
 
 def test_functions_are_diagnosed_compared_fitted_and_predicted_as_the_gauges_that_they_copy(bench: Path) -> None:
-    data, held = bench / "measurements.csv", bench / "holdout.csv"
-    built_in, own = hexbench.load(bench / "hexapod.toml", data), hexbench.load(copied(bench), data)
-    expected, found = (hexbench.diagnose(campaign, holdout=held) for campaign in (built_in, own))
+    half = pd.read_csv(bench / "measurements.csv").query("pose <= 9")
+    built_in, own = hexbench.load(bench / "hexapod.toml", half), hexbench.load(copied(bench), half)
+    expected, found = (hexbench.diagnose(campaign, holdout=bench / "holdout.csv") for campaign in (built_in, own))
     assert found.verdict == expected.verdict == "named" and found.added == expected.added
     for one, other in zip(expected.parameters, found.parameters, strict=True):
         assert np.isclose(one["value"], other["value"], rtol=1e-6), one["name"]
@@ -79,7 +81,7 @@ def test_what_a_function_raises_reaches_the_caller(bench: Path) -> None:
     table["z9_um"] = np.zeros(len(table["z1_um"]))
     with pytest.raises(BrokenError, match="no such pose"):
         hexbench.compare(hexbench.load(machine, table))
-    assert hexbench.diagnose(hexbench.load(copied(bench), bench / "measurements.csv")).added
+    assert hexbench.compare(hexbench.load(copied(bench), bench / "measurements.csv")).to_dict()["error"]["count"] > 0
 
 
 def test_a_sensor_that_makes_no_sense_is_refused(bench: Path) -> None:

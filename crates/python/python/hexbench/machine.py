@@ -135,18 +135,19 @@ class Hexapod:
     ) -> Hexapod:
         """Return the machine with a sensor of your own: it reads the change of a function between reference and load.
 
-        Its column is ``NAME_um`` or ``NAME_urad``. A campaign loaded with the returned machine is compared, diagnosed, fitted and
-        predicted as one with the sensors of ``hexapod.toml``; derivatives are taken by differences halfway between the two states, so
-        what is left out is of third order in the deflection, as in every other kind. The place of such a sensor counts as exact.
-        No file holds the function: the machine and models fitted with it are neither saved nor pickled.
+        Its column is ``NAME_um`` or ``NAME_urad``. A campaign loaded with the returned machine is compared, diagnosed, fitted
+        and predicted as one with the sensors of ``hexapod.toml``; derivatives are taken by differences halfway between the two
+        states, so what is left out is of third order in the deflection, as in every other kind. The place of such a sensor counts
+        as exact. A diagnosis of some hundred conditions calls the function about a million times. No file holds it: the machine
+        and models fitted with it are neither saved nor pickled.
 
         Parameters
         ----------
         name : str
             Small letters, digits and ``_``.
         function : callable
-            Takes the transform of the platform, an array (4, 4) that takes a point of the mobile frame, mm, to the fixed frame, and
-            returns a smooth number, um or urad. It may be called from other threads.
+            Takes the transform of the platform, an array (4, 4) that takes a point of the mobile frame, mm, to the fixed frame,
+            and returns a smooth number, um or urad. It is called from other threads. What it raises reaches the caller.
         sigma_um, sigma_urad : float
             Standard deviation of one reading; one of the two says what the function returns.
 

@@ -241,10 +241,10 @@ export type ReadingResiduals = {
 
 /** Root mean square in the units people read. */
 export type Rms = {
-  /** Over the three translations, um. */
-  translation_um: number;
-  /** Over the three rotations, urad. */
-  rotation_urad: number;
+  /** Over translations, and lengths that sensors read, um; none where none was read. */
+  translation_um: number | null;
+  /** Over rotations, and angles that sensors read, urad; none where none was read. */
+  rotation_urad: number | null;
 };
 
 /** Answer to `POST /api/benches` (201). */
@@ -686,10 +686,10 @@ export type NextReport = {
 
 /** Noise of one reading. */
 export type NoiseReport = {
-  /** Of a translation, um. */
-  translation_um: number;
-  /** Of a rotation, urad. */
-  rotation_urad: number;
+  /** Of a length, um; none where none is read. */
+  translation_um: number | null;
+  /** Of an angle, urad; none where none is read. */
+  rotation_urad: number | null;
   /** Where it comes from. */
   source: string;
 };
