@@ -138,8 +138,8 @@ class Hexapod:
         Its column is ``NAME_um`` or ``NAME_urad``. A campaign loaded with the returned machine is compared, diagnosed, fitted
         and predicted as one with the sensors of ``hexapod.toml``; derivatives are taken by differences halfway between the two
         states, so what is left out is of third order in the deflection, as in every other kind. The place of such a sensor
-        counts as exact. A diagnosis of some hundred conditions calls the function about a million times. No file holds it: the machine
-        and models fitted with it are neither saved nor pickled.
+        counts as exact. A diagnosis of some hundred conditions calls the function about a million times. No file holds it: the
+        machine and models fitted with it are neither saved nor pickled.
 
         Parameters
         ----------
