@@ -139,8 +139,8 @@ fn readings_of_sensors_have_their_names_and_units() {
         }
         assert!(name != "t3" || [measured, predicted, residual].iter().all(|column| column[0].is_empty()));
     }
-    // Nobody read a pose, and six distances are no elongations of legs.
+    // Nobody read a pose; six distances are elongations of legs, also where one was read in one of two repeats only.
     assert!(table.0.keys().all(|name| !name.contains("dalpha")), "{:?}", table.0.keys());
-    assert!(table.words("leg_1_residual_um").iter().all(String::is_empty));
+    assert!(table.words("leg_1_residual_um").iter().all(|cell| !cell.is_empty()));
     assert!(table.words("leg_1_force_N").iter().all(|cell| !cell.is_empty()));
 }

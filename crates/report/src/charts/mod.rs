@@ -137,5 +137,5 @@ pub fn comparison(
 
 /// What is not charted of readings that are no full poses.
 fn without_legs(section: Section) -> Section {
-    section.paragraph("Charts of single legs are left out: they need the six numbers of a pose in every row.")
+    section.paragraph("Charts of single legs are drawn of full poses only.")
 }
