@@ -22,6 +22,7 @@ mod model_file;
 mod nested;
 mod next;
 mod paper;
+mod platform_stiffness;
 mod predict_sensors;
 mod recovery;
 mod registry;

@@ -2,6 +2,7 @@
 //!
 //! Computing and judging are `hexbench-model`'s, layout is [`crate::render`]'s, charts are [`crate::charts`]'s.
 
+mod cartesian;
 mod check;
 pub mod comparison;
 pub mod conclusion;
@@ -28,6 +29,7 @@ mod stiffness;
 pub mod subject;
 mod units;
 
+pub use cartesian::cartesian;
 pub use check::check;
 pub use comparison::comparison;
 pub use demo::demo;
