@@ -86,7 +86,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
             .map_err(|cause| Failure::Row { path: path.to_owned(), cause: Box::new(cause) })
     };
     if let Some(path) = &arguments.poses {
-        let rows = input::conditions(path, &arguments.names)?;
+        let rows = input::conditions(path, &arguments.names, &model.hexapod)?;
         let found = stiffness(&rows.observations, path)?;
         if let Some(json) = &arguments.json {
             write_json(screen, json, &StiffnessList::of(&rows.observations, &found, &at))?;
