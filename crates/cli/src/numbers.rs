@@ -8,21 +8,21 @@ pub(crate) fn finite(text: &str) -> Result<f64, String> {
     if f64::is_finite(value) { Ok(value) } else { Err(format!("`{text}` is not finite")) }
 }
 
-/// So many numbers.
-fn several<const N: usize>(text: &str) -> Result<[f64; N], String> {
+/// So many numbers; `word` says how many.
+fn several<const N: usize>(text: &str, word: &str) -> Result<[f64; N], String> {
     let numbers: Vec<f64> = text.split(',').map(finite).collect::<Result<_, _>>()?;
     let count = numbers.len();
-    numbers.try_into().map_err(|_| format!("{count} numbers; {N} with commas between are needed"))
+    numbers.try_into().map_err(|_| format!("{count} numbers; {word} with commas between are needed"))
 }
 
 /// Force (N) and moment (N m): `fx,fy,fz,mx,my,mz`.
 pub(crate) fn wrench(text: &str) -> Result<Wrench, String> {
-    several(text).map(Wrench::from_array)
+    several(text, "six").map(Wrench::from_array)
 }
 
 /// `a,b,c,alpha,beta,gamma` in mm and deg.
 pub(crate) fn pose(text: &str) -> Result<Pose, String> {
-    let [a, b, c, x, y, z] = several(text)?;
+    let [a, b, c, x, y, z] = several(text, "six")?;
     let [a, b, c] = [a, b, c].map(|mm| mm * 1e-3);
     let [x, y, z] = [x, y, z].map(f64::to_radians);
     Ok(Pose::from_array([a, b, c, x, y, z]))
@@ -30,5 +30,5 @@ pub(crate) fn pose(text: &str) -> Result<Pose, String> {
 
 /// `x,y,z` in mm.
 pub(crate) fn point(text: &str) -> Result<Vector3, String> {
-    several(text).map(|mm: [f64; 3]| Vector3::from(mm) * 1e-3)
+    several(text, "three").map(|mm: [f64; 3]| Vector3::from(mm) * 1e-3)
 }

@@ -27,7 +27,7 @@
 //! | terms chosen by hand, fitted and judged | [`model::inference::selection`], [`model::estimation::fit_named`] |
 //! | the catalogue of effects; a term of your own | [`model::terms`]; [`model::effects::term`], [`model::effects::chain`] |
 //! | where the error sits and what it follows | [`model::results::compare`] |
-//! | a model kept in a file; what it predicts; commands corrected by it | [`model::application::model_file`]; [`model::application::predict`]; [`model::application::compensate`] |
+//! | a model kept in a file; what it predicts; commands corrected by it; how stiff the platform is | [`model::application::model_file`]; [`model::application::predict`]; [`model::application::compensate`]; [`model::application::stiffness`] |
 //! | what to measure: poses, loads, readings within a budget | [`design`] |
 //! | which effects a plan would show | [`design::power`] |
 //!

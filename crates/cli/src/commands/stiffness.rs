@@ -53,9 +53,9 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", value_parser = size, default_value = "1")]
     amplitude: f64,
     /// Write the table of `--poses` to FILE instead of standard output
-    #[arg(short, long, value_name = "FILE", requires = "poses", default_value = "-")]
-    output: OutFile,
-    /// Write stiffness.json to FILE, or to standard output (-) instead of the page
+    #[arg(short, long, value_name = "FILE", requires = "poses")]
+    output: Option<OutFile>,
+    /// Write stiffness.json to FILE, or to standard output (-), instead of page or table
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
 }
@@ -91,7 +91,11 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         if let Some(json) = &arguments.json {
             write_json(screen, json, &StiffnessList::of(&rows.observations, &found, &at))?;
         }
-        return screen.write_to(&arguments.output, &table(&rows, &found));
+        return match (&arguments.output, &arguments.json) {
+            (Some(output), _) => screen.write_to(output, &table(&rows, &found)),
+            (None, Some(_)) => Ok(()),
+            (None, None) => screen.write(&table(&rows, &found)),
+        };
     }
     let rows = [Observation::unread(arguments.pose, arguments.load, Wrench::default())];
     let found = stiffness(&rows, &arguments.model)?;

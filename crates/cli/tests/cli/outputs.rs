@@ -92,6 +92,7 @@ fn every_way_to_write_is_refused_to_write_over_the_machine() {
         &["design", "hexapod.toml", "space.toml", "-o", "hexapod.toml"],
         &["predict", "model.toml", "hexapod.toml", "-o", "hexapod.toml"],
         &["compensate", "model.toml", "hexapod.toml", "-o", "hexapod.toml"],
+        &["stiffness", "model.toml", "--poses", "hexapod.toml", "-o", "hexapod.toml"],
         &["transient", "hexapod.toml", "--load", "1,0,0,0,0,0", "-o", "hexapod.toml"],
         &["power", "hexapod.toml", "measurements.csv", "--svg", "hexapod.toml"],
         &["runs", "a.json", "hexapod.toml", "--json", "hexapod.toml"],

@@ -11,6 +11,7 @@ mod interrupted;
 mod machine_laws;
 mod misread;
 mod paper;
+mod platform_stiffness;
 mod power;
 mod recovery;
 mod reference_records;

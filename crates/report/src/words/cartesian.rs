@@ -13,13 +13,12 @@ type Entries<'a> = &'a dyn Fn(usize, usize) -> f64;
 
 /// The platform at a pose under a load: principal stiffnesses first, then both matrices with their uncertainties.
 pub fn cartesian(k: &CartesianStiffness, pose: &Pose, load: &Wrench, at: &StiffnessPoint) -> Page {
-    let [a, b, c, x, y, z] = pose.to_array();
-    let shift = [a, b, c].map(|m| significant(m * 1e3, 6)).join(", ");
-    let turn = [x, y, z].map(|rad| significant(rad.to_degrees(), 6)).join(", ");
-    let loads = load.to_array();
-    let [force, moment] = [&loads[..3], &loads[3..]]
-        .map(|w| w.iter().map(|x| significant(*x, 6)).collect::<Vec<_>>().join(", "));
-    let point = at.point.iter().map(|m| significant(m * 1e3, 6)).collect::<Vec<_>>().join(", ");
+    let pose = pose.to_array();
+    let shift = listed(pose[..3].iter().map(|m| m * 1e3));
+    let turn = listed(pose[3..].iter().map(|rad| rad.to_degrees()));
+    let load = load.to_array();
+    let (force, moment) = (listed(load[..3].iter().copied()), listed(load[3..].iter().copied()));
+    let point = listed(at.point.iter().map(|m| m * 1e3));
     let axes = match at.axes {
         StiffnessAxes::Fixed => "axes of the fixed frame",
         StiffnessAxes::Mobile => "axes of the mobile frame",
@@ -53,6 +52,12 @@ const FORCES: [&str; 6] = ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz,
 const MOTIONS: [&str; 6] = ["x, um", "y, um", "z, um", "rx, mrad", "ry, mrad", "rz, mrad"];
 const TWISTS: [&str; 6] = MOTIONS;
 const LOADS: [&str; 6] = ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"];
+
+/// Numbers that were given, without what changing their unit has added.
+fn listed(numbers: impl Iterator<Item = f64>) -> String {
+    const DECIMALS: f64 = 1e9;
+    numbers.map(|x| ((x * DECIMALS).round() / DECIMALS + 0.0).to_string()).collect::<Vec<_>>().join(", ")
+}
 
 /// From SI: a column is for a um or a mrad.
 fn stiffness_unit(_: usize, column: usize) -> f64 {
