@@ -1,0 +1,3 @@
+#![no_main]
+
+hexbench_fuzz::fuzz!("space");
