@@ -2,6 +2,7 @@
 //!
 //! `HEXBENCH_FUZZ_MUTATIONS=N cargo test -p hexbench-fuzz` changes every file of the corpus N times: a fuzzer without coverage where
 //! there is no nightly compiler.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
 
 use std::collections::BTreeSet;
 use std::fs;
