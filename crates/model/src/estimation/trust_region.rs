@@ -19,7 +19,7 @@ use crate::estimation::lsq::{Solution, Triangle};
 const POOR_GAIN: f64 = 0.25;
 const GOOD_GAIN: f64 = 0.75;
 /// Radius after a poor step, after a good one, as shares of that step.
-const SHRUNK: f64 = 0.3;
+const SHRUNK: f64 = 0.5;
 const GROWN: f64 = 2.0;
 
 /// What is fitted.
