@@ -24,9 +24,18 @@ crates() { find "$1"/crates -mindepth 2 -maxdepth 2 -name Cargo.toml | wc -l; }
 lines() { sources "$1" | xargs cat | wc -l; }
 tests() { find "$1"/crates/*/tests "$1"/crates/*/src -name '*.rs' | xargs grep -hE '^ *#\[test\]' | wc -l; }
 
+# Declarations of public types, and names that stand for more than one of them.
+types() { sources "$1" | xargs grep -hoE '^pub (struct|enum|trait|type) [A-Za-z0-9]+' | cut -d' ' -f3; }
+public_types() { types "$1" | wc -l; }
+names_of_several() { types "$1" | sort | uniq -d | wc -l; }
+programs() { find "$1"/crates/*/tests -maxdepth 2 -name '*.rs' \( -path '*/tests/*/main.rs' -o -path '*/tests/[a-z_]*.rs' ! -path '*/tests/*/*' \) | wc -l; }
+
 row "crates" crates "" "$@"
 row "lines of Rust source" lines "" "$@"
 row "tests" tests "" "$@"
+row "test programs" programs "" "$@"
+row "public types" public_types "" "$@"
+row "names of several public types" names_of_several "" "$@"
 row "document models" matches 'pub (struct (Document|Paper|Page) \{|fn (to_text|to_markdown|into_text)\()' "$@"
 row "table types" matches '(pub struct (Table|Sheet|Frame)\b|^    Table \{)' "$@"
 row "writers of comma-separated text" files 'join\(","\)|push\(.,.\)|write!\([a-z]+, ",\{|"\{\},\{\}' "$@"

@@ -46,6 +46,7 @@ pub(crate) enum Command {
     Fit(commands::fit::Arguments),
     Predict(commands::predict::Arguments),
     Compensate(commands::compensate::Arguments),
+    Stiffness(commands::stiffness::Arguments),
     Transient(commands::transient::Arguments),
     Export(commands::export::Arguments),
     Design(commands::design::Arguments),

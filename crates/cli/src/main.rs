@@ -6,6 +6,7 @@ mod args;
 mod commands;
 mod csv;
 mod input;
+mod numbers;
 mod output;
 mod page;
 mod question;

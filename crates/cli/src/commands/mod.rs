@@ -20,6 +20,7 @@ pub(crate) mod predict;
 pub(crate) mod regress;
 pub(crate) mod runs;
 pub(crate) mod simulate;
+pub(crate) mod stiffness;
 pub(crate) mod study;
 pub(crate) mod terms;
 pub(crate) mod transient;
@@ -48,6 +49,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Discover(arguments) => discover::run(arguments, &screen),
         Command::Runs(arguments) => runs::run(arguments, &screen),
         Command::Export(arguments) => export::run(arguments, &screen),
+        Command::Stiffness(arguments) => stiffness::run(arguments, &screen),
         Command::Transient(arguments) => transient::run(arguments, &screen),
         Command::Design(arguments) => design::run(arguments, &screen),
         Command::Discriminate(arguments) => discriminate::run(arguments, &screen),

@@ -11,7 +11,7 @@ use hexbench_report::{Block, Page, Section, Table, number};
 
 use crate::failure::Failure;
 use crate::input;
-
+use crate::numbers::{finite, pose, wrench};
 use crate::output::{OutFile, Screen};
 
 /// See how the machine settles after a load step, and its natural frequencies
@@ -20,11 +20,11 @@ pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,
     /// Force (N) and moment (N m) at the mobile origin: fx,fy,fz,mx,my,mz
-    #[arg(long, value_name = "WRENCH", value_parser = six, allow_hyphen_values = true)]
-    load: Six,
+    #[arg(long, value_name = "WRENCH", value_parser = wrench, allow_hyphen_values = true)]
+    load: Wrench,
     /// Pose (mm, deg): a,b,c,alpha,beta,gamma
-    #[arg(long, value_name = "POSE", value_parser = six, allow_hyphen_values = true, default_value = "0,0,0,0,0,0")]
-    pose: Six,
+    #[arg(long, value_name = "POSE", value_parser = pose, allow_hyphen_values = true, default_value = "0,0,0,0,0,0")]
+    pose: Pose,
     /// Mass of the platform with its payload, kg; a disc of the radius of its joints
     #[arg(long, value_name = "MASS", value_parser = positive, default_value = "10")]
     payload_kg: f64,
@@ -42,39 +42,20 @@ pub(crate) struct Arguments {
     output: Option<OutFile>,
 }
 
-/// Six numbers of an argument.
-#[derive(Debug, Clone, Copy)]
-struct Six([f64; 6]);
-
-fn six(text: &str) -> Result<Six, String> {
-    let numbers: Vec<f64> = text.split(',').map(number_of).collect::<Result<_, _>>()?;
-    let count = numbers.len();
-    numbers.try_into().map(Six).map_err(|_| format!("{count} numbers; six with commas between are needed"))
-}
-
-fn number_of(text: &str) -> Result<f64, String> {
-    let value = text.trim().parse().map_err(|_| format!("`{text}` is not a number"))?;
-    if f64::is_finite(value) { Ok(value) } else { Err(format!("`{text}` is not finite")) }
-}
-
 fn positive(text: &str) -> Result<f64, String> {
-    number_of(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("it has to be positive".into()) })
+    finite(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("it has to be positive".into()) })
 }
 
 fn ratio(text: &str) -> Result<f64, String> {
     let within = |x: &f64| (0.005..=2.0).contains(x);
-    number_of(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "it has to be 0.005 to 2".into()))
+    finite(text).and_then(|x| Some(x).filter(within).ok_or_else(|| "it has to be 0.005 to 2".into()))
 }
 
 /// Settle, tell, save.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let stiffness = stiffness(arguments, &hexapod)?;
-    let [a, b, c, x, y, z] = arguments.pose.0;
-    let [a, b, c] = [a, b, c].map(|mm| mm * 1e-3);
-    let [x, y, z] = [x, y, z].map(f64::to_radians);
-    let pose = Pose::from_array([a, b, c, x, y, z]);
-    let setup = nominal(&hexapod, &stiffness, pose, Wrench::from_array(arguments.load.0))?;
+    let setup = nominal(&hexapod, &stiffness, arguments.pose, arguments.load)?;
     let standing = static_deflection(&setup)?;
     let step = LoadStep {
         platform: Inertia::disc(arguments.payload_kg, hexapod.platform_radius()),

@@ -67,6 +67,51 @@ fn a_saved_model_predicts_its_holdout_and_finds_commands() {
     }
 }
 
+/// Entries of a 6x6 matrix of stiffness.json.
+fn entries(matrix: &serde_json::Value) -> [[f64; 6]; 6] {
+    std::array::from_fn(|i| std::array::from_fn(|j| matrix[i][j].as_f64().unwrap()))
+}
+
+#[test]
+fn the_stiffness_of_the_platform_is_a_page_a_table_and_a_file_with_the_same_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = saved_model(folder.path());
+    let page = run(&["stiffness", &model, "--point", "0,0,80"]);
+    assert_eq!(page.status.code(), Some(0), "{}", text(&page.stderr));
+    let page = text(&page.stdout);
+    assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
+    for said in [
+        "Principal stiffnesses",
+        "Stiffness matrix K",
+        "Compliance matrix C",
+        "0, 0, 80 mm in the mobile frame",
+    ] {
+        assert!(page.contains(said), "{said}: {page}");
+    }
+    let told = run(&["stiffness", &model, "--point", "0,0,80", "--json", "-"]);
+    let told: serde_json::Value = serde_json::from_slice(&told.stdout).unwrap();
+    assert_eq!(told["format"], "stiffness/1");
+    let state = &told["states"][0];
+    let (k, c) = (entries(&state["stiffness"]), entries(&state["compliance"]));
+    for i in 0..6 {
+        for j in 0..6 {
+            let product: f64 = (0..6).map(|n| k[i][n] * c[n][j]).sum();
+            assert!((product - f64::from(i == j)).abs() < 1e-9, "K C ({i}, {j}) is {product}");
+        }
+    }
+    let shown = format!("{:.4}", state["of_forces"][0]["stiffness"].as_f64().unwrap() * 1e-6);
+    assert!(page.contains(&shown), "{shown}: {page}");
+    // A file of one pose at home is the same state.
+    let poses = folder.path().join("home.csv");
+    let header = "pose,repeat,a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
+    std::fs::write(&poses, format!("{header}\n1,1,0,0,0,0,0,0,0,0,0,0,0,0\n")).unwrap();
+    let table =
+        text(&run(&["stiffness", &model, "--point", "0,0,80", "--poses", poses.to_str().unwrap()]).stdout);
+    let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let column = lines[0].iter().position(|name| *name == "K_fy_ry_SI").unwrap();
+    assert!((lines[1][column].parse::<f64>().unwrap() / k[1][4] - 1.0).abs() < 1e-9, "{table}");
+}
+
 #[test]
 fn gauges_are_predicted_in_their_unit_beside_the_pose() {
     let folder = tempfile::tempdir().unwrap();

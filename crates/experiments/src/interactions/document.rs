@@ -103,8 +103,9 @@ fn summary(study: &Interactions, before: &BTreeMap<String, Before>) -> Table {
                 .filter(|r| r.effects.len() == count && r.size.total_cmp(&size).is_eq())
                 .collect();
             let was: Vec<Before> = own.iter().filter_map(|r| before.get(&key(r)).copied()).collect();
-            let worst =
-                |errors: &mut dyn Iterator<Item = f64>| errors.reduce(f64::max).map_or_else(dash, percent);
+            let worst = |errors: &mut dyn Iterator<Item = f64>| {
+                errors.reduce(f64::max).map_or_else(dash, error_in_percent)
+            };
             table.row([
                 words.to_owned(),
                 format!("x{size}"),
@@ -135,8 +136,8 @@ fn beyond(study: &Interactions) -> Table {
     ])
     .words_in(8);
     for r in study.broken() {
-        let numbers =
-            [r.stiffness.error, r.stiffness.bound, r.parameter.error, r.parameter.bound].map(percent);
+        let numbers = [r.stiffness.error, r.stiffness.bound, r.parameter.error, r.parameter.bound]
+            .map(error_in_percent);
         let start = [r.effects.join(" + "), format!("x{}", r.size)];
         let rest = [r.open.to_string(), r.resting.to_string(), r.name.clone()];
         table.row(start.into_iter().chain(numbers).chain(rest));
@@ -153,7 +154,7 @@ fn compared(study: &Interactions, before: &BTreeMap<String, Before>) -> Table {
     let mut table =
         Table::named(["effects", "size", "stiffness before", "after", "parameter before", "after"]);
     for (r, b) in all.into_iter().take(LISTED) {
-        let numbers = [b.stiffness, r.stiffness.error, b.parameter, r.parameter.error].map(percent);
+        let numbers = [b.stiffness, r.stiffness.error, b.parameter, r.parameter.error].map(error_in_percent);
         table.row([r.effects.join(" + "), format!("x{}", r.size)].into_iter().chain(numbers));
     }
     table
@@ -163,7 +164,7 @@ fn dash() -> String {
     "-".to_owned()
 }
 
-fn percent(share: f64) -> String {
+fn error_in_percent(share: f64) -> String {
     let p = 100.0 * share;
     if p >= 0.01 { format!("{p:.3} %") } else { format!("{p:.1e} %") }
 }

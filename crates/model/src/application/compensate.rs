@@ -38,7 +38,7 @@ pub struct Correction {
 /// # Errors
 /// [`PredictError`] with the first row that is singular or for which no command is found.
 pub fn compensate(model: &Model, rows: &[Observation]) -> Result<Vec<Correction>, PredictError> {
-    let model = without_metrology(model);
+    let model = model.without_metrology();
     let wanted: Vec<Vector6> = rows.iter().map(|o| o.pose.to_vector()).collect();
     let mut commands = rows.to_vec();
     let mut without = None;
@@ -84,25 +84,13 @@ fn not_found(rows: &[Observation], errors: &[Vector6]) -> PredictError {
     PredictError { line: rows[row].line, cause }
 }
 
-/// The model without effects that live in the measurement.
-fn without_metrology(model: &Model) -> Model {
-    let mut model = model.clone();
-    for a in model.point.active.iter_mut().filter(|a| a.term.is_of_metrology()) {
-        a.values.fill(0.0);
-    }
-    model
-}
-
 /// Pose of the loaded platform in the fixed frame for every command.
 pub(crate) fn loaded_poses(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>, PredictError> {
     if model.is_absolute() { absolute(model, commands) } else { deflected(model, commands) }
 }
 
 fn absolute(model: &Model, commands: &[Observation]) -> Result<Vec<Prediction>, PredictError> {
-    // In the machine's own frame: the frames of the metrology are taken away.
-    let mut bare = model.clone();
-    bare.point.machine.metrology_frame = nalgebra::Isometry3::identity();
-    bare.point.machine.target_frame = nalgebra::Isometry3::identity();
+    let bare = model.in_machine_frames();
     Ok(without_covariance(predict_as(&bare, commands, Measurand::AbsolutePose, Uncertain::Platform)?))
 }
 

@@ -134,7 +134,7 @@ pub(crate) fn predict_as(
     measurand: Measurand,
     uncertain: Uncertain,
 ) -> Result<Vec<(Prediction, Matrix6)>, PredictError> {
-    let answers = answered(model, rows, uncertain, |rows| poses(model, rows, measurand))?;
+    let answers = predict_with_slopes(model, rows, measurand, uncertain)?;
     let covariance = kept_covariance(model, uncertain);
     let with_covariance = |Answer { value, reader }: &Answer| {
         let spread = reader * &covariance * reader.transpose();
@@ -144,11 +144,22 @@ pub(crate) fn predict_as(
     Ok(answers.iter().map(with_covariance).collect())
 }
 
+/// The same with the slope of each number in every parameter whose uncertainty counts.
+pub(crate) fn predict_with_slopes(
+    model: &Model,
+    rows: &[Observation],
+    measurand: Measurand,
+    uncertain: Uncertain,
+) -> Result<Vec<Answer>, PredictError> {
+    answered(model, rows, uncertain, |rows| poses(model, rows, measurand))
+}
+
 /// Six predicted numbers, and what a unit of each parameter whose uncertainty counts does to them.
 #[derive(Debug, Clone)]
-struct Answer {
-    value: [f64; 6],
-    reader: DMatrix<f64>,
+pub(crate) struct Answer {
+    pub(crate) value: [f64; 6],
+    /// Six rows, a column for each of [`kept_covariance`].
+    pub(crate) reader: DMatrix<f64>,
 }
 
 fn deviation(spread: &DMatrix<f64>, k: usize) -> f64 {
@@ -249,7 +260,7 @@ fn answers(
 }
 
 /// Covariance of the parameters whose uncertainty counts.
-fn kept_covariance(model: &Model, uncertain: Uncertain) -> DMatrix<f64> {
+pub(crate) fn kept_covariance(model: &Model, uncertain: Uncertain) -> DMatrix<f64> {
     let kept = kept_columns(model, uncertain);
     model.covariance.select_columns(&kept).select_rows(&kept)
 }

@@ -8,5 +8,6 @@ pub mod discover;
 pub mod fit;
 pub mod next;
 pub mod runs;
+pub mod stiffness;
 pub mod terms;
 pub mod words;

@@ -23,6 +23,7 @@ mod nested;
 mod next;
 mod nonlinear_least_squares;
 mod paper;
+mod platform_stiffness;
 mod predict_sensors;
 mod recovery;
 mod registry;

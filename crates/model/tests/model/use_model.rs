@@ -27,12 +27,18 @@ fn model(hexapod: &Hexapod, data: &Dataset, terms: &[(&str, f64, f64)]) -> Model
     Model::new(&campaign, &fit(&campaign, &wanted, None).unwrap(), Estimator::Gls, DataOrigin::default())
 }
 
-fn foundation() -> (Model, Dataset) {
+/// Springs alone, fitted to readings that need more.
+pub(crate) fn springs() -> Model {
+    let (hexapod, data, _) = cases::case("mujoco-foundation");
+    model(&hexapod, &data, &[])
+}
+
+pub(crate) fn foundation() -> (Model, Dataset) {
     let (hexapod, data, holdout) = cases::case("mujoco-foundation");
     (model(&hexapod, &data, &[("base-compliance", 1.0, 1e-4)]), holdout)
 }
 
-fn absolute() -> (Model, Dataset) {
+pub(crate) fn absolute() -> (Model, Dataset) {
     let (hexapod, data, holdout) = cases::case("absolute-pitch");
     (model(&hexapod, &data, &[("joint-geometry", 1.0, 1e-3), ("actuator-pitch", 3e-3, 1e-4)]), holdout)
 }

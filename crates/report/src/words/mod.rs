@@ -2,6 +2,7 @@
 //!
 //! Computing and judging are `hexbench-model`'s, layout is [`crate::render`]'s, charts are [`crate::charts`]'s.
 
+mod cartesian;
 mod check;
 pub mod comparison;
 pub mod conclusion;
@@ -27,6 +28,7 @@ mod spread;
 mod stiffness;
 pub mod subject;
 
+pub use cartesian::cartesian;
 pub use check::check;
 pub use comparison::comparison;
 pub use demo::demo;

@@ -159,6 +159,23 @@ impl Model {
         self
     }
 
+    /// The same without effects that live in the measurement: of the platform, not of its reading.
+    pub(crate) fn without_metrology(&self) -> Self {
+        let mut model = self.clone();
+        for a in model.point.active.iter_mut().filter(|a| a.term.is_of_metrology()) {
+            a.values.fill(0.0);
+        }
+        model
+    }
+
+    /// The same in the machine's own frame: the frames of the metrology are taken away.
+    pub(crate) fn in_machine_frames(&self) -> Self {
+        let mut bare = self.clone();
+        bare.point.machine.metrology_frame = nalgebra::Isometry3::identity();
+        bare.point.machine.target_frame = nalgebra::Isometry3::identity();
+        bare
+    }
+
     /// Standard error of a column, SI.
     pub fn std(&self, column: usize) -> f64 {
         self.covariance[(column, column)].max(0.0).sqrt()

@@ -1,0 +1,144 @@
+//! `hexbench stiffness model.toml [--pose P | --poses POSES.csv]`.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use hexbench_core::files::CsvText;
+use hexbench_core::{Dataset, Observation, Pose, Vector3, Wrench};
+use hexbench_model::application::stiffness::{
+    CartesianStiffness, StiffnessAxes, StiffnessPoint, cartesian_stiffness,
+};
+use hexbench_model::results::stiffness::StiffnessList;
+use hexbench_report::words::cartesian;
+
+use crate::csv;
+use crate::failure::Failure;
+use crate::input::{self, TableNames, Trust};
+use crate::numbers::{finite, point, pose, wrench};
+use crate::output::{OutFile, Screen, write_json};
+
+/// Show how stiff the platform is at a pose: matrices, principal directions, uncertainty
+///
+/// The Cartesian stiffness matrix K takes small motions of a point of the platform to forces and moments at that point, the compliance
+/// matrix C is its inverse. Both hold everything the model says: springs and effects, and what the load does to them.
+///
+/// With `--poses`, a table: a row for every pose and load of the file, with the principal stiffnesses and both matrices.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench stiffness model.toml\n  \
+    hexbench stiffness model.toml --pose 10,0,-5,0,0,15 --load 0,0,-200,0,0,0 --point 0,0,80\n  \
+    hexbench stiffness model.toml --poses poses.csv -o stiffness.csv")]
+pub(crate) struct Arguments {
+    /// The model that `fit` saved: model.toml
+    model: PathBuf,
+    #[command(flatten)]
+    trust: Trust,
+    /// Pose (mm, deg): a,b,c,alpha,beta,gamma
+    #[arg(long, value_name = "POSE", value_parser = pose, allow_hyphen_values = true, default_value = "0,0,0,0,0,0")]
+    pose: Pose,
+    /// Load in which it is asked for, force (N) and moment (N m) at the mobile origin: fx,fy,fz,mx,my,mz
+    #[arg(long, value_name = "WRENCH", value_parser = wrench, allow_hyphen_values = true, default_value = "0,0,0,0,0,0")]
+    load: Wrench,
+    /// Poses and loads instead of one: the columns of measurements.csv without the measured ones
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pose", "load"])]
+    poses: Option<PathBuf>,
+    #[command(flatten)]
+    names: TableNames,
+    /// Point of the platform where forces act and motions are seen, mobile frame, mm: x,y,z
+    #[arg(long, value_name = "POINT", value_parser = point, allow_hyphen_values = true, default_value = "0,0,0")]
+    point: Vector3,
+    /// Axes of forces and motions
+    #[arg(long, value_enum, default_value = "fixed")]
+    axes: Axes,
+    /// Size of the small forces, N; larger than the play or friction that is not to count
+    #[arg(long, value_name = "N", value_parser = size, default_value = "1")]
+    amplitude: f64,
+    /// Write the table of `--poses` to FILE instead of standard output
+    #[arg(short, long, value_name = "FILE", requires = "poses")]
+    output: Option<OutFile>,
+    /// Write stiffness.json to FILE, or to standard output (-), instead of page or table
+    #[arg(long, value_name = "FILE")]
+    json: Option<OutFile>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Axes {
+    /// Of the fixed frame
+    Fixed,
+    /// Of the mobile frame at the pose
+    Mobile,
+}
+
+fn size(text: &str) -> Result<f64, String> {
+    let fits = |n: &f64| (1e-3..=1e6).contains(n);
+    finite(text).and_then(|n| Some(n).filter(fits).ok_or_else(|| "it has to be 0.001 to 1000000 N".into()))
+}
+
+/// Ask the model, tell.
+pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
+    let model = arguments.trust.model(&arguments.model)?;
+    let axes = match arguments.axes {
+        Axes::Fixed => StiffnessAxes::Fixed,
+        Axes::Mobile => StiffnessAxes::Mobile,
+    };
+    let at = StiffnessPoint { point: arguments.point, axes, amplitude: arguments.amplitude };
+    let stiffness = |rows: &[Observation], path: &Path| {
+        cartesian_stiffness(&model, rows, &at)
+            .map_err(|cause| Failure::Row { path: path.to_owned(), cause: Box::new(cause) })
+    };
+    if let Some(path) = &arguments.poses {
+        let rows = input::conditions(path, &arguments.names)?;
+        let found = stiffness(&rows.observations, path)?;
+        if let Some(json) = &arguments.json {
+            write_json(screen, json, &StiffnessList::of(&rows.observations, &found, &at))?;
+        }
+        return match (&arguments.output, &arguments.json) {
+            (Some(output), _) => screen.write_to(output, &table(&rows, &found)),
+            (None, Some(_)) => Ok(()),
+            (None, None) => screen.write(&table(&rows, &found)),
+        };
+    }
+    let rows = [Observation::unread(arguments.pose, arguments.load, Wrench::default())];
+    let found = stiffness(&rows, &arguments.model)?;
+    match &arguments.json {
+        Some(json) => write_json(screen, json, &StiffnessList::of(&rows, &found, &at)),
+        None => screen.show(&cartesian(&found[0], &arguments.pose, &arguments.load, &at)),
+    }
+}
+
+const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+const MOTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// A row for every pose: principal stiffnesses with uncertainty, then both matrices, SI.
+fn table(rows: &Dataset, found: &[CartesianStiffness]) -> String {
+    let conditions = csv::conditions_header(rows).into_iter().map(str::to_owned);
+    let principal = [("force", "N_per_m"), ("moment", "Nm_per_rad")].into_iter().flat_map(|(load, unit)| {
+        (1..4).flat_map(move |k| {
+            let direction = ["x", "y", "z"].map(|axis| format!("k_{load}_{k}_along_{axis}"));
+            [format!("k_{load}_{k}_{unit}"), format!("sigma_k_{load}_{k}_{unit}")]
+                .into_iter()
+                .chain(direction)
+        })
+    });
+    let of = |name: &'static str, rows: [&'static str; 6], columns: [&'static str; 6]| {
+        rows.into_iter().flat_map(move |row| columns.map(move |column| format!("{name}_{row}_{column}_SI")))
+    };
+    let matrices = [
+        of("K", LOADS, MOTIONS),
+        of("sigma_K", LOADS, MOTIONS),
+        of("C", MOTIONS, LOADS),
+        of("sigma_C", MOTIONS, LOADS),
+    ];
+    let mut text = CsvText::new(conditions.chain(principal).chain(matrices.into_iter().flatten()));
+    for (row, k) in rows.observations.iter().zip(found) {
+        let principal = k
+            .of_forces
+            .iter()
+            .chain(&k.of_moments)
+            .flat_map(|p| [p.stiffness, p.std].into_iter().chain(p.direction.iter().copied()));
+        let matrices = [&k.stiffness, &k.stiffness_std, &k.compliance, &k.compliance_std];
+        let entries = matrices.into_iter().flat_map(|m| (0..36).map(|n| m[(n / 6, n % 6)]));
+        let numbers = principal.chain(entries).map(|x| format!("{x:e}"));
+        text.row(csv::condition(rows, row).into_iter().chain(numbers));
+    }
+    text.into_text()
+}

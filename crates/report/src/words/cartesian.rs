@@ -1,0 +1,109 @@
+//! Cartesian stiffness of the platform at one pose.
+
+use hexbench_core::{Matrix6, Pose, Wrench};
+use hexbench_model::application::stiffness::{
+    CartesianStiffness, PrincipalStiffness, StiffnessAxes, StiffnessPoint,
+};
+
+use crate::number::{rounded, significant, with_uncertainty};
+use crate::page::{Page, Section, Table};
+
+/// What is shown of each entry of a matrix, beside its digits.
+type Entries<'a> = &'a dyn Fn(usize, usize) -> f64;
+
+/// The platform at a pose under a load: principal stiffnesses first, then both matrices with their uncertainties.
+pub fn cartesian(k: &CartesianStiffness, pose: &Pose, load: &Wrench, at: &StiffnessPoint) -> Page {
+    let pose = pose.to_array();
+    let shift = listed(pose[..3].iter().map(|m| m * 1e3));
+    let turn = listed(pose[3..].iter().map(|rad| rad.to_degrees()));
+    let load = load.to_array();
+    let (force, moment) = (listed(load[..3].iter().copied()), listed(load[3..].iter().copied()));
+    let point = listed(at.point.iter().map(|m| m * 1e3));
+    let axes = match at.axes {
+        StiffnessAxes::Fixed => "axes of the fixed frame",
+        StiffnessAxes::Mobile => "axes of the mobile frame",
+    };
+    Page::new("Stiffness of the platform")
+        .about("pose", format!("a, b, c: {shift} mm; alpha, beta, gamma: {turn} deg"))
+        .about("load", format!("force {force} N, moment {moment} N m at the mobile origin"))
+        .about("point", format!("{point} mm in the mobile frame; {axes}"))
+        .with(principal(k))
+        .with(matrix(
+            "Stiffness matrix K",
+            "force (N) and moment (N m) for um and mrad of one motion alone, the others held at zero",
+            &FORCES,
+            &MOTIONS,
+            &k.stiffness,
+            &k.stiffness_std,
+            &stiffness_unit,
+        ))
+        .with(matrix(
+            "Compliance matrix C",
+            "motion (um, mrad) for 1 N or 1 N m along one axis",
+            &TWISTS,
+            &LOADS,
+            &k.compliance,
+            &k.compliance_std,
+            &compliance_unit,
+        ))
+}
+
+const FORCES: [&str; 6] = ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"];
+const MOTIONS: [&str; 6] = ["x, um", "y, um", "z, um", "rx, mrad", "ry, mrad", "rz, mrad"];
+const TWISTS: [&str; 6] = MOTIONS;
+const LOADS: [&str; 6] = ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"];
+
+/// Numbers that were given, without what changing their unit has added.
+fn listed(numbers: impl Iterator<Item = f64>) -> String {
+    const DECIMALS: f64 = 1e9;
+    numbers.map(|x| ((x * DECIMALS).round() / DECIMALS + 0.0).to_string()).collect::<Vec<_>>().join(", ")
+}
+
+/// From SI: a column is for a um or a mrad.
+fn stiffness_unit(_: usize, column: usize) -> f64 {
+    if column < 3 { 1e-6 } else { 1e-3 }
+}
+
+/// From SI: a row is in um or mrad.
+fn compliance_unit(row: usize, _: usize) -> f64 {
+    if row < 3 { 1e6 } else { 1e3 }
+}
+
+fn principal(k: &CartesianStiffness) -> Section {
+    let row = |name: &str, unit: &str, scale: f64, p: &PrincipalStiffness| {
+        let [value, std] = with_uncertainty(p.stiffness * scale, p.std * scale);
+        let direction = p.direction.iter().map(|x| format!("{:.3}", x + 0.0)).collect::<Vec<_>>().join(", ");
+        [name.to_owned(), format!("{value} +- {std} {unit}"), direction]
+    };
+    let forces = k.of_forces.iter().map(|p| row("force", "N/um", 1e-6, p));
+    let moments = k.of_moments.iter().map(|p| row("moment", "N m/mrad", 1e-3, p));
+    let table =
+        Table::named(["", "stiffness", "along, about"]).words_in(1).words_in(2).rows(forces.chain(moments));
+    Section::new("Principal stiffnesses")
+        .id("principal")
+        .remark("softest first; +- standard uncertainty (k = 1)")
+        .paragraph("A force through the point while the platform is free to turn, a moment while it is free to shift.")
+        .table(table)
+}
+
+fn matrix(
+    title: &str,
+    remark: &str,
+    rows: &[&str; 6],
+    columns: &[&str; 6],
+    value: &Matrix6,
+    std: &Matrix6,
+    unit: Entries<'_>,
+) -> Section {
+    let shown = |of: &dyn Fn(usize, usize) -> String| {
+        let header = std::iter::once("").chain(columns.iter().copied());
+        let row = |i: usize| {
+            std::iter::once(rows[i].to_owned()).chain((0..6).map(move |j| (i, j)).map(|(i, j)| of(i, j)))
+        };
+        let rows: Vec<Vec<String>> = (0..6).map(|i| row(i).collect()).collect();
+        Table::named(header).rows(rows)
+    };
+    let values = shown(&|i, j| rounded(value[(i, j)] * unit(i, j), std[(i, j)] * unit(i, j)));
+    let uncertain = shown(&|i, j| significant(std[(i, j)] * unit(i, j), 2));
+    Section::new(title).remark(remark).table(values).table(uncertain.titled("standard uncertainties (k = 1)"))
+}
