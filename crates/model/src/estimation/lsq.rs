@@ -86,9 +86,9 @@ impl Triangle {
             let middle = f64::midpoint(low, high);
             let length = damped(middle).norm();
             if length > radius {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
             if length <= radius && length > NEARLY * radius {
                 break;

@@ -160,11 +160,13 @@ impl<P: NonlinearProblem> Search<'_, P> {
             let promised = objective - triangle.misfit(&x);
             self.effort.tried += 1;
             let next = self.problem.moved(&self.point, &x);
-            let gain = next.as_ref().map_or(f64::NEG_INFINITY, |p| objective - self.problem.objective(p));
+            let value = next.as_ref().map_or(f64::INFINITY, |there| self.problem.objective(there));
+            // No number is no gain.
+            let gain = (objective - value).max(f64::NEG_INFINITY);
             let is_kept = gain >= -0.5 * negligible;
             if is_kept && gain > GOOD_GAIN * promised {
                 self.radius = self.radius.max(GROWN * length);
-            } else if !(gain >= POOR_GAIN * promised) {
+            } else if gain < POOR_GAIN * promised {
                 self.radius = SHRUNK * length;
             }
             match next {

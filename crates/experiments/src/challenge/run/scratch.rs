@@ -107,13 +107,11 @@ pub(super) fn sweep(place: &Path) {
 }
 
 fn is_left(folder: &Path) -> bool {
-    match File::open(folder.join(LOCK)) {
-        Ok(lock) => !matches!(lock.try_lock(), Err(TryLockError::WouldBlock)),
-        Err(_) => {
-            let age = fs::metadata(folder).and_then(|found| found.modified()).map(|made| made.elapsed());
-            age.is_ok_and(|age| age.is_ok_and(|age| age > SURELY_LOCKED))
-        }
+    if let Ok(lock) = File::open(folder.join(LOCK)) {
+        return !matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
     }
+    let made = fs::metadata(folder).and_then(|found| found.modified());
+    made.is_ok_and(|made| made.elapsed().is_ok_and(|age| age > SURELY_LOCKED))
 }
 
 /// Bytes of all files in a folder, links not followed.
