@@ -35,10 +35,10 @@ pub(crate) struct PyModel {
 
 #[pymethods]
 impl PyModel {
-    /// Read model.toml.
+    /// Read model.toml; with `trust` also one that was changed by hand.
     #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let model = py.detach(|| input::model(&path, false)).map_err(|failure| raised(py, &failure))?;
+    fn read(py: Python<'_>, path: PathBuf, trust: bool) -> PyResult<Self> {
+        let model = py.detach(|| input::model(&path, trust)).map_err(|failure| raised(py, &failure))?;
         Ok(Self::of(model, String::new()))
     }
 

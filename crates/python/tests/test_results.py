@@ -105,6 +105,18 @@ def test_a_fit_and_its_predictions_are_those_of_the_command(
     _same_predictions(model, holdout, command, path, tmp_path)
 
 
+def test_a_model_changed_by_hand_is_refused_unless_it_is_trusted(tmp_path: Path) -> None:
+    hexapod, data, _ = case("paper-protocol")
+    path = tmp_path / "model.toml"
+    hexbench.fit(hexbench.load(hexapod, data)).save(path)
+    first, _, rest = path.read_text().partition("[seal]")
+    assert rest, "the digest has another place"
+    path.write_text(first)
+    with pytest.raises(hexbench.BadInput):
+        hexbench.Model.load(path)
+    assert len(hexbench.Model.load(path, trust=True).values) >= 6
+
+
 def _same_predictions(model: hexbench.Model, rows: Path, command: Command, path: Path, folder: Path) -> None:
     command("predict", path, rows, "-o", folder / "predicted.csv")
     expected = pd.read_csv(folder / "predicted.csv")

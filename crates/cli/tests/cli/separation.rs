@@ -26,9 +26,15 @@ fn side(package: &str) -> Option<Side> {
 }
 
 /// The only packages that may depend on both sides: the experiments, what the command and the Python package do
-/// alike, both of these, and the workbench.
-const MEETING_PLACES: [&str; 5] =
-    ["hexbench-experiments", "hexbench-app", "hexbench-workbench", "hexbench-python", "hexbench-cli"];
+/// alike, both of these, the workbench, and what feeds the readers of all of them.
+const MEETING_PLACES: [&str; 6] = [
+    "hexbench-experiments",
+    "hexbench-app",
+    "hexbench-workbench",
+    "hexbench-python",
+    "hexbench-cli",
+    "hexbench-fuzz",
+];
 
 /// What Rust users depend on is of the model's side. Nobody who depends on it gets what its examples depend on, and one of them compares
 /// with the truth.

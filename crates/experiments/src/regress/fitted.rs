@@ -70,8 +70,8 @@ impl Fitted {
             chi2_reduced: fit.chi2_reduced(),
             holdout: holdout(&scene, &campaign, &fit)?,
             prediction_missed: chance < MISSED,
-            iterations: fit.iterations,
-            tried: fit.tried,
+            iterations: fit.effort.iterations,
+            tried: fit.effort.tried,
             settled: fit.is_settled(),
         })
     }

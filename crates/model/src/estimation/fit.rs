@@ -1,4 +1,4 @@
-//! Generalised least squares of springs, frames, terms and shapes by Gauss-Newton.
+//! Generalised least squares of springs, frames, terms and shapes, by Gauss-Newton steps within a trust region.
 //!
 //! Minimises `chi2 = |W (y - f(theta))|^2 + sum (p / prior)^2`; the prior widths of term parameters are physical and
 //! wide, so they only speak where the data are silent. Springs and frames have no prior.
@@ -14,9 +14,10 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::{Active, Linearization, ModelPoint, beside};
 use crate::estimation::lsq::{Solution, Triangle};
 use crate::estimation::parameters::Parameters;
+use crate::estimation::trust_region::{Effort, Found, NonlinearProblem, Termination, TrustRegion};
 
-/// Iterations after which a fit counts as not settled.
-const MOST_ITERATIONS: usize = 40;
+/// The model is nearly linear in most of its numbers: the first step may be as long as it likes.
+const TRUST_REGION: TrustRegion = TrustRegion { first_radius: f64::INFINITY, most_iterations: 40 };
 /// A fit has settled when a step changes chi-square by less than this.
 const SETTLED_CHI2: f64 = 1e-4;
 /// Shapes tried on each side of the best one when a covariance is averaged over them.
@@ -67,21 +68,10 @@ pub struct Fit {
     pub lack_of_fit_dof: f64,
     /// The last linear solution, for rank and unobservable combinations.
     pub solution: Solution,
-    /// Gauss-Newton iterations made.
-    pub iterations: usize,
-    /// Points tried on the way, those of shortened steps included: each cost one linearisation of the campaign.
-    pub tried: usize,
+    /// Iterations made, and points tried on the way: each cost one linearisation of the campaign.
+    pub effort: Effort,
     /// Why it ended.
     pub termination: Termination,
-}
-
-/// Why a fit ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Termination {
-    /// A step changed chi-square by less than it may.
-    Settled,
-    /// The iterations ran out first.
-    MostIterations,
 }
 
 impl Fit {
@@ -104,7 +94,7 @@ impl Fit {
 
     /// True when it ended because there was nothing left to gain.
     pub fn is_settled(&self) -> bool {
-        self.termination == Termination::Settled
+        self.termination != Termination::MostIterations
     }
 
     /// Sizes natural to the machine and campaign, from the fitted springs.
@@ -151,47 +141,69 @@ pub fn fit(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>)
     fit_from(campaign, wanted, point, state)
 }
 
-/// What a fit has cost so far.
-#[derive(Debug, Clone, Copy, Default)]
-struct Effort {
-    iterations: usize,
-    tried: usize,
-}
-
 /// The same from a point where the campaign has been linearised already.
 fn fit_from(
     campaign: &Campaign,
     wanted: &[TermSpec],
-    mut point: ModelPoint,
-    mut state: Linearization,
+    point: ModelPoint,
+    state: Linearization,
 ) -> Result<Fit, ModelError> {
     let parameters = Parameters::at(&point, campaign.is_absolute()).with_priors(wanted);
     if state.conditions.iter().all(|c| c.force_change().amax() < 1e-9) {
         return Err(ModelError::NoLoad);
     }
-    let mut objective = state.residuals().norm_squared() + parameters.penalty(&point);
-    let mut effort = Effort::default();
-    loop {
-        effort.iterations += 1;
-        let solution = step(&state, &point, &parameters)?;
-        // Relative to the misfit: a wrong model need not be settled to the last digit.
-        let small = SETTLED_CHI2 * (objective / state.numbers()).max(1.0);
-        let most = objective + 0.5 * small;
-        // Where no step leads on, what was linearised last stays.
-        let change = match search(campaign, &point, &solution.x, &parameters, most, &mut effort)? {
-            None => 0.0,
-            Some((next, next_state, next_objective)) => {
-                let before = objective;
-                (point, state, objective) = (next, next_state, next_objective);
-                (before - objective).abs()
-            }
-        };
-        let settled = change < small;
-        if settled || effort.iterations == MOST_ITERATIONS {
-            let solution = step(&state, &point, &parameters)?;
-            let termination = if settled { Termination::Settled } else { Termination::MostIterations };
-            return Ok(finish(campaign, point, &state, solution, parameters, effort, termination));
+    let problem = FitProblem { campaign, parameters };
+    let found = TRUST_REGION.minimum(&problem, problem.linearized(point, state))?;
+    Ok(finish(campaign, found, problem.parameters))
+}
+
+/// A campaign and the numbers that are fitted to it.
+struct FitProblem<'a> {
+    campaign: &'a Campaign,
+    parameters: Parameters,
+}
+
+/// Numbers of a model, the campaign linearised there, and chi-square with what the priors add.
+struct FitPoint {
+    point: ModelPoint,
+    state: Linearization,
+    objective: f64,
+}
+
+impl FitProblem<'_> {
+    fn linearized(&self, point: ModelPoint, state: Linearization) -> FitPoint {
+        let objective = state.residuals().norm_squared() + self.parameters.penalty(&point);
+        FitPoint { point, state, objective }
+    }
+}
+
+impl NonlinearProblem for FitProblem<'_> {
+    type Point = FitPoint;
+
+    fn objective(&self, at: &FitPoint) -> f64 {
+        at.objective
+    }
+
+    /// Priors included as equations.
+    fn equations(&self, at: &FitPoint) -> Result<Triangle, ModelError> {
+        let mut triangle = Triangle::new(self.parameters.len());
+        for part in at.state.parts() {
+            let piece = at.state.part(&part);
+            triangle.push(&columns(&piece, &at.point), &piece.residuals())?;
         }
+        push_priors(&mut triangle, &at.point, &self.parameters)?;
+        Ok(triangle)
+    }
+
+    fn moved(&self, at: &FitPoint, step: &DVector<f64>) -> Result<FitPoint, ModelError> {
+        let point = self.parameters.moved(&at.point, step.as_slice());
+        let state = Linearization::to_fit(self.campaign, &point)?;
+        Ok(self.linearized(point, state))
+    }
+
+    /// Relative to the misfit: a wrong model need not be settled to the last digit.
+    fn negligible(&self, at: &FitPoint) -> f64 {
+        SETTLED_CHI2 * (at.objective / at.state.numbers()).max(1.0)
     }
 }
 
@@ -240,17 +252,6 @@ fn start_point(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoi
         })
         .collect();
     point
-}
-
-/// One linear solve for the increments of all columns, priors included as equations.
-fn step(state: &Linearization, point: &ModelPoint, parameters: &Parameters) -> Result<Solution, ModelError> {
-    let mut triangle = Triangle::new(parameters.len());
-    for part in state.parts() {
-        let piece = state.part(&part);
-        triangle.push(&columns(&piece, point), &piece.residuals())?;
-    }
-    push_priors(&mut triangle, point, parameters)?;
-    triangle.solve()
 }
 
 pub(crate) fn push_priors(
@@ -388,38 +389,6 @@ fn shape_column(state: &Linearization, a: &Active) -> DVector<f64> {
     (at(a.shape * SHAPE_STEP.exp()) - at(a.shape * (-SHAPE_STEP).exp())) / (2.0 * SHAPE_STEP)
 }
 
-/// The full step, or the first of its shorter ones that leaves the objective at `most`; none at all when even the shortest does not.
-fn search(
-    campaign: &Campaign,
-    point: &ModelPoint,
-    x: &DVector<f64>,
-    parameters: &Parameters,
-    most: f64,
-    effort: &mut Effort,
-) -> Result<Option<(ModelPoint, Linearization, f64)>, ModelError> {
-    let mut factor = 1.0;
-    loop {
-        let next = parameters.moved(point, x.as_slice(), factor);
-        effort.tried += 1;
-        let outcome = Linearization::to_fit(campaign, &next);
-        let small = factor < 1e-3;
-        match outcome {
-            Ok(state) => {
-                let value = state.residuals().norm_squared() + parameters.penalty(&next);
-                if value <= most {
-                    return Ok(Some((next, state, value)));
-                }
-                if small {
-                    return Ok(None);
-                }
-            }
-            Err(e) if small => return Err(e),
-            Err(_) => {}
-        }
-        factor *= 0.4;
-    }
-}
-
 /// The fit whose linear solution is at hand, without its sums over single readings.
 pub(crate) fn settled_at(point: ModelPoint, parameters: Parameters, solution: Solution) -> Fit {
     Fit {
@@ -431,21 +400,13 @@ pub(crate) fn settled_at(point: ModelPoint, parameters: Parameters, solution: So
         lack_of_fit_dof: 0.0,
         parameters,
         solution,
-        iterations: 1,
-        tried: 0,
+        effort: Effort { iterations: 1, tried: 0 },
         termination: Termination::Settled,
     }
 }
 
-fn finish(
-    campaign: &Campaign,
-    point: ModelPoint,
-    state: &Linearization,
-    solution: Solution,
-    parameters: Parameters,
-    Effort { iterations, tried }: Effort,
-    termination: Termination,
-) -> Fit {
+fn finish(campaign: &Campaign, found: Found<FitPoint>, parameters: Parameters) -> Fit {
+    let Found { point: FitPoint { point, state, .. }, solution, effort, termination } = found;
     let lack_of_fit = state.residuals().norm_squared();
     // What the data determine: the rank without what the priors hold.
     let unknowns = solution.rank as f64 - parameters.held_by_priors(&solution.covariance);
@@ -458,8 +419,7 @@ fn finish(
         lack_of_fit_dof: state.numbers() - unknowns,
         parameters,
         solution,
-        iterations,
-        tried,
+        effort,
         termination,
     }
 }

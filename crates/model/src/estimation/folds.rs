@@ -74,7 +74,7 @@ impl<'a> FoldFits<'a> {
         if last < WELL_DETERMINED * first {
             return None;
         }
-        let point = self.parameters.moved(&self.start.point, solution.x.as_slice(), 1.0);
+        let point = self.parameters.moved(&self.start.point, solution.x.as_slice());
         self.is_near(&point, held, &own, &solution.x)
             .then(|| settled_at(point, self.parameters.clone(), solution))
     }

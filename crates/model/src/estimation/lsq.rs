@@ -11,6 +11,11 @@ use crate::error::ModelError;
 /// Singular values below this fraction of the largest, after scaling the columns, count as zero.
 pub const RANK_TOLERANCE: f64 = 1e-10;
 
+/// Halvings of the interval in which the damping of a shortened step lies.
+const DAMPING_HALVINGS: usize = 200;
+/// Length of such a step over the radius: near enough.
+const NEARLY: f64 = 0.9;
+
 /// Rows folded in at a time: few enough for all their columns to stay in the cache.
 const STRIP_ROWS: usize = 1536;
 
@@ -52,6 +57,44 @@ impl Triangle {
     /// Number of rows folded in.
     pub fn rows(&self) -> usize {
         self.rows
+    }
+
+    /// Sum of squared residuals `|y - A x|^2` of all rows.
+    pub fn misfit(&self, x: &DVector<f64>) -> f64 {
+        (self.r.column(self.columns) - self.r.columns(0, self.columns) * x).norm_squared()
+    }
+
+    /// The best `x` with `|D x|` just within a radius that the solution exceeds: `(A'A + lambda D^2) x = A'y`, `D` a scale for each
+    /// column.
+    ///
+    /// # Errors
+    /// [`ModelError::NotFinite`] when the decomposition fails.
+    pub fn within(&self, scale: &DVector<f64>, radius: f64) -> Result<DVector<f64>, ModelError> {
+        let scaled = DMatrix::from_fn(self.r.nrows(), self.columns, |i, j| self.r[(i, j)] / scale[j]);
+        let svd = scaled
+            .try_svd(true, true, f64::EPSILON, 10_000)
+            .ok_or(ModelError::NotFinite { what: "the singular value decomposition" })?;
+        let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else {
+            return Err(ModelError::NotFinite { what: "the singular value decomposition" });
+        };
+        let (s, load) = (svd.singular_values, u.tr_mul(&self.r.column(self.columns)));
+        let damped =
+            |lambda: f64| load.zip_map(&s, |l, s| if s > 0.0 { l * s / (s * s + lambda) } else { 0.0 });
+        // Longer than the radius at the lower end, shorter at the upper one.
+        let (mut low, mut high) = (0.0, load.component_mul(&s).norm() / radius);
+        for _ in 0..DAMPING_HALVINGS {
+            let middle = f64::midpoint(low, high);
+            let length = damped(middle).norm();
+            if length > radius {
+                low = middle;
+            } else {
+                high = middle;
+            }
+            if length <= radius && length > NEARLY * radius {
+                break;
+            }
+        }
+        Ok(v_t.tr_mul(&damped(high)).component_div(scale))
     }
 
     /// Solve, with the minimum-norm solution (in scaled columns) where the rows do not determine the unknowns.

@@ -21,4 +21,5 @@ pub mod residuals;
 pub mod scatter;
 pub mod spring_trials;
 pub mod tolerances;
+pub mod trust_region;
 pub mod whitening;

@@ -17,10 +17,11 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::ModelError;
 use crate::estimation::campaign::{Campaign, row_sigma};
-use crate::estimation::fit::{Fit, Termination};
+use crate::estimation::fit::Fit;
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::lsq::{RANK_TOLERANCE, Solution};
 use crate::estimation::parameters::Parameters;
+use crate::estimation::trust_region::{Effort, Termination};
 use crate::machine::kinematics::{Legs, euler_rate_matrix};
 use crate::machine::observability::Observability;
 
@@ -154,8 +155,7 @@ impl PaperFit {
             lack_of_fit,
             lack_of_fit_dof: state.numbers() - rank,
             solution,
-            iterations: 1,
-            tried: 1,
+            effort: Effort { iterations: 1, tried: 1 },
             termination: Termination::Settled,
         })
     }

@@ -214,12 +214,11 @@ impl Parameters {
         self.0.iter().map(|p| p.surprise(point).powi(2)).sum()
     }
 
-    /// A point moved by a share of the increments of all parameters.
-    pub fn moved(&self, point: &ModelPoint, increments: &[f64], share: f64) -> ModelPoint {
+    /// A point moved by the increments of all parameters.
+    pub fn moved(&self, point: &ModelPoint, increments: &[f64]) -> ModelPoint {
         let mut next = point.clone();
         let mut frames = [0.0; FRAMES];
-        for (p, increment) in self.0.iter().zip(increments) {
-            let step = share * increment;
+        for (p, &step) in self.0.iter().zip(increments) {
             match p.place {
                 ParameterPlace::Spring(leg) => next.compliances[leg] += step,
                 ParameterPlace::Frames(k) => frames[k] = step,

@@ -112,7 +112,7 @@ fn log_weights(campaign: &Campaign, fitted: &Fit) -> Result<Option<Vec<f64>>, Mo
         let x = factor.l_dirty().tr_solve_lower_triangular(&z)?;
         let mut increments = vec![0.0; parameters.len()];
         free.iter().zip(x.iter()).for_each(|(&k, step)| increments[k] = *step);
-        let there = parameters.moved(point, &increments, 1.0);
+        let there = parameters.moved(point, &increments);
         let own = own_residuals(campaign, &there, |_, reading| *reading).ok()?;
         let left = lin.whitened(DMatrix::from_column_slice(own.len(), 1, own.as_slice()));
         let rise = left.norm_squared() + parameters.penalty(&there) - here;

@@ -1,8 +1,9 @@
 //! What fits cost, counted instead of timed: a clumsier change fails here on any machine.
 
 use hexbench_core::Dataset;
-use hexbench_model::estimation::fit::{Fit, Termination};
+use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::fit_named::fit_named;
+use hexbench_model::estimation::trust_region::Termination;
 use hexbench_model::results::diagnose::prepare;
 use hexbench_model::terms::catalogue;
 
@@ -30,7 +31,7 @@ fn fits_of_sound_files_take_few_linearizations() {
     .map(|(name, term)| {
         let fit = fitted(name, term, |_| {});
         assert_eq!(fit.termination, Termination::Settled, "{name}");
-        (fit.iterations, fit.tried)
+        (fit.effort.iterations, fit.effort.tried)
     });
     assert_eq!(counts, [(2, 2), (3, 3), (3, 3)]);
 }
@@ -42,5 +43,5 @@ fn a_wrong_unit_makes_a_fit_dearer_within_bounds() {
             row.measured[0] *= WRONG_UNIT;
         }
     });
-    assert_eq!((fit.iterations, fit.tried), (4, 10));
+    assert_eq!((fit.effort.iterations, fit.effort.tried), (4, 14));
 }

@@ -219,7 +219,7 @@ fn springs_of_exact_readings_are_the_same_in_any_frames() {
         let off = (turned.point.compliances - plain.point.compliances)
             .component_div(&plain.point.compliances)
             .amax();
-        println!("{name}: {off:.1e} of the springs, {} iterations", turned.iterations);
+        println!("{name}: {off:.1e} of the springs, {} iterations", turned.effort.iterations);
         assert!(turned.is_settled(), "{name}");
         assert!(off < 1e-9, "{name}: {off:.1e}");
         let machine = &turned.point.machine;
@@ -240,7 +240,7 @@ fn what_noisy_readings_say_of_the_machine_does_not_depend_on_its_place_in_the_ro
         let gap = stiffness_gap(&plain, &turned);
         println!(
             "{name}: chi2 {chi2:.1e}, springs {gap:.1e} sigma, {} {} iterations",
-            plain.iterations, turned.iterations
+            plain.effort.iterations, turned.effort.iterations
         );
         assert!(chi2.abs() < SAME, "{name}: {chi2:.1e}");
         assert!(gap < SIGMAS, "{name}: {gap:.1e}");

@@ -21,6 +21,7 @@ mod misread;
 mod model_file;
 mod nested;
 mod next;
+mod nonlinear_least_squares;
 mod paper;
 mod platform_stiffness;
 mod predict_sensors;

@@ -133,6 +133,23 @@ fn a_formula_without_value_at_a_reading_names_line_and_variables() {
 }
 
 #[test]
+fn a_term_has_at_most_36_parameters() {
+    let text = |count: usize| {
+        let sum: Vec<String> = (0..count).map(|k| format!("s{k}*df^{}", k + 1)).collect();
+        let head = format!(
+            "format = \"term/1\"\nid = \"many\"\ntitle = \"Many\"\nelongation = \"{}\"\n",
+            sum.join(" + ")
+        );
+        let own =
+            |k: usize| format!("[[parameters]]\nname = \"s{k}\"\nunit = \"um\"\nscale = 1e-{}\n", 3 * k);
+        (0..count).map(own).fold(head, |all, own| all + &own)
+    };
+    let refused = |count: usize| parse(&text(count)).err().map(|why| why.to_string()).unwrap_or_default();
+    assert!(refused(37).contains("at most 36"), "{}", refused(37));
+    assert!(!refused(36).contains("at most 36"), "{}", refused(36));
+}
+
+#[test]
 fn hostile_term_files_are_refused_in_words() {
     let formula = |f: &str| BRACKET.replace("size*(nx^2 + ny^2)*df", f);
     let swap = |a: &str, b: &str| BRACKET.replace(a, b);

@@ -28,17 +28,24 @@ class Model:
         self._made = native
 
     @classmethod
-    def load(cls, path: str | PathLike[str]) -> Model:
+    def load(cls, path: str | PathLike[str], *, trust: bool = False) -> Model:
         """Read ``model.toml``.
+
+        Parameters
+        ----------
+        path
+            The file.
+        trust
+            Use the model although its file was changed by hand since a fit wrote it, or has no digest.
 
         Raises
         ------
         BadInput
-            The key that breaks a rule.
+            The key that breaks a rule; a file that is not as a fit wrote it.
         InputOutput
             The file cannot be read.
         """
-        return cls(_native.Model.read(fspath(path)))
+        return cls(_native.Model.read(fspath(path), trust))
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write ``model.toml``, whole or not at all."""

@@ -84,6 +84,7 @@ pub fn run(
     let _lock = begun.settle(answers, manner.again)?;
     let cases = cases_folder(answers);
     remove_remains(&cases).map_err(ExperimentError::writing(&cases))?;
+    scratch::sweep(&std::env::temp_dir());
     let ids = &challenge.manifest().cases;
     let is_open = |id: &String| !is_answered(&cases.join(id), &challenge.case_sha256(id));
     let pending: Vec<&String> = ids.iter().filter(|id| is_open(id)).collect();

@@ -1,8 +1,9 @@
 //! The fresh folder in which one case is answered.
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use hexbench_core::files::atomic_write;
 use tempfile::TempDir;
@@ -14,14 +15,25 @@ const KEPT_BYTES: u64 = 16_384;
 /// Longest file of an answer.
 pub(crate) const LONGEST_ANSWER: u64 = 16_000_000;
 
-/// A folder with a copy of a case; it goes away when dropped.
+/// How names of these folders begin.
+const PREFIX: &str = "hexbench-case-";
+/// File in it that is locked as long as the folder is used.
+const LOCK: &str = "lock";
+/// Age from which a folder without that file is remains too: it is made right after the folder.
+const SURELY_LOCKED: Duration = Duration::from_mins(1);
+
+/// A folder with a copy of a case; it goes away when dropped, and is swept by a later run when the program was killed.
 pub(super) struct Scratch {
     folder: TempDir,
+    _lock: File,
 }
 
 impl Scratch {
     pub(super) fn with_case(public: &Path) -> io::Result<Self> {
-        let scratch = Self { folder: tempfile::Builder::new().prefix("hexbench-case-").tempdir()? };
+        let folder = tempfile::Builder::new().prefix(PREFIX).tempdir()?;
+        let lock = File::create_new(folder.path().join(LOCK))?;
+        lock.lock()?;
+        let scratch = Self { folder, _lock: lock };
         for folder in [scratch.case(), scratch.out(), scratch.work()] {
             fs::create_dir(folder)?;
         }
@@ -83,6 +95,25 @@ impl Scratch {
     }
 }
 
+/// Removes the folders that killed runs have left in a place; what cannot be removed, of other users perhaps, stays.
+pub(super) fn sweep(place: &Path) {
+    let Ok(entries) = fs::read_dir(place) else { return };
+    for entry in entries.flatten() {
+        let is_one = entry.file_name().to_string_lossy().starts_with(PREFIX);
+        if is_one && entry.file_type().is_ok_and(|kind| kind.is_dir()) && is_left(&entry.path()) {
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+fn is_left(folder: &Path) -> bool {
+    if let Ok(lock) = File::open(folder.join(LOCK)) {
+        return !matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
+    }
+    let made = fs::metadata(folder).and_then(|found| found.modified());
+    made.is_ok_and(|made| made.elapsed().is_ok_and(|age| age > SURELY_LOCKED))
+}
+
 /// Bytes of all files in a folder, links not followed.
 pub(super) fn bytes_in(folder: &Path) -> u64 {
     let Ok(entries) = fs::read_dir(folder) else { return 0 };
@@ -92,4 +123,27 @@ pub(super) fn bytes_in(folder: &Path) -> u64 {
         Err(_) => 0,
     };
     entries.flatten().map(size).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_of_killed_runs_are_swept_and_those_in_use_stay() {
+        let place = tempfile::tempdir().unwrap();
+        let made = |name: &str| {
+            let folder = place.path().join(name);
+            fs::create_dir_all(folder.join("out")).unwrap();
+            (File::create_new(folder.join(LOCK)).unwrap(), folder)
+        };
+        let (used, in_use) = made("hexbench-case-used");
+        used.lock().unwrap();
+        let (_, left) = made("hexbench-case-left");
+        let (_, other) = made("of-someone-else");
+        let fresh = place.path().join("hexbench-case-fresh");
+        fs::create_dir(&fresh).unwrap();
+        sweep(place.path());
+        assert!(in_use.exists() && other.exists() && fresh.exists() && !left.exists());
+    }
 }

@@ -98,6 +98,9 @@ impl UserTermError {
     }
 }
 
+/// Parameters of a term at most, those of every leg counted: the cost of a fit goes with the square of their number.
+const MOST_PARAMETERS: usize = 36;
+
 /// Which parameter of the file, of which leg, a parameter of the term is.
 #[derive(Debug, Clone, Copy)]
 struct Owner {
@@ -156,6 +159,11 @@ pub fn parse(text: &str) -> Result<Arc<dyn Term>, UserTermError> {
     refuse_mixed_parameters(&parts, &parameters)?;
     check_linearity(&parts, &parameters, &grid)?;
     let (expanded, owners) = file.expanded(&parameters);
+    if expanded.len() > MOST_PARAMETERS {
+        let why =
+            format!("{} of them, those of every leg counted; at most {MOST_PARAMETERS}", expanded.len());
+        return Err(UserTermError::rule("parameters", why));
+    }
     refuse_legs_of_others(&parts, &parameters, &owners)?;
     let info = info(&file, &expanded, shape.map(|s| s.0), &parts);
     let parameters = parameters.len();

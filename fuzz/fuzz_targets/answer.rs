@@ -1,0 +1,4 @@
+//! libFuzzer on the target `answer`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("answer");

@@ -1,0 +1,4 @@
+//! libFuzzer on the target `balls`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("balls");

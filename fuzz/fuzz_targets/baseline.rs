@@ -1,0 +1,4 @@
+//! libFuzzer on the target `baseline`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("baseline");

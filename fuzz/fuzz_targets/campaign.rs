@@ -1,0 +1,4 @@
+//! libFuzzer on the target `campaign`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("campaign");

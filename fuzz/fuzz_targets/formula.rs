@@ -1,0 +1,4 @@
+//! libFuzzer on the target `formula`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("formula");

@@ -1,0 +1,4 @@
+//! libFuzzer on the target `hexapod`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("hexapod");

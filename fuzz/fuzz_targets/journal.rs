@@ -1,0 +1,4 @@
+//! libFuzzer on the target `journal`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("journal");

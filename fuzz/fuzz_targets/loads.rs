@@ -1,0 +1,4 @@
+//! libFuzzer on the target `loads`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("loads");

@@ -1,0 +1,4 @@
+//! libFuzzer on the target `measurements`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("measurements");

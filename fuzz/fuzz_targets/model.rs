@@ -1,0 +1,4 @@
+//! libFuzzer on the target `model`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("model");

@@ -1,0 +1,4 @@
+//! libFuzzer on the target `requests`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("requests");

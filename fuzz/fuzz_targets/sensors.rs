@@ -1,0 +1,4 @@
+//! libFuzzer on the target `sensors`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("sensors");

@@ -1,0 +1,4 @@
+//! libFuzzer on the target `space`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("space");

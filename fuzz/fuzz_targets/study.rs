@@ -1,0 +1,4 @@
+//! libFuzzer on the target `study`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("study");

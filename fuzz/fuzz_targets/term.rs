@@ -1,0 +1,4 @@
+//! libFuzzer on the target `term`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("term");

@@ -1,0 +1,4 @@
+//! libFuzzer on the target `truth`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("truth");
