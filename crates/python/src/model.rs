@@ -5,9 +5,13 @@ use std::sync::Arc;
 
 use hexbench_app::fit::{added, fitted, model as kept};
 use hexbench_app::{Failure, input};
+use hexbench_core::{Matrix6, Vector3};
 use hexbench_model::application::model_file::{Estimator, Model};
 use hexbench_model::application::predict::{
     PredictError, predict_sensors_with_covariance, predict_with_covariance,
+};
+use hexbench_model::application::stiffness::{
+    CartesianStiffness, StiffnessAxes, StiffnessPoint, cartesian_stiffness,
 };
 use hexbench_model::estimation::estimate::{Estimates, estimates_of};
 use hexbench_model::inference::selection::JudgedTask;
@@ -101,6 +105,41 @@ impl PyModel {
         let shape = [found.len(), self.model.sensor_channels().len()];
         let values = DMatrix::from_fn(shape[0], shape[1], |n, k| found[n].0[k].value * 1e6);
         Ok((matrix(py, &values), matrices(py, shape, |n, i, j| found[n].1[(i, j)] * 1e12)))
+    }
+
+    /// K, its standard uncertainty, C, its standard uncertainty (n, 6, 6 each, SI) at conditions given as columns; the point in mm.
+    fn stiffness<'py>(
+        &self,
+        py: Python<'py>,
+        names: Vec<String>,
+        columns: Vec<Bound<'py, PyAny>>,
+        point: [f64; 3],
+        axes: &str,
+        amplitude: f64,
+    ) -> PyResult<[Bound<'py, PyArray3<f64>>; 4]> {
+        let axes = match axes {
+            "fixed" => StiffnessAxes::Fixed,
+            "mobile" => StiffnessAxes::Mobile,
+            other => return Err(usage(py, &format!("axes = {other:?}"), "Give \"fixed\" or \"mobile\".")),
+        };
+        let point = Vector3::from(point) * 1e-3;
+        if !(point.iter().all(|x| x.is_finite()) && amplitude.is_finite() && amplitude > 0.0) {
+            let what = "a point that is not finite, or an amplitude that is not positive";
+            return Err(usage(py, what, "Give finite numbers: mm and N."));
+        }
+        let data = conditions(py, names, &columns, "poses")?;
+        let model = Arc::clone(&self.model);
+        let at = StiffnessPoint { point, axes, amplitude };
+        let found = beside(py, move || cartesian_stiffness(&model, &data.observations, &at).map_err(of_row))?;
+        let all = |of: fn(&CartesianStiffness) -> &Matrix6| {
+            matrices(py, [found.len(), 6], |n, i, j| of(&found[n])[(i, j)])
+        };
+        Ok([
+            all(|k| &k.stiffness),
+            all(|k| &k.stiffness_std),
+            all(|k| &k.compliance),
+            all(|k| &k.compliance_std),
+        ])
     }
 
     /// Names of the columns that the sensors of the machine fill, with units.

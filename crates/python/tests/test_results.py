@@ -117,6 +117,26 @@ def test_a_model_changed_by_hand_is_refused_unless_it_is_trusted(tmp_path: Path)
     assert len(hexbench.Model.load(path, trust=True).values) >= 6
 
 
+def test_the_stiffness_of_the_platform_is_that_of_the_command(command: Command, tmp_path: Path) -> None:
+    hexapod, data, holdout = case("mujoco-foundation")
+    model = hexbench.fit(hexbench.load(hexapod, data), ["base-compliance"])
+    model.save(tmp_path / "model.toml")
+    words = ("--poses", holdout, "--point", "0,0,80", "--axes", "mobile", "--json", "-")
+    told = json.loads(command("stiffness", tmp_path / "model.toml", *words).stdout)["states"]
+    held = hexbench.load(model.hexapod, holdout)
+    found = model.stiffness(held.poses, held.wrenches, point_mm=[0, 0, 80], axes="mobile")
+    for name, matrices in found._asdict().items():
+        expected = np.array([state[name] for state in told])
+        assert np.allclose(matrices, expected, rtol=1e-9, atol=0), name
+    alone = model.stiffness(held.poses[:1])
+    assert np.allclose(alone.stiffness @ alone.compliance, np.eye(6), atol=1e-9)
+    assert model.stiffness(np.empty((0, 6))).stiffness.shape == (0, 6, 6)
+    with pytest.raises(hexbench.BadInput):
+        model.stiffness(held.poses[:1], point_mm=[0, 0])
+    with pytest.raises(hexbench.UsageError):
+        model.stiffness(held.poses[:1], amplitude_N=-1)
+
+
 def _same_predictions(model: hexbench.Model, rows: Path, command: Command, path: Path, folder: Path) -> None:
     command("predict", path, rows, "-o", folder / "predicted.csv")
     expected = pd.read_csv(folder / "predicted.csv")

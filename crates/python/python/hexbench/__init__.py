@@ -19,7 +19,7 @@ from hexbench.discovering import Discovery, discover
 from hexbench.errors import BadInput, HexbenchError, HexbenchWarning, InputOutput, NotDetermined, UsageError
 from hexbench.estimator import HexapodModel
 from hexbench.machine import Hexapod
-from hexbench.model import Model, fit, predict
+from hexbench.model import Model, PlatformStiffness, fit, predict
 from hexbench.scenes import Scene, Simulation, simulate
 
 __all__ = [
@@ -36,6 +36,7 @@ __all__ = [
     "Model",
     "NotDetermined",
     "Plan",
+    "PlatformStiffness",
     "Scene",
     "SensorChoice",
     "Simulation",

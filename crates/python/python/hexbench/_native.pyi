@@ -72,6 +72,14 @@ class Model:
     def predict_sensors(
         self, names: Sequence[str], columns: Sequence[NDArray[np.float64]]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def stiffness(
+        self,
+        names: Sequence[str],
+        columns: Sequence[NDArray[np.float64]],
+        point: Sequence[float],
+        axes: str,
+        amplitude: float,
+    ) -> list[NDArray[np.float64]]: ...
     @property
     def sensor_columns(self) -> list[str]: ...
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,6 +16,19 @@ from hexbench.machine import Hexapod
 
 if TYPE_CHECKING:
     import pandas as pd
+
+
+class PlatformStiffness(NamedTuple):
+    """Cartesian stiffness at n poses, (n, 6, 6) each, SI: motions [x, y, z, rx, ry, rz], loads [fx, fy, fz, mx, my, mz]."""
+
+    stiffness: Floats
+    """K: load per motion of the point."""
+    stiffness_std: Floats
+    """Standard uncertainty (k = 1) of each number of K."""
+    compliance: Floats
+    """C = K^-1: motion of the point per load."""
+    compliance_std: Floats
+    """Standard uncertainty (k = 1) of each number of C."""
 
 
 class Model:
@@ -291,6 +304,48 @@ class Model:
             values, spreads = self._made.predict_sensors(list(table), list(table.values()))
         stds = np.sqrt(np.diagonal(spreads, axis1=1, axis2=2).clip(0.0))
         return (values, stds, spreads) if covariance else (values, stds)
+
+    def stiffness(
+        self,
+        poses: ArrayLike,
+        wrenches: ArrayLike | None = None,
+        *,
+        point_mm: ArrayLike = (0.0, 0.0, 0.0),
+        axes: Literal["fixed", "mobile"] = "fixed",
+        amplitude_N: float = 1.0,  # noqa: N803
+    ) -> PlatformStiffness:
+        """Return how stiff the platform is: Cartesian stiffness and compliance matrices with their uncertainty.
+
+        Parameters
+        ----------
+        poses : array (n, 6)
+            Commanded poses: mm and deg (extrinsic X-Y-Z), fixed frame.
+        wrenches : array (n, 6), optional
+            Loads in which the platform stands, at the mobile origin, fixed axes: N and N m; none unless given.
+        point_mm : array (3,)
+            Point of the platform where forces act and motions are seen, mobile frame, mm.
+        axes : "fixed" or "mobile"
+            Axes of motions and loads.
+        amplitude_N : float
+            Size of the small forces, N; larger than the play or friction that is not to count.
+
+        Returns
+        -------
+        PlatformStiffness
+            Matrices (n, 6, 6), SI.
+
+        Raises
+        ------
+        BadInput
+            As :meth:`predict`.
+        """
+        count = len(rows(poses, 6, "poses"))
+        loads = np.zeros((count, 6)) if wrenches is None else wrenches
+        count, table = _conditions(poses, loads, None, {})
+        point = [float(x) for x in rows([point_mm], 3, "point_mm")[0]]
+        if count == 0:
+            return PlatformStiffness(*(np.empty((0, 6, 6)) for _ in range(4)))
+        return PlatformStiffness(*self._made.stiffness(list(table), list(table.values()), point, axes, amplitude_N))
 
     def __repr__(self) -> str:
         """Return machine, terms and chi-square."""
