@@ -4,7 +4,7 @@
 //! springs alone `C = J diag(c) J'` (J: platform Jacobian), a sum over the legs; effects of the model add theirs. Column j of `C` is half
 //! the difference of two predictions, for the load plus and minus a small one along axis j, so that effects whose slope changes
 //! with the load (contact, play, nonlinear springs) count as they act around it. Under a load `K` is not quite
-//! symmetric: the load turns with nothing while the platform does.
+//! symmetric: the load keeps its direction while the platform turns.
 //!
 //! Uncertainties follow to first order from the covariance of the model's parameters: `dK = -K dC K`.
 

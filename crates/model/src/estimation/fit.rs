@@ -14,7 +14,7 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::{Active, Linearization, ModelPoint, beside};
 use crate::estimation::lsq::{Solution, Triangle};
 use crate::estimation::parameters::Parameters;
-use crate::estimation::trust_region::{Effort, Found, NonlinearProblem, Termination, TrustRegion};
+use crate::estimation::trust_region::{Minimum, NonlinearProblem, SearchEffort, Termination, TrustRegion};
 
 /// The model is nearly linear in most of its numbers: the first step may be as long as it likes.
 const TRUST_REGION: TrustRegion = TrustRegion { first_radius: f64::INFINITY, most_iterations: 40 };
@@ -69,7 +69,7 @@ pub struct Fit {
     /// The last linear solution, for rank and unobservable combinations.
     pub solution: Solution,
     /// Iterations made, and points tried on the way: each cost one linearisation of the campaign.
-    pub effort: Effort,
+    pub effort: SearchEffort,
     /// Why it ended.
     pub termination: Termination,
 }
@@ -400,13 +400,13 @@ pub(crate) fn settled_at(point: ModelPoint, parameters: Parameters, solution: So
         lack_of_fit_dof: 0.0,
         parameters,
         solution,
-        effort: Effort { iterations: 1, tried: 0 },
+        effort: SearchEffort { iterations: 1, tried: 0 },
         termination: Termination::Settled,
     }
 }
 
-fn finish(campaign: &Campaign, found: Found<FitPoint>, parameters: Parameters) -> Fit {
-    let Found { point: FitPoint { point, state, .. }, solution, effort, termination } = found;
+fn finish(campaign: &Campaign, found: Minimum<FitPoint>, parameters: Parameters) -> Fit {
+    let Minimum { point: FitPoint { point, state, .. }, solution, effort, termination } = found;
     let lack_of_fit = state.residuals().norm_squared();
     // What the data determine: the rank without what the priors hold.
     let unknowns = solution.rank as f64 - parameters.held_by_priors(&solution.covariance);

@@ -21,7 +21,7 @@ use crate::estimation::fit::Fit;
 use crate::estimation::linearization::{Linearization, ModelPoint};
 use crate::estimation::lsq::{RANK_TOLERANCE, Solution};
 use crate::estimation::parameters::Parameters;
-use crate::estimation::trust_region::{Effort, Termination};
+use crate::estimation::trust_region::{SearchEffort, Termination};
 use crate::machine::kinematics::{Legs, euler_rate_matrix};
 use crate::machine::observability::Observability;
 
@@ -155,7 +155,7 @@ impl PaperFit {
             lack_of_fit,
             lack_of_fit_dof: state.numbers() - rank,
             solution,
-            effort: Effort { iterations: 1, tried: 1 },
+            effort: SearchEffort { iterations: 1, tried: 1 },
             termination: Termination::Settled,
         })
     }

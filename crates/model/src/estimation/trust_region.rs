@@ -68,7 +68,7 @@ pub enum Termination {
 
 /// What a search has cost.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Effort {
+pub struct SearchEffort {
     /// Points at which the equations were made and steps began.
     pub iterations: usize,
     /// Points tried on the way, those of steps that were shortened included.
@@ -77,13 +77,13 @@ pub struct Effort {
 
 /// Where a search ended.
 #[derive(Debug, Clone)]
-pub struct Found<P> {
+pub struct Minimum<P> {
     /// The point.
     pub point: P,
     /// The linear solution there, for rank and covariance.
     pub solution: Solution,
     /// What it cost.
-    pub effort: Effort,
+    pub effort: SearchEffort,
     /// Why it ended.
     pub termination: Termination,
 }
@@ -97,9 +97,9 @@ impl TrustRegion {
         &self,
         problem: &P,
         start: P::Point,
-    ) -> Result<Found<P::Point>, ModelError> {
+    ) -> Result<Minimum<P::Point>, ModelError> {
         let mut search =
-            Search { problem, point: start, radius: self.first_radius, effort: Effort::default() };
+            Search { problem, point: start, radius: self.first_radius, effort: SearchEffort::default() };
         let mut scale = DVector::zeros(0);
         loop {
             search.effort.iterations += 1;
@@ -116,7 +116,7 @@ impl TrustRegion {
             };
             if let Some(termination) = ended {
                 let solution = problem.equations(&search.point)?.solve()?;
-                return Ok(Found { point: search.point, solution, effort: search.effort, termination });
+                return Ok(Minimum { point: search.point, solution, effort: search.effort, termination });
             }
         }
     }
@@ -137,7 +137,7 @@ struct Search<'a, P: NonlinearProblem> {
     problem: &'a P,
     point: P::Point,
     radius: f64,
-    effort: Effort,
+    effort: SearchEffort,
 }
 
 impl<P: NonlinearProblem> Search<'_, P> {

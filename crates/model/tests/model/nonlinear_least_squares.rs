@@ -7,7 +7,7 @@ use std::path::Path;
 
 use hexbench_model::error::ModelError;
 use hexbench_model::estimation::lsq::Triangle;
-use hexbench_model::estimation::trust_region::{Found, NonlinearProblem, Termination, TrustRegion};
+use hexbench_model::estimation::trust_region::{Minimum, NonlinearProblem, Termination, TrustRegion};
 use nalgebra::{Complex, ComplexField, DMatrix, DVector};
 
 type C = Complex<f64>;
@@ -176,7 +176,7 @@ impl Certified {
         At { b, left }
     }
 
-    fn minimum(&self, start: usize) -> Found<At> {
+    fn minimum(&self, start: usize) -> Minimum<At> {
         let start = self.at(self.parameters.iter().map(|p| p[start]).collect());
         // The first step is no longer than the start itself.
         let own =

@@ -8,7 +8,7 @@ use hexbench_model::application::stiffness::{
 use crate::number::{rounded, significant, with_uncertainty};
 use crate::page::{Page, Section, Table};
 
-/// What is shown of each entry of a matrix, beside its digits.
+/// Factor of each entry of a matrix from SI to what is shown.
 type Entries<'a> = &'a dyn Fn(usize, usize) -> f64;
 
 /// The platform at a pose under a load: principal stiffnesses first, then both matrices with their uncertainties.
@@ -40,8 +40,8 @@ pub fn cartesian(k: &CartesianStiffness, pose: &Pose, load: &Wrench, at: &Stiffn
         .with(matrix(
             "Compliance matrix C",
             "motion (um, mrad) for 1 N or 1 N m along one axis",
-            &TWISTS,
-            &LOADS,
+            &MOTIONS,
+            &FORCES,
             &k.compliance,
             &k.compliance_std,
             &compliance_unit,
@@ -50,8 +50,6 @@ pub fn cartesian(k: &CartesianStiffness, pose: &Pose, load: &Wrench, at: &Stiffn
 
 const FORCES: [&str; 6] = ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"];
 const MOTIONS: [&str; 6] = ["x, um", "y, um", "z, um", "rx, mrad", "ry, mrad", "rz, mrad"];
-const TWISTS: [&str; 6] = MOTIONS;
-const LOADS: [&str; 6] = ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"];
 
 /// Numbers that were given, without what changing their unit has added.
 fn listed(numbers: impl Iterator<Item = f64>) -> String {

@@ -7,6 +7,12 @@ export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
   const { view } = History.now(bench.history);
   const { noise } = bench.opened;
   const error = view.holdout ?? view.fitted;
+  const sizes = [
+    { unit: "um", error: error.rms.translation_um, noise: noise.translation_um },
+    { unit: "urad", error: error.rms.rotation_urad, noise: noise.rotation_urad },
+  ];
+  // Of what nobody has read there is no error.
+  const read = sizes.flatMap((size) => (size.error === null ? [] : [{ ...size, error: size.error }]));
   return (
     <section class={view.at_the_noise ? "held-out good" : "held-out"} aria-label="Held-out error">
       <div aria-live="polite" aria-atomic="true">
@@ -25,27 +31,32 @@ export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
         <thead>
           <tr>
             <td />
-            <th scope="col">um</th>
-            <th scope="col">urad</th>
+            {read.map((size) => (
+              <th scope="col" key={size.unit}>
+                {size.unit}
+              </th>
+            ))}
           </tr>
         </thead>
         <tbody>
           <tr>
             <th scope="row">error</th>
-            <td>{digits(error.rms.translation_um)}</td>
-            <td>{digits(error.rms.rotation_urad)}</td>
+            {read.map((size) => (
+              <td key={size.unit}>{digits(size.error)}</td>
+            ))}
           </tr>
           <tr>
             <th scope="row">noise</th>
-            <td>{digits(noise.translation_um)}</td>
-            <td>{digits(noise.rotation_urad)}</td>
+            {read.map((size) => (
+              <td key={size.unit}>{digits(size.noise)}</td>
+            ))}
           </tr>
         </tbody>
       </table>
       <p class="hint">
         <span class="narrow-only">
-          {digits(error.rms.translation_um)} um, {digits(error.rms.rotation_urad)} urad; noise {digits(noise.translation_um)} um,{" "}
-          {digits(noise.rotation_urad)} urad
+          {read.map((size) => `${digits(size.error)} ${size.unit}`).join(", ")}; noise{" "}
+          {read.map((size) => `${digits(size.noise)} ${size.unit}`).join(", ")}
         </span>
         <span class="wide-only">
           {view.held_out}; root mean square of {error.count} numbers
