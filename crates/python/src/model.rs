@@ -117,11 +117,8 @@ impl PyModel {
         axes: &str,
         amplitude: f64,
     ) -> PyResult<[Bound<'py, PyArray3<f64>>; 4]> {
-        let axes = match axes {
-            "fixed" => StiffnessAxes::Fixed,
-            "mobile" => StiffnessAxes::Mobile,
-            other => return Err(usage(py, &format!("axes = {other:?}"), "Give \"fixed\" or \"mobile\".")),
-        };
+        let axes = StiffnessAxes::named(axes)
+            .ok_or_else(|| usage(py, &format!("axes = {axes:?}"), "Give \"fixed\" or \"mobile\"."))?;
         let point = Vector3::from(point) * 1e-3;
         if !(point.iter().all(|x| x.is_finite()) && amplitude.is_finite() && amplitude > 0.0) {
             let what = "a point that is not finite, or an amplitude that is not positive";

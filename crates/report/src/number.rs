@@ -22,6 +22,12 @@ pub fn significant(value: f64, digits: i32) -> String {
     fixed(value, digits - 1 - exponent(value))
 }
 
+/// A stated number, without what a change of unit adds beyond so many decimals; zero without a sign.
+pub fn stated(value: f64, decimals: i32) -> String {
+    let scale = 10f64.powi(decimals);
+    ((value * scale).round() / scale + 0.0).to_string()
+}
+
 /// Probability in words that never claim certainty.
 pub fn percent(p: f64) -> String {
     match p {

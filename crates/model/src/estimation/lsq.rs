@@ -71,13 +71,8 @@ impl Triangle {
     /// [`ModelError::NotFinite`] when the decomposition fails.
     pub fn within(&self, scale: &DVector<f64>, radius: f64) -> Result<DVector<f64>, ModelError> {
         let scaled = DMatrix::from_fn(self.r.nrows(), self.columns, |i, j| self.r[(i, j)] / scale[j]);
-        let svd = scaled
-            .try_svd(true, true, f64::EPSILON, 10_000)
-            .ok_or(ModelError::NotFinite { what: "the singular value decomposition" })?;
-        let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else {
-            return Err(ModelError::NotFinite { what: "the singular value decomposition" });
-        };
-        let (s, load) = (svd.singular_values, u.tr_mul(&self.r.column(self.columns)));
+        let (u, s, v_t) = decomposed(scaled)?;
+        let load = u.tr_mul(&self.r.column(self.columns));
         let damped =
             |lambda: f64| load.zip_map(&s, |l, s| if s > 0.0 { l * s / (s * s + lambda) } else { 0.0 });
         // Longer than the radius at the lower end, shorter at the upper one.
@@ -111,15 +106,19 @@ impl Triangle {
         let scale =
             DVector::from_fn(n, |j, _| if r.column(j).norm() > 0.0 { r.column(j).norm() } else { 1.0 });
         let scaled = DMatrix::from_fn(r.nrows(), n, |i, j| r[(i, j)] / scale[j]);
-        let svd = scaled
-            .clone()
-            .try_svd(true, true, f64::EPSILON, 10_000)
-            .ok_or(ModelError::NotFinite { what: "the singular value decomposition" })?;
-        let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else {
-            return Err(ModelError::NotFinite { what: "the singular value decomposition" });
-        };
-        Ok(assemble(&scale, &scaled, &z, &u, &svd.singular_values, &v_t))
+        let (u, s, v_t) = decomposed(scaled.clone())?;
+        Ok(assemble(&scale, &scaled, &z, &u, &s, &v_t))
     }
+}
+
+/// `U`, the singular values and `V'`.
+type Factors = (DMatrix<f64>, DVector<f64>, DMatrix<f64>);
+
+/// Factors of a matrix.
+fn decomposed(matrix: DMatrix<f64>) -> Result<Factors, ModelError> {
+    let failed = ModelError::NotFinite { what: "the singular value decomposition" };
+    let svd = matrix.try_svd(true, true, f64::EPSILON, 10_000);
+    svd.and_then(|svd| Some((svd.u?, svd.singular_values, svd.v_t?))).ok_or(failed)
 }
 
 /// Solution of a least-squares problem with everything needed to judge it.

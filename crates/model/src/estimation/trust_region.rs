@@ -106,18 +106,18 @@ impl TrustRegion {
             let triangle = problem.equations(&search.point)?;
             let solution = triangle.solve()?;
             scale = largest(&scale, &solution.column_norms);
-            let ended = match search.step(&triangle, &solution.x, &scale)? {
-                Step::None => Some(Termination::NoDescent),
-                Step::Negligible => Some(Termination::Settled),
-                Step::Gain if search.effort.iterations == self.most_iterations => {
-                    Some(Termination::MostIterations)
-                }
-                Step::Gain => None,
+            let termination = match search.step(&triangle, &solution.x, &scale)? {
+                Step::Gain if search.effort.iterations < self.most_iterations => continue,
+                Step::Gain => Termination::MostIterations,
+                Step::Negligible => Termination::Settled,
+                Step::None => Termination::NoDescent,
             };
-            if let Some(termination) = ended {
-                let solution = problem.equations(&search.point)?.solve()?;
-                return Ok(Minimum { point: search.point, solution, effort: search.effort, termination });
-            }
+            // Where no step leads on, the point is that of the last solution.
+            let solution = match termination {
+                Termination::NoDescent => solution,
+                _ => problem.equations(&search.point)?.solve()?,
+            };
+            return Ok(Minimum { point: search.point, solution, effort: search.effort, termination });
         }
     }
 }

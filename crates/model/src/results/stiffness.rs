@@ -3,7 +3,7 @@
 use hexbench_core::{Matrix6, Observation};
 use serde::Serialize;
 
-use crate::application::stiffness::{CartesianStiffness, PrincipalStiffness, StiffnessAxes, StiffnessPoint};
+use crate::application::stiffness::{CartesianStiffness, PrincipalStiffness, StiffnessPoint};
 
 /// Stiffness at poses and loads.
 #[derive(Debug, Clone, Serialize)]
@@ -55,12 +55,14 @@ pub struct PrincipalEntry {
 impl StiffnessList {
     /// Of rows and what was found for them.
     pub fn of(rows: &[Observation], found: &[CartesianStiffness], at: &StiffnessPoint) -> Self {
-        let axes = match at.axes {
-            StiffnessAxes::Fixed => "fixed",
-            StiffnessAxes::Mobile => "mobile",
-        };
         let states = rows.iter().zip(found).map(|(row, k)| StiffnessEntry::of(row, k)).collect();
-        Self { format: "stiffness/1", units: "m, rad, N, N m", point: at.point.into(), axes, states }
+        Self {
+            format: "stiffness/1",
+            units: "m, rad, N, N m",
+            point: at.point.into(),
+            axes: at.axes.word(),
+            states,
+        }
     }
 }
 

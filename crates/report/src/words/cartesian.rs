@@ -1,11 +1,9 @@
 //! Cartesian stiffness of the platform at one pose.
 
 use hexbench_core::{Matrix6, Pose, Wrench};
-use hexbench_model::application::stiffness::{
-    CartesianStiffness, PrincipalStiffness, StiffnessAxes, StiffnessPoint,
-};
+use hexbench_model::application::stiffness::{CartesianStiffness, PrincipalStiffness, StiffnessPoint};
 
-use crate::number::{rounded, significant, with_uncertainty};
+use crate::number::{rounded, significant, stated, with_uncertainty};
 use crate::page::{Page, Section, Table};
 
 /// Factor of each entry of a matrix from SI to what is shown.
@@ -19,14 +17,10 @@ pub fn cartesian(k: &CartesianStiffness, pose: &Pose, load: &Wrench, at: &Stiffn
     let load = load.to_array();
     let (force, moment) = (listed(load[..3].iter().copied()), listed(load[3..].iter().copied()));
     let point = listed(at.point.iter().map(|m| m * 1e3));
-    let axes = match at.axes {
-        StiffnessAxes::Fixed => "axes of the fixed frame",
-        StiffnessAxes::Mobile => "axes of the mobile frame",
-    };
     Page::new("Stiffness of the platform")
         .about("pose", format!("a, b, c: {shift} mm; alpha, beta, gamma: {turn} deg"))
         .about("load", format!("force {force} N, moment {moment} N m at the mobile origin"))
-        .about("point", format!("{point} mm in the mobile frame; {axes}"))
+        .about("point", format!("{point} mm in the mobile frame; axes of the {} frame", at.axes.word()))
         .with(principal(k))
         .with(matrix(
             "Stiffness matrix K",
@@ -51,10 +45,9 @@ pub fn cartesian(k: &CartesianStiffness, pose: &Pose, load: &Wrench, at: &Stiffn
 const FORCES: [&str; 6] = ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"];
 const MOTIONS: [&str; 6] = ["x, um", "y, um", "z, um", "rx, mrad", "ry, mrad", "rz, mrad"];
 
-/// Numbers that were given, without what changing their unit has added.
 fn listed(numbers: impl Iterator<Item = f64>) -> String {
-    const DECIMALS: f64 = 1e9;
-    numbers.map(|x| ((x * DECIMALS).round() / DECIMALS + 0.0).to_string()).collect::<Vec<_>>().join(", ")
+    const DECIMALS: i32 = 9;
+    numbers.map(|x| stated(x, DECIMALS)).collect::<Vec<_>>().join(", ")
 }
 
 /// From SI: a column is for a um or a mrad.

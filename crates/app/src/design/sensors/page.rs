@@ -4,7 +4,7 @@ use hexbench_core::{SensorKind, Tolerances, Vector3};
 use hexbench_design::power::EffectPower;
 use hexbench_design::sensors::{CandidateSensor, Found};
 use hexbench_experiments::power::PlanReport;
-use hexbench_report::number::significant;
+use hexbench_report::number::{significant, stated};
 use hexbench_report::{Page, PageColumn, Section, Table};
 
 use super::super::page::determined;
@@ -186,9 +186,9 @@ fn sensor(candidate: &CandidateSensor) -> [String; 7] {
     ]
 }
 
-/// A stated number, without what a change of unit adds.
 fn plain(x: f64) -> String {
-    ((x * 1e6).round() / 1e6).to_string()
+    const DECIMALS: i32 = 6;
+    stated(x, DECIMALS)
 }
 
 /// `1, 0, -0.5`, zeros without sign.
