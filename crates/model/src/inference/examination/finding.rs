@@ -13,6 +13,8 @@ pub enum FindingKind {
     Pose,
     /// A load that is not the one applied.
     Load,
+    /// More readings that others contradict than a record gets wrong by itself.
+    Contradiction,
     /// Readings scatter more or less than stated.
     NoiseLevel,
     /// Readings scatter with more large errors than a Gaussian has.
@@ -82,6 +84,8 @@ pub enum FindingKind {
 enum Concern {
     /// Single readings.
     Readings,
+    /// More readings than can be left out.
+    ManyReadings,
     /// Conditions as a whole, as an effect of the machine does.
     Conditions,
     /// Conditions, of which the readings are left out.
@@ -105,6 +109,7 @@ impl FindingKind {
             Self::Blunder => ("blunder", "Blunder", Concern::Readings),
             Self::Pose => ("pose", "Wrong pose", Concern::WrongConditions),
             Self::Load => ("load", "Wrong load", Concern::WrongConditions),
+            Self::Contradiction => ("contradiction", "Contradiction", Concern::ManyReadings),
             Self::NoiseLevel => ("noise-level", "Noise level", Concern::Noise),
             Self::HeavyTails => ("heavy-tails", "Heavy tails", Concern::Noise),
             Self::SharedReference => ("shared-reference", "Shared reference", Concern::Noise),

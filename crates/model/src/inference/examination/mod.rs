@@ -108,6 +108,10 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     if let Some(&tails) = tails.filter(|t| t.evidence - first.stated > cleaned.gain) {
         return Ok(settled(whole.clone(), whole, first, &tails));
     }
+    if let Some(best) = first.statements.first().filter(|_| cleaned.first.is_some() && cleaned.last.has_more)
+    {
+        return Ok(contradictory(whole, &cleaned.examined, first, best));
+    }
     let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
     if let Some(found) = cleaned.last.inputs.as_ref().filter(|w| w.evidence > LIKELY.max(rivals)) {
@@ -151,6 +155,8 @@ struct Look {
     names: [String; 6],
     /// What they tell of the inputs, once no fault is left.
     inputs: Option<Tolerance>,
+    /// True when there are more faults than are left out.
+    has_more: bool,
 }
 
 /// The worst fault of readings, of at most so many rows, and the statements about their noise. `slopes`: of more of the readings, where
@@ -166,7 +172,10 @@ fn look(
     let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
     let rest = Remainder::new(&examined.data, &campaign, outcome, slopes.insert(known))?;
     let (statements, stated) = statements(&rest);
-    let fault = worst(&rest).filter(|f| f.rows.len() <= most);
+    let worst = worst(&rest);
+    let is_too_much = |fault: &Fault| fault.rows.len() > most;
+    let has_more = worst.as_ref().is_some_and(is_too_much);
+    let fault = worst.filter(|fault| !is_too_much(fault));
     let inputs = if fault.is_none() { inexact_inputs(&rest) } else { None };
     let names =
         std::array::from_fn(
@@ -174,7 +183,7 @@ fn look(
                 if campaign.reads_poses { AXES[k].to_owned() } else { campaign.name_of(0, k) }
             },
         );
-    Ok((fault, Look { statements, stated, rows: rest.rows, names, inputs }))
+    Ok((fault, Look { statements, stated, rows: rest.rows, names, inputs, has_more }))
 }
 
 /// Readings without single faults.
@@ -213,6 +222,29 @@ fn without_faults(
             !fault.rows.contains(&(row - 1))
         });
     }
+}
+
+/// Readings of which more are wrong than a record gets wrong by itself: none is left out, and what they may have in common is asked for.
+/// `cleaned`: without the worst of them; `look`: at all of them, of which `best` says most.
+fn contradictory(whole: &Examined, cleaned: &Examined, look: &Look, best: &Statement) -> Examined {
+    let mut all = settled(whole.clone(), whole, look, best);
+    let faults = &cleaned.findings[whole.findings.len()..];
+    let mut rows: Vec<u64> = faults.iter().flat_map(|f| f.rows.iter().copied()).collect();
+    rows.sort_unstable();
+    let first = rows.first().copied().unwrap_or(0);
+    let count = rows.len();
+    all.findings.push(Finding {
+        kind: FindingKind::Contradiction,
+        probability: faults.iter().map(|f| f.probability).fold(1.0, f64::min),
+        rows,
+        size: format!("{count} readings and more"),
+        text: format!(
+            "{count} readings, the first of them in line {first}, and others beside them are far from what the rest allows, too many for single \
+             mistakes: all are kept"
+        ),
+        next: "look for what these lines have in common: a sign, a unit or a setup that changed while the file was taken".to_owned(),
+    });
+    all
 }
 
 /// What remains is judged by the best statement about it; `whole`: with all readings.

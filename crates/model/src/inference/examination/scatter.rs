@@ -26,8 +26,8 @@ const GRID: [f64; 14] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0
 const CORRELATIONS: [f64; 8] = [0.3, 0.6, 0.8, 0.9, 0.95, 0.97, 0.985, 0.995];
 /// Degrees of freedom of heavy tails.
 const TAILS: [f64; 5] = [3.0, 4.0, 5.0, 7.0, 10.0];
-/// Size of an unknown law in the legs, over the noise.
-const LAW_SIZES: [f64; 10] = [0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.5, 5.0, 10.0, 30.0];
+/// Size of an unknown law in the legs, over the noise; the largest are those of a file that contradicts itself.
+const LAW_SIZES: [f64; 13] = [0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.5, 5.0, 10.0, 30.0, 300.0, 3e3, 3e4];
 
 /// Readings, less what the fit took, that a covariance of six coordinates takes: with fewer it is singular, and explains anything.
 const LEAST_READINGS: f64 = 9.0;
