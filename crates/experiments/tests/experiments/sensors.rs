@@ -79,3 +79,40 @@ fn every_trial_of_alike_readings_is_found_by_the_name_of_its_table() {
     }
     assert!(protocol.cases("alike/clean-0004").is_none(), "beyond the last campaign");
 }
+
+/// A machine on which the platform moves by half a millimeter and turns by three milliradians under the loads, drawn with [`SEED`].
+const SOFT: usize = 142;
+
+/// Largest difference of a leg stiffness from that of the pose, in standard deviations, and of those standard deviations, relative, of the
+/// soft machine read as points and as distances, its loads multiplied.
+fn apart_under(loads: f64) -> [[f64; 2]; 2] {
+    let springs = |way| {
+        let mut case = SimulatedCase::draw(CaseKind::Clean, SOFT, SEED, None).unwrap();
+        for o in case.measurements.observations.iter_mut().chain(&mut case.holdout.observations) {
+            o.wrench = o.wrench.scaled(loads);
+            o.reference = o.reference.scaled(loads);
+        }
+        case.read_alike(way, false).unwrap();
+        fit_baseline(&prepare(&case.hexapod, &case.measurements).unwrap()).unwrap().parameters
+    };
+    let pose = springs(AlikeReadings::Pose);
+    [AlikeReadings::Points, AlikeReadings::Distances].map(|way| {
+        let other = springs(way);
+        let beside = || pose.iter().zip(&other).take(6);
+        let value = beside().map(|(a, b)| (a.value - b.value).abs() / a.std).fold(0.0, f64::max);
+        let std = beside().map(|(a, b)| (b.std / a.std - 1.0).abs()).fold(0.0, f64::max);
+        [value, std]
+    })
+}
+
+#[test]
+fn readings_that_tell_the_same_differ_by_the_turn_of_the_legs_alone() {
+    /// Turn of the legs under the full loads, and what six springs make of it at most.
+    const TURN: f64 = 5e-3;
+    const AMPLIFIED: f64 = 10.0;
+    let [whole, tenth] = [1.0, 0.1].map(apart_under);
+    for (whole, tenth) in whole.iter().zip(&tenth) {
+        assert!(whole[0] < AMPLIFIED * TURN && whole[1] < TURN, "{whole:?}");
+        assert!(tenth[0] < 0.2 * whole[0] && tenth[1] < 0.2 * whole[1], "{whole:?}, {tenth:?}");
+    }
+}
