@@ -34,6 +34,9 @@ use crate::machine::kinematics::{Legs, euler_rate_matrix, forces_near};
 const MOST_STEPS: usize = 12;
 /// Change of the relief, relative to the leg forces, at which it has settled: rounding of sums of six.
 const SETTLED: f64 = 1e-14;
+/// Turn of the legs, rad, up to which a motion of first order tells where the platform goes: readings are then off by its square, a millionth
+/// of the motion.
+const STRAIGHT: f64 = 1e-3;
 /// Step of the differences relative to the leg forces: laws bend over newtons, and rounding stays below 1e-9 of a compliance.
 const STEP: f64 = 1e-6;
 /// Step of the differences of a function of the pose, m and rad: what they leave out and what rounding adds are 1e-9 of lengths of a metre.
@@ -306,7 +309,7 @@ fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Condition, Mod
 /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
 /// the finite deflection is of third order. The reference pose is the commanded one plus the small deflection that
 /// the structure gives it; the loaded pose lies a measured deflection further, or one as the structure gives it where no pose was
-/// measured: that one is computed once more halfway, for at the commanded pose it is of first order only. Also the displacement of the
+/// measured: that one is computed once more halfway where the legs turn, for at the commanded pose it is of first order only. Also the displacement of the
 /// base joints on their brackets in the reference state.
 fn deflected(
     structure: &Structure<'_>,
@@ -338,7 +341,7 @@ fn deflected(
     };
     place(&mut at, &motion)?;
     at.sag = sag.of_legs;
-    if measured.is_none() {
+    if measured.is_none() && at.legs.turn(&motion) > STRAIGHT {
         let motion = structure.motion(&at, sag.shift, out);
         place(&mut at, &motion)?;
     }
