@@ -18,4 +18,4 @@ pub use document::{headlines, page};
 pub use information::SHOWN;
 pub use protocol::{SEED, SensorProtocol, SensorStudy, TRIALS};
 pub use record::SensorRecord;
-pub use sheets::{alike, faults, ways};
+pub use sheets::{alike, faults, shown, ways};

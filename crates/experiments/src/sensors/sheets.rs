@@ -5,7 +5,7 @@ use hexbench_report::Table;
 use hexbench_report::number::hundredths;
 use hexbench_truth::campaign::{AlikeReadings, SensorFault, SensorSet};
 
-use super::{AlikeAnswer, AlikeRecord, AlikeStudy, SensorRecord, SensorStudy};
+use super::{AlikeAnswer, AlikeRecord, AlikeStudy, SHOWN, SensorRecord, SensorStudy};
 use crate::shares::{counted, percent};
 
 /// One line for each way of reading.
@@ -61,6 +61,31 @@ pub fn faults(study: &SensorStudy) -> Table {
             named(false),
             counted(Proportion::count(records.iter(), |r| r.of.names_falsely())),
             percent(records.iter().map(|r| r.of.stiffness_coverage()).sum()),
+        ]);
+    }
+    table
+}
+
+/// Bounds of the chi-square that a fault adds: three, six, ten standard deviations.
+const BANDS: [f64; 5] = [f64::NEG_INFINITY, 9.0, SHOWN, 100.0, f64::INFINITY];
+
+/// How often a fault is named, by how much of it the readings show.
+pub fn shown(study: &SensorStudy, fault: SensorFault) -> Table {
+    let mut table = Table::named(["chi-square of the fault", "campaigns", "named", "effect named falsely"]);
+    let records = study.of_group(fault.word());
+    for band in BANDS.windows(2) {
+        let within = |r: &&&SensorRecord| r.information.is_some_and(|chi2| chi2 > band[0] && chi2 <= band[1]);
+        let here: Vec<_> = records.iter().filter(within).collect();
+        let words = match (band[0].is_finite(), band[1].is_finite()) {
+            (false, _) => format!("to {}", band[1]),
+            (_, false) => format!("above {}", band[0]),
+            _ => format!("{} to {}", band[0], band[1]),
+        };
+        table.row([
+            words,
+            here.len().to_string(),
+            counted(Proportion::count(here.iter(), |r| r.is_named())),
+            counted(Proportion::count(here.iter(), |r| r.of.names_falsely())),
         ]);
     }
     table

@@ -34,6 +34,9 @@ use crate::machine::kinematics::{Legs, euler_rate_matrix, forces_near};
 const MOST_STEPS: usize = 12;
 /// Change of the relief, relative to the leg forces, at which it has settled: rounding of sums of six.
 const SETTLED: f64 = 1e-14;
+/// Turn of the legs, rad, up to which a motion of first order tells where the platform goes: readings are then off by its square, a millionth
+/// of the motion.
+const STRAIGHT: f64 = 1e-3;
 /// Step of the differences relative to the leg forces: laws bend over newtons, and rounding stays below 1e-9 of a compliance.
 const STEP: f64 = 1e-6;
 /// Step of the differences of a function of the pose, m and rad: what they leave out and what rounding adds are 1e-9 of lengths of a metre.
@@ -306,8 +309,8 @@ fn measured(structure: &Structure<'_>, o: &Observation) -> Result<Condition, Mod
 /// Deflections: every force is taken where it acts and the motion is linearised halfway, so that what remains of
 /// the finite deflection is of third order. The reference pose is the commanded one plus the small deflection that
 /// the structure gives it; the loaded pose lies a measured deflection further, or one as the structure gives it where no pose was
-/// measured. Also the displacement of the base joints on their
-/// brackets in the reference state.
+/// measured: that one is computed once more halfway where the legs turn, for at the commanded pose it is of first order only. Also the displacement of the
+/// base joints on their brackets in the reference state.
 fn deflected(
     structure: &Structure<'_>,
     o: &Observation,
@@ -322,7 +325,7 @@ fn deflected(
         structure.load(&at, out).displacement(&at).map(|change| [before, before.and(&change, 1.0)]);
     let reference = moved(&o.pose, &sag.whole, 1.0);
     let motion = match measured {
-        None => structure.motion(&at, out),
+        None => structure.motion(&at, None, out),
         Some((measured, measurand)) => {
             let mut motion = Vector6::from_column_slice(measured);
             if measurand == Measurand::DeflectionEuler {
@@ -332,9 +335,16 @@ fn deflected(
             motion
         }
     };
-    let [halfway, loaded] = [0.5, 1.0].map(|share| moved(&reference, &motion, share));
-    structure.place(&mut at, halfway, [reference, loaded], displaced.as_ref())?;
+    let place = |at: &mut Condition, motion: &Vector6| {
+        let [halfway, loaded] = [0.5, 1.0].map(|share| moved(&reference, motion, share));
+        structure.place(at, halfway, [reference, loaded], displaced.as_ref())
+    };
+    place(&mut at, &motion)?;
     at.sag = sag.of_legs;
+    if measured.is_none() && at.legs.turn(&motion) > STRAIGHT {
+        let motion = structure.motion(&at, sag.shift, out);
+        place(&mut at, &motion)?;
+    }
     Ok((at, sag.shift))
 }
 
@@ -435,14 +445,15 @@ impl Structure<'_> {
         Sag { of_legs, whole: of_legs + load.twist(), shift: load.shift(), displacement }
     }
 
-    /// Motion of the measured platform between reference and load, to first order, at the commanded pose.
-    fn motion(&self, commanded: &Condition, out: &mut Vec<Action>) -> Vector6 {
-        let j = commanded.legs.platform_jacobian;
+    /// Motion of the measured platform between reference and load: to first order in it at the commanded pose, to second order halfway
+    /// between the states. `shift` as of [`Self::settle`].
+    fn motion(&self, at: &Condition, shift: Option<[Vector3; 6]>, out: &mut Vec<Action>) -> Vector6 {
+        let j = at.legs.platform_jacobian;
         if self.active.is_empty() {
-            return j * self.springs.component_mul(&commanded.force_change());
+            return j * self.springs.component_mul(&at.force_change());
         }
-        let mut at = commanded.clone();
-        let load = self.settle(&mut at, None, false, out);
+        let mut at = at.clone();
+        let load = self.settle(&mut at, shift, false, out);
         j * load.stretch(&at, self.springs) + load.twist()
     }
 

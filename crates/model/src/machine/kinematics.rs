@@ -38,6 +38,13 @@ impl Legs {
         Ok(Self { lengths, directions, arms, leg_jacobian, platform_jacobian })
     }
 
+    /// Bound of the turn of the legs under a small geometric twist `[v; w]` of the platform, rad: `max |v + w x a_i| / l_i`.
+    pub fn turn(&self, twist: &Vector6) -> f64 {
+        let (shift, rotation) = (twist.fixed_rows::<3>(0), twist.fixed_rows::<3>(3));
+        let of_leg = |(arm, length): (&Vector3, &f64)| (shift + rotation.cross(arm)).norm() / length;
+        self.arms.iter().zip(self.lengths.iter()).map(of_leg).fold(0.0, f64::max)
+    }
+
     /// Leg forces (N, tension positive) that balance a wrench `[F; M]` at the mobile origin: `f = L^-T W`.
     pub fn forces(&self, wrench: &Vector6) -> Vector6 {
         self.platform_jacobian.tr_mul(wrench)
