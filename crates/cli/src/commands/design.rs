@@ -87,7 +87,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let found = planned(arguments, &hexapod)?;
     tell(arguments, design::page(&found), screen)?;
-    let written = |path: &OutFile| screen.write_to(path, &csv::conditions(&found.readings_to_take()));
+    let written =
+        |path: &OutFile| screen.write_to(path, &csv::conditions(&found.readings_to_take(), &hexapod));
     arguments.output.as_ref().map_or(Ok(()), written)
 }
 
@@ -114,7 +115,7 @@ fn sensors(
     let designed = is_space.then(|| planned(arguments, hexapod)).transpose()?;
     let plan = match &designed {
         Some(found) => found.readings_to_take(),
-        None => input::plan(&arguments.space)?,
+        None => input::plan(hexapod, &arguments.space)?,
     };
     let chosen = choose_sensors(hexapod, &plan, candidates, &sensor_wish(arguments), &steps("searches"))?;
     if let Some(path) = &arguments.json {

@@ -84,7 +84,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if !to_stdout {
         screen.show(&discriminated(&found))?;
     }
-    arguments.output.as_ref().map_or(Ok(()), |path| screen.write_to(path, &table(&found)))
+    arguments.output.as_ref().map_or(Ok(()), |path| screen.write_to(path, &table(&found, &hexapod)))
 }
 
 fn rivals(ids: &[String], known: &[Arc<dyn Term>]) -> Result<Vec<Arc<dyn Term>>, Failure> {
@@ -243,9 +243,9 @@ fn noise(hexapod: &Hexapod) -> Result<Noise, Failure> {
 }
 
 /// The readings, each repeat in a row of its own.
-fn table(found: &Discriminated) -> String {
+fn table(found: &Discriminated, hexapod: &Hexapod) -> String {
     let repeated = (1..).zip(&found.readings).flat_map(|(pose_id, r)| {
         (1..).take(r.repeats).map(move |repeat| Observation { pose_id, repeat, ..r.observation })
     });
-    csv::conditions(&Dataset::of_deflections("", repeated.collect()))
+    csv::conditions(&Dataset::of_deflections("", repeated.collect()), hexapod)
 }

@@ -217,7 +217,7 @@ fn one_workbook_may_hold_balls_and_loads() {
     for book in [ods, xlsx] {
         std::fs::write(&path, book(&[("Balls", cells(balls)), ("Loads", cells(loads))])).unwrap();
         assert_eq!(read_balls(&path).unwrap().len(), 2);
-        let table = read_loads(&path, &ColumnNames::default()).unwrap();
+        let table = read_loads(&path, &ColumnNames::default(), None).unwrap();
         assert_eq!(
             (table.rows[0].record.as_str(), table.rows[0].hung.loaded.to_bits()),
             ("L1", 10_f64.to_bits())
