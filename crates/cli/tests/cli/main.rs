@@ -28,6 +28,7 @@ mod power;
 mod programs;
 mod recovery;
 mod regress;
+mod robots;
 mod runs;
 mod scenes;
 mod score;
