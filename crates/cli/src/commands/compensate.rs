@@ -18,6 +18,8 @@ use crate::output::{OutFile, Screen};
 /// command (`a_mm` ... `gamma_deg`), the wanted pose, the error without correction, what remains by the model's own
 /// prediction, and the standard uncertainty of the pose reached.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench compensate model.toml wanted.csv -o commands.csv")]
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
     model: PathBuf,

@@ -17,6 +17,10 @@ use crate::output::{OutFile, PageFiles, Progress, Screen, write_json};
 
 /// Choose the poses that determine stiffnesses (and effects) best
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench design hexapod.toml space.toml --poses 6 -o plan.csv\n  \
+    hexbench design hexapod.toml space.toml --hours 3 --add base-compliance -o plan.csv\n  \
+    hexbench design hexapod.toml plan.csv --sensors candidates.toml --choose 6 -o gauges.toml")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,

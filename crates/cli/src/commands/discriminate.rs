@@ -27,6 +27,8 @@ const USUAL_READINGS: [u16; 2] = [12, 6];
 
 /// Choose the readings that tell effects apart: a new plan, or the next readings beside data
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench discriminate hexapod.toml space.toml --between base-compliance --between leg-coupling -o next.csv")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,

@@ -21,6 +21,9 @@ use crate::read_as::ReadAs;
 
 /// Fit leg stiffnesses and the effects you name, and save the model
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench fit hexapod.toml measurements.csv -o model.toml\n  \
+    hexbench fit hexapod.toml measurements.csv --add base-compliance --holdout holdout.csv -o model.toml")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,

@@ -14,6 +14,8 @@ use crate::output::{OutFile, Screen};
 
 /// Predict deflections (or absolute poses) and what the sensors of the machine read, with their uncertainty
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench predict model.toml poses.csv -o predicted.csv")]
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
     model: PathBuf,
