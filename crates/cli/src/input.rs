@@ -7,13 +7,14 @@ use clap::Args;
 use hexbench_app::input::model;
 pub(crate) use hexbench_app::input::{catalogue_with, user_terms};
 use hexbench_core::files::{
-    ColumnNames, TableReading, read_campaign, read_campaign_named, read_column_names, read_conditions_named,
-    read_hexapod, read_plan,
+    ColumnNames, TableReading, read_campaign, read_campaign_named, read_campaign_records, read_column_names,
+    read_conditions_named, read_hexapod, read_plan,
 };
 use hexbench_core::{AngleConvention, Dataset, Hexapod};
 use hexbench_model::application::model_file::Model;
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
+use hexbench_report::table::{is_parquet, read_parquet};
 
 use crate::failure::Failure;
 use crate::output::report;
@@ -63,7 +64,13 @@ pub(crate) fn hexapod(path: &Path) -> Result<Hexapod, Failure> {
 
 /// The measurements of a file of a machine; what the reader noticed goes to standard error.
 pub(crate) fn measurements(hexapod: &Hexapod, path: &Path, names: &TableNames) -> Result<Dataset, Failure> {
-    Ok(told(path, read_campaign_named(hexapod, path, &names.read()?)?))
+    let names = names.read()?;
+    let reading = if is_parquet(path) {
+        read_campaign_records(hexapod, &read_parquet(path)?, &names, path)?
+    } else {
+        read_campaign_named(hexapod, path, &names)?
+    };
+    Ok(told(path, reading))
 }
 
 /// The same of a file that need not be given.
