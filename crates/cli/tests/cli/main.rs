@@ -31,6 +31,7 @@ mod regress;
 mod robots;
 mod runs;
 mod scenes;
+mod schemas;
 mod score;
 mod separation;
 mod streams;
