@@ -367,6 +367,11 @@ impl<'a> Structure<'a> {
 }
 
 impl Structure<'_> {
+    /// The calibrated machine.
+    pub(crate) fn machine(&self) -> &Machine {
+        self.machine
+    }
+
     /// What the terms do together at a condition.
     fn load(&self, at: &Condition, out: &mut Vec<Action>) -> Load {
         load(self.machine, at, self.active.iter().copied(), out)

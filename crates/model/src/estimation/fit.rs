@@ -11,6 +11,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::effects::term::{Natural, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
+use crate::estimation::equations::{Equations, averaged_numbers};
 use crate::estimation::linearization::{Active, Linearization, ModelPoint, beside};
 use crate::estimation::lsq::{Solution, Triangle};
 use crate::estimation::parameters::Parameters;
@@ -137,8 +138,8 @@ pub fn fit(campaign: &Campaign, wanted: &[TermSpec], start: Option<&ModelPoint>)
         campaign.refuse_astray(&campaign.frames, "")?;
     }
     let point = start_point(campaign, wanted, start);
-    let state = Linearization::to_fit(campaign, &point)?;
-    fit_from(campaign, wanted, point, state)
+    let equations = Equations::at(campaign, &point)?;
+    fit_from(campaign, wanted, point, equations)
 }
 
 /// The same from a point where the campaign has been linearised already.
@@ -146,34 +147,36 @@ fn fit_from(
     campaign: &Campaign,
     wanted: &[TermSpec],
     point: ModelPoint,
-    state: Linearization,
+    equations: Equations,
 ) -> Result<Fit, ModelError> {
     let parameters = Parameters::at(&point, campaign.is_absolute()).with_priors(wanted);
-    if state.conditions.iter().all(|c| c.force_change().amax() < 1e-9) {
+    if !equations.is_loaded {
         return Err(ModelError::NoLoad);
     }
-    let problem = FitProblem { campaign, parameters };
-    let found = TRUST_REGION.minimum(&problem, problem.linearized(point, state))?;
-    Ok(finish(campaign, found, problem.parameters))
+    let problem = FitProblem { campaign, parameters, numbers: averaged_numbers(campaign) };
+    let found = TRUST_REGION.minimum(&problem, problem.seen_from(point, equations))?;
+    Ok(finish(found, problem))
 }
 
 /// A campaign and the numbers that are fitted to it.
 struct FitProblem<'a> {
     campaign: &'a Campaign,
     parameters: Parameters,
+    /// Averaged numbers that were read.
+    numbers: f64,
 }
 
-/// Numbers of a model, the campaign linearised there, and chi-square with what the priors add.
+/// Numbers of a model, the equations of the campaign there, and chi-square with what the priors add.
 struct FitPoint {
     point: ModelPoint,
-    state: Linearization,
+    equations: Equations,
     objective: f64,
 }
 
 impl FitProblem<'_> {
-    fn linearized(&self, point: ModelPoint, state: Linearization) -> FitPoint {
-        let objective = state.residuals().norm_squared() + self.parameters.penalty(&point);
-        FitPoint { point, state, objective }
+    fn seen_from(&self, point: ModelPoint, equations: Equations) -> FitPoint {
+        let objective = equations.misfit() + self.parameters.penalty(&point);
+        FitPoint { point, equations, objective }
     }
 }
 
@@ -186,24 +189,20 @@ impl NonlinearProblem for FitProblem<'_> {
 
     /// Priors included as equations.
     fn equations(&self, at: &FitPoint) -> Result<Triangle, ModelError> {
-        let mut triangle = Triangle::new(self.parameters.len());
-        for part in at.state.parts() {
-            let piece = at.state.part(&part);
-            triangle.push(&columns(&piece, &at.point), &piece.residuals())?;
-        }
+        let mut triangle = at.equations.triangle()?;
         push_priors(&mut triangle, &at.point, &self.parameters)?;
         Ok(triangle)
     }
 
     fn moved(&self, at: &FitPoint, step: &DVector<f64>) -> Result<FitPoint, ModelError> {
         let point = self.parameters.moved(&at.point, step.as_slice());
-        let state = Linearization::to_fit(self.campaign, &point)?;
-        Ok(self.linearized(point, state))
+        let equations = Equations::at(self.campaign, &point)?;
+        Ok(self.seen_from(point, equations))
     }
 
     /// Relative to the misfit: a wrong model need not be settled to the last digit.
     fn negligible(&self, at: &FitPoint) -> f64 {
-        SETTLED_CHI2 * (at.objective / at.state.numbers()).max(1.0)
+        SETTLED_CHI2 * (at.objective / self.numbers).max(1.0)
     }
 }
 
@@ -218,14 +217,14 @@ pub fn refit(
     kept: &[usize],
 ) -> Result<Fit, ModelError> {
     let part = campaign.part(kept);
-    let state = start.state.choose_of(&part, kept);
-    fit_from(&part, wanted, start.point.clone(), state)
+    let equations = start.equations.choose_of(&part, kept);
+    fit_from(&part, wanted, start.point.clone(), equations)
 }
 
 /// Where fits to parts of a campaign start.
 pub struct Start {
     pub(crate) point: ModelPoint,
-    pub(crate) state: Linearization,
+    pub(crate) equations: Equations,
 }
 
 impl Start {
@@ -235,8 +234,8 @@ impl Start {
     /// [`ModelError::SingularPose`].
     pub fn at(campaign: &Campaign, wanted: &[TermSpec], point: &ModelPoint) -> Result<Self, ModelError> {
         let point = start_point(campaign, wanted, Some(point));
-        let state = Linearization::to_fit(campaign, &point)?;
-        Ok(Self { point, state })
+        let equations = Equations::at(campaign, &point)?;
+        Ok(Self { point, equations })
     }
 }
 
@@ -363,6 +362,11 @@ fn at_shape(
 
 /// Whitened columns of springs, frames, term parameters and shapes at a point.
 pub fn columns(state: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
+    state.whitened(own_columns(state, point))
+}
+
+/// The same over the standard deviation of what is a reading's own.
+pub(crate) fn own_columns(state: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
     let mut blocks = vec![state.own_common_block()];
     for a in &point.active {
         let mut block = state.own_term_block(a.term.as_ref(), a.rich, a.shape);
@@ -380,7 +384,7 @@ pub fn columns(state: &Linearization, point: &ModelPoint) -> DMatrix<f64> {
         }
         blocks.push(block);
     }
-    state.whitened(beside(&blocks))
+    beside(&blocks)
 }
 
 /// Derivative of the reading, over the standard deviation of what is its own, by the logarithm of a shape, by central differences.
@@ -405,9 +409,10 @@ pub(crate) fn settled_at(point: ModelPoint, parameters: Parameters, solution: So
     }
 }
 
-fn finish(campaign: &Campaign, found: Minimum<FitPoint>, parameters: Parameters) -> Fit {
-    let Minimum { point: FitPoint { point, state, .. }, solution, effort, termination } = found;
-    let lack_of_fit = state.residuals().norm_squared();
+fn finish(found: Minimum<FitPoint>, problem: FitProblem<'_>) -> Fit {
+    let Minimum { point: FitPoint { point, equations, .. }, solution, effort, termination } = found;
+    let FitProblem { campaign, parameters, numbers } = problem;
+    let lack_of_fit = equations.misfit();
     // What the data determine: the rank without what the priors hold.
     let unknowns = solution.rank as f64 - parameters.held_by_priors(&solution.covariance);
     Fit {
@@ -416,7 +421,7 @@ fn finish(campaign: &Campaign, found: Minimum<FitPoint>, parameters: Parameters)
         chi2: lack_of_fit + campaign.pure_error,
         dof: campaign.numbers as f64 - unknowns,
         lack_of_fit,
-        lack_of_fit_dof: state.numbers() - unknowns,
+        lack_of_fit_dof: numbers - unknowns,
         parameters,
         solution,
         effort,

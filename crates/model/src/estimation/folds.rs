@@ -8,13 +8,13 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::fit::{Fit, Start, TermSpec, columns, push_priors, refit, settled_at};
-use crate::estimation::linearization::{Linearization, ModelPoint};
+use crate::estimation::equations::Equations;
+use crate::estimation::fit::{Fit, Start, TermSpec, push_priors, refit, settled_at};
+use crate::estimation::linearization::ModelPoint;
 use crate::estimation::lsq::{Solution, Triangle};
 use crate::estimation::nuisance::ShownInputs;
 use crate::estimation::parallel::products;
 use crate::estimation::parameters::Parameters;
-use crate::estimation::whitening::Inexact;
 
 /// Change of a column over its length up to which it is still the column that was linearised.
 const SAME_COLUMN: f64 = 1e-3;
@@ -29,10 +29,9 @@ pub(crate) struct FoldFits<'a> {
     wanted: &'a [TermSpec],
     start: Start,
     parameters: Parameters,
-    /// `[A y U]`: columns of the parameters, residuals, columns of the inputs that are known to a tolerance only, each reading over the
-    /// standard deviation of its own noise; none where readings share errors.
-    equations: Option<DMatrix<f64>>,
-    total: DMatrix<f64>,
+    /// Products of `[A y U]`: columns of the parameters, residuals, columns of the inputs that are known to a tolerance only, each reading
+    /// over the standard deviation of its own noise; none where readings share errors.
+    total: Option<DMatrix<f64>>,
 }
 
 impl<'a> FoldFits<'a> {
@@ -47,12 +46,15 @@ impl<'a> FoldFits<'a> {
     ) -> Result<Self, ModelError> {
         let start = Start::at(campaign, wanted, point)?;
         let parameters = Parameters::at(&start.point, campaign.is_absolute()).with_priors(wanted);
-        let equations = start
-            .state
-            .noise_is_independent()
-            .then(|| equations(&start.state, &start.point, parameters.len()));
-        let total = equations.as_ref().map_or_else(|| DMatrix::zeros(0, 0), |all| products(all, all));
-        Ok(Self { campaign, wanted, start, parameters, equations, total })
+        let equations = &start.equations;
+        let total = equations.noise_is_independent().then(|| {
+            let own = equations.own();
+            match equations.inexact() {
+                Some(inputs) => products_beside(&own, inputs.z()),
+                None => products(&own, &own),
+            }
+        });
+        Ok(Self { campaign, wanted, start, parameters, total })
     }
 
     /// The fit without the groups `held`; `kept`: the others.
@@ -67,9 +69,9 @@ impl<'a> FoldFits<'a> {
     }
 
     fn by_normal_equations(&self, held: &[usize]) -> Option<Fit> {
-        let rows: Vec<usize> = held.iter().flat_map(|&g| 6 * g..6 * g + 6).collect();
-        let own = self.equations.as_ref()?.select_rows(&rows);
-        let solution = self.solved(&(&self.total - products(&own, &own)))?;
+        let total = self.total.as_ref()?;
+        let own = self.start.equations.own_of(held);
+        let solution = self.solved(&(total - products(&own, &own)))?;
         let (first, last) = (solution.singular_values[0], *solution.singular_values.iter().next_back()?);
         if last < WELL_DETERMINED * first {
             return None;
@@ -106,26 +108,23 @@ impl<'a> FoldFits<'a> {
     /// True when the readings left out are where the linear model has them, and would be linearised there as before.
     fn is_near(&self, point: &ModelPoint, held: &[usize], own: &DMatrix<f64>, x: &DVector<f64>) -> bool {
         let part = self.campaign.part(held).unwhitened();
-        let Ok(there) = Linearization::to_fit(&part, point) else { return false };
-        let (p, columns) = (self.parameters.len(), columns(&there, point));
+        let Ok(there) = Equations::at(&part, point) else { return false };
+        let (p, (columns, residuals)) = (self.parameters.len(), there.sides());
         let linear = own.column(p) - own.columns(0, p) * x;
         let is_same =
             |k: usize| (columns.column(k) - own.column(k)).norm() <= SAME_COLUMN * own.column(k).norm();
-        (there.residuals() - linear).norm_squared() <= NEAR * NEAR * own.nrows() as f64 && (0..p).all(is_same)
+        (residuals - linear).norm_squared() <= NEAR * NEAR * own.nrows() as f64 && (0..p).all(is_same)
     }
 }
 
-fn equations(state: &Linearization, point: &ModelPoint, parameters: usize) -> DMatrix<f64> {
-    let inputs = state.inexact().map(Inexact::z);
-    let mut all = DMatrix::zeros(state.equations(), parameters + 1 + inputs.map_or(0, DMatrix::ncols));
-    for range in state.parts_of_noise() {
-        let part = state.part_of_noise(&range);
-        let mut rows = all.rows_mut(6 * range.start, 6 * range.len());
-        rows.columns_mut(0, parameters).copy_from(&columns(&part, point));
-        rows.set_column(parameters, &part.residuals());
-    }
-    if let Some(u) = inputs {
-        all.columns_mut(parameters + 1, u.ncols()).copy_from(u);
-    }
+/// Products of all columns of `[B U]`.
+fn products_beside(b: &DMatrix<f64>, u: &DMatrix<f64>) -> DMatrix<f64> {
+    let (m, n) = (b.ncols(), u.ncols());
+    let mut all = DMatrix::zeros(m + n, m + n);
+    let mixed = products(b, u);
+    all.view_mut((0, 0), (m, m)).copy_from(&products(b, b));
+    all.view_mut((0, m), (m, n)).copy_from(&mixed);
+    all.view_mut((m, 0), (n, m)).copy_from(&mixed.transpose());
+    all.view_mut((m, m), (n, n)).copy_from(&products(u, u));
     all
 }

@@ -17,7 +17,7 @@ use crate::estimation::whitening::{Inexact, Whitening};
 use crate::machine::geometry::{Machine, exponential};
 
 /// Conditions whose columns are made together.
-const PART: usize = 256;
+pub(crate) const PART: usize = 256;
 
 /// A term in a model, with its values. SI.
 #[derive(Clone)]
@@ -132,17 +132,8 @@ impl Linearization {
     /// # Errors
     /// [`ModelError::SingularPose`].
     pub fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
-        Self::with(campaign, point, Tangents::ForAll)
-    }
-
-    /// The same for a fit of the terms at the point: columns of other terms may take the structure for its springs.
-    pub(crate) fn to_fit(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
-        Self::with(campaign, point, Tangents::ForFit)
-    }
-
-    fn with(campaign: &Campaign, point: &ModelPoint, tangents: Tangents) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
-        let structure = Structure::of(&machine, &point.compliances, &point.active, tangents);
+        let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForAll);
         let linked = try_map(&campaign.groups, |group| {
             let (at, load) = campaign.condition(&structure, group, &group.mean)?;
             let link = Link::at(&at, &point.compliances, &load);
@@ -151,6 +142,31 @@ impl Linearization {
         let (conditions, links) = linked.into_iter().unzip();
         let whitening = Whitening::of(campaign);
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
+    }
+
+    /// Some of the conditions of a campaign, for a fit of the terms at the point; inputs taken as exact, errors as independent.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub(crate) fn own(
+        campaign: &Campaign,
+        structure: &Structure<'_>,
+        point: &ModelPoint,
+        range: std::ops::Range<usize>,
+    ) -> Result<Self, ModelError> {
+        let mut part = Self {
+            machine: structure.machine().clone(),
+            conditions: Vec::with_capacity(range.len()),
+            links: Vec::with_capacity(range.len()),
+            whitening: Whitening::nothing(),
+            absolute: campaign.is_absolute(),
+        };
+        for group in &campaign.groups[range] {
+            let (at, load) = campaign.condition(structure, group, &group.mean)?;
+            part.links.push(Link::at(&at, &point.compliances, &load));
+            part.conditions.push(at);
+        }
+        Ok(part)
     }
 
     /// Ranges of conditions small enough for all columns of all candidates to fit in the cache; all conditions in one where
@@ -186,11 +202,6 @@ impl Linearization {
     /// Inputs that are known to a tolerance only.
     pub(crate) fn inexact(&self) -> Option<&Inexact> {
         self.whitening.inexact()
-    }
-
-    /// True when errors of the readings are independent, but for inputs that are known to a tolerance only.
-    pub(crate) fn noise_is_independent(&self) -> bool {
-        self.whitening.noise_is_independent()
     }
 
     /// Some of the conditions; all of them are not copied.

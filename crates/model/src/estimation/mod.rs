@@ -2,6 +2,7 @@
 
 pub mod basis;
 pub mod campaign;
+mod equations;
 pub mod equilibrium;
 pub mod estimate;
 pub mod fit;

@@ -55,6 +55,11 @@ enum Common {
 }
 
 impl Whitening {
+    /// None: errors are independent, inputs exact.
+    pub(crate) fn nothing() -> Self {
+        Self { noise: Common::Nothing, inputs: None }
+    }
+
     /// The transform for the groups of a campaign.
     pub fn of(campaign: &Campaign) -> Self {
         let noise = Common::of(&campaign.groups, &campaign.noise);

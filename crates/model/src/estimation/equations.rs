@@ -1,0 +1,148 @@
+//! A campaign linearised at a point, as equations: what a fit keeps of it.
+//!
+//! A condition with its chain takes kilobytes, its equations hundreds of bytes. So the conditions of a part of the campaign are made,
+//! turned into equations, and forgotten.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::error::ModelError;
+use crate::estimation::campaign::{Campaign, ConditionReadings};
+use crate::estimation::equilibrium::{Structure, Tangents};
+use crate::estimation::fit::own_columns;
+use crate::estimation::linearization::{Linearization, ModelPoint, PART, beside};
+use crate::estimation::lsq::Triangle;
+use crate::estimation::parameters::Parameters;
+use crate::estimation::whitening::{Inexact, Whitening};
+
+/// Change of a leg force below which nothing pulls, N.
+const NO_FORCE: f64 = 1e-9;
+
+/// Six equations for each condition, over the standard deviation of what is a reading's own.
+pub(crate) struct Equations {
+    /// `A`: columns of the parameters of a fit.
+    columns: DMatrix<f64>,
+    /// `y`: what the model at the point leaves of the readings.
+    residuals: DVector<f64>,
+    /// What makes errors of readings independent.
+    whitening: Whitening,
+    /// True when some load changes the force in some leg.
+    pub(crate) is_loaded: bool,
+}
+
+impl Equations {
+    /// Of a campaign at a point, for the parameters of a fit that starts there.
+    ///
+    /// # Errors
+    /// As [`Linearization::at`].
+    pub(crate) fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
+        let (groups, machine) = (campaign.groups.len(), point.calibrated_machine());
+        let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
+        let mut all = Self {
+            columns: DMatrix::zeros(6 * groups, Parameters::at(point, campaign.is_absolute()).len()),
+            residuals: DVector::zeros(6 * groups),
+            whitening: Whitening::of(campaign),
+            is_loaded: false,
+        };
+        let parts: Vec<usize> = (0..groups).step_by(PART).collect();
+        // A batch at a time, so that few conditions are alive at once.
+        for batch in parts.chunks(4 * rayon::current_num_threads().max(1)) {
+            let part = |&first: &usize| {
+                let range = first..(first + PART).min(groups);
+                let lin = Linearization::own(campaign, &structure, point, range)?;
+                let is_loaded = lin.conditions.iter().any(|c| c.force_change().amax() >= NO_FORCE);
+                Ok((first, own_columns(&lin, point), lin.residuals(), is_loaded))
+            };
+            let pieces: Vec<Result<_, ModelError>> =
+                if batch.len() == 1 { vec![part(&batch[0])] } else { batch.par_iter().map(part).collect() };
+            for piece in pieces {
+                let (first, columns, residuals, is_loaded) = piece?;
+                all.columns.rows_mut(6 * first, columns.nrows()).copy_from(&columns);
+                all.residuals.rows_mut(6 * first, residuals.nrows()).copy_from(&residuals);
+                all.is_loaded |= is_loaded;
+            }
+        }
+        Ok(all)
+    }
+
+    /// Those of a part of the campaign, of which these are the groups.
+    pub(crate) fn choose_of(&self, part: &Campaign, groups: &[usize]) -> Self {
+        let rows = rows_of(groups);
+        Self {
+            columns: self.columns.select_rows(&rows),
+            residuals: self.residuals.select_rows(&rows),
+            whitening: Whitening::of(part),
+            is_loaded: self.is_loaded,
+        }
+    }
+
+    /// `[A y]`.
+    pub(crate) fn own(&self) -> DMatrix<f64> {
+        let last = self.columns.ncols();
+        let mut all = self.columns.clone().resize_horizontally(last + 1, 0.0);
+        all.set_column(last, &self.residuals);
+        all
+    }
+
+    /// `[A y U]` of some groups, `U` the columns of the inputs that are known to a tolerance only.
+    pub(crate) fn own_of(&self, groups: &[usize]) -> DMatrix<f64> {
+        let rows = rows_of(groups);
+        let residuals =
+            DMatrix::from_column_slice(rows.len(), 1, self.residuals.select_rows(&rows).as_slice());
+        let inputs = self.inexact().map(|inputs| inputs.z().select_rows(&rows));
+        let sides = [self.columns.select_rows(&rows), residuals];
+        beside(&sides.into_iter().chain(inputs).collect::<Vec<_>>())
+    }
+
+    /// Columns, and what the model leaves.
+    pub(crate) fn sides(&self) -> (&DMatrix<f64>, &DVector<f64>) {
+        (&self.columns, &self.residuals)
+    }
+
+    /// Inputs that are known to a tolerance only.
+    pub(crate) fn inexact(&self) -> Option<&Inexact> {
+        self.whitening.inexact()
+    }
+
+    /// True when errors of the readings are independent, but for inputs that are known to a tolerance only.
+    pub(crate) fn noise_is_independent(&self) -> bool {
+        self.whitening.noise_is_independent()
+    }
+
+    /// Sum of squared whitened residuals.
+    pub(crate) fn misfit(&self) -> f64 {
+        self.whitened_residuals().norm_squared()
+    }
+
+    fn whitened_residuals(&self) -> DVector<f64> {
+        let mut residuals = self.residuals.clone();
+        self.whitening.apply_to(&mut residuals);
+        residuals
+    }
+
+    /// All of them, whitened, in triangular form.
+    ///
+    /// # Errors
+    /// [`ModelError::NotFinite`].
+    pub(crate) fn triangle(&self) -> Result<Triangle, ModelError> {
+        let mut triangle = Triangle::new(self.columns.ncols());
+        if self.whitening.is_identity() {
+            triangle.push(&self.columns, &self.residuals)?;
+        } else {
+            let mut columns = self.columns.clone();
+            self.whitening.apply(&mut columns);
+            triangle.push(&columns, &self.whitened_residuals())?;
+        }
+        Ok(triangle)
+    }
+}
+
+/// Equations of groups of readings.
+fn rows_of(groups: &[usize]) -> Vec<usize> {
+    groups.iter().flat_map(|&g| 6 * g..6 * g + 6).collect()
+}
+
+/// Averaged numbers that were read in a campaign.
+pub(crate) fn averaged_numbers(campaign: &Campaign) -> f64 {
+    campaign.groups.iter().map(ConditionReadings::numbers).sum::<usize>() as f64
+}
