@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::path::Path;
 
 use hexbench_core::files::{
-    campaign_to_csv, hexapod_to_toml, read_campaign, read_conditions_named, read_hexapod,
+    ColumnNames, campaign_to_csv, hexapod_to_toml, read_campaign, read_conditions_named, read_hexapod,
 };
 use hexbench_core::{AngleConvention, Hexapod};
 use serde_json::Value;
@@ -81,7 +81,7 @@ fn plans_and_predictions_are_written_as_they_are_read() {
     let data = read_campaign(&machine, &folder.path().join("holdout.csv")).unwrap().dataset;
     let predicted = read_campaign(&machine, &folder.path().join("predicted.csv")).unwrap().dataset;
     let conditions =
-        read_conditions_named(&folder.path().join("predicted.csv"), &Default::default(), Some(&machine))
+        read_conditions_named(&folder.path().join("predicted.csv"), &ColumnNames::default(), Some(&machine))
             .unwrap();
     for ((o, p), c) in
         data.observations.iter().zip(&predicted.observations).zip(&conditions.dataset.observations)

@@ -47,6 +47,13 @@ pub(super) fn find(robot: &Robot) -> Result<RobotJoints, Fault> {
     let base = sides[0].joints().ok_or_else(|| unheld("base"))?;
     let platform = sides[1].joints().ok_or_else(|| unheld("platform"))?;
     let (mobile, frame) = mobile_frame(robot, &platform);
+    let is_finite = |held: &Held| held.at.iter().all(|x| x.is_finite());
+    if !base.iter().chain(&platform).all(is_finite) || !frame.to_homogeneous().iter().all(|x| x.is_finite()) {
+        return Err(whole(
+            "joints of the legs lie nowhere",
+            "Look for an axis or a rotation of length zero.",
+        ));
+    }
     let local = |held: &Held| frame.inverse_transform_point(&Point3::from(held.at)).coords.map(cleaned);
     Ok(RobotJoints {
         name: robot.name.clone(),
@@ -243,13 +250,11 @@ fn meeting(joints: &[&Joint], body: Option<usize>) -> Held {
 
 /// The frame of the body that holds all platform joints; else their centre, with the axes of the model.
 fn mobile_frame(robot: &Robot, platform: &[Held; 6]) -> (MobileFrame, Isometry3<f64>) {
-    match platform[0].body.filter(|body| platform.iter().all(|held| held.body == Some(*body))) {
-        Some(body) => (MobileFrame::Body(robot.bodies[body].name.clone()), robot.bodies[body].frame),
-        None => {
-            let centre = platform.iter().map(|held| held.at).sum::<Vector3>() / 6.0;
-            let frame =
-                Isometry3::from_parts(Translation3::from(centre), nalgebra::UnitQuaternion::identity());
-            (MobileFrame::Centre, frame)
-        }
+    let shared = platform[0].body.filter(|body| platform.iter().all(|held| held.body == Some(*body)));
+    if let Some(body) = shared {
+        return (MobileFrame::Body(robot.bodies[body].name.clone()), robot.bodies[body].frame);
     }
+    let centre = platform.iter().map(|held| held.at).sum::<Vector3>() / 6.0;
+    let frame = Isometry3::from_parts(Translation3::from(centre), nalgebra::UnitQuaternion::identity());
+    (MobileFrame::Centre, frame)
 }

@@ -10,6 +10,9 @@ use super::xml::{child, direction, fault, numbers};
 use super::{Joint, Kind, Robot};
 use crate::Vector3;
 
+/// Bodies within bodies; a leg needs five.
+const DEEPEST: usize = 200;
+
 pub(super) fn read(root: Node<'_, '_>) -> Result<Robot, Fault> {
     let compiler = child(root, "compiler");
     let setting = |name| compiler.and_then(|c| c.attribute(name));
@@ -50,6 +53,13 @@ impl<'a, 'i> Reader<'a, 'i> {
         frame: Isometry3<f64>,
         class: Option<&'a str>,
     ) -> Result<(), Fault> {
+        if node.ancestors().nth(DEEPEST).is_some() {
+            return Err(fault(
+                node,
+                format!("bodies stand in each other {DEEPEST} deep"),
+                "Give the model of a hexapod alone.",
+            ));
+        }
         let class = node.attribute("childclass").or(class);
         for part in node.children().filter(Node::is_element) {
             match part.tag_name().name() {
@@ -199,16 +209,15 @@ impl<'a, 'i> Reader<'a, 'i> {
             )
         };
         let site = |name| node.attribute(name).and_then(|site| self.sites.get(site)).copied();
-        let (ends, at) = match (site("site1"), site("site2")) {
-            (Some((one, at)), Some((other, _))) => ([one, other], at),
-            _ => {
-                let named = |name: Option<&str>| name.map_or(Some(0), |n| self.robot.named(n));
-                let one = node.attribute("body1").and_then(|n| self.robot.named(n)).ok_or_else(unknown)?;
-                let other = named(node.attribute("body2")).ok_or_else(unknown)?;
-                let [x, y, z] = numbers::<3>(node, node.attribute("anchor").unwrap_or("0 0 0"))?;
-                let at = self.robot.bodies[one].frame * nalgebra::Point3::new(x, y, z);
-                ([one, other], at.coords)
-            }
+        let (ends, at) = if let (Some((one, at)), Some((other, _))) = (site("site1"), site("site2")) {
+            ([one, other], at)
+        } else {
+            let named = |name: Option<&str>| name.map_or(Some(0), |n| self.robot.named(n));
+            let one = node.attribute("body1").and_then(|n| self.robot.named(n)).ok_or_else(unknown)?;
+            let other = named(node.attribute("body2")).ok_or_else(unknown)?;
+            let [x, y, z] = numbers::<3>(node, node.attribute("anchor").unwrap_or("0 0 0"))?;
+            let at = self.robot.bodies[one].frame * nalgebra::Point3::new(x, y, z);
+            ([one, other], at.coords)
         };
         let kind = if is_weld { Kind::Fixed } else { Kind::Turning };
         self.robot.joints.push(Joint { name: String::new(), kind, ends, at, axes: Vec::new() });
