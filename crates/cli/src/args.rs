@@ -90,12 +90,43 @@ mod tests {
         examples(&Cli::command(), "", &mut all);
         for (name, examples) in all {
             assert!(!examples.is_empty(), "{name} shows no example");
-            for example in examples {
-                let words = example.split(['<', '>', '&']).next().unwrap_or_default().split_whitespace();
-                if let Err(wrong) = Cli::try_parse_from(words) {
-                    panic!("{name}: {example}\n{wrong}");
+            examples.iter().for_each(|example| assert_taken(&name, example));
+        }
+    }
+
+    fn assert_taken(place: &str, command: &str) {
+        let words = command.split(['<', '>', '&', '#']).next().unwrap_or_default().split_whitespace();
+        if let Err(wrong) = Cli::try_parse_from(words) {
+            panic!("{place}: {command}\n{wrong}");
+        }
+    }
+
+    #[test]
+    fn every_command_in_a_block_of_the_guide_is_taken() {
+        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let read = |path: std::path::PathBuf| {
+            (path.display().to_string(), std::fs::read_to_string(path).unwrap_or_default())
+        };
+        let guide = std::fs::read_dir(root.join("docs/guide"))
+            .expect("the guide")
+            .flatten()
+            .map(|entry| entry.path());
+        let pages = guide.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
+        let mut taken = 0;
+        for (page, text) in std::iter::once(root.join("README.md")).chain(pages).map(read) {
+            // Every second piece is a block; a line that goes on in the next is one command.
+            for block in text.split("```").skip(1).step_by(2) {
+                for line in block
+                    .replace("\\\n", " ")
+                    .lines()
+                    .map(str::trim)
+                    .filter(|line| line.starts_with("hexbench "))
+                {
+                    assert_taken(&page, line);
+                    taken += 1;
                 }
             }
         }
+        assert!(taken > 20, "{taken}");
     }
 }

@@ -12,7 +12,7 @@ use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare_to_fit;
 use hexbench_model::results::fit::FitReport;
 use hexbench_model::results::runs::WithOrigin;
-use hexbench_report::words::{Coverage, fitted};
+use hexbench_report::words::{PlusMinus, fitted};
 
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let result = FitReport::of(&task, &judged, estimator);
         write_json(screen, path, &WithOrigin { result: &result, run })?;
     }
-    let coverage = arguments.coverage.map_or(Coverage::Standard, Coverage::Percent);
+    let coverage = arguments.coverage.map_or(PlusMinus::Standard, PlusMinus::Percent);
     if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
         screen.show(&fitted::page(&task, &judged, estimator, coverage))?;
     }

@@ -11,7 +11,7 @@ use hexbench_model::results::diagnose::{LegRemainder, NoiseReport};
 use hexbench_model::results::fit::{FitQuality, TOLD_CORRELATION};
 use hexbench_model::results::words::joined;
 
-use super::Coverage;
+use super::PlusMinus;
 use super::remainder::of_legs;
 use super::units::UnitsRead;
 use crate::number::{significant, with_uncertainty};
@@ -21,7 +21,12 @@ use crate::page::{Block, Page, PageColumn, Section, Table};
 const BRIEF: usize = 10;
 
 /// The fit; every plus-minus as wide as `coverage` says.
-pub fn page(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator, coverage: Coverage) -> Page {
+pub fn page(
+    task: &JudgedTask<'_>,
+    judged: &FitWithErrors,
+    estimator: Estimator,
+    coverage: PlusMinus,
+) -> Page {
     Page::default()
         .with(quality(task, judged, estimator))
         .with(values(&judged.estimates(), coverage, task.campaign.noise.dof))
@@ -57,7 +62,7 @@ fn quality(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) 
         .with((!fit.is_settled()).then(|| Block::paragraph(provisional)))
 }
 
-fn values(all: &Estimates, coverage: Coverage, dof: f64) -> Section {
+fn values(all: &Estimates, coverage: PlusMinus, dof: f64) -> Section {
     let factor = coverage.factor(dof);
     let row = |e: &Estimate| {
         let wide = factor * e.std;

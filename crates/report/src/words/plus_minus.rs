@@ -4,7 +4,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 /// How wide a plus-minus is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Coverage {
+pub enum PlusMinus {
     /// One standard uncertainty.
     #[default]
     Standard,
@@ -12,7 +12,7 @@ pub enum Coverage {
     Percent(f64),
 }
 
-impl Coverage {
+impl PlusMinus {
     /// Factor on a standard uncertainty: the normal quantile, that of Student where the noise is known from so many degrees of freedom.
     ///
     /// Source: JCGM 100:2008 (GUM), annex G.
@@ -43,11 +43,11 @@ mod tests {
 
     #[test]
     fn factors_are_those_of_the_tables() {
-        let ninety_five = Coverage::Percent(95.0);
+        let ninety_five = PlusMinus::Percent(95.0);
         for (dof, k) in [(f64::INFINITY, 1.96), (50.0, 2.01), (10.0, 2.23), (3.0, 3.18)] {
             assert!((ninety_five.factor(dof) - k).abs() < 0.005, "{dof}");
         }
-        assert!((Coverage::Percent(68.27).factor(f64::INFINITY) - 1.0).abs() < 1e-3);
-        assert!((Coverage::Standard.factor(3.0) - 1.0).abs() < f64::EPSILON);
+        assert!((PlusMinus::Percent(68.27).factor(f64::INFINITY) - 1.0).abs() < 1e-3);
+        assert!((PlusMinus::Standard.factor(3.0) - 1.0).abs() < f64::EPSILON);
     }
 }
