@@ -18,9 +18,11 @@ use crate::estimation::lsq::{Solution, Triangle};
 /// Share of the promised gain below which the region was too large, and above which it may grow.
 const POOR_GAIN: f64 = 0.25;
 const GOOD_GAIN: f64 = 0.75;
-/// Radius after a poor step, the first from a point, and after a good one, as shares of that step.
+/// Radius after a poor step, and after a good one, as shares of that step.
 const SHRUNK: f64 = 0.5;
 const GROWN: f64 = 2.0;
+/// Steps from a point that may fail before the next are shortened more and more.
+const PATIENCE: i32 = 3;
 
 /// What is fitted.
 pub trait NonlinearProblem {
@@ -150,8 +152,7 @@ impl<P: NonlinearProblem> Search<'_, P> {
     ) -> Result<Step, ModelError> {
         let objective = self.problem.objective(&self.point);
         let negligible = self.problem.negligible(&self.point);
-        // Where one step after the other fails, the next is far shorter: far from a minimum thousandths may be too long.
-        let mut share = SHRUNK;
+        let mut failures = 0;
         loop {
             let x = if full.component_mul(scale).norm() <= self.radius {
                 full.clone()
@@ -169,8 +170,9 @@ impl<P: NonlinearProblem> Search<'_, P> {
             if is_kept && gain > GOOD_GAIN * promised {
                 self.radius = self.radius.max(GROWN * length);
             } else if gain < POOR_GAIN * promised {
-                self.radius = share * length;
-                share *= SHRUNK;
+                failures += 1;
+                // Where one step after the other fails, thousandths of them may still be too long.
+                self.radius = SHRUNK.powi((failures - PATIENCE).max(1)) * length;
             }
             match next {
                 Ok(next) if is_kept => {

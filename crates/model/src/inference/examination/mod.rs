@@ -20,7 +20,7 @@ use self::finding::probability;
 pub use self::finding::{Finding, FindingKind, is_misread};
 use self::remainder::Remainder;
 use self::resolution::Resolution;
-use self::scatter::{Kind, Statement, statements};
+use self::scatter::{Kind, Statement, Statements, statements};
 use self::slopes::Slopes;
 use self::tolerance::{Doubted, Tolerance, inexact_inputs};
 use crate::error::ModelError;
@@ -147,6 +147,8 @@ fn as_rounded(hexapod: &Hexapod, data: &Dataset, noise: Noise) -> (Examined, f64
 struct Look {
     /// Statements about their noise, best first.
     statements: Vec<Statement>,
+    /// A law far larger than their noise.
+    wide_law: Statement,
     /// Evidence of the noise as stated.
     stated: f64,
     /// What is left of every row.
@@ -157,6 +159,14 @@ struct Look {
     inputs: Option<Tolerance>,
     /// True when there are more faults than are left out.
     has_more: bool,
+}
+
+impl Look {
+    /// The best statement, a law far larger than the noise among them: where single faults have not led the fit astray.
+    fn best_on_the_whole(&self) -> Option<Statement> {
+        let usual = *self.statements.first()?;
+        Some(if self.wide_law.evidence > usual.evidence { self.wide_law } else { usual })
+    }
 }
 
 /// The worst fault of readings, of at most so many rows, and the statements about their noise. `slopes`: of more of the readings, where
@@ -171,7 +181,7 @@ fn look(
     let campaign = Campaign::with_noise(hexapod, &examined.data, examined.noise)?;
     let known = Slopes::of(&examined.data, &campaign, &outcome.best.point, slopes.take())?;
     let rest = Remainder::new(&examined.data, &campaign, outcome, slopes.insert(known))?;
-    let (statements, stated) = statements(&rest);
+    let Statements { all: statements, wide_law, stated } = statements(&rest);
     let worst = worst(&rest);
     let is_too_much = |fault: &Fault| fault.rows.len() > most;
     let has_more = worst.as_ref().is_some_and(is_too_much);
@@ -183,7 +193,7 @@ fn look(
                 if campaign.reads_poses { AXES[k].to_owned() } else { campaign.name_of(0, k) }
             },
         );
-    Ok((fault, Look { statements, stated, rows: rest.rows, names, inputs, has_more }))
+    Ok((fault, Look { statements, wide_law, stated, rows: rest.rows, names, inputs, has_more }))
 }
 
 /// Readings without single faults.

@@ -26,8 +26,10 @@ const GRID: [f64; 14] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0
 const CORRELATIONS: [f64; 8] = [0.3, 0.6, 0.8, 0.9, 0.95, 0.97, 0.985, 0.995];
 /// Degrees of freedom of heavy tails.
 const TAILS: [f64; 5] = [3.0, 4.0, 5.0, 7.0, 10.0];
-/// Size of an unknown law in the legs, over the noise; the largest are those of a file that contradicts itself.
-const LAW_SIZES: [f64; 13] = [0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.5, 5.0, 10.0, 30.0, 300.0, 3e3, 3e4];
+/// Size of an unknown law in the legs, over the noise.
+const LAW_SIZES: [f64; 10] = [0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.5, 5.0, 10.0, 30.0];
+/// The same of files that contradict the model, or themselves, on the whole.
+const WIDE_SIZES: [f64; 3] = [300.0, 3e3, 3e4];
 
 /// Readings, less what the fit took, that a covariance of six coordinates takes: with fewer it is singular, and explains anything.
 const LEAST_READINGS: f64 = 9.0;
@@ -56,8 +58,18 @@ pub(super) struct Statement {
     pub(super) evidence: f64,
 }
 
-/// The statements about the noise of the rest, best first, and the evidence of the noise as stated.
-pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
+/// What is said of the noise of the rest.
+pub(super) struct Statements {
+    /// Best first.
+    pub(super) all: Vec<Statement>,
+    /// A law far larger than the noise.
+    pub(super) wide_law: Statement,
+    /// Evidence of the noise as stated.
+    pub(super) stated: f64,
+}
+
+/// The statements about the noise of the rest.
+pub(super) fn statements(rest: &Remainder<'_>) -> Statements {
     let judge = Judge::new(rest);
     let stated = judge.white(1.0);
     let mut all = vec![judge.level()];
@@ -85,9 +97,10 @@ pub(super) fn statements(rest: &Remainder<'_>) -> (Vec<Statement>, f64) {
         all.extend(judge.axes().filter(|_| readings >= LEAST_READINGS));
     }
     all.push(judge.tails());
-    all.push(judge.law(rest));
+    let [law, wide_law] = [LAW_SIZES.as_slice(), &WIDE_SIZES].map(|sizes| judge.law(rest, sizes));
+    all.push(law);
     all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    (all, stated)
+    Statements { all, wide_law, stated }
 }
 
 /// The rest, with rows grouped in the ways that statements speak of.
@@ -317,7 +330,7 @@ impl Judge {
     }
 
     /// Extra elongations of one leg or of all, of the same size everywhere or in proportion to the leg force.
-    fn law(&self, rest: &Remainder<'_>) -> Statement {
+    fn law(&self, rest: &Remainder<'_>, sizes: &[f64]) -> Statement {
         let readers = rest.lin.elongation_readers();
         let force = |g: usize| rest.lin.conditions[g].force_change().abs();
         let mean_force =
@@ -333,7 +346,7 @@ impl Judge {
                 .collect();
             let size = shapes.iter().map(Matrix6::norm).sum::<f64>() / (6.0_f64.sqrt() * shapes.len() as f64);
             for leg in std::iter::once(None).chain((0..6).map(Some)) {
-                for share in LAW_SIZES {
+                for share in sizes {
                     let evidence = self.law_at(&shapes, leg, share / size.max(1e-300))
                         - self.penalty(2.0)
                         - 14.0_f64.ln();
