@@ -225,14 +225,14 @@ impl Canvas {
         const RIM_PX: f64 = 1.5;
         let corner = |x: f64, y: f64| [at[0] + x * size, at[1] + y * size];
         match marker {
-            Marker::Circle => self.cap(at, "round", colour, size),
+            Marker::Circle => self.dot(at, colour, size),
             Marker::Ring => {
                 let rim = format!(" fill=\"{PAPER}\" stroke=\"{colour}\" stroke-width=\"{RIM_PX}\"");
                 let (r, d) = (short(size), short(2.0 * size));
                 let ring = format!("M{}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z", place(corner(-1.0, 0.0)));
                 self.put(Kind::Path, rim, &ring)
             }
-            Marker::Square => self.cap(at, "square", colour, 0.9 * size),
+            Marker::Square => self.rectangle(corner(-0.9, -0.9), corner(0.9, 0.9), colour),
             Marker::Triangle => {
                 self.polygon(&[corner(-1.1, 0.85), corner(1.1, 0.85), corner(0.0, -1.15)], colour, 1.0)
             }
@@ -247,9 +247,10 @@ impl Canvas {
         }
     }
 
-    /// A line without length: nothing but its ends, the shortest way to say a marker.
-    fn cap(&self, at: Point, ends: &str, colour: Colour, size: f64) -> Result<(), PlotError> {
-        let line = format!("{} stroke-linecap=\"{ends}\"", stroke(colour, 2.0 * size, None));
+    /// A line without length and with round ends, the shortest way to say a dot. PDF paints such a line with round ends only
+    /// (ISO 32000-1, 8.5.3.2): no other marker may be said like this.
+    fn dot(&self, at: Point, colour: Colour, size: f64) -> Result<(), PlotError> {
+        let line = format!("{} stroke-linecap=\"round\"", stroke(colour, 2.0 * size, None));
         self.put(Kind::Path, line, &format!("M{}h0", place(at)))
     }
 
