@@ -8,6 +8,7 @@ use std::fmt::Write;
 
 use super::error::PlotError;
 use super::style::{Colour, Dash, INK, Marker, PAPER, text_width};
+use crate::number::with_micro;
 
 /// A point in pixels from the upper left corner.
 pub(super) type Point = [f64; 2];
@@ -142,7 +143,7 @@ pub(super) fn svg(
          viewBox=\"0 0 {} {}\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\">\n<title>{}</title>\n{}</svg>\n",
         short(width),
         short(height),
-        escaped(title),
+        escaped(&with_micro(title)),
         ink.svg
     ))
 }
@@ -259,7 +260,7 @@ impl Canvas {
         let turn =
             if set.upright { format!(" transform=\"rotate(-90 {})\"", place([x, y])) } else { String::new() };
         let [x, foot] = [x, y + set.drop()].map(short);
-        let element = format!("<text x=\"{x}\" y=\"{foot}\"{turn}>{}</text>", escaped(text));
+        let element = format!("<text x=\"{x}\" y=\"{foot}\"{turn}>{}</text>", escaped(&with_micro(text)));
         self.put(Kind::Text, set.attributes(), &element)
     }
 
