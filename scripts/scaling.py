@@ -23,8 +23,9 @@ COMMANDS = {
     "diagnose --html": ["diagnose"],
     "compare": ["compare"],
 }
-# Sizes from which slower commands are not run: their memory would exceed that of usual machines.
-MOST_ROWS = {"diagnose": 300_000, "diagnose --html": 300_000, "compare": 300_000, "fit": 1_500_000}
+# Rows beyond which a run would take minutes, or more memory than usual machines have.
+MOST_ROWS = {"diagnose": 30_000, "diagnose --html": 30_000, "compare": 30_000, "fit": 300_000}
+MOST_CONTRADICTORY = 3_000
 PEER = "pandas, NumPy"
 
 
@@ -118,7 +119,7 @@ def measured(program: str, rows: list[int], work: Path) -> dict[tuple[str, bool]
                 folder = folder if is_sound else contradictory(folder)
                 files = [str(folder / name) for name in ("hexapod.toml", "measurements.csv")]
                 for command, words in COMMANDS.items():
-                    if count > MOST_ROWS[command] or (count > 300_000 and not is_sound):
+                    if count > MOST_ROWS[command] or (count > MOST_CONTRADICTORY and not is_sound):
                         continue
                     page = ["--html", str(work / "page.html")] if "--html" in command else []
                     table.setdefault(command, {})[count] = run([program, *words, *files, *page], work)

@@ -5,6 +5,7 @@
 
 pub mod design;
 pub mod failure;
+pub mod first_plan;
 pub mod fit;
 pub mod input;
 pub mod simulate;

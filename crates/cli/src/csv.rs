@@ -1,7 +1,7 @@
 //! Tables the command writes: the columns of a conditions file, then results.
 
 use hexbench_core::files::CsvText;
-use hexbench_core::{Dataset, Matrix6, Observation};
+use hexbench_core::{Dataset, Hexapod, Matrix6, Observation};
 
 /// Unit of a result column.
 #[derive(Debug, Clone, Copy)]
@@ -34,8 +34,9 @@ impl Unit {
     }
 }
 
-/// A conditions file.
-pub(crate) fn conditions(rows: &Dataset) -> String {
+/// A conditions file of a machine.
+pub(crate) fn conditions(rows: &Dataset, machine: &Hexapod) -> String {
+    let rows = &*machine.angles.as_stated(rows);
     let mut text = CsvText::new(conditions_header(rows));
     rows.observations.iter().for_each(|row| text.row(condition(rows, row)));
     text.into_text()
@@ -61,7 +62,7 @@ pub(crate) fn conditions_header(rows: &Dataset) -> Vec<&'static str> {
     pose.into_iter().chain(wrench).chain(reference).chain(optional).collect()
 }
 
-/// The same columns of one row.
+/// The same columns of one row, whose angles are [stated](hexbench_core::AngleConvention::as_stated).
 pub(crate) fn condition(rows: &Dataset, o: &Observation) -> Vec<String> {
     let c = rows.columns;
     let plain = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>();

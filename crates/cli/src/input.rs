@@ -7,13 +7,14 @@ use clap::Args;
 use hexbench_app::input::model;
 pub(crate) use hexbench_app::input::{catalogue_with, user_terms};
 use hexbench_core::files::{
-    ColumnNames, TableReading, read_campaign, read_campaign_named, read_column_names, read_conditions_named,
-    read_hexapod, read_plan,
+    ColumnNames, TableReading, read_campaign, read_campaign_named, read_campaign_records, read_column_names,
+    read_conditions_named, read_hexapod, read_plan,
 };
-use hexbench_core::{Dataset, Hexapod};
+use hexbench_core::{AngleConvention, Dataset, Hexapod};
 use hexbench_model::application::model_file::Model;
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
+use hexbench_report::table::{is_parquet, read_parquet};
 
 use crate::failure::Failure;
 use crate::output::report;
@@ -51,12 +52,25 @@ impl Trust {
 
 /// The machine of a hexapod file.
 pub(crate) fn hexapod(path: &Path) -> Result<Hexapod, Failure> {
-    Ok(read_hexapod(path)?)
+    let machine = read_hexapod(path)?;
+    if machine.angles != AngleConvention::default() {
+        let [file, word] = [path.display().to_string(), machine.angles.word()];
+        report::note(&format!(
+            "{file}: tables are read and written with {word} angles; pages and JSON have poses about fixed axes x, y, z"
+        ));
+    }
+    Ok(machine)
 }
 
 /// The measurements of a file of a machine; what the reader noticed goes to standard error.
 pub(crate) fn measurements(hexapod: &Hexapod, path: &Path, names: &TableNames) -> Result<Dataset, Failure> {
-    Ok(told(path, read_campaign_named(hexapod, path, &names.read()?)?))
+    let names = names.read()?;
+    let reading = if is_parquet(path) {
+        read_campaign_records(hexapod, &read_parquet(path)?, &names, path)?
+    } else {
+        read_campaign_named(hexapod, path, &names)?
+    };
+    Ok(told(path, reading))
 }
 
 /// The same of a file that need not be given.
@@ -74,18 +88,18 @@ pub(crate) fn conditions(path: &Path, names: &TableNames, machine: &Hexapod) -> 
 }
 
 /// Poses and loads to be measured.
-pub(crate) fn plan(path: &Path) -> Result<Dataset, Failure> {
-    Ok(told(path, read_plan(path)?))
+pub(crate) fn plan(machine: &Hexapod, path: &Path) -> Result<Dataset, Failure> {
+    Ok(told(path, read_plan(path, Some(machine))?))
 }
 
 /// The same as the sensors of a machine will read it: measurements by what was read, a plan by every sensor.
 pub(crate) fn plan_of(hexapod: &Hexapod, path: &Path) -> Result<Dataset, Failure> {
     if hexapod.sensors.is_empty() {
-        return plan(path);
+        return plan(hexapod, path);
     }
     match read_campaign(hexapod, path) {
         Ok(measured) => Ok(told(path, measured)),
-        Err(_) => Ok(plan(path)?.to_be_read_by(&hexapod.sensors)),
+        Err(_) => Ok(plan(hexapod, path)?.to_be_read_by(&hexapod.sensors)),
     }
 }
 

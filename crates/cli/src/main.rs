@@ -5,6 +5,7 @@
 mod args;
 mod commands;
 mod csv;
+mod first_plan;
 mod input;
 mod numbers;
 mod output;

@@ -55,12 +55,15 @@ impl States {
         let channels = Channel::all([], &hexapod.sensors);
         let read = channels.iter().map(|c| c.column(&hexapod.sensors, dataset.measurand));
         let mut text = CsvText::new(conditions.chain(pose).chain(forces).chain(read));
-        for state in &self.rows {
+        let resting =
+            self.rows.iter().map(|state| Observation { measured: state.pose.to_array(), ..state.condition });
+        let rows = Dataset { observations: resting.collect(), ..dataset.clone() };
+        for (state, stated) in self.rows.iter().zip(&hexapod.angles.as_stated(&rows).observations) {
             let what = [name(state.part).to_owned(), state.model.clone()];
-            let pose = csv::values(&state.pose.to_array(), [Unit::Mm, Unit::Deg]);
+            let pose = csv::values(&stated.measured, [Unit::Mm, Unit::Deg]);
             let forces = state.forces.iter().map(ToString::to_string);
             let read = state.sensors.iter().map(|x| (x * 1e6).to_string());
-            let condition = csv::condition(&dataset, &state.condition).into_iter();
+            let condition = csv::condition(&dataset, stated).into_iter();
             text.row(condition.chain(what).chain(pose).chain(forces).chain(read));
         }
         text.into_text()

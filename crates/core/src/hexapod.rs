@@ -1,6 +1,6 @@
 //! The machine as its drawings describe it.
 
-use crate::{Sensor, Tolerances, Vector3};
+use crate::{AngleConvention, Sensor, Tolerances, Vector3};
 
 /// Nominal hexapod: joints, and what else its owner states about it. SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,8 @@ pub struct Hexapod {
     pub payload_centre: Option<Vector3>,
     /// What reads deflections beside or instead of the full pose.
     pub sensors: Vec<Sensor>,
+    /// What the three angles of a pose mean in the files of this machine.
+    pub angles: AngleConvention,
     /// How well all of this, and the loads, are known.
     pub tolerances: Tolerances,
 }
@@ -56,6 +58,7 @@ impl Hexapod {
             mounting_plane_z: None,
             payload_centre: None,
             sensors: Vec::new(),
+            angles: AngleConvention::default(),
             tolerances: Tolerances::default(),
         }
     }

@@ -7,6 +7,7 @@
 //! - A wrench `[F; M]` is applied *to the platform*, at the mobile origin, in fixed axes.
 //! - SI units inside (m, rad, N, N m, K, s); units appear in names only where a value crosses a border.
 
+pub mod angles;
 pub mod approach;
 pub mod balls;
 pub mod dataset;
@@ -24,6 +25,7 @@ pub mod tolerances;
 pub mod visible;
 pub mod wrench;
 
+pub use angles::AngleConvention;
 pub use approach::Approach;
 pub use balls::{BallPlace, BallPlaces, BallRecord};
 pub use dataset::{Columns, Dataset, Measurand, Observation};

@@ -138,7 +138,7 @@ pub(crate) fn choose_sensors(
     let wish = SensorWish { choose, budget, see, criterion, terms, starts, seed };
     let machine = Arc::clone(&hexapod.0);
     beside(py, move || {
-        let plan = read_plan(&plan)?.dataset;
+        let plan = read_plan(&plan, Some(&machine.hexapod))?.dataset;
         let found = chosen(&machine.hexapod, &plan, &candidates, &wish, &|_| Box::new(|| ()))?;
         let page = found.page();
         let page = Page { title: String::new(), ..page };

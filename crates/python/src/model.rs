@@ -255,7 +255,7 @@ pub(crate) fn fit(
         let task =
             JudgedTask { hexapod, data, campaign: &campaign, holdout: holdout.as_ref().map(|h| &h.data) };
         let judged = fitted(&task, &added, estimator)?;
-        let summary = plain(&words::fitted::page(&task, &judged, estimator));
+        let summary = plain(&words::fitted::page(&task, &judged, estimator, words::PlusMinus::Standard));
         let model = kept(&task, &judged, estimator, measured.origin.sha256.clone());
         Ok(PyModel::of(model, summary))
     })

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hexbench_core::Hexapod;
-use hexbench_core::files::{hexapod_to_toml, parse_hexapod, read_ball_places};
+use hexbench_core::files::{hexapod_to_toml, parse_hexapod, parse_robot, read_ball_places};
 use hexbench_design::sensors::read_candidates;
 use hexbench_design::space_file::read_space;
 
@@ -41,4 +41,14 @@ pub(super) fn sensors(bytes: &[u8]) -> bool {
 pub(super) fn space(bytes: &[u8]) -> bool {
     let hexapod = bundled();
     scratch::file("space.toml", bytes, |path: &Path| read_space(path, &hexapod)).is_ok()
+}
+
+/// Models for robot simulators; what is found is a machine that can be written down.
+pub(super) fn robot(bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else { return false };
+    let Ok(found) = parse_robot(text, "robot.xml".as_ref()) else { return false };
+    let mut joints = found.base_joints.iter().chain(&found.platform_joints);
+    assert!(joints.all(|joint| joint.iter().all(|x| x.is_finite())), "{found:?}");
+    assert!(found.miss.is_finite(), "{}", found.miss);
+    true
 }

@@ -48,9 +48,9 @@ pub(super) fn balls(bytes: &[u8]) -> bool {
 pub(super) fn loads(bytes: &[u8]) -> bool {
     scratch::file("loads.csv", bytes, |path| {
         let names = read_column_names(path);
-        let loads = read_loads(path, &ColumnNames::default()).map(|read| read.dataset);
+        let loads = read_loads(path, &ColumnNames::default(), None).map(|read| read.dataset);
         let conditions = read_conditions(path).map(|read| read.dataset);
-        let plan = read_plan(path).map(|read| read.dataset);
+        let plan = read_plan(path, None).map(|read| read.dataset);
         let tables = [loads, conditions, plan];
         tables.iter().flatten().for_each(assert_finite);
         let joints = read_joints(path);

@@ -4,11 +4,11 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_core::Hexapod;
 use hexbench_core::files::{
     Warning, campaign_to_csv, hexapod_to_commented_toml, measurements_to_csv, read_ball_places, read_balls,
     read_loads,
 };
+use hexbench_core::{AngleConvention, Hexapod};
 use hexbench_model::machine::registration::{
     BallCampaign, MovedBall, RecordsRead, STANDARD_GRAVITY, campaign_of_balls,
 };
@@ -53,6 +53,9 @@ pub(crate) struct Arguments {
     /// Keep the balls themselves as readings, no pose in between, and write this machine with a sensor for each
     #[arg(long, value_name = "HEXAPOD")]
     points: Option<PathBuf>,
+    /// Read and write angles as this machine states them in [conventions]; --points does it too
+    #[arg(long, value_name = "HEXAPOD", conflicts_with = "points")]
+    hexapod: Option<PathBuf>,
     /// Folder for measurements.csv; a file that exists is never replaced
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -65,10 +68,18 @@ const MOST_TOLD: usize = 5;
 /// Axes that stand farther apart are told, rad: five times what drawings are usually good for.
 const ASIDE: f64 = 1.7e-3;
 
+impl Arguments {
+    /// The machine whose files they are, where it is given.
+    fn machine(&self) -> Result<Option<Hexapod>, Failure> {
+        self.points.as_deref().or(self.hexapod.as_deref()).map(input::hexapod).transpose()
+    }
+}
+
 /// Register, pair and write.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let records = read_balls(&arguments.data)?;
-    let loads = read_loads(&arguments.loads, &arguments.names.read()?)?;
+    let machine = arguments.machine()?;
+    let loads = read_loads(&arguments.loads, &arguments.names.read()?, machine.as_ref())?;
     warn_of_loads(&arguments.loads, &loads.warnings);
     let places = arguments.balls.as_deref().map(read_ball_places).transpose()?;
     let how = RecordsRead {
@@ -77,13 +88,12 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         gravity: positive("--gravity", Some(arguments.gravity))?.unwrap_or(STANDARD_GRAVITY),
         align: arguments.align,
     };
-    let machine = arguments.points.as_deref().map(input::hexapod).transpose()?;
     let found = campaign_of_balls(&records, &loads, &how)
         .map_err(|cause| Failure::Campaign { path: arguments.data.clone(), cause })?;
     warn(arguments, &found);
     let files = match &machine {
-        Some(hexapod) => points(hexapod, &found)?,
-        None => vec![("measurements.csv", table(&found)?)],
+        Some(hexapod) if arguments.points.is_some() => points(hexapod, &found)?,
+        _ => vec![("measurements.csv", table(&found, machine.map_or_else(Default::default, |m| m.angles))?)],
     };
     for (name, _) in &files {
         Screen::refuse_existing(
@@ -153,8 +163,8 @@ pub(crate) fn moved_in_words(moved: &MovedBall) -> String {
 }
 
 /// The readings, and the correlations of the six numbers of each row beside them.
-fn table(found: &BallCampaign) -> Result<String, Failure> {
-    let text = written(|out| measurements_to_csv(out, &found.dataset))?;
+fn table(found: &BallCampaign, angles: AngleConvention) -> Result<String, Failure> {
+    let text = written(|out| measurements_to_csv(out, &angles.as_stated(&found.dataset)))?;
     let mut lines = text.lines();
     let header = csv::correlation_names(&NAMES).join(",");
     let mut all = format!("{},{header}\n", lines.next().unwrap_or_default());

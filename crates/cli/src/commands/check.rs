@@ -16,6 +16,9 @@ use crate::read_as::ReadAs;
 
 /// Are machine and files what they should be? What is understood of them, what looks wrong, what they could show
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench check hexapod.toml\n  \
+    hexbench check hexapod.toml measurements.csv holdout.csv --picture machine.svg")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,

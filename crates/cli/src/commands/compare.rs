@@ -16,6 +16,9 @@ use crate::read_as::ReadAs;
 
 /// Compare a model with measurements: errors beside the noise, where they sit, what they follow
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench compare hexapod.toml measurements.csv --html residuals.html\n  \
+    hexbench compare hexapod.toml measurements.csv --model model.toml --holdout holdout.csv")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,

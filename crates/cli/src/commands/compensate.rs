@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_core::files::CsvText;
+use hexbench_core::{Dataset, Observation};
 use hexbench_model::application::compensate::compensate;
 
 use crate::csv::{self, Unit};
@@ -17,6 +18,8 @@ use crate::output::{OutFile, Screen};
 /// command (`a_mm` ... `gamma_deg`), the wanted pose, the error without correction, what remains by the model's own
 /// prediction, and the standard uncertainty of the pose reached.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench compensate model.toml wanted.csv -o commands.csv")]
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
     model: PathBuf,
@@ -44,10 +47,16 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let results = results.into_iter().flat_map(|(prefix, units)| csv::names(prefix, &AXES, units));
     let conditions = csv::conditions_header(&rows).into_iter().map(str::to_owned);
     let mut text = CsvText::new(conditions.chain(results));
+    let stated = |row: Observation| {
+        model.hexapod.angles.as_stated(&Dataset::of_deflections("", vec![row])).observations[0]
+    };
     for (row, c) in rows.observations.iter().zip(&corrections) {
-        let commanded = hexbench_core::Observation { pose: c.command, ..*row };
-        let wanted = csv::values(&row.pose.to_array(), pose);
-        let errors = [c.without, c.remaining, c.sigma].into_iter().flat_map(|x| csv::values(&x, small));
+        let commanded = stated(Observation { pose: c.command, ..*row });
+        let [without, remaining] =
+            [c.without, c.remaining].map(|measured| stated(Observation { measured, ..*row }));
+        let wanted = csv::values(&without.pose.to_array(), pose);
+        let errors =
+            [without.measured, remaining.measured, c.sigma].into_iter().flat_map(|x| csv::values(&x, small));
         text.row(csv::condition(&rows, &commanded).into_iter().chain(wanted).chain(errors));
     }
     screen.write_to(&arguments.output, &text.into_text())

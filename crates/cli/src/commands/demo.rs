@@ -27,6 +27,9 @@ const PAGE: &str = "report.html";
 
 /// The whole story on bundled measurements: springs fail, the missing effect is named, the error falls
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench demo\n  \
+    hexbench demo -o story.html")]
 pub(crate) struct Arguments {
     /// Write the page with charts to FILE instead of report.html
     #[arg(short, long, value_name = "FILE", conflicts_with = "no_report")]

@@ -17,6 +17,10 @@ use crate::output::{OutFile, PageFiles, Progress, Screen, write_json};
 
 /// Choose the poses that determine stiffnesses (and effects) best
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench design hexapod.toml space.toml --poses 6 -o plan.csv\n  \
+    hexbench design hexapod.toml space.toml --hours 3 --add base-compliance -o plan.csv\n  \
+    hexbench design hexapod.toml plan.csv --sensors candidates.toml --choose 6 -o gauges.toml")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,
@@ -87,7 +91,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let found = planned(arguments, &hexapod)?;
     tell(arguments, design::page(&found), screen)?;
-    let written = |path: &OutFile| screen.write_to(path, &csv::conditions(&found.readings_to_take()));
+    let written =
+        |path: &OutFile| screen.write_to(path, &csv::conditions(&found.readings_to_take(), &hexapod));
     arguments.output.as_ref().map_or(Ok(()), written)
 }
 
@@ -114,7 +119,7 @@ fn sensors(
     let designed = is_space.then(|| planned(arguments, hexapod)).transpose()?;
     let plan = match &designed {
         Some(found) => found.readings_to_take(),
-        None => input::plan(&arguments.space)?,
+        None => input::plan(hexapod, &arguments.space)?,
     };
     let chosen = choose_sensors(hexapod, &plan, candidates, &sensor_wish(arguments), &steps("searches"))?;
     if let Some(path) = &arguments.json {

@@ -20,6 +20,10 @@ use crate::read_as::ReadAs;
 
 /// Name the physical effect the model lacks, and show the held-out error fall
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench diagnose hexapod.toml measurements.csv --holdout holdout.csv --html report.html\n  \
+    hexbench diagnose hexapod.toml measurements.csv --exclude 17 --json diagnosis.json\n  \
+    hexbench diagnose hexapod.toml - < measurements.csv")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     question: Question,

@@ -17,6 +17,8 @@ use crate::read_as::ReadAs;
 
 /// Search the law that no catalogue has, for what springs and catalogue leave
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench discover hexapod.toml measurements.csv --holdout holdout.csv -o law.toml")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     question: Question,

@@ -27,6 +27,8 @@ const USUAL_READINGS: [u16; 2] = [12, 6];
 
 /// Choose the readings that tell effects apart: a new plan, or the next readings beside data
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench discriminate hexapod.toml space.toml --between base-compliance --between leg-coupling -o next.csv")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,
@@ -84,7 +86,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if !to_stdout {
         screen.show(&discriminated(&found))?;
     }
-    arguments.output.as_ref().map_or(Ok(()), |path| screen.write_to(path, &table(&found)))
+    arguments.output.as_ref().map_or(Ok(()), |path| screen.write_to(path, &table(&found, &hexapod)))
 }
 
 fn rivals(ids: &[String], known: &[Arc<dyn Term>]) -> Result<Vec<Arc<dyn Term>>, Failure> {
@@ -243,9 +245,9 @@ fn noise(hexapod: &Hexapod) -> Result<Noise, Failure> {
 }
 
 /// The readings, each repeat in a row of its own.
-fn table(found: &Discriminated) -> String {
+fn table(found: &Discriminated, hexapod: &Hexapod) -> String {
     let repeated = (1..).zip(&found.readings).flat_map(|(pose_id, r)| {
         (1..).take(r.repeats).map(move |repeat| Observation { pose_id, repeat, ..r.observation })
     });
-    csv::conditions(&Dataset::of_deflections("", repeated.collect()))
+    csv::conditions(&Dataset::of_deflections("", repeated.collect()), hexapod)
 }

@@ -20,6 +20,9 @@ use crate::states::States;
 /// `loaded`. What the format cannot express is an error that names it.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("format").required(true))]
+#[command(after_help = "Examples:\n  \
+    hexbench export scenes/paper-rich --mjcf --pose 0,0,0,0,0,0 -o machine.xml\n  \
+    hexbench export scenes/paper-rich --mjcf --states 5 -o states")]
 pub(crate) struct Arguments {
     /// Folder of the scene
     scene: PathBuf,

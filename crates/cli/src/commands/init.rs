@@ -4,30 +4,38 @@ use std::io::{IsTerminal, Write, stderr, stdin};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hexbench_core::files::{hexapod_to_commented_toml, read_joints};
+use hexbench_core::files::{MobileFrame, RobotJoints, hexapod_to_commented_toml, read_joints, read_robot};
 use hexbench_core::{Hexapod, JointCircle, Metrology, Vector3};
 use hexbench_model::results::check::check;
 use hexbench_report::charts::{drawing, view_from_above};
+use hexbench_report::number::significant;
 use hexbench_report::{Block, Section, words};
 
 use crate::failure::Failure;
-use crate::output::{OutFile, Screen};
+use crate::first_plan::FirstPlan;
+use crate::output::{OutFile, Screen, report};
 
 /// Joints nearer in height than this lie in one plane, m.
 const ONE_PLANE: f64 = 1e-6;
+/// Axes of a joint that miss each other by more are told, m: twice what joints are usually known to.
+const MISS: f64 = 1e-4;
 
 /// Write a hexapod.toml from the numbers of a drawing, and show the machine to compare with it
 ///
-/// Either two rings, with the joints in pairs or at angles of your own, or a table of joints. Asks for what is missing when started
+/// Either two rings, with the joints in pairs or at angles of your own, or a table of joints, or the model of a robot simulator. Asks for what is missing when started
 /// on a terminal.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench init --base-radius 160 --base-gap 20 --platform-radius 120 --platform-gap 30 --height 165\n  \
-    hexbench init --joints joints.csv -o machine/hexapod.toml --picture machine/machine.svg")]
+    hexbench init --joints joints.csv -o machine/hexapod.toml --picture machine/machine.svg\n  \
+    hexbench init --robot platform.urdf --plan --load 150")]
 pub(crate) struct Arguments {
     /// Table of joints instead of rings: side (base or platform), leg (1 to 6), `x_mm`, `y_mm`, `z_mm`
     #[arg(long, value_name = "FILE", conflicts_with_all = ["base_radius", "platform_radius"])]
     joints: Option<PathBuf>,
+    /// Model for a robot simulator instead (MJCF, URDF or SDF): the pose in which it stands becomes the zero pose
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["joints", "base_radius", "platform_radius", "height"])]
+    robot: Option<PathBuf>,
     #[command(flatten)]
     rings: Rings,
     /// Height of the platform joints over the base joints at the zero pose, mm
@@ -40,12 +48,14 @@ pub(crate) struct Arguments {
     /// Standard deviation of one reading of a translation and of a rotation, um and urad
     #[arg(long, value_name = "UM,URAD", value_delimiter = ',', num_args = 1, allow_negative_numbers = true)]
     noise: Option<Vec<f64>>,
-    /// Name of the machine
-    #[arg(long, default_value = "hexapod")]
-    name: String,
+    /// Name of the machine; that of the model, else "hexapod", unless given
+    #[arg(long)]
+    name: Option<String>,
     /// File to be written; one that exists is never replaced
     #[arg(short, long, value_name = "FILE", default_value = "hexapod.toml")]
     output: OutFile,
+    #[command(flatten)]
+    plan: FirstPlan,
     /// Write a picture of the machine to FILE too (SVG)
     #[arg(long, value_name = "FILE")]
     picture: Option<OutFile>,
@@ -88,7 +98,9 @@ struct Rings {
 
 /// Write the file and show the machine.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    for path in std::iter::once(&arguments.output).chain(&arguments.picture) {
+    let plan = arguments.plan.files(&arguments.output)?;
+    let paths = std::iter::once(&arguments.output).chain(&arguments.picture).map(|path| &**path);
+    for path in paths.chain(plan.iter().map(PathBuf::as_path)) {
         Screen::refuse_existing(path, "Name another file with -o or --picture, or remove this one.")?;
     }
     let hexapod = hexapod(arguments)?;
@@ -101,6 +113,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         Screen::make_folder_of(path)?;
         screen.write_to(path, &drawing(&hexapod)?)?;
     }
+    arguments.plan.write(&hexapod, &arguments.output, screen)?;
     if arguments.output.is_stdout() {
         return Ok(());
     }
@@ -114,22 +127,48 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         .paragraph(
             "Compare the numbers and the picture with the drawing, and correct the file where they differ.",
         )
-        .with(Block::Code {
-            text: format!(
-                "hexbench check {source} measurements.csv\nhexbench diagnose {source} measurements.csv"
-            ),
-        });
+        .with(Block::Code { text: arguments.plan.next(&arguments.output) });
     screen.show(&words::check(&hexapod.name, &found).with(view).with(next))
 }
 
 fn hexapod(arguments: &Arguments) -> Result<Hexapod, Failure> {
-    let [base, platform] = match &arguments.joints {
-        Some(path) => of_table(path, arguments)?,
-        None => of_rings(arguments)?,
+    let mut name = arguments.name.clone();
+    let [base, platform] = match (&arguments.joints, &arguments.robot) {
+        (Some(path), _) => of_table(path, arguments)?,
+        (None, Some(path)) => {
+            let found = read_robot(path)?;
+            tell(path, &found);
+            name = name.or(Some(found.name));
+            let up = Vector3::z() * (arguments.origin * 1e-3);
+            [found.base_joints, found.platform_joints].map(|joints| joints.map(|joint| joint - up))
+        }
+        (None, None) => of_rings(arguments)?,
     };
-    let mut hexapod = Hexapod::of_joints(&arguments.name, base, platform);
+    let mut hexapod = Hexapod::of_joints(name.unwrap_or_else(|| "hexapod".to_owned()), base, platform);
     hexapod.metrology = noise(arguments.noise.as_deref())?;
     Ok(hexapod)
+}
+
+/// What was taken for what in the model of a robot.
+fn tell(path: &Path, found: &RobotJoints) {
+    let mobile = match &found.mobile {
+        MobileFrame::Body(name) => format!("the frame of {name}"),
+        MobileFrame::Centre => "the center of the platform joints, with the axes of the model".to_owned(),
+    };
+    let file = path.display();
+    report::note(&format!(
+        "{file}: legs 1 to 6 are {}; poses and loads are about {mobile}, which is the zero pose as the model stands",
+        found.legs.join(", ")
+    ));
+    if found.miss > MISS {
+        let miss = significant(found.miss * 1e3, 2);
+        report::warn(
+            &format!(
+                "{file}: the axes of a joint miss each other by {miss} mm; the joint was put between them"
+            ),
+            "A universal joint whose axes do not meet is no point: see whether the model or the machine is so.",
+        );
+    }
 }
 
 /// Joints as the table has them; with a height, the planes of both sides are put where it says.

@@ -14,6 +14,7 @@ pub(crate) mod discriminate;
 pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod init;
+pub(crate) mod man;
 pub(crate) mod poses;
 pub(crate) mod power;
 pub(crate) mod predict;
@@ -29,10 +30,13 @@ pub(crate) mod workbench;
 
 use crate::args::{Cli, Command};
 use crate::failure::Failure;
-use crate::output::Screen;
+use crate::output::{self, Screen};
 
 /// Run the subcommand.
 pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
+    if cli.quiet {
+        output::be_quiet();
+    }
     let screen = Screen::stdout(cli.colour, cli.verbose);
     match &cli.command {
         Command::Demo(arguments) => demo::run(arguments, &screen),
@@ -61,5 +65,6 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Validate(arguments) => validate::run(arguments, &screen),
         Command::Workbench(arguments) => workbench::run(arguments, &screen),
         Command::Completions(arguments) => completions::run(arguments, &screen),
+        Command::Man(arguments) => man::run(arguments, &screen),
     }
 }

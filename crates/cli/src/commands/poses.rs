@@ -16,6 +16,9 @@ use crate::page::located;
 /// Find poses, with their uncertainty, from balls that a measuring machine touched
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("places").required(true))]
+#[command(after_help = "Examples:\n  \
+    hexbench poses balls.csv --balls balls.toml -o poses.csv\n  \
+    hexbench poses balls.csv --relative-to 1")]
 pub(crate) struct Arguments {
     /// Ball centres: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`
     data: PathBuf,

@@ -18,6 +18,9 @@ use crate::output::{OutFile, Screen, TrialFiles, write_json};
 
 /// See which effects a plan would show, from which size on, and what it would take them for
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench power hexapod.toml plan.csv\n  \
+    hexbench power hexapod.toml measurements.csv --effect joint-friction --sigma 0.5,3")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml
     hexapod: PathBuf,

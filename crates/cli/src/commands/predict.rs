@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hexbench_core::Measurand;
 use hexbench_core::files::CsvText;
+use hexbench_core::{Dataset, Measurand, Observation};
 use hexbench_model::application::predict::{PredictError, predict, predict_sensors};
 
 use crate::csv::{self, Unit};
@@ -14,6 +14,8 @@ use crate::output::{OutFile, Screen};
 
 /// Predict deflections (or absolute poses) and what the sensors of the machine read, with their uncertainty
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench predict model.toml poses.csv -o predicted.csv")]
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
     model: PathBuf,
@@ -44,8 +46,12 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let sigmas_of_sensors = sensors.iter().map(|name| format!("sigma_{name}"));
     let of_sensors = sensors.iter().cloned().chain(sigmas_of_sensors);
     let mut text = CsvText::new(conditions.chain(values).chain(sigmas).chain(of_sensors));
+    let predicted =
+        rows.observations.iter().zip(&predictions).map(|(row, p)| Observation { measured: p.value, ..*row });
+    let predicted = Dataset { measurand: model.measurand, observations: predicted.collect(), ..rows };
+    let rows = model.hexapod.angles.as_stated(&predicted);
     for ((row, p), read) in rows.observations.iter().zip(&predictions).zip(&readings) {
-        let (values, sigmas) = (csv::values(&p.value, units), csv::values(&p.sigma, small));
+        let (values, sigmas) = (csv::values(&row.measured, units), csv::values(&p.sigma, small));
         let of_sensors =
             csv::micro(read.iter().map(|r| r.value)).chain(csv::micro(read.iter().map(|r| r.sigma)));
         text.row(csv::condition(&rows, row).into_iter().chain(values).chain(sigmas).chain(of_sensors));

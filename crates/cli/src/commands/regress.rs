@@ -26,6 +26,9 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Compare accuracy, honesty, diagnosis and effort with a committed baseline: fail when a change is more than chance
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench regress --junit limits.xml\n  \
+    hexbench regress --baseline baseline.json --json limits.json")]
 pub(crate) struct Arguments {
     /// Baseline to compare with, or to write with --update
     #[arg(long, value_name = "FILE", default_value = COMMITTED)]

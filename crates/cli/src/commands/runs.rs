@@ -12,6 +12,8 @@ use crate::output::{OutFile, PageFiles, Screen, provenance, write_json};
 
 /// Put two results beside each other: what changed from one run to the other, and whether that is beyond chance
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench runs before.json after.json")]
 pub(crate) struct Arguments {
     /// First result: written by `diagnose --json` or `compare --json`
     a: PathBuf,

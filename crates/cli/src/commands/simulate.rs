@@ -12,6 +12,9 @@ use crate::page::simulated;
 
 /// Measure a machine with hidden imperfections on the virtual bench
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench simulate scenes/paper-rich -o trial\n  \
+    hexbench simulate scenes/paper-rich --seed 7 --repeats 3 -o trial")]
 pub(crate) struct Arguments {
     /// Folder of the scene, with scene.toml in it
     scene: PathBuf,

@@ -88,13 +88,14 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if let Some(path) = &arguments.poses {
         let rows = input::conditions(path, &arguments.names, &model.hexapod)?;
         let found = stiffness(&rows.observations, path)?;
+        let stated = model.hexapod.angles.as_stated(&rows);
         if let Some(json) = &arguments.json {
             write_json(screen, json, &StiffnessList::of(&rows.observations, &found, &at))?;
         }
         return match (&arguments.output, &arguments.json) {
-            (Some(output), _) => screen.write_to(output, &table(&rows, &found)),
+            (Some(output), _) => screen.write_to(output, &table(&stated, &found)),
             (None, Some(_)) => Ok(()),
-            (None, None) => screen.write(&table(&rows, &found)),
+            (None, None) => screen.write(&table(&stated, &found)),
         };
     }
     let rows = [Observation::unread(arguments.pose, arguments.load, Wrench::default())];

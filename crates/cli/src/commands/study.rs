@@ -18,7 +18,9 @@ use crate::output::{OutFile, Progress, Screen, report};
 #[command(
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
-    after_help = "A run that is stopped or killed goes on where it was when the same command is given \
+    after_help = "Examples:\n  \
+                        hexbench study data/studies/poses-and-noise.toml --out study --markdown study.md\n\n\
+                        A run that is stopped or killed goes on where it was when the same command is given \
                         again, and ends with the same bytes."
 )]
 pub(crate) struct Arguments {
@@ -53,6 +55,7 @@ struct Whole {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench study plan study.toml --parts 8")]
 struct PlanArguments {
     /// What to sweep: study.toml
     study: PathBuf,
@@ -62,6 +65,7 @@ struct PlanArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench study run study.toml --shard 2/8 --out part-2")]
 struct RunArguments {
     /// What to sweep: study.toml
     study: PathBuf,
@@ -74,6 +78,7 @@ struct RunArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench study merge study.toml part-1 part-2 --out study")]
 struct MergeArguments {
     /// What was swept: study.toml
     study: PathBuf,

@@ -16,6 +16,10 @@ use crate::output::{OutFile, Screen, write_json};
 
 /// List the effects of the catalogue, or explain one
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench terms\n  \
+    hexbench terms base-compliance\n  \
+    hexbench terms --json terms.json")]
 pub(crate) struct Arguments {
     /// Explain this effect: physics, equation, parameters, needs, source
     term: Option<String>,

@@ -16,6 +16,9 @@ use crate::output::Screen;
 /// The page is served by this command, to this machine only, and needs the address that is printed: it holds a token that
 /// nobody else has. Nothing is written; what is opened is forgotten when the command ends (Ctrl-C).
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench workbench\n  \
+    hexbench workbench hexapod.toml measurements.csv --holdout holdout.csv")]
 pub(crate) struct Arguments {
     /// The machine: hexapod.toml; the page can load other files too
     #[arg(requires = "data")]

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use hexbench_experiments::harness;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::quiet::is_quiet;
 use super::report;
 
 /// Work shorter than this needs no bar.
@@ -33,7 +34,7 @@ impl Progress {
     /// Some steps more are done.
     pub(crate) fn advance(&self, steps: u64) {
         self.bar.inc(steps);
-        if self.begun.elapsed() > PATIENCE {
+        if self.begun.elapsed() > PATIENCE && !is_quiet() {
             self.shown.call_once(|| self.bar.set_draw_target(ProgressDrawTarget::stderr()));
         }
     }

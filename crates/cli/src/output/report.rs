@@ -10,6 +10,7 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, So
 use super::excerpt::Excerpt;
 
 use super::Colour;
+use super::quiet::is_quiet;
 use crate::failure::Failure;
 
 /// Tell why the command stopped.
@@ -24,9 +25,11 @@ pub(crate) fn warn(message: &str, next: &str) {
     say(&visible_lines(&format!("warning: {message}\n  next: {next}\n")));
 }
 
-/// Tell something that is as it should be.
+/// Tell something that is as it should be, unless everything is to be quiet.
 pub(crate) fn note(message: &str) {
-    say(&visible_lines(&format!("{message}\n")));
+    if !is_quiet() {
+        say(&visible_lines(&format!("{message}\n")));
+    }
 }
 
 /// A closed standard error leaves nobody to tell.

@@ -9,6 +9,7 @@ use hexbench_report::Page;
 use hexbench_report::render::{Terminal, TextStyle, terminal};
 
 use super::Colour;
+use super::quiet::is_quiet;
 use crate::failure::Failure;
 
 /// Standard output.
@@ -31,9 +32,9 @@ impl Screen {
         self.terminal.verbose
     }
 
-    /// Show a page.
+    /// Show a page, unless everything is to be quiet.
     pub(crate) fn show(&self, page: &Page) -> Result<(), Failure> {
-        self.write(&terminal(page, self.terminal))
+        if is_quiet() { Ok(()) } else { self.write(&terminal(page, self.terminal)) }
     }
 
     /// Write text. A reader that has gone away, as in `hexbench ... | head`, is no failure.
@@ -47,9 +48,9 @@ impl Screen {
         }
     }
 
-    /// Tell a few lines; names in them act on no terminal.
+    /// Tell a few lines, unless everything is to be quiet; names in them act on no terminal.
     pub(crate) fn tell(&self, text: &str) -> Result<(), Failure> {
-        self.write(&visible_lines(text))
+        if is_quiet() { Ok(()) } else { self.write(&visible_lines(text)) }
     }
 
     /// Refuse a file that exists, with what to do instead; standard output and devices are none.

@@ -102,3 +102,33 @@ fn what_a_drawing_cannot_mean_is_refused_with_what_to_do_and_nothing_is_replaced
     assert_eq!(fs::read_to_string(folder.path().join("kept.toml")).unwrap(), "mine");
     assert!(!folder.path().join("hexapod.toml").exists());
 }
+
+#[test]
+fn a_plan_has_a_table_for_its_readings_that_is_refused_until_it_is_filled_in() {
+    let folder = tempfile::tempdir().unwrap();
+    let page =
+        text(init(folder.path(), &[&RINGS[..], &["--noise", "0.5,3", "--plan", "--load", "150"]].concat()));
+    assert!(page.contains("hexbench power hexapod.toml plan.csv"), "{page}");
+    let run = |arguments: &[&str]| hexbench().current_dir(folder.path()).args(arguments).output().unwrap();
+    let power = text(run(&["power", "hexapod.toml", "plan.csv"]));
+    assert!(power.contains("63 readings of deflections at 9 poses"), "{power}");
+    let empty = run(&["check", "hexapod.toml", "measurements.csv"]);
+    let said = String::from_utf8_lossy(&empty.stderr);
+    assert!(empty.status.code() == Some(3) && said.contains("delta_T_K): the cell is empty"), "{said}");
+    let table = folder.path().join("measurements.csv");
+    let mut count = 0.0;
+    let unfilled = fs::read_to_string(&table).unwrap();
+    let filled = unfilled.lines().map(|line| match line.strip_suffix(",,,,,,,,") {
+        Some(row) => {
+            count += 1.0;
+            format!("{row},0.1,60,{count},1,-9,2,3,4\n")
+        }
+        None => format!("{line}\n"),
+    });
+    let filled: String = filled.collect();
+    fs::write(&table, filled).unwrap();
+    assert!(text(run(&["check", "hexapod.toml", "measurements.csv"])).contains("63"));
+    let again = init(folder.path(), &[&RINGS[..], &["-o", "other.toml", "--plan"]].concat());
+    assert_eq!(again.status.code(), Some(2), "{}", String::from_utf8_lossy(&again.stderr));
+    assert!(!folder.path().join("other.toml").exists());
+}

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
 
+mod angles;
 mod campaign;
 mod challenge;
 mod choice;
@@ -27,8 +28,10 @@ mod power;
 mod programs;
 mod recovery;
 mod regress;
+mod robots;
 mod runs;
 mod scenes;
+mod schemas;
 mod score;
 mod separation;
 mod streams;

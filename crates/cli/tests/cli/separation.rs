@@ -41,7 +41,7 @@ const MEETING_PLACES: [&str; 6] = [
 const DOOR: &str = "hexbench";
 
 /// All that the two sides may have in common: the nouns, and crates of the registry that know nothing of hexapods.
-const SHARED: [&str; 20] = [
+const SHARED: [&str; 21] = [
     "hexbench-core",
     "nalgebra",
     "rand",
@@ -53,6 +53,7 @@ const SHARED: [&str; 20] = [
     "calamine",
     "encoding_rs",
     "memchr",
+    "roxmltree",
     "zip",
     "serde",
     "serde_json",

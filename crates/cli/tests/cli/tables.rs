@@ -1,7 +1,12 @@
 //! Tables for other programs: every number is the one the page and the JSON tell.
 
 use std::collections::HashMap;
+use std::fs::File;
 use std::path::Path;
+
+use hexbench_core::files::{measurements_to_columns, read_measurements};
+use hexbench_report::table::{DataColumn, Frame, TableFormat, TableValues};
+use serde_json::Value;
 
 use crate::support::{hexbench, hexbench_in, root, text};
 
@@ -143,4 +148,42 @@ fn readings_of_sensors_have_their_names_and_units() {
     assert!(table.0.keys().all(|name| !name.contains("dalpha")), "{:?}", table.0.keys());
     assert!(table.words("leg_1_residual_um").iter().all(|cell| !cell.is_empty()));
     assert!(table.words("leg_1_force_N").iter().all(|cell| !cell.is_empty()));
+}
+
+/// A bundled campaign as another program keeps it: Parquet, and JSON lines.
+fn kept_elsewhere(case: &Path, folder: &Path) -> String {
+    let data = read_measurements(&case.join("measurements.csv")).unwrap().dataset;
+    let columns = measurements_to_columns(&data);
+    let column = |(name, values): &(String, Vec<f64>)| DataColumn {
+        name: name.clone(),
+        unit: String::new(),
+        meaning: String::new(),
+        values: TableValues::Numbers(values.clone()),
+    };
+    let frame =
+        Frame { format: "readings/1", origin: Vec::new(), columns: columns.iter().map(column).collect() };
+    frame.write(TableFormat::Parquet, &mut File::create(folder.join("m.parquet")).unwrap()).unwrap();
+    let object = |row: usize| {
+        let pairs = columns.iter().map(|(name, values)| (name.clone(), Value::from(values[row])));
+        Value::Object(pairs.collect()).to_string() + "\n"
+    };
+    (0..data.observations.len()).map(object).collect()
+}
+
+#[test]
+fn a_campaign_kept_as_parquet_or_json_lines_has_the_answer_of_its_csv() {
+    let (folder, case) = (tempfile::tempdir().unwrap(), root().join("data/cases/friction"));
+    let lines = kept_elsewhere(&case, folder.path());
+    let diagnose = |data: &str, given: &str| -> Value {
+        let mut command = hexbench();
+        command.current_dir(&case).args(["diagnose", "hexapod.toml", data, "--json", "-"]);
+        serde_json::from_str(&text(command.write_stdin(given).output().unwrap())).unwrap()
+    };
+    let expected = diagnose("measurements.csv", "");
+    let parquet = folder.path().join("m.parquet");
+    for answer in [diagnose(parquet.to_str().unwrap(), ""), diagnose("-", &lines)] {
+        for key in ["verdict", "added", "parameters", "candidates"] {
+            assert_eq!(answer[key], expected[key], "{key}");
+        }
+    }
 }

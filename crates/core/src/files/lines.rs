@@ -5,6 +5,7 @@ use std::io::{BufRead, Cursor, Read};
 use encoding_rs::{UTF_8, WINDOWS_1252};
 
 use super::error::Fault;
+use super::records::MARK;
 use super::{FilePlace, FileProblem};
 
 /// Longest line that is read; a row of measurements has some hundred bytes.
@@ -97,6 +98,11 @@ impl<R: BufRead> Lines<R> {
         }
         self.number += 1;
         self.next_start += length;
+        if self.number == 1 && self.buffer.first() == Some(&MARK) {
+            // Names of records have no line.
+            self.buffer.remove(0);
+            self.number = 0;
+        }
         refuse_binary(&self.buffer, self.number, start)?;
         let ended = self.buffer.ends_with(b"\n");
         let mark = if self.number == 1 && self.buffer.starts_with(BYTE_ORDER_MARK) { 3 } else { 0 };

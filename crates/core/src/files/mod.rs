@@ -9,6 +9,7 @@
 //! | `balls.csv`, `balls.toml` | [`read_balls`], [`read_ball_places`] | - |
 //! | `loads.csv` | [`read_loads`] | - |
 //! | `hexapod.toml` | [`read_hexapod`] | [`hexapod_to_toml`], [`write_hexapod`] |
+//! | MJCF, URDF, SDF | [`read_robot`] | - |
 //! | any other TOML | [`read_toml`] | - |
 //! | any other | [`content_hash`] | [`atomic_write`] |
 //!
@@ -43,6 +44,8 @@ mod read_joints;
 mod read_loads;
 mod read_measurements;
 mod read_sensor;
+mod records;
+mod robot;
 mod row;
 mod sensor_columns;
 mod source;
@@ -74,9 +77,12 @@ pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_joints::read_joints;
 pub use read_loads::read_loads;
 pub use read_measurements::{
-    read_campaign, read_campaign_from, read_campaign_named, read_measurements, read_measurements_from,
+    read_campaign, read_campaign_from, read_campaign_named, read_campaign_records, read_measurements,
+    read_measurements_from,
 };
 pub use read_sensor::{SENSOR_WITH_COST, point, sensor_name, sensor_of, sensors, unit_vector};
+pub use records::Records;
+pub use robot::{MobileFrame, RobotJoints, parse_robot, read_robot};
 pub use table::TableReading;
 pub use toml_file::{Format, read_text, read_toml, read_toml_text};
 pub use toml_value::{Item, KeyUnit, TomlSection};

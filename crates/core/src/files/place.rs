@@ -53,6 +53,12 @@ impl FilePlace {
         Self { sheet: Some(shortened(sheet)), span: None, ..self }
     }
 
+    /// The same place in records, whose bytes are not those of the text that was read, and whose names have no line.
+    #[must_use]
+    pub fn in_records(self) -> Self {
+        Self { line: self.line.filter(|line| *line > 0), column: None, span: None, ..self }
+    }
+
     /// The same place with the offending text.
     #[must_use]
     pub fn with_value(self, value: &str) -> Self {

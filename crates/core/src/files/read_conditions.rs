@@ -35,13 +35,13 @@ pub fn read_conditions_named(
 
 /// Reads a plan: poses and loads that are to be measured.
 ///
-/// As [`read_conditions`], but standard deviations are kept: they say how well the rows will be read.
+/// As [`read_conditions_named`], but standard deviations are kept: they say how well the rows will be read.
 ///
 /// # Errors
 /// As [`read_conditions`].
-pub fn read_plan(path: &Path) -> Result<TableReading, FileError> {
+pub fn read_plan(path: &Path, machine: Option<&Hexapod>) -> Result<TableReading, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    read_named(path, &name, Reads::of(GroupPurpose::Plan, None)).map_err(|fault| fault.in_file(path))
+    read_named(path, &name, Reads::of(GroupPurpose::Plan, machine)).map_err(|fault| fault.in_file(path))
 }
 
 #[cfg(test)]
@@ -78,7 +78,7 @@ mod tests {
         let path = folder.path().join("plan.csv");
         let columns = "da_um,sigma_translation_um,sigma_rotation_urad";
         std::fs::write(&path, format!("{HEADER},{columns}\n1,2,3,0,0,0,0,0,-100,0,0,0,7,0.5,3\n")).unwrap();
-        let dataset = read_plan(&path).unwrap().dataset;
+        let dataset = read_plan(&path, None).unwrap().dataset;
         let sigma = dataset.observations[0].sigma.unwrap();
         assert!(dataset.columns.sigma && (sigma[0] * 1e6 - 0.5).abs() < 1e-12, "{sigma:?}");
         assert!(read_conditions(&path).unwrap().dataset.observations[0].sigma.is_none());

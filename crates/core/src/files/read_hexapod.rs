@@ -5,7 +5,7 @@ use super::read_sensor::{point, sensors};
 use super::toml_file::{Format, parse_toml, read_toml};
 use super::toml_value::{Item, KeyUnit, TomlSection};
 use super::{Dimension, FileError, FileProblem};
-use crate::{Hexapod, Metrology, Tolerances, Vector3};
+use crate::{AngleConvention, Hexapod, Metrology, Tolerances, Vector3};
 use std::path::Path;
 
 /// The format this program reads and writes.
@@ -28,6 +28,7 @@ const TOP: &[KeyUnit] = &KeyUnit::all_plain([
     "base",
     "payload",
     "tolerances",
+    "conventions",
     "sensor",
 ]);
 const GEOMETRY: &[KeyUnit] = &[
@@ -55,6 +56,7 @@ const TOLERANCES: &[KeyUnit] = &[
     KeyUnit::with_unit("sensor_point", Dimension::Length, "mm"),
     KeyUnit::with_unit("sensor_direction", Dimension::Angle, "deg"),
 ];
+const CONVENTIONS: &[KeyUnit] = &KeyUnit::all_plain(["angles"]);
 const PAYLOAD: &[KeyUnit] = &[KeyUnit::with_unit("center_of_gravity", Dimension::Length, "mm")];
 
 /// Reads `hexapod.toml`; `docs/reference/file-formats.md` defines the keys.
@@ -93,6 +95,7 @@ fn with_sections(name: String, top: &TomlSection<'_>) -> Result<Hexapod, Fault> 
     let base = top.section("base", "[base]", BASE)?;
     let payload = top.section("payload", "[payload]", PAYLOAD)?;
     let stated = top.section("tolerances", "[tolerances]", TOLERANCES)?;
+    let conventions = top.section("conventions", "[conventions]", CONVENTIONS)?;
     let [base_joints, platform_joints] = all_joints(&geometry)?;
     Ok(Hexapod {
         name,
@@ -104,8 +107,18 @@ fn with_sections(name: String, top: &TomlSection<'_>) -> Result<Hexapod, Fault> 
         brackets: legs.get("brackets").map(brackets).transpose()?,
         mounting_plane_z: base.get("mounting_plane_z").map(Item::number).transpose()?,
         payload_centre: payload.get("center_of_gravity").map(point).transpose()?,
+        angles: conventions.get("angles").map_or(Ok(AngleConvention::default()), angles)?,
         tolerances: tolerances(&stated)?,
         sensors: top.get("sensor").map_or(Ok(Vec::new()), sensors)?,
+    })
+}
+
+fn angles(item: &Item<'_>) -> Result<AngleConvention, Fault> {
+    AngleConvention::of_word(item.string()?).ok_or_else(|| {
+        item.fault(FileProblem::Rule {
+            rule: "this is no convention of angles".to_owned(),
+            next: "Write extrinsic-xyz (about fixed axes x, y, z; the usual one), intrinsic-xyz (about axes that move with the platform), another order of x, y, z, or rotation-vector.".to_owned(),
+        })
     })
 }
 

@@ -10,7 +10,7 @@ use super::header::{GroupPurpose, Reads};
 use super::load_columns::has_masses;
 use super::read_measurements::rows_of;
 use super::source::{Noticed, read_source};
-use crate::LoadTable;
+use crate::{Hexapod, LoadTable};
 
 impl Noticed for LoadTable {
     fn warnings(&mut self) -> Option<&mut Vec<Warning>> {
@@ -19,12 +19,17 @@ impl Noticed for LoadTable {
 }
 
 /// Reads `loads.csv`, whose columns may have other names: which record is loaded and which is its reference, the commanded pose, wrenches or masses, and covariates.
+/// Angles are those of the machine's convention.
 ///
 /// # Errors
 /// The first thing that is wrong, with line, column, value and next step.
-pub fn read_loads(path: &Path, names: &ColumnNames) -> Result<LoadTable, FileError> {
+pub fn read_loads(
+    path: &Path,
+    names: &ColumnNames,
+    machine: Option<&Hexapod>,
+) -> Result<LoadTable, FileError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    let reads = Reads { names: Some(names), ..Reads::of(GroupPurpose::Loads, None) };
+    let reads = Reads { names: Some(names), ..Reads::of(GroupPurpose::Loads, machine) };
     let read = |input: Box<dyn BufRead>| {
         let mut table = rows_of(input, reads)?;
         let rows = std::mem::take(&mut table.loads);
@@ -44,7 +49,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("loads.csv");
         std::fs::write(&path, text).unwrap();
-        read_loads(&path, &ColumnNames::default()).map_err(|error| error.message())
+        read_loads(&path, &ColumnNames::default(), None).map_err(|error| error.message())
     }
 
     const POSE: &str = "a_mm,b_mm,c_mm,alpha_deg,beta_deg,gamma_deg";

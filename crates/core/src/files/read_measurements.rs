@@ -7,8 +7,9 @@ use super::line::{Line, whole_place};
 use super::lines::{Lines, RawLine};
 use super::load_columns::load_row;
 use super::number::{Decimals, parse_number};
+use super::records::Records;
 use super::row::FilledRow;
-use super::source::read_source;
+use super::source::{of_records, read_source};
 use super::table::{Table, TableReading};
 use super::warning::Notice;
 use super::{FileError, FilePlace, FileProblem, Warning};
@@ -57,6 +58,21 @@ pub fn read_campaign_named(
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     let reads = Reads { names: Some(names), ..Reads::of(GroupPurpose::Measurements, Some(hexapod)) };
     read_named(path, &name, reads).map_err(|fault| fault.in_file(path))
+}
+
+/// The same of records; `path` stands for the file in messages, and the line of a row is its number from 1.
+///
+/// # Errors
+/// As [`read_campaign`].
+pub fn read_campaign_records(
+    hexapod: &Hexapod,
+    records: &Records,
+    names: &ColumnNames,
+    path: &Path,
+) -> Result<TableReading, FileError> {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    let reads = Reads { names: Some(names), ..Reads::of(GroupPurpose::Measurements, Some(hexapod)) };
+    of_records(records, |input| read_table(input, &name, reads)).map_err(|fault| fault.in_file(path))
 }
 
 /// The same from memory or a stream; `name` stands for the file in messages.

@@ -5,10 +5,11 @@ use std::io::{self, BufRead, BufReader, Cursor, Read, stdin};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-use super::Warning;
 use super::error::Fault;
+use super::records::{Records, is_json, json_lines};
 use super::spreadsheet::{is_workbook, sheet};
 use super::warning::Notice;
+use super::{FilePlace, Warning};
 
 const BUFFER_BYTES: usize = 1 << 18;
 
@@ -48,6 +49,9 @@ pub(crate) fn read_source<T: Noticed>(
     } else {
         Box::new(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?))
     };
+    if is_json(input.fill_buf()?) {
+        return of_records(&json_lines(input)?, read);
+    }
     if !is_workbook(input.fill_buf()?) {
         return read(input);
     }
@@ -56,11 +60,29 @@ pub(crate) fn read_source<T: Noticed>(
     let sheet = sheet(&bytes, usual)?;
     let mut table = read(Box::new(Cursor::new(sheet.text.into_bytes())))
         .map_err(|fault| Fault::new(fault.place.in_sheet(&sheet.name), *fault.problem))?;
-    let Some(warnings) = table.warnings() else { return Ok(table) };
-    // The separator is ours.
+    place_warnings(&mut table, |place| place.in_sheet(&sheet.name));
+    Ok(table)
+}
+
+/// Reads a table of records.
+///
+/// # Errors
+/// What `read` says.
+pub(crate) fn of_records<T: Noticed>(
+    records: &Records,
+    read: impl FnOnce(Box<dyn BufRead>) -> Result<T, Fault>,
+) -> Result<T, Fault> {
+    let mut table = read(Box::new(Cursor::new(records.text().into_bytes())))
+        .map_err(|fault| Fault::new(fault.place.in_records(), *fault.problem))?;
+    place_warnings(&mut table, FilePlace::in_records);
+    Ok(table)
+}
+
+/// Puts warnings where the user knows them; the separator of a text made here is ours.
+fn place_warnings(table: &mut impl Noticed, place: impl Fn(FilePlace) -> FilePlace) {
+    let Some(warnings) = table.warnings() else { return };
     warnings.retain(|warning| !matches!(warning.notice, Notice::Separator(_)));
     for warning in warnings {
-        warning.place = std::mem::take(&mut warning.place).in_sheet(&sheet.name);
+        warning.place = place(std::mem::take(&mut warning.place));
     }
-    Ok(table)
 }

@@ -11,7 +11,7 @@ use super::source::Noticed;
 use super::warning::Notice;
 use super::{FilePlace, FileProblem, Warning};
 use crate::load_sequence::doubled_order;
-use crate::{Dataset, LoadSequences, Measurand, Observation};
+use crate::{AngleConvention, Dataset, LoadSequences, Measurand, Observation};
 
 /// A table as read, and what the reader noticed on the way.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +35,7 @@ pub(crate) struct Table {
     pub(crate) warnings: Vec<Warning>,
     /// True when numbers were written with a decimal comma.
     pub(crate) decimal_comma: bool,
+    angles: AngleConvention,
     observations: Vec<Observation>,
     rows: usize,
     fingerprints: Fingerprints,
@@ -51,6 +52,7 @@ impl Table {
             plan,
             warnings,
             decimal_comma: false,
+            angles: reads.machine.map_or_else(AngleConvention::default, |machine| machine.angles),
             observations: Vec::new(),
             rows: 0,
             fingerprints: Fingerprints::default(),
@@ -85,6 +87,15 @@ impl Table {
         Ok(())
     }
 
+    fn read_angles(&mut self) {
+        if self.angles == AngleConvention::default() {
+            return;
+        }
+        for row in &mut self.observations {
+            self.angles.read(row, &self.plan.blocks[row.block], self.plan.measurand);
+        }
+    }
+
     fn compares_loads(&self) -> bool {
         self.purpose == GroupPurpose::Measurements && self.plan.measurand != Measurand::AbsolutePose
     }
@@ -94,6 +105,7 @@ impl Table {
         if self.observations.is_empty() {
             return Err(Fault::new(FilePlace::file(), FileProblem::NoRows));
         }
+        self.read_angles();
         if self.purpose == GroupPurpose::Measurements {
             self.warnings.extend(drop_copies(&mut self.observations, self.fingerprints, self.plan.has_pose));
         }
@@ -105,6 +117,7 @@ impl Table {
             self.warnings.push(Warning::new(FilePlace::file(), notice));
         }
         refuse_doubled_order(&self.observations)?;
+
         let Plan { measurand, columns, blocks, .. } = self.plan;
         let mut dataset = Dataset {
             source: name.to_owned(),
@@ -114,11 +127,23 @@ impl Table {
             sequences: LoadSequences::of(&self.observations),
             observations: self.observations,
         };
+        refuse_lone_angles(self.angles, &dataset)?;
         if dataset.has_other_readings() {
             state_sigmas(&mut dataset, &self.plan.stated)?;
         }
         Ok(TableReading { dataset, warnings: self.warnings })
     }
+}
+
+/// Differences of the angles of another convention are one turn only together.
+fn refuse_lone_angles(angles: AngleConvention, dataset: &Dataset) -> Result<(), Fault> {
+    let Some(line) = angles.lacks_an_angle(dataset) else { return Ok(()) };
+    let place = FilePlace { line: Some(line), ..FilePlace::file() };
+    let problem = FileProblem::Rule {
+        rule: format!("differences of {} angles need all three, and not all were read", angles.word()),
+        next: "Fill in all three or none, give a rotation vector as drx_, dry_, drz_, or leave [conventions] out where the angles turn about fixed axes x, y, z.".to_owned(),
+    };
+    Err(Fault::new(place, problem))
 }
 
 /// Two readings cannot have one place in the sequence of loads.

@@ -10,7 +10,7 @@ use super::{FileError, atomic_write};
 use crate::{Channel, Columns, Dataset, Hexapod, Observation, UNREAD};
 
 /// Writes `measurements.csv` of a machine, whole or not at all: what sensors read in columns of their own, and empty cells where
-/// nothing was read. Of full poses alone, as [`super::write_measurements`].
+/// nothing was read; angles by the convention of the machine. Of full poses alone, as [`super::write_measurements`].
 ///
 /// # Errors
 /// As [`super::write_measurements`].
@@ -24,6 +24,11 @@ pub fn write_campaign(path: &Path, hexapod: &Hexapod, dataset: &Dataset) -> Resu
 /// # Errors
 /// As [`write_campaign`].
 pub fn campaign_to_csv(out: &mut dyn Write, hexapod: &Hexapod, dataset: &Dataset) -> io::Result<()> {
+    if let Some(line) = hexapod.angles.lacks_an_angle(dataset) {
+        let why = format!("the row of line {line} lacks one of three angles");
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    }
+    let dataset = &*hexapod.angles.as_stated(dataset);
     if !dataset.has_other_readings() {
         return measurements_to_csv(out, dataset);
     }
@@ -46,6 +51,7 @@ pub fn campaign_to_csv(out: &mut dyn Write, hexapod: &Hexapod, dataset: &Dataset
 
 /// The same as columns in memory: name with unit, and one number per row; NaN where nothing was read.
 pub fn campaign_to_columns(hexapod: &Hexapod, dataset: &Dataset) -> Vec<(String, Vec<f64>)> {
+    let dataset = &*hexapod.angles.as_stated(dataset);
     if !dataset.has_other_readings() {
         return measurements_to_columns(dataset);
     }

@@ -3,7 +3,7 @@
 use super::read_hexapod::FORMAT;
 use super::units::{PLAIN, unit_named};
 use super::{Dimension, FileError, atomic_write};
-use crate::{Hexapod, Sensor, SensorKind, Tolerances, Vector3};
+use crate::{AngleConvention, Hexapod, Sensor, SensorKind, Tolerances, Vector3};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -22,6 +22,10 @@ pub fn hexapod_to_toml(hexapod: &Hexapod) -> String {
             &in_unit(metrology.sigma_translation, "um", Dimension::Length),
         );
         add(&mut text, "sigma_rotation_urad", &in_unit(metrology.sigma_rotation, "urad", Dimension::Angle));
+    }
+    if hexapod.angles != AngleConvention::default() {
+        text.push_str("\n[conventions]\n");
+        add(&mut text, "angles", &format!("{:?}", hexapod.angles.word()));
     }
     add_legs(&mut text, hexapod);
     if let Some(z) = hexapod.mounting_plane_z {
@@ -78,6 +82,9 @@ const OPEN_SECTIONS: &str = "
 # nominal_stiffness_N_per_um = [5, 5, 5, 5, 5, 5]
 # min_length_mm = 150             # stroke: lengths between the joint centers
 # max_length_mm = 200
+
+# [conventions]                   # what alpha, beta, gamma of all files of this machine mean; extrinsic-xyz unless stated
+# angles = \"intrinsic-xyz\"        # about axes that move with the platform: the U, V, W of many controllers
 
 # [tolerances]                    # one standard deviation each: what the numbers of this file and of the loads are worth
 # joints_mm = 0.05

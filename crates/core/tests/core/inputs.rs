@@ -43,6 +43,17 @@ fn with_margin(rows: Vec<Vec<Cell>>) -> Vec<Vec<Cell>> {
     std::iter::once(vec![Cell::Empty]).chain(rows).collect()
 }
 
+/// The plain file as an object on every line.
+fn json_lines(table: &str) -> String {
+    let mut lines = table.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let object = |line: &str| {
+        let pairs = names.iter().zip(line.split(',')).map(|(name, cell)| format!("\"{name}\":{cell}"));
+        format!("{{{}}}\n", pairs.collect::<Vec<_>>().join(","))
+    };
+    lines.map(object).collect()
+}
+
 enum Meaning {
     /// The same numbers as the plain file, with these words among the warnings; none: no warning.
     Read(&'static str),
@@ -102,6 +113,38 @@ fn files_as_people_make_them_are_read_or_refused_and_never_misread() {
             "arcseconds",
             with("alpha_deg", "alpha_arcsec").replacen("-7.5,0.75", "-27000,0.75", 2).into(),
             Read(""),
+        ),
+        ("JSON lines", json_lines(&plain()).into(), Read("")),
+        ("JSON lines with a blank line", json_lines(&plain()).replace("}\n", "}\n\n").into(), Read("")),
+        (
+            "JSON lines, a word",
+            json_lines(&plain()).replace("2.75", "\"warm\"").into(),
+            Refused("line 2 (db_um): \"warm\": this is not a number", ""),
+        ),
+        (
+            "JSON lines, another name",
+            json_lines(&plain()).replacen("{\"pose\":2", "{\"Pose\":2", 1).into(),
+            Refused("line 2: Pose is not in the first object", "same names"),
+        ),
+        (
+            "JSON lines, a list in a cell",
+            json_lines(&plain()).replace("2.75", "[2.75]").into(),
+            Refused("line 2: db_um is no number", ""),
+        ),
+        (
+            "JSON lines, an empty cell",
+            json_lines(&plain()).replace("2.75", "null").into(),
+            Refused("line 2 (db_um): the cell is empty", ""),
+        ),
+        (
+            "JSON lines without a unit",
+            json_lines(&plain()).replace("fz_N", "fz").into(),
+            Refused("fz: the name states no unit", "fz_N"),
+        ),
+        (
+            "one JSON value",
+            "{\n \"pose\": [1, 2]\n}\n".into(),
+            Refused("line 1: this line is no JSON object", "one object a line"),
         ),
         ("xlsx", one(cells(&plain())), Read("")),
         ("ods", ods(&[("Blatt1", cells(&plain()))]), Read("")),
@@ -217,7 +260,7 @@ fn one_workbook_may_hold_balls_and_loads() {
     for book in [ods, xlsx] {
         std::fs::write(&path, book(&[("Balls", cells(balls)), ("Loads", cells(loads))])).unwrap();
         assert_eq!(read_balls(&path).unwrap().len(), 2);
-        let table = read_loads(&path, &ColumnNames::default()).unwrap();
+        let table = read_loads(&path, &ColumnNames::default(), None).unwrap();
         assert_eq!(
             (table.rows[0].record.as_str(), table.rows[0].hung.loaded.to_bits()),
             ("L1", 10_f64.to_bits())

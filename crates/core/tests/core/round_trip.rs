@@ -5,7 +5,8 @@ use hexbench_core::files::{
     read_measurements_from, write_hexapod, write_measurements,
 };
 use hexbench_core::{
-    Approach, Columns, Dataset, Hexapod, Measurand, Metrology, Observation, Pose, Tolerances, Vector3, Wrench,
+    AngleConvention, Approach, Columns, Dataset, Hexapod, Measurand, Metrology, Observation, Pose,
+    Tolerances, Vector3, Wrench,
 };
 use proptest::array::uniform6;
 use proptest::prelude::*;
@@ -137,9 +138,11 @@ prop_compose! {
         brackets in prop::option::of(Just(vec![[0, 1], [2, 3], [4, 5]])),
         payload in prop::option::of(prop::array::uniform3(-1.0..1.0_f64)),
         load_gain in prop::option::of(1e-6..1.0_f64),
+        angles in prop::sample::select(AngleConvention::ALL.to_vec()),
     ) -> Hexapod {
         Hexapod {
-        sensors: Vec::new(),
+            sensors: Vec::new(),
+            angles,
             name, base_joints, platform_joints, nominal_stiffness, brackets, mounting_plane_z: z,
             metrology: sigma.map(|[t, r]| Metrology { sigma_translation: t, sigma_rotation: r }),
             stroke: shortest.map(|length| [length, length + 0.1]),

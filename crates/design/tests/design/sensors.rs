@@ -32,7 +32,7 @@ fn root() -> PathBuf {
 /// A machine with a plan of several poses and loads.
 fn bench() -> (Hexapod, Dataset) {
     let case = root().join("data/cases/mujoco-clean");
-    let plan = read_plan(&case.join("measurements.csv")).unwrap().dataset;
+    let plan = read_plan(&case.join("measurements.csv"), None).unwrap().dataset;
     (read_hexapod(&case.join("hexapod.toml")).unwrap(), plan)
 }
 

@@ -12,10 +12,10 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
-use hexbench_core::Dataset;
 use hexbench_core::files::{
     MeasurementsWriter, atomic_write, hexapod_to_toml, measurements_to_csv, text_hash,
 };
+use hexbench_core::{AngleConvention, Dataset, Hexapod};
 
 use crate::challenge::folder::{
     CASES, HEXAPOD, MEASURED, MEASUREMENTS, PREDICT, README, SEALED, TRUE_READINGS, TRUTH, refuse_content,
@@ -61,7 +61,10 @@ fn files_of(case: &Drawn) -> io::Result<[(String, String); 6]> {
     let public = |name: &str| format!("{CASES}/{}/{name}", case.id);
     let sealed = |name: &str| format!("{SEALED}/{}/{name}", case.id);
     Ok([
-        (public(HEXAPOD), hexapod_to_toml(&case.hexapod)),
+        (
+            public(HEXAPOD),
+            hexapod_to_toml(&Hexapod { angles: AngleConvention::default(), ..case.hexapod.clone() }),
+        ),
         (public(MEASUREMENTS), csv(&case.measurements)?),
         (public(PREDICT), asked(&case.measured)?),
         (sealed(TRUTH), case.truth.text()),

@@ -22,6 +22,9 @@ use crate::estimation::whitening::Inexact;
 use crate::machine::geometry::Machine;
 use crate::machine::kinematics::Legs;
 
+/// A noise level known as well as this is exact for every probability; beyond it differences of evidence lose their digits.
+const EXACT_NOISE: f64 = 1e-4;
+
 /// Readings that share pose, loads, approach, temperature and time, averaged.
 #[derive(Debug, Clone)]
 pub struct ConditionReadings {
@@ -420,7 +423,7 @@ impl Campaign {
             NoiseSource::Residuals => 0.0,
             // A chi-square of so many degrees of freedom scatters as much as the stated standard deviation may.
             NoiseSource::Columns | NoiseSource::Sensors | NoiseSource::Metrology => {
-                0.5 / self.hexapod.tolerances.noise.powi(2)
+                0.5 / self.hexapod.tolerances.noise.max(EXACT_NOISE).powi(2)
             }
         };
         let (repeats, dof) = match self.noise.structure {

@@ -259,3 +259,30 @@ fn a_step_below_the_noise_says_nothing() {
     let (hexapod, data) = clean();
     assert_eq!(kinds(&told(&hexapod, &rounded(&data, 1e-7, 1e-6))), []);
 }
+
+#[test]
+fn a_coordinate_that_changes_its_sign_within_the_file_is_a_contradiction_and_no_dozen_of_blunders() {
+    let (hexapod, mut data) = clean();
+    let half = data.observations.len() / 2;
+    for o in &mut data.observations[half..] {
+        o.measured[0] = -o.measured[0];
+    }
+    let d = told(&hexapod, &data);
+    assert_eq!((kinds(&d), d.verdict), (vec![FindingKind::Contradiction], Verdict::Outside));
+    let first = data.observations[half].line;
+    assert!(d.findings[0].rows.iter().all(|&line| line >= first), "{:?}", d.findings[0].rows);
+    assert!(!d.findings[0].excludes() && d.added.is_empty());
+}
+
+#[test]
+fn repeats_that_agree_deny_a_noise_that_is_a_thousand_times_the_stated_one() {
+    let (hexapod, mut data) = clean();
+    // What no catalogue lists, and no fault of single readings: every load moves the platform to where no other does.
+    for (n, o) in data.observations.iter_mut().enumerate() {
+        let wave = |k: usize| ((n / 2 * 7 + k * 5) as f64).sin();
+        o.measured = std::array::from_fn(|k| o.measured[k] + wave(k) * if k < 3 { 1e-3 } else { 5e-3 });
+    }
+    let d = told(&hexapod, &data);
+    assert!(!kinds(&d).contains(&FindingKind::NoiseLevel), "{:?}", d.findings);
+    assert_eq!(d.verdict, Verdict::Outside);
+}

@@ -119,8 +119,8 @@ fn what_gauges_balls_and_scales_read_gives_the_springs_to_second_order() {
         let [usual, fourfold] = [error(1.0), error(4.0)];
         let name = &hexapod.sensors[0].name;
         assert!(usual < 2e-6, "{name}: {usual:e}");
-        // Of second order in the load: sixteenfold, where a model linear in the deflection has fourfold.
-        assert!(fourfold < 3e-5 && fourfold > 8.0 * usual, "{name}: {usual:e} {fourfold:e}");
+        // Of second order in the load, where a model linear in the deflection has fourfold; the larger motion is computed halfway too.
+        assert!(fourfold < 3e-5 && fourfold > 6.0 * usual, "{name}: {usual:e} {fourfold:e}");
     }
 }
 

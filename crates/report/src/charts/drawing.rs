@@ -20,13 +20,16 @@ const SENSORS: [char; 26] = [
     'V', 'W', 'X', 'Y', 'Z',
 ];
 const ONE_OF_MANY: char = '*';
+/// Length of the axes of the frames, in radii of the platform.
+const AXES: f64 = 0.5;
 /// Length at which a gauge is drawn, and half the size of a point, in radii of the platform.
 const GAUGE: f64 = 0.4;
 const POINT: f64 = 0.06;
 /// Distance at which a scale is drawn beside its leg, and sensors of angles from the mobile origin, in radii of the platform.
 const BESIDE: f64 = 0.06;
 
-/// The machine at the zero pose from the side and from above, with its sensors, as SVG.
+/// The machine at the zero pose from the side and from above, with the axes of its frames and its sensors, as SVG; joints are marked as in
+/// [`view_from_above`].
 ///
 /// # Errors
 /// [`PlotError::NotFinite`].
@@ -36,7 +39,8 @@ pub fn drawing(hexapod: &Hexapod) -> Result<String, PlotError> {
     let machine = Wireframe::new(format!("{} at the zero pose", hexapod.name))
         .seen("from the front, a little from above", 25.0, 22.0)
         .seen("from above, x to the right", 0.0, 90.0)
-        .with("base, platform and legs", Some(0), unloaded(&joints));
+        .with("base (1 to 6), platform (a to f) and legs", Some(0), unloaded(&joints))
+        .with("axes at the origin", None, tips(hexapod).map(|tip| [[0.0; 3], tip.into()]).to_vec());
     let of_kind = |word: &str| {
         let sensors = hexapod.sensors.iter().filter(|s| s.kind.word() == word);
         sensors.flat_map(|s| edges(hexapod, s)).collect::<Vec<Edge>>()
@@ -50,7 +54,16 @@ pub fn drawing(hexapod: &Hexapod) -> Result<String, PlotError> {
     let with = |drawing: Wireframe, (k, word): (usize, &str)| {
         drawing.with(format!("sensors: {word}"), Some(1 + k), of_kind(word))
     };
-    words.into_iter().enumerate().fold(machine, with).to_svg()
+    let machine = words.into_iter().enumerate().fold(machine, with);
+    let joints = hexapod.base_joints.iter().zip(BASE).chain(hexapod.platform_joints.iter().zip(PLATFORM));
+    let marks =
+        joints.map(|(joint, mark)| (mark, *joint)).chain(['x', 'y', 'z'].into_iter().zip(tips(hexapod)));
+    marks.fold(machine, |drawing, (mark, at)| drawing.marked(mark, at.into())).to_svg()
+}
+
+/// Ends of the axes, which both frames share at the zero pose.
+fn tips(hexapod: &Hexapod) -> [Vector3; 3] {
+    std::array::from_fn(|k| Vector3::ith(k, AXES * hexapod.platform_radius()))
 }
 
 /// A gauge looks along its direction at its point, a reflector is a cross, a level its axis through the mobile origin, a scale stands

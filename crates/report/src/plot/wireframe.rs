@@ -1,6 +1,6 @@
 //! Edges in space, seen from several sides in parallel projection; the same scale on every view.
 
-use super::canvas::{Canvas, Type, svg};
+use super::canvas::{Across, Along, Canvas, Type, svg};
 use super::chart::{MARGIN_PX, TITLE_ROW_PX, title};
 use super::error::{PlotError, finite, not_empty};
 use super::legend::{self, Entry};
@@ -10,6 +10,8 @@ use super::style::{LABEL_PX, Look};
 const VIEW_PX: f64 = 420.0;
 /// Width of an edge, px.
 const EDGE_PX: f64 = 1.8;
+/// From a point to the middle of its mark, px.
+const MARK_PX: f64 = 11.0;
 
 /// An edge between two points.
 pub type Edge = [[f64; 3]; 2];
@@ -20,6 +22,7 @@ pub struct Wireframe {
     title: String,
     views: Vec<View>,
     bodies: Vec<Body>,
+    marks: Vec<(String, [f64; 3])>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +43,7 @@ struct Body {
 impl Wireframe {
     /// Nothing to see yet.
     pub fn new(title: impl Into<String>) -> Self {
-        Self { title: title.into(), views: Vec::new(), bodies: Vec::new() }
+        Self { title: title.into(), views: Vec::new(), bodies: Vec::new(), marks: Vec::new() }
     }
 
     /// The drawing with one view more: turned about the z axis and seen from an elevation (90: from above), degrees.
@@ -58,6 +61,13 @@ impl Wireframe {
         self
     }
 
+    /// The drawing with a short text beside a point, away from the middle of the view.
+    #[must_use]
+    pub fn marked(mut self, text: impl Into<String>, point: [f64; 3]) -> Self {
+        self.marks.push((text.into(), point));
+        self
+    }
+
     /// The drawing as SVG.
     ///
     /// # Errors
@@ -71,6 +81,7 @@ impl Wireframe {
                 body.edges.iter().flatten().flatten(),
             )?;
         }
+        finite(&self.title, "a mark", self.marks.iter().flat_map(|(_, point)| point))?;
         let entries: Vec<&Body> = self.bodies.iter().collect();
         let width = 2.0 * MARGIN_PX + self.views.len() as f64 * VIEW_PX;
         let room = width - 2.0 * MARGIN_PX;
@@ -101,6 +112,11 @@ impl Wireframe {
                 let edges = body.edges.iter().map(|edge| edge.each_ref().map(place));
                 edges.into_iter().try_for_each(|e| canvas.line(&e, look.colour, EDGE_PX, look.dash))?;
             }
+            let middle = [corner[0] + 0.5 * VIEW_PX, corner[1] + 0.5 * VIEW_PX];
+            let set = Type::new(LABEL_PX).at(Across::Middle, Along::Middle);
+            for (text, point) in &self.marks {
+                canvas.text(beside(place(point), middle), text, set)?;
+            }
         }
         Ok(())
     }
@@ -127,6 +143,13 @@ impl Wireframe {
         let reach = self.views.iter().flat_map(|v| self.range(v)).map(|[low, high]| high - low);
         FILLED * VIEW_PX / reach.fold(f64::MIN_POSITIVE, f64::max)
     }
+}
+
+/// A little farther from the middle than a point.
+fn beside([x, y]: [f64; 2], middle: [f64; 2]) -> [f64; 2] {
+    let out = [x - middle[0], y - middle[1]];
+    let step = MARK_PX / out[0].hypot(out[1]).max(1.0);
+    [x + step * out[0], y + step * out[1]]
 }
 
 impl View {

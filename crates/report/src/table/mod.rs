@@ -5,9 +5,12 @@
 
 pub mod csv;
 pub mod parquet;
+mod read_parquet;
 
 use std::io::{self, Write};
 use std::path::Path;
+
+pub use read_parquet::{is_parquet, read_parquet};
 
 /// Values of a column, one per row.
 #[derive(Debug, Clone, PartialEq)]

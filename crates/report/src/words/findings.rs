@@ -11,12 +11,15 @@ use crate::page::{Block, Mood, Section};
 /// Most lines of the file named in a sentence.
 const MOST_LINES: usize = 6;
 
+/// Most findings of a kind, each with readings of its own, that have a sentence each.
+const MOST_APART: usize = 3;
+
 /// What is wrong with the readings, how sure, what to do, which take part, and what would change if others did.
 pub(super) fn section(d: &Diagnosis) -> Option<Section> {
     Section::new("The data")
         .id("findings")
         .with((!d.read_as.is_empty()).then(|| Block::colored(Mood::Doubt, read_as(&d.read_as))))
-        .list(d.findings.iter().map(sentence))
+        .list(sentences(&d.findings))
         .with((!d.findings.is_empty() && !d.is_misread()).then(|| Block::colored(Mood::Doubt, aside(d))))
         .with(d.alternative.as_ref().map(|other| Block::paragraph(changes(d, other))))
         .with((!d.excluded.is_empty()).then(|| Block::colored(Mood::Doubt, excluded(&d.excluded))))
@@ -112,6 +115,38 @@ fn leg_change(d: &Diagnosis, other: &Alternative) -> String {
     }
 }
 
+/// A sentence for each finding; where there are many of a kind, one for all of them, with every line.
+fn sentences(findings: &[Finding]) -> Vec<String> {
+    let of_kind = |kind: FindingKind| findings.iter().filter(move |f| f.kind == kind && f.excludes());
+    let is_many = |f: &Finding| of_kind(f.kind).count() > MOST_APART;
+    let is_first = |n: usize, f: &Finding| findings[..n].iter().all(|before| before.kind != f.kind);
+    let told = findings.iter().enumerate().filter(|(n, f)| !is_many(f) || is_first(*n, f));
+    told.map(|(_, f)| if is_many(f) { together(&of_kind(f.kind).collect::<Vec<_>>()) } else { sentence(f) })
+        .collect()
+}
+
+/// `Blunder, lines 12, 40 to 43 (> 99 % each): five single faults; the clearest: ... To do: ...`
+fn together(all: &[&Finding]) -> String {
+    let mut rows: Vec<u64> = all.iter().flat_map(|f| f.rows.iter().copied()).collect();
+    rows.sort_unstable();
+    let least = all.iter().map(|f| f.probability).fold(1.0, f64::min);
+    let (count, Finding { kind, text, next, .. }) = (all.len(), all[0]);
+    let (title, lines, sure) = (kind.title(), runs(&rows), percent(least));
+    format!(
+        "{title}, lines {lines} ({sure} each): {count} single faults; the clearest: {text}. To do: {next}, and those of the others."
+    )
+}
+
+/// `12, 40 to 43`: numbers in ascending order, those that follow one another as a range.
+fn runs(rows: &[u64]) -> String {
+    let chunks = rows.chunk_by(|a, b| *b <= a + 1);
+    let run = |run: &[u64]| match run {
+        [first, .., last] if last > first => format!("{first} to {last}"),
+        one => one.first().map_or(String::new(), u64::to_string),
+    };
+    chunks.map(run).collect::<Vec<_>>().join(", ")
+}
+
 /// `Load, lines 12 and 13 (> 99 %): ... Do this.`
 pub(super) fn sentence(finding: &Finding) -> String {
     let lines = if finding.rows.is_empty() { String::new() } else { format!(", {}", lines(&finding.rows)) };
@@ -127,4 +162,33 @@ fn lines(rows: &[u64]) -> String {
     let more = if rows.len() > MOST_LINES { ", ..." } else { "" };
     let noun = if rows.len() == 1 { "line" } else { "lines" };
     format!("{noun} {}{more}", listed.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn blunder(line: u64) -> Finding {
+        Finding {
+            kind: FindingKind::Blunder,
+            probability: 0.9995,
+            rows: vec![line],
+            size: format!("{line} sigma"),
+            text: format!("da in line {line} is {line} sigma away"),
+            next: "read the record again".to_owned(),
+        }
+    }
+
+    #[test]
+    fn many_faults_of_a_kind_are_told_together_with_every_line() {
+        let told = sentences(&[43, 12, 41, 42].map(blunder));
+        assert_eq!(
+            told,
+            [
+                "Blunder, lines 12, 41 to 43 (> 99 % each): 4 single faults; the clearest: da in line 43 is 43 sigma away. \
+              To do: read the record again, and those of the others."
+            ]
+        );
+        assert_eq!(sentences(&[43, 12, 41].map(blunder)).len(), 3);
+    }
 }

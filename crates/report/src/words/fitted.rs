@@ -11,6 +11,7 @@ use hexbench_model::results::diagnose::{LegRemainder, NoiseReport};
 use hexbench_model::results::fit::{FitQuality, TOLD_CORRELATION};
 use hexbench_model::results::words::joined;
 
+use super::PlusMinus;
 use super::remainder::of_legs;
 use super::units::UnitsRead;
 use crate::number::{significant, with_uncertainty};
@@ -19,11 +20,16 @@ use crate::page::{Block, Page, PageColumn, Section, Table};
 /// Most correlations where there is little room.
 const BRIEF: usize = 10;
 
-/// The fit.
-pub fn page(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) -> Page {
+/// The fit; every plus-minus as wide as `coverage` says.
+pub fn page(
+    task: &JudgedTask<'_>,
+    judged: &FitWithErrors,
+    estimator: Estimator,
+    coverage: PlusMinus,
+) -> Page {
     Page::default()
         .with(quality(task, judged, estimator))
-        .with(values(&judged.estimates()))
+        .with(values(&judged.estimates(), coverage, task.campaign.noise.dof))
         .with(remainder(judged))
         .with(correlations(&judged.fit))
         .with(errors(task, judged))
@@ -56,10 +62,12 @@ fn quality(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) 
         .with((!fit.is_settled()).then(|| Block::paragraph(provisional)))
 }
 
-fn values(all: &Estimates) -> Section {
+fn values(all: &Estimates, coverage: PlusMinus, dof: f64) -> Section {
+    let factor = coverage.factor(dof);
     let row = |e: &Estimate| {
-        let [value, std] = with_uncertainty(e.value, e.std);
-        let share = 100.0 * (e.std / e.value).abs();
+        let wide = factor * e.std;
+        let [value, std] = with_uncertainty(e.value, wide);
+        let share = 100.0 * (wide / e.value).abs();
         let share = if share.is_finite() { format!("({} %)", significant(share, 2)) } else { String::new() };
         [e.name.clone(), value, format!("+- {std}"), share, e.unit.clone()]
     };
@@ -73,7 +81,7 @@ fn values(all: &Estimates) -> Section {
     let open = (!all.not_determined.is_empty())
         .then(|| format!("Not determined by these data, so no number: {}.", joined(&all.not_determined)));
     Section::new("Values")
-        .remark("+- standard uncertainty (k = 1)")
+        .remark(coverage.remark(dof))
         .table(Table::new(columns).rows(all.determined.iter().map(row)))
         .with(open.map(Block::paragraph))
 }

@@ -6,8 +6,8 @@ use std::path::Path;
 use hexbench_core::{
     Dataset, Hexapod, Measurand, Pose, Wrench,
     files::{
-        Dimension, Fault, FileError, FilePlace, FileProblem, Item, KeyUnit, TomlSection, instead_of,
-        read_conditions,
+        ColumnNames, Dimension, Fault, FileError, FilePlace, FileProblem, Item, KeyUnit, TomlSection,
+        instead_of, read_conditions_named,
     },
 };
 
@@ -112,7 +112,7 @@ impl PlanTable {
         streams: Streams,
     ) -> Result<ScenePlan, FileError> {
         let plan = match &self.conditions {
-            Some(files) => self.rows(folder, files)?,
+            Some(files) => self.rows(folder, files, hexapod)?,
             None => ScenePlan::Schemes(Box::new(self.schemes(hexapod, streams))),
         };
         plan.refuse_repeated_order().map_err(|fault| fault.in_file(file))?;
@@ -128,9 +128,15 @@ impl PlanTable {
         self.conditions.iter().flatten().flatten().map(String::as_str)
     }
 
-    fn rows(&self, folder: &Path, files: &[Option<String>; 2]) -> Result<ScenePlan, FileError> {
+    fn rows(
+        &self,
+        folder: &Path,
+        files: &[Option<String>; 2],
+        machine: &Hexapod,
+    ) -> Result<ScenePlan, FileError> {
         let read = |file: &Option<String>| match file {
-            Some(name) => read_conditions(&folder.join(name)).map(|reading| rows_of(&reading.dataset)),
+            Some(name) => read_conditions_named(&folder.join(name), &ColumnNames::default(), Some(machine))
+                .map(|reading| rows_of(&reading.dataset)),
             None => Ok(Vec::new()),
         };
         Ok(ScenePlan::Rows {

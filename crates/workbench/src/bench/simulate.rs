@@ -2,6 +2,7 @@
 
 use hexbench_core::files::{hexapod_to_toml, measurements_to_csv};
 use hexbench_core::streams::{Purpose, stream};
+use hexbench_core::{AngleConvention, Hexapod};
 use hexbench_truth::TruthError;
 use hexbench_truth::campaign::{CaseKind, CaseSpec, PlanKind, SimulatedCase, machines::FAMILIES};
 use hexbench_truth::mechanisms::{REGISTRY, is_outside};
@@ -168,7 +169,8 @@ fn told(case: &SimulatedCase, seed: u64, sealed: bool) -> Result<(Files, Truth),
     let ids = case.spec.hidden_effects();
     let hidden = ids.iter().map(|id| Hidden { id: (*id).to_owned(), title: title(id) }).collect();
     let leg_stiffness = case.campaign.world.leg_compliance.map(|c| 1e-6 / c);
-    let mut hexapod = case.hexapod.clone();
+    // Tables are written as poses are inside.
+    let mut hexapod = Hexapod { angles: AngleConvention::default(), ..case.hexapod.clone() };
     hexapod.name = if sealed { format!("game {seed}") } else { format!("simulation {seed}") };
     let csv = |rows| {
         let mut text = Vec::new();

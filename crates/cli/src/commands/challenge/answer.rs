@@ -9,6 +9,8 @@ use crate::failure::Failure;
 
 /// Answer one case, as any entrant does: from its public files alone
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench challenge answer cases/case-01 answer.json")]
 pub(crate) struct Arguments {
     /// Folder of the case
     case: PathBuf,

@@ -10,6 +10,8 @@ use crate::output::{Progress, Screen};
 
 /// Make the cases of a suite, with their truth sealed apart; the same suite and seed give the same bytes
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench challenge make data/challenges/springs-and-effects.toml --out cases")]
 pub(crate) struct Arguments {
     /// A bundled suite (springs-and-effects) or a suite file
     suite: String,

@@ -14,7 +14,10 @@ use crate::output::Screen;
 #[derive(Debug, Args)]
 #[command(
     arg_required_else_help = true,
-    after_help = "What an entrant reads and writes is in the README.md of every challenge and in docs/guide/challenges.md."
+    after_help = "Examples:\n  \
+                        hexbench challenge make data/challenges/springs-and-effects.toml --out cases\n  \
+                        hexbench challenge score cases answers\n\n\
+                        What an entrant reads and writes is in the README.md of every challenge and in docs/guide/challenges.md."
 )]
 pub(crate) struct Arguments {
     /// What to do.

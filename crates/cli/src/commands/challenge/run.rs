@@ -11,11 +11,11 @@ use crate::output::{Progress, Screen};
 
 /// Run a program over the cases, each in a fresh folder and under limits of time, memory and output
 #[derive(Debug, Args)]
-#[command(
-    after_help = "The program is called with the case folder and the folder for its answer behind its own arguments. \
+#[command(after_help = "Examples:\n  \
+                        hexbench challenge run cases --out answers --name mine -- python3 solve.py\n\n\
+                        The program is called with the case folder and the folder for its answer behind its own arguments. \
                         Given again, the same command goes on where it was stopped. The limits hold on Linux; on other \
-                        Unix systems memory is limited for each process alone, as far as the system does that."
-)]
+                        Unix systems memory is limited for each process alone, as far as the system does that.")]
 pub(crate) struct Arguments {
     /// The challenge
     challenge: PathBuf,

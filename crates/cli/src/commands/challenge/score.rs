@@ -12,6 +12,8 @@ use crate::output::{OutFile, Screen, write_json};
 
 /// Compare answers with the truth: errors, coverage, proper scores, programs side by side
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    hexbench challenge score cases answers")]
 pub(crate) struct Arguments {
     /// The challenge, with its sealed part
     challenge: PathBuf,

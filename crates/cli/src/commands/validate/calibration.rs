@@ -19,6 +19,7 @@ use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say how far the stated probabilities can be trusted: effects, sizes, plans and machines with a known truth
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate calibration --out calibration")]
 pub(crate) struct Arguments {
     /// Folder for the table of trials, the summary tables and the charts
     #[arg(short = 'o', long, value_name = "DIR")]

@@ -14,6 +14,7 @@ use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say whether laws that no catalogue lists are found, and only where there are any
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate discover --out discover")]
 pub(crate) struct Arguments {
     /// Folder for the table of trials
     #[arg(short = 'o', long, value_name = "DIR")]

@@ -12,6 +12,7 @@ use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say whether the proposed readings tell effects apart: they are taken on simulated machines with a known truth
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate discriminate")]
 pub(crate) struct Arguments {
     /// Campaigns per pair of effects
     #[arg(long, value_name = "N", default_value_t = DiscriminateProtocol::default().trials, value_parser = trials)]

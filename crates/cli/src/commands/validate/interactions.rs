@@ -9,6 +9,7 @@ use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say whether the numbers are right when effects act together: all pairs, drawn triples, without noise
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate interactions")]
 pub(crate) struct Arguments {
     /// Triples of effects beside every single one and every pair
     #[arg(long, value_name = "N", default_value_t = TRIPLES as u32, value_parser = clap::value_parser!(u32).range(0..=500))]

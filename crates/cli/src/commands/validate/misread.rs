@@ -18,6 +18,7 @@ use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say whether files that do not say what is meant are found: signs, units, axes, leg orders, frames, angles, rows
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate misread --out misread")]
 pub(crate) struct Arguments {
     /// Folder for the table of trials and the summary tables
     #[arg(short = 'o', long, value_name = "DIR")]

@@ -21,6 +21,9 @@ use crate::output::Screen;
 /// Check the bench itself: simulated campaigns with a known truth go through the identification
 #[derive(Debug, Args)]
 #[command(arg_required_else_help = true)]
+#[command(after_help = "Examples:\n  \
+    hexbench validate recovery\n  \
+    hexbench validate calibration --out calibration --journal trials")]
 pub(crate) struct Arguments {
     /// What to check.
     #[command(subcommand)]

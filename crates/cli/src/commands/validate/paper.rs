@@ -10,6 +10,7 @@ use crate::output::{Screen, TrialFiles};
 
 /// Repeat the paper on a simulated machine: its tables beside ours, and what its remaining error is made of
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate paper")]
 pub(crate) struct Arguments {
     /// Seed of all noise
     #[arg(long, value_name = "S", default_value_t = 1)]

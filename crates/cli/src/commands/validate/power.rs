@@ -16,6 +16,7 @@ use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say which effects the plan of the paper and a richer one can see: computed, and counted in the simulated world
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate power")]
 pub(crate) struct Arguments {
     /// Scene whose plan is the plain one
     #[arg(long, value_name = "SCENE", default_value = "scenes/paper")]

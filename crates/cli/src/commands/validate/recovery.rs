@@ -11,6 +11,7 @@ use crate::output::{OutFile, Screen, TrialFiles, write_json};
 
 /// Hide effects in simulated campaigns, and see that they are found with honest uncertainty
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate recovery")]
 pub(crate) struct Arguments {
     /// Noisy campaigns, shared out among springs, geometry and every effect
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]

@@ -23,6 +23,7 @@ const PATCHES: &str = "data/regress/faults";
 
 /// Say how far `regress` can be trusted: unchanged runs with fresh seeds must pass, planted faults must not
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate regress")]
 pub(crate) struct Arguments {
     /// Unchanged runs, each with a seed of its own
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=100_000))]

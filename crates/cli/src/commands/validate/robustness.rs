@@ -16,6 +16,7 @@ use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say what faults of the laboratory do to the answer: wrong numbers, misstated noise, joints and loads off the drawing
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate robustness --out robustness")]
 pub(crate) struct Arguments {
     /// Folder for the table of trials and the summary tables
     #[arg(short = 'o', long, value_name = "DIR")]

@@ -17,6 +17,7 @@ use crate::output::{OutFile, Screen, TrialFiles};
 
 /// Say what becomes of campaigns read with gauges, balls, levels or scales instead of full poses, and of sensors that are wrong
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  hexbench validate sensors --out sensors")]
 pub(crate) struct Arguments {
     /// Folder for the tables of trials and the summary tables
     #[arg(short = 'o', long, value_name = "DIR")]

@@ -31,7 +31,7 @@ pub(crate) fn error_of(case: &Case) -> FileError {
     fs::write(&path, &case.bytes).unwrap();
     let error = match case.file {
         "hexapod.toml" => read_hexapod(&path).err(),
-        "plan.csv" => read_plan(&path).err(),
+        "plan.csv" => read_plan(&path, None).err(),
         _ => read_measurements(&path).err(),
     };
     error.unwrap_or_else(|| panic!("{} must be refused", case.what))

@@ -105,6 +105,9 @@ pub(super) struct HexapodTable {
     /// Absent when they are the usual ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) tolerances: Option<TolerancesTable>,
+    /// Absent when it is the usual one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) angles: Option<String>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) sensors: Vec<SensorTable>,
 }

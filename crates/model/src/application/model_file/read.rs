@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use hexbench_core::files::nearest;
-use hexbench_core::{Hexapod, Measurand, Metrology, Sensor, SensorKind, Tolerances, Vector3, Vector6};
+use hexbench_core::{
+    AngleConvention, Hexapod, Measurand, Metrology, Sensor, SensorKind, Tolerances, Vector3, Vector6,
+};
 use nalgebra::{DMatrix, Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::layout::{
@@ -127,8 +129,15 @@ fn hexapod(t: &HexapodTable) -> Result<Hexapod, ModelFileError> {
         mounting_plane_z: t.mounting_plane_z_m,
         payload_centre: t.payload_centre_m.map(Vector3::from),
         tolerances: t.tolerances.as_ref().map_or(Ok(Tolerances::default()), tolerances)?,
+        angles: angles(t.angles.as_deref())?,
         sensors: t.sensors.iter().map(sensor).collect::<Result<_, _>>()?,
     })
+}
+
+fn angles(word: Option<&str>) -> Result<AngleConvention, ModelFileError> {
+    let Some(word) = word else { return Ok(AngleConvention::default()) };
+    AngleConvention::of_word(word)
+        .ok_or_else(|| rule("hexapod.angles", format!("{word} is no convention of angles")))
 }
 
 fn sensor(t: &SensorTable) -> Result<Sensor, ModelFileError> {

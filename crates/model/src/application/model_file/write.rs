@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use hexbench_core::{Hexapod, Measurand, Sensor, Tolerances};
+use hexbench_core::{AngleConvention, Hexapod, Measurand, Sensor, Tolerances};
 
 use super::Model;
 use super::layout::{
@@ -85,6 +85,7 @@ fn hexapod(h: &Hexapod) -> HexapodTable {
             sensor_point_m: h.tolerances.sensor_point,
             sensor_direction_rad: h.tolerances.sensor_direction,
         }),
+        angles: (h.angles != AngleConvention::default()).then(|| h.angles.word()),
         sensors: h.sensors.iter().map(sensor).collect(),
     }
 }

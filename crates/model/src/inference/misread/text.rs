@@ -1,5 +1,7 @@
 //! A misread file in words.
 
+use std::borrow::Cow;
+
 use super::Way;
 use super::change::{Change, Group, ReferencePoint, Sensors, Signed, Target};
 use crate::inference::examination::{Finding, LOADS, READINGS};
@@ -253,8 +255,14 @@ fn number(x: f64) -> String {
     }
 }
 
-fn advice(change: &Change) -> &'static str {
-    match change {
+fn advice(change: &Change) -> Cow<'static, str> {
+    if let Change::Angles(order) = change
+        && let Some(convention) = order.convention()
+    {
+        let word = convention.word();
+        return format!("look up what the controller means by its angles; if it is this, write `angles = \"{word}\"` under [conventions] of the hexapod file").into();
+    }
+    Cow::Borrowed(match change {
         Change::Reversed(_) | Change::StatesExchanged => {
             "press on the platform by hand: a pull along an axis moves it along that axis; look at the signs of that line, and \
              correct the file"
@@ -275,5 +283,5 @@ fn advice(change: &Change) -> &'static str {
         _ => {
             "check in which frame, about which point and in which convention these columns were written, and correct the file"
         }
-    }
+    })
 }

@@ -1,7 +1,6 @@
 //! Axes that were named otherwise, and angles that turn in another order.
 
-use hexbench_core::{Matrix3, Pose, Vector3};
-use nalgebra::Rotation3;
+use hexbench_core::{AngleConvention, Matrix3, Pose, Vector3};
 
 /// Axes of the file in terms of those meant: entry `k` is the axis of the file, from 1 and with its sign, that is axis `k`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -113,24 +112,25 @@ impl AngleOrder {
         }
     }
 
+    /// The convention of files that says so; none of the inverse.
+    pub fn convention(self) -> Option<AngleConvention> {
+        match self {
+            Self::Xzy => Some(AngleConvention::FixedXzy),
+            Self::Yxz => Some(AngleConvention::FixedYxz),
+            Self::Yzx => Some(AngleConvention::FixedYzx),
+            Self::Zxy => Some(AngleConvention::FixedZxy),
+            Self::Zyx => Some(AngleConvention::FixedZyx),
+            Self::RotationVector => Some(AngleConvention::RotationVector),
+            Self::Inverse => None,
+        }
+    }
+
     /// Rotation matrix of three angles, rad.
     pub fn rotation(self, angles: &Vector3) -> Matrix3 {
-        let [x, y, z] = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
-        let (rx, ry, rz) = (
-            Rotation3::from_axis_angle(&x, angles.x),
-            Rotation3::from_axis_angle(&y, angles.y),
-            Rotation3::from_axis_angle(&z, angles.z),
-        );
-        let turned = match self {
-            Self::Xzy => ry * rz * rx,
-            Self::Yxz => rz * rx * ry,
-            Self::Yzx => rx * rz * ry,
-            Self::Zxy => ry * rx * rz,
-            Self::Zyx => rx * ry * rz,
-            Self::RotationVector => Rotation3::new(*angles),
-            Self::Inverse => (rz * ry * rx).inverse(),
-        };
-        *turned.matrix()
+        match self.convention() {
+            Some(convention) => convention.rotation(angles),
+            None => AngleConvention::default().rotation(angles).transpose(),
+        }
     }
 
     /// Rotation vector (fixed axes, rad) of a small change of the angles.
@@ -148,6 +148,7 @@ pub(super) fn small_rotation(from: &Matrix3, to: &Matrix3) -> Vector3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Rotation3;
 
     #[test]
     fn three_axes_have_forty_seven_other_names() {

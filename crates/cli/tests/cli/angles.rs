@@ -1,0 +1,105 @@
+//! `[conventions] angles`: the same campaign stated otherwise gives the same answer, and what is written reads back.
+
+use std::fs::{self, File};
+use std::path::Path;
+
+use hexbench_core::files::{
+    ColumnNames, campaign_to_csv, hexapod_to_toml, read_campaign, read_conditions_named, read_hexapod,
+};
+use hexbench_core::{AngleConvention, Hexapod};
+use serde_json::Value;
+
+use crate::support::{hexbench, root, text};
+
+/// Numbers of an answer may differ by rounding of the angles, which the fit amplifies.
+const ROUNDING: f64 = 1e-6;
+
+/// The files of a bundled case, stated by a convention.
+fn stated(case: &str, angles: AngleConvention) -> (tempfile::TempDir, Hexapod) {
+    let (folder, case) = (tempfile::tempdir().unwrap(), root().join("data/cases").join(case));
+    let inside = read_hexapod(&case.join("hexapod.toml")).unwrap();
+    let machine = Hexapod { angles, ..inside.clone() };
+    fs::write(folder.path().join("hexapod.toml"), hexapod_to_toml(&machine)).unwrap();
+    for table in ["measurements.csv", "holdout.csv"] {
+        let data = read_campaign(&inside, &case.join(table)).unwrap().dataset;
+        let mut file = File::create(folder.path().join(table)).unwrap();
+        campaign_to_csv(&mut file, &machine, &data).unwrap();
+    }
+    (folder, machine)
+}
+
+fn diagnosis(folder: &Path) -> Value {
+    let files = ["diagnose", "hexapod.toml", "measurements.csv", "--holdout", "holdout.csv", "--json", "-"];
+    serde_json::from_str(&text(hexbench().current_dir(folder).args(files).output().unwrap())).unwrap()
+}
+
+fn stiffness(diagnosis: &Value) -> Vec<f64> {
+    let all = diagnosis["parameters"].as_array().unwrap();
+    all.iter().map(|p| p["value"].as_f64().unwrap_or(f64::NAN)).collect()
+}
+
+#[test]
+fn a_campaign_stated_by_another_convention_has_the_same_answer() {
+    for case in ["mujoco-foundation", "absolute-pitch"] {
+        let usual = diagnosis(&root().join("data/cases").join(case));
+        for angles in [AngleConvention::FixedZyx, AngleConvention::RotationVector] {
+            let (folder, _) = stated(case, angles);
+            let answer = diagnosis(folder.path());
+            for key in ["verdict", "added", "credible_set"] {
+                assert_eq!(answer[key], usual[key], "{case} {angles:?} {key}");
+            }
+            for (value, expected) in stiffness(&answer).iter().zip(stiffness(&usual)) {
+                assert!(
+                    (value - expected).abs() < ROUNDING * expected.abs(),
+                    "{case} {angles:?}: {value} {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_convention_that_is_not_stated_is_found_and_the_line_to_add_is_named() {
+    let (folder, _) = stated("mujoco-foundation", AngleConvention::FixedZyx);
+    let machine = folder.path().join("hexapod.toml");
+    let silent = fs::read_to_string(&machine).unwrap().replace("angles = \"intrinsic-xyz\"\n", "");
+    fs::write(&machine, silent).unwrap();
+    let answer = diagnosis(folder.path());
+    assert_eq!(answer["verdict"], "measurement", "{answer}");
+    let findings = answer["findings"].as_array().unwrap();
+    let finding = findings.iter().find(|f| f["kind"] == "angle-convention").unwrap();
+    assert!(finding["next"].as_str().unwrap().contains("angles = \"intrinsic-xyz\""), "{finding}");
+}
+
+#[test]
+fn plans_and_predictions_are_written_as_they_are_read() {
+    let (folder, machine) = stated("mujoco-foundation", AngleConvention::FixedZyx);
+    let run =
+        |arguments: &[&str]| text(hexbench().current_dir(folder.path()).args(arguments).output().unwrap());
+    run(&["fit", "hexapod.toml", "measurements.csv", "-o", "model.toml"]);
+    run(&["predict", "model.toml", "holdout.csv", "-o", "predicted.csv"]);
+    let data = read_campaign(&machine, &folder.path().join("holdout.csv")).unwrap().dataset;
+    let predicted = read_campaign(&machine, &folder.path().join("predicted.csv")).unwrap().dataset;
+    let conditions =
+        read_conditions_named(&folder.path().join("predicted.csv"), &ColumnNames::default(), Some(&machine))
+            .unwrap();
+    for ((o, p), c) in
+        data.observations.iter().zip(&predicted.observations).zip(&conditions.dataset.observations)
+    {
+        assert!((p.pose.to_vector() - o.pose.to_vector()).amax() < 1e-10);
+        assert!((c.pose.to_vector() - o.pose.to_vector()).amax() < 1e-10);
+        let off = (0..6).map(|k| (o.measured[k] - p.measured[k]).abs()).fold(0.0, f64::max);
+        assert!(off < 100e-6, "{off}");
+    }
+}
+
+#[test]
+fn a_word_that_is_no_convention_is_refused_with_its_line() {
+    let (folder, _) = stated("mujoco-clean", AngleConvention::FixedZyx);
+    let machine = folder.path().join("hexapod.toml");
+    fs::write(&machine, fs::read_to_string(&machine).unwrap().replace("intrinsic-xyz", "uvw")).unwrap();
+    let output = hexbench().current_dir(folder.path()).args(["check", "hexapod.toml"]).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("this is no convention of angles") && said.contains("intrinsic-xyz"), "{said}");
+}

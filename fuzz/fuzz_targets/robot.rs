@@ -1,0 +1,4 @@
+//! libFuzzer on the target `robot`.
+#![no_main]
+
+hexbench_fuzz::fuzz!("robot");
