@@ -88,7 +88,8 @@ fn terms_tried_are_sorted_and_only_what_gains_more_than_chance_is_marked() {
     let each = ["creep", "joint-friction", "load-offset", "base-compliance", "bracket-compliance"];
     let first = tried(&bench, &each, &[]);
     assert!(first[0].term == "base-compliance" && first[0].better, "{first:?}");
-    assert_eq!(first[0].times_noise, bench.view(&ticked(&["base-compliance"])).unwrap().times_noise);
+    let alone = bench.view(&ticked(&["base-compliance"])).unwrap().times_noise;
+    assert!((first[0].times_noise - alone).abs() < 1e-12, "{alone}");
     // Beside the effect that is there none of the others gains anything, at whatever multiple of the noise they stand.
     let second = tried(&bench, &each[..3], &["base-compliance"]);
     assert!(second.len() == 3 && second.iter().all(|trial| !trial.better), "{second:?}");
