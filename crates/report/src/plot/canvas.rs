@@ -233,7 +233,8 @@ impl Canvas {
                 let ring = format!("M{}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z", place(corner(-1.0, 0.0)));
                 self.put(Kind::Path, rim, &ring)
             }
-            Marker::Square => self.rectangle(corner(-0.9, -0.9), corner(0.9, 0.9), colour),
+            // A line as long as it is wide: the shortest way to say a square.
+            Marker::Square => self.line(&[corner(-0.9, 0.0), corner(0.9, 0.0)], colour, 1.8 * size, None),
             Marker::Triangle => {
                 self.polygon(&[corner(-1.1, 0.85), corner(1.1, 0.85), corner(0.0, -1.15)], colour, 1.0)
             }
