@@ -5,6 +5,7 @@ import { mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { makePages, missing, openFile, startBrowser } from "./pages.mjs";
+import { blind, countPrinted, countShown } from "./printed.mjs";
 
 const reason = missing();
 if (reason !== "") {
@@ -16,6 +17,15 @@ const NARROW = { width: 360, height: 740 };
 const LEAST_FIGURES = { diagnosis: 12, comparison: 9, runs: 2 };
 /** Least contrast of text and its ground: WCAG 2.2, level AA. */
 const LEAST_CONTRAST = 4.5;
+
+/** Colours that carry the story: data before and with the effect, bars of what is well and what is not. */
+const TELLING = {
+  diagnosis: { before: [0xd5, 0x5e, 0x00], after: [0x00, 0x72, 0xb2], good: [0x00, 0x6b, 0x4e], bad: [0xa8, 0x3e, 0x00] },
+  comparison: { before: [0xd5, 0x5e, 0x00], after: [0x00, 0x72, 0xb2] },
+  runs: { before: [0xd5, 0x5e, 0x00], after: [0x00, 0x72, 0xb2] },
+};
+/** Least share of the pixels of a colour on the screen that is on paper as well: figures are a little smaller there. */
+const LEAST_PRINTED = 0.6;
 
 const pictures = process.env.HEXBENCH_ARTEFACTS;
 let pages;
@@ -82,6 +92,21 @@ for (const name of Object.keys(LEAST_FIGURES)) {
     const pdf = await page.pdf({ format: "A4", path: pictures && join(pictures, `${name}.pdf`) });
     const sheets = pdf.toString("latin1").match(/\/Type\s*\/Page\b/g)?.length ?? 0;
     assert.ok(sheets >= 2 && sheets <= 30, `${sheets} sheets`);
+    await close();
+  });
+
+  test(`${name}: prints what the screen shows, in color, with the browser's usual settings`, { skip: blind() || false }, async () => {
+    const { page, close } = await openFile(browser, pages[name], { colorScheme: "light" });
+    await page.emulateMedia({ media: "print" });
+    await page.setViewportSize({ width: 700, height: 1000 });
+    const decoder = await page.context().newPage();
+    const shown = await countShown(decoder, await page.screenshot({ fullPage: true }), TELLING[name]);
+    const printed = countPrinted(await page.pdf({ format: "A4" }), TELLING[name]);
+    console.log(`# pixels of ${name}: shown ${JSON.stringify(shown)}, printed ${JSON.stringify(printed)}`);
+    for (const [colour, count] of Object.entries(shown)) {
+      assert.ok(count > 0, `${colour} is not on the page: the test asks for nothing`);
+      assert.ok(printed[colour] >= LEAST_PRINTED * count, `${colour}: ${printed[colour]} pixels on paper, ${count} on the screen`);
+    }
     await close();
   });
 }

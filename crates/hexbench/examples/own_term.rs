@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let campaign = prepare(&hexapod, &data)?;
     let task = JudgedTask { hexapod: &hexapod, data: &data, campaign: &campaign, holdout: Some(&holdout) };
     let fitted = task.fit(&[Added::from(own)])?;
-    println!("held-out error: {:.2} x noise", fitted.held_out.map_or(f64::NAN, |e| e.times_noise()));
+    println!("held-out error: {:.2} x noise", fitted.error().times_noise());
     for Estimate { name, value, std, unit } in estimates(&fitted.fit).determined {
         println!("  {name:<28} {value:>8.3} +- {std:.3} {unit}");
     }

@@ -42,6 +42,16 @@ pub fn hundredths(share: f64) -> String {
     if share.is_finite() { format!("{:.1}", 100.0 * share) } else { "-".to_owned() }
 }
 
+/// The units um and urad, where they stand as words, with their micro sign: for people who read. Files and terminals keep the letters.
+pub(crate) fn with_micro(text: &str) -> String {
+    let is_of_word = |c: char| c.is_alphanumeric() || c == '_';
+    let piece = |piece: &str| match piece.trim_end_matches(|c| !is_of_word(c)) {
+        "um" | "urad" => piece.replacen('u', "µ", 1),
+        _ => piece.to_owned(),
+    };
+    text.split_inclusive(|c| !is_of_word(c)).map(piece).collect()
+}
+
 /// A multiple of the noise with the digits that matter.
 pub fn multiple(times: f64) -> String {
     if times < 10.0 { format!("{times:.2}") } else { format!("{times:.0}") }
@@ -82,6 +92,12 @@ mod tests {
         assert_eq!(percent(1.0), "> 99 %");
         assert_eq!(percent(0.0), "< 1 %");
         assert_eq!(percent(0.42), "42 %");
+    }
+
+    #[test]
+    fn units_get_their_micro_sign_and_names_of_columns_stay() {
+        assert_eq!(with_micro("1.5 um (3 urad), N/um"), "1.5 µm (3 µrad), N/µm");
+        assert_eq!(with_micro("da_um, um_per, drum, umbra, mum"), "da_um, um_per, drum, umbra, mum");
     }
 
     #[test]

@@ -210,6 +210,8 @@ pub struct Opened {
     pub base_joints_mm: [[f64; 3]; 6],
     /// Where and how was measured.
     pub conditions: ConditionLists,
+    /// The same of the holdout file; absent without one.
+    pub held_out: Option<ConditionLists>,
     /// The springs alone.
     pub view: View,
 }
@@ -294,6 +296,11 @@ pub struct View {
     pub held_out: HeldOut,
     /// Held-out error (else fitted) as a multiple of the noise.
     pub times_noise: f64,
+    /// Standard deviation of that multiple where the noise is all there is; it is then one on the average.
+    pub band: f64,
+    /// Chance of a held-out error as large as this if the model is right; absent where nothing could be held out or the noise is not
+    /// known apart from the residuals.
+    pub chance: Option<f64>,
     /// True when that is what noise alone gives.
     pub at_the_noise: bool,
     /// Numbers of the terms.
@@ -310,10 +317,24 @@ pub struct View {
     pub predicted: Vec<[f64; 6]>,
     /// Prediction as motion of the platform, um and urad, per condition shown.
     pub predicted_motion: Vec<[f64; 6]>,
+    /// The same of the readings of the holdout file; absent without one.
+    pub held_out_readings: Option<HeldOutReadings>,
     /// Are the residuals noise?
     pub scatter: ReadingResiduals,
     /// Time taken on the server, ms.
     pub milliseconds: f64,
+}
+
+/// Readings of the holdout file beside the model, one entry per condition of [`Opened::held_out`].
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct HeldOutReadings {
+    /// Elongation of each leg the model leaves, um.
+    pub residual_um: Vec<[f64; 6]>,
+    /// Prediction in measured coordinates, um and urad.
+    pub predicted: Vec<[f64; 6]>,
+    /// Measured, in the frames of the model: um and urad.
+    pub measured: Vec<[f64; 6]>,
 }
 
 /// Stiffness of one leg, N/um; absent where the data leave it open.
@@ -348,6 +369,43 @@ pub struct ReadingResiduals {
     pub histogram: Vec<[f64; 2]>,
     /// Normal plot: expected of noise, found.
     pub quantiles: Vec<[f64; 2]>,
+}
+
+/// Body of `POST /api/benches/{id}/trials`: each of some terms beside a model.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(deny_unknown_fields)]
+pub struct Try {
+    /// Ids of the terms tried.
+    pub each: Vec<String>,
+    /// The model they are added to, one at a time.
+    #[serde(flatten)]
+    pub selection: Selection,
+}
+
+/// Answer to `POST /api/benches/{id}/trials`.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Tried {
+    /// Terms that could be fitted; the one with which held-out readings are foreseen best comes first.
+    pub trials: Vec<Trial>,
+    /// Time taken on the server, ms.
+    pub milliseconds: f64,
+}
+
+/// A term tried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Trial {
+    /// Its id.
+    pub term: String,
+    /// Held-out error with it (else that of the readings fitted) as a multiple of the noise.
+    pub times_noise: f64,
+    /// Chance that the best of as many useless terms takes as much off what the model leaves of the readings fitted; absent where they
+    /// cannot tell.
+    pub chance: Option<f64>,
+    /// True when that chance is not believed in, and the readings held out are better foreseen as well.
+    pub better: bool,
 }
 
 /// Body of `POST /api/benches/{id}/diagnosis` and of `POST /api/benches/{id}/discovery`.

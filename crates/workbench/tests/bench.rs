@@ -7,7 +7,7 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
 use hexbench_workbench::bench::{LoadedCampaign, Refusal, RefusalKind, catalogue};
 use hexbench_workbench::wire::{
-    Ask, Export, FileText, GameLevel, Guess, Open, Opened, Selection, ServerLimits, View, What,
+    Ask, Export, FileText, GameLevel, Guess, Open, Opened, Selection, ServerLimits, Trial, Try, View, What,
 };
 
 const LIMITS: ServerLimits =
@@ -64,15 +64,74 @@ fn lists_agree(opened: &Opened) {
 }
 
 #[test]
-fn ticking_the_missing_effect_brings_the_held_out_error_down_to_the_noise() {
+fn ticking_the_missing_effects_brings_the_held_out_error_down_to_the_noise() {
     let bench = case("mujoco-foundation");
     let (before, after) =
         (bench.view(&ticked(&[])).unwrap(), bench.view(&ticked(&["base-compliance"])).unwrap());
-    assert!(!before.at_the_noise && after.at_the_noise, "{} {}", before.times_noise, after.times_noise);
+    assert!(!before.at_the_noise && before.chance < after.chance, "{:?} {:?}", before.chance, after.chance);
     assert!(held_out(&after) < 0.7 * held_out(&before));
+    let both = case("two-effects").view(&ticked(&["base-compliance", "load-offset"])).unwrap();
+    assert!(both.at_the_noise && (both.times_noise - 1.0).abs() < 3.0 * both.band, "{}", both.times_noise);
     let sizes: Vec<&str> = after.parameters.iter().map(|p| p.name.as_str()).collect();
     assert!(sizes.contains(&"base-compliance.rotation-x"), "{sizes:?}");
     assert!(after.legs.iter().all(|leg| leg.stiffness.is_some()));
+}
+
+fn tried(bench: &LoadedCampaign, each: &[&str], beside: &[&str]) -> Vec<Trial> {
+    let each = each.iter().map(|&t| t.to_owned()).collect();
+    bench.try_each(&Try { each, selection: ticked(beside) }).unwrap().trials
+}
+
+#[test]
+fn terms_tried_are_sorted_and_only_what_gains_more_than_chance_is_marked() {
+    let bench = case("mujoco-foundation");
+    let each = ["creep", "joint-friction", "load-offset", "base-compliance", "bracket-compliance"];
+    let first = tried(&bench, &each, &[]);
+    assert!(first[0].term == "base-compliance" && first[0].better, "{first:?}");
+    let alone = bench.view(&ticked(&["base-compliance"])).unwrap().times_noise;
+    assert!((first[0].times_noise - alone).abs() < 1e-12, "{alone}");
+    // Beside the effect that is there none of the others gains anything, at whatever multiple of the noise they stand.
+    let second = tried(&bench, &each[..3], &["base-compliance"]);
+    assert!(second.len() == 3 && second.iter().all(|trial| !trial.better), "{second:?}");
+}
+
+#[test]
+fn the_number_has_its_band_and_is_judged_as_the_diagnosis_judges_it() {
+    for known in &CASES {
+        let bench = case(known.id);
+        let diagnosis = bench.diagnose(&Ask::default()).unwrap().diagnosis;
+        let (view, step) = (bench.view(&ticked(&[])).unwrap(), &diagnosis.steps[0]);
+        assert_eq!((view.chance, view.at_the_noise), (step.chance, step.is_at_the_noise()), "{}", known.id);
+        let numbers = view.holdout.unwrap_or(view.fitted).count as f64;
+        assert!((view.band.powi(-2) - 2.0 * numbers).abs() < 1e-9 * numbers, "{}: {}", known.id, view.band);
+    }
+}
+
+#[test]
+fn every_reading_held_out_is_shown_beside_the_model() {
+    let bench = case("mujoco-foundation");
+    let lists = bench.opened("x").unwrap().held_out.unwrap();
+    let view = bench.view(&ticked(&["base-compliance"])).unwrap();
+    let held = view.held_out_readings.unwrap();
+    let n = lists.pose.len();
+    assert_eq!([held.residual_um.len(), held.predicted.len(), held.measured.len()], [n; 3]);
+    let miss = |i: usize| held.measured[i][0] - held.predicted[i][0];
+    let rms = ((0..n).map(|i| miss(i).powi(2)).sum::<f64>() / n as f64).sqrt();
+    // Readings of a condition are averaged: what is left of them is no larger than what single readings leave.
+    let single = view.holdout.unwrap().per_coordinate[0];
+    assert!(rms > 0.3 * single && rms <= 1.001 * single, "{rms} {single}");
+}
+
+#[test]
+fn an_effect_in_its_richer_form_is_the_same_guess() {
+    let easy = |seed| open(&Open::Game { level: GameLevel::Easy, seed: Some(seed) }).unwrap();
+    let bench = (0..100).map(easy).find(|bench| {
+        let hidden = bench.reveal(&Guess { guess: Vec::new() }).unwrap().hidden;
+        hidden.iter().all(|h| h.id == "creep")
+    });
+    let said =
+        |id: &str| bench.as_ref().unwrap().reveal(&Guess { guess: vec![id.to_owned()] }).unwrap().right;
+    assert!(said("creep") && said("creep:richer") && !said("load-offset:richer"));
 }
 
 #[test]

@@ -34,7 +34,7 @@ impl PlainFit {
         };
         let FitWithErrors { fit, held_out, .. } = task.fit(&[])?;
         Ok(Self {
-            chi2: [fit.chi2_reduced(), held_out.map_or(f64::NAN, |errors| errors.chi2_reduced)],
+            chi2: [fit.chi2_reduced(), held_out.map_or(f64::NAN, |errors| errors.summary.chi2_reduced)],
             compliances: fit.point.compliances.into(),
             std: std::array::from_fn(|leg| fit.std(leg)),
             copies: files.copies(),

@@ -67,6 +67,11 @@ impl ErrorSummary {
         self.chi2_reduced.sqrt()
     }
 
+    /// Standard deviation of that multiple where the noise is all there is: of `n` numbers, `1 / sqrt(2 n)`.
+    pub fn band(&self) -> f64 {
+        (2.0 * self.count.max(1) as f64).sqrt().recip()
+    }
+
     /// What the noise does not give of the error, as a multiple of the noise.
     pub fn beyond_noise(&self) -> f64 {
         (self.chi2_reduced - 1.0).max(0.0).sqrt()

@@ -7,11 +7,14 @@ use crate::estimation::campaign::Campaign;
 use crate::estimation::estimate::{Estimates, LegCompliances, estimates_with};
 use crate::estimation::fit::{Fit, TermSpec};
 use crate::estimation::fit_named::{Added, fit_wanted};
+use crate::estimation::foreseen::{Foreseen, Misfit, held_campaign};
 use crate::estimation::linearization::Linearization;
+use crate::estimation::noise::NoiseLevel;
 use crate::estimation::residuals::{
     ErrorSummary, Residual, leave_poses_out, prediction_errors, residuals, summarise,
 };
 use crate::inference::discrepancy::LegDiscrepancy;
+use crate::inference::gain::UNLIKELY;
 
 /// Which readings no fit has seen; in files, its words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -63,13 +66,40 @@ pub struct FitWithErrors {
     pub residuals: Vec<Residual>,
     /// Their size.
     pub fitted: ErrorSummary,
-    /// Size of the errors on readings held out; absent where none can be.
-    pub held_out: Option<ErrorSummary>,
+    /// Errors on readings held out; absent where none can be.
+    pub held_out: Option<HeldOutErrors>,
     /// What the fit leaves of the legs beyond the noise.
     pub left: LegDiscrepancy,
 }
 
+/// Errors of a fit on readings held out.
+#[derive(Debug, Clone)]
+pub struct HeldOutErrors {
+    /// Their size.
+    pub summary: ErrorSummary,
+    /// Chance of errors as large as these if the model is right, with all that is known of noise, tolerances and parameters; absent
+    /// where the noise is not known apart from the residuals.
+    pub chance: Option<f64>,
+    /// What the fits foresee of the readings that were held out together.
+    pub foreseen: Vec<Foreseen>,
+}
+
+/// True when an error is what the noise gives: by its chance where that is known, else by its size.
+pub fn is_at_the_noise(error: &ErrorSummary, chance: Option<f64>) -> bool {
+    chance.map_or_else(|| error.is_at_the_noise(), |chance| chance > UNLIKELY)
+}
+
 impl FitWithErrors {
+    /// Error on readings held out, else on the readings fitted.
+    pub fn error(&self) -> ErrorSummary {
+        self.held_out.as_ref().map_or(self.fitted, |held_out| held_out.summary)
+    }
+
+    /// True when that error is what the noise gives.
+    pub fn is_at_the_noise(&self) -> bool {
+        is_at_the_noise(&self.error(), self.held_out.as_ref().and_then(|held_out| held_out.chance))
+    }
+
     /// Its numbers; what it leaves of a leg is part of the uncertainty of the leg's stiffness.
     pub fn estimates(&self) -> Estimates {
         estimates_with(&LegCompliances::of(&self.fit).open_by(&self.left.share), &self.fit)
@@ -104,21 +134,52 @@ impl JudgedTask<'_> {
         if self.holdout.is_some() { HeldOut::File } else { HeldOut::PosesInTurn }
     }
 
-    fn held_out_errors(
+    /// Errors of a fit on the holdout file, else on poses left out in turn; `wanted` asks for the fit again without them. Absent where
+    /// too few poses, or poses that alone determine a spring, leave nothing to be judged by.
+    ///
+    /// # Errors
+    /// As [`JudgedTask::judge`].
+    pub fn held_out_errors(
         &self,
         fit: &Fit,
         wanted: Option<&[TermSpec]>,
-    ) -> Result<Option<ErrorSummary>, ModelError> {
-        let noise = self.campaign.noise;
+    ) -> Result<Option<HeldOutErrors>, ModelError> {
         if let Some(held) = self.holdout {
             same_kind(self.data, held)?;
-            let errors = prediction_errors(self.hexapod, held, noise, &fit.point)?;
-            return Ok(Some(summarise(&errors, None)));
+            let errors = prediction_errors(self.hexapod, held, self.campaign.noise, &fit.point)?;
+            let foreseen = Foreseen::of(&held_campaign(self.campaign, held, fit)?, fit)?;
+            let chance = self.chance(foreseen.misfit);
+            let summary = summarise(&errors, None);
+            return Ok(Some(HeldOutErrors { summary, chance, foreseen: vec![foreseen] }));
         }
-        // Too few poses, or poses that alone determine a spring, leave nothing to be judged by.
         let left =
             wanted.and_then(|w| leave_poses_out(self.campaign, &self.data.observations, w, &fit.point).ok());
-        Ok(left.map(|left| summarise(&left.residuals, None)))
+        Ok(left.map(|left| HeldOutErrors {
+            summary: summarise(&left.residuals, None),
+            chance: self.chance(left.misfit(fit.lack_of_fit_dof)),
+            foreseen: left.foreseen,
+        }))
+    }
+
+    /// Chance that useless parameters take as much off the misfit of the readings fitted as those of a larger model do, beside how the
+    /// readings scatter about that model; absent where it has no parameter more, or no degree of freedom left.
+    ///
+    /// ```text
+    /// F = (chi2 - chi2') / (n - n') / (chi2' / n')      follows F(n - n', n')
+    /// ```
+    pub fn chance_of_gain(smaller: &Fit, larger: &Fit) -> Option<f64> {
+        let gained = Misfit {
+            chi2: (smaller.lack_of_fit - larger.lack_of_fit).max(0.0),
+            numbers: smaller.lack_of_fit_dof - larger.lack_of_fit_dof,
+        };
+        let scatter = NoiseLevel { sum: larger.lack_of_fit, dof: larger.lack_of_fit_dof };
+        (scatter.dof > 0.0 && scatter.sum > 0.0).then(|| gained.chance(scatter).ok()).flatten()
+    }
+
+    /// Chance of a misfit, where the noise is known apart from what the model leaves.
+    fn chance(&self, misfit: Misfit) -> Option<f64> {
+        let known = self.campaign.noise.allows_verdict();
+        known.then(|| misfit.chance(self.campaign.noise_level()).ok()).flatten()
     }
 }
 

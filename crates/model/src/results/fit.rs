@@ -108,7 +108,7 @@ impl FitReport {
             not_determined: numbers.not_determined,
             correlations: look_alikes(&judged.fit, TOLD_CORRELATION).into_iter().map(told).collect(),
             fitted: judged.fitted,
-            held_out: judged.held_out,
+            held_out: judged.held_out.as_ref().map(|held_out| held_out.summary),
             holdout: task.held_out(),
             remainder: LegRemainder::all(&judged.left),
         }

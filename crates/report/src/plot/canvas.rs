@@ -8,6 +8,7 @@ use std::fmt::Write;
 
 use super::error::PlotError;
 use super::style::{Colour, Dash, INK, Marker, PAPER, text_width};
+use crate::number::with_micro;
 
 /// A point in pixels from the upper left corner.
 pub(super) type Point = [f64; 2];
@@ -142,7 +143,7 @@ pub(super) fn svg(
          viewBox=\"0 0 {} {}\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\">\n<title>{}</title>\n{}</svg>\n",
         short(width),
         short(height),
-        escaped(title),
+        escaped(&with_micro(title)),
         ink.svg
     ))
 }
@@ -225,14 +226,15 @@ impl Canvas {
         const RIM_PX: f64 = 1.5;
         let corner = |x: f64, y: f64| [at[0] + x * size, at[1] + y * size];
         match marker {
-            Marker::Circle => self.cap(at, "round", colour, size),
+            Marker::Circle => self.dot(at, colour, size),
             Marker::Ring => {
                 let rim = format!(" fill=\"{PAPER}\" stroke=\"{colour}\" stroke-width=\"{RIM_PX}\"");
                 let (r, d) = (short(size), short(2.0 * size));
                 let ring = format!("M{}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z", place(corner(-1.0, 0.0)));
                 self.put(Kind::Path, rim, &ring)
             }
-            Marker::Square => self.cap(at, "square", colour, 0.9 * size),
+            // A line as long as it is wide: the shortest way to say a square.
+            Marker::Square => self.line(&[corner(-0.9, 0.0), corner(0.9, 0.0)], colour, 1.8 * size, None),
             Marker::Triangle => {
                 self.polygon(&[corner(-1.1, 0.85), corner(1.1, 0.85), corner(0.0, -1.15)], colour, 1.0)
             }
@@ -247,9 +249,10 @@ impl Canvas {
         }
     }
 
-    /// A line without length: nothing but its ends, the shortest way to say a marker.
-    fn cap(&self, at: Point, ends: &str, colour: Colour, size: f64) -> Result<(), PlotError> {
-        let line = format!("{} stroke-linecap=\"{ends}\"", stroke(colour, 2.0 * size, None));
+    /// A line without length and with round ends, the shortest way to say a dot. PDF paints such a line with round ends only
+    /// (ISO 32000-1, 8.5.3.2): no other marker may be said like this.
+    fn dot(&self, at: Point, colour: Colour, size: f64) -> Result<(), PlotError> {
+        let line = format!("{} stroke-linecap=\"round\"", stroke(colour, 2.0 * size, None));
         self.put(Kind::Path, line, &format!("M{}h0", place(at)))
     }
 
@@ -258,7 +261,7 @@ impl Canvas {
         let turn =
             if set.upright { format!(" transform=\"rotate(-90 {})\"", place([x, y])) } else { String::new() };
         let [x, foot] = [x, y + set.drop()].map(short);
-        let element = format!("<text x=\"{x}\" y=\"{foot}\"{turn}>{}</text>", escaped(text));
+        let element = format!("<text x=\"{x}\" y=\"{foot}\"{turn}>{}</text>", escaped(&with_micro(text)));
         self.put(Kind::Text, set.attributes(), &element)
     }
 

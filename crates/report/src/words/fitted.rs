@@ -87,8 +87,7 @@ fn values(all: &Estimates, coverage: PlusMinus, dof: f64) -> Section {
 }
 
 fn remainder(judged: &FitWithErrors) -> Option<Section> {
-    let error = judged.held_out.unwrap_or(judged.fitted);
-    judged.left.is_any().then(|| of_legs(error.beyond_noise(), &LegRemainder::all(&judged.left)))
+    judged.left.is_any().then(|| of_legs(judged.error().beyond_noise(), &LegRemainder::all(&judged.left)))
 }
 
 fn correlations(fit: &Fit) -> Option<Section> {
@@ -115,7 +114,7 @@ fn errors(task: &JudgedTask<'_>, judged: &FitWithErrors) -> Section {
     let titles = units.of_both(if of_poses { ["translation um", "rotation urad"] } else { ["um", "urad"] });
     let table = Table::named(std::iter::once("").chain(titles).chain(["chi2 per number"]))
         .rows([row("fitted readings", &judged.fitted)])
-        .rows(judged.held_out.iter().map(|e| row(held_out, e)))
+        .rows(judged.held_out.iter().map(|e| row(held_out, &e.summary)))
         .rows([cells(&format!("noise ({})", noise.source.word()), noise.both(), "1".to_owned())]);
     Section::new("Errors").remark("root mean square").table(table)
 }

@@ -79,7 +79,7 @@ impl LoadedCampaign {
         };
         let truth = self.truth.as_ref().ok_or_else(unknown)?;
         let hidden: BTreeSet<Explanation> = truth.hidden.iter().map(|h| explanation(&h.id)).collect();
-        let guessed: BTreeSet<Explanation> = guess.guess.iter().map(|id| id.as_str().into()).collect();
+        let guessed: BTreeSet<Explanation> = guess.guess.iter().map(|id| ideal(id).into()).collect();
         Ok(Revealed {
             right: hidden == guessed,
             hidden: truth.hidden.clone(),
@@ -91,6 +91,11 @@ impl LoadedCampaign {
 /// A term of the diagnosis as a selection asks for it.
 fn asked_for(d: &Diagnosis, id: &str) -> String {
     if d.richer.iter().any(|r| r == id) { format!("{id}{RICHER}") } else { id.to_owned() }
+}
+
+/// An effect by its name, in whatever form of it was ticked.
+fn ideal(id: &str) -> &str {
+    id.strip_suffix(RICHER).unwrap_or(id)
 }
 
 /// What a guess calls an effect: those without a name are all outside.

@@ -12,6 +12,7 @@ mod export;
 mod files;
 mod refusal;
 mod simulate;
+mod trials;
 mod view;
 
 pub use catalogue::catalogue;
@@ -73,8 +74,9 @@ impl LoadedCampaign {
     /// # Errors
     /// [`Refusal`] when not even the springs can be fitted.
     pub fn opened(&self, id: &str) -> Result<Opened, Refusal> {
-        let view = self.view(&Selection::default())?;
-        let c = &self.contents;
+        let since = Instant::now();
+        let (c, task) = (&self.contents, self.task());
+        let springs = view::judged(&task, &[])?;
         let refused = |cause| Refusal::model(&cause, &c.data.source);
         let lin = Linearization::at(&self.campaign, &ModelPoint::start(&self.campaign)).map_err(refused)?;
         let level = self.campaign.noise;
@@ -95,7 +97,9 @@ impl LoadedCampaign {
             untestable: self.untestable(&lin),
             base_joints_mm: c.hexapod.base_joints.map(|joint| (joint * 1e3).into()),
             conditions: conditions::columns(&lin, &self.shown),
-            view,
+            held_out: view::held_out(&task, &springs.fit)
+                .map(|(_, lin)| conditions::columns(&lin, &conditions::shown(lin.conditions.len()))),
+            view: view::view(&task, &[], &springs, &self.shown, since),
         })
     }
 

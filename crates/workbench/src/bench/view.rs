@@ -5,17 +5,21 @@ use std::time::Instant;
 
 use hexbench_core::Hexapod;
 use hexbench_model::effects::term::Term;
+use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::estimate::{Estimate, Estimates};
+use hexbench_model::estimation::fit::Fit;
 use hexbench_model::estimation::fit_named::{Added, look_alikes};
+use hexbench_model::estimation::foreseen::held_campaign;
+use hexbench_model::estimation::linearization::Linearization;
 use hexbench_model::estimation::parameters::{leg_of_stiffness, stiffness_name};
 use hexbench_model::estimation::scatter::ResidualScatter;
 use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
 use hexbench_model::results::compare::legs::leg_space;
 
-use super::conditions::motion;
+use super::conditions::{motion, shown};
 use super::digits::{all_short, short};
 use super::refusal::Refusal;
-use crate::wire::{self, Leg, LookAlike, View};
+use crate::wire::{self, HeldOutReadings, Leg, LookAlike, View};
 
 /// Correlation from which two numbers are told to look alike.
 const TOLD: f64 = 0.9;
@@ -33,38 +37,56 @@ pub(super) fn judged(task: &JudgedTask<'_>, terms: &[Added]) -> Result<FitWithEr
     task.fit(terms).map_err(|cause| Refusal::model(&cause, &task.data.source))
 }
 
+/// Readings of the holdout file in the frames of a fit, linearised there; none without such a file.
+pub(super) fn held_out(task: &JudgedTask<'_>, fit: &Fit) -> Option<(Campaign, Linearization)> {
+    let held = held_campaign(task.campaign, task.holdout?, fit).ok()?;
+    let lin = Linearization::at(&held, &fit.point).ok()?;
+    Some((held, lin))
+}
+
+fn held_out_readings(task: &JudgedTask<'_>, fit: &Fit) -> Option<HeldOutReadings> {
+    let (held, lin) = held_out(task, fit)?;
+    let legs = leg_space(&held, &lin);
+    let mut all = HeldOutReadings::default();
+    for i in shown(lin.conditions.len()) {
+        all.residual_um.push(all_short(legs.elongation[i] * 1e6));
+        all.predicted.push(all_short(lin.predicted(i) * 1e6));
+        all.measured.push(all_short(lin.conditions[i].reading * 1e6));
+    }
+    Some(all)
+}
+
 /// What is seen of a fit; `since` the question was asked.
 pub(super) fn view(
     task: &JudgedTask<'_>,
     asked: &[String],
     judged: &FitWithErrors,
-    shown: &[usize],
+    of: &[usize],
     since: Instant,
 ) -> View {
     let lin = &judged.linearization;
     let legs = leg_space(task.campaign, lin);
-    let error = judged.held_out.unwrap_or(judged.fitted);
+    let error = judged.error();
     let numbers = judged.estimates();
-    let predictions: Vec<_> = shown.iter().map(|&i| lin.predicted(i)).collect();
+    let predictions: Vec<_> = of.iter().map(|&i| lin.predicted(i)).collect();
     let scatter = ResidualScatter::of(&judged.residuals);
     View {
         terms: asked.to_vec(),
         fitted: judged.fitted,
-        holdout: judged.held_out,
+        holdout: judged.held_out.as_ref().map(|held_out| held_out.summary),
         held_out: task.held_out(),
         times_noise: error.times_noise(),
-        at_the_noise: error.is_at_the_noise(),
+        band: error.band(),
+        chance: judged.held_out.as_ref().and_then(|held_out| held_out.chance),
+        at_the_noise: judged.is_at_the_noise(),
         legs: of_legs(&numbers, task.hexapod),
         parameters: numbers.determined.into_iter().filter(|e| leg_of_stiffness(&e.name).is_none()).collect(),
         not_determined: numbers.not_determined,
         look_alikes: alike(judged),
-        residual_um: shown.iter().map(|&i| all_short(legs.elongation[i] * 1e6)).collect(),
+        residual_um: of.iter().map(|&i| all_short(legs.elongation[i] * 1e6)).collect(),
         predicted: predictions.iter().map(|p| all_short(p * 1e6)).collect(),
-        predicted_motion: shown
-            .iter()
-            .zip(&predictions)
-            .map(|(&i, p)| motion(&lin.conditions[i], p))
-            .collect(),
+        predicted_motion: of.iter().zip(&predictions).map(|(&i, p)| motion(&lin.conditions[i], p)).collect(),
+        held_out_readings: held_out_readings(task, &judged.fit),
         scatter: wire::ReadingResiduals {
             histogram: points(scatter.histogram()),
             quantiles: points(scatter.quantiles()),

@@ -66,6 +66,10 @@ fn questions<D: Desk>() -> Router<Arc<Shared<D>>> {
     Router::new()
         .route("/view", post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::view).await))
         .route(
+            "/trials",
+            post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::try_each).await),
+        )
+        .route(
             "/diagnosis",
             post(async |shared: Of<D>, id: Id, r: Request| ask(shared, id, r, D::diagnose).await),
         )

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::bench::{self, Given, LoadedCampaign, Refusal};
-use crate::wire::{Ask, Export, Guess, Open, Selection, ServerLimits};
+use crate::wire::{Ask, Export, Guess, Open, Selection, ServerLimits, Try};
 
 /// An engine. [`LoadedCampaign`] is the one there is; tests bring others, slow ones and ones that fall over.
 ///
@@ -21,6 +21,8 @@ pub trait Desk: Send + Sync + Sized + 'static {
     fn bytes(&self) -> usize;
     /// Springs with the selected terms.
     fn view(&self, selection: &Selection) -> Result<impl Serialize + use<Self>, Refusal>;
+    /// Each of some terms beside the selected ones.
+    fn try_each(&self, each: &Try) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The diagnosis.
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<Self>, Refusal>;
     /// The law that no catalogue has.
@@ -50,6 +52,10 @@ impl Desk for LoadedCampaign {
 
     fn view(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
         self.view(selection)
+    }
+
+    fn try_each(&self, each: &Try) -> Result<impl Serialize + use<>, Refusal> {
+        self.try_each(each)
     }
 
     fn diagnose(&self, ask: &Ask) -> Result<impl Serialize + use<>, Refusal> {

@@ -12,7 +12,7 @@ use ts_rs::{Config, TS, TypeVisitor};
 use self::layout::laid_out;
 use super::{
     Ask, Catalogue, Diagnosed, Discovered, Export, Exported, Guess, Open, Opened, Refused, Revealed,
-    Selection, View,
+    Selection, Tried, Try, View,
 };
 
 const BANNER: &str = "\
@@ -80,6 +80,8 @@ fn page() -> String {
     all.root::<Selection>();
     all.root::<View>();
     all.root::<Opened>();
+    all.root::<Try>();
+    all.root::<Tried>();
     all.root::<Ask>();
     all.root::<Diagnosed>();
     all.root::<Discovered>();

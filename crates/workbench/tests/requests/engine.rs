@@ -4,7 +4,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use hexbench_workbench::bench::{Given, Refusal, RefusalKind};
 use hexbench_workbench::server::Desk;
-use hexbench_workbench::wire::{Ask, Export, Guess, Open, Selection, ServerLimits};
+use hexbench_workbench::wire::{Ask, Export, Guess, Open, Selection, ServerLimits, Try};
 use serde::Serialize;
 use serde_json::json;
 
@@ -81,6 +81,10 @@ impl Desk for Obedient {
     fn view(&self, selection: &Selection) -> Result<impl Serialize + use<>, Refusal> {
         assert!(selection.terms != ["falls-over"], "told to fall over");
         Ok(json!({ "terms": selection.terms }))
+    }
+
+    fn try_each(&self, _: &Try) -> Result<impl Serialize + use<>, Refusal> {
+        Ok(json!({ "trials": [] }))
     }
 
     fn diagnose(&self, _: &Ask) -> Result<impl Serialize + use<>, Refusal> {

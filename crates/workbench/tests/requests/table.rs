@@ -192,6 +192,12 @@ fn engine() -> Vec<Row> {
     vec![
         asks("a bench", "201", post(BENCHES, GIVEN)),
         uses("its view", "200", |id| post(&format!("/api/benches/{id}/view"), r#"{"terms":["creep"]}"#)),
+        uses("terms tried beside a model", "200", |id| {
+            post(&format!("/api/benches/{id}/trials"), r#"{"each":["creep"],"terms":[]}"#)
+        }),
+        uses("nothing to be tried", "400", |id| {
+            post(&format!("/api/benches/{id}/trials"), r#"{"terms":[]}"#)
+        }),
         asks("a case nobody knows", "404", post(BENCHES, r#"{"from":"case","id":"absent"}"#)),
         asks("a bad file", "422", files("bad")),
         asks("a file with too many readings", "413", files("long")),

@@ -12,6 +12,8 @@ import type {
   Refused,
   Revealed,
   Selection,
+  Tried,
+  Try,
   View,
   What,
 } from "./wire";
@@ -49,6 +51,10 @@ export class Api {
 
   view(bench: string, selection: Selection, signal?: AbortSignal): Promise<View> {
     return this.ask("POST", `/api/benches/${bench}/view`, selection, signal);
+  }
+
+  tryEach(bench: string, each: string[], selection: Selection, signal?: AbortSignal): Promise<Tried> {
+    return this.ask("POST", `/api/benches/${bench}/trials`, { each, ...selection } satisfies Try, signal);
   }
 
   diagnose(bench: string, own: string[], signal?: AbortSignal): Promise<Diagnosed> {

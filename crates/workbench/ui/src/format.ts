@@ -1,6 +1,7 @@
 /** Numbers as people read them. */
 
 const MINUS = "\u2212";
+const MICRO = "\u00b5";
 
 /** A number with so many significant digits, no exponent in the usual range. */
 export function digits(value: number, significant = 3): string {
@@ -21,6 +22,18 @@ export function withUncertainty(value: number, std: number): { value: string; st
 /** A multiple of the noise. */
 export function times(value: number): string {
   return value < 10 ? value.toFixed(2) : digits(value);
+}
+
+/** A probability in per cent: never 0 %, never 100 %. */
+export function chance(probability: number): string {
+  if (probability < 0.001) return "< 0.1 %";
+  if (probability > 0.99) return "> 99 %";
+  return `${probability < 0.1 ? digits(100 * probability, 1) : Math.round(100 * probability)} %`;
+}
+
+/** A unit as people read it; files say um and urad. */
+export function unitName(unit: string): string {
+  return unit.replace(/\bu(?=(m|rad)\b)/g, MICRO);
 }
 
 /** Power of ten of the first digit after rounding. */

@@ -45,6 +45,11 @@ export function changed(from: Selection | undefined, to: Selection): string {
   return words === "" ? "formula changed" : words;
 }
 
+/** The same text for the same model, in whatever order its terms were ticked. */
+export function modelOf({ terms, own }: Selection): string {
+  return JSON.stringify([[...terms].sort(), own]);
+}
+
 const RICHER = ":richer";
 
 /** Id of a term without the mark of its richer form. */

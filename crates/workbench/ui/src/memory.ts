@@ -5,6 +5,7 @@ import type { Open, Selection } from "./wire";
 const OPEN = "hexbench-open";
 const SELECTION = "hexbench-selection";
 const SCORES = "hexbench-scores";
+const LOOKS = "hexbench-looks";
 
 export interface Remembered {
   open: Open;
@@ -23,6 +24,15 @@ export function rememberSelection(selection: Selection): void {
 export function forgetBench(): void {
   sessionStorage.removeItem(OPEN);
   sessionStorage.removeItem(SELECTION);
+}
+
+/** Models whose held-out error has been seen, of the readings that are loaded. */
+export function rememberLooks(looks: readonly string[]): void {
+  keep(LOOKS, looks);
+}
+
+export function rememberedLooks(): string[] {
+  return read<string[]>(LOOKS) ?? [];
 }
 
 export function rememberedBench(): Remembered | null {

@@ -1,6 +1,6 @@
 /** All the page knows. */
 import type { History, Step } from "./history";
-import type { Catalogue, Diagnosed, Discovered, GameLevel, Open, Opened, Revealed, Selection } from "./wire";
+import type { Catalogue, Diagnosed, Discovered, GameLevel, Open, Opened, Revealed, Selection, Trial } from "./wire";
 
 /** Something that went wrong, with what to do. */
 export interface Problem {
@@ -31,14 +31,10 @@ export interface Bench {
   /** What a search for a law found, and the formulas it weighed. */
   discovered: { answer: Discovered; own: string[] } | null;
   revealed: { answer: Revealed; guess: string[] } | null;
-  /** What each term would give if ticked as well, by id; belongs to one step. */
-  trials: { step: Step; found: Record<string, Trial> } | null;
-}
-
-/** A term tried: the held-out error it would give, times the noise. */
-export interface Trial {
-  times: number;
-  atTheNoise: boolean;
+  /** What each term would give if ticked as well, the largest gain first; belongs to one step. */
+  trials: { step: Step; found: Trial[] } | null;
+  /** Models whose held-out error has been seen, each once. */
+  looks: readonly string[];
 }
 
 /** Games played in this tab. */

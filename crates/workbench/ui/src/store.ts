@@ -5,7 +5,7 @@ import * as History from "./history";
 import * as memory from "./memory";
 import { idOf } from "./own/term_file";
 import { OPEN_ADDRESS, problemOf } from "./problem";
-import { type Bench, type Busy, EMPTY, type Problem, type State, type Trial } from "./state";
+import { type Bench, type Busy, EMPTY, type Problem, type State } from "./state";
 import { untilDrawn } from "./stopwatch";
 import type { Open, Opened, Selection, View, What } from "./wire";
 
@@ -55,37 +55,47 @@ export class Store {
     if (before !== null) {
       // What cannot be opened again is not tried at every reload.
       memory.forgetBench();
-      await this.open(before.open, before.selection);
+      await this.open(before.open, before.selection, memory.rememberedLooks());
     } else if (this.state.catalogue?.given) await this.open({ from: "given" });
   }
 
   /** Opens a bench; `selection` is ticked at once. What is open stays until the new one is there. */
-  async open(open: Open, selection: Selection = SPRINGS): Promise<void> {
+  async open(open: Open, selection: Selection = SPRINGS, looks: readonly string[] = []): Promise<void> {
     const api = this.api;
     if (api === null) return;
     this.callOff();
     await this.during(
       "opening",
       "page",
-      () => this.open(open, selection),
+      () => this.open(open, selection, looks),
       async (signal) => {
         const opened = await api.open(open, signal);
-        this.show(opened, { ...open, ...seedOf(open, opened) } as Open);
+        this.show(opened, { ...open, ...seedOf(open, opened) } as Open, looks);
       },
     );
     const more = selection.terms.length + selection.own.length > 0;
     if (more && this.state.bench !== null && this.state.problem === null) await this.select(selection);
   }
 
-  private show(opened: Opened, open: Open): void {
+  private show(opened: Opened, open: Open, looks: readonly string[]): void {
     const history = History.begin({ selection: SPRINGS, view: opened.view });
     this.set({
-      bench: { opened, open, history, wanted: SPRINGS, diagnosed: null, discovered: null, revealed: null, trials: null },
+      bench: { opened, open, history, wanted: SPRINGS, diagnosed: null, discovered: null, revealed: null, trials: null, looks },
       tick: null,
       problem: null,
     });
     memory.rememberOpen(open);
     memory.rememberSelection(SPRINGS);
+    this.looked([SPRINGS]);
+  }
+
+  /** Held-out errors of these models have been seen. */
+  private looked(models: Selection[]): void {
+    const bench = this.state.bench;
+    if (bench === null) return;
+    const looks = [...new Set([...bench.looks, ...models.map(History.modelOf)])];
+    this.setBench({ looks });
+    memory.rememberLooks(looks);
   }
 
   /** Back to the start screen. */
@@ -136,6 +146,7 @@ export class Store {
     const bench = this.state.bench;
     if (bench === null) return;
     this.setBench({ history: History.add(bench.history, { selection, view }), wanted: selection });
+    this.looked([selection]);
     untilDrawn(start, view.milliseconds, (total) => this.set({ tick: { total, server: view.milliseconds } }));
   }
 
@@ -252,30 +263,16 @@ export class Store {
     const bench = this.state.bench;
     if (bench === null) return;
     const step = History.now(bench.history);
-    const found: Record<string, Trial> = {};
     await this.during(
       "trying",
       "page",
       () => this.tryEach(ids),
       async (signal) => {
-        for (const id of ids) {
-          if (this.state.bench === null || History.now(this.state.bench.history) !== step) return;
-          const view = await this.trial(History.toggled(step.selection, id), signal);
-          if (view !== null) found[id] = { times: view.times_noise, atTheNoise: view.at_the_noise };
-          this.setBench({ trials: { step, found: { ...found } } });
-        }
+        const { trials } = await this.onBench((id, api) => api.tryEach(id, ids, step.selection, signal), signal);
+        this.setBench({ trials: { step, found: trials } });
+        this.looked(trials.map(({ term }) => History.toggled(step.selection, term)));
       },
     );
-  }
-
-  /** One trial; a term that cannot be fitted is left out. */
-  private async trial(selection: Selection, signal: AbortSignal): Promise<View | null> {
-    try {
-      return await this.viewOf(selection, signal);
-    } catch (error) {
-      if (error instanceof Refusal && error.status === 422) return null;
-      throw error;
-    }
   }
 
   /** Ticks what the diagnosis names. */

@@ -165,6 +165,13 @@ export type View = {
   held_out: string;
   /** Held-out error (else fitted) as a multiple of the noise. */
   times_noise: number;
+  /** Standard deviation of that multiple where the noise is all there is; it is then one on the average. */
+  band: number;
+  /**
+   * Chance of a held-out error as large as this if the model is right; absent where nothing could be held out or the noise is not
+   * known apart from the residuals.
+   */
+  chance: number | null;
   /** True when that is what noise alone gives. */
   at_the_noise: boolean;
   /** Numbers of the terms. */
@@ -181,6 +188,8 @@ export type View = {
   predicted: Array<Six>;
   /** Prediction as motion of the platform, um and urad, per condition shown. */
   predicted_motion: Array<Six>;
+  /** The same of the readings of the holdout file; absent without one. */
+  held_out_readings: HeldOutReadings | null;
   /** Are the residuals noise? */
   scatter: ReadingResiduals;
   /** Time taken on the server, ms. */
@@ -209,6 +218,16 @@ export type Estimate = {
   std: number;
   /** Unit of both. */
   unit: string;
+};
+
+/** Readings of the holdout file beside the model, one entry per condition of `Opened::held_out`. */
+export type HeldOutReadings = {
+  /** Elongation of each leg the model leaves, um. */
+  residual_um: Array<Six>;
+  /** Prediction in measured coordinates, um and urad. */
+  predicted: Array<Six>;
+  /** Measured, in the frames of the model: um and urad. */
+  measured: Array<Six>;
 };
 
 /** Stiffness of one leg, N/um; absent where the data leave it open. */
@@ -273,6 +292,8 @@ export type Opened = {
   base_joints_mm: [Three, Three, Three, Three, Three, Three];
   /** Where and how was measured. */
   conditions: ConditionLists;
+  /** The same of the holdout file; absent without one. */
+  held_out: ConditionLists | null;
   /** The springs alone. */
   view: View;
 };
@@ -330,6 +351,39 @@ export type UntestableTerm = {
   term: string;
   /** Why. */
   why: string;
+};
+
+/** Body of `POST /api/benches/{id}/trials`: each of some terms beside a model. */
+export type Try = {
+  /** Ids of the terms tried. */
+  each: Array<string>;
+  /** Ids in the order of ticking, of the catalogue and of one's own; `:richer` behind an id asks for the richer form. */
+  terms: Array<string>;
+  /** Term files (term/1) of one's own, as text. */
+  own: Array<string>;
+};
+
+/** Answer to `POST /api/benches/{id}/trials`. */
+export type Tried = {
+  /** Terms that could be fitted; the one with which held-out readings are foreseen best comes first. */
+  trials: Array<Trial>;
+  /** Time taken on the server, ms. */
+  milliseconds: number;
+};
+
+/** A term tried. */
+export type Trial = {
+  /** Its id. */
+  term: string;
+  /** Held-out error with it (else that of the readings fitted) as a multiple of the noise. */
+  times_noise: number;
+  /**
+   * Chance that the best of as many useless terms takes as much off what the model leaves of the readings fitted; absent where they
+   * cannot tell.
+   */
+  chance: number | null;
+  /** True when that chance is not believed in, and the readings held out are better foreseen as well. */
+  better: boolean;
 };
 
 /** Body of `POST /api/benches/{id}/diagnosis` and of `POST /api/benches/{id}/discovery`. */

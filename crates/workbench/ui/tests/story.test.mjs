@@ -43,7 +43,7 @@ after(async () => {
   await workbench?.stop();
 });
 
-test("the model fails, a term is ticked by keyboard, and the held-out error falls to the noise", async () => {
+test("the model fails, a term is ticked by keyboard, and the held-out error falls", async () => {
   const { page, at, close } = await openPage(browser, workbench.url);
   assert.ok(!page.url().includes("token"), "the token stays in the address bar");
   await tabTo(page, `case-${CASE}`);
@@ -56,7 +56,6 @@ test("the model fails, a term is ticked by keyboard, and the held-out error fall
   const ticked = await changedFrom(page, springs);
   console.log(`held-out error ${springs.toFixed(3)} -> ${ticked.toFixed(3)} times the noise`);
   assert.ok(ticked < springs, `${ticked} after, ${springs} before`);
-  assert.match(await at("held-out-state").textContent(), /at the noise/);
   assert.ok(await at(`term-${TERM}`).isChecked());
   await at("tick").waitFor();
   const ticks = await page.evaluate(() => performance.getEntriesByName("tick").map(({ duration, detail }) => ({ duration, ...detail })));
@@ -201,15 +200,77 @@ test("a term is asked for in its richer form, and every other term is tried", as
   await loadCase(page, CASE);
   assert.ok(await at("term-joint-geometry").isDisabled());
   await at("try-each").click();
-  await page.locator(".trial").nth(15).waitFor();
+  await at("tried").waitFor();
+  const found = page.locator(".trial");
+  assert.ok((await found.count()) > 15, `${await found.count()} terms tried`);
+  assert.match(await found.first().textContent(), new RegExp(`^${TERM}.*better \\(chance`));
+  assert.match(await at("looks").textContent(), /looked at \d\d times, .*nobody has looked at/);
   const springs = await heldOut(page);
   await at(`term-${TERM}`).click();
   const ideal = await changedFrom(page, springs);
   assert.equal(await page.locator(".trial").count(), 0, "what was tried belongs to another step");
   await at(`richer-${TERM}`).click();
   const richer = await changedFrom(page, ideal);
+  await at("try-each").click();
+  await at("tried").waitFor();
+  assert.match(await at("tried").textContent(), /^None of \d+ terms gains more than chance/);
+  assert.equal(await page.locator(".trial.good").count(), 0, "beside the answer nothing is approved of");
   await at(`term-${TERM}`).click();
   assert.equal(await changedFrom(page, richer), springs);
+  await close();
+});
+
+test("the number stands beside its band, and beside the diagnosis where the model ticked is another", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  assert.match(await at("held-out-band").textContent(), /1\.00 \u00b1 0\.0\d for \d+ numbers/);
+  assert.match(await at("held-out-state").textContent(), /not yet at the noise \(chance < 0\.1 %\)/);
+  assert.equal(await at("looks").textContent(), "looked at once");
+  await at("tab-diagnosis").click();
+  await at("diagnose").click();
+  await at("beside").waitFor();
+  assert.match(await at("beside").textContent(), new RegExp(`NAMED ${TERM}.*another model`));
+  const springs = await heldOut(page);
+  await at("tick-named").click();
+  await changedFrom(page, springs);
+  assert.doesNotMatch(await at("beside").textContent(), /another model/);
+  await page.reload();
+  await changedFrom(page, springs);
+  assert.match(await at("looks").textContent(), /^looked at 2 times/, "a reload does not forget what was seen");
+  await close();
+});
+
+test("readings held out are drawn, in both sheets", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  const picture = (name) =>
+    at(`chart-${name}`)
+      .locator("canvas")
+      .evaluate((canvas) => canvas.toDataURL());
+  for (const sheet of ["predicted", "residuals"]) {
+    await at(`tab-${sheet}`).click();
+    await at(`choose-${sheet}-of`).selectOption("fitted");
+    const fitted = await picture(sheet);
+    await at(`choose-${sheet}-of`).selectOption("held-out");
+    assert.notEqual(await picture(sheet), fitted, sheet);
+  }
+  await close();
+});
+
+test("every load is drawn without a complaint, a moment alone as well", async () => {
+  const { page, at, close } = await openPage(browser, workbench.url);
+  await loadCase(page, CASE);
+  await at("tab-machine").click();
+  await at("chart-machine").locator("canvas").waitFor();
+  const last = Number(await at("condition").getAttribute("max"));
+  let alone = 0;
+  for (let i = 0; i <= last; i++) {
+    await at("condition").fill(String(i));
+    const [, load] = /load \[([^\]]*)\]/.exec(await at("machine-text").textContent());
+    const [fx, fy, fz] = load.split(", ");
+    if ([fx, fy, fz].every((part) => part === "0")) alone += 1;
+  }
+  assert.ok(alone > 0, "no load of this case is a moment alone: the test asks for nothing");
   await close();
 });
 

@@ -8,16 +8,15 @@ use super::report::{AbsorbedReport, StepReport};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
 use crate::estimation::fit::{Fit, TermSpec, average_over_shapes, fit};
-use crate::estimation::foreseen::{Foreseen, Misfit, held_campaign, held_out_chance};
+use crate::estimation::foreseen::{Misfit, held_campaign, held_out_chance};
 use crate::estimation::linearization::Linearization;
-use crate::estimation::residuals::{
-    ErrorSummary, held_out_gain, leave_poses_out, prediction_errors, residuals, summarise,
-};
+use crate::estimation::residuals::{held_out_gain, residuals, summarise};
 use crate::inference::candidates::{Candidate, CandidateKind};
 use crate::inference::diagnosis::{RankedSets, wanted};
 use crate::inference::explanation::Explanation;
 use crate::inference::gain::{HeldOutGain, Worth};
 use crate::inference::search::Set;
+use crate::inference::selection::{HeldOutErrors, JudgedTask};
 use crate::inference::verdict::{Judgement, Verdict};
 use crate::results::next::{Effort, RivalExplanation, candidate_readings, propose};
 
@@ -44,15 +43,6 @@ pub(crate) struct Context<'a> {
     pub(crate) holdout: Option<&'a Dataset>,
     pub(crate) campaign: &'a Campaign,
     pub(crate) outcome: &'a RankedSets,
-}
-
-/// Errors of one step on held-out readings.
-struct HeldOutErrors {
-    summary: ErrorSummary,
-    /// Of an error as large as this if the model is right.
-    chance: Option<f64>,
-    /// What the fits foresee of the readings that were held out together.
-    foreseen: Vec<Foreseen>,
 }
 
 impl Context<'_> {
@@ -191,16 +181,8 @@ impl Context<'_> {
 
     /// Errors on the holdout file, else on poses left out in turn.
     fn held_out(&self, terms: &[TermSpec], fitted: &Fit) -> Option<HeldOutErrors> {
-        if let Some(holdout) = self.holdout {
-            let errors = prediction_errors(self.hexapod, holdout, self.campaign.noise, &fitted.point).ok()?;
-            let held = held_campaign(self.campaign, holdout, fitted).ok()?;
-            let foreseen = vec![Foreseen::of(&held, fitted).ok()?];
-            let chance = self.chance(foreseen[0].misfit);
-            return Some(HeldOutErrors { summary: summarise(&errors, None), chance, foreseen });
-        }
-        let left = leave_poses_out(self.campaign, &self.data.observations, terms, &fitted.point).ok()?;
-        let chance = self.chance(left.misfit(fitted.lack_of_fit_dof));
-        Some(HeldOutErrors { summary: summarise(&left.residuals, None), chance, foreseen: left.foreseen })
+        let Self { hexapod, data, holdout, campaign, .. } = *self;
+        JudgedTask { hexapod, data, campaign, holdout }.held_out_errors(fitted, Some(terms)).ok().flatten()
     }
 
     /// What a fit leaves of the readings fitted and, where a file of them is there, of those held out.
@@ -209,12 +191,6 @@ impl Context<'_> {
         let Some(holdout) = self.holdout else { return Ok(own) };
         let held = Misfit::of(&held_campaign(self.campaign, holdout, fitted)?, fitted)?;
         Ok(Misfit { chi2: own.chi2 + held.chi2, numbers: own.numbers + held.numbers })
-    }
-
-    /// Chance of a misfit, where the noise is known apart from what the model leaves.
-    fn chance(&self, misfit: Misfit) -> Option<f64> {
-        let known = self.campaign.noise.allows_verdict();
-        known.then(|| misfit.chance(self.campaign.noise_level()).ok()).flatten()
     }
 
     /// Readings that separate the most probable explanations, when none is sure.

@@ -16,10 +16,10 @@ use crate::estimation::parameters::stiffness_name;
 use crate::estimation::residuals::ErrorSummary;
 use crate::inference::examination::{Finding, is_misread};
 use crate::inference::explanation::Explanation;
-use crate::inference::gain::{HeldOutGain, UNLIKELY, Worth};
+use crate::inference::gain::{HeldOutGain, Worth};
 use crate::inference::importance::GaussianCheck;
 use crate::inference::power::Detectable;
-use crate::inference::selection::HeldOut;
+use crate::inference::selection::{HeldOut, is_at_the_noise};
 use crate::inference::verdict::Verdict;
 use crate::results::compare::coordinates::Coordinate;
 use crate::results::discover::LawReport;
@@ -152,7 +152,7 @@ impl StepReport {
 
     /// True when that error is what the noise gives: by its chance where that is known, else by its size.
     pub fn is_at_the_noise(&self) -> bool {
-        self.chance.map_or_else(|| self.error().is_at_the_noise(), |chance| chance > UNLIKELY)
+        is_at_the_noise(&self.error(), self.chance)
     }
 }
 

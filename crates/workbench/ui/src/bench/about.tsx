@@ -1,4 +1,5 @@
 /** What is loaded, and files to take home. */
+import { unitName } from "../format";
 import type { Bench } from "../state";
 import type { Store } from "../store";
 import type { What } from "../wire";
@@ -22,7 +23,7 @@ export function About({ store, bench }: { store: Store; bench: Bench }) {
       <h2>About these data, and files to take home</h2>
       <ul class="about">
         {opened.about.map((line) => (
-          <li key={line}>{line}</li>
+          <li key={line}>{unitName(line)}</li>
         ))}
         {opened.seed !== null && <li>Seed {opened.seed}</li>}
         {opened.contains && (

@@ -1,11 +1,15 @@
 /** The number that has to fall. */
-import { digits, times } from "../format";
+import { chance, digits, times, unitName } from "../format";
 import * as History from "../history";
 import type { Bench, Tick } from "../state";
+
+/** So many models judged by the same readings: the best of them owes something to chance. */
+const OFTEN = 10;
 
 export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
   const { view } = History.now(bench.history);
   const { noise } = bench.opened;
+  const { looks } = bench;
   const error = view.holdout ?? view.fitted;
   const sizes = [
     { unit: "um", error: error.rms.translation_um, noise: noise.translation_um },
@@ -23,9 +27,14 @@ export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
           </strong>{" "}
           times the noise
         </p>
+        <p class="band" data-testid="held-out-band">
+          noise alone: {bandOf(view.band)} for {error.count} numbers
+        </p>
         <p class="state" data-testid="held-out-state">
           {view.at_the_noise ? "\u2713 at the noise" : "\u2717 not yet at the noise"}
+          {view.chance !== null && ` (chance ${chance(view.chance)})`}
         </p>
+        <Beside bench={bench} />
       </div>
       <table class="small">
         <thead>
@@ -33,7 +42,7 @@ export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
             <td />
             {read.map((size) => (
               <th scope="col" key={size.unit}>
-                {size.unit}
+                {unitName(size.unit)}
               </th>
             ))}
           </tr>
@@ -55,12 +64,21 @@ export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
       </table>
       <p class="hint">
         <span class="narrow-only">
-          {read.map((size) => `${digits(size.error)} ${size.unit}`).join(", ")}; noise{" "}
-          {read.map((size) => `${digits(size.noise)} ${size.unit}`).join(", ")}
+          {read.map((size) => `${digits(size.error)} ${unitName(size.unit)}`).join(", ")}; noise{" "}
+          {read.map((size) => `${digits(size.noise)} ${unitName(size.unit)}`).join(", ")}
         </span>
         <span class="wide-only">
           {view.held_out}; root mean square of {error.count} numbers
         </span>
+        {view.holdout !== null && (
+          <>
+            <br />
+            <span data-testid="looks">
+              {looks.length === 1 ? "looked at once" : `looked at ${looks.length} times, a model each`}
+              {looks.length >= OFTEN && ": the least of so many errors flatters; take readings nobody has looked at for the last word"}
+            </span>
+          </>
+        )}
         {tick && (
           <>
             <br />
@@ -71,5 +89,24 @@ export function HeldOut({ bench, tick }: { bench: Bench; tick: Tick | null }) {
         )}
       </p>
     </section>
+  );
+}
+
+/** What noise alone gives, one standard deviation either way. */
+function bandOf(band: number): string {
+  return `${(1).toFixed(2)} \u00b1 ${band < 0.01 ? digits(band, 1) : band.toFixed(2)}`;
+}
+
+/** What the diagnosis of these readings says, where the model ticked is another: a number alone can look well by chance. */
+function Beside({ bench }: { bench: Bench }) {
+  const { diagnosed, wanted } = bench;
+  if (diagnosed === null) return null;
+  const { word, tick } = diagnosed.answer;
+  const same = [...tick].sort().join() === [...wanted.terms].sort().join();
+  const rest = same ? tick.join(", ") : `${tick.join(", ")} (another model than the one ticked)`;
+  return (
+    <p class="beside" data-testid="beside">
+      Diagnosis: <strong>{word.toUpperCase()}</strong> {word === "outside" ? "(no term of the catalogue is the answer)" : rest}
+    </p>
   );
 }

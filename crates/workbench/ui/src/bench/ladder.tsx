@@ -35,7 +35,7 @@ export function Ladder({ store, bench }: { store: Store; bench: Bench }) {
           <li key={index} class={index > at ? "undone" : ""}>
             <button type="button" class="step" aria-current={index === at ? "step" : undefined} onClick={() => store.goTo(index)}>
               <span class="what">{History.changed(steps[index - 1]?.selection, step.selection)}</span>
-              <span class="times">{times(step.view.times_noise)} x</span>
+              <span class="times">{times(step.view.times_noise)} ×</span>
               <span class="track">
                 <span class={step.view.at_the_noise ? "bar good" : "bar"} style={{ width: share(step.view.times_noise) }} />
                 <span class="noise-line" style={{ left: share(1) }} />

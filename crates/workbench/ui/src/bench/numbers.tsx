@@ -1,5 +1,5 @@
 /** Leg stiffnesses and the numbers of the terms. */
-import { digits, withUncertainty } from "../format";
+import { digits, unitName, withUncertainty } from "../format";
 import * as History from "../history";
 import type { Leg, LookAlike, View } from "../wire";
 import type { BenchProps } from "./screen";
@@ -10,7 +10,7 @@ export function NumbersSheet({ bench }: BenchProps) {
   const now = History.now(bench.history).view;
   return (
     <>
-      <h3>Leg stiffness, N/um, with standard uncertainty (k = 1)</h3>
+      <h3>Leg stiffness, {unitName("N/um")}, with standard uncertainty (k = 1)</h3>
       <StiffnessChart springs={springs.legs} now={now.legs} />
       <LegTable springs={springs.legs} now={now.legs} />
       {now.terms.length > 0 && <Parameters view={now} />}
@@ -88,7 +88,7 @@ function Parameters({ view }: { view: View }) {
               <tr key={name}>
                 <th scope="row">{name}</th>
                 <td>{plusMinus(value, std)}</td>
-                <td>{unit}</td>
+                <td>{unitName(unit)}</td>
                 <td class="words">{remark(name, view.look_alikes)}</td>
               </tr>
             ))}

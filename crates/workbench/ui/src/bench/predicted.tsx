@@ -3,10 +3,11 @@ import { useState } from "preact/hooks";
 import { Chart } from "../charts/chart";
 import type { Looks } from "../charts/looks";
 import { drawing, type Panel, reachOf } from "../charts/panels";
+import { hasHeldOut, type Readings, readings, WHICH, type Which } from "../charts/readings";
 import { band, line, points } from "../charts/series";
-import { digits } from "../format";
+import { digits, unitName } from "../format";
 import * as History from "../history";
-import type { Opened, Six } from "../wire";
+import type { NoiseLevels } from "../wire";
 import { Options } from "./options";
 import { where } from "./residuals";
 import type { BenchProps } from "./screen";
@@ -19,17 +20,18 @@ const NOW = "the model now";
 
 export function PredictedSheet({ bench }: BenchProps) {
   const [quantity, setQuantity] = useState<Quantity>("differences");
+  const [which, setWhich] = useState<Which>(hasHeldOut(bench.opened) ? "held-out" : "fitted");
   const { opened, history } = bench;
-  const springs = History.springs(history).view.predicted;
-  const now = History.now(history).view.predicted;
+  const springs = readings(which, opened, History.springs(history).view);
+  const now = readings(which, opened, History.now(history).view);
   const draw = (width: number, looks: Looks) => {
     const panels = COORDINATES.map((_, k) =>
-      quantity === "values" ? values(k, opened, springs, now, looks) : differences(k, opened, springs, now, looks),
+      quantity === "values" ? values(k, springs, now, looks) : differences(k, opened.noise, springs, now, looks),
     );
     const tooltip = (series: string, panel: number, x: number, y: number, index: number) =>
-      `${series}\nmeasured ${digits(x, 4)} ${unit(panel)}, ${quantity === "values" ? "predicted" : "measured minus predicted"} ${digits(y)} ${unit(panel)}\n${where(opened, index)}`;
+      `${series}\nmeasured ${digits(x, 4)} ${unit(panel)}, ${quantity === "values" ? "predicted" : "measured minus predicted"} ${digits(y)} ${unit(panel)}\n${where(now.conditions, index)}`;
     return drawing(
-      { panels, x: "measured (um, urad)", across: 3, legend: [SPRINGS, NOW], tooltip, square: quantity === "values" },
+      { panels, x: unitName("measured (um, urad)"), across: 3, legend: [SPRINGS, NOW], tooltip, square: quantity === "values" },
       width,
       looks,
     );
@@ -47,12 +49,13 @@ export function PredictedSheet({ bench }: BenchProps) {
           ]}
           set={setQuantity}
         />
+        {hasHeldOut(opened) && <Options label="of" name="predicted-of" value={which} options={WHICH} set={setWhich} />}
       </div>
       <Chart
         name="predicted"
-        of={[springs, now]}
-        shape={quantity}
-        label={`${quantity === "values" ? "Predicted" : "Measured minus predicted"} over measured, six coordinates`}
+        of={[springs.predicted, now.predicted]}
+        shape={`${quantity} ${which}`}
+        label={`${quantity === "values" ? "Predicted" : "Measured minus predicted"} over measured, six coordinates, ${WHICH.find(({ id }) => id === which)?.title}`}
         draw={draw}
       />
       <p class="hint">
@@ -63,9 +66,13 @@ export function PredictedSheet({ bench }: BenchProps) {
   );
 }
 
-function values(k: number, { conditions }: Opened, springs: Six[], now: Six[], looks: Looks): Panel {
-  const pairs = (predicted: Six[]) => predicted.map((six, i) => [conditions.measured[i]?.[k] ?? 0, six[k] ?? 0]);
-  const reach = reachOf(conditions.measured.map((six) => six[k] ?? 0));
+/** Measured, predicted of one coordinate. */
+function pairs({ measured, predicted }: Readings, k: number): number[][] {
+  return predicted.map((six, i) => [measured[i]?.[k] ?? 0, six[k] ?? 0]);
+}
+
+function values(k: number, springs: Readings, now: Readings, looks: Looks): Panel {
+  const reach = reachOf(now.measured.map((six) => six[k] ?? 0));
   return {
     title: `${COORDINATES[k]} (${unit(k)})`,
     reach,
@@ -79,17 +86,16 @@ function values(k: number, { conditions }: Opened, springs: Six[], now: Six[], l
         looks.grey,
         "dashed",
       ),
-      points(SPRINGS, pairs(springs), { colour: looks.before, symbol: "rect", size: 5, opacity: 0.45 }),
-      points(NOW, pairs(now), { colour: looks.now, size: 5 }),
+      points(SPRINGS, pairs(springs, k), { colour: looks.before, symbol: "rect", size: 5, opacity: 0.45 }),
+      points(NOW, pairs(now, k), { colour: looks.now, size: 5 }),
     ],
   };
 }
 
-function differences(k: number, { conditions, noise }: Opened, springs: Six[], now: Six[], looks: Looks): Panel {
-  const pairs = (predicted: Six[]) =>
-    predicted.map((six, i) => [conditions.measured[i]?.[k] ?? 0, (conditions.measured[i]?.[k] ?? 0) - (six[k] ?? 0)]);
-  const before = pairs(springs);
-  const after = pairs(now);
+function differences(k: number, noise: NoiseLevels, springs: Readings, now: Readings, looks: Looks): Panel {
+  const missed = (of: Readings) => pairs(of, k).map(([x = 0, y = 0]) => [x, x - y]);
+  const before = missed(springs);
+  const after = missed(now);
   const sigma = k < 3 ? noise.translation_um : noise.rotation_urad;
   return {
     title: `${COORDINATES[k]} (${unit(k)})`,
@@ -102,5 +108,5 @@ function differences(k: number, { conditions, noise }: Opened, springs: Six[], n
 }
 
 function unit(k: number): string {
-  return k < 3 ? "um" : "urad";
+  return unitName(k < 3 ? "um" : "urad");
 }

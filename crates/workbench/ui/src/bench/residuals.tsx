@@ -4,11 +4,12 @@ import { Chart } from "../charts/chart";
 import { legNoise } from "../charts/leg_noise";
 import { type Looks, MARKERS } from "../charts/looks";
 import { drawing, type Panel, reachOf, type Sheet } from "../charts/panels";
+import { hasHeldOut, readings, WHICH, type Which } from "../charts/readings";
 import { band, points } from "../charts/series";
 import { VARIABLES, type Variable, varies } from "../charts/variables";
-import { digits } from "../format";
+import { digits, unitName } from "../format";
 import * as History from "../history";
-import type { Opened, Six } from "../wire";
+import type { ConditionLists, Six } from "../wire";
 import { Options } from "./options";
 import type { BenchProps } from "./screen";
 
@@ -17,6 +18,7 @@ type Layout = "each" | "all";
 
 const SPRINGS = "springs alone leave";
 const NAMES: Record<Quantity, string> = { left: "the model leaves now", explained: "the ticked terms explain" };
+const UM = unitName("um");
 const LEGS = [0, 1, 2, 3, 4, 5];
 
 export function ResidualSheet({ bench }: BenchProps) {
@@ -24,19 +26,22 @@ export function ResidualSheet({ bench }: BenchProps) {
   const [x, setX] = useState("leg-force");
   const [quantity, setQuantity] = useState<Quantity>("left");
   const [layout, setLayout] = useState<Layout>("each");
+  const [which, setWhich] = useState<Which>("fitted");
+  const before = readings(which, opened, History.springs(history).view);
+  const { conditions } = before;
   const variable = VARIABLES.find(({ id }) => id === x) ?? (VARIABLES[0] as Variable);
   const choices = useMemo(
-    () => VARIABLES.map((one) => ({ id: one.id, title: `${one.title} (${one.unit})`, disabled: !varies(one, opened.conditions) })),
-    [opened.conditions],
+    () => VARIABLES.map((one) => ({ id: one.id, title: `${one.title} (${one.unit})`, disabled: !varies(one, conditions) })),
+    [conditions],
   );
   const noise = useMemo(() => legNoise(opened), [opened]);
-  const springs = History.springs(history).view.residual_um;
-  const left = History.now(history).view.residual_um;
+  const springs = before.residual_um;
+  const left = readings(which, opened, History.now(history).view).residual_um;
   const front = quantity === "left" ? left : explained(springs, left);
   const reach = useMemo(() => reachOf(springs.flat()), [springs]);
-  const title = `${NAMES[quantity]}, leg elongation in um over ${variable.title} (${variable.unit})`;
+  const title = `${NAMES[quantity]}, leg elongation in ${UM} over ${variable.title} (${variable.unit})`;
   const draw = (width: number, looks: Looks) => {
-    const data = { opened, variable, springs, front, noise, name: NAMES[quantity], reach: Math.max(reach, reachOf(left.flat())) };
+    const data = { conditions, variable, springs, front, noise, name: NAMES[quantity], reach: Math.max(reach, reachOf(left.flat())) };
     return drawing(layout === "each" ? eachLeg(data, looks) : allLegs(data, looks), width, looks);
   };
   return (
@@ -63,17 +68,19 @@ export function ResidualSheet({ bench }: BenchProps) {
           ]}
           set={setLayout}
         />
+        {hasHeldOut(opened) && <Options label="of" name="residuals-of" value={which} options={WHICH} set={setWhich} />}
       </div>
-      <Chart name="residuals" of={[springs, left]} shape={`${layout} ${x} ${quantity}`} label={title} draw={draw} />
+      <Chart name="residuals" of={[springs, left]} shape={`${layout} ${x} ${quantity} ${which}`} label={title} draw={draw} />
       <p class="hint">
-        Elongation of the legs in um that the model does not predict{shown(opened)}; the band is the noise of one reading seen by that leg.
+        Elongation of the legs in {UM} that the model does not predict{shown(conditions)}; the band is the noise of one reading seen by that
+        leg.
       </p>
     </>
   );
 }
 
 interface Data {
-  opened: Opened;
+  conditions: ConditionLists;
   variable: Variable;
   springs: Six[];
   front: Six[];
@@ -85,7 +92,7 @@ interface Data {
 function eachLeg(data: Data, looks: Looks): Sheet {
   const panels = LEGS.map(
     (leg): Panel => ({
-      title: `leg ${leg + 1} (um)`,
+      title: `leg ${leg + 1} (${UM})`,
       reach: data.reach,
       series: [
         {
@@ -111,20 +118,20 @@ function allLegs(data: Data, looks: Looks): Sheet {
   );
   const series = [{ ...points(SPRINGS, back, { colour: looks.grey, size: 3, opacity: 0.4 }), ...band(mean, looks.band) }, ...legs];
   const legend = [SPRINGS, ...LEGS.map((leg) => `leg ${leg + 1}`)];
-  return { ...sheet(data), panels: [{ title: "all legs (um)", reach: data.reach, series }], across: 1, legend };
+  return { ...sheet(data), panels: [{ title: `all legs (${UM})`, reach: data.reach, series }], across: 1, legend };
 }
 
-function sheet({ variable, opened }: Data): Pick<Sheet, "x" | "tooltip"> {
-  const count = opened.conditions.pose.length;
+function sheet({ variable, conditions }: Data): Pick<Sheet, "x" | "tooltip"> {
+  const count = conditions.pose.length;
   return {
     x: `${variable.title} (${variable.unit})`,
     tooltip: (series, _, x, y, index) =>
-      `${series}: ${digits(y)} um\n${variable.title} ${digits(x, 4)} ${variable.unit}\n${where(opened, index % count)}`,
+      `${series}: ${digits(y)} ${UM}\n${variable.title} ${digits(x, 4)} ${variable.unit}\n${where(conditions, index % count)}`,
   };
 }
 
-function along({ opened, variable }: Data, residual: Six[], leg: number): number[][] {
-  return residual.map((six, i) => [variable.value(opened.conditions, i, leg), six[leg] ?? 0]);
+function along({ conditions, variable }: Data, residual: Six[], leg: number): number[][] {
+  return residual.map((six, i) => [variable.value(conditions, i, leg), six[leg] ?? 0]);
 }
 
 function explained(springs: Six[], left: Six[]): Six[] {
@@ -132,12 +139,12 @@ function explained(springs: Six[], left: Six[]): Six[] {
 }
 
 /** Pose and load of a condition. */
-export function where({ conditions }: Opened, index: number): string {
+export function where(conditions: ConditionLists, index: number): string {
   const six = (list: Six[]) => (list[index] ?? []).map((value) => digits(value)).join(", ");
   return `at [${six(conditions.pose)}] mm, deg\nload [${six(conditions.wrench)}] N, N m`;
 }
 
-function shown({ conditions }: Opened): string {
+function shown(conditions: ConditionLists): string {
   const count = conditions.pose.length;
   return conditions.of > count ? `, ${count} of ${conditions.of} conditions, evenly chosen` : "";
 }

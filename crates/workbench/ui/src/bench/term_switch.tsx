@@ -1,7 +1,5 @@
 /** A term: its switch, and what it means. */
 import { useState } from "preact/hooks";
-import { times } from "../format";
-import type { Trial } from "../state";
 import type { TermCard } from "../wire";
 
 interface Props {
@@ -11,14 +9,12 @@ interface Props {
   richer: boolean;
   /** Why it cannot be tested with these data. */
   why: string | undefined;
-  /** What it would give if it were ticked as well. */
-  trial: Trial | undefined;
   /** Told when the gesture began, ms. */
   toggle: (start: number) => void;
   changeForm: (start: number) => void;
 }
 
-export function TermSwitch({ term, ticked, richer, why, trial, toggle, changeForm }: Props) {
+export function TermSwitch({ term, ticked, richer, why, toggle, changeForm }: Props) {
   const [shown, setShown] = useState(false);
   const about = `about-${term.id}`;
   return (
@@ -40,11 +36,6 @@ export function TermSwitch({ term, ticked, richer, why, trial, toggle, changeFor
             {term.title} <code>{term.id}</code>
           </span>
         </label>
-        {trial !== undefined && !ticked && (
-          <span class={trial.atTheNoise ? "trial good" : "trial"} title="held-out error with it, times the noise">
-            {times(trial.times)} x{trial.atTheNoise ? " \u2713" : ""}
-          </span>
-        )}
         <button
           type="button"
           class="quiet"

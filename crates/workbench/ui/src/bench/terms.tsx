@@ -1,17 +1,17 @@
 /** Switches of all terms. */
 import { useState } from "preact/hooks";
-import { isRicher, isTicked, now } from "../history";
+import { isRicher, isTicked } from "../history";
 import { OwnTerms } from "../own/own_terms";
 import { grouped } from "./groups";
 import type { BenchProps } from "./screen";
 import { TermSwitch } from "./term_switch";
+import { Tried } from "./tried";
 
 /** `edit` opens a term file in the editor. */
 export function Terms(props: BenchProps & { edit: (text: string) => void }) {
   const { store, catalogue, bench } = props;
   const why = new Map(bench.opened.untestable.map(({ term, why }) => [term, why]));
-  const { wanted, trials, history } = bench;
-  const trial = trials?.step === now(history) ? trials.found : {};
+  const { wanted } = bench;
   const open = catalogue.terms.map(({ id }) => id).filter((id) => !why.has(id) && !isTicked(wanted, id));
   return (
     <section class="card terms" aria-labelledby="terms-title">
@@ -21,13 +21,14 @@ export function Terms(props: BenchProps & { edit: (text: string) => void }) {
           type="button"
           class="quiet"
           data-testid="try-each"
-          title="Fits every term once beside those ticked"
+          title="Fits every term once beside those ticked, and tests what it gains on the readings held out"
           onClick={() => void store.tryEach(open)}
         >
           Try each
         </button>
       </div>
       <p class="hint">Six leg springs always; tick what else is at work.</p>
+      <Tried store={store} bench={bench} />
       {grouped(catalogue).map(({ title, terms }) => (
         <Group key={title} title={title} closed={terms.every(({ id }) => why.has(id))}>
           {terms.map((term) => (
@@ -37,7 +38,6 @@ export function Terms(props: BenchProps & { edit: (text: string) => void }) {
               ticked={isTicked(wanted, term.id)}
               richer={isRicher(wanted, term.id)}
               why={why.get(term.id)}
-              trial={trial[term.id]}
               toggle={(start) => store.toggle(term.id, start)}
               changeForm={(start) => store.changeForm(term.id, start)}
             />

@@ -1,5 +1,6 @@
 /** Guess and reveal: what is ticked is the guess. */
 import { useState } from "preact/hooks";
+import { unitName } from "../format";
 import type { Bench, Score } from "../state";
 import type { Store } from "../store";
 import { Scores } from "./scores";
@@ -56,7 +57,9 @@ function Outcome({ store, bench }: Omit<Props, "scores">) {
         <strong>{answer.hidden.length === 0 ? "nothing" : answer.hidden.map(({ id, title }) => `${title} (${id})`).join(", ")}</strong>. You
         said: {inWords(guess)}.
       </p>
-      <p class="hint">True leg stiffness, N/um: {answer.leg_stiffness.map((k) => k.toFixed(3)).join(", ")}.</p>
+      <p class="hint">
+        True leg stiffness, {unitName("N/um")}: {answer.leg_stiffness.map((k) => k.toFixed(3)).join(", ")}.
+      </p>
       <button type="button" data-testid="game-again" onClick={() => void store.open({ from: "game", level: open.level, seed: null })}>
         Another one
       </button>

@@ -1,5 +1,5 @@
 /** What the colours of the machine mean. */
-import { digits } from "../format";
+import { digits, unitName } from "../format";
 import type { Quantity } from "./sheet";
 
 const PLATFORMS: Record<Quantity, [string, string][]> = {
@@ -16,7 +16,7 @@ const PLATFORMS: Record<Quantity, [string, string][]> = {
 export function Key({ quantity, reach }: { quantity: Quantity; reach: number }) {
   const platforms: [string, string][] = [["unloaded", "before the load"], ...PLATFORMS[quantity]];
   const legs: [string, string][] = [
-    ["longer", `leg longer than predicted (full colour: ${digits(reach, 2)} um)`],
+    ["longer", `leg longer than predicted (full colour: ${digits(reach, 2)} ${unitName("um")})`],
     ["shorter", "shorter"],
   ];
   return (
@@ -26,6 +26,7 @@ export function Key({ quantity, reach }: { quantity: Quantity; reach: number }) 
           <span class={`swatch ${name}`} /> {title}
         </li>
       ))}
+      <li>arrow: change of the force; two heads: axis of the change of the moment (right hand)</li>
     </ul>
   );
 }

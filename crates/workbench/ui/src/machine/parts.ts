@@ -77,11 +77,19 @@ export function plate(places: Three[], colour: string, opacity: number): Mesh {
   return new Mesh(geometry, material);
 }
 
-/** The change of the force at the mobile origin; its moment is not drawn. */
-export function arrow([x, y, z]: Six, origin: Three, radius: number, looks: Looks): Object3D[] {
-  const force = new Vector3(x, y, z);
-  if (force.length() === 0) return [];
-  return [new ArrowHelper(force.normalize(), new Vector3(...origin), 0.6 * radius, looks.ink, 0.12 * radius, 0.07 * radius)];
+/** The change of the load at the mobile origin: its force as an arrow, its moment as one with two heads along its axis (right hand). */
+export function load([fx, fy, fz, mx, my, mz]: Six, origin: Three, radius: number, looks: Looks): Object3D[] {
+  const force = new Vector3(fx, fy, fz);
+  const moment = new Vector3(mx, my, mz);
+  const drawn = (along: Vector3, share: number) =>
+    new ArrowHelper(along, new Vector3(...origin), share * radius, looks.ink, 0.12 * radius, 0.07 * radius);
+  const all: Object3D[] = [];
+  if (force.length() > 0) all.push(drawn(force.normalize(), 0.6));
+  if (moment.length() > 0) {
+    moment.normalize();
+    all.push(drawn(moment, 0.5), drawn(moment, 0.4));
+  }
+  return all;
 }
 
 /** Joints in the order of their angle, so that the outline does not cross itself. */

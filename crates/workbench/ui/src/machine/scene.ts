@@ -4,7 +4,7 @@ import type { Looks } from "../charts/looks";
 import type { Six, Three } from "../wire";
 import { displaced } from "./displaced";
 import { Orbit } from "./orbit";
-import { arrow, joints, legs, middle, outline, plate } from "./parts";
+import { joints, legs, load, middle, outline, plate } from "./parts";
 
 /** A moved platform: its motion (um, urad), its colour. */
 export interface Moved {
@@ -60,7 +60,7 @@ export class MachineScene {
       const colour = shown.moved[i]?.colour ?? looks.ink;
       this.machine.add(plate(place, colour, 0.18), outline(place, colour, radius / 90), ...joints(place, radius / 45, colour));
     });
-    if (shown.wrench) this.machine.add(...arrow(shown.wrench, origin, radius, looks));
+    for (const part of shown.wrench ? load(shown.wrench, origin, radius, looks) : []) this.machine.add(part);
     this.orbit.about(middle([...base, ...platform]), 3.6 * radius);
     this.render();
   }

@@ -4,7 +4,7 @@ import { Options } from "../bench/options";
 import type { BenchProps } from "../bench/screen";
 import { type Looks, looks } from "../charts/looks";
 import { reachOf } from "../charts/panels";
-import { digits } from "../format";
+import { digits, unitName } from "../format";
 import * as History from "../history";
 import { useDark } from "../theme";
 import type { Opened, Six, View } from "../wire";
@@ -77,7 +77,8 @@ export function MachineSheet({ bench }: BenchProps) {
       <Stage shown={shown} of={[view, index, quantity, exponent]} dark={dark} />
       <Key quantity={quantity} reach={reach} />
       <p class="hint" data-testid="machine-text">
-        Pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}] N, N m. Left in the legs, um: {six(residual)}.
+        Pose [{six(conditions.pose[index])}] mm, deg; load [{six(conditions.wrench[index])}] N, N m. Left in the legs, {unitName("um")}:{" "}
+        {six(residual)}.
       </p>
     </>
   );

@@ -1,4 +1,6 @@
 /** What the program says: a page of sections, the same in every medium. */
+
+import { unitName } from "../format";
 import type { Block, Cell, Definition, Section, Table } from "../wire";
 import { Inline } from "./inline";
 
@@ -27,7 +29,7 @@ function Shown({ block }: { block: Block }) {
     case "verdict":
       return (
         <p class={`verdict ${block.mood}`} data-testid="verdict" data-word={block.word.toLowerCase()}>
-          <strong>{block.word}</strong> {block.sentences.join(" ")}
+          <strong>{block.word}</strong> <Inline text={block.sentences.join(" ")} />
         </p>
       );
     case "paragraph":
@@ -61,7 +63,9 @@ function Entries({ number, entries }: { number: number | null; entries: Definiti
   return (
     <dl data-number={number ?? undefined}>
       {entries.map(({ label, text }) => [
-        <dt key={`${label}-name`}>{label}</dt>,
+        <dt key={`${label}-name`}>
+          <Inline text={label} />
+        </dt>,
         <dd key={label}>
           <Inline text={text} />
         </dd>,
@@ -75,13 +79,13 @@ function Rows({ table }: { table: Table }) {
   return (
     <div class="scroll">
       <table>
-        {table.title !== "" && <caption>{table.title}</caption>}
+        {table.title !== "" && <caption>{unitName(table.title)}</caption>}
         {table.columns.some(({ title }) => title !== "") && (
           <thead>
             <tr>
               {table.columns.map(({ title }, index) => (
                 <th key={index} scope="col" class={words(index)}>
-                  {title}
+                  <Inline text={title} />
                 </th>
               ))}
             </tr>

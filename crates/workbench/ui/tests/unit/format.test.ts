@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { digits, withUncertainty } from "../../src/format";
+import { chance, digits, unitName, withUncertainty } from "../../src/format";
 
 test("numbers keep their significant digits", () => {
   assert.equal(digits(1.5234), "1.52");
@@ -14,4 +14,12 @@ test("a value ends where its uncertainty ends", () => {
   assert.deepEqual(withUncertainty(3.72159, 0.00951), { value: "3.7216", std: "0.0095" });
   assert.deepEqual(withUncertainty(-5432.1, 120), { value: "\u22125430", std: "120" });
   assert.deepEqual(withUncertainty(0.00001, 0.2), { value: "0.00", std: "0.20" });
+});
+
+test("a chance is never nothing and never sure", () => {
+  assert.deepEqual([0, 0.0123, 0.31, 1].map(chance), ["< 0.1 %", "1 %", "31 %", "> 99 %"]);
+});
+
+test("units are written as people write them", () => {
+  assert.deepEqual(["um", "urad", "N/um", "mm", "1/K"].map(unitName), ["\u00b5m", "\u00b5rad", "N/\u00b5m", "mm", "1/K"]);
 });

@@ -1,0 +1,60 @@
+//! Terms tried one at a time beside a model: what each gains on the readings fitted, and on those that no fit has seen.
+
+use std::time::Instant;
+
+use hexbench_model::estimation::fit_named::Added;
+use hexbench_model::inference::gain::{HeldOutGain, UNLIKELY};
+use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
+use rayon::prelude::*;
+
+use super::refusal::Refusal;
+use super::{LoadedCampaign, files, view};
+use crate::wire::{Trial, Tried, Try};
+
+impl LoadedCampaign {
+    /// Each of these terms beside the selected ones, tested against the selected ones alone. One that cannot be fitted is left out.
+    ///
+    /// # Errors
+    /// [`Refusal`] for a term that is unknown, and for a model that cannot be fitted.
+    pub fn try_each(&self, asked: &Try) -> Result<Tried, Refusal> {
+        let since = Instant::now();
+        let terms = files::terms_with(&asked.selection.own, &self.limits)?;
+        let source = &self.contents.data.source;
+        let chosen = view::selected(&asked.selection.terms, &terms, source)?;
+        let each = view::selected(&asked.each, &terms, source)?;
+        let present = view::judged(&self.task(), &chosen)?;
+        let with = |added: &Added| {
+            let all: Vec<Added> = chosen.iter().chain([added]).cloned().collect();
+            self.task().fit(&all).ok()
+        };
+        let tried: Vec<_> = each.par_iter().map(with).collect();
+        let mut found: Vec<(f64, Trial)> = asked
+            .each
+            .iter()
+            .zip(&tried)
+            .filter_map(|(id, fitted)| Some(judged(id, asked.each.len(), &present, fitted.as_ref()?)))
+            .collect();
+        found.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let trials = found.into_iter().map(|(_, trial)| trial).collect();
+        Ok(Tried { trials, milliseconds: since.elapsed().as_secs_f64() * 1e3 })
+    }
+}
+
+/// A term that is one of several tried, with what it gains in nats.
+fn judged(id: &str, tried: usize, present: &FitWithErrors, with: &FitWithErrors) -> (f64, Trial) {
+    let both = present.held_out.as_ref().zip(with.held_out.as_ref());
+    let gain = both.map(|(before, after)| HeldOutGain::of(&before.foreseen, &after.foreseen).nats);
+    let chance = JudgedTask::chance_of_gain(&present.fit, &with.fit).map(|one| of_the_best(one, tried));
+    let trial = Trial {
+        term: id.to_owned(),
+        times_noise: with.error().times_noise(),
+        chance,
+        better: chance.is_some_and(|chance| chance <= UNLIKELY) && gain.is_none_or(|nats| nats > 0.0),
+    };
+    (gain.unwrap_or(f64::NEG_INFINITY), trial)
+}
+
+/// Chance of the best of several, from that of one: at most their sum, however they depend on each other (Bonferroni).
+fn of_the_best(one: f64, tried: usize) -> f64 {
+    (one * tried as f64).min(1.0)
+}

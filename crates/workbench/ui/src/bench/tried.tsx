@@ -1,0 +1,50 @@
+/** What each term gains beside those ticked: the most on held-out readings first, only what is more than chance marked. */
+import { chance, times } from "../format";
+import { now } from "../history";
+import type { Bench } from "../state";
+import type { Store } from "../store";
+import type { Trial } from "../wire";
+
+/** Terms shown at least, however little they gain. */
+const FEWEST = 3;
+
+export function Tried({ store, bench }: { store: Store; bench: Bench }) {
+  const { trials, history } = bench;
+  if (trials === null || trials.step !== now(history)) return null;
+  const better = trials.found.filter((trial) => trial.better).length;
+  const first = trials.found.slice(0, Math.max(FEWEST, better));
+  const rest = trials.found.slice(first.length);
+  return (
+    <div class="tried" data-testid="tried" aria-live="polite">
+      <p>
+        {better === 0
+          ? `None of ${trials.found.length} terms gains more than chance.`
+          : `${better} of ${trials.found.length} terms ${better === 1 ? "gains" : "gain"} more than chance; none of them is thereby the cause.`}
+      </p>
+      <Rows trials={first} store={store} />
+      {rest.length > 0 && (
+        <details>
+          <summary>The others</summary>
+          <Rows trials={rest} store={store} />
+        </details>
+      )}
+    </div>
+  );
+}
+
+function Rows({ trials, store }: { trials: Trial[]; store: Store }) {
+  return (
+    <ol>
+      {trials.map((trial) => (
+        <li key={trial.term} class={trial.better ? "trial good" : "trial"} data-testid={`trial-${trial.term}`}>
+          <button type="button" class="quiet" title="Tick it" onClick={(event) => store.toggle(trial.term, event.timeStamp)}>
+            {trial.term}
+          </button>
+          <span>
+            {times(trial.times_noise)} ×{trial.better ? ` better (chance ${chance(trial.chance ?? 0)})` : ""}
+          </span>
+        </li>
+      ))}
+    </ol>
+  );
+}
