@@ -67,13 +67,15 @@ def contradictory(folder: Path) -> Path:
     other.mkdir(exist_ok=True)
     shutil.copy(folder / "hexapod.toml", other)
     with (folder / "measurements.csv").open(newline="") as file:
-        names, *rows = list(csv.reader(file))
-    turned = [k for k, name in enumerate(names) if name in ("da_um", "measured_alpha_deg")]
-    with (other / "measurements.csv").open("w", newline="") as file:
-        write = csv.writer(file)
+        count = sum(1 for _ in file) - 1
+    # Row by row: what this program holds counts as held by those that it starts.
+    with (folder / "measurements.csv").open(newline="") as file, (other / "measurements.csv").open("w", newline="") as out:
+        rows, write = csv.reader(file), csv.writer(out)
+        names = next(rows)
         write.writerow(names)
+        turned = [k for k, name in enumerate(names) if name in ("da_um", "measured_alpha_deg")]
         for n, row in enumerate(rows):
-            for k in turned if n >= len(rows) // 2 else []:
+            for k in turned if n >= count // 2 else []:
                 row[k] = repr(-float(row[k]))
             write.writerow(row)
     return other

@@ -108,11 +108,15 @@ fn examined(hexapod: &Hexapod, whole: &Examined, outcome: &RankedSets) -> Result
     if let Some(&tails) = tails.filter(|t| t.evidence - first.stated > cleaned.gain) {
         return Ok(settled(whole.clone(), whole, first, &tails));
     }
-    if let Some(best) = first.statements.first().filter(|_| cleaned.first.is_some() && cleaned.last.has_more)
-    {
-        return Ok(contradictory(whole, &cleaned.examined, first, best));
+    let is_overrun = cleaned.first.is_some() && cleaned.last.has_more;
+    if let Some(best) = first.best_on_the_whole().filter(|_| is_overrun) {
+        return Ok(contradictory(whole, &cleaned.examined, first, &best));
     }
-    let Some(best) = cleaned.last.statements.first().copied() else { return Ok(cleaned.examined) };
+    let best = match cleaned.first {
+        Some(_) => cleaned.last.statements.first().copied(),
+        None => cleaned.last.best_on_the_whole(),
+    };
+    let Some(best) = best else { return Ok(cleaned.examined) };
     let rivals = best.evidence - cleaned.last.stated;
     if let Some(found) = cleaned.last.inputs.as_ref().filter(|w| w.evidence > LIKELY.max(rivals)) {
         let mut examined = cleaned.examined;
