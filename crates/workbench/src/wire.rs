@@ -388,7 +388,7 @@ pub struct Try {
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Tried {
     /// Terms that could be fitted; the one with which held-out readings are foreseen best comes first.
-    pub trials: Vec<Trial>,
+    pub trials: Vec<TermTrial>,
     /// Time taken on the server, ms.
     pub milliseconds: f64,
 }
@@ -396,7 +396,7 @@ pub struct Tried {
 /// A term tried.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Trial {
+pub struct TermTrial {
     /// Its id.
     pub term: String,
     /// Held-out error with it (else that of the readings fitted) as a multiple of the noise.

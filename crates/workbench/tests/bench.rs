@@ -7,7 +7,8 @@ use hexbench_model::inference::verdict::Verdict;
 use hexbench_workbench::bench::cases::CASES;
 use hexbench_workbench::bench::{LoadedCampaign, Refusal, RefusalKind, catalogue};
 use hexbench_workbench::wire::{
-    Ask, Export, FileText, GameLevel, Guess, Open, Opened, Selection, ServerLimits, Trial, Try, View, What,
+    Ask, Export, FileText, GameLevel, Guess, Open, Opened, Selection, ServerLimits, TermTrial, Try, View,
+    What,
 };
 
 const LIMITS: ServerLimits =
@@ -77,7 +78,7 @@ fn ticking_the_missing_effects_brings_the_held_out_error_down_to_the_noise() {
     assert!(after.legs.iter().all(|leg| leg.stiffness.is_some()));
 }
 
-fn tried(bench: &LoadedCampaign, each: &[&str], beside: &[&str]) -> Vec<Trial> {
+fn tried(bench: &LoadedCampaign, each: &[&str], beside: &[&str]) -> Vec<TermTrial> {
     let each = each.iter().map(|&t| t.to_owned()).collect();
     bench.try_each(&Try { each, selection: ticked(beside) }).unwrap().trials
 }

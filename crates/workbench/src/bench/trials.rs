@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::refusal::Refusal;
 use super::{LoadedCampaign, files, view};
-use crate::wire::{Trial, Tried, Try};
+use crate::wire::{TermTrial, Tried, Try};
 
 impl LoadedCampaign {
     /// Each of these terms beside the selected ones, tested against the selected ones alone. One that cannot be fitted is left out.
@@ -28,7 +28,7 @@ impl LoadedCampaign {
             self.task().fit(&all).ok()
         };
         let tried: Vec<_> = each.par_iter().map(with).collect();
-        let mut found: Vec<(f64, Trial)> = asked
+        let mut found: Vec<(f64, TermTrial)> = asked
             .each
             .iter()
             .zip(&tried)
@@ -41,11 +41,11 @@ impl LoadedCampaign {
 }
 
 /// A term that is one of several tried, with what it gains in nats.
-fn judged(id: &str, tried: usize, present: &FitWithErrors, with: &FitWithErrors) -> (f64, Trial) {
+fn judged(id: &str, tried: usize, present: &FitWithErrors, with: &FitWithErrors) -> (f64, TermTrial) {
     let both = present.held_out.as_ref().zip(with.held_out.as_ref());
     let gain = both.map(|(before, after)| HeldOutGain::of(&before.foreseen, &after.foreseen).nats);
     let chance = JudgedTask::chance_of_gain(&present.fit, &with.fit).map(|one| of_the_best(one, tried));
-    let trial = Trial {
+    let trial = TermTrial {
         term: id.to_owned(),
         times_noise: with.error().times_noise(),
         chance,

@@ -1,6 +1,6 @@
 /** All the page knows. */
 import type { History, Step } from "./history";
-import type { Catalogue, Diagnosed, Discovered, GameLevel, Open, Opened, Revealed, Selection, Trial } from "./wire";
+import type { Catalogue, Diagnosed, Discovered, GameLevel, Open, Opened, Revealed, Selection, TermTrial } from "./wire";
 
 /** Something that went wrong, with what to do. */
 export interface Problem {
@@ -32,7 +32,7 @@ export interface Bench {
   discovered: { answer: Discovered; own: string[] } | null;
   revealed: { answer: Revealed; guess: string[] } | null;
   /** What each term would give if ticked as well, the largest gain first; belongs to one step. */
-  trials: { step: Step; found: Trial[] } | null;
+  trials: { step: Step; found: TermTrial[] } | null;
   /** Models whose held-out error has been seen, each once. */
   looks: readonly string[];
 }

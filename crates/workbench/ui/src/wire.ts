@@ -366,13 +366,13 @@ export type Try = {
 /** Answer to `POST /api/benches/{id}/trials`. */
 export type Tried = {
   /** Terms that could be fitted; the one with which held-out readings are foreseen best comes first. */
-  trials: Array<Trial>;
+  trials: Array<TermTrial>;
   /** Time taken on the server, ms. */
   milliseconds: number;
 };
 
 /** A term tried. */
-export type Trial = {
+export type TermTrial = {
   /** Its id. */
   term: string;
   /** Held-out error with it (else that of the readings fitted) as a multiple of the noise. */

@@ -3,7 +3,7 @@ import { chance, times } from "../format";
 import { now } from "../history";
 import type { Bench } from "../state";
 import type { Store } from "../store";
-import type { Trial } from "../wire";
+import type { TermTrial } from "../wire";
 
 /** Terms shown at least, however little they gain. */
 const FEWEST = 3;
@@ -32,7 +32,7 @@ export function Tried({ store, bench }: { store: Store; bench: Bench }) {
   );
 }
 
-function Rows({ trials, store }: { trials: Trial[]; store: Store }) {
+function Rows({ trials, store }: { trials: TermTrial[]; store: Store }) {
   return (
     <ol>
       {trials.map((trial) => (
