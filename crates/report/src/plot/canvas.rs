@@ -234,7 +234,11 @@ impl Canvas {
                 self.put(Kind::Path, rim, &ring)
             }
             // A line as long as it is wide: the shortest way to say a square.
-            Marker::Square => self.line(&[corner(-0.9, 0.0), corner(0.9, 0.0)], colour, 1.8 * size, None),
+            Marker::Square => {
+                let side = 1.8 * size;
+                let line = format!("M{}h{}", place(corner(-0.9, 0.0)), short(side));
+                self.put(Kind::Path, stroke(colour, side, None), &line)
+            }
             Marker::Triangle => {
                 self.polygon(&[corner(-1.1, 0.85), corner(1.1, 0.85), corner(0.0, -1.15)], colour, 1.0)
             }
