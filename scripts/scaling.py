@@ -17,14 +17,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = {"deflections": "hidden-1", "absolute poses": "hidden-8"}
-COMMANDS = {
-    "fit": ["fit"],
-    "diagnose": ["diagnose"],
-    "diagnose --html": ["diagnose"],
-    "compare": ["compare"],
-}
-# Rows beyond which a run would take minutes, or more memory than usual machines have.
-MOST_ROWS = {"diagnose": 30_000, "diagnose --html": 30_000, "compare": 30_000, "fit": 300_000}
+# Commands, each with the rows beyond which a run would take minutes, or more memory than usual machines have.
+MOST_ROWS = {"fit": 300_000, "diagnose": 30_000, "diagnose --html": 30_000, "compare": 30_000}
 MOST_CONTRADICTORY = 3_000
 PEER = "pandas, NumPy"
 
@@ -120,11 +114,11 @@ def measured(program: str, rows: list[int], work: Path) -> dict[tuple[str, bool]
                 folder = simulated(program, kind, count, work)
                 folder = folder if is_sound else contradictory(folder)
                 files = [str(folder / name) for name in ("hexapod.toml", "measurements.csv")]
-                for command, words in COMMANDS.items():
-                    if count > MOST_ROWS[command] or (count > MOST_CONTRADICTORY and not is_sound):
+                for command, most in MOST_ROWS.items():
+                    if count > most or (count > MOST_CONTRADICTORY and not is_sound):
                         continue
                     page = ["--html", str(work / "page.html")] if "--html" in command else []
-                    table.setdefault(command, {})[count] = run([program, *words, *files, *page], work)
+                    table.setdefault(command, {})[count] = run([program, command.split()[0], *files, *page], work)
                 if kind == "deflections" and is_sound:
                     words = [sys.executable, __file__, program, "--peer", str(folder)]
                     table.setdefault(PEER, {})[count] = run(words, work)

@@ -1,6 +1,7 @@
 //! A plan to start from: poses that tilt and shift a machine every way, under loads along and about its axes.
 
 use hexbench_core::{Approach, Columns, Dataset, Hexapod, Measurand, Observation, Pose, Wrench};
+use hexbench_model::machine::kinematics::leg_lengths;
 use hexbench_truth::campaign::usual_half_range_mm_deg;
 
 /// Signs of a, b, c in eight poses; those of the angles are products of two, so that no two coordinates go together.
@@ -83,10 +84,8 @@ fn pose([a, b, c]: [f64; 3], half: &[f64; 6]) -> Pose {
 
 fn is_within_stroke(hexapod: &Hexapod, pose: &Pose) -> bool {
     let Some([shortest, longest]) = hexapod.stroke else { return true };
-    let turn = pose.rotation();
-    let joints = hexapod.base_joints.iter().zip(&hexapod.platform_joints);
-    let lengths = joints.map(|(base, platform)| (pose.translation + turn * platform - base).norm());
-    lengths.into_iter().all(|length| (shortest..=longest).contains(&length))
+    let lengths = leg_lengths(&hexapod.base_joints, &hexapod.platform_joints, pose);
+    lengths.iter().all(|length| (shortest..=longest).contains(length))
 }
 
 #[cfg(test)]

@@ -53,9 +53,8 @@ impl FirstPlan {
                 "Give the largest force that you can put on the platform, in N.",
             ));
         }
-        let folder = machine.parent().unwrap_or(Path::new(""));
         let files = [PLAN, MEASUREMENTS].into_iter().filter(|_| self.plan);
-        Ok(files.map(|name| folder.join(name)).collect())
+        Ok(files.map(|name| machine.with_file_name(name)).collect())
     }
 
     /// Writes both beside the machine.
@@ -70,8 +69,7 @@ impl FirstPlan {
 
     /// What to do next.
     pub(crate) fn next(&self, machine: &Path) -> String {
-        let folder = machine.parent().unwrap_or(Path::new(""));
-        let at = |name: &str| folder.join(name).display().to_string();
+        let at = |name: &str| machine.with_file_name(name).display().to_string();
         let (machine, data) = (machine.display(), at(MEASUREMENTS));
         let power = format!("hexbench power {machine} {}\n", at(PLAN));
         let power = if self.plan { power.as_str() } else { "" };

@@ -89,6 +89,11 @@ impl Fault {
         Self { place: Box::new(place), problem: Box::new(problem) }
     }
 
+    /// A rule of the format that is broken at a place, and what to do.
+    pub(crate) fn rule(place: FilePlace, rule: impl Into<String>, next: impl Into<String>) -> Self {
+        Self::new(place, FileProblem::Rule { rule: rule.into(), next: next.into() })
+    }
+
     /// The same with the name of the file.
     pub fn in_file(self, path: &Path) -> FileError {
         FileError { path: path.to_owned(), place: self.place, problem: self.problem }

@@ -156,11 +156,12 @@ fn header_of(raw: RawLine<'_>, columns: PointColumns) -> Result<Header, Fault> {
     for cell in 0..line.len() {
         let Some((column, unit)) = column(&line, cell, columns)? else { continue };
         if found[column].replace((cell, unit)).is_some() {
-            let problem = FileProblem::Rule {
-                rule: format!("{} is given twice", columns.names[column]),
-                next: "Keep one of the two columns.".into(),
-            };
-            return Err(Fault::new(line.place(cell).with_name(line.text(cell)), problem));
+            let rule = format!("{} is given twice", columns.names[column]);
+            return Err(Fault::rule(
+                line.place(cell).with_name(line.text(cell)),
+                rule,
+                "Keep one of the two columns.",
+            ));
         }
     }
     let missing: Vec<String> =

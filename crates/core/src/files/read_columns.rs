@@ -116,8 +116,8 @@ fn refuse_other_lengths(first: &MemoryColumn, columns: &[MemoryColumn]) -> Resul
     let rows = first.cells.len();
     let Some(other) = columns.iter().find(|column| column.cells.len() != rows) else { return Ok(()) };
     let rule = format!("{} has {} values, {} has {rows}", other.name, other.cells.len(), first.name);
-    let next = "Give every column one value per reading.".to_owned();
-    Err(Fault::new(FilePlace::file(), FileProblem::Rule { rule, next }))
+    let next = "Give every column one value per reading.";
+    Err(Fault::rule(FilePlace::file(), rule, next))
 }
 
 fn read_row(columns: &[MemoryColumn], table: &Table, row: usize) -> Result<FilledRow, Fault> {

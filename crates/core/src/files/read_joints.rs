@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::error::Fault;
 use super::read_balls::{PointColumns, read_points};
-use super::{FileError, FilePlace, FileProblem};
+use super::{FileError, FilePlace};
 use crate::{BallRecord, Vector3};
 
 /// Sides of a machine as its table calls them.
@@ -17,10 +17,7 @@ const SIDES: [&str; 2] = ["base", "platform"];
 /// The first thing that is wrong, with line, column, value and next step; a joint that is missing or given twice.
 pub fn read_joints(path: &Path) -> Result<[[Vector3; 6]; 2], FileError> {
     let rows = read_points(path, PointColumns::JOINTS)?;
-    joints(&rows).map_err(|(rule, next)| {
-        let problem = FileProblem::Rule { rule, next: next.to_owned() };
-        Fault::new(FilePlace::file(), problem).in_file(path)
-    })
+    joints(&rows).map_err(|(rule, next)| Fault::rule(FilePlace::file(), rule, next).in_file(path))
 }
 
 fn joints(rows: &[BallRecord]) -> Result<[[Vector3; 6]; 2], (String, &'static str)> {

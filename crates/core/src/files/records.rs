@@ -7,8 +7,8 @@ use std::io::BufRead;
 
 use serde_json::{Map, Value};
 
+use super::FilePlace;
 use super::error::Fault;
-use super::{FilePlace, FileProblem};
 
 /// How the text of records begins: its first line is not counted.
 pub(crate) const MARK: u8 = 0x1e;
@@ -58,7 +58,7 @@ pub(crate) fn json_lines(input: impl BufRead) -> Result<Records, Fault> {
         }
         let fault = |rule: String, next: &str| {
             let place = FilePlace { line: Some(number), ..FilePlace::file() };
-            Fault::new(place, FileProblem::Rule { rule, next: next.to_owned() })
+            Fault::rule(place, rule, next)
         };
         let object: Map<String, Value> = serde_json::from_str(line).map_err(|wrong| {
             fault(

@@ -99,7 +99,7 @@ pub(crate) fn refuse_missing_sensors(
     let rule = format!("sensor \"{}\" of the hexapod file has no column", sensor.name);
     let names = usual_names(sensor).join(", ");
     let next = format!("Add {names}, with empty cells where nothing was read, or remove the sensor.");
-    Err(Fault::new(line.whole_place(), FileProblem::Rule { rule, next }))
+    Err(Fault::rule(line.whole_place(), rule, next))
 }
 
 impl SensorSource {

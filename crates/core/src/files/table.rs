@@ -139,22 +139,22 @@ impl Table {
 fn refuse_lone_angles(angles: AngleConvention, dataset: &Dataset) -> Result<(), Fault> {
     let Some(line) = angles.lacks_an_angle(dataset) else { return Ok(()) };
     let place = FilePlace { line: Some(line), ..FilePlace::file() };
-    let problem = FileProblem::Rule {
-        rule: format!("differences of {} angles need all three, and not all were read", angles.word()),
-        next: "Fill in all three or none, give a rotation vector as drx_, dry_, drz_, or leave [conventions] out where the angles turn about fixed axes x, y, z.".to_owned(),
-    };
-    Err(Fault::new(place, problem))
+    Err(Fault::rule(
+        place,
+        format!("differences of {} angles need all three, and not all were read", angles.word()),
+        "Fill in all three or none, give a rotation vector as drx_, dry_, drz_, or leave [conventions] out where the angles turn about fixed axes x, y, z.",
+    ))
 }
 
 /// Two readings cannot have one place in the sequence of loads.
 fn refuse_doubled_order(readings: &[Observation]) -> Result<(), Fault> {
     let Some([first, second]) = doubled_order(readings) else { return Ok(()) };
     let place = FilePlace { line: Some(second.line), ..FilePlace::file() }.with_name("order");
-    let problem = FileProblem::Rule {
-        rule: format!("line {} has the same place in the sequence of loads", first.line),
-        next: "Number the rows in the sequence in which the loads were put on; leave the column out where nobody knows.".to_owned(),
-    };
-    Err(Fault::new(place, problem))
+    Err(Fault::rule(
+        place,
+        format!("line {} has the same place in the sequence of loads", first.line),
+        "Number the rows in the sequence in which the loads were put on; leave the column out where nobody knows.",
+    ))
 }
 
 /// Every number of a file with sensors or empty cells is weighed by its own standard deviation.

@@ -196,6 +196,11 @@ pub struct Campaign {
     pub inexact: Option<Arc<Inexact>>,
 }
 
+/// Equations of some groups of readings, of which each has six.
+pub(crate) fn rows_of(groups: impl Iterator<Item = usize>) -> Vec<usize> {
+    groups.flat_map(|g| 6 * g..6 * g + 6).collect()
+}
+
 /// Bits of the commanded pose: readings of equal bits are readings of one pose.
 pub(crate) fn pose_key(group: &ConditionReadings) -> [u64; 6] {
     group.mean.pose.to_array().map(|x| (x + 0.0).to_bits())
@@ -377,7 +382,7 @@ impl Campaign {
     #[must_use]
     pub fn part(&self, groups: &[usize]) -> Self {
         let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
-        let rows: Vec<usize> = groups.iter().flat_map(|&g| 6 * g..6 * g + 6).collect();
+        let rows = rows_of(groups.iter().copied());
         let (measurand, columns, noise, frames) = (self.measurand, self.columns, self.noise, self.frames);
         let blocks = &self.blocks;
         let like = Like { hexapod: &self.hexapod, measurand, columns, blocks, noise, frames };
@@ -414,6 +419,11 @@ impl Campaign {
         self.noise = self.noise.independent();
         self.inexact = None;
         self
+    }
+
+    /// Averaged numbers that were read.
+    pub(crate) fn averaged_numbers(&self) -> f64 {
+        self.groups.iter().map(ConditionReadings::numbers).sum::<usize>() as f64
     }
 
     /// What repeats and the statement tell of the noise level. Repeats that share an error tell nothing of its size.

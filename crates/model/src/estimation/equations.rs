@@ -3,15 +3,17 @@
 //! A condition with its chain takes kilobytes, its equations hundreds of bytes. So the conditions of a part of the campaign are made,
 //! turned into equations, and forgotten.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use crate::error::ModelError;
-use crate::estimation::campaign::{Campaign, ConditionReadings};
+use crate::estimation::campaign::{Campaign, rows_of};
 use crate::estimation::equilibrium::{Structure, Tangents};
 use crate::estimation::fit::own_columns;
-use crate::estimation::linearization::{Linearization, ModelPoint, PART, beside};
+use crate::estimation::linearization::{Linearization, ModelPoint, beside, parts_of};
 use crate::estimation::lsq::Triangle;
+use crate::estimation::parallel::try_take_in_order;
 use crate::estimation::parameters::Parameters;
 use crate::estimation::whitening::{Inexact, Whitening};
 
@@ -44,30 +46,22 @@ impl Equations {
             whitening: Whitening::of(campaign),
             is_loaded: false,
         };
-        let parts: Vec<usize> = (0..groups).step_by(PART).collect();
-        // A batch at a time, so that few conditions are alive at once.
-        for batch in parts.chunks(4 * rayon::current_num_threads().max(1)) {
-            let part = |&first: &usize| {
-                let range = first..(first + PART).min(groups);
-                let lin = Linearization::own(campaign, &structure, point, range)?;
-                let is_loaded = lin.conditions.iter().any(|c| c.force_change().amax() >= NO_FORCE);
-                Ok((first, own_columns(&lin, point), lin.residuals(), is_loaded))
-            };
-            let pieces: Vec<Result<_, ModelError>> =
-                if batch.len() == 1 { vec![part(&batch[0])] } else { batch.par_iter().map(part).collect() };
-            for piece in pieces {
-                let (first, columns, residuals, is_loaded) = piece?;
-                all.columns.rows_mut(6 * first, columns.nrows()).copy_from(&columns);
-                all.residuals.rows_mut(6 * first, residuals.nrows()).copy_from(&residuals);
-                all.is_loaded |= is_loaded;
-            }
-        }
+        let part = |range: &Range<usize>| {
+            let lin = Linearization::own(campaign, &structure, point, range.clone())?;
+            let is_loaded = lin.conditions.iter().any(|c| c.force_change().amax() >= NO_FORCE);
+            Ok((6 * range.start, own_columns(&lin, point), lin.residuals(), is_loaded))
+        };
+        try_take_in_order(&parts_of(groups), part, |(first, columns, residuals, is_loaded)| {
+            all.columns.rows_mut(first, columns.nrows()).copy_from(&columns);
+            all.residuals.rows_mut(first, residuals.nrows()).copy_from(&residuals);
+            all.is_loaded |= is_loaded;
+        })?;
         Ok(all)
     }
 
     /// Those of a part of the campaign, of which these are the groups.
     pub(crate) fn choose_of(&self, part: &Campaign, groups: &[usize]) -> Self {
-        let rows = rows_of(groups);
+        let rows = rows_of(groups.iter().copied());
         Self {
             columns: self.columns.select_rows(&rows),
             residuals: self.residuals.select_rows(&rows),
@@ -86,7 +80,7 @@ impl Equations {
 
     /// `[A y U]` of some groups, `U` the columns of the inputs that are known to a tolerance only.
     pub(crate) fn own_of(&self, groups: &[usize]) -> DMatrix<f64> {
-        let rows = rows_of(groups);
+        let rows = rows_of(groups.iter().copied());
         let residuals =
             DMatrix::from_column_slice(rows.len(), 1, self.residuals.select_rows(&rows).as_slice());
         let inputs = self.inexact().map(|inputs| inputs.z().select_rows(&rows));
@@ -135,14 +129,4 @@ impl Equations {
         }
         Ok(triangle)
     }
-}
-
-/// Equations of groups of readings.
-fn rows_of(groups: &[usize]) -> Vec<usize> {
-    groups.iter().flat_map(|&g| 6 * g..6 * g + 6).collect()
-}
-
-/// Averaged numbers that were read in a campaign.
-pub(crate) fn averaged_numbers(campaign: &Campaign) -> f64 {
-    campaign.groups.iter().map(ConditionReadings::numbers).sum::<usize>() as f64
 }

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::effects::term::{Natural, Term};
 use crate::error::ModelError;
 use crate::estimation::campaign::Campaign;
-use crate::estimation::equations::{Equations, averaged_numbers};
+use crate::estimation::equations::Equations;
 use crate::estimation::linearization::{Active, Linearization, ModelPoint, beside};
 use crate::estimation::lsq::{Solution, Triangle};
 use crate::estimation::parameters::Parameters;
@@ -153,7 +153,7 @@ fn fit_from(
     if !equations.is_loaded {
         return Err(ModelError::NoLoad);
     }
-    let problem = FitProblem { campaign, parameters, numbers: averaged_numbers(campaign) };
+    let problem = FitProblem { campaign, parameters, numbers: campaign.averaged_numbers() };
     let found = TRUST_REGION.minimum(&problem, problem.seen_from(point, equations))?;
     Ok(finish(found, problem))
 }

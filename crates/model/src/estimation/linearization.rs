@@ -1,6 +1,6 @@
 //! The model linearised at one point: whitened residuals and columns for springs, frames and terms.
 
-use std::borrow::Cow;
+use std::ops::Range;
 use std::sync::Arc;
 
 use hexbench_core::{Matrix6, Observation, Vector3, Vector6};
@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::effects::chain::{Action, Link};
 use crate::effects::term::{Rich, Term};
 use crate::error::ModelError;
-use crate::estimation::campaign::{Campaign, Condition};
+use crate::estimation::campaign::{Campaign, Condition, ConditionReadings};
 use crate::estimation::equilibrium::{Structure, Tangents};
 use crate::estimation::parallel::try_map;
 use crate::estimation::parameters::common_count;
@@ -17,7 +17,12 @@ use crate::estimation::whitening::{Inexact, Whitening};
 use crate::machine::geometry::{Machine, exponential};
 
 /// Conditions whose columns are made together.
-pub(crate) const PART: usize = 256;
+const PART: usize = 256;
+
+/// So many conditions in ranges of those whose columns are made together.
+pub(crate) fn parts_of(conditions: usize) -> Vec<Range<usize>> {
+    (0..conditions).step_by(PART).map(|first| first..(first + PART).min(conditions)).collect()
+}
 
 /// A term in a model, with its values. SI.
 #[derive(Clone)]
@@ -134,11 +139,8 @@ impl Linearization {
     pub fn at(campaign: &Campaign, point: &ModelPoint) -> Result<Self, ModelError> {
         let machine = point.calibrated_machine();
         let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForAll);
-        let linked = try_map(&campaign.groups, |group| {
-            let (at, load) = campaign.condition(&structure, group, &group.mean)?;
-            let link = Link::at(&at, &point.compliances, &load);
-            Ok::<_, ModelError>((at, link))
-        })?;
+        let linked =
+            try_map(&campaign.groups, |group| linked(campaign, &structure, point, group, &group.mean))?;
         let (conditions, links) = linked.into_iter().unzip();
         let whitening = Whitening::of(campaign);
         Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
@@ -152,44 +154,26 @@ impl Linearization {
         campaign: &Campaign,
         structure: &Structure<'_>,
         point: &ModelPoint,
-        range: std::ops::Range<usize>,
+        range: Range<usize>,
     ) -> Result<Self, ModelError> {
-        let mut part = Self {
-            machine: structure.machine().clone(),
-            conditions: Vec::with_capacity(range.len()),
-            links: Vec::with_capacity(range.len()),
-            whitening: Whitening::nothing(),
-            absolute: campaign.is_absolute(),
-        };
-        for group in &campaign.groups[range] {
-            let (at, load) = campaign.condition(structure, group, &group.mean)?;
-            part.links.push(Link::at(&at, &point.compliances, &load));
-            part.conditions.push(at);
-        }
-        Ok(part)
+        let linked = campaign.groups[range].iter().map(|g| linked(campaign, structure, point, g, &g.mean));
+        let (conditions, links) = linked.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+        let (machine, whitening) = (structure.machine().clone(), Whitening::nothing());
+        Ok(Self { machine, conditions, links, whitening, absolute: campaign.is_absolute() })
     }
 
-    /// Ranges of conditions small enough for all columns of all candidates to fit in the cache; all conditions in one where
-    /// they share errors.
-    pub fn parts(&self) -> Vec<std::ops::Range<usize>> {
-        let n = self.conditions.len();
-        if !self.whitening.is_identity() {
-            return std::iter::once(0..n).collect();
-        }
-        (0..n.div_ceil(PART)).map(|k| k * PART..((k + 1) * PART).min(n)).collect()
-    }
-
-    /// Ranges of conditions as in [`Self::parts`] where inputs are taken as exact.
-    pub(crate) fn parts_of_noise(&self) -> Vec<std::ops::Range<usize>> {
+    /// Ranges of conditions small enough for all columns of all candidates to fit in the cache, where inputs are taken as exact; all
+    /// conditions in one where they share errors.
+    pub(crate) fn parts_of_noise(&self) -> Vec<Range<usize>> {
         let n = self.conditions.len();
         if !self.whitening.noise_is_independent() {
             return std::iter::once(0..n).collect();
         }
-        (0..n.div_ceil(PART)).map(|k| k * PART..((k + 1) * PART).min(n)).collect()
+        parts_of(n)
     }
 
     /// Some of the conditions, inputs taken as exact.
-    pub(crate) fn part_of_noise(&self, range: &std::ops::Range<usize>) -> Self {
+    pub(crate) fn part_of_noise(&self, range: &Range<usize>) -> Self {
         Self {
             machine: self.machine.clone(),
             conditions: self.conditions[range.clone()].to_vec(),
@@ -202,14 +186,6 @@ impl Linearization {
     /// Inputs that are known to a tolerance only.
     pub(crate) fn inexact(&self) -> Option<&Inexact> {
         self.whitening.inexact()
-    }
-
-    /// Some of the conditions; all of them are not copied.
-    pub fn part(&self, range: &std::ops::Range<usize>) -> Cow<'_, Self> {
-        if range.len() == self.conditions.len() {
-            return Cow::Borrowed(self);
-        }
-        Cow::Owned(self.choose(range.clone()))
     }
 
     /// Every n-th condition, at most `most`.
@@ -393,6 +369,19 @@ impl Linearization {
     }
 }
 
+/// A condition of readings taken under the inputs of `o`, and its chain.
+fn linked(
+    campaign: &Campaign,
+    structure: &Structure<'_>,
+    point: &ModelPoint,
+    group: &ConditionReadings,
+    o: &Observation,
+) -> Result<(Condition, Link), ModelError> {
+    let (at, load) = campaign.condition(structure, group, o)?;
+    let link = Link::at(&at, &point.compliances, &load);
+    Ok((at, link))
+}
+
 /// Blocks of columns side by side.
 pub fn beside(blocks: &[DMatrix<f64>]) -> DMatrix<f64> {
     let rows = blocks.first().map_or(0, DMatrix::nrows);
@@ -433,8 +422,7 @@ pub(crate) fn own_residuals(
     let structure = Structure::of(&machine, &point.compliances, &point.active, Tangents::ForFit);
     let residual = |&i: &usize| {
         let group = &campaign.groups[i];
-        let (at, load) = campaign.condition(&structure, group, &inputs(i, &group.mean))?;
-        let link = Link::at(&at, &point.compliances, &load);
+        let (at, link) = linked(campaign, &structure, point, group, &inputs(i, &group.mean))?;
         Ok(at.reading.component_mul(&at.weight) - link.prediction())
     };
     let groups: Vec<usize> = (0..campaign.groups.len()).collect();

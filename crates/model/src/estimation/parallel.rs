@@ -1,5 +1,7 @@
 //! Work on all cores when there is enough of it.
 
+use std::convert::Infallible;
+
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
@@ -45,16 +47,27 @@ pub(crate) fn sum_in_order<T: Sync>(
     f: impl Fn(&T) -> DMatrix<f64> + Sync + Send,
 ) -> Option<DMatrix<f64>> {
     let mut total: Option<DMatrix<f64>> = None;
-    // A batch at a time, so that memory does not grow with the number of items.
+    let add = |piece| match &mut total {
+        Some(sum) => *sum += piece,
+        None => total = Some(piece),
+    };
+    let Ok(()) = try_take_in_order(items, |item| Ok::<_, Infallible>(f(item)), add);
+    total
+}
+
+/// Hands over what is made of each item, in order whatever thread made it; the first error in order ends it. A batch at a time, so that
+/// memory does not grow with the number of items.
+pub(crate) fn try_take_in_order<T: Sync, R: Send, E: Send>(
+    items: &[T],
+    f: impl Fn(&T) -> Result<R, E> + Sync + Send,
+    mut take: impl FnMut(R),
+) -> Result<(), E> {
     for batch in items.chunks(4 * rayon::current_num_threads().max(1)) {
-        let pieces: Vec<DMatrix<f64>> =
+        let pieces: Vec<Result<R, E>> =
             if batch.len() == 1 { vec![f(&batch[0])] } else { batch.par_iter().map(&f).collect() };
         for piece in pieces {
-            match &mut total {
-                Some(sum) => *sum += piece,
-                None => total = Some(piece),
-            }
+            take(piece?);
         }
     }
-    total
+    Ok(())
 }

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use hexbench_core::{Matrix6, Vector6};
 use nalgebra::{DMatrix, DVector};
 
-use crate::estimation::campaign::{Campaign, ConditionReadings};
+use crate::estimation::campaign::{Campaign, ConditionReadings, rows_of};
 use crate::estimation::noise::{Noise, Structure};
 use crate::estimation::nuisance::ShownInputs;
 use crate::estimation::parallel::products;
@@ -69,7 +69,7 @@ impl Whitening {
     /// That of some of the conditions, in this order.
     #[must_use]
     pub fn choose(&self, which: impl Iterator<Item = usize> + Clone) -> Self {
-        let rows: Vec<usize> = which.clone().flat_map(|i| 6 * i..6 * i + 6).collect();
+        let rows = rows_of(which.clone());
         let noise = self.noise.choose(which);
         let chosen = |all: &Arc<Inexact>| Inexact::whitened(&noise, all.columns.select_rows(&rows));
         Self { inputs: self.inputs.as_ref().and_then(chosen).map(Arc::new), noise }

@@ -84,6 +84,21 @@ pub struct HeldOutErrors {
     pub foreseen: Vec<Foreseen>,
 }
 
+/// Chance that useless parameters take as much off the misfit of the readings fitted as those of a larger model do, beside how the
+/// readings scatter about that model; absent where it has no parameter more, or no degree of freedom left.
+///
+/// ```text
+/// F = (chi2 - chi2') / (n - n') / (chi2' / n')      follows F(n - n', n')
+/// ```
+pub fn chance_of_gain(smaller: &Fit, larger: &Fit) -> Option<f64> {
+    let gained = Misfit {
+        chi2: (smaller.lack_of_fit - larger.lack_of_fit).max(0.0),
+        numbers: smaller.lack_of_fit_dof - larger.lack_of_fit_dof,
+    };
+    let scatter = NoiseLevel { sum: larger.lack_of_fit, dof: larger.lack_of_fit_dof };
+    (scatter.dof > 0.0 && scatter.sum > 0.0).then(|| gained.chance(scatter).ok()).flatten()
+}
+
 /// True when an error is what the noise gives: by its chance where that is known, else by its size.
 pub fn is_at_the_noise(error: &ErrorSummary, chance: Option<f64>) -> bool {
     chance.map_or_else(|| error.is_at_the_noise(), |chance| chance > UNLIKELY)
@@ -159,21 +174,6 @@ impl JudgedTask<'_> {
             chance: self.chance(left.misfit(fit.lack_of_fit_dof)),
             foreseen: left.foreseen,
         }))
-    }
-
-    /// Chance that useless parameters take as much off the misfit of the readings fitted as those of a larger model do, beside how the
-    /// readings scatter about that model; absent where it has no parameter more, or no degree of freedom left.
-    ///
-    /// ```text
-    /// F = (chi2 - chi2') / (n - n') / (chi2' / n')      follows F(n - n', n')
-    /// ```
-    pub fn chance_of_gain(smaller: &Fit, larger: &Fit) -> Option<f64> {
-        let gained = Misfit {
-            chi2: (smaller.lack_of_fit - larger.lack_of_fit).max(0.0),
-            numbers: smaller.lack_of_fit_dof - larger.lack_of_fit_dof,
-        };
-        let scatter = NoiseLevel { sum: larger.lack_of_fit, dof: larger.lack_of_fit_dof };
-        (scatter.dof > 0.0 && scatter.sum > 0.0).then(|| gained.chance(scatter).ok()).flatten()
     }
 
     /// Chance of a misfit, where the noise is known apart from what the model leaves.

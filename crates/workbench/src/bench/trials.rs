@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use hexbench_model::estimation::fit_named::Added;
 use hexbench_model::inference::gain::{HeldOutGain, UNLIKELY};
-use hexbench_model::inference::selection::{FitWithErrors, JudgedTask};
+use hexbench_model::inference::selection::{FitWithErrors, chance_of_gain};
 use rayon::prelude::*;
 
 use super::refusal::Refusal;
@@ -44,7 +44,7 @@ impl LoadedCampaign {
 fn judged(id: &str, tried: usize, present: &FitWithErrors, with: &FitWithErrors) -> (f64, TermTrial) {
     let both = present.held_out.as_ref().zip(with.held_out.as_ref());
     let gain = both.map(|(before, after)| HeldOutGain::of(&before.foreseen, &after.foreseen).nats);
-    let chance = JudgedTask::chance_of_gain(&present.fit, &with.fit).map(|one| of_the_best(one, tried));
+    let chance = chance_of_gain(&present.fit, &with.fit).map(|one| of_the_best(one, tried));
     let trial = TermTrial {
         term: id.to_owned(),
         times_noise: with.error().times_noise(),

@@ -15,7 +15,7 @@ use std::path::Path;
 
 use super::error::Fault;
 use super::toml_file::read_text;
-use super::{FileError, FilePlace, FileProblem};
+use super::{FileError, FilePlace};
 use crate::Vector3;
 pub use legs::MobileFrame;
 
@@ -75,7 +75,7 @@ fn joints(text: &str) -> Result<RobotJoints, Fault> {
 
 /// A fault of a whole file.
 fn whole(rule: impl Into<String>, next: &str) -> Fault {
-    Fault::new(FilePlace::file(), FileProblem::Rule { rule: rule.into(), next: next.to_owned() })
+    Fault::rule(FilePlace::file(), rule, next)
 }
 
 /// Bodies and joints of a model, in the pose in which it stands.

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use roxmltree::Node;
 
+use super::super::FilePlace;
 use super::super::error::Fault;
-use super::super::{FilePlace, FileProblem};
 use crate::Vector3;
 
 /// The text without a first `<?...?>`, which is often malformed and says nothing here; lines keep their numbers.
@@ -26,7 +26,7 @@ pub(super) fn fault_of(wrong: &roxmltree::Error) -> Fault {
     let at = wrong.pos();
     let rule = format!("this is not XML: {}", wrong.to_string().split(" at ").next().unwrap_or_default());
     let next = "Expand templates (xacro, erb) first, or write the model anew from the program that made it.";
-    Fault::new(line(at.row), FileProblem::Rule { rule, next: next.to_owned() })
+    Fault::rule(line(at.row), rule, next)
 }
 
 fn line(row: u32) -> FilePlace {
@@ -37,7 +37,7 @@ fn line(row: u32) -> FilePlace {
 pub(super) fn fault(node: Node<'_, '_>, rule: impl Into<String>, next: &str) -> Fault {
     let row = node.document().text_pos_at(node.range().start).row;
     let place = line(row).with_name(node.tag_name().name());
-    Fault::new(place, FileProblem::Rule { rule: rule.into(), next: next.to_owned() })
+    Fault::rule(place, rule, next)
 }
 
 /// The first child element of a name.

@@ -97,7 +97,7 @@ pub(super) fn statements(rest: &Remainder<'_>) -> Statements {
         all.extend(judge.axes().filter(|_| readings >= LEAST_READINGS));
     }
     all.push(judge.tails());
-    let [law, wide_law] = [LAW_SIZES.as_slice(), &WIDE_SIZES].map(|sizes| judge.law(rest, sizes));
+    let [law, wide_law] = judge.laws(rest, [&LAW_SIZES, &WIDE_SIZES]);
     all.push(law);
     all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     Statements { all, wide_law, stated }
@@ -329,30 +329,22 @@ impl Judge {
         all.map(stated).fold(nothing, |best, s| if s.evidence > best.evidence { s } else { best })
     }
 
-    /// Extra elongations of one leg or of all, of the same size everywhere or in proportion to the leg force.
-    fn law(&self, rest: &Remainder<'_>, sizes: &[f64]) -> Statement {
-        let readers = rest.lin.elongation_readers();
-        let force = |g: usize| rest.lin.conditions[g].force_change().abs();
-        let mean_force =
-            (0..readers.len()).map(|g| force(g).sum()).sum::<f64>() / (6.0 * readers.len().max(1) as f64);
+    /// Extra elongations of one leg or of all, of the same size everywhere or in proportion to the leg force: the best of each range of
+    /// sizes.
+    fn laws(&self, rest: &Remainder<'_>, ranges: [&[f64]; 2]) -> [Statement; 2] {
+        let by_size = [false, true].map(|by_force| law_shapes(rest, by_force));
+        ranges.map(|sizes| self.best_law(&by_size, sizes))
+    }
+
+    fn best_law(&self, by_size: &[LawShapes; 2], sizes: &[f64]) -> Statement {
         let mut best = Statement { kind: Kind::Law, level: 1.0, evidence: f64::NEG_INFINITY };
-        for by_force in [false, true] {
-            let shapes: Vec<Matrix6<f64>> = (0..readers.len())
-                .map(|g| {
-                    let scale =
-                        if by_force { force(g) / mean_force.max(1e-12) } else { Vector6::repeat(1.0) };
-                    readers[g] * Matrix6::from_diagonal(&scale)
-                })
-                .collect();
-            let size = shapes.iter().map(Matrix6::norm).sum::<f64>() / (6.0_f64.sqrt() * shapes.len() as f64);
+        for (shapes, size) in by_size {
             for leg in std::iter::once(None).chain((0..6).map(Some)) {
                 for share in sizes {
-                    let evidence = self.law_at(&shapes, leg, share / size.max(1e-300))
+                    let evidence = self.law_at(shapes, leg, share / size.max(1e-300))
                         - self.penalty(2.0)
                         - 14.0_f64.ln();
-                    if evidence > best.evidence {
-                        best.evidence = evidence;
-                    }
+                    best.evidence = best.evidence.max(evidence);
                 }
             }
         }
@@ -375,6 +367,21 @@ impl Judge {
         };
         self.means.iter().zip(shapes).map(of).sum::<f64>() - 0.5 * self.within
     }
+}
+
+/// Readings over their noise by the elongations of a law of unit size, at every condition, and how large they are.
+type LawShapes = (Vec<Matrix6<f64>>, f64);
+
+fn law_shapes(rest: &Remainder<'_>, by_force: bool) -> LawShapes {
+    let readers = rest.lin.elongation_readers();
+    let force = |g: usize| rest.lin.conditions[g].force_change().abs();
+    let mean_force =
+        (0..readers.len()).map(|g| force(g).sum()).sum::<f64>() / (6.0 * readers.len().max(1) as f64);
+    let scale = |g: usize| if by_force { force(g) / mean_force.max(1e-12) } else { Vector6::repeat(1.0) };
+    let shapes: Vec<Matrix6<f64>> =
+        (0..readers.len()).map(|g| readers[g] * Matrix6::from_diagonal(&scale(g))).collect();
+    let size = shapes.iter().map(Matrix6::norm).sum::<f64>() / (6.0_f64.sqrt() * shapes.len() as f64);
+    (shapes, size)
 }
 
 /// Logarithm of a product of positive numbers, of which few are taken.

@@ -4,7 +4,7 @@ use hexbench_core::{Dataset, LoadSequences, Observation};
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::ModelError;
-use crate::estimation::campaign::Campaign;
+use crate::estimation::campaign::{Campaign, rows_of};
 use crate::estimation::fit::{Fit, columns};
 use crate::estimation::linearization::{Linearization, beside};
 use crate::estimation::nuisance::{InputsAfterFit, ShownInputs};
@@ -52,7 +52,7 @@ impl Belief {
 
     /// Mean and covariance of some readings, noise included; a reading that occurs twice is read twice.
     pub(super) fn moments(&self, readings: &[usize]) -> (DVector<f64>, DMatrix<f64>) {
-        let picked: Vec<usize> = readings.iter().flat_map(|&i| 6 * i..6 * i + 6).collect();
+        let picked = rows_of(readings.iter().copied());
         let rows = self.rows.select_rows(&picked);
         let noise = DMatrix::identity(picked.len(), picked.len());
         (self.mean.select_rows(&picked), noise + &rows * &self.covariance * rows.transpose())

@@ -71,6 +71,7 @@ impl Filter {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::estimation::campaign::rows_of;
 
     /// Rounding of sums over 24 numbers.
     const CLOSE: f64 = 1e-9;
@@ -94,7 +95,7 @@ mod tests {
             total.square += added.square;
             filter.choose(reading);
         }
-        let picked: Vec<usize> = taken.iter().flat_map(|&i| 6 * i..6 * i + 6).collect();
+        let picked = rows_of(taken.iter().copied());
         let j = rows.select_rows(&picked);
         let whole = DMatrix::identity(24, 24) + &j * covariance * j.transpose();
         let d = difference.select_rows(&picked);
