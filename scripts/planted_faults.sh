@@ -28,7 +28,7 @@ fi
 # The copy keeps the times of the files, so that only what a fault touches is built again.
 rm -rf "$out/sources"
 mkdir "$out/sources"
-cp -a Cargo.toml Cargo.lock crates data scenes docs "$out/sources/"
+cp -a Cargo.toml Cargo.lock crates fuzz data scenes docs "$out/sources/"
 # What an earlier call built with a fault is older than these.
 sed -n 's|^+++ b/||p' data/regress/faults/*.patch | sort -u | (cd "$out/sources" && xargs touch)
 
