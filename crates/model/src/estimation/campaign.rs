@@ -381,16 +381,23 @@ impl Campaign {
     /// Some of the groups; their readings keep their indices in the dataset.
     #[must_use]
     pub fn part(&self, groups: &[usize]) -> Self {
-        let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
-        let rows = rows_of(groups.iter().copied());
-        let (measurand, columns, noise, frames) = (self.measurand, self.columns, self.noise, self.frames);
-        let blocks = &self.blocks;
-        let like = Like { hexapod: &self.hexapod, measurand, columns, blocks, noise, frames };
-        let part = Self::of_groups(&like, kept);
+        let part = self.chosen(groups);
         match &self.inexact {
-            Some(all) => part.with_inexact(all.columns.select_rows(&rows)),
+            Some(all) => part.with_inexact(all.columns.select_rows(&rows_of(groups.iter().copied()))),
             None => part,
         }
+    }
+
+    /// Some of the groups with nothing in common between their readings, each weighed by what is its own.
+    pub(crate) fn unwhitened_part(&self, groups: &[usize]) -> Self {
+        self.chosen(groups).unwhitened()
+    }
+
+    fn chosen(&self, groups: &[usize]) -> Self {
+        let kept = groups.iter().map(|&g| self.groups[g].clone()).collect();
+        let (measurand, columns, noise, frames) = (self.measurand, self.columns, self.noise, self.frames);
+        let blocks = &self.blocks;
+        Self::of_groups(&Like { hexapod: &self.hexapod, measurand, columns, blocks, noise, frames }, kept)
     }
 
     /// The same with inputs known to a tolerance only: what a standard deviation of each does to every reading over the standard

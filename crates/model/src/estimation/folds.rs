@@ -12,7 +12,6 @@ use crate::estimation::equations::Equations;
 use crate::estimation::fit::{Fit, Start, TermSpec, push_priors, refit, settled_at};
 use crate::estimation::linearization::ModelPoint;
 use crate::estimation::lsq::{Solution, Triangle};
-use crate::estimation::nuisance::ShownInputs;
 use crate::estimation::parallel::products;
 use crate::estimation::parameters::Parameters;
 
@@ -87,10 +86,11 @@ impl<'a> FoldFits<'a> {
         let inputs = products.nrows() - p - 1;
         let mut rest = products.view((0, 0), (p + 1, p + 1)).into_owned();
         if inputs > 0 {
-            let shown =
-                ShownInputs::of_products(products.view((p + 1, p + 1), (inputs, inputs)).into_owned());
-            let taken = products.view((0, p + 1), (p + 1, inputs)) * shown.known();
-            rest.gemm(-1.0, &taken, &taken.transpose(), 1.0);
+            // `B' Z (I + Z' Z)^-1 Z' B` by the factor of the matrix in the middle.
+            let of_inputs = products.view((p + 1, p + 1), (inputs, inputs));
+            let factor = (of_inputs + DMatrix::identity(inputs, inputs)).cholesky()?;
+            let taken = factor.l().solve_lower_triangular(&products.view((p + 1, 0), (inputs, p + 1)))?;
+            rest.gemm_tr(-1.0, &taken, &taken, 1.0);
         }
         let sizes = rest.diagonal().map(|x| x.max(f64::MIN_POSITIVE).sqrt());
         let scaled = DMatrix::from_fn(p + 1, p + 1, |i, j| rest[(i, j)] / (sizes[i] * sizes[j]));
@@ -107,7 +107,7 @@ impl<'a> FoldFits<'a> {
 
     /// True when the readings left out are where the linear model has them, and would be linearised there as before.
     fn is_near(&self, point: &ModelPoint, held: &[usize], own: &DMatrix<f64>, x: &DVector<f64>) -> bool {
-        let part = self.campaign.part(held).unwhitened();
+        let part = self.campaign.unwhitened_part(held);
         let Ok(there) = Equations::at(&part, point) else { return false };
         let (p, (columns, residuals)) = (self.parameters.len(), there.sides());
         let linear = own.column(p) - own.columns(0, p) * x;

@@ -38,13 +38,18 @@ impl ShownInputs {
 
     /// The same, but only so many: those that move the readings most.
     pub fn most(columns: &DMatrix<f64>, count: usize) -> Self {
-        Self::most_of_products(products(columns, columns), count)
-    }
-
-    /// By the products `Z' Z` of the columns.
-    pub fn of_products(products: DMatrix<f64>) -> Self {
-        let count = products.ncols();
-        Self::most_of_products(products, count)
+        let (readings, inputs) = columns.shape();
+        if (1..inputs).contains(&readings) {
+            // `Z Z'` is smaller than `Z' Z`, and has the same squares: `U = Z' V s^-1/2`.
+            let (squares, vectors) = largest(columns * columns.transpose(), count);
+            let mut combinations = columns.tr_mul(&vectors);
+            for (mut column, square) in combinations.column_iter_mut().zip(&squares) {
+                column /= square.sqrt();
+            }
+            return Self { squares, combinations };
+        }
+        let (squares, combinations) = largest(products(columns, columns), count);
+        Self { squares, combinations }
     }
 
     /// `K` with which `K K' = U (1 + s)^-1 U'`: what readings leave of the variance of the inputs that show.
@@ -52,20 +57,19 @@ impl ShownInputs {
         let left = self.squares.iter().map(|s| (1.0 + s).sqrt().recip());
         &self.combinations * DMatrix::from_diagonal(&DVector::from_iterator(self.squares.len(), left))
     }
+}
 
-    fn most_of_products(products: DMatrix<f64>, count: usize) -> Self {
-        let eigen = products.symmetric_eigen();
-        let mut kept: Vec<usize> =
-            (0..eigen.eigenvalues.len()).filter(|&k| eigen.eigenvalues[k] > SHOWS).collect();
-        if kept.len() > count {
-            kept.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
-            kept.truncate(count);
-        }
-        Self {
-            squares: kept.iter().map(|&k| eigen.eigenvalues[k]).collect(),
-            combinations: eigen.eigenvectors.select_columns(&kept),
-        }
+/// Eigenvalues that show, at most so many, and their eigenvectors, a column each.
+fn largest(products: DMatrix<f64>, count: usize) -> (Vec<f64>, DMatrix<f64>) {
+    let eigen = products.symmetric_eigen();
+    let mut kept: Vec<usize> =
+        (0..eigen.eigenvalues.len()).filter(|&k| eigen.eigenvalues[k] > SHOWS).collect();
+    if kept.len() > count {
+        kept.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+        kept.truncate(count);
     }
+    let squares = kept.iter().map(|&k| eigen.eigenvalues[k]).collect();
+    (squares, eigen.eigenvectors.select_columns(&kept))
 }
 
 /// Information of the first `parameters` of an information matrix when the inputs, which follow them, are known to their
@@ -205,6 +209,17 @@ mod tests {
         let after = InputsAfterFit::of(&j, &z, &(&root * &readings - &j * fitted), &of_parameters);
         assert!((after.mean - together.rows(3, 5)).amax() < ROUNDING);
         assert!((after.covariance - covariance).amax() < ROUNDING);
+    }
+
+    #[test]
+    fn fewer_readings_than_inputs_show_the_same_inputs() {
+        let inputs = columns(4, 7, 0.7);
+        let shown = ShownInputs::of(&inputs);
+        let u = &shown.combinations;
+        assert_eq!((shown.squares.len(), u.shape()), (4, (7, 4)));
+        assert!((u.tr_mul(u) - DMatrix::identity(4, 4)).amax() < ROUNDING);
+        let squares = DMatrix::from_diagonal(&DVector::from_column_slice(&shown.squares));
+        assert!((u * squares * u.transpose() - inputs.tr_mul(&inputs)).amax() < ROUNDING);
     }
 
     #[test]

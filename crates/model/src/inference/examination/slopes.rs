@@ -57,7 +57,7 @@ impl Slopes {
     ) -> Result<(DMatrix<f64>, Option<DMatrix<f64>>), ModelError> {
         let known: Vec<Option<usize>> = lines.iter().map(|lines| self.places.get(lines).copied()).collect();
         let new: Vec<usize> = (0..known.len()).filter(|&g| known[g].is_none()).collect();
-        let part = campaign.part(&new);
+        let part = campaign.unwhitened_part(&new);
         let (more, more_by_pose) = if new.is_empty() {
             // Nothing to linearize.
             (self.inputs.rows(0, 0).into_owned(), Some(DMatrix::zeros(0, POSE_STEP.len())))
