@@ -28,6 +28,7 @@ pub mod regressor;
 pub mod sensors;
 pub mod space;
 pub mod space_file;
+mod to_be_read;
 
 #[cfg(test)]
 mod test_machine;
@@ -38,3 +39,4 @@ pub use criterion::{Criterion, Objective};
 pub use error::DesignError;
 pub use refine::Visit;
 pub use space::Space;
+pub use to_be_read::noise_to_come;

@@ -14,12 +14,11 @@ use hexbench_design::nominal;
 use hexbench_design::regressor::{ModelRegressor, SpringRegressor, Weights};
 use hexbench_design::space::Setting;
 use hexbench_design::space_file::read_space;
-use hexbench_design::{Criterion, Space, Visit};
+use hexbench_design::{Criterion, Space, Visit, noise_to_come};
 use hexbench_model::effects::term::Term;
 use hexbench_model::estimation::fit_named::term_named;
 use hexbench_model::estimation::noise::Noise;
 use hexbench_model::estimation::parameters::stiffness_name;
-use hexbench_model::estimation::tolerances::InputKind;
 use hexbench_model::terms::catalogue;
 use nalgebra::DMatrix;
 
@@ -102,8 +101,8 @@ pub struct Designed {
     pub efficiency: Option<f64>,
     /// Starts; those that ended at a plan; those that agree with the best.
     pub starts: [usize; 3],
-    /// That the machine has sensors which play no part, where it has.
-    pub left_aside: Option<String>,
+    /// By which sensors everything is read, where the machine has some.
+    pub read_by: Option<String>,
     /// True when rows are in units of the stated noise.
     pub weighted: bool,
     /// Seed of the starts.
@@ -138,17 +137,19 @@ pub fn design(
     let terms = wanted(&wish.terms)?;
     let weights = weights(hexapod);
     let settings = space.settings();
-    let noise = Noise::stated(1.0 / weights.translation, 1.0 / weights.rotation);
+    let stated = noise_to_come(hexapod);
+    let noise = stated.unwrap_or(Noise::stated(1.0, 1.0));
     let nominal = nominal::compliance(hexapod);
     let exact = ModelRegressor::new(hexapod, nominal, noise, &terms, &settings, 1)?;
     let promised = springs(hexapod).into_iter().chain(sized(&terms, exact.sizes())).collect();
     // Without a noise, errors of inputs have nothing to be compared with.
     let within = |most| exact.clone().within_tolerances(&space, most);
-    let all = hexapod.metrology.map(|_| within(InputKind::COLUMNS)).transpose()?;
+    let all = stated.map(|_| within(usize::MAX)).transpose()?;
     let bench = Bench { wish, begun, hexapod, space: &space, inexact: all.as_ref() };
     match &all {
         Some(_) if bench.criterion() != Criterion::O1 => bench.design(&within(SEARCHED_INPUTS)?, promised),
-        _ if terms.is_empty() => {
+        // Closed forms are those of full poses.
+        _ if terms.is_empty() && hexapod.sensors.is_empty() => {
             bench.design(&SpringRegressor::new(hexapod, &settings, 1, weights), promised)
         }
         _ => bench.design(&exact, promised),

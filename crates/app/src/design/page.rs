@@ -132,7 +132,7 @@ fn quality(plan: &Designed) -> Section {
         .paragraph(format!("{chosen} ({units})."))
         .table(Table::new(columns).rows([values]))
         .with(tolerances(plan).map(Block::paragraph))
-        .with(plan.left_aside.as_ref().map(Block::paragraph))
+        .with(plan.read_by.as_ref().map(Block::paragraph))
 }
 
 /// What is assumed of the inputs, and what it costs; none where they count as exact.

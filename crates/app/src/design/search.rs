@@ -9,7 +9,7 @@ use hexbench_design::refine::{information, refine};
 use hexbench_design::regressor::{ModelRegressor, SettingRegressor};
 use hexbench_design::{Criterion, Objective, PoseProblem, PoseSearch, Space, Visit};
 use hexbench_model::estimation::nuisance::marginal;
-use hexbench_report::words::notes::left_aside;
+use hexbench_report::words::notes::read_by;
 use nalgebra::DMatrix;
 
 use super::{Designed, Quantity, Wish};
@@ -73,8 +73,8 @@ impl Bench<'_> {
             candidates: found.candidates,
             efficiency: found.efficiency,
             starts: found.starts,
-            left_aside: left_aside(&self.hexapod.sensors),
-            weighted: self.hexapod.metrology.is_some(),
+            read_by: read_by(&self.hexapod.sensors),
+            weighted: self.inexact.is_some(),
             seed: self.wish.seed,
         })
     }

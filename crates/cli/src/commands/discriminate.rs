@@ -7,6 +7,7 @@ use clap::Args;
 use hexbench_core::{Dataset, Hexapod, Observation};
 use hexbench_design::Space;
 use hexbench_design::discriminate::{Contest, Distance, SeparatingPlan, candidate_readings};
+use hexbench_design::noise_to_come;
 use hexbench_design::nominal;
 use hexbench_design::space_file::read_space;
 use hexbench_model::effects::term::Term;
@@ -14,7 +15,7 @@ use hexbench_model::estimation::fit_named::term_named;
 use hexbench_model::estimation::noise::Noise;
 use hexbench_model::results::diagnose::prepare;
 use hexbench_model::results::next::{EXCLUDED_ODDS, Effort, PairForecast, Suspects, propose, suspects};
-use hexbench_report::words::notes::left_aside;
+use hexbench_report::words::notes::read_by;
 
 use crate::csv;
 use crate::failure::Failure;
@@ -152,7 +153,7 @@ fn new_plan(
         breakers: breakers(terms),
         candidates: candidate_readings.len(),
         tolerances: contest.tolerances(),
-        left_aside: left_aside(&hexapod.sensors),
+        read_by: read_by(&hexapod.sensors),
         seed: arguments.seed,
     })
 }
@@ -203,7 +204,7 @@ fn next_readings(
         breakers: breakers(terms),
         candidates: candidate_readings.len(),
         tolerances: campaign.assumed_tolerances(),
-        left_aside: None,
+        read_by: None,
         seed: arguments.seed,
     })
 }
@@ -234,14 +235,12 @@ fn distances(contest: &Contest<'_>, path: &Path, hexapod: &Hexapod) -> Result<Ve
 }
 
 fn noise(hexapod: &Hexapod) -> Result<Noise, Failure> {
-    let unknown = || Failure::Usage {
+    noise_to_come(hexapod).ok_or_else(|| Failure::Usage {
         message:
             "how well readings separate effects depends on their noise, which the hexapod file does not state"
                 .into(),
         next: "Add [metrology] with sigma_translation_um and sigma_rotation_urad.".into(),
-    };
-    let metrology = hexapod.metrology.ok_or_else(unknown)?;
-    Ok(Noise::stated(metrology.sigma_translation, metrology.sigma_rotation))
+    })
 }
 
 /// The readings, each repeat in a row of its own.

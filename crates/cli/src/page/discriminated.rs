@@ -33,8 +33,8 @@ pub(crate) struct Discriminated {
     pub(crate) candidates: usize,
     /// How well inputs are assumed to be known; none where they count as exact.
     pub(crate) tolerances: Option<StatedTolerances>,
-    /// That the machine has sensors which play no part, where it has.
-    pub(crate) left_aside: Option<String>,
+    /// By which sensors everything is read, where the machine has some.
+    pub(crate) read_by: Option<String>,
     /// Seed of the poses tried.
     pub(crate) seed: u32,
 }
@@ -223,7 +223,7 @@ fn assumptions(found: &Discriminated) -> Section {
         found.candidates,
         found.seed,
         tolerances.unwrap_or_default(),
-        found.left_aside.as_ref().map_or(String::new(), |sensors| format!(" {sensors}"))
+        found.read_by.as_ref().map_or(String::new(), |sensors| format!(" {sensors}"))
     );
     if found.sizes.is_empty() {
         return Section::new("How it was chosen").paragraph(chosen);

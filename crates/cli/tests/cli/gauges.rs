@@ -83,22 +83,29 @@ fn legs_are_told_where_six_gauges_determine_them_and_else_said_to_be_undetermine
 }
 
 #[test]
-fn a_plan_of_poses_says_that_the_gauges_took_no_part() {
+fn poses_are_planned_for_the_gauges_that_will_read_them() {
     let folder = tempfile::tempdir().unwrap();
     let data = granite(folder.path());
-    let machine = data.join("hexapod.toml");
-    let metrology = "[metrology]\nsigma_translation_um = 0.5\nsigma_rotation_urad = 3\n\n[[sensor]]";
-    let text = std::fs::read_to_string(&machine).unwrap();
-    std::fs::write(&machine, text.replacen("[[sensor]]", metrology, 1)).unwrap();
     let space = "format = \"space/1\"\n[poses]\na_mm = [-20, 20]\ngamma_deg = [-10, 10]\n[loads]\nreference_kg = 12\nmasses_kg = [34]\n";
     std::fs::write(data.join("space.toml"), space).unwrap();
     let design = ["design", "hexapod.toml", "space.toml", "--poses", "3", "--starts", "1"];
     let between = ["--between", "base-compliance", "--between", "platform-compliance"];
     let discriminate = [&["discriminate", "hexapod.toml", "space.toml"][..], &between].concat();
+    let words = |command: &[&str]| page(&data, command).split_whitespace().collect::<Vec<_>>().join(" ");
     for command in [&design[..], &discriminate] {
-        let words = page(&data, command).split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(words.contains("counts as a full pose here; z1, z2, z3, t1, t2 and t3 of the"), "{words}");
+        let said = words(command);
+        assert!(
+            said.contains("Every reading is taken by z1, z2, z3, t1, t2 and t3 of the hexapod file"),
+            "{said}"
+        );
     }
+    // In units of what the gauges state, though nothing is stated of poses.
+    let sure = |said: &str| said.contains("What it will determine") && said.contains("leg-6.stiffness");
+    assert!(sure(&words(&design)));
+    without(&data, &["t1", "t2", "t3"]);
+    let said = words(&design);
+    assert!(said.contains("Every reading is taken by z1, z2 and z3"), "{said}");
+    assert!(said.contains("O1 = ") && !said.contains("m and rad side by side"), "{said}");
 }
 
 #[test]

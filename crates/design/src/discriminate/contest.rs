@@ -3,13 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use hexbench_core::{Dataset, Hexapod, Observation, StatedTolerances, Vector6};
+use hexbench_core::{Hexapod, Observation, StatedTolerances, Vector6};
 use hexbench_model::effects::term::Term;
 use hexbench_model::effects::untestable::{Reason, why_untestable};
 use hexbench_model::error::ModelError;
-use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::natural;
-use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
 use hexbench_model::estimation::noise::Noise;
 use hexbench_model::estimation::nuisance::{ShownInputs, marginal};
 use hexbench_model::estimation::tolerances::{InputKind, input_columns};
@@ -19,6 +17,7 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::DesignError;
+use crate::to_be_read::ToBeRead;
 
 /// Shapes at which an effect of unknown shape counts.
 const SHAPES: usize = 3;
@@ -36,7 +35,7 @@ pub struct Contest<'a> {
     noise: Noise,
     forms: Vec<Form>,
     rivals: usize,
-    /// Combinations of inputs whose errors show, [`InputKind::COLUMNS`] rows.
+    /// Combinations of inputs whose errors show, a row for each of [`input_columns`].
     inputs: DMatrix<f64>,
 }
 
@@ -91,7 +90,7 @@ impl<'a> Contest<'a> {
     ) -> Result<Self, DesignError> {
         let inputs = DMatrix::zeros(InputKind::COLUMNS, 0);
         let mut contest = Self { hexapod, springs, noise, forms: Vec::new(), rivals: terms.len(), inputs };
-        let (campaign, point, lin) = contest.linearized(candidate_readings)?;
+        let ToBeRead { campaign, point, lin, .. } = contest.to_be_read(candidate_readings)?;
         let natural = natural(&point, &lin);
         contest.inputs =
             ShownInputs::of(&input_columns(&campaign, &point, &hexapod.tolerances)?).combinations;
@@ -154,7 +153,8 @@ impl<'a> Contest<'a> {
     /// # Errors
     /// A singular pose.
     pub fn informations(&self, readings: &[Observation]) -> Result<Vec<DMatrix<f64>>, DesignError> {
-        let (campaign, point, lin) = self.linearized(readings)?;
+        let read = self.to_be_read(readings)?;
+        let ToBeRead { campaign, point, lin, .. } = &read;
         let parameters = self.forms.last().map_or(6, |f| f.columns.end);
         let width = parameters + self.inputs.ncols();
         let mut rows = DMatrix::zeros(lin.equations(), width);
@@ -165,30 +165,13 @@ impl<'a> Contest<'a> {
             let block = lin.term_block(form.term.as_ref(), false, form.shape) * sizes;
             rows.columns_mut(form.columns.start, form.columns.len()).copy_from(&block);
         }
-        let inputs = input_columns(&campaign, &point, &self.hexapod.tolerances)? * &self.inputs;
+        let inputs = input_columns(campaign, point, &self.hexapod.tolerances)? * &self.inputs;
         rows.columns_mut(parameters, inputs.ncols()).copy_from(&inputs);
-        // Equal readings are averaged: each has its share of their information.
-        let mut all = vec![DMatrix::zeros(width, width); readings.len()];
-        for (i, group) in campaign.groups.iter().enumerate() {
-            let own = rows.rows(6 * i, 6);
-            let information = own.tr_mul(&own) / group.rows.len() as f64;
-            for &row in &group.rows {
-                all[row as usize].copy_from(&information);
-            }
-        }
-        Ok(all)
+        Ok(read.informations(&rows))
     }
 
-    fn linearized(
-        &self,
-        readings: &[Observation],
-    ) -> Result<(Campaign, ModelPoint, Linearization), DesignError> {
-        let unread = |o: &Observation| Observation { sigma: None, measured: [0.0; 6], ..*o };
-        let dataset = Dataset::of_deflections("", readings.iter().map(unread).collect());
-        let campaign = Campaign::with_noise(self.hexapod, &dataset, self.noise)?;
-        let point = ModelPoint { compliances: self.springs, ..ModelPoint::start(&campaign) };
-        let lin = Linearization::at(&campaign, &point)?;
-        Ok((campaign, point, lin))
+    fn to_be_read(&self, readings: &[Observation]) -> Result<ToBeRead, DesignError> {
+        ToBeRead::of(self.hexapod, self.springs, self.noise, readings.iter().copied())
     }
 
     /// Distances of every effect from every other by the information of a plan.

@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use hexbench_core::{Dataset, Hexapod, Observation, Pose, Vector6};
+use hexbench_core::{Hexapod, Observation, Pose, Vector6};
 use hexbench_model::effects::term::Term;
-use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::natural;
-use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
 use hexbench_model::estimation::noise::Noise;
 use hexbench_model::estimation::nuisance::ShownInputs;
 use hexbench_model::estimation::tolerances::{InputKind, input_columns};
@@ -15,6 +13,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{PoseRegressor, SettingRegressor, leg_names};
 use crate::space::Setting;
+use crate::to_be_read::ToBeRead;
 use crate::{DesignError, Space};
 
 /// A term with its shape value and the natural sizes of its parameters.
@@ -25,7 +24,7 @@ struct Wanted {
     sizes: Vec<f64>,
 }
 
-/// Readings of a pose under every setting, for springs (first six columns) and the parameters of terms.
+/// Readings of a pose under every setting, by the sensors of the machine where it has some, for springs (first six columns) and the parameters of terms.
 ///
 /// A spring counts in relative changes of its compliance, a parameter of a term in natural sizes. A term with a shape takes the
 /// middle one of those it would be tried with.
@@ -37,7 +36,7 @@ pub struct ModelRegressor<'a> {
     terms: Vec<Wanted>,
     settings: Vec<Setting>,
     counts: Vec<usize>,
-    /// Combinations of inputs whose errors show, [`InputKind::COLUMNS`] rows; no columns where all are exact.
+    /// Combinations of inputs whose errors show, a row for each of [`input_columns`]; no columns where all are exact.
     inputs: DMatrix<f64>,
 }
 
@@ -59,7 +58,7 @@ impl<'a> ModelRegressor<'a> {
         let inputs = DMatrix::zeros(InputKind::COLUMNS, 0);
         let mut regressor =
             Self { hexapod, springs, noise, terms: Vec::new(), settings: settings.to_vec(), counts, inputs };
-        let (_, point, lin) = regressor.linearized(regressor.readings(&Pose::default()))?;
+        let ToBeRead { point, lin, .. } = regressor.to_be_read(regressor.readings(&Pose::default()))?;
         let natural = natural(&point, &lin);
         let wanted = |term: &Arc<dyn Term>| {
             let grid = term.shape_grid(&lin.conditions);
@@ -80,7 +79,7 @@ impl<'a> ModelRegressor<'a> {
         const SEED: u32 = 0;
         let poses = space.poses(self.hexapod, POSES, SEED)?;
         let readings = poses.iter().flat_map(|pose| self.readings(pose)).collect();
-        let (campaign, point, _) = self.linearized(readings)?;
+        let ToBeRead { campaign, point, .. } = self.to_be_read(readings)?;
         let columns = input_columns(&campaign, &point, &self.hexapod.tolerances)?;
         self.inputs = ShownInputs::most(&columns, most).combinations;
         Ok(self)
@@ -96,25 +95,22 @@ impl<'a> ModelRegressor<'a> {
         self.terms.iter().flat_map(|w| w.sizes.iter().copied())
     }
 
-    fn linearized(
-        &self,
-        readings: Vec<Observation>,
-    ) -> Result<(Campaign, ModelPoint, Linearization), DesignError> {
-        // Numbered one by one, so that no two are averaged.
+    /// Numbered one by one, so that no two are averaged.
+    fn to_be_read(&self, readings: Vec<Observation>) -> Result<ToBeRead, DesignError> {
         let numbered = (1..).zip(readings).map(|(id, o)| Observation { pose_id: id, repeat: 1, ..o });
-        let dataset = Dataset::of_deflections("", numbered.collect());
-        let campaign = Campaign::with_noise(self.hexapod, &dataset, self.noise)?;
-        let point = ModelPoint { compliances: self.springs, ..ModelPoint::start(&campaign) };
-        let lin = Linearization::at(&campaign, &point)?;
-        Ok((campaign, point, lin))
+        ToBeRead::of(self.hexapod, self.springs, self.noise, numbered)
     }
 
-    /// Whitened rows of readings, six each, one column per parameter and per combination of inputs.
+    /// Whitened rows of readings, one column per parameter and per combination of inputs.
     ///
     /// # Errors
     /// A singular pose.
     pub fn rows(&self, readings: Vec<Observation>) -> Result<DMatrix<f64>, DesignError> {
-        let (campaign, point, lin) = self.linearized(readings)?;
+        self.rows_of(&self.to_be_read(readings)?)
+    }
+
+    fn rows_of(&self, read: &ToBeRead) -> Result<DMatrix<f64>, DesignError> {
+        let ToBeRead { campaign, point, lin, .. } = read;
         let mut rows = DMatrix::zeros(lin.equations(), self.width());
         let springs =
             lin.common_block() * DMatrix::from_diagonal(&DVector::from_column_slice(self.springs.as_slice()));
@@ -129,7 +125,7 @@ impl<'a> ModelRegressor<'a> {
             at += block.ncols();
         }
         if self.inputs() > 0 {
-            let columns = input_columns(&campaign, &point, &self.hexapod.tolerances)?;
+            let columns = input_columns(campaign, point, &self.hexapod.tolerances)?;
             rows.columns_mut(at, self.inputs()).copy_from(&(columns * &self.inputs));
         }
         Ok(rows)
@@ -173,9 +169,11 @@ impl PoseRegressor for ModelRegressor<'_> {
         if read.is_empty() {
             return Ok(());
         }
-        let mut rows = self.rows(read.iter().map(|(s, _)| reading(*pose, s)).collect())?;
+        let taken = self.to_be_read(read.iter().map(|(s, _)| reading(*pose, s)).collect())?;
+        let mut rows = self.rows_of(&taken)?;
+        let height = rows.nrows() / read.len();
         for (k, (_, count)) in read.iter().enumerate() {
-            rows.rows_mut(6 * k, 6).scale_mut((*count as f64).sqrt());
+            rows.rows_mut(height * k, height).scale_mut((*count as f64).sqrt());
         }
         information.gemm_tr(1.0, &rows, &rows, 1.0);
         Ok(())
@@ -202,9 +200,8 @@ impl PoseRegressor for ModelRegressor<'_> {
 
 impl SettingRegressor for ModelRegressor<'_> {
     fn each(&self, pose: &Pose) -> Result<Vec<DMatrix<f64>>, DesignError> {
-        let rows = self.rows(self.readings(pose))?;
-        let of = |k: usize| rows.rows(6 * k, 6).tr_mul(&rows.rows(6 * k, 6));
-        Ok((0..self.settings.len()).map(of).collect())
+        let read = self.to_be_read(self.readings(pose))?;
+        Ok(read.informations(&self.rows_of(&read)?))
     }
 
     fn repeated(&self, counts: &[usize]) -> Self {

@@ -28,13 +28,12 @@ pub(super) fn conventions() -> Section {
     Section::new("Conventions").paragraph(CONVENTIONS)
 }
 
-/// That a plan weighs no sensors, where a machine has some.
-pub fn left_aside(sensors: &[Sensor]) -> Option<String> {
+/// By which sensors a plan is read, where a machine has some.
+pub fn read_by(sensors: &[Sensor]) -> Option<String> {
     let names: Vec<String> = sensors.iter().map(|sensor| sensor.name.clone()).collect();
     (!names.is_empty()).then(|| {
         format!(
-            "Every reading counts as a full pose here; {} of the hexapod file took no part. `hexbench power` says what a plan shows \
-             through the sensors, `hexbench design --sensors` which of them to use.",
+            "Every reading is taken by {} of the hexapod file, each number as good as its sensor states.",
             joined(&names)
         )
     })
