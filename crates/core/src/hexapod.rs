@@ -92,6 +92,13 @@ impl Hexapod {
     pub fn platform_radius(&self) -> f64 {
         self.platform_joints.iter().map(nalgebra::Matrix::norm).sum::<f64>() / 6.0
     }
+
+    /// Standard deviation of every number of its sensors, sensor by sensor; m and rad.
+    pub fn sensor_sigmas(&self) -> Vec<f64> {
+        let sigmas =
+            |sensor: &Sensor| (0..sensor.kind.numbers()).map(|k| sensor.kind.sigma(k)).collect::<Vec<_>>();
+        self.sensors.iter().flat_map(sigmas).collect()
+    }
 }
 
 #[cfg(test)]

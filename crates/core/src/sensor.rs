@@ -174,6 +174,19 @@ impl Sensor {
         Self { name: name.into(), kind, looseness: 1.0 }
     }
 
+    /// The same sensor with a noise so many times as large.
+    #[must_use]
+    pub fn with_noise(mut self, factor: f64) -> Self {
+        match &mut self.kind {
+            SensorKind::Point { sigma, .. } => sigma.iter_mut().for_each(|sigma| *sigma *= factor),
+            SensorKind::Distance { sigma, .. }
+            | SensorKind::Inclination { sigma, .. }
+            | SensorKind::LegLength { sigma, .. }
+            | SensorKind::Function { sigma, .. } => *sigma *= factor,
+        }
+        self
+    }
+
     /// Name of one of its columns, without unit: `g1`, or `ball_x`.
     pub fn column(&self, number: usize) -> String {
         match self.kind {

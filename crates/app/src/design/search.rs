@@ -90,7 +90,8 @@ impl Bench<'_> {
             poses: usize::from(self.wish.poses.unwrap_or(3)),
             known: None,
         };
-        let (starts, ended) = self.starts(if regressor.inputs() > 0 { FEW_STARTS } else { MANY_STARTS });
+        let is_closed = regressor.inputs() == 0 && self.hexapod.sensors.is_empty();
+        let (starts, ended) = self.starts(if is_closed { MANY_STARTS } else { FEW_STARTS });
         let found = problem.search(starts, self.wish.seed, &*ended);
         let PoseSearch { best, starts, ended, agreeing } = found?;
         let visit = |pose: Pose| Visit { pose, counts: counts.clone() };

@@ -23,8 +23,12 @@ struct Bench {
 impl Bench {
     /// The tiny suite, made.
     fn new() -> Self {
+        Self::of(SUITE)
+    }
+
+    fn of(suite: &str) -> Self {
         let bench = Self { folder: tempfile::tempdir().unwrap() };
-        fs::write(bench.path("suite.toml"), SUITE).unwrap();
+        fs::write(bench.path("suite.toml"), suite).unwrap();
         bench.make("challenge", &[]).assert().success();
         bench
     }
@@ -91,6 +95,27 @@ fn entrants_of_two_languages_stand_side_by_side() {
     let page = text(bench.score(&["ours", "shell"], &["--markdown", markdown.to_str().unwrap(), "--check"]));
     assert!(page.contains("cases answered") && page.contains("2 of 2"), "{page}");
     assert!(fs::read_to_string(markdown).unwrap().starts_with("# Challenge tiny, version 3\n"));
+}
+
+#[test]
+fn cases_that_gauges_read_are_answered_in_the_motion_of_the_platform() {
+    let read_by = |suite: &str| suite.replace("count = 1\n", "count = 1\nread_by = \"six-gauges\"\n");
+    let bench = Bench::of(&read_by(SUITE));
+    let case = |name: &str| fs::read_to_string(bench.path("challenge/cases/case-001").join(name)).unwrap();
+    assert_eq!(case("hexapod.toml").matches("[[sensor]]").count(), 6);
+    let header = case("measurements.csv").lines().next().unwrap().to_owned();
+    assert!(header.ends_with("z1_um,z2_um,z3_um,t1_um,t2_um,t3_um"), "{header}");
+    assert!(!case("predict.csv").contains("z1_um"));
+    bench.run("ours", &[own(), "challenge", "answer"]).assert().success();
+    bench.run("paper", &[own(), "challenge", "answer", "--method", "paper"]).assert().success();
+    let scores = bench.json(&["ours", "paper"]);
+    let ours = &scores["entrants"][0]["all"];
+    assert_eq!(ours["outcomes"], serde_json::json!([2, 0, 0]), "{scores:#}");
+    assert!(NOISE.contains(&ours["chi2_reduced"].as_f64().unwrap()), "{ours:#}");
+    // The paper's estimator takes full poses, and says so.
+    assert_eq!(scores["entrants"][1]["all"]["answered"], 0, "{scores:#}");
+    let told = fs::read_to_string(bench.path("paper/cases/case-001/stderr.txt")).unwrap();
+    assert!(told.contains("full poses"), "{told}");
 }
 
 #[test]

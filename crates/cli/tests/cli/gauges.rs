@@ -69,6 +69,16 @@ fn no_angle_is_told_of_gauges_that_read_lengths() {
 }
 
 #[test]
+fn the_papers_estimator_takes_no_gauges_for_pose_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = granite(folder.path());
+    let fit = ["fit", "hexapod.toml", "measurements.csv", "--estimator", "paper"];
+    let refused = hexbench().current_dir(&data).args(fit).output().unwrap();
+    let told = String::from_utf8(refused.stderr).unwrap();
+    assert!(!refused.status.success() && told.contains("sensors and poses with empty cells need"), "{told}");
+}
+
+#[test]
 fn legs_are_told_where_six_gauges_determine_them_and_else_said_to_be_undetermined() {
     let folder = tempfile::tempdir().unwrap();
     let data = granite(folder.path());

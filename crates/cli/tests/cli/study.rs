@@ -248,6 +248,16 @@ fn all_bad() -> Vec<Bad> {
             effect("estimator = [\"gls\"]\n").replace("springs", "diagnose"),
             &["line 11", "estimator of its own"],
         ),
+        bad(
+            "pose noise of sensors",
+            effect("noise_um_urad = [[1, 2]]\n").replace("\"ring_a\"", "\"gauges.toml\""),
+            &["line 11", "whose noise this key does not tell"],
+        ),
+        bad(
+            "estimator of full poses",
+            effect("estimator = [\"gls\", \"paper\"]\n").replace("\"ring_a\"", "\"gauges.toml\""),
+            &["line 11, column 21", "takes full poses"],
+        ),
         Bad {
             what: "missing hexapod file",
             text: with("ring_a", "none.toml"),
@@ -269,6 +279,15 @@ fn all_bad() -> Vec<Bad> {
     ]
 }
 
+/// The granite machine with the gauges of its scene.
+fn machine_with_gauges() -> String {
+    let read = |name: &str| fs::read_to_string(root().join("scenes/granite").join(name)).unwrap();
+    let scene = read("scene.toml");
+    let sensors = scene.lines().skip_while(|line| *line != "[[sensor]]");
+    let other = |line: &&str| !line.starts_with('[') || *line == "[[sensor]]";
+    read("hexapod.toml") + &sensors.take_while(other).map(|line| format!("{line}\n")).collect::<String>()
+}
+
 /// Exit code and standard error.
 fn refused(command: &mut assert_cmd::Command) -> (Option<i32>, String) {
     let output = command.output().unwrap();
@@ -286,6 +305,7 @@ fn line(what: &str, told: &str, folder: &Path) -> String {
 #[test]
 fn every_bad_study_is_told_with_its_place_and_next_step_and_the_page_lists_them() {
     let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("gauges.toml"), machine_with_gauges()).unwrap();
     let mut page = BEGINNING.to_owned();
     for bad in all_bad() {
         let file = write(folder.path(), &bad.text);

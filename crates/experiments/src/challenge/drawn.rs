@@ -3,7 +3,7 @@
 use hexbench_core::streams::{Purpose, derived_seed, stream};
 use hexbench_core::{Dataset, Hexapod};
 use hexbench_truth::TruthError;
-use hexbench_truth::campaign::{CaseSpec, PlanRow, SimulatedCase};
+use hexbench_truth::campaign::{CaseSpec, PlanRow, SensorReadings, SensorSet, SimulatedCase};
 use rand::seq::SliceRandom;
 use rayon::prelude::*;
 
@@ -59,8 +59,21 @@ fn seed_of(seed: u64, portion: usize) -> u64 {
 /// The `index`-th case of a portion: some effects do not show in some plans or machines, then others are tried.
 fn built(portion: &CasePortion, index: usize, seed: u64) -> Result<SimulatedCase, TruthError> {
     const ATTEMPTS: u64 = 12;
-    let attempt = |n| spec(portion, index, seed, n).build();
+    let attempt = |n| {
+        let case = spec(portion, index, seed, n).build()?;
+        match portion.read_by {
+            Some(set) => read_by(set, case),
+            None => Ok(case),
+        }
+    };
     (1..ATTEMPTS).fold(attempt(0), |made, n| made.or_else(|_| attempt(n)))
+}
+
+/// The same with measurements that sensors read; what is held out stays full poses.
+fn read_by(set: SensorSet, mut case: SimulatedCase) -> Result<SimulatedCase, TruthError> {
+    let holdout = case.holdout.clone();
+    case.read_with(SensorReadings { set, fault: None, is_noisy: true })?;
+    Ok(SimulatedCase { holdout, ..case })
 }
 
 fn spec(portion: &CasePortion, index: usize, seed: u64, attempt: u64) -> CaseSpec {

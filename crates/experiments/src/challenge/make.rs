@@ -13,7 +13,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use hexbench_core::files::{
-    MeasurementsWriter, atomic_write, hexapod_to_toml, measurements_to_csv, text_hash,
+    MeasurementsWriter, atomic_write, campaign_to_csv, hexapod_to_toml, measurements_to_csv, text_hash,
 };
 use hexbench_core::{AngleConvention, Dataset, Hexapod};
 
@@ -65,12 +65,20 @@ fn files_of(case: &Drawn) -> io::Result<[(String, String); 6]> {
             public(HEXAPOD),
             hexapod_to_toml(&Hexapod { angles: AngleConvention::default(), ..case.hexapod.clone() }),
         ),
-        (public(MEASUREMENTS), csv(&case.measurements)?),
+        (public(MEASUREMENTS), measured(case)?),
         (public(PREDICT), asked(&case.measured)?),
         (sealed(TRUTH), case.truth.text()),
         (sealed(MEASURED), csv(&case.measured)?),
         (sealed(TRUE_READINGS), csv(&case.true_readings)?),
     ])
+}
+
+/// What was read, by the sensors of the machine where it has some.
+fn measured(case: &Drawn) -> io::Result<String> {
+    let hexapod = Hexapod { angles: AngleConvention::default(), ..case.hexapod.clone() };
+    let mut bytes = Vec::new();
+    campaign_to_csv(&mut bytes, &hexapod, &case.measurements)?;
+    String::from_utf8(bytes).map_err(io::Error::other)
 }
 
 fn csv(rows: &Dataset) -> io::Result<String> {

@@ -26,6 +26,11 @@ pub enum Drawings {
 }
 
 impl Geometry {
+    /// True when the sensors of its file read it, instead of full poses.
+    pub fn has_sensors(&self) -> bool {
+        matches!(&self.source, Drawings::File(hexapod) if !hexapod.sensors.is_empty())
+    }
+
     /// True when every block has the same drawings.
     pub fn is_fixed(&self) -> bool {
         match &self.source {
@@ -124,7 +129,7 @@ impl Sizes {
 /// How noisy the instrument is.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Noises {
-    /// Multiples of what the hexapod file states, else of 0.5 um and 3 urad.
+    /// Multiples of what the hexapod file states, of its sensors where it has some, else of 0.5 um and 3 urad.
     Scales(Vec<f64>),
     /// Standard deviations of one reading: translation (m), rotation (rad).
     Sigmas(Vec<[f64; 2]>),
@@ -142,6 +147,14 @@ impl Noises {
     /// True without values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// By how much the noise that sensors state is scaled.
+    pub fn scale(&self, index: usize) -> f64 {
+        match self {
+            Self::Scales(scales) => scales[index],
+            Self::Sigmas(_) => 1.0,
+        }
     }
 
     /// The noise of a value on a machine that states some, or none.

@@ -1,15 +1,16 @@
 //! One drawn machine with its plan, its hidden effect and what an ideal instrument reads of it.
 
-use hexbench_core::{Dataset, Hexapod, Measurand, Vector6};
+use hexbench_core::{Hexapod, Measurand, Sensor};
 use hexbench_truth::campaign::{PlanRow, SimulatedCampaign, Yardstick, machines};
 use hexbench_truth::metrology::{InstrumentFrames, InstrumentNoise};
-use hexbench_truth::{Mechanism, TruthError, World, mechanisms};
+use hexbench_truth::{Mechanism, World, mechanisms};
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::sweep::axes::{Drawings, Geometry, Sizes};
 use crate::sweep::cells::GridCell;
 use crate::sweep::columns::Status;
 use crate::sweep::draw::{SweepPurpose, drawn};
+use crate::sweep::ideal::Ideal;
 use crate::sweep::plan::{self, Draws, Request};
 use crate::sweep::runner::Runner;
 
@@ -19,36 +20,16 @@ pub struct BlockSetup {
     pub hexapod: Hexapod,
     /// True stiffness of each leg, N/m.
     pub true_stiffness: [f64; 6],
-    /// Noise of one reading.
+    /// Noise of one full pose.
     pub noise: InstrumentNoise,
     /// Readings to learn from, without noise.
     pub training: Ideal,
     /// Readings to judge by, without noise.
     pub holdout: Ideal,
+    /// The same in full poses.
+    pub holdout_poses: Ideal,
     /// Id of the hidden effect.
     pub hidden: Option<&'static str>,
-}
-
-/// Rows and what an ideal instrument reads in them.
-pub struct Ideal {
-    rows: Vec<PlanRow>,
-    readings: Vec<Vector6>,
-}
-
-impl Ideal {
-    fn of(campaign: &SimulatedCampaign, rows: Vec<PlanRow>) -> Result<Self, TruthError> {
-        let readings = campaign.ideal(&rows, Measurand::DeflectionEuler)?;
-        Ok(Self { rows, readings })
-    }
-
-    /// The readings as a file would hold them, each with an error added.
-    pub fn dataset(&self, source: &str, mut error: impl FnMut() -> Vector6) -> Dataset {
-        let read = |(line, (row, ideal)): (u64, (&PlanRow, &Vector6))| {
-            row.read(line, (ideal + error()).into(), None)
-        };
-        let rows = (2..).zip(self.rows.iter().zip(&self.readings)).map(read);
-        Dataset::of_deflections(source, rows.collect())
-    }
 }
 
 impl BlockSetup {
@@ -60,7 +41,9 @@ impl BlockSetup {
         let seed = runner.study().seed;
         let noise = cell.noise();
         let (hexapod, true_stiffness) = machine(seed, cell, block);
-        let hexapod = Hexapod { metrology: Some(noise.metrology()), ..hexapod };
+        let with_noise = |s: &Sensor| s.clone().with_noise(cell.noise_scale());
+        let sensors = hexapod.sensors.iter().map(with_noise).collect();
+        let hexapod = Hexapod { metrology: Some(noise.metrology()), sensors, ..hexapod };
         let space = space(cell.geometry(), &hexapod);
         let designed = runner.designed(cell, &hexapod, &space)?;
         let request = Request {
@@ -88,8 +71,10 @@ impl BlockSetup {
         let world = World { mechanisms, ..bare.world.without_effects() };
         let campaign = SimulatedCampaign { world, ..bare };
         let ideal = |rows| Ideal::of(&campaign, rows).map_err(|_| Status::NoRest);
+        let in_poses = |rows| Ideal::in_poses(&campaign, rows).map_err(|_| Status::NoRest);
         Ok(Self {
             training: ideal(training)?,
+            holdout_poses: in_poses(holdout.clone())?,
             holdout: ideal(holdout)?,
             hexapod,
             true_stiffness,
@@ -145,7 +130,11 @@ fn effect(
     let usual = (entry.draw)(&bare.world.hexapod, &mut rng);
     let factor = match (&cell.axes.size, cell.size()) {
         (Sizes::Sigmas(_), Some(distance)) => {
-            let yardstick = Yardstick::new(bare, training, Measurand::DeflectionEuler);
+            let yardstick = if bare.world.hexapod.sensors.is_empty() {
+                Yardstick::new(bare, training, Measurand::DeflectionEuler)
+            } else {
+                Yardstick::of_sensors(bare, training)
+            };
             let scaled = yardstick.and_then(|y| y.scale_to(&*usual, distance));
             scaled.map_err(|_| Status::NotVisible)?.0
         }

@@ -188,7 +188,19 @@ impl<'a> GridCell<'a> {
         self.axes.size.values().get(self.position[6]).copied()
     }
 
-    /// Noise of the instrument.
+    /// By how much the noise of sensors is scaled.
+    pub fn noise_scale(&self) -> f64 {
+        self.axes.noise.scale(self.position[7])
+    }
+
+    /// Standard deviations of a translation (um) and a rotation (urad); not a number where sensors read.
+    pub fn sigmas_um_urad(&self) -> [f64; 2] {
+        let noise = self.noise();
+        let of_pose = |sigma: f64| if self.geometry().has_sensors() { f64::NAN } else { sigma * 1e6 };
+        [noise.sigma_translation, noise.sigma_rotation].map(of_pose)
+    }
+
+    /// Noise of the instrument where it reads full poses.
     pub fn noise(&self) -> hexbench_truth::metrology::InstrumentNoise {
         self.axes.noise.noise(self.position[7], self.geometry())
     }

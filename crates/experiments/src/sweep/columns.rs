@@ -104,7 +104,7 @@ fn springs() -> Vec<TrialColumn> {
     all.push(number(
         "holdout_error_over_noise",
         "1",
-        "root mean square of both over the standard deviation of one reading",
+        "root mean square error of the predicted numbers over the standard deviation of each",
     ));
     all
 }

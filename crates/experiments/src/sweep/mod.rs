@@ -19,6 +19,7 @@ pub mod cells;
 pub mod columns;
 pub mod draw;
 pub mod error;
+pub mod ideal;
 pub mod page;
 pub mod part;
 pub mod plan;

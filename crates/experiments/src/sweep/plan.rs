@@ -3,9 +3,9 @@
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Approach, Hexapod, Measurand, Pose, Wrench};
 use hexbench_design::nominal;
-use hexbench_design::regressor::{SpringRegressor, Weights};
+use hexbench_design::regressor::{ModelRegressor, PoseRegressor, SpringRegressor, Weights};
 use hexbench_design::space::{Conditions, Loading};
-use hexbench_design::{Budget, Criterion, DesignError, PoseProblem, Space};
+use hexbench_design::{Budget, Criterion, DesignError, PoseProblem, Space, noise_to_come};
 use hexbench_truth::campaign::{PlanKind, PlanRow, Poses, Scheme, Spread, usual_half_range_mm_deg};
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -50,7 +50,7 @@ pub fn random_pose(space: &Space, hexapod: &Hexapod, rng: &mut Pcg64) -> Option<
     })
 }
 
-/// Poses that are best by a criterion for the six leg springs, rows weighted by the noise.
+/// Poses that are best by a criterion for the six leg springs, rows weighted by the noise, of full poses where no sensor reads.
 pub(crate) fn designed_poses(
     criterion: Criterion,
     poses: u64,
@@ -59,17 +59,29 @@ pub(crate) fn designed_poses(
     noise: [f64; 2],
     starts: u64,
 ) -> Result<Vec<Pose>, DesignError> {
-    const SEED: u32 = 1;
-    let weights = Weights {
-        translation: 1.0 / noise[0],
-        rotation: 1.0 / noise[1],
-        compliance: nominal::compliance(hexapod).into(),
-    };
+    let compliance = nominal::compliance(hexapod);
+    if let Some(noise) = noise_to_come(hexapod).filter(|_| !hexapod.sensors.is_empty()) {
+        let regressor = ModelRegressor::new(hexapod, compliance.into(), noise, &[], &space.settings(), 1)?;
+        return best_poses(criterion, poses, hexapod, space, &regressor, starts);
+    }
+    let [translation, rotation] = noise.map(f64::recip);
+    let weights = Weights { translation, rotation, compliance: compliance.into() };
     let regressor = SpringRegressor::new(hexapod, &space.settings(), 1, weights);
-    let criterion = criterion.objective(hexapod, space, &regressor)?;
+    best_poses(criterion, poses, hexapod, space, &regressor, starts)
+}
+
+fn best_poses(
+    criterion: Criterion,
+    poses: u64,
+    hexapod: &Hexapod,
+    space: &Space,
+    regressor: &impl PoseRegressor,
+    starts: u64,
+) -> Result<Vec<Pose>, DesignError> {
+    const SEED: u32 = 1;
+    let criterion = criterion.objective(hexapod, space, regressor)?;
     let poses = usize::try_from(poses).unwrap_or(usize::MAX);
-    let problem =
-        PoseProblem { hexapod, space, regressor: &regressor, criterion: &criterion, poses, known: None };
+    let problem = PoseProblem { hexapod, space, regressor, criterion: &criterion, poses, known: None };
     let starts = usize::try_from(starts).unwrap_or(usize::MAX);
     Ok(problem.search(starts, SEED, &|| ())?.best.poses)
 }

@@ -62,11 +62,20 @@ pub fn block(hexapod: &Hexapod, reading: &Observation, measurand: Measurand) -> 
 /// `A` of all readings, six rows each in file order.
 ///
 /// # Errors
-/// As [`block`]; [`ModelError::Mismatch`] for absolute poses, which the method does not cover.
+/// As [`block`]; [`ModelError::Mismatch`] for absolute poses, and for anything else than full poses, which the method does not cover.
 pub fn regressor(hexapod: &Hexapod, data: &Dataset) -> Result<DMatrix<f64>, ModelError> {
-    if data.is_absolute() {
-        let why = "the paper's estimator is for deflections; absolute poses need the estimator `gls`";
-        return Err(ModelError::Mismatch(why.to_owned()));
+    let not_covered = if data.is_absolute() {
+        Some("absolute poses need")
+    } else if data.has_other_readings() {
+        Some("sensors and poses with empty cells need")
+    } else {
+        None
+    };
+    if let Some(need) = not_covered {
+        let why = format!(
+            "the paper's estimator is for deflections read as full poses; {need} the estimator `gls`"
+        );
+        return Err(ModelError::Mismatch(why));
     }
     let mut a = DMatrix::zeros(6 * data.observations.len(), 6);
     for (i, reading) in data.observations.iter().enumerate() {

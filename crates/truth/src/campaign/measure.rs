@@ -9,7 +9,7 @@ use rand_pcg::Pcg64;
 use super::PlanRow;
 use crate::{
     TruthError, World,
-    metrology::{InstrumentFrames, InstrumentNoise},
+    metrology::{InstrumentFrames, InstrumentNoise, read_sensors},
 };
 
 /// A world with its instrument.
@@ -29,13 +29,32 @@ impl SimulatedCampaign {
     /// # Errors
     /// As [`World::reading`].
     pub fn ideal(&self, rows: &[PlanRow], measurand: Measurand) -> Result<Vec<Vector6>, TruthError> {
-        let mut readings: Vec<Vector6> = Vec::with_capacity(rows.len());
+        Self::of_rows(rows, |row, sequence| self.one(row, sequence, measurand))
+    }
+
+    /// What the sensors of the machine read without errors, row by row, sensor by sensor; m and rad.
+    ///
+    /// # Errors
+    /// As [`World::before_and_after_loads`].
+    pub fn sensed(&self, rows: &[PlanRow]) -> Result<Vec<Vec<f64>>, TruthError> {
+        let alone = LoadSequence::default();
+        Self::of_rows(rows, |row, sequence| {
+            let states = self.world.before_and_after_loads(&row.situation, sequence.unwrap_or(&alone))?;
+            Ok(read_sensors(&self.world.hexapod, &states))
+        })
+    }
+
+    /// What rows read, equal ones in a sequence computed once.
+    fn of_rows<T: Clone>(
+        rows: &[PlanRow],
+        one: impl Fn(&PlanRow, Option<&LoadSequence>) -> Result<T, TruthError>,
+    ) -> Result<Vec<T>, TruthError> {
+        let mut readings: Vec<T> = Vec::with_capacity(rows.len());
         let unread: Vec<Observation> = rows.iter().map(PlanRow::unread).collect();
         let sequences = LoadSequence::of_all(&unread);
         for (i, row) in rows.iter().enumerate() {
             let again = i > 0 && row.order.is_none() && rows[i - 1].situation == row.situation;
-            let reading =
-                if again { readings[i - 1] } else { self.one(row, sequences[i].as_ref(), measurand)? };
+            let reading = if again { readings[i - 1].clone() } else { one(row, sequences[i].as_ref())? };
             readings.push(reading);
         }
         Ok(readings)

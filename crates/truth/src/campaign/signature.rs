@@ -17,6 +17,8 @@ pub struct Yardstick<'a> {
     rows: &'a [PlanRow],
     measurand: Measurand,
     baseline: Vec<Vector6>,
+    /// What sensors read, where they do; else the six numbers count.
+    sensed: Option<Vec<f64>>,
     explained: Vec<Vec<f64>>,
 }
 
@@ -38,6 +40,18 @@ impl<'a> Yardstick<'a> {
         Ok(yardstick)
     }
 
+    /// A yardstick of what the sensors of the machine read; `campaign` must be without effects.
+    ///
+    /// # Errors
+    /// As [`World::reading`].
+    pub fn of_sensors(campaign: &'a SimulatedCampaign, rows: &'a [PlanRow]) -> Result<Self, TruthError> {
+        let sensed = Some(campaign.sensed(rows)?.concat());
+        let poses = Self::of_signatures(campaign, rows, Measurand::DeflectionEuler)?;
+        let mut yardstick = Self { sensed, ..poses };
+        yardstick.explain_by_springs()?;
+        Ok(yardstick)
+    }
+
     /// A yardstick that explains nothing by springs or frames: its signatures are the same, at a tenth of the effort, and
     /// its distances are whole lengths.
     ///
@@ -49,7 +63,7 @@ impl<'a> Yardstick<'a> {
         measurand: Measurand,
     ) -> Result<Self, TruthError> {
         let baseline = campaign.ideal(rows, measurand)?;
-        Ok(Self { campaign, rows, measurand, baseline, explained: Vec::new() })
+        Ok(Self { campaign, rows, measurand, baseline, sensed: None, explained: Vec::new() })
     }
 
     /// What the mechanisms add to the readings, m and rad.
@@ -57,8 +71,12 @@ impl<'a> Yardstick<'a> {
     /// # Errors
     /// As [`World::reading`].
     pub fn signature(&self, mechanisms: Vec<Box<dyn Mechanism>>) -> Result<Vec<Vector6>, TruthError> {
+        self.added_by(&self.with(mechanisms))
+    }
+
+    fn with(&self, mechanisms: Vec<Box<dyn Mechanism>>) -> SimulatedCampaign {
         let world = World { mechanisms, ..self.campaign.world.without_effects() };
-        self.added_by(&SimulatedCampaign { world, frames: self.campaign.frames, noise: self.campaign.noise })
+        SimulatedCampaign { world, frames: self.campaign.frames, noise: self.campaign.noise }
     }
 
     /// Distance of the mechanisms taken together.
@@ -66,7 +84,7 @@ impl<'a> Yardstick<'a> {
     /// # Errors
     /// As [`World::reading`].
     pub fn distance(&self, mechanisms: Vec<Box<dyn Mechanism>>) -> Result<f64, TruthError> {
-        let mut rest = self.whitened(&self.signature(mechanisms)?);
+        let mut rest = self.whitened(self.seen(&self.with(mechanisms))?);
         self.remove_explained(&mut rest);
         Ok(norm(&rest))
     }
@@ -114,9 +132,21 @@ impl<'a> Yardstick<'a> {
         Ok(readings.iter().zip(&self.baseline).map(|(a, b)| difference(a, b)).collect())
     }
 
-    fn whitened(&self, readings: &[Vector6]) -> Vec<f64> {
-        let sigma = self.campaign.noise.sigma();
-        readings.iter().flat_map(|r| r.component_div(&sigma).iter().copied().collect::<Vec<_>>()).collect()
+    /// What another campaign adds to the numbers that are read, m and rad.
+    fn seen(&self, campaign: &SimulatedCampaign) -> Result<Vec<f64>, TruthError> {
+        let Some(baseline) = &self.sensed else {
+            return Ok(self.added_by(campaign)?.iter().flat_map(|r| <[f64; 6]>::from(*r)).collect());
+        };
+        let read = campaign.sensed(self.rows)?.concat();
+        Ok(read.iter().zip(baseline).map(|(a, b)| a - b).collect())
+    }
+
+    fn whitened(&self, numbers: impl IntoIterator<Item = f64>) -> Vec<f64> {
+        let sigmas = match &self.sensed {
+            None => self.campaign.noise.sigma().iter().copied().collect(),
+            Some(_) => self.campaign.world.hexapod.sensor_sigmas(),
+        };
+        numbers.into_iter().zip(sigmas.iter().cycle()).map(|(number, sigma)| number / sigma).collect()
     }
 
     /// Central differences by each leg compliance.
@@ -126,14 +156,14 @@ impl<'a> Yardstick<'a> {
             let changed = |share: f64| {
                 let mut world = self.campaign.world.without_effects();
                 world.leg_compliance[leg] *= 1.0 + share;
-                self.added_by(&SimulatedCampaign {
+                self.seen(&SimulatedCampaign {
                     world,
                     frames: self.campaign.frames,
                     noise: self.campaign.noise,
                 })
             };
             let (plus, minus) = (changed(SHARE)?, changed(-SHARE)?);
-            self.explain(plus.iter().zip(&minus).map(|(p, m)| p - m).collect::<Vec<_>>().as_slice());
+            self.explain(plus.iter().zip(&minus).map(|(p, m)| p - m));
         }
         Ok(())
     }
@@ -145,16 +175,16 @@ impl<'a> Yardstick<'a> {
             let changed = |step: f64| {
                 let world = self.campaign.world.without_effects();
                 let frames = absolute::shifted(&self.campaign.frames, k, step);
-                self.added_by(&SimulatedCampaign { world, frames, noise: self.campaign.noise })
+                self.seen(&SimulatedCampaign { world, frames, noise: self.campaign.noise })
             };
             let (plus, minus) = (changed(STEP)?, changed(-STEP)?);
-            self.explain(plus.iter().zip(&minus).map(|(p, m)| p - m).collect::<Vec<_>>().as_slice());
+            self.explain(plus.iter().zip(&minus).map(|(p, m)| p - m));
         }
         Ok(())
     }
 
     /// Adds a direction to what is explained anyway, orthonormal to the others; one that is none of its own is dropped.
-    fn explain(&mut self, column: &[Vector6]) {
+    fn explain(&mut self, column: impl Iterator<Item = f64>) {
         const DEPENDENT: f64 = 1e-6;
         let mut v = self.whitened(column);
         let before = norm(&v);

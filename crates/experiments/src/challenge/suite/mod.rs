@@ -5,7 +5,7 @@ mod read;
 use std::path::Path;
 
 use hexbench_core::files::text_hash;
-use hexbench_truth::campaign::{CaseKind, PlanKind};
+use hexbench_truth::campaign::{CaseKind, PlanKind, SensorSet};
 
 use crate::challenge::ChallengeError;
 use crate::error::ExperimentError;
@@ -59,6 +59,8 @@ pub struct CasePortion {
     pub plan: Option<PlanKind>,
     /// Family of the machine; drawn without.
     pub machine: Option<&'static str>,
+    /// What reads the measurements; full poses without.
+    pub read_by: Option<SensorSet>,
     /// Most readings of one condition that are handed out.
     pub repeats: Option<u64>,
 }

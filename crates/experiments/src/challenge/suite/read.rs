@@ -5,7 +5,7 @@ use std::path::Path;
 use hexbench_core::files::{
     Fault, FileError, Format, Item, KeyUnit, TomlSection, instead_of, read_toml_text,
 };
-use hexbench_truth::campaign::{CaseKind, PlanKind, machines};
+use hexbench_truth::campaign::{CaseKind, PlanKind, SensorSet, machines};
 use hexbench_truth::mechanisms::REGISTRY;
 
 use super::{CasePortion, ChallengeSuite};
@@ -16,7 +16,7 @@ const FORMAT: Format = Format {
 };
 
 const PORTION: &[KeyUnit] =
-    &KeyUnit::all_plain(["kind", "count", "distance", "effects", "plan", "machine", "repeats"]);
+    &KeyUnit::all_plain(["kind", "count", "distance", "effects", "plan", "machine", "read_by", "repeats"]);
 
 /// Most cases of a suite: each is a folder, and its name has three digits or four.
 const MOST_CASES: usize = 5000;
@@ -71,6 +71,7 @@ fn portion(item: &Item<'_>) -> Result<CasePortion, Fault> {
         effects: t.get("effects").map_or(Ok(Vec::new()), effects)?,
         plan: t.get("plan").map(plan).transpose()?,
         machine: t.get("machine").map(machine).transpose()?,
+        read_by: t.get("read_by").map(read_by).transpose()?,
         repeats: t.get("repeats").map(|n| n.whole(1)).transpose()?,
     };
     refuse_contradictions(&t, &portion)?;
@@ -87,6 +88,9 @@ fn refuse_contradictions(t: &TomlSection<'_>, portion: &CasePortion) -> Result<(
     }
     if let Some(item) = t.get("effects").filter(|_| portion.kind == CaseKind::Clean) {
         return Err(item.breaks("a clean case has no effect", "Remove this key, or write kind = \"single\"."));
+    }
+    if let Some(item) = t.get("read_by").filter(|_| absolute) {
+        return Err(item.breaks("absolute poses are read whole", "Remove this key, or choose another kind."));
     }
     let other_plan = portion.plan.is_some_and(|p| (p == PlanKind::Absolute) != absolute);
     match t.get("plan").filter(|_| other_plan) {
@@ -133,6 +137,10 @@ fn plan(item: &Item<'_>) -> Result<PlanKind, Fault> {
 
 fn machine(item: &Item<'_>) -> Result<&'static str, Fault> {
     Ok(machines::FAMILIES[named(item, "family of machines", machines::FAMILIES)?])
+}
+
+fn read_by(item: &Item<'_>) -> Result<SensorSet, Fault> {
+    Ok(SensorSet::ALL[named(item, "set of sensors", &SensorSet::ALL.map(SensorSet::word))?])
 }
 
 fn named(item: &Item<'_>, what: &str, names: &[&str]) -> Result<usize, Fault> {

@@ -48,6 +48,8 @@ fn a_suite_says_where_it_is_wrong() {
         ("[cases.a]\nkind = \"single\"\ncount = 1\ndistance = [9, 5]", "distances rise"),
         ("[cases.a]\nkind = \"single\"\ncount = 1\neffects = [\"crep\"]", "no effect is called \"crep\""),
         ("[cases.a]\nkind = \"single\"\ncount = 1\nplan = \"absolute\"", "belong to the kind \"absolute\""),
+        ("[cases.a]\nkind = \"clean\"\ncount = 1\nread_by = \"gauges\"", "no set of sensors is called"),
+        ("[cases.a]\nkind = \"absolute\"\ncount = 1\nread_by = \"scales\"", "absolute poses are read whole"),
         ("[cases.a]\nkind = \"single\"\ncount = 6000", "at most 5000"),
     ] {
         let found = message(cases);

@@ -7,7 +7,6 @@ use super::equal::{Equal, Matching, equals};
 use super::laws::{PowerLaw, laws};
 use super::marginal::{Marginal, group_of, marginal, varying};
 use super::response::{Response, responses};
-use crate::sweep::axes::Drawings;
 use crate::sweep::cells::{AXES, AxisLevel, AxisLevels};
 use crate::sweep::columns::Status;
 use crate::sweep::results::CellStatistics;
@@ -38,19 +37,20 @@ pub(super) fn head(study: &SweepStudy, cells: &[CellStatistics]) -> Section {
             study.seed,
             &study.hash()[..12.min(study.hash().len())],
         ))
-        .with(unread_sensors(study).map(Block::paragraph))
+        .with(sensors_read(study).map(Block::paragraph))
         .with((!failed.is_empty()).then(|| Block::paragraph(left_out)))
 }
 
-/// That machines whose files have sensors are read in full poses all the same; none where no file has any.
-fn unread_sensors(study: &SweepStudy) -> Option<String> {
-    let with_sensors = study.axes.geometry.iter().filter(|geometry| match &geometry.source {
-        Drawings::File(hexapod) => !hexapod.sensors.is_empty(),
-        Drawings::Family(_) => false,
-    });
+/// Which machines their sensors read; none where no file has any.
+fn sensors_read(study: &SweepStudy) -> Option<String> {
+    let with_sensors = study.axes.geometry.iter().filter(|geometry| geometry.has_sensors());
     let names: Vec<&str> = with_sensors.map(|geometry| geometry.name.as_str()).collect();
     (!names.is_empty()).then(|| {
-        format!("Studies simulate readings of full poses; the sensors in {} are not read.", names.join(", "))
+        format!(
+            "The sensors in {} take every reading there, as the files state them; held-out errors of translations and rotations \
+             are those of the platform.",
+            names.join(", ")
+        )
     })
 }
 

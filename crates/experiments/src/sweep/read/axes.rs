@@ -107,6 +107,21 @@ impl AxesTable {
     }
 }
 
+/// What is said of the first value in `[axes]` that sensors cannot take; none where all can.
+pub(super) fn of_full_poses(item: &Item<'_>) -> Result<Option<Fault>, Fault> {
+    let t = item.section("[axes]", KEYS)?;
+    if let Some(pairs) = t.get("noise_um_urad") {
+        let next = "Write noise_scale instead: multiples of the noise that each sensor states.";
+        return Ok(Some(pairs.breaks("a geometry has sensors, whose noise this key does not tell", next)));
+    }
+    let Some(list) = t.get("estimator") else { return Ok(None) };
+    let papers = |item: &&Item<'_>| item.string().is_ok_and(|name| name == SweepEstimator::Paper.name());
+    let next = "Remove it, or remove the sensors from the hexapod file.";
+    let said =
+        |item: &Item<'_>| item.breaks("a geometry has sensors, and this estimator takes full poses", next);
+    Ok(list.list()?.iter().find(papers).map(said))
+}
+
 /// The members of a list that is not empty and holds nothing twice.
 fn each<T>(list: &Item<'_>, read: impl Fn(&Item<'_>) -> Result<T, Fault>) -> Result<Vec<T>, Fault> {
     let items = list.list()?;

@@ -9,6 +9,7 @@ use hexbench_core::files::{
     Fault, FileError, Format, Item, KeyUnit, TomlSection, content_hash, instead_of, read_toml,
 };
 
+use crate::sweep::axes::Geometry;
 use crate::sweep::study::{STUDY_FILE, SweepStudy, SweepTask};
 use axes::AxesTable;
 
@@ -36,6 +37,8 @@ struct Description {
     redraw: u64,
     starts: u64,
     axes: AxesTable,
+    /// What is wrong with it where sensors read.
+    of_full_poses: Option<Fault>,
 }
 
 impl SweepStudy {
@@ -49,6 +52,9 @@ impl SweepStudy {
         let mut inputs = files::Inputs::default();
         inputs.digests.insert(STUDY_FILE.to_owned(), content_hash(path)?);
         let axes = files::complete(d.axes, d.space.as_deref(), folder, &mut inputs)?;
+        if let Some(fault) = d.of_full_poses.filter(|_| axes.geometry.iter().any(Geometry::has_sensors)) {
+            return Err(fault.in_file(path));
+        }
         Ok(Self {
             title: d.title,
             seed: d.seed,
@@ -77,6 +83,7 @@ fn description(top: &TomlSection<'_>) -> Result<Description, Fault> {
         redraw: whole("redraw", USUAL_REDRAW)?,
         starts: whole("starts", USUAL_STARTS)?,
         axes: AxesTable::read(top.require("axes")?, task)?,
+        of_full_poses: axes::of_full_poses(top.require("axes")?)?,
     };
     let cells: u128 = d.axes.counts().map(|n| n as u128).iter().product();
     let all = cells * u128::from(d.trials);

@@ -22,8 +22,7 @@ pub fn cells_csv(study: &SweepStudy, cells: &[CellStatistics]) -> String {
     for found in cells {
         let cell = study.axes.cell(found.cell);
         let at = levels.iter().zip(cell.position).map(|(axis, k)| axis.levels[k].text());
-        let noise = cell.noise();
-        let sigmas = [noise.sigma_translation, noise.sigma_rotation].map(|s| number(s * 1e6));
+        let sigmas = cell.sigmas_um_urad().map(number);
         let values = match study.task {
             SweepTask::Springs => springs(found),
             SweepTask::Diagnose => diagnose(found),

@@ -109,11 +109,11 @@ impl Head<'_> {
                 text(group, &at.iter().map(|&k| words[k].clone()).collect::<Vec<_>>(), None)?;
             }
         }
-        let sigma = |of: fn(&hexbench_truth::metrology::InstrumentNoise) -> f64| {
-            places.iter().map(|p| short(of(&study.axes.cell(p.0).noise()) * 1e6)).collect::<Vec<_>>()
+        let sigma = |k: usize| {
+            places.iter().map(|p| short(study.axes.cell(p.0).sigmas_um_urad()[k])).collect::<Vec<_>>()
         };
-        double(group, &sigma(|n| n.sigma_translation))?;
-        double(group, &sigma(|n| n.sigma_rotation))
+        numbers(group, &sigma(0))?;
+        numbers(group, &sigma(1))
     }
 }
 
@@ -147,7 +147,7 @@ fn fields_of(levels: &[AxisLevels; AXES], columns: &[TrialColumn]) -> Result<Vec
     let numbers = ["cell", "trial", "block"].into_iter().map(|name| required(name, Physical::INT64));
     let sigmas = ["sigma_translation_um", "sigma_rotation_urad"]
         .into_iter()
-        .map(|name| required(name, Physical::DOUBLE));
+        .map(|name| optional(name, Physical::DOUBLE));
     numbers.chain(levels.iter().map(axis)).chain(sigmas).chain(columns.iter().map(result)).collect()
 }
 
@@ -186,8 +186,16 @@ fn fields(runner: &Runner) -> serde_json::Value {
             "1",
             "trials of a cell with the same number share machine, random poses, surroundings and effect",
         ),
-        ("sigma_translation_um", "um", "standard deviation of one reading of a translation"),
-        ("sigma_rotation_urad", "urad", "standard deviation of one reading of a rotation"),
+        (
+            "sigma_translation_um",
+            "um",
+            "standard deviation of one reading of a translation; null where sensors read",
+        ),
+        (
+            "sigma_rotation_urad",
+            "urad",
+            "standard deviation of one reading of a rotation; null where sensors read",
+        ),
     ];
     let axes = runner.study().axes.levels().map(|axis| (axis.name, "", "value on this axis of the study"));
     let one = |(name, unit, meaning): (&str, &str, &str)| {

@@ -1,7 +1,6 @@
 //! The diagnosis is asked what is hidden.
 
 use crate::{Outcome, Trial};
-use hexbench_core::Vector6;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{StepReport, diagnose};
 use hexbench_model::terms::catalogue;
@@ -37,9 +36,8 @@ fn values(
     names: &[String],
 ) -> Option<[Value; 7]> {
     let mut rng = drawn(seed, SweepPurpose::Noise, cell.index, trial);
-    let mut error = || -> Vector6 { bench.noise.draw(&mut rng) };
-    let measurements = bench.training.dataset("measurements.csv", &mut error);
-    let holdout = bench.holdout.dataset("holdout.csv", &mut error);
+    let measurements = bench.training.dataset("measurements.csv", Some(&mut rng));
+    let holdout = bench.holdout.dataset("holdout.csv", Some(&mut rng));
     let study = diagnose(&bench.hexapod, &measurements, Some(&holdout), &catalogue()).ok()?;
     let hidden = bench.hidden.map(in_the_catalogue).into_iter().collect();
     let trial = Trial { hidden, study };

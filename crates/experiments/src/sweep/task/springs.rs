@@ -17,6 +17,7 @@ use hexbench_core::{Matrix6, Vector6};
 use hexbench_model::estimation::campaign::Campaign;
 use hexbench_model::estimation::fit::fit_baseline;
 use hexbench_model::estimation::linearization::{Linearization, ModelPoint};
+use hexbench_model::estimation::noise::Noise;
 use hexbench_model::estimation::paper;
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution, StandardNormal};
@@ -27,6 +28,7 @@ use crate::sweep::axes::SweepEstimator;
 use crate::sweep::bench::BlockSetup;
 use crate::sweep::columns::Status;
 use crate::sweep::draw::{SweepPurpose, drawn};
+use crate::sweep::ideal::Ideal;
 use crate::sweep::runner::Runner;
 use crate::sweep::shard::{Shard, Value};
 
@@ -59,6 +61,8 @@ pub struct Prepared {
     std: Vector6,
     translations: Quadratic,
     rotations: Quadratic,
+    /// Of the numbers that are read.
+    readings: Quadratic,
     sigma: [f64; 2],
 }
 
@@ -69,15 +73,14 @@ pub struct SpringsResult {
     pub errors: [f64; 6],
     /// Legs whose 95 % interval holds the truth.
     pub covered: u8,
-    /// Root mean square error of a prediction in standard deviations: translations, rotations.
-    pub holdout: [f64; 2],
-    sigma: [f64; 2],
+    /// Root mean square error of a prediction: translations (m), rotations (rad), numbers that are read in standard deviations.
+    pub holdout: [f64; 3],
 }
 
 impl SpringsResult {
     fn values(&self) -> impl Iterator<Item = Value> {
-        let [t, r] = self.holdout;
-        let holdout = [t * self.sigma[0] * 1e6, r * self.sigma[1] * 1e6, (0.5 * (t * t + r * r)).sqrt()];
+        let [t, r, readings] = self.holdout;
+        let holdout = [t * 1e6, r * 1e6, readings];
         let errors = self.errors.map(|e| Value::Number(100.0 * e));
         errors.into_iter().chain([Value::Code(self.covered)]).chain(holdout.map(Value::Number))
     }
@@ -89,23 +92,25 @@ impl Prepared {
     /// # Errors
     /// [`Status::NotDetermined`], [`Status::NoFit`].
     pub fn of(bench: &BlockSetup, estimator: SweepEstimator) -> Result<Self, Status> {
-        let data = bench.training.dataset("measurements", Vector6::zeros);
+        let data = bench.training.dataset("measurements", None);
         let campaign = Campaign::new(&bench.hexapod, &data).map_err(|_| Status::NoFit)?;
         let (center, gain) = match estimator {
             SweepEstimator::Gls => weighted(&campaign)?,
             SweepEstimator::Paper => unweighted(&campaign)?,
         };
         let covariance = &gain * gain.transpose();
-        let holdout = bench.holdout.dataset("holdout", Vector6::zeros);
-        let [translations, rotations] = held_out(&campaign, &holdout, center)?;
+        let sigma = [bench.noise.sigma_translation, bench.noise.sigma_rotation];
+        let poses = HeldOut::of(&campaign, &bench.holdout_poses, Noise::stated(sigma[0], sigma[1]), center)?;
+        let read = HeldOut::of(&campaign, &bench.holdout, campaign.noise, center)?;
         Ok(Self {
             true_stiffness: Vector6::from(bench.true_stiffness),
             center,
             gain: gain.column_iter().map(|c| Vector6::from_fn(|i, _| c[i])).collect(),
             std: Vector6::from_fn(|i, _| covariance[(i, i)].sqrt()),
-            translations,
-            rotations,
-            sigma: [bench.noise.sigma_translation, bench.noise.sigma_rotation],
+            translations: poses.of_half(0),
+            rotations: poses.of_half(1),
+            readings: read.whole(),
+            sigma,
         })
     }
 
@@ -128,8 +133,10 @@ impl Prepared {
             let std = self.std[i] * k * k;
             covered += u8::from((k - self.true_stiffness[i]).abs() <= COVERAGE_FACTOR * std);
         }
-        let holdout = [&self.translations, &self.rotations].map(|q| q.at(&moved).max(0.0).sqrt());
-        Some(SpringsResult { errors, covered, holdout, sigma: self.sigma })
+        let [t, r, readings] =
+            [&self.translations, &self.rotations, &self.readings].map(|q| q.at(&moved).max(0.0).sqrt());
+        let holdout = [t * self.sigma[0], r * self.sigma[1], readings];
+        Some(SpringsResult { errors, covered, holdout })
     }
 
     /// Compliances without noise (m/N), and the standard error of each.
@@ -199,11 +206,9 @@ impl Quadratic {
         self.constant - 2.0 * self.slope.dot(d) + d.dot(&(self.curve * d))
     }
 
-    /// Of the whitened residuals `r` and columns `h` in these rows.
-    fn of(r: &DVector<f64>, h: &DMatrix<f64>, rows: &[usize]) -> Self {
-        let n = rows.len().max(1) as f64;
-        let (r, h) = (r.select_rows(rows), h.select_rows(rows));
-        let (slope, curve) = (h.tr_mul(&r) / n, h.tr_mul(&h) / n);
+    /// Of whitened residuals and columns that hold so many numbers.
+    fn of(r: &DVector<f64>, h: &DMatrix<f64>, n: f64) -> Self {
+        let (slope, curve) = (h.tr_mul(r) / n, h.tr_mul(h) / n);
         Self {
             constant: r.norm_squared() / n,
             slope: Vector6::from_fn(|i, _| slope[i]),
@@ -212,17 +217,32 @@ impl Quadratic {
     }
 }
 
-/// Errors of predicted translations and rotations around compliances, in standard deviations of one reading.
-fn held_out(
-    campaign: &Campaign,
-    holdout: &hexbench_core::Dataset,
-    springs: Vector6,
-) -> Result<[Quadratic; 2], Status> {
-    let judged =
-        Campaign::with_noise(&campaign.hexapod, holdout, campaign.noise).map_err(|_| Status::NoFit)?;
-    let point = ModelPoint { compliances: springs, ..ModelPoint::start(campaign) };
-    let state = Linearization::at(&judged, &point).map_err(|_| Status::NoFit)?;
-    let (r, h) = (state.residuals(), state.common_block());
-    let rows = |half: usize| (0..r.len()).filter(|k| (k % 6) / 3 == half).collect::<Vec<_>>();
-    Ok([0, 1].map(|half| Quadratic::of(&r, &h, &rows(half))))
+/// Errors of predictions around compliances, in standard deviations, and how they move with the compliances.
+struct HeldOut {
+    residuals: DVector<f64>,
+    columns: DMatrix<f64>,
+    /// Numbers among the rows: a row whose number was not read holds none.
+    numbers: f64,
+}
+
+impl HeldOut {
+    fn of(campaign: &Campaign, ideal: &Ideal, noise: Noise, springs: Vector6) -> Result<Self, Status> {
+        let holdout = ideal.dataset("holdout", None);
+        let judged = Campaign::with_noise(&campaign.hexapod, &holdout, noise).map_err(|_| Status::NoFit)?;
+        let point = ModelPoint { compliances: springs, ..ModelPoint::start(campaign) };
+        let state = Linearization::at(&judged, &point).map_err(|_| Status::NoFit)?;
+        Ok(Self { residuals: state.residuals(), columns: state.common_block(), numbers: state.numbers() })
+    }
+
+    /// Of the translations (0) or of the rotations (1) of full poses.
+    fn of_half(&self, half: usize) -> Quadratic {
+        let rows: Vec<usize> = (0..self.residuals.len()).filter(|k| (k % 6) / 3 == half).collect();
+        let (residuals, columns) = (self.residuals.select_rows(&rows), self.columns.select_rows(&rows));
+        Quadratic::of(&residuals, &columns, rows.len() as f64)
+    }
+
+    /// Of all numbers.
+    fn whole(&self) -> Quadratic {
+        Quadratic::of(&self.residuals, &self.columns, self.numbers)
+    }
 }

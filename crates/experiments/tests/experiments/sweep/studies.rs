@@ -7,10 +7,10 @@ use hexbench_experiments::ExperimentError;
 use hexbench_experiments::harness::{Sharded, Silent, compute};
 use hexbench_experiments::journal::Journal;
 use hexbench_experiments::recovery::tally::bounds;
-use hexbench_experiments::sweep::Runner;
 use hexbench_experiments::sweep::columns::Status;
 use hexbench_experiments::sweep::page::{Matching, equals, laws};
 use hexbench_experiments::sweep::results::{self, CELLS, CellStatistics, TRIALS};
+use hexbench_experiments::sweep::{Runner, SweepStudy};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 
@@ -23,8 +23,8 @@ fn open(folder: &std::path::Path, runner: &Runner) -> Result<Journal, Experiment
     Journal::open(folder, runner.identity(), runner.shards())
 }
 
-fn run(folder: &std::path::Path, rest: &str) -> (Runner, Vec<CellStatistics>) {
-    let runner = Runner::new(study(rest)).unwrap();
+pub(super) fn run(folder: &std::path::Path, study: SweepStudy) -> (Runner, Vec<CellStatistics>) {
+    let runner = Runner::new(study).unwrap();
     let journal = open(folder, &runner).unwrap();
     let state = journal.state().unwrap();
     compute(&journal, &runner, &state.pending, &Silent).unwrap();
@@ -41,7 +41,7 @@ fn intervals_cover_the_truth_in_their_share_of_the_trials() {
     let folder = tempfile::tempdir().unwrap();
     let rest = "trials = 2000\ntask = \"springs\"\nredraw = 20\n[axes]\ngeometry = [\"ring_b\", \"irregular\"]\n\
                 plan = [\"random\"]\nposes = [6]\n";
-    let (_, cells) = run(folder.path(), rest);
+    let (_, cells) = run(folder.path(), study(rest));
     for cell in &cells {
         let [share, ..] = cell.coverage();
         let [low, high] = bounds(cell.done(), 0.95, cells.len());
@@ -55,7 +55,7 @@ fn without_corrections_of_second_order_the_papers_estimator_misses_its_intervals
     let folder = tempfile::tempdir().unwrap();
     let rest = "trials = 500\ntask = \"springs\"\nredraw = 20\n[axes]\ngeometry = [\"ring_b\"]\nplan = [\"random\"]\n\
                 poses = [6]\nestimator = [\"gls\", \"paper\"]\nnoise_scale = [0.05]\n";
-    let (_, cells) = run(folder.path(), rest);
+    let (_, cells) = run(folder.path(), study(rest));
     let [[weighted, ..], [unweighted, ..]] = [cells[0].coverage(), cells[1].coverage()];
     let [low, high] = bounds(cells[0].done(), 0.95, 1);
     assert!((low..=high).contains(&weighted), "{weighted}");
@@ -69,7 +69,7 @@ fn the_error_is_proportional_to_the_noise_and_falls_with_the_root_of_the_reading
     let folder = tempfile::tempdir().unwrap();
     let rest = "trials = 2000\ntask = \"springs\"\nredraw = 20\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"random\"]\n\
                 poses = [8]\nrepeats = [1, 4]\nnoise_scale = [0.1, 0.4]\n";
-    let (runner, cells) = run(folder.path(), rest);
+    let (runner, cells) = run(folder.path(), study(rest));
     let law = &laws(runner.study(), &cells)[0];
     let [repeats, noise] = [law.exponents[0], law.exponents[1]];
     assert!(repeats.0 == "repeats" && (repeats.1 + 0.5).abs() < CLOSE, "{repeats:?}");
@@ -81,7 +81,7 @@ fn designed_poses_are_worth_more_than_as_many_random_ones() {
     let folder = tempfile::tempdir().unwrap();
     let rest = "trials = 400\ntask = \"springs\"\nredraw = 4\nstarts = 4\n[axes]\ngeometry = [\"ring_a\"]\n\
                 plan = [\"A\", \"random\"]\nposes = [2, 3, 6]\n";
-    let (runner, cells) = run(folder.path(), rest);
+    let (runner, cells) = run(folder.path(), study(rest));
     let equal = equals(runner.study(), &cells);
     assert_eq!(equal.len(), 3);
     let page = plain(&hexbench_experiments::sweep::page::summary(runner.study(), &cells));
@@ -99,8 +99,8 @@ fn designed_poses_are_worth_more_than_as_many_random_ones() {
 #[test]
 fn records_that_are_missing_or_damaged_are_computed_again_and_the_bytes_are_the_same() {
     let (whole, broken) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    run(whole.path(), SMALL);
-    run(broken.path(), SMALL);
+    run(whole.path(), study(SMALL));
+    run(broken.path(), study(SMALL));
     let record = |n: u32| broken.path().join(format!("journal/{n:08}.shard"));
     fs::remove_file(record(0)).unwrap();
     let torn = fs::read(record(1)).unwrap();
@@ -115,7 +115,7 @@ fn records_that_are_missing_or_damaged_are_computed_again_and_the_bytes_are_the_
     assert_eq!((state.pending.as_slice(), state.damaged), ([0, 1].as_slice(), 1));
     assert!(!remains.exists());
     drop(journal);
-    run(broken.path(), SMALL);
+    run(broken.path(), study(SMALL));
     assert!(bytes(whole.path()) == bytes(broken.path()));
 }
 
@@ -134,7 +134,7 @@ fn results_are_not_written_from_part_of_the_shards() {
 fn shards_computed_elsewhere_and_put_together_give_the_same_bytes() {
     let (whole, here, there) =
         (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    run(whole.path(), SMALL);
+    run(whole.path(), study(SMALL));
     let runner = Runner::new(study(SMALL)).unwrap();
     compute(&open(here.path(), &runner).unwrap(), &runner, &[2, 0], &Silent).unwrap();
     compute(&open(there.path(), &runner).unwrap(), &runner, &[1], &Silent).unwrap();
@@ -163,7 +163,7 @@ fn one_run_at_a_time_works_in_a_folder() {
 #[test]
 fn the_table_of_trials_reads_back_with_its_metadata_and_agrees_with_the_table_of_cells() {
     let folder = tempfile::tempdir().unwrap();
-    let (runner, cells) = run(folder.path(), SMALL);
+    let (runner, cells) = run(folder.path(), study(SMALL));
     let reader = SerializedFileReader::new(File::open(folder.path().join(TRIALS)).unwrap()).unwrap();
     let metadata = reader.metadata().file_metadata();
     let value = |key: &str| {
@@ -201,7 +201,7 @@ fn trials_without_an_answer_are_counted_and_have_no_results() {
     // Legs never pull under the weight of the paper: no play can show.
     let rest = "trials = 40\ntask = \"springs\"\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"paper\"]\n\
                 effect = [\"leg-asymmetry\"]\nsize_sigmas = [0, 20]\n";
-    let (runner, cells) = run(folder.path(), rest);
+    let (runner, cells) = run(folder.path(), study(rest));
     assert_eq!(cells[0].done(), 40);
     assert_eq!(cells[1].by_status[Status::NotVisible as usize], 40);
     let page = plain(&hexbench_experiments::sweep::page::summary(runner.study(), &cells));
@@ -215,7 +215,7 @@ fn a_diagnosis_is_judged_and_finds_what_is_plain_to_see() {
     let folder = tempfile::tempdir().unwrap();
     let rest = "trials = 8\ntask = \"diagnose\"\nredraw = 2\n[axes]\ngeometry = [\"ring_a\"]\nplan = [\"rich\"]\n\
                 effect = [\"thermal-expansion\"]\nsize_sigmas = [0, 40]\n";
-    let (_, cells) = run(folder.path(), rest);
+    let (_, cells) = run(folder.path(), study(rest));
     for cell in &cells {
         assert_eq!(cell.done(), 8);
         assert!(cell.answers.outcomes[0] >= 7, "cell {}: {:?}", cell.cell, cell.answers.outcomes);

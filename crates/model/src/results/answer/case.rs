@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hexbench_core::files::{read_campaign, read_conditions, read_hexapod};
-use hexbench_core::{Dataset, Hexapod};
+use hexbench_core::{Dataset, Hexapod, Measurand};
 
 use super::AnswerError;
 
@@ -30,5 +30,14 @@ impl CaseFiles {
             hexapod,
             asked: read_conditions(&folder.join("predict.csv"))?.dataset,
         })
+    }
+
+    /// What is to be predicted: what was read, or full poses where sensors read or cells are empty.
+    pub(super) fn predicted(&self) -> Measurand {
+        if self.measurements.has_other_readings() {
+            Measurand::DeflectionEuler
+        } else {
+            self.measurements.measurand
+        }
     }
 }

@@ -67,7 +67,8 @@ fn predictions(
     if !fit.covariance.iter().all(|x| x.is_finite()) {
         return Err(ModelError::NotFinite { what: "the covariance of the fit" }.into());
     }
-    let model = Model::new(campaign, fit, estimator, DataOrigin::default());
+    let fitted = Model::new(campaign, fit, estimator, DataOrigin::default());
+    let model = Model { measurand: case.predicted(), ..fitted };
     Ok(predict(&model, &case.asked.observations)?)
 }
 

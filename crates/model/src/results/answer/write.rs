@@ -35,7 +35,7 @@ pub(crate) fn answer(out: &Path, case: &CaseFiles, answer: &Answer) -> Result<()
         .map(|e| Number { name: &e.name, value: e.value, std: number(e), unit: &e.unit })
         .collect();
     json(&out.join("parameters.json"), &Parameters { format: "parameters/1", parameters })?;
-    let table = predictions(&answer.predictions, case.measurements.measurand);
+    let table = predictions(&answer.predictions, case.predicted());
     text(&out.join("predictions.csv"), &table)?;
     answer.diagnosis.as_ref().map_or(Ok(()), |d| json(&out.join("diagnosis.json"), d))
 }

@@ -1,0 +1,88 @@
+//! What an ideal instrument reads: full poses, or the numbers of the sensors of the machine.
+
+use hexbench_core::{Dataset, Measurand, Sensor, UNREAD, Vector6};
+use hexbench_truth::TruthError;
+use hexbench_truth::campaign::{PlanRow, SimulatedCampaign};
+use hexbench_truth::metrology::InstrumentNoise;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+
+/// Rows and what an ideal instrument reads in them.
+pub struct Ideal {
+    rows: Vec<PlanRow>,
+    readings: Readings,
+}
+
+enum Readings {
+    /// Deflections, and their noise.
+    Poses(Vec<Vector6>, InstrumentNoise),
+    /// Numbers of these sensors, row by row.
+    Sensed(Vec<Vec<f64>>, Vec<Sensor>),
+}
+
+impl Ideal {
+    /// By the sensors of the machine, or in full poses where it has none.
+    ///
+    /// # Errors
+    /// As [`SimulatedCampaign::sensed`].
+    pub fn of(campaign: &SimulatedCampaign, rows: Vec<PlanRow>) -> Result<Self, TruthError> {
+        let sensors = &campaign.world.hexapod.sensors;
+        if sensors.is_empty() {
+            return Self::in_poses(campaign, rows);
+        }
+        let readings = Readings::Sensed(campaign.sensed(&rows)?, sensors.clone());
+        Ok(Self { rows, readings })
+    }
+
+    /// In full poses, whatever sensors the machine has.
+    ///
+    /// # Errors
+    /// As [`SimulatedCampaign::ideal`].
+    pub fn in_poses(campaign: &SimulatedCampaign, rows: Vec<PlanRow>) -> Result<Self, TruthError> {
+        let read = campaign.ideal(&rows, Measurand::DeflectionEuler)?;
+        Ok(Self { rows, readings: Readings::Poses(read, campaign.noise) })
+    }
+
+    /// The readings as a file would hold them, with noise of a generator or without.
+    pub fn dataset(&self, source: &str, noise: Option<&mut Pcg64>) -> Dataset {
+        match &self.readings {
+            Readings::Poses(read, instrument) => self.in_deflections(source, read, *instrument, noise),
+            Readings::Sensed(read, sensors) => self.in_numbers(source, read, sensors, noise),
+        }
+    }
+
+    fn in_deflections(
+        &self,
+        source: &str,
+        ideal: &[Vector6],
+        instrument: InstrumentNoise,
+        mut noise: Option<&mut Pcg64>,
+    ) -> Dataset {
+        let mut error = || noise.as_deref_mut().map_or_else(Vector6::zeros, |rng| instrument.draw(rng));
+        let read = |(line, (row, ideal)): (u64, (&PlanRow, &Vector6))| {
+            row.read(line, (ideal + error()).into(), None)
+        };
+        let rows = (2..).zip(self.rows.iter().zip(ideal)).map(read);
+        Dataset::of_deflections(source, rows.collect())
+    }
+
+    fn in_numbers(
+        &self,
+        source: &str,
+        ideal: &[Vec<f64>],
+        sensors: &[Sensor],
+        mut noise: Option<&mut Pcg64>,
+    ) -> Dataset {
+        let unread = (2..).zip(&self.rows).map(|(line, row)| row.read(line, [0.0; 6], None)).collect();
+        let mut data = Dataset::of_deflections(source, unread).to_be_read_by(sensors);
+        let mut error = || noise.as_deref_mut().map_or(0.0, |rng| StandardNormal.sample(rng));
+        let blocks = ideal.iter().flat_map(|row| row.chunks(6));
+        for (observation, numbers) in data.observations.iter_mut().zip(blocks) {
+            let sigma = observation.sigma.unwrap_or([UNREAD; 6]);
+            for (k, number) in numbers.iter().enumerate() {
+                observation.measured[k] = number + sigma[k] * error();
+            }
+        }
+        data
+    }
+}
