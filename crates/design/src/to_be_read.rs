@@ -126,7 +126,7 @@ mod tests {
             };
             let told = |r: RowVector6<f64>| r.tr_mul(&r);
             let expected: Matrix6<f64> = sensors.iter().map(row).map(told).sum();
-            assert!((found - &expected).norm() < CLOSE * expected.norm(), "{found} {expected}");
+            assert!((found - expected).norm() < CLOSE * expected.norm(), "{found} {expected}");
         }
     }
 }

@@ -61,7 +61,7 @@ pub(crate) fn designed_poses(
 ) -> Result<Vec<Pose>, DesignError> {
     let compliance = nominal::compliance(hexapod);
     if let Some(noise) = noise_to_come(hexapod).filter(|_| !hexapod.sensors.is_empty()) {
-        let regressor = ModelRegressor::new(hexapod, compliance.into(), noise, &[], &space.settings(), 1)?;
+        let regressor = ModelRegressor::new(hexapod, compliance, noise, &[], &space.settings(), 1)?;
         return best_poses(criterion, poses, hexapod, space, &regressor, starts);
     }
     let [translation, rotation] = noise.map(f64::recip);
