@@ -6,6 +6,7 @@ pub mod candidates;
 pub mod diagnosis;
 pub mod discovery;
 pub mod discrepancy;
+pub(crate) mod elongations;
 pub mod evidence;
 pub mod examination;
 pub mod explanation;

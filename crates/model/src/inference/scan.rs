@@ -9,6 +9,7 @@ use crate::estimation::basis::{orthonormal, project};
 use crate::estimation::campaign::Campaign;
 use crate::estimation::linearization::{Linearization, ModelPoint, beside};
 use crate::inference::candidates::target;
+use crate::inference::elongations::{Elongations, drop_of};
 use crate::inference::pattern::{Course, LegPattern, Pattern, PatternVariable, spread};
 use crate::inference::period::period_grid;
 
@@ -51,17 +52,14 @@ impl<'a> Scanner<'a> {
     fn drop(&self, columns: &DMatrix<f64>) -> f64 {
         let overlap = self.basis.tr_mul(columns);
         let b = columns.tr_mul(&self.residual);
-        let mut g = columns.tr_mul(columns) - overlap.tr_mul(&overlap);
-        let ridge = 1e-9 * g.diagonal().max().max(f64::MIN_POSITIVE);
-        for k in 0..g.nrows() {
-            g[(k, k)] += ridge;
-        }
-        g.cholesky().map_or(0.0, |c| b.dot(&c.solve(&b)))
+        drop_of(columns.tr_mul(columns) - overlap.tr_mul(&overlap), &b)
     }
 
     /// Shape of a term with the largest drop: the best of the grid, refined between its neighbours.
     pub(crate) fn best_shape(&self, term: &dyn Term, grid: &[f64]) -> f64 {
-        let drop = |s: f64| self.drop(&self.lin.term_block(term, false, s));
+        let elongations = Elongations::beside(self.lin, &self.basis, &self.residual);
+        let alone = |s: f64| elongations.as_ref().and_then(|all| all.drop(term, s));
+        let drop = |s: f64| alone(s).unwrap_or_else(|| self.drop(&self.lin.term_block(term, false, s)));
         let scores: Vec<f64> = grid.par_iter().map(|&s| drop(s)).collect();
         let Some(best) = highest(&scores) else { return 1.0 };
         golden(grid[best.saturating_sub(1)], grid[(best + 1).min(grid.len() - 1)], drop)

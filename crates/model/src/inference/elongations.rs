@@ -1,0 +1,160 @@
+//! Columns of a term that lengthens legs and does nothing else, at many of its shapes.
+//!
+//! With the basis `B` of what is there already, the residual `r`, readings `R_i` of leg elongations and whitening `W W = I - T T'`, a
+//! term with elongations `X` takes off chi-square
+//!
+//! ```text
+//! b' G^-1 b,   b = X' W r,   G = X'X - X'T T'X - X'W B B'W X
+//! ```
+//!
+//! Everything but `X` is the same for all shapes. Six numbers per condition and column of `[W B, T, W r]` are kept, from which a shape
+//! takes one sum; no column of it is made.
+
+use hexbench_core::Matrix6;
+use nalgebra::{DMatrix, DVector};
+
+use crate::effects::chain::Action;
+use crate::effects::term::Term;
+use crate::estimation::linearization::{Linearization, actions};
+
+/// What elongations of the legs meet at every condition.
+pub(crate) struct Elongations<'a> {
+    lin: &'a Linearization,
+    /// `R'[W B, T, W r]`: one column for each leg of each condition.
+    met: DMatrix<f64>,
+    /// `R'R`.
+    lengths: Vec<Matrix6>,
+}
+
+/// Elongation of one leg per unit of one parameter, m.
+struct Share {
+    parameter: usize,
+    leg: usize,
+    elongation: f64,
+}
+
+impl<'a> Elongations<'a> {
+    /// Beside an orthonormal basis and the residual without it; none where errors of readings are correlated.
+    pub(crate) fn beside(
+        lin: &'a Linearization,
+        basis: &DMatrix<f64>,
+        residual: &DVector<f64>,
+    ) -> Option<Self> {
+        let taken = lin.whitened_out()?;
+        let width = basis.ncols() + taken.ncols() + 1;
+        let mut rows = DMatrix::zeros(basis.nrows(), width);
+        rows.columns_mut(0, basis.ncols()).copy_from(&lin.whitened(basis.clone()));
+        rows.columns_mut(basis.ncols(), taken.ncols()).copy_from(&taken);
+        rows.set_column(width - 1, &lin.whitened_column(residual.clone()));
+        let readers = lin.elongation_readers();
+        let mut met = DMatrix::zeros(width, 6 * readers.len());
+        for (i, reader) in readers.iter().enumerate() {
+            met.columns_mut(6 * i, 6).copy_from(&rows.rows(6 * i, 6).tr_mul(reader));
+        }
+        Some(Self { lin, met, lengths: readers.iter().map(|r| r.tr_mul(r)).collect() })
+    }
+
+    /// Drop of chi-square when a term in its plain form is added; none when it does not lengthen legs alone.
+    pub(crate) fn drop(&self, term: &dyn Term, shape: f64) -> Option<f64> {
+        let (mut found, mut shares) = (Vec::new(), Vec::new());
+        let parameters = term.info().parameters.len();
+        let mut met = DMatrix::zeros(self.met.nrows(), parameters);
+        let mut lengths = DMatrix::zeros(parameters, parameters);
+        for (i, at) in self.lin.conditions.iter().enumerate() {
+            actions(term, false, shape, &self.lin.machine, at, &mut found);
+            shares_of(&found, &mut shares)?;
+            for (k, share) in shares.iter().enumerate() {
+                let along = self.met.column(6 * i + share.leg);
+                met.column_mut(share.parameter).axpy(share.elongation, &along, 1.0);
+                for other in &shares[..=k] {
+                    let product =
+                        share.elongation * other.elongation * self.lengths[i][(share.leg, other.leg)];
+                    lengths[(share.parameter, other.parameter)] += product;
+                    if share.leg != other.leg && share.parameter == other.parameter {
+                        lengths[(share.parameter, share.parameter)] += product;
+                    }
+                }
+            }
+        }
+        lengths.fill_upper_triangle_with_lower_triangle();
+        let last = met.nrows() - 1;
+        let residual = met.row(last).transpose();
+        let others = met.rows(0, last);
+        Some(drop_of(lengths - others.tr_mul(&others), &residual))
+    }
+}
+
+/// Elongations of single legs; none when an action does anything else.
+fn shares_of(actions: &[Action], out: &mut Vec<Share>) -> Option<()> {
+    out.clear();
+    for (parameter, action) in actions.iter().enumerate() {
+        let Action::Elongation(all) = action else { return None };
+        let of_leg = |(leg, &elongation): (usize, &f64)| Share { parameter, leg, elongation };
+        out.extend(all.iter().enumerate().filter(|(_, e)| **e != 0.0).map(of_leg));
+    }
+    Some(())
+}
+
+/// `b' G^-1 b`; zero when the columns of `G` are no columns of their own.
+pub(crate) fn drop_of(mut g: DMatrix<f64>, b: &DVector<f64>) -> f64 {
+    let ridge = 1e-9 * g.diagonal().max().max(f64::MIN_POSITIVE);
+    for k in 0..g.nrows() {
+        g[(k, k)] += ridge;
+    }
+    g.cholesky().map_or(0.0, |c| b.dot(&c.solve(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use hexbench_core::{Hexapod, Measurand, Metrology};
+
+    use super::*;
+    use crate::estimation::basis::{orthonormal, project};
+    use crate::estimation::campaign::Campaign;
+    use crate::estimation::linearization::ModelPoint;
+    use crate::estimation::tolerances::within_tolerances;
+    use crate::terms::catalogue;
+    use crate::test_machine::readings;
+
+    /// By the columns themselves.
+    fn drop_of_columns(
+        lin: &Linearization,
+        basis: &DMatrix<f64>,
+        residual: &DVector<f64>,
+        term: &dyn Term,
+        shape: f64,
+    ) -> f64 {
+        let columns = lin.term_block(term, false, shape);
+        let overlap = basis.tr_mul(&columns);
+        drop_of(columns.tr_mul(&columns) - overlap.tr_mul(&overlap), &columns.tr_mul(residual))
+    }
+
+    #[test]
+    fn sums_over_elongations_are_those_over_columns() {
+        let metrology = Some(Metrology { sigma_translation: 0.3e-6, sigma_rotation: 2e-6 });
+        let (machine, mut data) = readings(Measurand::DeflectionEuler, Vec::new());
+        for (o, k) in data.observations.iter_mut().zip(1_u8..) {
+            o.delta_t = 0.1 * f64::from(k) * f64::from(k);
+            o.measured[usize::from(k) % 6] += 2e-6;
+        }
+        let hexapod = Hexapod { metrology, ..machine };
+        let campaign = within_tolerances(Campaign::new(&hexapod, &data).unwrap());
+        let point =
+            ModelPoint { compliances: hexbench_core::Vector6::repeat(1e-7), ..ModelPoint::start(&campaign) };
+        let lin = Linearization::at(&campaign, &point).unwrap();
+        assert!(lin.whitened_out().is_some_and(|taken| taken.ncols() > 10));
+        let basis = orthonormal(&lin.common_block());
+        let mut residual = lin.residuals();
+        project(&basis, &mut residual);
+        let elongations = Elongations::beside(&lin, &basis, &residual).unwrap();
+        let find = |id: &str| catalogue().into_iter().find(|term| term.info().id == id);
+        for (id, shape) in [("thermal-expansion", 1.0), ("actuator-pitch", 0.004), ("actuator-pitch", 0.0311)]
+        {
+            let term = find(id).unwrap();
+            let expected = drop_of_columns(&lin, &basis, &residual, term.as_ref(), shape);
+            let found = elongations.drop(term.as_ref(), shape).unwrap();
+            assert!(expected > 1.0 && (found / expected - 1.0).abs() < 1e-9, "{id}: {found} {expected}");
+        }
+        assert!(elongations.drop(find("creep").unwrap().as_ref(), 100.0).is_none());
+    }
+}
