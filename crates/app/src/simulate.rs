@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hexbench_truth::Scene;
-use hexbench_truth::scene::PlanError;
+use hexbench_truth::scene::{Instrument, PlanError};
 
 use crate::Failure;
 
@@ -16,6 +16,8 @@ pub struct Choices {
     pub poses: Option<u64>,
     /// Readings of each training condition.
     pub repeats: Option<u64>,
+    /// Touches balls that tell a pose as well as the instrument of the scene.
+    pub balls: bool,
 }
 
 /// The scene in a folder, with these choices.
@@ -30,7 +32,23 @@ pub fn scene(folder: &Path, choices: Choices) -> Result<Scene, Failure> {
     if let Some(repeats) = choices.repeats {
         scene.plan = scene.plan.with_repeats(repeats).map_err(|wrong| usage(&wrong))?;
     }
+    if choices.balls && !matches!(scene.instrument, Instrument::Balls(_)) {
+        if scene.plan.states_order() || scene.plan.states_reference_record() {
+            return Err(no_balls(
+                "readings of this scene share their reference, which balls are touched anew for",
+            ));
+        }
+        let balls = scene.instrument.as_balls(scene.measurand());
+        scene.instrument = balls.ok_or_else(|| no_balls("the sensors of this scene read no poses"))?;
+    }
     Ok(scene)
+}
+
+fn no_balls(why: &str) -> Failure {
+    Failure::Usage {
+        message: format!("--balls: {why}"),
+        next: "Leave --balls out, or choose a scene whose instrument reads six numbers.".into(),
+    }
 }
 
 fn usage(wrong: &PlanError) -> Failure {

@@ -7,8 +7,8 @@ use clap::Args;
 use hexbench_app::input::model;
 pub(crate) use hexbench_app::input::{catalogue_with, user_terms};
 use hexbench_core::files::{
-    ColumnNames, TableReading, read_campaign, read_campaign_named, read_campaign_records, read_column_names,
-    read_conditions_named, read_hexapod, read_plan,
+    ColumnNames, Dimension, TableReading, Unit, Warning, read_campaign, read_campaign_named,
+    read_campaign_records, read_column_names, read_conditions_named, read_hexapod, read_plan, unit_named,
 };
 use hexbench_core::{AngleConvention, Dataset, Hexapod};
 use hexbench_model::application::model_file::Model;
@@ -33,6 +33,26 @@ impl TableNames {
     pub(crate) fn read(&self) -> Result<ColumnNames, Failure> {
         Ok(self.columns.as_deref().map(read_column_names).transpose()?.unwrap_or_default())
     }
+}
+
+/// The unit of coordinates that state none.
+#[derive(Debug, Default, Args)]
+pub(crate) struct BallUnit {
+    /// Unit of the coordinates of balls, where their file states none
+    #[arg(long, value_name = "UNIT", value_parser = length)]
+    unit: Option<&'static Unit>,
+}
+
+impl BallUnit {
+    /// The unit, where it is given.
+    pub(crate) fn given(&self) -> Option<&'static Unit> {
+        self.unit
+    }
+}
+
+fn length(text: &str) -> Result<&'static Unit, String> {
+    let unit = unit_named(text, Dimension::Length).filter(|unit| unit.kind == Dimension::Length);
+    unit.ok_or_else(|| format!("a unit of length is one of {}", Dimension::Length.unit_names()))
 }
 
 /// Whether a model file may be other than `fit` wrote it.
@@ -117,9 +137,14 @@ pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &ReadA
     }
 }
 
-fn told(path: &Path, reading: TableReading) -> Dataset {
-    for warning in &reading.warnings {
+/// Says on standard error what a reader noticed of a file.
+pub(crate) fn warn_of_file(path: &Path, warnings: &[Warning]) {
+    for warning in warnings {
         report::warn(&format!("{}: {warning}", path.display()), warning.next_step());
     }
+}
+
+fn told(path: &Path, reading: TableReading) -> Dataset {
+    warn_of_file(path, &reading.warnings);
     reading.dataset
 }

@@ -4,6 +4,7 @@
 
 mod args;
 mod commands;
+mod coverage;
 mod csv;
 mod first_plan;
 mod input;

@@ -24,7 +24,7 @@ pub(crate) struct Wanted {
 pub(crate) fn simulate(py: Python<'_>, folder: PathBuf, output: PathBuf, wanted: Wanted) -> PyResult<()> {
     beside(py, move || {
         let Wanted { seed, poses, repeats, noise_free, force } = wanted;
-        let scene = scene(&folder, Choices { seed, poses, repeats })?;
+        let scene = scene(&folder, Choices { seed, poses, repeats, balls: false })?;
         let existing = if force { Existing::Replaced } else { Existing::Refused };
         Ok(VirtualBench::new(&scene, noise_free).write(&output, existing, &|_| ())?)
     })

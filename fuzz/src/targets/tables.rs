@@ -2,7 +2,7 @@
 
 use hexbench_core::Dataset;
 use hexbench_core::files::{
-    ColumnNames, measurements_to_csv, read_balls, read_column_names, read_conditions, read_joints,
+    ColumnNames, UNITS, measurements_to_csv, read_balls, read_column_names, read_conditions, read_joints,
     read_loads, read_measurements, read_measurements_from, read_plan,
 };
 
@@ -38,8 +38,9 @@ pub(super) fn workbook(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn balls(bytes: &[u8]) -> bool {
-    let Ok(records) = scratch::file("balls.csv", bytes, read_balls) else { return false };
-    let mut balls = records.iter().flat_map(|record| &record.balls);
+    let read = |path: &std::path::Path| read_balls(path, &ColumnNames::default(), UNITS.first());
+    let Ok(table) = scratch::file("balls.csv", bytes, read) else { return false };
+    let mut balls = table.records.iter().flat_map(|record| &record.balls);
     assert!(balls.all(|ball| ball.centre.iter().all(|x| x.is_finite())));
     true
 }

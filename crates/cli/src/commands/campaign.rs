@@ -1,11 +1,11 @@
 //! `hexbench campaign BALLS.csv LOADS.csv -o DIR`.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_core::files::{
-    Warning, campaign_to_csv, hexapod_to_commented_toml, measurements_to_csv, read_ball_places, read_balls,
+    BallTable, campaign_to_csv, hexapod_to_commented_toml, measurements_to_csv, read_ball_places, read_balls,
     read_loads,
 };
 use hexbench_core::{AngleConvention, Hexapod};
@@ -16,7 +16,7 @@ use hexbench_report::number::significant;
 
 use crate::csv;
 use crate::failure::Failure;
-use crate::input::{self, TableNames};
+use crate::input::{self, BallUnit, TableNames};
 use crate::output::{Screen, report};
 use crate::page::campaigned;
 
@@ -28,16 +28,22 @@ use crate::page::campaigned;
 #[command(after_help = "Examples:\n  \
     hexbench campaign balls.csv loads.csv --balls balls.toml -o campaign\n  \
     hexbench campaign balls.csv loads.csv --gravity 9.8072 -o campaign\n  \
-    hexbench campaign balls.csv loads.csv --points hexapod.toml -o campaign\n\n\
+    hexbench campaign balls.csv loads.csv --points hexapod.toml -o campaign\n  \
+    hexbench campaign points.txt loads.csv --unit mm -o campaign\n\n\
+    Ball centres may have one row for each record (columns P1_x_mm ...), or be an export of Zeiss Calypso (table of\n\
+    characteristics), PC-DMIS (text of a report) or SpatialAnalyzer (points as ASCII): these were built from public\n\
+    descriptions, and the page says which one was read.\n\n\
     loads.csv has the columns record, ref_record, a_mm ... gamma_deg, and fx_N ... mz_Nm with ref_fx_N ... ref_mz_Nm\n\
     or mass_kg with ref_mass_kg, load_x_mm ..., pull_x ...")]
 pub(crate) struct Arguments {
-    /// Ball centres: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`
+    /// Ball centres: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`, or a file of another program
     data: PathBuf,
     /// Loads and commanded poses: loads.csv, one row per loaded record
     loads: PathBuf,
     #[command(flatten)]
     names: TableNames,
+    #[command(flatten)]
+    unit: BallUnit,
     /// Where the balls should be (format balls/1)
     #[arg(long, value_name = "FILE")]
     balls: Option<PathBuf>,
@@ -77,10 +83,13 @@ impl Arguments {
 
 /// Register, pair and write.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let records = read_balls(&arguments.data)?;
+    let names = arguments.names.read()?;
+    let BallTable { records, layout, warnings } =
+        read_balls(&arguments.data, &names, arguments.unit.given())?;
+    input::warn_of_file(&arguments.data, &warnings);
     let machine = arguments.machine()?;
-    let loads = read_loads(&arguments.loads, &arguments.names.read()?, machine.as_ref())?;
-    warn_of_loads(&arguments.loads, &loads.warnings);
+    let loads = read_loads(&arguments.loads, &names, machine.as_ref())?;
+    input::warn_of_file(&arguments.loads, &loads.warnings);
     let places = arguments.balls.as_deref().map(read_ball_places).transpose()?;
     let how = RecordsRead {
         places: places.as_ref(),
@@ -104,7 +113,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     for (name, text) in &files {
         screen.write_into(&arguments.output, name, text)?;
     }
-    let told = campaigned::Told { found: &found, how: &how, folder: &arguments.output, files: &files };
+    let told =
+        campaigned::Told { found: &found, how: &how, layout, folder: &arguments.output, files: &files };
     screen.show(&campaigned::page(&told))
 }
 
@@ -115,12 +125,6 @@ fn positive(name: &str, given: Option<f64>) -> Result<Option<f64>, Failure> {
             "Leave it out, or correct it.",
         )),
         given => Ok(given),
-    }
-}
-
-fn warn_of_loads(path: &Path, warnings: &[Warning]) {
-    for warning in warnings {
-        report::warn(&format!("{}: {warning}", path.display()), warning.next_step());
     }
 }
 

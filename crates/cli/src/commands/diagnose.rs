@@ -13,6 +13,7 @@ use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::ReportSubject;
 use hexbench_report::{charts, words};
 
+use crate::coverage::Coverage;
 use crate::failure::Failure;
 use crate::output::{OutFile, PageFiles, Screen, write_json};
 use crate::question::{Asked, Question};
@@ -23,6 +24,7 @@ use crate::read_as::ReadAs;
 #[command(after_help = "Examples:\n  \
     hexbench diagnose hexapod.toml measurements.csv --holdout holdout.csv --html report.html\n  \
     hexbench diagnose hexapod.toml measurements.csv --exclude 17 --json diagnosis.json\n  \
+    hexbench diagnose hexapod.toml measurements.csv --coverage 95\n  \
     hexbench diagnose hexapod.toml - < measurements.csv")]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -32,6 +34,8 @@ pub(crate) struct Arguments {
     keep_all: bool,
     #[command(flatten)]
     read_as: ReadAs,
+    #[command(flatten)]
+    coverage: Coverage,
     /// Write diagnosis.json to FILE, or to standard output (-) instead of the page
     #[arg(long, value_name = "FILE")]
     json: Option<OutFile>,
@@ -82,7 +86,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let run = arguments.question.origin(&asked)?;
         write_json(screen, path, &WithOrigin { result: &study.diagnosis, run })?;
     }
-    let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &study);
+    let subject = ReportSubject::of(hexapod, data, holdout.as_ref(), &study)
+        .with_plus_minus(arguments.coverage.plus_minus());
     arguments.page.write(screen, || Ok(charts::diagnosis(&subject, &arguments.question.provenance()?)?))?;
     if !to_stdout {
         screen.show(&words::diagnosis(&subject))?;

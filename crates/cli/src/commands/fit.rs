@@ -12,8 +12,9 @@ use hexbench_model::inference::selection::JudgedTask;
 use hexbench_model::results::diagnose::prepare_to_fit;
 use hexbench_model::results::fit::FitReport;
 use hexbench_model::results::runs::WithOrigin;
-use hexbench_report::words::{PlusMinus, fitted};
+use hexbench_report::words::fitted;
 
+use crate::coverage::Coverage;
 use crate::failure::Failure;
 use crate::input::{self, TableNames};
 use crate::output::{OutFile, Screen, origin, write_json};
@@ -45,9 +46,8 @@ pub(crate) struct Arguments {
     names: TableNames,
     #[command(flatten)]
     read_as: ReadAs,
-    /// Give every value on the page with an interval that covers it with this chance, %, instead of a standard uncertainty
-    #[arg(long, value_name = "PERCENT", value_parser = percent)]
-    coverage: Option<f64>,
+    #[command(flatten)]
+    coverage: Coverage,
     /// Write the model to FILE (model.toml)
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutFile>,
@@ -63,11 +63,6 @@ enum Method {
     Gls,
     /// The paper's unweighted minimum-norm least squares; springs and deflections only
     Paper,
-}
-
-fn percent(text: &str) -> Result<f64, String> {
-    let fits = |p: &f64| (1.0..=99.99).contains(p);
-    text.parse().ok().filter(fits).ok_or_else(|| "it has to be 1 to 99.99, for example 95".into())
 }
 
 /// Fit, tell, save.
@@ -90,9 +85,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         let result = FitReport::of(&task, &judged, estimator);
         write_json(screen, path, &WithOrigin { result: &result, run })?;
     }
-    let coverage = arguments.coverage.map_or(PlusMinus::Standard, PlusMinus::Percent);
     if !arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
-        screen.show(&fitted::page(&task, &judged, estimator, coverage))?;
+        screen.show(&fitted::page(&task, &judged, estimator, arguments.coverage.plus_minus()))?;
     }
     let Some(path) = &arguments.output else { return Ok(()) };
     let mut model = model(&task, &judged, estimator, content_hash(&arguments.data)?);

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
 use hexbench_core::BallRecord;
-use hexbench_core::files::{CsvText, csv_words, nearest, read_ball_places, read_balls};
+use hexbench_core::files::{BallTable, CsvText, csv_words, nearest, read_ball_places, read_balls};
 use hexbench_model::machine::registration::{Places, Registered, RegisteredPose, register_all};
 use hexbench_report::number::significant;
 
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
+use crate::input::{self, BallUnit, TableNames};
 use crate::output::{OutFile, Screen, report};
 use crate::page::located;
 
@@ -20,8 +21,12 @@ use crate::page::located;
     hexbench poses balls.csv --balls balls.toml -o poses.csv\n  \
     hexbench poses balls.csv --relative-to 1")]
 pub(crate) struct Arguments {
-    /// Ball centres: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`
+    /// Ball centres: balls.csv with the columns record, ball, `x_mm`, `y_mm`, `z_mm`, or a file of another program, as for campaign
     data: PathBuf,
+    #[command(flatten)]
+    names: TableNames,
+    #[command(flatten)]
+    unit: BallUnit,
     /// Where the balls should be (format balls/1): absolute poses
     #[arg(long, value_name = "FILE", group = "places")]
     balls: Option<PathBuf>,
@@ -43,7 +48,9 @@ const MOST_TOLD: usize = 5;
 
 /// Register every record.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let records = read_balls(&arguments.data)?;
+    let BallTable { records, layout, warnings } =
+        read_balls(&arguments.data, &arguments.names.read()?, arguments.unit.given())?;
+    input::warn_of_file(&arguments.data, &warnings);
     let (places, stated) = places(arguments, &records)?;
     let sigma = given_sigma(arguments)?.or(stated);
     let found = register_all(&records, &places, sigma)
@@ -53,7 +60,8 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     if arguments.output.is_stdout() {
         return Ok(());
     }
-    let told = located::Told { found: &found, places: &places, stated: sigma, output: &arguments.output };
+    let told =
+        located::Told { found: &found, places: &places, stated: sigma, layout, output: &arguments.output };
     screen.show(&located::page(&told))
 }
 

@@ -7,6 +7,7 @@ use hexbench_core::files::CsvText;
 use hexbench_core::{Dataset, Measurand, Observation};
 use hexbench_model::application::predict::{PredictError, predict, predict_sensors};
 
+use crate::coverage::Coverage;
 use crate::csv::{self, Unit};
 use crate::failure::Failure;
 use crate::input::{self, TableNames, Trust};
@@ -15,7 +16,8 @@ use crate::output::{OutFile, Screen};
 /// Predict deflections (or absolute poses) and what the sensors of the machine read, with their uncertainty
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    hexbench predict model.toml poses.csv -o predicted.csv")]
+    hexbench predict model.toml poses.csv -o predicted.csv\n  \
+    hexbench predict model.toml poses.csv --coverage 95 -o predicted.csv")]
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
     model: PathBuf,
@@ -25,6 +27,8 @@ pub(crate) struct Arguments {
     poses: PathBuf,
     #[command(flatten)]
     names: TableNames,
+    #[command(flatten)]
+    coverage: Coverage,
     /// Write to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: OutFile,
@@ -38,12 +42,14 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let predictions = predict(&model, &rows.observations).map_err(failed)?;
     let readings = predict_sensors(&model, &rows.observations).map_err(failed)?;
     let units = if model.is_absolute() { [Unit::Mm, Unit::Deg] } else { [Unit::Um, Unit::Urad] };
+    let (factor, beginning) = (arguments.coverage.of(model.noise.dof).factor, arguments.coverage.beginning());
     let names = names(model.measurand);
     let small = [Unit::Um, Unit::Urad];
-    let (values, sigmas) = (csv::names("", &names, units), csv::names("sigma_", &sigma_names(&names), small));
+    let (values, sigmas) =
+        (csv::names("", &names, units), csv::names(&beginning, &sigma_names(&names), small));
     let conditions = csv::conditions_header(&rows).into_iter().map(str::to_owned);
     let sensors = model.sensor_columns();
-    let sigmas_of_sensors = sensors.iter().map(|name| format!("sigma_{name}"));
+    let sigmas_of_sensors = sensors.iter().map(|name| format!("{beginning}{name}"));
     let of_sensors = sensors.iter().cloned().chain(sigmas_of_sensors);
     let mut text = CsvText::new(conditions.chain(values).chain(sigmas).chain(of_sensors));
     let predicted =
@@ -51,9 +57,10 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let predicted = Dataset { measurand: model.measurand, observations: predicted.collect(), ..rows };
     let rows = model.hexapod.angles.as_stated(&predicted);
     for ((row, p), read) in rows.observations.iter().zip(&predictions).zip(&readings) {
-        let (values, sigmas) = (csv::values(&row.measured, units), csv::values(&p.sigma, small));
+        let (values, sigmas) =
+            (csv::values(&row.measured, units), csv::values(&p.sigma.map(|sigma| factor * sigma), small));
         let of_sensors =
-            csv::micro(read.iter().map(|r| r.value)).chain(csv::micro(read.iter().map(|r| r.sigma)));
+            csv::micro(read.iter().map(|r| r.value)).chain(csv::micro(read.iter().map(|r| factor * r.sigma)));
         text.row(csv::condition(&rows, row).into_iter().chain(values).chain(sigmas).chain(of_sensors));
     }
     screen.write_to(&arguments.output, &text.into_text())

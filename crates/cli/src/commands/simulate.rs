@@ -14,7 +14,8 @@ use crate::page::simulated;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     hexbench simulate scenes/paper-rich -o trial\n  \
-    hexbench simulate scenes/paper-rich --seed 7 --repeats 3 -o trial")]
+    hexbench simulate scenes/paper-rich --seed 7 --repeats 3 -o trial\n  \
+    hexbench simulate scenes/hidden-3 --balls -o trial")]
 pub(crate) struct Arguments {
     /// Folder of the scene, with scene.toml in it
     scene: PathBuf,
@@ -30,6 +31,9 @@ pub(crate) struct Arguments {
     /// Readings of each training condition
     #[arg(long, value_name = "N")]
     repeats: Option<u64>,
+    /// Touch balls that tell a pose as well as the scene's instrument, and write balls.csv and loads.csv for `hexbench campaign`
+    #[arg(long)]
+    balls: bool,
     /// Read what an instrument without errors would
     #[arg(long)]
     noise_free: bool,
@@ -43,7 +47,8 @@ pub(crate) struct Arguments {
 
 /// Simulate and tell what was written.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let choices = Choices { seed: arguments.seed, poses: arguments.poses, repeats: arguments.repeats };
+    let &Arguments { seed, poses, repeats, balls, .. } = arguments;
+    let choices = Choices { seed, poses, repeats, balls };
     let scene = simulate::scene(&arguments.scene, choices)?;
     write(&VirtualBench::new(&scene, arguments.noise_free), &arguments.output, arguments.force)?;
     let told = simulated::Told {

@@ -11,6 +11,7 @@ use hexbench_model::application::stiffness::{
 use hexbench_model::results::stiffness::StiffnessList;
 use hexbench_report::words::cartesian;
 
+use crate::coverage::Coverage;
 use crate::csv;
 use crate::failure::Failure;
 use crate::input::{self, TableNames, Trust};
@@ -26,7 +27,7 @@ use crate::output::{OutFile, Screen, write_json};
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  hexbench stiffness model.toml\n  \
     hexbench stiffness model.toml --pose 10,0,-5,0,0,15 --load 0,0,-200,0,0,0 --point 0,0,80\n  \
-    hexbench stiffness model.toml --poses poses.csv -o stiffness.csv")]
+    hexbench stiffness model.toml --poses poses.csv --coverage 95 -o stiffness.csv")]
 pub(crate) struct Arguments {
     /// The model that `fit` saved: model.toml
     model: PathBuf,
@@ -52,6 +53,8 @@ pub(crate) struct Arguments {
     /// Size of the small forces, N; larger than the play or friction that is not to count
     #[arg(long, value_name = "N", value_parser = size, default_value = "1")]
     amplitude: f64,
+    #[command(flatten)]
+    coverage: Coverage,
     /// Write the table of `--poses` to FILE instead of standard output
     #[arg(short, long, value_name = "FILE", requires = "poses")]
     output: Option<OutFile>,
@@ -92,42 +95,53 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
         if let Some(json) = &arguments.json {
             write_json(screen, json, &StiffnessList::of(&rows.observations, &found, &at))?;
         }
+        let (factor, beginning) =
+            (arguments.coverage.of(model.noise.dof).factor, arguments.coverage.beginning());
         return match (&arguments.output, &arguments.json) {
-            (Some(output), _) => screen.write_to(output, &table(&stated, &found)),
+            (Some(output), _) => screen.write_to(output, &table(&stated, &found, factor, &beginning)),
             (None, Some(_)) => Ok(()),
-            (None, None) => screen.write(&table(&stated, &found)),
+            (None, None) => screen.write(&table(&stated, &found, factor, &beginning)),
         };
     }
     let rows = [Observation::unread(arguments.pose, arguments.load, Wrench::default())];
     let found = stiffness(&rows, &arguments.model)?;
     match &arguments.json {
         Some(json) => write_json(screen, json, &StiffnessList::of(&rows, &found, &at)),
-        None => screen.show(&cartesian(&found[0], &arguments.pose, &arguments.load, &at)),
+        None => screen.show(&cartesian(
+            &found[0],
+            &arguments.pose,
+            &arguments.load,
+            &at,
+            &arguments.coverage.of(model.noise.dof),
+        )),
     }
 }
 
 const LOADS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 const MOTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// A row for every pose: principal stiffnesses with uncertainty, then both matrices, SI.
-fn table(rows: &Dataset, found: &[CartesianStiffness]) -> String {
+/// A row for every pose: principal stiffnesses with uncertainty, then both matrices, SI. Uncertainties are so many standard ones, and the
+/// names of their columns begin so.
+fn table(rows: &Dataset, found: &[CartesianStiffness], factor: f64, beginning: &str) -> String {
     let conditions = csv::conditions_header(rows).into_iter().map(str::to_owned);
     let principal = [("force", "N_per_m"), ("moment", "Nm_per_rad")].into_iter().flat_map(|(load, unit)| {
         (1..4).flat_map(move |k| {
             let direction = ["x", "y", "z"].map(|axis| format!("k_{load}_{k}_along_{axis}"));
-            [format!("k_{load}_{k}_{unit}"), format!("sigma_k_{load}_{k}_{unit}")]
+            [format!("k_{load}_{k}_{unit}"), format!("{beginning}k_{load}_{k}_{unit}")]
                 .into_iter()
                 .chain(direction)
         })
     });
-    let of = |name: &'static str, rows: [&'static str; 6], columns: [&'static str; 6]| {
-        rows.into_iter().flat_map(move |row| columns.map(move |column| format!("{name}_{row}_{column}_SI")))
+    let of = |name: String, rows: [&'static str; 6], columns: [&'static str; 6]| {
+        rows.into_iter()
+            .flat_map(move |row| columns.map(|column| format!("{name}_{row}_{column}_SI")))
+            .collect::<Vec<_>>()
     };
     let matrices = [
-        of("K", LOADS, MOTIONS),
-        of("sigma_K", LOADS, MOTIONS),
-        of("C", MOTIONS, LOADS),
-        of("sigma_C", MOTIONS, LOADS),
+        of("K".to_owned(), LOADS, MOTIONS),
+        of(format!("{beginning}K"), LOADS, MOTIONS),
+        of("C".to_owned(), MOTIONS, LOADS),
+        of(format!("{beginning}C"), MOTIONS, LOADS),
     ];
     let mut text = CsvText::new(conditions.chain(principal).chain(matrices.into_iter().flatten()));
     for (row, k) in rows.observations.iter().zip(found) {
@@ -135,8 +149,9 @@ fn table(rows: &Dataset, found: &[CartesianStiffness]) -> String {
             .of_forces
             .iter()
             .chain(&k.of_moments)
-            .flat_map(|p| [p.stiffness, p.std].into_iter().chain(p.direction.iter().copied()));
-        let matrices = [&k.stiffness, &k.stiffness_std, &k.compliance, &k.compliance_std];
+            .flat_map(|p| [p.stiffness, factor * p.std].into_iter().chain(p.direction.iter().copied()));
+        let [stiffness_wide, compliance_wide] = [k.stiffness_std, k.compliance_std].map(|std| std * factor);
+        let matrices = [&k.stiffness, &stiffness_wide, &k.compliance, &compliance_wide];
         let entries = matrices.into_iter().flat_map(|m| (0..36).map(|n| m[(n / 6, n % 6)]));
         let numbers = principal.chain(entries).map(|x| format!("{x:e}"));
         text.row(csv::condition(rows, row).into_iter().chain(numbers));

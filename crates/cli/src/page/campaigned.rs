@@ -14,6 +14,8 @@ pub(crate) struct Told<'a> {
     pub(crate) found: &'a BallCampaign,
     /// How the records were read.
     pub(crate) how: &'a RecordsRead<'a>,
+    /// The program whose layout the balls were in, if it is not that of `balls.csv`.
+    pub(crate) layout: Option<&'static str>,
     /// Where the files are.
     pub(crate) folder: &'a Path,
     /// Their names and texts.
@@ -33,7 +35,8 @@ pub(crate) fn page(told: &Told<'_>) -> Page {
         ("moved", moved(found)),
         ("written", format!("{} in {}", names.join(" and "), told.folder.display())),
     ];
-    let entries = entries.map(|(label, text)| Definition::new(label, text));
+    let layout = told.layout.map(|name| ("read as", name.to_owned()));
+    let entries = layout.into_iter().chain(entries).map(|(label, text)| Definition::new(label, text));
     let section = Section::new("Campaign from balls").with(Block::entries(entries));
     let page = Page::default().with(section);
     let next = Section::new("Next").with(Block::code(next(told)));

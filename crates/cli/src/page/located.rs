@@ -14,6 +14,8 @@ pub(crate) struct Told<'a> {
     pub(crate) places: &'a Places,
     /// Noise of a coordinate when it was stated, m.
     pub(crate) stated: Option<f64>,
+    /// The program whose layout the balls were in, if it is not that of `balls.csv`.
+    pub(crate) layout: Option<&'static str>,
     /// Where the table is.
     pub(crate) output: &'a Path,
 }
@@ -32,7 +34,8 @@ pub(crate) fn page(told: &Told<'_>) -> Page {
         ("moved", moved),
         ("written", told.output.display().to_string()),
     ];
-    let entries = entries.map(|(label, text)| Definition::new(label, text));
+    let layout = told.layout.map(|name| ("read as", name.to_owned()));
+    let entries = layout.into_iter().chain(entries).map(|(label, text)| Definition::new(label, text));
     Page::default().with(Section::new("Poses from balls").with(Block::entries(entries)))
 }
 

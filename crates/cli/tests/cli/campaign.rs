@@ -11,6 +11,8 @@ use serde_json::Value;
 use crate::scenes::simulate;
 use crate::support::{hexbench, root, text};
 
+/// Largest difference of two parameters that say the same, standard deviations.
+const SAME_SIGMAS: f64 = 0.01;
 /// The simulated table has six decimals of um and urad, the balls 1e-7 mm: 1e-4 um over the radius of 0.12 m.
 const ROUNDING_UM_OR_URAD: f64 = 3e-3;
 
@@ -19,8 +21,17 @@ struct Bench(tempfile::TempDir);
 impl Bench {
     /// The files of a simulated scene.
     fn of(scene: &str) -> Self {
+        Self::with(scene, &[])
+    }
+
+    /// The same, read by touching balls.
+    fn touched(scene: &str) -> Self {
+        Self::with(scene, &["--balls"])
+    }
+
+    fn with(scene: &str, more: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        simulate(&root().join("scenes").join(scene), &folder.path().join("data"), &[]);
+        simulate(&root().join("scenes").join(scene), &folder.path().join("data"), more);
         Self(folder)
     }
 
@@ -57,35 +68,6 @@ impl Bench {
         read_campaign(&hexapod, &self.path(table)).unwrap().dataset
     }
 
-    /// Balls and loads of a scene whose instrument writes none: what would be touched if its readings were exact.
-    fn touch(&self, places: &[Vector3]) {
-        let data = self.dataset("measurements.csv");
-        let (mut balls, mut loads) = (String::from("record,ball,x_mm,y_mm,z_mm\n"), String::new());
-        let table = self.read("measurements.csv");
-        let mut lines = table.lines();
-        let records = if data.is_absolute() { "record" } else { "ref_record,record" };
-        let _ = writeln!(loads, "{records},{}", lines.next().unwrap());
-        for (row, (o, line)) in data.observations.iter().zip(lines).enumerate() {
-            let sum = std::array::from_fn(|k| o.pose.to_array()[k] + o.measured[k]);
-            if data.is_absolute() {
-                touched(&mut balls, &format!("L{row}"), &Pose::from_array(o.measured), places);
-                let _ = writeln!(loads, "L{row},{line}");
-                continue;
-            }
-            touched(&mut balls, &format!("R{row}"), &o.pose, places);
-            touched(&mut balls, &format!("L{row}"), &Pose::from_array(sum), places);
-            let _ = writeln!(loads, "R{row},L{row},{line}");
-        }
-        let mut known = String::from("format = \"balls/1\"\n");
-        for (ball, p) in (1..).zip(places) {
-            let [x, y, z] = [p.x, p.y, p.z].map(|metres| metres * 1e3);
-            let _ = writeln!(known, "[[platform]]\nball = \"P{ball}\"\ncenter_mm = [{x:?}, {y:?}, {z:?}]");
-        }
-        self.write("balls.csv", &balls);
-        self.write("loads.csv", &loads);
-        self.write("balls.toml", &known);
-    }
-
     /// Balls of one record, changed.
     fn change(&self, record: &str, change: impl Fn(&mut Vec<String>)) {
         let line = |line: &str| {
@@ -97,13 +79,6 @@ impl Bench {
         };
         let changed: Vec<String> = self.read("balls.csv").lines().map(line).collect();
         self.write("balls.csv", &(changed.join("\n") + "\n"));
-    }
-}
-
-fn touched(balls: &mut String, record: &str, pose: &Pose, places: &[Vector3]) {
-    for (ball, place) in (1..).zip(places) {
-        let p = (pose.translation + pose.rotation() * place) * 1e3;
-        let _ = writeln!(balls, "{record},P{ball},{:.9},{:.9},{:.9}", p.x, p.y, p.z);
     }
 }
 
@@ -143,80 +118,73 @@ fn json(path: &Path) -> Value {
 
 #[test]
 fn balls_of_every_scene_give_the_readings_of_its_table() {
-    let mut by_poses = 0;
     for name in scenes_of_poses() {
-        let bench = Bench::of(&name);
-        let expected = bench.dataset("measurements.csv");
-        if expected.has_other_readings() {
-            continue;
-        }
-        if !bench.path("balls.csv").exists() {
-            bench.touch(
-                &[[0.12, 0.0, 0.0], [-0.06, 0.1, 0.0], [-0.05, -0.1, 0.01], [0.0, 0.02, 0.1]]
-                    .map(Vector3::from),
-            );
-        }
+        let bench = Bench::touched(&name);
         text(bench.campaign(&["--balls", "balls.toml"]));
-        let found = bench.dataset("out/measurements.csv");
+        let [expected, found] =
+            ["measurements.csv", "out/measurements.csv"].map(|table| bench.dataset(table));
         let apart = difference(&expected, &found);
         println!("{name}: {apart:.2e} um or urad");
         assert!(apart < ROUNDING_UM_OR_URAD, "{name}: {apart}");
         same_conditions(&expected, &found);
-        by_poses += 1;
     }
-    assert!(by_poses > 13, "{by_poses}");
 }
 
-/// The verdict, what was added, and the stiffnesses of two results.
-fn same_diagnosis(one: &Value, other: &Value, sigmas: f64) {
+/// The verdict, what was added, and the parameters of two results; by how many standard deviations these differ at most.
+fn same_diagnosis(one: &Value, other: &Value, sigmas: f64) -> f64 {
     assert_eq!((&one["verdict"], &one["added"]), (&other["verdict"], &other["added"]));
     let pairs = one["parameters"].as_array().unwrap().iter().zip(other["parameters"].as_array().unwrap());
-    for (a, b) in pairs {
+    let apart = pairs.map(|(a, b)| {
         assert_eq!(a["name"], b["name"]);
         let [a, b, std] = [&a["value"], &b["value"], &a["std"]].map(|x| x.as_f64().unwrap());
-        assert!((a - b).abs() < sigmas * std, "{a} and {b}, +- {std}");
-    }
+        (a - b).abs() / std
+    });
+    let apart = apart.fold(0.0, f64::max);
+    assert!(apart < sigmas, "{apart} standard deviations");
+    apart
 }
 
 /// Scenes whose readings are full poses.
 fn scenes_of_poses() -> Vec<String> {
-    let names = fs::read_dir(root().join("scenes")).unwrap().map(|e| e.unwrap());
-    let mut names: Vec<String> =
-        names.filter(|e| e.path().is_dir()).map(|e| e.file_name().into_string().unwrap()).collect();
+    let scenes = root().join("scenes");
+    let names = fs::read_dir(&scenes).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let description = |name: &String| fs::read_to_string(scenes.join(name).join("scene.toml"));
+    let reads_poses =
+        |name: &String| description(name).is_ok_and(|text| !text.contains("kind = \"sensors\""));
+    let mut names: Vec<String> = names.filter(reads_poses).collect();
     names.sort();
+    assert!(names.len() > 13, "{names:?}");
     names
 }
 
-/// The readings of a scene whose instrument touches no balls are touched here; their noise is what the machine states, not that of balls.
+/// Verdict by verdict, parameter by parameter: what comes of the balls is what comes of the table beside them.
 #[test]
 fn the_diagnosis_of_the_round_trip_of_every_scene_is_that_of_its_table() {
-    let mut count = 0;
     for name in scenes_of_poses() {
-        let bench = Bench::of(&name);
-        if bench.dataset("measurements.csv").has_other_readings() {
-            continue;
-        }
-        let has_balls = bench.path("balls.csv").exists();
-        if !has_balls {
-            bench.touch(
-                &[[0.12, 0.0, 0.0], [-0.06, 0.1, 0.0], [-0.05, -0.1, 0.01], [0.0, 0.02, 0.1]]
-                    .map(Vector3::from),
-            );
-        }
+        let bench = Bench::touched(&name);
         text(bench.campaign(&["--balls", "balls.toml"]));
-        if !has_balls {
-            let table = bench.read("out/measurements.csv");
-            let (head, rows) = table.split_once('\n').unwrap();
-            bench.write("out/measurements.csv", &format!("{}\n{rows}", head.replace(",sigma_", ",x_sigma_")));
-        }
         text(bench.run(&["diagnose", "hexapod.toml", "measurements.csv", "--json", "table.json"]));
         text(bench.run(&["diagnose", "hexapod.toml", "out/measurements.csv", "--json", "trip.json"]));
         let [table, trip] = ["table.json", "trip.json"].map(|name| json(&bench.path(name)));
-        println!("{name}: {} {}", table["verdict"], table["added"]);
-        same_diagnosis(&table, &trip, 2e-2);
-        count += 1;
+        let apart = same_diagnosis(&table, &trip, SAME_SIGMAS);
+        println!("{name}: {} {}, {apart:.1e} standard deviations apart", table["verdict"], table["added"]);
     }
-    assert!(count > 13, "{count}");
+}
+
+#[test]
+fn a_scene_that_reads_no_poses_has_no_balls_to_touch() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = root().join("scenes/granite");
+    let output = hexbench()
+        .arg("simulate")
+        .arg(scene)
+        .args(["--balls", "-o"])
+        .arg(folder.path().join("x"))
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("the sensors of this scene read no poses"), "{said}");
 }
 
 /// Numbers of a drawing, ball centres and loads; commands as they are typed.
@@ -247,6 +215,40 @@ fn three_commands_lead_from_a_drawing_and_ball_centres_to_the_effect() {
     let keys: usize = typed.iter().map(|line| "hexbench ".len() + line.len() + 1).sum();
     println!("{keys} keys");
     assert!(keys <= 210, "{keys}");
+}
+
+/// The balls of a scene as other programs would have written them: the same readings, and the page says whose layout it was.
+#[test]
+fn balls_in_the_layouts_of_other_programs_give_the_same_readings() {
+    let bench = Bench::of("paper");
+    text(bench.campaign(&["--balls", "balls.toml"]));
+    let expected = bench.dataset("out/measurements.csv");
+    let balls = bench.read("balls.csv");
+    let rows: Vec<Vec<&str>> = balls.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let calypso = rows.iter().flat_map(|row| {
+        let line = |(axis, number): (&str, &str)| {
+            format!("plan\t{}\t{axis}Value\t{number}\t{}\tmm\n", row[0], row[4])
+        };
+        ["x", "y", "z"].into_iter().zip(row[5..].iter().copied()).map(line).collect::<Vec<_>>()
+    });
+    let calypso = "planid\tpartnb\tidsymbol\tactual\tfeatureid\tunit\n".to_owned()
+        + &calypso.collect::<String>()
+        + "END\n";
+    let list: String =
+        rows.iter().map(|row| format!("{} {} {}\n", row[0], row[4], row[5..].join(" "))).collect();
+    for (file, told, more) in [
+        (calypso, "Zeiss Calypso", &[][..]),
+        ("// mm\n".to_owned() + &list, "SpatialAnalyzer", &["--unit", "mm"]),
+    ] {
+        fs::remove_dir_all(bench.path("out")).unwrap();
+        bench.write("balls.csv", &file);
+        let page = text(bench.campaign(&[&["--balls", "balls.toml"], more].concat()));
+        assert!(page.contains("read as") && page.contains(told), "{page}");
+        assert!(difference(&expected, &bench.dataset("out/measurements.csv")) < 1e-9);
+    }
+    assert!(bench.said(&["--balls", "balls.toml"], 3).contains("states no unit of its coordinates"));
+    let poses = text(bench.run(&["poses", "balls.csv", "--unit", "mm", "--balls", "balls.toml"]));
+    assert_eq!(poses.lines().count() - 1, 2 * expected.observations.len());
 }
 
 #[test]

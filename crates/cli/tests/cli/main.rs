@@ -29,6 +29,7 @@ mod programs;
 mod recovery;
 mod regress;
 mod robots;
+mod robots_of_others;
 mod runs;
 mod scenes;
 mod schemas;

@@ -211,3 +211,52 @@ fn a_users_term_is_fitted_saved_reopened_and_diagnosed() {
     let diagnosed = on_case("diagnose", "mujoco-clean", &["--term", term, "--json", "-"]);
     assert!(text(&diagnosed.stdout).contains("my-brackets"));
 }
+
+/// Numbers of a column of a table, by the beginning of its name.
+fn column(table: &str, beginning: &str) -> Vec<f64> {
+    let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = lines.next().unwrap();
+    let at = names.iter().position(|name| name.starts_with(beginning));
+    let at = at.unwrap_or_else(|| panic!("no column {beginning} among {names:?}"));
+    lines.map(|cells| cells[at].parse().unwrap()).collect()
+}
+
+#[test]
+fn every_command_that_shows_uncertainties_gives_them_with_the_coverage_asked_for() {
+    // Noise of this case is stated: the factor is that of the normal distribution.
+    const K: f64 = 1.96;
+    let folder = tempfile::tempdir().unwrap();
+    let (model, poses) = (saved_model(folder.path()), case("mujoco-foundation", "holdout.csv"));
+    for (command, more, name) in
+        [("predict", vec![poses.as_str()], "da"), ("stiffness", vec!["--poses", &poses], "k_force_1")]
+    {
+        let table = |coverage: &[&str]| {
+            let output = run(&[&[command, model.as_str()], more.as_slice(), coverage].concat());
+            assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+            text(&output.stdout)
+        };
+        let (standard, wide) = (table(&[]), table(&["--coverage", "95"]));
+        let (one, other) =
+            (column(&standard, &format!("sigma_{name}")), column(&wide, &format!("u95_{name}")));
+        let near = |(a, b): (&f64, &f64)| (b / a - K).abs() < 1e-3 * K;
+        assert!(!one.is_empty() && one.iter().zip(&other).all(near), "{command}: {one:?} {other:?}");
+        assert!(!wide.contains("sigma_"), "{command}: {}", wide.lines().next().unwrap());
+    }
+    let page = text(&run(&["stiffness", &model, "--coverage", "95"]).stdout);
+    assert_eq!(page.matches("expanded uncertainty, 95 % (k = 1.96)").count(), 3, "{page}");
+    let page = text(&on_case("diagnose", "mujoco-foundation", &["--coverage", "95"]).stdout);
+    let standard = text(&on_case("diagnose", "mujoco-foundation", &[]).stdout);
+    assert_eq!(page.matches("expanded uncertainty, 95 % (k = 1.96)").count(), 2, "{page}");
+    let uncertainty_of_leg_1 = |page: &str| -> f64 {
+        let section = page.split("Leg stiffness").nth(1).unwrap();
+        let line =
+            section.lines().find(|line| line.trim_start().starts_with("+- ") && !line.contains('(')).unwrap();
+        line.split_whitespace().nth(1).unwrap().parse().unwrap()
+    };
+    let ratio = uncertainty_of_leg_1(&page) / uncertainty_of_leg_1(&standard);
+    // Two digits are shown.
+    assert!((ratio / K - 1.0).abs() < 0.06, "{ratio}");
+    for (command, wrong) in [("predict", "100"), ("stiffness", "0"), ("diagnose", "x")] {
+        assert_eq!(run(&[command, "a", "b", "--coverage", wrong]).status.code(), Some(2), "{command}");
+    }
+}

@@ -20,7 +20,7 @@ pub(crate) enum Named {
 /// Reads `fz_N`, `fz [N]`, `fz (N)`, `Fz N`.
 pub(crate) fn read_column_name(text: &str) -> Result<Named, FileProblem> {
     let (base, bracketed) = without_brackets(text.trim());
-    let base = base.trim().replace([' ', '-'], "_");
+    let base = base.trim().replace([' ', '-', '\u{a0}'], "_");
     let lower = base.to_lowercase();
     if base.is_empty() {
         return Err(FileProblem::NamelessColumn);
@@ -41,13 +41,17 @@ fn is_private(lower: &str) -> bool {
     ["x_", "note", "comment"].iter().any(|beginning| lower.starts_with(beginning))
 }
 
-/// `da [um]` into `da ` and `um`.
+/// `da [um]`, `da / um` and `da in um` into `da ` and `um`.
 pub(crate) fn without_brackets(text: &str) -> (&str, Option<&str>) {
     let inside = |open: char, close: char| {
         let (base, rest) = text.split_once(open)?;
         Some((base, rest.strip_suffix(close)?))
     };
-    match inside('[', ']').or_else(|| inside('(', ')')) {
+    // ISO 80000-1 heads a column with quantity / unit.
+    let quotient =
+        || text.split_once('/').filter(|(base, unit)| !base.trim().is_empty() && !unit.trim().is_empty());
+    let found = inside('[', ']').or_else(|| inside('(', ')'));
+    match found.or_else(|| text.split_once(" in ")).or_else(quotient) {
         Some((base, unit)) => (base, Some(unit)),
         None => (text, None),
     }
@@ -96,7 +100,10 @@ mod tests {
 
     #[test]
     fn a_unit_stands_after_an_underscore_a_blank_or_in_brackets() {
-        for text in ["da_um", "da [um]", "da[um]", "da (µm)", "da um", "DA_UM", "da-um", "da_μm"] {
+        for text in [
+            "da_um", "da [um]", "da[um]", "da (µm)", "da um", "DA_UM", "da-um", "da_μm", "da / µm", "da/um",
+            "da in um",
+        ] {
             assert_eq!(known(text), "da um", "{text}");
         }
     }

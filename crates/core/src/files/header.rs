@@ -9,9 +9,10 @@ use super::load_columns::{LoadSource, has_masses, has_reference, load_column, re
 use super::other_names::likely;
 use super::row::no_sigma;
 use super::sensor_columns::{SensorSource, refuse_missing_sensors, refuse_unknown_sensor, sensor_column};
-use super::units::{Unit, unit_named};
+use super::unit_row::is_row_of_units;
+use super::units::Unit;
 use super::warning::Notice;
-use super::{Dimension, FileProblem, Warning};
+use super::{FileProblem, Warning};
 use crate::{Channel, Columns, Hexapod, Measurand, Sensor};
 
 /// One column of a file that is read.
@@ -55,30 +56,12 @@ impl Plan {
 }
 
 impl Plan {
-    /// True for a line of units below the names of the columns, which state the same ones.
+    /// True for a line of units below the names of the columns.
     ///
     /// # Errors
-    /// A unit that is not that of the name.
+    /// As [`is_row_of_units`].
     pub(crate) fn is_row_of_units(&self, line: &Line<'_>) -> Result<bool, Fault> {
-        let bare = |cell: usize| line.text(cell).trim_matches(['[', ']', '(', ')']);
-        let is_unit = |cell: usize| {
-            let text = bare(cell);
-            text.is_empty() || text == "-" || unit_named(text, Dimension::Number).is_some()
-        };
-        let filled = (0..line.len()).filter(|cell| !bare(*cell).is_empty()).count();
-        if filled == 0 || !(0..line.len()).all(is_unit) {
-            return Ok(false);
-        }
-        for (cell, source) in self.sources.iter().enumerate().take(line.len()) {
-            let Some(Source { unit, .. }) = source else { continue };
-            let stated = unit_named(bare(cell), unit.kind);
-            if stated.is_some_and(|stated| stated != *unit) {
-                let problem = FileProblem::OtherUnit { named: unit.name };
-                let place = line.place(cell).with_name(&self.names[cell]).with_value(line.text(cell));
-                return Err(Fault::new(place, problem));
-            }
-        }
-        Ok(true)
+        is_row_of_units(line, &self.names, |cell| self.sources[cell].as_ref().map(|source| source.unit))
     }
 }
 
@@ -193,17 +176,6 @@ pub(crate) fn read_header(
         return Err(Fault::new(line.whole_place(), no_sigma()));
     }
     Ok(plan)
-}
-
-/// A first line that names no columns.
-pub(crate) fn refuse_numbers(line: &Line<'_>) -> Result<(), Fault> {
-    let all_numbers = (0..line.len()).all(|cell| line.text(cell).parse::<f64>().is_ok());
-    let problem = match line.len() {
-        _ if all_numbers => FileProblem::NoHeader,
-        1 => FileProblem::NoSeparator,
-        _ => return Ok(()),
-    };
-    Err(Fault::new(line.whole_place(), problem))
 }
 
 fn refuse_duplicates(sources: &[Option<Source>], line: &Line<'_>) -> Result<(), Fault> {

@@ -66,6 +66,14 @@ impl FileProblem {
             Self::Date => {
                 "Format the column as a number or as text before the values are entered, and enter them again."
             }
+            Self::TimeOfDay => {
+                "Write the time as a number in the unit of the column name, such as 330 in a column in s."
+            }
+            Self::Formula => "Export values instead of formulas, or copy the cells and paste their values.",
+            Self::TooNarrow => "Make the column wider and export again.",
+            Self::NoValue => {
+                "Leave the row out; a reading that was not taken may be an empty cell where the machine is known."
+            }
             Self::Thousands => "Format the numbers without thousands separators and export again.",
             Self::OtherUnit { .. } => {
                 "Correct the name or the row of units, whichever is wrong; the row of units may be left out."
@@ -147,7 +155,9 @@ fn named_with_unit(usual: &str, kind: Dimension) -> String {
 
 fn missing_columns(names: &[String]) -> String {
     let is_load = |name: &String| name.starts_with('f') || name.starts_with('m') && !name.starts_with("me");
-    if names.iter().all(is_load) {
+    if names.iter().any(|name| matches!(name.as_str(), "record" | "ball" | "side" | "leg")) {
+        "Add them, or say by --columns which columns of the table they are.".into()
+    } else if names.iter().all(is_load) {
         "Add them; write zeros where no such force or moment acts.".into()
     } else {
         "Add them with a unit in the name, for example a_mm or a [mm].".into()

@@ -1,5 +1,7 @@
 //! Numbers in cells.
 
+use std::borrow::Cow;
+
 use super::FileProblem;
 
 /// A number and whether it was written with a decimal comma.
@@ -29,6 +31,10 @@ pub(crate) fn parse_number(text: &str) -> Result<Parsed, FileProblem> {
 }
 
 fn with_comma(text: &str) -> Result<Parsed, FileProblem> {
+    let text = &*with_hyphen(text);
+    if let Some(value) = text.parse::<f64>().ok().filter(|value| value.is_finite()) {
+        return Ok(Parsed { value: usable(value)?, comma: false });
+    }
     let single = text.matches(',').count() == 1 && !text.contains('.');
     match text.replace(',', ".").parse::<f64>() {
         Ok(value) if single && value.is_finite() => Ok(Parsed { value: usable(value)?, comma: true }),
@@ -36,15 +42,64 @@ fn with_comma(text: &str) -> Result<Parsed, FileProblem> {
     }
 }
 
+/// The minus of typesetting, and the dash that word processors make of it, as the hyphen of computers.
+fn with_hyphen(text: &str) -> Cow<'_, str> {
+    const MINUS: [char; 2] = ['\u{2212}', '\u{2013}'];
+    if text.contains(MINUS) { text.replace(MINUS, "-").into() } else { text.into() }
+}
+
 /// What a cell is that is no number.
 fn no_number(text: &str) -> FileProblem {
-    if has_thousands(text) {
+    if text.starts_with('=') {
+        FileProblem::Formula
+    } else if text.bytes().all(|byte| byte == b'#') {
+        FileProblem::TooNarrow
+    } else if stands_for_nothing(text) {
+        FileProblem::NoValue
+    } else if has_thousands(text) {
         FileProblem::Thousands
+    } else if is_time_of_day(text) {
+        FileProblem::TimeOfDay
     } else if is_date(text) {
         FileProblem::Date
     } else {
         FileProblem::NotANumber
     }
+}
+
+/// Words that people and programs write where there is no number.
+fn stands_for_nothing(text: &str) -> bool {
+    const WORDS: [&str; 18] = [
+        "n/a",
+        "na",
+        "n.a.",
+        "none",
+        "null",
+        "nil",
+        "missing",
+        "fail",
+        "failed",
+        "error",
+        "err",
+        "k.a.",
+        "entf.",
+        "x",
+        "?",
+        "overrange",
+        "ovl",
+        "invalid",
+    ];
+    let lower = text.to_lowercase();
+    let is_dashes = lower.chars().all(|symbol| matches!(symbol, '-' | '\u{2014}' | '_' | '*' | '.'));
+    let is_error = lower.starts_with('#') || lower.starts_with("error #") || lower.contains(".#");
+    is_dashes || is_error || WORDS.contains(&lower.as_str())
+}
+
+/// Hours and minutes, perhaps seconds: `12:30`, `00:05:30.5`.
+fn is_time_of_day(text: &str) -> bool {
+    let parts: Vec<&str> = text.trim_end_matches(['A', 'P', 'M', 'a', 'p', 'm', ' ']).split(':').collect();
+    let is_number = |part: &&str| part.parse::<f64>().is_ok_and(|number| (0.0..60.0).contains(&number));
+    (2..=3).contains(&parts.len()) && parts.iter().all(is_number)
 }
 
 /// Digits in groups of three, perhaps with decimals: `1,234.5`, `1 234`, `1'234`.
@@ -62,12 +117,21 @@ fn has_thousands(text: &str) -> bool {
     starts && others.peek().is_some() && others.all(|group| digits(group) && group.len() == 3)
 }
 
+/// Beginnings of the names of months in languages of spreadsheets.
+const MONTHS: [&str; 30] = [
+    "jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec", "mär", "mrz", "mai",
+    "okt", "dez", "fév", "avr", "jui", "aoû", "déc", "ene", "abr", "ago", "dic", "gen", "mag", "giu", "lug",
+];
+
 /// Day, month and perhaps year: `3.5.2026`, `2026-05-03`, `03-May`, `3. Mai`.
 fn is_date(text: &str) -> bool {
     let parts: Vec<&str> = text.split(['.', '-', '/', ' ']).filter(|part| !part.is_empty()).collect();
     let number =
         |part: &str, digits: usize| part.len() <= digits && part.bytes().all(|byte| byte.is_ascii_digit());
-    let month = |part: &str| part.chars().count() >= 3 && part.chars().all(char::is_alphabetic);
+    let month = |part: &str| {
+        let beginning: String = part.chars().take(3).flat_map(char::to_lowercase).collect();
+        part.chars().all(char::is_alphabetic) && MONTHS.contains(&beginning.as_str())
+    };
     match parts[..] {
         [day, name] => (number(day, 2) && month(name)) || (month(day) && number(name, 2)),
         [day, name, year] if month(name) => number(day, 2) && number(year, 4),
@@ -134,7 +198,17 @@ mod tests {
         for date in ["3.5.2026", "2026-05-03", "03-May", "3. Mai", "Mai 26"] {
             assert!(matches!(parse_number(date), Err(FileProblem::Date)), "{date}");
         }
-        for neither in ["12.5 mm", "1.2.3", "a.b", "1,2,3", "--5", "1 2"] {
+        for time in ["12:30", "00:05:30.5", "1:02 PM"] {
+            assert!(matches!(parse_number(time), Err(FileProblem::TimeOfDay)), "{time}");
+        }
+        for nothing in ["n/a", "-", "\u{2014}", "NA", "#N/A", "#WERT!", "1.#QNAN", "---"] {
+            assert!(matches!(parse_number(nothing), Err(FileProblem::NoValue)), "{nothing}");
+        }
+        assert!(matches!(parse_number("=A1*2"), Err(FileProblem::Formula)));
+        assert!(matches!(parse_number("####"), Err(FileProblem::TooNarrow)));
+        assert_eq!(parse_number("\u{2212}1,5").unwrap(), Parsed { value: -1.5, comma: true });
+        assert_eq!(parse_number("\u{2013}1.5").unwrap(), Parsed { value: -1.5, comma: false });
+        for neither in ["5 deg", "3 mrad", "12.5 mm", "1.2.3", "a.b", "1,2,3", "--5", "1 2"] {
             assert!(matches!(parse_number(neither), Err(FileProblem::NotANumber)), "{neither}");
         }
         assert!(matches!(parse_number("12 N"), Err(FileProblem::NotANumber)));

@@ -190,6 +190,18 @@ pub enum FileProblem {
     /// Digits in groups.
     #[error("the number is written with thousands separators")]
     Thousands,
+    /// A time of day.
+    #[error("this is a time of day, not a number")]
+    TimeOfDay,
+    /// A formula as text.
+    #[error("this is a formula, not its value")]
+    Formula,
+    /// What a spreadsheet writes in a cell that is too narrow.
+    #[error("the spreadsheet wrote this because its column was too narrow for the number")]
+    TooNarrow,
+    /// A word for nothing.
+    #[error("this stands for no value")]
+    NoValue,
     /// Text in a number's cell.
     #[error("this is not a number")]
     NotANumber,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::error::Fault;
-use super::read_balls::{PointColumns, read_points};
+use super::points::PointTable;
 use super::{FileError, FilePlace};
 use crate::{BallRecord, Vector3};
 
@@ -16,7 +16,7 @@ const SIDES: [&str; 2] = ["base", "platform"];
 /// # Errors
 /// The first thing that is wrong, with line, column, value and next step; a joint that is missing or given twice.
 pub fn read_joints(path: &Path) -> Result<[[Vector3; 6]; 2], FileError> {
-    let rows = read_points(path, PointColumns::JOINTS)?;
+    let rows = PointTable::of_joints().read(path)?.records;
     joints(&rows).map_err(|(rule, next)| Fault::rule(FilePlace::file(), rule, next).in_file(path))
 }
 

@@ -1,18 +1,18 @@
 //! Reading a table of measurements in one pass.
 
 use super::column_names::ColumnNames;
+use super::dialect::{Dialect, LineKind};
 use super::error::Fault;
-use super::header::{GroupPurpose, Reads, refuse_numbers};
+use super::header::{GroupPurpose, Reads};
 use super::line::{Line, whole_place};
 use super::lines::{Lines, RawLine};
 use super::load_columns::load_row;
-use super::number::{Decimals, parse_number};
 use super::records::Records;
 use super::row::FilledRow;
 use super::source::{of_records, read_source};
 use super::table::{Table, TableReading};
 use super::warning::Notice;
-use super::{FileError, FilePlace, FileProblem, Warning};
+use super::{FileError, FileProblem, Warning};
 use crate::{Hexapod, LoadRow};
 use std::io::BufRead;
 use std::ops::Range;
@@ -108,57 +108,17 @@ fn read_table(input: impl BufRead, name: &str, reads: Reads<'_>) -> Result<Table
 /// All rows of a table, before it is finished.
 pub(crate) fn rows_of(input: impl BufRead, reads: Reads<'_>) -> Result<Csv, Fault> {
     let mut lines = Lines::new(input);
-    let mut table = start(&mut lines, reads)?;
+    let mut table = Dialect::start(&mut lines, |header, dialect| Csv::new(header, dialect, reads))?;
     let mut cells = Vec::new();
     while let Some(raw) = lines.next_line()? {
-        if !is_skipped(raw.text, table.separator) {
-            table.add(raw, &mut cells)?;
+        match table.dialect.kind(&raw) {
+            LineKind::Row => table.add(raw, &mut cells)?,
+            LineKind::Names => table.units = UnitRow::MayFollow,
+            LineKind::Nothing => {}
         }
     }
-    if let Some(encoding) = lines.encoding {
-        table.table.warnings.push(Warning::new(FilePlace::file(), Notice::Encoding(encoding)));
-    }
+    table.encoding = lines.encoding;
     Ok(table)
-}
-
-fn start<R: BufRead>(lines: &mut Lines<R>, reads: Reads<'_>) -> Result<Csv, Fault> {
-    let mut separator = None;
-    while let Some(raw) = lines.next_line()? {
-        if raw.text.trim().is_empty() || raw.text.starts_with('#') {
-            continue;
-        }
-        if separator.is_none() && raw.number == 1 {
-            separator = told_separator(raw.text);
-            if separator.is_some() {
-                continue;
-            }
-        }
-        if raw.text.contains('\r') {
-            return Err(Fault::new(FilePlace::file(), FileProblem::CarriageReturnLines));
-        }
-        return Csv::new(raw, separator, reads);
-    }
-    Err(Fault::new(FilePlace::file(), FileProblem::Empty))
-}
-
-/// What a first line such as `sep=;` says, which spreadsheets write and read.
-fn told_separator(text: &str) -> Option<u8> {
-    let word = text.get(..4).filter(|word| word.eq_ignore_ascii_case("sep="))?;
-    match &text.as_bytes()[word.len()..] {
-        [separator @ (b',' | b';' | b'\t')] => Some(*separator),
-        _ => None,
-    }
-}
-
-/// Blank lines, comments, and the rows of empty cells that spreadsheets leave below a table.
-fn is_skipped(text: &str, separator: u8) -> bool {
-    match text.bytes().next() {
-        None | Some(b'#') => true,
-        Some(byte) if byte == separator || byte.is_ascii_whitespace() => {
-            text.bytes().all(|byte| byte == separator || byte.is_ascii_whitespace())
-        }
-        Some(_) => false,
-    }
 }
 
 /// A table while it is read from text.
@@ -166,8 +126,8 @@ pub(crate) struct Csv {
     pub(crate) table: Table,
     /// Of a table of loads: records and masses of each row.
     pub(crate) loads: Vec<LoadRow>,
-    separator: u8,
-    decimals: Decimals,
+    dialect: Dialect,
+    encoding: Option<&'static str>,
     units: UnitRow,
 }
 
@@ -179,27 +139,19 @@ enum UnitRow {
 }
 
 impl Csv {
-    /// `told`: the separator that the file states itself.
-    fn new(header: RawLine<'_>, told: Option<u8>, reads: Reads<'_>) -> Result<Self, Fault> {
-        let (separator, name) = told.map_or_else(|| separator_of(header.text), |separator| (separator, None));
-        let mut borders = Vec::new();
-        let line = Line::cut(header, separator, &mut borders)?.trimmed();
-        refuse_numbers(&line)?;
-        let mut table = Table::new(&line, reads)?;
-        if let Some(name) = name {
-            table.warnings.insert(0, Warning::new(whole_place(&header), Notice::Separator(name)));
-        }
+    fn new(header: &Line<'_>, dialect: Dialect, reads: Reads<'_>) -> Result<Self, Fault> {
         Ok(Self {
-            table,
+            table: Table::new(header, reads)?,
             loads: Vec::new(),
-            separator,
-            decimals: Decimals::default(),
+            dialect,
+            encoding: None,
             units: UnitRow::MayFollow,
         })
     }
 
     fn add(&mut self, raw: RawLine<'_>, cells: &mut Vec<Range<usize>>) -> Result<(), Fault> {
-        let line = Line::cut(raw, self.separator, cells).map_err(|fault| self.cut_off(&raw, fault))?;
+        let line =
+            Line::cut(raw, self.dialect.separator, cells).map_err(|fault| self.cut_off(&raw, fault))?;
         let line = line.without_empty_beyond(self.table.plan.sources.len());
         if self.units == UnitRow::MayFollow {
             self.units = UnitRow::Passed;
@@ -207,16 +159,20 @@ impl Csv {
                 return Ok(());
             }
         }
-        self.refuse_other_length(&line, raw.ended)?;
-        let row = self.row(&line)?;
+        self.add_row(&line, &raw).map_err(|fault| self.dialect.explained(&line, fault))
+    }
+
+    fn add_row(&mut self, line: &Line<'_>, raw: &RawLine<'_>) -> Result<(), Fault> {
+        self.refuse_other_length(line, raw.ended)?;
+        let row = self.row(line)?;
         self.table
             .push(&row, line.number(), raw.text)
             .map_err(|problem| Fault::new(line.whole_place(), problem))?;
         if self.table.plan.of_loads.iter().any(Option::is_some) {
-            self.add_load(&line)?;
+            self.add_load(line)?;
         }
         if !raw.ended {
-            self.table.warnings.push(Warning::new(whole_place(&raw), Notice::NoFinalNewline));
+            self.table.warnings.push(Warning::new(whole_place(raw), Notice::NoFinalNewline));
         }
         Ok(())
     }
@@ -224,7 +180,7 @@ impl Csv {
     /// What only a table of loads says.
     fn add_load(&mut self, line: &Line<'_>) -> Result<(), Fault> {
         let plan = &self.table.plan;
-        let number = |text: &str| number_of(text, self.separator, &mut self.decimals, line.number());
+        let number = |text: &str| self.dialect.number(text, line.number());
         let row = load_row(&plan.of_loads, line, number).map_err(|(cell, problem)| {
             let place = line.place(cell).with_name(&plan.names[cell]).with_value(line.text(cell));
             Fault::new(place, problem)
@@ -238,7 +194,7 @@ impl Csv {
         if raw.ended {
             return fault;
         }
-        let found = 1 + memchr::memchr_iter(self.separator, raw.text.as_bytes()).count();
+        let found = 1 + memchr::memchr_iter(self.dialect.separator, raw.text.as_bytes()).count();
         let expected = self.table.plan.sources.len();
         Fault::new(whole_place(raw), FileProblem::Truncated { found, expected })
     }
@@ -262,7 +218,7 @@ impl Csv {
                 row.leave_out(plan, cell);
                 continue;
             }
-            let mut number = || number_of(text, self.separator, &mut self.decimals, line.number());
+            let mut number = || self.dialect.number(text, line.number());
             let filled = match (&plan.sources[cell], &plan.of_sensors[cell]) {
                 (Some(source), _) => number()
                     .and_then(|value| row.fill(source, value))
@@ -278,30 +234,7 @@ impl Csv {
     }
 
     pub(crate) fn finish(mut self, name: &str) -> Result<TableReading, Fault> {
-        self.table.decimal_comma = self.decimals.has_comma();
+        self.table.warnings.splice(0..0, self.dialect.warnings(self.encoding));
         self.table.finish(name)
-    }
-}
-
-fn number_of(text: &str, separator: u8, decimals: &mut Decimals, line: u64) -> Result<f64, FileProblem> {
-    let parsed = parse_number(text)?;
-    if separator != b',' {
-        decimals.note(text, parsed, line)?;
-    } else if parsed.comma {
-        return Err(FileProblem::DecimalComma);
-    }
-    Ok(parsed.value)
-}
-
-/// The most frequent of comma, semicolon and tab in the header, and its name unless it is the comma.
-fn separator_of(header: &str) -> (u8, Option<&'static str>) {
-    let count = |separator: u8| memchr::memchr_iter(separator, header.as_bytes()).count();
-    let (commas, semicolons, tabs) = (count(b','), count(b';'), count(b'\t'));
-    if semicolons > commas && semicolons >= tabs {
-        (b';', Some("semicolons"))
-    } else if tabs > commas {
-        (b'\t', Some("tabs"))
-    } else {
-        (b',', None)
     }
 }

@@ -33,8 +33,6 @@ pub(crate) struct Table {
     purpose: GroupPurpose,
     pub(crate) plan: Plan,
     pub(crate) warnings: Vec<Warning>,
-    /// True when numbers were written with a decimal comma.
-    pub(crate) decimal_comma: bool,
     angles: AngleConvention,
     observations: Vec<Observation>,
     rows: usize,
@@ -51,7 +49,6 @@ impl Table {
             purpose: reads.purpose,
             plan,
             warnings,
-            decimal_comma: false,
             angles: reads.machine.map_or_else(AngleConvention::default, |machine| machine.angles),
             observations: Vec::new(),
             rows: 0,
@@ -108,9 +105,6 @@ impl Table {
         self.read_angles();
         if self.purpose == GroupPurpose::Measurements {
             self.warnings.extend(drop_copies(&mut self.observations, self.fingerprints, self.plan.has_pose));
-        }
-        if self.decimal_comma {
-            self.warnings.push(Warning::new(FilePlace::file(), Notice::DecimalComma));
         }
         if !self.no_load_difference.is_empty() {
             let notice = Notice::NoLoadDifference { lines: self.no_load_difference };

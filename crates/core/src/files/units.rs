@@ -109,6 +109,7 @@ pub const UNITS: &[Unit] = &[
     Unit::new("arcsec", Dimension::Angle, PI, 648_000.0),
     Unit::new("N", Dimension::Force, 1.0, 1.0),
     Unit::new("mN", Dimension::Force, 1.0, 1e3),
+    Unit::new("daN", Dimension::Force, 10.0, 1.0),
     Unit::new("kN", Dimension::Force, 1e3, 1.0),
     Unit::new("MN", Dimension::Force, 1e6, 1.0),
     Unit::new("kgf", Dimension::Force, 9.806_65, 1.0),
@@ -158,15 +159,18 @@ fn plain_spelling(text: &str) -> String {
     for symbol in text.trim().chars() {
         match symbol {
             'µ' | 'μ' => plain.push('u'),
-            '°' => plain.push_str("deg"),
+            '°' | 'º' | '˚' => plain.push_str("deg"),
+            '′' => plain.push_str("arcmin"),
+            '″' => plain.push_str("arcsec"),
             '/' => plain.push_str("_per_"),
-            '.' | '·' | '⋅' | '*' | ' ' => {}
+            '.' | '·' | '⋅' | '∙' | '*' | ' ' | '\u{a0}' => {}
             other => plain.push(other),
         }
     }
     match plain.to_ascii_lowercase().as_str() {
         "inch" | "inches" => "in".to_owned(),
         "micron" | "microns" => "um".to_owned(),
+        "degree" | "degrees" => "deg".to_owned(),
         // Products are written with an underscore where a name stands in a header: lbf_in.
         _ if !plain.contains("_per_") => plain.replace('_', ""),
         _ => plain,
@@ -203,7 +207,10 @@ mod tests {
             ("arcsec", Dimension::Angle, PI / 180.0 / 3600.0),
             ("N", Dimension::Force, 1.0),
             ("mN", Dimension::Force, 1e-3),
+            ("daN", Dimension::Force, 10.0),
             ("kN", Dimension::Force, 1e3),
+            ("″", Dimension::Angle, PI / 180.0 / 3600.0),
+            ("º", Dimension::Angle, PI / 180.0),
             ("MN", Dimension::Force, 1e6),
             ("Nm", Dimension::Moment, 1.0),
             ("N.m", Dimension::Moment, 1.0),

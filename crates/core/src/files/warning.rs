@@ -27,6 +27,12 @@ pub enum Notice {
     /// Decimal commas.
     #[error("numbers are written with a decimal comma; read as such in every cell")]
     DecimalComma,
+    /// The names of the columns, word for word again.
+    #[error("the names of the columns come again ({}); passed over", listed(lines))]
+    NamesAgain {
+        /// The lines.
+        lines: Vec<u64>,
+    },
     /// An unknown column.
     #[error("unknown column, ignored")]
     IgnoredColumn,
@@ -64,6 +70,7 @@ impl Warning {
             Notice::Separator(_) | Notice::DecimalComma => {
                 "Nothing, if the numbers look right; export with commas and decimal points to be safe."
             }
+            Notice::NamesAgain { .. } => "Nothing, if the tables are of one machine and one campaign.",
             Notice::IgnoredColumn => "Begin the name with x_ or note to say that it is meant to be ignored.",
             Notice::IdenticalRows { .. } => {
                 "If these are readings of their own, number them in the column repeat."

@@ -3,6 +3,7 @@
 use hexbench_core::{Matrix6, Pose, Wrench};
 use hexbench_model::application::stiffness::{CartesianStiffness, PrincipalStiffness, StiffnessPoint};
 
+use super::plus_minus::Wide;
 use crate::number::{rounded, significant, stated, with_uncertainty};
 use crate::page::{Page, Section, Table};
 
@@ -10,7 +11,13 @@ use crate::page::{Page, Section, Table};
 type Entries<'a> = &'a dyn Fn(usize, usize) -> f64;
 
 /// The platform at a pose under a load: principal stiffnesses first, then both matrices with their uncertainties.
-pub fn cartesian(k: &CartesianStiffness, pose: &Pose, load: &Wrench, at: &StiffnessPoint) -> Page {
+pub fn cartesian(
+    k: &CartesianStiffness,
+    pose: &Pose,
+    load: &Wrench,
+    at: &StiffnessPoint,
+    wide: &Wide,
+) -> Page {
     let pose = pose.to_array();
     let shift = listed(pose[..3].iter().map(|m| m * 1e3));
     let turn = listed(pose[3..].iter().map(|rad| rad.to_degrees()));
@@ -21,15 +28,16 @@ pub fn cartesian(k: &CartesianStiffness, pose: &Pose, load: &Wrench, at: &Stiffn
         .about("pose", format!("a, b, c: {shift} mm; alpha, beta, gamma: {turn} deg"))
         .about("load", format!("force {force} N, moment {moment} N m at the mobile origin"))
         .about("point", format!("{point} mm in the mobile frame; axes of the {} frame", at.axes.word()))
-        .with(principal(k))
+        .with(principal(k, wide))
         .with(matrix(
             "Stiffness matrix K",
             "force (N) and moment (N m) for um and mrad of one motion alone, the others held at zero",
             &FORCES,
             &MOTIONS,
             &k.stiffness,
-            &k.stiffness_std,
+            &(k.stiffness_std * wide.factor),
             &stiffness_unit,
+            wide,
         ))
         .with(matrix(
             "Compliance matrix C",
@@ -37,8 +45,9 @@ pub fn cartesian(k: &CartesianStiffness, pose: &Pose, load: &Wrench, at: &Stiffn
             &MOTIONS,
             &FORCES,
             &k.compliance,
-            &k.compliance_std,
+            &(k.compliance_std * wide.factor),
             &compliance_unit,
+            wide,
         ))
 }
 
@@ -60,9 +69,9 @@ fn compliance_unit(row: usize, _: usize) -> f64 {
     if row < 3 { 1e6 } else { 1e3 }
 }
 
-fn principal(k: &CartesianStiffness) -> Section {
+fn principal(k: &CartesianStiffness, wide: &Wide) -> Section {
     let row = |name: &str, unit: &str, scale: f64, p: &PrincipalStiffness| {
-        let [value, std] = with_uncertainty(p.stiffness * scale, p.std * scale);
+        let [value, std] = with_uncertainty(p.stiffness * scale, wide.factor * p.std * scale);
         let direction = p.direction.iter().map(|x| format!("{:.3}", x + 0.0)).collect::<Vec<_>>().join(", ");
         [name.to_owned(), format!("{value} +- {std} {unit}"), direction]
     };
@@ -72,7 +81,7 @@ fn principal(k: &CartesianStiffness) -> Section {
         Table::named(["", "stiffness", "along, about"]).words_in(1).words_in(2).rows(forces.chain(moments));
     Section::new("Principal stiffnesses")
         .id("principal")
-        .remark("softest first; +- standard uncertainty (k = 1)")
+        .remark(format!("softest first; {}", wide.remark()))
         .paragraph("A force through the point while the platform is free to turn, a moment while it is free to shift.")
         .table(table)
 }
@@ -85,6 +94,7 @@ fn matrix(
     value: &Matrix6,
     std: &Matrix6,
     unit: Entries<'_>,
+    wide: &Wide,
 ) -> Section {
     let shown = |of: &dyn Fn(usize, usize) -> String| {
         let header = std::iter::once("").chain(columns.iter().copied());
@@ -96,5 +106,5 @@ fn matrix(
     };
     let values = shown(&|i, j| rounded(value[(i, j)] * unit(i, j), std[(i, j)] * unit(i, j)));
     let uncertain = shown(&|i, j| significant(std[(i, j)] * unit(i, j), 2));
-    Section::new(title).remark(remark).table(values).table(uncertain.titled("standard uncertainties (k = 1)"))
+    Section::new(title).remark(remark).table(values).table(uncertain.titled(wide.words.as_str()))
 }

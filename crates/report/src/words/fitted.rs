@@ -63,9 +63,9 @@ fn quality(task: &JudgedTask<'_>, judged: &FitWithErrors, estimator: Estimator) 
 }
 
 fn values(all: &Estimates, coverage: PlusMinus, dof: f64) -> Section {
-    let factor = coverage.factor(dof);
+    let plus_minus = coverage.of(dof);
     let row = |e: &Estimate| {
-        let wide = factor * e.std;
+        let wide = plus_minus.factor * e.std;
         let [value, std] = with_uncertainty(e.value, wide);
         let share = 100.0 * (wide / e.value).abs();
         let share = if share.is_finite() { format!("({} %)", significant(share, 2)) } else { String::new() };
@@ -81,7 +81,7 @@ fn values(all: &Estimates, coverage: PlusMinus, dof: f64) -> Section {
     let open = (!all.not_determined.is_empty())
         .then(|| format!("Not determined by these data, so no number: {}.", joined(&all.not_determined)));
     Section::new("Values")
-        .remark(coverage.remark(dof))
+        .remark(plus_minus.remark())
         .table(Table::new(columns).rows(all.determined.iter().map(row)))
         .with(open.map(Block::paragraph))
 }

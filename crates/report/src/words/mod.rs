@@ -36,7 +36,7 @@ pub use comparison::comparison;
 pub use demo::demo;
 pub use discovery::discovery;
 pub(crate) use leg_space::by_load;
-pub use plus_minus::PlusMinus;
+pub use plus_minus::{PlusMinus, Wide};
 pub use provenance::Provenance;
 pub use readings::readings;
 pub use runs::runs;
@@ -72,8 +72,8 @@ pub fn diagnosis(subject: &ReportSubject<'_>) -> Page {
     page.with(confidence::section(d))
         .with(ladder::section(d))
         .with(sensors(d))
-        .with(size::section(d))
-        .with(stiffness::section(subject.hexapod, d))
+        .with(size::section(d, &subject.wide()))
+        .with(stiffness::section(subject.hexapod, d, &subject.wide()))
         .with(remainder::section(d))
         .with(next::section(d))
         .with(pattern::section(d))

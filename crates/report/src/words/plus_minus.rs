@@ -26,14 +26,30 @@ impl PlusMinus {
         }
     }
 
+    /// The same where the noise is known from so many degrees of freedom.
+    pub fn of(self, dof: f64) -> Wide {
+        let factor = self.factor(dof);
+        let words = match self {
+            Self::Standard => "standard uncertainty (k = 1)".to_owned(),
+            Self::Percent(percent) => format!("expanded uncertainty, {percent} % (k = {factor:.2})"),
+        };
+        Wide { factor, words }
+    }
+}
+
+/// A plus-minus: its factor on a standard uncertainty, and what it is called.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wide {
+    /// Factor on a standard uncertainty.
+    pub factor: f64,
+    /// `standard uncertainty (k = 1)`.
+    pub words: String,
+}
+
+impl Wide {
     /// What a section says of its numbers.
-    pub(super) fn remark(self, dof: f64) -> String {
-        match self {
-            Self::Standard => "+- standard uncertainty (k = 1)".to_owned(),
-            Self::Percent(percent) => {
-                format!("+- expanded uncertainty, {percent} % (k = {:.2})", self.factor(dof))
-            }
-        }
+    pub(super) fn remark(&self) -> String {
+        format!("+- {}", self.words)
     }
 }
 

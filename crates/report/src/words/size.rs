@@ -4,6 +4,7 @@ use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::results::diagnose::Diagnosis;
 use hexbench_model::results::words::{joined, joined_with};
 
+use super::plus_minus::Wide;
 use crate::number::with_uncertainty;
 use crate::page::{Block, PageColumn, Section, Table};
 
@@ -13,22 +14,22 @@ const BRIEF: usize = 8;
 const MOST_NAMES: usize = 6;
 
 /// Values of every effect in the fitted model.
-pub(super) fn section(d: &Diagnosis) -> Option<Section> {
+pub(super) fn section(d: &Diagnosis, wide: &Wide) -> Option<Section> {
     let belong = (!d.model.is_empty() && d.model != d.added).then(|| {
         let model = joined_with(&d.model, "+");
         Block::paragraph(format!("These numbers belong to the most probable model, springs + {model}."))
     });
     let section =
-        Section::new("How large").id("effects").remark("value +- standard uncertainty (k = 1)").with(belong);
-    d.model.iter().fold(section, |section, term| section.with_all(effect(d, term))).unless_empty()
+        Section::new("How large").id("effects").remark(format!("value {}", wide.remark())).with(belong);
+    d.model.iter().fold(section, |section, term| section.with_all(effect(d, term, wide))).unless_empty()
 }
 
-fn effect(d: &Diagnosis, term: &str) -> impl Iterator<Item = Block> {
+fn effect(d: &Diagnosis, term: &str, wide: &Wide) -> impl Iterator<Item = Block> {
     let own: Vec<&Estimate> = d.parameters.iter().filter(|p| belongs(&p.name, term)).collect();
     let richer =
         if d.richer.iter().any(|r| r == term) { ", of a form richer than the ideal one" } else { "" };
     let row = |p: &&Estimate| {
-        let [value, std] = with_uncertainty(p.value, p.std);
+        let [value, std] = with_uncertainty(p.value, wide.factor * p.std);
         let unit = if p.unit == "1" { "" } else { &p.unit };
         [short(&p.name).to_owned(), value, format!("+- {std}"), unit.to_owned()]
     };

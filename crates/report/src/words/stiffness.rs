@@ -4,6 +4,7 @@ use hexbench_core::Hexapod;
 use hexbench_model::inference::verdict::Verdict;
 use hexbench_model::results::diagnose::{AbsorbedReport, Diagnosis};
 
+use super::plus_minus::Wide;
 use crate::number::with_uncertainty;
 use crate::page::{Block, Section, Table};
 
@@ -11,15 +12,14 @@ use crate::page::{Block, Section, Table};
 const NUMBERS: usize = 2;
 
 /// Stiffness per leg with uncertainty, then the bias per effect left out.
-pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis) -> Section {
-    let of = match d.verdict {
-        Verdict::Ambiguous => "N/um, +- standard uncertainty (k = 1), over all explanations that remain",
-        _ => "N/um, +- standard uncertainty (k = 1)",
-    };
+pub(super) fn section(hexapod: &Hexapod, d: &Diagnosis, wide: &Wide) -> Section {
+    let over = if d.verdict == Verdict::Ambiguous { ", over all explanations that remain" } else { "" };
+    let of = format!("N/um, {}{over}", wide.remark());
     let nominal = hexapod.nominal_stiffness.map(|k| legs("nominal", k.map(|k| format!("{:.3}", k * 1e-6))));
     let (first, others): (Vec<_>, Vec<_>) = d.absorbed.iter().partition(|a| matters(d, a));
     let brief = NUMBERS + nominal.iter().len() + first.len();
-    let table = numbers(d).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
+    let table =
+        numbers(d, wide).rows(nominal).rows(first.iter().chain(&others).map(|a| bias(a))).brief(brief);
     let absorbed =
         "Rows in %: change of k when that effect is left out of the model: the springs absorb what they can.";
     let biased = "Biased by what is missing: the uncertainties contain what remains of each leg, not more.";
@@ -39,8 +39,8 @@ fn legs(name: &str, cells: [String; 6]) -> Vec<String> {
     std::iter::once(name.to_owned()).chain(cells).collect()
 }
 
-fn numbers(d: &Diagnosis) -> Table {
-    let known: [Option<[String; 2]>; 6] = std::array::from_fn(|leg| stiffness(d, leg));
+fn numbers(d: &Diagnosis, wide: &Wide) -> Table {
+    let known: [Option<[String; 2]>; 6] = std::array::from_fn(|leg| stiffness(d, leg, wide));
     let part = |which: usize, open: &str| {
         std::array::from_fn(|leg| known[leg].as_ref().map_or(open.to_owned(), |k| k[which].clone()))
     };
@@ -48,8 +48,8 @@ fn numbers(d: &Diagnosis) -> Table {
     Table::named(header).rows([legs("k", part(0, "open")), legs("+-", part(1, "-"))])
 }
 
-fn stiffness(d: &Diagnosis, leg: usize) -> Option<[String; 2]> {
-    d.stiffness(leg).map(|p| with_uncertainty(p.value, p.std))
+fn stiffness(d: &Diagnosis, leg: usize, wide: &Wide) -> Option<[String; 2]> {
+    d.stiffness(leg).map(|p| with_uncertainty(p.value, wide.factor * p.std))
 }
 
 /// Effects of the model, and rivals when the answer is open.

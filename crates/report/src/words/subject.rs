@@ -10,6 +10,7 @@ use hexbench_model::results::diagnose::DiagnosisStudy;
 
 use crate::page::Definition;
 
+use super::plus_minus::{PlusMinus, Wide};
 use super::units::both;
 
 /// A machine, its measurements, and what was found.
@@ -22,6 +23,8 @@ pub struct ReportSubject<'a> {
     pub holdout: Option<&'a Dataset>,
     /// What was found.
     pub study: &'a DiagnosisStudy,
+    /// How wide every plus-minus is.
+    pub plus_minus: PlusMinus,
 }
 
 impl<'a> ReportSubject<'a> {
@@ -33,16 +36,28 @@ impl<'a> ReportSubject<'a> {
         holdout: Option<&'a Dataset>,
         study: &'a DiagnosisStudy,
     ) -> Self {
-        let is_used = study.diagnosis.holdout == HeldOut::File;
+        let (is_used, plus_minus) = (study.diagnosis.holdout == HeldOut::File, PlusMinus::default());
         match &study.as_meant {
             Some(meant) => Self {
                 hexapod: &meant.hexapod,
                 data: &meant.data,
                 holdout: meant.holdout.as_deref().filter(|_| is_used),
                 study,
+                plus_minus,
             },
-            None => Self { hexapod, data, holdout: holdout.filter(|_| is_used), study },
+            None => Self { hexapod, data, holdout: holdout.filter(|_| is_used), study, plus_minus },
         }
+    }
+
+    /// The same with every plus-minus so wide.
+    #[must_use]
+    pub fn with_plus_minus(self, plus_minus: PlusMinus) -> Self {
+        Self { plus_minus, ..self }
+    }
+
+    /// The plus-minus of this page: its factor and its words.
+    pub(super) fn wide(&self) -> Wide {
+        self.plus_minus.of(self.study.campaign.noise.dof)
     }
 
     /// Files and noise.

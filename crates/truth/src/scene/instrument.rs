@@ -93,6 +93,25 @@ impl Instrument {
         Ok(Some(Metrology { sigma_translation: typical(0), sigma_rotation: typical(3) }))
     }
 
+    /// Three balls on the platform that tell a reading as well as independent noise on its six numbers; none for another instrument.
+    ///
+    /// From the covariance of [`Balls::covariance`] for a triangle of radius r: s^2 / 3 of each translation, in the mean 5 s^2 / (9 r^2) of a
+    /// rotation, twice that for the difference of two records.
+    pub fn as_balls(&self, measurand: Measurand) -> Option<Self> {
+        let Self::Numbers(noise) = self else { return None };
+        let records = if measurand == Measurand::AbsolutePose { 1.0 } else { 2.0 };
+        let sigma = noise.sigma_translation * (3.0_f64 / records).sqrt();
+        let radius = (5.0_f64 / 3.0).sqrt() * noise.sigma_translation / noise.sigma_rotation;
+        Some(Self::Balls(Box::new(Cmm {
+            platform: Balls::triangle(radius, sigma),
+            base: None,
+            drift: [0.0; 6],
+            scale_per_k: 0.0,
+            blunder_share: noise.blunder_rate,
+            blunder: noise.blunder_sigmas * sigma,
+        })))
+    }
+
     /// Reads `[instrument]`.
     pub(super) fn read(top: &TomlSection<'_>) -> Result<Self, Fault> {
         let table = top.section("instrument", "[instrument]", KEYS)?;
@@ -204,5 +223,23 @@ fn balls(item: &Item<'_>, sigma: f64) -> Result<Balls, Fault> {
     match balls.register(&balls.centres) {
         Ok(_) => Ok(balls),
         Err(_) => Err(item.breaks("three balls or more that are not on one line are needed", "Add a ball.")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn balls_in_place_of_numbers_are_as_good() {
+        let noise =
+            InstrumentNoise { sigma_translation: 0.4e-6, sigma_rotation: 5e-6, ..InstrumentNoise::default() };
+        for measurand in [Measurand::AbsolutePose, Measurand::DeflectionEuler] {
+            let balls = Instrument::Numbers(noise).as_balls(measurand).unwrap();
+            let found = balls.metrology(measurand).unwrap().unwrap();
+            assert!((found.sigma_translation / 0.4e-6 - 1.0).abs() < 1e-12, "{found:?}");
+            assert!((found.sigma_rotation / 5e-6 - 1.0).abs() < 1e-12, "{found:?}");
+            assert!(balls.as_balls(measurand).is_none());
+        }
     }
 }
