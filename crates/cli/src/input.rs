@@ -6,6 +6,7 @@ use clap::Args;
 
 use hexbench_app::input::model;
 pub(crate) use hexbench_app::input::{catalogue_with, user_terms};
+use hexbench_app::memory::Computation;
 use hexbench_core::files::{
     ColumnNames, TableReading, read_campaign, read_campaign_named, read_campaign_records, read_column_names,
     read_conditions_named, read_hexapod, read_plan,
@@ -20,18 +21,51 @@ use crate::failure::Failure;
 use crate::output::report;
 use crate::read_as::ReadAs;
 
-/// What columns of tables are called.
+/// What columns of tables are called, and how long tables may be.
 #[derive(Debug, Default, Args)]
 pub(crate) struct TableNames {
     /// Names of columns in the tables, where they are not those of hexbench (format columns/1)
     #[arg(long, value_name = "FILE")]
     columns: Option<PathBuf>,
+    /// Refuse tables of more rows [default: 5000000]
+    #[arg(long, value_name = "ROWS")]
+    max_rows: Option<usize>,
 }
 
 impl TableNames {
     /// Reads the map; none: the names of hexbench.
     pub(crate) fn read(&self) -> Result<ColumnNames, Failure> {
-        Ok(self.columns.as_deref().map(read_column_names).transpose()?.unwrap_or_default())
+        let names = self.columns.as_deref().map(read_column_names).transpose()?.unwrap_or_default();
+        Ok(match self.max_rows {
+            Some(most) => names.with_most_rows(most),
+            None => names,
+        })
+    }
+}
+
+/// How much memory may be used.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct MemoryLimit {
+    /// Memory that may be used, GB: more is refused before the work [default: what is free]
+    #[arg(long, value_name = "GB", value_parser = gigabytes)]
+    max_memory: Option<f64>,
+}
+
+fn gigabytes(text: &str) -> Result<f64, String> {
+    let fits = |gb: &f64| gb.is_finite() && *gb >= 0.0;
+    text.parse().ok().filter(fits).ok_or_else(|| "it has to be a number of gigabytes, for example 8".into())
+}
+
+impl MemoryLimit {
+    /// Refuses a computation that needs more.
+    pub(crate) fn refuse(self, computation: Computation, data: &Dataset) -> Result<(), Failure> {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "not negative; an absurd limit is none"
+        )]
+        let most = self.max_memory.map(|gigabytes| (gigabytes * 1e9) as u64);
+        computation.refuse_beyond(data, most)
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use hexbench_app::fit::{added, fitted, model};
+use hexbench_app::memory::Computation;
 use hexbench_core::files::content_hash;
 use hexbench_model::application::model_file::Estimator;
 use hexbench_model::error::ModelError;
@@ -15,7 +16,7 @@ use hexbench_model::results::runs::WithOrigin;
 use hexbench_report::words::{PlusMinus, fitted};
 
 use crate::failure::Failure;
-use crate::input::{self, TableNames};
+use crate::input::{self, MemoryLimit, TableNames};
 use crate::output::{OutFile, Screen, origin, write_json};
 use crate::read_as::ReadAs;
 
@@ -43,6 +44,8 @@ pub(crate) struct Arguments {
     terms: Vec<PathBuf>,
     #[command(flatten)]
     names: TableNames,
+    #[command(flatten)]
+    memory: MemoryLimit,
     #[command(flatten)]
     read_as: ReadAs,
     /// Give every value on the page with an interval that covers it with this chance, %, instead of a standard uncertainty
@@ -74,6 +77,7 @@ fn percent(text: &str) -> Result<f64, String> {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let data = input::measurements(&hexapod, &arguments.data, &arguments.names)?;
+    arguments.memory.refuse(Computation::Fit, &data)?;
     let holdout = input::given_measurements(&hexapod, arguments.holdout.as_deref(), &arguments.names)?;
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());

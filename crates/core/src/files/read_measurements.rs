@@ -110,10 +110,17 @@ pub(crate) fn rows_of(input: impl BufRead, reads: Reads<'_>) -> Result<Csv, Faul
     let mut lines = Lines::new(input);
     let mut table = start(&mut lines, reads)?;
     let mut cells = Vec::new();
+    let mut left = reads.names.map_or_else(|| ColumnNames::default().most_rows(), ColumnNames::most_rows);
+    let limit = left;
     while let Some(raw) = lines.next_line()? {
-        if !is_skipped(raw.text, table.separator) {
-            table.add(raw, &mut cells)?;
+        if is_skipped(raw.text, table.separator) {
+            continue;
         }
+        if left == 0 {
+            return Err(Fault::new(whole_place(&raw), FileProblem::TooManyRows { limit }));
+        }
+        left -= 1;
+        table.add(raw, &mut cells)?;
     }
     if let Some(encoding) = lines.encoding {
         table.table.warnings.push(Warning::new(FilePlace::file(), Notice::Encoding(encoding)));
