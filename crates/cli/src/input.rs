@@ -13,6 +13,7 @@ use hexbench_core::files::{
 };
 use hexbench_core::{AngleConvention, Dataset, Hexapod};
 use hexbench_model::application::model_file::Model;
+use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
 use hexbench_report::table::{is_parquet, read_parquet};
@@ -148,6 +149,28 @@ pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &ReadA
     }
     for finding in misread_findings(hexapod, data, &catalogue()).into_iter().flatten().take(1) {
         report::warn(&finding.text, &finding.next);
+    }
+}
+
+/// A fitted stiffness this many times the stated one, or this small a share of it, is no property of the legs; `check` takes as much.
+const FAR_FROM_STATED: f64 = 3.0;
+
+/// Says on standard error that the legs come out far stiffer or softer than their file states: a unit or a sign of all loads does that,
+/// and leaves no other trace.
+pub(crate) fn warn_of_stated_stiffness(hexapod: &Hexapod, found: &[Estimate]) {
+    let Some(stated) = hexapod.nominal_stiffness else { return };
+    let of_leg = |leg: usize| {
+        let name = format!("leg-{}.stiffness", leg + 1);
+        found.iter().find(|estimate| estimate.name == name).map(|e| 1e6 * e.value / stated[leg])
+    };
+    let mut ratios: Vec<f64> = (0..6).filter_map(of_leg).collect();
+    ratios.sort_by(f64::total_cmp);
+    let Some(&ratio) = ratios.get(ratios.len() / 2) else { return };
+    if !(1.0 / FAR_FROM_STATED..=FAR_FROM_STATED).contains(&ratio) {
+        report::warn(
+            &format!("the legs come out {ratio:.3e} times as stiff as nominal_stiffness states"),
+            "Check the units of the loads and of the readings, and the unit of nominal_stiffness in the hexapod file.",
+        );
     }
 }
 

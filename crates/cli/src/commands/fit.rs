@@ -88,6 +88,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let campaign = prepare_to_fit(hexapod, data, &added).map_err(failed)?;
     let task = JudgedTask { hexapod, data, campaign: &campaign, holdout };
     let judged = fitted(&task, &added, estimator)?;
+    input::warn_of_stated_stiffness(hexapod, &judged.estimates().determined);
     if let Some(path) = &arguments.json {
         let of_machine = (hexapod, arguments.hexapod.as_path());
         let run = origin(of_machine, (data, &arguments.data), arguments.holdout.as_deref())?;

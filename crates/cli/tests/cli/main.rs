@@ -14,6 +14,7 @@ mod documents;
 mod exits;
 mod export;
 mod far_frames;
+mod faults;
 mod gauges;
 mod glossary;
 mod hand_changed;
