@@ -22,6 +22,7 @@ mod hostile_text;
 mod html;
 mod init;
 mod json;
+mod limits;
 mod outputs;
 mod pages;
 mod poses;

@@ -29,6 +29,11 @@ impl Fate {
         if is_sound && matches!(self, Self::Silent(_)) { Self::Undetectable } else { self }
     }
 
+    /// An answer that names this effect says what is wrong.
+    pub(super) fn or_told_as(self, effect: &str) -> Self {
+        if matches!(&self, Self::Silent(answer) if answer.contains(effect)) { Self::Told } else { self }
+    }
+
     /// What must be so, else the case is broken for this reason.
     pub(super) fn survived_if(holds: bool, why: impl FnOnce() -> String) -> Self {
         if holds { Self::Survived } else { Self::Broken(why()) }
@@ -45,14 +50,15 @@ impl Fate {
 
 /// What a run is that gives no answer; none for one that does.
 fn refusal(run: &Run) -> Option<Fate> {
-    // Bad input names its file; what the data do not determine has no place in them.
-    let least = if run.code == Some(3) { 2 } else { 1 };
     let first = run.said.lines().find(|line| line.starts_with("error: ")).unwrap_or_default();
+    // Bad input names its file or line; what the data do not determine has no place in them.
+    let has_place = match run.code {
+        Some(3) => first.matches(": ").count() >= 2 || first.contains(" line "),
+        _ => !first.is_empty(),
+    };
     match run.code {
         Some(0) => None,
-        Some(2..=5) if run.said.contains("next: ") && first.matches(": ").count() >= least => {
-            Some(Fate::Refused)
-        }
+        Some(2..=5) if run.said.contains("next: ") && has_place => Some(Fate::Refused),
         code => Some(Fate::Broken(format!("exit {code:?}: {}", run.said))),
     }
 }
@@ -85,6 +91,7 @@ impl Answer {
             springs.iter().filter(|p| p["name"].as_str().is_some_and(|n| n.ends_with(".stiffness")));
         Self {
             is_told: run.said.contains("warning: ")
+                || !list("not_determined").is_empty()
                 || !list("findings").is_empty()
                 || !CLAIMS.contains(&verdict.as_str()),
             effects: list("added").iter().filter_map(|id| id.as_str().map(str::to_owned)).collect(),

@@ -63,7 +63,7 @@ pub(super) fn shuffles(share: Share) -> Vec<Fate> {
     let seeds: Vec<u64> = (0..400).collect();
     share.each(&seeds, |seed| {
         let table = shuffled(*seed);
-        FEW.fit(table.text()).where_sound(table.is_sound_beside(&FEW.readings))
+        FEW.ask(table.text()).where_sound(table.is_sound_beside(&FEW.readings))
     })
 }
 

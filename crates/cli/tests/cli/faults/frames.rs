@@ -9,11 +9,11 @@ use super::units::{POSES, READINGS, WRENCHES, three};
 
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2], [0, 2, 1], [2, 1, 0]];
 
-/// Every order and sign of axes but the right one; of readings and poses every third.
+/// Every order and sign of axes but the right one; of readings and poses every sixth.
 pub(super) fn turned(share: Share) -> Vec<Fate> {
     let signs = (0..8).map(|k: u8| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { 1.0 } else { -1.0 }));
     let ways: Vec<_> = signs.flat_map(|signs| ORDERS.map(|order| (order, signs))).skip(1).collect();
-    let groups: [(&'static [[&'static str; 3]], usize); 3] = [(&WRENCHES, 1), (&READINGS, 3), (&POSES, 3)];
+    let groups: [(&'static [[&'static str; 3]], usize); 3] = [(&WRENCHES, 1), (&READINGS, 6), (&POSES, 6)];
     let of = |(group, step): &(&'static [[&'static str; 3]], usize)| {
         let group = *group;
         ways.iter().step_by(*step).map(|way| (group, *way)).collect::<Vec<_>>()
@@ -60,7 +60,8 @@ pub(super) fn points(share: Share) -> Vec<Fate> {
         tables.push(with_wrenches(|pose, wrench| about(pose, wrench, Vector3::z() * arm)));
         tables.push(with_wrenches(|pose, wrench| about(pose, wrench, Vector3::x() * arm)));
     }
-    share.each(&tables, |table| SPARSE.ask(table.text()))
+    // That the load acts at another point is an effect of the catalogue, and says so.
+    share.each(&tables, |table| SPARSE.ask(table.text()).or_told_as("load-offset"))
 }
 
 /// The machine with its joints of one side or both in another order.

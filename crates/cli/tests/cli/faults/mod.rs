@@ -52,23 +52,24 @@ const SHARE: usize = 12;
 
 #[test]
 fn a_share_of_every_class_of_faults_is_refused_told_or_survived() {
-    let wrong: Vec<String> =
-        CLASSES.iter().filter_map(|class| wrong(class, &(class.cases)(Share(SHARE)))).collect();
+    let share = |class| wrong(class, &(class.cases)(Share(SHARE)));
+    let wrong: Vec<String> = CLASSES.iter().filter_map(share).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn places_and_permissions_are_refused_or_survived_whoever_runs_the_command() {
+    for number in ["18", "18b", "18c"] {
+        let class = CLASSES.iter().find(|class| class.number == number).unwrap();
+        assert_eq!(wrong(class, &(class.cases)(Share(1))), None);
+    }
 }
 
 #[test]
 #[ignore = "some minutes"]
 fn every_class_of_faults_is_refused_told_or_survived_and_the_page_says_how_often() {
-    let classes: Vec<(&Class, Vec<Fate>)> = CLASSES
-        .iter()
-        .map(|class| {
-            let t = std::time::Instant::now();
-            let f = (class.cases)(Share(1));
-            eprintln!("{} {} {:?}", class.number, f.len(), t.elapsed());
-            (class, f)
-        })
-        .collect();
+    let classes: Vec<(&Class, Vec<Fate>)> =
+        CLASSES.iter().map(|class| (class, (class.cases)(Share(1)))).collect();
     let wrong: Vec<String> = classes.iter().filter_map(|(class, fates)| wrong(class, fates)).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     document::check(&classes);
@@ -101,7 +102,7 @@ static CLASSES: [Class; 29] = [
     Class::new("4", "a group of columns in another unit than its name says", units::groups)
         .but("all loads too large by one factor, where no stiffness is stated: springs of another size do the same"),
     Class::new("4b", "an optional number of hexapod.toml wrong: stiffness, stroke, mounting plane", units::optional),
-    Class::new("5", "axes exchanged or reversed: of wrenches in all 47 ways, of readings and poses in every third", frames::turned),
+    Class::new("5", "axes exchanged or reversed: of wrenches in all 47 ways, of readings and poses in every sixth", frames::turned),
     Class::new("6", "wrenches in axes of the platform, about another point, or of the other body", frames::points),
     Class::new("7", "rows copied or in another order, legs in another order", frames::orders),
     Class::new("8", "machines ever nearer to a singular pose: condition 1e2 to 1e16", singular::ladder),

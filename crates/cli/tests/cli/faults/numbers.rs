@@ -42,7 +42,10 @@ fn with_other_numbers(text: &str) -> Vec<String> {
             (None, true) if text[..at].ends_with([' ', '[']) => start = Some(at),
             (Some(from), false) => {
                 if text[from..at].parse::<f64>().is_ok() {
-                    all.extend(IN_FILES.map(|new| [&text[..from], new, &text[at..]].concat()));
+                    let old: f64 = text[from..at].parse().unwrap();
+                    let others =
+                        IN_FILES.iter().filter(|new| new.parse::<f64>().unwrap().to_bits() != old.to_bits());
+                    all.extend(others.map(|new| [&text[..from], new, &text[at..]].concat()));
                 }
                 start = None;
             }

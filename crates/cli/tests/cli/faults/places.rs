@@ -158,7 +158,11 @@ pub(super) fn permissions(share: Share) -> Vec<Fate> {
         Forbidden { prepare: "mkdir -m 0 d", words: "fit hexapod.toml measurements.csv -o d/x", code: 5 },
         Forbidden { prepare: "mkdir -m 500 d", words: "simulate scene -o d/out", code: 5 },
         Forbidden { prepare: "mkdir -m 500 out", words: "study study.toml -o out", code: 5 },
-        Forbidden { prepare: "mkdir -m 500 out", words: "challenge make springs-only -o out/suite", code: 5 },
+        Forbidden {
+            prepare: "mkdir -m 500 out",
+            words: "challenge make springs-and-effects -o out/suite",
+            code: 5,
+        },
         Forbidden {
             prepare: "chmod 0 measurements.csv",
             words: "fit hexapod.toml measurements.csv -o x",

@@ -11,8 +11,9 @@ use super::fate::{Answer, Fate};
 const STIFFNESS: [f64; 6] = [3.0, 3.5, 4.0, 4.5, 5.0, 5.5];
 /// Standard uncertainties by which a printed stiffness may be off.
 const HONEST_SIGMAS: f64 = 5.0;
-/// Largest motion, m: deflections stay linear.
-const LARGEST_M: f64 = 2e-5;
+/// Largest motion, m and rad, and as a share of the way to the singular pose: deflections stay linear.
+const LARGEST: f64 = 2e-5;
+const LARGEST_SHARE: f64 = 1e-3;
 const SIGMAS: [f64; 6] = [5e-8, 5e-8, 5e-8, 3e-7, 3e-7, 3e-7];
 const REPEATS: usize = 4;
 
@@ -30,6 +31,8 @@ struct Rung {
     base: [Vector3; 6],
     platform: [Vector3; 6],
     pose: Pose,
+    /// Largest motion, m and rad.
+    largest: f64,
 }
 
 impl Rung {
@@ -39,6 +42,7 @@ impl Rung {
             base,
             platform,
             pose: Pose::from_array([0.0, 0.0, 0.0, 0.0, 0.0, (90.0 - short_deg).to_radians()]),
+            largest: LARGEST.min(LARGEST_SHARE * short_deg.to_radians()),
         }
     }
 
@@ -72,7 +76,7 @@ impl Rung {
                 (l.leg_jacobian, l.platform_jacobian)
             });
             let motion = inverse * compliances.component_mul(&force);
-            let scale = (LARGEST_M / motion.amax()).min(200.0);
+            let scale = (self.largest / motion.amax()).min(200.0);
             let wrench = jacobian.transpose() * force * scale;
             // Twelve even numbers make one that is nearly normal.
             let mut noise =

@@ -1,5 +1,6 @@
 //! All laws of the grammar, weighed one by one beside what is in the model.
 
+use hexbench_core::interrupt::go_on;
 use rayon::prelude::*;
 
 use super::law::{Law, Product};
@@ -62,7 +63,10 @@ impl LawScan<'_> {
         for alike in tasks.chunk_by(|a, b| self.kind(a.0) == self.kind(b.0)) {
             batches.extend(alike.chunks(TOGETHER));
         }
-        let best = |batch: &&[Task]| self.best_of_each(batch, choices);
+        let best = |batch: &&[Task]| {
+            go_on();
+            self.best_of_each(batch, choices)
+        };
         let scored: Vec<Vec<ScoredLaw>> = batches.par_iter().map(best).collect::<Result<_, _>>()?;
         let mut laws = best_constants(scored.into_iter().flatten());
         laws.truncate(most);
