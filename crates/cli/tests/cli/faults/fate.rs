@@ -89,13 +89,15 @@ impl Answer {
         let springs = list("parameters");
         let springs =
             springs.iter().filter(|p| p["name"].as_str().is_some_and(|n| n.ends_with(".stiffness")));
+        let springs: Vec<[f64; 2]> = springs.map(|p| [number(&p["value"]), number(&p["std"])]).collect();
         Self {
+            // A leg that the data leave open is said to be.
             is_told: run.said.contains("warning: ")
-                || !list("not_determined").is_empty()
+                || springs.len() < 6
                 || !list("findings").is_empty()
                 || !CLAIMS.contains(&verdict.as_str()),
             effects: list("added").iter().filter_map(|id| id.as_str().map(str::to_owned)).collect(),
-            springs: springs.map(|p| [number(&p["value"]), number(&p["std"])]).collect(),
+            springs,
             verdict,
         }
     }
