@@ -11,7 +11,7 @@ use crate::support::root;
 const BLESS: &str = "HEXBENCH_BLESS";
 
 const HEAD: &str = "# What becomes of faults\n\n\
-Written by `HEXBENCH_BLESS=1 cargo test --workspace --test cli faults`; do not edit.\n\n\
+Written by `HEXBENCH_BLESS=1 cargo test --workspace --test cli -- --ignored faults`; do not edit.\n\n\
 Every case is a run of the command on files, arguments or a place in which something is wrong. *Refused*: exit code 2 to 5 with the place and \
 the next step. *Told*: an answer with a warning, a finding, or a verdict that claims nothing. *Survived*: the right answer (that of the \
 sound files), the old file or the complete new one, the bytes of an undisturbed run. *Cannot be known*: another answer, since the file \
