@@ -41,6 +41,8 @@ pub(crate) mod mutants {
 """
 # A test that takes longer without a mutant is not asked of every mutant.
 MOST_SECONDS = 0.6
+# Tests of the command that are asked of every mutant: what it says of every bundled case.
+PAGES = ["pages::", "score::"]
 # A mutant that makes the tests take so much longer is noticed: it hangs.
 LIMIT_SECONDS = 120
 CONSTANT = re.compile(r"^\s*(?:pub(?:\([a-z]+\))? )?const ([A-Z][A-Z0-9_]*): f64 = .*;")
@@ -129,12 +131,12 @@ def plant(crate: str, tree: Path, dropped: set[tuple[str, int]]) -> list[Mutant]
 def build(crate: str, tree: Path) -> tuple[list[str], set[tuple[str, int]]]:
     """Test programs of a crate, or the lines that do not compile."""
     programs, wrong = [], set()
-    for words in (["-p", f"hexbench-{crate}", "--lib"], ["--workspace", "--test", crate]):
+    for words in (["-p", f"hexbench-{crate}", "--lib"], ["--workspace", "--test", crate], ["--workspace", "--test", "cli"]):
         command = ["cargo", "test", *words, "--no-run", "--offline", "--message-format=json"]
         done = subprocess.run(command, cwd=tree, capture_output=True, text=True)
         for line in done.stdout.splitlines():
             message = json.loads(line)
-            if message.get("executable") and message["target"]["name"] in (crate, f"hexbench_{crate}"):
+            if message.get("executable") and message["target"]["name"] in (crate, f"hexbench_{crate}", "cli"):
                 programs.append(message["executable"])
             if message.get("reason") == "compiler-message" and message["message"]["level"] == "error":
                 wrong |= {(s["file_name"], s["line_start"]) for s in message["message"]["spans"]}
@@ -156,13 +158,22 @@ def fast_tests(program: str, folder: Path) -> list[str]:
     return [name for name, seconds in found if float(seconds) <= MOST_SECONDS]
 
 
-def fate(mutant: Mutant, programs: list[tuple[str, list[str]]], folder: Path) -> str:
-    """Which program notices a mutant."""
-    environment = {**os.environ, "HEXBENCH_MUTANT": str(mutant.number), "RUST_BACKTRACE": "0"}
-    for program, tests in programs:
+@dataclass
+class Asked:
+    """A test program, and what of it is asked about every mutant."""
+
+    program: str
+    words: list[str]
+    folder: Path
+
+
+def fate(mutant: Mutant, programs: list[Asked]) -> str:
+    """Whether a program notices a mutant."""
+    environment = {**os.environ, "HEXBENCH_MUTANT": str(mutant.number), "RUST_BACKTRACE": "0", "INSTA_UPDATE": "no"}
+    for asked in programs:
         try:
-            words = [program, "--quiet", "--exact", *tests]
-            done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, timeout=LIMIT_SECONDS)
+            words = [asked.program, "--quiet", *asked.words]
+            done = subprocess.run(words, cwd=asked.folder, env=environment, capture_output=True, timeout=LIMIT_SECONDS)
         except subprocess.TimeoutExpired:
             return "killed (hangs)"
         if done.returncode:
@@ -175,6 +186,7 @@ def main() -> None:
     parser.add_argument("crate")
     parser.add_argument("--within", default="", help="only files whose path holds this")
     parser.add_argument("--every", type=int, default=1, help="every so many mutants")
+    parser.add_argument("--survivors", type=Path, help="only those that survived in this output of an earlier run")
     parser.add_argument("--work", type=Path, default=ROOT / "target/mutants")
     arguments = parser.parse_args()
     tree = arguments.work / "tree"
@@ -194,12 +206,18 @@ def main() -> None:
         if wrong <= dropped:
             sys.exit(f"lines that do not compile: {sorted(wrong)}")
         dropped |= wrong
-    folder = tree / "crates" / arguments.crate
     chosen = [m for m in mutants if (m.file, m.line) not in dropped and arguments.within in m.file][:: arguments.every]
-    asked = [(program, fast_tests(program, folder)) for program in sorted(programs, key=lambda p: "hexbench_" not in p)]
-    print(f"{arguments.crate}: {len(chosen)} of {len(mutants)} mutants, {sum(len(t) for _, t in asked)} tests", flush=True)
+    if arguments.survivors:
+        before = {tuple(line.split("\t")[1:]) for line in arguments.survivors.read_text().splitlines() if line.startswith("survived")}
+        chosen = [m for m in mutants if (f"{m.file}:{m.line}", m.what) in before]
+    asked = []
+    for program in sorted(programs, key=lambda p: ("/cli-" in p, "hexbench_" not in p)):
+        folder = tree / "crates" / ("cli" if "/cli-" in program else arguments.crate)
+        words = PAGES if "/cli-" in program else ["--exact", *fast_tests(program, folder)]
+        asked.append(Asked(program, words, folder))
+    print(f"{arguments.crate}: {len(chosen)} of {len(mutants)} mutants", flush=True)
     for mutant in chosen:
-        mutant.fate = fate(mutant, asked, folder)
+        mutant.fate = fate(mutant, asked)
         print(f"{mutant.fate}\t{mutant.file}:{mutant.line}\t{mutant.what}", flush=True)
     killed = sum(m.fate.startswith("killed") for m in chosen)
     print(f"{arguments.crate}: {killed} of {len(chosen)} killed")
