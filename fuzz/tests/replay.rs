@@ -1,7 +1,8 @@
 //! The corpus of every target, as it is and changed by seeds.
 //!
 //! `HEXBENCH_FUZZ_MUTATIONS=N cargo test -p hexbench-fuzz` changes every file of the corpus N times: a fuzzer without coverage where
-//! there is no nightly compiler.
+//! there is no nightly compiler. HEXBENCH_FUZZ_TARGET=NAME does so for one target, HEXBENCH_FUZZ_SEED=K by other changes;
+//! `scripts/fuzz_stable.sh` sets all three.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
 
 use std::collections::BTreeSet;
@@ -24,8 +25,16 @@ fn names(folder: &Path, ending: &str) -> BTreeSet<String> {
     entries.map(|entry| name(entry.unwrap()).trim_end_matches(ending).to_owned()).collect()
 }
 
-fn mutations() -> u64 {
-    std::env::var("HEXBENCH_FUZZ_MUTATIONS").map_or(MUTATIONS, |number| number.parse().unwrap())
+fn asked(name: &str, otherwise: u64) -> u64 {
+    std::env::var(name).map_or(otherwise, |number| number.parse().unwrap())
+}
+
+/// The targets that are asked for: all of them, or one by its name.
+fn targets() -> Vec<&'static Target> {
+    let name = std::env::var("HEXBENCH_FUZZ_TARGET").ok();
+    let chosen: Vec<_> = TARGETS.iter().filter(|t| name.as_ref().is_none_or(|name| t.name == name)).collect();
+    assert!(!chosen.is_empty(), "there is no target {name:?}");
+    chosen
 }
 
 /// What became of some inputs of a target.
@@ -54,9 +63,9 @@ fn replay(target: &Target) -> Outcome {
         let bytes = fs::read(folder.join(&file)).unwrap();
         let file = format!("corpus/{}/{file}", target.name);
         outcome.add(target, &file, &bytes);
-        for k in 0..mutations() {
+        for k in 0..asked("HEXBENCH_FUZZ_MUTATIONS", MUTATIONS) {
             // Streams of different files do not meet.
-            let seed = (number << 40) | k;
+            let seed = (number << 40) | (asked("HEXBENCH_FUZZ_SEED", 0) + k);
             outcome.add(target, &format!("{file}, seed {seed}"), &mutate(&bytes, seed));
         }
     }
@@ -65,9 +74,10 @@ fn replay(target: &Target) -> Outcome {
 
 #[test]
 fn no_input_of_the_corpus_and_no_change_of_one_breaks_a_promise() {
-    let threads = TARGETS.each_ref().map(|t| std::thread::spawn(|| replay(t)));
+    let targets = targets();
+    let threads: Vec<_> = targets.iter().map(|&t| std::thread::spawn(|| replay(t))).collect();
     let mut broken = Vec::new();
-    for (target, thread) in TARGETS.iter().zip(threads) {
+    for (target, thread) in targets.into_iter().zip(threads) {
         let Outcome { inputs, accepted, faults } = thread.join().unwrap();
         println!("{}: {inputs} inputs, {accepted} accepted, {} faults", target.name, faults.len());
         if accepted == 0 {

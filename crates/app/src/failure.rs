@@ -197,6 +197,24 @@ pub enum Failure {
         /// Why not.
         cause: io::Error,
     },
+    /// More memory than there is.
+    #[error(
+        "{what} of {rows} readings under {conditions} conditions takes about {}, and {} are free",
+        size(*needed_bytes),
+        size(*free_bytes)
+    )]
+    Memory {
+        /// What would be computed.
+        what: &'static str,
+        /// How many readings there are.
+        rows: usize,
+        /// Under how many conditions they were taken.
+        conditions: usize,
+        /// What it would take.
+        needed_bytes: u64,
+        /// What there is.
+        free_bytes: u64,
+    },
     /// Output that cannot be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Output {
@@ -246,9 +264,11 @@ impl Failure {
             | Self::Baseline(_)
             | Self::World(_)
             | Self::Simulation(SimulationError::Row(_)) => Exit::BadInput,
-            Self::Output { .. } | Self::Server { .. } | Self::Unreadable { .. } | Self::Simulation(_) => {
-                Exit::InputOutput
-            }
+            Self::Output { .. }
+            | Self::Server { .. }
+            | Self::Unreadable { .. }
+            | Self::Memory { .. }
+            | Self::Simulation(_) => Exit::InputOutput,
         }
     }
 
@@ -311,6 +331,10 @@ impl Failure {
             Self::Plot(_) => Some("Give more trials.".into()),
             Self::Report(_) => Some("Leave --html away: the page in the terminal needs no charts.".into()),
             Self::Reproduction(_) => Some("Give another seed.".into()),
+            Self::Memory { .. } => Some(
+                "Give fewer readings (average repeats, take some of the poses), or say how much memory may be used (`--max-memory`)."
+                    .into(),
+            ),
             Self::Server { .. } => {
                 Some("Leave --port away: a free port is then chosen.".into())
             }
@@ -373,6 +397,12 @@ impl From<AnswerError> for Failure {
             AnswerError::Write { path, cause } => Self::Output { path, cause },
         }
     }
+}
+
+/// Bytes as people say them.
+fn size(bytes: u64) -> String {
+    let megabytes = bytes as f64 / 1e6;
+    if megabytes < 1000.0 { format!("{megabytes:.0} MB") } else { format!("{:.1} GB", megabytes / 1e3) }
 }
 
 fn of_balls(cause: &RegistrationError) -> String {

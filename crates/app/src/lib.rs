@@ -8,6 +8,7 @@ pub mod failure;
 pub mod first_plan;
 pub mod fit;
 pub mod input;
+pub mod memory;
 pub mod simulate;
 
 pub use failure::{Exit, Failure};

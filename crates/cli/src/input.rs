@@ -6,12 +6,14 @@ use clap::Args;
 
 use hexbench_app::input::model;
 pub(crate) use hexbench_app::input::{catalogue_with, user_terms};
+use hexbench_app::memory::Computation;
 use hexbench_core::files::{
     ColumnNames, Dimension, TableReading, Unit, Warning, read_campaign, read_campaign_named,
     read_campaign_records, read_column_names, read_conditions_named, read_hexapod, read_plan, unit_named,
 };
 use hexbench_core::{AngleConvention, Dataset, Hexapod};
 use hexbench_model::application::model_file::Model;
+use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::results::diagnose::misread_findings;
 use hexbench_model::terms::catalogue;
 use hexbench_report::table::{is_parquet, read_parquet};
@@ -20,18 +22,51 @@ use crate::failure::Failure;
 use crate::output::report;
 use crate::read_as::ReadAs;
 
-/// What columns of tables are called.
+/// What columns of tables are called, and how long tables may be.
 #[derive(Debug, Default, Args)]
 pub(crate) struct TableNames {
     /// Names of columns in the tables, where they are not those of hexbench (format columns/1)
     #[arg(long, value_name = "FILE")]
     columns: Option<PathBuf>,
+    /// Refuse tables of more rows [default: 5000000]
+    #[arg(long, value_name = "ROWS")]
+    max_rows: Option<usize>,
 }
 
 impl TableNames {
     /// Reads the map; none: the names of hexbench.
     pub(crate) fn read(&self) -> Result<ColumnNames, Failure> {
-        Ok(self.columns.as_deref().map(read_column_names).transpose()?.unwrap_or_default())
+        let names = self.columns.as_deref().map(read_column_names).transpose()?.unwrap_or_default();
+        Ok(match self.max_rows {
+            Some(most) => names.with_most_rows(most),
+            None => names,
+        })
+    }
+}
+
+/// How much memory may be used.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct MemoryLimit {
+    /// Memory that may be used, GB: more is refused before the work [default: what is free]
+    #[arg(long, value_name = "GB", value_parser = gigabytes)]
+    max_memory: Option<f64>,
+}
+
+fn gigabytes(text: &str) -> Result<f64, String> {
+    let fits = |gb: &f64| gb.is_finite() && *gb >= 0.0;
+    text.parse().ok().filter(fits).ok_or_else(|| "it has to be a number of gigabytes, for example 8".into())
+}
+
+impl MemoryLimit {
+    /// Refuses a computation that needs more.
+    pub(crate) fn refuse(self, computation: Computation, data: &Dataset) -> Result<(), Failure> {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "not negative; an absurd limit is none"
+        )]
+        let most = self.max_memory.map(|gigabytes| (gigabytes * 1e9) as u64);
+        computation.refuse_beyond(data, most)
     }
 }
 
@@ -134,6 +169,28 @@ pub(crate) fn warn_of_misread(hexapod: &Hexapod, data: &Dataset, read_as: &ReadA
     }
     for finding in misread_findings(hexapod, data, &catalogue()).into_iter().flatten().take(1) {
         report::warn(&finding.text, &finding.next);
+    }
+}
+
+/// A fitted stiffness this many times the stated one, or this small a share of it, is no property of the legs; `check` takes as much.
+const FAR_FROM_STATED: f64 = 3.0;
+
+/// Says on standard error that the legs come out far stiffer or softer than their file states: a unit or a sign of all loads does that,
+/// and leaves no other trace.
+pub(crate) fn warn_of_stated_stiffness(hexapod: &Hexapod, found: &[Estimate]) {
+    let Some(stated) = hexapod.nominal_stiffness else { return };
+    let of_leg = |leg: usize| {
+        let name = format!("leg-{}.stiffness", leg + 1);
+        found.iter().find(|estimate| estimate.name == name).map(|e| 1e6 * e.value / stated[leg])
+    };
+    let mut ratios: Vec<f64> = (0..6).filter_map(of_leg).collect();
+    ratios.sort_by(f64::total_cmp);
+    let Some(&ratio) = ratios.get(ratios.len() / 2) else { return };
+    if !(1.0 / FAR_FROM_STATED..=FAR_FROM_STATED).contains(&ratio) {
+        report::warn(
+            &format!("the legs come out {ratio:.3e} times as stiff as nominal_stiffness states"),
+            "Check the units of the loads and of the readings, and the unit of nominal_stiffness in the hexapod file.",
+        );
     }
 }
 

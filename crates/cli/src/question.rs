@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
+use hexbench_app::memory::Computation;
 use hexbench_core::{Dataset, Hexapod, LineRange};
 use hexbench_model::effects::term::Term;
 use hexbench_model::results::runs::Origin;
 use hexbench_report::words::Provenance;
 
 use crate::failure::Failure;
-use crate::input::{self, TableNames};
+use crate::input::{self, MemoryLimit, TableNames};
 use crate::output::{origin, provenance, refuse_overlaps_of};
 
 /// Files, and the lines of them that count.
@@ -25,6 +26,8 @@ pub(crate) struct Question {
     holdout: Option<PathBuf>,
     #[command(flatten)]
     names: TableNames,
+    #[command(flatten)]
+    memory: MemoryLimit,
     /// A term file of your own (term/1) that competes with the catalogue; may be given several times
     #[arg(long = "term", value_name = "FILE")]
     terms: Vec<PathBuf>,
@@ -48,6 +51,7 @@ impl Question {
     pub(crate) fn read(&self) -> Result<Asked, Failure> {
         let hexapod = input::hexapod(&self.hexapod)?;
         let data = input::measurements(&hexapod, &self.data, &self.names)?;
+        self.memory.refuse(Computation::Diagnosis, &data)?;
         let holdout = input::given_measurements(&hexapod, self.holdout.as_deref(), &self.names)?;
         let terms = input::catalogue_with(&input::user_terms(&self.terms)?);
         Ok(Asked { hexapod, data, holdout, terms })

@@ -13,6 +13,7 @@ pub mod balls;
 pub mod dataset;
 pub mod files;
 pub mod hexapod;
+pub mod interrupt;
 pub mod line_range;
 pub mod load_sequence;
 pub mod loads;
@@ -37,7 +38,7 @@ pub use pose::Pose;
 pub use rings::JointCircle;
 pub use sensor::{Channel, NumberKind, PoseFunction, Sensor, SensorKind, UNREAD};
 pub use tolerances::{StatedTolerances, Tolerances};
-pub use visible::{visible, visible_lines};
+pub use visible::{visible, visible_json, visible_lines};
 pub use wrench::Wrench;
 
 /// A point or direction, metres or unit length.

@@ -20,6 +20,20 @@ pub fn visible_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |letter| letter != '\n' && acts(letter))
 }
 
+/// The same of JSON, which stays JSON and means the same: only texts of it can hold such letters, and there they may be written so.
+pub fn visible_json(text: &str) -> Cow<'_, str> {
+    let hidden = |letter| letter != '\n' && acts(letter);
+    if !text.contains(hidden) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    for letter in text.chars() {
+        // All of them are in the basic plane.
+        if hidden(letter) { shown += &format!("\\u{:04x}", u32::from(letter)) } else { shown.push(letter) }
+    }
+    Cow::Owned(shown)
+}
+
 fn escaped(text: &str, acts: impl Fn(char) -> bool) -> Cow<'_, str> {
     if !text.contains(&acts) {
         return Cow::Borrowed(text);
@@ -39,6 +53,13 @@ fn acts(letter: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn json_stays_json_and_means_the_same() {
+        let text = "\"a\u{9b}b\u{202e}c\"";
+        assert_eq!(visible_json(text), r#""a\u009bb\u202ec""#);
+        assert_eq!(visible_json("{\n}"), "{\n}");
+    }
 
     #[test]
     fn what_acts_is_seen_and_all_else_is_as_it_was() {

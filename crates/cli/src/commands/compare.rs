@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use hexbench_app::memory::Computation;
 use hexbench_model::inference::misread::AsMeant;
 use hexbench_model::results::compare::compare;
 use hexbench_model::results::runs::WithOrigin;
@@ -10,7 +11,7 @@ use hexbench_report::words::{readings, subject};
 use hexbench_report::{charts, words};
 
 use crate::failure::Failure;
-use crate::input::{self, TableNames, Trust};
+use crate::input::{self, MemoryLimit, TableNames, Trust};
 use crate::output::{OutFile, PageFiles, Screen, TableFile, origin, provenance, write_json};
 use crate::read_as::ReadAs;
 
@@ -34,6 +35,8 @@ pub(crate) struct Arguments {
     holdout: Option<PathBuf>,
     #[command(flatten)]
     names: TableNames,
+    #[command(flatten)]
+    memory: MemoryLimit,
     #[command(flatten)]
     read_as: ReadAs,
     /// Write all numbers to FILE, or to standard output (-) instead of the page
@@ -60,6 +63,7 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let data = input::measurements(&hexapod, &arguments.data, &arguments.names)?;
+    arguments.memory.refuse(Computation::Comparison, &data)?;
     let holdout = input::given_measurements(&hexapod, arguments.holdout.as_deref(), &arguments.names)?;
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());

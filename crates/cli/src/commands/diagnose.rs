@@ -15,6 +15,7 @@ use hexbench_report::{charts, words};
 
 use crate::coverage::Coverage;
 use crate::failure::Failure;
+use crate::input;
 use crate::output::{OutFile, PageFiles, Screen, write_json};
 use crate::question::{Asked, Question};
 use crate::read_as::ReadAs;
@@ -81,6 +82,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     };
     let study = diagnose_with_proposal(hexapod, data, holdout.as_ref(), terms, &options)
         .map_err(|cause| Failure::Model { cause, data: data.source.clone() })?;
+    input::warn_of_stated_stiffness(hexapod, &study.diagnosis.parameters);
     let to_stdout = arguments.json.as_ref().is_some_and(OutFile::is_stdout) || arguments.page.to_stdout();
     if let Some(path) = &arguments.json {
         let run = arguments.question.origin(&asked)?;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use hexbench_app::fit::{added, fitted, model};
+use hexbench_app::memory::Computation;
 use hexbench_core::files::content_hash;
 use hexbench_model::application::model_file::Estimator;
 use hexbench_model::error::ModelError;
@@ -16,7 +17,7 @@ use hexbench_report::words::fitted;
 
 use crate::coverage::Coverage;
 use crate::failure::Failure;
-use crate::input::{self, TableNames};
+use crate::input::{self, MemoryLimit, TableNames};
 use crate::output::{OutFile, Screen, origin, write_json};
 use crate::read_as::ReadAs;
 
@@ -45,6 +46,8 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     names: TableNames,
     #[command(flatten)]
+    memory: MemoryLimit,
+    #[command(flatten)]
     read_as: ReadAs,
     #[command(flatten)]
     coverage: Coverage,
@@ -69,6 +72,7 @@ enum Method {
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let hexapod = input::hexapod(&arguments.hexapod)?;
     let data = input::measurements(&hexapod, &arguments.data, &arguments.names)?;
+    arguments.memory.refuse(Computation::Fit, &data)?;
     let holdout = input::given_measurements(&hexapod, arguments.holdout.as_deref(), &arguments.names)?;
     let meant = AsMeant::of(&hexapod, &data, holdout.as_ref(), &arguments.read_as.changes);
     let (hexapod, data, holdout) = (&*meant.hexapod, &*meant.data, meant.holdout.as_deref());
@@ -79,6 +83,7 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     let campaign = prepare_to_fit(hexapod, data, &added).map_err(failed)?;
     let task = JudgedTask { hexapod, data, campaign: &campaign, holdout };
     let judged = fitted(&task, &added, estimator)?;
+    input::warn_of_stated_stiffness(hexapod, &judged.estimates().determined);
     if let Some(path) = &arguments.json {
         let of_machine = (hexapod, arguments.hexapod.as_path());
         let run = origin(of_machine, (data, &arguments.data), arguments.holdout.as_deref())?;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hexbench_core::files::{atomic_write, content_hash};
-use hexbench_core::{Dataset, Hexapod};
+use hexbench_core::{Dataset, Hexapod, visible_json};
 use hexbench_model::results::runs::Origin;
 use hexbench_report::Page;
 use hexbench_report::charts::ReportError;
@@ -101,5 +101,6 @@ pub(crate) fn origin(
 /// Write a result as JSON.
 pub(crate) fn write_json(screen: &Screen, path: &Path, value: &impl Serialize) -> Result<(), Failure> {
     let cause = |e: serde_json::Error| Failure::Output { path: path.to_owned(), cause: e.into() };
-    screen.write_to(path, &(serde_json::to_string_pretty(value).map_err(cause)? + "\n"))
+    let text = serde_json::to_string_pretty(value).map_err(cause)? + "\n";
+    screen.write_to(path, &visible_json(&text))
 }

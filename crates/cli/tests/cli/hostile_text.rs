@@ -6,15 +6,15 @@ use std::path::Path;
 use crate::support::{hexbench, root};
 
 /// Sets the title of a terminal, turns the direction of writing, clears the screen by a C1 character.
-const HOSTILE: &str = "a\u{1b}]0;x\u{7}\u{202e}b\u{9b}2J";
+pub(crate) const HOSTILE: &str = "a\u{1b}]0;x\u{7}\u{202e}b\u{9b}2J";
 
-fn is_harmless(bytes: &[u8]) -> bool {
+pub(crate) fn is_harmless(bytes: &[u8]) -> bool {
     let text = String::from_utf8_lossy(bytes);
     !text.contains(|c: char| (c.is_control() && c != '\n') || ('\u{202a}'..='\u{202e}').contains(&c))
 }
 
 /// A machine and its readings, whose names are hostile; returns the name of the machine's file.
-fn hostile_machine(folder: &Path) -> String {
+pub(crate) fn hostile_machine(folder: &Path) -> String {
     let case = root().join("data/cases/mujoco-clean");
     let text = fs::read_to_string(case.join("hexapod.toml")).unwrap();
     let letters: Vec<String> = HOSTILE.chars().map(|c| format!("\\U{:08X}", u32::from(c))).collect();

@@ -60,13 +60,34 @@ fn stream(
 
 fn replace(place: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) -> io::Result<()> {
     let folder = folder_of(place);
+    refuse_protected(place)?;
     sweep(folder);
-    let file = temporary_in(folder)?;
+    let file = temporary_in(folder).map_err(|cause| of_folder(folder, cause))?;
     let mut buffer = BufWriter::new(file.as_file());
     fill(&mut buffer)?;
     buffer.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()?;
     keep_permissions_of(place, file.as_file())?;
     file.persist(place).map(drop).map_err(|failed| failed.error)
+}
+
+/// A file that its owner has protected against writing is not replaced either, though a renamed file would not ask it.
+fn refuse_protected(place: &Path) -> io::Result<()> {
+    match fs::OpenOptions::new().append(true).open(place) {
+        Err(cause) if cause.kind() == io::ErrorKind::PermissionDenied => {
+            Err(io::Error::new(cause.kind(), "the file is protected against writing"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What a folder that takes no file says of itself.
+fn of_folder(folder: &Path, cause: io::Error) -> io::Error {
+    match cause.kind() {
+        kind @ io::ErrorKind::PermissionDenied => {
+            io::Error::new(kind, format!("the folder {} may not be written to", folder.display()))
+        }
+        _ => cause,
+    }
 }
 
 /// A temporary file, locked as long as it is written, by which others know that it is no remains.

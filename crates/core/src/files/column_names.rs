@@ -9,9 +9,21 @@ use super::toml_value::{Item, KeyUnit};
 use super::units::unit_named;
 use super::{FileError, FileProblem};
 
-/// Names in a table, and the names they stand for.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct ColumnNames(Vec<(String, String)>);
+/// Most rows of a table, unless more are asked for: a gigabyte of readings.
+const MOST_ROWS: usize = 5_000_000;
+
+/// What a table of others is called within, and how long it may be: names in it, and the names they stand for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ColumnNames {
+    pairs: Vec<(String, String)>,
+    most_rows: usize,
+}
+
+impl Default for ColumnNames {
+    fn default() -> Self {
+        Self { pairs: Vec::new(), most_rows: MOST_ROWS }
+    }
+}
 
 const FORMAT: Format =
     Format { name: "columns/1", keys: &[KeyUnit::plain("format"), KeyUnit::plain("column")] };
@@ -20,8 +32,19 @@ const COLUMN: &[KeyUnit] = &[KeyUnit::plain("name"), KeyUnit::plain("is")];
 impl ColumnNames {
     /// The name that is read for a name in a table.
     pub(crate) fn here<'a>(&'a self, text: &'a str) -> &'a str {
-        let named = self.0.iter().find(|(name, _)| name.trim().eq_ignore_ascii_case(text.trim()));
+        let named = self.pairs.iter().find(|(name, _)| name.trim().eq_ignore_ascii_case(text.trim()));
         named.map_or(text, |(_, is)| is)
+    }
+
+    /// The same of a table that may have so many rows, in place of five million.
+    #[must_use]
+    pub fn with_most_rows(self, most_rows: usize) -> Self {
+        Self { most_rows, ..self }
+    }
+
+    /// How many rows a table may have.
+    pub(crate) fn most_rows(&self) -> usize {
+        self.most_rows
     }
 }
 
@@ -34,7 +57,7 @@ pub fn read_column_names(path: &Path) -> Result<ColumnNames, FileError> {
         let columns = top.require("column")?.list()?;
         let pairs = columns.iter().map(pair).collect::<Result<Vec<_>, _>>()?;
         match (0..pairs.len()).find(|&k| pairs[..k].iter().any(|(name, _)| *name == pairs[k].0)) {
-            None => Ok(ColumnNames(pairs)),
+            None => Ok(ColumnNames { pairs, ..ColumnNames::default() }),
             Some(twice) => {
                 let rule = format!("\"{}\" stands for two columns", pairs[twice].0);
                 Err(columns[twice].breaks(rule, "Keep one of the two entries."))
@@ -98,6 +121,20 @@ mod tests {
         let expected = read_measurements(&here).unwrap();
         assert_eq!(read.dataset.observations, expected.dataset.observations);
         assert!(read.warnings.is_empty(), "{:?}", read.warnings);
+    }
+
+    #[test]
+    fn a_table_of_more_rows_than_asked_for_is_refused_at_the_first_of_them() {
+        let row = "1,2,3,0.1,0.2,0.3,0,0,-100,0,0,0,1,2,3,4,5,6";
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("long.csv");
+        std::fs::write(&path, format!("{HERE}\n{row}7\n\n{row}8\n{row}9\n")).unwrap();
+        let machine = Hexapod::of_joints("m", [crate::Vector3::zeros(); 6], [crate::Vector3::zeros(); 6]);
+        let read = |most| read_campaign_named(&machine, &path, &ColumnNames::default().with_most_rows(most));
+        assert_eq!(read(3).unwrap().dataset.observations.len(), 3);
+        let error = read(2).unwrap_err();
+        assert_eq!(error.message(), "line 5: the table has more than 2 rows");
+        assert!(error.next_step().contains("--max-rows"), "{}", error.next_step());
     }
 
     #[test]

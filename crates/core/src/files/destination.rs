@@ -29,18 +29,23 @@ impl Destination {
         if path.as_os_str() == "-" {
             return Ok(Self::StandardOutput);
         }
+        if path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+            return Err(is_folder());
+        }
         let place = end_of_links(path)?;
         if is_standard_output(&place) {
             return Ok(Self::StandardOutput);
         }
         match fs::metadata(&place) {
-            Ok(found) if found.is_dir() => {
-                Err(io::Error::new(io::ErrorKind::IsADirectory, "this is a folder, not a file"))
-            }
+            Ok(found) if found.is_dir() => Err(is_folder()),
             Ok(found) if !found.is_file() || is_descriptor(&place) => Ok(Self::Stream(place)),
             _ => Ok(Self::File(place)),
         }
     }
+}
+
+fn is_folder() -> io::Error {
+    io::Error::new(io::ErrorKind::IsADirectory, "this is a folder, not a file")
 }
 
 /// Two names of one thing in the arguments of a command, one of which is written.

@@ -15,6 +15,9 @@ use super::warning::Notice;
 use super::{FileProblem, Warning};
 use crate::{Channel, Columns, Hexapod, Measurand, Sensor};
 
+/// Most columns of a table: those of some hundred sensors.
+const MOST_COLUMNS: usize = 4096;
+
 /// One column of a file that is read.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Source {
@@ -121,6 +124,10 @@ pub(crate) fn read_header(
     warnings: &mut Vec<Warning>,
 ) -> Result<Plan, Fault> {
     let Reads { purpose, machine, names: known } = reads;
+    if line.len() > MOST_COLUMNS {
+        let problem = FileProblem::TooManyColumns { found: line.len(), limit: MOST_COLUMNS };
+        return Err(Fault::new(line.whole_place(), problem));
+    }
     let sensors = machine.map_or(&[][..], |m| &m.sensors);
     let mut sources = Vec::with_capacity(line.len());
     let (mut of_sensors, mut of_loads) = (vec![None; line.len()], vec![None; line.len()]);

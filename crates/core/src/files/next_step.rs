@@ -26,6 +26,12 @@ impl FileProblem {
             Self::LineTooLong { .. } => {
                 "Check that this is a table of text with one row per line, not a binary file."
             }
+            Self::TooManyRows { .. } => {
+                "Check that this is the right file; average repeats or give fewer rows, or allow more (`--max-rows`)."
+            }
+            Self::TooManyColumns { .. } => {
+                "Check that this is the right file, and leave out columns that are no readings."
+            }
             Self::FileTooLong { .. } => "Check the name; such a file has some thousand bytes.",
             Self::CarriageReturnLines => "Save the file with line feed or carriage return + line feed ends.",
             _ => return None,

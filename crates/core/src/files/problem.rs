@@ -51,6 +51,20 @@ pub enum FileProblem {
         /// The limit.
         limit_bytes: usize,
     },
+    /// More rows than whoever reads the table wants.
+    #[error("the table has more than {limit} rows")]
+    TooManyRows {
+        /// The limit.
+        limit: usize,
+    },
+    /// More columns than a table of readings can mean.
+    #[error("the table has {found} columns; {limit} are read at most")]
+    TooManyColumns {
+        /// How many there are.
+        found: usize,
+        /// The limit.
+        limit: usize,
+    },
     /// Lines end with a bare carriage return.
     #[error("lines end with a bare carriage return (old Macintosh style)")]
     CarriageReturnLines,

@@ -110,12 +110,22 @@ pub(crate) fn rows_of(input: impl BufRead, reads: Reads<'_>) -> Result<Csv, Faul
     let mut lines = Lines::new(input);
     let mut table = Dialect::start(&mut lines, |header, dialect| Csv::new(header, dialect, reads))?;
     let mut cells = Vec::new();
+    let mut left = reads.names.map_or_else(|| ColumnNames::default().most_rows(), ColumnNames::most_rows);
+    let limit = left;
     while let Some(raw) = lines.next_line()? {
         match table.dialect.kind(&raw) {
-            LineKind::Row => table.add(raw, &mut cells)?,
-            LineKind::Names => table.units = UnitRow::MayFollow,
-            LineKind::Nothing => {}
+            LineKind::Row => {}
+            LineKind::Names => {
+                table.units = UnitRow::MayFollow;
+                continue;
+            }
+            LineKind::Nothing => continue,
         }
+        if left == 0 {
+            return Err(Fault::new(whole_place(&raw), FileProblem::TooManyRows { limit }));
+        }
+        left -= 1;
+        table.add(raw, &mut cells)?;
     }
     table.encoding = lines.encoding;
     Ok(table)

@@ -4,13 +4,21 @@
 
 use std::collections::HashSet;
 use std::hash::Hash;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::effects::term::{Need, ParameterInfo};
 
+/// Bytes of all that is kept here.
+static KEPT: AtomicUsize = AtomicUsize::new(0);
 static TEXTS: Mutex<Option<HashSet<&'static str>>> = Mutex::new(None);
 static PARAMETERS: Mutex<Vec<&'static [ParameterInfo]>> = Mutex::new(Vec::new());
 static NEEDS: Mutex<Option<HashSet<&'static [Need]>>> = Mutex::new(None);
+
+/// Bytes of texts and lists that are kept until the program ends: what every distinct term file has left.
+pub(crate) fn kept_bytes() -> usize {
+    KEPT.load(Ordering::Relaxed)
+}
 
 /// The one copy of a text.
 pub(crate) fn text(text: &str) -> &'static str {
@@ -31,6 +39,7 @@ pub(crate) fn parameters(parameters: &[ParameterInfo]) -> &'static [ParameterInf
     }
     let leaked: &'static [ParameterInfo] = Box::leak(parameters.to_vec().into_boxed_slice());
     known.push(leaked);
+    KEPT.fetch_add(size_of_val(leaked), Ordering::Relaxed);
     leaked
 }
 
@@ -45,6 +54,7 @@ fn kept<T: ?Sized + Hash + Eq>(
         return same;
     }
     let leaked = leak();
+    KEPT.fetch_add(size_of_val(leaked), Ordering::Relaxed);
     set.insert(leaked);
     leaked
 }
@@ -58,5 +68,13 @@ mod tests {
         let a = text(&String::from("kept-once"));
         let b = text(&["kept", "once"].join("-"));
         assert!(std::ptr::eq(a, b));
+    }
+
+    #[test]
+    fn what_is_kept_is_counted() {
+        let long = "counted".repeat(1000);
+        let before = kept_bytes();
+        text(&long);
+        assert!(kept_bytes() >= before + long.len());
     }
 }

@@ -3,7 +3,7 @@
 //! Averaging readings that share every input is exact for least squares: the mean carries all the information on
 //! the model, the scatter about it (pure error) only on the noise.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use hexbench_core::{
@@ -549,6 +549,12 @@ pub fn same_frames(hexapod: &Hexapod, data: &Dataset, holdout: &Dataset) -> Resu
 /// Frames of a machine in which a dataset was read; only absolute poses have any.
 fn known_frames(dataset: &Dataset, machine: &Machine) -> Frames {
     if dataset.is_absolute() { Frames::of(machine) } else { Frames::default() }
+}
+
+/// Under how many conditions readings were taken: what a fit keeps memory of.
+pub fn count_conditions(data: &Dataset) -> usize {
+    let keys = data.observations.iter().map(|row| key(row, data.sequences.to(row).map(Arc::as_ref)));
+    keys.collect::<HashSet<_>>().len()
 }
 
 fn group(data: &Dataset, noise: &Noise, axes: &ReadingAxes) -> Vec<ConditionReadings> {

@@ -3,6 +3,7 @@
 //! The search for effects starts where springs alone end. Where an effect is ten times its usual size, that is far from the machine: legs
 //! of negative stiffness, which no effect suits. From equal legs the effect that explains everything is found all the same.
 
+use hexbench_core::interrupt::go_on;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -22,6 +23,7 @@ pub(crate) fn best_alone(campaign: &Campaign, terms: &[Arc<dyn Term>], natural: 
     start.compliances.fill(natural.compliance);
     let lin = Linearization::at(campaign, &start).ok()?;
     let fits = terms.par_iter().filter_map(|term| {
+        go_on();
         let shape = middle_shape(term.as_ref(), &lin)?;
         let prior = sizes(term.as_ref(), false, natural).iter().map(|s| s * WIDTH).collect();
         let spec = TermSpec { term: Arc::clone(term), rich: false, shape, prior };

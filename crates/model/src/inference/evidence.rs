@@ -489,3 +489,44 @@ pub fn log_sum(values: impl Iterator<Item = f64> + Clone) -> f64 {
     }
     top + values.map(|v| (v - top).exp()).sum::<f64>().ln()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prior_widths_go_from_twice_the_natural_size_down_to_what_is_noticeable() {
+        let all = widths(f64::INFINITY);
+        assert_eq!((all.len(), all[0].to_bits()), (11, 2.0_f64.to_bits()));
+        assert!(all.windows(2).all(|w| (w[1] / w[0] - 0.4).abs() < 1e-12), "{all:?}");
+        // The third width is 0.32: it is noticed from a signature of 5 / 0.32 standard deviations on.
+        assert_eq!([15.7, 15.5].map(|signature| widths(signature).len()), [3, 2]);
+        assert_eq!(widths(0.1), [2.0], "what nobody notices has its widest prior");
+    }
+
+    /// `ln` of the integral of `exp(b u - e u^2 / 2)` over the prior, by the trapezoid rule.
+    fn integral(e: f64, b: f64, g: f64, positive: bool) -> f64 {
+        const STEP: f64 = 1e-3;
+        let at = |k: i32| {
+            let t = f64::from(k) * STEP;
+            (b * g * t - 0.5 * (1.0 + e * g * g) * t * t).exp() / std::f64::consts::TAU.sqrt()
+        };
+        let all = -20_000..=20_000;
+        if positive {
+            let half: f64 = all.filter(|k| *k >= 0).map(|k| if k == 0 { 0.5 * at(k) } else { at(k) }).sum();
+            return (2.0 * STEP * half).ln();
+        }
+        (STEP * all.map(at).sum::<f64>()).ln()
+    }
+
+    #[test]
+    fn the_evidence_of_one_size_is_the_integral_over_its_prior() {
+        for (e, b, g, positive) in
+            [(4.0, 3.0, 0.5, false), (4.0, -3.0, 2.0, false), (4.0, 3.0, 2.0, true), (0.3, -2.0, 1.0, true)]
+        {
+            let (drop, rest) = single(e, b, g, positive);
+            let (found, expected) = (0.5 * drop + rest, integral(e, b, g, positive));
+            assert!((found - expected).abs() < 1e-5, "{e} {b} {g} {positive}: {found} {expected}");
+        }
+    }
+}

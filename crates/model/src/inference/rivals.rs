@@ -9,6 +9,7 @@
 //! ln Z(set) = ln Z(set | own point) + ln L0(own point) - ln L0(point of the search)
 //! ```
 
+use hexbench_core::interrupt::go_on;
 use rayon::prelude::*;
 
 use crate::effects::term::Natural;
@@ -53,7 +54,10 @@ impl Rivals<'_> {
         let own: Vec<(Set, Fit)> = self
             .by_terms(rivals)
             .into_par_iter()
-            .filter_map(|(terms, alike)| self.at_own_optimum(&terms, &alike).ok())
+            .filter_map(|(terms, alike)| {
+                go_on();
+                self.at_own_optimum(&terms, &alike).ok()
+            })
             .flatten()
             .collect();
         let better = own.iter().max_by(|a, b| a.0.log_weight.total_cmp(&b.0.log_weight));

@@ -5,6 +5,7 @@
 mod inline;
 mod themed;
 
+use hexbench_core::visible_lines;
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, Value, context};
 
@@ -42,9 +43,11 @@ pub fn html(page: &Page) -> Result<String, PageError> {
     pages.add_filter("sentence", sentence);
     pages.add_template(NAME, include_str!("../../templates/report.html"))?;
     let style = Value::from_safe_string(include_str!("../../templates/report.css").to_owned());
-    Ok(pages
+    let text = pages
         .get_template(NAME)?
-        .render(context! { page => Value::from(Serde(page)), style, program => PROGRAM })?)
+        .render(context! { page => Value::from(Serde(page)), style, program => PROGRAM })?;
+    // A page goes to terminals too (`--html -`), and letters that turn the direction of writing act in a browser as well.
+    Ok(visible_lines(&text).into_owned())
 }
 
 #[cfg(test)]

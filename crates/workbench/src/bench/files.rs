@@ -89,11 +89,26 @@ fn shown(name: &str) -> String {
     if printable.is_empty() { "file".to_owned() } else { printable }
 }
 
+/// Bytes of terms of one's own that are kept of all requests together: the model keeps every distinct one until the program ends.
+const MOST_KEPT_BYTES: usize = 64 << 20;
+
+/// Refuses more terms when what is kept of earlier ones takes too much memory.
+fn refuse_beyond(kept_bytes: usize) -> Result<(), Refusal> {
+    if kept_bytes <= MOST_KEPT_BYTES {
+        return Ok(());
+    }
+    let rule = format!("terms of your own have taken more than {MOST_KEPT_BYTES} bytes since the start");
+    Err(Refusal::new(RefusalKind::TooLarge, rule, "Start `hexbench workbench` again."))
+}
+
 /// The catalogue, with terms of one's own behind it.
 pub(super) fn terms_with(own: &[String], limits: &ServerLimits) -> Result<Vec<Arc<dyn Term>>, Refusal> {
     if own.len() > limits.own_terms {
         let rule = format!("{} terms of your own; at most {} are accepted", own.len(), limits.own_terms);
         return Err(Refusal::new(RefusalKind::TooLarge, rule, "Remove some."));
+    }
+    if !own.is_empty() {
+        refuse_beyond(user_term::kept_bytes())?;
     }
     let mut terms = catalogue();
     for (number, text) in own.iter().enumerate() {
@@ -117,6 +132,14 @@ pub(super) fn terms_with(own: &[String], limits: &ServerLimits) -> Result<Vec<Ar
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn terms_are_taken_until_those_before_fill_what_is_kept() {
+        assert!(refuse_beyond(MOST_KEPT_BYTES).is_ok());
+        let refusal = refuse_beyond(MOST_KEPT_BYTES + 1).unwrap_err();
+        assert_eq!(refusal.kind, RefusalKind::TooLarge);
+        assert!(refusal.message.contains("67108864 bytes"), "{}", refusal.message);
+    }
 
     #[test]
     fn names_are_only_ever_shown() {

@@ -1,5 +1,6 @@
 //! Terms tried one at a time beside a model: what each gains on the readings fitted, and on those that no fit has seen.
 
+use hexbench_core::interrupt::go_on;
 use std::time::Instant;
 
 use hexbench_model::estimation::fit_named::Added;
@@ -24,6 +25,7 @@ impl LoadedCampaign {
         let each = view::selected(&asked.each, &terms, source)?;
         let present = view::judged(&self.task(), &chosen)?;
         let with = |added: &Added| {
+            go_on();
             let all: Vec<Added> = chosen.iter().chain([added]).cloned().collect();
             self.task().fit(&all).ok()
         };

@@ -4,12 +4,14 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::http::StatusCode;
+use hexbench_core::interrupt::Interrupt;
+use rayon::{ThreadPoolBuilder, current_num_threads};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::task::spawn_blocking;
 use tokio::time::timeout;
 
-use super::ServerSettings;
 use super::refuse::Refuse;
+use super::{STACK_BYTES, ServerSettings};
 
 /// Places for computations and for those that wait.
 #[derive(Debug)]
@@ -23,6 +25,30 @@ pub(super) struct Work {
 /// A place, until it is dropped.
 #[derive(Debug)]
 pub(super) struct Place(#[expect(dead_code, reason = "held, never read")] OwnedSemaphorePermit);
+
+/// Ends a computation when nobody waits for it any more: its client has gone away, or its time is over.
+struct AskOnDrop(Interrupt);
+
+impl Drop for AskOnDrop {
+    fn drop(&mut self) {
+        self.0.ask();
+    }
+}
+
+/// Every computation has as many threads as there are cores: they know whom to obey.
+fn on_own_threads<T: Send>(interrupt: &Interrupt, job: impl FnOnce() -> T + Send) -> T {
+    let obeyed = interrupt.clone();
+    let threads = ThreadPoolBuilder::new()
+        .num_threads(current_num_threads())
+        .stack_size(STACK_BYTES)
+        .start_handler(move |_| obeyed.obeyed_here())
+        .build();
+    // A system without threads to spare computes on those there are, to the end.
+    match threads {
+        Ok(threads) => threads.install(job),
+        Err(_) => job(),
+    }
+}
 
 impl Work {
     /// As many places as the settings say.
@@ -41,8 +67,8 @@ impl Work {
         permit.map(Place).map_err(|_| Refuse::busy("too many requests wait already"))
     }
 
-    /// Compute on a thread of its own. Who stops waiting frees a place in the queue at once, a running computation frees its
-    /// place when it ends.
+    /// Compute on threads of its own. Who stops waiting frees a place in the queue at once, and a computation that nobody waits for any
+    /// more ends at its next step.
     pub(super) async fn run<T: Send + 'static>(
         &self,
         place: Place,
@@ -50,9 +76,11 @@ impl Work {
     ) -> Result<T, Refuse> {
         let turn = timeout(self.wait, Arc::clone(&self.computing).acquire_owned()).await;
         let Ok(Ok(permit)) = turn else { return Err(Refuse::busy("other computations took too long")) };
+        let interrupt = Interrupt::default();
+        let _unwanted = AskOnDrop(interrupt.clone());
         let running = spawn_blocking(move || {
             let _held = (place, permit);
-            job()
+            on_own_threads(&interrupt, job)
         });
         match timeout(self.compute, running).await {
             Ok(Ok(result)) => result,
@@ -62,10 +90,7 @@ impl Work {
     }
 
     fn too_slow(&self) -> Refuse {
-        let error = format!(
-            "not done after {} s; it cannot be stopped and goes on unheard",
-            self.compute.as_secs_f64()
-        );
+        let error = format!("not done after {} s, and stopped", self.compute.as_secs_f64());
         let next =
             "Ask less: fewer readings, fewer terms of your own; or use the command line, which has no limit.";
         Refuse::new(StatusCode::SERVICE_UNAVAILABLE, error, next)

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::thread::{self, sleep};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use crate::engine::{see_none_held, see_one_held, set_gate};
+use crate::engine::{LONG, see_none_held, see_one_held, set_gate};
 use crate::site::{PLACES, Reply, SHORT, Site, answer, get, post};
 
 /// Connections at once: far more than the server under test has places for.
@@ -112,6 +112,28 @@ pub(crate) fn full_queue(site: &Site) -> Reply {
     sleep(MOMENT);
     let reply = site.send(&post("/api/benches", r#"{"from":"given"}"#));
     let_go();
+    reply
+}
+
+/// A search that nobody waits for any more ends.
+pub(crate) fn gone_while_computing(site: &Site) -> Reply {
+    let path = format!("/api/benches/{}/discovery", site.open());
+    let mut stream = site.connect();
+    stream.write_all(&site.bytes(&post(&path, "{}"))).unwrap();
+    see_one_held();
+    let since = Instant::now();
+    drop(stream);
+    see_none_held();
+    Reply::summary(if since.elapsed() < LONG / 2 { "stopped" } else { "went on" })
+}
+
+/// A search that takes too long ends too.
+pub(crate) fn stopped_computation(site: &Site) -> Reply {
+    let path = format!("/api/benches/{}/discovery", site.open());
+    let since = Instant::now();
+    let reply = site.send(&post(&path, "{}"));
+    see_none_held();
+    assert!(since.elapsed() < LONG / 2, "it went on");
     reply
 }
 

@@ -1,7 +1,10 @@
 //! An engine that does as it is told: answers, refuses, falls over, takes its time.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
+use hexbench_core::interrupt::go_on;
 use hexbench_workbench::bench::{Given, Refusal, RefusalKind};
 use hexbench_workbench::server::Desk;
 use hexbench_workbench::wire::{Ask, Export, Guess, Open, Selection, ServerLimits, Try};
@@ -46,6 +49,27 @@ fn wait_at_the_gate() {
 /// Returns when none is held any more.
 pub(crate) fn see_none_held() {
     drop(GATE.1.wait_while(gate(), |gate| gate.before_it > 0));
+}
+
+/// How long a search takes that nobody ends.
+pub(crate) const LONG: Duration = Duration::from_secs(30);
+
+/// A search that is going on; unwinding ends it too.
+struct Counted;
+
+impl Counted {
+    fn begin() -> Self {
+        gate().before_it += 1;
+        GATE.1.notify_all();
+        Self
+    }
+}
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        gate().before_it -= 1;
+        GATE.1.notify_all();
+    }
 }
 
 /// A bench without physics.
@@ -93,6 +117,12 @@ impl Desk for Obedient {
     }
 
     fn discover(&self, _: &Ask) -> Result<impl Serialize + use<>, Refusal> {
+        let _counted = Counted::begin();
+        let since = Instant::now();
+        while since.elapsed() < LONG {
+            go_on();
+            sleep(Duration::from_millis(5));
+        }
         Ok(json!({ "law": null }))
     }
 

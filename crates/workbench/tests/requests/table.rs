@@ -234,6 +234,8 @@ fn limits() -> Vec<Row> {
         acts("half a body, then silence", "408", acts::half_a_body),
         acts("a large answer that is not read", "broken off", acts::unread),
         acts("a computation that takes too long", "503", acts::long_computation),
+        acts("a search that takes too long", "503", acts::stopped_computation),
+        acts("a search whose page goes away", "stopped", acts::gone_while_computing),
         acts("a request that waits too long for others", "503", acts::long_wait),
         acts("a request when the queue is full", "503", acts::full_queue),
         acts("a request after many that went away while waiting", "201", acts::gone_while_waiting),

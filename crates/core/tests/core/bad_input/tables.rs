@@ -38,6 +38,7 @@ bad_input! { "measurements.csv";
     a_date_is_refused: "date made of a number", deflections().set("fz_N", "3. Mai").text() => (3, 11), "this is a date";
     nul_bytes_are_refused: "NUL bytes", deflections().set("fx_N", "0\u{0}").text() => (3, 0), "is NUL";
     a_gigantic_line_is_refused: "a line of several megabytes", one_line_of(3 << 20) => (4, 0), "longer than 1048576 bytes";
+    a_table_of_too_many_columns_is_refused: "more than 4096 columns", "x_a,".repeat(5000) + "\n" => (1, 0), "columns; 4096 are read";
     bare_carriage_returns_are_refused: "old Macintosh line ends", deflections().text().replace('\n', "\r")
         => (0, 0), "bare carriage return";
 

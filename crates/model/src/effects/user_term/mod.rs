@@ -124,6 +124,11 @@ struct UserTerm {
     log_prior: f64,
 }
 
+/// Bytes that all distinct term files read so far have left in memory until the program ends: ids, names, units, needs.
+pub fn kept_bytes() -> usize {
+    intern::kept_bytes()
+}
+
 /// The term a TOML text describes.
 ///
 /// # Errors

@@ -1,5 +1,6 @@
 //! All laws of the grammar, weighed one by one beside what is in the model.
 
+use hexbench_core::interrupt::go_on;
 use rayon::prelude::*;
 
 use super::law::{Law, Product};
@@ -62,7 +63,10 @@ impl LawScan<'_> {
         for alike in tasks.chunk_by(|a, b| self.kind(a.0) == self.kind(b.0)) {
             batches.extend(alike.chunks(TOGETHER));
         }
-        let best = |batch: &&[Task]| self.best_of_each(batch, choices);
+        let best = |batch: &&[Task]| {
+            go_on();
+            self.best_of_each(batch, choices)
+        };
         let scored: Vec<Vec<ScoredLaw>> = batches.par_iter().map(best).collect::<Result<_, _>>()?;
         let mut laws = best_constants(scored.into_iter().flatten());
         laws.truncate(most);
@@ -266,4 +270,21 @@ fn golden(ends: [f64; 2], f: &mut impl FnMut(f64) -> Result<f64, ModelError>) ->
         }
     }
     Ok(f64::midpoint(low, high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_neighbors_of_a_grid_count_as_one_value() {
+        assert_eq!([1, 3, 12].map(independent), [1.0, 1.0, 4.0]);
+    }
+
+    #[test]
+    fn two_sizes_that_do_not_touch_are_two_single_ones() {
+        let (drop, rest) = pair([3.0, -2.0], [4.0, 0.0, 0.5], 1.5);
+        let one = [single(4.0, 3.0, 1.5, false), single(0.5, -2.0, 1.5, false)];
+        assert!((drop - one[0].0 - one[1].0).abs() < 1e-12 && (rest - one[0].1 - one[1].1).abs() < 1e-12);
+    }
 }

@@ -17,6 +17,7 @@ mod sensors;
 mod text;
 mod turn;
 
+use hexbench_core::interrupt::go_on;
 use std::borrow::Cow;
 
 use hexbench_core::{Dataset, Hexapod};
@@ -262,6 +263,7 @@ impl Search<'_> {
     fn looked_at(&self, all: Vec<Vec<Change>>) -> Vec<Way> {
         let coarse = self.sample.coarse();
         let look = |changes: Vec<Change>| {
+            go_on();
             let springs = admissible(&coarse, &changes)?;
             Some((springs.cost + charge(&changes), changes))
         };
@@ -272,6 +274,7 @@ impl Search<'_> {
     }
 
     fn way(&self, changes: Vec<Change>) -> Option<Way> {
+        go_on();
         let springs = admissible(self.sample, &changes)?;
         Some(self.of(&springs, changes))
     }

@@ -4,6 +4,7 @@
 //!
 //! The size is found by Gauss-Newton on what the springs leave of the readings, with derivatives by differences.
 
+use hexbench_core::interrupt::go_on;
 use hexbench_core::{Vector3, Wrench};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -122,6 +123,7 @@ pub(super) fn refined(sample: &Sample) -> Vec<Change> {
     }
     all.extend(promising_joints(&coarse));
     let at_best = |mistake: &Sized| {
+        go_on();
         let first = minimized(&coarse, *mistake, mistake.start(&coarse))?;
         let values = minimized(sample, *mistake, first.as_slice().to_vec())?;
         (mistake.counts(&values) && !mistake.is_like_an_effect(&values))

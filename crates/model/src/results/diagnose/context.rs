@@ -1,5 +1,6 @@
 //! Fits and errors beyond the search: steps, held-out data, rivals, what the springs absorb.
 
+use hexbench_core::interrupt::go_on;
 use hexbench_core::{Dataset, Hexapod};
 use rayon::prelude::*;
 
@@ -128,6 +129,7 @@ impl Context<'_> {
             }
         }
         let survivors = faced.par_iter().filter(|terms| {
+            go_on();
             fit(self.campaign, terms, Some(start)).is_ok_and(|f| survives(&f, SURVIVAL_CHANCE))
         });
         let survivors: Vec<&Vec<TermSpec>> = survivors.collect();

@@ -1,5 +1,6 @@
 //! Whether the file means what it says: other readings of it against every effect of the catalogue.
 
+use hexbench_core::interrupt::go_on;
 use std::sync::Arc;
 
 use hexbench_core::{Dataset, Hexapod};
@@ -199,7 +200,13 @@ impl Weighing<'_> {
     /// The way of reading that explains the file best with effects beside springs, none of which is negative.
     fn best_machine(&self) -> Option<(&Way, Explained)> {
         let candidates = self.candidates();
-        let all: Vec<Option<Explained>> = candidates.par_iter().map(|way| self.explained(way)).collect();
+        let all: Vec<Option<Explained>> = candidates
+            .par_iter()
+            .map(|way| {
+                go_on();
+                self.explained(way)
+            })
+            .collect();
         let all = candidates.into_iter().zip(all).filter_map(|(way, explained)| Some((way, explained?)));
         let machines = all.filter(|(_, explained)| explained.negative == 0);
         machines.min_by(|a, b| a.1.with_choice().total_cmp(&b.1.with_choice()))
