@@ -26,8 +26,8 @@ pub struct BlockSetup {
     pub training: Ideal,
     /// Readings to judge by, without noise.
     pub holdout: Ideal,
-    /// The same in full poses.
-    pub holdout_poses: Ideal,
+    /// The same in full poses, where sensors read.
+    pub holdout_poses: Option<Ideal>,
     /// Id of the hidden effect.
     pub hidden: Option<&'static str>,
 }
@@ -74,7 +74,7 @@ impl BlockSetup {
         let in_poses = |rows| Ideal::in_poses(&campaign, rows).map_err(|_| Status::NoRest);
         Ok(Self {
             training: ideal(training)?,
-            holdout_poses: in_poses(holdout.clone())?,
+            holdout_poses: cell.geometry().has_sensors().then(|| in_poses(holdout.clone())).transpose()?,
             holdout: ideal(holdout)?,
             hexapod,
             true_stiffness,

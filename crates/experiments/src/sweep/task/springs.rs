@@ -100,8 +100,13 @@ impl Prepared {
         };
         let covariance = &gain * gain.transpose();
         let sigma = [bench.noise.sigma_translation, bench.noise.sigma_rotation];
-        let poses = HeldOut::of(&campaign, &bench.holdout_poses, Noise::stated(sigma[0], sigma[1]), center)?;
-        let read = HeldOut::of(&campaign, &bench.holdout, campaign.noise, center)?;
+        let holdout = |ideal: &Ideal, noise| HeldOut::of(&campaign, ideal, noise, center);
+        let of_poses = bench.holdout_poses.as_ref().unwrap_or(&bench.holdout);
+        let poses = holdout(of_poses, Noise::stated(sigma[0], sigma[1]))?;
+        let readings = match &bench.holdout_poses {
+            None => poses.whole(),
+            Some(_) => holdout(&bench.holdout, campaign.noise)?.whole(),
+        };
         Ok(Self {
             true_stiffness: Vector6::from(bench.true_stiffness),
             center,
@@ -109,7 +114,7 @@ impl Prepared {
             std: Vector6::from_fn(|i, _| covariance[(i, i)].sqrt()),
             translations: poses.of_half(0),
             rotations: poses.of_half(1),
-            readings: read.whole(),
+            readings,
             sigma,
         })
     }
