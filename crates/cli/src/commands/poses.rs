@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
 use hexbench_core::BallRecord;
-use hexbench_core::files::{BallTable, CsvText, csv_words, nearest, read_ball_places, read_balls};
+use hexbench_core::files::{BallTable, CsvText, csv_words, nearest, read_ball_places};
 use hexbench_model::machine::registration::{Places, Registered, RegisteredPose, register_all};
 use hexbench_report::number::significant;
 
@@ -48,9 +48,8 @@ const MOST_TOLD: usize = 5;
 
 /// Register every record.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
-    let BallTable { records, layout, warnings } =
-        read_balls(&arguments.data, &arguments.names.read()?, arguments.unit.given())?;
-    input::warn_of_file(&arguments.data, &warnings);
+    let names = arguments.names.read()?;
+    let BallTable { records, layout, .. } = input::balls(&arguments.data, &names, arguments.unit)?;
     let (places, stated) = places(arguments, &records)?;
     let sigma = given_sigma(arguments)?.or(stated);
     let found = register_all(&records, &places, sigma)

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use hexbench_model::machine::registration::{BallCampaign, RecordsRead};
+use hexbench_model::machine::registration::{BallCampaign, InstrumentAxes, MovedBall, RecordsRead};
 use hexbench_report::number::significant;
 use hexbench_report::{Block, Definition, Page, Section};
+use serde_json::{Value, json};
 
 use crate::commands::campaign::moved_in_words;
 
@@ -46,6 +47,44 @@ pub(crate) fn page(told: &Told<'_>) -> Page {
     let all = found.moved.iter().map(|ball| format!("line {}: {}", ball.line, moved_in_words(ball)));
     let list = all.fold(Section::new("Balls that moved"), |section, text| section.paragraph(&text));
     page.with(list).with(next)
+}
+
+/// The same for other programs.
+pub(crate) fn json(told: &Told<'_>) -> Value {
+    let found = told.found;
+    let um = |sigma: f64| (sigma > 0.0).then_some(sigma * 1e6);
+    let moved = |ball: &MovedBall| {
+        json!({
+            "line": ball.line,
+            "records": ball.records,
+            "balls": ball.balls,
+            "change_um": ball.change * 1e6,
+        })
+    };
+    let axes = |axes: &InstrumentAxes| {
+        json!({
+            "angle_deg": axes.angle.to_degrees(),
+            "uncertainty_deg": axes.uncertainty.to_degrees(),
+            "shift_mm": axes.shift * 1e3,
+            "turned_back": told.how.align,
+        })
+    };
+    json!({
+        "format": "campaign/1",
+        "layout": told.layout,
+        "absolute": found.dataset.is_absolute(),
+        "readings": found.covariances.len(),
+        "balls": found.balls.iter().map(|ball| &ball.ball).collect::<Vec<_>>(),
+        "base_balls": found.base.iter().map(|ball| &ball.ball).collect::<Vec<_>>(),
+        "placed_by_commands": found.placed_by_commands,
+        "sigma_um": um(found.sigma),
+        "sigma_of_residuals_um": found.estimated_sigma.and_then(um),
+        "axes": found.axes.as_ref().map(axes),
+        "gravity_m_per_s2": told.how.gravity,
+        "moved": found.moved.iter().map(moved).collect::<Vec<_>>(),
+        "unused_records": found.unused,
+        "files": told.files.iter().map(|(name, _)| told.folder.join(name)).collect::<Vec<_>>(),
+    })
 }
 
 fn readings(found: &BallCampaign) -> String {

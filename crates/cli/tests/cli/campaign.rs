@@ -346,9 +346,15 @@ fn a_ball_that_moved_is_named_with_its_records() {
             cells[6] = format!("{:.7}", number(&cells[6]) + 0.05);
         }
     });
-    let said = bench.said(&["--balls", "balls.toml"], 0);
+    let said = bench.said(&["--balls", "balls.toml", "--json", "moved.json"], 0);
     assert!(said.contains("ball P2 moved on the platform between records 7 and 8"), "{said}");
     assert_eq!(said.matches("warning:").count(), 1, "{said}");
+    let moved = json(&bench.path("moved.json"));
+    assert_eq!(moved["moved"][0]["records"], serde_json::json!(["7", "8"]));
+    let sound = Bench::of("paper-rich");
+    let quiet = sound.run(&["campaign", "balls.csv", "loads.csv", "-o", "out", "--json", "-"]);
+    let sound = serde_json::from_str(&text(quiet)).unwrap();
+    crate::schemas::check("campaign/1", &[moved, sound]);
 }
 
 #[test]

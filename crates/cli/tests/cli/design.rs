@@ -156,7 +156,7 @@ fn sensors_are_chosen_and_the_machine_is_written_with_them() {
     insta::assert_snapshot!("design_sensors", page);
     let chosen = hexbench_core::files::read_hexapod(&machine).unwrap().sensors;
     let file: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
-    assert_eq!(file["format"], "sensor-choice/1");
+    crate::schemas::check("sensor-choice/1", std::slice::from_ref(&file));
     let names: Vec<&str> =
         file["sensors"].as_array().unwrap().iter().filter_map(|s| s["name"].as_str()).collect();
     assert_eq!(names, chosen.iter().map(|s| s.name.as_str()).collect::<Vec<_>>());

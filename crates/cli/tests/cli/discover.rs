@@ -40,7 +40,8 @@ fn a_diagnosis_outside_the_catalogue_proposes_the_law() {
 #[test]
 fn the_file_of_a_discovery_has_its_keys() {
     let told: Value = serde_json::from_str(&text(discover(CASE, &["--json", "-"]))).unwrap();
-    assert_eq!(told["format"], "discovery/1");
+    let none = serde_json::from_str(&text(discover("mujoco-clean", &["--json", "-"]))).unwrap();
+    crate::schemas::check("discovery/1", &[told.clone(), none]);
     assert_eq!((&told["found"], &told["reason"]), (&Value::from(true), &Value::from("law")));
     let law = &told["laws"][0];
     assert_eq!(

@@ -53,6 +53,8 @@ fn the_next_readings_exclude_one_of_two_that_the_data_leave_open() {
     let measured = format!("{CASE}/measurements.csv");
     let output = discriminate(&["--between", "leg-coupling", "--data", &measured, "--json", "-"]);
     let told: Value = serde_json::from_str(&text(output)).unwrap();
+    let apart = text(discriminate(&["--between", "leg-coupling", "--readings", "2", "--json", "-"]));
+    crate::schemas::check("discrimination/1", &[told.clone(), serde_json::from_str(&apart).unwrap()]);
     let pair = &told["pairs"][0];
     assert!(pair["log10_odds_in_hand"].as_f64().unwrap().abs() < 2.0, "{pair}");
     assert!(pair["readings_needed"].as_u64().unwrap() <= 6, "{pair}");

@@ -52,6 +52,7 @@ fn an_unchanged_program_passes_with_the_same_values_and_writes_what_continuous_i
     assert!(page.contains("no change beyond chance"), "{page}");
     assert!(page.lines().all(|l| l.chars().count() <= 80), "{page}");
     let result: Value = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
+    crate::schemas::check("regress/1", std::slice::from_ref(&result));
     let findings = result["findings"].as_array().unwrap();
     let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains(&format!("{0} of {0} limits", findings.len())), "{page}");

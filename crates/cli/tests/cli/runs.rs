@@ -67,6 +67,7 @@ fn what_changed_beyond_chance_is_marked_on_both_pages_and_in_the_numbers() {
     assert!(html.contains(">CHANGED</span>") && html.matches("<svg").count() == 3, "{}", html.len());
     let numbers: Value = serde_json::from_str(&fs::read_to_string(numbers).unwrap()).unwrap();
     let changed = numbers["parameters"].as_array().unwrap().iter().filter(|p| p["changed"] == "yes").count();
+    crate::schemas::check("runs/1", std::slice::from_ref(&numbers));
     assert_eq!((numbers["format"].as_str(), changed), (Some("runs/1"), 1));
     assert_eq!(runs(&a, &b, &["--check"]).status.code(), Some(1));
 }

@@ -187,3 +187,52 @@ fn a_campaign_kept_as_parquet_or_json_lines_has_the_answer_of_its_csv() {
         }
     }
 }
+
+/// A table of text as Parquet: numbers where all cells of a column are some.
+fn parquet_of(table: &str, path: &Path) {
+    let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = lines.next().unwrap();
+    let rows: Vec<Vec<&str>> = lines.collect();
+    let column = |(k, name): (usize, &&str)| {
+        let cells: Vec<&str> = rows.iter().map(|row| row[k]).collect();
+        let numbers: Option<Vec<f64>> = cells.iter().map(|cell| cell.parse().ok()).collect();
+        let words = || TableValues::Texts(cells.iter().map(|cell| (*cell).to_owned()).collect());
+        DataColumn {
+            name: (*name).to_owned(),
+            unit: String::new(),
+            meaning: String::new(),
+            values: numbers.map_or_else(words, TableValues::Numbers),
+        }
+    };
+    let columns = names.iter().enumerate().map(column).collect();
+    let frame = Frame { format: "readings/1", origin: Vec::new(), columns };
+    frame.write(TableFormat::Parquet, &mut File::create(path).unwrap()).unwrap();
+}
+
+#[test]
+fn balls_and_loads_may_be_parquet_or_json_lines_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("data");
+    crate::scenes::simulate(&root().join("scenes/paper"), &data, &[]);
+    let read = |name: &str| std::fs::read_to_string(data.join(name)).unwrap();
+    let (balls, loads) = (read("balls.csv"), read("loads.csv"));
+    parquet_of(&balls, &data.join("balls.parquet"));
+    parquet_of(&loads, &data.join("loads.parquet"));
+    let mut lines = loads.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let object = |line: &str| {
+        let pairs = names.iter().zip(line.split(',')).map(|(name, cell)| format!("\"{name}\":{cell}"));
+        format!("{{{}}}\n", pairs.collect::<Vec<_>>().join(","))
+    };
+    std::fs::write(data.join("loads.jsonl"), lines.map(object).collect::<String>()).unwrap();
+    let campaign = |balls: &str, loads: &str| {
+        let out = format!("{balls}-{loads}");
+        let mut command = hexbench();
+        command.current_dir(&data).args(["campaign", balls, loads, "--balls", "balls.toml", "-o", &out]);
+        text(command.output().unwrap());
+        read(&format!("{out}/measurements.csv"))
+    };
+    let expected = campaign("balls.csv", "loads.csv");
+    assert_eq!(campaign("balls.parquet", "loads.parquet"), expected);
+    assert_eq!(campaign("balls.csv", "loads.jsonl"), expected);
+}
