@@ -8,10 +8,11 @@ use hexbench_app::input::model;
 pub(crate) use hexbench_app::input::{catalogue_with, user_terms};
 use hexbench_app::memory::Computation;
 use hexbench_core::files::{
-    ColumnNames, Dimension, TableReading, Unit, Warning, read_campaign, read_campaign_named,
-    read_campaign_records, read_column_names, read_conditions_named, read_hexapod, read_plan, unit_named,
+    BallTable, ColumnNames, Dimension, TableReading, Unit, Warning, read_balls, read_balls_records,
+    read_campaign, read_campaign_named, read_campaign_records, read_column_names, read_conditions_named,
+    read_hexapod, read_loads, read_loads_records, read_plan, unit_named,
 };
-use hexbench_core::{AngleConvention, Dataset, Hexapod};
+use hexbench_core::{AngleConvention, Dataset, Hexapod, LoadTable};
 use hexbench_model::application::model_file::Model;
 use hexbench_model::estimation::estimate::Estimate;
 use hexbench_model::results::diagnose::misread_findings;
@@ -71,18 +72,11 @@ impl MemoryLimit {
 }
 
 /// The unit of coordinates that state none.
-#[derive(Debug, Default, Args)]
+#[derive(Debug, Clone, Copy, Default, Args)]
 pub(crate) struct BallUnit {
     /// Unit of the coordinates of balls, where their file states none
     #[arg(long, value_name = "UNIT", value_parser = length)]
     unit: Option<&'static Unit>,
-}
-
-impl BallUnit {
-    /// The unit, where it is given.
-    pub(crate) fn given(&self) -> Option<&'static Unit> {
-        self.unit
-    }
 }
 
 fn length(text: &str) -> Result<&'static Unit, String> {
@@ -194,8 +188,34 @@ pub(crate) fn warn_of_stated_stiffness(hexapod: &Hexapod, found: &[Estimate]) {
     }
 }
 
+/// Ball centres; what the reader noticed goes to standard error.
+pub(crate) fn balls(path: &Path, names: &ColumnNames, unit: BallUnit) -> Result<BallTable, Failure> {
+    let table = if is_parquet(path) {
+        read_balls_records(&read_parquet(path)?, names, unit.unit, path)?
+    } else {
+        read_balls(path, names, unit.unit)?
+    };
+    warn_of_file(path, &table.warnings);
+    Ok(table)
+}
+
+/// Loads and commanded poses of records.
+pub(crate) fn loads(
+    path: &Path,
+    names: &ColumnNames,
+    machine: Option<&Hexapod>,
+) -> Result<LoadTable, Failure> {
+    let table = if is_parquet(path) {
+        read_loads_records(&read_parquet(path)?, names, machine, path)?
+    } else {
+        read_loads(path, names, machine)?
+    };
+    warn_of_file(path, &table.warnings);
+    Ok(table)
+}
+
 /// Says on standard error what a reader noticed of a file.
-pub(crate) fn warn_of_file(path: &Path, warnings: &[Warning]) {
+fn warn_of_file(path: &Path, warnings: &[Warning]) {
     for warning in warnings {
         report::warn(&format!("{}: {warning}", path.display()), warning.next_step());
     }

@@ -105,11 +105,13 @@ impl AngleConvention {
     }
 
     /// Puts the angles of a row as the file states them into those used inside: pose, and what was measured of a pose or as differences of
-    /// its angles. Standard deviations stay.
+    /// its angles, with their standard deviations.
     pub(crate) fn read(self, row: &mut Observation, channels: &[Channel; 6], measurand: Measurand) {
         let stated = row.pose.angles;
         row.pose.angles = self.to_fixed_xyz(&stated);
-        restate(row, channels, measurand, |at| self.to_fixed_xyz(at), &stated);
+        let how =
+            Restated { angles: &|at| self.to_fixed_xyz(at), variances: &|slopes, v| squared(slopes) * v };
+        restate(row, channels, measurand, &how, &stated);
     }
 
     /// The rows as the files of a machine of this convention state them.
@@ -121,7 +123,8 @@ impl AngleConvention {
         for row in &mut stated.observations {
             let (channels, inside) = (data.channels(row), row.pose.angles);
             row.pose.angles = self.from_fixed_xyz(&inside);
-            restate(row, &channels, data.measurand, |at| self.from_fixed_xyz(at), &inside);
+            let how = Restated { angles: &|at| self.from_fixed_xyz(at), variances: &variances_before };
+            restate(row, &channels, data.measurand, &how, &inside);
         }
         Cow::Owned(stated)
     }
@@ -159,24 +162,59 @@ fn rotations(row: &Observation, channels: &[Channel; 6]) -> Read {
     }
 }
 
+/// How angles and their variances become those of another convention.
+struct Restated<'a> {
+    angles: &'a dyn Fn(&Vector3) -> Vector3,
+    /// Of the slopes of the new angles by the old ones, and the old variances.
+    variances: &'a dyn Fn(&Matrix3, &Vector3) -> Vector3,
+}
+
 /// What was measured about angles `at`, restated.
 fn restate(
     row: &mut Observation,
     channels: &[Channel; 6],
     measurand: Measurand,
-    angles: impl Fn(&Vector3) -> Vector3,
+    how: &Restated<'_>,
     at: &Vector3,
 ) {
     let Read::All(places) = rotations(row, channels) else { return };
     let measured = Vector3::from(places.map(|place| row.measured[place]));
-    let restated = match measurand {
-        Measurand::AbsolutePose => angles(&measured),
-        Measurand::DeflectionEuler => angles(&(at + measured)) - angles(at),
+    let (restated, there) = match measurand {
+        Measurand::AbsolutePose => ((how.angles)(&measured), measured),
+        Measurand::DeflectionEuler => ((how.angles)(&(at + measured)) - (how.angles)(at), *at),
         Measurand::DeflectionRotationVector => return,
     };
     for (place, value) in places.into_iter().zip(&restated) {
         row.measured[place] = *value;
     }
+    let Some(sigma) = &mut row.sigma else { return };
+    let variances = Vector3::from(places.map(|place| sigma[place] * sigma[place]));
+    let restated = (how.variances)(&slopes(how.angles, &there), &variances);
+    for (place, variance) in places.into_iter().zip(&restated) {
+        sigma[place] = variance.sqrt();
+    }
+}
+
+/// Slopes of three angles by three others, by central differences.
+fn slopes(angles: &dyn Fn(&Vector3) -> Vector3, at: &Vector3) -> Matrix3 {
+    const STEP: f64 = 1e-6;
+    let column = |k: usize| {
+        let step = Vector3::ith(k, STEP);
+        (angles(&(at + step)) - angles(&(at - step))) / (2.0 * STEP)
+    };
+    Matrix3::from_columns(&[column(0), column(1), column(2)])
+}
+
+fn squared(slopes: &Matrix3) -> Matrix3 {
+    slopes.component_mul(slopes)
+}
+
+/// The variances of independent angles before they were restated, of those after it; `slopes` lead back. Where correlations that nobody
+/// stated would be needed for that, those after it count as independent.
+fn variances_before(slopes: &Matrix3, after: &Vector3) -> Vector3 {
+    let forth = slopes.try_inverse().map(|forth| squared(&forth));
+    let before = forth.and_then(|forth| forth.lu().solve(after));
+    before.filter(|v| v.iter().all(|x| x.is_finite() && *x > 0.0)).unwrap_or_else(|| squared(slopes) * after)
 }
 
 #[cfg(test)]
@@ -234,6 +272,7 @@ mod tests {
             for convention in AngleConvention::ALL {
                 let row = Observation {
                     measured: [1e-6, 2e-6, 3e-6, 4e-6, -5e-6, 6e-6],
+                    sigma: Some([1e-6, 1e-6, 2e-6, 3e-6, 2e-6, 5e-6]),
                     ..Observation::unread(pose, Wrench::default(), Wrench::default())
                 };
                 let mut read = row;
@@ -243,8 +282,34 @@ mod tests {
                 assert!((back.pose.to_vector() - pose.to_vector()).amax() < 1e-15, "{convention:?}");
                 let off = (0..6).map(|k| (back.measured[k] - row.measured[k]).abs()).fold(0.0, f64::max);
                 assert!(off < 1e-15, "{convention:?} {measurand:?}: {off}");
+                let [sigma, expected] = [back.sigma.unwrap(), row.sigma.unwrap()];
+                let near = (0..6).all(|k| (sigma[k] / expected[k] - 1.0).abs() < 1e-6);
+                assert!(near, "{convention:?} {measurand:?}: {sigma:?}");
             }
         }
+    }
+
+    /// About moving axes the third angle is one about the axis that the platform carries: seen from fixed axes its error is a turn about that.
+    #[test]
+    fn standard_deviations_are_turned_with_their_angles() {
+        let at = Vector3::from(ANGLES);
+        let sigma = [1e-9, 1e-9, 1e-9, 1e-12, 1e-12, 6e-6];
+        let row = Observation {
+            sigma: Some(sigma),
+            ..Observation::unread(
+                Pose { translation: Vector3::zeros(), angles: at },
+                Wrench::default(),
+                Wrench::default(),
+            )
+        };
+        let mut read = row;
+        AngleConvention::FixedZyx.read(&mut read, &Channel::POSE, Measurand::DeflectionEuler);
+        let moved = at + Vector3::new(0.0, 0.0, 6e-6);
+        let inside = |angles: &Vector3| AngleConvention::FixedZyx.to_fixed_xyz(angles);
+        let expected = (inside(&moved) - inside(&at)).abs();
+        let found = read.sigma.unwrap();
+        assert!((0..3).all(|k| (found[3 + k] - expected[k]).abs() < 1e-10), "{found:?} {expected}");
+        assert!(found[3] > 1e-7, "{found:?}");
     }
 
     #[test]

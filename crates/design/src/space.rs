@@ -181,6 +181,98 @@ impl Space {
     }
 }
 
+/// Steps in which a pose is set: a micrometre, a thousandth of a degree.
+const STEPS_PER_M: f64 = 1e6;
+const STEPS_PER_DEG: f64 = 1e3;
+/// Steps that a rounded pose may be taken back inside the limits.
+const MOST_STEPS_BACK: usize = 64;
+
+impl Space {
+    /// The nearest pose in whole micrometres and thousandths of a degree that keeps travel and limits, where there is one beside a pose
+    /// that keeps them; a coordinate that does not vary stays.
+    ///
+    /// All corners of the cell of the grid are tried, the nearest first. Where each breaks a limit, the best of them is taken back step by
+    /// step against the slope of the limit that it breaks most.
+    #[must_use]
+    pub fn rounded(&self, hexapod: &Hexapod, pose: &Pose) -> Pose {
+        let excess = |steps: &[f64; 6]| {
+            self.worst_limit(hexapod, &self.at_steps(pose, steps)).map_or(-1.0, |limit| limit.excess)
+        };
+        let corners = self.corners(pose);
+        let Some(nearest) = corners.first().copied() else { return *pose };
+        if let Some(kept) = corners.iter().find(|steps| excess(steps) <= 0.0) {
+            return self.at_steps(pose, kept);
+        }
+        let mut steps = corners.into_iter().min_by(|a, b| excess(a).total_cmp(&excess(b))).unwrap_or(nearest);
+        for _ in 0..MOST_STEPS_BACK {
+            let Some(back) = self.one_step_back(hexapod, pose, &steps) else { break };
+            steps = back;
+            if excess(&steps) <= 0.0 {
+                return self.at_steps(pose, &steps);
+            }
+        }
+        self.at_steps(pose, &nearest)
+    }
+
+    /// Steps of the corners around a pose that are within the travel, the nearest first.
+    fn corners(&self, pose: &Pose) -> Vec<[f64; 6]> {
+        let exact = in_steps(pose);
+        let free = self.free();
+        let mut corners: Vec<(f64, [f64; 6])> = (0..1_u32 << free.len())
+            .map(|others| {
+                let mut steps = exact.map(f64::round);
+                for (_, &k) in free.iter().enumerate().filter(|(bit, _)| others >> bit & 1 == 1) {
+                    steps[k] += if exact[k] >= steps[k] { 1.0 } else { -1.0 };
+                }
+                let far = free.iter().map(|&k| (steps[k] - exact[k]).powi(2)).sum();
+                (far, steps)
+            })
+            .filter(|(_, steps)| self.travels_to(steps))
+            .collect();
+        corners.sort_by(|a, b| a.0.total_cmp(&b.0));
+        corners.into_iter().map(|(_, steps)| steps).collect()
+    }
+
+    fn travels_to(&self, steps: &[f64; 6]) -> bool {
+        // Limits of the travel are round numbers up to rounding of their own.
+        const SLACK: f64 = 1e-6;
+        let [low, high] = [&self.low, &self.high].map(|end| in_steps(&Pose::from_array(*end)));
+        self.free().into_iter().all(|k| (low[k] - SLACK..=high[k] + SLACK).contains(&steps[k]))
+    }
+
+    /// One coordinate moved by a step, the one that takes off most of the excess.
+    fn one_step_back(&self, hexapod: &Hexapod, pose: &Pose, steps: &[f64; 6]) -> Option<[f64; 6]> {
+        let slopes = self.limit_slopes(hexapod, &self.at_steps(pose, steps))?;
+        let (_, slope) = slopes.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let moved = |k: usize| {
+            let mut moved = *steps;
+            moved[k] -= slope[k].signum();
+            moved
+        };
+        let gain = |k: usize| slope[k].abs() * step_of(k);
+        let ways = self.free().into_iter().filter(|&k| slope[k] != 0.0 && self.travels_to(&moved(k)));
+        ways.max_by(|&i, &j| gain(i).total_cmp(&gain(j))).map(moved)
+    }
+
+    /// The pose at whole steps; coordinates that do not vary are those of `pose`.
+    fn at_steps(&self, pose: &Pose, steps: &[f64; 6]) -> Pose {
+        let mut x = pose.to_array();
+        for k in self.free() {
+            x[k] = 0.0 + if k < 3 { steps[k] / STEPS_PER_M } else { (steps[k] / STEPS_PER_DEG).to_radians() };
+        }
+        Pose::from_array(x)
+    }
+}
+
+fn step_of(k: usize) -> f64 {
+    if k < 3 { 1.0 / STEPS_PER_M } else { (1.0 / STEPS_PER_DEG).to_radians() }
+}
+
+fn in_steps(pose: &Pose) -> [f64; 6] {
+    let x = pose.to_array();
+    std::array::from_fn(|k| if k < 3 { x[k] * STEPS_PER_M } else { x[k].to_degrees() * STEPS_PER_DEG })
+}
+
 /// A limit of a pose with its derivatives by the six pose coordinates.
 pub type Slope = (f64, [f64; 6]);
 
@@ -253,4 +345,70 @@ fn joint_angles(hexapod: &Hexapod, pose: &Pose, legs: &Legs) -> [f64; 12] {
         let now = legs.directions[leg];
         angle(&home, &if from_platform { rotation.tr_mul(&now) } else { now })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_machine::machine;
+
+    fn space() -> Space {
+        let half = [0.012, 0.012, 0.01, 0.15, 0.15, 0.2];
+        Space {
+            low: half.map(|x| -x),
+            high: half,
+            stroke: None,
+            joint_angle: None,
+            least_dexterity: 0.0,
+            loads: Vec::new(),
+            conditions: Conditions::default(),
+            budget: Budget::default(),
+        }
+    }
+
+    /// The same space, in which a pose has a leg at each end of its stroke, a joint as far as it turns, and the least dexterity.
+    fn at_every_limit(hexapod: &Hexapod, pose: &Pose) -> Space {
+        let legs = Legs::at(&hexapod.base_joints, &hexapod.platform_joints, pose).unwrap();
+        let largest = joint_angles(hexapod, pose, &legs).into_iter().fold(0.0, f64::max);
+        Space {
+            stroke: Some([legs.lengths.min(), legs.lengths.max()]),
+            joint_angle: Some(largest),
+            least_dexterity: dexterity(hexapod, &legs),
+            ..space()
+        }
+    }
+
+    #[test]
+    fn a_pose_at_all_its_limits_is_rounded_to_the_inside_of_each() {
+        let hexapod = machine();
+        let (mut broken, mut farthest) = (0, 0.0_f64);
+        for index in 0..200 {
+            let pose = space().pose(index, 7);
+            let tight = at_every_limit(&hexapod, &pose);
+            let rounded = tight.rounded(&hexapod, &pose);
+            let limit = tight.worst_limit(&hexapod, &rounded).unwrap();
+            assert!(limit.excess <= 0.0, "pose {index}: {limit:?}");
+            let (steps, exact) = (in_steps(&rounded), in_steps(&pose));
+            for k in 0..6 {
+                assert!((steps[k] - steps[k].round()).abs() < 1e-6, "{steps:?}");
+                farthest = farthest.max((steps[k] - exact[k]).abs());
+            }
+            let nearest = space().rounded(&hexapod, &pose);
+            broken += usize::from(tight.worst_limit(&hexapod, &nearest).unwrap().excess > 0.0);
+        }
+        println!("the nearest breaks a limit in {broken} of 200; moved by {farthest} steps at most");
+        assert!(broken > 150, "{broken}");
+        assert!(farthest < 30.0, "{farthest}");
+    }
+
+    #[test]
+    fn the_travel_is_kept_and_a_fixed_coordinate_stays_as_it_is() {
+        let mut space = space();
+        (space.high[0], space.low[0]) = (0.010_000_4, 0.010_000_4);
+        space.high[1] = 0.005_000_7;
+        let pose = Pose::from_array([space.low[0], space.high[1], 0.001_000_4, 0.0, 0.0, 0.0]);
+        let rounded = space.rounded(&machine(), &pose).to_array();
+        assert_eq!(rounded[0].to_bits(), space.low[0].to_bits());
+        assert!((rounded[1] - 0.005).abs() < 1e-15 && (rounded[2] - 0.001).abs() < 1e-15, "{rounded:?}");
+    }
 }

@@ -52,7 +52,9 @@ impl Bench<'_> {
             Some(amount) => self.within(amount, regressor, &criterion)?,
         };
         let best = information(&found.visits, regressor)?;
-        let visits = merged(found.visits.into_iter().map(|v| Visit { pose: rounded(&v.pose), ..v }));
+        let visits = merged(
+            found.visits.into_iter().map(|v| Visit { pose: self.space.rounded(self.hexapod, &v.pose), ..v }),
+        );
         let rounded = information(&visits, regressor)?;
         let p = regressor.parameters();
         let weighed =
@@ -150,16 +152,4 @@ fn merged(visits: impl Iterator<Item = Visit>) -> Vec<Visit> {
         }
     }
     different
-}
-
-/// To a micrometre and a thousandth of a degree.
-fn rounded(pose: &Pose) -> Pose {
-    let x = pose.to_array();
-    Pose::from_array(std::array::from_fn(|k| {
-        if k < 3 {
-            (x[k] * 1e6).round() * 1e-6 + 0.0
-        } else {
-            ((x[k].to_degrees() * 1e3).round() * 1e-3).to_radians() + 0.0
-        }
-    }))
 }

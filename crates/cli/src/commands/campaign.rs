@@ -5,8 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hexbench_core::files::{
-    BallTable, campaign_to_csv, hexapod_to_commented_toml, measurements_to_csv, read_ball_places, read_balls,
-    read_loads,
+    BallTable, campaign_to_csv, hexapod_to_commented_toml, measurements_to_csv, read_ball_places,
 };
 use hexbench_core::{AngleConvention, Hexapod};
 use hexbench_model::machine::registration::{
@@ -17,7 +16,7 @@ use hexbench_report::number::significant;
 use crate::csv;
 use crate::failure::Failure;
 use crate::input::{self, BallUnit, TableNames};
-use crate::output::{Screen, report};
+use crate::output::{OutFile, Screen, report, write_json};
 use crate::page::campaigned;
 
 /// Make measurements.csv out of ball centres, loads and commanded poses
@@ -62,6 +61,9 @@ pub(crate) struct Arguments {
     /// Read and write angles as this machine states them in [conventions]; --points does it too
     #[arg(long, value_name = "HEXAPOD", conflicts_with = "points")]
     hexapod: Option<PathBuf>,
+    /// Write what the page says as campaign.json to FILE, or to standard output (-) instead of the page
+    #[arg(long, value_name = "FILE")]
+    json: Option<OutFile>,
     /// Folder for measurements.csv; a file that exists is never replaced
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -84,12 +86,9 @@ impl Arguments {
 /// Register, pair and write.
 pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure> {
     let names = arguments.names.read()?;
-    let BallTable { records, layout, warnings } =
-        read_balls(&arguments.data, &names, arguments.unit.given())?;
-    input::warn_of_file(&arguments.data, &warnings);
+    let BallTable { records, layout, .. } = input::balls(&arguments.data, &names, arguments.unit)?;
     let machine = arguments.machine()?;
-    let loads = read_loads(&arguments.loads, &names, machine.as_ref())?;
-    input::warn_of_file(&arguments.loads, &loads.warnings);
+    let loads = input::loads(&arguments.loads, &names, machine.as_ref())?;
     let places = arguments.balls.as_deref().map(read_ball_places).transpose()?;
     let how = RecordsRead {
         places: places.as_ref(),
@@ -115,6 +114,12 @@ pub(crate) fn run(arguments: &Arguments, screen: &Screen) -> Result<(), Failure>
     }
     let told =
         campaigned::Told { found: &found, how: &how, layout, folder: &arguments.output, files: &files };
+    if let Some(path) = &arguments.json {
+        write_json(screen, path, &campaigned::json(&told))?;
+    }
+    if arguments.json.as_ref().is_some_and(OutFile::is_stdout) {
+        return Ok(());
+    }
     screen.show(&campaigned::page(&told))
 }
 

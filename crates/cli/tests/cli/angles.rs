@@ -72,6 +72,26 @@ fn a_convention_that_is_not_stated_is_found_and_the_line_to_add_is_named() {
 }
 
 #[test]
+fn a_convention_that_is_stated_and_wrong_is_found_and_the_right_line_is_named() {
+    for (meant, said) in [
+        (AngleConvention::default(), "intrinsic-xyz"),
+        (AngleConvention::FixedZyx, "rotation-vector"),
+        (AngleConvention::FixedYxz, "intrinsic-xyz"),
+    ] {
+        let (folder, machine) = stated("mujoco-foundation", meant);
+        let angles = AngleConvention::of_word(said).unwrap();
+        let wrong = hexapod_to_toml(&Hexapod { angles, ..machine });
+        fs::write(folder.path().join("hexapod.toml"), wrong).unwrap();
+        let answer = diagnosis(folder.path());
+        let findings = answer["findings"].as_array().unwrap();
+        let finding = findings.iter().find(|f| f["kind"] == "angle-convention");
+        let finding = finding.unwrap_or_else(|| panic!("{meant:?} for {said}: {findings:?}"));
+        let next = finding["next"].as_str().unwrap();
+        assert!(next.contains(&format!("angles = \"{}\"", meant.word())), "{meant:?} for {said}: {next}");
+    }
+}
+
+#[test]
 fn plans_and_predictions_are_written_as_they_are_read() {
     let (folder, machine) = stated("mujoco-foundation", AngleConvention::FixedZyx);
     let run =

@@ -76,12 +76,12 @@ pub use nearest::{instead_of, nearest};
 pub use place::FilePlace;
 pub use points::BallTable;
 pub use problem::FileProblem;
-pub use read_balls::{read_ball_places, read_balls};
+pub use read_balls::{read_ball_places, read_balls, read_balls_records};
 pub use read_columns::{Cells, MemoryColumn, read_columns};
 pub use read_conditions::{read_conditions, read_conditions_named, read_plan};
 pub use read_hexapod::{parse_hexapod, read_hexapod};
 pub use read_joints::read_joints;
-pub use read_loads::read_loads;
+pub use read_loads::{read_loads, read_loads_records};
 pub use read_measurements::{
     read_campaign, read_campaign_from, read_campaign_named, read_campaign_records, read_measurements,
     read_measurements_from,

@@ -5,6 +5,8 @@ use std::path::Path;
 use super::column_names::ColumnNames;
 use super::error::Fault;
 use super::points::{BallTable, PointTable, twice_in};
+use super::records::Records;
+use super::source::of_records;
 use super::toml_file::{Format, read_toml};
 use super::toml_value::{Item, KeyUnit, TomlSection};
 use super::units::Unit;
@@ -33,6 +35,20 @@ pub fn read_balls(
     unit: Option<&'static Unit>,
 ) -> Result<BallTable, FileError> {
     PointTable::of_balls(names, unit).read(path)
+}
+
+/// The same of records; `path` stands for the file in messages.
+///
+/// # Errors
+/// As [`read_balls`].
+pub fn read_balls_records(
+    records: &Records,
+    names: &ColumnNames,
+    unit: Option<&'static Unit>,
+    path: &Path,
+) -> Result<BallTable, FileError> {
+    let table = PointTable::of_balls(names, unit);
+    of_records(records, |input| table.table(input)).map_err(|fault| fault.in_file(path))
 }
 
 /// Reads places of balls, format `balls/1`.

@@ -6,10 +6,12 @@ use std::path::Path;
 use super::FileError;
 use super::Warning;
 use super::column_names::ColumnNames;
+use super::error::Fault;
 use super::header::{GroupPurpose, Reads};
 use super::load_columns::has_masses;
 use super::read_measurements::rows_of;
-use super::source::{Noticed, read_source};
+use super::records::Records;
+use super::source::{Noticed, of_records, read_source};
 use crate::{Hexapod, LoadTable};
 
 impl Noticed for LoadTable {
@@ -28,17 +30,37 @@ pub fn read_loads(
     names: &ColumnNames,
     machine: Option<&Hexapod>,
 ) -> Result<LoadTable, FileError> {
+    let read = |input: Box<dyn BufRead>| table(input, names, machine, path);
+    read_source(path, GroupPurpose::Loads.usual_sheet(), read).map_err(|fault| fault.in_file(path))
+}
+
+/// The same of records; `path` stands for the file in messages.
+///
+/// # Errors
+/// As [`read_loads`].
+pub fn read_loads_records(
+    records: &Records,
+    names: &ColumnNames,
+    machine: Option<&Hexapod>,
+    path: &Path,
+) -> Result<LoadTable, FileError> {
+    of_records(records, |input| table(input, names, machine, path)).map_err(|fault| fault.in_file(path))
+}
+
+fn table(
+    input: impl BufRead,
+    names: &ColumnNames,
+    machine: Option<&Hexapod>,
+    path: &Path,
+) -> Result<LoadTable, Fault> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     let reads = Reads { names: Some(names), ..Reads::of(GroupPurpose::Loads, machine) };
-    let read = |input: Box<dyn BufRead>| {
-        let mut table = rows_of(input, reads)?;
-        let rows = std::mem::take(&mut table.loads);
-        let [_, of_reference] = has_masses(&table.table.plan.of_loads);
-        let mut reading = table.finish(&name)?;
-        reading.dataset.columns.reference |= of_reference;
-        Ok(LoadTable { dataset: reading.dataset, rows, warnings: reading.warnings })
-    };
-    read_source(path, GroupPurpose::Loads.usual_sheet(), read).map_err(|fault| fault.in_file(path))
+    let mut table = rows_of(input, reads)?;
+    let rows = std::mem::take(&mut table.loads);
+    let [_, of_reference] = has_masses(&table.table.plan.of_loads);
+    let mut reading = table.finish(&name)?;
+    reading.dataset.columns.reference |= of_reference;
+    Ok(LoadTable { dataset: reading.dataset, rows, warnings: reading.warnings })
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! One thing that a file may mean otherwise than it says, and the file read that way.
 
-use hexbench_core::{Dataset, Hexapod, Measurand, Pose, SensorKind, UNREAD, Vector3, Wrench};
+use hexbench_core::{
+    AngleConvention, Dataset, Hexapod, Measurand, Pose, SensorKind, UNREAD, Vector3, Wrench,
+};
 use nalgebra::Rotation3;
 
 use super::row_order::RowOrder;
@@ -332,6 +334,7 @@ impl Change {
         if self.needs_rotation_vectors() {
             to_rotation_vectors(data);
         }
+        self.restate_angles(hexapod.angles, data);
         for row in &mut data.observations {
             self.apply_to_row(row, data.measurand);
         }
@@ -341,6 +344,21 @@ impl Change {
             }
             Self::OtherRotations => data.measurand = Measurand::DeflectionEuler,
             Self::Preload(_) | Self::LoadIsChange => data.columns.reference = true,
+            _ => {}
+        }
+    }
+
+    /// Angles that mean something else are read from what the file says, not from what its machine says that they mean.
+    fn restate_angles(&self, convention: AngleConvention, data: &mut Dataset) {
+        if convention == AngleConvention::default() {
+            return;
+        }
+        match self {
+            Self::Angles(_) => *data = convention.as_stated(data).into_owned(),
+            Self::PoseAngles(_) => data
+                .observations
+                .iter_mut()
+                .for_each(|row| row.pose.angles = convention.from_fixed_xyz(&row.pose.angles)),
             _ => {}
         }
     }

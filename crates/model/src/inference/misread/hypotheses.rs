@@ -26,7 +26,7 @@ const ONE_POINT: f64 = 1e-3;
 
 /// Everything that is tried at first.
 pub(super) fn singles(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
-    let mut all = cheap(data);
+    let mut all = cheap(hexapod, data);
     all.extend(machines(hexapod));
     all.extend(leg_orders().into_iter().map(Change::LegOrder));
     all.extend(origins(hexapod, data).into_iter().map(|(origin, at)| Change::Origin(origin, at)));
@@ -34,7 +34,7 @@ pub(super) fn singles(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
 }
 
 /// What is tried beside another mistake: signs, units, frames, axes, angles.
-pub(super) fn cheap(data: &Dataset) -> Vec<Change> {
+pub(super) fn cheap(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
     let mut all = signs();
     all.extend(units());
     let targets = [Target::Readings, Target::ReadingColumns, Target::Wrench, Target::Joints, Target::Poses];
@@ -52,7 +52,9 @@ pub(super) fn cheap(data: &Dataset) -> Vec<Change> {
         Change::DeflectionMobile,
         Change::OtherRotations,
     ]);
-    all.extend(AngleOrder::ALL.iter().flat_map(|&o| [Change::Angles(o), Change::PoseAngles(o)]));
+    // What the machine states already is no other reading.
+    let orders = AngleOrder::ALL.into_iter().filter(|order| order.convention() != Some(hexapod.angles));
+    all.extend(orders.flat_map(|order| [Change::Angles(order), Change::PoseAngles(order)]));
     if data.columns.reference {
         all.push(Change::Reversed(Signed::Reference));
         all.extend([Change::StatesExchanged, Change::LoadIsChange, Change::LoadHoldsReference]);

@@ -246,7 +246,7 @@ impl Search<'_> {
         let second = if data.has_other_readings() {
             sensors::cheap(hexapod, data)
         } else {
-            hypotheses::cheap(&self.sample.data)
+            hypotheses::cheap(hexapod, &self.sample.data)
         };
         let pairs = first.iter().flat_map(|f| {
             let others = second.iter().filter(|s| !s.is_like(&f.changes[0]));

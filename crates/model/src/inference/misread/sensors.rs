@@ -32,7 +32,8 @@ pub(super) fn singles(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
 
 /// What is tried beside another mistake.
 pub(super) fn cheap(hexapod: &Hexapod, data: &Dataset) -> Vec<Change> {
-    let others = hypotheses::cheap(data).into_iter().filter(|change| is_of_these_readings(change, data));
+    let others =
+        hypotheses::cheap(hexapod, data).into_iter().filter(|change| is_of_these_readings(change, data));
     of_sensors(hexapod, data).into_iter().chain(others).collect()
 }
 

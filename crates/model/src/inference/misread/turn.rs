@@ -63,6 +63,8 @@ impl SignedAxes {
 /// Order in which the three angles of a pose turn the platform, about fixed axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum AngleOrder {
+    /// x, then y, then z: the order of the file format, where the machine states another.
+    Xyz,
     /// x, then z, then y.
     Xzy,
     /// y, then x, then z.
@@ -80,13 +82,22 @@ pub enum AngleOrder {
 }
 
 impl AngleOrder {
-    /// All that are not the order of the file format.
-    pub const ALL: [Self; 7] =
-        [Self::Zyx, Self::Xzy, Self::Yxz, Self::Yzx, Self::Zxy, Self::RotationVector, Self::Inverse];
+    /// All of them, the likely ones first.
+    pub const ALL: [Self; 8] = [
+        Self::Xyz,
+        Self::Zyx,
+        Self::Xzy,
+        Self::Yxz,
+        Self::Yzx,
+        Self::Zxy,
+        Self::RotationVector,
+        Self::Inverse,
+    ];
 
     /// One word, as `--read-as` takes it.
     pub fn word(self) -> &'static str {
         match self {
+            Self::Xyz => "fixed-x-y-z",
             Self::Xzy => "fixed-x-z-y",
             Self::Yxz => "fixed-y-x-z",
             Self::Yzx => "fixed-y-z-x",
@@ -100,6 +111,7 @@ impl AngleOrder {
     /// What it means, in a sentence.
     pub fn text(self) -> &'static str {
         match self {
+            Self::Xyz => "the angles turn about the fixed axes x, y, z, one after the other",
             Self::Xzy => "the angles turn about the fixed axes x, z, y, one after the other",
             Self::Yxz => "the angles turn about the fixed axes y, x, z, one after the other",
             Self::Yzx => "the angles turn about the fixed axes y, z, x, one after the other",
@@ -115,6 +127,7 @@ impl AngleOrder {
     /// The convention of files that says so; none of the inverse.
     pub fn convention(self) -> Option<AngleConvention> {
         match self {
+            Self::Xyz => Some(AngleConvention::FixedXyz),
             Self::Xzy => Some(AngleConvention::FixedXzy),
             Self::Yxz => Some(AngleConvention::FixedYxz),
             Self::Yzx => Some(AngleConvention::FixedYzx),
