@@ -212,3 +212,15 @@ impl Worth {
         self.share < WORTH_NAMING && self.expected_share < WORTH_NAMING
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_effect_is_worth_naming_from_half_a_percent_on_measured_or_promised() {
+        let is_small = |share, expected_share| Worth { share, expected_share }.is_small();
+        assert!(is_small(0.0049, 0.0049) && is_small(-0.1, 0.0));
+        assert!(!is_small(0.0051, 0.0) && !is_small(0.0, 0.0051));
+    }
+}

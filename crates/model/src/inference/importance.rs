@@ -185,6 +185,18 @@ mod tests {
     }
 
     #[test]
+    fn a_gaussian_is_off_by_more_than_a_nat_or_where_few_draws_decide() {
+        let check = |log_evidence_change, pareto_k| GaussianCheck {
+            terms: Vec::new(),
+            draws: 64,
+            pareto_k,
+            log_evidence_change,
+        };
+        assert!(!check(0.9, Some(0.6)).is_off() && !check(-0.9, None).is_off());
+        assert!(check(-1.1, None).is_off() && check(0.0, Some(0.8)).is_off());
+    }
+
+    #[test]
     fn the_shape_of_a_pareto_law_is_found_again() {
         for shape in [-0.3, 0.2, 0.5, 1.0, 2.0] {
             let found = pareto_shape(&quantiles(shape, 2_000));

@@ -103,6 +103,17 @@ mod tests {
     }
 
     #[test]
+    fn what_is_left_is_the_sum_of_all_squares_beside_the_coordinates_that_are_left_over() {
+        let known = [[0.1, 0.0, 0.0], [-0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, -0.1, 0.0]].map(Vector3::from);
+        // A square bent by 1 mm: no motion takes any of it up.
+        let bent = [1e-3, 1e-3, -1e-3, -1e-3];
+        let measured: Vec<Vector3> = known.iter().zip(bent).map(|(p, z)| p + Vector3::z() * z).collect();
+        let found = rigid(&known, &measured).unwrap();
+        assert_eq!(found.degrees_of_freedom(), 6);
+        assert!((found.sum_of_squares() - 4e-6).abs() < 1e-15, "{}", found.sum_of_squares());
+    }
+
+    #[test]
     fn three_balls_give_a_rotation_and_never_a_reflection() {
         for turn in -20..=20 {
             let angle = f64::from(turn) * 0.15;

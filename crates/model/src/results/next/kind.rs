@@ -60,6 +60,12 @@ mod tests {
     }
 
     #[test]
+    fn numbers_go_to_the_nearest_multiple_of_a_step_and_stay_without_one() {
+        assert!(same(snapped(0.74, 0.5), 0.5) && same(snapped(-0.76, 0.5), -1.0));
+        assert!(same(snapped(0.74, 0.0), 0.74));
+    }
+
+    #[test]
     fn steps_are_a_millimetre_and_half_a_degree_and_finer_in_small_ranges() {
         assert!(same(step(0, 0.03), STEP_M));
         assert!(same(step(5, 0.1), STEP_RAD));
