@@ -3,6 +3,7 @@
 use hexbench_core::streams::{Purpose, stream};
 use hexbench_core::{Approach, Hexapod, Pose, Vector3, Wrench};
 use hexbench_model::machine::kinematics::{Legs, euler_rate_matrix};
+use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 use sobol_burley::sample;
 
@@ -184,34 +185,51 @@ impl Space {
 /// Steps in which a pose is set: a micrometre, a thousandth of a degree.
 const STEPS_PER_M: f64 = 1e6;
 const STEPS_PER_DEG: f64 = 1e3;
-/// Steps that a rounded pose may be taken back inside the limits.
-const MOST_STEPS_BACK: usize = 64;
+/// Changes by rounding that a pose farther inside keeps from its limits, tried in this order.
+const MARGINS: [f64; 6] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
 
 impl Space {
     /// The nearest pose in whole micrometres and thousandths of a degree that keeps travel and limits, where there is one beside a pose
     /// that keeps them; a coordinate that does not vary stays.
     ///
-    /// All corners of the cell of the grid are tried, the nearest first. Where each breaks a limit, the best of them is taken back step by
-    /// step against the slope of the limit that it breaks most.
+    /// All corners of the cell of the grid are tried, the nearest first. Where each breaks a limit, the cell of a pose farther inside is, by
+    /// the slopes of all limits that rounding could break.
     #[must_use]
     pub fn rounded(&self, hexapod: &Hexapod, pose: &Pose) -> Pose {
-        let excess = |steps: &[f64; 6]| {
-            self.worst_limit(hexapod, &self.at_steps(pose, steps)).map_or(-1.0, |limit| limit.excess)
+        let keeps = |steps: &[f64; 6]| {
+            let there = self.at_steps(pose, steps);
+            self.worst_limit(hexapod, &there).is_none_or(|limit| limit.excess <= 0.0)
         };
         let corners = self.corners(pose);
         let Some(nearest) = corners.first().copied() else { return *pose };
-        if let Some(kept) = corners.iter().find(|steps| excess(steps) <= 0.0) {
-            return self.at_steps(pose, kept);
-        }
-        let mut steps = corners.into_iter().min_by(|a, b| excess(a).total_cmp(&excess(b))).unwrap_or(nearest);
-        for _ in 0..MOST_STEPS_BACK {
-            let Some(back) = self.one_step_back(hexapod, pose, &steps) else { break };
-            steps = back;
-            if excess(&steps) <= 0.0 {
-                return self.at_steps(pose, &steps);
-            }
-        }
-        self.at_steps(pose, &nearest)
+        let inside = MARGINS.into_iter().filter_map(|margin| self.farther_inside(hexapod, pose, margin));
+        let kept = corners
+            .into_iter()
+            .find(keeps)
+            .or_else(|| inside.into_iter().find_map(|there| self.corners(&there).into_iter().find(keeps)));
+        self.at_steps(pose, &kept.unwrap_or(nearest))
+    }
+
+    /// A pose at which every limit that is near keeps so many times the change that rounding can make: the smallest change of the pose in
+    /// steps that does so to first order.
+    fn farther_inside(&self, hexapod: &Hexapod, pose: &Pose, margin: f64) -> Option<Pose> {
+        let free = self.free();
+        let in_steps = |slope: &[f64; 6]| free.iter().map(|&k| slope[k] * step_of(k)).collect::<Vec<f64>>();
+        let near: Vec<(f64, Vec<f64>)> = self
+            .limit_slopes(hexapod, pose)?
+            .iter()
+            .map(|(excess, slope)| (*excess, in_steps(slope)))
+            .map(|(excess, slope)| (excess + margin * slope.iter().map(|x| x.abs()).sum::<f64>(), slope))
+            .filter(|(beyond, _)| *beyond > 0.0)
+            .collect();
+        let slopes = DMatrix::from_fn(near.len(), free.len(), |i, j| near[i].1[j]);
+        let back = DVector::from_fn(near.len(), |i, _| -near[i].0);
+        // Columns of one row are of one size: the tolerance is that of the whole.
+        let tolerance = slopes.amax() * 1e-9;
+        let change = slopes.svd(true, true).solve(&back, tolerance).ok()?;
+        let mut x = pose.to_array();
+        free.iter().zip(&change).for_each(|(&k, steps)| x[k] += steps * step_of(k));
+        Some(Pose::from_array(x)).filter(|pose| pose.to_array().iter().all(|x| x.is_finite()))
     }
 
     /// Steps of the corners around a pose that are within the travel, the nearest first.
@@ -238,20 +256,6 @@ impl Space {
         const SLACK: f64 = 1e-6;
         let [low, high] = [&self.low, &self.high].map(|end| in_steps(&Pose::from_array(*end)));
         self.free().into_iter().all(|k| (low[k] - SLACK..=high[k] + SLACK).contains(&steps[k]))
-    }
-
-    /// One coordinate moved by a step, the one that takes off most of the excess.
-    fn one_step_back(&self, hexapod: &Hexapod, pose: &Pose, steps: &[f64; 6]) -> Option<[f64; 6]> {
-        let slopes = self.limit_slopes(hexapod, &self.at_steps(pose, steps))?;
-        let (_, slope) = slopes.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let moved = |k: usize| {
-            let mut moved = *steps;
-            moved[k] -= slope[k].signum();
-            moved
-        };
-        let gain = |k: usize| slope[k].abs() * step_of(k);
-        let ways = self.free().into_iter().filter(|&k| slope[k] != 0.0 && self.travels_to(&moved(k)));
-        ways.max_by(|&i, &j| gain(i).total_cmp(&gain(j))).map(moved)
     }
 
     /// The pose at whole steps; coordinates that do not vary are those of `pose`.

@@ -128,7 +128,7 @@ impl Dialect {
     }
 
     /// Why a line is no row, where that is more than one wrong cell.
-    pub(crate) fn explained(&self, line: &Line<'_>, fault: Fault) -> Fault {
+    pub(crate) fn explained(line: &Line<'_>, fault: Fault) -> Fault {
         let of_line = fault.place.line == Some(line.number());
         let is_about_cells = matches!(
             *fault.problem,

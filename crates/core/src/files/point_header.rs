@@ -68,7 +68,9 @@ impl PointHeader {
     }
 }
 
+/// Cell and unit of each of the five columns, and of three axes.
 type Found = [Option<(usize, &'static Unit)>; 5];
+type Axes = [Option<(usize, &'static Unit)>; 3];
 
 /// The cells of the five columns, as far as they are there.
 fn columns(line: &Line<'_>, table: PointTable<'_>) -> Result<Found, Fault> {
@@ -121,7 +123,7 @@ fn unit_or_given(
 
 /// Points whose names stand before the axis: `P1_x_mm`, `P1 X [mm]`.
 fn spots_by_name(line: &Line<'_>, table: PointTable<'_>) -> Result<Vec<Spot>, Fault> {
-    let mut found: Vec<(String, [Option<(usize, &'static Unit)>; 3])> = Vec::new();
+    let mut found: Vec<(String, Axes)> = Vec::new();
     for cell in 0..line.len() {
         let text = line.text(cell);
         let Some((ball, axis, stated)) = named_axis(text) else { continue };
@@ -137,7 +139,7 @@ fn spots_by_name(line: &Line<'_>, table: PointTable<'_>) -> Result<Vec<Spot>, Fa
             return Err(Fault::rule(place, format!("{text} is given twice"), "Keep one of the two columns."));
         }
     }
-    let spot = |(ball, axes): (String, [Option<(usize, &'static Unit)>; 3])| {
+    let spot = |(ball, axes): (String, Axes)| {
         let missing = (0..3).filter(|axis| axes[*axis].is_none());
         let names: Vec<String> = missing.map(|axis| format!("{ball}_{}_mm", table.names[2 + axis])).collect();
         let [Some(x), Some(y), Some(z)] = axes else {

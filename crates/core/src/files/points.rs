@@ -122,7 +122,7 @@ impl Points {
         {
             return Ok(());
         }
-        self.add_row(&line).map_err(|fault| self.dialect.explained(&line, fault))
+        self.add_row(&line).map_err(|fault| Dialect::explained(&line, fault))
     }
 
     fn add_row(&mut self, line: &Line<'_>) -> Result<(), Fault> {

@@ -169,7 +169,7 @@ impl Csv {
                 return Ok(());
             }
         }
-        self.add_row(&line, &raw).map_err(|fault| self.dialect.explained(&line, fault))
+        self.add_row(&line, &raw).map_err(|fault| Dialect::explained(&line, fault))
     }
 
     fn add_row(&mut self, line: &Line<'_>, raw: &RawLine<'_>) -> Result<(), Fault> {

@@ -1,8 +1,8 @@
-//! Lists of points without names of columns: `GROUP POINT X Y Z` or `COLLECTION GROUP POINT X Y Z` as SpatialAnalyzer exports them, the
+//! Lists of points without names of columns: `GROUP POINT X Y Z` or `COLLECTION GROUP POINT X Y Z` as `SpatialAnalyzer` exports them, the
 //! group being the record; or `NAME X Y Z` with names `RECORD_BALL`. Blanks, tabs, commas or semicolons between, `//` before comments. No
 //! unit is stated: it has to be given.
 //!
-//! Source: New River Kinematics, SpatialAnalyzer user manual, "Exporting ASCII Formatted Points" and "Importing Predefined ASCII Formatted
+//! Source: New River Kinematics, `SpatialAnalyzer` user manual, "Exporting ASCII Formatted Points" and "Importing Predefined ASCII Formatted
 //! Files", <https://kinematics.com/ftp/SA/Install/Driver%20Downloads/Misc/Testing/SAUsersManual.zip>; built from this description, no export
 //! was at hand.
 
@@ -73,9 +73,8 @@ impl LayoutReader for PointList {
         let (names, numbers) = fields.split_at(expected - 3);
         let mut centre = Vector3::zeros();
         for (axis, text) in numbers.iter().enumerate() {
-            let read = parse_number(text).and_then(|parsed| match parsed.comma {
-                true => Err(FileProblem::DecimalComma),
-                false => usable(unit.to_si(parsed.value)),
+            let read = parse_number(text).and_then(|parsed| {
+                if parsed.comma { Err(FileProblem::DecimalComma) } else { usable(unit.to_si(parsed.value)) }
             });
             centre[axis] = read.map_err(|problem| Fault::new(place().with_value(text), problem))?;
         }
