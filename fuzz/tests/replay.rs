@@ -1,7 +1,7 @@
 //! The corpus of every target, as it is and changed by seeds.
 //!
 //! `HEXBENCH_FUZZ_MUTATIONS=N cargo test -p hexbench-fuzz` changes every file of the corpus N times: a fuzzer without coverage where
-//! there is no nightly compiler. HEXBENCH_FUZZ_TARGET=NAME does so for one target, HEXBENCH_FUZZ_SEED=K by other changes;
+//! there is no nightly compiler. `HEXBENCH_FUZZ_TARGET=NAME` does so for one target, `HEXBENCH_FUZZ_SEED=K` by other changes;
 //! `scripts/fuzz_stable.sh` sets all three.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on must fail")]
 

@@ -28,8 +28,13 @@ pub fn visible_json(text: &str) -> Cow<'_, str> {
     }
     let mut shown = String::with_capacity(text.len());
     for letter in text.chars() {
-        // All of them are in the basic plane.
-        if hidden(letter) { shown += &format!("\\u{:04x}", u32::from(letter)) } else { shown.push(letter) }
+        if hidden(letter) {
+            // All of them are in the basic plane.
+            let code = format!("\\u{:04x}", u32::from(letter));
+            shown.push_str(&code);
+        } else {
+            shown.push(letter);
+        }
     }
     Cow::Owned(shown)
 }

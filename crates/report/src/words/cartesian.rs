@@ -34,8 +34,7 @@ pub fn cartesian(
             "force (N) and moment (N m) for um and mrad of one motion alone, the others held at zero",
             &FORCES,
             &MOTIONS,
-            &k.stiffness,
-            &(k.stiffness_std * wide.factor),
+            [&k.stiffness, &(k.stiffness_std * wide.factor)],
             &stiffness_unit,
             wide,
         ))
@@ -44,8 +43,7 @@ pub fn cartesian(
             "motion (um, mrad) for 1 N or 1 N m along one axis",
             &MOTIONS,
             &FORCES,
-            &k.compliance,
-            &(k.compliance_std * wide.factor),
+            [&k.compliance, &(k.compliance_std * wide.factor)],
             &compliance_unit,
             wide,
         ))
@@ -91,8 +89,7 @@ fn matrix(
     remark: &str,
     rows: &[&str; 6],
     columns: &[&str; 6],
-    value: &Matrix6,
-    std: &Matrix6,
+    [value, std]: [&Matrix6; 2],
     unit: Entries<'_>,
     wide: &Wide,
 ) -> Section {
