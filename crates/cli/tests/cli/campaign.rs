@@ -234,8 +234,8 @@ fn balls_in_the_layouts_of_other_programs_give_the_same_readings() {
     let calypso = "planid\tpartnb\tidsymbol\tactual\tfeatureid\tunit\n".to_owned()
         + &calypso.collect::<String>()
         + "END\n";
-    let list: String =
-        rows.iter().map(|row| format!("{} {} {}\n", row[0], row[4], row[5..].join(" "))).collect();
+    let point = |row: &Vec<_>| [&[row[0], row[4]], &row[5..]].concat().join(" ") + "\n";
+    let list = rows.iter().map(point).collect::<Vec<_>>().concat();
     for (file, told, more) in [
         (calypso, "Zeiss Calypso", &[][..]),
         ("// mm\n".to_owned() + &list, "SpatialAnalyzer", &["--unit", "mm"]),

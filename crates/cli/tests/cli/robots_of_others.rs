@@ -143,6 +143,8 @@ struct Pistons {
 const BASE_HEIGHT: f64 = 0.25;
 const PLATFORM_HEIGHT: f64 = 0.1;
 const APART: f64 = 2.0;
+/// Half a turn, with the digits of the template.
+const HALF_TURN: f64 = 3142e-3;
 
 impl Pistons {
     fn of_the_template() -> Self {
@@ -157,7 +159,7 @@ impl Pistons {
             half,
             middle: (ball.powi(2) - (0.5 * separation).powi(2)).sqrt(),
             pitch: 1.571 - (height / separation).atan(),
-            yaw: 1.571 - (0.5 * (3.142 - between) - half),
+            yaw: 1.571 - (0.5 * (HALF_TURN - between) - half),
             length: height.hypot(separation),
         }
     }
@@ -171,7 +173,7 @@ impl Pistons {
             [-0.524 + half, 0.524 - half, 0.0, 0.0],
             [-0.524 - half, 4.712 + half, -1.047, turned],
             [-2.62 + half, 4.712 - half, -2.094, -turned],
-            [-2.62 - half, 2.618 + half, 3.142, 0.0],
+            [-2.62 - half, 2.618 + half, HALF_TURN, 0.0],
         ]
     }
 

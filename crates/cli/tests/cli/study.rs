@@ -227,6 +227,16 @@ fn all_bad() -> Vec<Bad> {
             effect("effect = [\"creep\"]\nsize_factor = [-1]\n"),
             &["line 12, column 16", "not negative"],
         ),
+    ]
+    .into_iter()
+    .chain(bad_noise_and_estimators())
+    .chain(missing_files())
+    .collect()
+}
+
+fn bad_noise_and_estimators() -> Vec<Bad> {
+    let effect = |axes: &str| with("noise_scale = [1]\n", axes);
+    vec![
         bad("noise of zero", with("[1]", "[0]"), &["line 11, column 16", "greater than zero"]),
         bad(
             "noise in two ways",
@@ -258,6 +268,11 @@ fn all_bad() -> Vec<Bad> {
             effect("estimator = [\"gls\", \"paper\"]\n").replace("\"ring_a\"", "\"gauges.toml\""),
             &["line 11, column 21", "takes full poses"],
         ),
+    ]
+}
+
+fn missing_files() -> Vec<Bad> {
+    vec![
         Bad {
             what: "missing hexapod file",
             text: with("ring_a", "none.toml"),
@@ -285,7 +300,7 @@ fn machine_with_gauges() -> String {
     let scene = read("scene.toml");
     let sensors = scene.lines().skip_while(|line| *line != "[[sensor]]");
     let other = |line: &&str| !line.starts_with('[') || *line == "[[sensor]]";
-    read("hexapod.toml") + &sensors.take_while(other).map(|line| format!("{line}\n")).collect::<String>()
+    read("hexapod.toml") + &sensors.take_while(other).collect::<Vec<_>>().join("\n") + "\n"
 }
 
 /// Exit code and standard error.

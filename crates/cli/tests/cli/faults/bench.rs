@@ -14,7 +14,7 @@ use super::table::Table;
 use crate::support::{hexbench, root};
 
 /// A run that takes longer hangs.
-const LIMIT: Duration = Duration::from_secs(120);
+const LIMIT: Duration = Duration::from_mins(2);
 
 /// A run that has ended.
 pub(super) struct Run {

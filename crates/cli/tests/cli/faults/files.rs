@@ -87,12 +87,12 @@ fn shuffled(seed: u64) -> Table {
 /// Files beyond every size.
 pub(super) fn sizes(share: Share) -> Vec<Fate> {
     let (head, _) = FEW.readings.text().split_once('\n').map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
-    let wide: String = (0..100_000).map(|k| format!("c{k}_mm,")).collect();
+    let wide = (0..100_000).map(|k| format!("c{k}_mm,")).collect::<Vec<_>>().concat();
     let text = FEW.readings.text();
     let tables = [
         [text.as_str(), &"1".repeat(50 << 20), "\n"].concat(),
         [&"x".repeat(2 << 20), ",", &text].concat(),
-        [&wide, "\n", &wide.replace("c", "1"), "\n"].concat(),
+        [&wide, "\n", &wide.replace('c', "1"), "\n"].concat(),
         [&head, &"\n".repeat(5_000_000), &text[head.len()..]].concat(),
         text.replace(',', &[",", &" ".repeat(1000)].concat()),
     ];
@@ -135,7 +135,7 @@ pub(super) fn encodings(share: Share) -> Vec<Fate> {
         |t| t.replace(',', "\t"),
         |t| t.replace(',', ";").replace('.', ","),
         |t| t.replace(',', " "),
-        |t| t.lines().map(|line| format!("\"{}\"\n", line.replace(',', "\",\""))).collect(),
+        |t| format!("\"{}\"\n", t.trim_end().replace(',', "\",\"").replace('\n', "\"\n\"")),
     ];
     fates.extend(share.each(&separators, |change| FEW.fit(change(&text))));
     fates

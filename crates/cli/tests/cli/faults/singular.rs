@@ -85,7 +85,9 @@ impl Rung {
                 (0..6).map(|k| ((motion[k] * scale + SIGMAS[k] * noise()) * 1e6).to_string()).collect();
             let wrench: Vec<String> = wrench.iter().map(f64::to_string).collect();
             let gamma = self.pose.to_array()[5].to_degrees();
-            text += &format!("0,0,0,0,0,{gamma},{},{},{}\n", wrench.join(","), read.join(","), row / 12 + 1);
+            let line =
+                format!("0,0,0,0,0,{gamma},{},{},{}\n", wrench.join(","), read.join(","), row / 12 + 1);
+            text.push_str(&line);
         }
         text
     }
