@@ -216,12 +216,11 @@ fn refuse_other_content(
     journal: &Path,
     experiment: &'static str,
 ) -> Result<(), ExperimentError> {
-    if journal.exists() {
-        return Ok(());
-    }
-    match fs::read_dir(folder).map(|mut entries| entries.next().is_some()) {
-        Ok(true) => Err(ExperimentError::NotEmpty { folder: folder.to_owned(), experiment }),
-        Ok(false) => Ok(()),
+    // One look: another run may be about to make the journal.
+    let paths = |entries: fs::ReadDir| entries.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>();
+    match fs::read_dir(folder).and_then(paths) {
+        Ok(paths) if paths.is_empty() || paths.iter().any(|path| path == journal) => Ok(()),
+        Ok(_) => Err(ExperimentError::NotEmpty { folder: folder.to_owned(), experiment }),
         Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(()),
         Err(cause) => Err(ExperimentError::writing(folder)(cause)),
     }
