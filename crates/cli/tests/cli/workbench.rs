@@ -9,10 +9,10 @@ use hexbench_model::terms;
 use crate::support::{hexbench, hexbench_in, root};
 
 /// A workbench; ended with the test.
-struct Workbench {
+pub(crate) struct Workbench {
     child: Child,
-    address: String,
-    token: String,
+    pub(crate) address: String,
+    pub(crate) token: String,
 }
 
 impl Drop for Workbench {
@@ -26,7 +26,7 @@ impl Drop for Workbench {
 fn start(folder: &std::path::Path) -> Workbench {
     let case = root().join("data/cases/mujoco-foundation");
     let files = ["hexapod.toml", "measurements.csv"].map(|name| case.join(name));
-    let mut child = Command::new(env!("CARGO_BIN_EXE_hexbench"))
+    let child = Command::new(env!("CARGO_BIN_EXE_hexbench"))
         .current_dir(folder)
         .arg("workbench")
         .args(files)
@@ -36,13 +36,18 @@ fn start(folder: &std::path::Path) -> Workbench {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    let lines = BufReader::new(child.stdout.as_mut().unwrap()).lines().map(Result::unwrap);
-    let url = lines.map(|line| line.trim().to_owned()).find(|line| line.starts_with("http://")).unwrap();
-    let (address, token) = url.strip_prefix("http://").unwrap().split_once("/#token=").unwrap();
-    Workbench { address: address.to_owned(), token: token.to_owned(), child }
+    Workbench::of(child)
 }
 
 impl Workbench {
+    /// Where it listens, as it says on the standard output that is read here.
+    pub(crate) fn of(mut child: Child) -> Self {
+        let lines = BufReader::new(child.stdout.as_mut().unwrap()).lines().map(Result::unwrap);
+        let url = lines.map(|line| line.trim().to_owned()).find(|line| line.starts_with("http://")).unwrap();
+        let (address, token) = url.strip_prefix("http://").unwrap().split_once("/#token=").unwrap();
+        Self { address: address.to_owned(), token: token.to_owned(), child }
+    }
+
     /// Status and body.
     fn ask(&self, line: &str, body: &str) -> (u16, serde_json::Value) {
         let mut stream = TcpStream::connect(&self.address).unwrap();

@@ -60,12 +60,10 @@ pub fn make(
 fn files_of(case: &Drawn) -> io::Result<[(String, String); 6]> {
     let public = |name: &str| format!("{CASES}/{}/{name}", case.id);
     let sealed = |name: &str| format!("{SEALED}/{}/{name}", case.id);
+    let hexapod = Hexapod { angles: AngleConvention::default(), ..case.hexapod.clone() };
     Ok([
-        (
-            public(HEXAPOD),
-            hexapod_to_toml(&Hexapod { angles: AngleConvention::default(), ..case.hexapod.clone() }),
-        ),
-        (public(MEASUREMENTS), measured(case)?),
+        (public(HEXAPOD), hexapod_to_toml(&hexapod)),
+        (public(MEASUREMENTS), read_by(&hexapod, &case.measurements)?),
         (public(PREDICT), asked(&case.measured)?),
         (sealed(TRUTH), case.truth.text()),
         (sealed(MEASURED), csv(&case.measured)?),
@@ -74,10 +72,9 @@ fn files_of(case: &Drawn) -> io::Result<[(String, String); 6]> {
 }
 
 /// What was read, by the sensors of the machine where it has some.
-fn measured(case: &Drawn) -> io::Result<String> {
-    let hexapod = Hexapod { angles: AngleConvention::default(), ..case.hexapod.clone() };
+fn read_by(hexapod: &Hexapod, rows: &Dataset) -> io::Result<String> {
     let mut bytes = Vec::new();
-    campaign_to_csv(&mut bytes, &hexapod, &case.measurements)?;
+    campaign_to_csv(&mut bytes, hexapod, rows)?;
     String::from_utf8(bytes).map_err(io::Error::other)
 }
 

@@ -75,7 +75,11 @@ impl<'a> Yardstick<'a> {
     }
 
     fn with(&self, mechanisms: Vec<Box<dyn Mechanism>>) -> SimulatedCampaign {
-        let world = World { mechanisms, ..self.campaign.world.without_effects() };
+        self.of_world(World { mechanisms, ..self.campaign.world.without_effects() })
+    }
+
+    /// The campaign in another world.
+    fn of_world(&self, world: World) -> SimulatedCampaign {
         SimulatedCampaign { world, frames: self.campaign.frames, noise: self.campaign.noise }
     }
 
@@ -156,11 +160,7 @@ impl<'a> Yardstick<'a> {
             let changed = |share: f64| {
                 let mut world = self.campaign.world.without_effects();
                 world.leg_compliance[leg] *= 1.0 + share;
-                self.seen(&SimulatedCampaign {
-                    world,
-                    frames: self.campaign.frames,
-                    noise: self.campaign.noise,
-                })
+                self.seen(&self.of_world(world))
             };
             let (plus, minus) = (changed(SHARE)?, changed(-SHARE)?);
             self.explain(plus.iter().zip(&minus).map(|(p, m)| p - m));

@@ -1,43 +1,27 @@
 //! Requests to the workbench that nobody should send.
 
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{Read, Write};
 use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use super::bench::Share;
 use super::fate::Fate;
-
-/// A workbench; ended with the test.
-struct Workbench {
-    child: Child,
-    address: String,
-    token: String,
-}
-
-impl Drop for Workbench {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
+use crate::workbench::Workbench;
 
 impl Workbench {
     fn start() -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_hexbench"))
+        let child = Command::new(env!("CARGO_BIN_EXE_hexbench"))
             .arg("workbench")
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        let lines = BufReader::new(child.stdout.as_mut().unwrap()).lines().map(Result::unwrap);
-        let url = lines.map(|line| line.trim().to_owned()).find(|line| line.starts_with("http://")).unwrap();
-        let (address, token) = url.strip_prefix("http://").unwrap().split_once("/#token=").unwrap();
-        Self { address: address.to_owned(), token: token.to_owned(), child }
+        Self::of(child)
     }
 
     /// Sends bytes, with the address and the token in place of `HOST` and `TOKEN`; the answer, or nothing where the line is closed.
-    fn ask(&self, request: &str) -> String {
+    fn answer(&self, request: &str) -> String {
         let request = request.replace("HOST", &self.address).replace("TOKEN", &self.token);
         let mut stream = TcpStream::connect(&self.address).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
@@ -49,9 +33,9 @@ impl Workbench {
     }
 
     fn fate(&self, request: &str, codes: &[&str]) -> Fate {
-        let answer = self.ask(request);
+        let answer = self.answer(request);
         let code = answer.get(9..12).unwrap_or("closed");
-        let is_alive = self.ask(SOUND).starts_with("HTTP/1.1 200");
+        let is_alive = self.answer(SOUND).starts_with("HTTP/1.1 200");
         if is_alive && codes.contains(&code) {
             Fate::Refused
         } else {

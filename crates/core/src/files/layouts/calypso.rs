@@ -9,8 +9,7 @@ use super::super::lines::RawLine;
 use super::super::number::{Decimals, parse_number, usable};
 use super::super::units::{Unit, unit_named};
 use super::super::{Dimension, FilePlace, FileProblem};
-use super::{Layout, LayoutReader, Touched};
-use crate::Vector3;
+use super::{Layout, LayoutReader, OpenBall, Touched};
 
 pub(super) const LAYOUT: Layout = Layout {
     name: "Zeiss Calypso, table of characteristics",
@@ -40,14 +39,7 @@ struct Characteristics {
     cells: Option<[usize; 5]>,
     decimals: Decimals,
     /// The feature whose coordinates are being read.
-    open: Option<Feature>,
-}
-
-struct Feature {
-    record: String,
-    ball: String,
-    centre: [Option<f64>; 3],
-    line: u64,
+    open: Option<OpenBall>,
 }
 
 impl LayoutReader for Characteristics {
@@ -78,16 +70,11 @@ impl LayoutReader for Characteristics {
         let metres = self
             .metres(actual, unit, raw.number)
             .map_err(|problem| Fault::new(place(2, "actual").with_value(actual), problem))?;
-        let is_other = |open: &Feature| (open.record.as_str(), open.ball.as_str()) != (record, feature);
+        let is_other = |open: &OpenBall| (open.record.as_str(), open.ball.as_str()) != (record, feature);
         if self.open.as_ref().is_some_and(is_other) {
             self.end()?;
         }
-        let open = self.open.get_or_insert_with(|| Feature {
-            record: record.to_owned(),
-            ball: feature.to_owned(),
-            centre: [None; 3],
-            line: raw.number,
-        });
+        let open = self.open.get_or_insert_with(|| OpenBall::new(record, feature, raw.number));
         if open.centre[axis].replace(metres).is_some() {
             return Err(Fault::rule(
                 place(1, "idsymbol"),
@@ -95,23 +82,19 @@ impl LayoutReader for Characteristics {
                 "Count the part number up from run to run, or keep one of the two.",
             ));
         }
-        let [Some(x), Some(y), Some(z)] = open.centre else { return Ok(Vec::new()) };
-        let done = self.open.take();
-        let touched = |Feature { record, ball, line, .. }| Touched {
-            record,
-            ball,
-            centre: Vector3::new(x, y, z),
-            line,
-        };
-        Ok(done.map(touched).into_iter().collect())
+        let touched = open.touched();
+        if touched.is_some() {
+            self.open = None;
+        }
+        Ok(touched.into_iter().collect())
     }
 
     fn end(&mut self) -> Result<(), Fault> {
-        let Some(Feature { record, ball, centre, line }) = self.open.take() else { return Ok(()) };
-        let axis = centre.iter().position(Option::is_none).unwrap_or_default();
+        let Some(open) = self.open.take() else { return Ok(()) };
+        let axis = ["xValue", "yValue", "zValue"][open.missing()];
         Err(Fault::rule(
-            FilePlace { line: Some(line), ..FilePlace::file() },
-            format!("{ball} of part {record} has no {}", ["xValue", "yValue", "zValue"][axis]),
+            open.place(),
+            format!("{} of part {} has no {axis}", open.ball, open.record),
             "Report X, Y and Z of every ball, one below the other.",
         ))
     }

@@ -39,6 +39,38 @@ struct Touched {
     line: u64,
 }
 
+/// A ball whose coordinates come one by one, m.
+struct OpenBall {
+    record: String,
+    ball: String,
+    centre: [Option<f64>; 3],
+    /// Where it begins.
+    line: u64,
+}
+
+impl OpenBall {
+    fn new(record: &str, ball: &str, line: u64) -> Self {
+        Self { record: record.to_owned(), ball: ball.to_owned(), centre: [None; 3], line }
+    }
+
+    /// The ball, once all its coordinates are there.
+    fn touched(&self) -> Option<Touched> {
+        let [Some(x), Some(y), Some(z)] = self.centre else { return None };
+        let (record, ball) = (self.record.clone(), self.ball.clone());
+        Some(Touched { record, ball, centre: Vector3::new(x, y, z), line: self.line })
+    }
+
+    /// Which coordinate is missing first.
+    fn missing(&self) -> usize {
+        self.centre.iter().position(Option::is_none).unwrap_or_default()
+    }
+
+    /// Where it begins.
+    fn place(&self) -> FilePlace {
+        FilePlace { line: Some(self.line), ..FilePlace::file() }
+    }
+}
+
 const LAYOUTS: [&Layout; 3] = [&calypso::LAYOUT, &pc_dmis::LAYOUT, &point_list::LAYOUT];
 
 /// Lines that are looked at to recognise a layout.

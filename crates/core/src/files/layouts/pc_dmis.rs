@@ -10,8 +10,7 @@ use super::super::lines::RawLine;
 use super::super::number::{Decimals, parse_number, usable};
 use super::super::units::{Unit, unit_named};
 use super::super::{Dimension, FilePlace, FileProblem};
-use super::{Layout, LayoutReader, Touched, record_and_ball};
-use crate::Vector3;
+use super::{Layout, LayoutReader, OpenBall, Touched, record_and_ball};
 
 pub(super) const LAYOUT: Layout = Layout {
     name: "PC-DMIS, text of a report",
@@ -57,12 +56,9 @@ struct Report {
 }
 
 struct LocationBlock {
-    record: String,
-    ball: String,
+    open: OpenBall,
     unit: &'static Unit,
     measured: Option<usize>,
-    centre: [Option<f64>; 3],
-    line: u64,
 }
 
 impl LayoutReader for Report {
@@ -72,14 +68,8 @@ impl LayoutReader for Report {
             self.end()?;
             let (record, ball) = record_and_ball(feature, place())?;
             let unit = self.unit(raw.text).map_err(|problem| Fault::new(place(), problem))?;
-            self.block = Some(LocationBlock {
-                record,
-                ball,
-                unit,
-                measured: None,
-                centre: [None; 3],
-                line: raw.number,
-            });
+            let open = OpenBall::new(&record, &ball, raw.number);
+            self.block = Some(LocationBlock { open, unit, measured: None });
             return Ok(Vec::new());
         }
         let Some(block) = &mut self.block else { return Ok(Vec::new()) };
@@ -104,25 +94,21 @@ impl LayoutReader for Report {
             self.decimals.note(text, parsed, raw.number)?;
             usable(block.unit.to_si(parsed.value))
         });
-        block.centre[axis] =
+        block.open.centre[axis] =
             Some(parsed.map_err(|problem| Fault::new(place().with_name("MEAS").with_value(text), problem))?);
-        let [Some(x), Some(y), Some(z)] = block.centre else { return Ok(Vec::new()) };
-        let done = self.block.take();
-        let touched = |LocationBlock { record, ball, line, .. }| Touched {
-            record,
-            ball,
-            centre: Vector3::new(x, y, z),
-            line,
-        };
-        Ok(done.map(touched).into_iter().collect())
+        let touched = block.open.touched();
+        if touched.is_some() {
+            self.block = None;
+        }
+        Ok(touched.into_iter().collect())
     }
 
     fn end(&mut self) -> Result<(), Fault> {
-        let Some(LocationBlock { record, ball, centre, line, .. }) = self.block.take() else { return Ok(()) };
-        let axis = centre.iter().position(Option::is_none).unwrap_or_default();
+        let Some(LocationBlock { open, .. }) = self.block.take() else { return Ok(()) };
+        let axis = ["X", "Y", "Z"][open.missing()];
         Err(Fault::rule(
-            FilePlace { line: Some(line), ..FilePlace::file() },
-            format!("the location of {record}_{ball} has no line {}", ["X", "Y", "Z"][axis]),
+            open.place(),
+            format!("the location of {}_{} has no line {axis}", open.record, open.ball),
             "Report the axes X, Y and Z of every ball.",
         ))
     }
